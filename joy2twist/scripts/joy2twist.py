@@ -1,0 +1,7 @@
+#!/usr/bin/env python3
+"""Drive a robot with a joystick: see the class NewJoy2Twist in joy_to_twist/node.py."""
+
+from joy_to_twist.node import main
+
+if __name__ == "__main__":
+    main()
