@@ -1,0 +1,42 @@
+"""What a demonstration drive came to: messages counted, way driven, final pose. No ROS here."""
+
+import math
+
+
+class DriveReport:
+    """Collects a drive; poses are in metres and radians, in the frame of the odometry."""
+
+    MOVED_M = 0.001  # less than this is a robot that stood
+
+    def __init__(self, topics):
+        """topics: the names whose messages are counted, in the order in which they are told."""
+        self.counts = {topic: 0 for topic in topics}
+        self.distance_m = 0.0
+        self.pose = None
+
+    def count(self, topic):
+        """Take note of one message on a topic."""
+        self.counts[topic] += 1
+
+    def add_pose(self, x_m, y_m, qz, qw):
+        """Go on to a new pose; qz and qw are the parts of a quaternion about the z axis."""
+        if self.pose is not None:
+            self.distance_m += math.hypot(x_m - self.pose[0], y_m - self.pose[1])
+        self.pose = (x_m, y_m, 2 * math.atan2(qz, qw))
+
+    @property
+    def moved(self):
+        """Whether the robot drove at all."""
+        return self.distance_m > self.MOVED_M
+
+    def line(self, duration_s):
+        """The drive in one line."""
+        counted = ", ".join(f"{count} {topic}" for topic, count in self.counts.items())
+        if self.pose is None:
+            return f"{duration_s:.1f} s: {counted}; no pose"
+        x_m, y_m, yaw_rad = self.pose
+        yaw_deg = math.degrees(math.remainder(yaw_rad, 2 * math.pi))
+        return (
+            f"{duration_s:.1f} s: {counted}; driven {self.distance_m:.2f} m; "
+            f"final pose x {x_m:.2f} m, y {y_m:.2f} m, yaw {yaw_deg:.1f} deg"
+        )
