@@ -1,0 +1,162 @@
+"""The kinematics against closed forms and extended precision."""
+
+from math import cos, pi, sin
+
+import numpy as np
+import pytest
+from fake_turtlebot_sim.differential_drive import arc, arcs, ramp, wheel_rates, wrap_angle
+from hypothesis import given
+from hypothesis import strategies as st
+
+ORIGIN = (0.0, 0.0, 0.0)
+POSE = st.tuples(st.floats(-1, 1), st.floats(-1, 1), st.floats(-3.14, 3.14))
+VELOCITY = st.tuples(st.floats(-1, 1), st.floats(-4, 4))
+
+
+def circle(v, w, t):
+    """The textbook's closed form from the origin, w != 0."""
+    return v / w * sin(w * t), v / w * (1 - cos(w * t)), w * t
+
+
+def test_open_arc_in_steps_of_50_hz():
+    pose = ORIGIN
+    for _ in range(25):
+        pose = arc(pose, (0.7, pi), 0.02)
+    assert pose == pytest.approx(circle(0.7, pi, 0.5), rel=0, abs=1e-9)
+
+
+def test_straight_ahead_and_backwards():
+    assert arc((1.0, 2.0, 0.0), (0.5, 0.0), 2.0) == (2.0, 2.0, 0.0)
+    assert arc((1.0, 2.0, 0.0), (-0.5, 0.0), 2.0) == (0.0, 2.0, 0.0)
+
+
+def test_turn_on_the_spot_keeps_the_place():
+    assert arc((1.0, 2.0, 0.0), (0.0, 1.0), 1.0) == (1.0, 2.0, 1.0)
+
+
+def test_a_whole_circle_in_one_step_ends_where_it_began():
+    assert arc(ORIGIN, (0.7, 1.0), 2 * pi) == pytest.approx((0, 0, 0), abs=1e-15)
+
+
+@pytest.mark.parametrize("exponent", range(-13, -2))
+@pytest.mark.parametrize("sign", [1, -1])
+def test_slow_turns_keep_their_digits(sign, exponent):
+    w, v, dt = sign * 10.0**exponent, 0.7, 0.02
+    x, y, yaw = arc(ORIGIN, (v, w), dt)
+    # Series of sin(a)/a and (1 - cos(a))/a; a is at most 2e-5, so the next terms are below 1e-20.
+    a = w * dt
+    assert x == pytest.approx(v * dt * (1 - a * a / 6), rel=1e-12)
+    assert y == pytest.approx(v * dt * (a / 2 - a**3 / 24), rel=1e-12)
+    assert yaw == pytest.approx(a, rel=1e-12)
+
+
+@pytest.mark.parametrize("w", [0.0, -0.0, 5e-324])
+def test_no_turn_is_a_straight_line(w):
+    assert arc(ORIGIN, (0.7, w), 0.02) == (0.7 * 0.02, 0.0, 0.0)
+
+
+@given(pose=POSE, velocity=VELOCITY, dt=st.floats(0, 10), share=st.floats(0, 1))
+def test_two_parts_make_the_whole(pose, velocity, dt, share):
+    halfway = arc(pose, velocity, share * dt)
+    parts, whole = arc(halfway, velocity, dt - share * dt), arc(pose, velocity, dt)
+    assert parts[:2] == pytest.approx(whole[:2], abs=1e-12)
+    assert wrap_angle(parts[2] - whole[2]) == pytest.approx(0, abs=1e-12)
+
+
+@given(st.floats(-1e6, 1e6))
+def test_wrapped_angles_are_in_the_half_open_circle(angle):
+    wrapped = wrap_angle(angle)
+    assert -pi < wrapped <= pi
+    assert cos(wrapped) == pytest.approx(cos(angle), abs=1e-9)
+    assert sin(wrapped) == pytest.approx(sin(angle), abs=1e-9)
+
+
+def test_half_a_turn_is_pi_from_both_sides():
+    assert wrap_angle(pi) == wrap_angle(-pi) == pi
+    assert arc(ORIGIN, (0.0, -pi), 1.0)[2] == pi
+
+
+def random_segments(rng, hour_s=3600.0):
+    """One hour of velocities held for 0.2 to 2 s, as (v [m/s], w [rad/s], periods of 50 Hz)."""
+    periods = rng.integers(10, 101, size=int(hour_s))
+    periods = periods[: int(np.searchsorted(np.cumsum(periods), hour_s * 50))]
+    return zip(
+        rng.uniform(-0.7, 0.7, len(periods)).tolist(),
+        rng.uniform(-pi, pi, len(periods)).tolist(),
+        periods.tolist(),
+    )
+
+
+@pytest.mark.skipif(
+    np.finfo(np.longdouble).eps > 1.1e-19, reason="this machine has no extended precision"
+)
+def test_an_hour_of_random_segments_against_extended_precision():
+    real = np.longdouble
+    pose, (x, y, yaw) = ORIGIN, (real(0), real(0), real(0))
+    for v, w, periods in random_segments(np.random.default_rng(4)):
+        for _ in range(periods):
+            pose = arc(pose, (v, w), 0.02)
+        radius, turned = real(v) / real(w), yaw + real(w) * periods * real(0.02)
+        x += radius * (np.sin(turned) - np.sin(yaw))
+        y += radius * (np.cos(yaw) - np.cos(turned))
+        yaw = turned
+    assert pose[:2] == pytest.approx((float(x), float(y)), rel=0, abs=1e-8)
+    assert wrap_angle(float(pose[2] - yaw)) == pytest.approx(0, abs=1e-9)
+
+
+def test_an_hour_on_a_circle():
+    pose = ORIGIN
+    for _ in range(3600 * 50):
+        pose = arc(pose, (0.7, 1.0), 0.02)
+    assert pose[:2] == pytest.approx(circle(0.7, 1.0, 3600.0)[:2], rel=0, abs=1e-8)
+
+
+def test_an_hour_at_rest_changes_no_bit():
+    pose = start = (1.1, -2.2, 3.1)
+    for _ in range(3600 * 50):
+        pose = arc(pose, (0.0, 0.0), 0.02)
+    assert pose == start
+
+
+@given(VELOCITY)
+def test_wheels_roll_the_path_and_the_turn(velocity):
+    left, right = wheel_rates(velocity, 0.230, 0.035)
+    assert 0.035 * (left + right) / 2 == pytest.approx(velocity[0], abs=1e-15)
+    assert 0.035 * (right - left) / 0.230 == pytest.approx(velocity[1], abs=1e-14)
+
+
+def test_wheels_of_a_known_robot():
+    assert wheel_rates((0.35, 0.0), 0.230, 0.035) == pytest.approx((10, 10))
+    assert wheel_rates((0.0, 1.0), 0.230, 0.0575) == pytest.approx((-2, 2))
+
+
+@given(velocity=VELOCITY, dt=st.floats(0, 2))
+def test_a_ramp_between_equal_velocities_is_the_arc(velocity, dt):
+    ramped, exact = ramp(ORIGIN, velocity, velocity, dt), arc(ORIGIN, velocity, dt)
+    assert ramped[:2] == pytest.approx(exact[:2], abs=1e-12)
+    assert wrap_angle(ramped[2] - exact[2]) == pytest.approx(0, abs=1e-12)
+
+
+def test_a_ramp_from_rest_follows_the_circle_of_its_curvature():
+    # v and w grow alike, so the path is the circle of radius v / w, half as far as at full speed.
+    ramped = ramp(ORIGIN, (0.0, 0.0), (0.7, 2.0), 3.0)
+    assert ramped == pytest.approx(circle(0.7, 2.0, 1.5), abs=1e-12)
+
+
+def test_a_ramp_is_the_limit_of_many_short_arcs():
+    pose, steps, dt = ORIGIN, 100_000, 2.0
+    for k in range(steps):
+        share = (k + 0.5) / steps
+        pose = arc(pose, (0.6 - 0.8 * share, -1.0 + 3.0 * share), dt / steps)
+    assert ramp(ORIGIN, (0.6, -1.0), (-0.2, 2.0), dt) == pytest.approx(pose, abs=1e-9)
+
+
+@given(st.lists(st.tuples(POSE, VELOCITY), min_size=1, max_size=20))
+def test_many_robots_at_once_are_the_same_as_one_by_one(robots):
+    poses, velocities = (np.array(part).T.copy() for part in zip(*robots))
+    arcs(poses, velocities, 0.7)
+    for (pose, velocity), together in zip(robots, poses.T):
+        alone = arc(pose, velocity, 0.7)
+        assert together[:2] == pytest.approx(alone[:2], abs=1e-13)
+        assert wrap_angle(together[2] - alone[2]) == pytest.approx(0, abs=1e-13)
+        assert -pi < together[2] <= pi
