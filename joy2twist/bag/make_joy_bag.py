@@ -106,9 +106,7 @@ def write_bag(path):
     make = store.types
     with Writer(path) as bag:
         # The definition as ROS itself records it, with which `rosbag check` compares.
-        connection = bag.add_connection(
-            "/joy", joy_type, msgdef=Joy._full_text, md5sum=Joy._md5sum
-        )
+        connection = bag.add_connection("/joy", joy_type, msgdef=Joy._full_text, md5sum=Joy._md5sum)
         for count, (forward, turn, held) in enumerate(sticks()):
             stamp_ns = START_S * 10**9 + count * 10**9 // RATE_HZ
             stamp = make["builtin_interfaces/msg/Time"](*divmod(stamp_ns, 10**9))

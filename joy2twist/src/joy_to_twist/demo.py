@@ -54,9 +54,7 @@ def parse(argv):
         "--for", dest="duration_s", type=duration, metavar="SECONDS",
         help="end by itself, with one line that tells the drive; exit code 0 if the robot moved",
     )  # fmt: skip
-    parser.add_argument(
-        "arguments", nargs="*", metavar="NAME:=VALUE", help="for launch_bag.launch"
-    )
+    parser.add_argument("arguments", nargs="*", metavar="NAME:=VALUE", help="for launch_bag.launch")
     return parser.parse_args(argv)
 
 

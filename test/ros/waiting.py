@@ -1,0 +1,17 @@
+"""Waiting for what a test is about, with one deadline for all."""
+
+import time
+
+DEADLINE_S = 30.0  # generous: a busy machine with one core takes seconds to start a node
+
+
+def wait_for(condition, what, deadline_s=DEADLINE_S):
+    """Return the first true value of condition(); AssertionError naming `what` at the deadline."""
+    end = time.monotonic() + deadline_s
+    while True:
+        value = condition()
+        if value:
+            return value
+        if time.monotonic() > end:
+            raise AssertionError(f"no {what} within {deadline_s:.0f} s")
+        time.sleep(0.01)
