@@ -4,8 +4,8 @@
 class MotionClock:
     """Turns the readings of a clock that may be set back into a time that never decreases.
 
-    While the clock is behind where it was, motion stands still for the length of the jump and
-    no longer: what counts is how far the clock went forwards.
+    It adds up how far the clock went forwards. A step backwards counts as no time at all, and so
+    does a step from 0, with which ROS says that it has no time yet.
     """
 
     def __init__(self, reading_ns):
@@ -15,25 +15,29 @@ class MotionClock:
 
     def update(self, reading_ns):
         """Return the time [ns] that has passed, given what the clock shows now."""
-        self._elapsed_ns += max(0, reading_ns - self._reading_ns)
+        if self._reading_ns:
+            self._elapsed_ns += max(0, reading_ns - self._reading_ns)
         self._reading_ns = reading_ns
         return self._elapsed_ns
 
 
 class PhaseLock:
-    """Periods counted from one start, so that a late wake-up does not delay the later ones."""
+    """Deadlines a whole number of periods after one start, so that no lateness is passed on."""
 
-    def __init__(self, period_ns, start_ns):
-        """Let the first period begin at start_ns."""
+    def __init__(self, period_ns, now_ns):
+        """Let the first period begin now."""
         self._period_ns = period_ns
-        self.restart(start_ns)
-
-    def restart(self, start_ns):
-        """Count from start_ns, as after a jump of the clock; the next deadline is there."""
-        self.deadline_ns = start_ns
+        self._last_ns = now_ns
+        self.deadline_ns = now_ns
 
     def complete(self, now_ns):
-        """Move the deadline past now_ns and return how many whole periods went by unused."""
-        passed = max(0, now_ns - self.deadline_ns) // self._period_ns
-        self.deadline_ns += (passed + 1) * self._period_ns
-        return passed
+        """Move the deadline past now_ns and return how many periods went by unused.
+
+        A clock that was set back begins a new count.
+        """
+        if now_ns < self._last_ns:
+            self.deadline_ns = now_ns
+        self._last_ns = now_ns
+        missed = max(0, now_ns - self.deadline_ns) // self._period_ns
+        self.deadline_ns += (missed + 1) * self._period_ns
+        return missed

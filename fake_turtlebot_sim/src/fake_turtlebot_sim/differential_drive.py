@@ -58,6 +58,13 @@ def ramp(pose, velocity, end_velocity, dt):
     return x, y, wrap_angle(yaw + 0.5 * (w + w_end) * dt)
 
 
+def drive(pose, velocity, end_velocity, dt):
+    """Drive from one velocity to another: arc() if they are equal, otherwise ramp()."""
+    if velocity == end_velocity:
+        return arc(pose, velocity, dt)
+    return ramp(pose, velocity, end_velocity, dt)
+
+
 def wheel_rates(velocity, wheel_separation, wheel_radius):
     """Return the rates (left, right) [rad/s] of wheels that roll without slipping.
 

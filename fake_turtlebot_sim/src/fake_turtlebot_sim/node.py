@@ -1,100 +1,117 @@
-"""The node: ROS on one side, SimulatedRobot on the other, and no arithmetic in between."""
+"""The node: ROS on one side, simulated robots on the other, and no arithmetic in between."""
 
 import sys
-import threading
-import time
 
 import rosgraph
 import rospy
-from geometry_msgs.msg import Twist
-from nav_msgs.msg import Odometry
-from sensor_msgs.msg import JointState
+from std_srvs.srv import Empty, EmptyResponse
 from tf2_msgs.msg import TFMessage
 
-from fake_turtlebot_sim.clock import MotionClock, PhaseLock
+from fake_turtlebot_sim.clock import PhaseLock
+from fake_turtlebot_sim.diagnostics import Diagnostics
 from fake_turtlebot_sim.parameters import parse_parameters
-from fake_turtlebot_sim.ros_messages import RobotMessages
-from fake_turtlebot_sim.simulated_robot import RobotModel, SimulatedRobot
-from fake_turtlebot_sim.velocity_command import VelocityLimits
+from fake_turtlebot_sim.robot_topics import QUEUE_SIZE, RobotTopics
+from fake_turtlebot_sim.ros_clock import Motion, ros_clock
+from fake_turtlebot_sim.ros_messages import static_transform
 
-QUEUE_SIZE = 10  # a fifth of a second at 50 Hz: what a slow subscriber may be late
+NODE_NAME = "fake_turtlebot"
 
 
 class FakeTurtlebot:
-    """Simulates a TurtleBot 2.
+    """One TurtleBot 2, or with ~robots as many as named, each in the namespace of its name.
 
-    Subscribers: cmd_vel (geometry_msgs/Twist).
-    Publishers: odom (nav_msgs/Odometry), joint_states (sensor_msgs/JointState), /tf.
+    Subscribers: cmd_vel (geometry_msgs/Twist), initialpose (PoseWithCovarianceStamped),
+        mobile_base/commands/reset_odometry (std_msgs/Empty)
+    Publishers: odom (nav_msgs/Odometry), joint_states (sensor_msgs/JointState),
+        base_pose_ground_truth (nav_msgs/Odometry; only if the odometry has errors),
+        /tf and /tf_static (tf2_msgs/TFMessage), /diagnostics (diagnostic_msgs/DiagnosticArray)
+    Services: ~reset (std_srvs/Empty)
+    Parameters: ~rate 50.0, ~cmd_vel_timeout 0.6, ~publish_tf true, ~wheel_separation 0.23,
+        ~wheel_radius 0.035, ~max_linear_speed 0.7, ~max_angular_speed pi,
+        ~max_linear_acceleration 0.0, ~max_angular_acceleration 0.0, ~initial_x 0.0,
+        ~initial_y 0.0, ~initial_yaw 0.0, ~odom_frame odom, ~base_frame base_footprint,
+        ~left_wheel_joint wheel_left_joint, ~right_wheel_joint wheel_right_joint,
+        ~wheel_noise 0.0, ~wheel_radius_ratio 1.0, ~track_ratio 1.0, ~seed 0, ~robots {},
+        ~world_frame world; README.md gives units and meanings
     """
 
     def __init__(self, parameters):
-        self._lock = threading.Lock()
-        self._publish_tf = parameters.publish_tf
-        self._simulated_time = not rospy.rostime.is_wallclock()
-        self._motion_clock = MotionClock(self._read_clock())
-        self._period_ns = round(1e9 / parameters.rate)
-        limits = VelocityLimits(
-            parameters.max_linear_speed,
-            parameters.max_angular_speed,
-            parameters.max_linear_acceleration,
-            parameters.max_angular_acceleration,
-        )
-        model = RobotModel(
-            parameters.wheel_separation,
-            parameters.wheel_radius,
-            parameters.cmd_vel_timeout,
-            limits,
-        )
-        pose = (parameters.initial_x, parameters.initial_y, parameters.initial_yaw)
-        self._robot = SimulatedRobot(model, pose)
-        joints = (parameters.left_wheel_joint, parameters.right_wheel_joint)
-        self._messages = RobotMessages(parameters.odom_frame, parameters.base_frame, joints)
-        self._odom = rospy.Publisher("odom", Odometry, queue_size=QUEUE_SIZE)
-        self._joints = rospy.Publisher("joint_states", JointState, queue_size=QUEUE_SIZE)
-        # Absolute, as every listener of tf2 subscribes to it.
+        """Put the robots at their start poses; nothing is published before spin()."""
+        self._clock = ros_clock()
+        self._motion = Motion(self._clock)
+        self._period_ns = parameters.period_ns()
+        # Absolute, as every listener of tf2 subscribes to it; one message for all robots.
         self._tf = rospy.Publisher("/tf", TFMessage, queue_size=QUEUE_SIZE)
-        rospy.Subscriber("cmd_vel", Twist, self._on_cmd_vel, queue_size=1, tcp_nodelay=True)
+        self._topics = [
+            RobotTopics(name, pose, parameters, self._motion)
+            for name, pose in parameters.start_poses().items()
+        ]
+        self._transforms = TFMessage()
+        if parameters.publish_tf:
+            self._transforms.transforms = [topics.messages.transform for topics in self._topics]
+        if parameters.publish_tf and parameters.robots:
+            self._join_in(parameters.world_frame)
+        self._diagnostics = Diagnostics(self._topics, parameters.rate)
+        rospy.Service("~reset", Empty, self._on_reset)
 
     def spin(self):
         """Publish until shut down."""
-        lock = PhaseLock(self._period_ns, time.monotonic_ns())
+        schedule = None
         while not rospy.is_shutdown():
-            self._cycle()
-            lock.complete(time.monotonic_ns())
-            time.sleep(max(0, lock.deadline_ns - time.monotonic_ns()) * 1e-9)
-
-    def _read_clock(self):
-        return rospy.Time.now().to_nsec() if self._simulated_time else time.monotonic_ns()
-
-    def _on_cmd_vel(self, twist):
-        with self._lock:
-            now_ns = self._motion_clock.update(self._read_clock())
-            accepted = self._robot.command((twist.linear.x, twist.angular.z), now_ns)
-        if not accepted:
-            rospy.logwarn_once("cmd_vel: a velocity is not a finite number; ignored")
+            now = self._cycle()
+            if schedule is None:
+                schedule = PhaseLock(self._period_ns, now.reading_ns)
+            self._diagnostics.count(schedule.complete(now.reading_ns))
+            self._clock.wait(now.reading_ns, schedule.deadline_ns)
 
     def _cycle(self):
-        with self._lock:
-            stamp = rospy.Time.now()
-            self._robot.advance(self._motion_clock.update(self._read_clock()))
-            state = self._robot.state()
-        self._messages.fill(state, stamp)
-        self._odom.publish(self._messages.odometry)
-        self._joints.publish(self._messages.joints)
-        if self._publish_tf:
-            self._tf.publish(TFMessage([self._messages.transform]))
+        """Move all robots to the present and publish it; return the Instant."""
+        with self._motion.hold() as now:
+            for topics in self._topics:
+                topics.robot.advance(now.motion_ns)
+                topics.tell(now.stamp)
+        if now.stamp:  # zero: simulated time has not begun
+            for topics in self._topics:
+                topics.publish()
+            if self._transforms.transforms:
+                self._tf.publish(self._transforms)
+        return now
+
+    def _join_in(self, world_frame):
+        """Lay the odometry frames of all robots onto one, so that RViz can show them together."""
+        stamp = rospy.Time.now()
+        self._tf_static = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
+        self._tf_static.publish(
+            TFMessage([static_transform(world_frame, t.odom_frame, stamp) for t in self._topics])
+        )
+
+    def _on_reset(self, _request):
+        with self._motion.hold() as now:
+            for topics in self._topics:
+                topics.robot.advance(now.motion_ns)
+                topics.robot.reset()
+        return EmptyResponse()
 
 
 def main():
-    """Run the node and return its exit code."""
+    """Run the node until it is shut down; return its exit code."""
     if not rosgraph.is_master_online():
-        print("fake_turtlebot: no ROS master; start roscore or use roslaunch", file=sys.stderr)
+        print(
+            f"{NODE_NAME}: no ROS master at {rosgraph.get_master_uri()};"
+            " start roscore, or use roslaunch",
+            file=sys.stderr,
+        )
         return 1
-    rospy.init_node("fake_turtlebot")
+    rospy.init_node(NODE_NAME)
     try:
         parameters = parse_parameters(rospy.get_param("~", {}))
     except ValueError as error:
         rospy.logfatal("%s", error)
         return 1
-    FakeTurtlebot(parameters).spin()
+    try:
+        FakeTurtlebot(parameters).spin()
+    except rospy.ROSException:
+        # A topic is closed under the publisher's hands by a shutdown in the middle of a cycle.
+        if not rospy.is_shutdown():
+            raise
     return 0

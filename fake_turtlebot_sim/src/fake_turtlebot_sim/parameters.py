@@ -6,21 +6,28 @@ from dataclasses import dataclass, field, fields
 from math import inf, isfinite, pi
 from typing import Dict, Tuple
 
-Pose = Tuple[float, float, float]
+from fake_turtlebot_sim.odometry_errors import ErrorModel
+from fake_turtlebot_sim.simulated_robot import RobotModel
+from fake_turtlebot_sim.velocity_command import VelocityLimits
 
-# Name: (least, most, unit). Anything within is a number the simulation handles exactly.
+MOST_ROBOTS = 1000
+
+# Name: (least, most, unit).
 RANGES = {
-    "rate": (1.0, 1000.0, "Hz"),
+    "rate": (5.0, 1000.0, "Hz"),
     "cmd_vel_timeout": (0.02, 60.0, "s"),
     "wheel_separation": (0.01, 10.0, "m"),
     "wheel_radius": (0.001, 5.0, "m"),
     "max_linear_speed": (0.01, 100.0, "m/s"),
     "max_angular_speed": (0.01, 100.0, "rad/s"),
-    "max_linear_acceleration": (0.01, inf, "m/s2"),
-    "max_angular_acceleration": (0.01, inf, "rad/s2"),
+    "max_linear_acceleration": (0.0, 1000.0, "m/s2 (0: no limit)"),
+    "max_angular_acceleration": (0.0, 1000.0, "rad/s2 (0: no limit)"),
     "initial_x": (-1e6, 1e6, "m"),
     "initial_y": (-1e6, 1e6, "m"),
     "initial_yaw": (-2 * pi, 2 * pi, "rad"),
+    "wheel_noise": (0.0, 1.0, "m (standard deviation after 1 m)"),
+    "wheel_radius_ratio": (0.5, 2.0, "(right / left)"),
+    "track_ratio": (0.5, 2.0, "(actual / nominal)"),
 }
 
 
@@ -30,21 +37,49 @@ class Parameters:
 
     rate: float = 50.0
     cmd_vel_timeout: float = 0.6
+    publish_tf: bool = True
     wheel_separation: float = 0.230
     wheel_radius: float = 0.035
     max_linear_speed: float = 0.7
     max_angular_speed: float = pi
-    max_linear_acceleration: float = inf
-    max_angular_acceleration: float = inf
+    max_linear_acceleration: float = 0.0
+    max_angular_acceleration: float = 0.0
     initial_x: float = 0.0
     initial_y: float = 0.0
     initial_yaw: float = 0.0
-    publish_tf: bool = True
     odom_frame: str = "odom"
     base_frame: str = "base_footprint"
     left_wheel_joint: str = "wheel_left_joint"
     right_wheel_joint: str = "wheel_right_joint"
-    robots: Dict[str, Pose] = field(default_factory=dict)
+    wheel_noise: float = 0.0
+    wheel_radius_ratio: float = 1.0
+    track_ratio: float = 1.0
+    seed: int = 0
+    robots: Dict[str, Tuple[float, float, float]] = field(default_factory=dict)
+    world_frame: str = "world"
+
+    def period_ns(self):
+        """Return the time between two messages [ns]."""
+        return round(1e9 / self.rate)
+
+    def start_poses(self):
+        """Return {name: (x, y, yaw)}; the only robot of a node without ~robots has no name."""
+        return self.robots or {"": (self.initial_x, self.initial_y, self.initial_yaw)}
+
+    def robot_model(self, name):
+        """Return the RobotModel; each name draws odometry noise of its own, in company or alone."""
+        limits = VelocityLimits(
+            self.max_linear_speed,
+            self.max_angular_speed,
+            self.max_linear_acceleration or inf,
+            self.max_angular_acceleration or inf,
+        )
+        errors = ErrorModel(
+            self.wheel_radius_ratio, self.track_ratio, self.wheel_noise, f"{self.seed}/{name}"
+        )
+        return RobotModel(
+            self.wheel_separation, self.wheel_radius, self.cmd_vel_timeout, limits, errors
+        )
 
 
 def parse_parameters(given):
@@ -52,77 +87,84 @@ def parse_parameters(given):
 
     Raises ValueError with one line: the parameter, its value and what is allowed.
     """
-    known = {field.name: field.type for field in fields(Parameters)}
+    known = {parameter.name: parameter.type for parameter in fields(Parameters)}
     checked = {}
     for name, value in given.items():
         if name not in known:
-            raise ValueError(f"~{name}: {value!r}: no such parameter; {_suggest(name, known)}")
-        checked[name] = _check(name, value, known[name])
+            raise ValueError(f"~{name}: {value!r}: no such parameter; {_suggestion(name, known)}")
+        checked[name] = _CHECKS.get(known[name], _robots)(name, value)
     parameters = Parameters(**checked)
-    if parameters.odom_frame == parameters.base_frame:
-        raise ValueError(
-            f"~base_frame: {parameters.base_frame!r}: must differ from ~odom_frame, its parent"
-        )
-    if parameters.left_wheel_joint == parameters.right_wheel_joint:
-        raise ValueError(
-            f"~right_wheel_joint: {parameters.right_wheel_joint!r}: must differ from"
-            " ~left_wheel_joint"
-        )
+    for one, other in (("odom_frame", "base_frame"), ("left_wheel_joint", "right_wheel_joint")):
+        value = getattr(parameters, one)
+        if value == getattr(parameters, other):
+            raise ValueError(f"~{other}: {value!r}: must differ from ~{one}")
     return parameters
 
 
-def _suggest(name, known):
+def _suggestion(name, known):
     similar = difflib.get_close_matches(name, known, n=1)
-    return f"did you mean ~{similar[0]}?" if similar else f"allowed are {', '.join(sorted(known))}"
+    return f"did you mean ~{similar[0]}?" if similar else f"allowed: {', '.join(sorted(known))}"
 
 
-def _check(name, value, kind):
-    if kind is float:
-        return _number(name, value, *RANGES[name])
-    if kind is bool:
-        if not isinstance(value, bool):
-            raise ValueError(f"~{name}: {value!r}: must be true or false")
-        return value
-    if kind is str:
-        # tf2 knows no leading slash, and a name with a blank is a typing error.
-        if not isinstance(value, str) or not re.fullmatch(r"[^/\s]\S*", value):
-            raise ValueError(f"~{name}: {value!r}: must be a name without blanks or leading slash")
-        return value
-    return _robots(value)
+def _is_number(value):
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and isfinite(value)
 
 
-def _number(name, value, least, most, unit):
-    is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
-    if not is_number or not least <= value <= most:
+def _number(name, value):
+    least, most, unit = RANGES[name]
+    if not _is_number(value) or not least <= value <= most:
         raise ValueError(f"~{name}: {value!r}: must be a number from {least:g} to {most:g} {unit}")
     return float(value)
 
 
-def _robots(value):
+def _whole_number(name, value):
+    if not isinstance(value, int) or isinstance(value, bool):
+        raise ValueError(f"~{name}: {value!r}: must be a whole number")
+    return value
+
+
+def _switch(name, value):
+    if not isinstance(value, bool):
+        raise ValueError(f"~{name}: {value!r}: must be true or false")
+    return value
+
+
+def _frame(name, value):
+    # tf2 knows no leading slash.
+    if not isinstance(value, str) or not re.fullmatch(r"[^/\s]\S*", value):
+        raise ValueError(f"~{name}: {value!r}: must be a name without blanks and leading slash")
+    return value
+
+
+def _robots(name, value):
     """Check {name: [x, y, yaw]}, or a number of robots to be named and lined up."""
-    if isinstance(value, int) and not isinstance(value, bool) and 1 <= value <= 1000:
-        return line_up(value)
-    if not isinstance(value, dict):
+    if isinstance(value, dict):
+        return {_robot_name(robot): _robot_pose(robot, pose) for robot, pose in value.items()}
+    if _is_number(value) and value in range(1, MOST_ROBOTS + 1):
+        return line_up(int(value))
+    raise ValueError(
+        f"~{name}: {value!r}: must be a number from 1 to {MOST_ROBOTS}, or names with"
+        " their start poses as in {alice: [0, 0, 0], bob: [1, 0, 1.57]}"
+    )
+
+
+def _robot_name(robot):
+    if not isinstance(robot, str) or not re.fullmatch(r"[A-Za-z]\w*", robot, re.ASCII):
         raise ValueError(
-            f"~robots: {value!r}: must be a number from 1 to 1000 or a mapping"
-            " of names to [x, y, yaw]"
+            f"~robots: {robot!r}: must be a letter followed by letters, digits and underscores"
         )
-    return {_robot_name(name): _robot_pose(name, pose) for name, pose in value.items()}
+    return robot
 
 
-def _robot_name(name):
-    if not isinstance(name, str) or not re.fullmatch(r"[A-Za-z]\w*", name, re.ASCII):
-        raise ValueError(f"~robots: {name!r}: a name must be letters, digits and underscores")
-    return name
-
-
-def _robot_pose(name, pose):
-    is_list = isinstance(pose, list) and len(pose) == 3
-    if not is_list or not all(isinstance(n, (int, float)) and isfinite(n) for n in pose):
-        raise ValueError(f"~robots/{name}: {pose!r}: must be [x in m, y in m, yaw in rad]")
-    return tuple(float(number) for number in pose)
+def _robot_pose(robot, pose):
+    if not isinstance(pose, (list, tuple)) or len(pose) != 3 or not all(map(_is_number, pose)):
+        raise ValueError(f"~robots/{robot}: {pose!r}: must be [x in m, y in m, yaw in rad]")
+    return tuple(map(float, pose))
 
 
 def line_up(count):
-    """Return names and start poses of count robots, ten to a row and 1 m apart."""
-    return {f"robot_{k + 1}": (-float(k // 10), -float(k % 10), 0.0) for k in range(count)}
+    """Return {name: pose} for count robots, robot_1 at the origin, rows of ten, 1 m apart."""
+    return {f"robot_{k + 1}": (float(-(k // 10)), float(-(k % 10)), 0.0) for k in range(count)}
+
+
+_CHECKS = {float: _number, int: _whole_number, bool: _switch, str: _frame}

@@ -1,11 +1,11 @@
-"""From the state of a robot to the messages that tell it, all with one stamp.
+"""Between the state of a robot and the messages that tell it, all with one stamp.
 
 Frames as REP-105 orders them: the pose of the base in the odometry frame, the twist in the frame
 of the base. The message objects are made once and filled again for every state: rospy copies a
 message when it publishes it, and making a new Odometry would cost more than all the rest.
 """
 
-from math import cos, sin
+from math import atan2, cos, hypot, isfinite, sin
 
 from geometry_msgs.msg import TransformStamped
 from nav_msgs.msg import Odometry
@@ -13,7 +13,10 @@ from sensor_msgs.msg import JointState
 
 # Diagonal of the pose covariance [m2, rad2] that kobuki_node publishes (odometry.cpp): huge for
 # what a robot on a floor cannot know. Its twist covariance is left at zero, "unknown".
-POSE_COVARIANCE = (0.1, 0.1, 1e10, 1e10, 1e10, 0.05)
+KOBUKI_POSE_COVARIANCE = (0.1, 0.1, 1e10, 1e10, 1e10, 0.05)
+X_Y_YAW = (0, 1, 5)  # where x, y and yaw stand in the 6 x 6 covariance of a message
+# Added to the variances of x, y and yaw, as filters cannot invert a covariance of zero.
+LEAST_VARIANCE = 1e-9  # [m2, rad2]
 
 
 class RobotMessages:
@@ -25,26 +28,66 @@ class RobotMessages:
         self.odometry.header.frame_id = odom_frame
         self.odometry.child_frame_id = base_frame
         self.odometry.pose.covariance = [0.0] * 36
-        self.odometry.pose.covariance[::7] = POSE_COVARIANCE
+        self.odometry.pose.covariance[::7] = KOBUKI_POSE_COVARIANCE
         self.transform = TransformStamped()
         self.transform.header.frame_id = odom_frame
         self.transform.child_frame_id = base_frame
-        # One quaternion for both, so that they are equal to the last bit.
+        # One quaternion in both, so that they are equal to the last bit.
         self.transform.transform.rotation = self.odometry.pose.pose.orientation
         self.joints = JointState()
         self.joints.name = list(wheel_joints)
 
     def fill(self, state, stamp):
         """Tell the RobotState of the instant `stamp`."""
-        odometry, transform, joints = self.odometry, self.transform, self.joints
-        odometry.header.stamp = transform.header.stamp = joints.header.stamp = stamp
-        position, translation = odometry.pose.pose.position, transform.transform.translation
-        position.x = translation.x = state.x
-        position.y = translation.y = state.y
-        orientation = odometry.pose.pose.orientation
-        orientation.z = sin(0.5 * state.yaw)
-        orientation.w = cos(0.5 * state.yaw)
-        odometry.twist.twist.linear.x = state.v
-        odometry.twist.twist.angular.z = state.w
-        joints.position = (state.left_angle, state.right_angle)
-        joints.velocity = (state.left_rate, state.right_rate)
+        fill_odometry(self.odometry, state, stamp)
+        self.transform.header.stamp = self.joints.header.stamp = stamp
+        self.transform.transform.translation.x = state.x
+        self.transform.transform.translation.y = state.y
+        self.joints.position = (state.left_angle, state.right_angle)
+        self.joints.velocity = (state.left_rate, state.right_rate)
+
+    def fill_covariance(self, covariance):
+        """Tell the 3 x 3 covariance of x [m], y [m] and yaw [rad]."""
+        for row, message_row in enumerate(X_Y_YAW):
+            for column, message_column in enumerate(X_Y_YAW):
+                value = float(covariance[row, column])
+                self.odometry.pose.covariance[6 * message_row + message_column] = value
+            self.odometry.pose.covariance[7 * message_row] += LEAST_VARIANCE
+
+
+def fill_odometry(odometry, state, stamp):
+    """Write the pose and the twist of a RobotState into an Odometry."""
+    odometry.header.stamp = stamp
+    odometry.pose.pose.position.x = state.x
+    odometry.pose.pose.position.y = state.y
+    odometry.pose.pose.orientation.z = sin(0.5 * state.yaw)
+    odometry.pose.pose.orientation.w = cos(0.5 * state.yaw)
+    odometry.twist.twist.linear.x = state.v
+    odometry.twist.twist.angular.z = state.w
+
+
+def static_transform(parent, child, stamp):
+    """Return the TransformStamped that lays the frame `child` onto its parent."""
+    transform = TransformStamped()
+    transform.header.stamp = stamp
+    transform.header.frame_id, transform.child_frame_id = parent, child
+    transform.transform.rotation.w = 1.0
+    return transform
+
+
+def pose_on_floor(message, frames):
+    """Return (x [m], y [m], yaw [rad]) of a PoseWithCovarianceStamped in one of the frames.
+
+    Raises ValueError with one line if the frame is another or the pose is not one.
+    """
+    frame = message.header.frame_id.lstrip("/")
+    if frame not in frames:
+        raise ValueError(f"the pose is in the frame {frame!r}; give it in {' or '.join(frames)}")
+    position, q = message.pose.pose.position, message.pose.pose.orientation
+    # Not normalised, as atan2 does not mind the length of the quaternion.
+    ahead = q.w * q.w + q.x * q.x - q.y * q.y - q.z * q.z
+    aside = 2.0 * (q.w * q.z + q.x * q.y)
+    pose = (position.x, position.y, atan2(aside, ahead))
+    if not all(map(isfinite, pose)) or hypot(ahead, aside) < 1e-6:
+        raise ValueError("the pose has no finite position or no heading on the floor")
+    return pose

@@ -4,7 +4,16 @@ All velocities are pairs (v, w): forward [m/s] and counter-clockwise [rad/s].
 """
 
 from dataclasses import dataclass
+from enum import Enum
 from math import inf, isfinite, pi
+
+
+class Verdict(Enum):
+    """What becomes of a command."""
+
+    ACCEPTED = "obeyed"
+    LIMITED = "more than the robot can do; scaled down to what it can"
+    REJECTED = "not a finite number; ignored"
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,61 @@
+"""Time that never decreases, and periods that never drift."""
+
+import pytest
+from fake_turtlebot_sim.clock import MotionClock, PhaseLock
+from hypothesis import given
+from hypothesis import strategies as st
+
+
+def test_motion_time_is_the_time_since_the_start():
+    clock = MotionClock(1000)
+    assert [clock.update(reading) for reading in (1000, 1007, 1030)] == [0, 7, 30]
+
+
+def test_a_clock_set_back_stops_motion_for_that_instant_only():
+    clock = MotionClock(1000)
+    assert [clock.update(reading) for reading in (1010, 500, 520, 1020)] == [10, 10, 30, 530]
+
+
+def test_time_before_the_first_clock_message_is_no_time():
+    clock = MotionClock(0)
+    assert [clock.update(reading) for reading in (0, 1_600_000_000, 1_600_000_020)] == [0, 0, 20]
+
+
+@given(st.lists(st.integers(0, 10**19)))
+def test_motion_time_never_decreases(readings):
+    clock = MotionClock(0)
+    times = [clock.update(reading) for reading in readings]
+    assert times == sorted(times)
+
+
+def test_deadlines_are_whole_periods_from_the_start():
+    lock = PhaseLock(20, 100)
+    assert lock.complete(100) == 0
+    assert lock.deadline_ns == 120
+    assert lock.complete(127) == 0  # late, and the next is not
+    assert lock.deadline_ns == 140
+
+
+@pytest.mark.parametrize(("now_ns", "missed"), [(139, 0), (140, 1), (179, 2), (180, 3)])
+def test_missed_periods_are_counted_and_left_out(now_ns, missed):
+    lock = PhaseLock(20, 100)
+    lock.complete(100)
+    assert lock.complete(now_ns) == missed
+    assert lock.deadline_ns == 140 + 20 * missed
+
+
+def test_a_clock_set_back_begins_a_new_count():
+    lock = PhaseLock(20, 100)
+    lock.complete(100)
+    assert lock.complete(13) == 0
+    assert lock.deadline_ns == 33
+
+
+@given(st.lists(st.integers(0, 1000), min_size=1))
+def test_however_late_the_next_deadline_is_ahead_and_in_phase(lateness):
+    lock = PhaseLock(20, 100)
+    for late_ns in lateness:
+        now_ns = lock.deadline_ns + late_ns
+        assert lock.complete(now_ns) == late_ns // 20
+        assert now_ns < lock.deadline_ns <= now_ns + 20
+        assert lock.deadline_ns % 20 == 0

@@ -1,0 +1,193 @@
+"""A robot under commands: rates, timeout, limits, reset."""
+
+import random
+from math import cos, hypot, inf, nan, pi, sin
+
+import pytest
+from fake_turtlebot_sim.differential_drive import arc, wrap_angle
+from fake_turtlebot_sim.simulated_robot import RobotModel, SimulatedRobot
+from fake_turtlebot_sim.velocity_command import Verdict, VelocityLimits
+
+KOBUKI = RobotModel()
+SECOND = 10**9  # [ns]
+PERIOD = 20_000_000  # [ns], 50 Hz
+RAMPING = RobotModel(limits=VelocityLimits(linear_acceleration=1.0, angular_acceleration=2.0))
+
+
+def command_log(seed, seconds):
+    """Commands at random times about every 0.3 s, some later than the timeout: (ns, velocity)."""
+    rng, now_s, log = random.Random(seed), 0.0, []
+    while now_s < seconds:
+        log.append((round(now_s * 1e9), (rng.uniform(-0.9, 0.9), rng.uniform(-4, 4))))
+        now_s += rng.uniform(0.01, 0.6) if rng.random() < 0.9 else 0.9
+    return log
+
+
+def ticks(rate_hz, seconds, jitter=0.0):
+    """Times of a node's periods [ns], each off by up to the given share of a period."""
+    rng = random.Random(rate_hz)
+    return sorted(
+        round((k + jitter * rng.uniform(-1, 1)) / rate_hz * 1e9)
+        for k in range(1, int(seconds * rate_hz))
+    )
+
+
+def drive(model, log, times, end_ns):
+    """Obey the log, look at the given times, and return the state at the end."""
+    robot = SimulatedRobot(model)
+    for now_ns, velocity in sorted([*log, *((time, None) for time in times)], key=lambda e: e[0]):
+        if velocity is None:
+            robot.advance(now_ns)
+        else:
+            robot.command(velocity, now_ns)
+    robot.advance(end_ns)
+    return robot.state()
+
+
+@pytest.mark.parametrize("model", [KOBUKI, RAMPING], ids=["sudden", "ramping"])
+@pytest.mark.parametrize(
+    ("rate_hz", "jitter"), [(10, 0), (30, 0), (50, 0), (100, 0), (50, 0.3), (10, 0.3)]
+)
+def test_the_pose_depends_on_the_commands_and_not_on_the_rate(model, rate_hz, jitter):
+    log = command_log(seed=1, seconds=60)
+    looked_at = drive(model, log, ticks(rate_hz, 60, jitter), 62 * SECOND)
+    left_alone = drive(model, log, [], 62 * SECOND)
+    assert hypot(left_alone.x, left_alone.y) > 0.1
+    assert looked_at == pytest.approx(left_alone, rel=0, abs=1e-9)
+
+
+@pytest.mark.parametrize("rate_hz", [10, 30, 50, 77, 100])
+def test_the_coast_after_the_last_command_is_exactly_the_timeout(rate_hz):
+    state = drive(KOBUKI, [(123_456_789, (0.7, 0.0))], ticks(rate_hz, 2), 2 * SECOND)
+    assert state.x == pytest.approx(0.420, abs=1e-9)
+    assert (state.y, state.v, state.w) == (0.0, 0.0, 0.0)
+
+
+def test_the_robot_stops_at_the_instant_of_the_timeout():
+    robot = SimulatedRobot(KOBUKI)
+    robot.command((0.5, 1.0), 0)
+    robot.advance(SECOND * 6 // 10 - 1)
+    assert (robot.state().v, robot.state().w, robot.is_driven) == (0.5, 1.0, True)
+    robot.advance(SECOND * 6 // 10)
+    assert (robot.state().v, robot.state().w, robot.is_driven) == (0.0, 0.0, False)
+
+
+def test_a_repeated_command_keeps_the_robot_going():
+    log = [(k * SECOND // 2, (0.5, 0.0)) for k in range(5)]
+    assert drive(KOBUKI, log, [], 10 * SECOND).x == pytest.approx(0.5 * (2.0 + 0.6))
+
+
+def test_a_jump_of_time_moves_no_further_than_the_timeout():
+    assert drive(KOBUKI, [(0, (0.7, 0.0))], [PERIOD], 10 * SECOND).x == pytest.approx(0.42)
+
+
+def test_time_that_has_passed_changes_nothing():
+    robot = SimulatedRobot(KOBUKI)
+    robot.command((0.5, 1.0), 0)
+    robot.advance(PERIOD)
+    state = robot.state()
+    robot.advance(PERIOD // 2)
+    robot.advance(PERIOD)
+    assert robot.state() == state
+
+
+@pytest.mark.parametrize("bad", [(nan, 0.0), (0.0, nan), (inf, 0.0), (0.0, -inf)])
+def test_a_command_that_is_not_finite_is_ignored_and_does_not_feed_the_timeout(bad):
+    robot = SimulatedRobot(KOBUKI)
+    robot.command((0.7, 0.0), 0)
+    for now_ns in range(PERIOD, SECOND, PERIOD):
+        assert robot.command(bad, now_ns) is Verdict.REJECTED
+    robot.advance(SECOND)
+    assert robot.state().x == pytest.approx(0.42)
+    assert robot.state().v == 0.0
+
+
+def test_verdicts():
+    robot = SimulatedRobot(KOBUKI)
+    assert robot.command((0.7, 1.0), 0) is Verdict.ACCEPTED
+    assert robot.command((1e300, 1.0), 0) is Verdict.LIMITED
+    robot.advance(10 * SECOND)
+    assert robot.state().x == pytest.approx(0.42)
+
+
+@pytest.mark.parametrize(("seconds", "tolerance"), [(60, 1e-9), (3600, 1e-6)])
+def test_the_wheels_have_rolled_the_path_and_the_turn(seconds, tolerance):
+    robot, path, turn = SimulatedRobot(KOBUKI), 0, 0
+    rng, hold = random.Random(7), 25
+    for k in range(0, seconds * 50, hold):
+        # In units of 1e-9 m/s and rad/s, so that the sums below are whole and exact.
+        v, w = rng.randrange(-7 * 10**8, 7 * 10**8), rng.randrange(-3 * 10**9, 3 * 10**9)
+        robot.command((v * 1e-9, w * 1e-9), k * PERIOD)
+        for step in range(1, hold + 1):
+            robot.advance((k + step) * PERIOD)
+        path, turn = path + v * hold, turn + w * hold
+    state = robot.state()
+    assert 0.035 * (state.left_angle + state.right_angle) / 2 == pytest.approx(
+        path * 0.02e-9, rel=0, abs=tolerance
+    )
+    assert 0.035 * (state.right_angle - state.left_angle) / 0.230 == pytest.approx(
+        turn * 0.02e-9, rel=0, abs=tolerance
+    )
+
+
+def test_an_hour_at_full_speed_turns_the_wheels_right():
+    robot = SimulatedRobot(KOBUKI)
+    for k in range(3600 * 50):
+        robot.command((0.7, 0.0), k * PERIOD)
+    robot.advance(3600 * SECOND)
+    assert robot.state().left_angle == pytest.approx(0.7 * 3600 / 0.035, rel=0, abs=1e-6)
+
+
+def test_an_hour_at_rest_changes_no_bit():
+    start = (0.1, -0.2, 3.0)
+    robot = SimulatedRobot(KOBUKI, start)
+    robot.command((0.0, 0.0), 0)
+    for k in range(3600 * 50):
+        robot.advance(k * PERIOD)
+    assert robot.state()[:3] == start
+
+
+def test_acceleration_limits_ramp_up_and_down():
+    robot = SimulatedRobot(RAMPING)
+    for k in range(10):
+        robot.command((0.5, 0.0), k * SECOND // 10)
+    robot.advance(SECOND // 4)
+    robot.advance(SECOND * 15 // 10)
+    # Half a second up at 1 m/s2, steady until the timeout at 1.5 s, half a second down.
+    assert robot.state().x == pytest.approx(0.125 + 0.5, abs=1e-12)
+    robot.advance(SECOND * 175 // 100)
+    assert robot.state().v == pytest.approx(0.25, abs=1e-12)
+    robot.advance(3 * SECOND)
+    assert robot.state().x == pytest.approx(0.125 + 0.5 + 0.125, abs=1e-12)
+    assert robot.state().v == 0.0
+
+
+def test_a_ramp_from_rest_stays_on_the_circle():
+    robot = SimulatedRobot(RAMPING)
+    robot.command((0.5, 1.0), 0)
+    for k in range(1, 11):
+        robot.advance(k * PERIOD)
+        x, y = robot.state()[:2]
+        assert hypot(x, y - 0.5) == pytest.approx(0.5, abs=1e-12)
+
+
+def test_placing_keeps_wheels_and_command_and_reset_zeroes_wheels_too():
+    robot = SimulatedRobot(KOBUKI)
+    robot.command((0.35, 0.0), 0)
+    robot.advance(SECOND // 2)
+    robot.place((1.0, 2.0, 5 * pi / 2))
+    assert robot.state()[:4] == (1.0, 2.0, wrap_angle(5 * pi / 2), 0.35)
+    assert robot.state().left_angle == pytest.approx(5)
+    robot.reset()
+    assert robot.state()[:4] == (0.0, 0.0, 0.0, 0.35)
+    assert robot.state().left_angle == robot.state().right_angle == 0.0
+
+
+def test_square_of_umbmark_closes_both_ways():
+    for way in (1, -1):
+        pose = (0.0, 0.0, 0.0)
+        for _ in range(4):
+            pose = arc(pose, (0.5, 0.0), 8.0)
+            pose = arc(pose, (0.0, way * 0.5), pi)
+        assert pose[:2] == pytest.approx((0, 0), abs=1e-9)
+        assert (cos(pose[2]), sin(pose[2])) == pytest.approx((1, 0), abs=1e-9)
