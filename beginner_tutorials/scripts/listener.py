@@ -25,6 +25,10 @@ def main():
     if not rosgraph.is_master_online():
         sys.exit(f"listener: no ROS master at {rosgraph.get_master_uri()}; start one with: roscore")
     rospy.init_node("listener", anonymous=not options.unique)
+    # Before every log line rospy asks the master for this parameter, until it is set; a node that
+    # asks while a newer one of its name takes over would make the master end the newer one as well.
+    if not rospy.has_param("/rosout_disable_topics_generation"):
+        rospy.set_param("/rosout_disable_topics_generation", False)
     rospy.Subscriber("chatter", String, callback)
     rospy.spin()  # the callback does the work; this only keeps the program alive
 

@@ -18,6 +18,10 @@ def talk(anonymous):
     # An anonymous node gets a random number behind its name, so that many can run side by side.
     # Names are unique on a ROS graph: a second node of the same name ends the first.
     rospy.init_node("talker", anonymous=anonymous)
+    # Before every log line rospy asks the master for this parameter, until it is set; a node that
+    # asks while a newer one of its name takes over would make the master end the newer one as well.
+    if not rospy.has_param("/rosout_disable_topics_generation"):
+        rospy.set_param("/rosout_disable_topics_generation", False)
     publisher = rospy.Publisher("chatter", String, queue_size=10)
     rate = rospy.Rate(10, reset=True)  # [Hz]; reset: go on when a simulated clock starts anew
     while not rospy.is_shutdown():
