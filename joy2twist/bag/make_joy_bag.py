@@ -1,7 +1,8 @@
-#!/usr/bin/env python3
 """Writes joy.bag: a Logitech F710 (D mode) whose left stick drives a closed tour.
 
-    make_joy_bag.py [FILE]          FILE is joy.bag beside this script unless told
+    ./tutorial run python3 joy2twist/bag/make_joy_bag.py [FILE]
+
+FILE is joy.bag beside this script unless told.
 
 The tour: a figure of eight, a turn on the spot, a way back and forth. It ends where it began, so
 that `rosbag play --loop` traces it again and again. Driven at scale 1, as the handout's node does,

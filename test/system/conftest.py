@@ -1,0 +1,62 @@
+"""What the tests of the whole system share: a ROS master's port of their own, a clean clone."""
+
+import os
+import shutil
+import socket
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(REPOSITORY / "test" / "ros"))  # processes.py and waiting.py
+
+
+def free_port():
+    """A TCP port of this machine that nobody uses now."""
+    with socket.socket() as probe:
+        probe.bind(("localhost", 0))
+        return probe.getsockname()[1]
+
+
+@pytest.fixture
+def master_uri(monkeypatch):
+    """ROS_MASTER_URI of a port of our own, so that a master of the user's is left alone."""
+    uri = f"http://localhost:{free_port()}"
+    monkeypatch.setenv("ROS_MASTER_URI", uri)
+    return uri
+
+
+@pytest.fixture(scope="session")
+def tutorial():
+    """The path of the command ./tutorial."""
+    return str(REPOSITORY / "tutorial")
+
+
+@pytest.fixture(scope="session")
+def clone(tmp_path_factory):
+    """A copy of the repository's files, committed or not, in a folder with a space in its name."""
+    folder = tmp_path_factory.mktemp("clone") / "ros1 tutorial"
+    listed = subprocess.run(
+        ["git", "-C", str(REPOSITORY), "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    if listed.returncode:  # not a git checkout, as in the container: take what is there
+        shutil.copytree(REPOSITORY, folder, symlinks=True)
+        return folder
+    for name in filter(None, listed.stdout.split("\0")):
+        if (REPOSITORY / name).exists():
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(REPOSITORY / name, folder / name)
+    return folder
+
+
+@pytest.fixture
+def clean_environment(monkeypatch):
+    """The environment of a user who has sourced no ROS workspace."""
+    for name in ("CMAKE_PREFIX_PATH", "ROS_PACKAGE_PATH", "PYTHONPATH"):
+        monkeypatch.delenv(name, raising=False)
+    return os.environ

@@ -1,0 +1,178 @@
+"""./tutorial as a user calls it: what it prints, its exit code, what it leaves behind."""
+
+import re
+import shutil
+import socket
+import subprocess
+from pathlib import Path
+
+import pytest
+from processes import Program
+from waiting import wait_for
+
+BAG = Path(__file__).resolve().parents[2] / "joy2twist" / "bag" / "joy.bag"
+LINE = re.compile(
+    r"^demo: (?P<time>[\d.]+) s: (?P<joy>\d+) /joy, (?P<cmd_vel>\d+) /cmd_vel, (?P<odom>\d+) /odom; "
+    r"driven (?P<driven>[\d.]+) m; final pose x -?[\d.]+ m, y -?[\d.]+ m, yaw -?[\d.]+ deg$",
+    re.MULTILINE,
+)
+
+
+def refuse(*command):
+    """Run a command that must fail; return the line in which it says why."""
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=60)
+    assert done.returncode not in (0, 124)
+    assert "Traceback" not in done.stdout + done.stderr
+    lines = [line for line in done.stderr.splitlines() if not line.startswith("usage:")]
+    assert len(lines) == 1, done.stderr
+    return lines[0]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "expected"),
+    [
+        (["frobnicate"], 'tutorial: "frobnicate" is not a word'),
+        (["test", "everything"], 'test: "everything" is not unit, ros or system'),
+        (["setup", "moon"], 'setup: "moon" is not system or workspace'),
+        (["bench", "moon"], 'bench: "moon" has no folder'),
+        (["run"], "run: a command is missing"),
+        (["run", "no_such_command"], 'run: there is no command "no_such_command"'),
+        (["demo", "colour:=red"], "demo: colour:=red: not an argument of launch_bag.launch"),
+        (["demo", "rviz"], "demo: rviz: not an argument"),
+        (["demo", "rviz:=perhaps"], "demo: rviz:=perhaps: perhaps is not a 'bool'"),
+        (["demo", "--for", "ever"], "ever: not a time in seconds"),
+        (["demo", "--for", "-1"], "not a time in seconds"),
+        (["demo", "--for", "nan"], "nan: not a time in seconds"),
+        (["demo", "bag:=/no/such.bag"], "demo: /no/such.bag: cannot be read: No such file"),
+        (["demo", "bag:=/"], "demo: /: cannot be read: Is a directory"),
+    ],
+)
+def test_a_mistake_gets_one_clear_line(tutorial, arguments, expected):
+    assert expected in refuse(tutorial, *arguments)
+
+
+def test_no_word_at_all_shows_the_words(tutorial):
+    done = subprocess.run([tutorial], capture_output=True, text=True, check=False, timeout=60)
+    assert done.returncode == 2
+    for word in ("demo", "test", "setup", "shell", "run"):
+        assert re.search(rf"^  {word}\b", done.stderr, re.MULTILINE)
+
+
+@pytest.mark.parametrize("size", [0, 12, 30, 4096, 5000, 200_000, -4000, -1])
+def test_a_truncated_bag_gets_one_clear_line(tutorial, tmp_path, size):
+    bag = tmp_path / "truncated.bag"
+    bag.write_bytes(BAG.read_bytes()[:size])
+    assert f"demo: {bag}: " in refuse(tutorial, "demo", f"bag:={bag}")
+
+
+def test_a_port_taken_by_another_program_is_named(tutorial, monkeypatch):
+    with socket.create_server(("localhost", 0)) as taken:
+        port = taken.getsockname()[1]
+        monkeypatch.setenv("ROS_MASTER_URI", f"http://localhost:{port}")
+        line = refuse(tutorial, "demo", "--for", "1")
+    assert f"port {port} of localhost is taken by a program that is not a ROS master" in line
+
+
+def test_a_bad_master_uri_is_named(tutorial, monkeypatch):
+    monkeypatch.setenv("ROS_MASTER_URI", "moon")
+    assert "ROS_MASTER_URI=moon" in refuse(tutorial, "demo", "--for", "1")
+
+
+def check_demo(program, seconds):
+    """The demonstration ran for a time: its line, its counts, its exit code."""
+    assert program.wait(seconds + 60) == 0, program.output
+    told = LINE.search(program.output)
+    assert told, program.output
+    for topic in ("joy", "cmd_vel", "odom"):
+        assert int(told[topic]) == pytest.approx(50 * seconds, rel=0.2)
+    assert float(told["driven"]) > 0.3
+    assert "Traceback" not in program.output
+    wait_for(lambda: not program.left_behind(), "end of every process")
+
+
+@pytest.mark.usefixtures("master_uri")
+def test_demo_counts_and_drives(tutorial):
+    with Program(tutorial, "demo", "--for", "5", "rviz:=false") as demo:
+        check_demo(demo, 5)
+
+
+def test_demo_uses_a_master_that_runs_and_leaves_it(tutorial, master_uri):
+    port = master_uri.rsplit(":", 1)[1]
+    with Program(tutorial, "run", "roscore", "-p", port) as roscore:
+        wait_for(lambda: "started core service" in roscore.output, "roscore")
+        with Program(tutorial, "demo", "--for", "4", "rviz:=false") as demo:
+            check_demo(demo, 4)
+        assert not roscore.ended
+        roscore.interrupt()
+        assert roscore.wait() == 0
+
+
+def test_demo_says_so_when_the_robot_stands(tutorial, tmp_path, master_uri):
+    still = tmp_path / "still.bag"
+    subprocess.run(
+        [tutorial, "run", "rosbag", "filter", str(BAG), str(still), "not any(m.axes)"],
+        check=True, capture_output=True, timeout=60,
+    )  # fmt: skip
+    with Program(tutorial, "demo", "--for", "2", "rviz:=false", f"bag:={still}") as demo:
+        assert demo.wait() == 1
+        assert "driven 0.00 m" in demo.output
+    assert master_uri
+
+
+@pytest.mark.usefixtures("master_uri")
+def test_demo_ends_cleanly_on_ctrl_c(tutorial):
+    with Program(tutorial, "demo", "--for", "600", "rviz:=false") as demo:
+        wait_for(lambda: "process[rosbag" in demo.output, "rosbag")
+        demo.interrupt()
+        assert demo.wait() == 130
+        assert "Traceback" not in demo.output
+        wait_for(lambda: not demo.left_behind(), "end of every process")
+
+
+@pytest.mark.usefixtures("master_uri", "clean_environment")
+def test_a_clone_below_a_path_with_spaces_beside_another_python(clone, tmp_path, monkeypatch):
+    """What a user's machine may have: spaces in the path, a python3 without ROS first on PATH."""
+    other = tmp_path / "bin"
+    other.mkdir()
+    (other / "python3").write_text("#!/bin/sh\necho 'not the Python of ROS' >&2\nexit 1\n")
+    (other / "python3").chmod(0o755)
+    monkeypatch.setenv("PATH", str(other), prepend=":")
+    monkeypatch.setenv("TUTORIAL_WORKSPACE", str(tmp_path / "ws"))
+    with Program(str(clone / "tutorial"), "demo", "--for", "4", "rviz:=false") as demo:
+        check_demo(demo, 4)
+        assert "not the Python of ROS" not in demo.output
+    shutil.rmtree(tmp_path / "ws")
+
+
+def test_a_workspace_path_with_spaces_is_refused(clone, tmp_path, monkeypatch):
+    monkeypatch.setenv("TUTORIAL_WORKSPACE", str(tmp_path / "my ws"))
+    line = refuse(str(clone / "tutorial"), "setup", "workspace")
+    assert "set TUTORIAL_WORKSPACE to a path without spaces" in line
+
+
+def test_shell_and_run_see_the_workspace_and_no_shell_file_is_touched(tutorial, tmp_path):
+    home = tmp_path / "home"
+    home.mkdir()
+    (home / ".bashrc").write_text("alias mine=true\n")
+    workspace = subprocess.run(
+        [tutorial, "run", "sh", "-c", "dirname $CMAKE_PREFIX_PATH"],
+        check=True, capture_output=True, text=True,
+    ).stdout.strip()  # fmt: skip
+    shell = subprocess.run(
+        [tutorial, "shell"],
+        input="rospack find joy2twist; pwd; alias mine; exit 3\n",
+        env={
+            "HOME": str(home),
+            "PATH": "/usr/bin:/bin",
+            "TUTORIAL_WORKSPACE": workspace,
+        },
+        cwd=tmp_path, capture_output=True, text=True, check=False, timeout=60,
+    )  # fmt: skip
+    assert shell.returncode == 3
+    assert shell.stdout.splitlines() == [
+        f"{workspace}/src/joy2twist",
+        str(tmp_path),
+        "alias mine='true'",
+    ]
+    assert [path.name for path in home.iterdir() if path.name != ".bash_history"] == [".bashrc"]
+    assert (home / ".bashrc").read_text() == "alias mine=true\n"

@@ -1,0 +1,76 @@
+"""The packages in a workspace of the user's own: built, tested from it, and installed."""
+
+import os
+import subprocess
+from pathlib import Path
+
+import pytest
+
+CLEAN = {
+    "PATH": "/usr/bin:/bin",
+    "HOME": os.environ["HOME"],
+    "ROS_HOSTNAME": "localhost",
+}  # no workspace sourced
+NODES = {
+    "beginner_tutorials": ["talker.py", "listener.py"],
+    "joy2twist": ["joy2twist.py", "display_joy.py", "publish_twist.py", "demo.py"],
+    "fake_turtlebot_sim": ["fake_turtlebot.py"],
+}
+
+
+def shell(script, **environment):
+    """Run a script with bash in the clean environment; return what it printed."""
+    done = subprocess.run(
+        ["bash", "-ec", script],
+        env={**CLEAN, **environment},
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=300,
+    )
+    assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
+    return done.stdout
+
+
+@pytest.fixture(scope="module")
+def workspace(clone, tmp_path_factory):
+    """A catkin workspace with the clone in its src folder, built and installed with catkin_make."""
+    noetic = Path("/opt/ros/noetic/setup.bash")
+    folder = tmp_path_factory.mktemp("catkin_ws")
+    (folder / "src").mkdir()
+    (folder / "src" / "ros1_tutorial").symlink_to(clone)
+    source = f"source {noetic}; " if noetic.exists() else ""
+    shell(f"{source}cd '{folder}' && catkin_make -DPYTHON_EXECUTABLE=/usr/bin/python3 install")
+    return folder
+
+
+@pytest.mark.parametrize("space", ["devel", "install"])
+def test_every_node_and_file_is_found(workspace, space):
+    enter = f"source '{workspace}/{space}/setup.bash'"
+    for package, nodes in NODES.items():
+        for node in nodes:
+            found = shell(f"{enter}; catkin_find --libexec {package} {node}").split()
+            assert len(found) == 1, node
+            assert Path(found[0]).read_text().startswith("#!/usr/bin/python3\n")
+    for package, name in (
+        ("joy2twist", "bag/joy.bag"),
+        ("joy2twist", "launch/launch_bag.launch"),
+        ("fake_turtlebot_sim", "rviz/sim.rviz"),
+        ("fake_turtlebot_sim", "urdf/turtlebot.urdf"),
+    ):
+        assert shell(f"{enter}; test -f $(rospack find {package})/{name} && echo there")
+
+
+def test_the_installed_suite_drives(workspace, master_uri):
+    told = shell(
+        f"source '{workspace}/install/setup.bash'; rosrun joy2twist demo.py --for 3 rviz:=false",
+        ROS_MASTER_URI=master_uri,
+    )
+    assert "driven 0.00 m" not in told
+    assert f"{workspace}/src" not in told  # nothing of the source space is used
+
+
+def test_the_rostests_are_registered(workspace):
+    listed = shell(f"cd '{workspace}/build' && make help").split()
+    for test in Path(__file__).parents[1].joinpath("ros").glob("*.test"):
+        assert f"run_tests_ros1_tutorial_test_rostest_ros_{test.name}" in listed
