@@ -6,7 +6,7 @@ from math import cos, hypot, inf, nan, pi, sin
 import pytest
 from fake_turtlebot_sim.differential_drive import arc, wrap_angle
 from fake_turtlebot_sim.simulated_robot import RobotModel, SimulatedRobot
-from fake_turtlebot_sim.velocity_command import Verdict, VelocityLimits
+from fake_turtlebot_sim.velocity_command import VelocityLimits, Verdict
 
 KOBUKI = RobotModel()
 SECOND = 10**9  # [ns]

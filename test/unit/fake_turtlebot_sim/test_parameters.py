@@ -1,0 +1,116 @@
+"""Private parameters: defaults, one clear line for every mistake, and the same names everywhere."""
+
+import ast
+from dataclasses import asdict
+from math import inf, nan, pi
+from pathlib import Path
+
+import pytest
+import yaml
+from fake_turtlebot_sim.parameters import RANGES, Parameters, line_up, parse_parameters
+
+import fake_turtlebot_sim
+
+PACKAGE = Path(fake_turtlebot_sim.__file__).parents[2]
+
+
+def message_of(given):
+    with pytest.raises(ValueError) as caught:
+        parse_parameters(given)
+    message = str(caught.value)
+    assert "\n" not in message
+    return message
+
+
+def test_nothing_given_is_a_turtlebot_2():
+    parameters = parse_parameters({})
+    assert parameters == Parameters()
+    model = parameters.robot_model("")
+    assert (model.wheel_separation, model.wheel_radius, model.cmd_vel_timeout) == (0.23, 0.035, 0.6)
+    assert (model.limits.linear, model.limits.angular) == (0.7, pi)
+    assert model.limits.linear_acceleration == model.limits.angular_acceleration == inf
+    assert parameters.period_ns() == 20_000_000
+    assert parameters.start_poses() == {"": (0.0, 0.0, 0.0)}
+
+
+def test_whole_numbers_pass_for_numbers():
+    assert parse_parameters({"rate": 30}).rate == 30.0
+
+
+@pytest.mark.parametrize("name", RANGES)
+def test_numbers_are_held_to_their_range(name):
+    least, most, _ = RANGES[name]
+    for value in (least, most):
+        assert getattr(parse_parameters({name: value}), name) == value
+    for value in (least - 1e-3, most * 1.01, nan, inf, -inf, "1", True, None, [1.0]):
+        message = message_of({name: value})
+        assert message.startswith(f"~{name}: {value!r}: must be a number from {least:g} to")
+
+
+@pytest.mark.parametrize(
+    ("given", "parts"),
+    [
+        ({"publish_tf": "yes"}, ["~publish_tf: 'yes'", "true or false"]),
+        ({"publish_tf": 1}, ["~publish_tf: 1", "true or false"]),
+        ({"seed": 1.5}, ["~seed: 1.5", "whole number"]),
+        ({"odom_frame": "/odom"}, ["~odom_frame: '/odom'", "leading slash"]),
+        ({"base_frame": ""}, ["~base_frame: ''", "name"]),
+        ({"base_frame": 3}, ["~base_frame: 3", "name"]),
+        ({"base_frame": "odom"}, ["~base_frame: 'odom'", "differ from ~odom_frame"]),
+        ({"left_wheel_joint": "a", "right_wheel_joint": "a"}, ["~right_wheel_joint: 'a'"]),
+        ({"timeout": 1.0}, ["~timeout: 1.0", "no such parameter"]),
+        ({"cmd_vel_timeuot": 1.0}, ["did you mean ~cmd_vel_timeout?"]),
+        ({"colour": "red"}, ["~colour: 'red'", "allowed:", "wheel_radius"]),
+        ({"robots": 0}, ["~robots: 0", "1 to 1000", "alice"]),
+        ({"robots": 1001}, ["~robots: 1001", "1 to 1000"]),
+        ({"robots": True}, ["~robots: True"]),
+        ({"robots": ["alice"]}, ["~robots: ['alice']", "alice: [0, 0, 0]"]),
+        ({"robots": {"2nd": [0, 0, 0]}}, ["~robots: '2nd'", "letter"]),
+        ({"robots": {"bob": [0, 0]}}, ["~robots/bob: [0, 0]", "[x in m, y in m, yaw in rad]"]),
+        ({"robots": {"bob": [0, 0, nan]}}, ["~robots/bob: [0, 0, nan]"]),
+        ({"robots": {"bob": [0, 0, "a"]}}, ["~robots/bob:"]),
+    ],
+)
+def test_a_mistake_is_named_with_its_value_and_what_is_allowed(given, parts):
+    message = message_of(given)
+    for part in parts:
+        assert part in message
+
+
+def test_robots_by_name_and_by_number():
+    named = parse_parameters({"robots": {"alice": [0, 1, 2]}})
+    assert named.start_poses() == {"alice": (0.0, 1.0, 2.0)}
+    numbered = parse_parameters({"robots": 30}).start_poses()
+    assert list(numbered) == [f"robot_{k}" for k in range(1, 31)]
+
+
+def test_robots_that_are_lined_up_do_not_touch():
+    places = list(line_up(35).values())
+    assert len(set(places)) == 35
+    assert places[0] == (0.0, 0.0, 0.0)
+
+
+def test_noise_depends_on_the_name_and_the_seed_alone():
+    def seed_of(name, **given):
+        return parse_parameters(given).robot_model(name).errors.seed
+
+    assert seed_of("alice", robots=3, seed=7) == seed_of("alice", seed=7)
+    assert len({seed_of("alice"), seed_of("bob"), seed_of("alice", seed=1)}) == 3
+
+
+def test_the_yaml_file_holds_all_parameters_with_their_defaults():
+    given = yaml.safe_load((PACKAGE / "config" / "fake_turtlebot.yaml").read_text())
+    assert list(given) == list(asdict(Parameters()))
+    assert parse_parameters(given) == Parameters()
+
+
+def test_the_node_and_the_readme_tell_all_parameters_with_their_defaults():
+    tree = ast.parse((PACKAGE / "src/fake_turtlebot_sim/node.py").read_text())
+    (node,) = (part for part in tree.body if isinstance(part, ast.ClassDef))
+    docstring = " ".join(ast.get_docstring(node).split())
+    readme = (PACKAGE / "README.md").read_text()
+    for name, value in asdict(Parameters()).items():
+        default = {True: "true", pi: "pi"}.get(value) if not isinstance(value, dict) else "{}"
+        default = default or str(value)
+        assert f"~{name} {default}" in docstring
+        assert f"| `~{name}` | {default} " in readme
