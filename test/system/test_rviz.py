@@ -1,0 +1,145 @@
+"""RViz on a virtual screen while launch_bag.launch runs: it shows the robot, where /odom says.
+
+The picture for the README: TUTORIAL_PICTURE=docs.png ./tutorial test system -k picture
+"""
+
+import math
+import os
+import re
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+import yaml
+from conftest import REPOSITORY
+from PIL import ImageGrab
+from processes import Program
+from waiting import wait_for
+
+CONFIG = REPOSITORY / "fake_turtlebot_sim" / "rviz" / "sim.rviz"
+WIDTH, HEIGHT = 1200, 800  # [pixel] of RViz's window in sim.rviz and of the virtual screen
+START_S = 120.0  # RViz without a graphics card, on a busy machine
+TRAIL = (255, 85, 0)  # colour of the odometry's arrows in sim.rviz
+# Straight from above, at 100 pixels a metre; a ground of a colour that nothing else has.
+SCALE, GROUND = 100, (20, 40, 250)
+ROBOT_RADIUS_M = 0.178
+LOOK = """
+import rospy, sys
+from nav_msgs.msg import Odometry
+rospy.init_node("look", anonymous=True, log_level=rospy.ERROR)
+pose = rospy.wait_for_message("/odom", Odometry, 30).pose.pose
+print(pose.position.x, pose.position.y)
+"""
+
+
+@pytest.fixture
+def screen():
+    """A virtual screen, on a display number that Xvfb finds itself; yields its name."""
+    read, write = os.pipe()
+    # noreset: or it starts anew, and refuses for a moment, whenever its last client leaves.
+    command = ["Xvfb", "-displayfd", str(write), "-noreset", "-nolisten", "tcp"]
+    command += ["-screen", "0", f"{WIDTH}x{HEIGHT}x24"]
+    with subprocess.Popen(command, pass_fds=[write], stderr=subprocess.DEVNULL) as server:
+        os.close(write)
+        with os.fdopen(read) as told:
+            yield f":{told.readline().strip()}"
+        server.terminate()
+
+
+@pytest.fixture
+def show(screen, tutorial, master_uri):
+    """A function that starts launch_bag.launch with RViz on the virtual screen."""
+    assert master_uri  # a master of our own
+    programs = []
+
+    def start(config):
+        programs.append(
+            Program(
+                tutorial, "demo", f"rviz_config:={config}",
+                DISPLAY=screen, LIBGL_ALWAYS_SOFTWARE="1",
+            )  # fmt: skip
+        )
+        return programs[-1]
+
+    yield start
+    for program in programs:
+        with program:
+            program.interrupt()
+            program.wait()
+
+
+def picture(screen):
+    """What is on a screen: height x width x 3, uint8."""
+    return np.asarray(ImageGrab.grab(xdisplay=screen).convert("RGB"))
+
+
+def near(pixels, colour, tolerance):
+    """Which pixels have about a colour."""
+    return (np.abs(pixels.astype(int) - colour) <= tolerance).all(axis=2)
+
+
+def test_rviz_opens_by_itself_and_shows_the_trail(show, screen, tmp_path):
+    """The configuration as it is: the picture of the README."""
+    launch = show(CONFIG)
+
+    def trail():
+        assert not launch.ended, launch.output
+        return np.count_nonzero(near(picture(screen), TRAIL, 60)) > 1500
+
+    wait_for(trail, "odometry trail on the screen", START_S)
+    path = os.environ.get("TUTORIAL_PICTURE", tmp_path / "rviz.png")
+    ImageGrab.grab(xdisplay=screen).save(path)
+    assert not re.search(r"\[ERROR\]|\[FATAL\]|Traceback", launch.output)
+
+
+def seen_from_above(folder):
+    """A copy of sim.rviz with the robot only, from above."""
+    config = yaml.safe_load(CONFIG.read_text())
+    manager = config["Visualization Manager"]
+    manager["Displays"] = [d for d in manager["Displays"] if d["Class"] == "rviz/RobotModel"]
+    manager["Global Options"]["Background Color"] = "; ".join(map(str, GROUND))
+    manager["Views"]["Current"] = {
+        "Class": "rviz/TopDownOrtho", "Name": "Above", "Target Frame": "<Fixed Frame>",
+        "Scale": SCALE, "X": 0, "Y": 0, "Angle": 0,
+    }  # fmt: skip
+    path = folder / "above.rviz"
+    path.write_text(yaml.safe_dump(config))
+    return path
+
+
+def odometry(tutorial):
+    """(x, y) [m] of the next /odom."""
+    done = subprocess.run(
+        [tutorial, "run", sys.executable, "-c", LOOK], capture_output=True, text=True, check=True
+    )
+    return tuple(map(float, done.stdout.split()))
+
+
+def robot_on(pixels):
+    """(x, y) [m] of the middle of what is not ground; None while there is no robot."""
+    ground = near(pixels, GROUND, 12)
+    if ground.mean() < 0.1:
+        return None
+    rows, columns = np.flatnonzero(ground.any(axis=1)), np.flatnonzero(ground.any(axis=0))
+    view = ~ground[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
+    if not view.any():
+        return None
+    robot_rows, robot_columns = np.nonzero(view)
+    # The middle of the outline: a shadowed or a bright part must not pull it aside.
+    row = (robot_rows.min() + robot_rows.max() + 1) / 2
+    column = (robot_columns.min() + robot_columns.max() + 1) / 2
+    return (column - view.shape[1] / 2) / SCALE, (view.shape[0] / 2 - row) / SCALE
+
+
+def test_rviz_shows_the_robot_where_odom_says(show, screen, tutorial, tmp_path):
+    show(seen_from_above(tmp_path))
+    wait_for(lambda: robot_on(picture(screen)), "robot on the screen", START_S)
+    for _ in range(3):  # the tour goes on meanwhile: three different places
+        before = odometry(tutorial)
+        seen = robot_on(picture(screen))
+        after = odometry(tutorial)
+        print(f"odom {before}, seen {seen}, odom {after}")
+        # On the way between the two, give or take a part of the robot: RViz draws a little late.
+        detour = math.dist(before, seen) + math.dist(seen, after) - math.dist(before, after)
+        assert detour < ROBOT_RADIUS_M
