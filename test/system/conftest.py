@@ -3,7 +3,6 @@
 import os
 import shutil
 import socket
-import subprocess
 import sys
 from pathlib import Path
 
@@ -36,21 +35,10 @@ def tutorial():
 
 @pytest.fixture(scope="session")
 def clone(tmp_path_factory):
-    """A copy of the repository's files, committed or not, in a folder with a space in its name."""
+    """A copy of the repository as it is now, in a folder with a space in its name."""
     folder = tmp_path_factory.mktemp("clone") / "ros1 tutorial"
-    listed = subprocess.run(
-        ["git", "-C", str(REPOSITORY), "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    if listed.returncode:  # not a git checkout, as in the container: take what is there
-        shutil.copytree(REPOSITORY, folder, symlinks=True)
-        return folder
-    for name in filter(None, listed.stdout.split("\0")):
-        if (REPOSITORY / name).exists():
-            (folder / name).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy2(REPOSITORY / name, folder / name)
+    ignored = shutil.ignore_patterns(".git", "__pycache__", ".*_cache", ".hypothesis")
+    shutil.copytree(REPOSITORY, folder, symlinks=True, ignore=ignored)
     return folder
 
 

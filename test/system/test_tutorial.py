@@ -160,7 +160,7 @@ def test_shell_and_run_see_the_workspace_and_no_shell_file_is_touched(tutorial, 
     ).stdout.strip()  # fmt: skip
     shell = subprocess.run(
         [tutorial, "shell"],
-        input="rospack find joy2twist; pwd; alias mine; exit 3\n",
+        input="pwd; alias mine; roscd joy2twist/launch; pwd; exit 3\n",
         env={
             "HOME": str(home),
             "PATH": "/usr/bin:/bin",
@@ -170,9 +170,9 @@ def test_shell_and_run_see_the_workspace_and_no_shell_file_is_touched(tutorial, 
     )  # fmt: skip
     assert shell.returncode == 3
     assert shell.stdout.splitlines() == [
-        f"{workspace}/src/joy2twist",
         str(tmp_path),
         "alias mine='true'",
+        f"{workspace}/src/joy2twist/launch",
     ]
     assert [path.name for path in home.iterdir() if path.name != ".bash_history"] == [".bashrc"]
     assert (home / ".bashrc").read_text() == "alias mine=true\n"
