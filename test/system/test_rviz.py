@@ -8,16 +8,16 @@ import os
 import re
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
 import yaml
-from conftest import REPOSITORY
 from PIL import ImageGrab
 from processes import Program
 from waiting import wait_for
 
-CONFIG = REPOSITORY / "fake_turtlebot_sim" / "rviz" / "sim.rviz"
+CONFIG = Path(__file__).resolve().parents[2] / "fake_turtlebot_sim" / "rviz" / "sim.rviz"
 WIDTH, HEIGHT = 1200, 800  # [pixel] of RViz's window in sim.rviz and of the virtual screen
 START_S = 120.0  # RViz without a graphics card, on a busy machine
 TRAIL = (255, 85, 0)  # colour of the odometry's arrows in sim.rviz
