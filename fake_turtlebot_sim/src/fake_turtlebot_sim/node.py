@@ -93,15 +93,23 @@ class FakeTurtlebot:
         return EmptyResponse()
 
 
+def fail(line):
+    """Say why there is no node, and return its exit code."""
+    print(f"{NODE_NAME}: {line}", file=sys.stderr)
+    return 1
+
+
 def main():
     """Run the node until it is shut down; return its exit code."""
-    if not rosgraph.is_master_online():
-        print(
-            f"{NODE_NAME}: no ROS master at {rosgraph.get_master_uri()};"
-            " start roscore, or use roslaunch",
-            file=sys.stderr,
+    # Before init_node, which waits for a master without an end.
+    try:
+        if not rosgraph.is_master_online():
+            return fail(f"no ROS master at {rosgraph.get_master_uri()}: start roscore")
+    except ValueError:
+        return fail(
+            f"ROS_MASTER_URI is {rosgraph.get_master_uri()!r}:"
+            " must be an address such as http://localhost:11311"
         )
-        return 1
     rospy.init_node(NODE_NAME)
     try:
         parameters = parse_parameters(rospy.get_param("~", {}))

@@ -110,7 +110,6 @@ def test_the_node_and_the_readme_tell_all_parameters_with_their_defaults():
     docstring = " ".join(ast.get_docstring(node).split())
     readme = (PACKAGE / "README.md").read_text()
     for name, value in asdict(Parameters()).items():
-        default = {True: "true", pi: "pi"}.get(value) if not isinstance(value, dict) else "{}"
-        default = default or str(value)
+        default = {"True": "true", str(pi): "pi"}.get(str(value), str(value))
         assert f"~{name} {default}" in docstring
         assert f"| `~{name}` | {default} " in readme
