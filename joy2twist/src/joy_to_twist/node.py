@@ -1,51 +1,122 @@
 """The ROS node: joy (sensor_msgs/Joy) in, cmd_vel (geometry_msgs/Twist) out."""
 
-import sys
+import gc
+import os
 import threading
+from time import monotonic
 
-import rosgraph
+import diagnostic_updater
 import rospy
-from geometry_msgs.msg import Twist
-from sensor_msgs.msg import Joy
+from diagnostic_msgs.msg import DiagnosticStatus
 
-# A zero is on its way to every subscriber well within this time [s]; exiting at once loses it.
+from joy_to_twist.console import Console
+from joy_to_twist.lean_joy import LeanJoy
+from joy_to_twist.limits import ZERO
+from joy_to_twist.start import NODE_NAME, StartError, checked_parameters
+from joy_to_twist.teleoperation import Teleoperation
+from joy_to_twist.throttle import Throttle
+from joy_to_twist.velocity_publisher import VelocityPublisher
+
+# How soon it is noticed that the joystick node has left [s].
+LOOK_ROUND_S = 0.25
+# A zero reaches every subscriber that reads well within this time [s]; exiting at once may lose it.
 DELIVERY_TIME_S = 0.1
+# rospy says goodbye to the master and waits for threads without an end if they do not answer [s].
+LONGEST_GOODBYE_S = 0.8
+# Joy messages read at once, at most: all of a burst, but never a long backlog.
+LONGEST_BURST = 100
 
 
 class NewJoy2Twist:
-    """Publishes one velocity for every joy message, and zero when the node is stopped.
+    """Turns every joystick message into a velocity, and leaves the robot standing.
 
-    Subscribes: joy (sensor_msgs/Joy). Publishes: cmd_vel (geometry_msgs/Twist).
+    Subscribes: joy (sensor_msgs/Joy).
+    Publishes: cmd_vel (geometry_msgs/Twist), /diagnostics (diagnostic_msgs/DiagnosticArray).
     """
 
-    def __init__(self):
+    def __init__(self, parameters):
+        """parameters: parameters.Parameters."""
         # Not anonymous: a second node of this name shuts down the first, so that only one drives.
-        rospy.init_node("NewJoy2Twist", anonymous=False)
+        rospy.init_node(NODE_NAME, anonymous=False)
+        self.console = Console(parameters.log_rate)
+        self.timer = threading.Event()  # set to have the time looked at now
+        self.teleoperation = Teleoperation(parameters, self.console.warn, self.timer.set)
+        for line in self.teleoperation.describe():
+            self.console.info(line)
+        self.uses_age = parameters.max_joy_age > 0
+        self.lock = threading.Lock()  # one velocity at a time, and none after the last zero
+        self.stopped = threading.Event()
+
+        self.cmd_vel = VelocityPublisher("cmd_vel")
         rospy.on_shutdown(self.shutdown)
-        self.cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
-        rospy.Subscriber("joy", Joy, self.callback)
+        self.diagnostics = diagnostic_updater.Updater()
+        self.diagnostics.setHardwareID("none")
+        self.diagnostics.add("joystick", self.diagnose)
+        self.may_diagnose = Throttle(1.0 / parameters.diagnostic_period)
+        self.joy = rospy.Subscriber(
+            "joy", LeanJoy, self.callback, queue_size=LONGEST_BURST, tcp_nodelay=True
+        )
+        threading.Thread(target=self.watch, daemon=True).start()
 
     def callback(self, joy):
         """Publish the velocity first, because displaying takes longer; then display the axes."""
-        twist = Twist()  # all zero, and so it stays when the joystick has too few axes
-        if len(joy.axes) >= 2:
-            twist.linear.x = joy.axes[1]  # stick forward: m/s
-            twist.angular.z = joy.axes[0]  # stick left: rad/s
-        self.cmd_vel.publish(twist)
-        axes = ", ".join(f"{value:.2f}" for value in joy.axes)
-        rospy.loginfo("%s: Get from Joy [%s]", rospy.get_name(), axes)
+        now = monotonic()
+        age_ns = rospy.Time.now().to_nsec() - joy.stamp_ns if self.uses_age else 0
+        with self.lock:
+            self.publish(self.teleoperation.joy(joy.axes, joy.buttons, now, age_ns))
+        self.console.display(joy.axes, now)
+
+    def publish(self, velocity):
+        """Publish a velocity, if there is one, until the node is stopped."""
+        if velocity is not None and not self.stopped.is_set():
+            self.cmd_vel.publish(velocity)
+
+    def watch(self):
+        """Stop the robot when the joystick falls silent or leaves, and repeat what is to repeat.
+
+        A thread of its own with a clock of its own: rospy's timers follow the simulated time, which
+        may stand still or jump.
+        """
+        while not self.stopped.is_set():
+            with self.lock:
+                now = monotonic()
+                if self.joy.get_num_connections() == 0:
+                    self.publish(self.teleoperation.left(now))
+                self.publish(self.teleoperation.tick(now))
+                due = min(self.teleoperation.due, now + LOOK_ROUND_S)
+                self.timer.clear()
+            if self.may_diagnose.ready(now):
+                self.diagnostics.force_update()
+            self.timer.wait(max(0.0, due - monotonic()))
+
+    def diagnose(self, status):
+        """Fill in the diagnostic status, a DiagnosticStatusWrapper."""
+        with self.lock:
+            well, state, details = self.teleoperation.summary(monotonic())
+        status.summary(DiagnosticStatus.OK if well else DiagnosticStatus.WARN, state)
+        for name, value in details.items():
+            status.add(name, value)
+        return status
 
     def shutdown(self):
-        """Leave the robot standing: zero velocity, and the time to deliver it."""
-        rospy.loginfo("Stopping the node ...")
-        self.cmd_vel.publish(Twist())
+        """Leave the robot standing: zero velocity, the time to deliver it, and a certain end."""
+        with self.lock:
+            self.stopped.set()
+            self.cmd_vel.publish(ZERO)
+        goodbye = threading.Timer(LONGEST_GOODBYE_S, os._exit, [0])
+        goodbye.daemon = True
+        goodbye.start()
+        self.console.info("Stopping the node ...")
         # Not rospy.sleep: in simulated time without a clock it never returns.
         threading.Event().wait(DELIVERY_TIME_S)
 
 
 def main():
     """Run the node until it is stopped; exit code 1 and one line if it cannot start."""
-    if not rosgraph.is_master_online():
-        sys.exit(f"No ROS master at {rosgraph.get_master_uri()}: start roscore first.")
-    NewJoy2Twist()
+    try:
+        parameters = checked_parameters()
+    except StartError as error:
+        raise SystemExit(f"joy2twist: {error}") from None
+    NewJoy2Twist(parameters)
+    gc.freeze()  # what is there now stays: the garbage collector need not look at it again
     rospy.spin()

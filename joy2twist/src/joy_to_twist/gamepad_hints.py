@@ -1,0 +1,52 @@
+"""Notices from the messages that a gamepad is switched to another mode than expected (pure)."""
+
+from joy_to_twist.mapping import NEUTRAL
+
+# The Logitech F710 in D mode has 6 axes; with its MODE LED on, the left stick and the D-pad swap,
+# so that the stick moves axes 4 and 5. Source: the tutorial's "Gamepad F710 Setup Memo".
+D_MODE_AXES = 6
+SWAPPED_STICK = (4, 5)
+
+
+class GamepadHints:
+    """Looks at the first messages and gives at most one line of help on each thing found."""
+
+    def __init__(self, parameters):
+        """Take the axes in use and the expected number of axes of a parameters.Parameters."""
+        self._expected = parameters.gamepad_axes
+        self._used = [axis.index for axis in parameters.axes]
+        self._count = None  # the number of axes that was looked at last
+        self._look_for_swap = False
+
+    @property
+    def finished(self):
+        """Whether nothing more can be found as long as the gamepad is the same."""
+        return self._count is not None and not self._look_for_swap
+
+    def hint(self, axes):
+        """One line that says what to do, or None."""
+        if len(axes) != self._count:
+            self._count = len(axes)
+            self._look_for_swap = self._count == D_MODE_AXES and not (
+                set(SWAPPED_STICK) & set(self._used)
+            )
+            if self._expected not in (-1, self._count):
+                return (
+                    f"The gamepad has {self._count} axes and not {self._expected}: "
+                    "check the D/X switch of a Logitech F710, or choose another joy_config."
+                )
+        if self._look_for_swap:
+            return self._swap_hint(axes)
+        return None
+
+    def _swap_hint(self, axes):
+        if any(abs(axes[index]) > NEUTRAL for index in self._used if index < len(axes)):
+            self._look_for_swap = False  # the stick is where it should be
+        # The D-pad gives only -1, 0 and 1; a stick passes through what lies between.
+        elif any(NEUTRAL < abs(axes[index]) < 1 - NEUTRAL for index in SWAPPED_STICK):
+            self._look_for_swap = False
+            return (
+                "Only axes 4 and 5 move: if this is a Logitech F710, "
+                "press MODE so that its LED goes off."
+            )
+        return None

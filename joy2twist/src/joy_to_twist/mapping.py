@@ -1,0 +1,84 @@
+"""From the axes and buttons of a joystick to the velocity that the user asks for (pure)."""
+
+import math
+
+from joy_to_twist.limits import limit_speed
+from joy_to_twist.parameters import COMPONENTS
+
+# A stick gives -1 to 1, other devices may give some hundreds. More is noise, not a hand.
+LARGEST_AXIS_VALUE = 1e6
+# An axis this near to 0 is released: what drivers take as their dead zone, and some wear.
+NEUTRAL = 0.1
+
+
+class BadJoyError(ValueError):
+    """A Joy message that must not drive a robot; its text says why, in one line."""
+
+
+class Mapping:
+    """What each axis and button means."""
+
+    def __init__(self, parameters):
+        """Take the axes, buttons, scales and speed limits of a parameters.Parameters."""
+        self._parameters = parameters
+        # Tuples, because this is read for every message.
+        self._axes = [(a.component, a.index, a.scale, a.turbo_scale) for a in parameters.axes]
+        self._turbo = parameters.enable_turbo_button
+        self._enable = parameters.enable_button
+        self._free = not parameters.require_enable_button
+        self._needed_axes = 1 + max((a.index for a in parameters.axes), default=-1)
+        self._needed_buttons = 1 + max(self._enable, self._turbo)
+        self._inverted_reverse = parameters.inverted_reverse
+        self._max_linear = parameters.max_linear_speed or math.inf
+        self._max_angular = parameters.max_angular_speed or math.inf
+
+    def velocity(self, axes, buttons):
+        """The velocity asked for (six floats, see limits), or None with the dead-man released.
+
+        axes: floats, about -1 to 1. buttons: 0 or 1. Raises BadJoyError.
+        """
+        if len(axes) < self._needed_axes or len(buttons) < self._needed_buttons:
+            raise BadJoyError(self._what_is_missing(axes, buttons))
+        # One comparison finds NaN (never smaller than anything), infinity and noise.
+        if not math.hypot(*axes) <= LARGEST_AXIS_VALUE:
+            raise BadJoyError(f"not every axis has a usable value: {list(axes)}")
+
+        turbo = self._turbo >= 0 and buttons[self._turbo]
+        if not (turbo or self._free or (self._enable >= 0 and buttons[self._enable])):
+            return None
+        velocity = [0.0] * 6
+        for component, index, scale, turbo_scale in self._axes:
+            velocity[component] = axes[index] * (turbo_scale if turbo else scale)
+        if self._inverted_reverse and velocity[0] < 0:
+            velocity[5] = -velocity[5]
+        return limit_speed(tuple(velocity), self._max_linear, self._max_angular)
+
+    def is_neutral(self, axes):
+        """Whether every axis that drives the robot is released."""
+        return all(abs(axes[index]) <= NEUTRAL for _, index, _, _ in self._axes)
+
+    def _what_is_missing(self, axes, buttons):
+        for component, index, _, _ in self._axes:
+            if index >= len(axes):
+                return f"no axis {index} (-> {COMPONENTS[component]}): it has {len(axes)} axes"
+        button = self._needed_buttons - 1
+        return f"no button {button} (enable or turbo): it has {len(buttons)} buttons"
+
+    def describe(self):
+        """One line for every axis that drives the robot, in words."""
+        p = self._parameters
+        hold = {
+            (True, True): f"; hold button {p.enable_button} (turbo: {p.enable_turbo_button})",
+            (True, False): f"; hold button {p.enable_button}",
+            (False, True): f"; turbo with button {p.enable_turbo_button}",
+            (False, False): "; no dead-man button",
+        }[p.enable_button >= 0, p.enable_turbo_button >= 0]
+        lines = []
+        for axis in p.axes:
+            unit = "m/s" if COMPONENTS[axis.component].startswith("linear") else "rad/s"
+            turbo = f" (turbo: {axis.turbo_scale:g} {unit})" if p.enable_turbo_button >= 0 else ""
+            lines.append(
+                f"axis {axis.index} -> {COMPONENTS[axis.component]} "
+                f"at {axis.scale:g} {unit}{turbo}{hold}"
+            )
+        return lines or ["no axis drives the robot: ~axis_linear and ~axis_angular are -1"]

@@ -1,0 +1,53 @@
+"""What is checked before the node starts: the master and the private parameters."""
+
+import sys
+
+import rosgraph
+import rospy
+
+from joy_to_twist.parameters import load
+
+NODE_NAME = "NewJoy2Twist"
+
+
+class StartError(Exception):
+    """The node cannot start; the text says in one line why and what to do."""
+
+
+def checked_parameters():
+    """The private parameters (parameters.Parameters) from the master and the command line.
+
+    Before rospy.init_node(): that would first end a node of the same name that runs well, and put
+    a wrong parameter of the command line on the parameter server, where it would stay.
+
+    Raises StartError.
+    """
+    name = rosgraph.names.ns_join(
+        rosgraph.names.get_ros_namespace(), rospy.names.get_mappings().get("__name", NODE_NAME)
+    )
+    try:
+        online = rosgraph.is_master_online()
+    except ValueError:
+        online = False
+    if not online:
+        raise StartError(
+            f"no ROS master answers at {rosgraph.get_master_uri()}: "
+            "start roscore first, or set ROS_MASTER_URI to where it runs."
+        )
+    try:
+        given = rospy.get_param(name, {})
+        for key, value in rospy.client.load_command_line_node_params(sys.argv).items():
+            _set(given, key.split("/"), value)
+        return load(given)
+    except ValueError as error:
+        raise StartError(f"{error} (rosparam get {name} shows what is set.)") from None
+    except rospy.ROSException as error:
+        raise StartError(" ".join(str(error).split())) from None
+
+
+def _set(parameters, path, value):
+    """Set a parameter of a nested dict, as a/b:=value does."""
+    *outer, last = path
+    for key in outer:
+        parameters = parameters.setdefault(key, {})
+    parameters[last] = value

@@ -1,0 +1,87 @@
+"""The whole way from a joystick message to a velocity, and what to tell the user (pure)."""
+
+from joy_to_twist.gamepad_hints import GamepadHints
+from joy_to_twist.mapping import BadJoyError, Mapping
+from joy_to_twist.safety import ARMED, DRIVING, Safety
+from joy_to_twist.throttle import Throttle
+
+WARNING_PERIOD_S = 5.0  # often enough to be seen, not so often that it hides the rest
+
+
+class Teleoperation:
+    """Joins the mapping, the safety rules and the hints. Not thread-safe.
+
+    Times are in seconds of a clock that never jumps. A velocity is a tuple of six floats (see
+    limits); None means that nothing is to be sent.
+    """
+
+    def __init__(self, parameters, warn, wake):
+        """parameters: parameters.Parameters. warn: called with one line for the user.
+
+        wake: called when tick() must be called sooner than due said before.
+        """
+        self._parameters = parameters
+        self._warn = warn
+        self._mapping = Mapping(parameters)
+        self._safety = Safety(parameters, wake)
+        self._hints = GamepadHints(parameters)
+        self._knows_gamepad = False
+        self._may_warn = Throttle(1.0 / WARNING_PERIOD_S)
+        self._max_age_ns = round(parameters.max_joy_age * 1e9)
+        self._messages = 0
+        self._last_message = None
+        self._last_summary = (0, None)  # the messages until then, and when
+
+    def joy(self, axes, buttons, now, age_ns=0):
+        """A joystick message came. Returns the velocity to send at once.
+
+        age_ns: [ns] since its stamp; ignored unless max_joy_age is set.
+        """
+        self._messages += 1
+        self._last_message = now
+        try:
+            velocity = self._mapping.velocity(axes, buttons)
+            if self._max_age_ns and age_ns > self._max_age_ns:
+                raise BadJoyError(f"it is {age_ns / 1e9:.1f} s old")
+        except BadJoyError as error:
+            if self._may_warn.ready(now):
+                self._warn(f"Stopping: a joystick message is unusable, {error}.")
+            return self._safety.reject(now)
+        if not self._knows_gamepad:
+            self._look_at_gamepad(axes)
+        neutral = self._safety.armed or self._mapping.is_neutral(axes)
+        return self._safety.drive(velocity, neutral, now)
+
+    def _look_at_gamepad(self, axes):
+        hint = self._hints.hint(axes)
+        if hint:
+            self._warn(hint)
+        self._knows_gamepad = self._hints.finished
+
+    def left(self, now):
+        """Nobody publishes joystick messages any more. Returns the velocity to send at once."""
+        self._knows_gamepad = False  # the next one may be another
+        return self._safety.silence("the joystick node has left", now)
+
+    def tick(self, now):
+        """Time has passed. Returns the velocity to send at once."""
+        return self._safety.tick(now)
+
+    @property
+    def due(self):
+        """When tick() must be called next [s]."""
+        return self._safety.due
+
+    def describe(self):
+        """Lines that say in words what moves the robot."""
+        return self._mapping.describe()
+
+    def summary(self, now):
+        """For diagnostics: whether all is well, the state, and details by name."""
+        state = self._safety.state
+        messages, since = self._last_summary
+        self._last_summary = (self._messages, now)
+        rate = (self._messages - messages) / (now - since) if since not in (None, now) else 0.0
+        age = "none yet" if self._last_message is None else f"{now - self._last_message:.3f}"
+        details = {"Joy rate [Hz]": f"{rate:.1f}", "Age of the last Joy [s]": age}
+        return state in (ARMED, DRIVING), state, details

@@ -1,0 +1,25 @@
+"""Limits how often something happens (pure)."""
+
+
+class Throttle:
+    """Says yes at most `rate` times a second in the long run, and up to `burst` times at once.
+
+    The burst lets every one of a series through that comes at the rate but not quite evenly.
+    """
+
+    def __init__(self, rate, burst=1.0):
+        """rate: [1/s], 0 for never. burst: at least 1."""
+        self._period = 1.0 / rate if rate > 0 else None
+        self._slack = (burst - 1.0) * (self._period or 0.0)
+        self._next = None  # when the next one of an even series comes [s]
+
+    def ready(self, now):
+        """Whether it may happen at the time now [s]."""
+        if self._period is None:
+            return False
+        if self._next is None or now > self._next:
+            self._next = now
+        elif now < self._next - self._slack:
+            return False
+        self._next += self._period
+        return True

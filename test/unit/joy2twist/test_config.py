@@ -1,0 +1,45 @@
+"""Every preset in config/ loads, and drives as it says."""
+
+from pathlib import Path
+
+import pytest
+import yaml
+from joy_to_twist.limits import ZERO
+from joy_to_twist.parameters import load
+from joy_to_twist.teleoperation import Teleoperation
+
+CONFIG = Path(__file__).parents[3] / "joy2twist" / "config"
+PRESETS = {path.stem: yaml.safe_load(path.read_text()) for path in sorted(CONFIG.glob("*.yaml"))}
+# Of the gamepad: axes, buttons, then stick forward, stick left, dead-man and turbo.
+# Source: reference of the F710; xpad.c, hid-sony.c and hid-playstation.c of Linux 6.1.
+GAMEPADS = {
+    "extreme_3d": (6, 12, 1, 2, 0, 1),
+    "f710_d": (6, 12, 1, 0, 4, 5),
+    "f710_x": (8, 11, 1, 0, 4, 5),
+    "ps3": (6, 17, 1, 0, 4, 5),
+    "ps4": (8, 13, 1, 0, 4, 5),
+    "xbox": (8, 11, 1, 0, 4, 5),
+}
+
+
+def test_every_gamepad_has_a_preset():
+    assert sorted(PRESETS) == sorted(GAMEPADS)
+
+
+@pytest.mark.parametrize("name", GAMEPADS)
+def test_preset(name):
+    axis_count, button_count, forward, left, dead_man, turbo = GAMEPADS[name]
+    warnings = []
+    machine = Teleoperation(load(PRESETS[name]), warnings.append, wake=lambda: None)
+
+    def joy(held):
+        axes, buttons = [0.0] * axis_count, [0] * button_count
+        axes[forward], axes[left] = 1.0, 0.5
+        for button in held:
+            buttons[button] = 1
+        return machine.joy(axes, buttons, now=0.0)
+
+    assert joy([dead_man]) == pytest.approx((0.35, 0, 0, 0, 0, 0.6))
+    assert joy([turbo]) == pytest.approx((0.7, 0, 0, 0, 0, 1.0))
+    assert joy([]) == ZERO
+    assert warnings == []  # the number of axes is as expected

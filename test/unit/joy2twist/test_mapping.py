@@ -1,0 +1,139 @@
+"""From axes and buttons to a velocity, held against the C++ node teleop_twist_joy."""
+
+import pytest
+from joy_to_twist.mapping import BadJoyError, Mapping
+from joy_to_twist.parameters import load
+
+AXES = (0.3, 0.4, 0.5, 0.6, 0.7, 0.8)
+PAD = {"enable_button": 0, "enable_turbo_button": 1}
+DIFFERENTIAL = {**PAD, "scale_linear": 1.0, "scale_linear_turbo": 2.0, "scale_angular": 3.0}
+HOLONOMIC = {
+    "axis_linear": {"x": 1, "y": 2},
+    "scale_linear": {"x": 1.0, "y": 4.0},
+    "axis_angular": 0,
+    "scale_angular": 3.0,
+    "enable_button": 0,
+}
+SIX_AXES = {
+    "axis_linear": {"x": 1, "y": 2, "z": 3},
+    "scale_linear": {"x": 1.0, "y": 4.0, "z": 2.0},
+    "axis_angular": {"roll": 4, "pitch": 5, "yaw": 0},
+    "scale_angular": {"roll": 3.0, "pitch": 2.0, "yaw": 1.0},
+    "enable_button": 0,
+}
+
+
+@pytest.mark.parametrize(
+    ("given", "axes", "buttons", "expected"),
+    [
+        pytest.param({}, AXES[:2], (), (0.4, 0, 0, 0, 0, 0.3), id="tutorial"),
+        pytest.param(DIFFERENTIAL, AXES, (1, 0), (0.4, 0, 0, 0, 0, 0.9), id="differential"),
+        pytest.param(HOLONOMIC, AXES, (1,), (0.4, 2.0, 0, 0, 0, 0.9), id="holonomic"),
+        pytest.param(SIX_AXES, AXES, (1,), (0.4, 2.0, 1.2, 2.1, 1.6, 0.3), id="six axes"),
+        pytest.param(DIFFERENTIAL, AXES, (0, 0), None, id="not enabled"),
+        pytest.param(DIFFERENTIAL, AXES, (0, 1), (0.8, 0, 0, 0, 0, 0.9), id="only turbo"),
+        pytest.param(DIFFERENTIAL, AXES, (1, 1), (0.8, 0, 0, 0, 0, 0.9), id="turbo over enable"),
+        pytest.param(
+            {**DIFFERENTIAL, "scale_angular_turbo": 5.0},
+            AXES,
+            (0, 1),
+            (0.8, 0, 0, 0, 0, 1.5),
+            id="angular turbo",
+        ),
+        pytest.param(
+            {"enable_button": 0, "scale_linear": 0.5, "enable_turbo_button": 1},
+            AXES,
+            (0, 1),
+            (0.4, 0, 0, 0, 0, 0.3),
+            id="turbo is 1 unless given",
+        ),
+        pytest.param(
+            {**HOLONOMIC, "enable_turbo_button": 1, "scale_linear_turbo": {"x": 2.0, "y": 8.0}},
+            AXES,
+            (0, 1),
+            (0.8, 4.0, 0, 0, 0, 0.9),
+            id="turbo from a map",
+        ),
+        pytest.param(
+            {**DIFFERENTIAL, "require_enable_button": False},
+            AXES,
+            (0, 0),
+            (0.4, 0, 0, 0, 0, 0.9),
+            id="enable not required",
+        ),
+        pytest.param(
+            {**DIFFERENTIAL, "require_enable_button": False},
+            AXES,
+            (0, 1),
+            (0.8, 0, 0, 0, 0, 0.9),
+            id="enable not required, turbo",
+        ),
+        pytest.param(
+            {"enable_turbo_button": 1, "require_enable_button": True},
+            AXES,
+            (1, 0),
+            None,
+            id="turbo is the only dead-man",
+        ),
+        pytest.param(
+            {"inverted_reverse": True}, (0.3, 0.4), (), (0.4, 0, 0, 0, 0, 0.3), id="forward"
+        ),
+        pytest.param(
+            {"inverted_reverse": True}, (0.3, -0.4), (), (-0.4, 0, 0, 0, 0, -0.3), id="like a car"
+        ),
+        pytest.param(
+            {"axis_linear": -1}, (0.5, 0.4), (), (0, 0, 0, 0, 0, 0.5), id="no linear axis"
+        ),
+    ],
+)
+def test_velocity(given, axes, buttons, expected):
+    velocity = Mapping(load(given)).velocity(axes, buttons)
+    assert velocity == (None if expected is None else pytest.approx(expected))
+
+
+def test_speed_limits_hold_for_the_length_of_the_vector():
+    given = {**HOLONOMIC, "max_linear_speed": 0.5, "max_angular_speed": 0.2}
+    mapping = Mapping(load(given))
+    # (0.6, 0.2 * 4) has the length 1: halved.
+    assert mapping.velocity((0.1, 0.6, 0.2), (1,)) == pytest.approx((0.3, 0.4, 0, 0, 0, 0.2))
+    assert mapping.velocity((0.05, 0.1, 0.0), (1,)) == pytest.approx((0.1, 0, 0, 0, 0, 0.15))
+
+
+@pytest.mark.parametrize(
+    ("given", "axes", "buttons", "words"),
+    [
+        ({}, (0.5,), (), "no axis 1 (-> linear.x): it has 1 axes"),
+        ({}, (), (), "no axis"),
+        ({"axis_linear": 9}, AXES, (), "no axis 9 (-> linear.x): it has 6 axes"),
+        (PAD, AXES, (1,), "no button 1 (enable or turbo): it has 1 buttons"),
+        ({}, (0.0, float("nan")), (), "nan"),
+        ({}, (0.0, 0.1, float("nan")), (), "nan"),
+        ({}, (float("inf"), float("-inf")), (), "inf"),
+        ({}, (0.0, 3e38), (), "3e+38"),
+    ],
+)
+def test_a_bad_message_is_named(given, axes, buttons, words):
+    with pytest.raises(BadJoyError) as error:
+        Mapping(load(given)).velocity(axes, buttons)
+    assert words in str(error.value)
+
+
+def test_neutral_looks_only_at_the_axes_in_use():
+    mapping = Mapping(load({}))
+    assert mapping.is_neutral((0.05, -0.1, 1.0, -1.0))  # triggers rest at the end
+    assert not mapping.is_neutral((0.0, 0.11, 0.0, 0.0))
+    assert not mapping.is_neutral((-0.2, 0.0, 0.0, 0.0))
+
+
+def test_the_mapping_in_words():
+    assert Mapping(load({})).describe() == [
+        "axis 1 -> linear.x at 1 m/s; no dead-man button",
+        "axis 0 -> angular.z at 1 rad/s; no dead-man button",
+    ]
+    given = {"scale_linear": 0.7, "axis_angular": -1, "enable_button": 4}
+    assert Mapping(load(given)).describe() == ["axis 1 -> linear.x at 0.7 m/s; hold button 4"]
+    given["enable_turbo_button"] = 5
+    assert Mapping(load(given)).describe() == [
+        "axis 1 -> linear.x at 0.7 m/s (turbo: 1 m/s); hold button 4 (turbo: 5)"
+    ]
+    assert "no axis drives" in Mapping(load({"axis_linear": -1, "axis_angular": -1})).describe()[0]

@@ -1,0 +1,217 @@
+"""When to send a velocity, when zero and when nothing. Times in seconds, as they would pass."""
+
+import pytest
+from joy_to_twist.limits import ZERO
+from joy_to_twist.parameters import load
+from joy_to_twist.safety import ARMED, BAD_MESSAGE, DRIVING, NOT_ARMED, WAITING, Safety
+
+FORWARD = (0.5, 0.0, 0.0, 0.0, 0.0, 0.0)
+DEAD_MAN = {"enable_button": 4}
+LIMITS = {"max_linear_acceleration": 1.0, "output_rate": 10.0}  # 0.1 m/s in each period
+
+
+def safety(**given):
+    return Safety(load(given), wake=lambda: None)
+
+
+def over_time(machine, start, end, step=0.01):
+    """Call tick() when it is due and at every step; the (time, velocity) that it sends."""
+    sent = []
+    now = start
+    while now < end:
+        velocity = machine.tick(now)
+        if velocity is not None:
+            sent.append((round(now, 6), velocity))
+        now = min(max(machine.due, now + 1e-9), now + step)
+    return sent
+
+
+class TestWithoutDeadMan:
+    def test_every_message_is_answered_by_one_velocity(self):
+        machine = safety()
+        assert machine.state == WAITING
+        for i in range(100):
+            assert machine.drive(FORWARD, False, i * 0.02) == FORWARD
+            assert over_time(machine, i * 0.02, i * 0.02 + 0.02) == []
+        assert machine.state == DRIVING
+
+    def test_a_bad_message_is_answered_by_one_zero(self):
+        machine = safety()
+        machine.drive(FORWARD, False, 0.0)
+        assert machine.reject(0.02) == ZERO
+        assert machine.state == BAD_MESSAGE
+        assert over_time(machine, 0.02, 0.4) == []
+        assert machine.drive(FORWARD, False, 0.4) == FORWARD
+
+
+class TestWatchdog:
+    def test_silence_gives_zero_five_times_and_then_nothing(self):
+        machine = safety()
+        machine.drive(FORWARD, False, 0.0)
+        assert machine.due == 0.5
+        assert over_time(machine, 0.0, 10.0) == [
+            (t, ZERO) for t in (0.5, 0.55, 0.6, 0.65, 0.7)
+        ]  # fmt: skip
+        assert machine.state == "stopped: no message for 0.5 s"
+        assert machine.due == float("inf")
+
+    def test_a_robot_that_stands_is_not_told_to_stop(self):
+        machine = safety()
+        machine.drive(ZERO, True, 0.0)
+        assert over_time(machine, 0.0, 10.0) == []
+
+    def test_every_message_starts_the_time_anew(self):
+        machine = safety(joy_timeout=0.3)
+        machine.drive(FORWARD, False, 0.0)
+        machine.drive(FORWARD, False, 0.25)
+        assert over_time(machine, 0.25, 10.0)[0] == (0.55, ZERO)
+
+    def test_a_bad_message_does_not(self):
+        machine = safety()
+        machine.drive(FORWARD, False, 0.0)
+        machine.reject(0.4)
+        over_time(machine, 0.4, 0.6)
+        assert machine.state == "stopped: no message for 0.5 s"
+
+    def test_zero_turns_it_off(self):
+        machine = safety(joy_timeout=0)
+        machine.drive(FORWARD, False, 0.0)
+        assert machine.due == float("inf")
+        assert over_time(machine, 0.0, 100.0, step=1.0) == []
+
+    def test_a_publisher_that_left_is_silence(self):
+        machine = safety(joy_timeout=0, stop_messages=1)
+        assert machine.silence("left", 0.0) is None  # none was there yet
+        machine.drive(FORWARD, False, 1.0)
+        assert machine.silence("left", 1.1) == ZERO
+        assert machine.silence("left", 1.2) is None
+        assert machine.state == "stopped: left"
+
+    def test_the_next_message_drives_again(self):
+        machine = safety()
+        machine.drive(FORWARD, False, 0.0)
+        assert machine.tick(0.5) == ZERO
+        assert machine.drive(FORWARD, False, 0.51) == FORWARD
+        assert over_time(machine, 0.51, 1.0) == []  # the repeated zeros are off
+
+
+class TestDeadMan:
+    def test_release_gives_zero_a_few_times_and_then_silence(self):
+        machine = safety(**DEAD_MAN, stop_messages=3, output_rate=10)
+        machine.drive(FORWARD, False, 0.0)
+        assert machine.drive(None, True, 0.02) == ZERO
+        assert machine.state == ARMED
+        sent = []
+        for i in range(2, 100):
+            sent += over_time(machine, i * 0.02, i * 0.02 + 0.02)
+            assert machine.drive(None, True, i * 0.02 + 0.02) is None
+        assert sent == [(0.12, ZERO), (0.22, ZERO)]
+
+    def test_driving_again_ends_the_zeros(self):
+        machine = safety(**DEAD_MAN)
+        machine.drive(FORWARD, False, 0.0)
+        machine.drive(None, True, 0.02)
+        assert machine.drive(FORWARD, False, 0.03) == FORWARD
+        assert over_time(machine, 0.03, 0.5) == []
+
+    def test_the_first_message_with_it_released_gives_zero_too(self):
+        machine = safety(**DEAD_MAN)
+        assert machine.drive(None, True, 0.0) == ZERO
+
+    def test_a_bad_message_gives_the_same_zeros(self):
+        machine = safety(**DEAD_MAN)
+        machine.drive(FORWARD, False, 0.0)
+        assert machine.reject(0.02) == ZERO
+        assert machine.reject(0.03) is None
+        assert len(over_time(machine, 0.03, 0.5)) == 4
+
+
+class TestArming:
+    def test_nothing_moves_before_dead_man_and_sticks_were_released(self):
+        machine = safety(**DEAD_MAN, arm_on_neutral=True, stop_messages=1)
+        assert machine.drive(FORWARD, False, 0.0) == ZERO
+        assert machine.state == NOT_ARMED
+        assert machine.drive(FORWARD, True, 0.1) is None  # sticks only
+        assert machine.drive(None, False, 0.2) is None  # dead-man only
+        assert machine.drive(None, True, 0.3) is None
+        assert machine.state == ARMED
+        assert machine.drive(FORWARD, False, 0.4) == FORWARD
+
+    def test_without_a_dead_man_the_sticks_are_enough(self):
+        machine = safety(arm_on_neutral=True)
+        assert machine.drive(FORWARD, False, 0.0) == ZERO
+        assert machine.drive(FORWARD, False, 0.1) == ZERO
+        assert machine.drive(ZERO, True, 0.2) == ZERO
+        assert machine.drive(FORWARD, False, 0.3) == FORWARD
+
+    @pytest.mark.parametrize("leaves", [True, False])
+    def test_silence_disarms(self, leaves):
+        machine = safety(arm_on_neutral=True)
+        machine.drive(ZERO, True, 0.0)
+        machine.drive(FORWARD, False, 0.1)
+        assert (machine.silence("left", 0.6) if leaves else machine.tick(0.6)) == ZERO
+        assert machine.drive(FORWARD, False, 0.61) == ZERO
+        machine.drive(ZERO, True, 0.62)
+        assert machine.drive(FORWARD, False, 0.63) == FORWARD
+
+
+class TestAccelerationLimits:
+    def speeds(self, sent):
+        return [(t, round(velocity[0], 6)) for t, velocity in sent]
+
+    def hold(self, machine, velocity, start, end):
+        """A message every 0.05 s. What drive() and tick() send."""
+        sent = []
+        for i in range(round((end - start) / 0.05)):
+            now = start + i * 0.05
+            answer = machine.drive(velocity, False, now)
+            sent += [] if answer is None else [(round(now, 6), answer)]
+            sent += over_time(machine, now, now + 0.05 - 1e-6)
+        return self.speeds(sent)
+
+    def test_speed_comes_at_a_steady_rate_and_goes_with_the_stick(self):
+        machine = safety(**LIMITS)
+        assert self.hold(machine, (0.25, 0, 0, 0, 0, 0), 0.0, 0.4) == [
+            (0.0, 0.1), (0.1, 0.2), (0.2, 0.25), (0.3, 0.25),
+        ]  # fmt: skip
+        # Released: soft, and at zero it is one velocity for every message again.
+        assert self.hold(machine, ZERO, 0.4, 0.8) == [
+            (0.4, 0.15), (0.5, 0.05), (0.6, 0.0), (0.65, 0.0), (0.7, 0.0), (0.75, 0.0),
+        ]  # fmt: skip
+
+    def test_dead_man_stops_hard(self):
+        machine = safety(**DEAD_MAN, **LIMITS, stop_messages=2)
+        self.hold(machine, FORWARD, 0.0, 1.0)
+        assert machine.drive(None, False, 1.0) == ZERO
+        assert over_time(machine, 1.0, 2.0) == [(1.1, ZERO)]
+
+    def test_silence_stops_hard(self):
+        machine = safety(**LIMITS, stop_messages=1)
+        machine.drive(FORWARD, False, 0.0)
+        sent = self.speeds(over_time(machine, 0.0, 2.0))
+        assert sent == [(0.1, 0.2), (0.2, 0.3), (0.3, 0.4), (0.4, 0.5), (0.5, 0.0)]
+
+    def test_silence_while_passing_through_zero_stops_for_good(self):
+        machine = safety(**LIMITS, stop_messages=1)
+        machine.drive((0.1, 0, 0, 0, 0, 0), False, 0.0)
+        machine.drive((-0.5, 0, 0, 0, 0, 0), False, 0.05)
+        assert self.speeds(over_time(machine, 0.05, 0.15)) == [(0.1, 0.0)]
+        assert machine.silence("left", 0.15) == ZERO
+        assert over_time(machine, 0.15, 2.0) == []
+
+    def test_a_bad_message_stops_hard_and_ends_the_ramp(self):
+        machine = safety(**LIMITS)
+        machine.drive(FORWARD, False, 0.0)
+        assert machine.reject(0.05) == ZERO
+        assert over_time(machine, 0.05, 0.4) == []
+
+
+def test_wake_is_called_when_something_becomes_due_sooner():
+    woken = []
+    machine = Safety(load(DEAD_MAN), wake=lambda: woken.append(machine.due))
+    machine.drive(FORWARD, False, 0.0)
+    assert len(woken) == 1  # the watch over the silence
+    machine.drive(FORWARD, False, 0.1)
+    assert len(woken) == 1
+    machine.drive(None, True, 0.2)
+    assert woken[1:] == [pytest.approx(0.25)]

@@ -1,0 +1,139 @@
+"""The whole pure path: from axes and buttons to what is sent and said."""
+
+import math
+import struct
+from random import Random
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from joy_to_twist.parameters import load
+from joy_to_twist.teleoperation import Teleoperation
+
+NAN, INF = float("nan"), float("inf")
+SECOND_NS = 1_000_000_000
+
+
+def teleoperation(**given):
+    """A Teleoperation and the list of its warnings."""
+    warnings = []
+    return Teleoperation(load(given), warnings.append, wake=lambda: None), warnings
+
+
+def test_a_message_becomes_a_velocity():
+    machine, warnings = teleoperation()
+    assert machine.joy((0.5, 0.7, 0, 0, 0, 0), (), 0.0) == pytest.approx((0.7, 0, 0, 0, 0, 0.5))
+    assert warnings == []
+
+
+def test_what_is_wrong_is_said_once_in_five_seconds():
+    machine, warnings = teleoperation()
+    for i in range(300):  # 6 s
+        assert machine.joy((0.5, NAN), (), i * 0.02) == (0,) * 6
+    assert len(warnings) == 2
+    assert "nan" in warnings[0]
+    assert "\n" not in warnings[0]
+
+
+def test_a_wrong_axis_index_is_named():
+    machine, warnings = teleoperation(axis_linear=7)
+    machine.joy((0.0,) * 6, (), 0.0)
+    assert "no axis 7 (-> linear.x): it has 6 axes" in warnings[0]
+
+
+def test_an_old_message_is_not_driven():
+    machine, warnings = teleoperation(max_joy_age=0.3)
+    assert machine.joy((0.0, 1.0), (), 0.0, 0.2 * SECOND_NS)[0] == 1.0
+    assert machine.joy((0.0, 1.0), (), 0.1, 0.4 * SECOND_NS) == (0,) * 6
+    assert "0.4 s old" in warnings[0]
+    # From the future: another computer's clock is ahead, or the simulated time went back.
+    assert machine.joy((0.0, 1.0), (), 0.2, -5 * SECOND_NS)[0] == 1.0
+
+
+def test_by_default_any_age_is_driven():
+    machine, _ = teleoperation()
+    assert machine.joy((0.0, 1.0), (), 0.0, 10**18)[0] == 1.0
+
+
+def test_a_hint_on_the_gamepad_is_given_once_for_each_connection():
+    machine, warnings = teleoperation(gamepad_axes=6)
+    for _ in range(5):
+        machine.joy((0.0,) * 8, (), 0.0)
+    assert len(warnings) == 1
+    machine.left(0.1)
+    machine.joy((0.0,) * 4, (), 0.2)
+    assert len(warnings) == 2
+
+
+def test_diagnostics():
+    machine, _ = teleoperation(enable_button=0)
+    assert machine.summary(0.0) == (
+        False,
+        "waiting for the joystick",
+        {"Joy rate [Hz]": "0.0", "Age of the last Joy [s]": "none yet"},
+    )
+    for i in range(50):
+        machine.joy((0.0, 1.0), (1,), i * 0.02)
+    well, state, details = machine.summary(1.0)
+    assert (well, state) == (True, "driving")
+    assert details == {"Joy rate [Hz]": "50.0", "Age of the last Joy [s]": "0.020"}
+    machine.joy((0.0, 1.0), (0,), 1.0)
+    assert machine.summary(1.5)[1].startswith("armed")
+    machine.tick(5.0)
+    well, state, details = machine.summary(5.5)
+    assert (well, state) == (False, "stopped: no message for 0.5 s")
+    assert details["Age of the last Joy [s]"] == "4.500"
+
+
+def random_axis(random):
+    """Mostly what a stick gives, and now and then the bytes of any float32 whatever."""
+    if random.random() < 0.9:
+        return random.choice([0.0, 1.0, -1.0, random.uniform(-1, 1)])
+    return struct.unpack("<f", random.getrandbits(32).to_bytes(4, "little"))[0]
+
+
+def random_joy(random):
+    """axes, buttons, pause since the last message [s] and age [ns]."""
+    axes = [random_axis(random) for _ in range(random.randrange(10))]
+    if axes and random.random() < 0.1:
+        axes[-1] = random.choice([NAN, INF, -INF, 1e308, -1e308])
+    buttons = [random.choice([0, 0, 1, -1]) for _ in range(random.randrange(14))]
+    return axes, buttons, random.choice([0.0, 0.02, random.random()]), random.choice([0, 10**19])
+
+
+# Everything that decides the path of a message.
+settings_of_node = st.fixed_dictionaries(
+    {
+        "enable_button": st.integers(-1, 4),
+        "enable_turbo_button": st.integers(9, 12) | st.just(-1),
+        "arm_on_neutral": st.booleans(),
+        "inverted_reverse": st.booleans(),
+        "max_joy_age": st.sampled_from([0, 0.3]),
+        "joy_timeout": st.sampled_from([0, 0.5]),
+        "scale_linear": st.sampled_from([-1000, 0.7]),
+        "axis_linear": st.sampled_from([1, {"x": 1, "y": 2, "z": 8}]),
+        "max_linear_acceleration": st.sampled_from([0, 0.5]),
+        "max_angular_acceleration": st.sampled_from([0, 2.0]),
+    }
+)
+
+
+@settings(max_examples=1000, deadline=None)
+@given(settings_of_node, st.integers(0, 2**64))
+def test_100_000_random_messages_give_only_finite_velocities_within_the_limits(given, seed):
+    random = Random(seed)
+    machine, _ = teleoperation(**given, max_linear_speed=0.7, max_angular_speed=math.pi)
+    now = 0.0
+    for _ in range(100):
+        axes, buttons, pause, age_ns = random_joy(random)
+        sent = []
+        end = now + pause
+        while machine.due <= end:
+            now = machine.due
+            sent.append(machine.tick(now))
+        now = end
+        sent.append(machine.joy(axes, buttons, now, age_ns))
+        for velocity in filter(None, sent):
+            assert all(map(math.isfinite, velocity))
+            assert math.hypot(*velocity[:3]) <= 0.7 * (1 + 1e-9)
+            assert math.hypot(*velocity[3:]) <= math.pi * (1 + 1e-9)
