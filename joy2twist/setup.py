@@ -1,4 +1,8 @@
 from catkin_pkg.python_setup import generate_distutils_setup
 from setuptools import setup
 
-setup(**generate_distutils_setup(packages=["joy_to_twist"], package_dir={"": "src"}))
+setup(
+    **generate_distutils_setup(
+        packages=["joy_to_twist", "joy_to_twist.joystick"], package_dir={"": "src"}
+    )
+)
