@@ -6,7 +6,7 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Empty
 
-from fake_turtlebot_sim.ros_messages import RobotMessages, fill_odometry, pose_on_floor
+from fake_turtlebot_sim.ros_messages import RobotMessages, pose_on_floor
 from fake_turtlebot_sim.simulated_robot import SimulatedRobot
 from fake_turtlebot_sim.velocity_command import Verdict
 
@@ -25,17 +25,12 @@ class RobotTopics:
         self.rejected = 0
         self.robot = SimulatedRobot(parameters.robot_model(name), start_pose)
         self.odom_frame = prefix + parameters.odom_frame
-        base_frame = prefix + parameters.base_frame
         # The frames a pose may be given in: that of all robots lies on that of each odometry.
         self._frames = [self.odom_frame] + ([parameters.world_frame] if name else [])
-        joints = (parameters.left_wheel_joint, parameters.right_wheel_joint)
-        self.messages = RobotMessages(self.odom_frame, base_frame, joints)
+        self.messages = RobotMessages(parameters, prefix)
         self._odom = rospy.Publisher(f"{prefix}odom", Odometry, queue_size=QUEUE_SIZE)
         self._joints = rospy.Publisher(f"{prefix}joint_states", JointState, queue_size=QUEUE_SIZE)
-        self._truth = None
         if self.robot.has_errors:
-            self._truth = Odometry()
-            self._truth.header.frame_id, self._truth.child_frame_id = self.odom_frame, base_frame
             topic = f"{prefix}base_pose_ground_truth"
             self._ground_truth = rospy.Publisher(topic, Odometry, queue_size=QUEUE_SIZE)
         for topic, kind, callback in (
@@ -48,19 +43,14 @@ class RobotTopics:
 
     def tell(self, stamp):
         """Write the robot's state into its messages; call while the motion is held."""
-        self.messages.fill(self.robot.state(), stamp)
-        covariance = self.robot.covariance()
-        if covariance is not None:
-            self.messages.fill_covariance(covariance)
-        if self._truth:
-            fill_odometry(self._truth, self.robot.true_state(), stamp)
+        self.messages.tell(self.robot, stamp)
 
     def publish(self):
         """Publish what was told last."""
         self._odom.publish(self.messages.odometry)
         self._joints.publish(self.messages.joints)
-        if self._truth:
-            self._ground_truth.publish(self._truth)
+        if self.robot.has_errors:
+            self._ground_truth.publish(self.messages.ground_truth)
 
     def _on_cmd_vel(self, twist):
         with self._motion.hold() as now:

@@ -20,13 +20,15 @@ LEAST_VARIANCE = 1e-9  # [m2, rad2]
 
 
 class RobotMessages:
-    """The odometry, transform and wheel joints of one robot."""
+    """The odometry, transform and wheel joints of one robot, and the truth if that differs."""
 
-    def __init__(self, odom_frame, base_frame, wheel_joints):
-        """Name the frames and the joints, (left, right)."""
-        self.odometry = Odometry()
-        self.odometry.header.frame_id = odom_frame
-        self.odometry.child_frame_id = base_frame
+    def __init__(self, parameters, prefix=""):
+        """Take the names of frames and joints from the Parameters; the prefix is for the frames."""
+        odom_frame, base_frame = prefix + parameters.odom_frame, prefix + parameters.base_frame
+        self.odometry, self.ground_truth = Odometry(), Odometry()
+        for odometry in (self.odometry, self.ground_truth):
+            odometry.header.frame_id = odom_frame
+            odometry.child_frame_id = base_frame
         self.odometry.pose.covariance = [0.0] * 36
         self.odometry.pose.covariance[::7] = KOBUKI_POSE_COVARIANCE
         self.transform = TransformStamped()
@@ -35,10 +37,19 @@ class RobotMessages:
         # One quaternion in both, so that they are equal to the last bit.
         self.transform.transform.rotation = self.odometry.pose.pose.orientation
         self.joints = JointState()
-        self.joints.name = list(wheel_joints)
+        self.joints.name = [parameters.left_wheel_joint, parameters.right_wheel_joint]
+
+    def tell(self, robot, stamp):
+        """Tell what the SimulatedRobot does at the instant `stamp`."""
+        self.fill(robot.state(), stamp)
+        covariance = robot.covariance()
+        if covariance is not None:
+            self.fill_covariance(covariance)
+        if robot.has_errors:
+            fill_odometry(self.ground_truth, robot.true_state(), stamp)
 
     def fill(self, state, stamp):
-        """Tell the RobotState of the instant `stamp`."""
+        """Write a RobotState into all messages but the truth."""
         fill_odometry(self.odometry, state, stamp)
         self.transform.header.stamp = self.joints.header.stamp = stamp
         self.transform.transform.translation.x = state.x

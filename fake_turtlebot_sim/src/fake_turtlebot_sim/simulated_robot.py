@@ -119,6 +119,11 @@ class SimulatedRobot:
         """Tell whether a command is in force, that is, not timed out."""
         return self._time_ns < self._expires_ns
 
+    @property
+    def is_moving(self):
+        """Tell whether the robot had a velocity at the time of the last advance()."""
+        return self._velocity != REST
+
     def _wheel_rates(self, velocity):
         return wheel_rates(velocity, self._model.wheel_separation, self._model.wheel_radius)
 

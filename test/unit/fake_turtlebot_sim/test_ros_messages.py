@@ -4,8 +4,9 @@ from math import cos, inf, nan, pi, sin
 
 import numpy as np
 import pytest
+from fake_turtlebot_sim.parameters import Parameters
 from fake_turtlebot_sim.ros_messages import RobotMessages, pose_on_floor, static_transform
-from fake_turtlebot_sim.simulated_robot import RobotState
+from fake_turtlebot_sim.simulated_robot import RobotState, SimulatedRobot
 from genpy import Time
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from hypothesis import given
@@ -16,7 +17,7 @@ STAMP = Time(12, 34)
 
 
 def messages():
-    return RobotMessages("odom", "base_footprint", ("left", "right"))
+    return RobotMessages(Parameters(left_wheel_joint="left", right_wheel_joint="right"))
 
 
 def pose_message(frame="odom", yaw=0.0, x=1.0, length=1.0):
@@ -118,3 +119,18 @@ def test_a_static_transform_lays_one_frame_on_the_other():
         STAMP,
     )
     assert laid.transform.rotation.w == 1.0
+
+
+def test_a_robot_with_errors_tells_its_covariance_and_the_truth():
+    parameters = Parameters(wheel_noise=0.01)
+    robot = SimulatedRobot(parameters.robot_model("alice"))
+    robot.command((0.5, 1.0), 0)
+    robot.advance(500_000_000)
+    told = RobotMessages(parameters, prefix="alice/")
+    told.tell(robot, STAMP)
+    assert told.odometry.header.frame_id == told.ground_truth.header.frame_id == "alice/odom"
+    assert told.ground_truth.child_frame_id == "alice/base_footprint"
+    assert told.ground_truth.header.stamp == STAMP
+    assert told.ground_truth.pose.pose.position.x == robot.true_state().x != robot.state().x
+    assert told.odometry.pose.covariance[35] == pytest.approx(robot.covariance()[2, 2] + 1e-9)
+    assert not any(told.ground_truth.pose.covariance)
