@@ -1,6 +1,10 @@
 #!/usr/bin/env python3
 """Drive a robot with a joystick: see the class NewJoy2Twist in joy_to_twist/node.py."""
 
+import signal
+
+signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C while ROS still loads ends this quietly
+
 from joy_to_twist.node import main
 
 if __name__ == "__main__":

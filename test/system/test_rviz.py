@@ -54,12 +54,8 @@ def show(screen, tutorial, master_uri):
     programs = []
 
     def start(config):
-        programs.append(
-            Program(
-                tutorial, "demo", f"rviz_config:={config}",
-                DISPLAY=screen, LIBGL_ALWAYS_SOFTWARE="1",
-            )  # fmt: skip
-        )
+        environment = {"DISPLAY": screen, "LIBGL_ALWAYS_SOFTWARE": "1"}
+        programs.append(Program(tutorial, "demo", f"rviz_config:={config}", **environment))
         return programs[-1]
 
     yield start

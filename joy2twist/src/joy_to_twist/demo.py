@@ -162,11 +162,19 @@ def drive(command, duration_s):
         wait(launch, deadline, lambda: report.pose is not None)
         if report.pose is None:
             raise DemoError(f"no /odom within {START_TIMEOUT_S:.0f} s")
+        print(f"demo: first /odom after {age_of_this_process():.1f} s", flush=True)
         wait(launch, time.monotonic() + duration_s)
     finally:
         stop(launch)
         rospy.signal_shutdown("the demonstration is over")
     return report
+
+
+def age_of_this_process():
+    """How long ago [s] the user's command began; ./tutorial becomes this process by exec."""
+    with open("/proc/self/stat") as stat, open("/proc/uptime") as uptime:
+        started = int(stat.read().rsplit(")", 1)[1].split()[19])  # proc(5): starttime [ticks]
+        return float(uptime.read().split()[0]) - started / os.sysconf("SC_CLK_TCK")
 
 
 def stop(launch):
@@ -182,8 +190,9 @@ def stop(launch):
 
 def main():
     """Check, then launch; exit code 0 if it ran and, with --for, if the robot moved."""
+    for number in (signal.SIGINT, signal.SIGTERM):  # either ends the launch with this process
+        signal.signal(number, signal.default_int_handler)
     options = parse(sys.argv[1:])
-    signal.signal(signal.SIGTERM, signal.default_int_handler)  # end the launch on either signal
     try:
         launch_file = f"{rospkg.RosPack().get_path('joy2twist')}/launch/launch_bag.launch"
         values = check_arguments(launch_file, options.arguments)
