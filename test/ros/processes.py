@@ -22,7 +22,8 @@ class Program:
             stdin=subprocess.DEVNULL,
             stdout=self._output,
             stderr=subprocess.STDOUT,
-            env={**os.environ, **environment},
+            # Unbuffered: a test waits for what roslaunch, a Python program itself, prints.
+            env={**os.environ, "PYTHONUNBUFFERED": "1", **environment},
             start_new_session=True,  # like a terminal's: children can be found by it
         )
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-rosbag1 = pytest.importorskip("rosbags.rosbag1", reason="rosbags is not installed: ./tutorial setup")
+rosbag1 = pytest.importorskip("rosbags.rosbag1", reason="no rosbags: ./tutorial setup")
 pytest.importorskip("sensor_msgs.msg", reason="no ROS for this Python: ./tutorial setup")
 
 from rosbags.typesys import Stores, get_typestore  # noqa: E402
