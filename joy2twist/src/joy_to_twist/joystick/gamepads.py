@@ -65,6 +65,13 @@ class Gamepad:
         """The numbers of the axes that are triggers: at rest they are at +1."""
         return trigger_axes([axis.code for axis in self.axes])
 
+    @property
+    def untouched(self):
+        """The raw values of all axes when nobody touches the gamepad."""
+        return [
+            axis.low if i in self.triggers else axis.raw(0.0) for i, axis in enumerate(self.axes)
+        ]
+
 
 def _axes(low, high, *codes):
     return tuple([Axis(code, low, high) for code in codes])

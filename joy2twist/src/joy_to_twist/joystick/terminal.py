@@ -1,0 +1,55 @@
+"""The terminal of the virtual gamepad: single keys in, help and one line of state out."""
+
+import os
+import sys
+import termios
+import tty
+
+_CLEAR_LINE = "\r\x1b[K"
+_VDISABLE = b"\0"
+
+
+class Terminal:
+    """Gives keys without waiting for Enter; as a context manager it leaves the terminal as it was.
+
+    Ctrl-C stays what it is. Ctrl-Z is switched off: it would stop this program with a stick pushed.
+    """
+
+    def __init__(self):
+        """Use the standard input, which must be a terminal."""
+        self._fd = sys.stdin.fileno()
+        self._shown = None
+
+    def __enter__(self):
+        self._before = termios.tcgetattr(self._fd)
+        tty.setcbreak(self._fd)
+        settings = termios.tcgetattr(self._fd)
+        settings[6][termios.VSUSP] = _VDISABLE
+        termios.tcsetattr(self._fd, termios.TCSANOW, settings)
+        return self
+
+    def __exit__(self, *_):
+        termios.tcsetattr(self._fd, termios.TCSANOW, self._before)
+        sys.stdout.write("\n")
+
+    def fileno(self):
+        """For poll()."""
+        return self._fd
+
+    def read(self):
+        """The keys that were pressed; "" if the terminal is gone."""
+        try:
+            return os.read(self._fd, 1024).decode(errors="replace")
+        except OSError:
+            return ""
+
+    def show(self, controls):
+        """Show controls.Controls in one line."""
+        x, y = controls.left_stick
+        words = [f"left stick {x:+.1f} {y:+.1f}", *sorted(controls.held)]
+        words += ["MODE LED on"] * controls.mode_led + ["unplugged"] * (not controls.plugged)
+        line = "  " + "  ".join(words)
+        if line != self._shown:
+            self._shown = line
+            sys.stdout.write(_CLEAR_LINE + line)
+            sys.stdout.flush()
