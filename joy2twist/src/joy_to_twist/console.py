@@ -38,6 +38,14 @@ class Console:
         """Show a line and send it to /rosout."""
         self._lines.put((rospy.loginfo, line))
 
+    def goodbye(self, line):
+        """Show a last line, without a question to the master.
+
+        When a newer node of the same name has taken over, the master would take the question for
+        the older one's return, and end the newer one.
+        """
+        self._lines.put((self._display.info, line))
+
     def warn(self, line):
         """Show a warning and send it to /rosout."""
         self._lines.put((rospy.logwarn, line))

@@ -106,7 +106,7 @@ class NewJoy2Twist:
         goodbye = threading.Timer(LONGEST_GOODBYE_S, os._exit, [0])
         goodbye.daemon = True
         goodbye.start()
-        self.console.info("Stopping the node ...")
+        self.console.goodbye("Stopping the node ...")
         # Not rospy.sleep: in simulated time without a clock it never returns.
         threading.Event().wait(DELIVERY_TIME_S)
 
