@@ -30,7 +30,7 @@ def test_the_exact_name_first_then_a_unique_part(wanted, path):
     [
         (
             NAMES,
-            "pad F",
+            "ad F",
             "~dev_name 'ad F' fits several gamepads, write more of it: 'Pad F710'",
         ),
         (NAMES, "PS4", "No gamepad is named 'PS4'; there are: 'Pad F710' (/dev/input/js0), "),
