@@ -32,6 +32,8 @@ class StartUpTest(unittest.TestCase):
         result = run("_timeout:=1.0", "__name:=unknown_parameter")
         self.assert_one_clear_line(result, "~timeout: 1.0", "did you mean ~cmd_vel_timeout?")
 
+        self.assertFalse(rospy.has_param("/unknown_parameter/timeout"))  # the next start may work
+
     def test_a_parameter_out_of_range(self):
         result = run("_rate:=0", "__name:=out_of_range")
         self.assert_one_clear_line(result, "~rate: 0", "from 5 to 1000 Hz")

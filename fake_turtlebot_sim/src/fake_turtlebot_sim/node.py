@@ -115,6 +115,9 @@ def main():
         parameters = parse_parameters(rospy.get_param("~", {}))
     except ValueError as error:
         rospy.logfatal("%s", error)
+        # What the command line sets stays on the master; it would spoil the next start too.
+        for name in rospy.client.load_command_line_node_params(sys.argv):
+            rospy.delete_param(f"~{name}")
         return 1
     try:
         FakeTurtlebot(parameters).spin()

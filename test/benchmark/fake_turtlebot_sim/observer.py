@@ -1,0 +1,45 @@
+#!/usr/bin/python3
+"""Subscribes to topics for a while and prints what came, as JSON.
+
+    observer.py SECONDS TOPIC ...
+
+For each topic: {"stamps": [ns], "arrivals": [ns, monotonic]}. Messages are not decoded, as that
+would take more time than the simulation: of each only the stamp is read from the bytes.
+"""
+
+import json
+import struct
+import sys
+import time
+
+import rospy
+
+# Odometry and JointState begin with a Header: seq, secs, nsecs. TFMessage has a length before.
+STAMP = {"nav_msgs/Odometry": 4, "sensor_msgs/JointState": 4, "tf2_msgs/TFMessage": 8}
+
+
+def main():
+    seconds, topics = float(sys.argv[1]), sys.argv[2:]
+    rospy.init_node("observer", anonymous=True)
+    heard = {topic: {"stamps": [], "arrivals": []} for topic in topics}
+
+    def on_message(message, record):
+        record["arrivals"].append(time.monotonic_ns())
+        offset = STAMP.get(message._connection_header["type"])
+        if offset is not None:
+            secs, nsecs = struct.unpack_from("<II", message._buff, offset)
+            record["stamps"].append(secs * 10**9 + nsecs)
+
+    for topic, record in heard.items():
+        rospy.Subscriber(topic, rospy.AnyMsg, on_message, record, tcp_nodelay=True)
+    while not all(record["arrivals"] for record in heard.values()):
+        time.sleep(0.05)
+    for record in heard.values():
+        record["stamps"].clear()
+        record["arrivals"].clear()
+    print("ready", flush=True)
+    time.sleep(seconds)
+    print(json.dumps(heard), flush=True)
+
+
+main()

@@ -1,0 +1,89 @@
+"""The core without ROS: how many times faster than real time, at 50 Hz."""
+
+import timeit
+
+import numpy as np
+from fake_turtlebot_sim.bag_replay import replay
+from fake_turtlebot_sim.differential_drive import arc, arcs
+from fake_turtlebot_sim.parameters import Parameters
+from fake_turtlebot_sim.simulated_robot import RobotModel, SimulatedRobot
+
+PERIOD_NS = 20_000_000
+PERIOD_S = 0.02
+ROBOTS = 100_000
+
+
+def times_real_time(benchmark, simulated_s):
+    """Return the speed of the best round, and keep it with the benchmark."""
+    speed = simulated_s / benchmark.stats.stats.min
+    benchmark.extra_info["times real time"] = round(speed)
+    return speed
+
+
+def test_arc(benchmark, figure):
+    steps = 10_000
+
+    def drive():
+        pose, velocity = (0.0, 0.0, 0.0), (0.7, 1.0)
+        for _ in range(steps):
+            pose = arc(pose, velocity, PERIOD_S)
+
+    benchmark(drive)
+    speed = times_real_time(benchmark, steps * PERIOD_S)
+    figure("exact arc", f"{speed:,.0f} times real time", "≥ 50,000")
+    assert speed >= 50_000
+
+
+def test_simulated_robot(benchmark, figure):
+    steps = 2_000
+    commands = [(0.7 * np.sin(k), 3.0 * np.cos(k)) for k in range(steps)]
+
+    def drive():
+        robot = SimulatedRobot(RobotModel())
+        for k, command in enumerate(commands):
+            # A command in each period, in the middle of it, so that each step is split.
+            robot.command(command, k * PERIOD_NS + PERIOD_NS // 2)
+            robot.advance((k + 1) * PERIOD_NS)
+            robot.state()
+
+    benchmark(drive)
+    speed = times_real_time(benchmark, steps * PERIOD_S)
+    figure("robot: commands, limits, timeout, state", f"{speed:,.0f} times real time", "≥ 2,000")
+    assert speed >= 2_000
+
+
+def plain_arcs(poses, velocities):
+    """Return the new poses by the formula as it is written down, without thought of speed."""
+    x, y, yaw = poses
+    v, w = velocities
+    turned = yaw + w * PERIOD_S
+    return x + v / w * (np.sin(turned) - np.sin(yaw)), y - v / w * (np.cos(turned) - np.cos(yaw))
+
+
+def test_many_robots(benchmark, figure):
+    rng = np.random.default_rng(1)
+    poses = rng.uniform(-3, 3, (3, ROBOTS))
+    velocities = rng.uniform(-0.7, 0.7, (2, ROBOTS))
+    plain_ms = 1e3 * min(timeit.repeat(lambda: plain_arcs(poses, velocities), number=1, repeat=50))
+    benchmark(arcs, poses, velocities, PERIOD_S)
+    step_ms = benchmark.stats.stats.median * 1e3
+    ratio = benchmark.stats.stats.min * 1e3 / plain_ms
+    figure(
+        "100,000 robots on arrays, one step",
+        f"{step_ms:.2f} ms, {ratio:.2f} of the plain formula",
+        "≤ 5 ms",
+    )
+    assert step_ms <= 5
+
+
+def test_replay_of_an_hour(benchmark, figure, tmp_path):
+    commands = [(k * 50_000_000, (0.5, 0.3 * (-1) ** (k // 60))) for k in range(3600 * 20)]
+    bags = iter(range(10))
+
+    def run():
+        replay(commands, tmp_path / f"{next(bags)}.bag", Parameters())
+
+    benchmark.pedantic(run, rounds=1)
+    speed = times_real_time(benchmark, 3600)
+    figure("replay of an hour, output bag written", f"{speed:,.0f} times real time", "≥ 100")
+    assert speed >= 100

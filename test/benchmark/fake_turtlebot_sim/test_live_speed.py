@@ -1,0 +1,94 @@
+"""The running node: rate, jitter, latency, processor time; beside a bare rospy node."""
+
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from live import (
+    BARE_NODE,
+    FAKE_TURTLEBOT,
+    HERE,
+    PERIOD_NS,
+    lost_periods,
+    master,
+    observe,
+    running,
+    topics_of,
+)
+
+MESSAGES = ["/odom", "/tf", "/joint_states"]
+
+
+@pytest.fixture(scope="module", autouse=True)
+def ros_master():
+    with master():
+        yield
+
+
+def test_a_minute_of_one_robot(figure):
+    heard, _ = observe(FAKE_TURTLEBOT, MESSAGES, 60)
+    stamps = np.array(heard["/odom"]["stamps"])
+    elapsed_ns = stamps - stamps[0]
+    rate = (len(stamps) - 1) / (elapsed_ns[-1] * 1e-9)
+    # How far each stamp is from a grid of exact periods, laid through the middle of them.
+    off = elapsed_ns - np.rint(elapsed_ns / PERIOD_NS) * PERIOD_NS
+    jitter_ms = np.quantile(np.abs(off - np.median(off)), 0.99) * 1e-6
+    gap_ms = max(np.diff(heard["/odom"]["arrivals"]).max(), np.diff(stamps).max()) * 1e-6
+    figure("rate over a minute", f"{rate:.3f} Hz", "50 ± 0.1 Hz")
+    figure("jitter, 99 of 100 messages", f"{jitter_ms:.2f} ms", "≤ 2 ms")
+    figure("longest gap", f"{gap_ms:.1f} ms", "≤ 30 ms")
+    assert abs(rate - 50) <= 0.1
+    assert jitter_ms <= 2
+    assert gap_ms <= 30
+
+
+def test_a_new_command_shows_at_once(figure):
+    with running(FAKE_TURTLEBOT):
+        done = subprocess.run(
+            [sys.executable, str(HERE / "latency.py"), "200"],
+            stdout=subprocess.PIPE,
+            text=True,
+            check=True,
+        )
+    latencies_ms = np.array(json.loads(done.stdout)) * 1e3
+    worst_ms = np.quantile(latencies_ms, 0.99)
+    figure(
+        "command to /odom, median and 99 of 100",
+        f"{np.median(latencies_ms):.1f}, {worst_ms:.1f} ms",
+        "≤ 25 ms",
+    )
+    assert worst_ms <= 25
+
+
+def test_processor_time_beside_a_bare_node(figure):
+    ours, bare = [], []
+    for _ in range(2):  # by turns, so that what else the machine does hits both
+        bare.append(observe(BARE_NODE, MESSAGES, 20)[1])
+        ours.append(observe(FAKE_TURTLEBOT, [*MESSAGES, "/diagnostics"], 20)[1])
+    ratio = sum(ours) / sum(bare)
+    figure("processor time, one robot / bare rospy node", f"{ratio:.2f}", "≤ 1.15")
+    assert ratio <= 1.15
+
+
+def test_thirty_robots_with_every_topic_on_one_core(figure):
+    heard, load = observe(
+        [*FAKE_TURTLEBOT, "_robots:=30"], topics_of(30, "odom", "joint_states"), 20, core=0
+    )
+    lost = sum(lost_periods(record) for record in heard.values())
+    figure("30 robots, every topic subscribed, one core", f"{load:.0%}, {lost} periods lost", "0")
+    assert lost == 0
+
+
+def test_growth_with_the_number_of_robots(figure):
+    loads = {}
+    for count in (10, 100):
+        heard, loads[count] = observe(
+            [*FAKE_TURTLEBOT, f"_robots:={count}"], topics_of(count, "odom"), 20
+        )
+    lost = sum(lost_periods(record) for record in heard.values())
+    figure("100 robots, odometry and TF", f"{loads[100]:.0%} of a core, {lost} periods lost", "0")
+    figure("processor time, 100 / 10 robots", f"{loads[100] / loads[10]:.1f}", "≤ 10")
+    assert lost == 0
+    assert loads[100] <= 10 * loads[10]
