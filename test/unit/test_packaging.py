@@ -33,6 +33,8 @@ def test_version_is_the_newest_in_the_changelog(package):
 def test_every_launch_argument_is_explained(package):
     for launch in sorted((REPOSITORY / package / "launch").glob("*.launch")):
         for arg in ElementTree.parse(launch).getroot().findall("arg"):
+            if arg.get("value") is not None:
+                continue  # fixed by the file itself
             assert arg.get("doc"), f"{launch.name}: {arg.get('name')}"
             explained = (REPOSITORY / package / "README.md").read_text()
             assert f"`{arg.get('name')}`" in explained, f"{launch.name}: {arg.get('name')}"

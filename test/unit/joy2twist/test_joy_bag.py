@@ -1,6 +1,7 @@
 """joy.bag is what the handout needs, and is exactly what its script writes."""
 
 import math
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -34,6 +35,16 @@ def test_the_script_writes_the_same_bytes(tmp_path, monkeypatch):
 
     make_joy_bag.write_bag(tmp_path / "joy.bag")
     assert (tmp_path / "joy.bag").read_bytes() == (FOLDER / "joy.bag").read_bytes()
+
+
+def test_rosbag_takes_it():
+    for words in (["check"], ["info", "--yaml", "--key=messages"]):
+        done = subprocess.run(
+            ["rosbag", *words, str(FOLDER / "joy.bag")],
+            capture_output=True, text=True, check=False, timeout=60,
+        )  # fmt: skip
+        assert done.returncode == 0, done.stderr
+        assert done.stdout.strip() in ("Bag file does not need any migrations.", "2760")
 
 
 def test_it_is_an_f710_in_d_mode_at_50_hz(messages):
