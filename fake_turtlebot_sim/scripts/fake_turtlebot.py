@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Simulate a TurtleBot 2; fake_turtlebot_sim.node says which topics and parameters it has."""
 
 import signal
