@@ -3,12 +3,14 @@
 import os
 import shutil
 import socket
+import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
 REPOSITORY = Path(__file__).resolve().parents[2]
+WIDTH, HEIGHT = 1200, 800  # [pixel] of a virtual screen, and of RViz's window in sim.rviz
 sys.path.insert(0, str(REPOSITORY / "test" / "ros"))  # processes.py and waiting.py
 
 
@@ -48,3 +50,17 @@ def clean_environment(monkeypatch):
     for name in ("CMAKE_PREFIX_PATH", "ROS_PACKAGE_PATH", "PYTHONPATH"):
         monkeypatch.delenv(name, raising=False)
     return os.environ
+
+
+@pytest.fixture
+def screen():
+    """A virtual screen, on a display number that Xvfb finds itself; yields its name."""
+    read, write = os.pipe()
+    # noreset: or it starts anew, and refuses for a moment, whenever its last client leaves.
+    command = ["Xvfb", "-displayfd", str(write), "-noreset", "-nolisten", "tcp"]
+    command += ["-screen", "0", f"{WIDTH}x{HEIGHT}x24"]
+    with subprocess.Popen(command, pass_fds=[write], stderr=subprocess.DEVNULL) as server:
+        os.close(write)
+        with os.fdopen(read) as told:
+            yield f":{told.readline().strip()}"
+        server.terminate()

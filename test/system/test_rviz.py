@@ -18,7 +18,6 @@ from processes import Program
 from waiting import wait_for
 
 CONFIG = Path(__file__).resolve().parents[2] / "fake_turtlebot_sim" / "rviz" / "sim.rviz"
-WIDTH, HEIGHT = 1200, 800  # [pixel] of RViz's window in sim.rviz and of the virtual screen
 START_S = 120.0  # RViz without a graphics card, on a busy machine
 TRAIL = (255, 85, 0)  # colour of the odometry's arrows in sim.rviz
 # Straight from above, at 100 pixels a metre; a ground of a colour that nothing else has.
@@ -31,20 +30,6 @@ rospy.init_node("look", anonymous=True, log_level=rospy.ERROR)
 pose = rospy.wait_for_message("/odom", Odometry, 30).pose.pose
 print(pose.position.x, pose.position.y)
 """
-
-
-@pytest.fixture
-def screen():
-    """A virtual screen, on a display number that Xvfb finds itself; yields its name."""
-    read, write = os.pipe()
-    # noreset: or it starts anew, and refuses for a moment, whenever its last client leaves.
-    command = ["Xvfb", "-displayfd", str(write), "-noreset", "-nolisten", "tcp"]
-    command += ["-screen", "0", f"{WIDTH}x{HEIGHT}x24"]
-    with subprocess.Popen(command, pass_fds=[write], stderr=subprocess.DEVNULL) as server:
-        os.close(write)
-        with os.fdopen(read) as told:
-            yield f":{told.readline().strip()}"
-        server.terminate()
 
 
 @pytest.fixture
