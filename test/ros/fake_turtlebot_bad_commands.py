@@ -37,14 +37,21 @@ class BadCommandsTest(unittest.TestCase):
             wait_for(lambda before=before: rejected() > before, f"count of {bad}")
         self.assertEqual(robot.velocity(), (0.0, 0.0))
         self.assertEqual(robot.position(), start)
-        warnings = [line.msg for line in log if line.level >= Log.WARN and "cmd_vel" in line.msg]
-        self.assertEqual(len(warnings), 1, warnings)
-        self.assertIn("not a finite number", warnings[0])
+        self.assertEqual(len(self.warnings(log)), 1, self.warnings(log))
+        self.assertIn("not a finite number", self.warnings(log)[0])
 
         # After all that it drives as ever, and 1e300 only up to what it can.
         world.command(robot, 1e300, 0.0, shown=(0.7, 0.0))
         world.step(1.0)
         self.assertAlmostEqual(robot.position().x - start.x, 0.42, delta=1e-9)
+        world.command(robot, -1e300, 0.0, shown=(-0.7, 0.0))
+        wait_for(lambda: len(self.warnings(log)) > 1, "warning about the limits")
+        self.assertEqual(len(self.warnings(log)), 2, self.warnings(log))
+        self.assertIn("scaled down", self.warnings(log)[1])
+
+    @staticmethod
+    def warnings(log):
+        return [line.msg for line in log if line.level >= Log.WARN and "cmd_vel" in line.msg]
 
     def test_a_bad_command_does_not_keep_the_robot_going(self):
         robot = Robot()

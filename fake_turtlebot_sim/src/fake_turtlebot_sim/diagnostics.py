@@ -27,7 +27,9 @@ class Diagnostics:
     def _report(self, status):
         rejected = sum(topics.rejected for topics in self._topics)
         if self._missed:
-            status.summary(DiagnosticStatus.WARN, "too slow: lower ~rate or the number of robots")
+            status.summary(
+                DiagnosticStatus.WARN, "periods missed: busy, or /clock is slower than ~rate"
+            )
         elif rejected > self._reported_rejected:
             status.summary(DiagnosticStatus.WARN, "commands that are not finite were ignored")
         else:

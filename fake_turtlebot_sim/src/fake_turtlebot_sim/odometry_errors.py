@@ -53,8 +53,6 @@ class OdometryErrors:
 
     def measured(self, velocity, dt):
         """Return the mean velocity [m/s, rad/s] that the wheels seem to have had during dt [s]."""
-        if self._model.wheel_noise == 0.0:
-            return velocity
         left, right = (
             rate + self._random.gauss(0.0, self._model.wheel_noise * sqrt(abs(rate) / dt))
             for rate in wheel_rates(velocity, self._separation, 1.0)
