@@ -31,7 +31,17 @@ class NewJoy2Twist:
     """Turns every joystick message into a velocity, and leaves the robot standing.
 
     Subscribes: joy (sensor_msgs/Joy).
-    Publishes: cmd_vel (geometry_msgs/Twist), /diagnostics (diagnostic_msgs/DiagnosticArray).
+    Publishes: cmd_vel (geometry_msgs/Twist), never latched, in the frame of the base (REP-103);
+    /diagnostics (diagnostic_msgs/DiagnosticArray).
+    Private parameters with their defaults (README.md says what each is for):
+        axis_linear: 1, axis_angular: 0, scale_linear: 1.0, scale_linear_turbo: 1.0,
+        scale_angular: 1.0, scale_angular_turbo: scale_angular,
+        enable_button: -1, enable_turbo_button: -1, require_enable_button: with enable_button,
+        inverted_reverse: false, joy_timeout: 0.5 s, max_joy_age: 0.0 s, arm_on_neutral: false,
+        stop_messages: 5, output_rate: 20.0 Hz,
+        max_linear_speed: 0.0 m/s, max_angular_speed: 0.0 rad/s,
+        max_linear_acceleration: 0.0 m/s2, max_angular_acceleration: 0.0 rad/s2,
+        gamepad_axes: -1, log_rate: 50.0 Hz, diagnostic_period: 1.0 s.
     """
 
     def __init__(self, parameters):
