@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Tells what the rostests came to, from the JUnit files that catkin's run_tests leaves.
 
     ros_results.py FOLDER

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Repeats what it hears.
 
 Subscribes: chatter (std_msgs/String)

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Says hello ten times a second.
 
 Publishes:  chatter (std_msgs/String)

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Run the tutorial's demonstration: see joy_to_twist/demo.py."""
 
 import signal

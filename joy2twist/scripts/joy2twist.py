@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Drive a robot with a joystick: see the class NewJoy2Twist in joy_to_twist/node.py."""
 
 import signal

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Step 1: subscribe to joy and display the axes of every message."""
 
 import rospy

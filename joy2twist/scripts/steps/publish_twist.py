@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Step 2: turn every joy message into a velocity, published from the callback.
 
 Axis 1 (stick forward) drives linear.x [m/s], axis 0 (stick left) drives angular.z [rad/s].
