@@ -85,13 +85,14 @@ class RunningTest(unittest.TestCase):
 
     def test_every_message_of_a_bag_is_displayed_as_in_the_tutorial(self):
         node = self.start()
-        self.joystick.publish(Joy(axes=[]))  # any number of axes
-        wait_for(lambda: "Get from Joy []" in node.output, "display")
-        before = len(re.findall(LINE, node.output))
-        for _ in range(100):
-            self.forward()
-            time.sleep(1 / 45)  # a little more than log_rate allows would lose some
-        wait_for(lambda: len(re.findall(LINE, node.output)) == before + 100, "100 lines")
+        time.sleep(0.5)  # the messages of the start count no more for log_rate
+        sent = [Joy(axes=[0.5] * (number % 9) + [number]) for number in range(100)]
+        for joy in sent:
+            self.joystick.publish(joy)
+            time.sleep(1 / 45)  # a little faster, and log_rate would leave some out
+        values = [", ".join(f"{axis:.2f}" for axis in joy.axes) for joy in sent]
+        lines = [f": /NewJoy2Twist: Get from Joy [{axes}]\n" for axes in values]
+        wait_for(lambda: all(node.output.count(line) == 1 for line in lines), "100 lines")
 
     def test_no_more_lines_than_log_rate_are_displayed(self):
         node = self.start("_log_rate:=10")

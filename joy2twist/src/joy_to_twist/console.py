@@ -12,7 +12,8 @@ from rosgraph.roslogging import RosStreamHandler
 from joy_to_twist.throttle import Throttle
 
 BURST_S = 0.1  # lets every message of a bag through that comes at log_rate, but not quite evenly
-GATHER_S = 0.1  # lines within this time are shown together: to wake a thread for each costs more
+GATHER_S = 0.25  # lines within this time are shown together: to wake a thread for each costs more
+LONGEST_QUEUE = 1000  # lines kept for a screen that is held
 
 
 class Console:
@@ -31,20 +32,21 @@ class Console:
 
     def display(self, axes, now):
         """Show the axes of a joystick message, as the tutorial does."""
-        if self._may_display.ready(now):
-            self._lines.put((self._log_axes, axes))
+        if self._may_display.ready(now) and self._lines.qsize() < LONGEST_QUEUE:
+            values = ", ".join([f"{value:.2f}" for value in axes])
+            self._lines.put((self._display.info, f"{self._prefix} [{values}]"))
 
     def info(self, line):
         """Show a line and send it to /rosout."""
         self._lines.put((rospy.loginfo, line))
 
     def goodbye(self, line):
-        """Show a last line, without a question to the master.
+        """Show a last line at once, without a question to the master.
 
         When a newer node of the same name has taken over, the master would take the question for
         the older one's return, and end the newer one.
         """
-        self._lines.put((self._display.info, line))
+        self._display.info(line)
 
     def warn(self, line):
         """Show a warning and send it to /rosout."""
@@ -52,15 +54,11 @@ class Console:
 
     def _show(self):
         while True:
-            show, what = self._lines.get()
+            log, line = self._lines.get()
             with contextlib.suppress(OSError):  # the screen is gone; driving goes on
-                show(what)
+                log("%s", line)
             if self._lines.empty():
                 time.sleep(GATHER_S)
-
-    def _log_axes(self, axes):
-        values = ", ".join(f"{value:.2f}" for value in axes)
-        self._display.info("%s [%s]", self._prefix, values)
 
 
 def _console_logger(name):

@@ -67,18 +67,20 @@ class Mapping:
     def describe(self):
         """One line for every axis that drives the robot, in words."""
         p = self._parameters
-        hold = {
-            (True, True): f"; hold button {p.enable_button} (turbo: {p.enable_turbo_button})",
-            (True, False): f"; hold button {p.enable_button}",
-            (False, True): f"; turbo with button {p.enable_turbo_button}",
-            (False, False): "; no dead-man button",
-        }[p.enable_button >= 0, p.enable_turbo_button >= 0]
+        turbo_text = f"{p.enable_turbo_button} for turbo"
+        if not p.require_enable_button:
+            hold = "no dead-man button" if self._turbo < 0 else f"hold button {turbo_text}"
+        elif self._enable < 0:
+            hold = f"hold button {turbo_text}, the only dead-man"
+        else:
+            hold = f"hold button {p.enable_button}"
+            hold += f", or {turbo_text}" if self._turbo >= 0 else ""
         lines = []
         for axis in p.axes:
             unit = "m/s" if COMPONENTS[axis.component].startswith("linear") else "rad/s"
-            turbo = f" (turbo: {axis.turbo_scale:g} {unit})" if p.enable_turbo_button >= 0 else ""
+            turbo = f" (turbo: {axis.turbo_scale:g} {unit})" if self._turbo >= 0 else ""
             lines.append(
                 f"axis {axis.index} -> {COMPONENTS[axis.component]} "
-                f"at {axis.scale:g} {unit}{turbo}{hold}"
+                f"at {axis.scale:g} {unit}{turbo}; {hold}"
             )
         return lines or ["no axis drives the robot: ~axis_linear and ~axis_angular are -1"]

@@ -1,5 +1,6 @@
 """The ROS node: joy (sensor_msgs/Joy) in, cmd_vel (geometry_msgs/Twist) out."""
 
+import atexit
 import gc
 import os
 import threading
@@ -10,6 +11,7 @@ import rospy
 from diagnostic_msgs.msg import DiagnosticStatus
 
 from joy_to_twist.console import Console
+from joy_to_twist.ending import end_on_signals
 from joy_to_twist.lean_joy import LeanJoy
 from joy_to_twist.limits import ZERO
 from joy_to_twist.start import NODE_NAME, StartError, checked_parameters
@@ -47,7 +49,7 @@ class NewJoy2Twist:
     def __init__(self, parameters):
         """parameters: parameters.Parameters."""
         # Not anonymous: a second node of this name shuts down the first, so that only one drives.
-        rospy.init_node(NODE_NAME, anonymous=False)
+        rospy.init_node(NODE_NAME, anonymous=False, disable_signals=True)
         self.console = Console(parameters.log_rate)
         self.timer = threading.Event()  # set to have the time looked at now
         self.teleoperation = Teleoperation(parameters, self.console.warn, self.timer.set)
@@ -85,19 +87,26 @@ class NewJoy2Twist:
         """Stop the robot when the joystick falls silent or leaves, and repeat what is to repeat.
 
         A thread of its own with a clock of its own: rospy's timers follow the simulated time, which
-        may stand still or jump.
+        may stand still or jump. Nobody drives unwatched: should it fail, the node ends.
         """
-        while not self.stopped.is_set():
-            with self.lock:
-                now = monotonic()
-                if self.joy.get_num_connections() == 0:
-                    self.publish(self.teleoperation.left(now))
-                self.publish(self.teleoperation.tick(now))
-                due = min(self.teleoperation.due, now + LOOK_ROUND_S)
-                self.timer.clear()
-            if self.may_diagnose.ready(now):
-                self.diagnostics.force_update()
-            self.timer.wait(max(0.0, due - monotonic()))
+        try:
+            while not self.stopped.is_set():
+                self.timer.wait(self.look())
+        finally:
+            rospy.signal_shutdown("the watch over the joystick has ended")
+
+    def look(self):
+        """Look at the time and the joystick once; for how long [s] nothing will be due."""
+        with self.lock:
+            now = monotonic()
+            if self.joy.get_num_connections() == 0:
+                self.publish(self.teleoperation.left(now))
+            self.publish(self.teleoperation.tick(now))
+            self.timer.clear()
+            due = min(self.teleoperation.due, now + LOOK_ROUND_S)
+        if self.may_diagnose.ready(now) and self.diagnostics.publisher.get_num_connections():
+            self.diagnostics.force_update()
+        return max(0.0, due - monotonic())
 
     def diagnose(self, status):
         """Fill in the diagnostic status, a DiagnosticStatusWrapper."""
@@ -127,6 +136,11 @@ def main():
         parameters = checked_parameters()
     except StartError as error:
         raise SystemExit(f"joy2twist: {error}") from None
-    NewJoy2Twist(parameters)
-    gc.freeze()  # what is there now stays: the garbage collector need not look at it again
-    rospy.spin()
+    end_on_signals()
+    try:
+        NewJoy2Twist(parameters)
+        gc.freeze()  # what is there now stays: the garbage collector need not look at it again
+        rospy.spin()
+    except rospy.ROSException:
+        if not rospy.is_shutdown():  # in the middle of the start
+            raise

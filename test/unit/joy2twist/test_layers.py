@@ -9,7 +9,7 @@ SOURCES = Path(__file__).parents[3] / "joy2twist" / "src" / "joy_to_twist"
 # Each module may import those above it. The pure ones know neither ROS nor the clock.
 PURE = ["throttle", "newest_only", "parameters", "limits", "mapping", "gamepad_hints", "safety"]
 PURE += ["teleoperation"]
-WITH_ROS = ["lean_joy", "velocity_publisher", "console", "start", "node"]
+WITH_ROS = ["ending", "lean_joy", "velocity_publisher", "console", "ending", "start", "node"]
 ALLOWED_IN_PURE = {"dataclasses", "math", "select", "socket", "threading", "typing"}
 
 

@@ -134,6 +134,12 @@ def test_the_mapping_in_words():
     assert Mapping(load(given)).describe() == ["axis 1 -> linear.x at 0.7 m/s; hold button 4"]
     given["enable_turbo_button"] = 5
     assert Mapping(load(given)).describe() == [
-        "axis 1 -> linear.x at 0.7 m/s (turbo: 1 m/s); hold button 4 (turbo: 5)"
+        "axis 1 -> linear.x at 0.7 m/s (turbo: 1 m/s); hold button 4, or 5 for turbo"
     ]
+    given["require_enable_button"] = False
+    assert Mapping(load(given)).describe()[0].endswith("; hold button 5 for turbo")
+    given.update(require_enable_button=True, enable_button=-1)
+    assert (
+        Mapping(load(given)).describe()[0].endswith("; hold button 5 for turbo, the only dead-man")
+    )
     assert "no axis drives" in Mapping(load({"axis_linear": -1, "axis_angular": -1})).describe()[0]
