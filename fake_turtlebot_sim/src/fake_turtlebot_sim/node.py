@@ -9,8 +9,10 @@ from tf2_msgs.msg import TFMessage
 
 from fake_turtlebot_sim.clock import PhaseLock
 from fake_turtlebot_sim.diagnostics import Diagnostics
+from fake_turtlebot_sim.ending import end_on_signals
 from fake_turtlebot_sim.parameters import parse_parameters
-from fake_turtlebot_sim.robot_topics import QUEUE_SIZE, RobotTopics
+from fake_turtlebot_sim.prompt_publisher import PromptPublisher
+from fake_turtlebot_sim.robot_topics import RobotTopics
 from fake_turtlebot_sim.ros_clock import Motion, ros_clock
 from fake_turtlebot_sim.ros_messages import static_transform
 
@@ -41,7 +43,7 @@ class FakeTurtlebot:
         self._motion = Motion(self._clock)
         self._period_ns = parameters.period_ns()
         # Absolute, as every listener of tf2 subscribes to it; one message for all robots.
-        self._tf = rospy.Publisher("/tf", TFMessage, queue_size=QUEUE_SIZE)
+        self._tf = PromptPublisher("/tf", TFMessage)
         self._topics = [
             RobotTopics(name, pose, parameters, self._motion)
             for name, pose in parameters.start_poses().items()
@@ -110,19 +112,19 @@ def main():
             f"ROS_MASTER_URI is {rosgraph.get_master_uri()!r}:"
             " must be an address such as http://localhost:11311"
         )
-    rospy.init_node(NODE_NAME)
+    end_on_signals()
     try:
+        rospy.init_node(NODE_NAME, disable_signals=True)
         parameters = parse_parameters(rospy.get_param("~", {}))
+        FakeTurtlebot(parameters).spin()
     except ValueError as error:
         rospy.logfatal("%s", error)
         # What the command line sets stays on the master; it would spoil the next start too.
         for name in rospy.client.load_command_line_node_params(sys.argv):
             rospy.delete_param(f"~{name}")
         return 1
-    try:
-        FakeTurtlebot(parameters).spin()
     except rospy.ROSException:
-        # A topic is closed under the publisher's hands by a shutdown in the middle of a cycle.
+        # A shutdown in the middle of the start, or one that closes a topic while it is published.
         if not rospy.is_shutdown():
             raise
     return 0

@@ -6,11 +6,10 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Empty
 
+from fake_turtlebot_sim.prompt_publisher import PromptPublisher
 from fake_turtlebot_sim.ros_messages import RobotMessages, pose_on_floor
 from fake_turtlebot_sim.simulated_robot import SimulatedRobot
 from fake_turtlebot_sim.velocity_command import Verdict
-
-QUEUE_SIZE = 10  # what a subscriber may be late, 0.2 s at 50 Hz, before it loses the oldest
 
 
 class RobotTopics:
@@ -28,11 +27,10 @@ class RobotTopics:
         # The frames a pose may be given in: that of all robots lies on that of each odometry.
         self._frames = [self.odom_frame] + ([parameters.world_frame] if name else [])
         self.messages = RobotMessages(parameters, prefix)
-        self._odom = rospy.Publisher(f"{prefix}odom", Odometry, queue_size=QUEUE_SIZE)
-        self._joints = rospy.Publisher(f"{prefix}joint_states", JointState, queue_size=QUEUE_SIZE)
+        self._odom = PromptPublisher(f"{prefix}odom", Odometry)
+        self._joints = PromptPublisher(f"{prefix}joint_states", JointState)
         if self.robot.has_errors:
-            topic = f"{prefix}base_pose_ground_truth"
-            self._ground_truth = rospy.Publisher(topic, Odometry, queue_size=QUEUE_SIZE)
+            self._ground_truth = PromptPublisher(f"{prefix}base_pose_ground_truth", Odometry)
         for topic, kind, callback in (
             ("cmd_vel", Twist, self._on_cmd_vel),
             ("initialpose", PoseWithCovarianceStamped, self._on_initialpose),

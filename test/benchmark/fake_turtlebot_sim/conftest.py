@@ -1,5 +1,7 @@
 """Collects the figures of a run and prints them as the table of the package's README."""
 
+import os
+import platform
 import sys
 from pathlib import Path
 
@@ -7,6 +9,7 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))  # for live.py: pytest imports by file, not by folder
 _rows = []
+_load = os.getloadavg()[0]  # when the run begins: other work on the machine spoils the figures
 
 
 @pytest.fixture
@@ -18,6 +21,10 @@ def figure():
 def pytest_terminal_summary(terminalreporter):
     if _rows:
         terminalreporter.section("figures of fake_turtlebot_sim")
+        terminalreporter.line(
+            f"Python {platform.python_version()}, {os.cpu_count()} processors,"
+            f" load at the beginning {_load:.1f}"
+        )
         terminalreporter.line("| figure | measured | demanded |")
         terminalreporter.line("|---|---|---|")
         for row in _rows:
