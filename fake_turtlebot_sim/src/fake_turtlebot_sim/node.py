@@ -115,14 +115,15 @@ def main():
     end_on_signals()
     try:
         rospy.init_node(NODE_NAME, disable_signals=True)
-        parameters = parse_parameters(rospy.get_param("~", {}))
+        try:
+            parameters = parse_parameters(rospy.get_param("~", {}))
+        except ValueError as error:
+            rospy.logfatal("%s", error)
+            # What the command line sets stays on the master; it would spoil the next start too.
+            for name in rospy.client.load_command_line_node_params(sys.argv):
+                rospy.delete_param(f"~{name}")
+            return 1
         FakeTurtlebot(parameters).spin()
-    except ValueError as error:
-        rospy.logfatal("%s", error)
-        # What the command line sets stays on the master; it would spoil the next start too.
-        for name in rospy.client.load_command_line_node_params(sys.argv):
-            rospy.delete_param(f"~{name}")
-        return 1
     except rospy.ROSException:
         # A shutdown in the middle of the start, or one that closes a topic while it is published.
         if not rospy.is_shutdown():

@@ -13,7 +13,14 @@ SCRIPTS = SOURCES.parents[1] / "scripts"
 # Each module may import those above it. The pure ones know neither ROS nor the clock.
 PURE = ["differential_drive", "velocity_command", "odometry_errors", "clock", "simulated_robot"]
 PURE += ["parameters"]
-WITH_ROS = ["ros_messages", "ros_clock", "prompt_publisher", "robot_topics", "diagnostics"]
+WITH_ROS = [
+    "ending",
+    "ros_messages",
+    "ros_clock",
+    "prompt_publisher",
+    "robot_topics",
+    "diagnostics",
+]
 WITH_ROS += ["node", "bag_replay", "replay_command"]
 ALLOWED_IN_PURE = {
     "dataclasses", "difflib", "enum", "math", "numpy", "random", "re", "typing"
