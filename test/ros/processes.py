@@ -1,30 +1,40 @@
 """Starting programs as a user does in a terminal, and ending them as Ctrl-C does."""
 
+import contextlib
 import os
 import signal
 import subprocess
 import tempfile
+import uuid
 from pathlib import Path
 
 from waiting import DEADLINE_S, wait_for
 
+MARK = "STARTED_BY_A_TEST"  # environment variable by which a program's descendants are known
+
 
 class Program:
-    """A program in a session of its own; its output, both streams together, is kept.
+    """A program and all that it starts; its output, both streams together, is kept.
 
     Use it as a context manager, so that nothing is left running whatever the test comes to.
     """
 
     def __init__(self, *command, **environment):
         self._output = tempfile.TemporaryFile("w+")  # noqa: SIM115  closed in __exit__
+        self._mark = f"{MARK}={uuid.uuid4()}"
         self._process = subprocess.Popen(
             command,
             stdin=subprocess.DEVNULL,
             stdout=self._output,
             stderr=subprocess.STDOUT,
             # Unbuffered: a test waits for what roslaunch, a Python program itself, prints.
-            env={**os.environ, "PYTHONUNBUFFERED": "1", **environment},
-            start_new_session=True,  # like a terminal's: children can be found by it
+            env={
+                **os.environ,
+                "PYTHONUNBUFFERED": "1",
+                **environment,
+                **dict([self._mark.split("=")]),
+            },
+            start_new_session=True,  # with a process group that Ctrl-C reaches, as in a terminal
         )
 
     def __enter__(self):
@@ -32,7 +42,8 @@ class Program:
 
     def __exit__(self, *_):
         for pid in self.left_behind():
-            os.kill(pid, signal.SIGKILL)
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGKILL)
         self._process.wait()
         self._output.close()
 
@@ -58,13 +69,17 @@ class Program:
         return self._process.returncode
 
     def left_behind(self):
-        """The ids of all processes of this session that still run."""
+        """The ids of all processes that come from this program and still run.
+
+        Known by their environment: roslaunch gives each node a session of its own.
+        """
         pids = []
-        for stat in Path("/proc").glob("[0-9]*/stat"):
+        for process in Path("/proc").glob("[0-9]*"):
             try:
-                state, _, _, session = stat.read_text().rsplit(")", 1)[1].split()[:4]
+                marked = self._mark.encode() in (process / "environ").read_bytes().split(b"\0")
+                zombie = (process / "stat").read_text().rsplit(")", 1)[1].split()[0] == "Z"
             except OSError:
-                continue  # ended meanwhile
-            if int(session) == self._process.pid and state != "Z":
-                pids.append(int(stat.parent.name))
+                continue  # ended meanwhile, or another user's
+            if marked and not zombie:
+                pids.append(int(process.name))
         return pids

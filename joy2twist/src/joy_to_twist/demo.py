@@ -1,10 +1,11 @@
-"""Starts launch_bag.launch after a look at what it is given; on demand for a while only.
+"""Starts launch_bag.launch, ends it, and tells what was driven.
 
-The look finds what roslaunch would report badly or not at all: an argument that does not exist, a
-bag that cannot be played, a port taken by another program.
+A look beforehand finds what roslaunch would report badly or not at all: an argument that does not
+exist, a bag that cannot be played, a port taken by another program.
 """
 
 import argparse
+import contextlib
 import math
 import os
 import signal
@@ -18,6 +19,7 @@ import rosbag
 import rosgraph
 import roslaunch
 import roslaunch.arg_dump
+import rosnode
 import rospkg
 import rospy
 from nav_msgs.msg import Odometry
@@ -27,7 +29,10 @@ from joy_to_twist.drive_report import DriveReport
 
 MASTER_TIMEOUT_S = 3.0  # a master on this machine answers within milliseconds
 START_TIMEOUT_S = 60.0  # until the first odometry, on a slow and busy machine
-END_TIMEOUT_S = 20.0  # roslaunch itself ends stubborn nodes after 15 s
+COMPLETE_TIMEOUT_S = 3.0  # for a launch that is ended while it starts
+END_TIMEOUT_S = 30.0  # roslaunch itself kills stubborn nodes after 17 s
+# What ends the demonstration: Ctrl-C, kill, a terminal that is closed.
+ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
 class DemoError(Exception):
@@ -59,7 +64,7 @@ def parse(argv):
 
 
 def check_arguments(launch_file, arguments):
-    """Return the launch arguments as a dict, the defaults included.
+    """Return the launch arguments as a dict, the defaults included, and the names of the nodes.
 
     Raises DemoError for one that is not NAME:=VALUE, is unknown, or has a value that does not do.
     """
@@ -72,10 +77,12 @@ def check_arguments(launch_file, arguments):
             raise DemoError(f"{argument}: not an argument of launch_bag.launch, which has {names}")
         values[name] = value
     try:
-        roslaunch.config.load_config_default([(launch_file, arguments)], None, verbose=False)
+        config = roslaunch.config.load_config_default(
+            [(launch_file, arguments)], None, verbose=False
+        )
     except (roslaunch.RLException, rospkg.ResourceNotFound, ValueError) as error:
         raise DemoError(f"{' '.join(arguments)}: {str(error).splitlines()[0]}") from error
-    return values
+    return values, config.resolved_node_names
 
 
 def check_bag(path):
@@ -128,46 +135,70 @@ def master_answers(uri):
     return code == 1
 
 
-def wait(launch, until, happened=lambda: False):
-    """Wait for something to happen, or until a time [s] of the monotonic clock.
+class Launch:
+    """A launch that runs, with a DriveReport of it; leaving the context ends it as Ctrl-C does."""
 
-    Raises DemoError if the launch ends meanwhile.
-    """
-    while time.monotonic() < until and not happened():
-        if launch.poll() is not None:
-            raise DemoError("the launch ended by itself; its messages above say why")
-        time.sleep(0.02)
+    def __init__(self, command, nodes):
+        """command: of roslaunch; nodes: the names of the nodes that it starts."""
+        self.report = DriveReport(("/joy", "/cmd_vel", "/odom"))
+        self._nodes = set(nodes)
+        # In a session of its own: Ctrl-C in a terminal must not reach it before it is complete.
+        self._process = subprocess.Popen(command, start_new_session=True)
 
+    def __enter__(self):
+        return self
 
-def drive(command, duration_s):
-    """Run a launch command for a time; return its DriveReport.
+    def __exit__(self, *_):
+        for number in ENDING:
+            signal.signal(number, signal.SIG_IGN)  # an impatient user must not leave nodes behind
+        # A roslaunch that is interrupted while it still starts nodes leaves its master behind.
+        with contextlib.suppress(DemoError):
+            self.wait(time.monotonic() + COMPLETE_TIMEOUT_S, self._is_complete)
+        if self._process.poll() is None:
+            self._process.send_signal(signal.SIGINT)
+        try:
+            self._process.wait(END_TIMEOUT_S)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
+        rospy.signal_shutdown("the demonstration is over")
 
-    Raises DemoError if it ends by itself, or shows no odometry within START_TIMEOUT_S.
-    """
-    report = DriveReport(("/joy", "/cmd_vel", "/odom"))
+    def _is_complete(self):
+        try:
+            return self._nodes <= set(rosnode.get_node_names())
+        except rosnode.ROSNodeIOException:
+            return False  # no master yet
 
-    def on_odometry(message):
-        pose = message.pose.pose
-        report.count("/odom")
-        report.add_pose(pose.position.x, pose.position.y, pose.orientation.z, pose.orientation.w)
+    def wait(self, until, happened=lambda: False):
+        """Wait for something to happen, or until a time [s] of the monotonic clock.
 
-    launch = subprocess.Popen(command)
-    try:
+        Raises DemoError if the launch ends meanwhile.
+        """
+        while time.monotonic() < until and not happened():
+            if self._process.poll() is not None:
+                raise DemoError("the launch ended by itself; its messages above say why")
+            time.sleep(0.02)
+
+    def watch(self, duration_s):
+        """Count what runs on the topics for a time, from the first odometry on."""
         deadline = time.monotonic() + START_TIMEOUT_S
-        wait(launch, deadline, rosgraph.is_master_online)
+        self.wait(deadline, rosgraph.is_master_online)
         rospy.init_node("demo", anonymous=True, disable_signals=True, log_level=rospy.ERROR)
-        rospy.Subscriber("/odom", Odometry, on_odometry)
+        rospy.Subscriber("/odom", Odometry, self._on_odometry)
         for topic in ("/joy", "/cmd_vel"):
-            rospy.Subscriber(topic, AnyMsg, lambda _, topic=topic: report.count(topic))
-        wait(launch, deadline, lambda: report.pose is not None)
-        if report.pose is None:
+            rospy.Subscriber(topic, AnyMsg, lambda _, topic=topic: self.report.count(topic))
+        self.wait(deadline, lambda: self.report.pose is not None)
+        if self.report.pose is None:
             raise DemoError(f"no /odom within {START_TIMEOUT_S:.0f} s")
         print(f"demo: first /odom after {age_of_this_process():.1f} s", flush=True)
-        wait(launch, time.monotonic() + duration_s)
-    finally:
-        stop(launch)
-        rospy.signal_shutdown("the demonstration is over")
-    return report
+        self.wait(time.monotonic() + duration_s)
+
+    def _on_odometry(self, message):
+        pose = message.pose.pose
+        self.report.count("/odom")
+        self.report.add_pose(
+            pose.position.x, pose.position.y, pose.orientation.z, pose.orientation.w
+        )
 
 
 def age_of_this_process():
@@ -177,36 +208,24 @@ def age_of_this_process():
         return float(uptime.read().split()[0]) - started / os.sysconf("SC_CLK_TCK")
 
 
-def stop(launch):
-    """End a launch as Ctrl-C does, and wait until it is gone."""
-    if launch.poll() is None:
-        launch.send_signal(signal.SIGINT)
-    try:
-        launch.wait(END_TIMEOUT_S)
-    except subprocess.TimeoutExpired:
-        launch.kill()
-        launch.wait()
-
-
 def main():
     """Check, then launch; exit code 0 if it ran and, with --for, if the robot moved."""
-    for number in (signal.SIGINT, signal.SIGTERM):  # either ends the launch with this process
+    for number in ENDING:
         signal.signal(number, signal.default_int_handler)
     options = parse(sys.argv[1:])
     try:
         launch_file = f"{rospkg.RosPack().get_path('joy2twist')}/launch/launch_bag.launch"
-        values = check_arguments(launch_file, options.arguments)
+        values, nodes = check_arguments(launch_file, options.arguments)
         # rosbag plays in a folder of its own, so a relative path would not be found there.
         bag = Path(values["bag"]).expanduser().absolute()
         check_bag(bag)
         check_master()
         command = ["roslaunch", launch_file, *options.arguments, f"bag:={bag}"]
-        if options.duration_s is None:
-            os.execvp(command[0], command)
-        report = drive(command, options.duration_s)
+        with Launch(command, nodes) as launch:
+            launch.watch(math.inf if options.duration_s is None else options.duration_s)
     except DemoError as error:
         sys.exit(f"demo: {error}")
     except KeyboardInterrupt:
-        sys.exit(130)
-    print(f"demo: {report.line(options.duration_s)}")
-    sys.exit(not report.moved)
+        sys.exit(130 if options.duration_s else 0)  # without a time, this is how it ends
+    print(f"demo: {launch.report.line(options.duration_s)}")
+    sys.exit(not launch.report.moved)
