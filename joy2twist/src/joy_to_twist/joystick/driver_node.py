@@ -1,5 +1,6 @@
 """The ROS node joy_node: a gamepad in, joy (sensor_msgs/Joy) out."""
 
+import threading
 from time import monotonic
 
 import diagnostic_updater
@@ -47,7 +48,18 @@ class JoyNode:
         self.diagnostics.setHardwareID("none")
         self.diagnostics.add("Joystick Driver Status", self.diagnose)
 
-    def spin(self):
+    def run(self):
+        """Work until the node is shut down; an error shuts it down."""
+        try:
+            self.serve()
+        except rospy.ROSException:
+            # A shutdown in the middle of a cycle closes the topic under the publisher's hands.
+            if not rospy.is_shutdown():
+                raise
+        finally:
+            rospy.signal_shutdown("the driver has ended")
+
+    def serve(self):
         """Open the gamepad, publish what it says, and again if it is lost, until shut down."""
         while not rospy.is_shutdown():
             device = self.wait_for_gamepad()
@@ -128,9 +140,7 @@ def main():
         parameters = load(given_parameters(NODE_NAME))
     except (StartError, ValueError) as error:
         raise SystemExit(f"{NODE_NAME}: {error}") from None
-    try:
-        JoyNode(parameters).spin()
-    except rospy.ROSException:
-        # The topic is closed under the publisher's hands by a shutdown in the middle of a cycle.
-        if not rospy.is_shutdown():
-            raise
+    node = JoyNode(parameters)
+    # Not in the main thread, where Ctrl-C might find rospy asking the master and wait for itself.
+    threading.Thread(target=node.run, daemon=True).start()
+    rospy.spin()
