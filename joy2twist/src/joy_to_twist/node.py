@@ -1,6 +1,5 @@
 """The ROS node: joy (sensor_msgs/Joy) in, cmd_vel (geometry_msgs/Twist) out."""
 
-import atexit
 import gc
 import os
 import threading
