@@ -32,6 +32,7 @@ LEFT_OUT = {
     "roscore": "runs already: this test has one for every section",
     "./tutorial demo": "test_tutorial.py and docker/check_bare_machine run it",
     "./tutorial test": "is what runs this",
+    "roslaunch joy2twist launch_joy_node.launch virtual:=true": "needs the keys of a terminal",
     "docker ": "needs an engine; docker/check_bare_machine builds the Dockerfile without one",
 }
 
