@@ -45,7 +45,8 @@ def sections():
         for block in re.findall(r"^```bash\n(.*?)^```", body, re.MULTILINE | re.DOTALL):
             lines = [re.sub(r"\s+# .*", "", line).strip() for line in block.splitlines()]
             blocks.append([line for line in lines if line and not line.startswith(tuple(LEFT_OUT))])
-        if any(blocks):
+        blocks = [block for block in blocks if block]
+        if blocks:
             yield pytest.param(blocks, id=heading)
 
 
