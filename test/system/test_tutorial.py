@@ -32,7 +32,7 @@ def refuse(*command):
     ("arguments", "expected"),
     [
         (["frobnicate"], 'tutorial: "frobnicate" is not a word'),
-        (["test", "everything"], 'test: "everything" is not unit, ros or system'),
+        (["test", "everything"], 'test: "everything" is not unit, ros, system or kernel'),
         (["setup", "moon"], 'setup: "moon" is not system or workspace'),
         (["bench", "moon"], 'bench: "moon" has no folder'),
         (["run"], "run: a command is missing"),
