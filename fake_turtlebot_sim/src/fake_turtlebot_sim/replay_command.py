@@ -155,7 +155,8 @@ def velocity_of_joy():
         try:
             velocity = mapping.velocity(joy.axes, joy.buttons)
         except ValueError:
-            return None
+            velocity = None
+        # What joy2twist does with a message that it cannot use, or with a released dead-man: stop.
         return (velocity[0], velocity[5]) if velocity else (0.0, 0.0)
 
     return to_velocity
