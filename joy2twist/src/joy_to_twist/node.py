@@ -13,11 +13,13 @@ from joy_to_twist.console import Console
 from joy_to_twist.ending import end_on_signals
 from joy_to_twist.lean_joy import LeanJoy
 from joy_to_twist.limits import ZERO
-from joy_to_twist.start import NODE_NAME, StartError, checked_parameters
+from joy_to_twist.parameters import load
+from joy_to_twist.start import StartError, checked_parameters
 from joy_to_twist.teleoperation import Teleoperation
 from joy_to_twist.throttle import Throttle
 from joy_to_twist.velocity_publisher import VelocityPublisher
 
+NODE_NAME = "NewJoy2Twist"
 # How soon it is noticed that the joystick node has left [s].
 LOOK_ROUND_S = 0.25
 # A zero reaches every subscriber that reads well within this time [s]; exiting at once may lose it.
@@ -132,7 +134,7 @@ class NewJoy2Twist:
 def main():
     """Run the node until it is stopped; exit code 1 and one line if it cannot start."""
     try:
-        parameters = checked_parameters()
+        parameters = checked_parameters(NODE_NAME, load)
     except StartError as error:
         raise SystemExit(f"joy2twist: {error}") from None
     end_on_signals()

@@ -1,29 +1,26 @@
-"""What is checked before the node starts: the master and the private parameters."""
+"""What is checked before a node starts: the master and the private parameters."""
 
 import sys
 
 import rosgraph
 import rospy
 
-from joy_to_twist.parameters import load
-
-NODE_NAME = "NewJoy2Twist"
-
 
 class StartError(Exception):
     """The node cannot start; the text says in one line why and what to do."""
 
 
-def checked_parameters():
-    """The private parameters (parameters.Parameters) from the master and the command line.
+def checked_parameters(node_name, load):
+    """What load() makes of the private parameters, those of the master and the command line.
 
     Before rospy.init_node(): that would first end a node of the same name that runs well, and put
     a wrong parameter of the command line on the parameter server, where it would stay.
 
+    node_name: unless __name:= is given. load: takes a dict and raises ValueError with one line.
     Raises StartError.
     """
     name = rosgraph.names.ns_join(
-        rosgraph.names.get_ros_namespace(), rospy.names.get_mappings().get("__name", NODE_NAME)
+        rosgraph.names.get_ros_namespace(), rospy.names.get_mappings().get("__name", node_name)
     )
     try:
         online = rosgraph.is_master_online()

@@ -1,6 +1,5 @@
 """The ROS node joy_node: a gamepad in, joy (sensor_msgs/Joy) out."""
 
-import threading
 from time import monotonic
 
 import diagnostic_updater
@@ -8,15 +7,15 @@ import rospy
 from diagnostic_msgs.msg import DiagnosticStatus
 from sensor_msgs.msg import Joy
 
+from joy_to_twist.ending import end_on_signals
 from joy_to_twist.joystick.device import Finder
 from joy_to_twist.joystick.device_choice import DeviceError
 from joy_to_twist.joystick.driver import Driver
 from joy_to_twist.joystick.driver_parameters import load
 from joy_to_twist.joystick.driver_report import DriverReport
 from joy_to_twist.joystick.gamepads import mode_hint
-from joy_to_twist.joystick.private_parameters import given_parameters
 from joy_to_twist.joystick.wake import AppearanceWatch, Wake
-from joy_to_twist.start import StartError
+from joy_to_twist.start import StartError, checked_parameters
 
 NODE_NAME = "joy_node"
 QUEUE_SIZE = 100  # a press and its release must both arrive
@@ -35,7 +34,7 @@ class JoyNode:
 
     def __init__(self, parameters):
         """parameters: driver_parameters.DriverParameters."""
-        rospy.init_node(NODE_NAME)
+        rospy.init_node(NODE_NAME, disable_signals=True)
         self.wake = Wake()
         rospy.on_shutdown(self.wake.wake)
         self.driver = Driver(parameters)
@@ -49,17 +48,6 @@ class JoyNode:
         self.diagnostics.add("Joystick Driver Status", self.diagnose)
 
     def run(self):
-        """Work until the node is shut down; an error shuts it down."""
-        try:
-            self.serve()
-        except rospy.ROSException:
-            # A shutdown in the middle of a cycle closes the topic under the publisher's hands.
-            if not rospy.is_shutdown():
-                raise
-        finally:
-            rospy.signal_shutdown("the driver has ended")
-
-    def serve(self):
         """Open the gamepad, publish what it says, and again if it is lost, until shut down."""
         while not rospy.is_shutdown():
             device = self.wait_for_gamepad()
@@ -137,10 +125,13 @@ class JoyNode:
 def main():
     """Run the node until it is stopped; exit code 1 and one line if it cannot start."""
     try:
-        parameters = load(given_parameters(NODE_NAME))
-    except (StartError, ValueError) as error:
+        parameters = checked_parameters(NODE_NAME, load)
+    except StartError as error:
         raise SystemExit(f"{NODE_NAME}: {error}") from None
-    node = JoyNode(parameters)
-    # Not in the main thread, where Ctrl-C might find rospy asking the master and wait for itself.
-    threading.Thread(target=node.run, daemon=True).start()
-    rospy.spin()
+    end_on_signals()
+    try:
+        JoyNode(parameters).run()
+    except rospy.ROSException:
+        # A shutdown in the middle of the start, or one that closes the topic while it is published.
+        if not rospy.is_shutdown():
+            raise
