@@ -44,7 +44,7 @@ class RawReader:
 
     def __init__(self):
         self.axes, self.buttons = {}, {}
-        # When the kernel told this reader that the gamepad is gone [s]; the driver may hear it first.
+        # When the kernel told this reader that the gamepad is gone [s]; others may hear it first.
         self.lost_at = None
         self._file = DEVICE.open("rb", buffering=0)
         threading.Thread(target=self._read, daemon=True).start()

@@ -1,8 +1,10 @@
 """The virtual gamepad without a kernel: keys, moves and recordings in, axes and buttons out."""
 
 import math
+from pathlib import Path
 
 import pytest
+import yaml
 from joy_to_twist.joystick.controls import Controls, positions
 from joy_to_twist.joystick.gamepads import F710, F710_D, F710_X, mode_hint, trigger_axes
 from joy_to_twist.joystick.keyboard import FIRST_HOLD_S, REPEAT_HOLD_S, Keyboard
@@ -204,3 +206,11 @@ def test_a_recording_that_does_not_fit_is_refused(recorded, line):
     with pytest.raises(ValueError) as error:
         recording_source(F710_D, recorded, loop=False)
     assert str(error.value).startswith(line)
+
+
+def test_the_scripts_that_come_along_can_be_read():
+    folder = Path(__file__).resolve().parents[3] / "joy2twist" / "config" / "virtual_joystick"
+    scripts = sorted(folder.glob("*.yaml"))
+    assert scripts
+    for path in scripts:
+        assert load_script(yaml.safe_load(path.read_text(encoding="utf-8"))).moves

@@ -133,5 +133,6 @@ def main():
         JoyNode(parameters).run()
     except rospy.ROSException:
         # A shutdown in the middle of the start, or one that closes the topic while it is published.
-        if not rospy.is_shutdown():
+        # is_shutdown() becomes true only after the topics are closed.
+        if not rospy.core.is_shutdown_requested():
             raise

@@ -103,9 +103,10 @@ def play(pad, source, keyboard, terminal):
 
 def wait_for_reader(pad, gamepad):
     """A script must not begin before somebody reads."""
+    pad.show(positions(gamepad, Controls()))
     while not pad.connected:
-        pad.show(positions(gamepad, Controls()))
         wait(pad, None, math.inf)
+        pad.show(positions(gamepad, Controls()))
 
 
 def wait(pad, terminal, until):
