@@ -143,7 +143,7 @@ class DriverTest(unittest.TestCase):
         self.refuse(driver("/dev/js", "deadzon:=0.1"), "joy_node: There is no parameter ~deadzon")
         self.refuse(
             Program("rosrun", "joy2twist", "joy_node", ROS_MASTER_URI="http://localhost:1"),
-            "joy_node: no ROS master answers at http://localhost:1",
+            "joy_node: no ROS master at http://localhost:1",
         )
 
 

@@ -126,6 +126,7 @@ def main():
         FakeTurtlebot(parameters).spin()
     except rospy.ROSException:
         # A shutdown in the middle of the start, or one that closes a topic while it is published.
-        if not rospy.is_shutdown():
+        # is_shutdown() becomes true only after the topics are closed.
+        if not rospy.core.is_shutdown_requested():
             raise
     return 0

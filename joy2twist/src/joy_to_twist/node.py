@@ -143,5 +143,5 @@ def main():
         gc.freeze()  # what is there now stays: the garbage collector need not look at it again
         rospy.spin()
     except rospy.ROSException:
-        if not rospy.is_shutdown():  # in the middle of the start
+        if not rospy.core.is_shutdown_requested():
             raise

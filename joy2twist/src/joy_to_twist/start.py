@@ -28,7 +28,7 @@ def checked_parameters(node_name, load):
         online = False
     if not online:
         raise StartError(
-            f"no ROS master answers at {rosgraph.get_master_uri()}: "
+            f"no ROS master at {rosgraph.get_master_uri()}: "
             "start roscore first, or set ROS_MASTER_URI to where it runs."
         )
     try:
@@ -37,7 +37,7 @@ def checked_parameters(node_name, load):
             _set(given, key.split("/"), value)
         return load(given)
     except ValueError as error:
-        raise StartError(f"{error} (rosparam get {name} shows what is set.)") from None
+        raise StartError(error) from None
     except rospy.ROSException as error:
         raise StartError(" ".join(str(error).split())) from None
 
