@@ -37,7 +37,7 @@ def checked_parameters(node_name, load):
             _set(given, key.split("/"), value)
         return load(given)
     except ValueError as error:
-        raise StartError(error) from None
+        raise StartError(f"{error} (~ stands for {name}/)") from None
     except rospy.ROSException as error:
         raise StartError(" ".join(str(error).split())) from None
 
