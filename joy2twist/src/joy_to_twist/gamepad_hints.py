@@ -42,11 +42,11 @@ class GamepadHints:
     def _swap_hint(self, axes):
         if any(abs(axes[index]) > NEUTRAL for index in self._used if index < len(axes)):
             self._look_for_swap = False  # the stick is where it should be
-        # The D-pad gives only -1, 0 and 1; a stick passes through what lies between.
-        elif any(NEUTRAL < abs(axes[index]) < 1 - NEUTRAL for index in SWAPPED_STICK):
+        # A D-pad moves these axes too, and the swapped stick gives no more than it: -1, 0 and 1.
+        elif any(abs(axes[index]) > NEUTRAL for index in SWAPPED_STICK):
             self._look_for_swap = False
             return (
-                "Only axes 4 and 5 move: if this is a Logitech F710, "
+                "Only axes 4 and 5 move: if that was the left stick of a Logitech F710, "
                 "press MODE so that its LED goes off."
             )
         return None

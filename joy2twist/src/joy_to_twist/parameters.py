@@ -50,7 +50,7 @@ def _is_scale(value):
     return _is_number(value) and abs(value) <= LARGEST_SCALE
 
 
-def _number(default, low, high, allowed):
+def number(default, low, high, allowed):
     """A number from low to high, both included."""
     return field(
         default=default,
@@ -63,7 +63,7 @@ def _index(default, allowed):
     return field(default=default, metadata={"valid": _is_index, "allowed": allowed})
 
 
-def _flag(default):
+def flag(default):
     return field(
         default=default,
         metadata={"valid": lambda v: isinstance(v, bool), "allowed": "true or false"},
@@ -82,23 +82,23 @@ class Parameters:
     axes: Tuple[Axis, ...]
     enable_button: int = _index(-1, _BUTTON)
     enable_turbo_button: int = _index(-1, _BUTTON)
-    require_enable_button: bool = _flag(_FROM_OTHERS)
-    inverted_reverse: bool = _flag(False)
-    joy_timeout: float = _number(0.5, 0, 60, _SECONDS)
-    max_joy_age: float = _number(0.0, 0, 60, _SECONDS)
-    arm_on_neutral: bool = _flag(False)
+    require_enable_button: bool = flag(_FROM_OTHERS)
+    inverted_reverse: bool = flag(False)
+    joy_timeout: float = number(0.5, 0, 60, _SECONDS)
+    max_joy_age: float = number(0.0, 0, 60, _SECONDS)
+    arm_on_neutral: bool = flag(False)
     stop_messages: int = field(
         default=5,
         metadata={"valid": lambda v: _is_whole(v) and 1 <= v <= 100, "allowed": "from 1 to 100"},
     )
-    output_rate: float = _number(20.0, 1, 1000, "a number of Hz from 1 to 1000")
-    max_linear_speed: float = _number(0.0, 0, 1000, _LIMIT)
-    max_angular_speed: float = _number(0.0, 0, 1000, _LIMIT)
-    max_linear_acceleration: float = _number(0.0, 0, 1000, _LIMIT)
-    max_angular_acceleration: float = _number(0.0, 0, 1000, _LIMIT)
+    output_rate: float = number(20.0, 1, 1000, "a number of Hz from 1 to 1000")
+    max_linear_speed: float = number(0.0, 0, 1000, _LIMIT)
+    max_angular_speed: float = number(0.0, 0, 1000, _LIMIT)
+    max_linear_acceleration: float = number(0.0, 0, 1000, _LIMIT)
+    max_angular_acceleration: float = number(0.0, 0, 1000, _LIMIT)
     gamepad_axes: int = _index(-1, "the number of axes of the gamepad, or -1 for any")
-    log_rate: float = _number(50.0, 0, 1000, "a number of lines a second from 0 (off) to 1000")
-    diagnostic_period: float = _number(1.0, 0.1, 60, "a number of seconds from 0.1 to 60")
+    log_rate: float = number(50.0, 0, 1000, "a number of lines a second from 0 (off) to 1000")
+    diagnostic_period: float = number(1.0, 0.1, 60, "a number of seconds from 0.1 to 60")
 
 
 # The parameters that make up Parameters.axes, with their defaults.
@@ -128,16 +128,16 @@ def load(given: Dict[str, Any]) -> Parameters:
         values["require_enable_button"] = values["enable_button"] != -1
     for name, value in values.items():
         metadata = plain[name].metadata
-        _check(metadata["valid"](value), name, value, metadata["allowed"])
+        check(metadata["valid"](value), name, value, metadata["allowed"])
 
     enable, turbo = values["enable_button"], values["enable_turbo_button"]
-    _check(
+    check(
         enable == -1 or enable != turbo,
         "enable_turbo_button",
         turbo,
         "a button other than ~enable_button",
     )
-    _check(
+    check(
         not values["require_enable_button"] or max(enable, turbo) >= 0,
         "require_enable_button",
         True,
@@ -183,7 +183,7 @@ def _scales(given, parameter, names, used, otherwise=None):
         value = dict.fromkeys(names, value)
     scales = {**(otherwise or {}), **value}
     missing = [name for name in used if name not in scales]
-    _check(not missing, parameter, value, f"a map that has {', '.join(missing)} too")
+    check(not missing, parameter, value, f"a map that has {', '.join(missing)} too")
     return {name: float(scales[name]) for name in used}
 
 
@@ -193,9 +193,9 @@ def _check_each(parameter, value, names, valid, allowed):
         fits = value and all(name in names and valid(v) for name, v in value.items())
     else:
         fits = valid(value)
-    _check(fits, parameter, value, f"{allowed}, or a map from {', '.join(names)} to such")
+    check(fits, parameter, value, f"{allowed}, or a map from {', '.join(names)} to such")
 
 
-def _check(valid, parameter, value, allowed):
+def check(valid, parameter, value, allowed):
     if not valid:
         raise ValueError(f"Parameter ~{parameter} is {value!r}; allowed is {allowed}.")

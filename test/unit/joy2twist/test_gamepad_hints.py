@@ -32,8 +32,9 @@ def test_a_stick_that_moves_axes_4_and_5_is_said_once():
     assert "MODE" in hint
 
 
-def test_the_d_pad_is_not_taken_for_the_stick():
-    assert hints([six(a5=1.0), six(a4=-1.0), six(a4=1.0, a5=1.0), six()]) == []
+def test_a_swapped_stick_gives_whole_steps_as_a_d_pad_does():
+    (hint,) = hints([six(), six(a5=1.0), six(a4=-1.0), six()])
+    assert "left stick" in hint
 
 
 def test_once_the_stick_has_moved_there_is_no_hint():

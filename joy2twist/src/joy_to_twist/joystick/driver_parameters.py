@@ -6,7 +6,7 @@ is 0 there: a node that stops the robot on silence needs a held stick to be repe
 
 from dataclasses import dataclass, field, fields
 
-from joy_to_twist.parameters import _check, _flag, _number
+from joy_to_twist.parameters import check, flag, number
 
 
 def _text(default, allowed):
@@ -28,12 +28,12 @@ class DriverParameters:
     )
     dev_name: str = _text("", "the name of a gamepad, or a part of it, or nothing")
     dev_ff: str = _text("", "the path of a device, which is not used")  # upstream's, for rumble
-    deadzone: float = _number(0.05, 0, 1, "a number from 0 to 1")
-    autorepeat_rate: float = _number(20.0, 0, 1000, "a number of Hz from 0 (off) to 1000")
-    coalesce_interval: float = _number(0.001, 0, 10, "a number of seconds from 0 to 10")
-    default_trig_val: bool = _flag(False)
-    sticky_buttons: bool = _flag(False)
-    diagnostic_period: float = _number(1.0, 0.1, 60, "a number of seconds from 0.1 to 60")
+    deadzone: float = number(0.05, 0, 1, "a number from 0 to 1")
+    autorepeat_rate: float = number(20.0, 0, 1000, "a number of Hz from 0 (off) to 1000")
+    coalesce_interval: float = number(0.001, 0, 10, "a number of seconds from 0 to 10")
+    default_trig_val: bool = flag(False)
+    sticky_buttons: bool = flag(False)
+    diagnostic_period: float = number(1.0, 0.1, 60, "a number of seconds from 0.1 to 60")
 
 
 def load(given):
@@ -48,5 +48,5 @@ def load(given):
         raise ValueError(f"There is no parameter ~{unknown[0]}; the parameters are {names}.")
     for name, value in given.items():
         metadata = known[name].metadata
-        _check(metadata["valid"](value), name, value, metadata["allowed"])
+        check(metadata["valid"](value), name, value, metadata["allowed"])
     return DriverParameters(**given)
