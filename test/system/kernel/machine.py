@@ -60,7 +60,11 @@ def kernel():
     if not list(CACHE.glob("boot/vmlinuz-*")):
         _download()
     image = sorted(CACHE.glob("boot/vmlinuz-*"))[-1]
-    return image, CACHE / "lib" / "modules" / image.name.split("-", 1)[1]
+    # /lib in Debian 12's package, /usr/lib in Debian 13's.
+    trees = list(CACHE.glob(f"**/lib/modules/{image.name.split('-', 1)[1]}"))
+    if not trees:
+        raise MachineError(f"{CACHE} has no modules for {image.name}; remove it and try again")
+    return image, trees[0]
 
 
 def _download():
