@@ -71,7 +71,7 @@ def test_section(blocks, tutorial, screen, tmp_path):
     environment = {"DISPLAY": screen, "LIBGL_ALWAYS_SOFTWARE": "1", "HOME": str(tmp_path)}
     workspace = subprocess.run(
         [tutorial, "run", "sh", "-c", "dirname $CMAKE_PREFIX_PATH"],
-        check=True, capture_output=True, text=True,
+        check=True, capture_output=True, text=True, timeout=60,
     ).stdout.strip()  # fmt: skip
     environment["TUTORIAL_WORKSPACE"] = workspace  # whatever HOME is
     lasting = []

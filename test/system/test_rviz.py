@@ -94,7 +94,11 @@ def seen_from_above(folder):
 def odometry(tutorial):
     """(x, y) [m] of the next /odom."""
     done = subprocess.run(
-        [tutorial, "run", sys.executable, "-c", LOOK], capture_output=True, text=True, check=True
+        [tutorial, "run", sys.executable, "-c", LOOK],
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=60,
     )
     return tuple(map(float, done.stdout.split()))
 

@@ -172,7 +172,7 @@ def test_shell_and_run_see_the_workspace_and_no_shell_file_is_touched(tutorial, 
     (home / ".bashrc").write_text("alias mine=true\n")
     workspace = subprocess.run(
         [tutorial, "run", "sh", "-c", "dirname $CMAKE_PREFIX_PATH"],
-        check=True, capture_output=True, text=True,
+        check=True, capture_output=True, text=True, timeout=60,
     ).stdout.strip()  # fmt: skip
     shell = subprocess.run(
         [tutorial, "shell"],
