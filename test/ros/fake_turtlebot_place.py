@@ -3,7 +3,7 @@
 
 import sys
 import unittest
-from math import atan2, cos, nan, sin
+from math import cos, nan, sin
 
 import rospy
 import rostest
@@ -42,17 +42,12 @@ class PlaceTest(unittest.TestCase):
         """Drive to some place other than the origin, and let the robot come to rest."""
         self.world.command(self.robot, 0.5, 0.5)
         self.world.step(1.0)
-        self.assertNotEqual(self.pose(), (0.0, 0.0, 0.0))
-
-    def pose(self):
-        pose = self.robot.odometry[-1].pose.pose
-        yaw = 2 * atan2(pose.orientation.z, pose.orientation.w)
-        return pose.position.x, pose.position.y, yaw
+        self.assertNotEqual(self.robot.pose(), (0.0, 0.0, 0.0))
 
     def reaches(self, pose):
         def is_there():
             self.world.step()
-            return max(abs(a - b) for a, b in zip(self.pose(), pose)) < 1e-9
+            return max(abs(a - b) for a, b in zip(self.robot.pose(), pose)) < 1e-9
 
         wait_for(is_there, f"robot at {pose}")
 
@@ -68,13 +63,13 @@ class PlaceTest(unittest.TestCase):
         self.assertEqual(self.wheels(), wheels)
 
     def test_a_pose_estimate_in_another_frame_or_of_no_number_is_refused_with_a_reason(self):
-        before = self.pose()
+        before = self.robot.pose()
         self.initialpose.publish(estimate(1.0, 1.0, 1.0, frame="map"))
         wait_for(lambda: any("'map'" in line.msg for line in self.log), "warning about the frame")
         self.initialpose.publish(estimate(nan, 1.0, 1.0))
         wait_for(lambda: any("finite" in line.msg for line in self.log), "warning about the pose")
         self.world.step(0.1)
-        self.assertEqual(self.pose(), before)
+        self.assertEqual(self.robot.pose(), before)
 
     def test_reset_odometry_zeroes_pose_and_wheels(self):
         self.reset_odometry.publish()
@@ -85,7 +80,7 @@ class PlaceTest(unittest.TestCase):
         rospy.wait_for_service("/fake_turtlebot/reset", timeout=30)
         rospy.ServiceProxy("/fake_turtlebot/reset", EmptyService)()
         self.world.step()
-        self.assertEqual(self.pose(), (0.0, 0.0, 0.0))
+        self.assertEqual(self.robot.pose(), (0.0, 0.0, 0.0))
         self.assertEqual(self.wheels(), (0.0, 0.0))
 
 

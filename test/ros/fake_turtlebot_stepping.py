@@ -4,7 +4,10 @@ The test is the source of /clock, so nothing here depends on how fast the machin
 over when the odometry with its stamp has come.
 """
 
+from math import atan2
+
 import rospy
+from fake_turtlebot_sim.differential_drive import drive
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
@@ -30,6 +33,10 @@ class Robot:
 
     def position(self):
         return self.odometry[-1].pose.pose.position
+
+    def pose(self):
+        position, q = self.position(), self.odometry[-1].pose.pose.orientation
+        return position.x, position.y, 2 * atan2(q.z, q.w)
 
 
 class World:
@@ -71,19 +78,23 @@ class World:
     def command(self, robot, v, w, shown=None):
         """Send a velocity and step until the odometry shows it; return the time it arrived [ns].
 
-        Time stands still between two steps, so the arrival is the time of the step before.
+        The command and the time reach the robot in either order, so it arrives as a step begins
+        or as it ends. In the latter case the robot goes on as before to the end of the step.
         """
         robot.cmd_vel.publish(twist(v, w))
-        arrived_ns = []
+        before = []
 
         def shows():
-            arrived_ns.append(self.now_ns)
+            before.append((robot.pose(), robot.velocity()))
             self.step()
             error = [abs(a - b) for a, b in zip(robot.velocity(), shown or (v, w))]
             return max(error) < 1e-9
 
         wait_for(shows, f"odometry with the velocity {shown or (v, w)}")
-        return arrived_ns[-1]
+        pose, velocity = before[-1]
+        went_on = drive(pose, velocity, velocity, PERIOD_NS * 1e-9)
+        error = max(abs(a - b) for a, b in zip(robot.pose(), went_on))
+        return self.now_ns if error < 1e-9 else self.now_ns - PERIOD_NS
 
 
 def twist(v, w):
