@@ -1,20 +1,17 @@
 """The node: ROS on one side, simulated robots on the other, and no arithmetic in between."""
 
-import sys
-
-import rosgraph
 import rospy
 from std_srvs.srv import Empty, EmptyResponse
 from tf2_msgs.msg import TFMessage
 
 from fake_turtlebot_sim.clock import PhaseLock
 from fake_turtlebot_sim.diagnostics import Diagnostics
-from fake_turtlebot_sim.ending import end_on_signals
 from fake_turtlebot_sim.parameters import parse_parameters
 from fake_turtlebot_sim.prompt_publisher import PromptPublisher
 from fake_turtlebot_sim.robot_topics import RobotTopics
 from fake_turtlebot_sim.ros_clock import Motion, ros_clock
 from fake_turtlebot_sim.ros_messages import static_transform
+from fake_turtlebot_sim.start import run
 
 NODE_NAME = "fake_turtlebot"
 
@@ -95,38 +92,6 @@ class FakeTurtlebot:
         return EmptyResponse()
 
 
-def fail(line):
-    """Say why there is no node, and return its exit code."""
-    print(f"{NODE_NAME}: {line}", file=sys.stderr)
-    return 1
-
-
 def main():
     """Run the node until it is shut down; return its exit code."""
-    # Before init_node, which waits for a master without an end.
-    try:
-        if not rosgraph.is_master_online():
-            return fail(f"no ROS master at {rosgraph.get_master_uri()}: start roscore")
-    except ValueError:
-        return fail(
-            f"ROS_MASTER_URI is {rosgraph.get_master_uri()!r}:"
-            " must be an address such as http://localhost:11311"
-        )
-    end_on_signals()
-    try:
-        rospy.init_node(NODE_NAME, disable_signals=True)
-        try:
-            parameters = parse_parameters(rospy.get_param("~", {}))
-        except ValueError as error:
-            rospy.logfatal("%s", error)
-            # What the command line sets stays on the master; it would spoil the next start too.
-            for name in rospy.client.load_command_line_node_params(sys.argv):
-                rospy.delete_param(f"~{name}")
-            return 1
-        FakeTurtlebot(parameters).spin()
-    except rospy.ROSException:
-        # A shutdown in the middle of the start, or one that closes a topic while it is published.
-        # is_shutdown() becomes true only after the topics are closed.
-        if not rospy.core.is_shutdown_requested():
-            raise
-    return 0
+    return run(NODE_NAME, parse_parameters, lambda parameters: FakeTurtlebot(parameters).spin())

@@ -1,0 +1,114 @@
+"""Which of several inputs drives the robot. Reads no clock: time enters in seconds.
+
+The rule is that of yocs_cmd_vel_mux, the TurtleBot's own: of the inputs that spoke within their
+timeout the one with the highest priority is active, and its commands alone go through. A command
+goes through at once or never; none is kept for later.
+"""
+
+from dataclasses import dataclass
+from enum import Enum
+from math import inf, isfinite
+
+IDLE = "idle"  # what is active when no input is
+# Who was silent for longer in the middle of a motion must rest as long before moving the robot
+# again. The commands of an outage come within milliseconds of each other, far less than this.
+REARM_S = 0.5
+
+
+class Verdict(Enum):
+    """What becomes of a command."""
+
+    OBEYED = "goes through"
+    OUTRANKED = "an input of higher priority is active"
+    REJECTED = "a command is not a finite number; ignored"
+    LATE = (
+        "fell silent while it drove, so its commands may be late; obeyed again"
+        f" after it has sent nothing but zero for {REARM_S} s"
+    )
+
+
+@dataclass(frozen=True)
+class Input:
+    """A source of commands, with the keys of yocs_cmd_vel_mux and one of ours, rearm_on_zero."""
+
+    name: str
+    topic: str
+    timeout: float  # [s] after the last command the input is active no more
+    priority: int  # the higher wins
+    short_desc: str = ""
+    rearm_on_zero: bool = False
+
+
+class Arbiter:
+    """Decides about every command of every input."""
+
+    def __init__(self, inputs):
+        """Take the Inputs, whose names and priorities differ."""
+        self._inputs = {i.name: i for i in sorted(inputs, key=lambda i: i.priority, reverse=True)}
+        self._expiry_s = dict.fromkeys(self._inputs, -inf)
+        self._guards = {}
+        self._drives = False  # whether the last command that went through was not zero
+
+    def command(self, name, velocity, now, sender=""):
+        """Return the Verdict on a velocity (numbers, whatever their units) that came now [s].
+
+        The sender tells apart who speaks on one input, as to whether his commands may be late.
+        """
+        if not all(map(isfinite, velocity)):
+            return Verdict.REJECTED  # and the timeout runs on
+        if self._inputs[name].rearm_on_zero:
+            guard = self._guards.setdefault((name, sender), LateGuard())
+            if not guard.admits(velocity, now):
+                return Verdict.LATE  # and the timeout runs on
+        self._expiry_s[name] = now + self._inputs[name].timeout
+        if self.active(now) != name:
+            return Verdict.OUTRANKED
+        self._drives = any(velocity)
+        return Verdict.OBEYED
+
+    def active(self, now):
+        """Return the name of the active input at the time now [s], or IDLE."""
+        return next((name for name in self._inputs if now < self._expiry_s[name]), IDLE)
+
+    def must_stop(self, now):
+        """Tell, once, that all inputs have fallen silent and the last command was not zero.
+
+        A zero is due then. yocs_cmd_vel_mux sends none and leaves the stop to the base (yujin_ocs
+        issue 16), but not every base has a timeout, and for ours 0.6 s are long after an input
+        with one of 0.2 s. It is sent only once, so that it never contends with a later command.
+        """
+        must_stop = self._drives and self.active(now) == IDLE
+        self._drives = self._drives and not must_stop
+        return must_stop
+
+    def lull(self, now):
+        """Return the time [s] until the active input expires, at most the shortest timeout.
+
+        So whoever looks again after that time is late for no input, even one that starts now.
+        """
+        expiry_s = self._expiry_s.get(self.active(now), inf)
+        return min(expiry_s - now, *(i.timeout for i in self._inputs.values()))
+
+
+class LateGuard:
+    """Keeps the commands of one sender from moving the robot late.
+
+    When a network cable is pulled, TCP keeps what is sent meanwhile and delivers all of it once the
+    cable is back. A Twist has no stamp; what gives such commands away is the silence before them.
+    A zero among them must not set the rest free, hence the time of nothing but zero.
+    """
+
+    def __init__(self):
+        """Begin with a sender that rests."""
+        self._is_held = self._is_moving = False
+        self._since_s = -inf  # last command of a motion, first zero of a rest
+
+    def admits(self, velocity, now):
+        """Tell whether the velocity that came now [s] may go through; a zero always may."""
+        elapsed_s, was_moving = now - self._since_s, self._is_moving
+        self._is_moving = any(velocity)
+        if was_moving or self._is_moving:
+            self._since_s = now
+        if elapsed_s > REARM_S:
+            self._is_held = was_moving or (self._is_held and not self._is_moving)
+        return not (self._is_held and self._is_moving)
