@@ -79,18 +79,19 @@ class JoyNode:
 
     def follow(self, device):
         """Publish what an open gamepad says until it is lost or the node is shut down."""
-        rospy.loginfo("Opened joystick %s %s", device.path, device.name)
-        hint = mode_hint(device.usb_id)
-        if hint:
-            rospy.loginfo("%s", hint)
         self.message.header.frame_id = device.path
         self.driver.opened(device.triggers, device.kernel_device)
         self.report.opened(device.path, device.name)
         try:
+            # Before a line is logged: what moves until the first read, joydev tells as part of the
+            # state at opening, which does not count as touched.
+            self.take_in(device, until=monotonic())
+            rospy.loginfo("Opened joystick %s %s", device.path, device.name)
+            hint = mode_hint(device.usb_id)
+            if hint:
+                rospy.loginfo("%s", hint)
             while not rospy.is_shutdown():
-                if self.wake.wait(self.report.next_due(self.driver.due), device):
-                    self.publish(self.driver.read(device.read(), monotonic()))
-                self.publish(self.driver.tick(monotonic()))
+                self.take_in(device, self.report.next_due(self.driver.due))
                 self.report_if_due()
         except DeviceError as error:
             self.publish(self.driver.lost(monotonic()))
@@ -98,6 +99,12 @@ class JoyNode:
             rospy.logwarn("%s The sticks were released; it is looked for.", error)
         if self.driver.unknown_events:
             rospy.logwarn("%d events of unknown types came.", self.driver.unknown_events)
+
+    def take_in(self, device, until):
+        """Wait for events until a time [s] at the latest; publish what is due. DeviceError."""
+        if self.wake.wait(until, device):
+            self.publish(self.driver.read(device.read(), monotonic()))
+        self.publish(self.driver.tick(monotonic()))
 
     def publish(self, messages):
         """Publish pairs of axes and buttons."""
