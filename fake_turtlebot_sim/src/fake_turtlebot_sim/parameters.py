@@ -137,14 +137,20 @@ def _frame(name, value):
 
 
 def _robots(name, value):
-    """Check {name: [x, y, yaw]}, or a number of robots to be named and lined up."""
+    """Check {name: [x, y, yaw]}; names or a number of robots are lined up."""
     if isinstance(value, dict):
         return {_robot_name(robot): _robot_pose(robot, pose) for robot, pose in value.items()}
+    if isinstance(value, (list, tuple)) and 1 <= len(value) <= MOST_ROBOTS:
+        names = list(map(_robot_name, value))
+        for robot in names:
+            if names.count(robot) > 1:
+                raise ValueError(f"~{name}: {robot!r}: stands there twice; must be unique")
+        return line_up(names)
     if _is_number(value) and value in range(1, MOST_ROBOTS + 1):
-        return line_up(int(value))
+        return line_up([f"robot_{k + 1}" for k in range(int(value))])
     raise ValueError(
-        f"~{name}: {value!r}: must be a number from 1 to {MOST_ROBOTS}, or names with"
-        " their start poses as in {alice: [0, 0, 0], bob: [1, 0, 1.57]}"
+        f"~{name}: {value!r}: must be a number from 1 to {MOST_ROBOTS}, names as in [ada, bob], or"
+        " names with their start poses as in {ada: [0, 0, 0], bob: [1, 0, 1.57]}"
     )
 
 
@@ -162,9 +168,9 @@ def _robot_pose(robot, pose):
     return tuple(map(float, pose))
 
 
-def line_up(count):
-    """Return {name: pose} for count robots, robot_1 at the origin, rows of ten, 1 m apart."""
-    return {f"robot_{k + 1}": (float(-(k // 10)), float(-(k % 10)), 0.0) for k in range(count)}
+def line_up(names):
+    """Return {name: pose}, the first at the origin, rows of ten, 1 m apart."""
+    return {name: (float(-(k // 10)), float(-(k % 10)), 0.0) for k, name in enumerate(names)}
 
 
 _CHECKS = {float: _number, int: _whole_number, bool: _switch, str: _frame}

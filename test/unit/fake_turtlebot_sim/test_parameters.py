@@ -61,10 +61,16 @@ def test_numbers_are_held_to_their_range(name):
         ({"timeout": 1.0}, ["~timeout: 1.0", "no such parameter"]),
         ({"cmd_vel_timeuot": 1.0}, ["did you mean ~cmd_vel_timeout?"]),
         ({"colour": "red"}, ["~colour: 'red'", "allowed:", "wheel_radius"]),
-        ({"robots": 0}, ["~robots: 0", "1 to 1000", "alice"]),
+        ({"robots": 0}, ["~robots: 0", "1 to 1000", "[ada, bob]", "{ada: [0, 0, 0]"]),
         ({"robots": 1001}, ["~robots: 1001", "1 to 1000"]),
         ({"robots": True}, ["~robots: True"]),
-        ({"robots": ["alice"]}, ["~robots: ['alice']", "alice: [0, 0, 0]"]),
+        ({"robots": "ada"}, ["~robots: 'ada'", "[ada, bob]"]),
+        ({"robots": []}, ["~robots: []", "[ada, bob]"]),
+        ({"robots": ["ada"] * 1001}, ["~robots: ['ada'", "1 to 1000"]),
+        ({"robots": ["ada", "bob", "ada"]}, ["~robots: 'ada'", "twice"]),
+        ({"robots": ["ada", "2nd"]}, ["~robots: '2nd'", "letter"]),
+        ({"robots": [["ada"]]}, ["~robots: ['ada']", "letter"]),
+        ({"robots": [True]}, ["~robots: True", "letter"]),
         ({"robots": {"2nd": [0, 0, 0]}}, ["~robots: '2nd'", "letter"]),
         ({"robots": {"bob": [0, 0]}}, ["~robots/bob: [0, 0]", "[x in m, y in m, yaw in rad]"]),
         ({"robots": {"bob": [0, 0, nan]}}, ["~robots/bob: [0, 0, nan]"]),
@@ -82,10 +88,13 @@ def test_robots_by_name_and_by_number():
     assert named.start_poses() == {"alice": (0.0, 1.0, 2.0)}
     numbered = parse_parameters({"robots": 30}).start_poses()
     assert list(numbered) == [f"robot_{k}" for k in range(1, 31)]
+    listed = parse_parameters({"robots": ["ada", "bob"]}).start_poses()
+    assert list(listed) == ["ada", "bob"]
+    assert list(listed.values()) == list(numbered.values())[:2]
 
 
 def test_robots_that_are_lined_up_do_not_touch():
-    places = list(line_up(35).values())
+    places = list(line_up(range(35)).values())
     assert len(set(places)) == 35
     assert places[0] == (0.0, 0.0, 0.0)
 

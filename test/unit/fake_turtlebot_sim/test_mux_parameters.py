@@ -1,0 +1,132 @@
+"""The parameters of cmd_vel_mux: a TurtleBot's own file works, every mistake is one clear line."""
+
+import re
+from dataclasses import MISSING, fields
+from math import inf, nan
+from pathlib import Path
+
+import pytest
+import yaml
+from fake_turtlebot_sim.arbitration import Input
+from fake_turtlebot_sim.mux_parameters import MuxParameters, parse_mux_parameters
+
+import fake_turtlebot_sim
+
+PACKAGE = Path(fake_turtlebot_sim.__file__).parents[2]
+TELEOP = {"name": "teleop", "topic": "input/teleop", "timeout": 1.0, "priority": 7}
+NAVI = {"name": "navi", "topic": "input/navi", "timeout": 1.0, "priority": 5}
+
+# As in turtlebot_bringup's param/mux.yaml, which calls its inputs so.
+OF_A_TURTLEBOT = """
+subscribers:
+  - {name: "Safe reactive controller", topic: "input/safety_controller", timeout: 0.2, priority: 10}
+  - {name: "Teleoperation", topic: "input/teleop", timeout: 1.0, priority: 7}
+  - {name: "Switch", topic: "input/switch", timeout: 1.0, priority: 6}
+  - {name: "Navigation", topic: "input/navi", timeout: 1.0, priority: 5}
+  - {name: "move_base", topic: "navigation_velocity_smoother/raw_cmd_vel", timeout: 1, priority: 4}
+"""
+
+
+def with_teleop(**changes):
+    """Two inputs, the first with changes; a key that becomes None is left out."""
+    teleop = {key: value for key, value in {**TELEOP, **changes}.items() if value is not None}
+    return {"subscribers": [teleop, NAVI]}
+
+
+def test_a_turtlebots_own_file():
+    parameters = parse_mux_parameters(yaml.safe_load(OF_A_TURTLEBOT))
+    assert parameters.publisher == "output"
+    assert parameters.subscribers[1] == Input("Teleoperation", "input/teleop", 1.0, 7)
+    assert [one.timeout for one in parameters.subscribers] == [0.2, 1.0, 1.0, 1.0, 1.0]
+    assert not any(one.rearm_on_zero for one in parameters.subscribers)
+
+
+def test_the_older_one_names_its_output():
+    older = {**yaml.safe_load(OF_A_TURTLEBOT), "publisher": "commands/velocity"}
+    assert parse_mux_parameters(older).publisher == "commands/velocity"
+
+
+def test_our_own_file():
+    given = yaml.safe_load((PACKAGE / "config/cmd_vel_mux.yaml").read_text())
+    parameters = parse_mux_parameters(given)
+    assert parameters.publisher == "output"
+    assert [
+        (one.topic, one.timeout, one.priority, one.rearm_on_zero) for one in parameters.subscribers
+    ] == [
+        ("input/safety_controller", 0.2, 10, False),
+        ("input/teleop", 1.0, 7, True),
+        ("input/switch", 1.0, 6, False),
+        ("input/navi", 1.0, 5, False),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("given", "parts"),
+    [
+        ({}, ["~subscribers: missing", "input/teleop"]),
+        ({"subscribers": []}, ["~subscribers: []", "list of inputs"]),
+        ({"subscribers": "teleop"}, ["~subscribers: 'teleop'", "list of inputs"]),
+        ({"subscribers": TELEOP}, ["~subscribers: {'name': 'teleop'", "list of inputs"]),
+        ({"subscribers": ["teleop"]}, ["entry 1: 'teleop'", "must be as in"]),
+        ({"subscriber": [TELEOP]}, ["~subscriber: [", "did you mean subscribers?"]),
+        ({"subscribers": [TELEOP], "rate": 5}, ["~rate: 5", "allowed: subscribers, publisher"]),
+        ({"subscribers": [TELEOP, TELEOP]}, ["name: 'teleop'", "twice"]),
+        (with_teleop(name="navi"), ["name: 'navi'", "twice"]),
+        (with_teleop(topic="input/navi"), ["topic: 'input/navi'", "twice"]),
+        (with_teleop(priority=5), ["priority: 5", "twice"]),
+        (with_teleop(name=None), ["entry 1: name: missing"]),
+        (with_teleop(topic=None), ["entry 1: topic: missing"]),
+        (with_teleop(timeout=None), ["entry 1: timeout: missing"]),
+        (with_teleop(priority=None), ["entry 1: priority: missing"]),
+        (with_teleop(name=7), ["entry 1: name: 7", "must be a name"]),
+        (with_teleop(name=" "), ["entry 1: name: ' '", "must be a name"]),
+        (with_teleop(name="idle"), ["entry 1: name: 'idle'", "none is active"]),
+        (with_teleop(topic=7), ["entry 1: topic: 7", "name of a topic"]),
+        (with_teleop(topic="input teleop"), ["entry 1: topic: 'input teleop'"]),
+        (with_teleop(topic="~teleop"), ["entry 1: topic: '~teleop'"]),
+        (with_teleop(topic="input/"), ["entry 1: topic: 'input/'"]),
+        (with_teleop(priority=-1), ["entry 1: priority: -1", "whole number"]),
+        (with_teleop(priority=7.5), ["entry 1: priority: 7.5", "whole number"]),
+        (with_teleop(priority=True), ["entry 1: priority: True", "whole number"]),
+        (with_teleop(priority="high"), ["entry 1: priority: 'high'", "whole number"]),
+        (with_teleop(short_desc=7), ["entry 1: short_desc: 7", "text"]),
+        (with_teleop(rearm_on_zero="yes"), ["entry 1: rearm_on_zero: 'yes'", "true or false"]),
+        (with_teleop(rearm_on_zero=1), ["entry 1: rearm_on_zero: 1", "true or false"]),
+        (with_teleop(time_out=1.0), ["entry 1: time_out: 1.0", "did you mean timeout?"]),
+        (with_teleop(colour="red"), ["entry 1: colour: 'red'", "allowed: name, topic, timeout"]),
+        ({"subscribers": [TELEOP], "publisher": ""}, ["~publisher: ''", "name of a topic"]),
+        ({"subscribers": [TELEOP], "publisher": 7}, ["~publisher: 7", "name of a topic"]),
+        (
+            {"subscribers": [TELEOP], "publisher": "input/teleop"},
+            ["~publisher: 'input/teleop'", "topic of an input"],
+        ),
+        *(
+            (with_teleop(timeout=bad), [f"entry 1: timeout: {bad!r}", "from 0.02 to 60 s"])
+            for bad in (-1.0, 0, 0.01, 61, nan, inf, "1.0", True, [1.0])
+        ),
+    ],
+)
+def test_a_mistake_is_named_with_its_value_and_what_is_allowed(given, parts):
+    with pytest.raises(ValueError) as caught:
+        parse_mux_parameters(given)
+    message = str(caught.value)
+    assert message.startswith("~")
+    assert "\n" not in message
+    for part in parts:
+        assert part in message
+
+
+def test_the_number_of_the_entry_is_told():
+    bad = {**NAVI, "timeout": -1}
+    with pytest.raises(ValueError, match="entry 2: timeout: -1"):
+        parse_mux_parameters({"subscribers": [TELEOP, bad]})
+
+
+def test_the_readme_tells_all_keys_with_their_defaults():
+    readme = (PACKAGE / "README.md").read_text()
+    for kind, prefix in ((MuxParameters, "~"), (Input, "")):
+        for field in fields(kind):
+            default = {MISSING: "", False: "false"}.get(field.default, field.default)
+            line = re.search(rf"^\| `{prefix}{field.name}` \|([^|]*)\|", readme, re.MULTILINE)
+            assert line, field.name
+            assert line[1].strip() == default, field.name
