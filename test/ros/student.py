@@ -23,8 +23,7 @@ from waiting import wait_for
 ROBOTS = [f"robot_{number}" for number in range(1, 31)]
 DRIVEN = ROBOTS[:10]
 LONGEST_S = 240.0  # the recording takes 55 s, thirty programs on a busy machine as long to start
-# A velocity that comes 20 ms late by chance, at some of 3000 changes of at most 0.01 m/s or 0.04
-# rad/s each: the way there and back averages it out. Measured: 0.02 m.
+# Velocities that come late on a busy machine bend the path a little. Measured: 0.01 m.
 TOLERANCE_M = 0.1
 STATE_BYTES = 8 * 2 * (7 + 36) - 8  # pose, velocity and their covariances: the end of an Odometry
 PACKAGE = Path(rospkg.RosPack().get_path("joy2twist"))
@@ -93,18 +92,14 @@ class StudentTest(unittest.TestCase):
         asked = replay()
         length_m = sum(abs(after - before) for before, after in zip(asked, asked[1:]))
         self.assertGreater(length_m, 1.0)
-        ends = []
         for name, odometry in driven.items():
             start, direction = place(odometry[0])
             path = [(place(o)[0] - start) / direction for o in odometry[::5]]
-            ends.append((place(odometry[-1])[0] - start) / direction)
+            end = (place(odometry[-1])[0] - start) / direction
             off_m = max(min(abs(place - near) for near in asked[::5]) for place in path)
             missed_m = max(min(abs(near - place) for place in path) for near in asked[::50])
-            print(
-                f"{name}: off {off_m:.3f} m, {missed_m:.3f} m, end {abs(ends[-1] - asked[-1]):.3f} m"
-            )
             self.assertLess(max(off_m, missed_m), TOLERANCE_M, name)
-            self.assertLess(abs(ends[-1] - asked[-1]), TOLERANCE_M, name)
+            self.assertLess(abs(end - asked[-1]), TOLERANCE_M, name)
             twist = odometry[-1].twist.twist
             self.assertEqual((twist.linear.x, twist.angular.z), (0.0, 0.0))
 
