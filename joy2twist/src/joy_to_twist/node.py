@@ -3,7 +3,7 @@
 import gc
 import os
 import threading
-from time import monotonic
+from time import monotonic, time_ns
 
 import diagnostic_updater
 import rospy
@@ -28,6 +28,8 @@ DELIVERY_TIME_S = 0.1
 LONGEST_GOODBYE_S = 0.8
 # Joy messages read at once, at most: all of a burst, but never a long backlog.
 LONGEST_BURST = 100
+# Room for some tens of them. Python makes that room anew for every message.
+READ_BYTES = 4096
 
 
 class NewJoy2Twist:
@@ -57,6 +59,8 @@ class NewJoy2Twist:
         for line in self.teleoperation.describe():
             self.console.info(line)
         self.uses_age = parameters.max_joy_age > 0
+        # ROS time [ns]; without simulated time read the short way, as it is for every message.
+        self.read_clock_ns = time_ns if rospy.rostime.is_wallclock() else simulated_time_ns
         self.lock = threading.Lock()  # one velocity at a time, and none after the last zero
         self.stopped = threading.Event()
 
@@ -67,14 +71,19 @@ class NewJoy2Twist:
         self.diagnostics.add("joystick", self.diagnose)
         self.may_diagnose = Throttle(1.0 / parameters.diagnostic_period)
         self.joy = rospy.Subscriber(
-            "joy", LeanJoy, self.callback, queue_size=LONGEST_BURST, tcp_nodelay=True
+            "joy",
+            LeanJoy,
+            self.callback,
+            queue_size=LONGEST_BURST,
+            buff_size=READ_BYTES,
+            tcp_nodelay=True,
         )
         threading.Thread(target=self.watch, daemon=True).start()
 
     def callback(self, joy):
         """Publish the velocity first, because displaying takes longer; then display the axes."""
         now = monotonic()
-        age_ns = rospy.Time.now().to_nsec() - joy.stamp_ns if self.uses_age else 0
+        age_ns = self.read_clock_ns() - joy.stamp_ns if self.uses_age else 0
         with self.lock:
             self.publish(self.teleoperation.joy(joy.axes, joy.buttons, now, age_ns))
         self.console.display(joy.axes, now)
@@ -129,6 +138,11 @@ class NewJoy2Twist:
         self.console.goodbye("Stopping the node ...")
         # Not rospy.sleep: in simulated time without a clock it never returns.
         threading.Event().wait(DELIVERY_TIME_S)
+
+
+def simulated_time_ns():
+    """What /clock says [ns]."""
+    return rospy.Time.now().to_nsec()
 
 
 def main():
