@@ -5,6 +5,7 @@ Starts its own master. Prints what it finds in lines that begin with "drive: ", 
 """
 
 import math
+import os
 import platform
 import struct
 import sys
@@ -207,7 +208,8 @@ def check_unplugged(pad, raw, launch, robot):
 def main():
     tell(f"Linux {platform.release()}, {platform.machine()}")
     with UinputPad(F710_D) as pad:
-        wait_for(DEVICE.exists, f"{DEVICE}", DEADLINE_S)
+        # udev gives the right to read it a little later.
+        wait_for(lambda: os.access(DEVICE, os.R_OK), f"{DEVICE} to be read", DEADLINE_S)
         raw = RawReader()
         with Program("roslaunch", "joy2twist", "launch_joy_node.launch", "rviz:=false") as launch:
             wait_for(lambda: "Opened joystick" in launch.output, "driver", DEADLINE_S)

@@ -43,6 +43,18 @@ $b sleep 60
 """
 
 
+def makes_joysticks(root=Path("/")):
+    """Whether the kernel of this machine makes joysticks for this user, and has none so far.
+
+    One that is plugged in would be taken for the virtual one. root: where its files are.
+    """
+    return (
+        os.access(root / "dev/uinput", os.W_OK)
+        and (root / "sys/module/joydev").exists()
+        and not (root / "dev/input/js0").exists()
+    )
+
+
 class MachineError(Exception):
     """There can be no such machine here; the text says in one line why."""
 
