@@ -7,6 +7,11 @@ import threading
 # Room for some messages on their way [bytes; the kernel doubles it]. More room would only keep
 # more old velocities for a subscriber that has stopped reading.
 SEND_BUFFER_BYTES = 8192
+# Linux resends what is not acknowledged after 0.2 s or more, then after twice that, and so on. A
+# packet lost on a radio link is resent once; a second time means that nobody has answered for some
+# 0.6 s, as long as a TurtleBot obeys a velocity.
+CUT_AFTER_RESENDS = 2
+_RESENDS_AT = 2  # tcpi_retransmits in struct tcp_info of linux/tcp.h, a byte
 
 
 class NewestOnly:
@@ -15,22 +20,43 @@ class NewestOnly:
     What the kernel does not take is kept, and of several such messages only the newest: an old
     velocity is worth nothing. A thread that lives only as long as the other side is behind sends
     it later. A message that has begun is always finished before the next one.
+
+    When the network is cut, the kernel keeps what it has taken and delivers it when the network is
+    back, all at once. So that this ends with a stop, a cut connection gets a last stop and then
+    nothing; once it is whole again, nothing before the next stop.
     """
 
-    def __init__(self, connected_socket):
-        """connected_socket: a TCP socket, on which nobody else sends."""
+    def __init__(self, connected_socket, stop, tell=lambda is_cut: None):
+        """connected_socket: a TCP socket, on which nobody else sends. stop: the message to stop.
+
+        tell: called with True when the connection is cut, with False when it is in use again.
+        """
         self._socket = connected_socket
+        self._stop = stop
+        self._tell = tell
         self._lock = threading.Lock()
         self._behind = False  # the thread runs
         self._begun = b""  # the rest of a message of which the kernel has taken a part
         self._newest = b""  # the message to send after that
+        self._was_cut = False  # and no stop has been sent since
         # A small message goes out at once instead of waiting for the answer to the last one.
         connected_socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         connected_socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SEND_BUFFER_BYTES)
 
-    def write(self, message):
-        """Send the message (bytes), now or as soon as there is room. Raises OSError if broken."""
+    def write(self, message, stops=False):
+        """Send the message (bytes), now or as soon as there is room. Raises OSError if broken.
+
+        stops: whether the message stops the robot.
+        """
         with self._lock:
+            is_cut = resends(self._socket) >= CUT_AFTER_RESENDS
+            if self._was_cut and (is_cut or not stops):
+                return
+            if is_cut != self._was_cut:
+                self._was_cut = is_cut
+                self._tell(is_cut)
+            if is_cut:
+                message = self._stop
             if self._behind:
                 self._newest = message
                 return
@@ -70,3 +96,8 @@ class NewestOnly:
             return self._socket.send(data, socket.MSG_DONTWAIT)
         except BlockingIOError:
             return 0
+
+
+def resends(connected_socket):
+    """How often Linux has resent, in vain so far, what the other side has not acknowledged."""
+    return connected_socket.getsockopt(socket.IPPROTO_TCP, socket.TCP_INFO, _RESENDS_AT + 1)[-1]

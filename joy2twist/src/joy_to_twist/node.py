@@ -64,7 +64,7 @@ class NewJoy2Twist:
         self.lock = threading.Lock()  # one velocity at a time, and none after the last zero
         self.stopped = threading.Event()
 
-        self.cmd_vel = VelocityPublisher("cmd_vel")
+        self.cmd_vel = VelocityPublisher("cmd_vel", self.console.warn)
         rospy.on_shutdown(self.shutdown)
         self.diagnostics = diagnostic_updater.Updater()
         self.diagnostics.setHardwareID("none")

@@ -5,12 +5,14 @@ import struct
 import rospy
 from geometry_msgs.msg import Twist
 
+from joy_to_twist.limits import ZERO
 from joy_to_twist.newest_only import NewestOnly
 
 # A Twist on the wire, little-endian: the number of bytes that follow (uint32), then linear x, y, z
 # and angular x, y, z (float64). Packed here, because rospy's way takes several times as long.
 _TWIST = struct.Struct("<I6d")
 _TWIST_BYTES = _TWIST.size - 4
+_STOP = _TWIST.pack(_TWIST_BYTES, *ZERO)
 
 
 class VelocityPublisher(rospy.SubscribeListener):
@@ -22,8 +24,12 @@ class VelocityPublisher(rospy.SubscribeListener):
     subscribers, but the sending is done by NewestOnly, which never waits.
     """
 
-    def __init__(self, name):
-        """name: of the topic; relative, so that it can be remapped. Never latched."""
+    def __init__(self, name, warn):
+        """name: of the topic; relative, so that it can be remapped. Never latched.
+
+        warn: called with a line when a subscriber cannot be reached, and when it is told again.
+        """
+        self._warn = warn
         self._peers = {}  # rospy's connection -> NewestOnly
         self._publisher = rospy.Publisher(name, Twist, queue_size=1, latch=False)
         self._publisher.impl.set_queue_size(None)  # no thread for each subscriber
@@ -33,9 +39,10 @@ class VelocityPublisher(rospy.SubscribeListener):
     def publish(self, velocity):
         """Send a velocity: linear x, y, z [m/s] and angular x, y, z [rad/s], frame of the base."""
         message = _TWIST.pack(_TWIST_BYTES, *velocity)
+        stops = velocity == ZERO
         for connection, peer in self._peers.items():
             try:
-                peer.write(message)
+                peer.write(message, stops)
             except OSError:
                 connection.close()  # rospy takes it off its list and calls peer_unsubscribe()
 
@@ -50,7 +57,18 @@ class VelocityPublisher(rospy.SubscribeListener):
     def _update_peers(self):
         # A new dict, because publish() may be going through the old one.
         self._peers = {
-            connection: self._peers.get(connection) or NewestOnly(connection.socket)
+            connection: self._peers.get(connection) or self._peer(connection)
             for connection in self._publisher.impl.connections
             if connection.socket  # not closed meanwhile
         }
+
+    def _peer(self, connection):
+        def tell(is_cut):
+            self._warn(
+                f"The network to {connection.endpoint_id} is cut: it is told to stop, and nothing "
+                "else until it can be reached and the dead-man button and the sticks are released."
+                if is_cut
+                else f"The network to {connection.endpoint_id} is back: it can be driven again."
+            )
+
+        return NewestOnly(connection.socket, _STOP, tell)

@@ -5,10 +5,12 @@ import socket
 import threading
 
 import pytest
-from joy_to_twist.newest_only import NewestOnly
+from joy_to_twist import newest_only
+from joy_to_twist.newest_only import CUT_AFTER_RESENDS, NewestOnly
 
 SIZE = 52  # of a Twist on the wire
 DEADLINE_S = 20.0
+STOP = bytes(SIZE)
 
 
 @pytest.fixture
@@ -50,7 +52,7 @@ def numbers_until(far, last):
 
 def test_what_is_written_arrives_at_once(connection):
     near, far = connection
-    sender = NewestOnly(near)
+    sender = NewestOnly(near, STOP)
     for number in range(100):
         sender.write(message(number))
         assert far.recv(SIZE, socket.MSG_WAITALL) == message(number)
@@ -58,7 +60,7 @@ def test_what_is_written_arrives_at_once(connection):
 
 def test_a_side_that_does_not_read_gets_whole_messages_and_the_newest_one(connection):
     near, far = connection
-    sender = NewestOnly(near)
+    sender = NewestOnly(near, STOP)
     count = fill(sender, near)
     for number in range(count, count + 10_000):  # none of these waits
         sender.write(message(number))
@@ -70,7 +72,7 @@ def test_a_side_that_does_not_read_gets_whole_messages_and_the_newest_one(connec
 
 def test_afterwards_messages_arrive_at_once_again(connection):
     near, far = connection
-    sender = NewestOnly(near)
+    sender = NewestOnly(near, STOP)
     count = fill(sender, near)
     sender.write(message(count))
     numbers_until(far, count)
@@ -83,7 +85,7 @@ def test_afterwards_messages_arrive_at_once_again(connection):
 
 def test_a_side_that_has_gone_is_an_error_in_the_end(connection):
     near, far = connection
-    sender = NewestOnly(near)
+    sender = NewestOnly(near, STOP)
     fill(sender, near)
     far.close()
     with pytest.raises(OSError, match=r"."):
@@ -94,7 +96,44 @@ def test_a_side_that_has_gone_is_an_error_in_the_end(connection):
 
 def test_a_connection_closed_here_is_an_error(connection):
     near, _ = connection
-    sender = NewestOnly(near)
+    sender = NewestOnly(near, STOP)
     near.close()
     with pytest.raises(OSError, match=r"."):
         sender.write(message(0))
+
+
+# What is written at which number of resends, whether it is a stop, and what then arrives.
+CUT = [
+    (0, 1, False, [1]),
+    (1, 2, False, [2]),  # one lost packet
+    (CUT_AFTER_RESENDS, 3, False, [0]),  # cut: a last stop
+    (5, 4, False, []),
+    (6, 5, True, []),  # nobody can tell whether this one would be the last
+    (7, 6, False, []),
+    (0, 7, False, []),  # whole again, and still driving
+    (0, 8, True, [8]),  # released
+    (0, 9, False, [9]),
+    (CUT_AFTER_RESENDS, 10, True, [0]),  # cut in the middle of a stop
+    (0, 11, True, [11]),
+]
+
+
+def test_after_a_cut_nothing_is_driven_before_a_stop(connection, monkeypatch):
+    near, far = connection
+    told = []
+    sender = NewestOnly(near, STOP, told.append)
+    for resends, number, stops, arriving in CUT:
+        monkeypatch.setattr(newest_only, "resends", lambda _, count=resends: count)
+        sender.write(message(number), stops)
+        for expected in arriving:
+            data = far.recv(SIZE, socket.MSG_WAITALL)
+            assert int.from_bytes(data[:4], "little") == expected
+        assert not select.select([far], [], [], 0)[0], number
+    assert told == [True, False, True, False]
+
+
+def test_a_connection_that_works_has_no_resends(connection):
+    near, far = connection
+    near.sendall(STOP)
+    far.recv(SIZE, socket.MSG_WAITALL)
+    assert newest_only.resends(near) == 0
