@@ -1,0 +1,120 @@
+"""What the doctor has seen: plain data (pure). How it is seen is in collect.py, what it means in
+judgement.py.
+"""
+
+from dataclasses import dataclass, field
+from enum import Enum
+from typing import Dict, List, Optional, Tuple
+
+
+class Answer(Enum):
+    """What comes back from a master or a node."""
+
+    WELL = "answers"
+    MALFORMED = "is not of the form http://HOST:PORT"
+    UNKNOWN_NAME = "has a name that cannot be looked up here"
+    REFUSED = "is not there, nothing listens on its port"
+    SILENT = "does not answer"
+    STRANGE = "is something else, and not of ROS"
+
+
+@dataclass(frozen=True)
+class Node:
+    """A node as the master has it, and as it answers here.
+
+    here: whether it runs on this machine; None if its name cannot be looked up.
+    links: (topic, whether it comes in) of every connection that it has.
+    """
+
+    uri: str
+    host: str
+    answer: Answer
+    here: Optional[bool] = True
+    links: List[Tuple[str, bool]] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class Offset:
+    """How much a host's clock is ahead of ours [s], by the stamps on a topic."""
+
+    seconds: float
+    topic: str
+
+
+@dataclass(frozen=True)
+class MuxInput:
+    """An input of a multiplexer of velocities."""
+
+    name: str
+    topic: str
+    priority: float
+
+
+@dataclass(frozen=True)
+class Mux:
+    """A multiplexer: what it says is active (None: it says nothing), and its inputs, if known."""
+
+    active: Optional[str]
+    inputs: List[MuxInput] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class Joystick:
+    """A device file: why it cannot be opened (errno), or None."""
+
+    path: str
+    error: Optional[int] = None
+
+
+@dataclass(frozen=True)
+class Facts:
+    """All that was seen. The defaults are those of a machine on which all is well and idle."""
+
+    # This machine. own_variable is "ROS_IP", "ROS_HOSTNAME" or "" (neither is set).
+    master_uri: str = "http://localhost:11311"
+    master: Answer = Answer.WELL
+    master_host: str = "localhost"
+    master_here: bool = True
+    own_variable: str = ""
+    own_name: str = "localhost"  # what the nodes of this machine say where they are
+    own_addresses: List[str] = field(default_factory=lambda: ["127.0.0.1"])
+    own_is_here: bool = True  # whether that is this machine
+    way_out: str = ""  # our address on the way to the master, if it is on another machine
+    called_back: Optional[bool] = True  # whether the master reached us; None: not tried
+    joysticks: List[Joystick] = field(default_factory=list)
+    container: bool = False
+    wsl: bool = False
+    # The graph: by topic the names of nodes, and its type.
+    nodes: Dict[str, Node] = field(default_factory=dict)
+    publishers: Dict[str, List[str]] = field(default_factory=dict)
+    subscribers: Dict[str, List[str]] = field(default_factory=dict)
+    types: Dict[str, str] = field(default_factory=dict)
+    use_sim_time: bool = False
+    clock_ticks: bool = False
+    clocks: Dict[str, Optional[Offset]] = field(default_factory=dict)  # of the other hosts
+    muxes: Dict[str, Mux] = field(default_factory=dict)  # by the name of the node
+    states: Dict[str, Tuple[bool, str]] = field(default_factory=dict)  # of joy2twist: well, text
+
+    def topics(self, kind):
+        """The names of all topics of a type that are in use; the master forgets no type."""
+        used = (
+            topic
+            for topic in self.types
+            if self.publishers.get(topic) or self.subscribers.get(topic)
+        )
+        return sorted(topic for topic in used if self.types[topic] == kind)
+
+    def converters(self):
+        """{node that makes velocities of a joystick: (its joy topics, its velocity topics)}."""
+        found = {}
+        for joy in self.topics(JOY):
+            for node in self.subscribers.get(joy, []):
+                sends = [t for t in self.topics(TWIST) if node in self.publishers.get(t, [])]
+                if sends:
+                    hears, _ = found.setdefault(node, ([], sends))
+                    hears.append(joy)
+        return found
+
+
+JOY = "sensor_msgs/Joy"
+TWIST = "geometry_msgs/Twist"
