@@ -4,6 +4,7 @@ No rospy here: a node of it may wait for a master, or for a name, without an end
 """
 
 import http.client
+import itertools
 import os
 import socket
 import struct
@@ -18,6 +19,7 @@ from joy_to_twist.doctor.facts import Answer
 TIMEOUT_S = 2.0  # for each question; on one network an answer takes milliseconds
 CALLER = f"/doctor_{os.getpid()}"
 LONGEST_MESSAGE = 10_000_000  # bytes; the stamped messages looked at are far shorter
+_number = itertools.count()
 
 
 def at_once(question, things, timeout_s):
@@ -152,7 +154,13 @@ def _connection(node_uri, topic):
         raise OSError("it does not send this topic")
     _, host, port = way
     with socket.create_connection((host, port), TIMEOUT_S) as connection:
-        fields = {"callerid": CALLER, "topic": topic, "md5sum": "*", "type": "*"}
+        # A name for each: a node drops an older connection of the same name.
+        fields = {
+            "callerid": f"{CALLER}_{next(_number)}",
+            "topic": topic,
+            "md5sum": "*",
+            "type": "*",
+        }
         lines = [f"{name}={value}".encode() for name, value in fields.items()]
         header = b"".join(struct.pack("<I", len(line)) + line for line in lines)
         connection.sendall(struct.pack("<I", len(header)) + header)
