@@ -19,12 +19,12 @@ class Program:
     Use it as a context manager, so that nothing is left running whatever the test comes to.
     """
 
-    def __init__(self, *command, **environment):
+    def __init__(self, *command, stdin=subprocess.DEVNULL, **environment):
         self._output = tempfile.TemporaryFile("w+")  # noqa: SIM115  closed in __exit__
         self._mark = f"{MARK}={uuid.uuid4()}"
         self._process = subprocess.Popen(
             command,
-            stdin=subprocess.DEVNULL,
+            stdin=stdin,
             stdout=self._output,
             stderr=subprocess.STDOUT,
             # Unbuffered: a test waits for what roslaunch, a Python program itself, prints.
@@ -46,6 +46,8 @@ class Program:
                 os.kill(pid, signal.SIGKILL)
         self._process.wait()
         self._output.close()
+        if self._process.stdin:
+            self._process.stdin.close()
 
     @property
     def output(self):
@@ -62,6 +64,11 @@ class Program:
     def interrupt(self):
         """Press Ctrl-C: SIGINT to the group in the foreground."""
         os.killpg(self._process.pid, signal.SIGINT)
+
+    def type(self, line):
+        """Type a line into a program that was started with stdin=subprocess.PIPE."""
+        self._process.stdin.write(f"{line}\n".encode())
+        self._process.stdin.flush()
 
     def wait(self, deadline_s=DEADLINE_S):
         """Wait for the end; return the exit code."""

@@ -11,7 +11,8 @@ import pytest
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 WIDTH, HEIGHT = 1200, 800  # [pixel] of a virtual screen, and of RViz's window in sim.rviz
-sys.path.insert(0, str(REPOSITORY / "test" / "ros"))  # processes.py and waiting.py
+# processes.py and waiting.py, and the folders beside this file.
+sys.path[:0] = [str(REPOSITORY / "test" / "ros"), str(REPOSITORY / "test" / "system")]
 
 
 def free_port():

@@ -1,0 +1,96 @@
+"""The README's two machines, joined by a network, and what happens when its cable is pulled."""
+
+import pytest
+from two_hosts.scene import ROBOT, WORKSTATION, Scene
+from waiting import wait_for
+
+TURTLEBOT = "roslaunch joy2twist joy2twist_turtlebot.launch"
+TIMEOUT_S = 0.6  # of the base
+LATENESS_S = 0.3  # of programs on a busy machine
+# mux.yaml of a real TurtleBot knows no rearm_on_zero; then the late commands reach the base within
+# some milliseconds, the last of them a zero.
+REAL_MUX = """
+subscribers:
+  - {name: teleop, topic: input/teleop, timeout: 1.0, priority: 7}
+publisher: output
+"""
+
+
+@pytest.fixture
+def scene():
+    """Two hosts and the cables between them."""
+    try:
+        scene = Scene().__enter__()
+    except PermissionError as error:
+        pytest.skip(f"network namespaces need root, or a kernel that grants them to users: {error}")
+    yield scene
+    scene.__exit__(None, None, None)
+
+
+def distance(a, b):
+    return ((a.x - b.x) ** 2 + (a.y - b.y) ** 2) ** 0.5
+
+
+def ends_with(topic, text):
+    """Whether the last message that rostopic echo has printed contains the text."""
+    return text in "".join(topic.output.split("---")[-2:])
+
+
+def path_length(moments):
+    return sum(map(distance, moments, moments[1:]))
+
+
+def drive(scene):
+    """Hold LB and the stick until the robot drives; the moment of it."""
+    began = scene.tell("drive")
+    return scene.moment(lambda m: m.time > began and m.v > 0, "driving robot")
+
+
+def test_the_readme_commands_drive_the_recording_across(scene):
+    scene.launch_robot()
+    scene.launch_workstation()
+    wait_for(lambda: path_length(scene.odometry) > 1.0, "robot that follows the recording")
+    assert not scene.workstation.ended
+    with scene.start(WORKSTATION, "rostopic echo -n 1 /cmd_vel_mux/active") as topic:
+        assert topic.wait() == 0, topic.output
+        assert "teleop" in topic.output
+
+
+@pytest.mark.parametrize("mux, late", [("", 0.0), (REAL_MUX, 0.02)], ids=["ours", "real"])
+def test_a_cable_is_pulled_and_plugged_in_again(scene, tmp_path, mux, late):
+    (tmp_path / "mux.yaml").write_text(mux)
+    scene.launch_robot(f"mux_config:={tmp_path}/mux.yaml" if mux else "")
+    scene.launch_workstation(TURTLEBOT)
+    active = scene.start(ROBOT, "rostopic echo /cmd_vel_mux/active")
+    scene.launch_pilot()
+    wait_for(lambda: "axis 1 -> linear.x" in scene.workstation.output, "joy2twist")
+    scene.tell("neutral")
+    wait_for(lambda: "Get from Joy" in scene.workstation.output, "joystick heard")
+    drive(scene)
+
+    before = scene.odometry[-1]
+    scene.network.pull_cable(WORKSTATION)
+    pulled = scene.odometry[-1]
+    stands = scene.moment(lambda m: m.time > before.time and m.v == 0, "robot that stands")
+    assert stands.time - pulled.time <= TIMEOUT_S + 0.02 + LATENESS_S
+    # Not a stop that came across, or there was no cut: the coast of the timeout.
+    assert distance(stands, before) >= 0.9 * TIMEOUT_S * before.v
+    wait_for(lambda: "is cut" in scene.workstation.output, "warning of joy2twist")
+
+    # LB and the stick are held all the time, and what was sent meanwhile comes now.
+    wait_for(lambda: ends_with(active, "idle"), "robot that nobody drives")
+    scene.network.plug_cable(WORKSTATION)
+    wait_for(lambda: ends_with(active, "teleop"), "late commands")
+    told = len(scene.odometry)
+    wait_for(lambda: len(scene.odometry) > told + 50, "another second of odometry")
+    assert max(distance(m, stands) for m in scene.odometry if m.time > stands.time) <= late
+
+    # Neutral once, and it drives as before, with no program started anew.
+    scene.tell("neutral")
+    wait_for(lambda: "is back" in scene.workstation.output, "word of joy2twist")
+    wait_for(lambda: ends_with(active, "idle"), "robot that nobody drives")
+    again = drive(scene)
+    assert again.v == before.v
+    for program in (scene.robot, scene.workstation):
+        assert "has died" not in program.output
+        assert "restarting" not in program.output

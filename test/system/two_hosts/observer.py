@@ -1,0 +1,21 @@
+#!/usr/bin/python3
+"""Somebody beside the robot who writes down each odometry message: time, speed, place.
+
+The time is the monotonic clock's [s], which all hosts of the test share; then v [m/s], x, y [m].
+"""
+
+import time
+
+import rospy
+from nav_msgs.msg import Odometry
+
+
+def tell(odometry):
+    now, place = time.monotonic(), odometry.pose.pose.position
+    print(now, odometry.twist.twist.linear.x, place.x, place.y, flush=True)
+
+
+if __name__ == "__main__":
+    rospy.init_node("observer")
+    rospy.Subscriber("odom", Odometry, tell, queue_size=100, tcp_nodelay=True)
+    rospy.spin()
