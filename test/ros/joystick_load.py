@@ -10,12 +10,13 @@ from pathlib import Path
 
 import rospy
 import rostest
-from joy_to_twist.joystick.js_event import AXIS, FULL
+from joy_to_twist.joystick.js_event import FULL
 from joystick_stream import JoyLog, Stream, driver
+from processes import Program
 from waiting import wait_for
 
 STILL_S = 5.0
-EVENTS_PER_S = 1000
+BURST = ("/usr/bin/python3", str(Path(__file__).with_name("joystick_burst.py")))
 BURST_EVENTS = 3000
 COALESCE_S = 0.005
 SLACK_S = 0.005  # what the newest state may be older than the coalesce interval
@@ -48,28 +49,52 @@ class LoadTest(unittest.TestCase):
 
     def test_a_burst_is_coalesced_and_the_newest_state_is_fresh(self):
         self.start(f"coalesce_interval:={COALESCE_S}", "deadzone:=0", "default_trig_val:=true")
-        began, sent = time.monotonic(), []
-        for step in range(1, BURST_EVENTS + 1):
-            while time.monotonic() < began + step / EVENTS_PER_S:
-                pass  # a sleep is not even enough
-            sent.append(time.time())
-            self.stream.send((AXIS, 0, -step))
-        wait_for(lambda: self.log.last[0][0] * FULL > BURST_EVENTS - 0.5, "newest state")
-        states = [
-            (joy.header.stamp.to_sec(), round(joy.axes[0] * FULL)) for joy in self.log.messages
-        ]
-        delays, told = [], 0
-        for stamp, step in states:
-            if step > told:  # of those events that this message tells, the oldest waited longest
-                delays.append(stamp - sent[told])
-                told = step
+        fifo = os.path.join(os.path.dirname(self.stream.path), "reference")
+        os.mkfifo(fifo)
+        with Program(*BURST, "follow", str(COALESCE_S), fifo) as reference:
+            with Program(*BURST, "send", str(BURST_EVENTS), self.stream.path, fifo) as sender:
+                self.assertEqual(sender.wait(), 0, sender.output)
+                sent = [float(time_s) for time_s in sender.output.split()]
+            self.assertEqual(reference.wait(), 0, reference.output)
+            told = [float(word) for word in reference.output.split()]
+        wait_for(lambda: step_of(self.log.messages[-1]) == BURST_EVENTS, "newest state")
+        possible = delays(zip(told[::2], told[1::2]), sent)
+        ours = delays([(m.header.stamp.to_sec(), step_of(m)) for m in self.log.messages], sent)
         print(
-            f"{BURST_EVENTS} events in {len(delays)} messages; an event waited for "
-            f"{1e3 * statistics.median(delays):.1f} ms (median), {1e3 * max(delays):.1f} ms (most)"
+            f"{BURST_EVENTS} events in {len(ours)} messages; the oldest event of a message waited"
         )
-        self.assertLess(len(delays), BURST_EVENTS / 3)
-        # Of a busy machine's rare pauses the driver knows nothing; nine of ten must be in time.
-        self.assertLess(sorted(delays)[len(delays) * 9 // 10], COALESCE_S + SLACK_S)
+        for name, found in (("joy_node", ours), ("a bare loop beside it", possible)):
+            print(
+                f"  {name}: {1e3 * statistics.median(found):.1f} ms (median), "
+                f"{1e3 * max(found):.1f} ms (most), {100 * late(found):.1f} % too long"
+            )
+        self.assertLessEqual(len(ours), (sent[-1] - sent[0]) / COALESCE_S + 2)
+        # That the driver never decides to wait longer is held by its unit test. Here the machine
+        # may hold it up, as it does the loop.
+        self.assertLess(late(ours), late(possible) + 0.05)
+
+
+def step_of(joy):
+    """The number of the newest event in a message."""
+    return round(-joy.axes[0] * FULL)
+
+
+def delays(states, sent):
+    """How long the oldest event that a state is the first to tell had to wait [s], for each.
+
+    states: pairs of a time [s] and a number of events. sent: the time [s] of each event.
+    """
+    found, told = [], 0
+    for time_s, step in states:
+        if step > told:
+            found.append(time_s - sent[told])
+            told = int(step)
+    return found
+
+
+def late(found):
+    """The part of delays that are too long."""
+    return sum(delay > COALESCE_S + SLACK_S for delay in found) / len(found)
 
 
 def processor_time_s(pid):

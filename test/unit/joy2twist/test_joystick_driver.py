@@ -186,15 +186,54 @@ def test_autorepeat_counts_from_the_last_message():
     assert ours.tick(1.0901) == [((), (0,))]
 
 
-def test_a_burst_is_coalesced_and_never_older_than_the_interval():
-    ours, published = driver(coalesce_interval=0.005, autorepeat_rate=0), []
-    for step in range(1000):  # one event every millisecond
-        now = step * 1e-3
-        for _ in ours.tick(now):
-            published.append(now)
-        ours.read(events((AXIS, 0, step)), now)
-        assert ours.due - now <= 0.005 + 1e-9
-    assert 160 <= len(published) <= 200
+class Simulated:
+    """A driver whose waits end on time. Times are whole numbers, so that their sums are exact."""
+
+    def __init__(self, **parameters):
+        self.driver = driver(deadzone=0.0, **parameters)
+        self.now, self.sent = 0, 0
+        self.untold = []  # when the changes were read that no message has told yet
+        self.ages = []  # of the oldest untold change, for each message
+
+    def change(self, after, pressed=False):
+        """After a time an axis changes to the number of changes so far, and maybe a button."""
+        self.now += after
+        while self.driver.due < self.now:
+            due = self.driver.due
+            self.published(self.driver.tick(due), due)
+        self.sent += 1
+        self.untold.append(self.now)
+        new = [(AXIS, 0, self.sent)] + [(BUTTON, 0, self.sent % 2)] * pressed
+        self.published(self.driver.read(events(*new), self.now), self.now)
+
+    def published(self, messages, now):
+        for axes, _ in messages:
+            assert round(-axes[0] * 32767) == self.sent, "not the newest state"
+            self.ages.append(now - min(self.untold, default=now))
+            self.untold = []
+
+
+@settings(max_examples=500)
+@given(
+    st.lists(st.tuples(st.integers(0, 30), st.booleans()), max_size=60),
+    st.integers(0, 20),
+    st.sampled_from((0, 1 / 4, 1 / 32)),
+)
+def test_every_message_tells_the_newest_state_and_none_is_older_than_the_interval(
+    changes, interval, autorepeat_rate
+):
+    simulated = Simulated(coalesce_interval=interval, autorepeat_rate=autorepeat_rate)
+    for change in changes:
+        simulated.change(*change)
+        assert all(age <= interval for age in simulated.ages)
+        assert simulated.driver.due <= min(simulated.untold, default=float("inf")) + interval
+
+
+def test_a_burst_is_coalesced_to_one_message_in_an_interval():
+    simulated = Simulated(coalesce_interval=5, autorepeat_rate=0)
+    for _ in range(1000):  # one event in every unit of time
+        simulated.change(1)
+    assert simulated.ages == [5] * 166  # 6 units from one message to the next
 
 
 # ------------------------------------------------------------------------------------------- loss
