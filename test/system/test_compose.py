@@ -1,0 +1,44 @@
+"""docker/*.yaml, as far as they can be checked without an engine: the tool itself reads them."""
+
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+import yaml
+from two_hosts.scene import ROBOT, WORKSTATION, readme_blocks
+
+DOCKER = Path(__file__).resolve().parents[2] / "docker"
+
+
+def read(name):
+    """The services of a compose file, as docker-compose understands it."""
+    command = ["docker-compose", "-f", str(DOCKER / name), "config"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0, done.stderr
+    return yaml.safe_load(done.stdout)["services"]
+
+
+def words(command):
+    """The words of a service's command, whichever way it is written."""
+    return (command if isinstance(command, str) else " ".join(command)).split()
+
+
+@pytest.mark.parametrize("name", ["compose.yaml", "two_hosts.yaml"])
+def test_nothing_is_open_to_the_outside(name):
+    for service in read(name).values():
+        assert service["image"] == "ros1_tutorial"
+        assert not {"ports", "privileged", "network_mode", "cap_add", "devices"} & set(service)
+
+
+def test_the_two_hosts_run_the_readme_commands():
+    services = read("two_hosts.yaml")
+    assert set(services) == {ROBOT, WORKSTATION}
+    for host, (_, variables, launch) in readme_blocks().items():
+        environment = services[host]["environment"]
+        assert environment["ROS_MASTER_URI"] == f"http://{ROBOT}:11311"
+        assert environment["ROS_HOSTNAME"] == host
+        assert re.search(r"ROS_MASTER_URI=http://\S+:11311", variables)
+        # In a shell where the line needs one: $$ is a $ of compose's.
+        command = " ".join(words(services[host]["command"])).replace("$$", "$").replace("'", "")
+        assert command.endswith(launch)
