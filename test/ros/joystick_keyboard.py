@@ -2,6 +2,7 @@
 """launch_joy_node.launch virtual:=true in a terminal: keys drive the simulated robot."""
 
 import os
+import re
 import subprocess
 import sys
 import unittest
@@ -14,6 +15,7 @@ from joy_to_twist.safety import ARMED
 from nav_msgs.msg import Odometry
 from waiting import wait_for
 
+STATE = r"^  left stick [+-]\d\.\d [+-]\d\.\d(  LB|  RB|  MODE LED on|  unplugged)*$"
 SPEED = 0.35  # [m/s] at full deflection, config/f710_d.yaml
 
 
@@ -32,6 +34,11 @@ class Tmux:
     @property
     def screen(self):
         return self._run("capture-pane", "-p")
+
+    @property
+    def history(self):
+        """All that was written, also what has left the screen."""
+        return self._run("capture-pane", "-p", "-J", "-S", "-")
 
     @property
     def ended(self):
@@ -89,7 +96,12 @@ class KeyboardTest(unittest.TestCase):
     def end_with(self, key):
         self.terminal.press(key)
         wait_for(lambda: self.terminal.ended, "end of the launch")
-        self.assertNotIn("joy_to_twist/", self.terminal.screen)  # as in a traceback
+        history = self.terminal.history
+        self.assertNotIn("Traceback", history)
+        self.assertNotIn("process has died", history)
+        for line in history.splitlines():
+            if re.search(r"left stick [+-]", line):
+                self.assertRegex(line, STATE, "something is glued to the state")
         self.assertFalse(os.path.exists(self.device), "the FIFO is left")
 
     def test_keys_held_and_released_move_and_stop_the_robot(self):
