@@ -58,6 +58,12 @@ def test_each_case_is_told_apart_and_says_what_to_do(number, container, wsl, wor
     line = explain("/dev/input/js0", number, container, wsl)
     assert words in line
     assert "\n" not in line
+    assert ("virtual:=true" in line) is (number == errno.ENOENT)
+
+
+def test_a_program_that_will_serve_a_fifo_is_waited_for():
+    line = explain("/tmp/virtual_f710", errno.ENOENT, container=True, wsl=True)
+    assert line == "No joystick at /tmp/virtual_f710 so far: it is waited for."
 
 
 @pytest.mark.parametrize("path", ["/dev/null", "/tmp"])

@@ -3,6 +3,11 @@
 import errno
 import os
 
+NO_GAMEPAD = (
+    "No gamepad? roslaunch joy2twist launch_joy_node.launch virtual:=true, "
+    "or rosrun joy2twist virtual_joystick."
+)
+
 
 class DeviceError(Exception):
     """No gamepad can be opened or read; the text says in one line why and what to do."""
@@ -32,13 +37,15 @@ def explain(path, error_number, container, wsl):
     error_number: errno. container, wsl: whether this runs inside a container, inside WSL.
     """
     if error_number in (errno.ENOENT, errno.ENODEV, errno.ENXIO):
+        if not path.startswith("/dev/"):
+            return f"No joystick at {path} so far: it is waited for."
         if wsl:
             help_line = "in WSL, attach it from Windows first: usbipd attach --wsl --busid ID"
         elif container:
             help_line = f"this is a container, start it with --device {path}"
         else:
             help_line = "plug it in (ls /dev/input/js* shows what is there)"
-        return f"No joystick at {path}: {help_line}; without one, use virtual_joystick."
+        return f"No joystick at {path}: {help_line}. {NO_GAMEPAD}"
     if error_number == errno.EACCES:
         return (
             f"No permission to read {path}: join the group of the device "

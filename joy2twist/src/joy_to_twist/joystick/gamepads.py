@@ -78,12 +78,13 @@ def _axes(low, high, *codes):
 
 
 F710_D = Gamepad(
+    # So it is: usbhid puts the manufacturer before the product, which has it once more.
     name="Logitech Logitech Cordless RumblePad 2",
     vendor=0x046D,
     product=0xC219,
     axes=_axes(0, 255, ABS_X, ABS_Y, ABS_Z, ABS_RZ) + _axes(-1, 1, ABS_HAT0X, ABS_HAT0Y),
     buttons=("X", "A", "B", "Y", "LB", "RB", "LT", "RT", "BACK", "START", "LEFT", "RIGHT"),
-    button_codes=tuple(range(0x120, 0x12C)),  # BTN_TRIGGER and the next
+    button_codes=tuple(range(0x130, 0x13C)),  # BTN_GAMEPAD and the next: HID calls it a gamepad
 )
 F710_X = Gamepad(
     name="Logitech Gamepad F710",

@@ -5,6 +5,8 @@ import sys
 import termios
 import tty
 
+REFRESH_S = 0.5  # how soon the state is shown again below what other programs have written
+
 _CLEAR_LINE = "\r\x1b[K"
 _VDISABLE = b"\0"
 
@@ -18,7 +20,6 @@ class Terminal:
     def __init__(self):
         """Use the standard input, which must be a terminal."""
         self._fd = sys.stdin.fileno()
-        self._shown = None
 
     def __enter__(self):
         self._before = termios.tcgetattr(self._fd)
@@ -48,8 +49,6 @@ class Terminal:
         x, y = controls.left_stick
         words = [f"left stick {x:+.1f} {y:+.1f}", *sorted(controls.held)]
         words += ["MODE LED on"] * controls.mode_led + ["unplugged"] * (not controls.plugged)
-        line = "  " + "  ".join(words)
-        if line != self._shown:
-            self._shown = line
-            sys.stdout.write(_CLEAR_LINE + line)
-            sys.stdout.flush()
+        # Back to its beginning: a line of another program replaces it, and is not glued to it.
+        sys.stdout.write(_CLEAR_LINE + "  " + "  ".join(words) + "\r")
+        sys.stdout.flush()

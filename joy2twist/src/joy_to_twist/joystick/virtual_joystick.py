@@ -25,7 +25,7 @@ from joy_to_twist.joystick.sources import (
     recording_source,
     script_source,
 )
-from joy_to_twist.joystick.terminal import Terminal
+from joy_to_twist.joystick.terminal import REFRESH_S, Terminal
 from joy_to_twist.joystick.virtual_pads import UINPUT, PadError, StreamPad, UinputPad
 
 NAME = "virtual_joystick"
@@ -95,6 +95,7 @@ def play(pad, source, keyboard, terminal):
         pad.show(position)
         if terminal:
             terminal.show(source.controls)
+            until = min(until, time.monotonic() + REFRESH_S)
         if wait(pad, terminal, until):
             text = terminal.read()
             keyboard.press(text, time.monotonic())
