@@ -2,6 +2,7 @@
 
 import errno
 import io
+import os
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
@@ -87,6 +88,13 @@ def test_devices(tmp_path):
     assert collect.joystick(str(path)) == Joystick(str(path))
 
 
+def test_a_fifo_keeps_its_reader(tmp_path, monkeypatch):
+    path = tmp_path / "js0"
+    os.mkfifo(path)
+    monkeypatch.setattr(os, "open", lambda *_: pytest.fail("it was opened"))
+    assert collect.joystick(str(path)) == Joystick(str(path))
+
+
 @pytest.mark.parametrize(
     "uri", ["", "moon", "localhost:11311", "https://localhost:11311", "http://:1", "http://a:b"]
 )
@@ -95,6 +103,7 @@ def test_a_malformed_uri(monkeypatch, uri):
     assert collect.collect().master is Answer.MALFORMED
 
 
+@pytest.mark.filterwarnings("ignore::DeprecationWarning")  # of rosgraph's, which comments on it
 def test_an_empty_variable_counts_as_none(monkeypatch, capsys):
     monkeypatch.delenv("ROS_HOSTNAME", raising=False)
     monkeypatch.setenv("ROS_IP", "")

@@ -4,6 +4,7 @@ import contextlib
 import glob
 import io
 import os
+import stat
 import struct
 
 import rosgraph
@@ -87,7 +88,9 @@ def this_machine():
 def joystick(path):
     """Whether a device can be opened."""
     try:
-        os.close(os.open(path, os.O_RDONLY | os.O_NONBLOCK))
+        # Not a FIFO: whoever opens one is its reader, and virtual_joystick has another.
+        if not stat.S_ISFIFO(os.stat(path).st_mode):
+            os.close(os.open(path, os.O_RDONLY | os.O_NONBLOCK))
     except OSError as error:
         return Joystick(path, error.errno)
     return Joystick(path)
