@@ -33,7 +33,8 @@ def environment_of_guest():
     names = [name for name in os.environ if name in ROS_ENVIRONMENT or name.startswith("ROS_")]
     names = [name for name in names if name not in ("ROS_IP", "ROS_LOG_DIR")]
     given = {name: os.environ[name] for name in names}
-    given.update(HOME="/root", ROS_HOSTNAME="localhost", PYTHONUNBUFFERED="1")
+    # A folder of the guest's own: QEMU, which another user than root runs, may not read root's.
+    given.update(HOME="/run", ROS_HOSTNAME="localhost", PYTHONUNBUFFERED="1")
     given["ROS_MASTER_URI"] = "http://localhost:11311"
     return [f"{name}={value}" for name, value in given.items()]
 

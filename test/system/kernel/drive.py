@@ -204,6 +204,28 @@ def check_unplugged(pad, raw, launch, robot):
     wait_for(lambda: not any(robot.joy[-1].buttons), "released gamepad", DEADLINE_S)
 
 
+def check_all(pad, raw, launch):
+    """What the launch file's nodes make of the gamepad."""
+    wait_for(lambda: "Opened joystick" in launch.output, "driver", DEADLINE_S)
+    rospy.init_node("drive")
+    robot = Robot()
+    wait_for(lambda: robot.joy and robot.odometry, "joystick and robot", DEADLINE_S)
+    hint = "This is a Logitech F710 in D mode"
+    wait_for(lambda: hint in launch.output, "line on the mode", DEADLINE_S)
+    check_positions(pad, raw, robot)
+    for stick in ((0.0, 0.5), (0.4, 1.0), (-1.0, 0.0)):
+        check_drive(pad, robot, stick)
+    check_drive(pad, robot, (0.0, 1.0))
+    check_released(pad, robot)
+    check_drive(pad, robot, (0.0, 1.0))
+    check_unplugged(pad, raw, launch, robot)
+    check_drive(pad, robot, (0.0, 1.0))
+    rospy.signal_shutdown("done")
+    launch.interrupt()
+    assert launch.wait(DEADLINE_S) == 0
+    assert "Traceback" not in launch.output
+
+
 def main():
     tell(f"Linux {platform.release()}, {platform.machine()}")
     with UinputPad(F710_D) as pad:
@@ -211,24 +233,11 @@ def main():
         wait_for(lambda: os.access(DEVICE, os.R_OK), f"{DEVICE} to be read", DEADLINE_S)
         raw = RawReader()
         with Program("roslaunch", "joy2twist", "launch_joy_node.launch", "rviz:=false") as launch:
-            wait_for(lambda: "Opened joystick" in launch.output, "driver", DEADLINE_S)
-            rospy.init_node("drive")
-            robot = Robot()
-            wait_for(lambda: robot.joy and robot.odometry, "joystick and robot", DEADLINE_S)
-            hint = "This is a Logitech F710 in D mode"
-            wait_for(lambda: hint in launch.output, "line on the mode", DEADLINE_S)
-            check_positions(pad, raw, robot)
-            for stick in ((0.0, 0.5), (0.4, 1.0), (-1.0, 0.0)):
-                check_drive(pad, robot, stick)
-            check_drive(pad, robot, (0.0, 1.0))
-            check_released(pad, robot)
-            check_drive(pad, robot, (0.0, 1.0))
-            check_unplugged(pad, raw, launch, robot)
-            check_drive(pad, robot, (0.0, 1.0))
-            rospy.signal_shutdown("done")
-            launch.interrupt()
-            assert launch.wait(DEADLINE_S) == 0
-            assert "Traceback" not in launch.output, launch.output
+            try:
+                check_all(pad, raw, launch)
+            except BaseException:
+                print(launch.output)
+                raise
     tell("passed")
 
 
