@@ -16,9 +16,9 @@ from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from processes import Program
 from sensor_msgs.msg import Joy
-from waiting import DEADLINE_S, wait_for
+from waiting import BUSY_S, DEADLINE_S, wait_for
 
-LONGEST_EXIT_S = 1.5
+LONGEST_EXIT_S = 1.5 + BUSY_S
 WATCHDOG_S = 0.5
 COMMAND_TIMEOUT_S = 0.6  # of the simulated robot
 PERIOD_S = 0.02  # of its odometry

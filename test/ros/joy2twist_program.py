@@ -8,12 +8,13 @@ import unittest
 
 import rospy
 import rostest
+from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Twist
 from processes import Program
 from sensor_msgs.msg import Joy
-from waiting import wait_for
+from waiting import BUSY_S, DEADLINE_S, wait_for
 
-LONGEST_EXIT_S = 1.5
+LONGEST_EXIT_S = 1.5 + BUSY_S
 LINE = r"\[INFO\] \[[\d.]+\]: /NewJoy2Twist: Get from Joy \[0\.00, 0\.50, -0\.25\]\n"
 NOWHERE = "http://localhost:9"  # the port named "discard": no master lives there
 
@@ -84,12 +85,12 @@ class RunningTest(unittest.TestCase):
         self.assertFalse(rospy.has_param("/NewJoy2Twist/axis_linear"))
 
     def test_every_message_of_a_bag_is_displayed_as_in_the_tutorial(self):
-        node = self.start()
-        time.sleep(0.5)  # the messages of the start count no more for log_rate
+        # Ten times the default, as a busy machine may hold messages back and deliver some at once.
+        node = self.start("_log_rate:=500")
         sent = [Joy(axes=[0.5] * (number % 9) + [number]) for number in range(100)]
         for joy in sent:
             self.joystick.publish(joy)
-            time.sleep(1 / 45)  # a little faster, and log_rate would leave some out
+            time.sleep(1 / 50)
         values = [", ".join(f"{axis:.2f}" for axis in joy.axes) for joy in sent]
         lines = [f": /NewJoy2Twist: Get from Joy [{axes}]\n" for axes in values]
         wait_for(lambda: all(node.output.count(line) == 1 for line in lines), "100 lines")
@@ -102,6 +103,26 @@ class RunningTest(unittest.TestCase):
             time.sleep(1 / 250)
         took_s = time.monotonic() - begin
         self.check_end_of_display(node, 10 * (took_s - 1), 10 * (took_s + 5))
+
+    def test_diagnostics_tell_the_rate_and_the_age_of_the_messages(self):
+        self.start("_diagnostic_period:=0.5")
+        statuses = []
+        subscriber = rospy.Subscriber(
+            "/diagnostics", DiagnosticArray, lambda array: statuses.extend(array.status)
+        )
+        self.addCleanup(subscriber.unregister)
+        begin, sent = time.monotonic(), 0
+        while len(statuses) < 4:  # the first ones may count from before
+            self.forward()
+            sent += 1
+            self.assertLess(time.monotonic() - begin, DEADLINE_S)
+            time.sleep(1 / 50)
+        values = {value.key: value.value for value in statuses[-1].values}
+        rate = sent / (time.monotonic() - begin)
+        self.assertEqual(statuses[-1].message, "driving")
+        self.assertGreater(float(values["Joy rate [Hz]"]), 0.5 * rate)
+        self.assertLess(float(values["Joy rate [Hz]"]), 2.0 * rate)
+        self.assertLess(float(values["Age of the last Joy [s]"]), 0.5)  # or it would not drive
 
     def check_end_of_display(self, node, fewest, most):
         node.interrupt()

@@ -3,6 +3,8 @@
 import time
 
 DEADLINE_S = 30.0  # generous: a busy machine with one core takes seconds to start a node
+# What a busy machine may add to a time that is demanded of a program.
+BUSY_S = 2.0
 
 
 def wait_for(condition, what, deadline_s=DEADLINE_S):
