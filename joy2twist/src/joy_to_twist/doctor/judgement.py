@@ -179,8 +179,8 @@ def link(facts, node, topic, inwards):
     """Whether a converter is connected to those at the other end of a topic."""
     others = (facts.publishers if inwards else facts.subscribers).get(topic, [])
     if not others and not inwards:
-        free = [t for t in facts.topics(TWIST) if facts.subscribers.get(t) and t != topic]
-        todo = "start the robot" + (f", or remap: {topic}:={' or '.join(free)}" if free else "")
+        free = [t for t in facts.topics(TWIST) if not facts.publishers.get(t)]
+        todo = "start the robot" + (f", or drive the one at {' or '.join(free)}" if free else "")
         yield Finding(WRONG, "topics", f"nobody listens to {topic} of {node}", todo)
     known = facts.nodes.get(node)
     if others and known and known.answer is Answer.WELL and (topic, inwards) not in known.links:
