@@ -1,6 +1,7 @@
 """draw_graph.py: from what the master says to the text that graphviz draws."""
 
 import json
+import re
 import shutil
 import subprocess
 from pathlib import Path
@@ -104,11 +105,18 @@ def test_a_long_name_is_broken(dot_text, name, label):
     assert line(text, f"topic {name}") == f'"topic {name}" [label="{label}" shape=box]'
 
 
-def test_the_order_in_which_the_master_tells_does_not_matter(dot_text):
-    machines = {"/rosout": "a", "/talker": "b", "/listener": "a"}
-    backward = [[[topic, nodes[::-1]] for topic, nodes in part[::-1]] for part in TALK]
-    turned = dict(reversed(list(machines.items())))
-    assert dot_text(TALK, machines, True) == dot_text(backward, turned, True)
+def test_names_are_in_alphabetical_order(dot_text):
+    names = [f"/{letter}" for letter in "hgfedcba"]
+    part = [[topic, names] for topic in names]
+    text = dot_text((part, part, []), {name: f"machine{name}" for name in names}, True)
+    for pattern in (
+        r'^ *"node (\S+)" \[',
+        r'^ *"topic (\S+)" \[',
+        r'^ *subgraph "cluster machine(\S+)"',
+        r'^ *"node (\S+)" -> "topic /a"',
+        r'^ *"topic /a" -> "node (\S+)"',
+    ):
+        assert re.findall(pattern, text, re.MULTILINE) == names[::-1], pattern
 
 
 def test_each_machine_has_its_frame_and_the_topic_between_them_none(dot_text):
