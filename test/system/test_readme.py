@@ -25,6 +25,7 @@ LASTING = {
     "rosrun joy2twist joy2twist.py": "axis 1 -> linear.x",
     "roslaunch fake_turtlebot_sim minimal.launch": "process[mobile_base",
     "roslaunch fake_turtlebot_sim": "process[fake_turtlebot",
+    "roslaunch joy2twist student.launch": "process[robot_7/my",
     "roslaunch joy2twist": "process[my",
     "rosrun rviz rviz": "",
 }
@@ -36,7 +37,10 @@ LEFT_OUT = {
     "roslaunch joy2twist launch_joy_node.launch virtual:=true": "needs the keys of a terminal",
     "docker ": "needs an engine; docker/check_bare_machine builds the Dockerfile without one",
 }
-ELSEWHERE = {"Two machines": "test_two_hosts.py runs it on two hosts"}
+ELSEWHERE = {
+    "Two machines": "test_two_hosts.py runs it on two hosts",
+    "When nothing moves": "and asks the doctor there, where something moves",
+}
 
 
 def sections():

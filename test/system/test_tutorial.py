@@ -54,7 +54,7 @@ def test_a_mistake_gets_one_clear_line(tutorial, arguments, expected):
 def test_no_word_at_all_shows_the_words(tutorial):
     done = subprocess.run([tutorial], capture_output=True, text=True, check=False, timeout=60)
     assert done.returncode == 2
-    for word in ("demo", "test", "setup", "shell", "run"):
+    for word in ("demo", "test", "bench", "doctor", "setup", "shell", "run"):
         assert re.search(rf"^  {word}\b", done.stderr, re.MULTILINE)
 
 

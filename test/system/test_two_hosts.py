@@ -1,7 +1,7 @@
 """The README's two machines, joined by a network, and what happens when its cable is pulled."""
 
 import pytest
-from two_hosts.scene import ROBOT, WORKSTATION, Scene
+from two_hosts.scene import REPOSITORY, ROBOT, WORKSTATION, Scene
 from waiting import wait_for
 
 TURTLEBOT = "roslaunch joy2twist joy2twist_turtlebot.launch"
@@ -46,14 +46,16 @@ def drive(scene):
     return scene.moment(lambda m: m.time > began and m.v > 0, "driving robot")
 
 
-def test_the_readme_commands_drive_the_recording_across(scene):
+def test_the_readme_commands_drive_the_recording_across_and_the_doctor_finds_nothing(scene):
     scene.launch_robot()
     scene.launch_workstation()
     wait_for(lambda: path_length(scene.odometry) > 1.0, "robot that follows the recording")
     assert not scene.workstation.ended
-    with scene.start(WORKSTATION, "rostopic echo -n 1 /cmd_vel_mux/active") as topic:
-        assert topic.wait() == 0, topic.output
-        assert "teleop" in topic.output
+    for host, other in ((WORKSTATION, ROBOT), (ROBOT, WORKSTATION)):
+        doctor = scene.start(host, f"{REPOSITORY}/tutorial doctor")
+        assert doctor.wait() == 0, doctor.output
+        assert f"{scene.address(other)} is within 0.1 s" in doctor.output
+        assert "-> /cmd_vel_mux/input/teleop -> /cmd_vel_mux\n" in doctor.output
 
 
 @pytest.mark.parametrize("mux, late", [("", 0.0), (REAL_MUX, 0.02)], ids=["ours", "real"])

@@ -44,12 +44,16 @@ class Scene:
         self._stack = contextlib.ExitStack()
 
     def __enter__(self):
-        addresses = {host: address for host, (address, _, _) in self._blocks.items()}
+        addresses = {host: self.address(host) for host in self._blocks}
         self.network = self._stack.enter_context(Network(addresses))
         return self
 
     def __exit__(self, *error):
         self._stack.__exit__(*error)
+
+    def address(self, host):
+        """The IPv4 address of a host, as the README has it."""
+        return self._blocks[host][0]
 
     def start(self, host, command, **options):
         """Start a command on a host, with the README's variables: a processes.Program."""
