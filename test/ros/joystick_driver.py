@@ -12,7 +12,7 @@ from joy_to_twist.joystick.driver import SHORTEST_SILENCE_S
 from joy_to_twist.joystick.js_event import AXIS, BUTTON, FULL, INIT
 from joystick_stream import AXES, BUTTONS, JoyLog, Stream, driver
 from processes import Program
-from waiting import wait_for
+from waiting import BUSY_S, wait_for
 
 ZERO = (0.0,) * AXES
 
@@ -89,14 +89,14 @@ class DriverTest(unittest.TestCase):
         wait_for(lambda: self.log.last == neutral, "neutral message")
         after = [joy for joy in self.log.messages if not joy.buttons[4] and joy.axes[5] == 1.0]
         self.assertEqual(len(after), 1)
-        self.assertLess(after[0].header.stamp.to_sec() - lost, 0.1)
+        self.assertLess(after[0].header.stamp.to_sec() - lost, 0.1 + BUSY_S)
         wait_for(lambda: "No joystick at" in program.output.rsplit("Lost", 1)[1], "search")
         count = len(self.log.messages)
         self.assertGreaterEqual(time.time() - lost, SHORTEST_SILENCE_S)
 
         back = time.time()
         self.stream.plug_in(axes=8)
-        self.assertLess(time.time() - back, 1.0)
+        self.assertLess(time.time() - back, 1.0 + BUSY_S)
         # Silent until somebody touches it: what is told at opening may be made up.
         self.stream.send((AXIS, 1, -FULL), (BUTTON, 4, 1))
         wait_for(lambda: len(self.log.messages) > count, "message")
@@ -125,11 +125,11 @@ class DriverTest(unittest.TestCase):
     def test_ctrl_c_ends_it_with_and_without_a_gamepad(self):
         program = self.start()
         program.interrupt()
-        self.assertEqual(program.wait(5), 0)
+        self.assertEqual(program.wait(), 0)
         with driver("/no/such/device") as waiting:
             wait_for(lambda: "No joystick at /no/such/device" in waiting.output, "line")
             waiting.interrupt()
-            self.assertEqual(waiting.wait(5), 0)
+            self.assertEqual(waiting.wait(), 0)
             self.assertNotIn("Traceback", waiting.output + program.output)
 
     def refuse(self, program, line):

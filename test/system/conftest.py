@@ -14,6 +14,8 @@ WIDTH, HEIGHT = 1200, 800  # [pixel] of a virtual screen, and of RViz's window i
 # processes.py and waiting.py, and the folders beside this file.
 sys.path[:0] = [str(REPOSITORY / "test" / "ros"), str(REPOSITORY / "test" / "system")]
 
+from two_hosts.scene import Scene  # noqa: E402
+
 
 def free_port():
     """A TCP port of this machine that nobody uses now."""
@@ -65,3 +67,14 @@ def screen():
         with os.fdopen(read) as told:
             yield f":{told.readline().strip()}"
         server.terminate()
+
+
+@pytest.fixture
+def scene():
+    """Robot and workstation, two hosts with a cable between them: a two_hosts.scene.Scene."""
+    try:
+        scene = Scene().__enter__()
+    except PermissionError as error:
+        pytest.skip(f"network namespaces need root, or a kernel that grants them to users: {error}")
+    yield scene
+    scene.__exit__(None, None, None)

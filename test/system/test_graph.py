@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 from processes import Program
-from two_hosts.scene import ROBOT, WORKSTATION, Scene
+from two_hosts.scene import ROBOT, WORKSTATION
 from waiting import wait_for
 
 START_S = 120.0  # RViz without a graphics card, on a busy machine
@@ -22,17 +22,6 @@ DRIVE = "/rosbag /joy /myjoystick2twist"
 TWO_MACHINES = f"{DRIVE} /cmd_vel_mux/input/teleop /cmd_vel_mux /mobile_base/commands/velocity"
 TWO_MACHINES += " /mobile_base /odom /my_rviz /initialpose /mobile_base"
 BACK_TO_RVIZ = "/mobile_base /joint_states /robot_state_publisher /tf_static /my_rviz"
-
-
-@pytest.fixture
-def scene():
-    """Two hosts and the cables between them."""
-    try:
-        scene = Scene().__enter__()
-    except PermissionError as error:
-        pytest.skip(f"network namespaces need root, or a kernel that grants them to users: {error}")
-    yield scene
-    scene.__exit__(None, None, None)
 
 
 def path(names):

@@ -1,7 +1,7 @@
 """The README's two machines, joined by a network, and what happens when its cable is pulled."""
 
 import pytest
-from two_hosts.scene import REPOSITORY, ROBOT, WORKSTATION, Scene
+from two_hosts.scene import REPOSITORY, ROBOT, WORKSTATION
 from waiting import wait_for
 
 TURTLEBOT = "roslaunch joy2twist joy2twist_turtlebot.launch"
@@ -14,17 +14,6 @@ subscribers:
   - {name: teleop, topic: input/teleop, timeout: 1.0, priority: 7}
 publisher: output
 """
-
-
-@pytest.fixture
-def scene():
-    """Two hosts and the cables between them."""
-    try:
-        scene = Scene().__enter__()
-    except PermissionError as error:
-        pytest.skip(f"network namespaces need root, or a kernel that grants them to users: {error}")
-    yield scene
-    scene.__exit__(None, None, None)
 
 
 def distance(a, b):
