@@ -64,7 +64,7 @@ class MachineError(Exception):
 
 
 class NoKernelError(MachineError):
-    """This is not Debian on a PC."""
+    """This is not Debian on a PC, or apt has no lists of packages here."""
 
 
 def kernel():
@@ -88,10 +88,13 @@ def kernel():
 
 
 def _download():
-    listed = _run("apt-cache", "depends", "linux-image-amd64")
+    try:
+        listed = _run("apt-cache", "depends", "linux-image-amd64")
+    except MachineError:  # no such package or, as in an image, no lists of packages
+        listed = ""
     name = re.search(r"Depends: (linux-image-\S+)", listed)
     if not name:
-        raise NoKernelError("apt knows no linux-image-amd64, the kernel of Debian on PCs")
+        raise NoKernelError("apt lists no linux-image-amd64, the kernel of Debian on PCs")
     shutil.rmtree(CACHE, ignore_errors=True)
     CACHE.mkdir(parents=True)
     _run("apt-get", "download", name[1], cwd=CACHE)
