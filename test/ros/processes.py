@@ -10,6 +10,12 @@ from pathlib import Path
 
 from waiting import DEADLINE_S, wait_for
 
+# As a terminal has it: tests that run in the background inherit that Ctrl-C is ignored, and what
+# they start would inherit it from them.
+for number in (signal.SIGINT, signal.SIGHUP):
+    if signal.getsignal(number) is signal.SIG_IGN:
+        signal.signal(number, signal.default_int_handler)
+
 MARK = "STARTED_BY_A_TEST"  # environment variable by which a program's descendants are known
 
 

@@ -112,6 +112,7 @@ class NewJoy2Twist:
             if self.joy.get_num_connections() == 0:
                 self.publish(self.teleoperation.left(now))
             self.publish(self.teleoperation.tick(now))
+            self.teleoperation.listeners(self.cmd_vel.listeners, self.cmd_vel.name, now)
             self.timer.clear()
             due = min(self.teleoperation.due, now + LOOK_ROUND_S)
         if self.may_diagnose.ready(now) and self.diagnostics.publisher.get_num_connections():

@@ -1,10 +1,13 @@
 """The whole way from a joystick message to a velocity, and what to tell the user (pure)."""
 
+import math
+
 from joy_to_twist.gamepad_hints import GamepadHints
 from joy_to_twist.mapping import BadJoyError, Mapping
 from joy_to_twist.safety import ARMED, DRIVING, Safety
 from joy_to_twist.throttle import Throttle
 
+UNHEARD_S = 2.0  # a robot that starts together with this node takes a moment to listen
 WARNING_PERIOD_S = 5.0  # often enough to be seen, not so often that it hides the rest
 
 
@@ -28,6 +31,7 @@ class Teleoperation:
         self._knows_gamepad = False
         self._may_warn = Throttle(1.0 / WARNING_PERIOD_S)
         self._max_age_ns = round(parameters.max_joy_age * 1e9)
+        self._unheard_since = None  # since when velocities reach nobody [s]
         self._messages = 0
         self._last_message = None
         self._last_summary = (0, None)  # the messages until then, and when
@@ -62,6 +66,19 @@ class Teleoperation:
         """Nobody publishes joystick messages any more. Returns the velocity to send at once."""
         self._knows_gamepad = False  # the next one may be another
         return self._safety.silence("the joystick node has left", now)
+
+    def listeners(self, count, topic, now):
+        """How many listen to the topic of the velocities. Warns, once, when driving reaches nobody.
+
+        Driving a robot that is not there, as under a wrong name, looks like driving.
+        """
+        if count or self._safety.state != DRIVING:
+            self._unheard_since = None
+        elif self._unheard_since is None:
+            self._unheard_since = now
+        elif now - self._unheard_since > UNHEARD_S:
+            self._unheard_since = math.inf
+            self._warn(f"Nobody listens to {topic}: start the robot, or check its name.")
 
     def tick(self, now):
         """Time has passed. Returns the velocity to send at once."""

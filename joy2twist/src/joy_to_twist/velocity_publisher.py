@@ -36,6 +36,16 @@ class VelocityPublisher(rospy.SubscribeListener):
         self._publisher.impl.add_subscriber_listener(self)
         self._update_peers()  # whoever subscribed before the listener was there
 
+    @property
+    def name(self):
+        """The topic, as it was remapped."""
+        return self._publisher.resolved_name
+
+    @property
+    def listeners(self):
+        """How many subscribers are connected."""
+        return len(self._peers)
+
     def publish(self, velocity):
         """Send a velocity: linear x, y, z [m/s] and angular x, y, z [rad/s], frame of the base."""
         message = _TWIST.pack(_TWIST_BYTES, *velocity)

@@ -180,7 +180,22 @@ def test_simulated_time():
 
 def test_an_empty_graph():
     (line,) = lines(Facts(), "wrong")
-    assert "there is neither a joystick nor joy2twist: roslaunch" in line
+    assert "neither a joystick nor joy2twist: roslaunch joy2twist launch_joy_node.launch" in line
+
+
+def test_a_robot_with_a_mux_alone():
+    facts = replace(WELL, publishers={}, subscribers={TELEOP: ["/cmd_vel_mux"]})
+    wrong(facts, "neither a joystick nor joy2twist", "launch_joy_node_realTurtlebot.launch")
+
+
+def test_a_way_through_a_dead_node_is_none():
+    facts = with_node("/joy2twist", node("10.0.0.2", Answer.REFUSED))
+    wrong(facts, "/joy2twist", "has died")
+    assert not [line for line in lines(facts, "ok") if " -> " in line]
+
+
+def test_a_mux_that_waits_for_neutral_after_a_cut():
+    wrong(mux("idle"), "though /joy2twist drives", "release LB and the sticks")
 
 
 def test_nobody_sends_joy():
@@ -192,7 +207,8 @@ def test_nobody_sends_joy():
 
 def test_nobody_makes_velocities():
     facts = replace(WELL, publishers={"/joy": ["/joy_node"]}, subscribers={"/joy": ["/echo"]})
-    wrong(facts, "nobody makes velocities of /joy", "rosrun joy2twist joy2twist.py")
+    wrong(facts, "nobody makes velocities of /joy", "joy2twist_turtlebot.launch")
+    wrong(replace(facts, muxes={}), "rosrun joy2twist joy2twist.py")
 
 
 def test_nobody_listens():
@@ -239,14 +255,16 @@ def test_a_mux_that_lets_another_through():
 
 @pytest.mark.parametrize("active", ["teleop", "idle", "", "n"])
 def test_a_mux_that_would_let_us_through(active):
-    assert not lines(mux(active), "wrong")
+    facts = replace(mux(active), states={"/joy2twist": (True, "armed")})
+    assert not lines(facts, "wrong")
 
 
 @pytest.mark.parametrize(
     ("active", "level"), [("Teleoperation", "ok"), ("idle", "ok"), ("Navigation", "wrong")]
 )
 def test_a_mux_with_its_inputs_in_a_file(active, level):
-    assert [line for line in lines(mux(active, []), level) if "mux  " in line]
+    facts = replace(mux(active, []), states={"/joy2twist": (True, "armed")})
+    assert [line for line in lines(facts, level) if "mux  " in line]
 
 
 def test_a_mux_that_says_nothing():

@@ -35,6 +35,22 @@ def test_what_is_wrong_is_said_once_in_five_seconds():
     assert "\n" not in warnings[0]
 
 
+def test_driving_that_reaches_nobody_is_said_once_until_somebody_listens():
+    machine, warnings = teleoperation()
+    machine.listeners(0, "/carl/cmd_vel", 0.0)  # and nobody drives
+    machine.joy((0.5, 0.7, 0, 0, 0, 0), (), 10.0)
+    for now in (10.0, 11.9):
+        machine.listeners(0, "/carl/cmd_vel", now)
+    assert warnings == []  # the robot may be starting
+    for now in (12.1, 13.0, 20.0):
+        machine.listeners(0, "/carl/cmd_vel", now)
+    assert len(warnings) == 1
+    assert "Nobody listens to /carl/cmd_vel" in warnings[0]
+    for count, now in ((1, 21.0), (0, 22.0), (0, 25.0)):
+        machine.listeners(count, "/carl/cmd_vel", now)
+    assert len(warnings) == 2
+
+
 def test_a_wrong_axis_index_is_named():
     machine, warnings = teleoperation(axis_linear=7)
     machine.joy((0.0,) * 6, (), 0.0)

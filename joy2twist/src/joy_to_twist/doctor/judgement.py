@@ -12,6 +12,7 @@ OK, WRONG, UNKNOWN = "ok", "wrong", "unknown"
 # message that is refused for its age, goes unnoticed.
 CLOCK_TOLERANCE_S = 0.1
 IDLE = ("", "idle")  # what a multiplexer says when nobody drives
+DRIVING = (True, "driving")  # what joy2twist says on /diagnostics when somebody does
 START_ANEW = "and start its nodes anew"
 
 
@@ -145,16 +146,22 @@ def topics(facts):
     """Whether the way from joystick to robot is connected from end to end."""
     converters = facts.converters()
     joys = facts.topics(JOY)
+    # A robot with a multiplexer has launch files of its own; others would bring a second robot.
+    whole, half = (
+        ("launch_joy_node_realTurtlebot.launch", "roslaunch joy2twist joy2twist_turtlebot.launch")
+        if facts.muxes
+        else ("launch_joy_node.launch", "rosrun joy2twist joy2twist.py")
+    )
     heard = {joy for hears, _ in converters.values() for joy in hears}
     if not joys:
-        todo = "roslaunch joy2twist launch_joy_node.launch, or another launch file of the README"
+        todo = f"roslaunch joy2twist {whole}, or in a classroom student.launch"
         yield Finding(WRONG, "topics", "there is neither a joystick nor joy2twist", todo)
     for joy in joys:
         if not facts.publishers.get(joy):
             todo = "start joy_node, or play a recording; with a namespace in both, or in none"
             yield Finding(WRONG, "topics", f"nobody sends {joy}", todo)
         if joy not in heard:
-            todo = "start joy2twist (rosrun joy2twist joy2twist.py)"
+            todo = f"start joy2twist ({half})"
             yield Finding(WRONG, "topics", f"nobody makes velocities of {joy}", todo)
     for node, (hears, sends) in sorted(converters.items()):
         yield from way(facts, node, hears, sends)
@@ -168,7 +175,8 @@ def way(facts, node, hears, sends):
         for finding in link(facts, node, topic, inwards)
     ]
     yield from cut
-    if not cut and all(facts.publishers.get(topic) for topic in hears):
+    alive = node not in facts.nodes or facts.nodes[node].answer is Answer.WELL
+    if alive and not cut and all(facts.publishers.get(topic) for topic in hears):
         begins = sorted({name for topic in hears for name in facts.publishers[topic]})
         ends = sorted({name for topic in sends for name in facts.subscribers[topic]})
         steps = (begins, hears, [node], sends, ends)
@@ -180,6 +188,8 @@ def link(facts, node, topic, inwards):
     others = (facts.publishers if inwards else facts.subscribers).get(topic, [])
     if not others and not inwards:
         free = [t for t in facts.topics(TWIST) if not facts.publishers.get(t)]
+        # The other inputs of a multiplexer are not for people.
+        free = [t for t in free if t.endswith("/input/teleop")] or free
         todo = "start the robot" + (f", or drive the one at {' or '.join(free)}" if free else "")
         yield Finding(WRONG, "topics", f"nobody listens to {topic} of {node}", todo)
     known = facts.nodes.get(node)
@@ -203,6 +213,11 @@ def mux_finding(facts, name, mux, topic):
         todo = f"rostopic echo {name}/active"
         return Finding(UNKNOWN, "mux", f"{name} does not say who is active", todo)
     if mux.active in IDLE:
+        senders = facts.publishers.get(topic, [])
+        if any(facts.states.get(sender) == DRIVING for sender in senders):
+            todo = "its network was cut meanwhile: release LB and the sticks, wait a second"
+            seen = f"{name} does not listen to {topic}, though {', '.join(senders)} drives"
+            return Finding(WRONG, "mux", seen, todo)
         return Finding(OK, "mux", f"{name}: nobody drives at this moment")
     inputs = {i.name: i for i in mux.inputs}
     ours = [i for i in mux.inputs if i.topic == topic]

@@ -4,8 +4,7 @@ import errno
 import os
 
 NO_GAMEPAD = (
-    "No gamepad? roslaunch joy2twist launch_joy_node.launch virtual:=true, "
-    "or rosrun joy2twist virtual_joystick."
+    "No gamepad? Add virtual:=true to the line of roslaunch, or rosrun joy2twist virtual_joystick."
 )
 
 

@@ -1,6 +1,7 @@
 """Virtual gamepads: made by the kernel, or served through a FIFO where the kernel cannot."""
 
 import contextlib
+import fcntl
 import math
 import os
 import select
@@ -111,7 +112,7 @@ class StreamPad:
                 os.unlink(self._path)
 
     def show(self, position):
-        """Move to (axes, buttons) as on /joy; None: unplugged."""
+        """Move to (axes, buttons) as on /joy; None: unplugged. Raises PadError."""
         if position is None:
             self._close()
             return
@@ -142,6 +143,14 @@ class StreamPad:
             self._fd = os.open(self._path, os.O_WRONLY | os.O_NONBLOCK | os.O_CLOEXEC)
         except OSError:
             return False  # nobody reads
+        try:
+            fcntl.flock(self._fd, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            self._close()
+            self._made = False  # it belongs to the other one
+            raise PadError(
+                f"another virtual_joystick serves {self._path}: end it, or choose another path"
+            ) from None
         # As the kernel does at opening: everything, untouched.
         self._told = {}
         untouched = {(BUTTON, i): 0 for i in range(len(self._gamepad.buttons))}
