@@ -41,7 +41,7 @@ def test_the_readme_commands_drive_the_recording_across_and_the_doctor_finds_not
     wait_for(lambda: path_length(scene.odometry) > 1.0, "robot that follows the recording")
     assert not scene.workstation.ended
     for host, other in ((WORKSTATION, ROBOT), (ROBOT, WORKSTATION)):
-        doctor = scene.start(host, f"{REPOSITORY}/tutorial doctor")
+        doctor = scene.start(host, f"'{REPOSITORY}/tutorial' doctor")
         assert doctor.wait() == 0, doctor.output
         assert f"{scene.address(other)} is within 0.1 s" in doctor.output
         assert "-> /cmd_vel_mux/input/teleop -> /cmd_vel_mux\n" in doctor.output

@@ -66,7 +66,7 @@ class Scene:
     def launch_robot(self, arguments=""):
         """Start the README's launch on the robot and watch its odometry."""
         self.robot = self.start(ROBOT, f"{self._blocks[ROBOT][2]} {arguments}")
-        self._observer = self.start(ROBOT, HERE / "observer.py")
+        self._observer = self.start(ROBOT, f"'{HERE}/observer.py'")
         wait_for(lambda: self.odometry, "odometry of the robot")
 
     def launch_workstation(self, launch=None):
@@ -75,7 +75,7 @@ class Scene:
 
     def launch_pilot(self):
         """Let a person sit at the workstation, whose joystick tell() moves."""
-        self._pilot = self.start(WORKSTATION, HERE / "pilot.py", stdin=subprocess.PIPE)
+        self._pilot = self.start(WORKSTATION, f"'{HERE}/pilot.py'", stdin=subprocess.PIPE)
         wait_for(self._pilot_lines, "pilot")
 
     def tell(self, word):
