@@ -1,6 +1,7 @@
 """The virtual gamepad without a kernel: keys, moves and recordings in, axes and buttons out."""
 
 import math
+import os
 from pathlib import Path
 
 import pytest
@@ -10,6 +11,7 @@ from joy_to_twist.joystick.gamepads import F710, F710_D, F710_X, mode_hint, trig
 from joy_to_twist.joystick.keyboard import FIRST_HOLD_S, REPEAT_HOLD_S, Keyboard
 from joy_to_twist.joystick.moves import load_script
 from joy_to_twist.joystick.sources import recording_source, script_source
+from joy_to_twist.joystick.virtual_pads import PadError, StreamPad
 
 # ----------------------------------------------------------------------------------- the gamepad
 
@@ -214,3 +216,20 @@ def test_the_scripts_that_come_along_can_be_read():
     assert scripts
     for path in scripts:
         assert load_script(yaml.safe_load(path.read_text(encoding="utf-8"))).moves
+
+
+# ---------------------------------------------------------------------------------------- the FIFO
+
+
+def test_a_fifo_is_served_by_one_gamepad_only(tmp_path):
+    path = str(tmp_path / "fifo")
+    rest = positions(F710_D, Controls())
+    with StreamPad(F710_D, path) as first:
+        reader = os.open(path, os.O_RDONLY | os.O_NONBLOCK)
+        first.show(rest)
+        assert first.connected
+        with StreamPad(F710_D, path) as second, pytest.raises(PadError, match="another"):
+            second.show(rest)
+        assert os.path.exists(path)
+        os.close(reader)
+    assert not os.path.exists(path)
