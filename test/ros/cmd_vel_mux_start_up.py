@@ -3,6 +3,7 @@
 
 import contextlib
 import sys
+import tempfile
 import unittest
 
 import rospy
@@ -40,6 +41,15 @@ class StartUpTest(unittest.TestCase):
 
     def test_no_file(self):
         self.assert_one_clear_line(run("__name:=no_file"), "~subscribers: missing")
+
+    def test_a_mistake_in_mux_config_ends_minimal_launch(self):
+        with tempfile.NamedTemporaryFile("w", suffix=".yaml") as file:
+            file.write("subscribers: []")
+            file.flush()
+            launch = ("roslaunch", "fake_turtlebot_sim", "minimal.launch")
+            with Program(*launch, f"mux_config:={file.name}") as program:
+                program.wait()
+                self.assertIn("~subscribers: []", program.output)
 
     def test_no_master(self):
         # The discard port of this machine: nobody listens there.

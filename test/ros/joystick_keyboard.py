@@ -15,7 +15,8 @@ from joy_to_twist.safety import ARMED
 from nav_msgs.msg import Odometry
 from waiting import wait_for
 
-STATE = r"^  left stick [+-]\d\.\d [+-]\d\.\d(  LB|  RB|  MODE LED on|  unplugged)*$"
+HINT = "  without LB: tap space, then this key at once"
+STATE = rf"^  left stick [+-]\d\.\d [+-]\d\.\d({HINT}|  LB|  RB|  MODE LED on|  unplugged)*$"
 SPEED = 0.35  # [m/s] at full deflection, config/f710_d.yaml
 
 
@@ -107,8 +108,8 @@ class KeyboardTest(unittest.TestCase):
     def test_keys_held_and_released_move_and_stop_the_robot(self):
         terminal = self.terminal
         self.assertIn("LB, the dead-man button: hold it", terminal.screen)
-        terminal.press("w")
-        wait_for(lambda: "left stick +0.0 +1.0" in terminal.screen, "key on the screen")
+        shown = f"left stick +0.0 +1.0{HINT}"
+        terminal.hold("w", lambda: shown in terminal.screen, "key on the screen")
         wait_for(lambda: "left stick +0.0 +0.0" in terminal.screen, "released key")
         self.assertTrue(all(m.twist.twist.linear.x == 0 for m in self.odometry), "moved without LB")
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from joy_to_twist.doctor.facts import JOY, TWIST, Answer
 from joy_to_twist.joystick.device_choice import explain
+from joy_to_twist.safety import DRIVING
 
 OK, WRONG, UNKNOWN = "ok", "wrong", "unknown"
 
@@ -12,7 +13,6 @@ OK, WRONG, UNKNOWN = "ok", "wrong", "unknown"
 # message that is refused for its age, goes unnoticed.
 CLOCK_TOLERANCE_S = 0.1
 IDLE = ("", "idle")  # what a multiplexer says when nobody drives
-DRIVING = (True, "driving")  # what joy2twist says on /diagnostics when somebody does
 START_ANEW = "and start its nodes anew"
 
 
@@ -214,7 +214,7 @@ def mux_finding(facts, name, mux, topic):
         return Finding(UNKNOWN, "mux", f"{name} does not say who is active", todo)
     if mux.active in IDLE:
         senders = facts.publishers.get(topic, [])
-        if any(facts.states.get(sender) == DRIVING for sender in senders):
+        if any(facts.states.get(sender) == (True, DRIVING) for sender in senders):
             todo = "its network was cut meanwhile: release LB and the sticks, wait a second"
             seen = f"{name} does not listen to {topic}, though {', '.join(senders)} drives"
             return Finding(WRONG, "mux", seen, todo)

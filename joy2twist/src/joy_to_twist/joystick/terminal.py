@@ -49,7 +49,7 @@ class Terminal:
         x, y = controls.left_stick
         words = [f"left stick {x:+.1f} {y:+.1f}", *sorted(controls.held)]
         if (x or y) and not controls.held:
-            words.append("LB is not held: tap space, then this key at once")
+            words.append("without LB: tap space, then this key at once")
         words += ["MODE LED on"] * controls.mode_led + ["unplugged"] * (not controls.plugged)
         # Back to its beginning: a line of another program replaces it, and is not glued to it.
         sys.stdout.write(_CLEAR_LINE + "  " + "  ".join(words) + "\r")
