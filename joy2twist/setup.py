@@ -3,7 +3,7 @@ from setuptools import setup
 
 setup(
     **generate_distutils_setup(
-        packages=["joy_to_twist", "joy_to_twist.doctor", "joy_to_twist.joystick"],
+        packages=["joy_to_twist"],
         package_dir={"": "src"},
     )
 )

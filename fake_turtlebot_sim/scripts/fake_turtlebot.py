@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""Simulate a TurtleBot 2; fake_turtlebot_sim.node says which topics and parameters it has."""
+"""Simulate a TurtleBot 2: see fake_turtlebot_sim/simulator/node.py."""
 
 import signal
 import sys
 
 signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C while ROS still loads ends this quietly
 
-from fake_turtlebot_sim.node import main
+from fake_turtlebot_sim.simulator.node import main
 
 sys.exit(main())

@@ -4,17 +4,13 @@ import os
 import shutil
 import socket
 import subprocess
-import sys
 from pathlib import Path
 
 import pytest
+from tutorial_testing.two_hosts.scene import Scene
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 WIDTH, HEIGHT = 1200, 800  # [pixel] of a virtual screen, and of RViz's window in sim.rviz
-# processes.py and waiting.py, and the folders beside this file.
-sys.path[:0] = [str(REPOSITORY / "test" / "ros"), str(REPOSITORY / "test" / "system")]
-
-from two_hosts.scene import Scene  # noqa: E402
 
 
 def free_port():

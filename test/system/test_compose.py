@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 import yaml
-from two_hosts.scene import ROBOT, WORKSTATION, readme_blocks
+from tutorial_testing.two_hosts.scene import ROBOT, WORKSTATION, readme_blocks
 
 DOCKER = Path(__file__).resolve().parents[2] / "docker"
 

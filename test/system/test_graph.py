@@ -11,12 +11,12 @@ import struct
 from pathlib import Path
 
 import pytest
-from processes import Program
-from two_hosts.scene import ROBOT, WORKSTATION
-from waiting import wait_for
+from tutorial_testing.processes import Program
+from tutorial_testing.two_hosts.scene import ROBOT, WORKSTATION
+from tutorial_testing.waiting import wait_for
 
 START_S = 120.0  # RViz without a graphics card, on a busy machine
-DRAW = "rosrun beginner_tutorials draw_graph.py"
+DRAW = "rosrun tutorial_tools draw_graph.py"
 PICTURE_BYTES = 150_000  # at most, for a README
 DRIVE = "/rosbag /joy /myjoystick2twist"
 TWO_MACHINES = f"{DRIVE} /cmd_vel_mux/input/teleop /cmd_vel_mux /mobile_base/commands/velocity"

@@ -6,15 +6,13 @@ Here, if this kernel makes joysticks; else in QEMU with Debian's kernel: see ker
 import os
 import platform
 import re
-import sys
 from pathlib import Path
 
 import pytest
-from processes import Program
+from tutorial_testing.processes import Program
 
-KERNEL = Path(__file__).with_name("kernel")
-sys.path.insert(0, str(KERNEL))
-from machine import (  # noqa: E402  the folder of this test
+KERNEL = Path(__file__).parents[1] / "src" / "tutorial_testing" / "kernel"
+from tutorial_testing.kernel.machine import (  # noqa: E402  the folder of this test
     EXIT,
     MachineError,
     NoKernelError,

@@ -8,8 +8,8 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from processes import Program
-from waiting import wait_for
+from tutorial_testing.processes import Program
+from tutorial_testing.waiting import wait_for
 
 README = Path(__file__).resolve().parents[2] / "README.md"
 # What lasts until Ctrl-C, and what it prints once it runs ("": nothing, being there is enough).

@@ -15,8 +15,8 @@ import numpy as np
 import pytest
 import yaml
 from PIL import ImageGrab
-from processes import Program
-from waiting import wait_for
+from tutorial_testing.processes import Program
+from tutorial_testing.waiting import wait_for
 
 CONFIG = Path(__file__).resolve().parents[2] / "fake_turtlebot_sim" / "rviz" / "sim.rviz"
 START_S = 120.0  # RViz without a graphics card, on a busy machine

@@ -7,8 +7,8 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from processes import Program
-from waiting import wait_for
+from tutorial_testing.processes import Program
+from tutorial_testing.waiting import wait_for
 
 BAG = Path(__file__).resolve().parents[2] / "joy2twist" / "bag" / "joy.bag"
 LINE = re.compile(

@@ -1,8 +1,8 @@
 """The README's two machines, joined by a network, and what happens when its cable is pulled."""
 
 import pytest
-from two_hosts.scene import REPOSITORY, ROBOT, WORKSTATION
-from waiting import wait_for
+from tutorial_testing.two_hosts.scene import REPOSITORY, ROBOT, WORKSTATION
+from tutorial_testing.waiting import wait_for
 
 TURTLEBOT = "roslaunch joy2twist joy2twist_turtlebot.launch"
 TIMEOUT_S = 0.6  # of the base

@@ -13,7 +13,9 @@ CLEAN = {
 }  # no workspace sourced
 NODES = {
     "beginner_tutorials": ["talker.py", "listener.py"],
-    "joy2twist": ["joy2twist.py", "display_joy.py", "publish_twist.py", "demo.py"],
+    "joy2twist": ["joy2twist.py", "display_joy.py", "publish_twist.py"],
+    "gamepad": ["joy_node", "virtual_joystick"],
+    "tutorial_tools": ["demo.py", "doctor.py", "draw_graph.py"],
     "fake_turtlebot_sim": ["fake_turtlebot.py"],
 }
 
@@ -63,7 +65,8 @@ def test_every_node_and_file_is_found(workspace, space):
 
 def test_the_installed_suite_drives(workspace, master_uri):
     told = shell(
-        f"source '{workspace}/install/setup.bash'; rosrun joy2twist demo.py --for 3 rviz:=false",
+        f"source '{workspace}/install/setup.bash'; rosrun tutorial_tools demo.py --for 3"
+        " rviz:=false",
         ROS_MASTER_URI=master_uri,
     )
     assert "driven 0.00 m" not in told
@@ -72,5 +75,5 @@ def test_the_installed_suite_drives(workspace, master_uri):
 
 def test_the_rostests_are_registered(workspace):
     listed = shell(f"cd '{workspace}/build' && make help").split()
-    for test in Path(__file__).parents[1].joinpath("ros").glob("*.test"):
-        assert f"run_tests_ros1_tutorial_test_rostest_ros_{test.name}" in listed
+    for test in Path(__file__).parents[1].joinpath("ros").rglob("*.test"):
+        assert f"run_tests_ros1_tutorial_test_rostest_ros_{test.parent.name}_{test.name}" in listed

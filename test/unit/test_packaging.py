@@ -9,7 +9,8 @@ from xml.etree import ElementTree
 import pytest
 
 REPOSITORY = Path(__file__).resolve().parents[2]
-PACKAGES = ("beginner_tutorials", "fake_turtlebot_sim", "joy2twist")
+LOWER_FLOOR = ("common/gamepad", "common/node_kit", "common/tutorial_tools", "fake_turtlebot_sim")
+PACKAGES = ("beginner_tutorials", *LOWER_FLOOR, "joy2twist")
 
 
 @pytest.mark.skipif(not shutil.which("catkin_lint"), reason="catkin_lint missing: ./tutorial setup")

@@ -11,9 +11,8 @@ import time
 from operator import itemgetter
 
 import rospy
+from node_kit.throttle import Throttle
 from rosgraph.roslogging import RosStreamHandler
-
-from joy_to_twist.throttle import Throttle
 
 BURST_S = 0.1  # lets every message of a bag through that comes at log_rate, but not quite evenly
 GATHER_S = 0.25  # lines within this time are shown together: to wake a thread for each costs more

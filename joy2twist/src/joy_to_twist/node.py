@@ -8,15 +8,15 @@ from time import monotonic, time_ns
 import diagnostic_updater
 import rospy
 from diagnostic_msgs.msg import DiagnosticStatus
+from node_kit.ending import end_on_signals
+from node_kit.start import StartError, checked_parameters
+from node_kit.throttle import Throttle
 
 from joy_to_twist.console import Console
-from joy_to_twist.ending import end_on_signals
 from joy_to_twist.lean_joy import LeanJoy
 from joy_to_twist.limits import ZERO
 from joy_to_twist.parameters import load
-from joy_to_twist.start import StartError, checked_parameters
 from joy_to_twist.teleoperation import Teleoperation
-from joy_to_twist.throttle import Throttle
 from joy_to_twist.velocity_publisher import VelocityPublisher
 
 NODE_NAME = "NewJoy2Twist"

@@ -4,9 +4,9 @@ import struct
 
 import rospy
 from geometry_msgs.msg import Twist
+from node_kit.newest_only import NewestOnly
 
 from joy_to_twist.limits import ZERO
-from joy_to_twist.newest_only import NewestOnly
 
 # A Twist on the wire, little-endian: the number of bytes that follow (uint32), then linear x, y, z
 # and angular x, y, z (float64). Packed here, because rospy's way takes several times as long.

@@ -2,12 +2,9 @@
 
 import os
 import platform
-import sys
-from pathlib import Path
 
 import pytest
 
-sys.path.insert(0, str(Path(__file__).parent))  # for live.py: pytest imports by file, not by folder
 _rows = []
 _load = os.getloadavg()[0]  # when the run begins: other work on the machine spoils the figures
 

@@ -3,10 +3,10 @@
 import timeit
 
 import numpy as np
-from fake_turtlebot_sim.bag_replay import replay
-from fake_turtlebot_sim.differential_drive import arc, arcs
-from fake_turtlebot_sim.parameters import Parameters
-from fake_turtlebot_sim.simulated_robot import RobotModel, SimulatedRobot
+from fake_turtlebot_sim.replay.bag_replay import replay
+from fake_turtlebot_sim.simulator.differential_drive import arc, arcs
+from fake_turtlebot_sim.simulator.parameters import Parameters
+from fake_turtlebot_sim.simulator.simulated_robot import RobotModel, SimulatedRobot
 
 PERIOD_NS = 20_000_000
 PERIOD_S = 0.02

@@ -1,14 +1,9 @@
 """How long after LB is released on the workstation the wheels of the robot are at rest."""
 
-import sys
-from pathlib import Path
 from statistics import median, quantiles
 
-TEST = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(TEST / "ros"), str(TEST / "system")]
-
-from two_hosts.scene import Scene  # noqa: E402
-from waiting import wait_for  # noqa: E402
+from tutorial_testing.two_hosts.scene import Scene
+from tutorial_testing.waiting import wait_for
 
 TRIALS = 200
 LONGEST_S = 0.060  # for 99 of 100; 20 ms of it may pass until the next odometry

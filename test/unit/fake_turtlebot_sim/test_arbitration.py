@@ -3,7 +3,7 @@
 from math import inf, nan
 
 import pytest
-from fake_turtlebot_sim.arbitration import IDLE, REARM_S, Arbiter, Input, LateGuard, Verdict
+from fake_turtlebot_sim.mux.arbitration import IDLE, REARM_S, Arbiter, Input, LateGuard, Verdict
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -1,7 +1,7 @@
 """Time that never decreases, and periods that never drift."""
 
 import pytest
-from fake_turtlebot_sim.clock import MotionClock, PhaseLock
+from fake_turtlebot_sim.simulator.clock import MotionClock, PhaseLock
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -4,7 +4,7 @@ from math import cos, pi, sin
 
 import numpy as np
 import pytest
-from fake_turtlebot_sim.differential_drive import arc, arcs, ramp, wheel_rates, wrap_angle
+from fake_turtlebot_sim.simulator.differential_drive import arc, arcs, ramp, wheel_rates, wrap_angle
 from hypothesis import given
 from hypothesis import strategies as st
 

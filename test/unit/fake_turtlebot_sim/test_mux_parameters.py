@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 import yaml
-from fake_turtlebot_sim.arbitration import Input
-from fake_turtlebot_sim.mux_parameters import MuxParameters, parse_mux_parameters
+from fake_turtlebot_sim.mux.arbitration import Input
+from fake_turtlebot_sim.mux.parameters import MuxParameters, parse_mux_parameters
 
 import fake_turtlebot_sim
 

@@ -5,8 +5,8 @@ from math import hypot, pi
 
 import numpy as np
 import pytest
-from fake_turtlebot_sim.odometry_errors import ErrorModel, OdometryErrors
-from fake_turtlebot_sim.simulated_robot import RobotModel, SimulatedRobot
+from fake_turtlebot_sim.simulator.odometry_errors import ErrorModel, OdometryErrors
+from fake_turtlebot_sim.simulator.simulated_robot import RobotModel, SimulatedRobot
 
 SECOND = 10**9  # [ns]
 SEPARATION = 0.230  # [m]

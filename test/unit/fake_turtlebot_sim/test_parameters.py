@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 import yaml
-from fake_turtlebot_sim.parameters import RANGES, Parameters, line_up, parse_parameters
+from fake_turtlebot_sim.simulator.parameters import RANGES, Parameters, line_up, parse_parameters
 
 import fake_turtlebot_sim
 
@@ -114,7 +114,7 @@ def test_the_yaml_file_holds_all_parameters_with_their_defaults():
 
 
 def test_the_node_and_the_readme_tell_all_parameters_with_their_defaults():
-    tree = ast.parse((PACKAGE / "src/fake_turtlebot_sim/node.py").read_text())
+    tree = ast.parse((PACKAGE / "src/fake_turtlebot_sim/simulator/node.py").read_text())
     (node,) = (part for part in tree.body if isinstance(part, ast.ClassDef))
     docstring = " ".join(ast.get_docstring(node).split())
     readme = (PACKAGE / "README.md").read_text()

@@ -6,14 +6,14 @@ from math import nan, pi
 from pathlib import Path
 
 import pytest
-from fake_turtlebot_sim.parameters import Parameters
+from fake_turtlebot_sim.replay import bag_replay
+from fake_turtlebot_sim.replay import command as replay_command
+from fake_turtlebot_sim.simulator.parameters import Parameters
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from rosbags.rosbag1 import Reader, Writer
 from sensor_msgs.msg import JointState, Joy
 from tf2_msgs.msg import TFMessage
-
-from fake_turtlebot_sim import bag_replay, replay_command
 
 START_NS = 1_400_000_000 * 10**9
 JOY_BAG = Path(__file__).parents[3] / "joy2twist" / "bag" / "joy.bag"

@@ -4,9 +4,9 @@ from math import cos, inf, nan, pi, sin
 
 import numpy as np
 import pytest
-from fake_turtlebot_sim.parameters import Parameters
-from fake_turtlebot_sim.ros_messages import RobotMessages, pose_on_floor, static_transform
-from fake_turtlebot_sim.simulated_robot import RobotState, SimulatedRobot
+from fake_turtlebot_sim.simulator.parameters import Parameters
+from fake_turtlebot_sim.simulator.ros_messages import RobotMessages, pose_on_floor, static_transform
+from fake_turtlebot_sim.simulator.simulated_robot import RobotState, SimulatedRobot
 from genpy import Time
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from hypothesis import given

@@ -4,9 +4,9 @@ import random
 from math import cos, hypot, inf, nan, pi, sin
 
 import pytest
-from fake_turtlebot_sim.differential_drive import arc, wrap_angle
-from fake_turtlebot_sim.simulated_robot import RobotModel, SimulatedRobot
-from fake_turtlebot_sim.velocity_command import VelocityLimits, Verdict
+from fake_turtlebot_sim.simulator.differential_drive import arc, wrap_angle
+from fake_turtlebot_sim.simulator.simulated_robot import RobotModel, SimulatedRobot
+from fake_turtlebot_sim.simulator.velocity_command import VelocityLimits, Verdict
 
 KOBUKI = RobotModel()
 SECOND = 10**9  # [ns]

@@ -3,7 +3,13 @@
 from math import inf, nan, pi
 
 import pytest
-from fake_turtlebot_sim.velocity_command import VelocityLimits, between, is_finite, limit, ramp_time
+from fake_turtlebot_sim.simulator.velocity_command import (
+    VelocityLimits,
+    between,
+    is_finite,
+    limit,
+    ramp_time,
+)
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -1,0 +1,1 @@
+"""Gamepads: the driver, the virtual gamepad, and what both know of them."""

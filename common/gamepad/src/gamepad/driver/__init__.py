@@ -1,0 +1,1 @@
+"""joy_node: from a gamepad to sensor_msgs/Joy."""

@@ -1,0 +1,55 @@
+"""Which gamepad to open, and what to say if there is none (pure)."""
+
+import errno
+import os
+
+NO_GAMEPAD = (
+    "No gamepad? Add virtual:=true to the line of roslaunch, or rosrun gamepad virtual_joystick."
+)
+
+
+class DeviceError(Exception):
+    """No gamepad can be opened or read; the text says in one line why and what to do."""
+
+
+def choose_by_name(names, wanted):
+    """The path of the gamepad with the wanted name: its exact name, or else a part of it.
+
+    names: dict from path to name. Raises DeviceError if none fits, or a part fits several.
+    """
+    paths = sorted(names)
+    exact = [path for path in paths if names[path] == wanted]
+    if exact:
+        return exact[0]
+    part = [path for path in paths if wanted in names[path]]
+    if len(part) == 1:
+        return part[0]
+    there = ", ".join([f"{names[path]!r} ({path})" for path in part or paths]) or "none at all"
+    if part:
+        raise DeviceError(f"~dev_name {wanted!r} fits several gamepads, write more of it: {there}.")
+    raise DeviceError(f"No gamepad is named {wanted!r}; there are: {there}. Plug it in.")
+
+
+def explain(path, error_number, container, wsl):
+    """One line on why a device cannot be opened, and what to do.
+
+    error_number: errno. container, wsl: whether this runs inside a container, inside WSL.
+    """
+    if error_number in (errno.ENOENT, errno.ENODEV, errno.ENXIO):
+        if not path.startswith("/dev/"):
+            return f"No joystick at {path} so far: it is waited for."
+        if wsl:
+            help_line = "in WSL, attach it from Windows first: usbipd attach --wsl --busid ID"
+        elif container:
+            help_line = f"this is a container, start it with --device {path}"
+        else:
+            help_line = "plug it in (ls /dev/input/js* shows what is there)"
+        return f"No joystick at {path}: {help_line}. {NO_GAMEPAD}"
+    if error_number == errno.EACCES:
+        return (
+            f"No permission to read {path}: join the group of the device "
+            "(sudo usermod -aG input $USER) and log in again."
+        )
+    if error_number == errno.EPERM and container:
+        return f"This container may not open {path}: start it with --device {path}."
+    return f"Cannot open {path}: {os.strerror(error_number)}."

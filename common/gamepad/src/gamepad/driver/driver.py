@@ -1,0 +1,82 @@
+"""What the driver publishes, and when: from bytes and times to axes and buttons (pure)."""
+
+import math
+
+from gamepad.driver.schedule import Schedule
+from gamepad.driver.state import NOTHING, NOW, GamepadState
+from gamepad.js_event import INIT, Decoder
+
+# After a loss a gamepad is not opened again for this time [s]: a node that stops on silence (0.5 s,
+# joy2twist's ~joy_timeout) must have noticed, however quick the hand that plugs it in again.
+SHORTEST_SILENCE_S = 0.6
+
+
+class Driver:
+    """One gamepad at a time: opened, read, lost, opened again.
+
+    Every method is given the time `now` [s] of a clock that never jumps. A message is a pair of
+    tuples: axes (floats from -1 to 1, left and up positive) and buttons (0 or 1).
+    """
+
+    def __init__(self, parameters):
+        """parameters: driver_parameters.DriverParameters."""
+        self._parameters = parameters
+        self._state = None  # of the open gamepad
+        self._told = False  # whether somebody may be driving with what was published
+        self._mute = False  # nothing is published until the user touches the gamepad
+        self.opens_at = -math.inf  # not to be opened before this time
+        self.unknown_events = 0  # of a type that linux/joystick.h does not have
+        self.events = 0
+
+    @property
+    def due(self):
+        """When tick() must be called next [s]; infinity if only bytes can bring something new."""
+        return math.inf if self._state is None or self._mute else self._schedule.due
+
+    def opened(self, triggers, kernel_device):
+        """A gamepad was opened. triggers: numbers of the axes that rest at +1; None if unknown.
+
+        kernel_device: whether the kernel serves it, and not a file or a FIFO.
+        """
+        p = self._parameters
+        self._state = GamepadState(p.deadzone, p.default_trig_val, p.sticky_buttons)
+        self._triggers = triggers
+        self._decoder = Decoder(late_init_is_change=kernel_device)
+        self._schedule = Schedule(p.coalesce_interval, p.autorepeat_rate)
+
+    def read(self, data, now):
+        """Bytes came from the gamepad; returns the messages to publish, oldest first."""
+        messages = []
+        for event in self._decoder.feed(data):
+            self.events += 1
+            urgency = self._state.apply(event)
+            if urgency == NOTHING:
+                self.unknown_events += 1
+                continue
+            if not event.type & INIT:
+                self._mute = False
+            if urgency == NOW:
+                self._schedule.at_once(now)
+            else:
+                self._schedule.soon(now)
+            messages += self.tick(now)  # a quick press and release must not end up in one message
+        return messages
+
+    def tick(self, now):
+        """Time has passed; returns the messages to publish: one or none."""
+        if now < self.due:
+            return []
+        self._schedule.published(now)
+        self._told = True
+        return [self._state.publish()]
+
+    def lost(self, now):
+        """The gamepad is gone; returns the messages to publish: a neutral one, if any was before.
+
+        The next gamepad to be opened is mute until the user touches it. What the kernel says of a
+        gamepad at opening may be made up, and a made-up neutral position would arm a robot.
+        """
+        messages = [self._state.neutral(self._triggers)] if self._told else []
+        self._state, self._told, self._mute = None, False, True
+        self.opens_at = now + SHORTEST_SILENCE_S
+        return messages

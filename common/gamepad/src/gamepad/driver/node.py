@@ -1,0 +1,145 @@
+"""The ROS node joy_node: a gamepad in, joy (sensor_msgs/Joy) out."""
+
+from time import monotonic
+
+import diagnostic_updater
+import rospy
+from diagnostic_msgs.msg import DiagnosticStatus
+from node_kit.ending import end_on_signals
+from node_kit.start import StartError, checked_parameters
+from sensor_msgs.msg import Joy
+
+from gamepad.driver.device import Finder
+from gamepad.driver.device_choice import DeviceError
+from gamepad.driver.driver import Driver
+from gamepad.driver.parameters import load
+from gamepad.driver.report import DriverReport
+from gamepad.driver.wake import AppearanceWatch, Wake
+from gamepad.gamepads import mode_hint
+
+NODE_NAME = "joy_node"
+QUEUE_SIZE = 100  # a press and its release must both arrive
+LOOK_S = 0.5  # how often a missing gamepad is looked for, beside what inotify tells
+
+
+class JoyNode:
+    """Publishes the state of one gamepad, in place of ROS Noetic's joy_node of the package joy.
+
+    Publishes: joy (sensor_msgs/Joy; frame_id is the path of the device),
+        /diagnostics (diagnostic_msgs/DiagnosticArray).
+    Parameters: ~dev /dev/input/js0, ~dev_name "", ~dev_ff "" (not used), ~deadzone 0.05,
+        ~autorepeat_rate 20.0, ~coalesce_interval 0.001, ~default_trig_val false,
+        ~sticky_buttons false, ~diagnostic_period 1.0
+    """
+
+    def __init__(self, parameters):
+        """parameters: driver_parameters.DriverParameters."""
+        rospy.init_node(NODE_NAME, disable_signals=True)
+        self.wake = Wake()
+        rospy.on_shutdown(self.wake.wake)
+        self.driver = Driver(parameters)
+        self.finder = Finder(parameters.dev, parameters.dev_name)
+        self.joy = rospy.Publisher("joy", Joy, queue_size=QUEUE_SIZE, tcp_nodelay=True)
+        self.message = Joy()
+        self.message.header.frame_id = parameters.dev
+        self.report = DriverReport(parameters, self.joy.resolved_name)
+        self.diagnostics = diagnostic_updater.Updater()
+        self.diagnostics.setHardwareID("none")
+        self.diagnostics.add("Joystick Driver Status", self.diagnose)
+
+    def run(self):
+        """Open the gamepad, publish what it says, and again if it is lost, until shut down."""
+        while not rospy.is_shutdown():
+            device = self.wait_for_gamepad()
+            if device:
+                try:
+                    self.follow(device)
+                finally:
+                    device.close()
+
+    def wait_for_gamepad(self):
+        """The Device, open, or None if the node is shut down."""
+        watch = AppearanceWatch(self.finder.pattern, self.wake.wake)
+        told = None
+        try:
+            while not rospy.is_shutdown():
+                watch.look()
+                if monotonic() >= self.driver.opens_at:
+                    try:
+                        return self.finder.open()
+                    except DeviceError as error:
+                        if str(error) != told:
+                            told = str(error)
+                            rospy.logwarn("%s", told)
+                self.report_if_due()
+                self.wake.wait(self.report.look_at(monotonic(), LOOK_S, self.driver.opens_at))
+        finally:
+            watch.stop()
+        return None
+
+    def follow(self, device):
+        """Publish what an open gamepad says until it is lost or the node is shut down."""
+        self.message.header.frame_id = device.path
+        self.driver.opened(device.triggers, device.kernel_device)
+        self.report.opened(device.path, device.name)
+        try:
+            # Before a line is logged: what moves until the first read, joydev tells as part of the
+            # state at opening, which does not count as touched.
+            self.take_in(device, until=monotonic())
+            rospy.loginfo("Opened joystick %s %s", device.path, device.name)
+            hint = mode_hint(device.usb_id)
+            if hint:
+                rospy.loginfo("%s", hint)
+            while not rospy.is_shutdown():
+                self.take_in(device, self.report.next_due(self.driver.due))
+                self.report_if_due()
+        except DeviceError as error:
+            self.publish(self.driver.lost(monotonic()))
+            self.report.lost()
+            rospy.logwarn("%s The sticks were released; it is looked for.", error)
+        if self.driver.unknown_events:
+            rospy.logwarn("%d events of unknown types came.", self.driver.unknown_events)
+
+    def take_in(self, device, until):
+        """Wait for events until a time [s] at the latest; publish what is due. DeviceError."""
+        if self.wake.wait(until, device):
+            self.publish(self.driver.read(device.read(), monotonic()))
+        self.publish(self.driver.tick(monotonic()))
+
+    def publish(self, messages):
+        """Publish pairs of axes and buttons."""
+        for axes, buttons in messages:
+            self.message.header.stamp = rospy.Time.now()
+            self.message.axes, self.message.buttons = axes, buttons
+            self.joy.publish(self.message)
+            self.report.published += 1
+
+    def report_if_due(self):
+        """Publish the diagnostics once in a period."""
+        if self.report.due(monotonic()):
+            self.diagnostics.force_update()
+
+    def diagnose(self, status):
+        """Fill in the diagnostic status, a DiagnosticStatusWrapper."""
+        well, summary = self.report.summary()
+        status.summary(DiagnosticStatus.OK if well else DiagnosticStatus.ERROR, summary)
+        subscribers = self.joy.get_num_connections()
+        for name, value in self.report.details(self.driver.events, subscribers, monotonic()):
+            status.add(name, value)
+        return status
+
+
+def main():
+    """Run the node until it is stopped; exit code 1 and one line if it cannot start."""
+    try:
+        parameters = checked_parameters(NODE_NAME, load)
+    except StartError as error:
+        raise SystemExit(f"{NODE_NAME}: {error}") from None
+    end_on_signals()
+    try:
+        JoyNode(parameters).run()
+    except rospy.ROSException:
+        # A shutdown in the middle of the start, or one that closes the topic while it is published.
+        # is_shutdown() becomes true only after the topics are closed.
+        if not rospy.core.is_shutdown_requested():
+            raise

@@ -1,0 +1,133 @@
+"""The Logitech F710 as the kernel sees it, and what an axis' value means (pure).
+
+Source of axes, buttons and USB ids: the tutorial's setup memo of the F710, and in the kernel
+drivers/hid/hid-input.c (D mode) and drivers/input/joystick/xpad.c (X mode). Codes:
+linux/input-event-codes.h.
+"""
+
+from dataclasses import dataclass
+from typing import Tuple
+
+from gamepad.js_event import FULL
+
+ABS_X, ABS_Y, ABS_Z, ABS_RX, ABS_RY, ABS_RZ, ABS_HAT0X, ABS_HAT0Y = 0, 1, 2, 3, 4, 5, 16, 17
+
+
+@dataclass(frozen=True)
+class Axis:
+    """One axis. code: ABS_*. low, high: range of its raw value; low is left, up, or released."""
+
+    code: int
+    low: int
+    high: int
+
+    def raw(self, position):
+        """The raw value for a position in ROS' sense: from -1 to 1, left and up positive."""
+        return min(self.high, max(self.low, round(self._middle - position * self._half)))
+
+    def js_value(self, raw):
+        """The value of the joystick device's event for a raw value, as drivers/input/joydev.c."""
+        # Integers as there: the middle rounded down, a shift that rounds down, and no flat part.
+        middle, half = int((self.high + self.low) / 2), (self.high - self.low) // 2
+        return min(FULL, max(-FULL, ((raw - middle) * ((1 << 29) // half)) >> 14))
+
+    @property
+    def _middle(self):
+        # Even ranges have no middle; the raw value that the kernel takes for it is the lower one.
+        return int((self.high + self.low) / 2)
+
+    @property
+    def _half(self):
+        return (self.high - self.low) / 2
+
+
+@dataclass(frozen=True)
+class Gamepad:
+    """A gamepad in one mode; axes and buttons in the order of the joystick device.
+
+    buttons: names as printed on the gamepad. button_codes: BTN_*.
+    """
+
+    name: str
+    vendor: int
+    product: int
+    axes: Tuple[Axis, ...]
+    buttons: Tuple[str, ...]
+    button_codes: Tuple[int, ...]
+
+    @property
+    def usb_id(self):
+        """As lsusb writes it."""
+        return f"{self.vendor:04x}:{self.product:04x}"
+
+    @property
+    def triggers(self):
+        """The numbers of the axes that are triggers: at rest they are at +1."""
+        return trigger_axes([axis.code for axis in self.axes])
+
+    @property
+    def untouched(self):
+        """The raw values of all axes when nobody touches the gamepad."""
+        return [
+            axis.low if i in self.triggers else axis.raw(0.0) for i, axis in enumerate(self.axes)
+        ]
+
+
+def _axes(low, high, *codes):
+    return tuple([Axis(code, low, high) for code in codes])
+
+
+F710_D = Gamepad(
+    # So it is: usbhid puts the manufacturer before the product, which has it once more.
+    name="Logitech Logitech Cordless RumblePad 2",
+    vendor=0x046D,
+    product=0xC219,
+    axes=_axes(0, 255, ABS_X, ABS_Y, ABS_Z, ABS_RZ) + _axes(-1, 1, ABS_HAT0X, ABS_HAT0Y),
+    buttons=("X", "A", "B", "Y", "LB", "RB", "LT", "RT", "BACK", "START", "LEFT", "RIGHT"),
+    button_codes=tuple(range(0x130, 0x13C)),  # BTN_GAMEPAD and the next: HID calls it a gamepad
+)
+F710_X = Gamepad(
+    name="Logitech Gamepad F710",
+    vendor=0x046D,
+    product=0xC21F,
+    axes=_axes(-32768, 32767, ABS_X, ABS_Y)
+    + _axes(0, 255, ABS_Z)
+    + _axes(-32768, 32767, ABS_RX, ABS_RY)
+    + _axes(0, 255, ABS_RZ)
+    + _axes(-1, 1, ABS_HAT0X, ABS_HAT0Y),
+    buttons=("A", "B", "X", "Y", "LB", "RB", "BACK", "START", "LOGITECH", "LEFT", "RIGHT"),
+    # BTN_A, B, X, Y, TL, TR, SELECT, START, MODE, THUMBL, THUMBR
+    button_codes=(0x130, 0x131, 0x133, 0x134, 0x136, 0x137, 0x13A, 0x13B, 0x13C, 0x13D, 0x13E),
+)
+F710 = {"D": F710_D, "X": F710_X}
+
+
+def trigger_axes(codes):
+    """The numbers of the axes that are triggers, from the codes of all axes, in their order.
+
+    Gamepads with triggers have the right stick on RX and RY and the triggers on Z and RZ; those
+    without have the right stick there.
+    """
+    if not {ABS_RX, ABS_RY} <= set(codes):
+        return ()
+    return tuple([i for i, code in enumerate(codes) if code in (ABS_Z, ABS_RZ)])
+
+
+def triggers_by_count(axes):
+    """The triggers of a gamepad of which only the number of axes is known."""
+    return F710_X.triggers if axes == len(F710_X.axes) else ()
+
+
+def mode_hint(usb_id):
+    """One line of help if this is an F710, else None. usb_id: as lsusb writes it."""
+    if usb_id == F710_D.usb_id:
+        return (
+            "This is a Logitech F710 in D mode: left stick on axes 0 and 1 if the MODE LED is off "
+            "(4 and 5 if it is on), LB is button 4."
+        )
+    if usb_id == F710_X.usb_id:
+        return (
+            "This is a Logitech F710 in X mode: 8 axes, the triggers are axes 2 and 5. The "
+            "tutorial uses D mode: set the switch to D, or choose a joy_config for X mode."
+        )
+    return None

@@ -1,0 +1,57 @@
+"""What a hand does on a Logitech F710, and what its axes and buttons then are (pure)."""
+
+from dataclasses import dataclass
+from typing import FrozenSet, Tuple
+
+from gamepad.gamepads import F710, F710_X
+
+# A stick moves the D-pad's axes, which know only -1, 0 and 1, from this deflection on.
+DIGITAL_THRESHOLD = 0.5
+
+
+@dataclass(frozen=True)
+class Controls:
+    """One position of everything on the gamepad.
+
+    Sticks and D-pad: (x, y) from -1 to 1, left and up positive as on /joy. triggers: (LT, RT) from
+    0 (released) to 1. held: names of buttons, see gamepads. mode_led: lit by pressing MODE; the
+    left stick and the D-pad are then swapped. plugged: whether the gamepad is there at all.
+    """
+
+    left_stick: Tuple[float, float] = (0.0, 0.0)
+    right_stick: Tuple[float, float] = (0.0, 0.0)
+    dpad: Tuple[float, float] = (0.0, 0.0)
+    triggers: Tuple[float, float] = (0.0, 0.0)
+    held: FrozenSet[str] = frozenset()
+    mode_led: bool = False
+    plugged: bool = True
+
+
+def positions(gamepad, controls):
+    """(axes, buttons) as on /joy of a gamepad, one of gamepads.F710, in the position Controls."""
+    stick, dpad = controls.left_stick, controls.dpad
+    if controls.mode_led:
+        stick, dpad = dpad, stick
+    dpad = tuple([float((v > DIGITAL_THRESHOLD) - (v < -DIGITAL_THRESHOLD)) for v in dpad])
+    held = set(controls.held)
+    if gamepad is F710_X:
+        left, right = [1.0 - 2.0 * pressed for pressed in controls.triggers]
+        axes = (*stick, left, *controls.right_stick, right, *dpad)
+    else:  # in D mode the triggers are buttons
+        axes = (*stick, *controls.right_stick, *dpad)
+        pulled = [v > DIGITAL_THRESHOLD for v in controls.triggers]
+        held.update(name for name, down in zip(("LT", "RT"), pulled) if down)
+    return axes, tuple([int(name in held) for name in gamepad.buttons])
+
+
+def check_controls(controls, mode):
+    """Raises ValueError, one line, if a position is out of range or a button is not there."""
+    for name, low in (("left_stick", -1), ("right_stick", -1), ("dpad", -1), ("triggers", 0)):
+        value = getattr(controls, name)
+        numbers = [v for v in value if isinstance(v, (int, float)) and low <= v <= 1]
+        if len(value) != 2 or len(numbers) != 2:
+            raise ValueError(f"{name} is {list(value)}; allowed are two numbers from {low} to 1")
+    buttons = F710[mode].buttons
+    for name in sorted(controls.held, key=str):
+        if name not in buttons:
+            raise ValueError(f"{name!r} is no button in {mode} mode: {', '.join(buttons)}")

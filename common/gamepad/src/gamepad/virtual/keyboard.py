@@ -1,0 +1,101 @@
+"""Drives a gamepad with the keys of a terminal (pure).
+
+A terminal tells only that a key is pressed, and while it is held, that it is pressed again; and it
+repeats only the key pressed last. So a key counts as held until the terminal has been silent for
+longer than its repetition takes, and all keys are released together then.
+"""
+
+import math
+
+from gamepad.virtual.controls import Controls
+
+# Before it repeats a key, a terminal waits: X server 0.66 s, GNOME 0.5 s, console 0.25 s.
+FIRST_HOLD_S = 0.75
+# Repetitions come 11 (console) to 33 (GNOME) times a second; a late one is allowed.
+REPEAT_HOLD_S = 0.2
+
+HELP = """\
+  W A S D or arrows   left stick: forward, left, back, right
+  space               LB, the dead-man button: hold it (tap it, then hold a direction)
+  T                   RB, turbo
+  1 ... 9, 0          how far the stick goes: 10 % ... 90 %, all the way
+  M                   MODE: swaps the left stick and the D-pad
+  U                   unplug the gamepad, plug it in again
+  Q or Ctrl-C         quit
+"""
+
+# What the keys send. Directions as (x, y) with left and up positive.
+DIRECTIONS = {
+    "w": (0, 1), "\x1b[A": (0, 1), "\x1bOA": (0, 1),
+    "s": (0, -1), "\x1b[B": (0, -1), "\x1bOB": (0, -1),
+    "a": (1, 0), "\x1b[D": (1, 0), "\x1bOD": (1, 0),
+    "d": (-1, 0), "\x1b[C": (-1, 0), "\x1bOC": (-1, 0),
+}  # fmt: skip
+BUTTONS = {" ": "LB", "t": "RB"}
+QUIT = ("q", "\x03", "\x04")
+_ARROW_LENGTH = 3
+
+
+def split_keys(text):
+    """The keys in what a terminal sent: characters in lower case, and arrows as they are."""
+    keys = []
+    while text:
+        arrow = text[:_ARROW_LENGTH]
+        key = arrow if arrow in DIRECTIONS else text[0].lower()
+        keys.append(key)
+        text = text[len(key) :]
+    return keys
+
+
+class Keyboard:
+    """Keys and times in, Controls out. Times in seconds, of one clock that never jumps."""
+
+    def __init__(self):
+        """All keys are released."""
+        self._held = {}  # direction or button -> the key that holds it
+        self._released_at = 0.0
+        self._deflection = 1.0
+        self._mode_led = False
+        self._plugged = True
+        self.quit = False
+
+    def press(self, text, now):
+        """Take in what the terminal sent at a time."""
+        self._expire(now)
+        for key in split_keys(text):
+            if key in QUIT:
+                self.quit = True
+            elif key in DIRECTIONS or key in BUTTONS:
+                self._hold(key, now)
+            elif key.isdigit():
+                self._deflection = int(key) / 10 or 1.0
+            elif key == "m":
+                self._mode_led = not self._mode_led
+            elif key == "u":
+                self._plugged = not self._plugged
+
+    def at(self, now):
+        """(Controls at a time, the time at which they change by themselves or infinity)."""
+        self._expire(now)
+        x, y = [sum(DIRECTIONS[key][i] for key in self._held if key in DIRECTIONS) for i in (0, 1)]
+        controls = Controls(
+            left_stick=(x * self._deflection, y * self._deflection),
+            held=frozenset(BUTTONS[key] for key in self._held if key in BUTTONS),
+            mode_led=self._mode_led,
+            plugged=self._plugged,
+        )
+        return controls, (self._released_at if self._held else math.inf)
+
+    def _expire(self, now):
+        if now >= self._released_at:
+            self._held = {}
+
+    def _hold(self, key, now):
+        repeated = key in self._held
+        if key in DIRECTIONS:  # the other way, or the same way by another key: only the new one
+            axis = DIRECTIONS[key].index(0)
+            for other in [k for k in self._held if k in DIRECTIONS]:
+                if DIRECTIONS[other].index(0) == axis:
+                    del self._held[other]
+        self._held[key] = True
+        self._released_at = now + (REPEAT_HOLD_S if repeated else FIRST_HOLD_S)

@@ -1,0 +1,100 @@
+"""What moves a virtual gamepad: keys, a script of moves, or a recording (pure).
+
+A source has at(now): (position, until) or None at the end. position: (axes, buttons) as on /joy, or
+None for an unplugged gamepad; until: when it changes by itself. Times in seconds, of one clock that
+never jumps. The first call of at() is the start.
+"""
+
+import bisect
+import math
+
+from gamepad.virtual.controls import Controls, positions
+
+LARGEST_AXIS = 1.001  # the kernel's range is not quite even, so that some drivers go beyond 1
+
+
+def _position(gamepad, controls):
+    return positions(gamepad, controls) if controls.plugged else None
+
+
+class KeySource:
+    """Follows a keyboard.Keyboard until it quits."""
+
+    def __init__(self, gamepad, keyboard):
+        """gamepad: one of gamepads.F710."""
+        self._gamepad, self._keyboard = gamepad, keyboard
+        self.controls = Controls()
+
+    def at(self, now):
+        """See the top of this file."""
+        if self._keyboard.quit:
+            return None
+        self.controls, until = self._keyboard.at(now)
+        return _position(self._gamepad, self.controls), until
+
+
+class UntouchedSource:
+    """Leaves the gamepad alone, for ever."""
+
+    def __init__(self, gamepad):
+        """gamepad: one of gamepads.F710."""
+        self._position = positions(gamepad, Controls())
+
+    def at(self, now):
+        """See the top of this file."""
+        return self._position, math.inf
+
+
+class TimedSource:
+    """Follows what is known beforehand: a script or a recording."""
+
+    def __init__(self, steps, loop):
+        """steps: pairs of a duration [s] and a position. loop: begin again at the end."""
+        self._positions = [position for _, position in steps]
+        self._ends, total = [], 0.0
+        for duration, _ in steps:
+            total += duration
+            self._ends.append(total)
+        self._loop = loop
+        self._start = None
+
+    def at(self, now):
+        """See the top of this file."""
+        if self._start is None:
+            self._start = now
+        rounds, time_s = divmod(now - self._start, self._ends[-1])
+        if rounds and not self._loop:
+            return None
+        index = min(bisect.bisect_right(self._ends, time_s), len(self._ends) - 1)
+        until = self._start + rounds * self._ends[-1] + self._ends[index]
+        return self._positions[index], until
+
+
+def script_source(gamepad, script, loop):
+    """A source from a moves.Script."""
+    return TimedSource([(d, _position(gamepad, controls)) for d, controls in script.moves], loop)
+
+
+def recording_source(gamepad, recorded, loop):
+    """A source from pairs of a time [s] and a position (axes, buttons), in the order of time.
+
+    Raises ValueError, one line, if they are of another gamepad.
+    """
+    expected = (len(gamepad.axes), len(gamepad.buttons))
+    for _, (axes, buttons) in recorded:
+        if (len(axes), len(buttons)) != expected:
+            raise ValueError(
+                f"a message has {len(axes)} axes and {len(buttons)} buttons; "
+                f"this gamepad has {expected[0]} and {expected[1]}"
+            )
+        if not all([abs(axis) <= LARGEST_AXIS for axis in axes]):
+            raise ValueError(f"a message has axes beyond -1 to 1: {list(axes)}")
+    if len(recorded) < 2:
+        raise ValueError("there are fewer than two messages")
+    times = [time for time, _ in recorded]
+    gaps = [max(0.0, later - earlier) for earlier, later in zip(times, times[1:])]
+    # The last position is held as long as positions are held on average.
+    gaps.append(sum(gaps) / len(gaps))
+    if not sum(gaps):
+        raise ValueError("all messages have one time")
+    return TimedSource([(gap, position) for gap, (_, position) in zip(gaps, recorded)], loop)

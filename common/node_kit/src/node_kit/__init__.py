@@ -1,0 +1,1 @@
+"""What every node of the suite needs: start, end, checked parameters, prompt publishing."""

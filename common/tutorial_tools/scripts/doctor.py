@@ -1,0 +1,11 @@
+#!/usr/bin/python3
+"""What to check when nothing moves: see tutorial_tools/doctor/program.py."""
+
+import signal
+
+signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C ends this quietly
+
+from tutorial_tools.doctor.program import main
+
+if __name__ == "__main__":
+    main()

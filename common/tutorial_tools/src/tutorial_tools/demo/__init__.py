@@ -1,0 +1,1 @@
+"""A demonstration that reports what was driven."""

@@ -1,0 +1,231 @@
+"""Starts launch_bag.launch, ends it, and tells what was driven.
+
+A look beforehand finds what roslaunch would report badly or not at all: an argument that does not
+exist, a bag that cannot be played, a port taken by another program.
+"""
+
+import argparse
+import contextlib
+import math
+import os
+import signal
+import subprocess
+import sys
+import time
+import xmlrpc.client
+from pathlib import Path
+
+import rosbag
+import rosgraph
+import roslaunch
+import roslaunch.arg_dump
+import rosnode
+import rospkg
+import rospy
+from nav_msgs.msg import Odometry
+from rospy import AnyMsg
+
+from tutorial_tools.demo.drive_report import DriveReport
+
+MASTER_TIMEOUT_S = 3.0  # a master on this machine answers within milliseconds
+START_TIMEOUT_S = 60.0  # until the first odometry, on a slow and busy machine
+COMPLETE_TIMEOUT_S = 3.0  # for a launch that is ended while it starts
+END_TIMEOUT_S = 30.0  # roslaunch itself kills stubborn nodes after 17 s
+# What ends the demonstration: Ctrl-C, kill, a terminal that is closed.
+ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+
+
+class DemoError(Exception):
+    """What keeps the demonstration from starting or from driving, in one line for the user."""
+
+
+def duration(text):
+    """A time in seconds; the type of --for. Raises what argparse tells the user."""
+    try:
+        seconds = float(text)
+    except ValueError:
+        seconds = math.nan
+    if not 0 < seconds < math.inf:
+        raise argparse.ArgumentTypeError(f"{text}: not a time in seconds above 0, such as 20")
+    return seconds
+
+
+def parse(argv):
+    """The command line: how long to drive (None: until stopped) and NAME:=VALUE arguments."""
+    parser = argparse.ArgumentParser(
+        prog="demo", description="Drives the simulated TurtleBot with the recorded joystick."
+    )
+    parser.add_argument(
+        "--for", dest="duration_s", type=duration, metavar="SECONDS",
+        help="end by itself, with one line that tells the drive; exit code 0 if the robot moved",
+    )  # fmt: skip
+    parser.add_argument("arguments", nargs="*", metavar="NAME:=VALUE", help="for launch_bag.launch")
+    return parser.parse_args(argv)
+
+
+def check_arguments(launch_file, arguments):
+    """Return the launch arguments as a dict, the defaults included, and the names of the nodes.
+
+    Raises DemoError for one that is not NAME:=VALUE, is unknown, or has a value that does not do.
+    """
+    known = roslaunch.arg_dump.get_args([launch_file])
+    values = {name: default for name, (_, default) in known.items()}
+    for argument in arguments:
+        name, assigned, value = argument.partition(":=")
+        if not assigned or name not in known:
+            names = ", ".join(f"{name}:=" for name in sorted(known))
+            raise DemoError(f"{argument}: not an argument of launch_bag.launch, which has {names}")
+        values[name] = value
+    try:
+        config = roslaunch.config.load_config_default(
+            [(launch_file, arguments)], None, verbose=False
+        )
+    except (roslaunch.RLException, rospkg.ResourceNotFound, ValueError) as error:
+        raise DemoError(f"{' '.join(arguments)}: {str(error).splitlines()[0]}") from error
+    return values, config.resolved_node_names
+
+
+def check_bag(path):
+    """Raises DemoError unless the file is a bag that can be played and holds joystick messages."""
+    try:
+        with rosbag.Bag(str(path)) as bag:
+            count = bag.get_message_count("/joy")
+    except OSError as error:
+        raise DemoError(f"{path}: cannot be read: {error.strerror}") from error
+    except rosbag.ROSBagUnindexedException as error:
+        raise DemoError(f"{path}: cut short; mend it with: rosbag reindex {path}") from error
+    except Exception as error:  # rosbag lets struct.error and more through from a damaged file
+        raise DemoError(f"{path}: not a bag that can be played: {error}") from error
+    if not count:
+        raise DemoError(f"{path}: holds no message on /joy")
+
+
+def check_master():
+    """Raises DemoError if another program answers where the ROS master is expected."""
+    uri = rosgraph.get_master_uri()
+    try:
+        host, port = rosgraph.network.parse_http_host_and_port(uri)
+    except ValueError as error:
+        raise DemoError(f"ROS_MASTER_URI={uri}: not of the form http://HOST:PORT") from error
+    try:
+        with rosgraph.network.socket.create_connection((host, port), MASTER_TIMEOUT_S):
+            pass
+    except OSError:
+        return  # nothing there: roslaunch starts a master, or says that the host is not this one
+    if not master_answers(uri):
+        raise DemoError(
+            f"port {port} of {host} is taken by a program that is not a ROS master; "
+            f"end it, or choose another port: export ROS_MASTER_URI=http://{host}:{port + 1}"
+        )
+
+
+def master_answers(uri):
+    """Whether a ROS master answers at a URI, within MASTER_TIMEOUT_S."""
+
+    class Transport(xmlrpc.client.Transport):
+        def make_connection(self, host):
+            connection = super().make_connection(host)
+            connection.timeout = MASTER_TIMEOUT_S
+            return connection
+
+    try:
+        code, _, _ = xmlrpc.client.ServerProxy(uri, transport=Transport()).getPid("/demo")
+    except Exception:  # whatever it answered, a master does not answer so
+        return False
+    return code == 1
+
+
+class Launch:
+    """A launch that runs, with a DriveReport of it; leaving the context ends it as Ctrl-C does."""
+
+    def __init__(self, command, nodes):
+        """command: of roslaunch; nodes: the names of the nodes that it starts."""
+        self.report = DriveReport(("/joy", "/cmd_vel", "/odom"))
+        self._nodes = set(nodes)
+        # In a session of its own: Ctrl-C in a terminal must not reach it before it is complete.
+        self._process = subprocess.Popen(command, start_new_session=True)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        for number in ENDING:
+            signal.signal(number, signal.SIG_IGN)  # an impatient user must not leave nodes behind
+        # A roslaunch that is interrupted while it still starts nodes leaves its master behind.
+        with contextlib.suppress(DemoError):
+            self.wait(time.monotonic() + COMPLETE_TIMEOUT_S, self._is_complete)
+        if self._process.poll() is None:
+            self._process.send_signal(signal.SIGINT)
+        try:
+            self._process.wait(END_TIMEOUT_S)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
+        rospy.signal_shutdown("the demonstration is over")
+
+    def _is_complete(self):
+        try:
+            return self._nodes <= set(rosnode.get_node_names())
+        except rosnode.ROSNodeIOException:
+            return False  # no master yet
+
+    def wait(self, until, happened=lambda: False):
+        """Wait for something to happen, or until a time [s] of the monotonic clock.
+
+        Raises DemoError if the launch ends meanwhile.
+        """
+        while time.monotonic() < until and not happened():
+            if self._process.poll() is not None:
+                raise DemoError("the launch ended by itself; its messages above say why")
+            time.sleep(0.02)
+
+    def watch(self, duration_s):
+        """Count what runs on the topics for a time, from the first odometry on."""
+        deadline = time.monotonic() + START_TIMEOUT_S
+        self.wait(deadline, rosgraph.is_master_online)
+        rospy.init_node("demo", anonymous=True, disable_signals=True, log_level=rospy.ERROR)
+        rospy.Subscriber("/odom", Odometry, self._on_odometry)
+        for topic in ("/joy", "/cmd_vel"):
+            rospy.Subscriber(topic, AnyMsg, lambda _, topic=topic: self.report.count(topic))
+        self.wait(deadline, lambda: self.report.pose is not None)
+        if self.report.pose is None:
+            raise DemoError(f"no /odom within {START_TIMEOUT_S:.0f} s")
+        print(f"demo: first /odom after {age_of_this_process():.1f} s", flush=True)
+        self.wait(time.monotonic() + duration_s)
+
+    def _on_odometry(self, message):
+        pose = message.pose.pose
+        self.report.count("/odom")
+        self.report.add_pose(
+            pose.position.x, pose.position.y, pose.orientation.z, pose.orientation.w
+        )
+
+
+def age_of_this_process():
+    """How long ago [s] the user's command began; ./tutorial becomes this process by exec."""
+    with open("/proc/self/stat") as stat, open("/proc/uptime") as uptime:
+        started = int(stat.read().rsplit(")", 1)[1].split()[19])  # proc(5): starttime [ticks]
+        return float(uptime.read().split()[0]) - started / os.sysconf("SC_CLK_TCK")
+
+
+def main():
+    """Check, then launch; exit code 0 if it ran and, with --for, if the robot moved."""
+    for number in ENDING:
+        signal.signal(number, signal.default_int_handler)
+    options = parse(sys.argv[1:])
+    try:
+        launch_file = f"{rospkg.RosPack().get_path('joy2twist')}/launch/launch_bag.launch"
+        values, nodes = check_arguments(launch_file, options.arguments)
+        # rosbag plays in a folder of its own, so a relative path would not be found there.
+        bag = Path(values["bag"]).expanduser().absolute()
+        check_bag(bag)
+        check_master()
+        command = ["roslaunch", launch_file, *options.arguments, f"bag:={bag}"]
+        with Launch(command, nodes) as launch:
+            launch.watch(math.inf if options.duration_s is None else options.duration_s)
+    except DemoError as error:
+        sys.exit(f"demo: {error}")
+    except KeyboardInterrupt:
+        sys.exit(130 if options.duration_s else 0)  # without a time, this is how it ends
+    print(f"demo: {launch.report.line(options.duration_s)}")
+    sys.exit(not launch.report.moved)

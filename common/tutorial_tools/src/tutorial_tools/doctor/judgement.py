@@ -1,0 +1,266 @@
+"""What the facts mean when nothing moves: a list of findings (pure)."""
+
+import errno
+from dataclasses import dataclass
+
+from gamepad.driver.device_choice import explain
+from joy_to_twist.safety import DRIVING
+
+from tutorial_tools.doctor.facts import JOY, TWIST, Answer
+
+OK, WRONG, UNKNOWN = "ok", "wrong", "unknown"
+
+# Clocks may differ by this much [s]: a tenth of a second of old transforms, or of a joystick
+# message that is refused for its age, goes unnoticed.
+CLOCK_TOLERANCE_S = 0.1
+IDLE = ("", "idle")  # what a multiplexer says when nobody drives
+START_ANEW = "and start its nodes anew"
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One line for the user. level: OK, WRONG or UNKNOWN. about: one word. todo: what to do."""
+
+    level: str
+    about: str
+    seen: str
+    todo: str = ""
+
+    def line(self):
+        """The finding as it is shown."""
+        return f"{self.level:7}  {self.about:8}  {self.seen}" + (
+            f": {self.todo}" if self.todo else ""
+        )
+
+
+def judge(facts):
+    """All findings, in the order in which one would look for a cause."""
+    findings = [*master(facts), *address(facts)]
+    if facts.master is Answer.WELL:
+        for check in (nodes, clocks, sim_time, topics, muxes, rivals, states):
+            findings += check(facts)
+    return [*findings, *joysticks(facts)]
+
+
+def master(facts):
+    """Whether a master answers at ROS_MASTER_URI."""
+    uri, host = f"ROS_MASTER_URI={facts.master_uri}", facts.master_host
+    start = "start roscore" if facts.master_here else f"start roscore, or minimal.launch, on {host}"
+    other = "export ROS_MASTER_URI=http://HOST:11311, with the machine on which roscore runs"
+    todo = {
+        Answer.MALFORMED: other,
+        Answer.UNKNOWN_NAME: f'write the address of "{host}" instead, or add it to /etc/hosts',
+        Answer.REFUSED: f"{start}; or {other}",
+        Answer.SILENT: f"try: ping {host}; look at cable, Wi-Fi and firewall",
+        Answer.STRANGE: f"end that program, or {other}",
+    }
+    if facts.master is Answer.WELL:
+        yield Finding(OK, "master", f"{facts.master_uri} answers")
+    else:
+        yield Finding(WRONG, "master", f"{uri} {facts.master.value}", todo[facts.master])
+
+
+def address(facts):
+    """Whether the name under which this machine's nodes register leads back to them."""
+    name = facts.own_name
+    said = f"{facts.own_variable}={name}" if facts.own_variable else f'the name "{name}"'
+    if facts.way_out:
+        todo = f"export ROS_IP={facts.way_out} in every terminal of this machine {START_ANEW}"
+    else:
+        todo = f"unset ROS_IP ROS_HOSTNAME, or export ROS_IP=127.0.0.1, {START_ANEW}"
+    loopback = all(a.startswith("127.") or a == "::1" for a in facts.own_addresses)
+    if not facts.own_addresses:
+        yield Finding(WRONG, "address", f"{said} of this machine cannot be looked up", todo)
+    elif not facts.own_is_here:
+        where = ", ".join(facts.own_addresses)
+        shown = said if where == name else f"{said} ({where})"
+        yield Finding(WRONG, "address", f"{shown} is no address of this machine", todo)
+    elif facts.called_back:
+        yield Finding(OK, "address", f'the master reaches this machine as "{name}"')
+    elif not facts.master_here and loopback and facts.own_variable:
+        yield Finding(WRONG, "address", f"{said} is seen by this machine only", todo)
+    elif facts.called_back is None:
+        yield Finding(OK, "address", f'nodes of this machine call it "{name}"')
+    else:
+        firewall = "or open this machine's firewall for it"
+        yield Finding(
+            WRONG, "address", f'the master does not reach "{name}"', f"{todo}; {firewall}"
+        )
+
+
+def nodes(facts):
+    """Whether every node that is registered can be reached from here."""
+    alone = facts.master_here and all(node.here is not False for node in facts.nodes.values())
+    well = 0
+    for name, node in sorted(facts.nodes.items()):
+        at = f"{name} at {node.uri}"
+        local = node.host == "localhost" or node.host.startswith("127.")
+        export = f"on its machine export ROS_IP {START_ANEW}"
+        if local and not alone:
+            # Seen from another machine this would be somebody else, whatever answers.
+            yield Finding(WRONG, "nodes", f"{at} can be reached from its own machine only", export)
+        elif node.answer is Answer.UNKNOWN_NAME:
+            todo = f'add "{node.host}" to /etc/hosts, or {export}'
+            yield Finding(WRONG, "nodes", f'{at}: "{node.host}" cannot be looked up here', todo)
+        elif node.answer in (Answer.REFUSED, Answer.STRANGE):
+            todo = "start it anew, or forget it with: rosnode cleanup"
+            todo += f"; if it runs on another machine, {export}" if local else ""
+            yield Finding(WRONG, "nodes", f"{at} is registered, but has died", todo)
+        elif node.answer is not Answer.WELL:
+            todo = f"it hangs, or a network is down: try ping {node.host}; look at its firewall"
+            yield Finding(WRONG, "nodes", f"{at} {node.answer.value}", todo)
+        else:
+            well += 1
+    if well == len(facts.nodes):
+        yield Finding(OK, "nodes", f"all {well} answer")
+
+
+def clocks(facts):
+    """Whether the clocks of the other machines agree with this one's."""
+    if facts.use_sim_time:
+        yield Finding(OK, "clocks", "/use_sim_time: all follow /clock")
+        return
+    if not facts.clocks:
+        yield Finding(OK, "clocks", "every node runs on this machine")
+    for host, offset in sorted(facts.clocks.items()):
+        if offset is None:
+            todo = f"compare: date +%s.%N; ssh {host} date +%s.%N"
+            yield Finding(UNKNOWN, "clocks", f"{host} sends no stamped message", todo)
+        elif abs(offset.seconds) <= CLOCK_TOLERANCE_S:
+            seen = f"{host} is within {CLOCK_TOLERANCE_S:g} s, by {offset.topic}"
+            yield Finding(OK, "clocks", seen)
+        else:
+            ahead = "ahead of" if offset.seconds > 0 else "behind"
+            seen = f"{host} is {abs(offset.seconds):.1f} s {ahead} us, by {offset.topic}"
+            todo = "on both machines: sudo apt install chrony (a recording has old stamps, though)"
+            yield Finding(WRONG, "clocks", seen, todo)
+
+
+def sim_time(facts):
+    """Whether simulated time, if it is asked for, runs."""
+    if facts.use_sim_time and not facts.clock_ticks:
+        todo = "rosparam delete /use_sim_time and start the nodes anew, or start what sends /clock"
+        yield Finding(WRONG, "clocks", "/use_sim_time is true, and no /clock comes", todo)
+
+
+def topics(facts):
+    """Whether the way from joystick to robot is connected from end to end."""
+    converters = facts.converters()
+    joys = facts.topics(JOY)
+    # A robot with a multiplexer has launch files of its own; others would bring a second robot.
+    whole, half = (
+        ("launch_joy_node_realTurtlebot.launch", "roslaunch joy2twist joy2twist_turtlebot.launch")
+        if facts.muxes
+        else ("launch_joy_node.launch", "rosrun joy2twist joy2twist.py")
+    )
+    heard = {joy for hears, _ in converters.values() for joy in hears}
+    if not joys:
+        todo = f"roslaunch joy2twist {whole}, or in a classroom student.launch"
+        yield Finding(WRONG, "topics", "there is neither a joystick nor joy2twist", todo)
+    for joy in joys:
+        if not facts.publishers.get(joy):
+            todo = "start joy_node, or play a recording; with a namespace in both, or in none"
+            yield Finding(WRONG, "topics", f"nobody sends {joy}", todo)
+        if joy not in heard:
+            todo = f"start joy2twist ({half})"
+            yield Finding(WRONG, "topics", f"nobody makes velocities of {joy}", todo)
+    for node, (hears, sends) in sorted(converters.items()):
+        yield from way(facts, node, hears, sends)
+
+
+def way(facts, node, hears, sends):
+    """Whether one converter is connected on both sides."""
+    cut = [
+        finding
+        for topic, inwards in [*[(topic, True) for topic in hears], *[(t, False) for t in sends]]
+        for finding in link(facts, node, topic, inwards)
+    ]
+    yield from cut
+    alive = node not in facts.nodes or facts.nodes[node].answer is Answer.WELL
+    if alive and not cut and all(facts.publishers.get(topic) for topic in hears):
+        begins = sorted({name for topic in hears for name in facts.publishers[topic]})
+        ends = sorted({name for topic in sends for name in facts.subscribers[topic]})
+        steps = (begins, hears, [node], sends, ends)
+        yield Finding(OK, "topics", " -> ".join(", ".join(step) for step in steps))
+
+
+def link(facts, node, topic, inwards):
+    """Whether a converter is connected to those at the other end of a topic."""
+    others = (facts.publishers if inwards else facts.subscribers).get(topic, [])
+    if not others and not inwards:
+        free = [t for t in facts.topics(TWIST) if not facts.publishers.get(t)]
+        # The other inputs of a multiplexer are not for people.
+        free = [t for t in free if t.endswith("/input/teleop")] or free
+        todo = "start the robot" + (f", or drive the one at {' or '.join(free)}" if free else "")
+        yield Finding(WRONG, "topics", f"nobody listens to {topic} of {node}", todo)
+    known = facts.nodes.get(node)
+    if others and known and known.answer is Answer.WELL and (topic, inwards) not in known.links:
+        seen = f"{topic}: {', '.join(others)} and {node} know of each other, but are not connected"
+        todo = "mend what the lines above say, or a firewall between them"
+        yield Finding(WRONG, "topics", seen, todo)
+
+
+def muxes(facts):
+    """Whether a multiplexer lets joy2twist through."""
+    ours = {topic for _, sends in facts.converters().values() for topic in sends}
+    for name, mux in sorted(facts.muxes.items()):
+        for topic in sorted(t for t in ours if t.startswith(f"{name}/")):
+            yield mux_finding(facts, name, mux, topic)
+
+
+def mux_finding(facts, name, mux, topic):
+    """Whether a multiplexer lets one of our topics through."""
+    if mux.active is None:
+        todo = f"rostopic echo {name}/active"
+        return Finding(UNKNOWN, "mux", f"{name} does not say who is active", todo)
+    if mux.active in IDLE:
+        senders = facts.publishers.get(topic, [])
+        if any(facts.states.get(sender) == (True, DRIVING) for sender in senders):
+            todo = "its network was cut meanwhile: release LB and the sticks, wait a second"
+            seen = f"{name} does not listen to {topic}, though {', '.join(senders)} drives"
+            return Finding(WRONG, "mux", seen, todo)
+        return Finding(OK, "mux", f"{name}: nobody drives at this moment")
+    inputs = {i.name: i for i in mux.inputs}
+    ours = [i for i in mux.inputs if i.topic == topic]
+    active = inputs.get(mux.active)
+    # A TurtleBot's own multiplexer keeps its inputs in a file: there Teleoperation is input/teleop.
+    short = topic.rsplit("/", 1)[1].lower()
+    if active in ours or (not ours and mux.active.lower().startswith(short)):
+        return Finding(OK, "mux", f"{name} lets {topic} through")
+    if active and ours and active.priority < ours[0].priority:
+        return Finding(OK, "mux", f'{name} lets "{mux.active}" through, until {topic} drives')
+    senders = facts.publishers.get(active.topic, []) if active else []
+    todo = f"end {', '.join(senders)}" if senders else "end what sends to that"
+    return Finding(WRONG, "mux", f'{name} lets "{mux.active}" through, and not {topic}', todo)
+
+
+def rivals(facts):
+    """Whether several nodes drive one robot, or several joysticks one joy2twist."""
+    for topic in [*facts.topics(JOY), *facts.topics(TWIST)]:
+        senders = facts.publishers.get(topic, [])
+        if len(senders) > 1 and facts.subscribers.get(topic):
+            seen = f"{topic} is sent by {', '.join(sorted(senders))} at once"
+            yield Finding(WRONG, "topics", seen, "end all of them but one")
+
+
+def states(facts):
+    """What joy2twist itself says on /diagnostics."""
+    for node, (well, text) in sorted(facts.states.items()):
+        yield Finding(OK if well else WRONG, "state", f"{node} says: {text}")
+
+
+def joysticks(facts):
+    """Whether the gamepads of this machine can be read."""
+    senders = sorted({n for joy in facts.topics(JOY) for n in facts.publishers.get(joy, [])})
+    for joystick in facts.joysticks:
+        if joystick.error is None:
+            yield Finding(OK, "joystick", f"{joystick.path} can be read")
+        else:
+            seen = explain(joystick.path, joystick.error, facts.container, facts.wsl)
+            yield Finding(WRONG, "joystick", seen.rstrip("."))
+    if not facts.joysticks and senders:
+        seen = f"none at /dev/input/js*; joystick messages come from {', '.join(senders)}"
+        yield Finding(OK, "joystick", seen)
+    elif not facts.joysticks:
+        seen = explain("/dev/input/js0", errno.ENOENT, facts.container, facts.wsl)
+        yield Finding(UNKNOWN, "joystick", seen.rstrip("."))

@@ -1,0 +1,27 @@
+"""The command: looks at all that may keep a robot from moving, one line for each finding."""
+
+import argparse
+import signal
+import sys
+
+from tutorial_tools.doctor.collect import collect
+from tutorial_tools.doctor.judgement import OK, UNKNOWN, WRONG, judge
+
+
+def main():
+    """Show the findings; exit code 1 if something is wrong."""
+    argparse.ArgumentParser(
+        prog="doctor",
+        description="What to check when nothing moves: master, addresses, nodes, clocks, topics, "
+        "joysticks. A line says ok, wrong or unknown; exit code 1 if something is wrong.",
+    ).parse_args()
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    try:
+        findings = judge(collect())
+    except Exception as error:  # whatever the network held ready, no traceback
+        sys.exit(f"doctor: cannot go on: {type(error).__name__}: {' '.join(str(error).split())}")
+    for finding in findings:
+        print(finding.line(), flush=True)
+    count = {level: sum(f.level == level for f in findings) for level in (OK, WRONG, UNKNOWN)}
+    print(f"doctor: {count[OK]} ok, {count[WRONG]} wrong, {count[UNKNOWN]} unknown")
+    sys.exit(count[WRONG] > 0)

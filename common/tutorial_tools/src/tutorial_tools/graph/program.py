@@ -1,0 +1,148 @@
+"""Draws the running nodes and their topics, as rqt_graph does.
+
+draw_graph.py [FILE] [--all]     FILE ends in .png, .svg, .pdf or .dot; graph.png unless told
+
+An ellipse is a node, a box is a topic; arrows go from publishers to the topic, and from there to
+its subscribers. Where the nodes run on several machines, each machine has a frame, labelled with
+the address that its nodes gave to the master: a topic outside the frames crosses the network.
+
+This program only asks the master, and is no node itself.
+"""
+
+import argparse
+import json
+import os
+import re
+import socket
+import subprocess
+import sys
+from pathlib import Path
+from urllib.parse import urlsplit
+
+import rosgraph
+
+ENDINGS = (".png", ".svg", ".pdf", ".dot")
+TIMEOUT_S = 5.0  # for each answer of the master; on one network it takes milliseconds
+# Every node is connected to /rosout, which would hide the rest.
+DEBUG_NODES = {"/rosout"}
+DEBUG_TOPICS = {"/rosout", "/rosout_agg", "/statistics"}
+LINE = 16  # letters of a name in one line of the picture, where it can be broken
+STYLE = """\
+  rankdir=LR newrank=true  // from left to right, whatever the machine
+  nodesep=0.2 ranksep=0.15  // inches, as the margins
+  graph [fontname="Arial" fontsize=16 style=filled color="#e4ecf5"]
+  node [fontname="Arial" fontsize=16 margin="0.03,0.03" width=0.5 style=filled fillcolor=white]
+  edge [arrowsize=0.7]
+"""
+
+
+def quoted(text):
+    """A text as graphviz reads it; it has the same quotes and backslashes as JSON."""
+    return json.dumps(text, ensure_ascii=False)
+
+
+def drawn(kind, name, shape):
+    """The line of a node or a topic. A long name is broken before / and _, as a book does it."""
+    lines = [""]
+    for part in re.split("(?=[/_])", name):
+        if len(lines[-1] + part) > LINE and lines[-1]:
+            lines.append("")
+        lines[-1] += part
+    label = "\n".join(lines)
+    return f"{quoted(f'{kind} {name}')} [label={quoted(label)} shape={shape}]"
+
+
+def dot_text(state, machines, everything=False):
+    """The graph in graphviz's language, DOT; of the same graph always the same text.
+
+    state: publishers, subscribers and services as the master's getSystemState() gives them, each a
+    list of [topic, [node, ...]]. machines: {node: machine that it runs on}. everything: show also
+    /rosout, and topics that nobody publishes or nobody hears.
+    """
+    hidden = set() if everything else DEBUG_NODES
+    publishers, subscribers = (
+        {topic: set(nodes) - hidden for topic, nodes in part} for part in state[:2]
+    )
+    nodes = set().union(*publishers.values(), *subscribers.values())
+    if everything:
+        topics = set(publishers) | set(subscribers)
+    else:
+        topics = set(publishers) & set(subscribers) - DEBUG_TOPICS
+
+    inside = {machines.get(node, ""): [] for node in nodes}  # machine -> its lines
+    inside[""] = []  # on no machine: the topics between them, and a node that has just ended
+    arrows = []
+    for node in sorted(nodes):
+        inside[machines.get(node, "")].append(drawn("node", node, "ellipse"))
+    for topic in sorted(topics):
+        talkers, listeners = publishers.get(topic, set()), subscribers.get(topic, set())
+        where = {machines.get(node, "") for node in talkers | listeners}
+        inside[where.pop() if len(where) == 1 else ""].append(drawn("topic", topic, "box"))
+        this = quoted(f"topic {topic}")
+        arrows += [f"{quoted(f'node {node}')} -> {this}" for node in sorted(talkers)]
+        arrows += [f"{this} -> {quoted(f'node {node}')}" for node in sorted(listeners)]
+
+    lines = inside.pop("")
+    for machine in sorted(inside):
+        if len(inside) == 1:
+            lines += inside[machine]
+        else:
+            lines.append(f"subgraph {quoted(f'cluster {machine}')} {{")
+            lines += [f"  {line}" for line in [f"label={quoted(machine)}", *inside[machine]]]
+            lines.append("}")
+    return "digraph ros {\n" + STYLE + "".join(f"  {line}\n" for line in lines + arrows) + "}\n"
+
+
+def ask_master():
+    """(state, machines) for dot_text()."""
+    master = rosgraph.Master("/draw_graph")
+    state = master.getSystemState()
+    machines = {}
+    for node in {node for part in state for _, nodes in part for node in nodes}:
+        try:
+            machines[node] = urlsplit(master.lookupNode(node)).hostname
+        except rosgraph.MasterException:
+            pass  # it has ended meanwhile
+    return state, machines
+
+
+def picture(text, kind):
+    """What dot draws of a text: the bytes of a file of some kind, such as png."""
+    try:
+        done = subprocess.run(
+            ["dot", f"-T{kind}"], input=text.encode(), capture_output=True, check=False
+        )
+    except FileNotFoundError:
+        fail("dot is missing: sudo apt install graphviz, or choose a FILE that ends in .dot")
+    if done.returncode != 0:
+        fail(f"dot cannot draw this: {' '.join(done.stderr.decode(errors='replace').split())}")
+    return done.stdout
+
+
+def fail(text):
+    sys.exit(f"draw_graph: {text}")
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Draws the running nodes and their topics.")
+    kinds = f"what to write, {', '.join(ENDINGS)}; unless told, graph.png"
+    parser.add_argument("file", nargs="?", default="graph.png", metavar="FILE", help=kinds)
+    everything = "show also /rosout, and topics that nobody publishes or nobody hears"
+    parser.add_argument("--all", action="store_true", help=everything)
+    options = parser.parse_args(rosgraph.myargv()[1:])
+    file = Path(options.file)
+    kind = file.suffix.lower()
+    if kind not in ENDINGS:
+        fail(f"{file} must end in {', '.join(ENDINGS[:-1])} or {ENDINGS[-1]}")
+    socket.setdefaulttimeout(TIMEOUT_S)
+    try:
+        state, machines = ask_master()
+    except Exception:  # whatever answers there, or does not, is no master
+        fail(f"no ROS master at {rosgraph.get_master_uri()}; start one with: roscore")
+    text = dot_text(state, machines, options.all)
+    data = text.encode() if kind == ".dot" else picture(text, kind[1:])
+    try:
+        file.write_bytes(data)
+    except OSError as error:
+        fail(f"cannot write {file}: {os.strerror(error.errno)}")
+    print(f"draw_graph: wrote {file}")

@@ -1,0 +1,95 @@
+"""The node cmd_vel_mux: ROS on one side, an Arbiter on the other, and no arithmetic in between."""
+
+import threading
+import time
+
+import rospy
+from geometry_msgs.msg import Twist
+from std_msgs.msg import String
+
+from fake_turtlebot_sim.mux.arbitration import IDLE, Arbiter, Verdict
+from fake_turtlebot_sim.mux.parameters import parse_mux_parameters
+from fake_turtlebot_sim.prompt_publisher import PromptPublisher
+from fake_turtlebot_sim.start import run
+from fake_turtlebot_sim.throttle import Throttle
+
+NODE_NAME = "cmd_vel_mux"
+SHUTDOWN_CHECK_S = 0.1  # how long a shutdown may go unnoticed
+WARNING_PERIOD_S = 10.0  # how often the same is said of an input, at most
+
+
+class CmdVelMux:
+    """Lets one of several sources of velocity commands drive, as yocs_cmd_vel_mux does.
+
+    Subscribers: ~TOPIC (geometry_msgs/Twist) for each topic in ~subscribers
+    Publishers: ~output (geometry_msgs/Twist) or what ~publisher says, ~active (std_msgs/String)
+    Parameters: ~subscribers, ~publisher output; README.md gives units and meanings
+    """
+
+    def __init__(self, parameters):
+        """Take MuxParameters; from now on commands go through."""
+        self._arbiter = Arbiter(parameters.subscribers)
+        self._throttle = Throttle(WARNING_PERIOD_S)
+        self._lock = threading.Lock()  # one command at a time, and none after the last zero
+        self._has_ended = False
+        self._output = PromptPublisher(_in_own_namespace(parameters.publisher), Twist)
+        # A state, unlike a velocity, may be latched; the queue holds a burst of changes.
+        self._active = rospy.Publisher("~active", String, queue_size=10, latch=True)
+        self._told = None
+        rospy.on_shutdown(self._end)
+        self._look()
+        for one in parameters.subscribers:
+            # Only the newest counts, so none may wait behind it.
+            rospy.Subscriber(
+                _in_own_namespace(one.topic), Twist, self._on_command, callback_args=one.name,
+                queue_size=1, tcp_nodelay=True,
+            )  # fmt: skip
+
+    def spin(self):
+        """Notice who falls silent, until shut down. The clock is one that nobody can set."""
+        while not rospy.is_shutdown():
+            time.sleep(min(self._look(), SHUTDOWN_CHECK_S))
+
+    def _on_command(self, twist, name):
+        linear, angular = twist.linear, twist.angular
+        velocity = (linear.x, linear.y, linear.z, angular.x, angular.y, angular.z)
+        sender = twist._connection_header["callerid"]
+        with self._lock:
+            now = time.monotonic()
+            verdict = self._arbiter.command(name, velocity, now, sender)
+            if verdict is Verdict.OBEYED and not self._has_ended:
+                self._output.publish(twist)
+            self._tell(self._arbiter.active(now))
+        if verdict in (Verdict.REJECTED, Verdict.LATE):
+            line = f"{name}: {verdict.value}"
+            if self._throttle.ready(line, now):
+                rospy.logwarn(line)
+
+    def _look(self):
+        """Act upon silence; return for how long [s] nothing will be due."""
+        with self._lock:
+            now = time.monotonic()
+            if self._arbiter.must_stop(now) and not self._has_ended:
+                self._output.publish(Twist())
+            self._tell(self._arbiter.active(now))
+            return self._arbiter.lull(now)
+
+    def _tell(self, active):
+        if active != self._told and not self._has_ended:
+            self._told = active
+            self._active.publish(active)
+
+    def _end(self):
+        with self._lock:
+            self._output.publish(Twist())  # nobody will send one later
+            self._tell(IDLE)
+            self._has_ended = True
+
+
+def _in_own_namespace(topic):
+    return topic if topic.startswith("/") else f"~{topic}"
+
+
+def main():
+    """Run the node until it is shut down; return its exit code."""
+    return run(NODE_NAME, parse_mux_parameters, lambda parameters: CmdVelMux(parameters).spin())

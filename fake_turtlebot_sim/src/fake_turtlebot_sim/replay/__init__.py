@@ -1,0 +1,1 @@
+"""From a bag of commands to a bag of odometry."""

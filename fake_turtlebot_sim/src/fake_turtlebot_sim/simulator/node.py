@@ -1,0 +1,97 @@
+"""The node: ROS on one side, simulated robots on the other, and no arithmetic in between."""
+
+import rospy
+from std_srvs.srv import Empty, EmptyResponse
+from tf2_msgs.msg import TFMessage
+
+from fake_turtlebot_sim.prompt_publisher import PromptPublisher
+from fake_turtlebot_sim.simulator.clock import PhaseLock
+from fake_turtlebot_sim.simulator.diagnostics import Diagnostics
+from fake_turtlebot_sim.simulator.parameters import parse_parameters
+from fake_turtlebot_sim.simulator.robot_topics import RobotTopics
+from fake_turtlebot_sim.simulator.ros_clock import Motion, ros_clock
+from fake_turtlebot_sim.simulator.ros_messages import static_transform
+from fake_turtlebot_sim.start import run
+
+NODE_NAME = "fake_turtlebot"
+
+
+class FakeTurtlebot:
+    """One TurtleBot 2, or with ~robots as many as named, each in the namespace of its name.
+
+    Subscribers: cmd_vel (geometry_msgs/Twist), initialpose (PoseWithCovarianceStamped),
+        mobile_base/commands/reset_odometry (std_msgs/Empty)
+    Publishers: odom (nav_msgs/Odometry), joint_states (sensor_msgs/JointState),
+        base_pose_ground_truth (nav_msgs/Odometry; only if the odometry has errors),
+        /tf and /tf_static (tf2_msgs/TFMessage), /diagnostics (diagnostic_msgs/DiagnosticArray)
+    Services: ~reset (std_srvs/Empty)
+    Parameters: ~rate 50.0, ~cmd_vel_timeout 0.6, ~publish_tf true, ~wheel_separation 0.23,
+        ~wheel_radius 0.035, ~max_linear_speed 0.7, ~max_angular_speed pi,
+        ~max_linear_acceleration 0.0, ~max_angular_acceleration 0.0, ~initial_x 0.0,
+        ~initial_y 0.0, ~initial_yaw 0.0, ~odom_frame odom, ~base_frame base_footprint,
+        ~left_wheel_joint wheel_left_joint, ~right_wheel_joint wheel_right_joint,
+        ~wheel_noise 0.0, ~wheel_radius_ratio 1.0, ~track_ratio 1.0, ~seed 0, ~robots {},
+        ~world_frame world; README.md gives units and meanings
+    """
+
+    def __init__(self, parameters):
+        """Put the robots at their start poses; nothing is published before spin()."""
+        self._clock = ros_clock()
+        self._motion = Motion(self._clock)
+        self._period_ns = parameters.period_ns()
+        # Absolute, as every listener of tf2 subscribes to it; one message for all robots.
+        self._tf = PromptPublisher("/tf", TFMessage)
+        self._topics = [
+            RobotTopics(name, pose, parameters, self._motion)
+            for name, pose in parameters.start_poses().items()
+        ]
+        self._transforms = TFMessage()
+        if parameters.publish_tf:
+            self._transforms.transforms = [topics.messages.transform for topics in self._topics]
+        if parameters.publish_tf and parameters.robots:
+            self._join_in(parameters.world_frame)
+        self._diagnostics = Diagnostics(self._topics, parameters.rate)
+        rospy.Service("~reset", Empty, self._on_reset)
+
+    def spin(self):
+        """Publish until shut down."""
+        schedule = None
+        while not rospy.is_shutdown():
+            now = self._cycle()
+            if schedule is None:
+                schedule = PhaseLock(self._period_ns, now.reading_ns)
+            self._diagnostics.count(schedule.complete(now.reading_ns))
+            self._clock.wait(now.reading_ns, schedule.deadline_ns)
+
+    def _cycle(self):
+        """Move all robots to the present and publish it; return the Instant."""
+        with self._motion.hold() as now:
+            for topics in self._topics:
+                topics.robot.advance(now.motion_ns)
+                topics.tell(now.stamp)
+        if now.stamp:  # zero: simulated time has not begun
+            for topics in self._topics:
+                topics.publish()
+            if self._transforms.transforms:
+                self._tf.publish(self._transforms)
+        return now
+
+    def _join_in(self, world_frame):
+        """Lay the odometry frames of all robots onto one, so that RViz can show them together."""
+        stamp = rospy.Time.now()
+        self._tf_static = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
+        self._tf_static.publish(
+            TFMessage([static_transform(world_frame, t.odom_frame, stamp) for t in self._topics])
+        )
+
+    def _on_reset(self, _request):
+        with self._motion.hold() as now:
+            for topics in self._topics:
+                topics.robot.advance(now.motion_ns)
+                topics.robot.reset()
+        return EmptyResponse()
+
+
+def main():
+    """Run the node until it is shut down; return its exit code."""
+    return run(NODE_NAME, parse_parameters, lambda parameters: FakeTurtlebot(parameters).spin())

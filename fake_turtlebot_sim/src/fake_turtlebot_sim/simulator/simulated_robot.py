@@ -1,0 +1,171 @@
+"""One simulated robot: commands in, state out, exact at any instant.
+
+Time enters as a whole number of nanoseconds that never decreases. The robot moves only in
+``advance`` and there splits its step where a velocity changes (a command, the end of a ramp, the
+timeout), so what it does depends on when commands came, not on how often it is asked.
+"""
+
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from fake_turtlebot_sim.simulator.differential_drive import drive, wheel_rates, wrap_angle
+from fake_turtlebot_sim.simulator.odometry_errors import ErrorModel, OdometryErrors
+from fake_turtlebot_sim.simulator.velocity_command import (
+    VelocityLimits,
+    Verdict,
+    between,
+    is_finite,
+    limit,
+    ramp_time,
+)
+
+REST = (0.0, 0.0)
+ORIGIN = (0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True)
+class RobotModel:
+    """Constants of a robot. Defaults: TurtleBot 2 (wheels: kobuki_core; timeout: kobuki_node)."""
+
+    wheel_separation: float = 0.230  # [m]
+    wheel_radius: float = 0.035  # [m]
+    cmd_vel_timeout: float = 0.6  # [s]
+    limits: VelocityLimits = field(default_factory=VelocityLimits)
+    errors: ErrorModel = field(default_factory=ErrorModel)
+
+
+class RobotState(NamedTuple):
+    """The robot at one instant: pose in the odometry frame, executed velocity, wheels."""
+
+    x: float  # [m]
+    y: float  # [m]
+    yaw: float  # [rad], in (-pi, pi]
+    v: float  # [m/s]
+    w: float  # [rad/s]
+    left_angle: float  # [rad], never wrapped, as a real robot reports it
+    right_angle: float  # [rad]
+    left_rate: float  # [rad/s]
+    right_rate: float  # [rad/s]
+
+
+class SimulatedRobot:
+    """A robot that obeys its newest command until the timeout, then stops."""
+
+    def __init__(self, model, start_pose=ORIGIN):
+        """Put the robot at rest at start_pose, (x [m], y [m], yaw [rad]), at the time 0."""
+        self._model = model
+        self._timeout_ns = round(model.cmd_vel_timeout * 1e9)
+        self._time_ns = self._expires_ns = 0
+        self._velocity = self._target = REST
+        self._wheels = (0.0, 0.0)
+        has_errors = model.errors != ErrorModel(seed=model.errors.seed)
+        self._errors = OdometryErrors(model.errors, model.wheel_separation) if has_errors else None
+        self.place(start_pose)
+
+    def command(self, velocity, now_ns):
+        """Obey the velocity (v [m/s], w [rad/s]) from now on; return the Verdict on it."""
+        if not is_finite(velocity):
+            return Verdict.REJECTED  # and the timeout runs on
+        self.advance(now_ns)
+        self._target = limit(velocity, self._model.limits)
+        self._expires_ns = self._time_ns + self._timeout_ns
+        return Verdict.ACCEPTED if self._target == velocity else Verdict.LIMITED
+
+    def place(self, pose):
+        """Lift the robot to a pose (x [m], y [m], yaw [rad]); its wheels and command stay."""
+        x, y, yaw = pose
+        self._pose = self._true_pose = (x, y, wrap_angle(yaw))
+        if self._errors:
+            self._errors.forget()
+
+    def reset(self):
+        """Zero the pose and the angles of the wheels, as the Kobuki's reset_odometry does."""
+        self.place(ORIGIN)
+        self._wheels = (0.0, 0.0)
+
+    def advance(self, to_ns):
+        """Move up to the time to_ns; a time already passed changes nothing."""
+        if self._time_ns < self._expires_ns <= to_ns:
+            self._move(self._expires_ns)
+            self._target = REST
+        if self._time_ns <= to_ns:
+            self._move(to_ns)
+
+    def state(self):
+        """Return the RobotState at the time of the last advance()."""
+        rates = self._wheel_rates(self._velocity)
+        return RobotState(*self._pose, *self._velocity, *self._wheels, *rates)
+
+    def true_state(self):
+        """Return the RobotState as an outside observer sees it: without odometry errors."""
+        state = self.state()
+        if not self._errors:
+            return state
+        x, y, yaw = self._true_pose
+        v, w = self._errors.true_velocity(self._velocity)
+        return state._replace(x=x, y=y, yaw=yaw, v=v, w=w)
+
+    def covariance(self):
+        """Return how the odometry errs, 3 x 3 for x [m], y [m], yaw [rad]; None without noise."""
+        return self._errors.covariance if self._model.errors.wheel_noise else None
+
+    @property
+    def has_errors(self):
+        """Tell whether the odometry differs from the truth."""
+        return self._errors is not None
+
+    @property
+    def is_driven(self):
+        """Tell whether a command is in force, that is, not timed out."""
+        return self._time_ns < self._expires_ns
+
+    @property
+    def is_moving(self):
+        """Tell whether the robot had a velocity at the time of the last advance()."""
+        return self._velocity != REST
+
+    def _wheel_rates(self, velocity):
+        return wheel_rates(velocity, self._model.wheel_separation, self._model.wheel_radius)
+
+    def _move(self, to_ns):
+        """Move with one target: first the ramp towards it, if any is left, then steadily."""
+        dt = (to_ns - self._time_ns) * 1e-9
+        self._time_ns = to_ns
+        if self._velocity != self._target:
+            ramp_s = ramp_time(self._velocity, self._target, self._model.limits)
+            if ramp_s > dt:
+                self._drive(between(self._velocity, self._target, dt / ramp_s), dt)
+                return
+            self._drive(self._target, ramp_s)
+            self._velocity = self._target
+            dt -= ramp_s
+        self._drive(self._target, dt)
+
+    def _drive(self, end_velocity, dt):
+        """Drive for dt [s] while the velocity changes linearly to end_velocity."""
+        velocity = self._velocity
+        if dt == 0.0 or velocity == end_velocity == REST:
+            return
+        self._velocity = end_velocity
+        mean = velocity if velocity == end_velocity else between(velocity, end_velocity, 0.5)
+        if self._errors:
+            mean = self._drive_with_errors(velocity, end_velocity, mean, dt)
+        else:
+            self._pose = drive(self._pose, velocity, end_velocity, dt)
+        left, right = self._wheel_rates(mean)
+        self._wheels = (self._wheels[0] + left * dt, self._wheels[1] + right * dt)
+
+    def _drive_with_errors(self, velocity, end_velocity, mean, dt):
+        """Drive the true robot and its odometry apart; return the mean velocity as measured."""
+        errors = self._errors
+        true_start, true_end = errors.true_velocity(velocity), errors.true_velocity(end_velocity)
+        self._true_pose = drive(self._true_pose, true_start, true_end, dt)
+        before = self._pose
+        if not self._model.errors.wheel_noise:
+            self._pose = drive(before, velocity, end_velocity, dt)
+            return mean
+        # The measured travel of a step carries no more than its mean velocity.
+        mean = errors.measured(mean, dt)
+        self._pose = drive(before, mean, mean, dt)
+        errors.grow(before, self._pose, mean, dt)
+        return mean

@@ -1,1 +1,0 @@
-"""Joysticks: the driver joy_node and the virtual gamepad virtual_joystick."""

@@ -1,0 +1,79 @@
+#!/usr/bin/python3
+"""Anonymous nodes live side by side; of two with one name the older ends, cleanly."""
+
+import sys
+import unittest
+
+import rosnode
+import rospy
+import rostest
+from tutorial_testing.processes import Program
+from tutorial_testing.waiting import wait_for
+
+
+def nodes(name):
+    """The running nodes whose name begins so."""
+    return [node for node in rosnode.get_node_names() if node.startswith(f"/{name}")]
+
+
+class NamesTest(unittest.TestCase):
+    def run_two(self, script, *switch):
+        """Start a node, and when it is there a second one; return both."""
+        name = script[: -len(".py")]
+        first = Program("rosrun", "beginner_tutorials", script, *switch)
+        self.addCleanup(first.__exit__)
+        wait_for(lambda: nodes(name), f"first {name}")
+        second = Program("rosrun", "beginner_tutorials", script, *switch)
+        self.addCleanup(second.__exit__)
+        return first, second
+
+    def stop(self, *programs):
+        for program in programs:
+            program.interrupt()
+            self.assertEqual(program.wait(), 0)
+            self.assertNotIn("Traceback", program.output)
+
+    def check_anonymous(self, name):
+        first, second = self.run_two(f"{name}.py")
+        wait_for(lambda: len(nodes(f"{name}_")) == 2, f"two {name}s")
+        self.assertFalse(first.ended)
+        self.stop(first, second)
+        wait_for(lambda: not nodes(name), f"end of both {name}s")
+
+    def check_unique(self, name):
+        first, second = self.run_two(f"{name}.py", "--unique")
+        self.assertEqual(first.wait(), 0)
+        self.assertNotIn("Traceback", first.output)
+        self.assertIn("new node registered with same name", first.output)
+        wait_for(lambda: nodes(name) == [f"/{name}"], f"second {name}")
+        self.assertFalse(second.ended)
+        self.stop(second)
+
+    def check_without_master(self, name):
+        nobody = "http://localhost:9"  # the port named "discard": no master lives there
+        with Program("rosrun", "beginner_tutorials", f"{name}.py", ROS_MASTER_URI=nobody) as node:
+            self.assertEqual(node.wait(), 1)
+            self.assertRegex(node.output, f"^{name}: no ROS master at .*roscore\n$")
+
+    def test_two_anonymous_talkers_live_side_by_side(self):
+        self.check_anonymous("talker")
+
+    def test_two_anonymous_listeners_live_side_by_side(self):
+        self.check_anonymous("listener")
+
+    def test_of_two_unique_talkers_the_older_ends(self):
+        self.check_unique("talker")
+
+    def test_of_two_unique_listeners_the_older_ends(self):
+        self.check_unique("listener")
+
+    def test_a_talker_without_a_master_says_so_and_ends(self):
+        self.check_without_master("talker")
+
+    def test_a_listener_without_a_master_says_so_and_ends(self):
+        self.check_without_master("listener")
+
+
+if __name__ == "__main__":
+    rospy.init_node("names_test")
+    rostest.rosrun("ros1_tutorial_test", "beginner_tutorials_names", NamesTest, sys.argv)

@@ -1,0 +1,94 @@
+#!/usr/bin/python3
+"""A teleoperation whose network breaks: what comes late moves nothing, what comes after does."""
+
+import contextlib
+import os
+import signal
+import sys
+import time
+import unittest
+from xmlrpc.client import ServerProxy
+
+import rosgraph
+import rospy
+import rostest
+from geometry_msgs.msg import Twist
+from rosgraph_msgs.msg import Log
+from std_msgs.msg import String
+from tutorial_testing.processes import Program
+from tutorial_testing.waiting import wait_for
+
+TELEOP = "/cmd_vel_mux/input/teleop"
+OUTAGE_S = REST_S = 1.0  # twice the silence that tells, and the rest that is asked for
+# More than is read at once, with rests that were rests when they were sent.
+BACKLOG = ([0.3] * 500 + [0.0] * 500) * 3 + [0.3] * 500  # [m/s]
+
+
+def twist(speed):
+    """A command with the forward speed [m/s]."""
+    command = Twist()
+    command.linear.x = speed
+    return command
+
+
+@contextlib.contextmanager
+def cut_off(node):
+    """Keep a node from reading: what is sent to it meanwhile waits in its connections."""
+    uri = rosgraph.Master(rospy.get_name()).lookupNode(node)
+    _, _, pid = ServerProxy(uri).getPid(rospy.get_name())
+    os.kill(pid, signal.SIGSTOP)
+    try:
+        ends_s = time.monotonic() + OUTAGE_S
+        yield
+        wait_for(lambda: time.monotonic() > ends_s, "end of the outage")
+    finally:
+        os.kill(pid, signal.SIGCONT)
+
+
+class LateTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.active, cls.driven, cls.log = [], [], []
+        rospy.Subscriber("/rosout", Log, cls.log.append)
+        rospy.Subscriber("cmd_vel_mux/active", String, lambda m: cls.active.append(m.data))
+        rospy.Subscriber("cmd_vel_mux/output", Twist, lambda m: cls.driven.append(m.linear.x))
+
+    def setUp(self):
+        wait_for(lambda: self.active and self.active[-1] == "idle", "a mux that is idle")
+        self.driven.clear()
+
+    def test_late_commands_move_nothing(self):
+        teleop = rospy.Publisher(TELEOP, Twist, queue_size=len(BACKLOG))
+        wait_for(teleop.get_num_connections, "subscriber of teleop")
+        teleop.publish(twist(0.2))
+        wait_for(lambda: 0.2 in self.driven, "a command that goes through")
+        with cut_off("/cmd_vel_mux"):
+            for speed in BACKLOG:
+                teleop.publish(twist(speed))
+        wait_for(self.warnings, "warning that the commands are late")
+        self.assertTrue(self.warnings()[0].startswith("teleop: "), self.warnings())
+
+        # A rest of now.
+        rested_s = time.monotonic() + REST_S
+        wait_for(lambda: teleop.publish(twist(0.0)) or time.monotonic() > rested_s, "end of rest")
+        wait_for(lambda: teleop.publish(twist(0.4)) or self.driven[-1] == 0.4, "a command of now")
+        # What was sent before it on the same connection was also received before it.
+        self.assertEqual(set(self.driven), {0.2, 0.0, 0.4})
+        self.assertEqual(len(self.warnings()), 1, self.warnings())
+
+    def test_a_program_that_is_started_anew_drives_at_once(self):
+        command = ("rostopic", "pub", "-r", "10", TELEOP, "geometry_msgs/Twist")
+        for speed in (0.5, 0.6):
+            with Program(*command, f"{{linear: {{x: {speed}}}}}") as program:
+                wait_for(lambda speed=speed: speed in self.driven, f"a command, {speed} m/s")
+                program.interrupt()
+                program.wait()
+            wait_for(lambda: self.active[-1] == "idle", "silence")
+
+    def warnings(self):
+        return [line.msg for line in self.log if "late" in line.msg]
+
+
+if __name__ == "__main__":
+    rospy.init_node("cmd_vel_mux_late")
+    rostest.rosrun("ros1_tutorial_test", "cmd_vel_mux_late", LateTest, sys.argv)

@@ -1,0 +1,97 @@
+#!/usr/bin/python3
+"""In real time: the rate, the stamps, the transform, the timeout."""
+
+import statistics
+import sys
+import unittest
+from math import hypot
+
+import rospy
+import rostest
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from rosgraph_msgs.msg import Log
+from sensor_msgs.msg import JointState
+from tf2_msgs.msg import TFMessage
+from tutorial_testing.waiting import wait_for
+
+PERIOD_S = 0.02
+SAMPLE = 500  # periods, 10 s
+SPEED = 0.7  # [m/s]
+
+
+class LiveTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.odometry, cls.transforms, cls.joints, cls.log = [], [], [], []
+        rospy.Subscriber("odom", Odometry, cls.odometry.append)
+        rospy.Subscriber("/tf", TFMessage, cls.transforms.append)
+        rospy.Subscriber("joint_states", JointState, cls.joints.append)
+        rospy.Subscriber("/rosout", Log, cls.log.append)
+        cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
+        wait_for(cmd_vel.get_num_connections, "subscriber of cmd_vel")
+        wait_for(lambda: cls.odometry and cls.transforms and cls.joints, "first messages")
+        # One command, whose coast the timeout ends, while the sample is taken.
+        command = Twist()
+        command.linear.x, command.angular.z = SPEED, 1.0
+        cmd_vel.publish(command)
+        wait_for(lambda: len(cls.odometry) >= SAMPLE, "odometry")
+        last = cls.odometry[-1].header.stamp
+        wait_for(
+            lambda: cls.joints[-1].header.stamp >= last and cls.moving()[-1].header.stamp >= last,
+            "transforms and joints of the last odometry",
+        )
+
+    @classmethod
+    def moving(cls):
+        return [m.transforms[0] for m in list(cls.transforms)]
+
+    def test_stamps_strictly_increase_and_periods_do_not_drift(self):
+        stamps = [odometry.header.stamp.to_nsec() for odometry in self.odometry]
+        steps = [(b - a) * 1e-9 for a, b in zip(stamps, stamps[1:])]
+        self.assertGreater(min(steps), 0.0)
+        # A busy machine may lose a period; the phase it must keep.
+        self.assertAlmostEqual(statistics.median(steps), PERIOD_S, delta=0.001)
+        phases = [(stamp - stamps[0]) * 1e-9 % PERIOD_S for stamp in stamps]
+        off = [min(phase, PERIOD_S - phase) for phase in phases]
+        self.assertLess(statistics.median(off), 0.005)
+
+    def test_transform_and_wheels_are_of_the_same_state_as_the_odometry(self):
+        transforms = {t.header.stamp: t for t in self.moving()}
+        joints = {j.header.stamp: j for j in self.joints}
+        self.assertEqual(len(transforms), len(self.moving()))  # no stamp twice
+        both = [o for o in self.odometry if {o.header.stamp} <= transforms.keys() & joints.keys()]
+        self.assertGreater(len(both), 0.9 * len(self.odometry))
+        for odometry in both:
+            pose, transform = odometry.pose.pose, transforms[odometry.header.stamp]
+            self.assertEqual(
+                (transform.header.frame_id, transform.child_frame_id), ("odom", "base_footprint")
+            )
+            self.assertEqual((pose.position.x, pose.position.y), self.place(transform))
+            self.assertEqual(pose.orientation, transform.transform.rotation)
+            q = pose.orientation
+            norm = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w
+            self.assertAlmostEqual(norm, 1.0, delta=1e-12)
+            left, right = joints[odometry.header.stamp].velocity
+            twist = odometry.twist.twist
+            self.assertAlmostEqual(0.035 * (left + right) / 2, twist.linear.x, delta=1e-12)
+            self.assertAlmostEqual(0.035 * (right - left) / 0.23, twist.angular.z, delta=1e-12)
+
+    @staticmethod
+    def place(transform):
+        return transform.transform.translation.x, transform.transform.translation.y
+
+    def test_the_coast_after_the_only_command_is_that_of_the_timeout(self):
+        poses = [odometry.pose.pose.position for odometry in self.odometry]
+        way = sum(hypot(b.x - a.x, b.y - a.y) for a, b in zip(poses, poses[1:]))
+        # Chords are shorter than arcs, by 2e-5 of them here.
+        self.assertAlmostEqual(way, 0.42, delta=SPEED * PERIOD_S)
+        self.assertEqual(self.odometry[-1].twist.twist.linear.x, 0.0)
+
+    def test_nothing_is_complained_about(self):
+        self.assertEqual([line.msg for line in self.log if line.level >= Log.WARN], [])
+
+
+if __name__ == "__main__":
+    rospy.init_node("fake_turtlebot_live")
+    rostest.rosrun("ros1_tutorial_test", "fake_turtlebot_live", LiveTest, sys.argv)

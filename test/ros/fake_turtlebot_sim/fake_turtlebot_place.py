@@ -1,0 +1,89 @@
+#!/usr/bin/python3
+"""Putting the robot somewhere else: RViz's 2D Pose Estimate and the two resets."""
+
+import sys
+import unittest
+from math import cos, nan, sin
+
+import rospy
+import rostest
+from fake_turtlebot_stepping import Robot, World
+from geometry_msgs.msg import PoseWithCovarianceStamped
+from rosgraph_msgs.msg import Log
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Empty
+from std_srvs.srv import Empty as EmptyService
+from tutorial_testing.waiting import wait_for
+
+
+def estimate(x, y, yaw, frame="odom"):
+    message = PoseWithCovarianceStamped()
+    message.header.frame_id = frame
+    message.pose.pose.position.x, message.pose.pose.position.y = x, y
+    message.pose.pose.orientation.z, message.pose.pose.orientation.w = sin(yaw / 2), cos(yaw / 2)
+    return message
+
+
+class PlaceTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.robot, cls.joints, cls.log = Robot(), [], []
+        rospy.Subscriber("joint_states", JointState, cls.joints.append)
+        rospy.Subscriber("/rosout", Log, cls.log.append)
+        cls.initialpose = rospy.Publisher("initialpose", PoseWithCovarianceStamped, queue_size=1)
+        cls.reset_odometry = rospy.Publisher(
+            "mobile_base/commands/reset_odometry", Empty, queue_size=1
+        )
+        cls.world = World([cls.robot])
+        wait_for(cls.initialpose.get_num_connections, "subscriber of initialpose")
+        wait_for(cls.reset_odometry.get_num_connections, "subscriber of reset_odometry")
+
+    def setUp(self):
+        """Drive to some place other than the origin, and let the robot come to rest."""
+        self.world.command(self.robot, 0.5, 0.5)
+        self.world.step(1.0)
+        self.assertNotEqual(self.robot.pose(), (0.0, 0.0, 0.0))
+
+    def reaches(self, pose):
+        def is_there():
+            self.world.step()
+            return max(abs(a - b) for a, b in zip(self.robot.pose(), pose)) < 1e-9
+
+        wait_for(is_there, f"robot at {pose}")
+
+    def wheels(self):
+        stamp = self.robot.odometry[-1].header.stamp
+        wait_for(lambda: self.joints[-1].header.stamp == stamp, "wheel joints")
+        return self.joints[-1].position
+
+    def test_a_pose_estimate_moves_the_robot_and_leaves_the_wheels(self):
+        wheels = self.wheels()
+        self.initialpose.publish(estimate(1.0, -2.0, 0.5))
+        self.reaches((1.0, -2.0, 0.5))
+        self.assertEqual(self.wheels(), wheels)
+
+    def test_a_pose_estimate_in_another_frame_or_of_no_number_is_refused_with_a_reason(self):
+        before = self.robot.pose()
+        self.initialpose.publish(estimate(1.0, 1.0, 1.0, frame="map"))
+        wait_for(lambda: any("'map'" in line.msg for line in self.log), "warning about the frame")
+        self.initialpose.publish(estimate(nan, 1.0, 1.0))
+        wait_for(lambda: any("finite" in line.msg for line in self.log), "warning about the pose")
+        self.world.step(0.1)
+        self.assertEqual(self.robot.pose(), before)
+
+    def test_reset_odometry_zeroes_pose_and_wheels(self):
+        self.reset_odometry.publish()
+        self.reaches((0.0, 0.0, 0.0))
+        self.assertEqual(self.wheels(), (0.0, 0.0))
+
+    def test_the_service_reset_does_too(self):
+        rospy.wait_for_service("/fake_turtlebot/reset", timeout=30)
+        rospy.ServiceProxy("/fake_turtlebot/reset", EmptyService)()
+        self.world.step()
+        self.assertEqual(self.robot.pose(), (0.0, 0.0, 0.0))
+        self.assertEqual(self.wheels(), (0.0, 0.0))
+
+
+if __name__ == "__main__":
+    rospy.init_node("fake_turtlebot_place")
+    rostest.rosrun("ros1_tutorial_test", "fake_turtlebot_place", PlaceTest, sys.argv)

@@ -1,0 +1,73 @@
+#!/usr/bin/python3
+"""Many robots in one node: each is, to the last bit, what it would be alone."""
+
+import random
+import sys
+import unittest
+
+import rospy
+import rostest
+from fake_turtlebot_sim.simulator.parameters import parse_parameters
+from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
+from fake_turtlebot_stepping import Robot, World
+from tf2_msgs.msg import TFMessage
+from tutorial_testing.waiting import wait_for
+
+
+class RobotsTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.parameters = parse_parameters(rospy.get_param("/fake_turtlebot"))
+        cls.names = list(cls.parameters.robots)
+        cls.robots = {name: Robot(f"{name}/") for name in cls.names}
+        cls.world = World(list(cls.robots.values()))
+
+    def test_each_robot_is_bitwise_what_it_would_be_alone(self):
+        rng, log = random.Random(3), []
+        for k in range(40):
+            name = self.names[k % len(self.names)]
+            velocity = (rng.uniform(-0.7, 0.7), rng.uniform(-3, 3))
+            arrived_ns = self.world.command(self.robots[name], *velocity)
+            log.append((arrived_ns, name, velocity))
+        begin_ns = log[0][0]
+        for name in self.names:
+            told = [o for o in self.robots[name].odometry if o.header.stamp.to_nsec() > begin_ns]
+            alone = SimulatedRobot(self.parameters.robot_model(name), self.parameters.robots[name])
+            commands = [(at, velocity) for at, who, velocity in log if who == name]
+            for odometry in told:
+                now_ns = odometry.header.stamp.to_nsec()
+                while commands and commands[0][0] < now_ns:
+                    at, velocity = commands.pop(0)
+                    alone.command(velocity, at - begin_ns)
+                alone.advance(now_ns - begin_ns)
+                position, state = odometry.pose.pose.position, alone.state()
+                self.assertEqual((position.x, position.y), (state.x, state.y))
+            self.assertEqual(commands, [])
+            self.assertNotEqual((state.x, state.y), self.parameters.robots[name][:2])
+
+    def test_one_stale_robot_stops_alone(self):
+        stale, *driven = self.names
+        for name in self.names:
+            self.world.command(self.robots[name], 0.3, 0.1)
+        for k in range(25):
+            for name in driven:
+                self.world.command(self.robots[name], 0.3, 0.11 + 0.001 * k)
+        self.assertEqual(self.robots[stale].velocity(), (0.0, 0.0))
+        for name in driven:
+            self.assertEqual(self.robots[name].velocity()[0], 0.3)
+
+    def test_frames_carry_the_names_and_hang_on_one_world(self):
+        moving, fixed = [], []
+        rospy.Subscriber("/tf", TFMessage, moving.append)
+        rospy.Subscriber("/tf_static", TFMessage, fixed.append)
+        wait_for(lambda: self.world.step() or (moving and fixed), "transforms")
+        pairs = {(t.header.frame_id, t.child_frame_id) for t in moving[-1].transforms}
+        self.assertEqual(pairs, {(f"{n}/odom", f"{n}/base_footprint") for n in self.names})
+        pairs = {(t.header.frame_id, t.child_frame_id) for t in fixed[-1].transforms}
+        self.assertEqual(pairs, {("world", f"{n}/odom") for n in self.names})
+        self.assertEqual(len({t.header.stamp for t in moving[-1].transforms}), 1)
+
+
+if __name__ == "__main__":
+    rospy.init_node("fake_turtlebot_robots")
+    rostest.rosrun("ros1_tutorial_test", "fake_turtlebot_robots", RobotsTest, sys.argv)

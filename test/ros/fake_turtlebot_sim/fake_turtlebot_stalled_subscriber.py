@@ -1,0 +1,58 @@
+#!/usr/bin/python3
+"""A subscriber that connects and never reads does not hold up the robot or the others."""
+
+import socket
+import sys
+import unittest
+from xmlrpc.client import ServerProxy
+
+import rosgraph
+import rospy
+import rostest
+from nav_msgs.msg import Odometry
+from rosgraph.network import encode_ros_handshake_header
+from tutorial_testing.waiting import wait_for
+
+NODE, STALLED = "/fake_turtlebot", "/stalled"
+
+
+class StalledSubscriberTest(unittest.TestCase):
+    def test_it_is_let_go_and_the_others_hear_everything(self):
+        heard = []
+        rospy.Subscriber("odom", Odometry, heard.append)
+        wait_for(lambda: heard, "odometry")
+        node = ServerProxy(rosgraph.Master("/test").lookupNode(NODE))
+        with self.connect(node):
+            wait_for(lambda: self.is_connected(node), "connection that never reads")
+            wait_for(lambda: not self.is_connected(node), "end of that connection")
+            count = len(heard)
+            wait_for(lambda: len(heard) > count + 1000, "odometry after that")
+        seqs = [odometry.header.seq for odometry in heard]
+        self.assertEqual(seqs, list(range(seqs[0], seqs[0] + len(seqs))))
+
+    @staticmethod
+    def connect(node):
+        """Subscribe to /odom by hand, with the smallest buffer, and read nothing."""
+        _, _, (_, host, port) = node.requestTopic(STALLED, "/odom", [["TCPROS"]])
+        connection = socket.socket()
+        connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1)
+        connection.connect((host, port))
+        header = {
+            "callerid": STALLED,
+            "topic": "/odom",
+            "type": Odometry._type,
+            "md5sum": Odometry._md5sum,
+        }
+        connection.sendall(encode_ros_handshake_header(header))
+        return connection
+
+    @staticmethod
+    def is_connected(node):
+        return any(STALLED in map(str, connection) for connection in node.getBusInfo("/test")[2])
+
+
+if __name__ == "__main__":
+    rospy.init_node("fake_turtlebot_stalled_subscriber")
+    rostest.rosrun(
+        "ros1_tutorial_test", "fake_turtlebot_stalled_subscriber", StalledSubscriberTest, sys.argv
+    )

@@ -1,0 +1,103 @@
+"""A simulated world whose time goes on step by step: the node under test answers every step.
+
+The test is the source of /clock, so nothing here depends on how fast the machine is: a step is
+over when the odometry with its stamp has come.
+"""
+
+from math import atan2
+
+import rospy
+from fake_turtlebot_sim.simulator.differential_drive import drive
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from rosgraph_msgs.msg import Clock
+from tutorial_testing.waiting import wait_for
+
+PERIOD_NS = 20_000_000
+
+
+class Robot:
+    """What one robot is told and what it answers."""
+
+    def __init__(self, namespace=""):
+        self.odometry = []
+        self.cmd_vel = rospy.Publisher(f"{namespace}cmd_vel", Twist, queue_size=10)
+        rospy.Subscriber(f"{namespace}odom", Odometry, self._on_odom)
+
+    def _on_odom(self, odometry):
+        self.odometry.append(odometry)
+
+    def velocity(self):
+        twist = self.odometry[-1].twist.twist
+        return twist.linear.x, twist.angular.z
+
+    def position(self):
+        return self.odometry[-1].pose.pose.position
+
+    def pose(self):
+        position, q = self.position(), self.odometry[-1].pose.pose.orientation
+        return position.x, position.y, 2 * atan2(q.z, q.w)
+
+
+class World:
+    """The clock, and the robots that live by it."""
+
+    def __init__(self, robots, start_ns=PERIOD_NS):
+        self._clock = rospy.Publisher("/clock", Clock, queue_size=10)
+        self.robots = robots
+        self.now_ns = start_ns
+        wait_for(lambda: all(r.cmd_vel.get_num_connections() for r in robots), "subscriber")
+        wait_for(self._begin, "odometry after the first clock")
+        self.step()
+
+    def _begin(self):
+        # Nobody tells when the robots hear /clock and are heard: time goes on until they are.
+        self.now_ns += PERIOD_NS
+        self.tell()
+        return all(robot.odometry for robot in self.robots)
+
+    def tell(self):
+        """Publish the time; nobody need answer."""
+        self._clock.publish(Clock(rospy.Time(0, self.now_ns)))
+
+    def set_clock(self, now_ns):
+        """Set the clock, forwards or backwards, and wait until every robot has answered."""
+        self.now_ns = now_ns
+        self.tell()
+        stamp = rospy.Time(0, now_ns)
+        wait_for(
+            lambda: all(robot.odometry[-1].header.stamp == stamp for robot in self.robots),
+            f"odometry with the stamp {stamp.to_sec():.3f}",
+        )
+
+    def step(self, seconds=0.02):
+        """Let time go on in periods of 50 Hz."""
+        for _ in range(round(seconds * 1e9 / PERIOD_NS)):
+            self.set_clock(self.now_ns + PERIOD_NS)
+
+    def command(self, robot, v, w, shown=None):
+        """Send a velocity and step until the odometry shows it; return the time it arrived [ns].
+
+        The command and the time reach the robot in either order, so it arrives as a step begins
+        or as it ends. In the latter case the robot goes on as before to the end of the step.
+        """
+        robot.cmd_vel.publish(twist(v, w))
+        before = []
+
+        def shows():
+            before.append((robot.pose(), robot.velocity()))
+            self.step()
+            error = [abs(a - b) for a, b in zip(robot.velocity(), shown or (v, w))]
+            return max(error) < 1e-9
+
+        wait_for(shows, f"odometry with the velocity {shown or (v, w)}")
+        pose, velocity = before[-1]
+        went_on = drive(pose, velocity, velocity, PERIOD_NS * 1e-9)
+        error = max(abs(a - b) for a, b in zip(robot.pose(), went_on))
+        return self.now_ns if error < 1e-9 else self.now_ns - PERIOD_NS
+
+
+def twist(v, w):
+    message = Twist()
+    message.linear.x, message.angular.z = v, w
+    return message

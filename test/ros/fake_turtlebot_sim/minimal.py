@@ -1,0 +1,91 @@
+#!/usr/bin/python3
+"""The whole of minimal.launch, seen from outside as a TurtleBot 2 is."""
+
+import sys
+import unittest
+
+import rosgraph
+import rospy
+import rostest
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from std_msgs.msg import Empty, String
+from tutorial_testing.waiting import wait_for
+
+# Topic: (type, node that publishes it, node that subscribes to it).
+TOPICS = {
+    "/cmd_vel_mux/input/safety_controller": ("geometry_msgs/Twist", None, "/cmd_vel_mux"),
+    "/cmd_vel_mux/input/teleop": ("geometry_msgs/Twist", None, "/cmd_vel_mux"),
+    "/cmd_vel_mux/input/switch": ("geometry_msgs/Twist", None, "/cmd_vel_mux"),
+    "/cmd_vel_mux/input/navi": ("geometry_msgs/Twist", None, "/cmd_vel_mux"),
+    "/cmd_vel_mux/active": ("std_msgs/String", "/cmd_vel_mux", None),
+    "/mobile_base/commands/velocity": ("geometry_msgs/Twist", "/cmd_vel_mux", "/mobile_base"),
+    "/mobile_base/commands/reset_odometry": ("std_msgs/Empty", None, "/mobile_base"),
+    "/odom": ("nav_msgs/Odometry", "/mobile_base", None),
+    "/joint_states": ("sensor_msgs/JointState", "/mobile_base", None),
+    "/tf": ("tf2_msgs/TFMessage", "/mobile_base", None),
+}
+
+
+class MinimalTest(unittest.TestCase):
+    def test_topics_and_their_types(self):
+        master = rosgraph.Master(rospy.get_name())
+
+        def missing():
+            publishers, subscribers, _ = map(dict, master.getSystemState())
+            kinds = dict(master.getTopicTypes())
+            return [
+                topic
+                for topic, (kind, publisher, subscriber) in TOPICS.items()
+                if kinds.get(topic) != kind
+                or publisher not in [None, *publishers.get(topic, [])]
+                or subscriber not in [None, *subscribers.get(topic, [])]
+            ]
+
+        wait_for(lambda: not missing(), "topics of a TurtleBot 2")
+        # The base hears the mux alone.
+        self.assertNotIn("/cmd_vel", dict(master.getTopicTypes()))
+
+    def test_driving(self):
+        active, odometry = [], []
+        rospy.Subscriber("cmd_vel_mux/active", String, lambda m: active.append(m.data))
+        rospy.Subscriber("odom", Odometry, odometry.append)
+        teleop, safety = (
+            rospy.Publisher(f"cmd_vel_mux/input/{name}", Twist, queue_size=1)
+            for name in ("teleop", "safety_controller")
+        )
+        reset = rospy.Publisher("mobile_base/commands/reset_odometry", Empty, queue_size=1)
+        for publisher in (teleop, safety, reset):
+            wait_for(publisher.get_num_connections, f"subscriber of {publisher.name}")
+        wait_for(lambda: odometry and active, "first messages")
+
+        def is_driven(name, speed):
+            return active[-1] == name and odometry[-1].twist.twist.linear.x == speed
+
+        def place():
+            return odometry[-1].pose.pose.position.x
+
+        forwards, backwards = Twist(), Twist()
+        forwards.linear.x, backwards.linear.x = 0.3, -0.1
+
+        names = rospy.get_param("~")
+        self.assertEqual(place(), 0.0)
+        wait_for(lambda: teleop.publish(forwards) or is_driven(names["teleop"], 0.3), "teleop")
+        wait_for(lambda: teleop.publish(forwards) or place() > 0.1, "way forwards")
+
+        def both():
+            teleop.publish(forwards)
+            safety.publish(backwards)
+
+        wait_for(lambda: both() or is_driven(names["safety_controller"], -0.1), "safety_controller")
+        farthest = place()
+        wait_for(lambda: both() or place() < farthest - 0.05, "way back")
+        wait_for(lambda: is_driven("idle", 0.0), "robot that stands")
+
+        reset.publish()
+        wait_for(lambda: place() == 0.0, "odometry at zero")
+
+
+if __name__ == "__main__":
+    rospy.init_node("minimal")
+    rostest.rosrun("ros1_tutorial_test", "minimal", MinimalTest, sys.argv)

@@ -1,0 +1,100 @@
+#!/usr/bin/python3
+"""virtual_joystick through a FIFO: a script of moves and a recording arrive on /joy."""
+
+import os
+import sys
+import tempfile
+import unittest
+
+import rosbag
+import rospkg
+import rospy
+import rostest
+from gamepad.gamepads import F710_D
+from joystick_stream import JoyLog, driver
+from tutorial_testing.processes import Program
+from tutorial_testing.waiting import wait_for
+
+SCRIPT = """
+mode: X
+moves:
+  - {for: 0.5}
+  - {for: 0.5, held: [LB], left_stick: [0.0, 1.0], triggers: [0.0, 1.0]}
+  - {for: 1.5, plugged: false}
+  - {for: 0.5, held: [RB]}
+"""
+FULL = 32767
+
+
+class MovesTest(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        self.device = os.path.join(folder.name, "js0")
+        self.log = JoyLog()
+        self.addCleanup(self.log.stop)
+
+    def start(self, *arguments, deadzone=0.05):
+        """virtual_joystick, and a driver that reads its FIFO."""
+        program = Program(
+            "rosrun", "gamepad", "virtual_joystick", "--stream", self.device, *arguments
+        )
+        self.addCleanup(program.__exit__)
+        reader = driver(self.device, f"deadzone:={deadzone}")
+        self.addCleanup(reader.__exit__)
+        return program
+
+    def write(self, text):
+        path = os.path.join(self.folder, "moves.yaml")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        return path
+
+    def test_a_script_is_followed(self):
+        program = self.start("--script", self.write(SCRIPT))
+        self.assertEqual(program.wait(), 0, program.output)
+        wait_for(lambda: self.log.last and not self.log.last[1], "neutral message at the end")
+        states = []
+        for joy in self.log.messages:
+            state = (joy.axes[1], joy.axes[5], [n for n, held in enumerate(joy.buttons) if held])
+            if state not in states[-1:]:
+                states.append(state)
+        self.assertIn((1.0, -1.0, [4]), states)  # stick up, RT pulled, LB held
+        after = states[states.index((1.0, -1.0, [4])) + 1 :]
+        self.assertEqual(after[0], (0.0, 1.0, []))  # unplugged: RT at rest
+        self.assertIn([5], [held for _, _, held in after])
+        self.assertEqual(after[-1][2], [])
+
+    def test_the_recording_arrives_in_the_steps_of_the_gamepad(self):
+        path = os.path.join(rospkg.RosPack().get_path("joy2twist"), "bag", "joy.bag")
+        axis = F710_D.axes[1]
+        with rosbag.Bag(path) as bag:
+            recorded = [joy.axes[1] for _, joy, _ in bag.read_messages()]
+        steps = {round(-axis.js_value(axis.raw(position))) for position in recorded}
+        self.start("--bag", path, deadzone=0.0)
+        wait_for(lambda: len({joy.axes[1] for joy in self.log.messages}) > 30, "moving stick")
+        seen = {round(joy.axes[1] * FULL) for joy in self.log.messages}
+        self.assertLessEqual(seen, steps)
+        self.assertTrue(any(joy.buttons[4] for joy in self.log.messages))
+
+    def refuse(self, line, *arguments):
+        with Program("rosrun", "gamepad", "virtual_joystick", *arguments) as program:
+            self.assertEqual(program.wait(), 1)
+            self.assertIn(line, program.output)
+            self.assertEqual(program.output.count("\n"), 1, program.output)
+
+    def test_mistakes_get_one_line(self):
+        stream = ("--stream", self.device)
+        missing = os.path.join(self.folder, "none")
+        self.refuse(f"cannot read {missing}: No such file", *stream, "--script", missing)
+        self.refuse(f"cannot read {missing}: No such file", *stream, "--bag", missing)
+        self.refuse("it has no list `moves`", *stream, "--script", self.write("7"))
+        self.refuse("moves.yaml: while ", *stream, "--script", self.write("moves: ]\n\t@"))
+        self.refuse("moves.yaml: ", *stream, "--bag", self.write("no bag"))
+        self.refuse("is there and is no FIFO", "--stream", self.write(""))
+
+
+if __name__ == "__main__":
+    rospy.init_node("joystick_moves_test")
+    rostest.rosrun("ros1_tutorial_test", "joystick_moves", MovesTest, sys.argv)

@@ -1,0 +1,188 @@
+#!/usr/bin/python3
+"""What joy2twist does when another program is killed, stopped or does not answer."""
+
+import os
+import signal
+import socket
+import sys
+import threading
+import time
+import unittest
+
+import rosgraph
+import rospy
+import rostest
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import Joy
+from tutorial_testing.processes import Program
+from tutorial_testing.waiting import BUSY_S, DEADLINE_S, wait_for
+
+LONGEST_EXIT_S = 1.5 + BUSY_S
+WATCHDOG_S = 0.5
+COMMAND_TIMEOUT_S = 0.6  # of the simulated robot
+PERIOD_S = 0.02  # of its odometry
+PUBLISH_JOY = ("rostopic", "pub", "-r", "50", "joy", "sensor_msgs/Joy", "{axes: [0.0, 0.5]}")
+ECHO_SPEED = ("rostopic", "echo", "-p", "cmd_vel/linear/x")
+
+
+def joy2twist(*parameters, **environment):
+    return Program("rosrun", "joy2twist", "joy2twist.py", *parameters, **environment)
+
+
+def send_signal(number, program):
+    for pid in program.left_behind():
+        os.kill(pid, number)
+
+
+class Robot:
+    """Subscribes to cmd_vel."""
+
+    def __init__(self):
+        self.arrivals = []  # (time, linear.x)
+        self._came = threading.Event()
+        self.subscriber = rospy.Subscriber("cmd_vel", Twist, self._on_twist, tcp_nodelay=True)
+
+    def _on_twist(self, twist):
+        self.arrivals.append((time.monotonic(), twist.linear.x))
+        self._came.set()
+
+    @property
+    def speed(self):
+        return self.arrivals[-1][1] if self.arrivals else None
+
+    def answer_to(self, act):
+        """Do something, and wait for the velocity that comes of it."""
+        self._came.clear()
+        act()
+        if not self._came.wait(DEADLINE_S):
+            raise AssertionError("no velocity came")
+
+
+class JoystickTest(unittest.TestCase):
+    def test_kill_9_of_the_joystick_gives_zero(self):
+        robot = Robot()
+        self.addCleanup(robot.subscriber.unregister)
+        delays_s = []
+        with joy2twist():
+            for _ in range(3):
+                with Program(*PUBLISH_JOY) as joystick:
+                    wait_for(lambda: robot.speed == 0.5, "velocity")
+                    robot.arrivals.clear()
+                    killed = time.monotonic()
+                    send_signal(signal.SIGKILL, joystick)
+                wait_for(lambda: robot.speed == 0.0, "zero")
+                zeros = [arrival for arrival, speed in robot.arrivals if speed == 0.0]
+                delays_s.append(zeros[0] - killed)
+        # The best of three, because this machine may be busy with something else.
+        self.assertLess(min(delays_s), WATCHDOG_S + 0.05)
+
+
+class RobotTest(unittest.TestCase):
+    def test_kill_9_of_the_node_lets_the_simulated_robot_stop(self):
+        odometry = []  # (time, linear.x)
+        subscriber = rospy.Subscriber(
+            "odom",
+            Odometry,
+            lambda odom: odometry.append((time.monotonic(), odom.twist.twist.linear.x)),
+        )
+        self.addCleanup(subscriber.unregister)
+        delays_s = []
+        with Program(*PUBLISH_JOY), Program("rosrun", "fake_turtlebot_sim", "fake_turtlebot.py"):
+            for _ in range(3):
+                with joy2twist() as node:
+                    wait_for(lambda: odometry and odometry[-1][1] == 0.5, "moving robot")
+                    killed = time.monotonic()
+                    send_signal(signal.SIGKILL, node)
+                wait_for(lambda: odometry[-1][1] == 0.0, "standing robot")
+                moving = [arrival for arrival, speed in odometry if speed != 0.0]
+                delays_s.append(moving[-1] + PERIOD_S - killed)
+        # The best of three, because this machine may be busy with something else.
+        self.assertLess(min(delays_s), COMMAND_TIMEOUT_S + PERIOD_S)
+
+
+class SubscriberTest(unittest.TestCase):
+    def test_one_that_never_reads_is_not_noticed_by_the_others(self):
+        robot = Robot()
+        self.addCleanup(robot.subscriber.unregister)
+        joystick = rospy.Publisher("joy", Joy, queue_size=1000)
+        self.addCleanup(joystick.unregister)
+        with joy2twist("_log_rate:=0"), Program(*ECHO_SPEED, PYTHONUNBUFFERED="1") as echo:
+            wait_for(lambda: joystick.publish(Joy(axes=[0, 0.5])) or ",0.5" in echo.output, "echo")
+            send_signal(signal.SIGSTOP, echo)
+            rounds = 20_000  # more than the connection holds: see below
+            for _ in range(rounds):
+                robot.answer_to(lambda: joystick.publish(Joy(axes=[0, 0.5])))
+            robot.answer_to(lambda: joystick.publish(Joy(axes=[0, 0])))
+            self.assertEqual(robot.speed, 0.0)
+            send_signal(signal.SIGCONT, echo)
+            wait_for(lambda: echo.output.endswith(",0.0\n"), "stop at the one that slept")
+            self.assertLess(echo.output.count("\n"), rounds)
+
+
+class MasterTest(unittest.TestCase):
+    """On a master of its own, which is killed or stopped."""
+
+    def setUp(self):
+        with socket.socket() as probe:
+            probe.bind(("127.0.0.1", 0))
+            self.port = str(probe.getsockname()[1])
+        self.own = {"ROS_MASTER_URI": f"http://localhost:{self.port}", "PYTHONUNBUFFERED": "1"}
+
+    def start(self, *command):
+        program = Program(*command, **self.own)
+        self.addCleanup(program.__exit__)
+        return program
+
+    def start_master(self):
+        # Not roscore, which has its master in a session of its own, out of reach.
+        master = self.start("rosmaster", "--core", "-p", self.port)
+        client = rosgraph.Master("/joy2twist_peers", self.own["ROS_MASTER_URI"])
+        wait_for(client.is_online, "master")
+        return master
+
+    def start_driving(self):
+        node = self.start("rosrun", "joy2twist", "joy2twist.py")
+        self.start(*PUBLISH_JOY)
+        echo = self.start(*ECHO_SPEED)
+        wait_for(lambda: ",0.5" in echo.output, "velocity")
+        return node, echo
+
+    def check_drives_on(self, echo):
+        count = echo.output.count(",0.5")
+        wait_for(lambda: echo.output.count(",0.5") > count + 50, "more velocities")
+        self.assertNotIn(",0.0", echo.output)
+
+    def check_end(self, node, echo):
+        node.interrupt()
+        self.assertEqual(node.wait(LONGEST_EXIT_S), 0)
+        wait_for(lambda: echo.output.endswith(",0.0\n"), "zero")
+        self.assertNotIn("Traceback", node.output)
+
+    def test_without_its_master_it_drives_on_and_ends_in_time(self):
+        master = self.start_master()
+        node, echo = self.start_driving()
+        send_signal(signal.SIGKILL, master)
+        self.check_drives_on(echo)
+        self.check_end(node, echo)
+
+    def test_a_master_that_returns_changes_nothing(self):
+        master = self.start_master()
+        node, echo = self.start_driving()
+        send_signal(signal.SIGKILL, master)
+        master.wait()
+        self.start_master()
+        self.check_drives_on(echo)
+        self.check_end(node, echo)
+
+    def test_a_master_that_does_not_answer_does_not_hold_the_end(self):
+        master = self.start_master()
+        node, echo = self.start_driving()
+        send_signal(signal.SIGSTOP, master)
+        self.check_drives_on(echo)
+        self.check_end(node, echo)
+
+
+if __name__ == "__main__":
+    rospy.init_node("joy2twist_peers")
+    rostest.rosrun("ros1_tutorial_test", "joy2twist_peers", "__main__", sys.argv)

@@ -1,0 +1,178 @@
+#!/usr/bin/python3
+"""joy2twist as a program: how it starts, what it shows and how it ends."""
+
+import re
+import sys
+import time
+import unittest
+
+import rospy
+import rostest
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import Twist
+from sensor_msgs.msg import Joy
+from tutorial_testing.processes import Program
+from tutorial_testing.waiting import BUSY_S, DEADLINE_S, wait_for
+
+LONGEST_EXIT_S = 1.5 + BUSY_S
+LINE = r"\[INFO\] \[[\d.]+\]: /NewJoy2Twist: Get from Joy \[0\.00, 0\.50, -0\.25\]\n"
+NOWHERE = "http://localhost:9"  # the port named "discard": no master lives there
+
+
+def joy2twist(*parameters, **environment):
+    return Program("rosrun", "joy2twist", "joy2twist.py", *parameters, **environment)
+
+
+class RunningTest(unittest.TestCase):
+    """The node runs; this process is its joystick and its robot."""
+
+    def setUp(self):
+        self.speeds = []
+        self.joystick = rospy.Publisher("joy", Joy, queue_size=1000)
+        self.robot = rospy.Subscriber("cmd_vel", Twist, lambda t: self.speeds.append(t.linear.x))
+        self.addCleanup(self.joystick.unregister)
+        self.addCleanup(self.robot.unregister)
+
+    def forward(self):
+        self.joystick.publish(Joy(axes=[0.0, 0.5, -0.25]))
+
+    def start(self, *parameters):
+        node = joy2twist(*parameters)
+        self.addCleanup(node.__exit__)
+        wait_for(lambda: self.forward() or self.speeds, "velocity")
+        return node
+
+    def check_end(self, node):
+        """The stick stays forward, but the last velocity is zero, and the end comes in time."""
+        begin = time.monotonic()
+        wait_for(lambda: self.forward() or node.ended, "end")
+        self.assertLess(time.monotonic() - begin, LONGEST_EXIT_S)
+        self.assertEqual(node.wait(), 0)
+        wait_for(lambda: self.robot.get_num_connections() == 0, "end of the connection")
+        self.assertEqual(self.speeds[-1], 0.0)
+        self.assertEqual(set(self.speeds[:-1]), {0.5})
+        self.assertIn("Stopping the node", node.output)
+        self.assertNotIn("Traceback", node.output)
+
+    def test_ctrl_c_stops_the_robot(self):
+        node = self.start()
+        node.interrupt()
+        self.check_end(node)
+
+    def test_rosnode_kill_stops_the_robot(self):
+        node = self.start()
+        with Program("rosnode", "kill", "/NewJoy2Twist") as kill:
+            wait_for(lambda: self.forward() or self.speeds[-1] == 0.0, "zero")
+            self.check_end(node)
+            kill.wait()
+
+    def test_a_newer_node_of_the_same_name_takes_over(self):
+        node = self.start()
+        with joy2twist():
+            wait_for(lambda: self.forward() or 0.0 in self.speeds, "zero of the older node")
+            zeros = len(self.speeds)
+            self.assertEqual(node.wait(LONGEST_EXIT_S), 0)
+            self.assertNotIn("Traceback", node.output)
+            wait_for(lambda: self.forward() or 0.5 in self.speeds[zeros:], "newer node")
+
+    def test_a_wrong_parameter_does_not_end_the_node_that_runs(self):
+        node = self.start()
+        with joy2twist("_axis_linear:=foo") as wrong:
+            self.assertEqual(wrong.wait(), 1)
+        count = len(self.speeds)
+        wait_for(lambda: self.forward() or len(self.speeds) > count, "velocity")
+        self.assertFalse(node.ended)
+        self.assertFalse(rospy.has_param("/NewJoy2Twist/axis_linear"))
+
+    def test_every_message_of_a_bag_is_displayed_as_in_the_tutorial(self):
+        # Ten times the default, as a busy machine may hold messages back and deliver some at once.
+        node = self.start("_log_rate:=500")
+        sent = [Joy(axes=[0.5] * (number % 9) + [number]) for number in range(100)]
+        for joy in sent:
+            self.joystick.publish(joy)
+            time.sleep(1 / 50)
+        values = [", ".join(f"{axis:.2f}" for axis in joy.axes) for joy in sent]
+        lines = [f": /NewJoy2Twist: Get from Joy [{axes}]\n" for axes in values]
+        wait_for(lambda: all(node.output.count(line) == 1 for line in lines), "100 lines")
+
+    def test_no_more_lines_than_log_rate_are_displayed(self):
+        node = self.start("_log_rate:=10")
+        begin = time.monotonic()
+        for _ in range(500):
+            self.forward()
+            time.sleep(1 / 250)
+        took_s = time.monotonic() - begin
+        self.check_end_of_display(node, 10 * (took_s - 1), 10 * (took_s + 5))
+
+    def test_diagnostics_tell_the_rate_and_the_age_of_the_messages(self):
+        self.start("_diagnostic_period:=0.5")
+        statuses = []
+        subscriber = rospy.Subscriber(
+            "/diagnostics", DiagnosticArray, lambda array: statuses.extend(array.status)
+        )
+        self.addCleanup(subscriber.unregister)
+        begin, sent = time.monotonic(), 0
+        while len(statuses) < 4:  # the first ones may count from before
+            self.forward()
+            sent += 1
+            self.assertLess(time.monotonic() - begin, DEADLINE_S)
+            time.sleep(1 / 50)
+        values = {value.key: value.value for value in statuses[-1].values}
+        rate = sent / (time.monotonic() - begin)
+        self.assertEqual(statuses[-1].message, "driving")
+        self.assertGreater(float(values["Joy rate [Hz]"]), 0.5 * rate)
+        self.assertLess(float(values["Joy rate [Hz]"]), 2.0 * rate)
+        self.assertLess(float(values["Age of the last Joy [s]"]), 0.5)  # or it would not drive
+
+    def check_end_of_display(self, node, fewest, most):
+        node.interrupt()
+        node.wait()
+        lines = len(re.findall(LINE, node.output))
+        self.assertGreaterEqual(lines, fewest)
+        self.assertLessEqual(lines, most)
+
+
+class StartTest(unittest.TestCase):
+    def check_line(self, node, *words):
+        self.assertEqual(node.wait(), 1)
+        (line,) = node.output.splitlines()
+        for word in words:
+            self.assertIn(word, line)
+
+    def test_a_wrong_parameter_is_one_line(self):
+        with joy2twist("_axis_linear:=foo") as node:
+            self.check_line(node, "~axis_linear", "'foo'", "number")
+
+    def test_an_unknown_parameter_is_one_line(self):
+        with joy2twist("_axis_liner:=1") as node:
+            self.check_line(node, "~axis_liner", "axis_linear")
+
+    def test_a_wrong_parameter_on_the_server_is_one_line(self):
+        rospy.set_param("/wrong/joy_timeout", -1)
+        with joy2twist("__name:=wrong") as node:
+            self.check_line(node, "~joy_timeout", "-1", "seconds", "/wrong")
+
+    def test_a_parameter_that_is_no_yaml_is_one_line(self):
+        with joy2twist("_axis_linear:=[") as node:
+            self.check_line(node, "command-line")
+
+    def test_no_master_is_one_line(self):
+        for uri in (NOWHERE, "nonsense"):
+            with joy2twist(ROS_MASTER_URI=uri) as node:
+                self.check_line(node, uri, "roscore")
+
+    def test_no_master_is_one_line_for_the_earlier_versions(self):
+        for script in ("display_joy.py", "publish_twist.py"):
+            with Program("rosrun", "joy2twist", script, ROS_MASTER_URI=NOWHERE) as node:
+                self.assertEqual(node.wait(), 1)
+                self.assertRegex(node.output, "^no ROS master at .*roscore\n$")
+
+    def test_the_mapping_is_said_in_words(self):
+        with joy2twist("_scale_linear:=0.7", "_enable_button:=4", "__name:=words") as node:
+            wait_for(lambda: "axis 0" in node.output, "mapping")
+            self.assertIn("axis 1 -> linear.x at 0.7 m/s; hold button 4", node.output)
+
+
+if __name__ == "__main__":
+    rospy.init_node("joy2twist_program")
+    rostest.rosrun("ros1_tutorial_test", "joy2twist_program", "__main__", sys.argv)

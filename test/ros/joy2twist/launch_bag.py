@@ -1,0 +1,115 @@
+#!/usr/bin/python3
+"""What runs on the topics while launch_bag.launch does."""
+
+import sys
+import unittest
+
+import rosnode
+import rospy
+import rostest
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import JointState, Joy
+from tf2_msgs.msg import TFMessage
+from tutorial_testing.waiting import wait_for
+
+RATE_HZ = 50  # of joy.bag and of the simulation
+SAMPLE_S = 6.0  # how much is looked at; the tour begins with a second of rest
+
+
+class Recorder:
+    """Keeps the messages of a topic with their time of arrival [s]."""
+
+    def __init__(self, topic, message_type):
+        self.messages, self.times_s = [], []
+        self.subscriber = rospy.Subscriber(topic, message_type, self._on_message)
+
+    def _on_message(self, message):
+        self.times_s.append(rospy.get_time())
+        self.messages.append(message)
+
+    @property
+    def rate_hz(self):
+        return (len(self.times_s) - 1) / (self.times_s[-1] - self.times_s[0])
+
+
+class LaunchBagTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.cmd_vel = Recorder("/cmd_vel", Twist)
+        cls.odom = Recorder("/odom", Odometry)
+        cls.tf = Recorder("/tf", TFMessage)
+        cls.joints = Recorder("/joint_states", JointState)
+        wait_for(lambda: cls.odom.messages and cls.cmd_vel.messages, "first messages")
+        cls.joy = Recorder("/joy", Joy)  # last: every joy below has its cmd_vel above
+        wait_for(
+            lambda: any(abs(odom.twist.twist.linear.x) > 0.1 for odom in cls.odom.messages),
+            "moving robot",
+        )
+        wait_for(lambda: len(cls.joy.messages) > SAMPLE_S * RATE_HZ, "joystick messages")
+        cls.joy.subscriber.unregister()
+        # What is still under way: the newest joystick message must have its answer.
+        last = cls.joy.messages[-1]
+        wait_for(
+            lambda: any(t.linear.x == last.axes[1] for t in cls.cmd_vel.messages[-RATE_HZ:]),
+            "velocity for the last joystick message",
+        )
+        for recorder in (cls.cmd_vel, cls.odom, cls.tf, cls.joints):
+            recorder.subscriber.unregister()
+
+    def test_the_nodes_have_the_names_of_the_handout(self):
+        for node in ("/fake_turtlebot", "/myjoystick2twist", "/rosbag", "/robot_state_publisher"):
+            self.assertIn(node, rosnode.get_node_names())
+        self.assertNotIn("/my_rviz", rosnode.get_node_names())  # rviz:=false
+
+    def test_one_velocity_for_every_joystick_message_with_its_values(self):
+        expected = [(joy.axes[1], joy.axes[0]) for joy in self.joy.messages]
+        sent = [(twist.linear.x, twist.angular.z) for twist in self.cmd_vel.messages]
+        self.assertGreater(len(set(expected)), RATE_HZ)
+        starts = [
+            start
+            for start in range(len(sent) - len(expected) + 1)
+            if sent[start : start + len(expected)] == expected
+        ]
+        self.assertTrue(starts, "the velocities are not those of the joystick, one for one")
+        for twist in self.cmd_vel.messages:
+            others = (twist.linear.y, twist.linear.z, twist.angular.x, twist.angular.y)
+            self.assertEqual(others, (0, 0, 0, 0))
+
+    def test_everything_runs_at_50_hz(self):
+        for recorder in (self.joy, self.cmd_vel, self.odom, self.joints):
+            self.assertAlmostEqual(recorder.rate_hz, RATE_HZ, delta=0.1 * RATE_HZ)
+
+    def test_the_transform_is_the_odometry(self):
+        transforms = {
+            transform.header.stamp: transform.transform
+            for message in self.tf.messages
+            for transform in message.transforms
+            if (transform.header.frame_id, transform.child_frame_id) == ("odom", "base_footprint")
+        }
+        compared = 0
+        for odom in self.odom.messages:
+            transform = transforms.get(odom.header.stamp)
+            if transform is None:
+                continue  # one end of the recordings
+            compared += 1
+            pose = odom.pose.pose
+            self.assertEqual(
+                (pose.position.x, pose.position.y, pose.position.z),
+                (transform.translation.x, transform.translation.y, transform.translation.z),
+            )
+            self.assertEqual(pose.orientation, transform.rotation)
+        self.assertGreater(compared, 0.9 * len(self.odom.messages))
+
+    def test_the_wheels_turn_and_the_model_is_published(self):
+        first, last = self.joints.messages[0], self.joints.messages[-1]
+        self.assertEqual(set(last.name), {"wheel_left_joint", "wheel_right_joint"})
+        for before, after in zip(first.position, last.position):
+            self.assertGreater(after - before, 1.0)  # [rad]: some 0.04 m of way and more
+        children = {t.child_frame_id for message in self.tf.messages for t in message.transforms}
+        self.assertLessEqual({"wheel_left_link", "wheel_right_link"}, children)
+
+
+if __name__ == "__main__":
+    rospy.init_node("launch_bag_test")
+    rostest.rosrun("ros1_tutorial_test", "launch_bag", LaunchBagTest, sys.argv)

@@ -1,0 +1,115 @@
+#!/usr/bin/python3
+"""A classroom: ten students replay joy.bag at once, and each robot drives its own path."""
+
+import sys
+import unittest
+from contextlib import ExitStack
+from pathlib import Path
+
+import rosbag
+import rosgraph
+import rospkg
+import rospy
+import rostest
+import yaml
+from fake_turtlebot_sim.simulator.simulated_robot import RobotModel, SimulatedRobot
+from joy_to_twist.parameters import load
+from joy_to_twist.teleoperation import Teleoperation
+from nav_msgs.msg import Odometry
+from rospy import AnyMsg
+from tutorial_testing.processes import Program
+from tutorial_testing.waiting import wait_for
+
+ROBOTS = [f"robot_{number}" for number in range(1, 31)]
+DRIVEN = ROBOTS[:10]
+LONGEST_S = 240.0  # the recording takes 55 s, thirty programs on a busy machine as long to start
+# Velocities that come late on a busy machine bend the path a little. Measured: 0.01 m.
+TOLERANCE_M = 0.1
+STATE_BYTES = 8 * 2 * (7 + 36) - 8  # pose, velocity and their covariances: the end of an Odometry
+PACKAGE = Path(rospkg.RosPack().get_path("joy2twist"))
+BAG = PACKAGE / "bag" / "joy.bag"
+
+
+def place(odometry):
+    """(place [m], direction) as complex numbers."""
+    pose = odometry.pose.pose
+    return (
+        complex(pose.position.x, pose.position.y),
+        complex(pose.orientation.w, pose.orientation.z) ** 2,
+    )
+
+
+def replay():
+    """The path that the recording asks for: places [m] as complex numbers, from the origin."""
+    preset = yaml.safe_load((PACKAGE / "config" / "f710_d.yaml").read_text())
+    joystick = Teleoperation(load({**preset, "arm_on_neutral": True}), print, lambda: None)
+    robot, path, start_s = SimulatedRobot(RobotModel()), [], None
+    with rosbag.Bag(str(BAG)) as bag:
+        for _, joy, stamp in bag.read_messages():
+            start_s = start_s or stamp.to_sec()
+            now_s = stamp.to_sec() - start_s
+            robot.advance(round(now_s * 1e9))
+            velocity = joystick.joy(joy.axes, joy.buttons, now_s)
+            if velocity is not None:
+                robot.command((velocity[0], velocity[5]), round(now_s * 1e9))
+            state = robot.state()
+            path.append(complex(state.x, state.y))
+    return path
+
+
+class StudentTest(unittest.TestCase):
+    def test_ten_drive_their_own_robots_and_the_others_stand(self):
+        driven = {name: [] for name in DRIVEN}
+        standing = {name: set() for name in ROBOTS[len(DRIVEN) :]}
+        for name, odometry in driven.items():
+            rospy.Subscriber(f"/{name}/odom", Odometry, odometry.append)
+        for name, states in standing.items():
+            rospy.Subscriber(
+                f"/{name}/odom",
+                AnyMsg,
+                lambda message, states: states.add(message._buff[-STATE_BYTES:]),
+                states,
+            )
+        wait_for(lambda: all([*driven.values(), *standing.values()]), "thirty robots")
+
+        with ExitStack() as stack:
+            students = [
+                stack.enter_context(
+                    Program(
+                        *("roslaunch", "joy2twist", "student.launch", "rviz:=false"),
+                        *(f"name:={name}", f"bag:={BAG}"),
+                    )
+                )
+                for name in DRIVEN
+            ]
+            wait_for(lambda: drivers() == set(DRIVEN), "ten drivers at once", LONGEST_S)
+            for student in students:
+                self.assertEqual(student.wait(LONGEST_S), 0, student.output)
+                self.assertNotIn("Traceback", student.output)
+
+        for name, states in standing.items():
+            self.assertEqual(len(states), 1, f"{name} does not stand still")
+        asked = replay()
+        length_m = sum(abs(after - before) for before, after in zip(asked, asked[1:]))
+        self.assertGreater(length_m, 1.0)
+        for name, odometry in driven.items():
+            start, direction = place(odometry[0])
+            path = [(place(o)[0] - start) / direction for o in odometry[::5]]
+            end = (place(odometry[-1])[0] - start) / direction
+            off_m = max(min(abs(place - near) for near in asked[::5]) for place in path)
+            missed_m = max(min(abs(near - place) for place in path) for near in asked[::50])
+            self.assertLess(max(off_m, missed_m), TOLERANCE_M, name)
+            self.assertLess(abs(end - asked[-1]), TOLERANCE_M, name)
+            twist = odometry[-1].twist.twist
+            self.assertEqual((twist.linear.x, twist.angular.z), (0.0, 0.0))
+
+
+def drivers():
+    """The robots whose velocities somebody sends."""
+    publishers, _, _ = rosgraph.Master("/student").getSystemState()
+    return {topic.split("/")[1] for topic, _ in publishers if topic.endswith("/cmd_vel")}
+
+
+if __name__ == "__main__":
+    rospy.init_node("student")
+    rostest.rosrun("ros1_tutorial_test", "student", StudentTest, sys.argv)

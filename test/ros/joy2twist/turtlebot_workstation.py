@@ -1,0 +1,126 @@
+#!/usr/bin/python3
+"""launch_joy_node_realTurtlebot.launch: what drives the TurtleBot, and which view opens."""
+
+import os
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import rosbag
+import rosgraph
+import rosnode
+import rospkg
+import rospy
+import rostest
+from geometry_msgs.msg import Twist
+from joystick_stream import AXIS, BUTTON, Stream
+from tutorial_testing.processes import Program
+from tutorial_testing.waiting import wait_for
+
+TELEOP = "/cmd_vel_mux/input/teleop"
+BAG = Path(rospkg.RosPack().get_path("joy2twist"), "bag", "joy.bag")
+SPEED = 0.35  # [m/s] at full deflection, config/f710_d.yaml
+FULL = 32767
+FORWARD = (AXIS, 1, -FULL)  # Linux counts upwards as negative
+LB = 4
+PACKAGE = """
+<package>
+  <name>turtlebot_rviz_launchers</name><version>0.0.0</version><description>None</description>
+  <maintainer email="nobody@example.org">Nobody</maintainer><license>None</license>
+</package>
+"""
+VIEW = '<launch><param name="/view_of_the_turtlebot" value="open"/></launch>'
+
+
+class WorkstationTest(unittest.TestCase):
+    def setUp(self):
+        self.speeds = []
+        robot = rospy.Subscriber(TELEOP, Twist, lambda twist: self.speeds.append(twist.linear.x))
+        self.addCleanup(robot.unregister)
+
+    def start(self, *arguments, **environment):
+        launch = Program(
+            "roslaunch", "joy2twist", "launch_joy_node_realTurtlebot.launch", *arguments,
+            **environment,
+        )  # fmt: skip
+        self.addCleanup(self.end, launch)
+        return launch
+
+    def end(self, launch):
+        with launch:
+            if not launch.ended:
+                launch.interrupt()
+            launch.wait()  # its nodes are no longer registered
+
+    def test_a_recording_drives_once_and_ends_the_launch(self):
+        short = os.path.join(self.folder(), "short.bag")
+        with rosbag.Bag(str(BAG)) as whole, rosbag.Bag(short, "w") as part:
+            messages = [(joy, stamp) for _, joy, stamp in whole.read_messages()][:200]
+            for joy, stamp in messages:
+                part.write("/joy", joy, stamp)
+        asked = {SPEED * joy.axes[1] for joy, _ in messages if joy.buttons[LB]}
+        launch = self.start(f"bag:={short}", "rviz:=false")
+        wait_for(lambda: len(self.speeds) > 10, "velocities")
+        self.assertIn("/myjoystick2twist", rosnode.get_node_names())
+        self.assertNotIn("/joy_node", rosnode.get_node_names())
+        publishers, _, _ = rosgraph.Master("/test").getSystemState()
+        self.assertNotIn("/cmd_vel", dict(publishers))
+        self.assertEqual(launch.wait(), 0, launch.output)
+        self.assertEqual(self.speeds[-1], 0.0)
+        self.assertGreater(max(self.speeds), 0.1)
+        self.assertLessEqual(set(self.speeds), asked | {0.0})
+        self.assertNotIn("Traceback", launch.output)
+
+    def test_a_gamepad_drives(self):
+        gamepad = Stream()
+        self.addCleanup(gamepad.remove)
+        launch = self.start(f"joy_dev:={gamepad.path}", "rviz:=false")
+        wait_for(lambda: gamepad.path in launch.output, "driver that looks for the gamepad")
+        gamepad.plug_in()
+        gamepad.send((BUTTON, LB, 0))
+        wait_for(lambda: "Get from Joy" in launch.output, "joystick at rest, seen by joy2twist")
+        gamepad.send((BUTTON, LB, 1), FORWARD)
+        wait_for(lambda: self.speeds and self.speeds[-1] == SPEED, "velocity")
+        gamepad.send((BUTTON, LB, 0))
+        wait_for(lambda: self.speeds[-1] == 0.0, "zero")
+        self.assertEqual(set(self.speeds), {0.0, SPEED})
+
+    def folder(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        return folder.name
+
+    def view(self, *arguments):
+        """How RViz is called when it is a program that writes down its arguments."""
+        folder = self.folder()
+        rviz, told = Path(folder, "rviz"), Path(folder, "told")
+        rviz.write_text(f'#!/bin/sh\necho "$@" > {told}.new; mv {told}.new {told}; sleep 600\n')
+        rviz.chmod(0o755)
+        launch = self.start("rviz:=true", *arguments, PATH=f"{folder}:{os.environ['PATH']}")
+        wait_for(lambda: told.exists() or launch.ended, "view")
+        self.assertFalse(launch.ended, launch.output)
+        return told.read_text().split()
+
+    def test_the_view_of_the_suite_opens_where_there_is_no_other(self):
+        words = self.view()
+        self.assertTrue(words[1].endswith("fake_turtlebot_sim/rviz/sim.rviz"), words)
+        self.assertIn("__name:=my_rviz", words)
+
+    def test_the_view_that_the_user_names_opens(self):
+        self.assertEqual(self.view("rviz_config:=/my.rviz")[:2], ["-d", "/my.rviz"])
+
+    def test_the_view_of_the_turtlebot_opens_where_it_is_installed(self):
+        folder = self.folder()
+        package = Path(folder, "turtlebot_rviz_launchers")
+        (package / "launch").mkdir(parents=True)
+        (package / "package.xml").write_text(PACKAGE)
+        (package / "launch" / "view_robot.launch").write_text(VIEW)
+        path = f"{folder}:{os.environ['ROS_PACKAGE_PATH']}"
+        self.start("rviz:=true", ROS_PACKAGE_PATH=path)
+        wait_for(lambda: rospy.has_param("/view_of_the_turtlebot"), "view")
+
+
+if __name__ == "__main__":
+    rospy.init_node("turtlebot_workstation")
+    rostest.rosrun("ros1_tutorial_test", "turtlebot_workstation", WorkstationTest, sys.argv)

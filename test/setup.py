@@ -1,0 +1,9 @@
+from catkin_pkg.python_setup import generate_distutils_setup
+from setuptools import setup
+
+setup(
+    **generate_distutils_setup(
+        packages=["tutorial_testing", "tutorial_testing.kernel", "tutorial_testing.two_hosts"],
+        package_dir={"": "src"},
+    )
+)

@@ -1,0 +1,1 @@
+"""A kernel with joysticks, in QEMU where this machine's has none."""

@@ -1,0 +1,98 @@
+"""Starting programs as a user does in a terminal, and ending them as Ctrl-C does."""
+
+import contextlib
+import os
+import signal
+import subprocess
+import tempfile
+import uuid
+from pathlib import Path
+
+from tutorial_testing.waiting import DEADLINE_S, wait_for
+
+# As a terminal has it: tests that run in the background inherit that Ctrl-C is ignored, and what
+# they start would inherit it from them.
+for number in (signal.SIGINT, signal.SIGHUP):
+    if signal.getsignal(number) is signal.SIG_IGN:
+        signal.signal(number, signal.default_int_handler)
+
+MARK = "STARTED_BY_A_TEST"  # environment variable by which a program's descendants are known
+
+
+class Program:
+    """A program and all that it starts; its output, both streams together, is kept.
+
+    Use it as a context manager, so that nothing is left running whatever the test comes to.
+    """
+
+    def __init__(self, *command, stdin=subprocess.DEVNULL, **environment):
+        self._output = tempfile.TemporaryFile("w+")  # noqa: SIM115  closed in __exit__
+        self._mark = f"{MARK}={uuid.uuid4()}"
+        self._process = subprocess.Popen(
+            command,
+            stdin=stdin,
+            stdout=self._output,
+            stderr=subprocess.STDOUT,
+            # Unbuffered: a test waits for what roslaunch, a Python program itself, prints.
+            env={
+                **os.environ,
+                "PYTHONUNBUFFERED": "1",
+                **environment,
+                **dict([self._mark.split("=")]),
+            },
+            start_new_session=True,  # with a process group that Ctrl-C reaches, as in a terminal
+        )
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        for pid in self.left_behind():
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGKILL)
+        self._process.wait()
+        self._output.close()
+        if self._process.stdin:
+            self._process.stdin.close()
+
+    @property
+    def output(self):
+        """All that was printed so far."""
+        # Not by read(): the program writes at the position that the two share.
+        descriptor = self._output.fileno()
+        return os.pread(descriptor, os.fstat(descriptor).st_size, 0).decode(errors="replace")
+
+    @property
+    def ended(self):
+        """Whether the program itself has ended."""
+        return self._process.poll() is not None
+
+    def interrupt(self):
+        """Press Ctrl-C: SIGINT to the group in the foreground."""
+        os.killpg(self._process.pid, signal.SIGINT)
+
+    def type(self, line):
+        """Type a line into a program that was started with stdin=subprocess.PIPE."""
+        self._process.stdin.write(f"{line}\n".encode())
+        self._process.stdin.flush()
+
+    def wait(self, deadline_s=DEADLINE_S):
+        """Wait for the end; return the exit code."""
+        wait_for(lambda: self.ended, f"end of {self._process.args[:3]}", deadline_s)
+        return self._process.returncode
+
+    def left_behind(self):
+        """The ids of all processes that come from this program and still run.
+
+        Known by their environment: roslaunch gives each node a session of its own.
+        """
+        pids = []
+        for process in Path("/proc").glob("[0-9]*"):
+            try:
+                marked = self._mark.encode() in (process / "environ").read_bytes().split(b"\0")
+                zombie = (process / "stat").read_text().rsplit(")", 1)[1].split()[0] == "Z"
+            except OSError:
+                continue  # ended meanwhile, or another user's
+            if marked and not zombie:
+                pids.append(int(process.name))
+        return pids

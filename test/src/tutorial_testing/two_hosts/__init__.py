@@ -1,0 +1,1 @@
+"""Two hosts and a cable, in network namespaces."""

@@ -1,0 +1,83 @@
+"""Hosts on a network of their own: Linux network namespaces, joined by a switch.
+
+Nothing of it touches the machine's own network, and it is gone when its last program ends.
+"""
+
+import os
+import subprocess
+
+from tutorial_testing.processes import Program
+
+AS_ROOT = os.geteuid() == 0
+
+
+class Host:
+    """A network namespace. Programs started in it see its interfaces and no others."""
+
+    def __init__(self, first=None):
+        """first: another host; who is not root may join only hosts of one user namespace."""
+        enter = first.command() if first and not AS_ROOT else []
+        user = [] if AS_ROOT or first else ["--user", "--map-root-user"]
+        # A namespace lives as long as a program in it. This one ends with its standard input.
+        self._holder = subprocess.Popen(
+            [*enter, "unshare", *user, "--net", "sh", "-c", "echo; exec cat"],
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        )  # fmt: skip
+        if not self._holder.stdout.readline():
+            raise PermissionError(self._holder.communicate()[1].strip())
+        self.ip("link", "set", "lo", "up")
+
+    def close(self):
+        """End what holds the namespace."""
+        self._holder.communicate("")
+
+    def command(self, *command):
+        """The command line that runs a command on this host."""
+        user = [] if AS_ROOT else ["--user", "--preserve-credentials"]
+        return ["nsenter", "--target", str(self._holder.pid), *user, "--net", *command]
+
+    def ip(self, *arguments):
+        """Run iproute2's ip on this host."""
+        subprocess.run(self.command("ip", *arguments), check=True, timeout=30)
+
+    def start(self, *command, **environment):
+        """Start a program on this host: a processes.Program."""
+        return Program(*self.command(*command), **environment)
+
+
+class Network:
+    """Two hosts, each with a cable to one switch. A context manager."""
+
+    def __init__(self, addresses):
+        """addresses: name of each host -> its IPv4 address, all in one /24."""
+        self._switch = Host()
+        self._hosts = {}
+        self._switch.ip("link", "add", "bridge", "type", "bridge")
+        self._switch.ip("link", "set", "bridge", "up")
+        for name, address in addresses.items():
+            host = self._hosts[name] = Host(self._switch)
+            holder = str(host._holder.pid)
+            end = ["peer", "name", "eth0", "netns", holder]
+            self._switch.ip("link", "add", name, "type", "veth", *end)
+            self._switch.ip("link", "set", name, "master", "bridge", "up")
+            host.ip("address", "add", f"{address}/24", "dev", "eth0")
+            host.ip("link", "set", "eth0", "up")
+
+    def __getitem__(self, name):
+        """The Host of this name."""
+        return self._hosts[name]
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        for host in [*self._hosts.values(), self._switch]:
+            host.close()
+
+    def pull_cable(self, name):
+        """Pull the cable of a host out of the switch: the host sees that it has no carrier."""
+        self._switch.ip("link", "set", name, "down")
+
+    def plug_cable(self, name):
+        """Plug it in again."""
+        self._switch.ip("link", "set", name, "up")

@@ -1,0 +1,139 @@
+"""Sending without waiting, over a real TCP connection whose other side does not read."""
+
+import select
+import socket
+import threading
+
+import pytest
+from node_kit import newest_only
+from node_kit.newest_only import CUT_AFTER_RESENDS, NewestOnly
+
+SIZE = 52  # of a Twist on the wire
+DEADLINE_S = 20.0
+STOP = bytes(SIZE)
+
+
+@pytest.fixture
+def connection():
+    """Two ends of a TCP connection; the second one is slow to accept data."""
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        server.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+        near = socket.create_connection(server.getsockname())
+        far, _ = server.accept()
+    far.settimeout(DEADLINE_S)
+    with near, far:
+        yield near, far
+
+
+def message(number):
+    return number.to_bytes(4, "little") * (SIZE // 4)
+
+
+def fill(sender, near):
+    """Write until the kernel takes no more; how many messages that were."""
+    for number in range(1_000_000):
+        sender.write(message(number))
+        if not select.select([], [near], [], 0)[1]:
+            return number + 1
+    raise AssertionError("the connection never became full")
+
+
+def numbers_until(far, last):
+    """Read whole messages up to the one with the number last; their numbers."""
+    data, numbers = b"", []
+    while not numbers or numbers[-1] != last:
+        data += far.recv(65536)
+        while len(data) >= SIZE:
+            numbers.append(int.from_bytes(data[:4], "little"))
+            assert data[:SIZE] == message(numbers[-1])  # never a part of one, then another
+            data = data[SIZE:]
+    return numbers
+
+
+def test_what_is_written_arrives_at_once(connection):
+    near, far = connection
+    sender = NewestOnly(near, STOP)
+    for number in range(100):
+        sender.write(message(number))
+        assert far.recv(SIZE, socket.MSG_WAITALL) == message(number)
+
+
+def test_a_side_that_does_not_read_gets_whole_messages_and_the_newest_one(connection):
+    near, far = connection
+    sender = NewestOnly(near, STOP)
+    count = fill(sender, near)
+    for number in range(count, count + 10_000):  # none of these waits
+        sender.write(message(number))
+    last = count + 10_000 - 1
+    numbers = numbers_until(far, last)
+    assert numbers == sorted(set(numbers))
+    assert len(numbers) < count + 100  # what lay between is not sent any more
+
+
+def test_afterwards_messages_arrive_at_once_again(connection):
+    near, far = connection
+    sender = NewestOnly(near, STOP)
+    count = fill(sender, near)
+    sender.write(message(count))
+    numbers_until(far, count)
+    before = threading.active_count()
+    for number in range(100):
+        sender.write(message(number))
+        assert far.recv(SIZE, socket.MSG_WAITALL) == message(number)
+    assert threading.active_count() <= before
+
+
+def test_a_side_that_has_gone_is_an_error_in_the_end(connection):
+    near, far = connection
+    sender = NewestOnly(near, STOP)
+    fill(sender, near)
+    far.close()
+    with pytest.raises(OSError, match=r"."):
+        for number in range(1_000_000):
+            sender.write(message(number))
+            select.select([], [near], [], DEADLINE_S)
+
+
+def test_a_connection_closed_here_is_an_error(connection):
+    near, _ = connection
+    sender = NewestOnly(near, STOP)
+    near.close()
+    with pytest.raises(OSError, match=r"."):
+        sender.write(message(0))
+
+
+# What is written at which number of resends, whether it is a stop, and what then arrives.
+CUT = [
+    (0, 1, False, [1]),
+    (1, 2, False, [2]),  # one lost packet
+    (CUT_AFTER_RESENDS, 3, False, [0]),  # cut: a last stop
+    (5, 4, False, []),
+    (6, 5, True, []),  # nobody can tell whether this one would be the last
+    (7, 6, False, []),
+    (0, 7, False, []),  # whole again, and still driving
+    (0, 8, True, [8]),  # released
+    (0, 9, False, [9]),
+    (CUT_AFTER_RESENDS, 10, True, [0]),  # cut in the middle of a stop
+    (0, 11, True, [11]),
+]
+
+
+def test_after_a_cut_nothing_is_driven_before_a_stop(connection, monkeypatch):
+    near, far = connection
+    told = []
+    sender = NewestOnly(near, STOP, told.append)
+    for resends, number, stops, arriving in CUT:
+        monkeypatch.setattr(newest_only, "resends", lambda _, count=resends: count)
+        sender.write(message(number), stops)
+        for expected in arriving:
+            data = far.recv(SIZE, socket.MSG_WAITALL)
+            assert int.from_bytes(data[:4], "little") == expected
+        assert not select.select([far], [], [], 0)[0], number
+    assert told == [True, False, True, False]
+
+
+def test_a_connection_that_works_has_no_resends(connection):
+    near, far = connection
+    near.sendall(STOP)
+    far.recv(SIZE, socket.MSG_WAITALL)
+    assert newest_only.resends(near) == 0
