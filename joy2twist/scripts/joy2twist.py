@@ -2,10 +2,11 @@
 """Drive a robot with a joystick: see the class NewJoy2Twist in joy_to_twist/node.py."""
 
 import signal
+import sys
 
 signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C while ROS still loads ends this quietly
 
 from joy_to_twist.node import main
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

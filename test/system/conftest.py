@@ -7,6 +7,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
+
 from tutorial_testing.two_hosts.scene import Scene
 
 REPOSITORY = Path(__file__).resolve().parents[2]

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 import yaml
+
 from tutorial_testing.two_hosts.scene import ROBOT, WORKSTATION, readme_blocks
 
 DOCKER = Path(__file__).resolve().parents[2] / "docker"

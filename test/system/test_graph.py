@@ -11,6 +11,7 @@ import struct
 from pathlib import Path
 
 import pytest
+
 from tutorial_testing.processes import Program
 from tutorial_testing.two_hosts.scene import ROBOT, WORKSTATION
 from tutorial_testing.waiting import wait_for

@@ -9,6 +9,7 @@ import re
 from pathlib import Path
 
 import pytest
+
 from tutorial_testing.processes import Program
 
 KERNEL = Path(__file__).parents[1] / "src" / "tutorial_testing" / "kernel"

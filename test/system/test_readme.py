@@ -8,6 +8,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
+
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 

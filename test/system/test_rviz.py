@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 import yaml
 from PIL import ImageGrab
+
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 

@@ -1,6 +1,7 @@
 """The README's two machines, joined by a network, and what happens when its cable is pulled."""
 
 import pytest
+
 from tutorial_testing.two_hosts.scene import REPOSITORY, ROBOT, WORKSTATION
 from tutorial_testing.waiting import wait_for
 

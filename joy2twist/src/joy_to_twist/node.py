@@ -1,31 +1,28 @@
 """The ROS node: joy (sensor_msgs/Joy) in, cmd_vel (geometry_msgs/Twist) out."""
 
 import gc
-import os
 import threading
 from time import monotonic, time_ns
 
 import diagnostic_updater
 import rospy
 from diagnostic_msgs.msg import DiagnosticStatus
-from node_kit.ending import end_on_signals
-from node_kit.start import StartError, checked_parameters
-from node_kit.throttle import Throttle
 
 from joy_to_twist.console import Console
 from joy_to_twist.lean_joy import LeanJoy
 from joy_to_twist.limits import ZERO
 from joy_to_twist.parameters import load
 from joy_to_twist.teleoperation import Teleoperation
-from joy_to_twist.velocity_publisher import VelocityPublisher
+from node_kit.careful_connections import tell_of_bad_messages
+from node_kit.prompt_publisher import VelocityPublisher
+from node_kit.start import run
+from node_kit.throttle import Throttle
 
 NODE_NAME = "NewJoy2Twist"
 # How soon it is noticed that the joystick node has left [s].
 LOOK_ROUND_S = 0.25
 # A zero reaches every subscriber that reads well within this time [s]; exiting at once may lose it.
 DELIVERY_TIME_S = 0.1
-# rospy says goodbye to the master and waits for threads without an end if they do not answer [s].
-LONGEST_GOODBYE_S = 0.8
 # Joy messages read at once, at most: all of a burst, but never a long backlog.
 LONGEST_BURST = 100
 # Room for some tens of them. Python makes that room anew for every message.
@@ -50,10 +47,11 @@ class NewJoy2Twist:
     """
 
     def __init__(self, parameters):
-        """parameters: parameters.Parameters."""
-        # Not anonymous: a second node of this name shuts down the first, so that only one drives.
-        rospy.init_node(NODE_NAME, anonymous=False, disable_signals=True)
+        """parameters: parameters.Parameters. The node is initialised, and not anonymous: a second
+        one of its name shuts down the first, so that only one drives.
+        """
         self.console = Console(parameters.log_rate)
+        tell_of_bad_messages(self.console.warn)
         self.timer = threading.Event()  # set to have the time looked at now
         self.teleoperation = Teleoperation(parameters, self.console.warn, self.timer.set)
         for line in self.teleoperation.describe():
@@ -129,13 +127,10 @@ class NewJoy2Twist:
         return status
 
     def shutdown(self):
-        """Leave the robot standing: zero velocity, the time to deliver it, and a certain end."""
+        """Leave the robot standing: zero velocity, and the time to deliver it."""
         with self.lock:
             self.stopped.set()
             self.cmd_vel.publish(ZERO)
-        goodbye = threading.Timer(LONGEST_GOODBYE_S, os._exit, [0])
-        goodbye.daemon = True
-        goodbye.start()
         self.console.goodbye("Stopping the node ...")
         # Not rospy.sleep: in simulated time without a clock it never returns.
         threading.Event().wait(DELIVERY_TIME_S)
@@ -146,17 +141,13 @@ def simulated_time_ns():
     return rospy.Time.now().to_nsec()
 
 
+def spin(parameters):
+    """Be the node until it is shut down."""
+    NewJoy2Twist(parameters)
+    gc.freeze()  # what is there now stays: the garbage collector need not look at it again
+    rospy.spin()
+
+
 def main():
-    """Run the node until it is stopped; exit code 1 and one line if it cannot start."""
-    try:
-        parameters = checked_parameters(NODE_NAME, load)
-    except StartError as error:
-        raise SystemExit(f"joy2twist: {error}") from None
-    end_on_signals()
-    try:
-        NewJoy2Twist(parameters)
-        gc.freeze()  # what is there now stays: the garbage collector need not look at it again
-        rospy.spin()
-    except rospy.ROSException:
-        if not rospy.core.is_shutdown_requested():
-            raise
+    """Run the node until it is stopped; return its exit code."""
+    return run(NODE_NAME, load, spin)

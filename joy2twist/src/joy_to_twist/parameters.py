@@ -6,15 +6,26 @@ unchanged. Two defaults differ, so that the bare node is the tutorial's: every s
 enable_button is -1 (no dead-man) where the C++ node has button 0.
 """
 
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass
 from typing import Any, Dict, Tuple
+
+from node_kit.parameters import (
+    checked,
+    checked_value,
+    is_number,
+    is_whole,
+    number,
+    parameter,
+    switch,
+    whole_number,
+)
 
 LINEAR = ("x", "y", "z")
 ANGULAR = ("roll", "pitch", "yaw")  # turning about x, y, z
 COMPONENTS = ("linear.x", "linear.y", "linear.z", "angular.x", "angular.y", "angular.z")
 
-# Far beyond any robot; keeps every product of scale and axis finite. [m/s or rad/s]
-LARGEST_SCALE = 1000
+# Far beyond any robot on wheels; what is larger is a slip of the keys. [m/s or rad/s]
+LARGEST_SCALE = 100
 
 # Stands for "not given": the default then depends on another parameter.
 _FROM_OTHERS = None
@@ -34,45 +45,10 @@ class Axis:
     turbo_scale: float
 
 
-def _is_whole(value):
-    return isinstance(value, int) and not isinstance(value, bool)
-
-
-def _is_number(value):
-    return isinstance(value, float) or _is_whole(value)
-
-
-def _is_index(value):
-    return _is_whole(value) and value >= -1
-
-
-def _is_scale(value):
-    return _is_number(value) and abs(value) <= LARGEST_SCALE
-
-
-def number(default, low, high, allowed):
-    """A number from low to high, both included."""
-    return field(
-        default=default,
-        metadata={"valid": lambda v: _is_number(v) and low <= v <= high, "allowed": allowed},
-    )
-
-
-def _index(default, allowed):
-    """A whole number, -1 for none."""
-    return field(default=default, metadata={"valid": _is_index, "allowed": allowed})
-
-
-def flag(default):
-    return field(
-        default=default,
-        metadata={"valid": lambda v: isinstance(v, bool), "allowed": "true or false"},
-    )
-
-
-_BUTTON = "a button number, or -1 for none"
-_SECONDS = "a number of seconds from 0 (off) to 60"
-_LIMIT = "a number from 0 (off) to 1000"
+_BUTTON = whole_number(-1, allowed="a button number, or -1 for none")
+_TIMEOUT = number(0, 60, "s (0: off)")
+_SPEED = number(0, 1000, "m/s (0: no limit)")
+_TURN = number(0, 1000, "rad/s (0: no limit)")
 
 
 @dataclass(frozen=True)
@@ -80,25 +56,24 @@ class Parameters:
     """All parameters of the node, checked. Units: m, s, rad, Hz."""
 
     axes: Tuple[Axis, ...]
-    enable_button: int = _index(-1, _BUTTON)
-    enable_turbo_button: int = _index(-1, _BUTTON)
-    require_enable_button: bool = flag(_FROM_OTHERS)
-    inverted_reverse: bool = flag(False)
-    joy_timeout: float = number(0.5, 0, 60, _SECONDS)
-    max_joy_age: float = number(0.0, 0, 60, _SECONDS)
-    arm_on_neutral: bool = flag(False)
-    stop_messages: int = field(
-        default=5,
-        metadata={"valid": lambda v: _is_whole(v) and 1 <= v <= 100, "allowed": "from 1 to 100"},
+    enable_button: int = parameter(-1, _BUTTON)
+    enable_turbo_button: int = parameter(-1, _BUTTON)
+    require_enable_button: bool = parameter(_FROM_OTHERS, switch)
+    inverted_reverse: bool = parameter(False, switch)
+    joy_timeout: float = parameter(0.5, _TIMEOUT)
+    max_joy_age: float = parameter(0.0, _TIMEOUT)
+    arm_on_neutral: bool = parameter(False, switch)
+    stop_messages: int = parameter(5, whole_number(1, 100, "a whole number from 1 to 100"))
+    output_rate: float = parameter(20.0, number(1, 1000, "Hz"))
+    max_linear_speed: float = parameter(0.0, _SPEED)
+    max_angular_speed: float = parameter(0.0, _TURN)
+    max_linear_acceleration: float = parameter(0.0, number(0, 1000, "m/s2 (0: no limit)"))
+    max_angular_acceleration: float = parameter(0.0, number(0, 1000, "rad/s2 (0: no limit)"))
+    gamepad_axes: int = parameter(
+        -1, whole_number(-1, allowed="the number of axes of the gamepad, or -1 for any")
     )
-    output_rate: float = number(20.0, 1, 1000, "a number of Hz from 1 to 1000")
-    max_linear_speed: float = number(0.0, 0, 1000, _LIMIT)
-    max_angular_speed: float = number(0.0, 0, 1000, _LIMIT)
-    max_linear_acceleration: float = number(0.0, 0, 1000, _LIMIT)
-    max_angular_acceleration: float = number(0.0, 0, 1000, _LIMIT)
-    gamepad_axes: int = _index(-1, "the number of axes of the gamepad, or -1 for any")
-    log_rate: float = number(50.0, 0, 1000, "a number of lines a second from 0 (off) to 1000")
-    diagnostic_period: float = number(1.0, 0.1, 60, "a number of seconds from 0.1 to 60")
+    log_rate: float = parameter(50.0, number(0, 1000, "lines a second (0: none)"))
+    diagnostic_period: float = parameter(1.0, number(0.1, 60, "s"))
 
 
 # The parameters that make up Parameters.axes, with their defaults.
@@ -117,32 +92,19 @@ def load(given: Dict[str, Any]) -> Parameters:
 
     Raises ValueError, one line that names the parameter, its value and what is allowed.
     """
-    plain = {f.name: f for f in fields(Parameters) if f.metadata}
-    unknown = sorted(set(given) - set(plain) - set(AXIS_DEFAULTS))
-    if unknown:
-        known = ", ".join(sorted([*plain, *AXIS_DEFAULTS]))
-        raise ValueError(f"There is no parameter ~{unknown[0]}; the parameters are {known}.")
-
-    values = {name: given.get(name, f.default) for name, f in plain.items()}
-    if values["require_enable_button"] is _FROM_OTHERS:
-        values["require_enable_button"] = values["enable_button"] != -1
-    for name, value in values.items():
-        metadata = plain[name].metadata
-        check(metadata["valid"](value), name, value, metadata["allowed"])
-
+    values = checked(Parameters, given, others=AXIS_DEFAULTS)
     enable, turbo = values["enable_button"], values["enable_turbo_button"]
-    check(
-        enable == -1 or enable != turbo,
-        "enable_turbo_button",
-        turbo,
-        "a button other than ~enable_button",
-    )
-    check(
-        not values["require_enable_button"] or max(enable, turbo) >= 0,
-        "require_enable_button",
-        True,
-        "true only with ~enable_button or ~enable_turbo_button",
-    )
+    if values["require_enable_button"] is _FROM_OTHERS:
+        values["require_enable_button"] = enable != -1
+    if enable == turbo != -1:
+        raise ValueError(
+            f"~enable_turbo_button: {turbo}: must be a button other than ~enable_button"
+        )
+    if values["require_enable_button"] and max(enable, turbo) < 0:
+        raise ValueError(
+            "~require_enable_button: True: must be false without ~enable_button"
+            " and ~enable_turbo_button"
+        )
     axes = _axes(given, "linear", LINEAR, 0) + _axes(given, "angular", ANGULAR, len(LINEAR))
     return Parameters(axes=tuple(axes), **values)
 
@@ -154,48 +116,55 @@ def _axes(given, kind, names, first_component):
     component, and with axis_linear as a number scale_linear_turbo is 1 unless given. Any other
     turbo scale that is not given is that without turbo (in the C++ node it may become 0).
     """
-    parameter = f"axis_{kind}"
-    indices = given.get(parameter, AXIS_DEFAULTS[parameter])
-    _check_each(parameter, indices, names, _is_index, "an axis number or -1 for none")
+    name = f"axis_{kind}"
+    indices = given.get(name, AXIS_DEFAULTS[name])
+    _check_each(name, indices, names, _is_index, "an axis number, -1 for none")
     by_name = isinstance(indices, dict)
     if not by_name:
         indices = {"x" if kind == "linear" else "yaw": indices}
     used = [name for name in names if indices.get(name, -1) >= 0]
 
     normal = _scales(given, f"scale_{kind}", names, used)
-    parameter = f"scale_{kind}_turbo"
-    if parameter not in given and (by_name or AXIS_DEFAULTS[parameter] is _FROM_OTHERS):
+    name = f"scale_{kind}_turbo"
+    if name not in given and (by_name or AXIS_DEFAULTS[name] is _FROM_OTHERS):
         turbo = normal
     else:
-        turbo = _scales(given, parameter, names, used, otherwise=normal)
+        turbo = _scales(given, name, names, used, otherwise=normal)
     return [
         Axis(first_component + names.index(name), indices[name], normal[name], turbo[name])
         for name in used
     ]
 
 
-def _scales(given, parameter, names, used, otherwise=None):
+def _scales(given, name, names, used, otherwise=None):
     """The scale of every used component, by its name."""
-    value = given.get(parameter, AXIS_DEFAULTS[parameter])
-    allowed = f"a number from -{LARGEST_SCALE} to {LARGEST_SCALE}"
-    _check_each(parameter, value, names, _is_scale, allowed)
+    value = given.get(name, AXIS_DEFAULTS[name])
+    _check_each(name, value, names, _is_scale, f"from -{LARGEST_SCALE} to {LARGEST_SCALE}")
     if not isinstance(value, dict):
         value = dict.fromkeys(names, value)
     scales = {**(otherwise or {}), **value}
-    missing = [name for name in used if name not in scales]
-    check(not missing, parameter, value, f"a map that has {', '.join(missing)} too")
-    return {name: float(scales[name]) for name in used}
+    missing = [one for one in used if one not in scales]
+    if missing:
+        raise ValueError(f"~{name}: {value!r}: must be a map that has {', '.join(missing)} too")
+    return {one: float(scales[one]) for one in used}
 
 
-def _check_each(parameter, value, names, valid, allowed):
+def _is_index(value):
+    return is_whole(value) and value >= -1
+
+
+def _is_scale(value):
+    return is_number(value) and abs(value) <= LARGEST_SCALE
+
+
+def _check_each(name, value, names, valid, allowed):
     """Check one value, or each value of a map from component name to value."""
-    if isinstance(value, dict):
-        fits = value and all(name in names and valid(v) for name, v in value.items())
-    else:
-        fits = valid(value)
-    check(fits, parameter, value, f"{allowed}, or a map from {', '.join(names)} to such")
 
+    def check(value):
+        each = value.items() if isinstance(value, dict) else [(names[0], value)]
+        if not each or not all(component in names and valid(one) for component, one in each):
+            raise ValueError(
+                f"must be a number ({allowed}), or a map from {', '.join(names)} to such"
+            )
 
-def check(valid, parameter, value, allowed):
-    if not valid:
-        raise ValueError(f"Parameter ~{parameter} is {value!r}; allowed is {allowed}.")
+    checked_value(f"~{name}", value, check)

@@ -7,12 +7,12 @@ A method returns the velocity to send at once (six floats, see limits), or None 
 import math
 
 from joy_to_twist.limits import ZERO, approach
+from node_kit.states import DRIVING
 
 WAITING = "waiting for the joystick"
 NOT_ARMED = "stopped: not armed, release the sticks and the dead-man button once"
 BAD_MESSAGE = "stopped: bad joystick message"
 ARMED = "armed: hold the dead-man button to drive"
-DRIVING = "driving"
 
 
 class Safety:

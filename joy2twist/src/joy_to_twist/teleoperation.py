@@ -2,11 +2,10 @@
 
 import math
 
-from node_kit.throttle import Throttle
-
 from joy_to_twist.gamepad_hints import GamepadHints
 from joy_to_twist.mapping import BadJoyError, Mapping
 from joy_to_twist.safety import ARMED, DRIVING, Safety
+from node_kit.throttle import Throttle
 
 UNHEARD_S = 2.0  # a robot that starts together with this node takes a moment to listen
 WARNING_PERIOD_S = 5.0  # often enough to be seen, not so often that it hides the rest

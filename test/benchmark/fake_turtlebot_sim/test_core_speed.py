@@ -3,6 +3,7 @@
 import timeit
 
 import numpy as np
+
 from fake_turtlebot_sim.replay.bag_replay import replay
 from fake_turtlebot_sim.simulator.differential_drive import arc, arcs
 from fake_turtlebot_sim.simulator.parameters import Parameters

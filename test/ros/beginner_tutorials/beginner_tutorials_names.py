@@ -7,6 +7,7 @@ import unittest
 import rosnode
 import rospy
 import rostest
+
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 

@@ -9,6 +9,7 @@ import rospy
 import rostest
 from rosgraph_msgs.msg import Log
 from std_msgs.msg import String
+
 from tutorial_testing.waiting import wait_for
 
 

@@ -15,6 +15,7 @@ import rostest
 from geometry_msgs.msg import Twist
 from rosgraph_msgs.msg import Log
 from std_msgs.msg import String
+
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 

@@ -9,6 +9,7 @@ import unittest
 import rospy
 import rostest
 from geometry_msgs.msg import Twist
+
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 

@@ -11,6 +11,7 @@ import rostest
 from geometry_msgs.msg import Twist
 from rosgraph_msgs.msg import Log
 from std_msgs.msg import String
+
 from tutorial_testing.waiting import wait_for
 
 PERIOD_S = 0.05

@@ -10,6 +10,7 @@ import rostest
 from diagnostic_msgs.msg import DiagnosticArray
 from fake_turtlebot_stepping import Robot, World, twist
 from rosgraph_msgs.msg import Log
+
 from tutorial_testing.waiting import wait_for
 
 BAD = [(nan, 0.0), (0.0, nan), (inf, 0.0), (0.0, -inf), (nan, inf)]

@@ -10,6 +10,7 @@ import rostest
 from fake_turtlebot_stepping import PERIOD_NS, Robot, World, twist
 from rosgraph_msgs.msg import Log
 from tf2_msgs.msg import TFMessage
+
 from tutorial_testing.waiting import wait_for
 
 SPEED = 0.7  # [m/s]

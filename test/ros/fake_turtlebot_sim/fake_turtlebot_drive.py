@@ -14,6 +14,7 @@ import rostest
 from fake_turtlebot_stepping import Robot, World
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import JointState
+
 from tutorial_testing.waiting import wait_for
 
 

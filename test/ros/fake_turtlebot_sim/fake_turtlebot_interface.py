@@ -9,6 +9,7 @@ import unittest
 import rosgraph
 import rospy
 import rostest
+
 from fake_turtlebot_sim.simulator.node import FakeTurtlebot
 from tutorial_testing.waiting import wait_for
 
@@ -44,7 +45,7 @@ class InterfaceTest(unittest.TestCase):
         listed = dict(zip(parts[::2], parts[1::2]))
         return {
             title: {
-                rospy.names.resolve_name(name.replace("~", f"{NODE}/"))
+                rospy.resolve_name(name.replace("~", f"{NODE}/"))
                 for name in re.findall(r"([~/\w]+)(?: and [/\w]+)? \(", listed[title])
                 + re.findall(r"and (\S+) \(", listed[title])
             }

@@ -7,6 +7,7 @@ import unittest
 import rospy
 import rostest
 from tf2_msgs.msg import TFMessage
+
 from tutorial_testing.waiting import wait_for
 
 

@@ -8,6 +8,7 @@ import rospy
 import rostest
 from fake_turtlebot_stepping import Robot, World
 from tf2_msgs.msg import TFMessage
+
 from tutorial_testing.waiting import wait_for
 
 

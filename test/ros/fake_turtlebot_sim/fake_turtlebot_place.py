@@ -13,6 +13,7 @@ from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Empty
 from std_srvs.srv import Empty as EmptyService
+
 from tutorial_testing.waiting import wait_for
 
 

@@ -7,10 +7,11 @@ import unittest
 
 import rospy
 import rostest
-from fake_turtlebot_sim.simulator.parameters import parse_parameters
-from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
 from fake_turtlebot_stepping import Robot, World
 from tf2_msgs.msg import TFMessage
+
+from fake_turtlebot_sim.simulator.parameters import parse_parameters
+from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
 from tutorial_testing.waiting import wait_for
 
 

@@ -11,6 +11,7 @@ import rospy
 import rostest
 from nav_msgs.msg import Odometry
 from rosgraph.network import encode_ros_handshake_header
+
 from tutorial_testing.waiting import wait_for
 
 NODE, STALLED = "/fake_turtlebot", "/stalled"

@@ -8,6 +8,7 @@ import unittest
 import rospy
 import rostest
 from nav_msgs.msg import Odometry
+
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 

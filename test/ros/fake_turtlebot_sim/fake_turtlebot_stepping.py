@@ -7,10 +7,11 @@ over when the odometry with its stamp has come.
 from math import atan2
 
 import rospy
-from fake_turtlebot_sim.simulator.differential_drive import drive
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
+
+from fake_turtlebot_sim.simulator.differential_drive import drive
 from tutorial_testing.waiting import wait_for
 
 PERIOD_NS = 20_000_000

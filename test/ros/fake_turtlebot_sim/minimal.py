@@ -10,6 +10,7 @@ import rostest
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from std_msgs.msg import Empty, String
+
 from tutorial_testing.waiting import wait_for
 
 # Topic: (type, node that publishes it, node that subscribes to it).

@@ -8,9 +8,10 @@ import unittest
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray
+
 from gamepad.driver.driver import SHORTEST_SILENCE_S
 from gamepad.js_event import AXIS, BUTTON, FULL, INIT
-from joystick_stream import AXES, BUTTONS, JoyLog, Stream, driver
+from tutorial_testing.joystick_stream import AXES, BUTTONS, JoyLog, Stream, driver
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import BUSY_S, wait_for
 

@@ -11,8 +11,9 @@ import uuid
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray
-from joy_to_twist.safety import ARMED
 from nav_msgs.msg import Odometry
+
+from joy_to_twist.safety import ARMED
 from tutorial_testing.waiting import wait_for
 
 HINT = "  without LB: tap space, then this key at once"

@@ -13,9 +13,10 @@ import rospy
 import rostest
 import yaml
 from diagnostic_msgs.msg import DiagnosticArray
-from joy_to_twist.safety import WAITING
-from joystick_stream import JoyLog
 from nav_msgs.msg import Odometry
+
+from joy_to_twist.safety import WAITING
+from tutorial_testing.joystick_stream import JoyLog
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 

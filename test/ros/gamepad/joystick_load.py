@@ -10,8 +10,9 @@ from pathlib import Path
 
 import rospy
 import rostest
+
 from gamepad.js_event import FULL
-from joystick_stream import JoyLog, Stream, driver
+from tutorial_testing.joystick_stream import JoyLog, Stream, driver
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 

@@ -10,8 +10,9 @@ import rosbag
 import rospkg
 import rospy
 import rostest
+
 from gamepad.gamepads import F710_D
-from joystick_stream import JoyLog, driver
+from tutorial_testing.joystick_stream import JoyLog, driver
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 

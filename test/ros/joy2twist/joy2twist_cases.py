@@ -29,6 +29,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Twist
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Joy
+
 from tutorial_testing.waiting import wait_for
 
 COMPONENTS = [f"{kind}.{axis}" for kind in ("linear", "angular") for axis in "xyz"]

@@ -15,6 +15,7 @@ import rostest
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Joy
+
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import BUSY_S, DEADLINE_S, wait_for
 

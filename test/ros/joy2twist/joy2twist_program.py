@@ -11,6 +11,7 @@ import rostest
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Twist
 from sensor_msgs.msg import Joy
+
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import BUSY_S, DEADLINE_S, wait_for
 

@@ -11,6 +11,7 @@ from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import JointState, Joy
 from tf2_msgs.msg import TFMessage
+
 from tutorial_testing.waiting import wait_for
 
 RATE_HZ = 50  # of joy.bag and of the simulation

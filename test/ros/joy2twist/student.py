@@ -12,11 +12,12 @@ import rospkg
 import rospy
 import rostest
 import yaml
+from nav_msgs.msg import Odometry
+from rospy import AnyMsg
+
 from fake_turtlebot_sim.simulator.simulated_robot import RobotModel, SimulatedRobot
 from joy_to_twist.parameters import load
 from joy_to_twist.teleoperation import Teleoperation
-from nav_msgs.msg import Odometry
-from rospy import AnyMsg
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 

@@ -14,7 +14,8 @@ import rospkg
 import rospy
 import rostest
 from geometry_msgs.msg import Twist
-from joystick_stream import AXIS, BUTTON, Stream
+
+from tutorial_testing.joystick_stream import AXIS, BUTTON, Stream
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 

@@ -10,6 +10,7 @@ from pathlib import Path
 import rospkg
 import rospy
 import rostest
+
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
@@ -24,7 +25,7 @@ class GraphTest(unittest.TestCase):
 
     def run_it(self, *arguments, **environment):
         """Run it from rosrun, to its end; (exit code, what it printed)."""
-        command = ["rosrun", "beginner_tutorials", "draw_graph.py"]
+        command = ["rosrun", "tutorial_tools", "draw_graph.py"]
         with Program(*command, *map(str, arguments), **environment) as program:
             return program.wait(), program.output
 

@@ -14,6 +14,7 @@ import rostest
 from geometry_msgs.msg import Twist
 from sensor_msgs.msg import Joy
 from std_msgs.msg import String
+
 from tutorial_testing.doctor_run import doctor
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for

@@ -8,6 +8,7 @@ import rospy
 import rostest
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
+
 from tutorial_testing.doctor_run import doctor
 from tutorial_testing.waiting import wait_for
 

@@ -3,9 +3,10 @@
 from math import inf, nan
 
 import pytest
-from fake_turtlebot_sim.mux.arbitration import IDLE, REARM_S, Arbiter, Input, LateGuard, Verdict
 from hypothesis import given
 from hypothesis import strategies as st
+
+from fake_turtlebot_sim.mux.arbitration import IDLE, REARM_S, Arbiter, Input, LateGuard, Verdict
 
 SAFETY = Input("safety", "input/safety", 0.2, 10)
 TELEOP = Input("teleop", "input/teleop", 1.0, 7)

@@ -1,9 +1,10 @@
 """Time that never decreases, and periods that never drift."""
 
 import pytest
-from fake_turtlebot_sim.simulator.clock import MotionClock, PhaseLock
 from hypothesis import given
 from hypothesis import strategies as st
+
+from fake_turtlebot_sim.simulator.clock import MotionClock, PhaseLock
 
 
 def test_motion_time_is_the_time_since_the_start():

@@ -4,9 +4,10 @@ from math import cos, pi, sin
 
 import numpy as np
 import pytest
-from fake_turtlebot_sim.simulator.differential_drive import arc, arcs, ramp, wheel_rates, wrap_angle
 from hypothesis import given
 from hypothesis import strategies as st
+
+from fake_turtlebot_sim.simulator.differential_drive import arc, arcs, ramp, wheel_rates, wrap_angle
 
 ORIGIN = (0.0, 0.0, 0.0)
 POSE = st.tuples(st.floats(-1, 1), st.floats(-1, 1), st.floats(-3.14, 3.14))

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 import yaml
-from fake_turtlebot_sim.mux.arbitration import Input
-from fake_turtlebot_sim.mux.parameters import MuxParameters, parse_mux_parameters
 
 import fake_turtlebot_sim
+from fake_turtlebot_sim.mux.arbitration import Input
+from fake_turtlebot_sim.mux.parameters import MuxParameters, parse_mux_parameters
 
 PACKAGE = Path(fake_turtlebot_sim.__file__).parents[2]
 TELEOP = {"name": "teleop", "topic": "input/teleop", "timeout": 1.0, "priority": 7}
@@ -68,8 +68,8 @@ def test_our_own_file():
         ({"subscribers": "teleop"}, ["~subscribers: 'teleop'", "list of inputs"]),
         ({"subscribers": TELEOP}, ["~subscribers: {'name': 'teleop'", "list of inputs"]),
         ({"subscribers": ["teleop"]}, ["entry 1: 'teleop'", "must be as in"]),
-        ({"subscriber": [TELEOP]}, ["~subscriber: [", "did you mean subscribers?"]),
-        ({"subscribers": [TELEOP], "rate": 5}, ["~rate: 5", "allowed: subscribers, publisher"]),
+        ({"subscriber": [TELEOP]}, ["~subscriber: [", "did you mean ~subscribers?"]),
+        ({"subscribers": [TELEOP], "rate": 5}, ["~rate: 5", "allowed: publisher, subscribers"]),
         ({"subscribers": [TELEOP, TELEOP]}, ["name: 'teleop'", "twice"]),
         (with_teleop(name="navi"), ["name: 'navi'", "twice"]),
         (with_teleop(topic="input/navi"), ["topic: 'input/navi'", "twice"]),
@@ -93,7 +93,10 @@ def test_our_own_file():
         (with_teleop(rearm_on_zero="yes"), ["entry 1: rearm_on_zero: 'yes'", "true or false"]),
         (with_teleop(rearm_on_zero=1), ["entry 1: rearm_on_zero: 1", "true or false"]),
         (with_teleop(time_out=1.0), ["entry 1: time_out: 1.0", "did you mean timeout?"]),
-        (with_teleop(colour="red"), ["entry 1: colour: 'red'", "allowed: name, topic, timeout"]),
+        (
+            with_teleop(colour="red"),
+            ["entry 1: colour: 'red'", "allowed: name, priority, "],
+        ),
         ({"subscribers": [TELEOP], "publisher": ""}, ["~publisher: ''", "name of a topic"]),
         ({"subscribers": [TELEOP], "publisher": 7}, ["~publisher: 7", "name of a topic"]),
         (

@@ -5,6 +5,7 @@ from math import hypot, pi
 
 import numpy as np
 import pytest
+
 from fake_turtlebot_sim.simulator.odometry_errors import ErrorModel, OdometryErrors
 from fake_turtlebot_sim.simulator.simulated_robot import RobotModel, SimulatedRobot
 

@@ -7,11 +7,30 @@ from pathlib import Path
 
 import pytest
 import yaml
-from fake_turtlebot_sim.simulator.parameters import RANGES, Parameters, line_up, parse_parameters
 
 import fake_turtlebot_sim
+from fake_turtlebot_sim.simulator.parameters import Parameters, line_up, parse_parameters
 
 PACKAGE = Path(fake_turtlebot_sim.__file__).parents[2]
+
+
+# Written out, so that a slip in one of them is seen: least, most and unit.
+RANGES = {
+    "rate": (5, 1000, "Hz"),
+    "cmd_vel_timeout": (0.02, 60, "s"),
+    "wheel_separation": (0.01, 10, "m"),
+    "wheel_radius": (0.001, 5, "m"),
+    "max_linear_speed": (0.01, 100, "m/s"),
+    "max_angular_speed": (0.01, 100, "rad/s"),
+    "max_linear_acceleration": (0, 1000, "m/s2 (0: no limit)"),
+    "max_angular_acceleration": (0, 1000, "rad/s2 (0: no limit)"),
+    "initial_x": (-1e6, 1e6, "m"),
+    "initial_y": (-1e6, 1e6, "m"),
+    "initial_yaw": (-2 * pi, 2 * pi, "rad"),
+    "wheel_noise": (0, 1, "m (standard deviation after 1 m)"),
+    "wheel_radius_ratio": (0.5, 2, "(right / left)"),
+    "track_ratio": (0.5, 2, "(actual / nominal)"),
+}
 
 
 def message_of(given):
@@ -39,12 +58,13 @@ def test_whole_numbers_pass_for_numbers():
 
 @pytest.mark.parametrize("name", RANGES)
 def test_numbers_are_held_to_their_range(name):
-    least, most, _ = RANGES[name]
+    least, most, unit = RANGES[name]
     for value in (least, most):
         assert getattr(parse_parameters({name: value}), name) == value
     for value in (least - 1e-3, most * 1.01, nan, inf, -inf, "1", True, None, [1.0]):
         message = message_of({name: value})
-        assert message.startswith(f"~{name}: {value!r}: must be a number from {least:g} to")
+        allowed = f"a number from {least:g} to {most:g} {unit}"
+        assert message == f"~{name}: {value!r}: must be {allowed}"
 
 
 @pytest.mark.parametrize(
@@ -67,14 +87,20 @@ def test_numbers_are_held_to_their_range(name):
         ({"robots": "ada"}, ["~robots: 'ada'", "[ada, bob]"]),
         ({"robots": []}, ["~robots: []", "[ada, bob]"]),
         ({"robots": ["ada"] * 1001}, ["~robots: ['ada'", "1 to 1000"]),
-        ({"robots": ["ada", "bob", "ada"]}, ["~robots: 'ada'", "twice"]),
-        ({"robots": ["ada", "2nd"]}, ["~robots: '2nd'", "letter"]),
-        ({"robots": [["ada"]]}, ["~robots: ['ada']", "letter"]),
-        ({"robots": [True]}, ["~robots: True", "letter"]),
-        ({"robots": {"2nd": [0, 0, 0]}}, ["~robots: '2nd'", "letter"]),
-        ({"robots": {"bob": [0, 0]}}, ["~robots/bob: [0, 0]", "[x in m, y in m, yaw in rad]"]),
-        ({"robots": {"bob": [0, 0, nan]}}, ["~robots/bob: [0, 0, nan]"]),
-        ({"robots": {"bob": [0, 0, "a"]}}, ["~robots/bob:"]),
+        (
+            {"robots": ["ada", "bob", "ada"]},
+            ["~robots: [", "'ada': stands there twice"],
+        ),
+        ({"robots": ["ada", "2nd"]}, ["~robots: [", "'2nd'", "letter"]),
+        ({"robots": [["ada"]]}, ["~robots: [['ada']]", "letter"]),
+        ({"robots": [True]}, ["~robots: [True]", "letter"]),
+        ({"robots": {"2nd": [0, 0, 0]}}, ["~robots: {", "'2nd'", "letter"]),
+        (
+            {"robots": {"bob": [0, 0]}},
+            ["~robots: {", "bob: [0, 0]: must be [x in m, y in m, yaw in rad]"],
+        ),
+        ({"robots": {"bob": [0, 0, nan]}}, ["bob: [0, 0, nan]"]),
+        ({"robots": {"bob": [0, 0, "a"]}}, ["bob: [0, 0, 'a']"]),
     ],
 )
 def test_a_mistake_is_named_with_its_value_and_what_is_allowed(given, parts):

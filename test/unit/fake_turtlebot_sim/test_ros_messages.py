@@ -4,13 +4,14 @@ from math import cos, inf, nan, pi, sin
 
 import numpy as np
 import pytest
-from fake_turtlebot_sim.simulator.parameters import Parameters
-from fake_turtlebot_sim.simulator.ros_messages import RobotMessages, pose_on_floor, static_transform
-from fake_turtlebot_sim.simulator.simulated_robot import RobotState, SimulatedRobot
 from genpy import Time
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from hypothesis import given
 from hypothesis import strategies as st
+
+from fake_turtlebot_sim.simulator.parameters import Parameters
+from fake_turtlebot_sim.simulator.ros_messages import RobotMessages, pose_on_floor, static_transform
+from fake_turtlebot_sim.simulator.simulated_robot import RobotState, SimulatedRobot
 
 STATE = RobotState(1.0, 2.0, 0.5, 0.3, -0.4, 10.0, 11.0, 5.0, 6.0)
 STAMP = Time(12, 34)

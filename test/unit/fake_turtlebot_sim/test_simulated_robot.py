@@ -4,6 +4,7 @@ import random
 from math import cos, hypot, inf, nan, pi, sin
 
 import pytest
+
 from fake_turtlebot_sim.simulator.differential_drive import arc, wrap_angle
 from fake_turtlebot_sim.simulator.simulated_robot import RobotModel, SimulatedRobot
 from fake_turtlebot_sim.simulator.velocity_command import VelocityLimits, Verdict

@@ -3,6 +3,9 @@
 from math import inf, nan, pi
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
 from fake_turtlebot_sim.simulator.velocity_command import (
     VelocityLimits,
     between,
@@ -10,8 +13,6 @@ from fake_turtlebot_sim.simulator.velocity_command import (
     limit,
     ramp_time,
 )
-from hypothesis import given
-from hypothesis import strategies as st
 
 KOBUKI = VelocityLimits()
 FINITE = st.floats(allow_nan=False, allow_infinity=False)

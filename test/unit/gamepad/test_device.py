@@ -7,6 +7,7 @@ import threading
 import time
 
 import pytest
+
 from gamepad.driver.device import Finder
 from gamepad.driver.device_choice import DeviceError, choose_by_name, explain
 from gamepad.driver.wake import AppearanceWatch, Wake

@@ -4,11 +4,12 @@ import random
 import struct
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
 from gamepad.driver.driver import SHORTEST_SILENCE_S, Driver
 from gamepad.driver.parameters import DriverParameters
 from gamepad.js_event import Decoder, JsEvent, pack
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 BUTTON, AXIS, INIT = 1, 2, 0x80
 

@@ -1,6 +1,7 @@
 """The driver's private parameters."""
 
 import pytest
+
 from gamepad.driver.parameters import load
 
 
@@ -20,17 +21,17 @@ def test_values_are_taken():
 @pytest.mark.parametrize(
     ("name", "value", "line"),
     [
-        ("dev", "js0", "Parameter ~dev is 'js0'; allowed is a whole path, such as /dev/input/js0."),
-        ("dev", 0, "Parameter ~dev is 0; "),
-        ("dev_name", 710, "Parameter ~dev_name is 710; "),
-        ("deadzone", -0.1, "Parameter ~deadzone is -0.1; allowed is a number from 0 to 1."),
-        ("deadzone", 1638, "Parameter ~deadzone is 1638; "),
-        ("deadzone", float("nan"), "Parameter ~deadzone is nan; "),
-        ("autorepeat_rate", "fast", "Parameter ~autorepeat_rate is 'fast'; "),
-        ("autorepeat_rate", -1, "Parameter ~autorepeat_rate is -1; "),
-        ("coalesce_interval", True, "Parameter ~coalesce_interval is True; "),
-        ("default_trig_val", 1, "Parameter ~default_trig_val is 1; allowed is true or false."),
-        ("deadzon", 0.1, "There is no parameter ~deadzon; the parameters are autorepeat_rate, "),
+        ("dev", "js0", "~dev: 'js0': must be a whole path, such as /dev/input/js0"),
+        ("dev", 0, "~dev: 0: must be "),
+        ("dev_name", 710, "~dev_name: 710: must be "),
+        ("deadzone", -0.1, "~deadzone: -0.1: must be a number from 0 to 1"),
+        ("deadzone", 1638, "~deadzone: 1638: must be "),
+        ("deadzone", float("nan"), "~deadzone: nan: must be "),
+        ("autorepeat_rate", "fast", "~autorepeat_rate: 'fast': must be "),
+        ("autorepeat_rate", -1, "~autorepeat_rate: -1: must be "),
+        ("coalesce_interval", True, "~coalesce_interval: True: must be "),
+        ("default_trig_val", 1, "~default_trig_val: 1: must be true or false"),
+        ("deadzon", 0.1, "~deadzon: 0.1: no such parameter; did you mean ~deadzone?"),
     ],
 )
 def test_a_mistake_is_named(name, value, line):

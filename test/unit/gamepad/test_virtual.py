@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 import yaml
+
 from gamepad.gamepads import F710, F710_D, F710_X, mode_hint, trigger_axes
 from gamepad.virtual.controls import Controls, positions
 from gamepad.virtual.keyboard import FIRST_HOLD_S, REPEAT_HOLD_S, Keyboard

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 import yaml
+
 from joy_to_twist.limits import ZERO
 from joy_to_twist.parameters import load
 from joy_to_twist.teleoperation import Teleoperation

@@ -6,6 +6,7 @@ from dataclasses import fields
 from pathlib import Path
 
 import pytest
+
 from joy_to_twist.parameters import AXIS_DEFAULTS, Parameters
 
 PACKAGE = Path(__file__).parents[3] / "joy2twist"

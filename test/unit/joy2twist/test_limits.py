@@ -5,6 +5,7 @@ import math
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
 from joy_to_twist.limits import ZERO, approach, limit_speed
 
 speeds = st.floats(-1e9, 1e9)

@@ -1,6 +1,7 @@
 """From axes and buttons to a velocity, held against the C++ node teleop_twist_joy."""
 
 import pytest
+
 from joy_to_twist.mapping import BadJoyError, Mapping
 from joy_to_twist.parameters import load
 

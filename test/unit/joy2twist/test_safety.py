@@ -1,6 +1,7 @@
 """When to send a velocity, when zero and when nothing. Times in seconds, as they would pass."""
 
 import pytest
+
 from joy_to_twist.limits import ZERO
 from joy_to_twist.parameters import load
 from joy_to_twist.safety import ARMED, BAD_MESSAGE, DRIVING, NOT_ARMED, WAITING, Safety

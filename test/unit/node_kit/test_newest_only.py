@@ -5,6 +5,7 @@ import socket
 import threading
 
 import pytest
+
 from node_kit import newest_only
 from node_kit.newest_only import CUT_AFTER_RESENDS, NewestOnly
 
@@ -52,7 +53,7 @@ def numbers_until(far, last):
 
 def test_what_is_written_arrives_at_once(connection):
     near, far = connection
-    sender = NewestOnly(near, STOP)
+    sender = NewestOnly(near, STOP, buffer_bytes=8192)
     for number in range(100):
         sender.write(message(number))
         assert far.recv(SIZE, socket.MSG_WAITALL) == message(number)
@@ -60,7 +61,7 @@ def test_what_is_written_arrives_at_once(connection):
 
 def test_a_side_that_does_not_read_gets_whole_messages_and_the_newest_one(connection):
     near, far = connection
-    sender = NewestOnly(near, STOP)
+    sender = NewestOnly(near, STOP, buffer_bytes=8192)
     count = fill(sender, near)
     for number in range(count, count + 10_000):  # none of these waits
         sender.write(message(number))
@@ -72,7 +73,7 @@ def test_a_side_that_does_not_read_gets_whole_messages_and_the_newest_one(connec
 
 def test_afterwards_messages_arrive_at_once_again(connection):
     near, far = connection
-    sender = NewestOnly(near, STOP)
+    sender = NewestOnly(near, STOP, buffer_bytes=8192)
     count = fill(sender, near)
     sender.write(message(count))
     numbers_until(far, count)
@@ -85,7 +86,7 @@ def test_afterwards_messages_arrive_at_once_again(connection):
 
 def test_a_side_that_has_gone_is_an_error_in_the_end(connection):
     near, far = connection
-    sender = NewestOnly(near, STOP)
+    sender = NewestOnly(near, STOP, buffer_bytes=8192)
     fill(sender, near)
     far.close()
     with pytest.raises(OSError, match=r"."):
@@ -96,7 +97,7 @@ def test_a_side_that_has_gone_is_an_error_in_the_end(connection):
 
 def test_a_connection_closed_here_is_an_error(connection):
     near, _ = connection
-    sender = NewestOnly(near, STOP)
+    sender = NewestOnly(near, STOP, buffer_bytes=8192)
     near.close()
     with pytest.raises(OSError, match=r"."):
         sender.write(message(0))
@@ -130,6 +131,59 @@ def test_after_a_cut_nothing_is_driven_before_a_stop(connection, monkeypatch):
             assert int.from_bytes(data[:4], "little") == expected
         assert not select.select([far], [], [], 0)[0], number
     assert told == [True, False, True, False]
+
+
+def test_without_a_stop_no_connection_is_taken_for_cut(connection, monkeypatch):
+    near, far = connection
+    monkeypatch.setattr(newest_only, "resends", lambda _: 100)
+    sender = NewestOnly(near)
+    sender.write(message(7))
+    assert far.recv(SIZE, socket.MSG_WAITALL) == message(7)
+
+
+class Answering:
+    """A socket that answers the question for TCP_INFO with bytes of the test's choice."""
+
+    def __init__(self, info):
+        self._info = info
+
+    def getsockopt(self, level, option, length):
+        assert (level, option) == (socket.IPPROTO_TCP, socket.TCP_INFO)
+        return self._info[:length]
+
+
+# struct tcp_info: state (1 is established), congestion state (4 is loss), resends, probes.
+@pytest.mark.parametrize(
+    ("info", "resends"),
+    [
+        ([1, 4, 3, 0, 9, 9], 3),
+        ([1, 4, 1, 7], 1),
+        ([1, 0, 0, 0], 0),
+        ([8, 4, 2, 0], 2),  # the other side has closed its half
+        ([], 0),
+        ([1], 0),
+        ([1, 4], 0),
+        ([1, 4, 9], 0),  # short: the last byte may be anything
+        ([0, 4, 9, 0], 0),  # there is no state 0
+        ([13, 4, 9, 0], 0),
+        ([1, 0, 9, 0], 0),  # resent without a loss: that cannot be
+        ([0x5A, 0x5A, 0x5A, 0x5A], 0),
+    ],
+)
+def test_an_answer_that_is_short_or_cannot_be_right_is_no_cut(info, resends):
+    assert newest_only.resends(Answering(bytes(info))) == resends
+
+
+def test_the_question_has_the_length_that_an_emulated_processor_knows():
+    lengths = []
+
+    class Asked(Answering):
+        def getsockopt(self, level, option, length):
+            lengths.append(length)
+            return super().getsockopt(level, option, length)
+
+    newest_only.resends(Asked(bytes(4)))
+    assert lengths == [4]
 
 
 def test_a_connection_that_works_has_no_resends(connection):

@@ -1,6 +1,6 @@
 """Limiting how often something happens."""
 
-from node_kit.throttle import Throttle
+from node_kit.throttle import Throttle, ThrottleEach
 
 
 def passed(throttle, times):
@@ -32,3 +32,12 @@ def test_a_long_pause_saves_up_no_more_than_the_burst():
 
 def test_rate_zero_is_never():
     assert passed(Throttle(0, burst=5), range(100)) == 0
+
+
+def test_each_text_once_in_a_period():
+    throttle = ThrottleEach(0.1)
+    assert throttle.ready("a", 0.0)
+    assert not throttle.ready("a", 9.9)
+    assert throttle.ready("b", 9.9)
+    assert throttle.ready("a", 10.0)
+    assert not throttle.ready("b", 10.0)

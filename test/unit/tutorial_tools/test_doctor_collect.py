@@ -10,6 +10,7 @@ from geometry_msgs.msg import TransformStamped
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
+
 from tutorial_tools.doctor import collect
 from tutorial_tools.doctor.facts import Answer, Joystick, MuxInput, Offset
 

@@ -4,6 +4,7 @@ import errno
 from dataclasses import replace
 
 import pytest
+
 from tutorial_tools.doctor.facts import Answer, Facts, Joystick, Mux, MuxInput, Node, Offset
 from tutorial_tools.doctor.judgement import judge
 

@@ -6,6 +6,7 @@ import threading
 import time
 
 import pytest
+
 from tutorial_tools.doctor import network
 from tutorial_tools.doctor.facts import Answer
 

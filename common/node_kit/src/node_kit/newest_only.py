@@ -4,14 +4,17 @@ import select
 import socket
 import threading
 
-# Room for some messages on their way [bytes; the kernel doubles it]. More room would only keep
-# more old velocities for a subscriber that has stopped reading.
-SEND_BUFFER_BYTES = 8192
 # Linux resends what is not acknowledged after 0.2 s or more, then after twice that, and so on. A
 # packet lost on a radio link is resent once; a second time means that nobody has answered for some
 # 0.6 s, as long as a TurtleBot obeys a velocity.
 CUT_AFTER_RESENDS = 2
-_RESENDS_AT = 2  # tcpi_retransmits in struct tcp_info of linux/tcp.h, a byte
+# struct tcp_info of linux/tcp.h begins with these bytes: tcpi_state, tcpi_ca_state (4: packets were
+# lost), tcpi_retransmits. Four bytes are asked for, since QEMU's emulation of a processor knows
+# options of that length only, and leaves what was in memory in any other.
+_INFO_BYTES = 4
+_STATE_AT, _CONGESTION_AT, _RESENDS_AT = 0, 1, 2
+_STATES = range(1, 13)  # TCP_ESTABLISHED to TCP_NEW_SYN_RECV, linux/tcp_states.h
+_LOSS = 4  # TCP_CA_Loss: so it is whenever something was resent because no answer came
 
 
 class NewestOnly:
@@ -21,15 +24,17 @@ class NewestOnly:
     velocity is worth nothing. A thread that lives only as long as the other side is behind sends
     it later. A message that has begun is always finished before the next one.
 
-    When the network is cut, the kernel keeps what it has taken and delivers it when the network is
-    back, all at once. So that this ends with a stop, a cut connection gets a last stop and then
-    nothing; once it is whole again, nothing before the next stop.
+    With a stop message: when the network is cut, the kernel keeps what it has taken and delivers it
+    when the network is back, all at once. So that this ends with a stop, a cut connection gets a
+    last stop and then nothing; once it is whole again, nothing before the next stop.
     """
 
-    def __init__(self, connected_socket, stop, tell=lambda is_cut: None):
-        """connected_socket: a TCP socket, on which nobody else sends. stop: the message to stop.
+    def __init__(self, connected_socket, stop=None, tell=lambda is_cut: None, buffer_bytes=None):
+        """connected_socket: a TCP socket, on which nobody else sends.
 
-        tell: called with True when the connection is cut, with False when it is in use again.
+        stop: the message to stop, or None if a late message does no harm. tell: called with True
+        when the connection is cut, with False when it is in use again. buffer_bytes: room for
+        messages on their way, which the kernel doubles; None: what the kernel finds right.
         """
         self._socket = connected_socket
         self._stop = stop
@@ -41,7 +46,8 @@ class NewestOnly:
         self._was_cut = False  # and no stop has been sent since
         # A small message goes out at once instead of waiting for the answer to the last one.
         connected_socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-        connected_socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SEND_BUFFER_BYTES)
+        if buffer_bytes:
+            connected_socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, buffer_bytes)
 
     def write(self, message, stops=False):
         """Send the message (bytes), now or as soon as there is room. Raises OSError if broken.
@@ -49,14 +55,10 @@ class NewestOnly:
         stops: whether the message stops the robot.
         """
         with self._lock:
-            is_cut = resends(self._socket) >= CUT_AFTER_RESENDS
-            if self._was_cut and (is_cut or not stops):
-                return
-            if is_cut != self._was_cut:
-                self._was_cut = is_cut
-                self._tell(is_cut)
-            if is_cut:
-                message = self._stop
+            if self._stop:
+                message = self._unless_cut(message, stops)
+                if message is None:
+                    return
             if self._behind:
                 self._newest = message
                 return
@@ -66,6 +68,16 @@ class NewestOnly:
             self._begun, self._newest = (message[sent:], b"") if sent else (b"", message)
             self._behind = True
         threading.Thread(target=self._catch_up, daemon=True).start()
+
+    def _unless_cut(self, message, stops):
+        """What to send of a message over a connection that may be cut; None: nothing."""
+        is_cut = resends(self._socket) >= CUT_AFTER_RESENDS
+        if self._was_cut and (is_cut or not stops):
+            return None
+        if is_cut != self._was_cut:
+            self._was_cut = is_cut
+            self._tell(is_cut)
+        return self._stop if is_cut else message
 
     def _catch_up(self):
         room = select.poll()
@@ -99,5 +111,11 @@ class NewestOnly:
 
 
 def resends(connected_socket):
-    """How often Linux has resent, in vain so far, what the other side has not acknowledged."""
-    return connected_socket.getsockopt(socket.IPPROTO_TCP, socket.TCP_INFO, _RESENDS_AT + 1)[-1]
+    """How often Linux has resent, in vain so far, what the other side has not acknowledged.
+
+    0 if what comes back cannot be right: an answer that means nothing must not stop a robot.
+    """
+    info = connected_socket.getsockopt(socket.IPPROTO_TCP, socket.TCP_INFO, _INFO_BYTES)
+    if len(info) < _INFO_BYTES or info[_STATE_AT] not in _STATES or info[_CONGESTION_AT] != _LOSS:
+        return 0
+    return info[_RESENDS_AT]

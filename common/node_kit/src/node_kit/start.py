@@ -1,50 +1,109 @@
-"""What is checked before a node starts: the master and the private parameters."""
+"""The start of a node: every mistake is one line and exit code 1, and harms nothing that runs."""
 
 import sys
 
 import rosgraph
 import rospy
+from rospy.client import load_command_line_node_params
+
+from node_kit.careful_connections import be_careful
+from node_kit.ending import end_in_time, end_on_signals, is_ending
+from node_kit.names import holder
+from node_kit.parameters import checked_value, switch
+from node_kit.questions import Answer, call
+
+TAKE_OVER = "take_over"  # private parameter of every node that keeps its name
 
 
 class StartError(Exception):
     """The node cannot start; the text says in one line why and what to do."""
 
 
-def checked_parameters(node_name, load):
-    """What load() makes of the private parameters, those of the master and the command line.
+def run(name, load, main, keeps_name=False):
+    """Run a node: main(load(private parameters)); returns its exit code.
 
-    Before rospy.init_node(): that would first end a node of the same name that runs well, and put
-    a wrong parameter of the command line on the parameter server, where it would stay.
+    name: unless __name:= is given. load: takes a dict of the private parameters and raises
+    ValueError with one line. main: called once the node is registered; returns when it is shut
+    down. keeps_name: whether to start only if no other node of the name is there to be displaced.
 
-    node_name: unless __name:= is given. load: takes a dict and raises ValueError with one line.
-    Raises StartError.
+    Everything is checked before rospy.init_node(): that ends a node of the same name that runs
+    well. The parameters of the command line are not put on the master, where they would stay.
     """
-    name = rosgraph.names.ns_join(
-        rosgraph.names.get_ros_namespace(), rospy.names.get_mappings().get("__name", node_name)
-    )
     try:
-        online = rosgraph.is_master_online()
-    except ValueError:
-        online = False
-    if not online:
-        raise StartError(
-            f"no ROS master at {rosgraph.get_master_uri()}: "
-            "start roscore first, or set ROS_MASTER_URI to where it runs."
-        )
-    try:
-        given = rospy.get_param(name, {})
-        for key, value in rospy.client.load_command_line_node_params(sys.argv).items():
-            _set(given, key.split("/"), value)
-        return load(given)
+        full_name = _full_name(name)
+        _check_master()
+        given = _parameters(full_name)
+        take_over = checked_value(f"~{TAKE_OVER}", given.pop(TAKE_OVER, False), switch)
+        parameters = load(given)
+        if keeps_name and not take_over:
+            _check_name(full_name)
+    except StartError as error:
+        return _fail(name, error)
     except ValueError as error:
-        raise StartError(f"{error} (~ stands for {name}/)") from None
+        return _fail(name, f"{error} (~ stands for {full_name}/)")
+    end_on_signals()
+    be_careful()
+    try:
+        rospy.init_node(name, argv=[sys.argv[0]], disable_signals=True)
+        end_in_time()
+        main(parameters)
+    except rospy.ROSException:
+        # A shutdown in the middle of the start, or one that closes a topic while it is published.
+        if not is_ending():
+            raise
+    return 0
+
+
+def _fail(name, why):
+    print(f"{name}: {why}", file=sys.stderr)
+    return 1
+
+
+def _full_name(name):
+    name = rospy.names.get_mappings().get("__name", name)
+    return rosgraph.names.ns_join(rosgraph.names.get_ros_namespace(), name)
+
+
+def _check_master():
+    uri = rosgraph.get_master_uri()
+    try:
+        rosgraph.network.parse_http_host_and_port(uri)
+    except ValueError:
+        raise StartError(
+            f"ROS_MASTER_URI is {uri!r}: must be an address such as http://localhost:11311"
+        ) from None
+    answer, _ = call(uri, "getPid")
+    if answer is Answer.SILENT:
+        raise StartError(f"the ROS master at {uri} does not answer: end it and start roscore anew")
+    if answer is not Answer.WELL:
+        raise StartError(
+            f"no ROS master at {uri}: start roscore first, or set ROS_MASTER_URI to where it runs"
+        )
+
+
+def _parameters(full_name):
+    """The private parameters of the master, and over them those of the command line."""
+    answer, given = call(rosgraph.get_master_uri(), "getParam", full_name)
+    given = given if answer is Answer.WELL and isinstance(given, dict) else {}
+    try:
+        of_command_line = load_command_line_node_params(sys.argv)
     except rospy.ROSException as error:
         raise StartError(" ".join(str(error).split())) from None
+    for key, value in of_command_line.items():
+        *outer, last = key.split("/")
+        place = given
+        for part in outer:  # a/b:=value sets one entry of a map
+            if not isinstance(place.get(part), dict):
+                place[part] = {}
+            place = place[part]
+        place[last] = value
+    return given
 
 
-def _set(parameters, path, value):
-    """Set a parameter of a nested dict, as a/b:=value does."""
-    *outer, last = path
-    for key in outer:
-        parameters = parameters.setdefault(key, {})
-    parameters[last] = value
+def _check_name(full_name):
+    held = holder(rosgraph.get_master_uri(), full_name)
+    if held:
+        raise StartError(
+            f"{full_name} runs already, {held[1]}: end it (rosnode kill {full_name}), start this "
+            f"one under another name (__name:=another), or in its place (_{TAKE_OVER}:=true)"
+        )

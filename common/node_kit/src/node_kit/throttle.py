@@ -1,4 +1,4 @@
-"""Limits how often something happens (pure)."""
+"""Limits how often something happens (pure): time enters in seconds."""
 
 
 class Throttle:
@@ -23,3 +23,16 @@ class Throttle:
             return False
         self._next += self._period
         return True
+
+
+class ThrottleEach:
+    """A Throttle for each text, so that one is not held up by another."""
+
+    def __init__(self, rate):
+        """rate: [1/s] of each."""
+        self._rate = rate
+        self._throttles = {}
+
+    def ready(self, text, now):
+        """Whether the text may be said at the time now [s]."""
+        return self._throttles.setdefault(text, Throttle(self._rate)).ready(now)

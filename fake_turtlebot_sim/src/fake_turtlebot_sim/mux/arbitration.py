@@ -10,6 +10,7 @@ from enum import Enum
 from math import inf, isfinite
 
 IDLE = "idle"  # what is active when no input is
+ZERO = (0.0,) * 6  # linear x, y, z [m/s], angular x, y, z [rad/s]
 # Who was silent for longer in the middle of a motion must rest as long before moving the robot
 # again. The commands of an outage come within milliseconds of each other, far less than this.
 REARM_S = 0.5

@@ -7,11 +7,13 @@ import rospy
 from geometry_msgs.msg import Twist
 from std_msgs.msg import String
 
-from fake_turtlebot_sim.mux.arbitration import IDLE, Arbiter, Verdict
+from fake_turtlebot_sim.mux.arbitration import IDLE, ZERO, Arbiter, Verdict
 from fake_turtlebot_sim.mux.parameters import parse_mux_parameters
-from fake_turtlebot_sim.prompt_publisher import PromptPublisher
-from fake_turtlebot_sim.start import run
-from fake_turtlebot_sim.throttle import Throttle
+from node_kit.careful_connections import sender_of, tell_of_bad_messages
+from node_kit.log import Log
+from node_kit.prompt_publisher import VelocityPublisher
+from node_kit.start import run
+from node_kit.throttle import ThrottleEach
 
 NODE_NAME = "cmd_vel_mux"
 SHUTDOWN_CHECK_S = 0.1  # how long a shutdown may go unnoticed
@@ -29,10 +31,12 @@ class CmdVelMux:
     def __init__(self, parameters):
         """Take MuxParameters; from now on commands go through."""
         self._arbiter = Arbiter(parameters.subscribers)
-        self._throttle = Throttle(WARNING_PERIOD_S)
+        self._log = Log()
+        tell_of_bad_messages(self._log.warn)
+        self._may_warn = ThrottleEach(1.0 / WARNING_PERIOD_S)
         self._lock = threading.Lock()  # one command at a time, and none after the last zero
         self._has_ended = False
-        self._output = PromptPublisher(_in_own_namespace(parameters.publisher), Twist)
+        self._output = VelocityPublisher(_in_own_namespace(parameters.publisher), self._log.warn)
         # A state, unlike a velocity, may be latched; the queue holds a burst of changes.
         self._active = rospy.Publisher("~active", String, queue_size=10, latch=True)
         self._told = None
@@ -53,24 +57,24 @@ class CmdVelMux:
     def _on_command(self, twist, name):
         linear, angular = twist.linear, twist.angular
         velocity = (linear.x, linear.y, linear.z, angular.x, angular.y, angular.z)
-        sender = twist._connection_header["callerid"]
+        sender = sender_of(twist)
         with self._lock:
             now = time.monotonic()
             verdict = self._arbiter.command(name, velocity, now, sender)
             if verdict is Verdict.OBEYED and not self._has_ended:
-                self._output.publish(twist)
+                self._output.publish(velocity)
             self._tell(self._arbiter.active(now))
         if verdict in (Verdict.REJECTED, Verdict.LATE):
             line = f"{name}: {verdict.value}"
-            if self._throttle.ready(line, now):
-                rospy.logwarn(line)
+            if self._may_warn.ready(line, now):
+                self._log.warn(line)
 
     def _look(self):
         """Act upon silence; return for how long [s] nothing will be due."""
         with self._lock:
             now = time.monotonic()
             if self._arbiter.must_stop(now) and not self._has_ended:
-                self._output.publish(Twist())
+                self._output.publish(ZERO)
             self._tell(self._arbiter.active(now))
             return self._arbiter.lull(now)
 
@@ -81,7 +85,7 @@ class CmdVelMux:
 
     def _end(self):
         with self._lock:
-            self._output.publish(Twist())  # nobody will send one later
+            self._output.publish(ZERO)  # nobody will send one later
             self._tell(IDLE)
             self._has_ended = True
 
@@ -92,4 +96,9 @@ def _in_own_namespace(topic):
 
 def main():
     """Run the node until it is shut down; return its exit code."""
-    return run(NODE_NAME, parse_mux_parameters, lambda parameters: CmdVelMux(parameters).spin())
+    return run(
+        NODE_NAME,
+        parse_mux_parameters,
+        lambda parameters: CmdVelMux(parameters).spin(),
+        keeps_name=True,
+    )

@@ -4,6 +4,7 @@ import argparse
 import os
 import sys
 import time
+from math import isfinite
 from pathlib import Path
 
 import yaml
@@ -64,7 +65,7 @@ def run(options):
     if not options.output.parent.is_dir():
         raise CommandError(f"{options.output.parent}: no such folder")
     topic, kind = choose_topic(options.bag, options.topic)
-    to_velocity = velocity_of_twist if kind is Twist else velocity_of_joy()
+    to_velocity = velocity_of_twist if kind is Twist else velocity_of_joy
     began_s = time.monotonic()
     commands = bag_replay.read_commands(options.bag, topic, kind, to_velocity)
     # Under another name until it is whole, so that an interruption leaves no half of a bag.
@@ -136,30 +137,14 @@ def velocity_of_twist(twist):
     return twist.linear.x, twist.angular.z
 
 
-def velocity_of_joy():
-    """Return the function that joy2twist turns a Joy into a velocity with.
+def velocity_of_joy(joy):
+    """Return (v [m/s], w [rad/s]) as the tutorial's node makes it of a Joy.
 
-    The package joy2twist builds on this one, so it is looked for only when a bag needs it.
+    A message that cannot be used stops the robot, as it does there.
     """
-    try:
-        from joy_to_twist.mapping import Mapping  # noqa: PLC0415
-        from joy_to_twist.parameters import load  # noqa: PLC0415
-    except ImportError as error:
-        raise CommandError(
-            "the bag holds only joystick messages, and the package joy2twist, which"
-            f" understands them, is not there ({error}); build it in this workspace"
-        ) from error
-    mapping = Mapping(load({}))
-
-    def to_velocity(joy):
-        try:
-            velocity = mapping.velocity(joy.axes, joy.buttons)
-        except ValueError:
-            velocity = None
-        # What joy2twist does with a message that it cannot use, or with a released dead-man: stop.
-        return (velocity[0], velocity[5]) if velocity else (0.0, 0.0)
-
-    return to_velocity
+    if len(joy.axes) < 2 or not all(map(isfinite, joy.axes[:2])):
+        return 0.0, 0.0
+    return joy.axes[1], joy.axes[0]
 
 
 def draw(path, target):

@@ -1,19 +1,24 @@
 """The node: ROS on one side, simulated robots on the other, and no arithmetic in between."""
 
+import threading
+
 import rospy
 from std_srvs.srv import Empty, EmptyResponse
 from tf2_msgs.msg import TFMessage
 
-from fake_turtlebot_sim.prompt_publisher import PromptPublisher
 from fake_turtlebot_sim.simulator.clock import PhaseLock
 from fake_turtlebot_sim.simulator.diagnostics import Diagnostics
 from fake_turtlebot_sim.simulator.parameters import parse_parameters
 from fake_turtlebot_sim.simulator.robot_topics import RobotTopics
 from fake_turtlebot_sim.simulator.ros_clock import Motion, ros_clock
 from fake_turtlebot_sim.simulator.ros_messages import static_transform
-from fake_turtlebot_sim.start import run
+from node_kit.careful_connections import tell_of_bad_messages
+from node_kit.log import Log
+from node_kit.prompt_publisher import PromptPublisher
+from node_kit.start import run
 
 NODE_NAME = "fake_turtlebot"
+LONGEST_END_S = 0.3  # for the last messages, while /clock may stand still
 
 
 class FakeTurtlebot:
@@ -36,13 +41,15 @@ class FakeTurtlebot:
 
     def __init__(self, parameters):
         """Put the robots at their start poses; nothing is published before spin()."""
+        log = Log()
+        tell_of_bad_messages(log.warn)
         self._clock = ros_clock()
         self._motion = Motion(self._clock)
         self._period_ns = parameters.period_ns()
         # Absolute, as every listener of tf2 subscribes to it; one message for all robots.
         self._tf = PromptPublisher("/tf", TFMessage)
         self._topics = [
-            RobotTopics(name, pose, parameters, self._motion)
+            RobotTopics(name, pose, parameters, self._motion, log.warn)
             for name, pose in parameters.start_poses().items()
         ]
         self._transforms = TFMessage()
@@ -52,16 +59,21 @@ class FakeTurtlebot:
             self._join_in(parameters.world_frame)
         self._diagnostics = Diagnostics(self._topics, parameters.rate)
         rospy.Service("~reset", Empty, self._on_reset)
+        self._is_ending = False
+        self._has_ended = threading.Event()  # the robots at rest were published
+        rospy.on_shutdown(self._end)
 
     def spin(self):
         """Publish until shut down."""
         schedule = None
-        while not rospy.is_shutdown():
+        while not self._is_ending:
             now = self._cycle()
             if schedule is None:
                 schedule = PhaseLock(self._period_ns, now.reading_ns)
             self._diagnostics.count(schedule.complete(now.reading_ns))
             self._clock.wait(now.reading_ns, schedule.deadline_ns)
+        self._cycle()
+        self._has_ended.set()
 
     def _cycle(self):
         """Move all robots to the present and publish it; return the Instant."""
@@ -84,6 +96,14 @@ class FakeTurtlebot:
             TFMessage([static_transform(world_frame, t.odom_frame, stamp) for t in self._topics])
         )
 
+    def _end(self):
+        """Leave the robots standing, and have it seen that they do."""
+        with self._motion.hold() as now:
+            for topics in self._topics:
+                topics.end(now)
+        self._is_ending = True
+        self._has_ended.wait(LONGEST_END_S)
+
     def _on_reset(self, _request):
         with self._motion.hold() as now:
             for topics in self._topics:
@@ -94,4 +114,9 @@ class FakeTurtlebot:
 
 def main():
     """Run the node until it is shut down; return its exit code."""
-    return run(NODE_NAME, parse_parameters, lambda parameters: FakeTurtlebot(parameters).spin())
+    return run(
+        NODE_NAME,
+        parse_parameters,
+        lambda parameters: FakeTurtlebot(parameters).spin(),
+        keeps_name=True,
+    )

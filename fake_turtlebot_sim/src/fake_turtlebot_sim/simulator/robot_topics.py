@@ -6,21 +6,26 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Empty
 
-from fake_turtlebot_sim.prompt_publisher import PromptPublisher
 from fake_turtlebot_sim.simulator.ros_messages import RobotMessages, pose_on_floor
-from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
+from fake_turtlebot_sim.simulator.simulated_robot import REST, SimulatedRobot
 from fake_turtlebot_sim.simulator.velocity_command import Verdict
+from node_kit.prompt_publisher import PromptPublisher
 
 
 class RobotTopics:
     """A simulated robot and its topics, in the namespace of its name if it has one."""
 
-    def __init__(self, name, start_pose, parameters, motion):
-        """Take the start pose (x, y, yaw), the Parameters and the Motion shared by all robots."""
+    def __init__(self, name, start_pose, parameters, motion, warn):
+        """Take the start pose (x, y, yaw), the Parameters and the Motion shared by all robots.
+
+        warn: called with a line for the user; it must not wait.
+        """
         prefix = f"{name}/" if name else ""
         self._name = name or "the robot"
         self._motion = motion
+        self._warn = warn
         self._said = set()
+        self._has_ended = False
         self.rejected = 0
         self.robot = SimulatedRobot(parameters.robot_model(name), start_pose)
         self.odom_frame = prefix + parameters.odom_frame
@@ -50,8 +55,15 @@ class RobotTopics:
         if self.robot.has_errors:
             self._ground_truth.publish(self.messages.ground_truth)
 
+    def end(self, now):
+        """Stop the robot for good; call while the motion is held."""
+        self.robot.command(REST, now.motion_ns)
+        self._has_ended = True
+
     def _on_cmd_vel(self, twist):
         with self._motion.hold() as now:
+            if self._has_ended:
+                return
             verdict = self.robot.command((twist.linear.x, twist.angular.z), now.motion_ns)
             self.rejected += verdict is Verdict.REJECTED
         if verdict is not Verdict.ACCEPTED:
@@ -61,7 +73,7 @@ class RobotTopics:
         try:
             pose = pose_on_floor(message, self._frames)
         except ValueError as error:
-            rospy.logwarn("initialpose of %s: %s", self._name, error)
+            self._warn(f"initialpose of {self._name}: {error}")
             return
         with self._motion.hold() as now:
             self.robot.advance(now.motion_ns)
@@ -75,4 +87,4 @@ class RobotTopics:
     def _say_once(self, text):
         if text not in self._said:
             self._said.add(text)
-            rospy.logwarn(text)
+            self._warn(text)

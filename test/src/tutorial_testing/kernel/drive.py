@@ -13,13 +13,13 @@ import time
 from pathlib import Path
 
 import rospy
-from gamepad.gamepads import F710_D, F710_X
-from gamepad.virtual.controls import Controls, positions
-from gamepad.virtual.pads import UinputPad
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Joy
 
+from gamepad.gamepads import F710_D, F710_X
+from gamepad.virtual.controls import Controls, positions
+from gamepad.virtual.pads import UinputPad
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 

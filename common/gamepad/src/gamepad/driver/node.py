@@ -1,12 +1,11 @@
 """The ROS node joy_node: a gamepad in, joy (sensor_msgs/Joy) out."""
 
+import threading
 from time import monotonic
 
 import diagnostic_updater
 import rospy
 from diagnostic_msgs.msg import DiagnosticStatus
-from node_kit.ending import end_on_signals
-from node_kit.start import StartError, checked_parameters
 from sensor_msgs.msg import Joy
 
 from gamepad.driver.device import Finder
@@ -16,9 +15,13 @@ from gamepad.driver.parameters import load
 from gamepad.driver.report import DriverReport
 from gamepad.driver.wake import AppearanceWatch, Wake
 from gamepad.gamepads import mode_hint
+from node_kit.log import Log
+from node_kit.start import run
 
 NODE_NAME = "joy_node"
 QUEUE_SIZE = 100  # a press and its release must both arrive
+# How long the end may wait for the last message, and then for its delivery [s].
+LONGEST_END_S, DELIVERY_TIME_S = 0.3, 0.1
 LOOK_S = 0.5  # how often a missing gamepad is looked for, beside what inotify tells
 
 
@@ -34,9 +37,11 @@ class JoyNode:
 
     def __init__(self, parameters):
         """parameters: driver_parameters.DriverParameters."""
-        rospy.init_node(NODE_NAME, disable_signals=True)
+        self.log = Log()
         self.wake = Wake()
-        rospy.on_shutdown(self.wake.wake)
+        self.is_ending = threading.Event()
+        self.has_ended = threading.Event()  # the last message is out
+        rospy.on_shutdown(self.end)
         self.driver = Driver(parameters)
         self.finder = Finder(parameters.dev, parameters.dev_name)
         self.joy = rospy.Publisher("joy", Joy, queue_size=QUEUE_SIZE, tcp_nodelay=True)
@@ -49,20 +54,30 @@ class JoyNode:
 
     def run(self):
         """Open the gamepad, publish what it says, and again if it is lost, until shut down."""
-        while not rospy.is_shutdown():
-            device = self.wait_for_gamepad()
-            if device:
-                try:
-                    self.follow(device)
-                finally:
-                    device.close()
+        try:
+            while not self.is_ending.is_set():
+                device = self.wait_for_gamepad()
+                if device:
+                    try:
+                        self.follow(device)
+                    finally:
+                        device.close()
+        finally:
+            self.has_ended.set()
+
+    def end(self):
+        """Release all sticks for those who listen, and publish nothing any more."""
+        self.is_ending.set()
+        self.wake.wake()
+        if self.has_ended.wait(LONGEST_END_S):
+            threading.Event().wait(DELIVERY_TIME_S)
 
     def wait_for_gamepad(self):
         """The Device, open, or None if the node is shut down."""
         watch = AppearanceWatch(self.finder.pattern, self.wake.wake)
         told = None
         try:
-            while not rospy.is_shutdown():
+            while not self.is_ending.is_set():
                 watch.look()
                 if monotonic() >= self.driver.opens_at:
                     try:
@@ -70,7 +85,7 @@ class JoyNode:
                     except DeviceError as error:
                         if str(error) != told:
                             told = str(error)
-                            rospy.logwarn("%s", told)
+                            self.log.warn(told)
                 self.report_if_due()
                 self.wake.wait(self.report.look_at(monotonic(), LOOK_S, self.driver.opens_at))
         finally:
@@ -86,19 +101,20 @@ class JoyNode:
             # Before a line is logged: what moves until the first read, joydev tells as part of the
             # state at opening, which does not count as touched.
             self.take_in(device, until=monotonic())
-            rospy.loginfo("Opened joystick %s %s", device.path, device.name)
+            self.log.info(f"Opened joystick {device.path} {device.name}")
             hint = mode_hint(device.usb_id)
             if hint:
-                rospy.loginfo("%s", hint)
-            while not rospy.is_shutdown():
+                self.log.info(hint)
+            while not self.is_ending.is_set():
                 self.take_in(device, self.report.next_due(self.driver.due))
                 self.report_if_due()
+            self.publish(self.driver.lost(monotonic()))
         except DeviceError as error:
             self.publish(self.driver.lost(monotonic()))
             self.report.lost()
-            rospy.logwarn("%s The sticks were released; it is looked for.", error)
+            self.log.warn(f"{error} The sticks were released; it is looked for.")
         if self.driver.unknown_events:
-            rospy.logwarn("%d events of unknown types came.", self.driver.unknown_events)
+            self.log.warn(f"{self.driver.unknown_events} events of unknown types came.")
 
     def take_in(self, device, until):
         """Wait for events until a time [s] at the latest; publish what is due. DeviceError."""
@@ -130,16 +146,5 @@ class JoyNode:
 
 
 def main():
-    """Run the node until it is stopped; exit code 1 and one line if it cannot start."""
-    try:
-        parameters = checked_parameters(NODE_NAME, load)
-    except StartError as error:
-        raise SystemExit(f"{NODE_NAME}: {error}") from None
-    end_on_signals()
-    try:
-        JoyNode(parameters).run()
-    except rospy.ROSException:
-        # A shutdown in the middle of the start, or one that closes the topic while it is published.
-        # is_shutdown() becomes true only after the topics are closed.
-        if not rospy.core.is_shutdown_requested():
-            raise
+    """Run the node until it is stopped; return its exit code."""
+    return run(NODE_NAME, load, lambda parameters: JoyNode(parameters).run())

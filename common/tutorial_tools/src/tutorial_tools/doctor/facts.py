@@ -3,19 +3,9 @@ judgement.py.
 """
 
 from dataclasses import dataclass, field
-from enum import Enum
 from typing import Dict, List, Optional, Tuple
 
-
-class Answer(Enum):
-    """What comes back from a master or a node."""
-
-    WELL = "answers"
-    MALFORMED = "is not of the form http://HOST:PORT"
-    UNKNOWN_NAME = "has a name that cannot be looked up here"
-    REFUSED = "is not there, nothing listens on its port"
-    SILENT = "does not answer"
-    STRANGE = "is something else, and not of ROS"
+from node_kit.questions import Answer
 
 
 @dataclass(frozen=True)

@@ -4,8 +4,7 @@ import errno
 from dataclasses import dataclass
 
 from gamepad.driver.device_choice import explain
-from joy_to_twist.safety import DRIVING
-
+from node_kit.states import DRIVING
 from tutorial_tools.doctor.facts import JOY, TWIST, Answer
 
 OK, WRONG, UNKNOWN = "ok", "wrong", "unknown"

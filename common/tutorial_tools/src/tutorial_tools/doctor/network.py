@@ -3,20 +3,18 @@
 No rospy here: a node of it may wait for a master, or for a name, without an end.
 """
 
-import http.client
 import itertools
 import os
 import socket
 import struct
 import threading
 import time
-import xmlrpc.client
 from contextlib import contextmanager, suppress
 from xmlrpc.server import SimpleXMLRPCRequestHandler, SimpleXMLRPCServer
 
-from tutorial_tools.doctor.facts import Answer
+from node_kit import questions
+from node_kit.questions import TIMEOUT_S, Answer
 
-TIMEOUT_S = 2.0  # for each question; on one network an answer takes milliseconds
 CALLER = f"/doctor_{os.getpid()}"
 LONGEST_MESSAGE = 10_000_000  # bytes; the stamped messages looked at are far shorter
 _number = itertools.count()
@@ -81,35 +79,10 @@ def _family(address):
     return socket.AF_INET6 if ":" in address else socket.AF_INET
 
 
-class _Transport(xmlrpc.client.Transport):
-    def make_connection(self, host):
-        connection = super().make_connection(host)
-        connection.timeout = TIMEOUT_S
-        return connection
-
-
 def call(uri, method, *arguments):
-    """Call a master's or a node's method; (Answer, its value or None)."""
-    # Not only a timeout of the socket: another kind of server may send and send.
-    answers = at_once(lambda _: _call(uri, method, arguments), [uri], 2 * TIMEOUT_S)
-    return answers.get(uri, (Answer.SILENT, None))
-
-
-def _call(uri, method, arguments):
-    try:
-        with xmlrpc.client.ServerProxy(uri, transport=_Transport()) as server:
-            code, _, value = getattr(server, method)(CALLER, *arguments)
-    except ConnectionRefusedError:
-        return Answer.REFUSED, None
-    except socket.gaierror:
-        return Answer.UNKNOWN_NAME, None
-    except (http.client.HTTPException, xmlrpc.client.Error, ConnectionError):
-        return Answer.STRANGE, None
-    except OSError:  # a timeout, or no way to that host
-        return Answer.SILENT, None
-    except Exception:  # whatever that program said, ROS does not say so
-        return Answer.STRANGE, None
-    return (Answer.WELL, value) if code == 1 else (Answer.STRANGE, None)
+    """Call a master's or a node's method as this program; (Answer, its value or None)."""
+    answer, value = questions.call(uri, method, *arguments, caller=CALLER)
+    return answer, value if answer is Answer.WELL else None
 
 
 class _Quiet(SimpleXMLRPCRequestHandler):

@@ -6,8 +6,9 @@ import tempfile
 import time
 
 import rospy
-from gamepad.js_event import AXIS, BUTTON, INIT, JsEvent, pack
 from sensor_msgs.msg import Joy
+
+from gamepad.js_event import AXIS, BUTTON, INIT, JsEvent, pack
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 

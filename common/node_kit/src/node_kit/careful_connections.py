@@ -1,0 +1,97 @@
+"""Two faults of rospy's connections, mended from outside: the only place that knows its classes.
+
+A peer that connects and says nothing holds up every other that wants to subscribe, since rospy
+greets one after the other. A message that cannot be read leaves its bytes in the buffer, so that
+the connection made anew is taken for broken as well, and the node is deaf for good.
+"""
+
+import contextlib
+import socket
+import struct
+import threading
+import time
+
+from rospy.exceptions import TransportException
+from rospy.impl.tcpros_base import TCPROSServer
+from rospy.impl.tcpros_pubsub import TCPROSSub
+from rospy.msg import deserialize_messages
+
+GREETING_S = 2.0  # for a peer to say what it wants; on one network it takes milliseconds
+# A message of which so much time after its first bytes others have come, but not its end, claims to
+# be longer than it is [s]. All that the nodes here subscribe to is short.
+LONGEST_ARRIVAL_S = 0.5
+_LENGTH = struct.Struct("<I")
+
+_greet = TCPROSServer._tcp_server_callback  # rospy's own
+_warn = None  # called with a line about a message that cannot be read
+
+
+def be_careful():
+    """Have all connections of this node made carefully; call before rospy.init_node()."""
+    TCPROSServer._tcp_server_callback = _greet_in_time
+    TCPROSSub.read_messages = _read_messages
+
+
+def tell_of_bad_messages(warn):
+    """warn: called with one line when a message cannot be read; it must not wait."""
+    global _warn  # noqa: PLW0603  rospy makes the connections, and nobody can hand them anything
+    _warn = warn
+
+
+def sender_of(message):
+    """Who sent a message, as it said in its greeting; "" if it did not say."""
+    return message._connection_header.get("callerid", "")
+
+
+def _greet_in_time(self, sock, client_addr):
+    """In place of TCPROSServer's: greet a peer in a thread of its own, which ends in time."""
+
+    def greet():
+        # Not the socket's own timeout, which would begin anew with every byte, and stay set.
+        too_late = threading.Timer(GREETING_S, _cut, [sock])
+        too_late.daemon = True
+        too_late.start()
+        with contextlib.suppress(OSError):  # the peer has left meanwhile
+            _greet(self, sock, client_addr)
+        too_late.cancel()
+
+    threading.Thread(target=greet, daemon=True).start()
+
+
+def _cut(sock):
+    with contextlib.suppress(OSError):
+        sock.shutdown(socket.SHUT_RDWR)
+
+
+def _read_messages(self, buffer, messages, _sock):
+    """In place of TCPROSSub's: name what cannot be read, and begin anew with nothing in the buffer.
+
+    TransportException has rospy close the connection and make another one.
+    """
+    try:
+        deserialize_messages(buffer, messages, self.recv_data_class, queue_size=self.queue_size)
+        if messages:
+            self.incomplete_since = None
+        else:
+            _check_arrival(self, buffer)
+    except Exception as error:  # whatever the bytes made a message class do
+        del messages[:]
+        buffer.seek(0)
+        buffer.truncate()
+        self.incomplete_since = None
+        if _warn:
+            _warn(
+                f"A message on {self.resolved_name} cannot be read ({error}): the connection to "
+                "its sender is made anew."
+            )
+        raise TransportException(f"{self.resolved_name}: a message cannot be read") from None
+
+
+def _check_arrival(self, buffer):
+    """Raise ValueError if the message that has begun does not come to an end."""
+    now = time.monotonic()
+    if getattr(self, "incomplete_since", None) is None:
+        self.incomplete_since = now
+    elif now - self.incomplete_since > LONGEST_ARRIVAL_S:
+        (length,) = _LENGTH.unpack_from(buffer.getvalue())
+        raise ValueError(f"it claims to have {length} bytes, which do not come")

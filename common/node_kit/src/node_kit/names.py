@@ -1,0 +1,36 @@
+"""Who holds a name on the graph: a robot that runs is not displaced by a second one of its name."""
+
+import socket
+from urllib.parse import urlsplit
+
+from node_kit.questions import Answer, call
+
+# A node that hangs or waits for a busy processor still holds its name. [s]
+PATIENCE_S = 3.0
+
+
+def holder(master_uri, name):
+    """Where the node of a name runs, as (uri, words), or None if nobody holds the name.
+
+    A name whose node is dead (its port refuses, or its host is gone) is free; one whose node takes
+    the connection but does not answer is not, since a stopped robot may go on.
+    """
+    answer, uri = call(master_uri, "lookupNode", name)
+    if answer is not Answer.WELL:
+        return None
+    answer, pid = call(uri, "getPid", timeout_s=PATIENCE_S)
+    if answer is Answer.WELL:
+        return uri, f"at {uri}, process {pid}"
+    if answer is Answer.SILENT and accepts(uri):
+        return uri, f"at {uri}, but does not answer"
+    return None
+
+
+def accepts(uri):
+    """Whether something takes a connection at a URI; a process that is stopped does so, too."""
+    try:
+        parts = urlsplit(uri)
+        with socket.create_connection((parts.hostname, parts.port), PATIENCE_S):
+            return True
+    except (OSError, ValueError):
+        return False

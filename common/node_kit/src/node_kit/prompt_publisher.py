@@ -1,0 +1,114 @@
+"""Publishes from the caller's thread, and never waits for a subscriber.
+
+rospy offers one or the other: with queue_size=None it sends from the thread that publishes, which
+then waits for as long as any one subscriber does not read; with a queue it hands every message to
+one thread for each subscriber, which takes longer. Here rospy finds and greets the subscribers, but
+the sending is done by NewestOnly, which never waits.
+"""
+
+import io
+import struct
+
+import rospy
+from geometry_msgs.msg import Twist
+from rospy.msg import serialize_message
+
+from node_kit.newest_only import NewestOnly
+
+
+class PromptPublisher(rospy.SubscribeListener):
+    """Publishes messages of any type; a subscriber that is behind gets the newest only."""
+
+    def __init__(self, name, message_class):
+        """name: of the topic; relative, so that it can be remapped. Never latched."""
+        super().__init__()
+        self._peers = {}  # rospy's connection -> NewestOnly
+        self._sequence = 0
+        self._buffer = io.BytesIO()
+        self._publisher = rospy.Publisher(name, message_class, queue_size=1, latch=False)
+        self._publisher.impl.set_queue_size(None)  # no threads; given late, it brings no warning
+        self._publisher.impl.add_subscriber_listener(self)
+        self._update_peers()  # whoever subscribed before the listener was there
+
+    @property
+    def name(self):
+        """The topic, as it was remapped."""
+        return self._publisher.resolved_name
+
+    @property
+    def listeners(self):
+        """How many subscribers are connected."""
+        return len(self._peers)
+
+    def publish(self, message):
+        """Send a message; one thread at a time."""
+        self._sequence += 1
+        if self._peers:
+            self._buffer.seek(0)
+            self._buffer.truncate()
+            serialize_message(self._buffer, self._sequence, message)
+            self.send(self._buffer.getvalue())
+
+    def send(self, data, stops=False):
+        """Send the bytes of a message with its length before it. stops: see NewestOnly.write()."""
+        for connection, peer in self._peers.items():
+            try:
+                peer.write(data, stops)
+            except OSError:
+                connection.close()  # rospy takes it off its list and calls peer_unsubscribe()
+
+    def peer_subscribe(self, topic_name, topic_publish, peer_publish):
+        """Called by rospy when a subscriber has connected."""
+        self._update_peers()
+
+    def peer_unsubscribe(self, topic_name, num_peers):
+        """Called by rospy when a subscriber has left."""
+        self._update_peers()
+
+    def _update_peers(self):
+        # A new dict, because send() may be going through the old one.
+        self._peers = {
+            connection: self._peers.get(connection) or self._peer(connection)
+            for connection in self._publisher.impl.connections
+            if connection.socket  # not closed meanwhile
+        }
+
+    def _peer(self, connection):
+        return NewestOnly(connection.socket)
+
+
+# A Twist on the wire, little-endian: the number of bytes that follow (uint32), then linear x, y, z
+# and angular x, y, z (float64). Packed here, because rospy's way takes several times as long.
+_TWIST = struct.Struct("<I6d")
+_TWIST_BYTES = _TWIST.size - 4
+_ZERO = (0.0,) * 6
+_STOP = _TWIST.pack(_TWIST_BYTES, *_ZERO)
+# Room for some velocities on their way. More room would only keep more old ones for a subscriber
+# that has stopped reading.
+_BUFFER_BYTES = 8192
+
+
+class VelocityPublisher(PromptPublisher):
+    """Publishes geometry_msgs/Twist; who could not be reached is not driven by what comes late."""
+
+    def __init__(self, name, warn):
+        """name: of the topic. warn: called with a line when a subscriber cannot be reached, and
+        when it is told again; it must not wait.
+        """
+        self._warn = warn
+        super().__init__(name, Twist)
+
+    def publish(self, velocity):
+        """Send a velocity: linear x, y, z [m/s] and angular x, y, z [rad/s], frame of the base."""
+        self.send(_TWIST.pack(_TWIST_BYTES, *velocity), stops=velocity == _ZERO)
+
+    def _peer(self, connection):
+        def tell(is_cut):
+            self._warn(
+                f"The network to {connection.endpoint_id} is cut: it is told to stop, and nothing "
+                "else until it can be reached and the dead-man button and the sticks are released."
+                if is_cut
+                else f"The network to {connection.endpoint_id} is back: it can be driven again."
+            )
+
+        return NewestOnly(connection.socket, _STOP, tell, _BUFFER_BYTES)
