@@ -24,7 +24,7 @@ LIBRARIES = {
 # Each module may import those that stand before it. The rules know neither ROS nor a clock.
 RULES = """
 node_kit.parameters node_kit.throttle node_kit.newest_only node_kit.questions node_kit.names
-node_kit.states gamepad.js_event gamepad.gamepads gamepad.driver.device_choice
+node_kit.states node_kit.resumption gamepad.js_event gamepad.gamepads gamepad.driver.device_choice
 gamepad.driver.parameters gamepad.driver.schedule gamepad.driver.state gamepad.driver.driver
 gamepad.driver.report gamepad.virtual.controls gamepad.virtual.keyboard gamepad.virtual.moves
 gamepad.virtual.sources fake_turtlebot_sim.simulator.differential_drive
@@ -36,7 +36,8 @@ tutorial_tools.doctor.judgement joy_to_twist.parameters joy_to_twist.limits joy_
 joy_to_twist.gamepad_hints joy_to_twist.safety joy_to_twist.teleoperation
 """.split()
 OUTER = """
-node_kit.careful_connections node_kit.ending node_kit.log node_kit.prompt_publisher node_kit.start
+node_kit.launch_check node_kit.suspension node_kit.careful_connections node_kit.ending
+node_kit.log node_kit.prompt_publisher node_kit.start
 gamepad.driver.wake gamepad.driver.device gamepad.driver.node gamepad.virtual.terminal
 gamepad.virtual.pads gamepad.virtual.program fake_turtlebot_sim.simulator.ros_messages
 fake_turtlebot_sim.simulator.ros_clock fake_turtlebot_sim.simulator.robot_topics

@@ -13,9 +13,10 @@ from joy_to_twist.lean_joy import LeanJoy
 from joy_to_twist.limits import ZERO
 from joy_to_twist.parameters import load
 from joy_to_twist.teleoperation import Teleoperation
-from node_kit.careful_connections import tell_of_bad_messages
+from node_kit.careful_connections import connection_of, tell_of_bad_messages
 from node_kit.prompt_publisher import VelocityPublisher
 from node_kit.start import run
+from node_kit.suspension import Suspensions
 from node_kit.throttle import Throttle
 
 NODE_NAME = "NewJoy2Twist"
@@ -59,10 +60,13 @@ class NewJoy2Twist:
         self.uses_age = parameters.max_joy_age > 0
         # ROS time [ns]; without simulated time read the short way, as it is for every message.
         self.read_clock_ns = time_ns if rospy.rostime.is_wallclock() else simulated_time_ns
+        self.suspensions = Suspensions()
         self.lock = threading.Lock()  # one velocity at a time, and none after the last zero
         self.stopped = threading.Event()
 
-        self.cmd_vel = VelocityPublisher("cmd_vel", self.console.warn)
+        self.cmd_vel = VelocityPublisher(
+            "cmd_vel", self.console.warn, hold_new=parameters.arm_on_neutral
+        )
         rospy.on_shutdown(self.shutdown)
         self.diagnostics = diagnostic_updater.Updater()
         self.diagnostics.setHardwareID("none")
@@ -83,8 +87,17 @@ class NewJoy2Twist:
         now = monotonic()
         age_ns = self.read_clock_ns() - joy.stamp_ns if self.uses_age else 0
         with self.lock:
-            self.publish(self.teleoperation.joy(joy.axes, joy.buttons, now, age_ns))
+            self.notice_suspension(now)
+            sender = connection_of(joy)
+            velocity = self.teleoperation.joy(joy.axes, joy.buttons, now, age_ns, sender)
+            if self.cmd_vel.holds and self.teleoperation.released:
+                self.cmd_vel.free()
+            self.publish(velocity)
         self.console.display(joy.axes, now)
+
+    def notice_suspension(self, now):
+        """Stop if this process was suspended: what is in its sockets is old."""
+        self.publish(self.teleoperation.suspended(self.suspensions.number(), now))
 
     def publish(self, velocity):
         """Publish a velocity, if there is one, until the node is stopped."""
@@ -107,6 +120,7 @@ class NewJoy2Twist:
         """Look at the time and the joystick once; for how long [s] nothing will be due."""
         with self.lock:
             now = monotonic()
+            self.notice_suspension(now)
             if self.joy.get_num_connections() == 0:
                 self.publish(self.teleoperation.left(now))
             self.publish(self.teleoperation.tick(now))

@@ -2,6 +2,12 @@
 
 Every method is given the time `now` [s] of one clock that never jumps; nothing here reads a clock.
 A method returns the velocity to send at once (six floats, see limits), or None to send nothing.
+
+The rule of arming, for every loss: of the joystick (silence, leaving, a suspension of this node,
+another sender) and of the robot (who tells it what is released: see `released`). After each, where
+arm_on_neutral is on, nothing moves before all was seen released by one sender, the one that drives
+then. Without it, only: no velocity later than joy_timeout after the last message, unless a stop was
+sent between them.
 """
 
 import math
@@ -11,6 +17,7 @@ from node_kit.states import DRIVING
 
 WAITING = "waiting for the joystick"
 NOT_ARMED = "stopped: not armed, release the sticks and the dead-man button once"
+ANOTHER = "another joystick node sends, whose sticks and dead-man button were not seen released"
 BAD_MESSAGE = "stopped: bad joystick message"
 ARMED = "armed: hold the dead-man button to drive"
 
@@ -40,7 +47,9 @@ class Safety:
         self._stopping = False  # zeros are being repeated, or have been
         self._repeats = 0  # zeros still to come
         self._next_output = None  # when a zero or a step of the acceleration is due
-        self.armed = not p.arm_on_neutral
+        self._sender = None  # of the last good message
+        self.armed = not p.arm_on_neutral  # for that sender
+        self._released = True  # that message had everything released
         self.state = WAITING
 
     @property
@@ -55,17 +64,38 @@ class Safety:
             return math.inf
         return self._heard + self._parameters.joy_timeout
 
-    def drive(self, velocity, neutral, now):
+    @property
+    def released(self):
+        """Whether a robot that was lost may be driven again: all is released, or, where arming is
+        off, it was told to stop.
+        """
+        return self._released if self._parameters.arm_on_neutral else self._sent == ZERO
+
+    def drive(self, velocity, neutral, now, sender=None):
         """A good message asks for this velocity; None: its dead-man button is released.
 
-        neutral: whether its sticks are released.
+        neutral: whether its sticks are released. sender: tells one from another.
         """
+        stop = None
+        if now >= self._silent_at:  # and tick() was not called in time
+            stop = self.lost(self._silence, now)
+        elif sender != self._sender and self._parameters.arm_on_neutral:
+            stop = self.lost(ANOTHER, now)
+        if stop is not None and not self._parameters.arm_on_neutral:
+            return stop  # the next message is in time again
+        self._sender = sender
+        answer = self._obey(velocity, neutral, now)
+        return stop if answer is None else answer
+
+    def _obey(self, velocity, neutral, now):
         was_silent, self._heard = self._heard is None, now
         if was_silent:
             self._wake()  # the watch over the silence begins
+        self._released = neutral and (
+            velocity is None or not self._parameters.require_enable_button
+        )
         if not self.armed:
-            released = velocity is None or not self._parameters.require_enable_button
-            self.armed = neutral and released
+            self.armed = self._released
             if not self.armed:
                 return self._refuse(NOT_ARMED, now)
         if velocity is None:
@@ -82,13 +112,19 @@ class Safety:
 
     def reject(self, now):
         """A bad message came: stop. It is no sign of life."""
+        self._released = False
         return self._refuse(BAD_MESSAGE, now)
 
-    def silence(self, why, now):
-        """No message comes any more: stop, and arm anew if so configured."""
+    @property
+    def _silence(self):
+        return f"no message for {self._parameters.joy_timeout:g} s"
+
+    def lost(self, why, now):
+        """The joystick cannot be relied upon any more: stop, and arm anew if so configured."""
         if self._heard is None:
             return None
         self._heard = None
+        self._released = False
         self.armed = not self._parameters.arm_on_neutral
         self.state = f"stopped: {why}"
         # A robot that stands needs no zero, and its multiplexer no claim to drive it.
@@ -98,7 +134,7 @@ class Safety:
     def tick(self, now):
         """Time has passed: send what is due."""
         if now >= self._silent_at:
-            return self.silence(f"no message for {self._parameters.joy_timeout:g} s", now)
+            return self.lost(self._silence, now)
         if self._next_output is None or now < self._next_output:
             return None
         return self._repeat(now) if self._stopping else self._step(now)

@@ -5,6 +5,7 @@ import math
 from joy_to_twist.gamepad_hints import GamepadHints
 from joy_to_twist.mapping import BadJoyError, Mapping
 from joy_to_twist.safety import ARMED, DRIVING, Safety
+from node_kit.resumption import Resumption
 from node_kit.throttle import Throttle
 
 UNHEARD_S = 2.0  # a robot that starts together with this node takes a moment to listen
@@ -32,15 +33,19 @@ class Teleoperation:
         self._may_warn = Throttle(1.0 / WARNING_PERIOD_S)
         self._max_age_ns = round(parameters.max_joy_age * 1e9)
         self._unheard_since = None  # since when velocities reach nobody [s]
+        self._resumption = Resumption()
         self._messages = 0
         self._last_message = None
         self._last_summary = (0, None)  # the messages until then, and when
 
-    def joy(self, axes, buttons, now, age_ns=0):
+    def joy(self, axes, buttons, now, age_ns=0, sender=None):
         """A joystick message came. Returns the velocity to send at once.
 
-        age_ns: [ns] since its stamp; ignored unless max_joy_age is set.
+        age_ns: [ns] since its stamp; ignored unless max_joy_age is set. sender: tells one joystick
+        node from another.
         """
+        if self._resumption.is_old(now):
+            return None
         self._messages += 1
         self._last_message = now
         try:
@@ -53,8 +58,19 @@ class Teleoperation:
             return self._safety.reject(now)
         if not self._knows_gamepad:
             self._look_at_gamepad(axes)
-        neutral = self._safety.armed or self._mapping.is_neutral(axes)
-        return self._safety.drive(velocity, neutral, now)
+        return self._safety.drive(velocity, self._mapping.is_neutral(axes), now, sender)
+
+    def suspended(self, number, now):
+        """This node was suspended so many times so far. Returns the velocity to send at once."""
+        if not self._resumption.notice(number, now):
+            return None
+        self._warn("This node was suspended. What came meanwhile is not driven.")
+        return self._safety.lost("this node was suspended", now)
+
+    @property
+    def released(self):
+        """Whether a robot that was lost may be driven again; see Safety."""
+        return self._safety.released
 
     def _look_at_gamepad(self, axes):
         hint = self._hints.hint(axes)
@@ -65,7 +81,7 @@ class Teleoperation:
     def left(self, now):
         """Nobody publishes joystick messages any more. Returns the velocity to send at once."""
         self._knows_gamepad = False  # the next one may be another
-        return self._safety.silence("the joystick node has left", now)
+        return self._safety.lost("the joystick node has left", now)
 
     def listeners(self, count, topic, now):
         """How many listen to the topic of the velocities. Warns, once, when driving reaches nobody.

@@ -82,10 +82,10 @@ class TestWatchdog:
 
     def test_a_publisher_that_left_is_silence(self):
         machine = safety(joy_timeout=0, stop_messages=1)
-        assert machine.silence("left", 0.0) is None  # none was there yet
+        assert machine.lost("left", 0.0) is None  # none was there yet
         machine.drive(FORWARD, False, 1.0)
-        assert machine.silence("left", 1.1) == ZERO
-        assert machine.silence("left", 1.2) is None
+        assert machine.lost("left", 1.1) == ZERO
+        assert machine.lost("left", 1.2) is None
         assert machine.state == "stopped: left"
 
     def test_the_next_message_drives_again(self):
@@ -150,10 +150,92 @@ class TestArming:
         machine = safety(arm_on_neutral=True)
         machine.drive(ZERO, True, 0.0)
         machine.drive(FORWARD, False, 0.1)
-        assert (machine.silence("left", 0.6) if leaves else machine.tick(0.6)) == ZERO
+        assert (machine.lost("left", 0.6) if leaves else machine.tick(0.6)) == ZERO
         assert machine.drive(FORWARD, False, 0.61) == ZERO
         machine.drive(ZERO, True, 0.62)
         assert machine.drive(FORWARD, False, 0.63) == FORWARD
+
+    def test_another_sender_must_be_seen_released_itself(self):
+        machine = safety(**DEAD_MAN, arm_on_neutral=True, stop_messages=1)
+        machine.drive(None, True, 0.0, "ada")
+        assert machine.drive(FORWARD, False, 0.1, "bob") is None  # the robot stands already
+        assert machine.state == NOT_ARMED
+        assert machine.drive(FORWARD, False, 0.2, "bob") is None
+        assert machine.drive(None, True, 0.3, "bob") is None
+        assert machine.drive(FORWARD, False, 0.4, "bob") == FORWARD
+
+    def test_another_sender_stops_the_robot_that_the_first_one_drives(self):
+        machine = safety(**DEAD_MAN, arm_on_neutral=True)
+        machine.drive(None, True, 0.0, "ada")
+        assert machine.drive(FORWARD, False, 0.1, "ada") == FORWARD
+        assert machine.drive(FORWARD, False, 0.15, "bob") == ZERO
+        assert machine.drive(FORWARD, False, 0.2, "ada") is None
+        assert machine.state == NOT_ARMED
+
+    def test_without_arming_every_sender_drives(self):
+        machine = safety()
+        assert machine.drive(FORWARD, False, 0.0, "ada") == FORWARD
+        assert machine.drive(FORWARD, False, 0.1, "bob") == FORWARD
+
+    def test_what_is_released_frees_a_robot_that_was_lost(self):
+        machine = safety(**DEAD_MAN, arm_on_neutral=True)
+        for velocity, neutral, now, released in (
+            (None, True, 0.0, True),
+            (FORWARD, False, 0.1, False),
+            (ZERO, True, 0.2, False),  # the sticks only
+            (None, False, 0.3, False),  # the dead-man only
+            (None, True, 0.4, True),
+        ):
+            machine.drive(velocity, neutral, now)
+            assert machine.released is released, now
+        machine.reject(0.45)
+        assert not machine.released
+        machine.drive(None, True, 0.5)
+        machine.lost("left", 0.6)
+        assert not machine.released
+
+    def test_without_arming_a_stop_frees_a_robot_that_was_lost(self):
+        machine = safety(**DEAD_MAN)
+        machine.drive(FORWARD, False, 0.0)
+        assert not machine.released
+        machine.drive(None, False, 0.1)
+        assert machine.released
+
+
+class TestLateMessages:
+    """The time has passed, but nobody called tick(): this node was suspended, or very busy."""
+
+    @pytest.mark.parametrize("late", [0.6, 100.1])
+    def test_with_arming_a_late_message_does_not_drive(self, late):
+        machine = safety(**DEAD_MAN, arm_on_neutral=True, stop_messages=1)
+        machine.drive(None, True, 0.0)
+        assert machine.drive(FORWARD, False, 0.1) == FORWARD
+        assert machine.drive(FORWARD, False, late) == ZERO
+        assert machine.drive(FORWARD, False, late + 0.02) is None
+        machine.drive(None, True, late + 0.04)
+        assert machine.drive(FORWARD, False, late + 0.06) == FORWARD
+
+    def test_without_arming_a_stop_comes_first(self):
+        machine = safety()
+        machine.drive(FORWARD, False, 0.1)
+        assert machine.drive(FORWARD, False, 100.1) == ZERO
+        assert machine.drive(FORWARD, False, 100.12) == FORWARD
+
+    def test_a_robot_that_stands_needs_no_stop_before(self):
+        machine = safety()
+        machine.drive(ZERO, True, 0.1)
+        assert machine.drive(FORWARD, False, 100.1) == FORWARD
+
+    def test_a_message_just_in_time_drives(self):
+        machine = safety(**DEAD_MAN, arm_on_neutral=True)
+        machine.drive(None, True, 0.0)
+        machine.drive(FORWARD, False, 0.1)
+        assert machine.drive(FORWARD, False, 0.599) == FORWARD
+
+    def test_without_a_timeout_nothing_is_late(self):
+        machine = safety(joy_timeout=0)
+        machine.drive(FORWARD, False, 0.0)
+        assert machine.drive(FORWARD, False, 1000.0) == FORWARD
 
 
 class TestAccelerationLimits:
@@ -197,7 +279,7 @@ class TestAccelerationLimits:
         machine.drive((0.1, 0, 0, 0, 0, 0), False, 0.0)
         machine.drive((-0.5, 0, 0, 0, 0, 0), False, 0.05)
         assert self.speeds(over_time(machine, 0.05, 0.15)) == [(0.1, 0.0)]
-        assert machine.silence("left", 0.15) == ZERO
+        assert machine.lost("left", 0.15) == ZERO
         assert over_time(machine, 0.15, 2.0) == []
 
     def test_a_bad_message_stops_hard_and_ends_the_ramp(self):

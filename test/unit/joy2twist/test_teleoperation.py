@@ -52,6 +52,30 @@ def test_driving_that_reaches_nobody_is_said_once_until_somebody_listens():
     assert len(warnings) == 2
 
 
+def test_what_came_while_this_node_was_suspended_is_not_driven():
+    machine, warnings = teleoperation(arm_on_neutral=True, enable_button=0)
+    drive, release = ((0.0, 1.0), (1,)), ((0.0, 0.0), (0,))
+    machine.joy(*release, 0.0)
+    assert machine.joy(*drive, 0.1)[0] == 1.0
+    assert machine.suspended(0, 0.12) is None
+    assert machine.suspended(1, 0.30) == (0,) * 6
+    assert machine.suspended(1, 0.31) is None  # the same one
+    assert "suspended" in warnings[0]
+    assert machine.joy(*release, 0.35) is None  # old: it arms nobody
+    assert machine.joy(*drive, 0.40) is None
+    assert machine.joy(*drive, 0.60) is None  # not armed
+    machine.joy(*release, 0.62)
+    assert machine.joy(*drive, 0.64)[0] == 1.0
+
+
+def test_without_arming_it_drives_on_when_all_that_is_old_is_read():
+    machine, _ = teleoperation()
+    machine.joy((0.0, 1.0), (), 0.1)
+    assert machine.suspended(1, 0.3) == (0,) * 6
+    assert machine.joy((0.0, 1.0), (), 0.5) is None
+    assert machine.joy((0.0, 1.0), (), 0.6)[0] == 1.0
+
+
 def test_a_wrong_axis_index_is_named():
     machine, warnings = teleoperation(axis_linear=7)
     machine.joy((0.0,) * 6, (), 0.0)

@@ -43,6 +43,11 @@ def sender_of(message):
     return message._connection_header.get("callerid", "")
 
 
+def connection_of(message):
+    """What tells the connection over which a message came from every other, as long as it lasts."""
+    return id(message._connection_header)
+
+
 def _greet_in_time(self, sock, client_addr):
     """In place of TCPROSServer's: greet a peer in a thread of its own, which ends in time."""
 

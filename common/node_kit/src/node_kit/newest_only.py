@@ -26,15 +26,18 @@ class NewestOnly:
 
     With a stop message: when the network is cut, the kernel keeps what it has taken and delivers it
     when the network is back, all at once. So that this ends with a stop, a cut connection gets a
-    last stop and then nothing; once it is whole again, nothing before the next stop.
+    last stop and then nothing; once it is whole again, nothing before free() is called.
     """
 
-    def __init__(self, connected_socket, stop=None, tell=lambda is_cut: None, buffer_bytes=None):
+    def __init__(
+        self, connected_socket, stop=None, tell=lambda is_cut: None, buffer_bytes=None, held=False
+    ):
         """connected_socket: a TCP socket, on which nobody else sends.
 
         stop: the message to stop, or None if a late message does no harm. tell: called with True
         when the connection is cut, with False when it is in use again. buffer_bytes: room for
-        messages on their way, which the kernel doubles; None: what the kernel finds right.
+        messages on their way, which the kernel doubles; None: what the kernel finds right. held:
+        whether nothing is sent before free() is called.
         """
         self._socket = connected_socket
         self._stop = stop
@@ -43,20 +46,17 @@ class NewestOnly:
         self._behind = False  # the thread runs
         self._begun = b""  # the rest of a message of which the kernel has taken a part
         self._newest = b""  # the message to send after that
-        self._was_cut = False  # and no stop has been sent since
+        self.held = held
         # A small message goes out at once instead of waiting for the answer to the last one.
         connected_socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         if buffer_bytes:
             connected_socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, buffer_bytes)
 
-    def write(self, message, stops=False):
-        """Send the message (bytes), now or as soon as there is room. Raises OSError if broken.
-
-        stops: whether the message stops the robot.
-        """
+    def write(self, message):
+        """Send the message (bytes), now or as soon as there is room. Raises OSError if broken."""
         with self._lock:
             if self._stop:
-                message = self._unless_cut(message, stops)
+                message = self._unless_held(message)
                 if message is None:
                     return
             if self._behind:
@@ -69,15 +69,25 @@ class NewestOnly:
             self._behind = True
         threading.Thread(target=self._catch_up, daemon=True).start()
 
-    def _unless_cut(self, message, stops):
-        """What to send of a message over a connection that may be cut; None: nothing."""
-        is_cut = resends(self._socket) >= CUT_AFTER_RESENDS
-        if self._was_cut and (is_cut or not stops):
+    def free(self):
+        """Use a held connection again, if it is whole: all was seen released."""
+        with self._lock:
+            if self.held and not self._is_cut():
+                self.held = False
+                self._tell(False)
+
+    def _is_cut(self):
+        return resends(self._socket) >= CUT_AFTER_RESENDS
+
+    def _unless_held(self, message):
+        """What to send of a message over a connection that may be held or cut; None: nothing."""
+        if self.held:
             return None
-        if is_cut != self._was_cut:
-            self._was_cut = is_cut
-            self._tell(is_cut)
-        return self._stop if is_cut else message
+        if not self._is_cut():
+            return message
+        self.held = True
+        self._tell(True)
+        return self._stop
 
     def _catch_up(self):
         room = select.poll()

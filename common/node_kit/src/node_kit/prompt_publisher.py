@@ -49,11 +49,11 @@ class PromptPublisher(rospy.SubscribeListener):
             serialize_message(self._buffer, self._sequence, message)
             self.send(self._buffer.getvalue())
 
-    def send(self, data, stops=False):
-        """Send the bytes of a message with its length before it. stops: see NewestOnly.write()."""
+    def send(self, data):
+        """Send the bytes of a message with its length before it."""
         for connection, peer in self._peers.items():
             try:
-                peer.write(data, stops)
+                peer.write(data)
             except OSError:
                 connection.close()  # rospy takes it off its list and calls peer_unsubscribe()
 
@@ -86,29 +86,60 @@ _STOP = _TWIST.pack(_TWIST_BYTES, *_ZERO)
 # Room for some velocities on their way. More room would only keep more old ones for a subscriber
 # that has stopped reading.
 _BUFFER_BYTES = 8192
+UNTIL_RELEASED = (
+    "It is told nothing more until it can be reached and the dead-man button and the sticks are "
+    "released."
+)
 
 
 class VelocityPublisher(PromptPublisher):
-    """Publishes geometry_msgs/Twist; who could not be reached is not driven by what comes late."""
+    """Publishes geometry_msgs/Twist; a robot that was lost is not driven on when it is back.
 
-    def __init__(self, name, warn):
-        """name: of the topic. warn: called with a line when a subscriber cannot be reached, and
-        when it is told again; it must not wait.
+    A subscriber whose network was cut gets no velocity before free() is called; with hold_new
+    neither does one that appears in the middle of a motion, such as a robot started anew.
+    """
+
+    def __init__(self, name, warn, hold_new=False, lost=lambda: None):
+        """name: of the topic. warn: called with a line when a subscriber is held or free again.
+
+        lost: called when one is held. Neither may wait.
         """
         self._warn = warn
+        self._hold_new = hold_new
+        self._lost = lost
+        self._moves = False  # whether the last velocity was not zero
         super().__init__(name, Twist)
+
+    @property
+    def holds(self):
+        """Whether a subscriber waits for free()."""
+        return any([peer.held for peer in self._peers.values()])
+
+    def free(self):
+        """All was seen released: drive those again that can be reached."""
+        for connection, peer in self._peers.items():
+            try:
+                peer.free()
+            except OSError:
+                connection.close()
 
     def publish(self, velocity):
         """Send a velocity: linear x, y, z [m/s] and angular x, y, z [rad/s], frame of the base."""
-        self.send(_TWIST.pack(_TWIST_BYTES, *velocity), stops=velocity == _ZERO)
+        self._moves = velocity != _ZERO
+        self.send(_TWIST.pack(_TWIST_BYTES, *velocity))
 
     def _peer(self, connection):
-        def tell(is_cut):
-            self._warn(
-                f"The network to {connection.endpoint_id} is cut: it is told to stop, and nothing "
-                "else until it can be reached and the dead-man button and the sticks are released."
-                if is_cut
-                else f"The network to {connection.endpoint_id} is back: it can be driven again."
-            )
+        name = connection.endpoint_id
+        held = self._hold_new and self._moves
 
-        return NewestOnly(connection.socket, _STOP, tell, _BUFFER_BYTES)
+        def tell(is_cut):
+            if is_cut:
+                self._warn(f"The network to {name} is cut: it is told to stop. {UNTIL_RELEASED}")
+                self._lost()
+            else:
+                self._warn(f"{name} can be driven again.")
+
+        if held:
+            self._warn(f"{name} has come in the middle of a motion. {UNTIL_RELEASED}")
+            self._lost()
+        return NewestOnly(connection.socket, _STOP, tell, _BUFFER_BYTES, held)

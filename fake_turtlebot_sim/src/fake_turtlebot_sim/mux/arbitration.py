@@ -67,6 +67,14 @@ class Arbiter:
         self._drives = any(velocity)
         return Verdict.OBEYED
 
+    def lost(self, now):
+        """The robot, or this node itself, was lost for a while: nobody moves on by himself.
+
+        Whoever speaks on an input with rearm_on_zero must rest first, as after an outage.
+        """
+        for guard in self._guards.values():
+            guard.hold(now)
+
     def active(self, now):
         """Return the name of the active input at the time now [s], or IDLE."""
         return next((name for name in self._inputs if now < self._expiry_s[name]), IDLE)
@@ -103,6 +111,11 @@ class LateGuard:
         """Begin with a sender that rests."""
         self._is_held = self._is_moving = False
         self._since_s = -inf  # last command of a motion, first zero of a rest
+
+    def hold(self, now):
+        """Hold the sender from the time now [s] on, as if it had fallen silent while it drove."""
+        self._is_held = self._is_moving = True
+        self._since_s = now
 
     def admits(self, velocity, now):
         """Tell whether the velocity that came now [s] may go through; a zero always may."""

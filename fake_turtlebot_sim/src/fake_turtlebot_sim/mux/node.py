@@ -12,7 +12,9 @@ from fake_turtlebot_sim.mux.parameters import parse_mux_parameters
 from node_kit.careful_connections import sender_of, tell_of_bad_messages
 from node_kit.log import Log
 from node_kit.prompt_publisher import VelocityPublisher
+from node_kit.resumption import Resumption
 from node_kit.start import run
+from node_kit.suspension import Suspensions
 from node_kit.throttle import ThrottleEach
 
 NODE_NAME = "cmd_vel_mux"
@@ -36,7 +38,11 @@ class CmdVelMux:
         self._may_warn = ThrottleEach(1.0 / WARNING_PERIOD_S)
         self._lock = threading.Lock()  # one command at a time, and none after the last zero
         self._has_ended = False
-        self._output = VelocityPublisher(_in_own_namespace(parameters.publisher), self._log.warn)
+        self._suspensions = Suspensions()
+        self._resumption = Resumption()
+        self._output = VelocityPublisher(
+            _in_own_namespace(parameters.publisher), self._log.warn, hold_new=True, lost=self._lose
+        )
         # A state, unlike a velocity, may be latched; the queue holds a burst of changes.
         self._active = rospy.Publisher("~active", String, queue_size=10, latch=True)
         self._told = None
@@ -60,8 +66,13 @@ class CmdVelMux:
         sender = sender_of(twist)
         with self._lock:
             now = time.monotonic()
+            self._notice_suspension(now)
+            if self._resumption.is_old(now):
+                return
             verdict = self._arbiter.command(name, velocity, now, sender)
             if verdict is Verdict.OBEYED and not self._has_ended:
+                if velocity == ZERO and self._output.holds:
+                    self._output.free()
                 self._output.publish(velocity)
             self._tell(self._arbiter.active(now))
         if verdict in (Verdict.REJECTED, Verdict.LATE):
@@ -69,10 +80,22 @@ class CmdVelMux:
             if self._may_warn.ready(line, now):
                 self._log.warn(line)
 
+    def _notice_suspension(self, now):
+        """Stop the robot if this process was suspended: what is in its sockets is old."""
+        if self._resumption.notice(self._suspensions.number(), now):
+            self._output.publish(ZERO)
+            self._arbiter.lost(now)
+            self._log.warn("This node was suspended. Who drives must release the sticks once.")
+
+    def _lose(self):
+        """The robot was lost, or is new: it moves on only when who drives has rested."""
+        self._arbiter.lost(time.monotonic())
+
     def _look(self):
         """Act upon silence; return for how long [s] nothing will be due."""
         with self._lock:
             now = time.monotonic()
+            self._notice_suspension(now)
             if self._arbiter.must_stop(now) and not self._has_ended:
                 self._output.publish(ZERO)
             self._tell(self._arbiter.active(now))

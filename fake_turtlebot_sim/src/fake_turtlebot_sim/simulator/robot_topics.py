@@ -1,5 +1,7 @@
 """The topics of one robot; the node decides when they speak."""
 
+import time
+
 import rospy
 from geometry_msgs.msg import PoseWithCovarianceStamped, Twist
 from nav_msgs.msg import Odometry
@@ -10,6 +12,7 @@ from fake_turtlebot_sim.simulator.ros_messages import RobotMessages, pose_on_flo
 from fake_turtlebot_sim.simulator.simulated_robot import REST, SimulatedRobot
 from fake_turtlebot_sim.simulator.velocity_command import Verdict
 from node_kit.prompt_publisher import PromptPublisher
+from node_kit.resumption import Resumption
 
 
 class RobotTopics:
@@ -23,6 +26,7 @@ class RobotTopics:
         prefix = f"{name}/" if name else ""
         self._name = name or "the robot"
         self._motion = motion
+        self._resumption = Resumption()
         self._warn = warn
         self._said = set()
         self._has_ended = False
@@ -62,12 +66,20 @@ class RobotTopics:
 
     def _on_cmd_vel(self, twist):
         with self._motion.hold() as now:
-            if self._has_ended:
+            if self._has_ended or not self._takes(twist):
                 return
             verdict = self.robot.command((twist.linear.x, twist.angular.z), now.motion_ns)
             self.rejected += verdict is Verdict.REJECTED
         if verdict is not Verdict.ACCEPTED:
             self._say_once(f"cmd_vel of {self._name}: {verdict.value}")
+
+    def _takes(self, twist):
+        """Whether a command may be obeyed: after a suspension none before a stop that is new."""
+        now = time.monotonic()
+        if self._resumption.notice(self._motion.suspensions.number(), now):
+            self._warn(f"{self._name} was suspended: it obeys again after a command to stand.")
+        stops = not (twist.linear.x or twist.angular.z)
+        return not self._resumption.holds(stops, now)
 
     def _on_initialpose(self, message):
         try:

@@ -13,6 +13,7 @@ from typing import NamedTuple
 import rospy
 
 from fake_turtlebot_sim.simulator.clock import MotionClock
+from node_kit.suspension import Suspensions
 
 SHUTDOWN_CHECK_S = 0.1  # how long a shutdown may go unnoticed while /clock stands still
 
@@ -67,6 +68,7 @@ class Motion:
         """Take a RealClock or a SimulatedClock."""
         self._clock = clock
         self._lock = threading.Lock()
+        self.suspensions = Suspensions()
         self._motion_clock = MotionClock(clock.read()[1])
 
     @contextmanager

@@ -1,0 +1,50 @@
+"""Notices that this process was suspended, by whatever: a signal, a debugger, a virtual machine.
+
+What it finds in its sockets afterwards was sent meanwhile, and is old.
+"""
+
+import signal
+import threading
+import time
+
+_BEAT_S = 0.1  # how often a thread of our own looks at the clock
+# A clock that has jumped further than this from one look to the next was not looked at by a busy
+# machine, but by a process that did not run. [s]
+_LONGEST_GAP_S = 0.5
+
+
+class Suspensions:
+    """Counts how often this process was suspended. Make it in the main thread."""
+
+    def __init__(self):
+        """SIGCONT, which ends every stop by a signal, is noticed however short the stop was."""
+        self._lock = threading.Lock()
+        self._number = 0
+        self._looked = _now()
+        signal.signal(signal.SIGCONT, self._on_continue)
+        threading.Thread(target=self._beat, daemon=True).start()
+
+    def number(self):
+        """How many there were until now; cheap enough to be asked for every message."""
+        now = _now()
+        if now - self._looked > _LONGEST_GAP_S:
+            with self._lock:  # of several threads that notice it, one counts it
+                if now - self._looked > _LONGEST_GAP_S:
+                    self._number += 1
+                    self._looked = now
+        return self._number
+
+    def _on_continue(self, _number, _frame):
+        self._looked = _now()
+        self._number += 1
+
+    def _beat(self):
+        while True:
+            time.sleep(_BEAT_S)
+            self.number()
+            self._looked = _now()
+
+
+def _now():
+    # Goes on while the whole machine sleeps, unlike time.monotonic().
+    return time.clock_gettime(time.CLOCK_BOOTTIME)

@@ -1,0 +1,129 @@
+#!/usr/bin/python3
+"""A start never harms what runs: a table of what runs, what is started, and what is left."""
+
+import os
+import shlex
+import signal
+import sys
+import unittest
+
+import rospy
+import rostest
+from rospy import AnyMsg
+
+from tutorial_testing.processes import Program
+from tutorial_testing.waiting import wait_for
+
+SIMULATOR = ("rosrun", "fake_turtlebot_sim", "fake_turtlebot.py")
+
+
+class Watch:
+    """The messages of a topic, by their senders; their numbers tell of one that was lost."""
+
+    def __init__(self, topic):
+        self.numbers = {}  # sender -> the numbers of its messages
+        self._subscriber = rospy.Subscriber(topic, AnyMsg, self._on_message, queue_size=1000)
+        self.close = self._subscriber.unregister
+
+    def _on_message(self, message):
+        sender = message._connection_header["callerid"]
+        # All of them begin with a Header, and that with the number.
+        number = int.from_bytes(message._buff[:4], "little")
+        self.numbers.setdefault(sender, []).append(number)
+
+    def of(self, sender):
+        """The numbers of one sender."""
+        return self.numbers.get(sender, [])
+
+    def grows(self, sender):
+        """Wait until one more message comes."""
+        count = len(self.of(sender))
+        wait_for(lambda: len(self.of(sender)) > count, f"a message of {sender}")
+
+
+class StartsTest(unittest.TestCase):
+    def watch(self, topic):
+        watch = Watch(topic)
+        self.addCleanup(watch.close)
+        wait_for(lambda: watch.numbers, f"messages on {topic}")
+        return watch
+
+    def check_refusal(self, command, words):
+        with Program(*shlex.split(command)) as started:
+            code, said = started.wait(), started.output
+        self.assertEqual(code, 1, f"{command}: {said}")
+        lines = [line for line in said.splitlines() if words in line]
+        self.assertEqual(len(lines), 1, f"{command}: {said}")
+        self.assertNotIn("Traceback (most", said)
+
+    def check_company(self, command, topic):
+        with Program(*shlex.split(command)) as started:
+            self.watch(topic)
+            started.interrupt()
+            started.wait()
+
+    def check_row(self, row):
+        with Program(*shlex.split(row["run"])) as running:
+            watches = [self.watch(topic) for topic in row["watch"]]
+            senders = [next(iter(watch.numbers)) for watch in watches]
+            for command, words in row["refused"]:
+                self.check_refusal(command, words)
+                self.assertFalse(running.ended, command)
+            for command, topic in row.get("both", []):
+                self.check_company(command, topic)
+                self.assertFalse(running.ended, command)
+            for watch, sender in zip(watches, senders):
+                watch.grows(sender)
+                numbers = watch.of(sender)
+                whole = list(range(numbers[0], numbers[0] + len(numbers)))
+                if numbers[0] != numbers[-1]:  # diagnostics are not numbered
+                    self.assertEqual(numbers, whole)
+            self.assertNotIn("new node registered", running.output)
+            self.assertNotIn("process has died", running.output)
+            running.interrupt()
+            running.wait()
+
+    def test_the_master_keeps_no_parameters_of_a_command_line(self):
+        with Program(*SIMULATOR, "_robots:=3", "__name:=three"):
+            self.watch("/robot_3/odom")
+            self.assertFalse(rospy.has_param("/three/robots"))
+
+    def test_a_name_whose_node_was_killed_is_free_at_once(self):
+        with Program(*SIMULATOR, "__name:=killed") as node:
+            sender = self.watch("odom")
+            for pid in node.left_behind():
+                os.kill(pid, signal.SIGKILL)
+            node.wait()
+            with Program(*SIMULATOR, "__name:=killed"):
+                sender.grows("/killed")
+
+    def test_a_robot_is_replaced_by_one_that_is_told_to(self):
+        with Program(*SIMULATOR, "__name:=replaced") as old:
+            watch = self.watch("odom")
+            with Program(*SIMULATOR, "__name:=replaced", "_take_over:=true"):
+                self.assertEqual(old.wait(), 0)
+                watch.grows("/replaced")
+
+    def test_a_robot_that_is_stopped_and_may_go_on_keeps_its_name(self):
+        with Program(*SIMULATOR, "__name:=stopped") as node:
+            watch = self.watch("odom")
+            pids = node.left_behind()
+            for pid in pids:
+                os.kill(pid, signal.SIGSTOP)
+            self.check_refusal(" ".join([*SIMULATOR, "__name:=stopped"]), "does not answer")
+            for pid in pids:
+                os.kill(pid, signal.SIGCONT)
+            watch.grows("/stopped")
+
+
+def add_row(row):
+    """One test for each row of the table."""
+    name = "_".join(word.split(".")[0] for word in row["run"].split()[1:3])
+    setattr(StartsTest, f"test_{name}", lambda self: self.check_row(row))
+
+
+if __name__ == "__main__":
+    rospy.init_node("starts")
+    for one in rospy.get_param("~table"):
+        add_row(one)
+    rostest.rosrun("ros1_tutorial_test", "starts", StartsTest, sys.argv)
