@@ -12,22 +12,28 @@ import rostest
 from nav_msgs.msg import Odometry
 from rosgraph.network import encode_ros_handshake_header
 
-from tutorial_testing.waiting import wait_for
+from tutorial_testing.waiting import DEADLINE_S, wait_for
 
 NODE, STALLED = "/fake_turtlebot", "/stalled"
+LATER = 12_000  # messages of 700 bytes, for which no socket has room
 
 
 class StalledSubscriberTest(unittest.TestCase):
-    def test_it_is_let_go_and_the_others_hear_everything(self):
+    def test_it_gets_the_newest_and_the_others_hear_everything(self):
         heard = []
         rospy.Subscriber("odom", Odometry, heard.append)
         wait_for(lambda: heard, "odometry")
         node = ServerProxy(rosgraph.Master("/test").lookupNode(NODE))
-        with self.connect(node):
+        with self.connect(node) as connection:
             wait_for(lambda: self.is_connected(node), "connection that never reads")
-            wait_for(lambda: not self.is_connected(node), "end of that connection")
             count = len(heard)
-            wait_for(lambda: len(heard) > count + 1000, "odometry after that")
+            wait_for(lambda: len(heard) > count + LATER, "odometry after that")
+            self.assertTrue(self.is_connected(node))
+            last = heard[-1].header.seq
+            numbers = self.numbers_until(connection, last)
+        # Whole messages; what had no room is left out, but for the newest.
+        self.assertEqual(numbers, sorted(set(numbers)))
+        self.assertLess(len(numbers), last - numbers[0])
         seqs = [odometry.header.seq for odometry in heard]
         self.assertEqual(seqs, list(range(seqs[0], seqs[0] + len(seqs))))
 
@@ -46,6 +52,20 @@ class StalledSubscriberTest(unittest.TestCase):
         }
         connection.sendall(encode_ros_handshake_header(header))
         return connection
+
+    @staticmethod
+    def numbers_until(connection, last):
+        """The numbers of the messages that come, until the number `last` or a later one."""
+        connection.settimeout(DEADLINE_S)
+        numbers, stream = [], connection.makefile("rb")
+
+        def block():
+            return stream.read(int.from_bytes(stream.read(4), "little"))
+
+        block()  # the header of the connection
+        while not numbers or numbers[-1] < last:
+            numbers.append(int.from_bytes(block()[:4], "little"))
+        return numbers
 
     @staticmethod
     def is_connected(node):

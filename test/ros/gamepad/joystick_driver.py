@@ -91,7 +91,7 @@ class DriverTest(unittest.TestCase):
         after = [joy for joy in self.log.messages if not joy.buttons[4] and joy.axes[5] == 1.0]
         self.assertEqual(len(after), 1)
         self.assertLess(after[0].header.stamp.to_sec() - lost, 0.1 + BUSY_S)
-        wait_for(lambda: "No joystick at" in program.output.rsplit("Lost", 1)[1], "search")
+        wait_for(lambda: "No joystick at" in program.output.rpartition("Lost")[2], "search")
         count = len(self.log.messages)
         self.assertGreaterEqual(time.time() - lost, SHORTEST_SILENCE_S)
 
@@ -140,8 +140,11 @@ class DriverTest(unittest.TestCase):
             self.assertEqual(program.output.count("\n"), 1)
 
     def test_mistakes_get_one_line(self):
-        self.refuse(driver("js0"), "joy_node: Parameter ~dev is 'js0'; allowed is a whole path")
-        self.refuse(driver("/dev/js", "deadzon:=0.1"), "joy_node: There is no parameter ~deadzon")
+        self.refuse(driver("js0"), "joy_node: ~dev: 'js0': must be a whole path")
+        self.refuse(
+            driver("/dev/js", "deadzon:=0.1"),
+            "joy_node: ~deadzon: 0.1: no such parameter; did you mean ~deadzone?",
+        )
         self.refuse(
             Program("rosrun", "gamepad", "joy_node", ROS_MASTER_URI="http://localhost:1"),
             "joy_node: no ROS master at http://localhost:1",

@@ -151,16 +151,17 @@ class StartTest(unittest.TestCase):
     def test_a_wrong_parameter_on_the_server_is_one_line(self):
         rospy.set_param("/wrong/joy_timeout", -1)
         with joy2twist("__name:=wrong") as node:
-            self.check_line(node, "~joy_timeout", "-1", "seconds", "/wrong")
+            self.check_line(node, "~joy_timeout", "-1", "0 to 60 s", "/wrong")
 
     def test_a_parameter_that_is_no_yaml_is_one_line(self):
         with joy2twist("_axis_linear:=[") as node:
             self.check_line(node, "command-line")
 
     def test_no_master_is_one_line(self):
-        for uri in (NOWHERE, "nonsense"):
-            with joy2twist(ROS_MASTER_URI=uri) as node:
-                self.check_line(node, uri, "roscore")
+        with joy2twist(ROS_MASTER_URI=NOWHERE) as node:
+            self.check_line(node, NOWHERE, "roscore")
+        with joy2twist(ROS_MASTER_URI="nonsense") as node:
+            self.check_line(node, "'nonsense'", "http://localhost:11311")
 
     def test_no_master_is_one_line_for_the_earlier_versions(self):
         for script in ("display_joy.py", "publish_twist.py"):

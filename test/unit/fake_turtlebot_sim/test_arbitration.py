@@ -270,3 +270,19 @@ def test_what_one_sender_left_is_not_held_against_the_next():
     assert arbiter.command("teleop", (0.2,), 0.0, "/rostopic_1") is THROUGH
     assert arbiter.command("teleop", (0.2,), 5.0, "/rostopic_2") is THROUGH
     assert arbiter.command("teleop", (0.2,), 5.1, "/rostopic_1") is Verdict.LATE
+
+
+@pytest.mark.parametrize("rested_before", [True, False])
+def test_after_the_robot_was_lost_a_sender_moves_it_only_after_a_rest(rested_before):
+    arbiter = Arbiter([Input("teleop", "input/teleop", 1.0, 7, rearm_on_zero=True), NAVI])
+    for name in ("teleop", "navi"):
+        arbiter.command(name, (0.0 if rested_before else 0.2,), 0.0)
+    arbiter.lost(0.3)
+    assert arbiter.command("teleop", (0.2,), 0.4) is Verdict.LATE
+    assert arbiter.command("teleop", (0.2,), 5.0) is Verdict.LATE  # silence is no rest
+    assert arbiter.command("teleop", (0.0,), 5.1) is THROUGH
+    assert arbiter.command("teleop", (0.2,), 5.1 + 0.99 * REARM_S) is Verdict.LATE
+    assert arbiter.command("teleop", (0.0,), 6.0) is THROUGH
+    assert arbiter.command("teleop", (0.2,), 6.0 + 1.01 * REARM_S) is THROUGH
+    # Who drives by itself, and not by a stick that is held, goes on.
+    assert arbiter.command("navi", (0.1,), 100.0) is THROUGH

@@ -2,6 +2,7 @@
 
 import errno
 import os
+import select
 import struct
 import threading
 import time
@@ -12,7 +13,8 @@ from gamepad.driver.device import Finder
 from gamepad.driver.device_choice import DeviceError, choose_by_name, explain
 from gamepad.driver.wake import AppearanceWatch, Wake
 from gamepad.gamepads import F710_D
-from gamepad.virtual.pads import PadError, StreamPad
+from gamepad.js_event import SIGN_OF_LIFE_MS
+from gamepad.virtual.pads import SIGN_OF_LIFE_S, PadError, StreamPad
 
 NAMES = {"/dev/input/js0": "Pad F710", "/dev/input/js1": "Pad F310", "/dev/input/js2": "Pad"}
 DEADLINE_S = 10.0
@@ -140,7 +142,7 @@ def events(device):
 def test_a_stream_tells_the_state_at_opening_and_then_the_changes(tmp_path):
     path = str(tmp_path / "pad")
     rest = ((0.0,) * 6, (0,) * 12)
-    with StreamPad(F710_D, path) as pad:
+    with StreamPad(F710_D, path, clock=lambda: 5.0) as pad:
         pad.show(rest)
         assert not pad.connected
         device = Finder(path, "").open()
@@ -161,7 +163,7 @@ def test_a_stream_tells_the_state_at_opening_and_then_the_changes(tmp_path):
 def test_a_second_reader_is_told_all_again(tmp_path):
     path = str(tmp_path / "pad")
     pushed = ((0.0, 1.0, 0, 0, 0, 0), (0,) * 12)
-    with StreamPad(F710_D, path) as pad:
+    with StreamPad(F710_D, path, clock=lambda: 5.0) as pad:
         for _ in range(2):
             device = Finder(path, "").open()
             pad.show(pushed)
@@ -169,6 +171,30 @@ def test_a_second_reader_is_told_all_again(tmp_path):
             device.close()
             pad.show(pushed)
             assert not pad.connected
+
+
+def test_a_stream_tells_that_it_lives(tmp_path):
+    path, clock = str(tmp_path / "pad"), [5.0]
+    pushed = ((0.0, 1.0, 0, 0, 0, 0), (0, 0, 0, 0, 1) + (0,) * 7)
+    with StreamPad(F710_D, path, clock=lambda: clock[0]) as pad:
+        device = Finder(path, "").open()
+        pad.show(pushed)
+        device.read()
+        clock[0] += 0.14
+        pad.show(pushed)
+        assert device.read() == b""
+        assert pad.watch(select.poll()) <= SIGN_OF_LIFE_S
+        for _ in range(3):
+            clock[0] += SIGN_OF_LIFE_S + 0.01
+            pad.show(pushed)
+            signs = events(device)
+            # All of the state, for a reader that has just come; the time says what it is.
+            assert sorted(event[1:] for event in signs if event[1]) == [
+                (-32767, 0x82, 1), (1, 0x81, 4),
+            ]  # fmt: skip
+            assert len(signs) == 18
+            assert {event[0] for event in signs} == {SIGN_OF_LIFE_MS}
+        device.close()
 
 
 def test_a_path_that_is_no_fifo_is_refused_and_left_alone(tmp_path):

@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from gamepad.driver.driver import SHORTEST_SILENCE_S, Driver
+from gamepad.driver.driver import LONGEST_LIFELESS_S, SHORTEST_SILENCE_S, Driver
 from gamepad.driver.parameters import DriverParameters
-from gamepad.js_event import Decoder, JsEvent, pack
+from gamepad.js_event import SIGN_OF_LIFE_MS, Decoder, JsEvent, pack
 
 BUTTON, AXIS, INIT = 1, 2, 0x80
 
@@ -272,3 +272,75 @@ def test_sticky_buttons_are_released_by_a_loss():
     assert ours.lost(0.1) == [((), (0,))]
     ours.opened((), kernel_device=True)
     assert ours.read(events((BUTTON, 0, 1)), now=1.0) == [((), (1,))]
+
+
+# ------------------------------------------------------------------------------------ signs of life
+
+
+def sign(*fields):
+    """Bytes of a sign of life, given as (type, number, value)."""
+    return b"".join(
+        [struct.pack("=IhBB", SIGN_OF_LIFE_MS, value, kind | INIT, n) for kind, n, value in fields]
+    )
+
+
+STATE = ((BUTTON, 4, 1), (AXIS, 1, -32767))
+
+
+def with_signs(kernel_device=False):
+    """A driver that drives, and has heard a sign of life at 1.0 s."""
+    one = driver(kernel_device, autorepeat_rate=0)
+    one.read(events(*STATE), 0.9)
+    one.tick(0.95)
+    one.read(sign(*STATE), 1.0)
+    return one
+
+
+def test_a_source_that_gave_signs_and_gives_none_any_more_is_lifeless():
+    one = with_signs()
+    assert not one.is_lifeless(1.0 + LONGEST_LIFELESS_S - 0.01)
+    assert one.due == 1.0 + LONGEST_LIFELESS_S
+    assert one.is_lifeless(1.0 + LONGEST_LIFELESS_S)
+
+
+def test_whatever_it_says_is_a_sign_of_life():
+    one = with_signs()
+    one.read(events((AXIS, 0, 5)), 1.4)
+    assert not one.is_lifeless(1.5)
+    assert one.is_lifeless(1.4 + LONGEST_LIFELESS_S)
+
+
+def test_a_source_that_never_gave_a_sign_may_be_silent_for_ever():
+    one = driver(kernel_device=False)
+    one.read(events(*STATE), 1.0)
+    assert not one.is_lifeless(1e9)
+
+
+def test_a_kernel_device_gives_no_signs_whatever_its_clock_shows():
+    one = driver(kernel_device=True)
+    one.read(events(*STATE), 0.9)
+    one.read(sign((AXIS, 1, 5)), 1.0)
+    assert not one.is_lifeless(1e9)
+
+
+def test_a_sign_publishes_nothing_and_moves_nothing():
+    one = with_signs()
+    assert one.read(sign((BUTTON, 4, 0), (AXIS, 1, 0)), 1.1) == []
+    assert one.tick(1.2) == []
+    ((axes, buttons),) = one.read(events((BUTTON, 0, 1)), 1.3)
+    assert (axes[1], buttons[4]) == (pytest.approx(1.0), 1)
+
+
+def test_a_reader_that_has_just_come_learns_the_size_of_the_gamepad():
+    one = driver(kernel_device=False)
+    one.read(sign(*((AXIS, n, 0) for n in range(6)), *((BUTTON, n, 0) for n in range(12))), 1.0)
+    ((axes, buttons),) = one.read(events((BUTTON, 0, 1)), 1.1)
+    assert (len(axes), len(buttons)) == (6, 12)
+
+
+def test_after_a_loss_it_is_no_longer_lifeless():
+    one = with_signs()
+    one.lost(2.0)
+    assert not one.is_lifeless(3.0)
+    one.opened((), False)
+    assert not one.is_lifeless(1e9)

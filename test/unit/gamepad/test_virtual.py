@@ -221,6 +221,14 @@ def test_the_scripts_that_come_along_can_be_read():
         assert load_script(yaml.safe_load(path.read_text(encoding="utf-8"))).moves
 
 
+def test_released_keys_are_up_whatever_was_held():
+    keyboard = Keyboard()
+    keyboard.press(" w", 1.0)
+    assert keyboard.at(1.1)[0].held == {"LB"}
+    keyboard.release()
+    assert keyboard.at(1.1)[0] == Controls()
+
+
 # ---------------------------------------------------------------------------------------- the FIFO
 
 

@@ -14,6 +14,10 @@ BUTTON = 0x01
 AXIS = 0x02
 INIT = 0x80  # added to the type: not a change, but the state at opening
 
+# As the time of an INIT event: it only says that the source lives. Readers that do not know this
+# see the state at opening once more. The kernel's clock shows it for 1 ms in 49 days.
+SIGN_OF_LIFE_MS = 2**32 - 1
+
 FULL = 32767  # value of an axis at its end
 
 

@@ -4,11 +4,14 @@ import math
 
 from gamepad.driver.schedule import Schedule
 from gamepad.driver.state import NOTHING, NOW, GamepadState
-from gamepad.js_event import INIT, Decoder
+from gamepad.js_event import INIT, SIGN_OF_LIFE_MS, Decoder
 
 # After a loss a gamepad is not opened again for this time [s]: a node that stops on silence (0.5 s,
 # joy2twist's ~joy_timeout) must have noticed, however quick the hand that plugs it in again.
 SHORTEST_SILENCE_S = 0.6
+# A source that has once given a sign of life and gives none for this time [s] is lost: three signs
+# of our virtual gamepad, and less than joy2twist's ~joy_timeout.
+LONGEST_LIFELESS_S = 0.45
 
 
 class Driver:
@@ -31,7 +34,13 @@ class Driver:
     @property
     def due(self):
         """When tick() must be called next [s]; infinity if only bytes can bring something new."""
-        return math.inf if self._state is None or self._mute else self._schedule.due
+        if self._state is None:
+            return math.inf
+        return min(math.inf if self._mute else self._schedule.due, self._lifeless_at)
+
+    def is_lifeless(self, now):
+        """Whether the source, which can give signs of life, has given none for too long."""
+        return self._state is not None and now >= self._lifeless_at
 
     def opened(self, triggers, kernel_device):
         """A gamepad was opened. triggers: numbers of the axes that rest at +1; None if unknown.
@@ -43,12 +52,19 @@ class Driver:
         self._triggers = triggers
         self._decoder = Decoder(late_init_is_change=kernel_device)
         self._schedule = Schedule(p.coalesce_interval, p.autorepeat_rate)
+        self._can_give_signs = not kernel_device
+        self._gives_signs = False
+        self._lifeless_at = math.inf
 
     def read(self, data, now):
         """Bytes came from the gamepad; returns the messages to publish, oldest first."""
         messages = []
         for event in self._decoder.feed(data):
             self.events += 1
+            if event.type & INIT and event.time_ms == SIGN_OF_LIFE_MS and self._can_give_signs:
+                self._gives_signs = True
+                if self._state.knows(event):
+                    continue
             urgency = self._state.apply(event)
             if urgency == NOTHING:
                 self.unknown_events += 1
@@ -60,11 +76,13 @@ class Driver:
             else:
                 self._schedule.soon(now)
             messages += self.tick(now)  # a quick press and release must not end up in one message
+        if data and self._gives_signs:
+            self._lifeless_at = now + LONGEST_LIFELESS_S
         return messages
 
     def tick(self, now):
         """Time has passed; returns the messages to publish: one or none."""
-        if now < self.due:
+        if self._state is None or self._mute or now < self._schedule.due:
             return []
         self._schedule.published(now)
         self._told = True

@@ -17,6 +17,7 @@ from gamepad.driver.wake import AppearanceWatch, Wake
 from gamepad.gamepads import mode_hint
 from node_kit.log import Log
 from node_kit.start import run
+from node_kit.suspension import Suspensions
 
 NODE_NAME = "joy_node"
 QUEUE_SIZE = 100  # a press and its release must both arrive
@@ -39,6 +40,8 @@ class JoyNode:
         """parameters: driver_parameters.DriverParameters."""
         self.log = Log()
         self.wake = Wake()
+        self.suspensions = Suspensions()
+        self.suspended = 0  # how often that was taken into account
         self.is_ending = threading.Event()
         self.has_ended = threading.Event()  # the last message is out
         rospy.on_shutdown(self.end)
@@ -118,8 +121,14 @@ class JoyNode:
 
     def take_in(self, device, until):
         """Wait for events until a time [s] at the latest; publish what is due. DeviceError."""
-        if self.wake.wait(until, device):
+        readable = self.wake.wait(until, device)
+        if self.suspensions.number() != self.suspended:
+            self.suspended = self.suspensions.number()
+            raise DeviceError("This node was suspended, and knows no more where the sticks are.")
+        if readable:
             self.publish(self.driver.read(device.read(), monotonic()))
+        if self.driver.is_lifeless(monotonic()):
+            raise DeviceError(f"Lost the joystick {device.path}: it gives no sign of life.")
         self.publish(self.driver.tick(monotonic()))
 
     def publish(self, messages):

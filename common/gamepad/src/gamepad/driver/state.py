@@ -48,6 +48,11 @@ class GamepadState:
             return SOON
         return NOTHING
 
+    def knows(self, event):
+        """Whether the axis or button of a js_event.JsEvent was told before."""
+        known = self._buttons if event.type & ~INIT == BUTTON else self._axes
+        return event.number < len(known)
+
     def publish(self):
         """(axes, buttons) for a message: tuples of floats and of 0 and 1."""
         if not self._sticky:

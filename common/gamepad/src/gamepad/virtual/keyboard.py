@@ -74,6 +74,10 @@ class Keyboard:
             elif key == "u":
                 self._plugged = not self._plugged
 
+    def release(self):
+        """Release all keys: nobody sees what they do, or their terminal is held."""
+        self._held = {}
+
     def at(self, now):
         """(Controls at a time, the time at which they change by themselves or infinity)."""
         self._expire(now)

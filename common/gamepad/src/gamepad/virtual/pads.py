@@ -8,11 +8,13 @@ import select
 import stat
 import time
 
-from gamepad.js_event import AXIS, BUTTON, INIT, JsEvent, pack
+from gamepad.js_event import AXIS, BUTTON, INIT, SIGN_OF_LIFE_MS, JsEvent, pack
 
 UINPUT = "/dev/uinput"
 BUS_USB = 3  # linux/input.h
 EV_KEY, EV_ABS = 1, 3  # linux/input-event-codes.h
+# How often a FIFO repeats the state at opening: so its reader knows that this program lives [s].
+SIGN_OF_LIFE_S = 0.15
 LOOK_S = 0.05  # how often a FIFO without a reader is looked at
 
 
@@ -88,11 +90,15 @@ class UinputPad:
 class StreamPad:
     """The events of the joystick device, served through a FIFO to one reader after the other."""
 
-    def __init__(self, gamepad, path):
-        """gamepad: gamepads.Gamepad. path: of the FIFO, made if missing. Raises PadError."""
-        self._gamepad, self._path = gamepad, path
+    def __init__(self, gamepad, path, clock=time.monotonic):
+        """gamepad: gamepads.Gamepad. path: of the FIFO, made if missing. clock: gives seconds.
+
+        Raises PadError.
+        """
+        self._gamepad, self._path, self._clock = gamepad, path, clock
         self._fd = None
         self._told = {}  # (type, number) -> value, as the reader knows them
+        self._signed_at = -math.inf  # when the last sign of life was given
         try:
             self._made = not os.path.lexists(path)
             if self._made:
@@ -125,13 +131,16 @@ class StreamPad:
         for i, (axis, value) in enumerate(zip(self._gamepad.axes, axes)):
             values[AXIS, i] = axis.js_value(axis.raw(value))
         self._tell({key: value for key, value in values.items() if self._told.get(key) != value})
+        if self._told and self._clock() >= self._signed_at + SIGN_OF_LIFE_S:
+            self._signed_at = self._clock()
+            self._tell(dict(self._told), INIT, SIGN_OF_LIFE_MS)
 
     def watch(self, poll):
         """Have poll notice a reader that leaves; returns the longest time to wait [s]."""
         if self._fd is None:
             return LOOK_S
         poll.register(self._fd, 0)
-        return math.inf
+        return SIGN_OF_LIFE_S
 
     @property
     def connected(self):
@@ -157,6 +166,7 @@ class StreamPad:
         for i, (axis, raw) in enumerate(zip(self._gamepad.axes, self._gamepad.untouched)):
             untouched[AXIS, i] = axis.js_value(raw)
         self._tell(untouched, INIT)
+        self._signed_at = self._clock()
         return self._fd is not None
 
     def _reader_left(self):
@@ -164,8 +174,9 @@ class StreamPad:
         poll.register(self._fd, 0)  # tells of errors only
         return bool(poll.poll(0))
 
-    def _tell(self, values, flag=0):
-        time_ms = time.monotonic_ns() // 1_000_000 % 2**32
+    def _tell(self, values, flag=0, time_ms=None):
+        if time_ms is None:
+            time_ms = int(self._clock() * 1000) % SIGN_OF_LIFE_MS
         events = [JsEvent(time_ms, value, kind | flag, n) for (kind, n), value in values.items()]
         data = b"".join(map(pack, events))
         try:

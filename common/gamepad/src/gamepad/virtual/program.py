@@ -94,7 +94,9 @@ def play(pad, source, keyboard, terminal):
         position, until = step
         pad.show(position)
         if terminal:
-            terminal.show(source.controls)
+            if not terminal.show(source.controls):
+                keyboard.release()
+                pad.show(source.at(time.monotonic())[0])
             until = min(until, time.monotonic() + REFRESH_S)
         if wait(pad, terminal, until):
             text = terminal.read()

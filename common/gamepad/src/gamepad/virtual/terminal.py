@@ -22,6 +22,9 @@ class Terminal:
         self._fd = sys.stdin.fileno()
 
     def __enter__(self):
+        # Opened once more, to be written without waiting: Ctrl-S, a pager or a slow line may hold
+        # the screen, and a change of the standard output would reach every program that shares it.
+        self._screen = os.open(os.ttyname(self._fd), os.O_WRONLY | os.O_NONBLOCK | os.O_NOCTTY)
         self._before = termios.tcgetattr(self._fd)
         tty.setcbreak(self._fd)
         settings = termios.tcgetattr(self._fd)
@@ -31,7 +34,8 @@ class Terminal:
 
     def __exit__(self, *_):
         termios.tcsetattr(self._fd, termios.TCSANOW, self._before)
-        sys.stdout.write("\n")
+        self._write("\n")
+        os.close(self._screen)
 
     def fileno(self):
         """For poll()."""
@@ -45,12 +49,18 @@ class Terminal:
             return ""
 
     def show(self, controls):
-        """Show controls.Controls in one line."""
+        """Show controls.Controls in one line; whether the screen takes it and is not held."""
         x, y = controls.left_stick
         words = [f"left stick {x:+.1f} {y:+.1f}", *sorted(controls.held)]
         if (x or y) and not controls.held:
             words.append("without LB: tap space, then this key at once")
         words += ["MODE LED on"] * controls.mode_led + ["unplugged"] * (not controls.plugged)
         # Back to its beginning: a line of another program replaces it, and is not glued to it.
-        sys.stdout.write(_CLEAR_LINE + "  " + "  ".join(words) + "\r")
-        sys.stdout.flush()
+        return self._write(_CLEAR_LINE + "  " + "  ".join(words) + "\r")
+
+    def _write(self, text):
+        data = text.encode()
+        try:
+            return os.write(self._screen, data) == len(data)
+        except OSError:
+            return False
