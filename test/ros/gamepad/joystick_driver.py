@@ -91,7 +91,7 @@ class DriverTest(unittest.TestCase):
         after = [joy for joy in self.log.messages if not joy.buttons[4] and joy.axes[5] == 1.0]
         self.assertEqual(len(after), 1)
         self.assertLess(after[0].header.stamp.to_sec() - lost, 0.1 + BUSY_S)
-        wait_for(lambda: "No joystick at" in program.output.rpartition("Lost")[2], "search")
+        wait_for(lambda: "No joystick at" in program.output.partition("Lost")[2], "search")
         count = len(self.log.messages)
         self.assertGreaterEqual(time.time() - lost, SHORTEST_SILENCE_S)
 
