@@ -44,7 +44,7 @@ def run(name, load, main, keeps_name=False):
     end_on_signals()
     be_careful()
     try:
-        rospy.init_node(name, argv=[sys.argv[0]], disable_signals=True)
+        rospy.init_node(name, argv=_without_parameters(sys.argv), disable_signals=True)
         end_in_time()
         main(parameters)
     except rospy.ROSException:
@@ -98,6 +98,11 @@ def _parameters(full_name):
             place = place[part]
         place[last] = value
     return given
+
+
+def _without_parameters(arguments):
+    """The command line without _name:=value, which rospy would put on the master; with remaps."""
+    return [a for a in arguments if not (":=" in a and a.startswith("_") and a[1:2] != "_")]
 
 
 def _check_name(full_name):

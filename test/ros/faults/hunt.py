@@ -1,0 +1,352 @@
+#!/usr/bin/python3
+"""What a hunt for faults found, each once more: it moved, went deaf or would not end."""
+
+import os
+import signal
+import socket
+import struct
+import sys
+import threading
+import time
+import unittest
+
+import rosgraph
+import rospy
+import rostest
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import Joy
+
+from node_kit.questions import call
+from tutorial_testing.processes import Program
+from tutorial_testing.rig import BASE, DRIVER, JOYSTICK, MUX, Rig, go_on, stop
+from tutorial_testing.waiting import BUSY_S, DEADLINE_S, wait_for
+
+LONGEST_END_S = 1.5 + BUSY_S
+WATCHED_S = 1.5  # in which nothing may move
+LB, FORWARD = [0] * 4 + [1] + [0] * 7, [0.0, 1.0, 0.0, 0.0, 0.0, 0.0]
+NEUTRAL = Joy(axes=[0.0] * 6, buttons=[0] * 12)
+HELD = Joy(axes=FORWARD, buttons=LB)
+
+
+class Master:
+    """A roscore of our own, which may be stopped."""
+
+    def __init__(self):
+        with socket.socket() as probe:
+            probe.bind(("localhost", 0))
+            port = probe.getsockname()[1]
+        self.uri = f"http://localhost:{port}"
+        self._program = Program("rosmaster", "--core", "-p", str(port))
+
+    def __enter__(self):
+        wait_for(lambda: call(self.uri, "getPid")[1], "master")
+        self.pids = self._program.left_behind()
+        return self
+
+    def __exit__(self, *_):
+        go_on(self._program.left_behind())
+        self._program.__exit__()
+
+
+class Wire(Joy):
+    """A Joy whose bytes are what a test wants."""
+
+    __slots__ = ("raw",)
+
+    def serialize(self, buff):
+        buff.write(self.raw)
+
+
+def whole(message):
+    """The bytes of a message."""
+    import io  # noqa: PLC0415
+
+    buff = io.BytesIO()
+    message.serialize(buff)
+    return buff.getvalue()
+
+
+class FaultsOfTheRobot(unittest.TestCase):
+    """Through all nodes, with LB held."""
+
+    def check_stays(self, rig, what):
+        """The robot stands, although LB is held, until all is released."""
+        rig.wait_for_rest()
+        began = rig.speeds[-1][0]
+        wait_for(lambda: rig.since(began + WATCHED_S), f"odometry after {what}")
+        moved = [stamp - began for stamp, speed in rig.since(began) if speed]
+        self.assertEqual(moved, [], what)
+        rig.drive()
+
+    def kill(self, rig, node):
+        pid = rig.pid(node)
+        os.kill(pid, signal.SIGKILL)
+        rig.programs[node].wait()
+
+    def test_a_robot_or_mux_that_is_started_anew_waits_for_the_release(self):
+        with Rig(with_mux=True) as rig:
+            for node in (MUX, BASE):
+                rig.drive()
+                self.kill(rig, node)
+                rig.start(node)
+                rig.pid(node)
+                self.check_stays(rig, f"{node} was started anew")
+
+    def test_the_same_without_a_mux(self):
+        with Rig(with_mux=False) as rig:
+            rig.drive()
+            self.kill(rig, BASE)
+            rig.start(BASE)
+            rig.pid(BASE)
+            self.check_stays(rig, "the robot was started anew")
+
+    def test_joy2twist_that_is_started_anew_waits_for_the_release(self):
+        with Rig(with_mux=False) as rig:
+            rig.drive()
+            self.kill(rig, DRIVER)
+            rig.start(DRIVER)
+            rig.pid(DRIVER)
+            self.check_stays(rig, "joy2twist was started anew")
+
+    def test_a_suspended_base_obeys_no_stale_command(self):
+        with Rig(with_mux=False) as rig:
+            rig.drive()
+            base, driver = rig.pid(BASE), rig.pid(DRIVER)
+            stop([base])
+            threading.Event().wait(1.0)
+            os.kill(driver, signal.SIGKILL)
+            rig.programs[DRIVER].wait()
+            threading.Event().wait(1.0)
+            ended = go_on([base])
+            wait_for(lambda: rig.since(ended + WATCHED_S), "odometry")
+            # The first odometry may still tell of the time before.
+            moved = [stamp - ended for stamp, speed in rig.since(ended + 0.1) if speed]
+            self.assertEqual(moved, [])
+
+
+class FaultsUnderAHungMaster(unittest.TestCase):
+    """Master, nodes and odometry on a port of their own: that master is stopped."""
+
+    def listen(self, uri, velocities):
+        """A program that prints whether the robot moves."""
+        return Program("/usr/bin/python3", "-u", "-c", OBSERVER, ROS_MASTER_URI=uri, **velocities)
+
+    def check_end(self, number):
+        with Master() as master:
+            os.environ["ROS_MASTER_URI"], before = master.uri, os.environ["ROS_MASTER_URI"]
+            try:
+                with Rig(with_mux=True, ROS_MASTER_URI=master.uri) as rig:
+                    rig.observe_from_outside(master.uri)
+                    rig.drive()
+                    pids = {node: rig.pid(node) for node in rig.nodes}
+                    stop(master.pids)
+                    for node in (JOYSTICK, DRIVER, MUX, BASE):
+                        began = time.monotonic()
+                        os.kill(pids[node], number)
+                        rig.programs[node].wait()
+                        self.assertLess(time.monotonic() - began, LONGEST_END_S, node)
+                        if node == JOYSTICK:
+                            rig.wait_for_rest()
+                    self.assertFalse(rig.is_moving())
+            finally:
+                os.environ["ROS_MASTER_URI"] = before
+
+    def test_every_node_ends_on_sigint(self):
+        self.check_end(signal.SIGINT)
+
+    def test_every_node_ends_on_sigterm(self):
+        self.check_end(signal.SIGTERM)
+
+
+class FaultsOfThePeers(unittest.TestCase):
+    """Whoever else speaks to a node."""
+
+    def setUp(self):
+        self.velocities = []
+        self.robot = rospy.Subscriber("cmd_vel", Twist, self.velocities.append)
+        self.addCleanup(self.robot.unregister)
+
+    def joy2twist(self, *parameters):
+        program = Program("rosrun", "joy2twist", "joy2twist.py", *parameters)
+        self.addCleanup(program.__exit__)
+        return program
+
+    def publisher(self, kind=Joy):
+        publisher = rospy.Publisher("joy", kind, queue_size=10)
+        self.addCleanup(publisher.unregister)
+        return publisher
+
+    def test_a_second_joystick_is_not_armed_by_the_first(self):
+        self.joy2twist("_enable_button:=4", "_arm_on_neutral:=true")
+        first = self.publisher()
+        wait_for(lambda: first.publish(NEUTRAL) or self.velocities, "zero of joy2twist")
+        wait_for(lambda: first.publish(HELD) or self.velocities[-1].linear.x, "velocity")
+        for _ in range(3):
+            first.publish(NEUTRAL)
+        wait_for(lambda: not self.velocities[-1].linear.x, "zero")
+        del self.velocities[:]
+        with Program("/usr/bin/python3", "-c", SECOND_JOYSTICK) as second:
+            wait_for(lambda: "sent 50" in second.output, "second joystick")
+            self.assertEqual([v.linear.x for v in self.velocities if v.linear.x], [])
+
+    def test_a_message_that_cannot_be_read_makes_nobody_deaf(self):
+        node = self.joy2twist()
+        bad = self.publisher(Wire)
+        good = Wire(raw=whole(HELD))
+        wait_for(lambda: bad.publish(good) or self.velocities, "velocity")
+        for raw in (
+            b"",
+            whole(HELD)[:20],  # cut
+            whole(HELD)[:12] + struct.pack("<I", 10**6),  # a text that is not there
+            whole(HELD)[:16] + struct.pack("<I", 2**31),  # so many axes
+        ):
+            said = node.output.count("cannot be read")
+            bad.publish(Wire(raw=raw))
+            wait_for(lambda said=said: node.output.count("cannot be read") > said, "warning")
+            del self.velocities[:]
+            wait_for(lambda: bad.publish(good) or self.velocities, f"velocity after {raw!r}")
+
+    def test_a_length_that_lies_makes_nobody_deaf(self):
+        node = self.joy2twist()
+        bad = self.publisher(Wire)
+        good = Wire(raw=whole(HELD))
+        wait_for(lambda: bad.publish(good) or self.velocities, "velocity")
+        for length in (10**6, 3):
+            said = node.output.count("cannot be read")
+            for connection in bad.impl.connections:
+                connection._connection.socket.sendall(struct.pack("<I", length))
+            wait_for(
+                lambda said=said: bad.publish(good) or node.output.count("cannot be read") > said,
+                f"warning about {length} bytes",
+            )
+            del self.velocities[:]
+            wait_for(lambda: bad.publish(good) or self.velocities, "velocity")
+
+    def test_a_peer_that_says_nothing_holds_up_nobody(self):
+        self.joy2twist()
+        simulator = Program("rosrun", "fake_turtlebot_sim", "fake_turtlebot.py")
+        self.addCleanup(simulator.__exit__)
+        for node, topic, kind in (
+            (DRIVER, "/cmd_vel", Twist),
+            (BASE, "/odom", Odometry),
+        ):
+            uri = wait_for(
+                lambda node=node: call(rosgraph.get_master_uri(), "lookupNode", node)[1], node
+            )
+            way = wait_for(
+                lambda uri=uri, topic=topic: call(uri, "requestTopic", topic, [["TCPROS"]])[1],
+                topic,
+            )
+            with socket.create_connection((way[1], way[2])) as silent:
+                silent.settimeout(DEADLINE_S)
+                began = time.monotonic()
+                subscriber = rospy.Subscriber(topic, kind)
+                wait_for(subscriber.get_num_connections, f"connection to {node}")
+                self.assertLess(time.monotonic() - began, 2.0 + BUSY_S)
+                subscriber.unregister()
+                self.assertEqual(silent.recv(1), b"")  # let go
+
+    def test_a_publisher_without_a_name_is_obeyed_by_the_mux(self):
+        inputs = '[{"name": "a", "topic": "input", "timeout": 1.0, "priority": 1}]'
+        mux = Program(
+            "rosrun", "fake_turtlebot_sim", "cmd_vel_mux.py", f"_subscribers:={inputs}",
+            "cmd_vel_mux/output:=cmd_vel",
+        )  # fmt: skip
+        self.addCleanup(mux.__exit__)
+        with Program("/usr/bin/python3", "-c", NAMELESS):
+            wait_for(lambda: self.velocities and self.velocities[-1].linear.x == 0.25, "velocity")
+        self.assertNotIn("Traceback", mux.output)
+
+    def test_a_warning_under_a_hung_master_makes_nobody_deaf(self):
+        with Master() as master:
+            inputs = '[{"name": "a", "topic": "input", "timeout": 1.0, "priority": 1}]'
+            environment = {"ROS_MASTER_URI": master.uri}
+            nodes = [
+                Program(
+                    "rosrun", "fake_turtlebot_sim", "cmd_vel_mux.py", f"_subscribers:={inputs}",
+                    "cmd_vel_mux/output:=cmd_vel", **environment,
+                ),
+                Program("rosrun", "fake_turtlebot_sim", "fake_turtlebot.py", **environment),
+            ]  # fmt: skip
+            for node in nodes:
+                self.addCleanup(node.__exit__)
+            with Program("/usr/bin/python3", "-u", "-c", BAD_COMMANDS, **environment) as pilot:
+                wait_for(lambda: "moves" in pilot.output, "robot that moves")
+                stop(master.pids)
+                os.kill(pilot.pid, signal.SIGUSR1)
+                wait_for(lambda: "stands" in pilot.output, "robot that obeys zero")
+                wait_for(lambda: "moves again" in pilot.output, "robot that obeys")
+
+
+SECOND_JOYSTICK = """
+import rospy, time
+from sensor_msgs.msg import Joy
+rospy.init_node("second_joystick")
+joy = rospy.Publisher("joy", Joy, queue_size=10)
+while not joy.get_num_connections():
+    time.sleep(0.01)
+for number in range(1, 51):
+    joy.publish(Joy(axes=[0, 1.0, 0, 0, 0, 0], buttons=[0] * 4 + [1] + [0] * 7))
+    time.sleep(0.02)
+    print("sent", number, flush=True)
+rospy.spin()
+"""
+
+NAMELESS = """
+import rospy, time
+from geometry_msgs.msg import Twist
+from rospy.impl.tcpros_pubsub import TCPROSPub
+fields = TCPROSPub.get_header_fields
+def nameless(self):
+    return {name: value for name, value in fields(self).items() if name != "callerid"}
+TCPROSPub.get_header_fields = nameless
+rospy.init_node("nameless")
+publisher = rospy.Publisher("/cmd_vel_mux/input", Twist, queue_size=10)
+twist = Twist()
+twist.linear.x = 0.25
+while not rospy.is_shutdown():
+    publisher.publish(twist)
+    time.sleep(0.05)
+"""
+
+# Drives through the mux; after SIGUSR1 a NaN and too fast a command, then zero, then on.
+BAD_COMMANDS = """
+import math, signal, time
+import rospy
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+rospy.init_node("pilot", disable_signals=True)
+speed, said = [0.2], []
+signal.signal(signal.SIGUSR1, lambda *_: said.append("now"))
+moving = [None]
+def heard(odometry):
+    moving[0] = odometry.twist.twist.linear.x
+rospy.Subscriber("odom", Odometry, heard)
+publisher = rospy.Publisher("/cmd_vel_mux/input", Twist, queue_size=10)
+def send(value):
+    twist = Twist()
+    twist.linear.x = value
+    publisher.publish(twist)
+    time.sleep(0.05)
+while not said:
+    send(0.2)
+    if moving[0]:
+        print("moves", flush=True)
+for bad in (math.nan, 5.0):
+    for _ in range(5):
+        send(bad)
+while moving[0]:
+    send(0.0)
+print("stands", flush=True)
+while not moving[0]:
+    send(0.2)
+print("moves again", flush=True)
+while True:
+    send(0.0)
+"""
+
+
+if __name__ == "__main__":
+    rospy.init_node("hunt")
+    rostest.rosrun("ros1_tutorial_test", "hunt", "__main__", sys.argv)
