@@ -25,28 +25,24 @@ from tutorial_testing.waiting import BUSY_S, DEADLINE_S, wait_for
 LONGEST_END_S = 1.5 + BUSY_S
 WATCHED_S = 1.5  # in which nothing may move
 LB, FORWARD = [0] * 4 + [1] + [0] * 7, [0.0, 1.0, 0.0, 0.0, 0.0, 0.0]
+INPUTS = '[{"name": "a", "topic": "input", "timeout": 1.0, "priority": 1}]'
+MUX_COMMAND = (
+    "rosrun", "fake_turtlebot_sim", "cmd_vel_mux.py", f"_subscribers:={INPUTS}",
+    "cmd_vel_mux/output:=cmd_vel",
+)  # fmt: skip
 NEUTRAL = Joy(axes=[0.0] * 6, buttons=[0] * 12)
 HELD = Joy(axes=FORWARD, buttons=LB)
 
 
-class Master:
-    """A roscore of our own, which may be stopped."""
-
-    def __init__(self):
-        with socket.socket() as probe:
-            probe.bind(("localhost", 0))
-            port = probe.getsockname()[1]
-        self.uri = f"http://localhost:{port}"
-        self._program = Program("rosmaster", "--core", "-p", str(port))
-
-    def __enter__(self):
-        wait_for(lambda: call(self.uri, "getPid")[1], "master")
-        self.pids = self._program.left_behind()
-        return self
-
-    def __exit__(self, *_):
-        go_on(self._program.left_behind())
-        self._program.__exit__()
+@contextlib.contextmanager
+def hung_master():
+    """The master takes connections and answers nobody."""
+    pids = [call(rosgraph.get_master_uri(), "getPid")[1]]
+    stop(pids)
+    try:
+        yield
+    finally:
+        go_on(pids)
 
 
 class Wire(Joy):
@@ -60,8 +56,6 @@ class Wire(Joy):
 
 def whole(message):
     """The bytes of a message."""
-    import io  # noqa: PLC0415
-
     buff = io.BytesIO()
     message.serialize(buff)
     return buff.getvalue()
@@ -126,37 +120,69 @@ class FaultsOfTheRobot(unittest.TestCase):
 
 
 class FaultsUnderAHungMaster(unittest.TestCase):
-    """Master, nodes and odometry on a port of their own: that master is stopped."""
-
-    def listen(self, uri, velocities):
-        """A program that prints whether the robot moves."""
-        return Program("/usr/bin/python3", "-u", "-c", OBSERVER, ROS_MASTER_URI=uri, **velocities)
+    """What is connected stays so; whatever asks the master waits for ever."""
 
     def check_end(self, number):
-        with Master() as master:
-            os.environ["ROS_MASTER_URI"], before = master.uri, os.environ["ROS_MASTER_URI"]
-            try:
-                with Rig(with_mux=True, ROS_MASTER_URI=master.uri) as rig:
-                    rig.observe_from_outside(master.uri)
-                    rig.drive()
-                    pids = {node: rig.pid(node) for node in rig.nodes}
-                    stop(master.pids)
-                    for node in (JOYSTICK, DRIVER, MUX, BASE):
-                        began = time.monotonic()
-                        os.kill(pids[node], number)
-                        rig.programs[node].wait()
-                        self.assertLess(time.monotonic() - began, LONGEST_END_S, node)
-                        if node == JOYSTICK:
-                            rig.wait_for_rest()
-                    self.assertFalse(rig.is_moving())
-            finally:
-                os.environ["ROS_MASTER_URI"] = before
+        with Rig(with_mux=True) as rig:
+            rig.drive()
+            pids = {node: rig.pid(node) for node in rig.nodes}
+            with hung_master():
+                for node in (JOYSTICK, DRIVER, MUX, BASE):
+                    began = time.monotonic()
+                    os.kill(pids[node], number)
+                    rig.programs[node].wait()
+                    self.assertLess(time.monotonic() - began, LONGEST_END_S, node)
+                    if node == JOYSTICK:
+                        rig.wait_for_rest()
+                self.assertFalse(rig.is_moving())
 
     def test_every_node_ends_on_sigint(self):
         self.check_end(signal.SIGINT)
 
     def test_every_node_ends_on_sigterm(self):
         self.check_end(signal.SIGTERM)
+
+    def check_driven_end(self, node):
+        """The wheels are at rest before the node that moved them is gone."""
+        with Rig(with_mux=True) as rig:
+            rig.drive()
+            pid = rig.pid(node)
+            with hung_master():
+                os.kill(pid, signal.SIGINT)
+                rig.programs[node].wait()
+                wait_for(lambda: not rig.is_moving(), f"robot at rest after the end of {node}")
+
+    def test_the_end_of_the_mux_leaves_a_standing_robot(self):
+        self.check_driven_end(MUX)
+
+    def test_the_end_of_the_base_leaves_a_standing_robot(self):
+        self.check_driven_end(BASE)
+
+    def test_a_warning_makes_nobody_deaf(self):
+        """NaN and a speed beyond the robot's bring a warning of the mux and of the base."""
+        moving, command = [], Twist()
+        odom = rospy.Subscriber("odom", Odometry, lambda o: moving.append(o.twist.twist.linear.x))
+        pilot = rospy.Publisher("/cmd_vel_mux/input", Twist, queue_size=10)
+        self.addCleanup(odom.unregister)
+        self.addCleanup(pilot.unregister)
+
+        def speed(value):
+            command.linear.x = value
+            pilot.publish(command)
+            return moving and moving[-1]
+
+        nodes = [
+            Program(*MUX_COMMAND),
+            Program("rosrun", "fake_turtlebot_sim", "fake_turtlebot.py"),
+        ]
+        for node in nodes:
+            self.addCleanup(node.__exit__)
+        wait_for(lambda: speed(0.2), "robot that moves")
+        with hung_master():
+            for bad in (math.nan, 5.0, -5.0):
+                speed(bad)
+            wait_for(lambda: speed(0.0) == 0.0, "robot that obeys zero")
+            wait_for(lambda: speed(0.2), "robot that obeys")
 
 
 class FaultsOfThePeers(unittest.TestCase):
@@ -248,35 +274,11 @@ class FaultsOfThePeers(unittest.TestCase):
                 self.assertEqual(silent.recv(1), b"")  # let go
 
     def test_a_publisher_without_a_name_is_obeyed_by_the_mux(self):
-        inputs = '[{"name": "a", "topic": "input", "timeout": 1.0, "priority": 1}]'
-        mux = Program(
-            "rosrun", "fake_turtlebot_sim", "cmd_vel_mux.py", f"_subscribers:={inputs}",
-            "cmd_vel_mux/output:=cmd_vel",
-        )  # fmt: skip
+        mux = Program(*MUX_COMMAND)
         self.addCleanup(mux.__exit__)
         with Program("/usr/bin/python3", "-c", NAMELESS):
             wait_for(lambda: self.velocities and self.velocities[-1].linear.x == 0.25, "velocity")
         self.assertNotIn("Traceback", mux.output)
-
-    def test_a_warning_under_a_hung_master_makes_nobody_deaf(self):
-        with Master() as master:
-            inputs = '[{"name": "a", "topic": "input", "timeout": 1.0, "priority": 1}]'
-            environment = {"ROS_MASTER_URI": master.uri}
-            nodes = [
-                Program(
-                    "rosrun", "fake_turtlebot_sim", "cmd_vel_mux.py", f"_subscribers:={inputs}",
-                    "cmd_vel_mux/output:=cmd_vel", **environment,
-                ),
-                Program("rosrun", "fake_turtlebot_sim", "fake_turtlebot.py", **environment),
-            ]  # fmt: skip
-            for node in nodes:
-                self.addCleanup(node.__exit__)
-            with Program("/usr/bin/python3", "-u", "-c", BAD_COMMANDS, **environment) as pilot:
-                wait_for(lambda: "moves" in pilot.output, "robot that moves")
-                stop(master.pids)
-                os.kill(pilot.pid, signal.SIGUSR1)
-                wait_for(lambda: "stands" in pilot.output, "robot that obeys zero")
-                wait_for(lambda: "moves again" in pilot.output, "robot that obeys")
 
 
 SECOND_JOYSTICK = """
@@ -308,42 +310,6 @@ twist.linear.x = 0.25
 while not rospy.is_shutdown():
     publisher.publish(twist)
     time.sleep(0.05)
-"""
-
-# Drives through the mux; after SIGUSR1 a NaN and too fast a command, then zero, then on.
-BAD_COMMANDS = """
-import math, signal, time
-import rospy
-from geometry_msgs.msg import Twist
-from nav_msgs.msg import Odometry
-rospy.init_node("pilot", disable_signals=True)
-speed, said = [0.2], []
-signal.signal(signal.SIGUSR1, lambda *_: said.append("now"))
-moving = [None]
-def heard(odometry):
-    moving[0] = odometry.twist.twist.linear.x
-rospy.Subscriber("odom", Odometry, heard)
-publisher = rospy.Publisher("/cmd_vel_mux/input", Twist, queue_size=10)
-def send(value):
-    twist = Twist()
-    twist.linear.x = value
-    publisher.publish(twist)
-    time.sleep(0.05)
-while not said:
-    send(0.2)
-    if moving[0]:
-        print("moves", flush=True)
-for bad in (math.nan, 5.0):
-    for _ in range(5):
-        send(bad)
-while moving[0]:
-    send(0.0)
-print("stands", flush=True)
-while not moving[0]:
-    send(0.2)
-print("moves again", flush=True)
-while True:
-    send(0.0)
 """
 
 
