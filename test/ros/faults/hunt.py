@@ -1,6 +1,9 @@
 #!/usr/bin/python3
 """What a hunt for faults found, each once more: it moved, went deaf or would not end."""
 
+import contextlib
+import io
+import math
 import os
 import signal
 import socket
