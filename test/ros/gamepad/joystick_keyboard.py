@@ -126,6 +126,21 @@ class KeyboardTest(unittest.TestCase):
         wait_for(lambda: "unplugged" in terminal.screen, "word on the screen")
         self.end_with("q")
 
+    def test_a_screen_that_is_held_releases_all_keys(self):
+        self.terminal.press("Space")
+        self.terminal.hold("w", self.moves, "moving robot")
+        self.terminal.press("C-s")  # the terminal's flow control: nothing can be shown any more
+        wait_for(self.stands, "standing robot on a held screen")
+        count = len(self.odometry)
+        self.terminal.press("Space")
+        for _ in range(20):
+            self.terminal.press("w")
+        wait_for(lambda: len(self.odometry) > count + 50, "odometry")
+        speeds = {odometry.twist.twist.linear.x for odometry in self.odometry[count:]}
+        self.assertEqual(speeds, {0.0})
+        self.terminal.press("C-q")
+        self.end_with("q")
+
     def test_ctrl_c_while_driving_ends_all_with_a_standing_robot(self):
         self.terminal.press("Space")
         self.terminal.hold("w", self.moves, "moving robot")
