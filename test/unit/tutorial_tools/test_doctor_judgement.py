@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from tutorial_tools.doctor.facts import Answer, Facts, Joystick, Mux, MuxInput, Node, Offset
+from tutorial_tools.doctor.facts import Answer, Facts, Joystick, Mux, MuxInput, Node, Offset, some
 from tutorial_tools.doctor.judgement import judge
 
 JOY, TWIST = "sensor_msgs/Joy", "geometry_msgs/Twist"
@@ -288,3 +288,45 @@ def test_joysticks():
 def test_without_a_gamepad_another_sends():
     facts = replace(WELL, joysticks=[])
     assert any("joystick messages come from /joy_node" in line for line in lines(facts, "ok"))
+
+
+def test_a_sender_that_has_died_is_no_rival():
+    """A recording that was killed, and its successor."""
+    publishers = {**WELL.publishers, "/joy": ["/joy_node", "/rosbag"]}
+    nodes = {**WELL.nodes, "/rosbag": node("10.0.0.2", Answer.REFUSED)}
+    facts = replace(WELL, publishers=publishers, nodes=nodes)
+    wrong(facts, "/rosbag at http://10.0.0.2:1234/ is registered, but has died")
+    assert any(
+        f"/joy_node -> /joy -> /joy2twist -> {TELEOP}" in line for line in lines(facts, "ok")
+    )
+    nodes["/rosbag"] = node("10.0.0.2")
+    wrong(replace(facts, nodes=nodes), "/joy is sent by /joy_node, /rosbag at once")
+
+
+def test_no_joystick_message_comes_from_a_dead_node():
+    facts = replace(with_node("/joy_node", node("10.0.0.2", Answer.REFUSED)), joysticks=[])
+    assert not any("messages come from" in line for line in lines(facts, "ok"))
+
+
+def test_of_the_robots_of_a_classroom_the_first_are_named_in_natural_order():
+    robots = [f"/robot_{number}/cmd_vel" for number in range(1, 31)]
+    subscribers = {"/joy": ["/joy2twist"], **{robot: ["/classroom"] for robot in robots}}
+    facts = replace(
+        WELL, subscribers=subscribers, types={**WELL.types, **dict.fromkeys(robots, TWIST)}
+    )
+    free = " or ".join(robots[:5])
+    wrong(facts, f"start the robot, or drive the one at {free} and 25 more")
+    assert len(lines(facts, "wrong")[0]) < 250
+
+
+@pytest.mark.parametrize(
+    ("names", "shown"),
+    [
+        (["b_10", "b_2", "a"], "a, b_2, b_10"),
+        (["6", "5", "4", "3", "2", "1"], "1, 2, 3, 4, 5, 6"),  # "and 1 more" would be no shorter
+        (list("gfedcba"), "a, b, c, d, e and 2 more"),
+        ([], ""),
+    ],
+)
+def test_names_in_a_line(names, shown):
+    assert some(names) == shown

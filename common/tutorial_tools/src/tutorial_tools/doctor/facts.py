@@ -2,10 +2,29 @@
 judgement.py.
 """
 
+import re
 from dataclasses import dataclass, field
 from typing import Dict, List, Optional, Tuple
 
 from node_kit.questions import Answer
+
+MOST_NAMES = 5  # in a line; a classroom has thirty robots
+
+
+def natural(name):
+    """The sort key that puts robot_2 before robot_10."""
+    return [(int(part), "") if part.isdigit() else (0, part) for part in re.split(r"(\d+)", name)]
+
+
+def some(names, between=", "):
+    """Names in their natural order; of many the first ones, and how many more there are."""
+    names = sorted(names, key=natural)
+    more = [f"{len(names) - MOST_NAMES} more"] if len(names) > MOST_NAMES + 1 else []
+    shown = names[:MOST_NAMES] if more else names
+    return between.join(shown) + (f" and {more[0]}" if more else "")
+
+
+DEAD = (Answer.REFUSED, Answer.STRANGE)  # of a node: nobody is there, or somebody else
 
 
 @dataclass(frozen=True)
@@ -92,7 +111,15 @@ class Facts:
             for topic in self.types
             if self.publishers.get(topic) or self.subscribers.get(topic)
         )
-        return sorted(topic for topic in used if self.types[topic] == kind)
+        return sorted((topic for topic in used if self.types[topic] == kind), key=natural)
+
+    def senders(self, topic):
+        """The publishers of a topic without those that have died: the master does not miss them."""
+        return sorted(
+            name
+            for name in self.publishers.get(topic, [])
+            if name not in self.nodes or self.nodes[name].answer not in DEAD
+        )
 
     def converters(self):
         """{node that makes velocities of a joystick: (its joy topics, its velocity topics)}."""

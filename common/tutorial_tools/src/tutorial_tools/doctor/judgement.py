@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from gamepad.driver.device_choice import explain
 from node_kit.states import DRIVING
-from tutorial_tools.doctor.facts import JOY, TWIST, Answer
+from tutorial_tools.doctor.facts import DEAD, JOY, TWIST, Answer, some
 
 OK, WRONG, UNKNOWN = "ok", "wrong", "unknown"
 
@@ -101,7 +101,7 @@ def nodes(facts):
         elif node.answer is Answer.UNKNOWN_NAME:
             todo = f'add "{node.host}" to /etc/hosts, or {export}'
             yield Finding(WRONG, "nodes", f'{at}: "{node.host}" cannot be looked up here', todo)
-        elif node.answer in (Answer.REFUSED, Answer.STRANGE):
+        elif node.answer in DEAD:
             todo = "start it anew, or forget it with: rosnode cleanup"
             todo += f"; if it runs on another machine, {export}" if local else ""
             yield Finding(WRONG, "nodes", f"{at} is registered, but has died", todo)
@@ -177,7 +177,7 @@ def way(facts, node, hears, sends):
     yield from cut
     alive = node not in facts.nodes or facts.nodes[node].answer is Answer.WELL
     if alive and not cut and all(facts.publishers.get(topic) for topic in hears):
-        begins = sorted({name for topic in hears for name in facts.publishers[topic]})
+        begins = sorted({name for topic in hears for name in facts.senders(topic)})
         ends = sorted({name for topic in sends for name in facts.subscribers[topic]})
         steps = (begins, hears, [node], sends, ends)
         yield Finding(OK, "topics", " -> ".join(", ".join(step) for step in steps))
@@ -190,7 +190,7 @@ def link(facts, node, topic, inwards):
         free = [t for t in facts.topics(TWIST) if not facts.publishers.get(t)]
         # The other inputs of a multiplexer are not for people.
         free = [t for t in free if t.endswith("/input/teleop")] or free
-        todo = "start the robot" + (f", or drive the one at {' or '.join(free)}" if free else "")
+        todo = "start the robot" + (f", or drive the one at {some(free, ' or ')}" if free else "")
         yield Finding(WRONG, "topics", f"nobody listens to {topic} of {node}", todo)
     known = facts.nodes.get(node)
     if others and known and known.answer is Answer.WELL and (topic, inwards) not in known.links:
@@ -236,9 +236,9 @@ def mux_finding(facts, name, mux, topic):
 def rivals(facts):
     """Whether several nodes drive one robot, or several joysticks one joy2twist."""
     for topic in [*facts.topics(JOY), *facts.topics(TWIST)]:
-        senders = facts.publishers.get(topic, [])
+        senders = facts.senders(topic)
         if len(senders) > 1 and facts.subscribers.get(topic):
-            seen = f"{topic} is sent by {', '.join(sorted(senders))} at once"
+            seen = f"{topic} is sent by {some(senders)} at once"
             yield Finding(WRONG, "topics", seen, "end all of them but one")
 
 
@@ -250,7 +250,7 @@ def states(facts):
 
 def joysticks(facts):
     """Whether the gamepads of this machine can be read."""
-    senders = sorted({n for joy in facts.topics(JOY) for n in facts.publishers.get(joy, [])})
+    senders = {name for joy in facts.topics(JOY) for name in facts.senders(joy)}
     for joystick in facts.joysticks:
         if joystick.error is None:
             yield Finding(OK, "joystick", f"{joystick.path} can be read")
@@ -258,7 +258,7 @@ def joysticks(facts):
             seen = explain(joystick.path, joystick.error, facts.container, facts.wsl)
             yield Finding(WRONG, "joystick", seen.rstrip("."))
     if not facts.joysticks and senders:
-        seen = f"none at /dev/input/js*; joystick messages come from {', '.join(senders)}"
+        seen = f"none at /dev/input/js*; joystick messages come from {some(senders)}"
         yield Finding(OK, "joystick", seen)
     elif not facts.joysticks:
         seen = explain("/dev/input/js0", errno.ENOENT, facts.container, facts.wsl)

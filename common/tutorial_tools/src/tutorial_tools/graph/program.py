@@ -93,6 +93,11 @@ def dot_text(state, machines, everything=False):
     return "digraph ros {\n" + STYLE + "".join(f"  {line}\n" for line in lines + arrows) + "}\n"
 
 
+def shows_a_node(text):
+    """Whether a DOT text has a node of ROS in it: without one, there is nothing to look at."""
+    return '"node ' in text
+
+
 def ask_master():
     """(state, machines) for dot_text()."""
     master = rosgraph.Master("/draw_graph")
@@ -140,6 +145,8 @@ def main():
     except Exception:  # whatever answers there, or does not, is no master
         fail(f"no ROS master at {rosgraph.get_master_uri()}; start one with: roscore")
     text = dot_text(state, machines, options.all)
+    if not shows_a_node(text):
+        fail(f"nothing runs on {rosgraph.get_master_uri()} to be drawn; start a node first")
     data = text.encode() if kind == ".dot" else picture(text, kind[1:])
     try:
         file.write_bytes(data)
