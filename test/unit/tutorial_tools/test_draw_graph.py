@@ -171,7 +171,7 @@ def test_nothing_runs(dot_text):
 def test_a_graph_without_a_node_shows_nothing():
     from tutorial_tools.graph.program import dot_text, shows_a_node  # noqa: PLC0415
 
-    idle = ([ROSOUT[:1] + [["/rosout"]], AGGREGATED], [["/rosout", ["/rosout"]]], [])
+    idle = ([[*ROSOUT[:1], ["/rosout"]], AGGREGATED], [["/rosout", ["/rosout"]]], [])
     assert not shows_a_node(dot_text(idle, {"/rosout": "here"}))
     assert shows_a_node(dot_text(idle, {}, everything=True))
     assert not shows_a_node(dot_text(([], [], []), {}, everything=True))
