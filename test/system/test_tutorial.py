@@ -1,9 +1,12 @@
 """./tutorial as a user calls it: what it prints, its exit code, what it leaves behind."""
 
+import os
 import re
 import shutil
+import signal
 import socket
 import subprocess
+import time
 from pathlib import Path
 
 import pytest
@@ -13,10 +16,19 @@ from tutorial_testing.waiting import wait_for
 
 BAG = Path(__file__).resolve().parents[2] / "joy2twist" / "bag" / "joy.bag"
 LINE = re.compile(
-    r"^demo: [\d.]+ s: (?P<joy>\d+) /joy, (?P<cmd_vel>\d+) /cmd_vel, (?P<odom>\d+) /odom; "
-    r"driven (?P<driven>[\d.]+) m; final pose x -?[\d.]+ m, y -?[\d.]+ m, yaw -?[\d.]+ deg$",
+    r"^demo: (?P<seconds>[\d.]+) s: (?P<joy>\d+) /joy, (?P<cmd_vel>\d+) /cmd_vel, "
+    r"(?P<odom>\d+) /odom; driven (?P<driven>[\d.]+) m; "
+    r"final pose x -?[\d.]+ m, y -?[\d.]+ m, yaw -?[\d.]+ deg$",
     re.MULTILINE,
 )
+FASTEST_M_PER_S = 0.7  # a TurtleBot 2
+DRIVEN = """
+import rospy
+from nav_msgs.msg import Odometry
+rospy.init_node("look", anonymous=True, log_level=rospy.ERROR)
+while rospy.wait_for_message("/odom", Odometry, 30).twist.twist.linear.x < 0.1:
+    pass
+"""
 
 
 def refuse(*command):
@@ -144,6 +156,109 @@ def test_demo_ends_cleanly_on_ctrl_c(tutorial, sign):
         wait_for(lambda: not demo.left_behind(), "end of every process")
         # Python has a traceback for whoever interrupts it in its very first milliseconds.
         assert sign != "first /odom" or "Traceback" not in demo.output
+
+
+@pytest.mark.usefixtures("master_uri")
+def test_demo_tells_the_drive_when_ctrl_c_ends_it(tutorial):
+    with Program(tutorial, "demo", "rviz:=false") as demo:
+        wait_for(lambda: "first /odom" in demo.output, "robot")
+        began_s = time.monotonic()
+        with Program(tutorial, "run", "python3", "-c", DRIVEN) as look:
+            assert look.wait() == 0, look.output
+        demo.interrupt()
+        took_s = time.monotonic() - began_s
+        assert demo.wait() == 0, demo.output
+        told = LINE.findall(demo.output)
+        assert len(told) == 1, demo.output
+        assert demo.output.endswith(f"{LINE.search(demo.output)[0]}\n")
+        assert float(LINE.search(demo.output)["seconds"]) == pytest.approx(took_s, abs=0.5)
+        assert float(LINE.search(demo.output)["driven"]) > 0.0
+        wait_for(lambda: not demo.left_behind(), "end of every process")
+
+
+@pytest.mark.usefixtures("master_uri")
+@pytest.mark.parametrize("told", [True, False])
+def test_demo_says_that_without_a_screen_there_is_no_rviz(tutorial, told):
+    """Unless the user said so."""
+    arguments = [] if told else ["rviz:=false"]
+    with Program(tutorial, "demo", "--for", "0.5", *arguments, DISPLAY="") as demo:
+        demo.wait(60)
+        look = "in another terminal: ./tutorial run rostopic echo /odom/pose/pose/position"
+        lines = [line for line in demo.output.splitlines() if "RViz is left out" in line]
+        assert [look in line for line in lines] == ([True] if told else []), demo.output
+
+
+OWN = re.compile(r"export ROS_MASTER_URI=http://localhost:(\d+)$")
+
+
+def check_refusal(line, master_uri, names):
+    """A demonstration was refused because nodes run; the line says which, and what to do."""
+    runs = "run" if " and " in names else "runs"
+    assert line.startswith(f"demo: {names} {runs} already on {master_uri}; end "), line
+    assert int(OWN.search(line)[1]) > int(master_uri.rsplit(":", 1)[1])
+
+
+def test_a_second_demo_is_refused_and_the_first_drives_on(tutorial, master_uri):
+    names = "/fake_turtlebot, /myjoystick2twist, /robot_state_publisher and /rosbag"
+    with Program(tutorial, "demo", "--for", "6", "rviz:=false") as first:
+        wait_for(lambda: "first /odom" in first.output, "robot")
+        check_refusal(refuse(tutorial, "demo", "--for", "1"), master_uri, names)
+        assert not first.ended
+        check_demo(first, 6)
+
+
+@pytest.mark.usefixtures("master_uri")
+def test_of_two_demos_that_start_at_once_one_drives(tutorial):
+    both = [Program(tutorial, "demo", "--for", "4", "rviz:=false") for _ in range(2)]
+    with both[0], both[1]:
+        wait_for(lambda: both[0].ended or both[1].ended, "end of one")
+        refused, drives = sorted(both, key=lambda program: program.ended, reverse=True)
+        assert refused.wait() == 1
+        assert " already on " in refused.output, refused.output
+        assert len(refused.output.splitlines()) == 1
+        check_demo(drives, 4)
+
+
+def test_demo_is_refused_beside_another_sender_but_not_beside_a_dead_node(tutorial, master_uri):
+    def start(*command):
+        return Program(tutorial, "run", *command)
+
+    def known(name):
+        with start("rosnode", "list") as listing:
+            assert listing.wait() == 0, listing.output
+            return name in listing.output.splitlines()
+
+    with start("roscore", "-p", master_uri.rsplit(":", 1)[1]) as roscore:
+        wait_for(lambda: "started core service" in roscore.output, "roscore")
+        sender = ("rostopic", "pub", "-r", "1", "/joy", "sensor_msgs/Joy", "{}", "__name:=sender")
+        with start(*sender) as rival:
+            wait_for(lambda: known("/sender"), "sender")
+            check_refusal(refuse(tutorial, "demo", "--for", "1"), master_uri, "/sender")
+            rival.interrupt()
+            rival.wait()
+        with start("rosrun", "fake_turtlebot_sim", "fake_turtlebot.py") as robot:
+            wait_for(lambda: known("/fake_turtlebot"), "robot")
+            check_refusal(refuse(tutorial, "demo", "--for", "1"), master_uri, "/fake_turtlebot")
+            for pid in robot.left_behind():
+                os.kill(pid, signal.SIGKILL)
+            robot.wait()
+        assert known("/fake_turtlebot")
+        with Program(tutorial, "demo", "--for", "4", "rviz:=false") as demo:
+            check_demo(demo, 4)
+        roscore.interrupt()
+        roscore.wait()
+
+
+@pytest.mark.usefixtures("master_uri")
+def test_demo_counts_no_messages_of_other_nodes(tutorial):
+    far = "{pose: {pose: {position: {x: 100}}}}"
+    publish = ("run", "rostopic", "pub", "-r", "200", "/odom", "nav_msgs/Odometry", far)
+    with Program(tutorial, "demo", "--for", "6", "rviz:=false") as demo:
+        wait_for(lambda: "first /odom" in demo.output, "robot")
+        with Program(tutorial, *publish) as other:
+            check_demo(demo, 6)
+            assert not other.ended, other.output
+        assert float(LINE.search(demo.output)["driven"]) < 6 * FASTEST_M_PER_S
 
 
 @pytest.mark.usefixtures("master_uri", "clean_environment")

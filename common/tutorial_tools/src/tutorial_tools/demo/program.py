@@ -1,18 +1,20 @@
 """Starts launch_bag.launch, ends it, and tells what was driven.
 
 A look beforehand finds what roslaunch would report badly or not at all: an argument that does not
-exist, a bag that cannot be played, a port taken by another program.
+exist, a bag that cannot be played, a port taken by another program, or nodes that run already: of
+those the launch would end some and be disturbed by others.
 """
 
 import argparse
 import contextlib
 import math
 import os
+import re
 import signal
+import socket
 import subprocess
 import sys
 import time
-import xmlrpc.client
 from pathlib import Path
 
 import rosbag
@@ -26,13 +28,22 @@ from nav_msgs.msg import Odometry
 from rospy import AnyMsg
 
 from tutorial_tools.demo.drive_report import DriveReport
+from tutorial_tools.demo.in_the_way import in_the_way, refusal
+from tutorial_tools.doctor.facts import DEAD, Answer
+from tutorial_tools.doctor.network import call
 
-MASTER_TIMEOUT_S = 3.0  # a master on this machine answers within milliseconds
+TOPICS = ("/joy", "/cmd_vel", "/odom")
+CONNECT_TIMEOUT_S = 3.0  # a master on this machine answers within milliseconds
 START_TIMEOUT_S = 60.0  # until the first odometry, on a slow and busy machine
 COMPLETE_TIMEOUT_S = 3.0  # for a launch that is ended while it starts
 END_TIMEOUT_S = 30.0  # roslaunch itself kills stubborn nodes after 17 s
 # What ends the demonstration: Ctrl-C, kill, a terminal that is closed.
 ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+RVIZ = re.compile("rviz:=")  # who says whether RViz opens, need not be told
+WITHOUT_SCREEN = (
+    "there is no screen (DISPLAY is not set), so RViz is left out; to see it drive, "
+    "in another terminal: ./tutorial run rostopic echo /odom/pose/pose/position"
+)
 
 
 class DemoError(Exception):
@@ -82,7 +93,8 @@ def check_arguments(launch_file, arguments):
         )
     except (roslaunch.RLException, rospkg.ResourceNotFound, ValueError) as error:
         raise DemoError(f"{' '.join(arguments)}: {str(error).splitlines()[0]}") from error
-    return values, config.resolved_node_names
+    # Not config.resolved_node_names: /rosout, which comes with every master, is one of those.
+    return values, [rosgraph.names.ns_join(node.namespace, node.name) for node in config.nodes]
 
 
 def check_bag(path):
@@ -108,31 +120,61 @@ def check_master():
     except ValueError as error:
         raise DemoError(f"ROS_MASTER_URI={uri}: not of the form http://HOST:PORT") from error
     try:
-        with rosgraph.network.socket.create_connection((host, port), MASTER_TIMEOUT_S):
+        with socket.create_connection((host, port), CONNECT_TIMEOUT_S):
             pass
     except OSError:
         return  # nothing there: roslaunch starts a master, or says that the host is not this one
-    if not master_answers(uri):
+    if call(uri, "getPid")[0] is not Answer.WELL:
         raise DemoError(
             f"port {port} of {host} is taken by a program that is not a ROS master; "
-            f"end it, or choose another port: export ROS_MASTER_URI=http://{host}:{port + 1}"
+            f"end it, or choose another port: export ROS_MASTER_URI={free_uri(port)}"
         )
 
 
-def master_answers(uri):
-    """Whether a ROS master answers at a URI, within MASTER_TIMEOUT_S."""
+def check_nodes(nodes):
+    """Raises DemoError if nodes run that the launch would end, or that send on its topics.
 
-    class Transport(xmlrpc.client.Transport):
-        def make_connection(self, host):
-            connection = super().make_connection(host)
-            connection.timeout = MASTER_TIMEOUT_S
-            return connection
+    Those that have died are no hindrance, although the master still knows them.
+    """
+    uri = rosgraph.get_master_uri()
+    _, state = call(uri, "getSystemState")
+    names = [name for name in in_the_way(state, nodes, TOPICS) if lives(uri, name)] if state else []
+    if names:
+        _, port = rosgraph.network.parse_http_host_and_port(uri)
+        raise DemoError(refusal(uri, names, free_uri(port)))
 
+
+def lives(uri, name):
+    """Whether a node that is registered with a master may be there; one that hangs is, too."""
+    answer, node_uri = call(uri, "lookupNode", name)
+    return answer is Answer.WELL and call(node_uri, "getPid")[0] not in DEAD
+
+
+def free_uri(taken):
+    """A ROS_MASTER_URI of this machine at the next port after one that is taken."""
+    for port in range(taken + 1, 65536):
+        try:
+            with socket.create_server(("localhost", port)):
+                return f"http://localhost:{port}"
+        except OSError:
+            continue
+    return "http://localhost:PORT"
+
+
+def claim_master():
+    """A socket that no other demonstration of this machine and this master has while it is open.
+
+    Two that start at once see nothing of each other's nodes yet. The kernel forgets the name, which
+    is of no file, with the process. Raises DemoError.
+    """
+    claim = socket.socket(socket.AF_UNIX)
+    uri = rosgraph.get_master_uri()
     try:
-        code, _, _ = xmlrpc.client.ServerProxy(uri, transport=Transport()).getPid("/demo")
-    except Exception:  # whatever it answered, a master does not answer so
-        return False
-    return code == 1
+        claim.bind(f"\0ros1_tutorial demo {uri}"[:100])
+    except OSError as error:
+        _, port = rosgraph.network.parse_http_host_and_port(uri)
+        raise DemoError(refusal(uri, ["another demo"], free_uri(port))) from error
+    return claim
 
 
 class Launch:
@@ -140,7 +182,8 @@ class Launch:
 
     def __init__(self, command, nodes):
         """command: of roslaunch; nodes: the names of the nodes that it starts."""
-        self.report = DriveReport(("/joy", "/cmd_vel", "/odom"))
+        self.summary = ""  # what was driven, once it is over
+        self.report = DriveReport(TOPICS)
         self._nodes = set(nodes)
         # In a session of its own: Ctrl-C in a terminal must not reach it before it is complete.
         self._process = subprocess.Popen(command, start_new_session=True)
@@ -179,21 +222,38 @@ class Launch:
                 raise DemoError("the launch ended by itself; its messages above say why")
             time.sleep(0.02)
 
-    def watch(self, duration_s):
-        """Count what runs on the topics for a time, from the first odometry on."""
+    def wait_for_odometry(self):
+        """Listen to the topics, until the first odometry is there."""
         deadline = time.monotonic() + START_TIMEOUT_S
         self.wait(deadline, rosgraph.is_master_online)
         rospy.init_node("demo", anonymous=True, disable_signals=True, log_level=rospy.ERROR)
         rospy.Subscriber("/odom", Odometry, self._on_odometry)
         for topic in ("/joy", "/cmd_vel"):
-            rospy.Subscriber(topic, AnyMsg, lambda _, topic=topic: self.report.count(topic))
+            rospy.Subscriber(topic, AnyMsg, self._on_message, topic)
         self.wait(deadline, lambda: self.report.pose is not None)
         if self.report.pose is None:
             raise DemoError(f"no /odom within {START_TIMEOUT_S:.0f} s")
-        print(f"demo: first /odom after {age_of_this_process():.1f} s", flush=True)
-        self.wait(time.monotonic() + duration_s)
+
+    def watch(self, duration_s):
+        """Count what runs on the topics for a time; however that ends, summary tells it."""
+        began = time.monotonic()
+        try:
+            self.wait(began + duration_s)
+        finally:
+            self.summary = self.report.line(time.monotonic() - began)
+
+    def _is_ours(self, message):
+        """Whether a node of the launch sent it: somebody else may publish on the same topic."""
+        # The way that rospy documents: http://wiki.ros.org/rospy/Overview/Messages
+        return message._connection_header["callerid"] in self._nodes
+
+    def _on_message(self, message, topic):
+        if self._is_ours(message):
+            self.report.count(topic)
 
     def _on_odometry(self, message):
+        if not self._is_ours(message):
+            return
         pose = message.pose.pose
         self.report.count("/odom")
         self.report.add_pose(
@@ -213,6 +273,7 @@ def main():
     for number in ENDING:
         signal.signal(number, signal.default_int_handler)
     options = parse(sys.argv[1:])
+    launch, interrupted = None, False
     try:
         launch_file = f"{rospkg.RosPack().get_path('joy2twist')}/launch/launch_bag.launch"
         values, nodes = check_arguments(launch_file, options.arguments)
@@ -220,12 +281,20 @@ def main():
         bag = Path(values["bag"]).expanduser().absolute()
         check_bag(bag)
         check_master()
+        check_nodes(nodes)
         command = ["roslaunch", launch_file, *options.arguments, f"bag:={bag}"]
-        with Launch(command, nodes) as launch:
+        with claim_master(), Launch(command, nodes) as launch:
+            launch.wait_for_odometry()
+            print(f"demo: first /odom after {age_of_this_process():.1f} s", flush=True)
+            if "/my_rviz" not in nodes and not any(map(RVIZ.match, options.arguments)):
+                print(f"demo: {WITHOUT_SCREEN}", flush=True)
             launch.watch(math.inf if options.duration_s is None else options.duration_s)
     except DemoError as error:
         sys.exit(f"demo: {error}")
     except KeyboardInterrupt:
+        interrupted = True
+    if launch and launch.summary:
+        print(f"demo: {launch.summary}")
+    if interrupted:
         sys.exit(130 if options.duration_s else 0)  # without a time, this is how it ends
-    print(f"demo: {launch.report.line(options.duration_s)}")
     sys.exit(not launch.report.moved)
