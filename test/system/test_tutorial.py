@@ -52,7 +52,7 @@ def refuse(*command):
         (["run", "no_such_command"], 'run: there is no command "no_such_command"'),
         (["demo", "colour:=red"], "demo: colour:=red: not an argument of launch_bag.launch"),
         (["demo", "rviz"], "demo: rviz: not an argument"),
-        (["demo", "rviz:=perhaps"], "demo: rviz:=perhaps: perhaps is not a 'bool'"),
+        (["demo", "rviz:=perhaps"], "demo: rviz:=perhaps: must be true or false"),
         (["demo", "--for", "ever"], "ever: not a time in seconds"),
         (["demo", "--for", "-1"], "not a time in seconds"),
         (["demo", "--for", "nan"], "nan: not a time in seconds"),

@@ -24,6 +24,7 @@ import roslaunch.arg_dump
 import rosnode
 import rospkg
 import rospy
+from gamepad.arguments import check
 from nav_msgs.msg import Odometry
 from rospy import AnyMsg
 
@@ -74,8 +75,8 @@ def parse(argv):
     return parser.parse_args(argv)
 
 
-def check_arguments(launch_file, arguments):
-    """Return the launch arguments as a dict, the defaults included, and the names of the nodes.
+def launch_arguments(launch_file, arguments):
+    """Return the launch arguments as a dict, the defaults included.
 
     Raises DemoError for one that is not NAME:=VALUE, is unknown, or has a value that does not do.
     """
@@ -88,13 +89,22 @@ def check_arguments(launch_file, arguments):
             raise DemoError(f"{argument}: not an argument of launch_bag.launch, which has {names}")
         values[name] = value
     try:
+        check("rviz", values["rviz"])
+    except ValueError as error:
+        raise DemoError(error) from error
+    return values
+
+
+def launched_nodes(launch_file, arguments):
+    """Return the names of the nodes that a launch file starts; DemoError if it cannot."""
+    try:
         config = roslaunch.config.load_config_default(
             [(launch_file, arguments)], None, verbose=False
         )
     except (roslaunch.RLException, rospkg.ResourceNotFound, ValueError) as error:
         raise DemoError(f"{' '.join(arguments)}: {str(error).splitlines()[0]}") from error
     # Not config.resolved_node_names: /rosout, which comes with every master, is one of those.
-    return values, [rosgraph.names.ns_join(node.namespace, node.name) for node in config.nodes]
+    return [rosgraph.names.ns_join(node.namespace, node.name) for node in config.nodes]
 
 
 def check_bag(path):
@@ -276,13 +286,14 @@ def main():
     launch, interrupted = None, False
     try:
         launch_file = f"{rospkg.RosPack().get_path('joy2twist')}/launch/launch_bag.launch"
-        values, nodes = check_arguments(launch_file, options.arguments)
-        # rosbag plays in a folder of its own, so a relative path would not be found there.
+        values = launch_arguments(launch_file, options.arguments)
         bag = Path(values["bag"]).expanduser().absolute()
         check_bag(bag)
+        arguments = [*options.arguments, f"bag:={bag}"]
+        nodes = launched_nodes(launch_file, arguments)
         check_master()
         check_nodes(nodes)
-        command = ["roslaunch", launch_file, *options.arguments, f"bag:={bag}"]
+        command = ["roslaunch", launch_file, *arguments]
         with claim_master(), Launch(command, nodes) as launch:
             launch.wait_for_odometry()
             print(f"demo: first /odom after {age_of_this_process():.1f} s", flush=True)

@@ -1,0 +1,67 @@
+"""What roslaunch lets through in the arguments of launch files: a rule for each name (no ROS here).
+
+roslaunch takes "yes" for a text that is true here and for a mistake there, rosbag looks for a
+recording in a folder of its own, and a robot's name that is none shows when nothing drives.
+"""
+
+import re
+import sys
+
+
+def true_or_false(value):
+    if value.lower() not in ("true", "false", "1", "0"):
+        raise ValueError("must be true or false")
+
+
+def recording(value):
+    """A file that rosbag can play, or none."""
+    if value == "none":
+        return
+    if not value.startswith("/"):
+        raise ValueError("must be a whole path, as $PWD is not set")
+    try:
+        with open(value, "rb") as file:
+            is_bag = file.read(9) == b"#ROSBAG V"
+    except OSError as error:
+        raise ValueError(f"cannot be read: {error.strerror}") from None
+    if not is_bag:
+        raise ValueError("is no recording of rosbag")
+
+
+def robot(value):
+    """A robot of classroom.launch: its topics begin with its name, so it must be one for ROS."""
+    if not value:
+        raise ValueError("is missing: which robot of the classroom, such as name:=robot_7")
+    if not re.fullmatch(r"[A-Za-z]\w*", value, re.ASCII):
+        near = re.sub(r"\W+", "_", value, flags=re.ASCII).strip("_")
+        near = f"robot_{near}" if near[:1].isdigit() else near
+        meant = f"; did you mean {near}?" if near else ""
+        raise ValueError(f"must be a letter followed by letters, digits and underscores{meant}")
+
+
+RULES = {
+    "bag": recording,
+    "loop": true_or_false,
+    "name": robot,
+    "rviz": true_or_false,
+    "virtual": true_or_false,
+}
+
+
+def check(name, value):
+    """Raises ValueError with one line if an argument's value will not do."""
+    try:
+        RULES[name](value)
+    except ValueError as error:
+        raise ValueError(f"{name}:={value}: {error}") from None
+
+
+def main():
+    """check_arguments NAME:=VALUE ...: exit code 1, with a line, at the first that will not do."""
+    try:
+        for argument in sys.argv[1:]:
+            name, _, value = argument.partition(":=")
+            check(name, value)
+    except ValueError as error:
+        sys.exit(str(error))
+    print("true")  # roslaunch makes a parameter of it

@@ -1,0 +1,67 @@
+"""The arguments that roslaunch itself does not check."""
+
+import pytest
+from gamepad.arguments import RULES, check
+
+
+@pytest.fixture
+def bag(tmp_path):
+    path = tmp_path / "joy.bag"
+    path.write_bytes(b"#ROSBAG V2.0\n")
+    return str(path)
+
+
+def refused(name, value):
+    """Why an argument will not do; the line begins with it."""
+    with pytest.raises(ValueError) as caught:
+        check(name, value)
+    line = str(caught.value)
+    assert line.startswith(f"{name}:={value}: ") and "\n" not in line
+    return line[len(f"{name}:={value}: ") :]
+
+
+@pytest.mark.parametrize("name", ["virtual", "loop", "rviz"])
+def test_true_or_false(name):
+    """What roslaunch itself takes for one of the two."""
+    for value in ("true", "false", "True", "False", "1", "0"):
+        check(name, value)
+    for value in ("yes", "no", "", "2", "perhaps"):
+        assert refused(name, value) == "must be true or false"
+
+
+def test_a_recording(bag, tmp_path):
+    check("bag", bag)
+    check("bag", "none")
+    assert refused("bag", "./joy.bag") == "must be a whole path, as $PWD is not set"
+    assert refused("bag", f"{bag}x") == "cannot be read: No such file or directory"
+    assert refused("bag", str(tmp_path)) == "cannot be read: Is a directory"
+    (tmp_path / "joy.bag").write_text("#!/bin/sh")
+    assert refused("bag", bag) == "is no recording of rosbag"
+
+
+@pytest.mark.parametrize(
+    ("name", "near"),
+    [
+        ("robot-7", "robot_7"),
+        ("robot 7", "robot_7"),
+        ("7", "robot_7"),
+        ("/ada", "ada"),
+        ("a/b", "a_b"),
+        ("J\u00fcrgen", "J_rgen"),
+    ],
+)
+def test_a_robot_with_a_name_that_ros_does_not_know(name, near):
+    why = "must be a letter followed by letters, digits and underscores"
+    assert refused("name", name) == f"{why}; did you mean {near}?"
+    check("name", near)
+
+
+def test_a_robot():
+    for name in ("robot_7", "ada", "R2D2"):
+        check("name", name)
+    assert "such as name:=robot_7" in refused("name", "")
+    assert refused("name", "-").endswith("underscores")
+
+
+def test_only_arguments_with_a_rule_are_asked_for():
+    assert set(RULES) == {"bag", "loop", "name", "rviz", "virtual"}
