@@ -1,0 +1,105 @@
+#!/usr/bin/python3
+"""Arguments of the launch files: a mistake gets a line before a node starts, and nothing stays."""
+
+import sys
+import unittest
+from pathlib import Path
+
+import rosgraph
+import rosnode
+import rospkg
+import rospy
+import rostest
+import yaml
+from sensor_msgs.msg import Joy
+from tutorial_testing.processes import Program
+from tutorial_testing.waiting import wait_for
+
+BAGS = Path(rospkg.RosPack().get_path("joy2twist")) / "bag"
+
+
+def roslaunch(*arguments, package="joy2twist"):
+    return Program("roslaunch", package, *arguments)
+
+
+def known():
+    """Names of the nodes that the master knows."""
+    return set(rosnode.get_node_names())
+
+
+class ArgumentsTest(unittest.TestCase):
+    def refused(self, line, *arguments):
+        """A launch says a line, ends, and has started nothing."""
+        before = known()
+        with roslaunch(*arguments) as launch:
+            self.assertNotEqual(launch.wait(), 0, launch.output)
+            self.assertIn(line, launch.output.splitlines())
+            self.assertNotIn("process[", launch.output)
+        self.assertEqual(known(), before)
+
+    def test_neither_true_nor_false(self):
+        must = "must be true or false"
+        for file in ("launch_joy_node.launch", "launch_joy_node_realTurtlebot.launch"):
+            self.refused(f"virtual:=yes: {must}", file, "virtual:=yes")
+            self.refused(f"rviz:=yes: {must}", file, "rviz:=yes")
+        self.refused(f"rviz:=yes: {must}", "launch_bag.launch", "rviz:=yes")
+        self.refused(f"loop:=no: {must}", "student.launch", "name:=ada", "loop:=no")
+
+    def test_a_recording_that_is_not_there(self):
+        why = "cannot be read: No such file or directory"
+        for file in (["launch_bag.launch"], ["student.launch", "name:=ada"]):
+            self.refused(f"bag:=/no/joy.bag: {why}", *file, "bag:=/no/joy.bag")
+        why = "is no recording of rosbag"
+        self.refused(f"bag:={__file__}: {why}", "launch_bag.launch", f"bag:={__file__}")
+
+    def test_a_student_without_a_robot(self):
+        self.refused(
+            "name:=: is missing: which robot of the classroom, such as name:=robot_7",
+            "student.launch",
+        )
+        must = "must be a letter followed by letters, digits and underscores"
+        for name in ("robot-7", "7"):
+            line = f"name:={name}: {must}; did you mean robot_7?"
+            self.refused(line, "student.launch", f"name:={name}", "virtual:=true")
+
+    def played(self, command, topic):
+        """A launch plays a recording, by a path from the folder in which the user is."""
+        came = []
+        subscriber = rospy.Subscriber(topic, Joy, came.append)
+        self.addCleanup(subscriber.unregister)
+        with Program("bash", "-c", f"cd '{BAGS}' && exec roslaunch joy2twist {command}") as launch:
+            wait_for(lambda: came or launch.ended, "message")
+            self.assertFalse(launch.ended, launch.output)
+            launch.interrupt()
+            launch.wait()
+
+    def test_a_recording_by_a_relative_path(self):
+        self.played("launch_bag.launch rviz:=false bag:=joy.bag", "/joy")
+        self.played("student.launch rviz:=false name:=ada bag:=../bag/joy.bag", "/ada/joy")
+
+    def test_the_joystick_leaves_no_parameter_behind(self):
+        """A joy_node started by hand after virtual:=true would wait for the FIFO."""
+        with roslaunch("--dump-params", "launch_joy_node.launch", "virtual:=true") as dump:
+            self.assertEqual(dump.wait(), 0, dump.output)
+            given = yaml.safe_load(dump.output)
+        self.assertIn("/myjoystick2twist/enable_button", given)
+        self.assertEqual([name for name in given if name.startswith("/joy_node/")], [])
+        with roslaunch(
+            "--args", "/joy_node", "launch_joy_node.launch", "joy_dev:=/tmp/a b"
+        ) as shown:
+            self.assertEqual(shown.wait(), 0, shown.output)
+            self.assertIn("_dev:=/tmp/a b _autorepeat_rate:=20 ", shown.output)
+
+    def test_the_recording_is_not_driven_with_parameters_of_an_earlier_launch(self):
+        rospy.set_param("/myjoystick2twist/enable_button", 4)
+        master = rosgraph.Master("/test")
+        with roslaunch("launch_bag.launch", "rviz:=false") as launch:
+            wait_for(lambda: "/myjoystick2twist" in known(), "joy2twist")
+            self.assertFalse(master.hasParam("/myjoystick2twist/enable_button"))
+            launch.interrupt()
+            launch.wait()
+
+
+if __name__ == "__main__":
+    rospy.init_node("launch_arguments_test")
+    rostest.rosrun("ros1_tutorial_test", "launch_arguments", ArgumentsTest, sys.argv)
