@@ -12,6 +12,7 @@ import rospy
 import rostest
 import yaml
 from sensor_msgs.msg import Joy
+
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 

@@ -12,6 +12,7 @@ from geometry_msgs.msg import Twist
 
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import BUSY_S, wait_for
+from tutorial_tools.demo.program import NODES, RVIZ_NODE
 
 END_S = 5.0 + BUSY_S  # how soon all must be over
 
@@ -54,6 +55,10 @@ class CtrlCTest(unittest.TestCase):
         self.assertNotIn("/my_rviz", self.nodes(DISPLAY=""))
         self.assertIn("/my_rviz", self.nodes("rviz:=true", DISPLAY=""))
         self.assertNotIn("/my_rviz", self.nodes("rviz:=false", DISPLAY=":99"))
+
+    def test_the_demonstration_knows_the_nodes(self):
+        self.assertEqual(sorted(NODES), sorted(self.nodes("rviz:=false")))
+        self.assertEqual(sorted([*NODES, RVIZ_NODE]), sorted(self.nodes("rviz:=true")))
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 """The arguments that roslaunch itself does not check."""
 
 import pytest
+
 from gamepad.arguments import RULES, check
 
 

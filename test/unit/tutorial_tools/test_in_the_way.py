@@ -1,6 +1,7 @@
 """Which nodes keep a demonstration from a master, and the line that says so."""
 
 import pytest
+
 from tutorial_tools.demo.in_the_way import in_the_way, refusal
 
 NODES = ["/fake_turtlebot", "/myjoystick2twist", "/rosbag"]

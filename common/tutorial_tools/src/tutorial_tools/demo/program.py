@@ -24,16 +24,19 @@ import roslaunch.arg_dump
 import rosnode
 import rospkg
 import rospy
-from gamepad.arguments import check
 from nav_msgs.msg import Odometry
 from rospy import AnyMsg
 
+from gamepad.arguments import check
+from node_kit.names import holder
+from node_kit.questions import Answer, call
 from tutorial_tools.demo.drive_report import DriveReport
 from tutorial_tools.demo.in_the_way import in_the_way, refusal
-from tutorial_tools.doctor.facts import DEAD, Answer
-from tutorial_tools.doctor.network import call
 
 TOPICS = ("/joy", "/cmd_vel", "/odom")
+# What launch_bag.launch starts. Not by loading that file here: it looks itself for what runs.
+NODES = ("/fake_turtlebot", "/myjoystick2twist", "/robot_state_publisher", "/rosbag")
+RVIZ_NODE = "/my_rviz"
 CONNECT_TIMEOUT_S = 3.0  # a master on this machine answers within milliseconds
 START_TIMEOUT_S = 60.0  # until the first odometry, on a slow and busy machine
 COMPLETE_TIMEOUT_S = 3.0  # for a launch that is ended while it starts
@@ -95,18 +98,6 @@ def launch_arguments(launch_file, arguments):
     return values
 
 
-def launched_nodes(launch_file, arguments):
-    """Return the names of the nodes that a launch file starts; DemoError if it cannot."""
-    try:
-        config = roslaunch.config.load_config_default(
-            [(launch_file, arguments)], None, verbose=False
-        )
-    except (roslaunch.RLException, rospkg.ResourceNotFound, ValueError) as error:
-        raise DemoError(f"{' '.join(arguments)}: {str(error).splitlines()[0]}") from error
-    # Not config.resolved_node_names: /rosout, which comes with every master, is one of those.
-    return [rosgraph.names.ns_join(node.namespace, node.name) for node in config.nodes]
-
-
 def check_bag(path):
     """Raises DemoError unless the file is a bag that can be played and holds joystick messages."""
     try:
@@ -148,16 +139,11 @@ def check_nodes(nodes):
     """
     uri = rosgraph.get_master_uri()
     _, state = call(uri, "getSystemState")
-    names = [name for name in in_the_way(state, nodes, TOPICS) if lives(uri, name)] if state else []
+    names = in_the_way(state, nodes, TOPICS) if state else []  # nothing: there is no master yet
+    names = [name for name in names if holder(uri, name)]
     if names:
         _, port = rosgraph.network.parse_http_host_and_port(uri)
         raise DemoError(refusal(uri, names, free_uri(port)))
-
-
-def lives(uri, name):
-    """Whether a node that is registered with a master may be there; one that hangs is, too."""
-    answer, node_uri = call(uri, "lookupNode", name)
-    return answer is Answer.WELL and call(node_uri, "getPid")[0] not in DEAD
 
 
 def free_uri(taken):
@@ -290,14 +276,15 @@ def main():
         bag = Path(values["bag"]).expanduser().absolute()
         check_bag(bag)
         arguments = [*options.arguments, f"bag:={bag}"]
-        nodes = launched_nodes(launch_file, arguments)
+        with_rviz = values["rviz"].lower() in ("true", "1")
+        nodes = [*NODES, RVIZ_NODE] if with_rviz else NODES
         check_master()
         check_nodes(nodes)
         command = ["roslaunch", launch_file, *arguments]
         with claim_master(), Launch(command, nodes) as launch:
             launch.wait_for_odometry()
             print(f"demo: first /odom after {age_of_this_process():.1f} s", flush=True)
-            if "/my_rviz" not in nodes and not any(map(RVIZ.match, options.arguments)):
+            if not with_rviz and not any(map(RVIZ.match, options.arguments)):
                 print(f"demo: {WITHOUT_SCREEN}", flush=True)
             launch.watch(math.inf if options.duration_s is None else options.duration_s)
     except DemoError as error:
