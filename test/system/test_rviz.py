@@ -26,6 +26,9 @@ TRAIL = (255, 85, 0)  # colour of the odometry's arrows in sim.rviz
 # Straight from above, at 100 pixels a metre; a ground of a colour that nothing else has.
 SCALE, GROUND = 100, (20, 40, 250)
 ROBOT_RADIUS_M = 0.178
+CLASS = 30  # robots
+DARK, GREY = 90, 25  # a body: no channel is brighter, and all are alike within
+THICK = 11  # [pixel]: a body is wider and higher than this, the strokes of letters are not
 LOOK = """
 import rospy, sys
 from nav_msgs.msg import Odometry
@@ -131,3 +134,45 @@ def test_rviz_shows_the_robot_where_odom_says(show, screen, tutorial, tmp_path):
         # On the way between the two, give or take a part of the robot: RViz draws a little late.
         detour = math.dist(before, seen) + math.dist(seen, after) - math.dist(before, after)
         assert detour < ROBOT_RADIUS_M
+
+
+def solid(mask):
+    """The pixels that have a square of THICK pixels of the mask around them."""
+    for axis in (0, 1):
+        rows = [np.roll(mask, shift, axis) for shift in range(-(THICK // 2), THICK // 2 + 1)]
+        mask = np.logical_and.reduce(rows)
+    return mask
+
+
+def patches(mask):
+    """How many connected parts a mask has."""
+    left = set(zip(*map(list, np.nonzero(mask))))
+    count = 0
+    while left:
+        count += 1
+        edge = [left.pop()]
+        while edge:
+            row, column = edge.pop()
+            around = {(row + i, column + j) for i in (-1, 0, 1) for j in (-1, 0, 1)} & left
+            left -= around
+            edge += around
+    return count
+
+
+def test_rviz_shows_a_body_for_each_robot_of_a_class(screen, tutorial, master_uri):
+    """In the first view, without a hand on the mouse."""
+    assert master_uri  # a master of our own
+    launch = ("run", "roslaunch", "fake_turtlebot_sim", "classroom.launch", "rviz:=true")
+    environment = {"DISPLAY": screen, "LIBGL_ALWAYS_SOFTWARE": "1"}
+    with Program(tutorial, *launch, f"robots:={CLASS}", **environment) as program:
+
+        def bodies():
+            assert not program.ended, program.output
+            pixels = picture(screen).astype(int)
+            dark = (pixels.max(axis=2) < DARK) & (np.ptp(pixels, axis=2) < GREY)
+            return patches(solid(dark)) == CLASS
+
+        wait_for(bodies, f"{CLASS} robots on the screen", START_S)
+        assert not re.search(r"\[ERROR\]|\[FATAL\]|Traceback", program.output)
+        program.interrupt()
+        program.wait()

@@ -1,0 +1,1 @@
+"""What RViz shows of a classroom: a body and a name for every robot."""
