@@ -34,7 +34,7 @@ class ArgumentsTest(unittest.TestCase):
         before = known()
         with roslaunch(*arguments) as launch:
             self.assertNotEqual(launch.wait(), 0, launch.output)
-            self.assertIn(line, launch.output.splitlines())
+            self.assertIn(f"roslaunch: {line}", launch.output.splitlines())
             self.assertNotIn("process[", launch.output)
         self.assertEqual(known(), before)
 

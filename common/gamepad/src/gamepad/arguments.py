@@ -1,7 +1,10 @@
 """What roslaunch lets through in the arguments of launch files: a rule for each name (no ROS here).
 
-roslaunch takes "yes" for a text that is true here and for a mistake there, rosbag looks for a
-recording in a folder of its own, and a robot's name that is none shows when nothing drives.
+    <param name="arguments_were_good" command="rosrun gamepad check_arguments 'bag:=$(arg bag)'"/>
+
+roslaunch runs the command while it reads the file, and ends if it fails; it can only make a
+parameter of it. Without it "yes" counts as true here and is a mistake there, rosbag tells of a
+missing recording after all has started, and a robot's name that is none shows when nothing drives.
 """
 
 import re
@@ -63,5 +66,5 @@ def main():
             name, _, value = argument.partition(":=")
             check(name, value)
     except ValueError as error:
-        sys.exit(str(error))
+        sys.exit(f"roslaunch: {error}")
     print("true")  # roslaunch makes a parameter of it
