@@ -4,8 +4,8 @@
 
 roslaunch runs the command while it reads the file, and ends if it fails; it can only make a
 parameter of it. (rosrun would need five times as long to find the command.) Without it "yes" counts
-as true here and is a mistake there, rosbag tells of a missing recording after all has started, and a
-robot's name that is none shows when nothing drives.
+as true here and is a mistake there, rosbag tells of a missing recording after all has started, and
+a robot's name that is none shows when nothing drives.
 """
 
 import re
