@@ -232,7 +232,8 @@ class Launch:
 
     def watch(self, duration_s):
         """Count what runs on the topics for a time; however that ends, summary tells it."""
-        began = time.monotonic()
+        # Anew: on a busy machine seconds of /joy may come before the first /odom.
+        self.report, began = DriveReport(TOPICS), time.monotonic()
         try:
             self.wait(began + duration_s)
         finally:
