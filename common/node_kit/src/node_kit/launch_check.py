@@ -1,6 +1,6 @@
 """For launch files: nothing is started while a node of one of its names runs.
 
-    <param name="names_were_free" command="rosrun node_kit names_free /fake_turtlebot"/>
+    <param name="names_were_free" command="$(find node_kit)/names_free /fake_turtlebot"/>
 
 roslaunch runs the command while it reads the file, before it starts any node or sets any parameter;
 if it fails, roslaunch ends. roslaunch itself would end the node that runs, and start its own.
