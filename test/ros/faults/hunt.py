@@ -53,6 +53,10 @@ class Wire(Joy):
 
     __slots__ = ("raw",)
 
+    def __init__(self, raw=b""):
+        super().__init__()
+        self.raw = raw
+
     def serialize(self, buff):
         buff.write(self.raw)
 

@@ -94,8 +94,12 @@ class Rig:
 
     def pid(self, node):
         """The process of a node."""
-        answer = wait_for(lambda: call(rosgraph.get_master_uri(), "lookupNode", node)[1], node)
-        return wait_for(lambda: call(answer, "getPid")[1], f"process of {node}")
+
+        def ask():
+            uri = call(rosgraph.get_master_uri(), "lookupNode", node)[1]
+            return uri and call(uri, "getPid")[1]
+
+        return wait_for(ask, f"process of {node}")
 
     def _on_odometry(self, odometry):
         twist = odometry.twist.twist

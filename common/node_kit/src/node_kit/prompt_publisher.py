@@ -99,14 +99,12 @@ class VelocityPublisher(PromptPublisher):
     neither does one that appears in the middle of a motion, such as a robot started anew.
     """
 
-    def __init__(self, name, warn, hold_new=False, lost=lambda: None):
-        """name: of the topic. warn: called with a line when a subscriber is held or free again.
-
-        lost: called when one is held. Neither may wait.
+    def __init__(self, name, warn, hold_new=False):
+        """name: of the topic. warn: called with a line when a subscriber is held or free again; it
+        must not wait.
         """
         self._warn = warn
         self._hold_new = hold_new
-        self._lost = lost
         self._moves = False  # whether the last velocity was not zero
         super().__init__(name, Twist)
 
@@ -135,11 +133,9 @@ class VelocityPublisher(PromptPublisher):
         def tell(is_cut):
             if is_cut:
                 self._warn(f"The network to {name} is cut: it is told to stop. {UNTIL_RELEASED}")
-                self._lost()
             else:
                 self._warn(f"{name} can be driven again.")
 
         if held:
             self._warn(f"{name} has come in the middle of a motion. {UNTIL_RELEASED}")
-            self._lost()
         return NewestOnly(connection.socket, _STOP, tell, _BUFFER_BYTES, held)

@@ -67,8 +67,12 @@ class Arbiter:
         self._drives = any(velocity)
         return Verdict.OBEYED
 
+    def rearms(self, name):
+        """Tell whether an input must rest after an outage before it moves the robot again."""
+        return self._inputs[name].rearm_on_zero
+
     def lost(self, now):
-        """The robot, or this node itself, was lost for a while: nobody moves on by himself.
+        """This node was suspended: no stick that is held moves the robot on.
 
         Whoever speaks on an input with rearm_on_zero must rest first, as after an outage.
         """

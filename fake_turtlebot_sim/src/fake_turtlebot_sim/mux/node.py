@@ -41,7 +41,7 @@ class CmdVelMux:
         self._suspensions = Suspensions()
         self._resumption = Resumption()
         self._output = VelocityPublisher(
-            _in_own_namespace(parameters.publisher), self._log.warn, hold_new=True, lost=self._lose
+            _in_own_namespace(parameters.publisher), self._log.warn, hold_new=True
         )
         # A state, unlike a velocity, may be latched; the queue holds a burst of changes.
         self._active = rospy.Publisher("~active", String, queue_size=10, latch=True)
@@ -71,7 +71,9 @@ class CmdVelMux:
                 return
             verdict = self._arbiter.command(name, velocity, now, sender)
             if verdict is Verdict.OBEYED and not self._has_ended:
-                if velocity == ZERO and self._output.holds:
+                # A stick that is held does not move a robot that was lost or is new; whoever drives
+                # by himself does.
+                if self._output.holds and (velocity == ZERO or not self._arbiter.rearms(name)):
                     self._output.free()
                 self._output.publish(velocity)
             self._tell(self._arbiter.active(now))
@@ -86,10 +88,6 @@ class CmdVelMux:
             self._output.publish(ZERO)
             self._arbiter.lost(now)
             self._log.warn("This node was suspended. Who drives must release the sticks once.")
-
-    def _lose(self):
-        """The robot was lost, or is new: it moves on only when who drives has rested."""
-        self._arbiter.lost(time.monotonic())
 
     def _look(self):
         """Act upon silence; return for how long [s] nothing will be due."""

@@ -28,6 +28,7 @@ from nav_msgs.msg import Odometry
 from rospy import AnyMsg
 
 from gamepad.arguments import check
+from node_kit.careful_connections import sender_of
 from node_kit.names import holder
 from node_kit.questions import Answer, call
 from tutorial_tools.demo.drive_report import DriveReport
@@ -242,7 +243,7 @@ class Launch:
     def _is_ours(self, message):
         """Whether a node of the launch sent it: somebody else may publish on the same topic."""
         # The way that rospy documents: http://wiki.ros.org/rospy/Overview/Messages
-        return message._connection_header["callerid"] in self._nodes
+        return sender_of(message) in self._nodes
 
     def _on_message(self, message, topic):
         if self._is_ours(message):
