@@ -1,0 +1,122 @@
+"""Who can reach what ./tutorial runs: nobody else, until the user names an address.
+
+ROS's own limit, which stays: a C++ node (rosout, robot_state_publisher, rosbag) answers XML-RPC on
+every address. Whoever finds that port may end the node, or tell it of another publisher; the
+master, the Python nodes and every topic are out of reach.
+"""
+
+import re
+import socket
+import subprocess
+import sys
+
+import pytest
+
+from tutorial_testing.two_hosts.scene import REPOSITORY, ROBOT, WORKSTATION
+from tutorial_testing.waiting import wait_for
+
+CPP_NODES = {"/rosout", "/robot_state_publisher", "/rosbag"}
+MASTER_PORT = 11311
+# Tries each port of an address, and prints those that answer.
+CONNECT = """
+import socket, sys
+for port in sys.argv[2:]:
+    try:
+        socket.create_connection((sys.argv[1], int(port)), 3).close()
+        print(port)
+    except OSError:
+        pass
+"""
+# Every node's XML-RPC port, by its master.
+XML_RPC_PORTS = """
+import rosgraph
+master = rosgraph.Master("/test")
+state = master.getSystemState()
+for name in sorted({name for kind in state for _, names in kind for name in names}):
+    print(name, master.lookupNode(name).rstrip("/").rsplit(":", 1)[1])
+"""
+
+
+@pytest.fixture(autouse=True)
+def nothing_set(monkeypatch):
+    for name in ("ROS_IP", "ROS_HOSTNAME", "ROS_MASTER_URI"):
+        monkeypatch.delenv(name, raising=False)
+
+
+def said(host, *command):
+    """The lines that a command on a host prints."""
+    command = host.command(*command)
+    return subprocess.run(
+        command, check=True, capture_output=True, text=True, timeout=60
+    ).stdout.splitlines()
+
+
+def listening(host):
+    """The TCP ports on which anything listens on a host."""
+    tables = "\n".join(said(host, "cat", "/proc/net/tcp", "/proc/net/tcp6"))
+    return {int(port, 16) for port in re.findall(r"^ *\d+: \w+:(\w+) \w+:0000 0A ", tables, re.M)}
+
+
+def reachable(scene):
+    """Those ports of the robot to which the workstation can connect."""
+    ports = [str(port) for port in sorted(listening(scene.network[ROBOT]))]
+    address = scene.address(ROBOT)
+    found = said(scene.network[WORKSTATION], sys.executable, "-c", CONNECT, address, *ports)
+    return {int(port) for port in found}
+
+
+def start_demo(scene, **environment):
+    """The demonstration on the robot, once it drives; and the XML-RPC port of each node."""
+    host = scene.network[ROBOT]
+    demo = host.start(str(REPOSITORY / "tutorial"), "demo", DISPLAY="", **environment)
+    wait_for(lambda: "first /odom" in demo.output or demo.ended, "demo that drives")
+    assert not demo.ended, demo.output
+    lines = said(host, "/usr/bin/python3", "-c", XML_RPC_PORTS)
+    return demo, {name: int(port) for name, port in map(str.split, lines)}
+
+
+def test_with_nothing_set_nobody_else_reaches_master_python_nodes_or_topics(scene):
+    demo, ports = start_demo(scene)
+    with demo:
+        assert set(ports) > CPP_NODES
+        assert {MASTER_PORT, *ports.values()} < listening(scene.network[ROBOT])  # and topics
+        assert reachable(scene) <= {ports[name] for name in CPP_NODES}
+
+
+def test_an_address_that_is_asked_for_is_reached(scene):
+    """What the test above would find."""
+    demo, ports = start_demo(scene, ROS_IP=scene.address(ROBOT))
+    with demo:
+        assert {MASTER_PORT, *ports.values()} < reachable(scene)
+
+
+@pytest.mark.parametrize(
+    ("variables", "expected"),
+    [
+        ({}, "127.0.0.1"),
+        ({"ROS_MASTER_URI": "http://localhost:11399/"}, "127.0.0.1"),
+        ({"ROS_MASTER_URI": "http://127.0.0.1:11399"}, "127.0.0.1"),
+        ({"ROS_MASTER_URI": "http://192.0.2.1:11311"}, ""),
+        ({"ROS_MASTER_URI": f"http://{socket.gethostname()}:11311"}, ""),
+        ({"ROS_IP": "192.0.2.2"}, "192.0.2.2"),
+        ({"ROS_HOSTNAME": "robot"}, ""),
+    ],
+)
+def test_loopback_unless_the_user_names_an_address(tutorial, monkeypatch, variables, expected):
+    for name, value in variables.items():
+        monkeypatch.setenv(name, value)
+    command = [tutorial, "run", "sh", "-c", 'echo "$ROS_IP"']
+    done = subprocess.run(command, check=True, capture_output=True, text=True, timeout=60)
+    assert done.stdout.strip() == expected
+
+
+def test_the_doctor_tells_who_sets_only_the_master(scene):
+    """In the shell, where ROS_IP is still ours."""
+    scene.launch_robot()
+    master = f"http://{scene.address(ROBOT)}:{MASTER_PORT}"
+    script = f"export ROS_MASTER_URI={master}; '{REPOSITORY}/tutorial' doctor"
+    host = scene.network[WORKSTATION]
+    with host.start(str(REPOSITORY / "tutorial"), "run", "bash", "-c", script) as doctor:
+        assert doctor.wait() == 1, doctor.output
+        assert "ROS_IP=127.0.0.1 is seen by this machine only" in doctor.output
+        assert f"export ROS_IP={scene.address(WORKSTATION)}" in doctor.output
