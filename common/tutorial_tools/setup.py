@@ -5,6 +5,7 @@ setup(
     **generate_distutils_setup(
         packages=[
             "tutorial_tools",
+            "tutorial_tools.bag",
             "tutorial_tools.demo",
             "tutorial_tools.doctor",
             "tutorial_tools.graph",

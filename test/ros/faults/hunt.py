@@ -68,6 +68,12 @@ def whole(message):
     return buff.getvalue()
 
 
+def way_to(node, topic):
+    """[TCPROS, host, port] of a topic of a node, or None."""
+    uri = call(rosgraph.get_master_uri(), "lookupNode", node)[1]
+    return uri and call(uri, "requestTopic", topic, [["TCPROS"]])[1]
+
+
 class FaultsOfTheRobot(unittest.TestCase):
     """Through all nodes, with LB held."""
 
@@ -264,13 +270,7 @@ class FaultsOfThePeers(unittest.TestCase):
             (DRIVER, "/cmd_vel", Twist),
             (BASE, "/odom", Odometry),
         ):
-            uri = wait_for(
-                lambda node=node: call(rosgraph.get_master_uri(), "lookupNode", node)[1], node
-            )
-            way = wait_for(
-                lambda uri=uri, topic=topic: call(uri, "requestTopic", topic, [["TCPROS"]])[1],
-                topic,
-            )
+            way = wait_for(lambda node=node, topic=topic: way_to(node, topic), topic)
             with socket.create_connection((way[1], way[2])) as silent:
                 silent.settimeout(DEADLINE_S)
                 began = time.monotonic()

@@ -128,13 +128,14 @@ def fail(text):
     sys.exit(f"draw_graph: {text}")
 
 
-def main():
+def main(arguments=None):
+    """Draw the graph into a file; arguments: of the command line unless given."""
     parser = argparse.ArgumentParser(description="Draws the running nodes and their topics.")
     kinds = f"what to write, {', '.join(ENDINGS)}; unless told, graph.png"
     parser.add_argument("file", nargs="?", default="graph.png", metavar="FILE", help=kinds)
     everything = "show also /rosout, and topics that nobody publishes or nobody hears"
     parser.add_argument("--all", action="store_true", help=everything)
-    options = parser.parse_args(rosgraph.myargv()[1:])
+    options = parser.parse_args(rosgraph.myargv()[1:] if arguments is None else arguments)
     file = Path(options.file)
     kind = file.suffix.lower()
     if kind not in ENDINGS:

@@ -11,7 +11,7 @@ pytest.importorskip("sensor_msgs.msg", reason="no ROS for this Python: ./tutoria
 
 from rosbags.typesys import Stores, get_typestore  # noqa: E402
 
-FOLDER = Path(__file__).resolve().parents[3] / "joy2twist" / "bag"
+FOLDER = Path(__file__).resolve().parents[3] / "common" / "gamepad" / "bag"
 LB = 4
 PERIOD_S = 0.02
 STEPS_OF_THE_DEVICE = 32767

@@ -1,6 +1,6 @@
 """Writes joy.bag: a Logitech F710 (D mode) whose left stick drives a closed tour.
 
-    ./tutorial run python3 joy2twist/bag/make_joy_bag.py [FILE]
+    ./tutorial run python3 common/gamepad/bag/make_joy_bag.py [FILE]
 
 FILE is joy.bag beside this script unless told.
 
