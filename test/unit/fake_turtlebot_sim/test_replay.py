@@ -209,4 +209,4 @@ def test_a_missing_library_is_named(commands, tmp_path, capsys, monkeypatch):
     monkeypatch.setattr(replay_command, "bag_replay", None)
     missing = ModuleNotFoundError(name="rosbags")
     monkeypatch.setattr(replay_command, "missing", missing, raising=False)
-    assert "pip install rosbags" in failure_of(capsys, commands, out)
+    assert "needs rosbags: ./tutorial setup" in failure_of(capsys, commands, out)

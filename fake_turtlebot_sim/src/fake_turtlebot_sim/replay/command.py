@@ -30,7 +30,7 @@ def main(arguments=None):
     options = parse(arguments)
     try:
         if bag_replay is None:
-            raise CommandError(f"needs {missing.name}: python3 -m pip install {missing.name}")
+            raise CommandError(f"needs {missing.name}: ./tutorial setup")
         try:
             run(options)
         except bag_replay.ReplayError as error:
@@ -152,7 +152,7 @@ def draw(path, target):
     try:
         import matplotlib  # noqa: PLC0415
     except ImportError as error:
-        raise CommandError("--picture needs matplotlib: apt install python3-matplotlib") from error
+        raise CommandError("--picture needs matplotlib: ./tutorial setup") from error
     matplotlib.use("Agg")
     from matplotlib import pyplot  # noqa: PLC0415
 

@@ -1,0 +1,111 @@
+"""A launch that runs: it is watched, counted, and ended as Ctrl-C ends it."""
+
+import contextlib
+import signal
+import subprocess
+import time
+
+import rosgraph
+import rosnode
+import rospy
+from nav_msgs.msg import Odometry
+from rospy import AnyMsg
+
+from node_kit.careful_connections import sender_of
+from tutorial_tools.demo.drive_report import DriveReport
+
+TOPICS = ("/joy", "/cmd_vel", "/odom")
+START_TIMEOUT_S = 60.0  # until the first odometry, on a slow and busy machine
+COMPLETE_TIMEOUT_S = 3.0  # for a launch that is ended while it starts
+END_TIMEOUT_S = 30.0  # roslaunch itself kills stubborn nodes after 17 s
+# What ends the demonstration: Ctrl-C, kill, a terminal that is closed.
+ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+
+
+class DemoError(Exception):
+    """What keeps the demonstration from starting or from driving, in one line for the user."""
+
+
+class Launch:
+    """A launch that runs, with a DriveReport of it; leaving the context ends it as Ctrl-C does."""
+
+    def __init__(self, command, nodes):
+        """command: of roslaunch; nodes: the names of the nodes that it starts."""
+        self.summary = ""  # what was driven, once it is over
+        self.report = DriveReport(TOPICS)
+        self._nodes = set(nodes)
+        # In a session of its own: Ctrl-C in a terminal must not reach it before it is complete.
+        self._process = subprocess.Popen(command, start_new_session=True)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        for number in ENDING:
+            signal.signal(number, signal.SIG_IGN)  # an impatient user must not leave nodes behind
+        # A roslaunch that is interrupted while it still starts nodes leaves its master behind.
+        with contextlib.suppress(DemoError):
+            self.wait(time.monotonic() + COMPLETE_TIMEOUT_S, self._is_complete)
+        if self._process.poll() is None:
+            self._process.send_signal(signal.SIGINT)
+        try:
+            self._process.wait(END_TIMEOUT_S)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
+        rospy.signal_shutdown("the demonstration is over")
+
+    def _is_complete(self):
+        try:
+            return self._nodes <= set(rosnode.get_node_names())
+        except rosnode.ROSNodeIOException:
+            return False  # no master yet
+
+    def wait(self, until, happened=lambda: False):
+        """Wait for something to happen, or until a time [s] of the monotonic clock.
+
+        Raises DemoError if the launch ends meanwhile.
+        """
+        while time.monotonic() < until and not happened():
+            if self._process.poll() is not None:
+                raise DemoError("the launch ended by itself; its messages above say why")
+            time.sleep(0.02)
+
+    def wait_for_odometry(self):
+        """Listen to the topics, until the first odometry is there."""
+        deadline = time.monotonic() + START_TIMEOUT_S
+        self.wait(deadline, rosgraph.is_master_online)
+        rospy.init_node("demo", anonymous=True, disable_signals=True, log_level=rospy.ERROR)
+        rospy.Subscriber("/odom", Odometry, self._on_odometry)
+        for topic in ("/joy", "/cmd_vel"):
+            rospy.Subscriber(topic, AnyMsg, self._on_message, topic)
+        self.wait(deadline, lambda: self.report.pose is not None)
+        if self.report.pose is None:
+            raise DemoError(f"no /odom within {START_TIMEOUT_S:.0f} s")
+
+    def watch(self, duration_s):
+        """Count what runs on the topics for a time; however that ends, summary tells it."""
+        # Anew: on a busy machine seconds of /joy may come before the first /odom.
+        self.report, began = DriveReport(TOPICS), time.monotonic()
+        try:
+            self.wait(began + duration_s)
+        finally:
+            self.summary = self.report.line(time.monotonic() - began)
+
+    def _is_ours(self, message):
+        """Whether a node of the launch sent it: somebody else may publish on the same topic."""
+        # The way that rospy documents: http://wiki.ros.org/rospy/Overview/Messages
+        return sender_of(message) in self._nodes
+
+    def _on_message(self, message, topic):
+        if self._is_ours(message):
+            self.report.count(topic)
+
+    def _on_odometry(self, message):
+        if not self._is_ours(message):
+            return
+        pose = message.pose.pose
+        self.report.count("/odom")
+        self.report.add_pose(
+            pose.position.x, pose.position.y, pose.orientation.z, pose.orientation.w
+        )
