@@ -74,7 +74,7 @@ class KeyboardTest(unittest.TestCase):
         arguments = f"virtual:=true rviz:=false joy_dev:={self.device}"
         self.terminal = Tmux(f"roslaunch joy2twist launch_joy_node.launch {arguments}")
         self.addCleanup(self.terminal.close)
-        wait_for(lambda: "Opened joystick" in self.terminal.screen, "driver")
+        wait_for(lambda: "Opened joystick" in self.terminal.history, "driver")
         wait_for(lambda: self.odometry, "robot")
         self.states = []
         subscriber = rospy.Subscriber("/diagnostics", DiagnosticArray, self.keep_state)
