@@ -122,7 +122,7 @@ def bare_system(tutorial, tmp_path, monkeypatch, clean_environment):
     monkeypatch.setenv("TMPDIR", str(tmp_path))
     # What is built is built; only the list of what the archive lacks is another.
     workspace = subprocess.run(
-        [tutorial, "run", "sh", "-c", "dirname $CMAKE_PREFIX_PATH"],
+        [tutorial, "run", "bash", "-c", "dirname ${CMAKE_PREFIX_PATH%%:*}"],
         env={**clean_environment, "PATH": "/usr/bin:/bin"},
         check=True, capture_output=True, text=True, timeout=60,
     ).stdout.strip()  # fmt: skip
@@ -434,7 +434,7 @@ def test_shell_and_run_see_the_workspace_and_no_shell_file_is_touched(tutorial, 
     home.mkdir()
     (home / ".bashrc").write_text("alias mine=true\n")
     workspace = subprocess.run(
-        [tutorial, "run", "sh", "-c", "dirname $CMAKE_PREFIX_PATH"],
+        [tutorial, "run", "bash", "-c", "dirname ${CMAKE_PREFIX_PATH%%:*}"],
         check=True, capture_output=True, text=True, timeout=60,
     ).stdout.strip()  # fmt: skip
     shell = subprocess.run(

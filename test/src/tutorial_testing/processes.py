@@ -63,6 +63,11 @@ class Program:
         return os.pread(descriptor, os.fstat(descriptor).st_size, 0).decode(errors="replace")
 
     @property
+    def pid(self):
+        """The process of the program itself."""
+        return self._process.pid
+
+    @property
     def ended(self):
         """Whether the program itself has ended."""
         return self._process.poll() is not None

@@ -67,8 +67,27 @@ def test_all_is_well():
     findings = judge(WELL)
     assert {finding.level for finding in findings} == {"ok"}
     told = [finding.about for finding in findings]
-    assert told == ["master", "address", "nodes", "clocks", "topics", "mux", "state", "joystick"]
-    assert f"/joy_node -> /joy -> /joy2twist -> {TELEOP} -> /cmd_vel_mux" in findings[4].line()
+    assert told == [
+        "floor", "master", "address", "nodes", "clocks", "topics", "mux", "state", "joystick",
+    ]  # fmt: skip
+    assert f"/joy_node -> /joy -> /joy2twist -> {TELEOP} -> /cmd_vel_mux" in findings[5].line()
+
+
+@pytest.mark.parametrize(
+    ("workspace", "path", "level", "words"),
+    [
+        ("", "/suite/joy2twist", "ok", "is the suite's: /suite/joy2twist"),
+        ("", "", "unknown", "no joy2twist is found here: call this through ./tutorial"),
+        ("/ws", "/ws/src/joy2twist", "ok", "is yours: /ws/src/joy2twist"),
+        ("/ws", "", "unknown", "has no joy2twist yet: make it in /ws/src"),
+        ("/ws", "/suite/joy2twist", "wrong", "is not in your workspace: /suite/joy2twist"),
+        ("/ws", "/ws/joy2twist", "wrong", "mv it into /ws/src"),
+    ],
+)
+def test_whose_joy2twist_would_run(workspace, path, level, words):
+    findings = judge(Facts(workspace=workspace, joy2twist=path))
+    assert (findings[0].level, findings[0].about) == (level, "floor")
+    assert words in findings[0].line()
 
 
 def test_each_finding_is_one_line():
@@ -90,7 +109,7 @@ def test_master(answer, words):
     facts = Facts(**{**vars(WELL), "master": answer, "called_back": None})
     wrong(facts, "master", *words)
     # Nothing is said of a graph that was not seen.
-    assert {finding.about for finding in judge(facts)} == {"master", "address", "joystick"}
+    assert {finding.about for finding in judge(facts)} == {"floor", "master", "address", "joystick"}
 
 
 def test_a_master_of_this_machine_is_to_be_started_here():

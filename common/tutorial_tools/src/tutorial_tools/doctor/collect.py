@@ -8,6 +8,7 @@ import stat
 import struct
 
 import rosgraph
+import rospkg
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from genpy import DeserializationError
 from std_msgs.msg import String
@@ -80,9 +81,19 @@ def this_machine():
         "own_addresses": own_addresses,
         "own_is_here": bool(own_addresses) and all(map(is_here, own_addresses)),
         "joysticks": [joystick(path) for path in sorted(glob.glob("/dev/input/js*"))],
+        "workspace": os.environ.get("TUTORIAL_IN", ""),
+        "joy2twist": folder_of("joy2twist"),
         "container": any(map(os.path.exists, ("/.dockerenv", "/run/.containerenv"))),
         "wsl": "microsoft" in os.uname().release.lower(),
     }
+
+
+def folder_of(package):
+    """Where a package lies, links followed; "" if it is not found."""
+    try:
+        return os.path.realpath(rospkg.RosPack().get_path(package))
+    except rospkg.ResourceNotFound:
+        return ""
 
 
 def joystick(path):

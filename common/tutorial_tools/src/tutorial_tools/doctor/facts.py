@@ -91,6 +91,8 @@ class Facts:
     way_out: str = ""  # our address on the way to the master, if it is on another machine
     called_back: Optional[bool] = True  # whether the master reached us; None: not tried
     joysticks: List[Joystick] = field(default_factory=list)
+    workspace: str = ""  # a student's, which takes the place of the solutions
+    joy2twist: str = "/suite/joy2twist"  # folder of the package that would run; "": none
     container: bool = False
     wsl: bool = False
     # The graph: by topic the names of nodes, and its type.

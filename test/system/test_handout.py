@@ -1,0 +1,262 @@
+"""The tutorial's handout, typed word for word by a student with a workspace of his own.
+
+In its order; each row is the terminal, what is typed there, and what must be seen. Nothing of the
+solutions may be.
+"""
+
+import os
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from tutorial_testing.processes import Program
+from tutorial_testing.waiting import wait_for
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+# Programs and launch files as the handout prints them: env python, load_manifest, absolute topics,
+# no queue_size, six axes in one format; but in our own words.
+LITERAL = REPOSITORY / "test" / "exercises" / "literal"
+WORKSPACE = "ros/hydro/catkin_ws"
+# A set-up of ROS, not a mistake: no screen for RViz here, and Debian's own warnings.
+DEADLINE_S = 120.0  # for a catkin_make on a busy machine
+
+# {package} stands for the student's folder of it: what the handout has him download or write.
+PACKAGES = [
+    ("1", "cd ~/ros/hydro/catkin_ws/src", ""),
+    (
+        "1",
+        "catkin_create_pkg beginner_tutorials std_msgs rospy roscpp",
+        "Successfully created files",
+    ),
+    ("1", "cd ~/ros/hydro/catkin_ws/", ""),
+    ("1", "catkin_make", "beginner_tutorials"),
+    ("1", "rospack profile", "Full tree crawl"),
+    ("1", "roscd beginner_tutorials", ""),
+    ("1", "pwd", "{workspace}/src/beginner_tutorials"),
+    ("1", "mkdir scripts", ""),
+    ("1", "cd scripts", ""),
+    ("write", "beginner_tutorials/scripts", ""),
+    ("1", "chmod +x talker.py", ""),
+    ("1", "chmod +x listener.py", ""),
+    ("1", "cd ~/ros/hydro/catkin_ws/", ""),
+    ("1", "catkin_make", "Running command"),
+]
+TALK = [
+    ("roscore", "roscore", "started core service"),
+    ("2", "rosrun beginner_tutorials talker.py", r"\[INFO\]"),
+    ("3", "rosrun beginner_tutorials listener.py", r"\[INFO\].*heard|\[INFO\]"),
+    ("1", "cd /tmp && rqt_graph", "wrote rosgraph.png"),
+    ("1", "rosnode list", "/talker_"),
+]
+JOY = [
+    ("1", 'cp "$(rospack find gamepad)/bag/joy.bag" ~', ""),
+    ("1", "cd ~", ""),
+    ("1", "rqt_bag joy.bag", "rosbag play --loop joy.bag"),
+    ("bag", "cd ~ && rosbag play --loop joy.bag", "Duration"),
+    ("1", "rostopic echo -n 1 /joy/axes[0]", r"^-?\d"),
+    ("1", "cd ~/ros/hydro/catkin_ws/src", ""),
+    ("1", "catkin_create_pkg joy2twist rospy std_msgs sensor_msgs geometry_msgs", "Successfully"),
+    ("1", "cd ~/ros/hydro/catkin_ws && catkin_make", "joy2twist"),
+    ("1", "rospack profile", "Full tree crawl"),
+    ("1", "roscd joy2twist", ""),
+    ("1", "mkdir scripts", ""),
+    ("1", "cd scripts", ""),
+    ("write", "joy2twist/scripts", ""),
+    ("1", "chmod +x joy2twist.py new_joy2twist.py", ""),
+    ("4", "rosrun joy2twist joy2twist.py", r"listener_\S*: axes \["),
+    ("1", "rostopic echo -n 1 /cmd_vel", "linear"),
+    ("5", "roslaunch rbx1_bringup fake_turtlebot.launch", "started with pid"),
+    ("1", "rostopic echo -n 1 /odom/pose/pose/position", "x: "),
+    ("1", "ls `rospack find rbx1_nav`/sim.rviz", "^/.*/sim.rviz"),
+    ("6", "rosrun joy joy_node", "No joystick at /dev/input/js0"),
+]
+LAUNCH = [
+    ("1", "roscd joy2twist", ""),
+    ("1", "mkdir launch", ""),
+    ("1", "cd launch", ""),
+    ("write", "joy2twist/launch", ""),
+    ("1", "mkdir ../bag && cp ~/joy.bag ../bag", ""),
+    ("7", "roscd joy2twist/launch && roslaunch launch_bag.launch", "myjoystick2twist"),
+    ("1", "rostopic echo -n 1 /odom/twist/twist/linear", "x: "),
+    ("1", "roslaunch --files joy2twist launch_bag.launch", "rbx1_bringup/launch/fake_turtlebot"),
+]
+TURTLEBOT = [
+    ("8", "roslaunch turtlebot_bringup minimal.launch", "started with pid"),
+    ("9", "roslaunch joy2twist joy2twist_turtlebot.launch", "started with pid"),
+    ("1", "rostopic info /cmd_vel_mux/input/teleop", "/myjoystick2twist"),
+    ("1", "ls `rospack find turtlebot_rviz_launchers`/launch", "view_robot.launch"),
+]
+
+
+class Terminal:
+    """A shell of the suite over the student's workspace, in which lines are typed."""
+
+    def __init__(self, workspace, **environment):
+        command = (str(REPOSITORY / "tutorial"), "shell", "--in", str(workspace))
+        self._program = Program(*command, stdin=subprocess.PIPE, **environment)
+        self.type("echo ready", "^ready")
+
+    def type(self, line, seen):
+        """Type a line and wait for what must be seen after it."""
+        begin = len(self._program.output)
+        self._program.type(line)
+        self._program.type("echo done-$((1000 + 7))")
+
+        def shown():
+            new = self._program.output[begin:]
+            return re.search(seen, new, re.MULTILINE) and (not seen or new)
+
+        try:
+            if seen:
+                wait_for(shown, f"{seen!r} after {line!r}", DEADLINE_S)
+            else:
+                wait_for(
+                    lambda: "done-1007" in self._program.output[begin:],
+                    f"end of {line!r}",
+                    DEADLINE_S,
+                )
+        except AssertionError as error:
+            raise AssertionError(f"{error}:\n{self._program.output[begin:][-2000:]}") from None
+        return self._program.output[begin:]
+
+    @property
+    def output(self):
+        """All that was printed so far."""
+        return self._program.output
+
+    def close(self):
+        """Press Ctrl-C, and leave."""
+        for pid in self._program.left_behind():
+            if pid != self._program.pid:
+                subprocess.run(["kill", "-INT", str(pid)], check=False, capture_output=True)
+        self._program.__exit__()
+
+
+class Student:
+    """A home, a workspace in it, and terminals."""
+
+    def __init__(self, home):
+        self.home = home
+        self.workspace = home / WORKSPACE
+        self._environment = {
+            "HOME": str(home),
+            # The suite's own workspace, which is built already, and not one of this home.
+            "TUTORIAL_WORKSPACE": str(Path(os.environ["CMAKE_PREFIX_PATH"].split(":")[0]).parent),
+            "ROS_MASTER_URI": os.environ["ROS_MASTER_URI"],
+            "ROS_HOME": str(home / ".ros"),
+        }
+        self._terminals = {}
+
+    def terminal(self, name):
+        """A terminal, opened if it is not."""
+        if name not in self._terminals:
+            self._terminals[name] = Terminal(self.workspace, **self._environment)
+        return self._terminals[name]
+
+    def close(self, *names):
+        """End terminals, and what runs in them."""
+        for name in names or list(self._terminals):
+            self._terminals.pop(name).close()
+
+    def do(self, rows):
+        """Type the rows."""
+        for name, line, seen in rows:
+            if name == "write":
+                for path in (LITERAL / line).iterdir():
+                    shutil.copyfile(path, self.workspace / "src" / line / path.name)
+            else:
+                self.terminal(name).type(line, seen.format(workspace=self.workspace))
+
+    def run(self, line):
+        """What a command prints in a terminal that has just been opened."""
+        tutorial = [str(REPOSITORY / "tutorial"), "run", "--in", str(self.workspace)]
+        done = subprocess.run(
+            [*tutorial, "bash", "-c", line],
+            env={**os.environ, **self._environment},
+            capture_output=True,
+            text=True,
+            check=False,
+            timeout=DEADLINE_S,
+        )
+        return done.stdout + done.stderr
+
+
+@pytest.fixture
+def student(tmp_path, master_uri):
+    one = Student(tmp_path)
+    yield one
+    one.close()
+
+
+def nothing_of_ours(student):
+    """No file or node of the solutions is found from the student's terminals."""
+    solutions = (str(REPOSITORY / "joy2twist"), str(REPOSITORY / "beginner_tutorials"))
+    for package in ("joy2twist", "beginner_tutorials"):
+        found = student.run(f"rospack find {package}; catkin_find {package}")
+        assert not any(path in found for path in solutions), found
+    return True
+
+
+def test_the_handout_from_its_first_command_to_its_last(student):
+    student.do(PACKAGES)
+    assert nothing_of_ours(student)
+    student.do(TALK)
+    student.close("2", "3")
+    student.do(JOY)
+    student.close("4", "5", "6", "bag")
+    student.do(LAUNCH)
+    assert nothing_of_ours(student)
+    student.close("7")
+    student.do(TURTLEBOT)
+
+
+def test_without_files_of_his_own_a_student_gets_none_of_ours(student):
+    assert "not found" in student.run("rospack find joy2twist")
+    said = student.run("roslaunch joy2twist launch_bag.launch")
+    assert "joy2twist" in said
+    assert "started with pid" not in said
+    assert nothing_of_ours(student)
+
+
+def test_a_broken_package_xml_falls_back_to_nothing_of_ours(student):
+    student.run("true")
+    package = student.workspace / "src" / "joy2twist"
+    shutil.copytree(LITERAL / "joy2twist", package)
+    make = "catkin_make -C ~/ros/hydro/catkin_ws"
+    assert str(package) in student.run(f"{make} && rospack find joy2twist")
+    xml = package / "package.xml"
+    xml.write_text(xml.read_text().replace("</name>", "</nam>"))
+    assert "mismatched tag" in student.run(make)
+    assert nothing_of_ours(student)
+    (package / "launch" / "launch_bag.launch").unlink()
+    said = student.run("roslaunch joy2twist launch_bag.launch")
+    assert "started with pid" not in said
+
+
+@pytest.mark.parametrize(
+    ("folder", "line"),
+    [
+        ("{home}/a b", "without spaces"),
+        ("{repository}", "the suite's own"),
+        ("{repository}/joy2twist", "this is a package"),
+        ("/proc/ws", "cannot be made"),
+    ],
+)
+def test_a_wrong_workspace_is_one_line(tmp_path, tutorial, folder, line):
+    folder = folder.format(home=tmp_path, repository=REPOSITORY)
+    done = subprocess.run(
+        [tutorial, "run", "--in", folder, "true"], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 1
+    assert len(done.stderr.splitlines()) == 1
+    assert line in done.stderr
+
+
+def test_only_words_that_open_a_shell_know_in(tutorial):
+    done = subprocess.run(
+        [tutorial, "demo", "--in", "/tmp"], capture_output=True, text=True, check=False
+    )
+    assert (done.returncode, "demo: knows no --in" in done.stderr) == (1, True)
