@@ -64,9 +64,8 @@ class NewJoy2Twist:
         self.lock = threading.Lock()  # one velocity at a time, and none after the last zero
         self.stopped = threading.Event()
 
-        self.cmd_vel = VelocityPublisher(
-            "cmd_vel", self.console.warn, hold_new=parameters.arm_on_neutral
-        )
+        self.cmd_vel = VelocityPublisher("cmd_vel", self.console.warn)
+        self.hold_new = parameters.arm_on_neutral
         rospy.on_shutdown(self.shutdown)
         self.diagnostics = diagnostic_updater.Updater()
         self.diagnostics.setHardwareID("none")
@@ -102,7 +101,7 @@ class NewJoy2Twist:
     def publish(self, velocity):
         """Publish a velocity, if there is one, until the node is stopped."""
         if velocity is not None and not self.stopped.is_set():
-            self.cmd_vel.publish(velocity)
+            self.cmd_vel.publish(velocity, self.hold_new)
 
     def watch(self):
         """Stop the robot when the joystick falls silent or leaves, and repeat what is to repeat.

@@ -27,7 +27,7 @@ SCRIPT_S = 60.0  # more than it takes
 
 # A package named joy, as in ROS Noetic. Its node pushes the stick with LB held, after a neutral
 # message.
-PACKAGE = """<package format="2"><name>joy</name><version>1.0.0</version>
+PACKAGE = """<package format="2"><name>other_joy</name><version>1.0.0</version>
 <description>A stand-in.</description><maintainer email="a@b.cd">a</maintainer>
 <license>BSD</license></package>"""
 JOY_NODE = """#!/usr/bin/python3
@@ -96,7 +96,7 @@ class LaunchTest(unittest.TestCase):
         self.assertLess(abs(turned), NEAR_RAD)
 
     def test_joy_pkg_starts_the_node_of_another_package(self):
-        node = self.folder / "joy" / "joy_node"
+        node = self.folder / "other_joy" / "joy_node"
         node.parent.mkdir()
         (node.parent / "package.xml").write_text(PACKAGE, encoding="utf-8")
         node.write_text(JOY_NODE, encoding="utf-8")
@@ -104,7 +104,7 @@ class LaunchTest(unittest.TestCase):
         log = JoyLog()
         self.addCleanup(log.stop)
         path = f"{self.folder}:{os.environ['ROS_PACKAGE_PATH']}"
-        program = self.launch("joy_pkg:=joy", ROS_PACKAGE_PATH=path)
+        program = self.launch("joy_pkg:=other_joy", ROS_PACKAGE_PATH=path)
         wait_for(lambda: log.last and log.last[1] == [4], "held LB")
         self.assertEqual(log.messages[-1].header.frame_id, self.device)
         self.assertEqual(rospy.get_param("/joy_node"), {"dev": self.device, "autorepeat_rate": 20})

@@ -8,7 +8,7 @@ import rospy
 
 # How long rospy may say goodbye to the master and to other nodes [s]. It would wait for ever for
 # one that does not answer; roslaunch waits 15 s for a node, a user does not.
-LONGEST_GOODBYE_S = 0.8
+LONGEST_GOODBYE_S = 1.2
 
 
 def end_on_signals():

@@ -95,17 +95,16 @@ UNTIL_RELEASED = (
 class VelocityPublisher(PromptPublisher):
     """Publishes geometry_msgs/Twist; a robot that was lost is not driven on when it is back.
 
-    A subscriber whose network was cut gets no velocity before free() is called; with hold_new
-    neither does one that appears in the middle of a motion, such as a robot started anew.
+    A subscriber whose network was cut gets no velocity before free() is called; neither does one
+    that appears in the middle of a motion of a stick that is held, such as a robot started anew.
     """
 
-    def __init__(self, name, warn, hold_new=False):
+    def __init__(self, name, warn):
         """name: of the topic. warn: called with a line when a subscriber is held or free again; it
         must not wait.
         """
         self._warn = warn
-        self._hold_new = hold_new
-        self._moves = False  # whether the last velocity was not zero
+        self._holds_new = False  # the last velocity was a motion that nobody new takes part in
         super().__init__(name, Twist)
 
     @property
@@ -121,14 +120,17 @@ class VelocityPublisher(PromptPublisher):
             except OSError:
                 connection.close()
 
-    def publish(self, velocity):
-        """Send a velocity: linear x, y, z [m/s] and angular x, y, z [rad/s], frame of the base."""
-        self._moves = velocity != _ZERO
+    def publish(self, velocity, hold_new=False):
+        """Send a velocity: linear x, y, z [m/s] and angular x, y, z [rad/s], frame of the base.
+
+        hold_new: who subscribes from now on is held, if this is a motion.
+        """
+        self._holds_new = hold_new and velocity != _ZERO
         self.send(_TWIST.pack(_TWIST_BYTES, *velocity))
 
     def _peer(self, connection):
         name = connection.endpoint_id
-        held = self._hold_new and self._moves
+        held = self._holds_new
 
         def tell(is_cut):
             if is_cut:

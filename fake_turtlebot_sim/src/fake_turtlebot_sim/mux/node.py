@@ -40,9 +40,7 @@ class CmdVelMux:
         self._has_ended = False
         self._suspensions = Suspensions()
         self._resumption = Resumption()
-        self._output = VelocityPublisher(
-            _in_own_namespace(parameters.publisher), self._log.warn, hold_new=True
-        )
+        self._output = VelocityPublisher(_in_own_namespace(parameters.publisher), self._log.warn)
         # A state, unlike a velocity, may be latched; the queue holds a burst of changes.
         self._active = rospy.Publisher("~active", String, queue_size=10, latch=True)
         self._told = None
@@ -73,9 +71,10 @@ class CmdVelMux:
             if verdict is Verdict.OBEYED and not self._has_ended:
                 # A stick that is held does not move a robot that was lost or is new; whoever drives
                 # by himself does.
-                if self._output.holds and (velocity == ZERO or not self._arbiter.rearms(name)):
+                is_stick = self._arbiter.rearms(name)
+                if self._output.holds and (velocity == ZERO or not is_stick):
                     self._output.free()
-                self._output.publish(velocity)
+                self._output.publish(velocity, hold_new=is_stick)
             self._tell(self._arbiter.active(now))
         if verdict in (Verdict.REJECTED, Verdict.LATE):
             line = f"{name}: {verdict.value}"
