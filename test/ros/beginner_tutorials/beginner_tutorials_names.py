@@ -53,13 +53,11 @@ class NamesTest(unittest.TestCase):
     def check_without_master(self, name):
         """rospy itself says what is missing, and Ctrl-C ends the waiting."""
         nobody = "http://localhost:9"  # the port named "discard": no master lives there
+        line = f"Unable to register with master node [{nobody}]"
         with Program("rosrun", "beginner_tutorials", f"{name}.py", ROS_MASTER_URI=nobody) as node:
-            wait_for(
-                lambda: f"Unable to register with master node [{nobody}]" in node.output, "line"
-            )
+            wait_for(lambda: line in node.output, line)
             node.interrupt()
             node.wait()
-            self.assertNotIn("Traceback", node.output)
 
     def test_two_anonymous_talkers_live_side_by_side(self):
         self.check_anonymous("talker")
