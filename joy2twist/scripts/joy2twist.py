@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Drive a robot with a joystick: see the class NewJoy2Twist in joy_to_twist/node.py."""
+"""Drive a robot with a joystick: see the class Joy2Twist in joy_to_twist/node.py."""
 
 import signal
 import sys

@@ -1,9 +1,6 @@
 #!/usr/bin/python3
 """Step 1: subscribe to joy and display the axes of every message."""
 
-import sys
-
-import rosgraph
 import rospy
 from sensor_msgs.msg import Joy
 
@@ -15,9 +12,7 @@ def callback(joy):
 
 
 def listener():
-    """Start a node and call callback() for every joy message until the node is stopped."""
-    if not rosgraph.is_master_online():
-        sys.exit(f"no ROS master at {rosgraph.get_master_uri()}; start one with: roscore")
+    """Hand every joy message to callback() until the node is told to stop."""
     rospy.init_node("listener", anonymous=True)
     rospy.Subscriber("joy", Joy, callback)
     rospy.spin()

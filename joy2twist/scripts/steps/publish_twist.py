@@ -4,9 +4,6 @@
 Axis 1 (stick forward) drives linear.x [m/s], axis 0 (stick left) drives angular.z [rad/s].
 """
 
-import sys
-
-import rosgraph
 import rospy
 from geometry_msgs.msg import Twist
 from sensor_msgs.msg import Joy
@@ -25,9 +22,7 @@ def callback(joy, publisher):
 
 
 def converter():
-    """Start a node and call callback() for every joy message until the node is stopped."""
-    if not rosgraph.is_master_online():
-        sys.exit(f"no ROS master at {rosgraph.get_master_uri()}; start one with: roscore")
+    """Hand every joy message to callback() until the node is told to stop."""
     rospy.init_node("converter", anonymous=True)
     # The publisher comes first: a joy message may arrive as soon as there is a subscriber.
     publisher = rospy.Publisher("cmd_vel", Twist, queue_size=1)

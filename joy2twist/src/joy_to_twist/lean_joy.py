@@ -12,21 +12,22 @@ _FRAME_LENGTH_AT = 12
 
 
 class LeanJoy(Joy):
-    """A Joy to subscribe with that has only what this node uses: stamp, axes and buttons.
+    """A Joy to subscribe with, whose header is read only if somebody asks for it.
 
     rospy lets the message class read its own bytes. After an idle pause, when the caches of the
     processor are cold, the general way (a Header, a Time, a decoded frame_id) takes most of the
     time that passes between a message and its velocity.
     """
 
-    __slots__ = ("_nsecs", "_secs")
+    __slots__ = ("_data", "_header")
 
     def __init__(self):
         """Leave everything to deserialize(), the only source of these messages."""
 
     def deserialize(self, data):
-        """Read axes (tuple of floats), buttons (tuple of ints) and stamp; struct.error if cut."""
-        self._secs, self._nsecs = _STAMP.unpack_from(data)
+        """Read axes (tuple of floats) and buttons (tuple of ints); struct.error if cut."""
+        self._data = data
+        self._header = None
         at = _FRAME_LENGTH_AT
         at += 4 + _COUNT.unpack_from(data, at)[0]
         axes = _COUNT.unpack_from(data, at)[0]
@@ -39,4 +40,26 @@ class LeanJoy(Joy):
     @property
     def stamp_ns(self):
         """The time of the reading [ns], on the clock of the joystick node."""
-        return self._secs * 1_000_000_000 + self._nsecs
+        secs, nsecs = _STAMP.unpack_from(self._data)
+        return secs * 1_000_000_000 + nsecs
+
+    @property
+    def header(self):
+        """The std_msgs/Header, as any Joy has it."""
+        if self._header is None:
+            self._header = Joy().deserialize(self._data).header
+        return self._header
+
+    @header.setter
+    def header(self, header):
+        self._header = header
+
+    def __eq__(self, other):
+        """Whether all fields are the same, also those of a plain Joy."""
+        return Joy(self.header, self.axes, self.buttons) == other
+
+    __hash__ = None
+
+
+# By this list of fields a message is printed, compared and copied; Python has read ours already.
+LeanJoy.__slots__ = Joy.__slots__

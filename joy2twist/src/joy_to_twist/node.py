@@ -30,7 +30,7 @@ LONGEST_BURST = 100
 READ_BYTES = 4096
 
 
-class NewJoy2Twist:
+class Joy2Twist:
     """Turns every joystick message into a velocity, and leaves the robot standing.
 
     Subscribes: joy (sensor_msgs/Joy).
@@ -156,7 +156,7 @@ def simulated_time_ns():
 
 def spin(parameters):
     """Be the node until it is shut down."""
-    NewJoy2Twist(parameters)
+    Joy2Twist(parameters)
     gc.freeze()  # what is there now stays: the garbage collector need not look at it again
     rospy.spin()
 

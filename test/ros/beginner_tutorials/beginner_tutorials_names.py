@@ -51,10 +51,13 @@ class NamesTest(unittest.TestCase):
         self.stop(second)
 
     def check_without_master(self, name):
+        """rospy itself says what is missing, and Ctrl-C ends the waiting."""
         nobody = "http://localhost:9"  # the port named "discard": no master lives there
+        line = f"Unable to register with master node [{nobody}]"
         with Program("rosrun", "beginner_tutorials", f"{name}.py", ROS_MASTER_URI=nobody) as node:
-            self.assertEqual(node.wait(), 1)
-            self.assertRegex(node.output, f"^{name}: no ROS master at .*roscore\n$")
+            wait_for(lambda: line in node.output, line)
+            node.interrupt()
+            node.wait()
 
     def test_two_anonymous_talkers_live_side_by_side(self):
         self.check_anonymous("talker")
@@ -68,10 +71,10 @@ class NamesTest(unittest.TestCase):
     def test_of_two_unique_listeners_the_older_ends(self):
         self.check_unique("listener")
 
-    def test_a_talker_without_a_master_says_so_and_ends(self):
+    def test_a_talker_without_a_master_says_so(self):
         self.check_without_master("talker")
 
-    def test_a_listener_without_a_master_says_so_and_ends(self):
+    def test_a_listener_without_a_master_says_so(self):
         self.check_without_master("listener")
 
 

@@ -1,0 +1,84 @@
+#!/usr/bin/python3
+"""The handout's three programs, in our words: what they display and send, and how they end."""
+
+import sys
+import unittest
+
+import rospkg
+import rospy
+import rostest
+from geometry_msgs.msg import Twist
+from sensor_msgs.msg import Joy
+
+from tutorial_testing.processes import Program
+from tutorial_testing.waiting import wait_for
+
+LONGEST_LINES = 45
+
+
+class StepsTest(unittest.TestCase):
+    """A step runs; this process is its joystick and its robot."""
+
+    def setUp(self):
+        self.velocities = []
+        self.joystick = rospy.Publisher("joy", Joy, queue_size=1000)
+        self.robot = rospy.Subscriber("cmd_vel", Twist, self.heard, queue_size=1000)
+        self.addCleanup(self.joystick.unregister)
+        self.addCleanup(self.robot.unregister)
+
+    def heard(self, twist):
+        self.velocities.append((twist.linear.x, twist.angular.z))
+
+    def send(self, *axes):
+        self.joystick.publish(Joy(axes=axes))
+
+    def start(self, step):
+        node = Program("rosrun", "joy2twist", step)
+        self.addCleanup(node.__exit__)
+        wait_for(lambda: self.send(0.25, 0.5, 0.125) or "0.25, 0.5" in node.output, "line")
+        return node
+
+    def end(self, node):
+        """Press Ctrl-C, and go on with the stick as it is until the node is gone."""
+        node.interrupt()
+        wait_for(lambda: self.send(0.25, 0.5, 0.125) or node.ended, "end")
+        wait_for(lambda: self.robot.get_num_connections() == 0, "end of the connection")
+        self.assertNotIn("Traceback", node.output)
+
+    def test_step_1_displays(self):
+        node = self.start("display_joy.py")
+        self.assertRegex(node.output, r"/listener_\w+: Get from Joy \[0\.25, 0\.50, 0\.12\]")
+        self.end(node)
+        self.assertEqual(self.velocities, [])
+
+    def check_velocities(self):
+        wait_for(lambda: self.send(0.25, 0.5) or self.velocities, "velocity")
+        self.assertEqual(set(self.velocities), {(0.5, 0.25)})
+
+    def test_step_2_publishes(self):
+        node = self.start("publish_twist.py")
+        self.check_velocities()
+        wait_for(lambda: self.send(1.0) or (0.0, 0.0) in self.velocities, "zero for too few axes")
+        self.end(node)
+
+    def test_step_3_publishes_and_leaves_the_robot_standing(self):
+        node = self.start("new_joy2twist.py")
+        self.assertIn("/NewJoy2Twist: Get from Joy", node.output)
+        self.check_velocities()
+        self.end(node)
+        self.assertIn("Stopping the node", node.output)
+        self.assertEqual(self.velocities[-1], (0.0, 0.0))
+        stop = self.velocities.index((0.0, 0.0))
+        # One callback may have begun before.
+        self.assertLessEqual(self.velocities[stop:].count((0.5, 0.25)), 1)
+
+    def test_each_is_read_at_a_glance(self):
+        folder = f"{rospkg.RosPack().get_path('joy2twist')}/scripts/steps"
+        for step in ("display_joy.py", "publish_twist.py", "new_joy2twist.py"):
+            with open(f"{folder}/{step}") as source:
+                self.assertLessEqual(len(source.readlines()), LONGEST_LINES, step)
+
+
+if __name__ == "__main__":
+    rospy.init_node("steps_test")
+    rostest.rosrun("ros1_tutorial_test", "joy2twist_steps", StepsTest, sys.argv)
