@@ -58,6 +58,10 @@ class WorkstationTest(unittest.TestCase):
         short = os.path.join(self.folder(), "short.bag")
         with rosbag.Bag(str(BAG)) as whole, rosbag.Bag(short, "w") as part:
             messages = [(joy, stamp) for _, joy, stamp in whole.read_messages()][:200]
+            # Nobody touches it until all are connected: who comes later is held until the release.
+            rest, began = messages[0]
+            for k in range(200, 0, -1):
+                part.write("/joy", rest, began - rospy.Duration(k / 50))
             for joy, stamp in messages:
                 part.write("/joy", joy, stamp)
         asked = {SPEED * joy.axes[1] for joy, _ in messages if joy.buttons[LB]}
