@@ -18,7 +18,7 @@ from tutorial_testing.waiting import wait_for
 class RobotsTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.parameters = parse_parameters(rospy.get_param("/fake_turtlebot"))
+        cls.parameters = parse_parameters(rospy.get_param("/classroom"))
         cls.names = list(cls.parameters.robots)
         cls.robots = {name: Robot(f"{name}/") for name in cls.names}
         cls.world = World(list(cls.robots.values()))
