@@ -167,6 +167,12 @@ class Student:
             if name == "write":
                 for path in (LITERAL / line).iterdir():
                     shutil.copyfile(path, self.workspace / "src" / line / path.name)
+            elif line.startswith("rostopic info"):  # as one looks again until it is there
+                wait_for(
+                    lambda line=line, seen=seen: seen in self.run(line),
+                    f"{seen} after {line}",
+                    DEADLINE_S,
+                )
             else:
                 self.terminal(name).type(line, seen.format(workspace=self.workspace))
 
