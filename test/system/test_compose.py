@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-from tutorial_testing.two_hosts.scene import ROBOT, WORKSTATION, readme_blocks
+from tutorial_testing.two_hosts.scene import ROBOT, WORKSTATION, page_blocks
 
 DOCKER = Path(__file__).resolve().parents[2] / "docker"
 
@@ -35,7 +35,7 @@ def test_nothing_is_open_to_the_outside(name):
 def test_the_two_hosts_run_the_readme_commands():
     services = read("two_hosts.yaml")
     assert set(services) == {ROBOT, WORKSTATION}
-    for host, (_, variables, launch) in readme_blocks().items():
+    for host, (_, variables, launch) in page_blocks().items():
         environment = services[host]["environment"]
         assert environment["ROS_MASTER_URI"] == f"http://{ROBOT}:11311"
         assert environment["ROS_HOSTNAME"] == host

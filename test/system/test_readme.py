@@ -1,6 +1,8 @@
-"""The README's commands, read from it, run: section by section, in their order.
+"""The commands of the README and its pages, read from them, run: section by section, in order.
 
-A section's ```bash blocks are its commands. What lasts until Ctrl-C goes on until the section ends.
+A section's ```bash blocks are its commands. What lasts until Ctrl-C goes on until the section ends,
+or until another one that drives begins. A block that opens a student's shell is run in a new
+workspace.
 """
 
 import re
@@ -12,7 +14,9 @@ import pytest
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
-README = Path(__file__).resolve().parents[2] / "README.md"
+REPOSITORY = Path(__file__).resolve().parents[2]
+README = REPOSITORY / "README.md"
+PAGES = [README, *sorted((REPOSITORY / "common/doc").glob("*.md"))]
 # What lasts until Ctrl-C, and what it prints once it runs ("": nothing, being there is enough).
 LASTING = {
     "rosrun beginner_tutorials talker.py": "hello world",
@@ -23,38 +27,45 @@ LASTING = {
     "rostopic echo /": "---",
     "rosrun joy2twist display_joy.py": "Get from Joy",
     "rosrun joy2twist publish_twist.py": "Get from Joy",
+    "rosrun joy2twist new_joy2twist.py": "Get from Joy",
     "rosrun joy2twist joy2twist.py": "axis 1 -> linear.x",
-    "roslaunch fake_turtlebot_sim minimal.launch": "process[mobile_base",
+    "roslaunch turtlebot_bringup minimal.launch": "process[mobile_base",
+    "roslaunch rbx1_bringup": "process[fake_turtlebot",
     "roslaunch fake_turtlebot_sim": "process[fake_turtlebot",
     "roslaunch joy2twist student.launch": "process[robot_7/my",
     "roslaunch joy2twist": "process[my",
     "rosrun rviz rviz": "",
 }
+# Of those, one at a time: each is ended before the next one starts.
+DRIVES = ("rosrun joy2twist", "roslaunch joy2twist")
 # What is not run here, and why.
 LEFT_OUT = {
     "roscore": "runs already: this test has one for every section",
     "./tutorial demo": "test_tutorial.py and docker/check_bare_machine run it",
     "./tutorial test": "is what runs this",
+    "./tutorial doctor": "test/ros/tutorial_tools asks it, where something moves",
     "roslaunch joy2twist launch_joy_node.launch virtual:=true": "needs the keys of a terminal",
     "docker ": "needs an engine; docker/check_bare_machine builds the Dockerfile without one",
 }
-ELSEWHERE = {
-    "Two machines": "test_two_hosts.py runs it on two hosts",
-    "When nothing moves": "and asks the doctor there, where something moves",
-}
+ELSEWHERE = {"Two machines": "test_two_hosts.py runs it on two hosts"}
+STUDENTS_SHELL = "./tutorial shell --in ~/catkin_ws"
+LONGEST_README = 250
+HANDOUT = ["2", "3", "4", "4.2", "4.3", "4.4", "4.5", "5", "6", "6.1", "6.2"]
+WITHOUT_EXERCISE = ("4", "6")  # they only hold others
 
 
 def sections():
     """(heading, blocks) of every section with commands; a block is a list of lines."""
-    for part in re.split(r"^#+ ", README.read_text(), flags=re.MULTILINE)[1:]:
-        heading, _, body = part.partition("\n")
-        blocks = []
-        for block in re.findall(r"^```bash\n(.*?)^```", body, re.MULTILINE | re.DOTALL):
-            lines = [re.sub(r"\s+# .*", "", line).strip() for line in block.splitlines()]
-            blocks.append([line for line in lines if line and not line.startswith(tuple(LEFT_OUT))])
-        blocks = [block for block in blocks if block]
-        if blocks and heading not in ELSEWHERE:
-            yield pytest.param(blocks, id=heading)
+    for page in PAGES:
+        for part in re.split(r"^#+ ", page.read_text(), flags=re.MULTILINE)[1:]:
+            heading, _, body = part.partition("\n")
+            blocks = []
+            for block in re.findall(r"^```bash\n(.*?)^```", body, re.MULTILINE | re.DOTALL):
+                lines = [re.sub(r"\s+# .*", "", line).strip() for line in block.splitlines()]
+                wanted = [ln for ln in lines if ln and not ln.startswith(tuple(LEFT_OUT))]
+                blocks += [wanted] if wanted else []
+            if blocks and heading not in ELSEWHERE:
+                yield pytest.param(blocks, id=heading)
 
 
 def sign_of(command):
@@ -77,34 +88,65 @@ def roscore(tutorial, master_uri):
 def test_section(blocks, tutorial, screen, tmp_path):
     environment = {"DISPLAY": screen, "LIBGL_ALWAYS_SOFTWARE": "1", "HOME": str(tmp_path)}
     workspace = subprocess.run(
-        [tutorial, "run", "sh", "-c", "dirname $CMAKE_PREFIX_PATH"],
+        [tutorial, "run", "sh", "-c", "echo ${CMAKE_PREFIX_PATH%%/devel:*}"],
         check=True, capture_output=True, text=True, timeout=60,
     ).stdout.strip()  # fmt: skip
     environment["TUTORIAL_WORKSPACE"] = workspace  # whatever HOME is
-    lasting = []
+    lasting = {}
 
-    def run(script):
+    def run(script, *floor):
         """Start a script in the folder and with the home of a new user."""
         script = f"cd '{tmp_path}' && {script}"
-        return Program(tutorial, "run", "bash", "-ec", script, **environment)
+        return Program(tutorial, "run", *floor, "bash", "-ec", script, **environment)
+
+    def run_to_its_end(script, *floor):
+        with run(script, *floor) as program:
+            assert program.wait(120) == 0, f"{script}\n{program.output}"
+
+    def end(command):
+        with lasting.pop(command) as program:
+            if not program.ended:
+                program.interrupt()
+            program.wait()
+            assert "Traceback" not in program.output, program.output
 
     try:
         for block in blocks:
-            # A block that goes somewhere is one script; other lines may each have a terminal.
-            for command in ["\n".join(block)] if "cd " in block[0] else block:
+            if block[0] == STUDENTS_SHELL:
+                run_to_its_end("\n".join(block[1:]), "--in", f"{tmp_path}/catkin_ws")
+                continue
+            for command in block:  # each may have a terminal
                 sign = sign_of(command)
                 if sign is None:
-                    with run(command) as program:
-                        assert program.wait(120) == 0, f"{command}\n{program.output}"
+                    run_to_its_end(command)
                     continue
-                program = run(f"exec {command}")
-                lasting.append(program)
+                if command.startswith(DRIVES):
+                    for other in [other for other in lasting if other.startswith(DRIVES)]:
+                        end(other)
+                program = lasting[command] = run(f"exec {command}")
                 wait_for(lambda: sign in program.output or program.ended, f"{sign} of {command}")  # noqa: B023
                 assert not program.ended, f"{command}\n{program.output}"
     finally:
-        for program in lasting:
-            with program:
-                if not program.ended:
-                    program.interrupt()
-                program.wait()
-                assert "Traceback" not in program.output, program.output
+        for command in list(lasting):
+            end(command)
+
+
+def test_the_readme_has_the_handouts_sections_in_its_order_and_is_short():
+    text = README.read_text()
+    assert re.findall(r"^##+ (\d(?:\.\d)?)\.? ", text, re.MULTILINE) == HANDOUT
+    assert len(text.splitlines()) <= LONGEST_README
+
+
+@pytest.mark.parametrize("section", [one for one in HANDOUT if one not in WITHOUT_EXERCISE])
+def test_do_it_yourself_comes_first_and_ends_with_the_check(section):
+    body = re.search(rf"^##+ {section}\.? (.*?)(?=^##|\Z)", README.read_text(), re.M | re.S)[1]
+    check = f"./tutorial check --in ~/catkin_ws {section}`"
+    assert check in body
+    if "**See ours" in body and "**Do it" in body:
+        assert body.index("**Do it") < body.index(check) < body.index("**See ours")
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_links_lead_somewhere(page):
+    for target in re.findall(r"\]\(([^)#:]+)(?:#[\w-]*)?\)", page.read_text()):
+        assert (page.parent / target).exists(), target

@@ -1,4 +1,4 @@
-"""The README's two machines: the robot with the master, and the workstation with joy2twist."""
+"""The two machines of TWO_MACHINES.md: the robot with the master, and the workstation."""
 
 import contextlib
 import re
@@ -15,11 +15,10 @@ REPOSITORY = HERE.parents[3]
 ROBOT, WORKSTATION = "robot", "workstation"
 
 
-def readme_blocks():
-    """The README's commands: name of the host -> (its address, its variables, its launch)."""
-    readme = (REPOSITORY / "README.md").read_text()
-    section = re.search(r"^## Two machines\n(.*?)^## ", readme, re.MULTILINE | re.DOTALL)[1]
-    blocks = re.findall(r"^```bash\n(.*?)^```", section, re.MULTILINE | re.DOTALL)
+def page_blocks():
+    """The page's commands: name of the host -> (its address, its variables, its launch)."""
+    page = (REPOSITORY / "common/doc/TWO_MACHINES.md").read_text()
+    blocks = re.findall(r"^```bash\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
     lines = {host: block.splitlines() for host, block in zip((ROBOT, WORKSTATION), blocks)}
     return {
         host: (re.search(r"ROS_IP=(\S+)", variables)[1], variables, launch)
@@ -40,7 +39,7 @@ class Scene:
     """Both hosts and what runs on them. A context manager that leaves nothing behind."""
 
     def __init__(self):
-        self._blocks = readme_blocks()
+        self._blocks = page_blocks()
         self._stack = contextlib.ExitStack()
 
     def __enter__(self):
@@ -52,11 +51,11 @@ class Scene:
         self._stack.__exit__(*error)
 
     def address(self, host):
-        """The IPv4 address of a host, as the README has it."""
+        """The IPv4 address of a host, as the page has it."""
         return self._blocks[host][0]
 
     def start(self, host, command, **options):
-        """Start a command on a host, with the README's variables: a processes.Program."""
+        """Start a command on a host, with the page's variables: a processes.Program."""
         _, variables, _ = self._blocks[host]
         script = f"{variables}\nexec {command}"
         command = [str(REPOSITORY / "tutorial"), "run", "bash", "-ec", script]
@@ -64,13 +63,13 @@ class Scene:
         return self._stack.enter_context(self.network[host].start(*command, DISPLAY="", **options))
 
     def launch_robot(self, arguments=""):
-        """Start the README's launch on the robot and watch its odometry."""
+        """Start the page's launch on the robot and watch its odometry."""
         self.robot = self.start(ROBOT, f"{self._blocks[ROBOT][2]} {arguments}")
         self._observer = self.start(ROBOT, f"'{HERE}/observer.py'")
         wait_for(lambda: self.odometry, "odometry of the robot")
 
     def launch_workstation(self, launch=None):
-        """Start a launch on the workstation, the README's unless told."""
+        """Start a launch on the workstation, the page's unless told."""
         self.workstation = self.start(WORKSTATION, launch or self._blocks[WORKSTATION][2])
 
     def launch_pilot(self):
