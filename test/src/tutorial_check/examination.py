@@ -34,10 +34,11 @@ class Outcome:
         return self.done and passed(self.results)
 
 
-def examine(workspace, floor, exercises, tell=lambda outcome, result: None):
+def examine(workspace, floor, exercises, tell=lambda outcome, result: None, only_first=False):
     """[Outcome] of a workspace. tell is called with each result as soon as it is there.
 
-    floor: setup.bash of the devel space with what students use and never write.
+    floor: setup.bash of the devel space with what students use and never write. only_first: end
+    each exercise at the first check that is wrong.
     Raises CannotCheck.
     """
     if not Path(floor).is_file():
@@ -46,7 +47,7 @@ def examine(workspace, floor, exercises, tell=lambda outcome, result: None):
         raise CannotCheck(f"{workspace}: no such folder")
     folder = tempfile.mkdtemp(prefix="tutorial_check_")
     try:
-        return _examine(os.path.abspath(workspace), os.path.abspath(floor), exercises, folder, tell)
+        return _examine(os.path.abspath(workspace), os.path.abspath(floor), exercises, folder, tell, only_first)
     finally:
         shutil.rmtree(folder, ignore_errors=True)
 
@@ -62,12 +63,12 @@ def _kept(floor):
     return [str(each) for each in kept]
 
 
-def _examine(workspace, floor, exercises, folder, tell):
+def _examine(workspace, floor, exercises, folder, tell, only_first):
     wrapper = place.wrapper()
     orders = {
         "workspace": workspace, "floor": floor, "exercises": list(exercises), "folder": folder,
         "apart": bool(wrapper), "mapped": "--user" in wrapper, "home": os.path.expanduser("~"), "kept": _kept(floor),
-        "number": next(NUMBERS) % 1000,
+        "number": next(NUMBERS) % 1000, "only_first": only_first,
     }  # fmt: skip
     source = str(Path(__file__).resolve().parents[1])
     script = '. "$1" >/dev/null; export PYTHONPATH="$2:$PYTHONPATH"; shift 2; exec "$@"'

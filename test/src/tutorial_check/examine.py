@@ -42,7 +42,7 @@ def main():
 
 
 def examine(orders, tell):
-    """orders: workspace, folder, floor, exercises, apart."""
+    """orders: workspace, folder, floor, exercises, apart, only_first ..."""
     scratch = Path(orders["folder"])
     granted = False
     if orders["apart"]:
@@ -79,7 +79,11 @@ def examine(orders, tell):
     times = {"prepare": round(time.monotonic() - began_s, 2)}
     for exercise in orders["exercises"]:
         began_s = time.monotonic()
-        run.exercise(exercise, lambda result, exercise=exercise: tell(exercise=exercise, result=result.as_dict()))
+        run.exercise(
+            exercise,
+            lambda result, exercise=exercise: tell(exercise=exercise, result=result.as_dict()),
+            orders["only_first"],
+        )
         tell(exercise=exercise, done=round(time.monotonic() - began_s, 2))
     if "TUTORIAL_CHECK_TIMES" in os.environ:
         print({**times, **run.seconds}, file=sys.stderr)

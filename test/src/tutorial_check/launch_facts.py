@@ -1,7 +1,6 @@
 """What launch files would start, read as roslaunch reads them and nothing started.
 
-A program of its own, run with the student's rights: a launch file may call commands while it is
-read. python3 -m tutorial_check.launch_facts FILE ... prints one JSON object a file.
+A program of its own, run with the student's rights: what a launch file names is read. python3 -m tutorial_check.launch_facts FILE ... prints one JSON object a file.
 """
 
 import contextlib
@@ -18,6 +17,16 @@ def facts_of(path):
     """A dict about one launch file."""
     import roslaunch.config  # noqa: PLC0415
 
+    import roslaunch.loader  # noqa: PLC0415
+
+    # What <param command=...> prints is not wanted here, only what would be started.
+    value_of = roslaunch.loader.Loader.param_value
+
+    def without_command(self, verbose, name, ptype, value, textfile, binfile, command):
+        value = "" if command is not None else value
+        return value_of(self, verbose, name, ptype, value, textfile, binfile, None)
+
+    roslaunch.loader.Loader.param_value = without_command
     said = io.StringIO()
     facts = {"path": path, "error": "", "nodes": [], "files": [], "said": "", "includes": []}
     try:

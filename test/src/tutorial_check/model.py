@@ -93,8 +93,10 @@ class Run:
             self.seconds[check_id] = round(time.monotonic() - began_s, 2)
         return self._done[check_id]
 
-    def exercise(self, exercise, tell=lambda result: None):
+    def exercise(self, exercise, tell=lambda result: None, only_first=False):
         """The results of an exercise, each told as soon as it is there.
+
+        only_first: whether to end at the first that is wrong.
 
         What is wrong in an earlier exercise and keeps this one from being checked comes first,
         unless it was told before.
@@ -112,6 +114,8 @@ class Run:
                 if self._catalogue.checks[culprit.id].exercise != exercise:
                     add(culprit)
             add(self.result(check.id))
+            if only_first and any(result.status == WRONG for result in results):
+                break
         return results
 
     def _culprits(self, check):

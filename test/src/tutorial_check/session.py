@@ -209,6 +209,7 @@ class Stage:
         self._master = forked.Helper(lambda: forked.MasterProcess(port), ours)
         self.box.trust(self._master.pid)
         self._driver = None
+        self._helpers = []
         if not self._master.call("uri"):
             raise CannotCheck("no ROS master can be started here")
         self._driver = forked.Helper(driver.Driver, ours)
@@ -219,6 +220,13 @@ class Stage:
     def start(self, package, script, *arguments):
         """Start a script of the student's."""
         return self.launch([*self.session.command(package, script), *arguments])
+
+    def help(self, make):
+        """A forked.Helper of one's own, for as long as the stage stands."""
+        helper = forked.Helper(make, self._ours)
+        self.box.trust(helper.pid)
+        self._helpers.append(helper)
+        return helper
 
     def launch(self, command, trusted=False):
         """Start a command on this master."""
@@ -242,6 +250,8 @@ class Stage:
     def end(self):
         """End everything on this stage."""
         self.box.clear()
+        for helper in self._helpers:
+            helper.end()
         if self._driver:
             self._driver.end()
         self._master.end()

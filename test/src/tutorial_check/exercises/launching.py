@@ -9,7 +9,7 @@ import shlex
 from pathlib import Path
 
 from tutorial_check.exercises.driving import CMD_VEL, JOY, PACKAGE
-from tutorial_check.exercises.robot import ODOM, fifo_joystick
+from tutorial_check.exercises.robot import ODOM, plug_in
 from tutorial_check.launch_facts import MARK
 from tutorial_check.model import CannotCheck, Note, Wrong
 from tutorial_check.tracebacks import explain, last_lines, last_traceback
@@ -18,7 +18,7 @@ BAG, STICK = "launch_bag.launch", "launch_joy_node.launch"
 TURTLEBOT, REAL = "joy2twist_turtlebot.launch", "launch_joy_node_realTurtlebot.launch"
 ALL = (BAG, STICK, TURTLEBOT, REAL)
 BAG_S = 1.6  # length of the recording that takes the place of the student's
-START_S = 10.0  # for all nodes of a launch on a busy machine
+START_S = 20.0  # for all nodes of a launch on a busy machine
 
 
 def find_launch(session, name):
@@ -62,10 +62,10 @@ def _read(session):
     program = session.box.start(
         ["/usr/bin/python3", "-m", "tutorial_check.launch_facts", *paths.values()], environment
     )
-    if not session.box.wait(lambda: program.ended, 15.0):
-        session.box.end(program)
-        raise Wrong("launch files that roslaunch can read", "reading them does not end", hint="roslaunch --nodes FILE")
+    ended = session.box.wait(lambda: program.ended, 15.0)
     session.box.end(program)
+    if not ended:
+        raise Wrong("launch files that roslaunch can read", "reading them does not end", hint="roslaunch --nodes FILE")
     found = {}
     for line in program.output.splitlines():
         if line.startswith(MARK):
@@ -311,11 +311,12 @@ def stick_nodes(session):
 class Launch:
     """A launch file run on a stage, and what flowed."""
 
-    def __init__(self, session, name, stage, arguments=()):
-        self.session, self.stage, self.name = session, stage, name
-        for topic, kind in ((JOY, "Joy"), (CMD_VEL, "Twist"), (ODOM, "Odometry")):
+    def __init__(self, session, name, stage, twists=CMD_VEL):
+        """twists: the topic on which the velocities should come."""
+        self.session, self.stage, self.name, self.twists = session, stage, name, twists
+        for topic, kind in ((JOY, "Joy"), (twists, "Twist"), (ODOM, "Odometry")):
             stage.call("listen", topic, kind)
-        self.program = stage.launch(["roslaunch", str(find_launch(session, name)), *arguments])
+        self.program = stage.launch(["roslaunch", str(find_launch(session, name))])
 
     def moved(self):
         """How far the robot drove [m], along its way."""
@@ -328,14 +329,14 @@ class Launch:
         trace = last_traceback(output, str(self.session.package(PACKAGE).folder))
         if trace:
             return Wrong(expected, trace.error, where=trace.where, hint=explain(trace.error))
-        counts = {topic: self.stage.call("count", topic) for topic in (JOY, CMD_VEL, ODOM)}
+        counts = {topic: self.stage.call("count", topic) for topic in (JOY, self.twists, ODOM)}
         silent = [topic for topic, count in counts.items() if not count]
-        errors = [line for line in output.splitlines() if re.search(r"ERROR|died|Invalid|cannot|Unable", line) and "rviz" not in line]
-        errors = errors or [line for log in self._logs() for line in log.splitlines()[-1:]]
+        errors = [line for line in output.splitlines() if re.search(r"ERROR|died|Invalid|cannot|Unable", line) and "rviz" not in line and "INFO" not in line]
+        errors = errors or [line for log in self._logs() for line in log.splitlines()[-1:] if "INFO" not in line]
         seen = f"nothing on {', '.join(silent)}" if silent else f"the robot moved {self.moved():.2f} m"
         if errors:
             seen += f"; {errors[0].strip()[:200]}"
-        return Wrong(expected, seen, where=f"launch/{self.name}", hint=_silence_hint(silent))
+        return Wrong(expected, seen, where=f"launch/{self.name}", hint=_silence_hint(silent, self.twists))
 
     def _logs(self):
         """What nodes without output="screen" wrote."""
@@ -344,11 +345,11 @@ class Launch:
             yield path.read_text(errors="replace")[-3000:]
 
 
-def _silence_hint(silent):
+def _silence_hint(silent, twists):
     if JOY in silent:
         return "does the recording, or joy_node, run? rostopic hz /joy"
-    if CMD_VEL in silent:
-        return "does joy2twist run, and on /joy and /cmd_vel? rosnode list"
+    if twists in silent:
+        return f"does joy2twist run, and publish on {twists}? rosnode list"
     if ODOM in silent:
         return "does the simulated robot run? " + ROBOT_HINT
     return "rostopic echo /cmd_vel"
@@ -427,19 +428,40 @@ def stick_drives(session):
     check_stick(session, STICK)
 
 
-def check_stick(session, name, topic=CMD_VEL):
+def check_stick(session, name):
     """A launch file with a joystick: the robot moves with the stick."""
     with session.stage() as stage:
-        pad, path = fifo_joystick(session, stage)
-        if str(path) != "/dev/input/js0":
-            for node in nodes_of(session, name):
-                if is_joystick(node):
-                    stage.call("set_parameter", f"{node['namespace']}{node['name']}/dev", str(path))
+        pad = plug_in_for(session, stage, name)
         launch = Launch(session, name, stage)
-        stage.wait(lambda: launch.moved() > 0.15 or launch.program.ended or _died(launch), START_S)
+        pushed = push_when_ready(stage, pad, launch)
+        stage.wait(lambda: launch.moved() > 0.15 or launch.program.ended or _died(launch), 4.0 if pushed else 0.0)
         if launch.moved() <= 0.15:
             raise launch.wrong("the robot moves with the stick")
-        session.box.end(pad)  # released, as when the gamepad is let go of
+        pad.call("release")
         stage.wait(lambda: abs(stage.call("heard", ODOM)[-1][2][5]) < 0.01, 3.0)
         if abs(stage.call("heard", ODOM)[-1][2][5]) > 0.01:
             raise Wrong("released, the robot stands", "it drives on", where=f"launch/{name}")
+
+
+def plug_in_for(session, stage, name):
+    """A joystick where the joy_node of a launch file will look for it."""
+    pad, path = plug_in(session, stage)
+    if str(path) != "/dev/input/js0":
+        for node in nodes_of(session, name):
+            if is_joystick(node):
+                stage.call("set_parameter", f"{node['namespace']}{node['name']}/dev", str(path))
+    return pad
+
+
+def push_when_ready(stage, pad, launch):
+    """Push the stick forwards once everything runs; whether it came to that."""
+    topics = (JOY, launch.twists, ODOM)
+
+    def ready():
+        return pad.call("connected") and all(stage.call("speakers", topic) for topic in topics) and stage.call("count", JOY)
+
+    stage.wait(lambda: ready() or launch.program.ended or _died(launch), START_S)
+    # A robot that has only just come obeys once it was told to rest for a while; so do we.
+    stage.wait(lambda: launch.program.ended, 0.6)
+    pad.call("push", 0.0, 0.6)
+    return bool(ready())

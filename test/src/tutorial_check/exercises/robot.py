@@ -8,14 +8,10 @@ from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL, PACKAGE
 from tutorial_check.exercises.files import crash
 from tutorial_check.exercises.joy2twist import main_script
 from tutorial_check.model import CannotCheck, Note, Wrong
+from tutorial_check.pad import Pad
 
 FORWARDS, LEFT = 0.5, 0.8  # positions of the stick
 ODOM = "/odom"
-SCRIPT = """mode: {mode}
-moves:
-  - {{for: 1.0}}
-  - {{for: 30.0, held: [LB], left_stick: [0.0, 0.6]}}
-"""
 
 
 def held(left, forwards):
@@ -106,19 +102,13 @@ def simulated(session):
     return seen
 
 
-def fifo_joystick(session, stage, mode="D"):
-    """A virtual F710 behind /dev/input/js0, or a FIFO where that cannot be; (program, path)."""
+def plug_in(session, stage, mode="D"):
+    """A virtual F710 behind /dev/input/js0, or a FIFO where that cannot be; (Pad, path)."""
     path = Path("/dev/input/js0") if session.can_have_devices else session.folder / "js0"
     if path.exists():
         path.unlink()
-    moves = session.folder / f"moves_{mode}.yaml"
-    moves.write_text(SCRIPT.format(mode=mode))
-    pad = stage.launch(
-        ["rosrun", "gamepad", "virtual_joystick", "--mode", mode, "--stream", str(path), "--script", str(moves)], trusted=True
-    )
-    stage.wait(lambda: path.exists() or pad.ended, 5.0)
-    if pad.ended or not path.exists():
-        raise CannotCheck(f"the virtual joystick does not start: {pad.output[-200:]}")
+    pad = stage.help(lambda: Pad(str(path), mode))
+    pad.call("connected")
     os.chmod(path, 0o666)
     return pad, path
 
@@ -129,14 +119,16 @@ def joystick(session):
     with session.stage() as stage:
         stage.call("listen", JOY, "Joy")
         stage.call("listen", CMD_VEL, "Twist")
-        _, path = fifo_joystick(session, stage)
+        pad, path = plug_in(session, stage)
         node = stage.launch(["rosrun", "gamepad", "joy_node", f"_dev:={path}", "_autorepeat_rate:=20"], trusted=True)
         program = stage.start(PACKAGE, script)
 
         def drives():
             return any(abs(value[0]) > 0.1 for _, _, value in stage.call("heard", CMD_VEL))
 
-        stage.wait(lambda: drives() or program.ended or node.ended, 8.0)
+        stage.wait(lambda: (stage.call("count", JOY) and stage.call("speakers", CMD_VEL)) or program.ended or node.ended)
+        pad.call("push", 0.0, 0.6)
+        stage.wait(lambda: drives() or program.ended or node.ended, 3.0)
         if not stage.call("count", JOY):
             raise CannotCheck(f"the joystick driver does not start: {node.output[-200:]}")
         if program.ended or not drives():

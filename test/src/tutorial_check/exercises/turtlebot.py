@@ -5,7 +5,7 @@ import re
 from tutorial_check.exercises import launching
 from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL, PACKAGE
 from tutorial_check.exercises.launching import REAL, TURTLEBOT
-from tutorial_check.exercises.robot import ODOM, fifo_joystick, held
+from tutorial_check.exercises.robot import held
 from tutorial_check.model import CannotCheck, Wrong
 
 TELEOP, ACTIVE = "/cmd_vel_mux/input/teleop", "/cmd_vel_mux/active"
@@ -91,25 +91,18 @@ def real_robot(session):
     has_base = any(node["type"] == "cmd_vel_mux.py" for node in launching.nodes_of(session, REAL))
     with session.stage() as stage:
         stage.call("listen", ACTIVE, "String")
-        _, device = fifo_joystick(session, stage)
-        if str(device) != "/dev/input/js0":
-            for node in launching.nodes_of(session, REAL):
-                if launching.is_joystick(node):
-                    stage.call("set_parameter", f"{node['namespace']}{node['name']}/dev", str(device))
+        pad = launching.plug_in_for(session, stage, REAL)
         base = None
         if not has_base:
             base = stage.launch(["roslaunch", "fake_turtlebot_sim", "minimal.launch", "model:=false"], trusted=True)
-        launch = launching.Launch(session, REAL, stage)
-        stage.wait(lambda: launch.moved() > 0.15 or launch.program.ended or launching._died(launch), launching.START_S + 2)
+        launch = launching.Launch(session, REAL, stage, TELEOP)
+        pushed = launching.push_when_ready(stage, pad, launch)
+        stage.wait(lambda: launch.moved() > 0.15 or launch.program.ended or launching._died(launch), 4.0 if pushed else 0.0)
         if base and base.ended:
             raise CannotCheck(f"the simulated TurtleBot does not start: {base.output[-200:]}")
         moved = launch.moved() > 0.15
         active = {value for _, _, value in stage.call("heard", ACTIVE)}
         if not moved:
-            wrong = launch.wrong("cmd_vel_mux lets teleop through, and the robot moves with the stick")
-            if wrong.seen.startswith(f"nothing on {CMD_VEL}") or "nothing on" not in wrong.seen:
-                wrong.seen = wrong.seen.replace(f"nothing on {CMD_VEL}", f"nothing reaches {TELEOP}")
-            raise wrong
-        stage.wait(lambda: stage.call("count", ODOM), 0.1)
+            raise launch.wrong("cmd_vel_mux lets teleop through, and the robot moves with the stick")
     if not any("teleop" in each for each in active):
         raise Wrong("cmd_vel_mux/active says teleop", f"{', '.join(sorted(active)) or 'nothing'}", where=where, hint=REMAP)
