@@ -35,6 +35,7 @@ class Program:
         self.process = process
         self.name = name
         self.began_s = time.monotonic()
+        self.was_stopped = False  # by us: then how it ended says nothing
         self._first, self._last, self.printed = bytearray(), bytearray(), 0
 
     @property
@@ -156,6 +157,7 @@ class Box:
         """End a program; how long it took after Ctrl-C [s], or None if it had to be killed."""
         began_s = time.monotonic()
         if not program.ended:
+            program.was_stopped = True
             self.interrupt(program)
             self.wait(lambda: program.ended, grace_s)
         took_s = time.monotonic() - began_s if program.ended else None
@@ -170,7 +172,8 @@ class Box:
     def clear(self):
         """End all that is left, whatever it is called and whoever started it."""
         for program in self._open:
-            if program.process.returncode is None:
+            if not program.ended:
+                program.was_stopped = True
                 with contextlib.suppress(ProcessLookupError, PermissionError):
                     os.killpg(program.process.pid, signal.SIGKILL)
         if self._uid is not None:

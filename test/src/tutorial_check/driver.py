@@ -70,7 +70,7 @@ class Driver:
         self._publishers, self._heard, self._sent = {}, {}, {}
         self._streams, self._subscribers = {}, {}
         self._warnings = _Warnings()
-        for name in ("rospy.internal", "rospy.impl", "rosout", "rospy.topics"):
+        for name in ("rospy", "rosout"):
             logging.getLogger(name).addHandler(self._warnings)
 
     def warnings(self):
@@ -175,7 +175,10 @@ class Driver:
             return False
 
     def kill_node(self, node):
-        """What rosnode kill does."""
+        """What rosnode kill does; not waited for, as the node may take its time."""
+        threading.Thread(target=self._kill, args=(node,), daemon=True).start()
+
+    def _kill(self, node):
         try:
             with xmlrpc.client.ServerProxy(self._master.lookupNode(node)) as proxy:
                 proxy.shutdown(f"/{NAME}", "user request")

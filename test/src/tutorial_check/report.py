@@ -60,18 +60,18 @@ class Terminal:
         self._out = out or sys.stdout
         self._hints = hints
         self._heading = None
-        self._is_terminal = self._out.isatty()
-        self._has_colour = self._is_terminal and "NO_COLOR" not in os.environ
+        self.is_terminal = self._out.isatty()
+        self._has_colour = self.is_terminal and "NO_COLOR" not in os.environ
 
     def busy(self, words):
         """A line that the next one replaces."""
-        if self._is_terminal:
+        if self.is_terminal:
             self._out.write(f"\r\x1b[K{words} ...")
             self._out.flush()
 
     def done(self):
         """Take that line away."""
-        if self._is_terminal:
+        if self.is_terminal:
             self._out.write("\r\x1b[K")
             self._out.flush()
 

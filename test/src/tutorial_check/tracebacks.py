@@ -18,7 +18,7 @@ ERROR = re.compile(r"^(?:[A-Za-z_][\w.]*(?:Error|Exception|NotFound|Interrupt|Ex
 
 # What an error line most often means here: (pattern, what to do). The first that fits counts.
 CAUSES = (
-    (r"No module named '(?P<m>[^']*(?:std|sensor|geometry|nav))\b", "the module is written with _msgs: from {m}_msgs.msg import ..."),
+    (r"No module named '(?P<m>std|sensor|geometry|nav)\w*'", "the module is written with _msgs: from {m}_msgs.msg import ..."),
     (r"No module named '(?P<m>[^']+)'", "nothing is called {m}: look at the spelling in the import line"),
     (r"cannot import name '(?P<m>[^']+)'", "no message is called {m}: look at the spelling, capitals count"),
     (r"client code must call rospy\.init_node", "rospy.init_node(...) must come before the first use of ROS"),
@@ -52,12 +52,18 @@ CAUSES = (
 )  # fmt: skip
 
 
-def last_traceback(output, folder):
-    """The last Traceback in the output, or None. folder: the package's; its files count as his."""
-    start = output.rfind("Traceback (most recent call last)")
-    if start < 0:
-        return None
-    lines = output[start:].splitlines()
+def first_traceback(output, folder):
+    """The first Traceback in the output, or None: what follows is often its consequence.
+
+    folder: the package's; its files count as the student's.
+    """
+    blocks = output.split("Traceback (most recent call last)")[1:]
+    found = [_traceback(block, folder) for block in blocks[:50]]
+    return next((trace for trace in found if trace.where), found[0] if found else None)
+
+
+def _traceback(block, folder):
+    lines = block.splitlines()
     where = text = error = ""
     for number, line in enumerate(lines[1:], 1):
         frame = FRAME.match(line)

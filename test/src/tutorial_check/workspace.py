@@ -97,16 +97,16 @@ def copy(layout, target):
     if not layout.source.is_dir():
         return target
     if (layout.source / "package.xml").exists():
-        _copy(layout.source, target / layout.source.name, [0, 0], set())
+        _copy(layout.source, target / layout.source.name, [0, 0, os.path.realpath(target)], set())
     else:
-        _copy(layout.source, target, [0, 0], set())
+        _copy(layout.source, target, [0, 0, os.path.realpath(target)], set())
     return target
 
 
 def _copy(source, target, so_far, seen):
     real = os.path.realpath(source)
-    if real in seen:
-        return  # a link to a folder above
+    if real in seen or real == so_far[2]:
+        return  # a link to a folder above, or the copy itself
     target.mkdir(exist_ok=True)
     try:
         entries = sorted(os.scandir(source), key=lambda entry: entry.name)

@@ -24,7 +24,7 @@ CHECKS = (
     Check("C6", "3", "the talker talks", "3.1", ("C5",), "rostopic hz /chatter"),
     Check("C7", "3", "the listener displays what it hears", "3.1", ("C5",), "rosrun beginner_tutorials listener.py"),
     Check("C8", "3", "talker and listener are connected", "3.1", ("C6", "C7"), "rosnode info /rosout; rqt_graph"),
-    Check("C9", "3", "anonymous names", "3.1", ("C6", "C7"), "rosnode list, with two talkers"),
+    Check("C9", "3", "anonymous names", "3.1", ("C6", "C7", "C10"), "rosnode list, with two talkers"),
     Check("C10", "3", "Ctrl-C ends both", "3.1", ("C6", "C7"), "Ctrl-C in their terminals"),
     Check("C11", "4.2", "a recording of /joy", "4.2", (), "rosbag info joy.bag"),
     Check("C12", "4.3", "package joy2twist and its dependencies", "4.3", (), "rospack find joy2twist"),

@@ -5,7 +5,7 @@ import statistics
 from tutorial_check.exercises.files import check_file, crash, find_script
 from tutorial_check.model import Note, Wrong
 from tutorial_check.python_facts import flipped_anonymous
-from tutorial_check.tracebacks import last_traceback
+from tutorial_check.tracebacks import first_traceback
 
 PACKAGE = "beginner_tutorials"
 LISTEN_S = 1.5  # to the talker
@@ -96,11 +96,11 @@ def talker(session):
     facts = _facts(session, script)
     if not talk.heard:
         made = facts.first("Publisher")
-        if program.ended or "Traceback" in program.output:
+        if talk.talker_ended or "Traceback" in program.output:
             hint = "" if facts.has_main else "does the last line call talker()?"
             raise crash(session, PACKAGE, program, expected, hint or "does the last line call talker(), and does it loop?")
         topics = sorted(topic for topic in talk.publishers if topic not in (TOPIC, "/rosout"))
-        if talk.types.get(TOPIC, "std_msgs/String") != "std_msgs/String" or any("datatype" in line for line in talk.warnings):
+        if TOPIC in talk.publishers and talk.types.get(TOPIC, "std_msgs/String") != "std_msgs/String" or any("datatype" in line for line in talk.warnings):
             raise Wrong(
                 expected, f"/chatter carries {talk.types.get(TOPIC)}", where=f"{script}:{made.line if made else 1}",
                 hint="rospy.Publisher('chatter', String, queue_size=10)",
@@ -227,7 +227,7 @@ def ctrl_c(session):
                 f"{name} ends within 3 s of Ctrl-C", "it had to be killed", where=script,
                 hint="while not rospy.is_shutdown(): and no `except` that swallows the end",
             )  # fmt: skip
-        trace = last_traceback(program.output, str(session.package(PACKAGE).folder))
+        trace = first_traceback(program.output, str(session.package(PACKAGE).folder))
         if trace and "ROSInterrupt" in trace.error:
             return Note(f"{name} ends with a traceback, ROSInterruptException", trace.where, "except rospy.ROSInterruptException: pass")
         if trace:

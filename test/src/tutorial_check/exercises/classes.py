@@ -193,9 +193,9 @@ def stops(session):
 
 
 def _trace(session, output):
-    from tutorial_check.tracebacks import last_traceback  # noqa: PLC0415
+    from tutorial_check.tracebacks import first_traceback  # noqa: PLC0415
 
-    return last_traceback(output, str(session.package(PACKAGE).folder))
+    return first_traceback(output, str(session.package(PACKAGE).folder))
 
 
 def nothing_after(session):

@@ -21,7 +21,7 @@ class Drive:
 
     def __init__(self, session, script, wants_twist=True):
         self.session, self.script = session, script
-        self.samples, self.missing, self.unasked, self.shown = [], 0, 0, 0
+        self.samples, self.missing, self.unasked, self.shown, self.asked = [], 0, 0, 0, 0
         self.delays, self.sent, self.answered, self.foreign = [], 0, 0, []
         with session.stage() as stage:
             stage.call("advertise", JOY, "Joy")
@@ -61,7 +61,8 @@ class Drive:
         else:
             for joy in joys:
                 stage.call("send", JOY, joy)
-        stage.wait(lambda: self._displayed() >= 5 or self.program.ended, 0.7)
+            self.asked = COUNT
+        stage.wait(lambda: self._displayed() >= min(5, self.asked) or self.program.ended, 0.7)
         self.shown = self._displayed()
         if wants_twist and len(self.samples) > COUNT / 2 and not self.program.ended:
             for _ in range(2):
@@ -74,6 +75,7 @@ class Drive:
         for joy in joys:
             before = stage.call("count", CMD_VEL)
             stage.call("send", JOY, joy)
+            self.asked += 1
             stage.wait(lambda before=before: stage.call("count", CMD_VEL) > before or self.program.ended, ANSWER_S)
             if settle_s:
                 stage.wait(lambda: self.program.ended, settle_s)
@@ -121,6 +123,11 @@ class Drive:
         if self.answered < 0.95 * self.sent:
             return False
         return self.delay_s is None or self.delay_s < 0.05
+
+    @property
+    def all_shown(self):
+        """Whether as many Joys were displayed as can be asked for."""
+        return self.shown >= min(5, max(1, self.asked))
 
     @property
     def trouble(self):

@@ -105,14 +105,15 @@ def _check_interpreter(first, script):
 
 def crash(session, package, program, what, default_hint=""):
     """The Wrong for a program that ended or failed, with the cause as far as its output tells."""
-    from tutorial_check.tracebacks import explain, last_lines, last_traceback  # noqa: PLC0415
+    from tutorial_check.tracebacks import explain, last_lines, first_traceback  # noqa: PLC0415
 
-    trace = last_traceback(program.output, str(session.package(package).folder))
+    trace = first_traceback(program.output, str(session.package(package).folder))
     if trace:
         seen = trace.error + (f"   in: {trace.text}" if trace.text else "")
         return Wrong(what, seen, where=trace.where, hint=explain(trace.error) or default_hint)
-    if program.ended and program.process.returncode is not None and program.process.returncode < 0:
+    has_ended = program.ended and not program.was_stopped
+    if has_ended and program.process.returncode is not None and program.process.returncode < 0:
         return Wrong(what, f"the program was ended by signal {-program.process.returncode}", hint=default_hint)
     said = last_lines(program.output)
-    ended = f"it ended at once, exit code {program.process.returncode}" if program.ended else "it runs"
+    ended = f"it ended at once, exit code {program.process.returncode}" if has_ended else "it runs"
     return Wrong(what, f"{ended}; it said: {said}" if said else f"{ended}, without a word", hint=default_hint)

@@ -12,7 +12,7 @@ from tutorial_check.exercises.driving import CMD_VEL, JOY, PACKAGE
 from tutorial_check.exercises.robot import ODOM, plug_in
 from tutorial_check.launch_facts import MARK
 from tutorial_check.model import CannotCheck, Note, Wrong
-from tutorial_check.tracebacks import explain, last_lines, last_traceback
+from tutorial_check.tracebacks import explain, last_lines, first_traceback
 
 BAG, STICK = "launch_bag.launch", "launch_joy_node.launch"
 TURTLEBOT, REAL = "joy2twist_turtlebot.launch", "launch_joy_node_realTurtlebot.launch"
@@ -326,7 +326,7 @@ class Launch:
     def wrong(self, expected):
         """The Wrong for a launch that does not do what it should, with the first cause there is."""
         output = re.sub(r"\x1b\[[0-9;]*m|\x1b\][^\x07]*\x07", "", self.program.output)
-        trace = last_traceback(output, str(self.session.package(PACKAGE).folder))
+        trace = first_traceback(output, str(self.session.package(PACKAGE).folder))
         if trace:
             return Wrong(expected, trace.error, where=trace.where, hint=explain(trace.error))
         counts = {topic: self.stage.call("count", topic) for topic in (JOY, self.twists, ODOM)}

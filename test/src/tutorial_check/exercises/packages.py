@@ -148,6 +148,12 @@ def joy2twist(session):
 
 def build(session):
     """C4: catkin_make in a fresh copy."""
+    for each in session.packages:
+        if not (each.folder / "CMakeLists.txt").exists():
+            raise Wrong(
+                "catkin_make without an error", "CMakeLists.txt is missing", where=each.inside,
+                hint="catkin_create_pkg makes it; take it from a new package of the same name",
+            )  # fmt: skip
     code, output = session.built()
     if code is None:
         raise Wrong("catkin_make ends", "it runs for more than two minutes", hint="catkin_make in your workspace")

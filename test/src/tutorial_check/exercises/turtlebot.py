@@ -44,9 +44,9 @@ def remapped(session):
     if good and not bad and CMD_VEL not in publishers:
         return None
     if "Traceback" in output or launching._died(_Run(program)):
-        from tutorial_check.tracebacks import explain, last_lines, last_traceback  # noqa: PLC0415
+        from tutorial_check.tracebacks import explain, last_lines, first_traceback  # noqa: PLC0415
 
-        trace = last_traceback(output, str(session.package(PACKAGE).folder))
+        trace = first_traceback(output, str(session.package(PACKAGE).folder))
         raise Wrong(expected, trace.error if trace else last_lines(output), where=trace.where if trace else where,
                     hint=explain(trace.error) if trace else "")
     if bad and re.search(r"<param\s+(from|name)=", text) and not remaps:
