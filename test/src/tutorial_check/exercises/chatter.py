@@ -39,11 +39,12 @@ class Talk:
             self.talkers = [stage.start(PACKAGE, talker)]
             self.listener = stage.start(PACKAGE, listener)
             stage.wait(lambda: stage.call("count", TOPIC) or self.talkers[0].ended)
+            self.types = stage.call("types")
             stage.call("advertise", TOPIC, "String")
             stage.wait(lambda: stage.call("listeners", TOPIC) > 1 or self.listener.ended, 5.0)
             stage.wait(lambda: len(self._heard(stage)) > 3 or self.talkers[0].ended, 2.0)
             self.publishers, self.subscribers = stage.call("state")
-            self.types, self.warnings = stage.call("types"), stage.call("warnings")
+            self.warnings = stage.call("warnings")
             first = len(self._heard(stage))
             self.strings = [f"tutorial check {word} {3 * number}" for number, word in enumerate("ABCDE", 7)]
             for text in self.strings:

@@ -55,7 +55,7 @@ def crash_of(session, seen, expected, hint=""):
     """The Wrong for a program that failed; with an except that hides the cause taken away."""
     program = seen.program
     facts = session.scripts(PACKAGE)[seen.script]
-    if not seen.trouble and facts.broad_excepts:
+    if facts.broad_excepts and (seen.ended_early or not seen.trouble):
         text = unmasked(session.text(PACKAGE, seen.script))
         if text:
             shown = drive(session, session.memo(("unmasked", seen.script), lambda: session.sibling(PACKAGE, seen.script, text)))
