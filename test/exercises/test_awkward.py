@@ -5,6 +5,7 @@ import os
 import shutil
 import subprocess
 import sys
+import tempfile
 import zipfile
 from pathlib import Path
 
@@ -90,8 +91,10 @@ def test_an_unreadable_folder(literal, floor):
     """For a user who is not root: to root everything is readable."""
     words = []
     if os.geteuid() == 0:
-        for folder in (literal, *literal.parents[:3]):
-            os.chmod(folder, 0o755)
+        for folder in (literal, *literal.parents):
+            if folder.name == Path(tempfile.gettempdir()).name:
+                break
+            folder.chmod(0o755)
         words = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"]
     (literal / J).chmod(0)
     done = subprocess.run(

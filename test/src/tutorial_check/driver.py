@@ -147,7 +147,10 @@ class Driver:
 
     def state(self):
         """(publishers, subscribers), each {topic: [nodes]}, without ourselves."""
-        publishers, subscribers, _ = self._master.getSystemState()
+        try:
+            publishers, subscribers, _ = self._master.getSystemState()
+        except (OSError, rosgraph.MasterException):
+            return {}, {}  # the master has gone; see alive()
         return tuple(
             {
                 topic: [node for node in nodes if node != f"/{NAME}"]
@@ -159,7 +162,10 @@ class Driver:
 
     def types(self):
         """{topic: type}."""
-        return dict(self._master.getTopicTypes())
+        try:
+            return dict(self._master.getTopicTypes())
+        except (OSError, rosgraph.MasterException):
+            return {}
 
     def alive(self):
         """Whether the master answers."""

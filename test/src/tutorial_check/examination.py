@@ -41,10 +41,13 @@ def examine(workspace, floor, exercises, tell=lambda outcome, result: None, only
     each exercise at the first check that is wrong.
     Raises CannotCheck.
     """
-    if not Path(floor).is_file():
-        raise CannotCheck(f"{floor}: no such file; ./tutorial setup builds it")
-    if not Path(workspace).exists():
-        raise CannotCheck(f"{workspace}: no such folder")
+    try:
+        if not Path(floor).is_file():
+            raise CannotCheck(f"{floor}: no such file; ./tutorial setup builds it")
+        if not Path(workspace).exists():
+            raise CannotCheck(f"{workspace}: no such folder")
+    except PermissionError as error:
+        raise CannotCheck(f"{error.filename}: may not be read") from None
     folder = tempfile.mkdtemp(prefix="tutorial_check_")
     try:
         return _examine(os.path.abspath(workspace), os.path.abspath(floor), exercises, folder, tell, only_first)

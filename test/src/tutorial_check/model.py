@@ -42,6 +42,14 @@ class Wrong(Exception):
         self.expected, self.seen, self.where, self.hint = expected, seen, where, hint
 
 
+def master_gone(where=""):
+    """The Wrong for a program that ends the master."""
+    return Wrong(
+        "the ROS master is left alone", "it no longer answers: a program of yours has ended it", where,
+        "a node ends itself (rospy.signal_shutdown), never the master",
+    )  # fmt: skip
+
+
 class CannotCheck(Exception):
     """The checker cannot work, through no fault of the student's; the text says why in one line."""
 

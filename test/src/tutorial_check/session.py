@@ -10,7 +10,7 @@ import uuid
 from pathlib import Path
 
 from tutorial_check import driver, forked, python_facts
-from tutorial_check.model import CannotCheck, Wrong
+from tutorial_check.model import CannotCheck, Wrong, master_gone
 from tutorial_check.workspace import packages_below
 
 START_S = 8.0  # a node of the student's has this long to appear; a busy machine is slow
@@ -186,6 +186,10 @@ class Session:
         stage = Stage(self)
         try:
             yield stage
+        except (CannotCheck, Wrong, LookupError) as error:
+            if stage.call("alive"):
+                raise
+            raise master_gone() from error
         finally:
             stage.end()
 

@@ -3,7 +3,7 @@
 import statistics
 
 from tutorial_check.exercises.files import check_file, crash, find_script
-from tutorial_check.model import Note, Wrong
+from tutorial_check.model import Note, Wrong, master_gone
 from tutorial_check.python_facts import flipped_anonymous
 from tutorial_check.tracebacks import first_traceback
 
@@ -81,10 +81,7 @@ def _talk(session):
 
 def _check_master(talk):
     if not talk.master_alive:
-        raise Wrong(
-            "the ROS master is left alone", "it no longer answers: a program of yours has ended it",
-            hint="a node ends itself (rospy.signal_shutdown), never the master",
-        )  # fmt: skip
+        raise master_gone()
 
 
 def talker(session):

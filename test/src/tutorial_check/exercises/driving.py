@@ -4,7 +4,7 @@ import re
 import statistics
 
 from tutorial_check.mapping import judge, numbered_joys
-from tutorial_check.model import Wrong
+from tutorial_check.model import master_gone
 
 PACKAGE = "joy2twist"
 JOY, CMD_VEL = "/joy", "/cmd_vel"
@@ -157,7 +157,4 @@ def drive(session, script, wants_twist=True):
 def check_master(seen):
     """Raises Wrong if the master has gone."""
     if not seen.master_alive:
-        raise Wrong(
-            "the ROS master is left alone", "it no longer answers: your program has ended it",
-            where=seen.script, hint="a node ends itself (rospy.signal_shutdown), never the master",
-        )  # fmt: skip
+        raise master_gone(seen.script)
