@@ -62,6 +62,8 @@ class Talk:
             stage.wait(lambda: set(stage.call("state")[0].get(TOPIC, [])) - names or self.talkers[0].ended)
             stage.wait(lambda: self.talkers[0].ended or self._both(stage), 1.5)
             self.first_ended, self.both = self.talkers[0].ended, self._both(stage)
+            so_far = len(self._heard(stage))  # the one that is ended next must be well under way
+            stage.wait(lambda: len(self._heard(stage)) > so_far + 2 or self.talkers[1].ended, 3.0)
             self.taken = {
                 name: session.box.end(program)
                 for name, program in (("talker.py", self.talkers[-1]), ("listener.py", self.listener))

@@ -1,5 +1,6 @@
 """One program that turns Joy into Twist, driven over its topics; what was seen, without a verdict."""
 
+import collections
 import re
 import statistics
 
@@ -102,7 +103,10 @@ class Drive:
         # Which Joy a Twist answers is told by its value, by the factor known from before.
         factor = statistics.median([t[0] / a[1] for a, t in self.samples if abs(a[1]) > 0.1] or [1.0])
         self.delays = []
+        often = collections.Counter(round(twist[0], 6) for _, _, twist in heard)
         for when, _, twist in heard:
+            if often[round(twist[0], 6)] > 1:
+                continue  # at a limit, or repeated: it does not tell which
             k = round((twist[0] / factor - 0.3) / 0.005) if factor else -1
             if 0 <= k < len(sent):
                 self.delays.append(when - sent[k])
