@@ -46,7 +46,11 @@ def pytest_terminal_summary(terminalreporter):
     alarms, checks = [], 0
     for reports in terminalreporter.stats.values():
         for report in reports:
-            for name, value in getattr(report, "user_properties", ()) if getattr(report, "when", "") == "call" else ():
+            for name, value in (
+                getattr(report, "user_properties", ())
+                if getattr(report, "when", "") == "call"
+                else ()
+            ):
                 if name in table:
                     table[name].append(value)
                 elif name == "checks":

@@ -6,7 +6,10 @@ B, J = "beginner_tutorials", "joy2twist"
 TALKER, LISTENER = f"{B}/scripts/talker.py", f"{B}/scripts/listener.py"
 JOY2TWIST, CLASS = f"{J}/scripts/joy2twist.py", f"{J}/scripts/new_joy2twist.py"
 LAUNCH_BAG, LAUNCH_JOY = f"{J}/launch/launch_bag.launch", f"{J}/launch/launch_joy_node.launch"
-TURTLEBOT, REAL = f"{J}/launch/joy2twist_turtlebot.launch", f"{J}/launch/launch_joy_node_realTurtlebot.launch"
+TURTLEBOT, REAL = (
+    f"{J}/launch/joy2twist_turtlebot.launch",
+    f"{J}/launch/launch_joy_node_realTurtlebot.launch",
+)
 
 
 def put(path, old, new, count=-1):

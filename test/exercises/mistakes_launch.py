@@ -1,6 +1,18 @@
 """Mistakes in launch files, each a row: (exercise, what, edits, check, word of the diagnosis)."""
 
-from edits import JOY2TWIST, LAUNCH_BAG, LAUNCH_JOY, REAL, TURTLEBOT, J, chmod, move, put, remove, windows  # noqa: F401
+from edits import (  # noqa: F401
+    JOY2TWIST,
+    LAUNCH_BAG,
+    LAUNCH_JOY,
+    REAL,
+    TURTLEBOT,
+    J,
+    chmod,
+    move,
+    put,
+    remove,
+    windows,
+)
 
 OWN = '  <node pkg="joy2twist" name="myjoystick2twist" type="joy2twist.py">\n  </node>\n'
 ROBOT = '  <include file="$(find rbx1_bringup)/launch/fake_turtlebot.launch"/>\n'

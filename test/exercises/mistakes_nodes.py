@@ -92,4 +92,4 @@ ROWS = [
     ("6.2", "chmod forgotten", [chmod(CLASS, 0o644)], "C29", "chmod"),
     ("6.2", "no class", [lambda src: (src / CLASS).unlink()], "C29", "no class"),
     node("v1 under two names", PUBLISH, "pub.publish(Twist())", "C16", "zero"),
-]
+]  # fmt: skip

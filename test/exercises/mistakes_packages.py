@@ -1,6 +1,20 @@
 """Mistakes with packages and files, each a row: (exercise, what, edits, check, word of the diagnosis)."""
 
-from edits import B, J, JOY2TWIST, LISTENER, TALKER, chmod, copy, lines, move, put, remove, windows, write
+from edits import (
+    JOY2TWIST,
+    LISTENER,
+    TALKER,
+    B,
+    J,
+    chmod,
+    copy,
+    lines,
+    move,
+    put,
+    remove,
+    windows,
+    write,
+)
 
 PUT_XML, PUT_JOY_XML = f"{B}/package.xml", f"{J}/package.xml"
 
@@ -64,4 +78,4 @@ ROWS = [
     ("4.3", "chmod forgotten", [chmod(JOY2TWIST, 0o644)], "C13", "chmod"),
     ("4.3", "load_manifest of another name", [put(JOY2TWIST, "load_manifest('joy2twist')", "load_manifest('joy2twst')")], "C13", "joy2twst"),
     ("4.3", "sensor msgs", [put(JOY2TWIST, "sensor_msgs.msg", "sensor msgs.msg")], "C13", "underscores"),
-]
+]  # fmt: skip

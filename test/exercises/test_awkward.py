@@ -10,7 +10,7 @@ import zipfile
 from pathlib import Path
 
 import pytest
-from edits import B, J, JOY2TWIST, TALKER, apply, chmod, move, put
+from edits import JOY2TWIST, TALKER, B, J, apply, chmod, move, put
 
 SOURCE = Path(__file__).resolve().parents[1] / "src"
 
@@ -19,14 +19,23 @@ def check(floor, *words, **options):
     """(exit code, stdout, stderr) of a run of ./tutorial check."""
     done = subprocess.run(
         ["/usr/bin/python3", "-m", "tutorial_check", "--floor", str(floor), *map(str, words)],
-        capture_output=True, text=True, check=False, timeout=300, env={**os.environ, "PYTHONPATH": str(SOURCE)}, **options,
-    )  # fmt: skip
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=300,
+        env={**os.environ, "PYTHONPATH": str(SOURCE)},
+        **options,
+    )
     assert "Traceback" not in done.stderr, done.stderr
     return done.returncode, done.stdout, done.stderr
 
 
 def test_right_is_exit_code_0_with_all_its_files(literal, floor, tmp_path):
-    files = [word for name in ("json", "junit", "gradescope", "classroom") for word in (f"--{name}", tmp_path / name)]
+    files = [
+        word
+        for name in ("json", "junit", "gradescope", "classroom")
+        for word in (f"--{name}", tmp_path / name)
+    ]
     code, out, _ = check(floor, "--in", literal.parent, "2", *files)
     assert code == 0, out
     assert out.endswith("1 of 1 exercises done\n")
@@ -53,7 +62,9 @@ def test_no_such_exercise(literal, floor):
 
 @pytest.mark.parametrize("floor_there", [True, False])
 def test_it_cannot_work(tmp_path, floor, floor_there):
-    code, _, error = check(floor if floor_there else tmp_path / "none", "--in", tmp_path / "nowhere", "2")
+    code, _, error = check(
+        floor if floor_there else tmp_path / "none", "--in", tmp_path / "nowhere", "2"
+    )
     assert code == 2
     assert "no such" in error
     assert "no verdict" in error
@@ -98,9 +109,23 @@ def test_an_unreadable_folder(literal, floor):
         words = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"]
     (literal / J).chmod(0)
     done = subprocess.run(
-        [*words, "/usr/bin/python3", "-m", "tutorial_check", "--floor", str(floor), "--in", str(literal.parent), "2"],
-        capture_output=True, text=True, check=False, timeout=100, env={**os.environ, "PYTHONPATH": str(SOURCE), "HOME": "/nonexistent"},
-    )  # fmt: skip
+        [
+            *words,
+            "/usr/bin/python3",
+            "-m",
+            "tutorial_check",
+            "--floor",
+            str(floor),
+            "--in",
+            str(literal.parent),
+            "2",
+        ],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=100,
+        env={**os.environ, "PYTHONPATH": str(SOURCE), "HOME": "/nonexistent"},
+    )
     (literal / J).chmod(0o755)
     assert done.returncode == 2, done.stdout + done.stderr
     assert "may not be read" in done.stderr
@@ -112,7 +137,10 @@ def test_the_professor(literal, floor, tmp_path):
     for name in ("ada", "bob", "eve"):
         shutil.copytree(literal.parent, room / name)
     apply([put(JOY2TWIST, "data.axes[0]", "-data.axes[0]")], room / "bob" / "src")
-    apply([put(JOY2TWIST, "def callback", "while True:\n    pass\n\n\ndef callback")], room / "eve" / "src")
+    apply(
+        [put(JOY2TWIST, "def callback", "while True:\n    pass\n\n\ndef callback")],
+        room / "eve" / "src",
+    )
     (room / "zoe.zip").write_text("no zip")
     with zipfile.ZipFile(room / "kim.zip", "w") as opened:
         for path in sorted(literal.rglob("*")):
@@ -121,7 +149,14 @@ def test_the_professor(literal, floor, tmp_path):
     assert code == 2, out + error  # zoe's could not be checked
     table = (room / "check" / "table.csv").read_text().splitlines()
     cells = {line.split(",")[0]: line.split(",")[1] for line in table}
-    assert cells == {"student": "4.3", "ada": "ok", "bob": "C16", "eve": "C14", "kim": "ok", "zoe": "?"}
+    assert cells == {
+        "student": "4.3",
+        "ada": "ok",
+        "bob": "C16",
+        "eve": "C14",
+        "kim": "ok",
+        "zoe": "?",
+    }
     page = (room / "check" / "table.html").read_text()
     assert "the sign is wrong" in page
     assert "sign is wrong" in (room / "check" / "bob.txt").read_text()
@@ -132,9 +167,21 @@ def test_watch(literal, floor):
     """It tells what is wrong, and after the file is mended that it is done."""
     chmod(TALKER, 0o644)(literal)
     with subprocess.Popen(
-        ["/usr/bin/python3", "-m", "tutorial_check", "--floor", str(floor), "--in", str(literal.parent), "--watch", "3"],
-        stdout=subprocess.PIPE, text=True, env={**os.environ, "PYTHONPATH": str(SOURCE), "PYTHONUNBUFFERED": "1"},
-    ) as process:  # fmt: skip
+        [
+            "/usr/bin/python3",
+            "-m",
+            "tutorial_check",
+            "--floor",
+            str(floor),
+            "--in",
+            str(literal.parent),
+            "--watch",
+            "3",
+        ],
+        stdout=subprocess.PIPE,
+        text=True,
+        env={**os.environ, "PYTHONPATH": str(SOURCE), "PYTHONUNBUFFERED": "1"},
+    ) as process:
         try:
             first = []
             for line in process.stdout:
@@ -155,7 +202,16 @@ def test_watch(literal, floor):
 def test_alone_in_its_place(literal, floor):
     """Two checks at once do not meet, and neither meets a master of the user's."""
     env = {**os.environ, "PYTHONPATH": str(SOURCE), "ROS_MASTER_URI": "http://localhost:1"}
-    command = ["/usr/bin/python3", "-m", "tutorial_check", "--floor", str(floor), "--in", str(literal.parent), "3"]
+    command = [
+        "/usr/bin/python3",
+        "-m",
+        "tutorial_check",
+        "--floor",
+        str(floor),
+        "--in",
+        str(literal.parent),
+        "3",
+    ]
     both = [subprocess.Popen(command, env=env, stdout=subprocess.PIPE, text=True) for _ in range(2)]
     told = [process.communicate(timeout=200)[0] for process in both]
     assert [process.returncode for process in both] == [0, 0], told

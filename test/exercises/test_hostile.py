@@ -35,21 +35,36 @@ def processes_like(word):
 
 
 def test_one_that_ignores_ctrl_c(literal, floor):
-    write(TALKER, "#!/usr/bin/env python3\nimport signal\nsignal.signal(signal.SIGINT, signal.SIG_IGN)\nwhile True:\n    pass\n")(literal)
+    write(
+        TALKER,
+        "#!/usr/bin/env python3\nimport signal\nsignal.signal(signal.SIGINT, signal.SIG_IGN)\nwhile True:\n    pass\n",
+    )(literal)
     check, told = wrong_of(literal, floor, "3")
     assert check == "C6", told
     assert not processes_like("scripts/talker.py")
 
 
 def test_a_fork_bomb(literal, floor):
-    write(TALKER, "#!/usr/bin/env python3\nimport os\nwhile True:\n    try:\n        os.fork()\n    except OSError:\n        pass\n")(literal)
+    write(
+        TALKER,
+        "#!/usr/bin/env python3\nimport os\nwhile True:\n    try:\n        os.fork()\n    except OSError:\n        pass\n",
+    )(literal)
     check, told = wrong_of(literal, floor, "3")
     assert check == "C6", told
     assert not processes_like("scripts/talker.py")
 
 
 def test_output_without_end(literal, floor):
-    apply([put(LISTENER, "    rospy.spin()", "    block = 'x' * 1000000 + '\\n'\n    for _ in range(1000):\n        print(block)\n    rospy.spin()")], literal)
+    apply(
+        [
+            put(
+                LISTENER,
+                "    rospy.spin()",
+                "    block = 'x' * 1000000 + '\\n'\n    for _ in range(1000):\n        print(block)\n    rospy.spin()",
+            )
+        ],
+        literal,
+    )
     outcomes = examine(literal.parent, floor, ["3"])
     talker = next(result for result in outcomes[0].results if result.id == "C6")
     assert talker.status == "ok", "\n".join(lines_of(talker))
@@ -72,7 +87,9 @@ def test_one_that_kills_all_it_may(literal, floor):
 
 
 def test_one_that_kills_its_group(literal, floor):
-    apply([put(JOY2TWIST, AFTER_INIT, AFTER_INIT + "    import os\n    os.killpg(0, 9)\n")], literal)
+    apply(
+        [put(JOY2TWIST, AFTER_INIT, AFTER_INIT + "    import os\n    os.killpg(0, 9)\n")], literal
+    )
     check, told = wrong_of(literal, floor, "4.3")
     assert check == "C14", told
     assert "signal 9" in told
@@ -111,7 +128,17 @@ def test_one_that_forges_what_the_checker_hears(literal, floor):
 
 def test_one_that_prints_a_verdict(literal, floor):
     told = '{"exercise": "4.3", "result": {"id": "C16", "status": "ok", "title": "x"}}'
-    apply([put(JOY2TWIST, AFTER_INIT, AFTER_INIT + f"    print('''\\n{told}\\n''' * 50)\n    os_exit = __import__('os')._exit(0)\n")], literal)
+    apply(
+        [
+            put(
+                JOY2TWIST,
+                AFTER_INIT,
+                AFTER_INIT
+                + f"    print('''\\n{told}\\n''' * 50)\n    os_exit = __import__('os')._exit(0)\n",
+            )
+        ],
+        literal,
+    )
     check, _ = wrong_of(literal, floor, "4.3")
     assert check == "C14"
 

@@ -17,7 +17,12 @@ LONGEST_S = {"one": 15.0, "all": 90.0}
 def check(workspace, floor, exercises, record_property):
     """Examine; the outcomes; fails with the report of what is called wrong."""
     outcomes = examine(workspace, floor, exercises)
-    wrong = [result for outcome in outcomes for result in outcome.results if result.status in ("wrong", "unreached")]
+    wrong = [
+        result
+        for outcome in outcomes
+        for result in outcome.results
+        if result.status in ("wrong", "unreached")
+    ]
     record_property("checks", sum(len(outcome.results) for outcome in outcomes))
     for result in wrong:
         record_property("alarm", " / ".join(lines_of(result)))

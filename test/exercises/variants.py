@@ -1,6 +1,20 @@
 """Right solutions that differ from the handout's, each a row: (what, edits, exercises to check)."""
 
-from edits import B, CLASS, J, JOY2TWIST, LAUNCH_BAG, LAUNCH_JOY, LISTENER, REAL, TALKER, TURTLEBOT, move, put, write
+from edits import (
+    CLASS,
+    JOY2TWIST,
+    LAUNCH_BAG,
+    LAUNCH_JOY,
+    LISTENER,
+    REAL,
+    TALKER,
+    TURTLEBOT,
+    B,
+    J,
+    move,
+    put,
+    write,
+)
 
 SHOW = 'rospy.loginfo(rospy.get_name() + ": axes [%.2f, %.2f, %.2f, %.2f, %.2f, %.2f]" % data.axes)'
 X = "msg.linear.x = data.axes[1]"
@@ -9,7 +23,7 @@ PUBLISH = "pub.publish(msg)"
 REMAP = '<remap from="/cmd_vel" to="/cmd_vel_mux/input/teleop"/>'
 TWIST = "    msg = Twist()\n    msg.linear.x = data.axes[1]\n    msg.angular.z = data.axes[0]\n"
 MANIFEST = "import roslib; roslib.load_manifest('joy2twist')\n"
-END_OF_CLASS = "    except:\n        rospy.loginfo(\"The node has ended.\")\n"
+END_OF_CLASS = '    except:\n        rospy.loginfo("The node has ended.")\n'
 
 
 def j(what, old, new):

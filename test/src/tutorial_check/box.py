@@ -112,10 +112,10 @@ class Box:
         """In the child, before the student's program: its limits and its user."""
         for number in (signal.SIGINT, signal.SIGHUP, signal.SIGTERM):
             signal.signal(number, signal.SIG_DFL)
-        for what, limit in LIMITS.items():
+        for what, wanted in LIMITS.items():
             with contextlib.suppress(ValueError, OSError):
                 hard = resource.getrlimit(what)[1]
-                limit = limit if hard == resource.RLIM_INFINITY else min(limit, hard)
+                limit = wanted if hard == resource.RLIM_INFINITY else min(wanted, hard)
                 resource.setrlimit(what, (limit, limit))
         if self._uid is not None:
             os.setgroups([])
@@ -164,7 +164,10 @@ class Box:
         with contextlib.suppress(ProcessLookupError, PermissionError):
             os.killpg(program.process.pid, signal.SIGKILL)
         program.process.wait()
-        while not program.process.stdout.closed and select.select([program.process.stdout], [], [], 0)[0]:
+        while (
+            not program.process.stdout.closed
+            and select.select([program.process.stdout], [], [], 0)[0]
+        ):
             if not program.read():
                 self._forget(program)
         return took_s
@@ -218,7 +221,10 @@ class Box:
                     is_ours = int(session) not in self._trusted
                 else:
                     mark = f"{MARK}={self._mark}".encode()
-                    is_ours = int(session) not in self._trusted and mark in (folder / "environ").read_bytes()
+                    is_ours = (
+                        int(session) not in self._trusted
+                        and mark in (folder / "environ").read_bytes()
+                    )
             except OSError:
                 continue  # ended meanwhile, or another user's
             if is_ours:

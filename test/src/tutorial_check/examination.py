@@ -50,7 +50,14 @@ def examine(workspace, floor, exercises, tell=lambda outcome, result: None, only
         raise CannotCheck(f"{error.filename}: may not be read") from None
     folder = tempfile.mkdtemp(prefix="tutorial_check_")
     try:
-        return _examine(os.path.abspath(workspace), os.path.abspath(floor), exercises, folder, tell, only_first)
+        return _examine(
+            os.path.abspath(workspace),
+            os.path.abspath(floor),
+            exercises,
+            folder,
+            tell=tell,
+            only_first=only_first,
+        )
     finally:
         shutil.rmtree(folder, ignore_errors=True)
 
@@ -62,31 +69,61 @@ def _kept(floor):
     with_sources = devel / ".catkin"
     if with_sources.is_file():
         for source in with_sources.read_text().split(";"):
-            kept += [link.resolve() for link in Path(source).glob("*") if link.is_dir()] if source else []
+            kept += (
+                [link.resolve() for link in Path(source).glob("*") if link.is_dir()]
+                if source
+                else []
+            )
     return [str(each) for each in kept]
 
 
-def _examine(workspace, floor, exercises, folder, tell, only_first):
+def _examine(workspace, floor, exercises, folder, *, tell, only_first):
     wrapper = place.wrapper()
     orders = {
-        "workspace": workspace, "floor": floor, "exercises": list(exercises), "folder": folder,
-        "apart": bool(wrapper), "mapped": "--user" in wrapper, "home": os.path.expanduser("~"), "kept": _kept(floor),
-        "number": next(NUMBERS) % 1000, "only_first": only_first,
-    }  # fmt: skip
+        "workspace": workspace,
+        "floor": floor,
+        "exercises": list(exercises),
+        "folder": folder,
+        "apart": bool(wrapper),
+        "mapped": "--user" in wrapper,
+        "home": os.path.expanduser("~"),
+        "kept": _kept(floor),
+        "number": next(NUMBERS) % 1000,
+        "only_first": only_first,
+    }
     source = str(Path(__file__).resolve().parents[1])
     script = '. "$1" >/dev/null; export PYTHONPATH="$2:$PYTHONPATH"; shift 2; exec "$@"'
-    inner = ["bash", "-c", script, "bash", floor, source, "/usr/bin/python3", "-m", "tutorial_check.examine"]
+    inner = [
+        "bash",
+        "-c",
+        script,
+        "bash",
+        floor,
+        source,
+        "/usr/bin/python3",
+        "-m",
+        "tutorial_check.examine",
+    ]
     environment = {
-        **{name: os.environ[name] for name in ("HOME", "LANG", "TUTORIAL_CHECK_TIMES") if name in os.environ},
+        **{
+            name: os.environ[name]
+            for name in ("HOME", "LANG", "TUTORIAL_CHECK_TIMES")
+            if name in os.environ
+        },
         "PATH": "/usr/bin:/bin:/usr/sbin:/sbin",
         "PYTHONDONTWRITEBYTECODE": "1",
     }
     log = tempfile.TemporaryFile("w+")  # noqa: SIM115  read below
     process = subprocess.Popen(
         [*wrapper, *inner],
-        stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=log, env=environment, start_new_session=True,
-        cwd="/", text=True,
-    )  # fmt: skip
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=log,
+        env=environment,
+        start_new_session=True,
+        cwd="/",
+        text=True,
+    )
     outcomes = {exercise: Outcome(exercise) for exercise in exercises}
     try:
         process.stdin.write(json.dumps(orders))

@@ -47,7 +47,9 @@ def examine(orders, tell):
     granted = False
     if orders["apart"]:
         granted = place.furnish(
-            scratch, orders["home"], [*orders["kept"], orders["workspace"], str(Path(__file__).parents[3])]
+            scratch,
+            orders["home"],
+            [*orders["kept"], orders["workspace"], str(Path(__file__).parents[3])],
         )
     # ROS, only now: it reads the environment as it loads.
     home = scratch / "ours"
@@ -68,13 +70,20 @@ def examine(orders, tell):
     layout = workspace.find_layout(given)
     (scratch / "ws").mkdir()
     workspace.copy(layout, scratch / "ws")
-    uid = LOWEST_UID + os.getppid() % 1_000_000 + int(orders["number"]) if os.geteuid() == 0 and not orders["mapped"] else None
+    uid = (
+        LOWEST_UID + os.getppid() % 1_000_000 + int(orders["number"])
+        if os.geteuid() == 0 and not orders["mapped"]
+        else None
+    )
     session.prepare(scratch, uid)
     scratch.chmod(0o755)
     one = session.Session(
-        scratch, layout, orders["floor"],
-        lambda environment: box.Box(environment, uid, orders["apart"]), can_have_devices=granted,
-    )  # fmt: skip
+        scratch,
+        layout,
+        orders["floor"],
+        lambda environment: box.Box(environment, uid, orders["apart"]),
+        can_have_devices=granted,
+    )
     run = Run(catalogue(), one)
     times = {"prepare": round(time.monotonic() - began_s, 2)}
     for exercise in orders["exercises"]:

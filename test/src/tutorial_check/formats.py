@@ -18,7 +18,10 @@ def as_json(outcomes):
                 {
                     "id": outcome.id,
                     "passed": outcome.passed,
-                    "checks": [{name: getattr(result, name) for name in FIELDS} for result in outcome.results],
+                    "checks": [
+                        {name: getattr(result, name) for name in FIELDS}
+                        for result in outcome.results
+                    ],
                 }
                 for outcome in outcomes
             ],
@@ -34,13 +37,22 @@ def as_junit(outcomes):
     root = ET.Element("testsuites", name="tutorial check")
     for outcome in outcomes:
         suite = ET.SubElement(
-            root, "testsuite", name=f"{outcome.id} {EXERCISES[outcome.id]}",
-            tests=str(len(outcome.results)), time=f"{outcome.seconds:.2f}",
+            root,
+            "testsuite",
+            name=f"{outcome.id} {EXERCISES[outcome.id]}",
+            tests=str(len(outcome.results)),
+            time=f"{outcome.seconds:.2f}",
             failures=str(sum(result.status == WRONG for result in outcome.results)),
-            skipped=str(sum(result.status == UNREACHED for result in outcome.results)), errors="0",
-        )  # fmt: skip
+            skipped=str(sum(result.status == UNREACHED for result in outcome.results)),
+            errors="0",
+        )
         for result in outcome.results:
-            case = ET.SubElement(suite, "testcase", classname=f"exercise {outcome.id}", name=f"{result.id} {result.title}")
+            case = ET.SubElement(
+                suite,
+                "testcase",
+                classname=f"exercise {outcome.id}",
+                name=f"{result.id} {result.title}",
+            )
             text = _legal("\n".join(line.strip() for line in lines_of(result)[1:]))
             if result.status == WRONG:
                 ET.SubElement(case, "failure", message=_legal(result.seen)).text = text
@@ -53,7 +65,11 @@ def as_junit(outcomes):
 
 def _legal(text):
     """Without the characters that XML forbids; a program may print anything."""
-    return "".join(each for each in text if each in "\n\t" or ord(each) >= 0x20 and ord(each) not in (0xFFFE, 0xFFFF))
+    return "".join(
+        each
+        for each in text
+        if each in "\n\t" or (ord(each) >= 0x20 and ord(each) not in (0xFFFE, 0xFFFF))
+    )
 
 
 def as_gradescope(outcomes):
@@ -69,13 +85,21 @@ def as_gradescope(outcomes):
         for outcome in outcomes
         for result in outcome.results
     ]
-    return json.dumps({"tests": tests, "execution_time": round(sum(each.seconds for each in outcomes), 1)}, indent=1)
+    return json.dumps(
+        {"tests": tests, "execution_time": round(sum(each.seconds for each in outcomes), 1)},
+        indent=1,
+    )
 
 
 def as_classroom(outcomes):
     """Classroom 50's result: one point an exercise."""
     tests = [
-        {"test-name": f"{outcome.id} {EXERCISES[outcome.id]}", "passed": outcome.passed, "score": int(outcome.passed), "max-score": 1}
+        {
+            "test-name": f"{outcome.id} {EXERCISES[outcome.id]}",
+            "passed": outcome.passed,
+            "score": int(outcome.passed),
+            "max-score": 1,
+        }
         for outcome in outcomes
     ]
     return json.dumps(
@@ -89,4 +113,9 @@ def as_classroom(outcomes):
     )
 
 
-FORMATS = {"json": as_json, "junit": as_junit, "gradescope": as_gradescope, "classroom": as_classroom}
+FORMATS = {
+    "json": as_json,
+    "junit": as_junit,
+    "gradescope": as_gradescope,
+    "classroom": as_classroom,
+}

@@ -44,7 +44,9 @@ def factor_of(values, inputs):
         if abs(value - factor * given) <= 0.02 * abs(factor * given) + SMALL:
             fits += 1
         elif abs(value) < SMALL or (
-            abs(abs(value) - limit) < SMALL and value * factor * given > 0 and limit < abs(factor * given)
+            abs(abs(value) - limit) < SMALL
+            and value * factor * given > 0
+            and limit < abs(factor * given)
         ):
             limited += 1
     return factor if fits + limited == len(pairs) and fits >= 0.5 * len(pairs) else None
@@ -102,7 +104,9 @@ def judge(samples):
                 f"{FIELDS[field]} follows axes[{rule.axis}]",
                 f"{FIELDS[field]} = axes[{axis}]",
             )
-        misplaced = next((f for f in moving if f not in right and rules[f] and rules[f].axis == axis), None)
+        misplaced = next(
+            (f for f in moving if f not in right and rules[f] and rules[f].axis == axis), None
+        )
         if field not in moving and misplaced is not None:
             return (
                 f"{FIELDS[misplaced]} follows axes[{axis}], {FIELDS[field]} stays 0",
@@ -116,10 +120,17 @@ def judge(samples):
     extra = [field for field in moving if field not in right]
     if extra:
         rule = rules[extra[0]]
-        what = f"{FIELDS[extra[0]]} follows axes[{rule.axis}]" if rule else f"{FIELDS[extra[0]]} is not 0"
+        what = (
+            f"{FIELDS[extra[0]]} follows axes[{rule.axis}]"
+            if rule
+            else f"{FIELDS[extra[0]]} is not 0"
+        )
         return what, "only linear.x and angular.z move a robot in the plane; leave the others 0"
     curves = [FIELDS[field] for field in right if rules[field] is None]
-    return "", f"{' and '.join(curves)} is a curve of its axis, not a constant times it" if curves else ""
+    return (
+        "",
+        f"{' and '.join(curves)} is a curve of its axis, not a constant times it" if curves else "",
+    )
 
 
 def _explain_odd(field, axis, samples):
@@ -136,7 +147,10 @@ def _explain_odd(field, axis, samples):
         )
     offsets = [value - each for value, each in zip(values, given)]
     if max(offsets) - min(offsets) < 0.02:
-        return f"{name} = axes[{axis}] + {offsets[0]:.2f}: released, the robot still moves", f"{name} = axes[{axis}]"
+        return (
+            f"{name} = axes[{axis}] + {offsets[0]:.2f}: released, the robot still moves",
+            f"{name} = axes[{axis}]",
+        )
     if is_monotone(field, axis, samples) and any(value != round(value) for value in values):
         return None
     if all(value == round(value) for value in values):

@@ -45,9 +45,11 @@ class Wrong(Exception):
 def master_gone(where=""):
     """The Wrong for a program that ends the master."""
     return Wrong(
-        "the ROS master is left alone", "it no longer answers: a program of yours has ended it", where,
+        "the ROS master is left alone",
+        "it no longer answers: a program of yours has ended it",
+        where,
         "a node ends itself (rospy.signal_shutdown), never the master",
-    )  # fmt: skip
+    )
 
 
 class CannotCheck(Exception):
@@ -74,7 +76,9 @@ class Catalogue:
         self.checks = {check.id: check for check in checks}
         self.functions = functions
         if set(self.checks) != set(functions):
-            raise ValueError(f"checks without or with too many functions: {set(self.checks) ^ set(functions)}")
+            raise ValueError(
+                f"checks without or with too many functions: {set(self.checks) ^ set(functions)}"
+            )
 
     def of(self, exercise):
         """The checks of an exercise."""
@@ -143,10 +147,19 @@ class Run:
             found = self._catalogue.functions[check.id](self._session)
         except Wrong as wrong:
             told = (wrong.seen, wrong.where)
-            same = [one for one in self._done.values() if (one.seen, one.where) == told and one.status == WRONG]
+            same = [
+                one
+                for one in self._done.values()
+                if (one.seen, one.where) == told and one.status == WRONG
+            ]
             if same:  # one cause is told once, at the first check that it keeps from holding
                 return self._unreached(check, same)
-            what = {"expected": wrong.expected, "seen": wrong.seen, "where": wrong.where, "hint": wrong.hint}
+            what = {
+                "expected": wrong.expected,
+                "seen": wrong.seen,
+                "where": wrong.where,
+                "hint": wrong.hint,
+            }
             return Result(status=WRONG, **about, **what)
         if isinstance(found, Note):
             return Result(status=NOTE, seen=found.seen, where=found.where, hint=found.hint, **about)
@@ -156,9 +169,13 @@ class Run:
         self._blocked_by[check.id] = culprits
         first = culprits[0]
         return Result(
-            id=check.id, status=UNREACHED, title=check.title, section=check.section, look=check.look,
+            id=check.id,
+            status=UNREACHED,
+            title=check.title,
+            section=check.section,
+            look=check.look,
             seen=f"first mend {first.id}: {first.title}",
-        )  # fmt: skip
+        )
 
 
 def passed(results):

@@ -27,7 +27,11 @@ def wrapper():
         command += ["--user", "--map-root-user"]
     try:
         tried = subprocess.run(
-            [*command, "true"], stdin=subprocess.DEVNULL, capture_output=True, check=False, timeout=20
+            [*command, "true"],
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            check=False,
+            timeout=20,
         )
     except (OSError, subprocess.TimeoutExpired):
         return []

@@ -34,7 +34,9 @@ def find_students(folder, out):
     students = [
         Student(path.name[:-4] if path.suffix == ".zip" else path.name, path)
         for path in entries
-        if (path.is_dir() or path.suffix == ".zip") and not path.name.startswith(".") and path.resolve() != out.resolve()
+        if (path.is_dir() or path.suffix == ".zip")
+        and not path.name.startswith(".")
+        and path.resolve() != out.resolve()
     ]
     if not students:
         raise CannotCheck(f"{folder}: no workspace and no zip in it")
@@ -48,12 +50,16 @@ def check_all(options):
     out = Path(options.out or Path(options.all) / "check")
     students = find_students(options.all, out)
     out.mkdir(parents=True, exist_ok=True)
-    with ThreadPoolExecutor(max(1, options.jobs)) as pool, tqdm(total=len(students), unit="student", disable=None) as bar:
+    with ThreadPoolExecutor(max(1, options.jobs)) as pool, tqdm(
+        total=len(students), unit="student", disable=None
+    ) as bar:
         for done in as_completed([pool.submit(_check, student, options) for student in students]):
             student = done.result()
             _write(out, student, not options.no_hints)
             bar.update()
-            bar.write(f"{student.name}: {student.trouble or summary(student.outcomes)}, {student.seconds:.0f} s")
+            bar.write(
+                f"{student.name}: {student.trouble or summary(student.outcomes)}, {student.seconds:.0f} s"
+            )
     write_csv(out / "table.csv", students, options.exercises)
     (out / "table.html").write_text(table_html(students, options.exercises), encoding="utf-8")
     print(f"{out}/table.html, table.csv, and a report of each")
@@ -75,7 +81,11 @@ def _check(student, options):
 
 
 def _write(out, student, hints):
-    text = f"{student.name}\n\n" + (f"could not be checked: {student.trouble}\n" if student.trouble else text_of(student.outcomes, hints))
+    text = f"{student.name}\n\n" + (
+        f"could not be checked: {student.trouble}\n"
+        if student.trouble
+        else text_of(student.outcomes, hints)
+    )
     (out / f"{student.name}.txt").write_text(text, encoding="utf-8")
     if student.outcomes:
         (out / f"{student.name}.json").write_text(as_json(student.outcomes), encoding="utf-8")
@@ -101,7 +111,9 @@ def write_csv(path, students, exercises):
             cells = [_cell(student, exercise)[0] for exercise in exercises]
             # A name may begin like a formula of a spreadsheet.
             name = f"'{student.name}" if student.name[:1] in "=+-@" else student.name
-            table.writerow([name, *cells, cells.count("ok"), f"{student.seconds:.1f}", student.trouble])
+            table.writerow(
+                [name, *cells, cells.count("ok"), f"{student.seconds:.1f}", student.trouble]
+            )
 
 
 def table_html(students, exercises):
@@ -112,11 +124,17 @@ def table_html(students, exercises):
         for exercise in exercises:
             word, details = _cell(student, exercise)
             kind = {"ok": "ok", "-": "no", "?": "no"}.get(word, "wrong")
-            cells.append(f'<td class="{kind}" title="{html.escape(details, quote=True)}">{html.escape(word)}</td>')
+            cells.append(
+                f'<td class="{kind}" title="{html.escape(details, quote=True)}">{html.escape(word)}</td>'
+            )
         link = html.escape(student.name)
         done = sum(outcome.passed for outcome in student.outcomes)
-        rows.append(f'<tr><td><a href="{link}.txt">{link}</a></td>{"".join(cells)}<td>{done}</td><td>{student.seconds:.0f} s</td></tr>')
-    head = "".join(f"<th>{each}<br><small>{html.escape(EXERCISES[each])}</small></th>" for each in exercises)
+        rows.append(
+            f'<tr><td><a href="{link}.txt">{link}</a></td>{"".join(cells)}<td>{done}</td><td>{student.seconds:.0f} s</td></tr>'
+        )
+    head = "".join(
+        f"<th>{each}<br><small>{html.escape(EXERCISES[each])}</small></th>" for each in exercises
+    )
     return (
         '<!DOCTYPE html><html lang="en"><meta charset="utf-8"><title>Exercises</title><style>'
         "body{font-family:sans-serif}td,th{padding:.2em .6em;border:1px solid #ccc}table{border-collapse:collapse}"

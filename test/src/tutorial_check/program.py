@@ -22,16 +22,39 @@ def parse(arguments):
         epilog="exercises: " + ", ".join(f"{name} ({what})" for name, what in EXERCISES.items()),
     )
     where = parser.add_mutually_exclusive_group(required=True)
-    where.add_argument("--in", dest="workspace", metavar="WORKSPACE", help="your catkin workspace, a folder of packages, or a zip")
-    where.add_argument("--all", metavar="FOLDER", help="for the professor: every workspace, or zip, in a folder")
+    where.add_argument(
+        "--in",
+        dest="workspace",
+        metavar="WORKSPACE",
+        help="your catkin workspace, a folder of packages, or a zip",
+    )
+    where.add_argument(
+        "--all", metavar="FOLDER", help="for the professor: every workspace, or zip, in a folder"
+    )
     parser.add_argument("exercises", nargs="*", metavar="EXERCISE", help="all without one")
-    parser.add_argument("--no-hints", action="store_true", help="say what is wrong, not how to mend it")
+    parser.add_argument(
+        "--no-hints", action="store_true", help="say what is wrong, not how to mend it"
+    )
     parser.add_argument("--watch", action="store_true", help="check again whenever a file is saved")
-    for name, what in (("json", "all results"), ("junit", "JUnit's XML"), ("gradescope", "Gradescope's results.json"), ("classroom", "Classroom 50's result")):
+    for name, what in (
+        ("json", "all results"),
+        ("junit", "JUnit's XML"),
+        ("gradescope", "Gradescope's results.json"),
+        ("classroom", "Classroom 50's result"),
+    ):
         parser.add_argument(f"--{name}", metavar="FILE", help=f"write {what}")
-    parser.add_argument("--out", metavar="FOLDER", help="with --all: where the table and the reports go (FOLDER/check)")
+    parser.add_argument(
+        "--out",
+        metavar="FOLDER",
+        help="with --all: where the table and the reports go (FOLDER/check)",
+    )
     parser.add_argument("--jobs", type=int, default=2, help="with --all: how many at a time (2)")
-    parser.add_argument("--floor", default=os.environ.get(FLOOR), metavar="SETUP", help="setup.bash of what the exercises stand on")
+    parser.add_argument(
+        "--floor",
+        default=os.environ.get(FLOOR),
+        metavar="SETUP",
+        help="setup.bash of what the exercises stand on",
+    )
     options = parser.parse_args(arguments)
     unknown = [each for each in options.exercises if each not in EXERCISES]
     if unknown:
@@ -41,7 +64,9 @@ def parse(arguments):
     if not options.floor:
         parser.error("--floor is missing; ./tutorial check gives it")
     # In the handout's order, whatever theirs.
-    options.exercises = [each for each in EXERCISES if not options.exercises or each in options.exercises]
+    options.exercises = [
+        each for each in EXERCISES if not options.exercises or each in options.exercises
+    ]
     return options
 
 
@@ -83,7 +108,9 @@ def main():
             code = check_one(options)
     except CannotCheck as error:
         print(f"\ncheck: {error}", file=sys.stderr)
-        print("check: this is no verdict on the exercises: nothing could be checked", file=sys.stderr)
+        print(
+            "check: this is no verdict on the exercises: nothing could be checked", file=sys.stderr
+        )
         code = 2
     except KeyboardInterrupt:
         code = 130

@@ -116,9 +116,7 @@ def read_python(text):
 
 
 def _class_facts(node, called):
-    inside = {
-        _text(part.func) for part in ast.walk(node) if isinstance(part, ast.Call)
-    }
+    inside = {_text(part.func) for part in ast.walk(node) if isinstance(part, ast.Call)}
     words = {name.rsplit(".", 1)[-1] for name in inside}
     bases = {_text(base) for base in node.bases}
     return ClassFacts(

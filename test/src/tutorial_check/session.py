@@ -65,9 +65,13 @@ class Session:
             timeout=60,
         )
         if done.returncode != 0:
-            raise CannotCheck(f"{setup} cannot be sourced: {done.stderr.decode(errors='replace')[-200:]}")
+            raise CannotCheck(
+                f"{setup} cannot be sourced: {done.stderr.decode(errors='replace')[-200:]}"
+            )
         found = dict(
-            word.split("=", 1) for word in done.stdout.decode(errors="replace").split("\0") if "=" in word
+            word.split("=", 1)
+            for word in done.stdout.decode(errors="replace").split("\0")
+            if "=" in word
         )
         for name in ("_", "SHLVL", "PWD", "OLDPWD"):
             found.pop(name, None)
@@ -100,7 +104,7 @@ class Session:
         found = {}
         package = self.package(name)
         for path in sorted(package.folder.rglob("*")) if package else []:
-            if not path.is_file() or path.is_symlink() and not path.exists():
+            if not path.is_file() or (path.is_symlink() and not path.exists()):
                 continue
             is_python = path.suffix == ".py"
             if not is_python and not path.suffix:
@@ -158,7 +162,9 @@ class Session:
         stub.write_text("#!/bin/sh\nexec sleep 600\n")
         stub.chmod(0o755)
         cmake = [each.folder / "CMakeLists.txt" for each in self.packages]
-        needs_build = any(each.exists() and NEEDS_BUILD.search(each.read_text(errors="replace")) for each in cmake)
+        needs_build = any(
+            each.exists() and NEEDS_BUILD.search(each.read_text(errors="replace")) for each in cmake
+        )
         if needs_build and self.built()[0] == 0:
             found = self._sourced(self.folder / "ws" / "devel" / "setup.bash", self._base)
         else:
@@ -168,7 +174,9 @@ class Session:
             (devel / ".catkin").write_text(str(self.source))
             found = dict(self._base)
             found["CMAKE_PREFIX_PATH"] = f"{devel}:{found.get('CMAKE_PREFIX_PATH', '')}".rstrip(":")
-            found["ROS_PACKAGE_PATH"] = f"{self.source}:{found.get('ROS_PACKAGE_PATH', '')}".rstrip(":")
+            found["ROS_PACKAGE_PATH"] = f"{self.source}:{found.get('ROS_PACKAGE_PATH', '')}".rstrip(
+                ":"
+            )
         found["CMAKE_PREFIX_PATH"] = f"{view}:{found['CMAKE_PREFIX_PATH']}"
         return found
 
@@ -209,7 +217,12 @@ class Stage:
         }
         # Logs of our own programs lie elsewhere: the student's may not write in folders of ours.
         place = str(session.folder / "ours")
-        self._ours = ours = {**self.environment, "HOME": place, "ROS_HOME": place, "ROS_LOG_DIR": place}
+        self._ours = ours = {
+            **self.environment,
+            "HOME": place,
+            "ROS_HOME": place,
+            "ROS_LOG_DIR": place,
+        }
         self._master = forked.Helper(lambda: forked.MasterProcess(port), ours)
         self.box.trust(self._master.pid)
         self._driver = None
@@ -235,7 +248,9 @@ class Stage:
     def launch(self, command, trusted=False):
         """Start a command on this master."""
         try:
-            return self.box.start(command, self._ours if trusted else self.environment, trusted=trusted)
+            return self.box.start(
+                command, self._ours if trusted else self.environment, trusted=trusted
+            )
         except OSError as error:
             raise Wrong(
                 "a program that can be started",

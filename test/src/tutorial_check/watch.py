@@ -74,4 +74,8 @@ def tell_once(options, examine):
             print("\n".join(lines_of(wrong[0], not options.no_hints)))
             break
     done = ", ".join(outcome.id for outcome in outcomes if outcome.passed)
-    print(f"done: {done or 'none yet'}" if len(outcomes) < len(options.exercises) or not outcomes[-1].passed else summary(outcomes))
+    print(
+        f"done: {done or 'none yet'}"
+        if len(outcomes) < len(options.exercises) or not outcomes[-1].passed
+        else summary(outcomes)
+    )

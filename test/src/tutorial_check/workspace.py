@@ -43,7 +43,10 @@ def unpack(archive, folder):
     try:
         with zipfile.ZipFile(archive) as opened:
             members = opened.infolist()
-            if sum(member.file_size for member in members) > MOST_BYTES or len(members) > MOST_FILES:
+            if (
+                sum(member.file_size for member in members) > MOST_BYTES
+                or len(members) > MOST_FILES
+            ):
                 raise CannotCheck(f"{archive}: unpacked it is larger than {MOST_BYTES >> 20} MB")
             for member in members:
                 path = Path(member.filename.replace("\\", "/"))
@@ -83,7 +86,9 @@ def find_layout(folder):
 def _only_child(folder):
     """A zip often has one folder around everything; two at most."""
     for _ in range(2):
-        inner = [each for each in folder.iterdir() if each.is_dir() and each.name not in ("__MACOSX",)]
+        inner = [
+            each for each in folder.iterdir() if each.is_dir() and each.name not in ("__MACOSX",)
+        ]
         if len(inner) != 1:
             return
         folder = inner[0]
@@ -122,7 +127,9 @@ def _copy(source, target, so_far, seen):
                 so_far[0] += entry.stat().st_size
                 so_far[1] += 1
                 if so_far[0] > MOST_BYTES or so_far[1] > MOST_FILES:
-                    raise CannotCheck(f"{source}: more than {MOST_BYTES >> 20} MB or {MOST_FILES} files")
+                    raise CannotCheck(
+                        f"{source}: more than {MOST_BYTES >> 20} MB or {MOST_FILES} files"
+                    )
                 shutil.copy2(entry.path, target / entry.name)
         except PermissionError:
             raise CannotCheck(f"{entry.path}: may not be read; chmod -R u+rX would help") from None
@@ -132,7 +139,9 @@ def packages_below(folder):
     """Every package in a folder, with what is wrong with it, in the order of their paths."""
     found = []
     for place, folders, files in os.walk(folder):
-        folders[:] = sorted(each for each in folders if each not in LEFT_OUT and not each.startswith("."))
+        folders[:] = sorted(
+            each for each in folders if each not in LEFT_OUT and not each.startswith(".")
+        )
         if "CATKIN_IGNORE" in files:
             folders.clear()
         elif "package.xml" in files:
@@ -173,6 +182,12 @@ def underlays(devel):
         words = line.strip()
         if words.startswith("CMAKE_PREFIX_PATH = "):
             below = ast.literal_eval(words.split(" = ", 1)[1].split(".split")[0]).split(";")
-    made_for = next((line.split(":=", 1)[1].rstrip("} \t") for line in setup.splitlines()
-                     if "_CATKIN_SETUP_DIR:=" in line), "")
+    made_for = next(
+        (
+            line.split(":=", 1)[1].rstrip("} \t")
+            for line in setup.splitlines()
+            if "_CATKIN_SETUP_DIR:=" in line
+        ),
+        "",
+    )
     return made_for, [each for each in below if each]

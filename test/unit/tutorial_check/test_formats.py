@@ -12,7 +12,17 @@ GOOD = Outcome("2", [Result("C1", OK, "one"), Result("C2", NOTE, "two", seen="od
 BAD = Outcome(
     "4.3",
     [
-        Result("C16", WRONG, "three", "a < b", "c\x00\x1b & d", "f.py:3", "do it", "4.3", "rostopic echo"),
+        Result(
+            "C16",
+            WRONG,
+            "three",
+            "a < b",
+            "c\x00\x1b & d",
+            "f.py:3",
+            "do it",
+            "4.3",
+            "rostopic echo",
+        ),
         Result("C17", UNREACHED, "four", seen="first mend C16"),
     ],
     2.0,
@@ -26,9 +36,14 @@ def test_json():
     assert (told["passed"], told["total"]) == (1, 2)
     assert [each["passed"] for each in told["exercises"]] == [True, False]
     assert told["exercises"][1]["checks"][0] == {
-        "id": "C16", "status": "wrong", "title": "three", "expected": "a < b", "seen": "c\x00\x1b & d",
-        "where": "f.py:3", "hint": "do it",
-    }  # fmt: skip
+        "id": "C16",
+        "status": "wrong",
+        "title": "three",
+        "expected": "a < b",
+        "seen": "c\x00\x1b & d",
+        "where": "f.py:3",
+        "hint": "do it",
+    }
 
 
 def test_junit_is_xml_whatever_was_printed():
@@ -41,7 +56,9 @@ def test_junit_is_xml_whatever_was_printed():
 def test_gradescope():
     tests = json.loads(as_gradescope([GOOD, BAD]))["tests"]
     assert [test["score"] for test in tests] == [1.0, 1.0, 0.0, 0.0]
-    assert all(set(test) == {"name", "score", "max_score", "output", "visibility"} for test in tests)
+    assert all(
+        set(test) == {"name", "score", "max_score", "output", "visibility"} for test in tests
+    )
 
 
 def test_classroom():
@@ -56,6 +73,11 @@ def test_an_exercise_that_was_cut_off_is_not_done():
 
 def test_text():
     text = text_of([BAD])
-    for word in ("expected: a < b", "where:    f.py:3", "hint:     do it", "handout 4.3; see it yourself: rostopic echo"):
+    for word in (
+        "expected: a < b",
+        "where:    f.py:3",
+        "hint:     do it",
+        "handout 4.3; see it yourself: rostopic echo",
+    ):
         assert word in text
     assert "hint:" not in text_of([BAD], hints=False)

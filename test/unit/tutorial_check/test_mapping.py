@@ -8,7 +8,9 @@ AXES = [axes for axes, _ in numbered_joys(20)]
 
 
 def samples(linear, angular, extra=None):
-    return [(a, (linear(a), (extra or (lambda a: 0.0))(a), 0.0, 0.0, 0.0, angular(a))) for a in AXES]
+    return [
+        (a, (linear(a), (extra or (lambda a: 0.0))(a), 0.0, 0.0, 0.0, angular(a))) for a in AXES
+    ]
 
 
 def test_no_two_joys_are_alike_and_lb_is_held():
@@ -17,7 +19,9 @@ def test_no_two_joys_are_alike_and_lb_is_held():
     assert all(buttons[4] == 1 and sum(buttons) == 1 for _, buttons in joys)
     for axes in AXES:
         assert len({round(abs(axis), 2) for axis in axes}) == 6
-    assert {(a[0] > 0, a[1] > 0) for a in AXES} == {(p, q) for p in (True, False) for q in (True, False)}
+    assert {(a[0] > 0, a[1] > 0) for a in AXES} == {
+        (p, q) for p in (True, False) for q in (True, False)
+    }
 
 
 @pytest.mark.parametrize(

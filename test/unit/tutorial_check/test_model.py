@@ -2,9 +2,24 @@
 
 import pytest
 
-from tutorial_check.model import NOTE, OK, UNREACHED, WRONG, Catalogue, Check, Note, Run, Wrong, passed
+from tutorial_check.model import (
+    NOTE,
+    OK,
+    UNREACHED,
+    WRONG,
+    Catalogue,
+    Check,
+    Note,
+    Run,
+    Wrong,
+    passed,
+)
 
-CHECKS = (Check("A", "1", "a", "1"), Check("B", "1", "b", "1", ("A",)), Check("C", "2", "c", "2", ("B",)))
+CHECKS = (
+    Check("A", "1", "a", "1"),
+    Check("B", "1", "b", "1", ("A",)),
+    Check("C", "2", "c", "2", ("B",)),
+)
 
 
 def wrong(seen="bad", where="f:1"):
@@ -62,7 +77,11 @@ def test_it_is_told_once():
 
 
 def test_one_cause_is_one_result():
-    checks = (Check("A", "1", "a", "1"), Check("B", "1", "b", "1"), Check("C", "1", "c", "1", ("B",)))
+    checks = (
+        Check("A", "1", "a", "1"),
+        Check("B", "1", "b", "1"),
+        Check("C", "1", "c", "1", ("B",)),
+    )
     called = []
     one = Run(Catalogue(checks, {"A": wrong(), "B": wrong(), "C": called.append}), None)
     assert statuses(one.exercise("1")) == [("A", WRONG), ("B", UNREACHED), ("C", UNREACHED)]
@@ -70,7 +89,7 @@ def test_one_cause_is_one_result():
 
 
 def test_it_can_end_at_the_first():
-    one, called = run(A=wrong())
+    one, _ = run(A=wrong())
     assert statuses(one.exercise("1", only_first=True)) == [("A", WRONG)]
 
 

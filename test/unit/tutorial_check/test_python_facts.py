@@ -2,7 +2,7 @@
 
 from tutorial_check.python_facts import flipped_anonymous, read_python, unmasked
 
-PROGRAM = '''
+PROGRAM = """
 import rospy
 class Node(object):
     def __init__(self):
@@ -16,7 +16,7 @@ if __name__ == "__main__":
     except:
         pass
     rospy.spin
-'''
+"""
 
 
 def test_facts():
@@ -50,6 +50,9 @@ def test_unmasked():
 
 def test_flipped_anonymous():
     assert 'init_node("a", anonymous=True)' in flipped_anonymous(PROGRAM, True)
-    assert flipped_anonymous('rospy.init_node("é")\n', True) == 'rospy.init_node("é", anonymous=True)\n'
+    assert (
+        flipped_anonymous('rospy.init_node("é")\n', True)
+        == 'rospy.init_node("é", anonymous=True)\n'
+    )
     assert flipped_anonymous("rospy.init_node(name, anonymous=choice)", True) is None
     assert flipped_anonymous("x = 1", True) is None

@@ -2,7 +2,7 @@
 
 import pytest
 
-from tutorial_check.tracebacks import explain, last_lines, first_traceback, syntax_hint
+from tutorial_check.tracebacks import explain, first_traceback, last_lines, syntax_hint
 
 OUTPUT = """[ERROR] [1.0]: bad callback: <function callback at 0x7f>
 Traceback (most recent call last):
@@ -37,7 +37,10 @@ def test_no_traceback():
         ("ModuleNotFoundError: No module named 'std_msg'", "std_msgs.msg"),
         ("TypeError: callback() missing 1 required positional argument: 'data'", "without ()"),
         ("TypeError: not all arguments converted during string formatting", "as many %.2f"),
-        ("rospy.exceptions.ROSInitException: client code must call rospy.init_node() first", "init_node"),
+        (
+            "rospy.exceptions.ROSInitException: client code must call rospy.init_node() first",
+            "init_node",
+        ),
         ("rospkg.common.ResourceNotFound: joy2twst", "joy2twst"),
     ],
 )

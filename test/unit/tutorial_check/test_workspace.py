@@ -10,7 +10,8 @@ from tutorial_check.mapping import numbered_joys
 from tutorial_check.model import CannotCheck
 
 XML = """<package format="2"><name>{}</name><version>0.0.0</version><description>x</description>
-<maintainer email="a@b.example">a</maintainer><license>x</license><depend>rospy</depend></package>"""
+<maintainer email="a@b.example">a</maintainer><license>x</license>
+<depend>rospy</depend></package>"""
 
 
 def package(folder, name="joy2twist"):
@@ -19,7 +20,9 @@ def package(folder, name="joy2twist"):
     return folder
 
 
-@pytest.mark.parametrize("place", ["src/joy2twist", "joy2twist", "ada/src/joy2twist", "ada/joy2twist"])
+@pytest.mark.parametrize(
+    "place", ["src/joy2twist", "joy2twist", "ada/src/joy2twist", "ada/joy2twist"]
+)
 def test_a_workspace_is_found(tmp_path, place):
     package(tmp_path / place)
     layout = workspace.find_layout(tmp_path)
@@ -40,7 +43,9 @@ def test_an_empty_folder_has_no_package(tmp_path):
 
 
 def test_broken_xml_has_a_reason(tmp_path):
-    (package(tmp_path / "src" / "joy2twist") / "package.xml").write_text("<package><name></package>")
+    (package(tmp_path / "src" / "joy2twist") / "package.xml").write_text(
+        "<package><name></package>"
+    )
     (found,) = workspace.packages_below(tmp_path / "src")
     assert "mismatched tag" in found.error
 
@@ -91,9 +96,17 @@ def test_too_large(tmp_path, monkeypatch):
         workspace.copy(workspace.find_layout(tmp_path), tmp_path / "copy")
 
 
-@pytest.mark.parametrize("shape", ["[{:.2f}, {:.2f},{:.2f},{:.2f},{:.2f},{:.2f}]", "{:.4f} {:.4f} {:.4f} {:.4f} {:.4f} {:.4f} buttons 0 1"])
+@pytest.mark.parametrize(
+    "shape",
+    [
+        "[{:.2f}, {:.2f},{:.2f},{:.2f},{:.2f},{:.2f}]",
+        "{:.4f} {:.4f} {:.4f} {:.4f} {:.4f} {:.4f} buttons 0 1",
+    ],
+)
 def test_displayed(shape):
     joys = numbered_joys(20)
-    lines = "\n".join(f"[INFO] [1700000000.1]: /listener: {shape.format(*axes)}" for axes, _ in joys[3:9])
+    lines = "\n".join(
+        f"[INFO] [1700000000.1]: /listener: {shape.format(*axes)}" for axes, _ in joys[3:9]
+    )
     assert displayed(joys, lines) == joys[3:9]
     assert displayed(joys, lines.replace(",", "\n").replace(" ", "\n")) == []

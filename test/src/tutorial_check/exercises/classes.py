@@ -19,9 +19,12 @@ def _class_files(session):
     scripts = session.scripts(PACKAGE)
     found = {
         path: next(one for one in facts.classes if one.is_node)
-        for path, facts in scripts.items() if facts.is_class_program and "checked_" not in path
-    }  # fmt: skip
-    return dict(sorted(found.items(), key=lambda item: (not _fits(item[1].name + item[0]), item[0])))
+        for path, facts in scripts.items()
+        if facts.is_class_program and "checked_" not in path
+    }
+    return dict(
+        sorted(found.items(), key=lambda item: (not _fits(item[1].name + item[0]), item[0]))
+    )
 
 
 def _fits(words):
@@ -38,9 +41,11 @@ def program(session):
             check_file(session, PACKAGE, path)
         named = [path for path in scripts if re.search(r"new|class", path, re.IGNORECASE)]
         raise Wrong(
-            "a class that subscribes to /joy and publishes on /cmd_vel", "no class in any program of joy2twist",
-            where=named[0] if named else "", hint="class NewJoy2Twist: with __init__(self), callback(self, data), shutdown(self)",
-        )  # fmt: skip
+            "a class that subscribes to /joy and publishes on /cmd_vel",
+            "no class in any program of joy2twist",
+            where=named[0] if named else "",
+            hint="class NewJoy2Twist: with __init__(self), callback(self, data), shutdown(self)",
+        )
     path, one = next(iter(files.items()))
     folder = session.package(PACKAGE).folder
     if scripts[path].has_main or (folder / path).stat().st_mode & 0o100 or "src/" not in path:
@@ -63,42 +68,60 @@ def is_class(session):
     if "__init__" not in one.methods:
         odd = next((each for each in one.methods if re.fullmatch(r"_*init_*", each)), None)
         seen = f"`def {odd}`: Python calls `__init__`" if odd else f"{one.name} has no __init__"
-        raise Wrong(expected, seen, where=where, hint="def __init__(self): with two underscores on either side")
+        raise Wrong(
+            expected,
+            seen,
+            where=where,
+            hint="def __init__(self): with two underscores on either side",
+        )
     made_elsewhere = any(
         one.name in other.calls or script != path for other in session.scripts(PACKAGE).values()
     )
     if not one.instantiated and not made_elsewhere:
         bare = next((line for line, text in facts.bare_names if text == one.name), None)
         raise Wrong(
-            expected, f"{one.name} is never made", where=f"{path}:{bare}" if bare else where,
+            expected,
+            f"{one.name} is never made",
+            where=f"{path}:{bare}" if bare else where,
             hint=f"{one.name}() with (), under if __name__ == '__main__':",
-        )  # fmt: skip
+        )
     for call in facts.calls.get("on_shutdown", []):
         if call.words and call.words[0].endswith("()"):
             raise Wrong(
-                "rospy.on_shutdown gets the method itself", f"on_shutdown({call.words[0]}): it is called at the start",
-                where=f"{path}:{call.line}", hint=f"without (): rospy.on_shutdown({call.words[0][:-2]})",
-            )  # fmt: skip
+                "rospy.on_shutdown gets the method itself",
+                f"on_shutdown({call.words[0]}): it is called at the start",
+                where=f"{path}:{call.line}",
+                hint=f"without (): rospy.on_shutdown({call.words[0][:-2]})",
+            )
         name = call.words[0].rsplit(".", 1)[-1] if call.words else ""
         if call.words and call.words[0].startswith("self.") and name not in one.methods:
             raise Wrong(
-                "rospy.on_shutdown gets a method that exists", f"the class has no {name}", where=f"{path}:{call.line}",
+                "rospy.on_shutdown gets a method that exists",
+                f"the class has no {name}",
+                where=f"{path}:{call.line}",
                 hint=f"one name: def {name}(self), or one of {', '.join(one.methods)}",
-            )  # fmt: skip
+            )
     for call in facts.calls.get("Subscriber", []):
         callback = call.words[2] if len(call.words) > 2 else call.names.get("callback", "")
         if callback in one.methods:
             raise Wrong(
-                "the callback is bound to the object", f"{callback} alone: within a class that is no name",
-                where=f"{path}:{call.line}", hint=f"self.{callback}",
-            )  # fmt: skip
+                "the callback is bound to the object",
+                f"{callback} alone: within a class that is no name",
+                where=f"{path}:{call.line}",
+                hint=f"self.{callback}",
+            )
         if callback.endswith("()"):
             raise Wrong(
-                "the Subscriber gets the method itself", f"{callback} is called at once", where=f"{path}:{call.line}",
+                "the Subscriber gets the method itself",
+                f"{callback} is called at once",
+                where=f"{path}:{call.line}",
                 hint=f"without (): {callback[:-2]}",
-            )  # fmt: skip
+            )
     if facts.globals:
-        return Note("a class needs no `global`: self. keeps what its methods share", f"{path}:{facts.globals[0]}")
+        return Note(
+            "a class needs no `global`: self. keeps what its methods share",
+            f"{path}:{facts.globals[0]}",
+        )
     return f"{one.name} in {path}"
 
 
@@ -129,12 +152,19 @@ class Ending:
     def _end(self, session, stage, script, way):
         before = stage.call("count", CMD_VEL)
         started = stage.start(PACKAGE, script)
-        stage.wait(lambda: (stage.call("listeners", JOY) and stage.call("speakers", CMD_VEL)) or started.ended)
+        stage.wait(
+            lambda: (
+                (stage.call("listeners", JOY) and stage.call("speakers", CMD_VEL)) or started.ended
+            )
+        )
         stage.call("send", JOY, NEUTRAL)
         stage.call("stream", JOY, [held(0.2, 0.3)], 50.0, True)
 
         def driving():
-            return sum(abs(value[0]) > 0.01 for _, _, value in stage.call("heard", CMD_VEL, before)) > 10
+            return (
+                sum(abs(value[0]) > 0.01 for _, _, value in stage.call("heard", CMD_VEL, before))
+                > 10
+            )
 
         stage.wait(lambda: driving() or started.ended, 4.0)
         if started.ended or not driving():
@@ -155,7 +185,9 @@ class Ending:
         heard = stage.call("heard", CMD_VEL, index)
         first = next((number for number, (_, _, value) in enumerate(heard) if value == ZERO), None)
         self.zero_after[way] = heard[first][0] - began_s if first is not None else None
-        self.after_zero[way] = sum(value != ZERO for _, _, value in heard[first or 0 :]) if first is not None else 0
+        self.after_zero[way] = (
+            sum(value != ZERO for _, _, value in heard[first or 0 :]) if first is not None else 0
+        )
         self.output[way] = started.output
 
 
@@ -168,7 +200,7 @@ def _ending(session):
 
 def stops(session):
     """C31."""
-    script, path, one = program(session)
+    _, path, _ = program(session)
     ending = _ending(session)
     facts = session.scripts(PACKAGE)[path]
     call = facts.first("on_shutdown")
@@ -181,15 +213,32 @@ def stops(session):
         if trace:
             from tutorial_check.tracebacks import explain  # noqa: PLC0415
 
-            raise Wrong(expected, f"after {way}: {trace.error}", where=trace.where or where, hint=explain(trace.error))
+            raise Wrong(
+                expected,
+                f"after {way}: {trace.error}",
+                where=trace.where or where,
+                hint=explain(trace.error),
+            )
         if ending.zero_after[way] is None:
             hint = "rospy.on_shutdown(self.shutdown), and self.cmd_vel.publish(Twist()) in shutdown"
             if call:
-                hint = "shutdown has to publish Twist(), all zero, with the publisher of the callback"
-            raise Wrong(expected, f"after {way} no zero comes: the robot drives on", where=where, hint=hint)
+                hint = (
+                    "shutdown has to publish Twist(), all zero, with the publisher of the callback"
+                )
+            raise Wrong(
+                expected, f"after {way} no zero comes: the robot drives on", where=where, hint=hint
+            )
         if ending.took[way] is None:
-            raise Wrong(expected, f"after {way} it still runs 3 s later", where=where, hint="does shutdown come to an end? one second of rest is enough")
-    return ", ".join(f"{way}: zero after {1000 * max(0.0, ending.zero_after[way]):.0f} ms, gone after {ending.took[way]:.1f} s" for way in WAYS)
+            raise Wrong(
+                expected,
+                f"after {way} it still runs 3 s later",
+                where=where,
+                hint="does shutdown come to an end? one second of rest is enough",
+            )
+    return ", ".join(
+        f"{way}: zero after {1000 * max(0.0, ending.zero_after[way]):.0f} ms, gone after {ending.took[way]:.1f} s"
+        for way in WAYS
+    )
 
 
 def _trace(session, output):
@@ -206,8 +255,9 @@ def nothing_after(session):
         path = program(session)[1]
         return Note(
             f"{most} moving Twists followed the zero: the callback goes on during shutdown (the handout's does, too)",
-            path, "unregister the subscriber first: self.sub.unregister(); then publish the zero",
-        )  # fmt: skip
+            path,
+            "unregister the subscriber first: self.sub.unregister(); then publish the zero",
+        )
     return None
 
 
@@ -217,7 +267,8 @@ def errors_are_seen(session):
     facts = session.scripts(PACKAGE)[path]
     if facts.broad_excepts:
         return Note(
-            "except: hides every mistake, a misspelt name as well as Ctrl-C", f"{path}:{facts.broad_excepts[0]}",
+            "except: hides every mistake, a misspelt name as well as Ctrl-C",
+            f"{path}:{facts.broad_excepts[0]}",
             "except rospy.ROSInterruptException:",
-        )  # fmt: skip
+        )
     return None

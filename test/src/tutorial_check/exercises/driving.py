@@ -29,7 +29,8 @@ class Drive:
             stage.call("listen", CMD_VEL, "Twist")
             self.program = stage.start(PACKAGE, script)
             self.connected = bool(
-                stage.wait(lambda: stage.call("listeners", JOY) or self.program.ended) and not self.program.ended
+                stage.wait(lambda: stage.call("listeners", JOY) or self.program.ended)
+                and not self.program.ended
             )
             if self.connected and wants_twist:
                 stage.wait(lambda: stage.call("speakers", CMD_VEL) or self.program.ended, 1.5)
@@ -77,7 +78,10 @@ class Drive:
             before = stage.call("count", CMD_VEL)
             stage.call("send", JOY, joy)
             self.asked += 1
-            stage.wait(lambda before=before: stage.call("count", CMD_VEL) > before or self.program.ended, ANSWER_S)
+            stage.wait(
+                lambda before=before: stage.call("count", CMD_VEL) > before or self.program.ended,
+                ANSWER_S,
+            )
             if settle_s:
                 stage.wait(lambda: self.program.ended, settle_s)
             heard = stage.call("heard", CMD_VEL, before)
@@ -92,7 +96,13 @@ class Drive:
 
     def _stream(self, stage):
         count = int(RATE * STREAM_S)
-        joys = [((0.2 + 0.002 * k, 0.3 + 0.005 * k, 0.0, 0.0, 0.0, 0.0), NEUTRAL[1][:4] + (1,) + NEUTRAL[1][5:]) for k in range(count)]
+        joys = [
+            (
+                (0.2 + 0.002 * k, 0.3 + 0.005 * k, 0.0, 0.0, 0.0, 0.0),
+                (*NEUTRAL[1][:4], 1, *NEUTRAL[1][5:]),
+            )
+            for k in range(count)
+        ]
         before = stage.call("count", CMD_VEL)
         stage.call("stream", JOY, joys, RATE, False)
         stage.wait(lambda: len(stage.call("sent", JOY)) >= count, STREAM_S + 3)
@@ -101,7 +111,9 @@ class Drive:
         self.sent, self.answered = len(sent), len(heard)
         self.foreign = sorted({caller for _, caller, _ in heard})
         # Which Joy a Twist answers is told by its value, by the factor known from before.
-        factor = statistics.median([t[0] / a[1] for a, t in self.samples if abs(a[1]) > 0.1] or [1.0])
+        factor = statistics.median(
+            [t[0] / a[1] for a, t in self.samples if abs(a[1]) > 0.1] or [1.0]
+        )
         self.delays = []
         often = collections.Counter(round(twist[0], 6) for _, _, twist in heard)
         for when, _, twist in heard:
@@ -148,9 +160,13 @@ def displayed(joys, output):
     lines = [[float(word) for word in NUMBER.findall(line)] for line in output.splitlines()]
     lines = [line for line in lines if len(line) >= 6]
     return [
-        joy for joy in joys
-        if any(all(any(abs(axis - seen) < 0.0056 for seen in line) for axis in joy[0]) for line in lines)
-    ]  # fmt: skip
+        joy
+        for joy in joys
+        if any(
+            all(any(abs(axis - seen) < 0.0056 for seen in line) for axis in joy[0])
+            for line in lines
+        )
+    ]
 
 
 def drive(session, script, wants_twist=True):

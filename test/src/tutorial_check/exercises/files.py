@@ -19,24 +19,32 @@ def find_script(session, package, name):
     runnable = [path for path in found if path.stat().st_mode & 0o100 and path.name == name]
     if len(runnable) > 1:
         raise Wrong(
-            f"one program {name}", "several: " + ", ".join(str(path.relative_to(folder)) for path in runnable),
+            f"one program {name}",
+            "several: " + ", ".join(str(path.relative_to(folder)) for path in runnable),
             where=str(runnable[1].relative_to(folder)),
             hint=f"rosrun asks which one ('You have chosen a non-unique executable'): remove all but one {name}",
-        )  # fmt: skip
+        )
     if found:
         return str((runnable or found)[0].relative_to(folder))
-    others = {path.name: path for path in sorted(folder.rglob("*")) if path.is_file() and path.name != "CMakeLists.txt"}
+    others = {
+        path.name: path
+        for path in sorted(folder.rglob("*"))
+        if path.is_file() and path.name != "CMakeLists.txt"
+    }
     near = [other for other in others if other.lower().startswith(name) or other.lower() == name]
     near = near or difflib.get_close_matches(name, others, 1, 0.75)
     if near:
         raise Wrong(
-            f"a program {name}", f"a file {near[0]}", where=str(others[near[0]].relative_to(folder)),
+            f"a program {name}",
+            f"a file {near[0]}",
+            where=str(others[near[0]].relative_to(folder)),
             hint=f"mv {near[0]} {name}: capitals, underscores and the ending count",
-        )  # fmt: skip
+        )
     raise Wrong(
-        f"a program {name} in the package {package}", "no such file anywhere in it",
+        f"a program {name} in the package {package}",
+        "no such file anywhere in it",
         hint=f"create scripts/{name} in YOUR package; `rosrun {package} {name}` that works all the same runs OURS",
-    )  # fmt: skip
+    )
 
 
 def check_file(session, package, script):
@@ -48,41 +56,52 @@ def check_file(session, package, script):
         raise Wrong("a program", "the file is empty", where=script, hint="was it saved?")
     if data.startswith((b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff")):
         raise Wrong(
-            "#! as the very first two bytes", "a byte order mark before them", where=f"{script}:1",
+            "#! as the very first two bytes",
+            "a byte order mark before them",
+            where=f"{script}:1",
             hint="save the file as UTF-8 without BOM",
-        )  # fmt: skip
+        )
     if re.match(rb"\s*<(!doctype|html)", data, re.IGNORECASE):
         raise Wrong(
-            "a Python program", "a web page", where=script,
+            "a Python program",
+            "a web page",
+            where=script,
             hint="the download gave the page and not the file: take the address of the raw file",
-        )  # fmt: skip
+        )
     first = data.split(b"\n", 1)[0]
     if b"\r\n" in data:
         raise Wrong(
-            "Unix line ends", "the file has Windows line ends (python3\\r: No such file)", where=script,
+            "Unix line ends",
+            "the file has Windows line ends (python3\\r: No such file)",
+            where=script,
             hint=f"sed -i 's/\\r$//' {name}",
-        )  # fmt: skip
+        )
     facts = session.scripts(package).get(script)
     if facts and facts.error:
         raise Wrong(
-            "Python that can be read", f"{facts.error}: {facts.error_text}",
+            "Python that can be read",
+            f"{facts.error}: {facts.error_text}",
             where=f"{script}:{facts.error_line}",
             hint=syntax_hint(facts.error, facts.error_text),
-        )  # fmt: skip
+        )
     if not first.startswith(b"#!"):
         later = b"\n#!" in data
         raise Wrong(
             "#!/usr/bin/env python3 as the first line",
-            "it stands further down" if later else f"the first line is {first.decode(errors='replace')[:60]!r}",
+            "it stands further down"
+            if later
+            else f"the first line is {first.decode(errors='replace')[:60]!r}",
             where=f"{script}:1",
             hint="without #! in the very first line the shell tries to run the Python lines itself (import: command not found)",
-        )  # fmt: skip
+        )
     _check_interpreter(first, script)
     if not path.stat().st_mode & 0o100:
         raise Wrong(
-            "a program that may be run", f"{name} is not executable (rosrun: Couldn't find executable)", where=script,
+            "a program that may be run",
+            f"{name} is not executable (rosrun: Couldn't find executable)",
+            where=script,
             hint=f"chmod +x {script}",
-        )  # fmt: skip
+        )
 
 
 def _check_interpreter(first, script):
@@ -93,19 +112,23 @@ def _check_interpreter(first, script):
     known = program in ("python", "python3") or (program and shutil.which(program))
     if not known or "python" not in program:
         raise Wrong(
-            "an interpreter that exists: #!/usr/bin/env python3", first.decode(errors="replace")[:80],
-            where=f"{script}:1", hint="#!/usr/bin/env python3, or #!/usr/bin/python3",
-        )  # fmt: skip
+            "an interpreter that exists: #!/usr/bin/env python3",
+            first.decode(errors="replace")[:80],
+            where=f"{script}:1",
+            hint="#!/usr/bin/env python3, or #!/usr/bin/python3",
+        )
     if re.search(r"python2", program):
         raise Wrong(
-            "Python 3", first.decode(errors="replace"), where=f"{script}:1",
+            "Python 3",
+            first.decode(errors="replace"),
+            where=f"{script}:1",
             hint="ROS here belongs to Python 3: #!/usr/bin/env python3",
-        )  # fmt: skip
+        )
 
 
 def crash(session, package, program, what, default_hint=""):
     """The Wrong for a program that ended or failed, with the cause as far as its output tells."""
-    from tutorial_check.tracebacks import explain, last_lines, first_traceback  # noqa: PLC0415
+    from tutorial_check.tracebacks import explain, first_traceback, last_lines  # noqa: PLC0415
 
     trace = first_traceback(program.output, str(session.package(package).folder))
     if trace:
@@ -113,7 +136,13 @@ def crash(session, package, program, what, default_hint=""):
         return Wrong(what, seen, where=trace.where, hint=explain(trace.error) or default_hint)
     has_ended = program.ended and not program.was_stopped
     if has_ended and program.process.returncode is not None and program.process.returncode < 0:
-        return Wrong(what, f"the program was ended by signal {-program.process.returncode}", hint=default_hint)
+        return Wrong(
+            what,
+            f"the program was ended by signal {-program.process.returncode}",
+            hint=default_hint,
+        )
     said = last_lines(program.output)
     ended = f"it ended at once, exit code {program.process.returncode}" if has_ended else "it runs"
-    return Wrong(what, f"{ended}; it said: {said}" if said else f"{ended}, without a word", hint=default_hint)
+    return Wrong(
+        what, f"{ended}; it said: {said}" if said else f"{ended}, without a word", hint=default_hint
+    )

@@ -3,7 +3,15 @@
 import contextlib
 import re
 
-from tutorial_check.exercises.driving import CMD_VEL, COUNT, JOY, NEUTRAL, PACKAGE, check_master, drive
+from tutorial_check.exercises.driving import (
+    CMD_VEL,
+    COUNT,
+    JOY,
+    NEUTRAL,
+    PACKAGE,
+    check_master,
+    drive,
+)
 from tutorial_check.exercises.files import check_file, crash, find_script
 from tutorial_check.mapping import judge
 from tutorial_check.model import Note, Wrong
@@ -21,7 +29,11 @@ def main_script(session):
     is_first = "Subscriber" in facts.calls and not {"Publisher", "publish"} & set(facts.calls)
     if is_first and "geometry_msgs.msg.Twist" not in facts.imports:
         for other, facts in scripts.items():
-            if "Publisher" in facts.calls and "Subscriber" in facts.calls and not facts.is_class_program:
+            if (
+                "Publisher" in facts.calls
+                and "Subscriber" in facts.calls
+                and not facts.is_class_program
+            ):
                 return other
         for other, facts in scripts.items():
             if "Publisher" in facts.calls and "Subscriber" in facts.calls:
@@ -46,9 +58,11 @@ def check_manifest(session, script):
     session.box.wait(lambda: found.ended, 10.0)
     if found.process.returncode:
         raise Wrong(
-            "roslib.load_manifest names a package that exists", f"ResourceNotFound: {call.words[0]}",
-            where=f"{script}:{call.line}", hint=f"load_manifest('{PACKAGE}'); or leave the line out: catkin needs it no more",
-        )  # fmt: skip
+            "roslib.load_manifest names a package that exists",
+            f"ResourceNotFound: {call.words[0]}",
+            where=f"{script}:{call.line}",
+            hint=f"load_manifest('{PACKAGE}'); or leave the line out: catkin needs it no more",
+        )
 
 
 def crash_of(session, seen, expected, hint=""):
@@ -58,7 +72,12 @@ def crash_of(session, seen, expected, hint=""):
     if facts.broad_excepts and (seen.ended_early or not seen.trouble):
         text = unmasked(session.text(PACKAGE, seen.script))
         if text:
-            shown = drive(session, session.memo(("unmasked", seen.script), lambda: session.sibling(PACKAGE, seen.script, text)))
+            shown = drive(
+                session,
+                session.memo(
+                    ("unmasked", seen.script), lambda: session.sibling(PACKAGE, seen.script, text)
+                ),
+            )
             if shown.trouble:
                 wrong = crash(session, PACKAGE, shown.program, expected, hint)
                 wrong.where = wrong.where.replace(shown.script, seen.script)
@@ -77,9 +96,15 @@ def _silent_end(session, script):
         if one.is_node and "__init__" not in one.methods:
             odd = next((each for each in one.methods if re.fullmatch(r"_*init_*", each)), None)
             if odd:
-                return f"{script}:{one.line}", f"`def {odd}`: Python calls `__init__`, two underscores on either side"
+                return (
+                    f"{script}:{one.line}",
+                    f"`def {odd}`: Python calls `__init__`, two underscores on either side",
+                )
         if one.is_node and not one.instantiated:
-            return f"{script}:{one.line}", f"nobody makes one: {one.name}() under if __name__ == '__main__':"
+            return (
+                f"{script}:{one.line}",
+                f"nobody makes one: {one.name}() under if __name__ == '__main__':",
+            )
     if "spin" not in facts.calls:
         return script, "rospy.spin() is missing: without it the program comes to its end"
     if not facts.has_main:
@@ -96,7 +121,12 @@ def check_connected(session, seen):
     where = f"{seen.script}:{call.line}" if call else seen.script
     if not seen.connected and JOY in seen.subscribers:
         words = call.words[1] if call and len(call.words) > 1 else "another type"
-        raise Wrong(expected, f"it wants {words} on /joy", where=where, hint="rospy.Subscriber('/joy', Joy, callback)")
+        raise Wrong(
+            expected,
+            f"it wants {words} on /joy",
+            where=where,
+            hint="rospy.Subscriber('/joy', Joy, callback)",
+        )
     if seen.connected and not (seen.ended_early and not seen.samples and not seen.shown):
         return
     if seen.trouble or facts.broad_excepts:
@@ -105,19 +135,27 @@ def check_connected(session, seen):
             raise wrong
     if seen.ended_early:
         place, hint = _silent_end(session, seen.script)
-        raise Wrong(expected, crash(session, PACKAGE, seen.program, "").seen, where=place, hint=hint)
+        raise Wrong(
+            expected, crash(session, PACKAGE, seen.program, "").seen, where=place, hint=hint
+        )
     if JOY in seen.publishers:
         raise Wrong(
-            expected, f"it PUBLISHES on /joy ({seen.types.get(JOY)})", where=where,
+            expected,
+            f"it PUBLISHES on /joy ({seen.types.get(JOY)})",
+            where=where,
             hint="a Subscriber hears what the joystick says, a Publisher speaks",
-        )  # fmt: skip
+        )
     others = sorted(set(seen.subscribers) - {"/rosout", "/clock"})
     if others:
-        raise Wrong(expected, f"it subscribes to {others[0]}", where=where, hint="the topic is called /joy")
+        raise Wrong(
+            expected, f"it subscribes to {others[0]}", where=where, hint="the topic is called /joy"
+        )
     raise Wrong(
-        expected, "it subscribes to nothing", where=where,
+        expected,
+        "it subscribes to nothing",
+        where=where,
         hint="rospy.Subscriber('/joy', Joy, callback), after rospy.init_node and before rospy.spin()",
-    )  # fmt: skip
+    )
 
 
 def displays(session):
@@ -137,11 +175,15 @@ def check_displays(session, script, seen, few_are_enough=False):
         raise crash_of(session, seen, expected)
     first = next(
         (
-            other for other, facts in session.scripts(PACKAGE).items()
-            if other != script and "Subscriber" in facts.calls and "Publisher" not in facts.calls
+            other
+            for other, facts in session.scripts(PACKAGE).items()
+            if other != script
+            and "Subscriber" in facts.calls
+            and "Publisher" not in facts.calls
             and not other.rsplit("/", 1)[-1].startswith("checked_")
-        ), None,
-    )  # fmt: skip
+        ),
+        None,
+    )
     if first:
         with contextlib.suppress(Wrong):
             check_file(session, PACKAGE, first)
@@ -157,15 +199,21 @@ def check_displays(session, script, seen, few_are_enough=False):
         return Note("it displays nothing; the handout's does")
     if found >= 2:
         raise Wrong(
-            expected, f"{found} of the six values of a message were found", where=script,
+            expected,
+            f"{found} of the six values of a message were found",
+            where=script,
             hint="all six: [%.2f, %.2f, %.2f, %.2f, %.2f, %.2f] % data.axes",
-        )  # fmt: skip
+        )
     if "logdebug" in facts.calls and "Publisher" in facts.calls:
         return Note("it logs at the level debug, which is not shown")
     raise Wrong(
-        expected, "not one value of a message was found in its output", where=script,
-        hint="rospy.loginfo(...) in the callback, with data.axes" if not has_words else "does the callback display data.axes?",
-    )  # fmt: skip
+        expected,
+        "not one value of a message was found in its output",
+        where=script,
+        hint="rospy.loginfo(...) in the callback, with data.axes"
+        if not has_words
+        else "does the callback display data.axes?",
+    )
 
 
 def topics(session):
@@ -183,12 +231,16 @@ def check_topics(session, seen):
     where = f"{seen.script}:{call.line}" if call else seen.script
     if JOY in seen.publishers:
         raise Wrong(
-            "it only listens to /joy", f"it publishes on /joy itself ({', '.join(seen.publishers[JOY])})", where=where,
+            "it only listens to /joy",
+            f"it publishes on /joy itself ({', '.join(seen.publishers[JOY])})",
+            where=where,
             hint="/joy belongs to the joystick",
-        )  # fmt: skip
+        )
     if CMD_VEL in seen.publishers:
         kind = seen.types.get(CMD_VEL)
-        if kind != "geometry_msgs/Twist" or any("datatype" in line and CMD_VEL in line for line in seen.warnings):
+        if kind != "geometry_msgs/Twist" or any(
+            "datatype" in line and CMD_VEL in line for line in seen.warnings
+        ):
             raise Wrong(expected, f"/cmd_vel carries {kind}", where=where, hint=TWIST_LINE)
         if len(set(seen.publishers[CMD_VEL])) > 1:
             raise Wrong(expected, f"several do: {', '.join(seen.publishers[CMD_VEL])}", where=where)
@@ -197,11 +249,18 @@ def check_topics(session, seen):
         raise crash_of(session, seen, expected)
     others = sorted(set(seen.publishers) - {"/rosout", JOY})
     if others:
-        raise Wrong(expected, f"it publishes on {others[0]}", where=where, hint="the topic is called /cmd_vel")
+        raise Wrong(
+            expected,
+            f"it publishes on {others[0]}",
+            where=where,
+            hint="the topic is called /cmd_vel",
+        )
     raise Wrong(
-        expected, "it publishes nothing" + ("" if call else ": there is no rospy.Publisher in it"), where=where,
+        expected,
+        "it publishes nothing" + ("" if call else ": there is no rospy.Publisher in it"),
+        where=where,
         hint=f"{TWIST_LINE}, and publish(msg) in the callback",
-    )  # fmt: skip
+    )
 
 
 def mapping(session):
@@ -224,19 +283,38 @@ def check_mapping(session, seen):
             wrong.where, wrong.hint = wrong.where or place, wrong.hint or hint
             raise wrong
         if not seen.samples:
-            hint = "is pub.publish(msg) called in the callback?" if not publish else "is publish reached for every message?"
+            hint = (
+                "is pub.publish(msg) called in the callback?"
+                if not publish
+                else "is publish reached for every message?"
+            )
             raise Wrong(expected, "no Twist came for any Joy", where=where, hint=hint)
-        raise Wrong(expected, f"{len(seen.samples)} Twists for {COUNT} Joys", where=where, hint="publish in the callback, for every message")
+        raise Wrong(
+            expected,
+            f"{len(seen.samples)} Twists for {COUNT} Joys",
+            where=where,
+            hint="publish in the callback, for every message",
+        )
     complaint, remark = judge(seen.samples)
     if complaint:
-        raise Wrong(expected, complaint, where=_line_of(session, seen.script, complaint) or where, hint=remark)
+        raise Wrong(
+            expected,
+            complaint,
+            where=_line_of(session, seen.script, complaint) or where,
+            hint=remark,
+        )
     if seen.trouble:
         wrong = crash_of(session, seen, expected)
         return Note(f"right, but also: {wrong.seen}", wrong.where, wrong.hint)
     if remark:
         return Note(remark)
-    if any("latch" in call.names and call.names["latch"] == "True" for call in facts.calls.get("Publisher", [])):
-        return Note("latch=True: a velocity of long ago reaches whoever comes later", hint="leave latch out")
+    if any(
+        "latch" in call.names and call.names["latch"] == "True"
+        for call in facts.calls.get("Publisher", [])
+    ):
+        return Note(
+            "latch=True: a velocity of long ago reaches whoever comes later", hint="leave latch out"
+        )
     return None
 
 
@@ -260,7 +338,9 @@ def check_rate(session, seen):
     facts = session.scripts(PACKAGE)[seen.script]
     sleeps = facts.first("sleep")
     if seen.is_prompt:
-        return f"{seen.answered} for {seen.sent}" + (f", {1000 * seen.delay_s:.1f} ms" if seen.delay_s is not None else "")
+        return f"{seen.answered} for {seen.sent}" + (
+            f", {1000 * seen.delay_s:.1f} ms" if seen.delay_s is not None else ""
+        )
     by_clock = seen.unasked > 2 or "Timer" in facts.calls or "Rate" in facts.calls
     delay = f", {1000 * seen.delay_s:.0f} ms late" if seen.delay_s is not None else ""
     told = f"{seen.answered} Twists for {seen.sent} Joys{delay}"
@@ -269,9 +349,13 @@ def check_rate(session, seen):
     if seen.trouble:
         raise crash_of(session, seen, expected)
     raise Wrong(
-        expected, told, where=f"{seen.script}:{sleeps.line}" if sleeps else seen.script,
-        hint="no sleep and no Rate in the callback: it is called for each message" if sleeps else "what in the callback takes so long?",
-    )  # fmt: skip
+        expected,
+        told,
+        where=f"{seen.script}:{sleeps.line}" if sleeps else seen.script,
+        hint="no sleep and no Rate in the callback: it is called for each message"
+        if sleeps
+        else "what in the callback takes so long?",
+    )
 
 
 def under_load(session):
@@ -286,14 +370,22 @@ def under_load(session):
 
         def all_speak():
             callers = {caller for _, caller, _ in stage.call("heard", CMD_VEL)}
-            return len(callers) >= len(programs) or any("Traceback" in each.output for each in programs)
+            return len(callers) >= len(programs) or any(
+                "Traceback" in each.output for each in programs
+            )
 
         stage.wait(all_speak, 5.0)
         failed = [each for each in programs if "Traceback" in each.output]
-    first = {name: call.line for name in ("Subscriber", "Publisher") for call in [facts.first(name)] if call}
+    first = {
+        name: call.line
+        for name in ("Subscriber", "Publisher")
+        for call in [facts.first(name)]
+        if call
+    }
     if failed or first.get("Publisher", 0) > first.get("Subscriber", 10**6):
         return Note(
             "the subscriber comes before the publisher: a Joy that comes at once finds no pub (the handout has it so)",
-            f"{script}:{first.get('Subscriber', 1)}", "first the Publisher, then the Subscriber",
-        )  # fmt: skip
+            f"{script}:{first.get('Subscriber', 1)}",
+            "first the Publisher, then the Subscriber",
+        )
     return None

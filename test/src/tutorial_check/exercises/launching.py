@@ -12,7 +12,7 @@ from tutorial_check.exercises.driving import CMD_VEL, JOY, PACKAGE
 from tutorial_check.exercises.robot import ODOM, plug_in
 from tutorial_check.launch_facts import MARK
 from tutorial_check.model import CannotCheck, Note, Wrong
-from tutorial_check.tracebacks import explain, last_lines, first_traceback
+from tutorial_check.tracebacks import explain, first_traceback, last_lines
 
 BAG, STICK = "launch_bag.launch", "launch_joy_node.launch"
 TURTLEBOT, REAL = "joy2twist_turtlebot.launch", "launch_joy_node_realTurtlebot.launch"
@@ -29,19 +29,26 @@ def find_launch(session, name):
         if found[0].parent.name != "launch":
             return found[0]
         return found[0]
-    others = {path.name: path for path in sorted(session.source.rglob("*launch*")) if path.is_file()}
-    near = [other for other in others if other.lower() == name.lower()] or difflib.get_close_matches(
-        name, [other for other in others if other not in ALL], 1, 0.85
-    )
+    others = {
+        path.name: path for path in sorted(session.source.rglob("*launch*")) if path.is_file()
+    }
+    near = [
+        other for other in others if other.lower() == name.lower()
+    ] or difflib.get_close_matches(name, [other for other in others if other not in ALL], 1, 0.85)
     if near:
         inside = os.path.relpath(others[near[0]], session.source)
         raise Wrong(
-            f"{PACKAGE}/launch/{name}", f"a file {inside}", where=inside, hint=f"its name must be {name}, and its place {PACKAGE}/launch",
-        )  # fmt: skip
+            f"{PACKAGE}/launch/{name}",
+            f"a file {inside}",
+            where=inside,
+            hint=f"its name must be {name}, and its place {PACKAGE}/launch",
+        )
     raise Wrong(
-        f"{PACKAGE}/launch/{name}", "no such file in your package", where=f"{PACKAGE}/launch",
+        f"{PACKAGE}/launch/{name}",
+        "no such file in your package",
+        where=f"{PACKAGE}/launch",
         hint=f"write it; `roslaunch {PACKAGE} {name}` that works all the same runs OURS",
-    )  # fmt: skip
+    )
 
 
 def facts(session, name):
@@ -53,7 +60,8 @@ def _read(session):
     folder = session.package(PACKAGE).folder
     paths = {}
     for name in ALL:
-        paths.update({name: str(path) for path in sorted(folder.rglob(name))[:1]})
+        for path in sorted(folder.rglob(name))[:1]:
+            paths[name] = str(path)
     if not paths:
         return {}
     source = Path(__file__).resolve().parents[2]
@@ -65,7 +73,11 @@ def _read(session):
     ended = session.box.wait(lambda: program.ended, 15.0)
     session.box.end(program)
     if not ended:
-        raise Wrong("launch files that roslaunch can read", "reading them does not end", hint="roslaunch --nodes FILE")
+        raise Wrong(
+            "launch files that roslaunch can read",
+            "reading them does not end",
+            hint="roslaunch --nodes FILE",
+        )
     found = {}
     for line in program.output.splitlines():
         if line.startswith(MARK):
@@ -88,22 +100,42 @@ def check_file(session, name):
     text = path.read_text(errors="replace")
     if one["error"]:
         raise _parse_error(session, one["error"], where, text)
-    unknown = re.findall(r"unrecognized tag (\S+)|[Uu]nknown (?:<\w+> )?attribute (\S+)", one["said"] + " ".join(one.get("errors", [])))
+    unknown = re.findall(
+        r"unrecognized tag (\S+)|[Uu]nknown (?:<\w+> )?attribute (\S+)",
+        one["said"] + " ".join(one.get("errors", [])),
+    )
     odd = [tag for tag in one["tags"] if tag not in _TAGS]
     if odd or unknown:
         word = odd[0] if odd else next(each for each in unknown[0] if each)
         line = _line(text, f"<{word}" if odd else word)
         raise Wrong(
-            "tags and attributes that roslaunch knows", f"{word}: ignored by roslaunch", where=f"{where}:{line}",
-            hint=f"lower case: <{word.lower()}>" if word.lower() in _TAGS else "look at its spelling",
-        )  # fmt: skip
+            "tags and attributes that roslaunch knows",
+            f"{word}: ignored by roslaunch",
+            where=f"{where}:{line}",
+            hint=f"lower case: <{word.lower()}>"
+            if word.lower() in _TAGS
+            else "look at its spelling",
+        )
     for each in one["nodes"]:
         _check_node(session, each, where, text)
     _check_finds(session, path, where, text)
     return path
 
 
-_TAGS = {"launch", "node", "include", "remap", "param", "rosparam", "arg", "group", "env", "machine", "test", "master"}
+_TAGS = {
+    "launch",
+    "node",
+    "include",
+    "remap",
+    "param",
+    "rosparam",
+    "arg",
+    "group",
+    "env",
+    "machine",
+    "test",
+    "master",
+}
 
 
 def _line(text, word):
@@ -118,10 +150,16 @@ def _parse_error(session, error, where, text):
     place = f"{where}:{line[1]}" if line else where
     hint = "roslaunch --nodes FILE shows the same"
     missing = re.search(r"Resource not found: (\S+)|package \[?'?([\w-]+)", error)
-    if "mismatched tag" in error or "no element found" in error or "not well-formed" in error or "junk after" in error or "unclosed token" in error:
+    if (
+        "mismatched tag" in error
+        or "no element found" in error
+        or "not well-formed" in error
+        or "junk after" in error
+        or "unclosed token" in error
+    ):
         hint = "each <tag> needs its </tag> or />; the mistake is in the line named or in the one before"
         if any(quote in text for quote in "“”‘’"):
-            hint = "curly quotes came from the PDF: type \" instead"
+            hint = 'curly quotes came from the PDF: type " instead'
             place = f"{where}:{next(n for n, each in enumerate(text.splitlines(), 1) if any(q in each for q in '“”‘’'))}"
     elif missing:
         name = (missing[1] or missing[2]).rstrip(":.")
@@ -137,7 +175,7 @@ def _parse_error(session, error, where, text):
         tag = re.search(r"<(\w+)>", error)
         place = f"{where}:{_line(text, '<' + tag[1] if tag else '<node')}"
     elif "arg" in error:
-        hint = "each $(arg x) needs an <arg name=\"x\" default=\"...\"/>"
+        hint = 'each $(arg x) needs an <arg name="x" default="..."/>'
     return Wrong("a launch file that roslaunch can read", error[:250], where=place, hint=hint)
 
 
@@ -149,28 +187,53 @@ def _check_node(session, node, where, text):
         found = [path for path in folder.rglob(kind) if path.is_file()]
         if kind == "joy_node":
             raise Wrong(
-                "joy_node of package joy", 'pkg="joy2twist" has no joy_node: your package hides ours', where=place,
+                "joy_node of package joy",
+                'pkg="joy2twist" has no joy_node: your package hides ours',
+                where=place,
                 hint='<node pkg="joy" type="joy_node" name="joy_node"/>',
-            )  # fmt: skip
+            )
         if kind.endswith(".launch"):
-            raise Wrong("programs in <node>", f'type="{kind}"', where=place, hint=f'<include file="$(find {package})/launch/{kind}"/>')
-        if not found:
-            near = difflib.get_close_matches(kind, [path.name for path in folder.rglob("*") if path.is_file()], 1, 0.7)
             raise Wrong(
-                f"a program {kind} in {PACKAGE}", "Cannot locate node of type [" + kind + "]", where=place,
+                "programs in <node>",
+                f'type="{kind}"',
+                where=place,
+                hint=f'<include file="$(find {package})/launch/{kind}"/>',
+            )
+        if not found:
+            near = difflib.get_close_matches(
+                kind, [path.name for path in folder.rglob("*") if path.is_file()], 1, 0.7
+            )
+            raise Wrong(
+                f"a program {kind} in {PACKAGE}",
+                "Cannot locate node of type [" + kind + "]",
+                where=place,
                 hint=f'type="{near[0]}"' if near else "type is the name of the file, with .py",
-            )  # fmt: skip
+            )
         if not any(path.stat().st_mode & 0o100 for path in found):
-            raise Wrong(f"{kind} may be run", "it is not executable", where=place, hint=f"chmod +x {kind}")
+            raise Wrong(
+                f"{kind} may be run", "it is not executable", where=place, hint=f"chmod +x {kind}"
+            )
         return
     if kind.endswith(".launch"):
-        raise Wrong("programs in <node>", f'type="{kind}"', where=place, hint=f'<include file="$(find {package})/launch/{kind}"/>')
+        raise Wrong(
+            "programs in <node>",
+            f'type="{kind}"',
+            where=place,
+            hint=f'<include file="$(find {package})/launch/{kind}"/>',
+        )
     known = session.memo(("node", package, kind), lambda: _locate(session, package, kind))
     if not known:
-        hint = "look at pkg= and type=: rosrun PACKAGE and twice Tab lists the programs of a package"
+        hint = (
+            "look at pkg= and type=: rosrun PACKAGE and twice Tab lists the programs of a package"
+        )
         if kind == "joy_node":
             hint = '<node pkg="joy" type="joy_node" name="joy_node"/>'
-        raise Wrong("nodes that exist", f"Cannot locate node of type [{kind}] in package [{package}]", where=place, hint=hint)
+        raise Wrong(
+            "nodes that exist",
+            f"Cannot locate node of type [{kind}] in package [{package}]",
+            where=place,
+            hint=hint,
+        )
 
 
 def _locate(session, package, kind):
@@ -189,11 +252,17 @@ def _check_finds(session, path, where, text):
     for number, line in enumerate(text.splitlines(), 1):
         for rest in re.findall(rf"\$\(find\s+{PACKAGE}\)([^\s\"'<>$]*)", line):
             if rest.strip("/") and not (folder / rest.strip("/")).exists():
-                note = "mkdir bag, and copy joy.bag into it" if rest.endswith(".bag") else f"write {Path(rest).name} in YOUR package"
+                note = (
+                    "mkdir bag, and copy joy.bag into it"
+                    if rest.endswith(".bag")
+                    else f"write {Path(rest).name} in YOUR package"
+                )
                 raise Wrong(
-                    f"$(find {PACKAGE}){rest} in your package", "no such file there", where=f"{where}:{number}",
+                    f"$(find {PACKAGE}){rest} in your package",
+                    "no such file there",
+                    where=f"{where}:{number}",
                     hint=f"{note}; another workspace's file would be taken without a word",
-                )  # fmt: skip
+                )
 
 
 def files(session):
@@ -216,7 +285,9 @@ def is_viewer(node):
 
 def is_simulator(node):
     """Whether the simulated robot."""
-    return node["package"] == "fake_turtlebot_sim" and node["type"] == "fake_turtlebot.py" or node["package"].startswith("arbotix")
+    return (
+        node["package"] == "fake_turtlebot_sim" and node["type"] == "fake_turtlebot.py"
+    ) or node["package"].startswith("arbotix")
 
 
 def is_player(node):
@@ -226,7 +297,9 @@ def is_player(node):
 
 def is_joystick(node):
     """Whether a driver of joysticks."""
-    return node["type"] in ("joy_node", "joy_node.py", "joystick.py") and node["package"] != "rosbag"
+    return (
+        node["type"] in ("joy_node", "joy_node.py", "joystick.py") and node["package"] != "rosbag"
+    )
 
 
 def is_own(node):
@@ -239,26 +312,48 @@ def demand(session, name, what, test, hint):
     path = find_launch(session, name)
     found = [node for node in nodes_of(session, name) if test(node)]
     if not found:
-        raise Wrong(f"{name} starts {what}", "it does not", where=_relative(session, path), hint=hint)
+        raise Wrong(
+            f"{name} starts {what}", "it does not", where=_relative(session, path), hint=hint
+        )
     return found[0]
 
 
 def check_viewer(session, name):
     """RViz with a configuration that exists."""
-    node = demand(session, name, "RViz", is_viewer, '<node pkg="rviz" type="rviz" name="my_rviz" args="-d $(find rbx1_nav)/sim.rviz"/>')
+    node = demand(
+        session,
+        name,
+        "RViz",
+        is_viewer,
+        '<node pkg="rviz" type="rviz" name="my_rviz" args="-d $(find rbx1_nav)/sim.rviz"/>',
+    )
     words = shlex.split(node["args"])
-    config = next((words[i + 1] for i, word in enumerate(words[:-1]) if word in ("-d", "--display-config")), None)
+    config = next(
+        (words[i + 1] for i, word in enumerate(words[:-1]) if word in ("-d", "--display-config")),
+        None,
+    )
     where = f"{_relative(session, find_launch(session, name))}:{_line(find_launch(session, name).read_text(errors='replace'), 'rviz')}"
     if config and config != "auto" and not Path(config).exists():
-        raise Wrong("-d FILE names a file that exists", f"no file {config}", where=where, hint="-d $(find rbx1_nav)/sim.rviz")
+        raise Wrong(
+            "-d FILE names a file that exists",
+            f"no file {config}",
+            where=where,
+            hint="-d $(find rbx1_nav)/sim.rviz",
+        )
     if not config and node["type"] == "rviz":
-        return Note("RViz opens without -d FILE: its view is the last one used", where, "-d $(find rbx1_nav)/sim.rviz")
+        return Note(
+            "RViz opens without -d FILE: its view is the last one used",
+            where,
+            "-d $(find rbx1_nav)/sim.rviz",
+        )
     return None
 
 
 ROBOT_HINT = '<include file="$(find rbx1_bringup)/launch/fake_turtlebot.launch"/>'
 OWN_HINT = '<node pkg="joy2twist" type="joy2twist.py" name="myjoystick2twist"/>'
-BAG_HINT = '<node pkg="rosbag" type="play" name="rosbag" args="--loop $(find joy2twist)/bag/joy.bag"/>'
+BAG_HINT = (
+    '<node pkg="rosbag" type="play" name="rosbag" args="--loop $(find joy2twist)/bag/joy.bag"/>'
+)
 JOY_HINT = '<node pkg="joy" type="joy_node" name="joy_node"/>'
 
 
@@ -270,14 +365,26 @@ def bag_of(session):
     words = [word for word in shlex.split(node["args"]) if not word.startswith("_")]
     bags = [word for word in words if word.endswith(".bag")]
     if not bags:
-        raise Wrong("rosbag play with the recording", f"args: {node['args'] or 'none'}", where=where, hint=BAG_HINT)
+        raise Wrong(
+            "rosbag play with the recording",
+            f"args: {node['args'] or 'none'}",
+            where=where,
+            hint=BAG_HINT,
+        )
     if not os.path.isabs(bags[0]):
         raise Wrong(
-            "a whole path to the recording", bags[0], where=where,
+            "a whole path to the recording",
+            bags[0],
+            where=where,
             hint=f"roslaunch starts rosbag in a folder of its own: $(find joy2twist)/bag/{Path(bags[0]).name}",
-        )  # fmt: skip
+        )
     if not Path(bags[0]).exists() and str(session.layout.root) not in bags[0]:
-        raise Wrong("a recording that exists", f"no file {bags[0]}", where=where, hint="mkdir bag in your package, and copy joy.bag into it")
+        raise Wrong(
+            "a recording that exists",
+            f"no file {bags[0]}",
+            where=where,
+            hint="mkdir bag in your package, and copy joy.bag into it",
+        )
     return bags[0], where
 
 
@@ -288,8 +395,16 @@ def bag_nodes(session):
     demand(session, BAG, "joy2twist", is_own, OWN_HINT)
     bag, where = bag_of(session)
     if not bag.startswith(str(session.source)):
-        if not Path(bag).exists() or "$(find" not in find_launch(session, BAG).read_text(errors="replace").split("play", 1)[-1]:
-            return Note(f"the recording is not in your package: {bag}", where, "$(find joy2twist)/bag/joy.bag goes wherever the package goes")
+        if (
+            not Path(bag).exists()
+            or "$(find"
+            not in find_launch(session, BAG).read_text(errors="replace").split("play", 1)[-1]
+        ):
+            return Note(
+                f"the recording is not in your package: {bag}",
+                where,
+                "$(find joy2twist)/bag/joy.bag goes wherever the package goes",
+            )
         return Note(f"the recording is not in your package: {bag}", where)
     return note
 
@@ -301,7 +416,12 @@ def stick_nodes(session):
     demand(session, STICK, "joy2twist", is_own, OWN_HINT)
     demand(session, STICK, "joy_node", is_joystick, JOY_HINT)
     if any(is_player(node) for node in nodes_of(session, STICK)):
-        raise Wrong("a joystick only", "it plays a recording, too: both would drive", where=f"launch/{STICK}", hint="take the rosbag node out")
+        raise Wrong(
+            "a joystick only",
+            "it plays a recording, too: both would drive",
+            where=f"launch/{STICK}",
+            hint="take the rosbag node out",
+        )
     return note
 
 
@@ -331,12 +451,24 @@ class Launch:
             return Wrong(expected, trace.error, where=trace.where, hint=explain(trace.error))
         counts = {topic: self.stage.call("count", topic) for topic in (JOY, self.twists, ODOM)}
         silent = [topic for topic, count in counts.items() if not count]
-        errors = [line for line in output.splitlines() if re.search(r"ERROR|died|Invalid|cannot|Unable", line) and "rviz" not in line and "INFO" not in line]
-        errors = errors or [line for log in self._logs() for line in log.splitlines()[-1:] if "INFO" not in line]
-        seen = f"nothing on {', '.join(silent)}" if silent else f"the robot moved {self.moved():.2f} m"
+        errors = [
+            line
+            for line in output.splitlines()
+            if re.search(r"ERROR|died|Invalid|cannot|Unable", line)
+            and "rviz" not in line
+            and "INFO" not in line
+        ]
+        errors = errors or [
+            line for log in self._logs() for line in log.splitlines()[-1:] if "INFO" not in line
+        ]
+        seen = (
+            f"nothing on {', '.join(silent)}" if silent else f"the robot moved {self.moved():.2f} m"
+        )
         if errors:
             seen += f"; {errors[0].strip()[:200]}"
-        return Wrong(expected, seen, where=f"launch/{self.name}", hint=_silence_hint(silent, self.twists))
+        return Wrong(
+            expected, seen, where=f"launch/{self.name}", hint=_silence_hint(silent, self.twists)
+        )
 
     def _logs(self):
         """What nodes without output="screen" wrote."""
@@ -366,7 +498,10 @@ def _own_bag(session, path):
     with rosbag.Bag(str(path), "w") as bag:
         for k in range(int(BAG_S * 20)):
             stamp = rospy.Time(1_600_000_000 + k / 20)
-            joy = Joy(axes=[0.0, 0.5 if k > 4 else 0.0, 0.0, 0.0, 0.0, 0.0], buttons=[0, 0, 0, 0, int(k > 4)] + [0] * 7)
+            joy = Joy(
+                axes=[0.0, 0.5 if k > 4 else 0.0, 0.0, 0.0, 0.0, 0.0],
+                buttons=[0, 0, 0, 0, int(k > 4)] + [0] * 7,
+            )
             joy.header.stamp = stamp
             bag.write("/joy", joy, stamp)
     os.chmod(path, mode | 0o444)
@@ -380,10 +515,19 @@ def _bag_run(session):
     with session.stage() as stage:
         launch = Launch(session, BAG, stage)
         enough = stage.wait(
-            lambda: launch.moved() > 0.3 or (launch.program.ended and "roslaunch") or (_died(launch) and "died"), START_S
+            lambda: (
+                launch.moved() > 0.3
+                or (launch.program.ended and "roslaunch")
+                or (_died(launch) and "died")
+            ),
+            START_S,
         )
         drives = enough is True
-        wrong = None if drives else launch.wrong("/joy, /cmd_vel and /odom flow, and the robot drives more than 0.3 m")
+        wrong = (
+            None
+            if drives
+            else launch.wrong("/joy, /cmd_vel and /odom flow, and the robot drives more than 0.3 m")
+        )
         loops = False
         if drives:
             begun = stage.call("heard", JOY)[0][0]
@@ -391,14 +535,18 @@ def _bag_run(session):
 
             def again():
                 heard = stage.call("heard", JOY)
-                return heard[-1][0] - begun > longest + 0.5 or any(is_player(node) and node["respawn"] for node in nodes_of(session, BAG))
+                return heard[-1][0] - begun > longest + 0.5 or any(
+                    is_player(node) and node["respawn"] for node in nodes_of(session, BAG)
+                )
 
             loops = bool(stage.wait(again, longest + 2.5)) if replaced else _loops_by_words(session)
         return wrong, drives, loops
 
 
 def _died(launch):
-    return any("has died" in line and "rviz" not in line for line in launch.program.output.splitlines())
+    return any(
+        "has died" in line and "rviz" not in line for line in launch.program.output.splitlines()
+    )
 
 
 def _loops_by_words(session):
@@ -418,9 +566,11 @@ def bag_loops(session):
     _, _, loops = session.memo("bag run", lambda: _bag_run(session))
     if not loops:
         raise Wrong(
-            "/joy flows on after the end of the recording", "it falls silent", where=f"launch/{BAG}",
+            "/joy flows on after the end of the recording",
+            "it falls silent",
+            where=f"launch/{BAG}",
             hint="rosbag play --loop",
-        )  # fmt: skip
+        )
 
 
 def stick_drives(session):
@@ -434,7 +584,10 @@ def check_stick(session, name):
         pad = plug_in_for(session, stage, name)
         launch = Launch(session, name, stage)
         pushed = push_when_ready(stage, pad, launch)
-        stage.wait(lambda: launch.moved() > 0.15 or launch.program.ended or _died(launch), 4.0 if pushed else 0.0)
+        stage.wait(
+            lambda: launch.moved() > 0.15 or launch.program.ended or _died(launch),
+            4.0 if pushed else 0.0,
+        )
         if launch.moved() <= 0.15:
             raise launch.wrong("the robot moves with the stick")
         pad.call("release")
@@ -458,7 +611,11 @@ def push_when_ready(stage, pad, launch):
     topics = (JOY, launch.twists, ODOM)
 
     def ready():
-        return pad.call("connected") and all(stage.call("speakers", topic) for topic in topics) and stage.call("count", JOY)
+        return (
+            pad.call("connected")
+            and all(stage.call("speakers", topic) for topic in topics)
+            and stage.call("count", JOY)
+        )
 
     stage.wait(lambda: ready() or launch.program.ended or _died(launch), START_S)
     # A robot that has only just come obeys once it was told to rest for a while; so do we.

@@ -25,8 +25,13 @@ def remapped(session):
         stage.call("advertise", JOY, "Joy")
         program = stage.launch(["roslaunch", str(path)])
         stage.wait(
-            lambda: program.ended
-            or (stage.call("listeners", JOY) and (stage.call("speakers", TELEOP) or stage.call("speakers", CMD_VEL))),
+            lambda: (
+                program.ended
+                or (
+                    stage.call("listeners", JOY)
+                    and (stage.call("speakers", TELEOP) or stage.call("speakers", CMD_VEL))
+                )
+            ),
             launching.START_S,
         )
         stage.call("send", JOY, NEUTRAL)
@@ -35,7 +40,12 @@ def remapped(session):
         def moving(topic):
             return any(abs(value[0]) > 0.01 for _, _, value in stage.call("heard", topic))
 
-        stage.wait(lambda: moving(TELEOP) or moving(CMD_VEL) or program.ended or launching._died(_Run(program)), 3.0)
+        stage.wait(
+            lambda: (
+                moving(TELEOP) or moving(CMD_VEL) or program.ended or launching._died(_Run(program))
+            ),
+            3.0,
+        )
         good, bad = moving(TELEOP), moving(CMD_VEL)
         publishers, subscribers = stage.call("state")
         output = program.output
@@ -44,16 +54,34 @@ def remapped(session):
     if good and not bad and CMD_VEL not in publishers:
         return None
     if "Traceback" in output or launching._died(_Run(program)):
-        from tutorial_check.tracebacks import explain, last_lines, first_traceback  # noqa: PLC0415
+        from tutorial_check.tracebacks import explain, first_traceback, last_lines  # noqa: PLC0415
 
         trace = first_traceback(output, str(session.package(PACKAGE).folder))
-        raise Wrong(expected, trace.error if trace else last_lines(output), where=trace.where if trace else where,
-                    hint=explain(trace.error) if trace else "")
+        raise Wrong(
+            expected,
+            trace.error if trace else last_lines(output),
+            where=trace.where if trace else where,
+            hint=explain(trace.error) if trace else "",
+        )
     if bad and re.search(r"<param\s+(from|name)=", text) and not remaps:
-        raise Wrong(expected, "Twists on /cmd_vel: a <param> renames nothing", where=f"{where}:{launching._line(text, '<param')}", hint=REMAP)
+        raise Wrong(
+            expected,
+            "Twists on /cmd_vel: a <param> renames nothing",
+            where=f"{where}:{launching._line(text, '<param')}",
+            hint=REMAP,
+        )
     if bad and any(to.strip("/") == "cmd_vel" for _, to in remaps):
-        raise Wrong(expected, "Twists on /cmd_vel: from and to are swapped", where=line, hint=f"from is the name in the program: {REMAP}")
-    others = sorted(topic for topic in publishers if re.search("vel|teleop|mux", topic) and topic not in (TELEOP, CMD_VEL))
+        raise Wrong(
+            expected,
+            "Twists on /cmd_vel: from and to are swapped",
+            where=line,
+            hint=f"from is the name in the program: {REMAP}",
+        )
+    others = sorted(
+        topic
+        for topic in publishers
+        if re.search("vel|teleop|mux", topic) and topic not in (TELEOP, CMD_VEL)
+    )
     if others:
         raise Wrong(expected, f"it publishes on {others[0]}", where=line, hint=REMAP)
     if bad:
@@ -62,7 +90,12 @@ def remapped(session):
             seen += f": the remap from {remaps[0][0]} fits no topic of the program"
         raise Wrong(expected, seen, where=line, hint=REMAP)
     if JOY not in subscribers:
-        raise Wrong(expected, "nobody listens to /joy", where=where, hint="does the node start, and is /joy left as it is?")
+        raise Wrong(
+            expected,
+            "nobody listens to /joy",
+            where=where,
+            hint="does the node start, and is /joy left as it is?",
+        )
     raise Wrong(expected, "no Twist at all", where=where, hint=REMAP)
 
 
@@ -79,30 +112,54 @@ def real_robot(session):
     files = launching.facts(session, REAL)["files"]
     if not any(each.endswith(f"/{TURTLEBOT}") for each in files):
         raise Wrong(
-            f"it includes {TURTLEBOT}", "it does not", where=where,
+            f"it includes {TURTLEBOT}",
+            "it does not",
+            where=where,
             hint=f'<include file="$(find {PACKAGE})/launch/{TURTLEBOT}"/>',
-        )  # fmt: skip
-    launching.demand(session, REAL, "RViz", launching.is_viewer, '<include file="$(find turtlebot_rviz_launchers)/launch/view_robot.launch"/>')
+        )
+    launching.demand(
+        session,
+        REAL,
+        "RViz",
+        launching.is_viewer,
+        '<include file="$(find turtlebot_rviz_launchers)/launch/view_robot.launch"/>',
+    )
     launching.demand(session, REAL, "joy_node", launching.is_joystick, launching.JOY_HINT)
     own = [node for node in launching.nodes_of(session, REAL) if launching.is_own(node)]
     if len(own) > 1:
-        raise Wrong("one joy2twist", f"{len(own)}: both would drive", where=f"{where}:{launching._line(text, 'joy2twist.py')}",
-                    hint=f"{TURTLEBOT} starts it already")
+        raise Wrong(
+            "one joy2twist",
+            f"{len(own)}: both would drive",
+            where=f"{where}:{launching._line(text, 'joy2twist.py')}",
+            hint=f"{TURTLEBOT} starts it already",
+        )
     has_base = any(node["type"] == "cmd_vel_mux.py" for node in launching.nodes_of(session, REAL))
     with session.stage() as stage:
         stage.call("listen", ACTIVE, "String")
         pad = launching.plug_in_for(session, stage, REAL)
         base = None
         if not has_base:
-            base = stage.launch(["roslaunch", "fake_turtlebot_sim", "minimal.launch", "model:=false"], trusted=True)
+            base = stage.launch(
+                ["roslaunch", "fake_turtlebot_sim", "minimal.launch", "model:=false"], trusted=True
+            )
         launch = launching.Launch(session, REAL, stage, TELEOP)
         pushed = launching.push_when_ready(stage, pad, launch)
-        stage.wait(lambda: launch.moved() > 0.15 or launch.program.ended or launching._died(launch), 4.0 if pushed else 0.0)
+        stage.wait(
+            lambda: launch.moved() > 0.15 or launch.program.ended or launching._died(launch),
+            4.0 if pushed else 0.0,
+        )
         if base and base.ended:
             raise CannotCheck(f"the simulated TurtleBot does not start: {base.output[-200:]}")
         moved = launch.moved() > 0.15
         active = {value for _, _, value in stage.call("heard", ACTIVE)}
         if not moved:
-            raise launch.wrong("cmd_vel_mux lets teleop through, and the robot moves with the stick")
+            raise launch.wrong(
+                "cmd_vel_mux lets teleop through, and the robot moves with the stick"
+            )
     if not any("teleop" in each for each in active):
-        raise Wrong("cmd_vel_mux/active says teleop", f"{', '.join(sorted(active)) or 'nothing'}", where=where, hint=REMAP)
+        raise Wrong(
+            "cmd_vel_mux/active says teleop",
+            f"{', '.join(sorted(active)) or 'nothing'}",
+            where=where,
+            hint=REMAP,
+        )
