@@ -3,7 +3,13 @@ from setuptools import setup
 
 setup(
     **generate_distutils_setup(
-        packages=["tutorial_testing", "tutorial_testing.kernel", "tutorial_testing.two_hosts"],
+        packages=[
+            "tutorial_check",
+            "tutorial_check.exercises",
+            "tutorial_testing",
+            "tutorial_testing.kernel",
+            "tutorial_testing.two_hosts",
+        ],
         package_dir={"": "src"},
     )
 )

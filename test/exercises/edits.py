@@ -1,0 +1,87 @@
+"""What changes a right solution into another one: the language of the rows. Pure but for files."""
+
+from pathlib import Path
+
+B, J = "beginner_tutorials", "joy2twist"
+TALKER, LISTENER = f"{B}/scripts/talker.py", f"{B}/scripts/listener.py"
+JOY2TWIST, CLASS = f"{J}/scripts/joy2twist.py", f"{J}/scripts/new_joy2twist.py"
+LAUNCH_BAG, LAUNCH_JOY = f"{J}/launch/launch_bag.launch", f"{J}/launch/launch_joy_node.launch"
+TURTLEBOT, REAL = (
+    f"{J}/launch/joy2twist_turtlebot.launch",
+    f"{J}/launch/launch_joy_node_realTurtlebot.launch",
+)
+
+
+def put(path, old, new, count=-1):
+    """Replace a text, which must be there."""
+
+    def edit(src):
+        file = src / path
+        text = file.read_bytes().decode()
+        assert old in text, f"{old!r} is not in {path}"
+        file.write_bytes(text.replace(old, new, count).encode())
+
+    return edit
+
+
+def write(path, text, mode=0o755):
+    """Write a file."""
+
+    def edit(src):
+        (src / path).parent.mkdir(parents=True, exist_ok=True)
+        (src / path).write_text(text)
+        (src / path).chmod(mode)
+
+    return edit
+
+
+def move(old, new):
+    """Rename or move; new may leave src."""
+
+    def edit(src):
+        (src / new).parent.mkdir(parents=True, exist_ok=True)
+        (src / old).rename(src / new)
+
+    return edit
+
+
+def copy(old, new):
+    """A second one of a file, with its rights."""
+
+    def edit(src):
+        (src / new).parent.mkdir(parents=True, exist_ok=True)
+        (src / new).write_bytes((src / old).read_bytes())
+        (src / new).chmod((src / old).stat().st_mode & 0o777)
+
+    return edit
+
+
+def remove(path):
+    """Delete a file."""
+    return lambda src: (src / path).unlink()
+
+
+def chmod(path, mode):
+    """Change the rights."""
+    return lambda src: (src / path).chmod(mode)
+
+
+def windows(path):
+    """Windows line ends."""
+    return lambda src: (src / path).write_bytes((src / path).read_bytes().replace(b"\n", b"\r\n"))
+
+
+def lines(path, *numbers):
+    """Leave out the lines of these numbers, from 1."""
+
+    def edit(src):
+        text = (src / path).read_text().splitlines(keepends=True)
+        (src / path).write_text("".join(line for n, line in enumerate(text, 1) if n not in numbers))
+
+    return edit
+
+
+def apply(edits, src):
+    """Make the changes in a src folder."""
+    for edit in edits:
+        edit(Path(src))

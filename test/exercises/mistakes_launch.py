@@ -1,0 +1,82 @@
+"""Mistakes in launch files, each a row: (exercise, what, edits, check, word of the diagnosis)."""
+
+from edits import (  # noqa: F401
+    JOY2TWIST,
+    LAUNCH_BAG,
+    LAUNCH_JOY,
+    REAL,
+    TURTLEBOT,
+    J,
+    chmod,
+    move,
+    put,
+    remove,
+    windows,
+)
+
+OWN = '  <node pkg="joy2twist" name="myjoystick2twist" type="joy2twist.py">\n  </node>\n'
+ROBOT = '  <include file="$(find rbx1_bringup)/launch/fake_turtlebot.launch"/>\n'
+JOY = '  <node pkg="joy" name="joy_node" type="joy_node">\n  </node>\n'
+RVIZ = '  <node pkg="rviz" name="my_rviz" type="rviz" args="-d $(find rbx1_nav)/sim.rviz">\n  </node>\n'
+INCLUDE = '  <include file="$(find joy2twist)/launch/joy2twist_turtlebot.launch"/>\n'
+REMAP = '<remap from="/cmd_vel" to="/cmd_vel_mux/input/teleop"/>'
+
+
+def bag(what, old, new, check, word):
+    """A row with one change in launch_bag.launch."""
+    return ("5", what, [put(LAUNCH_BAG, old, new, 1)], check, word)
+
+
+def joy(what, old, new, check, word):
+    """A row with one change in launch_joy_node.launch."""
+    return ("5", what, [put(LAUNCH_JOY, old, new, 1)], check, word)
+
+
+def mux(what, old, new, check, word):
+    """A row with one change in joy2twist_turtlebot.launch."""
+    return ("6.1", what, [put(TURTLEBOT, old, new, 1)], check, word)
+
+
+ROWS = [
+    ("5", "no launch_bag.launch", [remove(LAUNCH_BAG)], "C21", "no such file"),
+    ("5", "misnamed", [move(LAUNCH_JOY, f"{J}/launch/launch_joynode.launch")], "C21", "launch_joynode"),
+    bag("</node> missing", "  </node>\n  <include", "  <include", "C21", "</tag>"),
+    bag("</launch> missing", "</launch>", "", "C21", "</tag>"),
+    bag("curly quotes", '"rviz"', "“rviz”", "C21", "curly"),
+    bag("<Node>", '<node pkg="joy2twist" name="myjoystick2twist" type="joy2twist.py">\n  </node>', '<Node pkg="joy2twist" name="myjoystick2twist" type="joy2twist.py">\n  </Node>', "C21", "lower case"),
+    bag("a package that does not exist", "$(find rbx1_bringup)", "$(find rbx1_bringupp)", "C21", "rbx1_bringupp"),
+    bag("a file that does not exist", "fake_turtlebot.launch", "fake_turtelbot.launch", "C21", "fake_turtelbot"),
+    bag("include without a path", "$(find rbx1_bringup)/launch/fake_turtlebot.launch", "fake_turtlebot.launch", "C21", "whole path"),
+    bag("include pkg= file=", 'include file="$(find rbx1_bringup)/launch/fake_turtlebot.launch"', 'include pkg="rbx1_bringup" file="fake_turtlebot.launch"', "C21", "include"),
+    bag("a node that is a launch file", ROBOT, '  <node pkg="rbx1_bringup" name="robot" type="fake_turtlebot.launch"/>\n', "C21", "<include"),
+    bag('type="joy2twist"', 'type="joy2twist.py"', 'type="joy2twist"', "C21", "joy2twist.py"),
+    bag("type missing", ' type="joy2twist.py"', "", "C21", "type"),
+    bag("bag folder not made", "/bag/joy.bag", "/bags/joy.bag", "C21", "bag"),
+    joy('pkg="joy2twist" type="joy_node"', 'pkg="joy" name="joy_node"', 'pkg="joy2twist" name="joy_node"', "C21", 'pkg="joy"'),
+    joy("joy_node misspelt", 'type="joy_node"', 'type="joynode"', "C21", "joynode"),
+    bag("no RViz", RVIZ, "", "C22", "RViz"),
+    bag("no robot", ROBOT, "", "C22", "robot"),
+    bag("no joy2twist", OWN, "", "C22", "joy2twist"),
+    bag("rosbag record", 'type="play"', 'type="record"', "C22", "rosbag play"),
+    bag("rviz file that does not exist", "sim.rviz", "simm.rviz", "C22", "simm.rviz"),
+    bag("bag without a path", "$(find joy2twist)/bag/joy.bag", "joy.bag", "C22", "whole path"),
+    bag("cmd_vel remapped away", 'type="joy2twist.py">', 'type="joy2twist.py">\n  <remap from="/cmd_vel" to="/cmd"/>', "C23", "/cmd_vel"),
+    bag("--loop forgotten", "--loop ", "", "C24", "--loop"),
+    joy("no joy_node", JOY, "", "C25", "joy_node"),
+    joy("no robot for the joystick", ROBOT, "", "C25", "robot"),
+    joy("a recording beside the joystick", JOY, JOY + '  <node name="rosbag" pkg="rosbag" type="play" args="--loop $(find joy2twist)/bag/joy.bag"/>\n', "C25", "both"),
+    joy("/joy remapped away", 'type="joy_node">', 'type="joy_node">\n  <remap from="joy" to="joystick"/>', "C26", "/joy"),
+    ("6.1", "no joy2twist_turtlebot.launch", [remove(TURTLEBOT)], "C27", "no such file"),
+    mux("remap swapped", REMAP, '<remap from="/cmd_vel_mux/input/teleop" to="/cmd_vel"/>', "C27", "swapped"),
+    mux("no remap", f"    {REMAP}\n", "", "C27", "remap"),
+    mux("<param> for <remap>", REMAP, '<param name="/cmd_vel" value="/cmd_vel_mux/input/teleop"/>', "C27", "param"),
+    mux("remap of another name", 'from="/cmd_vel"', 'from="/cmdvel"', "C27", "/cmdvel"),
+    mux("teleop misspelt", "input/teleop", "input/teleope", "C27", "teleope"),
+    mux("mux misspelt", "cmd_vel_mux/input", "cmd_vel_mux", "C27", "/cmd_vel_mux/teleop"),
+    mux("no node", 'type="joy2twist.py"', 'type="joy2twst.py"', "C27", "joy2twst"),
+    ("6.1", "no realTurtlebot.launch", [remove(REAL)], "C28", "no such file"),
+    ("6.1", "capitals lost", [move(REAL, f"{J}/launch/launch_joy_node_realturtlebot.launch")], "C28", "realturtlebot"),
+    ("6.1", "the include forgotten", [put(REAL, INCLUDE, "")], "C28", "include"),
+    ("6.1", "no joystick", [put(REAL, JOY, "")], "C28", "joy_node"),
+    ("6.1", "joy2twist twice", [put(REAL, JOY, JOY + OWN.replace("my", "your"))], "C28", "both"),
+]  # fmt: skip

@@ -1,0 +1,218 @@
+"""The command line, and folders that are none: one clear line each, and the right exit code."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import zipfile
+from pathlib import Path
+
+import pytest
+from edits import JOY2TWIST, TALKER, B, J, apply, chmod, move, put
+
+SOURCE = Path(__file__).resolve().parents[1] / "src"
+
+
+def check(floor, *words, **options):
+    """(exit code, stdout, stderr) of a run of ./tutorial check."""
+    done = subprocess.run(
+        ["/usr/bin/python3", "-m", "tutorial_check", "--floor", str(floor), *map(str, words)],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=300,
+        env={**os.environ, "PYTHONPATH": str(SOURCE)},
+        **options,
+    )
+    assert "Traceback" not in done.stderr, done.stderr
+    return done.returncode, done.stdout, done.stderr
+
+
+def test_right_is_exit_code_0_with_all_its_files(literal, floor, tmp_path):
+    files = [
+        word
+        for name in ("json", "junit", "gradescope", "classroom")
+        for word in (f"--{name}", tmp_path / name)
+    ]
+    code, out, _ = check(floor, "--in", literal.parent, "2", *files)
+    assert code == 0, out
+    assert out.endswith("1 of 1 exercises done\n")
+    told = json.loads((tmp_path / "json").read_text())
+    assert told["exercises"][0]["id"] == "2"
+    assert [one["id"] for one in told["exercises"][0]["checks"]] == ["C1", "C2", "C3", "C4"]
+    for name in ("junit", "gradescope", "classroom"):
+        assert (tmp_path / name).stat().st_size > 100
+
+
+def test_wrong_is_exit_code_1(literal, floor):
+    chmod(TALKER, 0o644)(literal)
+    code, out, _ = check(floor, "--in", literal.parent, "3")
+    assert code == 1
+    assert "hint:     chmod +x scripts/talker.py" in out
+    assert "hint" not in check(floor, "--in", literal.parent, "3", "--no-hints")[1]
+
+
+def test_no_such_exercise(literal, floor):
+    code, _, error = check(floor, "--in", literal.parent, "7")
+    assert code == 2
+    assert "no exercise 7" in error
+
+
+@pytest.mark.parametrize("floor_there", [True, False])
+def test_it_cannot_work(tmp_path, floor, floor_there):
+    code, _, error = check(
+        floor if floor_there else tmp_path / "none", "--in", tmp_path / "nowhere", "2"
+    )
+    assert code == 2
+    assert "no such" in error
+    assert "no verdict" in error
+
+
+def test_an_empty_workspace(tmp_path, floor):
+    code, out, _ = check(floor, "--in", tmp_path, "2")
+    assert code == 1
+    assert "a folder src in the workspace" in out
+
+
+def test_packages_outside_of_src(literal, floor):
+    move(B, f"../{B}")(literal)
+    code, out, _ = check(floor, "--in", literal.parent, "2")
+    assert code == 1
+    assert f"hint:     mv {B} src/" in out
+
+
+def test_two_packages_of_one_name(literal, floor):
+    shutil.copytree(literal / B, literal / "copy_of_it")
+    code, out, _ = check(floor, "--in", literal.parent, "2")
+    assert code == 1
+    assert "2: beginner_tutorials, copy_of_it" in out
+
+
+def test_a_zip_with_a_path_outside(tmp_path, floor):
+    with zipfile.ZipFile(tmp_path / "evil.zip", "w") as opened:
+        opened.writestr("../evil.txt", "x")
+    code, _, error = check(floor, "--in", tmp_path / "evil.zip", "2")
+    assert code == 2
+    assert "a path outside of itself: ../evil.txt" in error
+
+
+def test_an_unreadable_folder(literal, floor):
+    """For a user who is not root: to root everything is readable."""
+    words = []
+    if os.geteuid() == 0:
+        for folder in (literal, *literal.parents):
+            if folder.name == Path(tempfile.gettempdir()).name:
+                break
+            folder.chmod(0o755)
+        words = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"]
+    (literal / J).chmod(0)
+    done = subprocess.run(
+        [
+            *words,
+            "/usr/bin/python3",
+            "-m",
+            "tutorial_check",
+            "--floor",
+            str(floor),
+            "--in",
+            str(literal.parent),
+            "2",
+        ],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=100,
+        env={**os.environ, "PYTHONPATH": str(SOURCE), "HOME": "/nonexistent"},
+    )
+    (literal / J).chmod(0o755)
+    assert done.returncode == 2, done.stdout + done.stderr
+    assert "may not be read" in done.stderr
+
+
+def test_the_professor(literal, floor, tmp_path):
+    """A folder of one right, one wrong, one hostile, one that is no zip: each its own verdict."""
+    room = tmp_path / "room"
+    for name in ("ada", "bob", "eve"):
+        shutil.copytree(literal.parent, room / name)
+    apply([put(JOY2TWIST, "data.axes[0]", "-data.axes[0]")], room / "bob" / "src")
+    apply(
+        [put(JOY2TWIST, "def callback", "while True:\n    pass\n\n\ndef callback")],
+        room / "eve" / "src",
+    )
+    (room / "zoe.zip").write_text("no zip")
+    with zipfile.ZipFile(room / "kim.zip", "w") as opened:
+        for path in sorted(literal.rglob("*")):
+            opened.write(path, Path("kim") / "src" / path.relative_to(literal))
+    code, out, error = check(floor, "--all", room, "4.3")
+    assert code == 2, out + error  # zoe's could not be checked
+    table = (room / "check" / "table.csv").read_text().splitlines()
+    cells = {line.split(",")[0]: line.split(",")[1] for line in table}
+    assert cells == {
+        "student": "4.3",
+        "ada": "ok",
+        "bob": "C16",
+        "eve": "C14",
+        "kim": "ok",
+        "zoe": "?",
+    }
+    page = (room / "check" / "table.html").read_text()
+    assert "the sign is wrong" in page
+    assert "sign is wrong" in (room / "check" / "bob.txt").read_text()
+    assert json.loads((room / "check" / "ada.json").read_text())["passed"] == 1
+
+
+def test_watch(literal, floor):
+    """It tells what is wrong, and after the file is mended that it is done."""
+    chmod(TALKER, 0o644)(literal)
+    with subprocess.Popen(
+        [
+            "/usr/bin/python3",
+            "-m",
+            "tutorial_check",
+            "--floor",
+            str(floor),
+            "--in",
+            str(literal.parent),
+            "--watch",
+            "3",
+        ],
+        stdout=subprocess.PIPE,
+        text=True,
+        env={**os.environ, "PYTHONPATH": str(SOURCE), "PYTHONUNBUFFERED": "1"},
+    ) as process:
+        try:
+            first = []
+            for line in process.stdout:
+                first.append(line)
+                if line.startswith("waiting"):
+                    break
+            assert "chmod +x" in "".join(first)
+            chmod(TALKER, 0o755)(literal)
+            for line in process.stdout:
+                if line.startswith("1 of 1 exercises done"):
+                    break
+            else:
+                pytest.fail("it never said done")
+        finally:
+            process.kill()
+
+
+def test_alone_in_its_place(literal, floor):
+    """Two checks at once do not meet, and neither meets a master of the user's."""
+    env = {**os.environ, "PYTHONPATH": str(SOURCE), "ROS_MASTER_URI": "http://localhost:1"}
+    command = [
+        "/usr/bin/python3",
+        "-m",
+        "tutorial_check",
+        "--floor",
+        str(floor),
+        "--in",
+        str(literal.parent),
+        "3",
+    ]
+    both = [subprocess.Popen(command, env=env, stdout=subprocess.PIPE, text=True) for _ in range(2)]
+    told = [process.communicate(timeout=200)[0] for process in both]
+    assert [process.returncode for process in both] == [0, 0], told
+    assert sys.version_info

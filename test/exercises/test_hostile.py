@@ -1,0 +1,148 @@
+"""Programs that hang, fork, print without end or forge: an honest verdict, and nobody else harmed."""
+
+import os
+import time
+from pathlib import Path
+
+from edits import JOY2TWIST, LISTENER, TALKER, apply, put, write
+
+from tutorial_check.examination import examine
+from tutorial_check.report import lines_of
+
+LONGEST_S = 60.0
+AFTER_INIT = "    rospy.init_node('listener', anonymous=True)\n"
+
+
+def wrong_of(src, floor, exercise):
+    """What is wrong in an exercise: the first one's id and text. The checker ends in time."""
+    began_s = time.monotonic()
+    outcomes = examine(src.parent, floor, [exercise])
+    assert time.monotonic() - began_s < LONGEST_S
+    results = [result for result in outcomes[0].results if result.status == "wrong"]
+    return (results[0].id, "\n".join(lines_of(results[0]))) if results else (None, "")
+
+
+def processes_like(word):
+    """Ids of running processes whose command line has a word."""
+    found = []
+    for path in Path("/proc").glob("[0-9]*/cmdline"):
+        try:
+            if word.encode() in path.read_bytes():
+                found.append(path.parent.name)
+        except OSError:
+            continue
+    return found
+
+
+def test_one_that_ignores_ctrl_c(literal, floor):
+    write(
+        TALKER,
+        "#!/usr/bin/env python3\nimport signal\nsignal.signal(signal.SIGINT, signal.SIG_IGN)\nwhile True:\n    pass\n",
+    )(literal)
+    check, told = wrong_of(literal, floor, "3")
+    assert check == "C6", told
+    assert not processes_like("scripts/talker.py")
+
+
+def test_a_fork_bomb(literal, floor):
+    write(
+        TALKER,
+        "#!/usr/bin/env python3\nimport os\nwhile True:\n    try:\n        os.fork()\n    except OSError:\n        pass\n",
+    )(literal)
+    check, told = wrong_of(literal, floor, "3")
+    assert check == "C6", told
+    assert not processes_like("scripts/talker.py")
+
+
+def test_output_without_end(literal, floor):
+    apply(
+        [
+            put(
+                LISTENER,
+                "    rospy.spin()",
+                "    block = 'x' * 1000000 + '\\n'\n    for _ in range(1000):\n        print(block)\n    rospy.spin()",
+            )
+        ],
+        literal,
+    )
+    outcomes = examine(literal.parent, floor, ["3"])
+    talker = next(result for result in outcomes[0].results if result.id == "C6")
+    assert talker.status == "ok", "\n".join(lines_of(talker))
+
+
+def test_one_that_ends_the_master(literal, floor):
+    kill = "    import xmlrpc.client, os\n    xmlrpc.client.ServerProxy(os.environ['ROS_MASTER_URI']).shutdown('/me', 'no more')\n"
+    apply([put(JOY2TWIST, AFTER_INIT, AFTER_INIT + kill)], literal)
+    check, told = wrong_of(literal, floor, "4.3")
+    assert check == "C14", told
+    assert "has ended it" in told
+
+
+def test_one_that_kills_all_it_may(literal, floor):
+    kill = "    import os, signal\n    signal.signal(signal.SIGTERM, signal.SIG_IGN)\n    os.kill(-1, signal.SIGTERM)\n"
+    apply([put(JOY2TWIST, AFTER_INIT, AFTER_INIT + kill)], literal)
+    outcomes = examine(literal.parent, floor, ["4.3"])
+    assert outcomes[0].results  # a verdict, and no end of the checker
+    assert processes_like("pytest")
+
+
+def test_one_that_kills_its_group(literal, floor):
+    apply(
+        [put(JOY2TWIST, AFTER_INIT, AFTER_INIT + "    import os\n    os.killpg(0, 9)\n")], literal
+    )
+    check, told = wrong_of(literal, floor, "4.3")
+    assert check == "C14", told
+    assert "signal 9" in told
+
+
+def test_one_that_writes_into_the_workspace(literal, floor):
+    victim = literal / "joy2twist" / "package.xml"
+    before = victim.read_bytes()
+    spoil = f"    open({str(victim)!r}, 'w').write('spoilt')\n"
+    apply([put(JOY2TWIST, AFTER_INIT, AFTER_INIT + spoil)], literal)
+    check, told = wrong_of(literal, floor, "4.3")
+    assert victim.read_bytes() == before
+    assert check == "C14", told
+    assert "writes where it may not" in told
+
+
+def test_one_that_fills_the_disk(literal, floor):
+    fill = "    with open('filled', 'wb') as file:\n        while True:\n            file.write(b'x' * 1000000)\n"
+    apply([put(JOY2TWIST, AFTER_INIT, AFTER_INIT + fill)], literal)
+    check, told = wrong_of(literal, floor, "4.3")
+    assert check == "C14", told
+
+
+def test_one_that_forges_what_the_checker_hears(literal, floor):
+    """Twists as they should be, but of its own making and not for the Joys that came."""
+    forge = (
+        "    import itertools\n    loud = rospy.Publisher('/cmd_vel', Twist, queue_size=1)\n"
+        "    loud2 = rospy.Publisher('/joy', Joy, queue_size=1)\n    msg = Twist()\n    msg.linear.x = 0.4\n    msg.angular.z = 0.3\n"
+        "    while not rospy.is_shutdown():\n        loud.publish(msg)\n        loud2.publish(Joy(axes=[0.3, 0.4, 0, 0, 0, 0], buttons=[0] * 12))\n        rospy.sleep(0.02)\n"
+    )
+    apply([put(JOY2TWIST, AFTER_INIT, AFTER_INIT + forge)], literal)
+    check, told = wrong_of(literal, floor, "4.3")
+    assert check in ("C14", "C15"), told
+    assert "/joy" in told
+
+
+def test_one_that_prints_a_verdict(literal, floor):
+    told = '{"exercise": "4.3", "result": {"id": "C16", "status": "ok", "title": "x"}}'
+    apply(
+        [
+            put(
+                JOY2TWIST,
+                AFTER_INIT,
+                AFTER_INIT
+                + f"    print('''\\n{told}\\n''' * 50)\n    os_exit = __import__('os')._exit(0)\n",
+            )
+        ],
+        literal,
+    )
+    check, _ = wrong_of(literal, floor, "4.3")
+    assert check == "C14"
+
+
+def test_the_next_one_is_unharmed(literal, floor):
+    assert os.listdir(literal)
+    assert wrong_of(literal, floor, "3") == (None, "")

@@ -1,0 +1,60 @@
+"""Right solutions, the suite's, a literal one and many variants: nothing is called wrong."""
+
+import subprocess
+import sys
+
+import pytest
+from edits import apply
+from variants import ROWS
+
+from tutorial_check.examination import examine
+from tutorial_check.exercises import EXERCISES
+from tutorial_check.report import lines_of
+
+LONGEST_S = {"one": 15.0, "all": 90.0}
+
+
+def check(workspace, floor, exercises, record_property):
+    """Examine; the outcomes; fails with the report of what is called wrong."""
+    outcomes = examine(workspace, floor, exercises)
+    wrong = [
+        result
+        for outcome in outcomes
+        for result in outcome.results
+        if result.status in ("wrong", "unreached")
+    ]
+    record_property("checks", sum(len(outcome.results) for outcome in outcomes))
+    for result in wrong:
+        record_property("alarm", " / ".join(lines_of(result)))
+    assert not wrong, "\n".join(line for result in wrong for line in lines_of(result))
+    return outcomes
+
+
+def test_the_solutions_of_the_suite(solutions, floor, record_property):
+    outcomes = check(solutions.parent, floor, list(EXERCISES), record_property)
+    assert [outcome.id for outcome in outcomes] == list(EXERCISES)
+
+
+def test_a_literal_solution(literal, floor, record_property):
+    outcomes = check(literal.parent, floor, list(EXERCISES), record_property)
+    seen = {result.id: result.status for outcome in outcomes for result in outcome.results}
+    assert len(seen) == 33
+    # What the handout's own listings do is worth a word, no more.
+    assert [seen[check] for check in ("C18", "C20", "C32", "C33")] == ["note"] * 4
+
+
+@pytest.mark.parametrize("row", ROWS, ids=[row[0] for row in ROWS])
+def test_variant(row, literal, floor, record_property):
+    _, edits, exercises = row
+    apply(edits, literal)
+    check(literal.parent, floor, exercises, record_property)
+
+
+def test_with_both_cores_busy(literal, floor, record_property):
+    busy = [subprocess.Popen([sys.executable, "-c", "while True: pass"]) for _ in range(2)]
+    try:
+        check(literal.parent, floor, list(EXERCISES), record_property)
+    finally:
+        for process in busy:
+            process.kill()
+            process.wait()

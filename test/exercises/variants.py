@@ -1,0 +1,88 @@
+"""Right solutions that differ from the handout's, each a row: (what, edits, exercises to check)."""
+
+from edits import (
+    CLASS,
+    JOY2TWIST,
+    LAUNCH_BAG,
+    LAUNCH_JOY,
+    LISTENER,
+    REAL,
+    TALKER,
+    TURTLEBOT,
+    B,
+    J,
+    move,
+    put,
+    write,
+)
+
+SHOW = 'rospy.loginfo(rospy.get_name() + ": axes [%.2f, %.2f, %.2f, %.2f, %.2f, %.2f]" % data.axes)'
+X = "msg.linear.x = data.axes[1]"
+PUB = "    pub = rospy.Publisher('/cmd_vel', Twist)\n"
+PUBLISH = "pub.publish(msg)"
+REMAP = '<remap from="/cmd_vel" to="/cmd_vel_mux/input/teleop"/>'
+TWIST = "    msg = Twist()\n    msg.linear.x = data.axes[1]\n    msg.angular.z = data.axes[0]\n"
+MANIFEST = "import roslib; roslib.load_manifest('joy2twist')\n"
+END_OF_CLASS = '    except:\n        rospy.loginfo("The node has ended.")\n'
+
+
+def j(what, old, new):
+    """A row with one change in joy2twist.py."""
+    return (what, [put(JOY2TWIST, old, new)], ["4.3"])
+
+
+def c(what, *changes):
+    """A row with changes in the class."""
+    return (what, [put(CLASS, old, new) for old, new in changes], ["6.2"])
+
+
+ROWS = [
+    ("shebang /usr/bin/python3", [put(JOY2TWIST, "/usr/bin/env python", "/usr/bin/python3"), put(TALKER, "/usr/bin/env python", "/usr/bin/env python3")], ["3", "4.3"]),
+    ("installed by catkin_install_python", [put(f"{J}/CMakeLists.txt", "catkin_package()", "catkin_package()\ncatkin_install_python(PROGRAMS scripts/joy2twist.py scripts/new_joy2twist.py DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})")], ["4.3", "6.2"]),
+    ("scripts in src", [move(JOY2TWIST, f"{J}/src/joy2twist.py"), move(TALKER, f"{B}/src/talker.py")], ["3", "4.3"]),
+    ("scripts in nodes", [move(JOY2TWIST, f"{J}/nodes/joy2twist.py"), move(CLASS, f"{J}/nodes/NewJoy2Twist.py")], ["4.3", "6.2"]),
+    ("scripts in the package's root", [move(JOY2TWIST, f"{J}/joy2twist.py"), move(LISTENER, f"{B}/listener.py")], ["3", "4.3"]),
+    ("no load_manifest", [put(JOY2TWIST, MANIFEST, ""), put(CLASS, MANIFEST, "")], ["4.3", "6.2"]),
+    ("relative topics", [put(JOY2TWIST, "/joy", "joy"), put(JOY2TWIST, "/cmd_vel", "cmd_vel")], ["4.3", "6.1"]),
+    ("three versions in three files", [move(JOY2TWIST, f"{J}/scripts/joy2twist_v2.py"), write(JOY2TWIST, '#!/usr/bin/env python3\nimport rospy\nfrom sensor_msgs.msg import Joy\n\n\ndef callback(data):\n    rospy.loginfo("%s", ",".join("%.2f" % a for a in data.axes))\n\n\nrospy.init_node("listener", anonymous=True)\nrospy.Subscriber("/joy", Joy, callback)\nrospy.spin()\n')], ["4.3"]),
+    j("queue_size=1", "'/cmd_vel', Twist", "'/cmd_vel', Twist, queue_size=1"),
+    j("publisher first", f'    rospy.Subscriber("/joy", Joy, callback)\n{PUB}', f'{PUB}    rospy.Subscriber("/joy", Joy, callback)\n'),
+    ("publisher before init_node", [put(JOY2TWIST, PUB, ""), put(JOY2TWIST, "    rospy.init_node", f"{PUB}    rospy.init_node")], ["4.3"]),
+    j("latch=True", "'/cmd_vel', Twist", "'/cmd_vel', Twist, queue_size=10, latch=True"),
+    j("Twist with keywords", TWIST, "    from geometry_msgs.msg import Vector3\n    msg = Twist(linear=Vector3(x=data.axes[1]), angular=Vector3(z=data.axes[0]))\n"),
+    j("Twist with Vector3", TWIST, "    from geometry_msgs.msg import Vector3\n    msg = Twist(Vector3(data.axes[1], 0, 0), Vector3(0, 0, data.axes[0]))\n"),
+    ("one global Twist", [put(JOY2TWIST, "    msg = Twist()\n", ""), put(JOY2TWIST, "def callback", "msg = Twist()\n\n\ndef callback")], ["4.3"]),
+    j("displayed by print", SHOW, 'print("axes:", ", ".join("%.3f" % axis for axis in data.axes))'),
+    j("the whole tuple displayed", SHOW, "rospy.loginfo(data.axes)"),
+    j("format and f-string", SHOW, 'rospy.loginfo(f"joystick {[round(axis, 2) for axis in data.axes]} buttons {data.buttons}")'),
+    j("half the speed", X, "msg.linear.x = 0.5 * data.axes[1]"),
+    ("dead zone", [put(JOY2TWIST, X, "msg.linear.x = data.axes[1] if abs(data.axes[1]) > 0.35 else 0.0")], ["4.3", "4.4"]),
+    ("limit", [put(JOY2TWIST, X, "msg.linear.x = max(-0.5, min(0.5, data.axes[1]))")], ["4.3", "4.4"]),
+    ("dead-man LB", [put(JOY2TWIST, f"    {PUBLISH}", f"    if not data.buttons[4]:\n        msg = Twist()\n    {PUBLISH}")], ["4.3", "4.4", "4.5"]),
+    ("silent without LB", [put(JOY2TWIST, f"    {PUBLISH}", f"    if data.buttons[4]:\n        {PUBLISH}")], ["4.3", "4.4"]),
+    ("a Timer publishes", [put(JOY2TWIST, f"    {PUBLISH}\n", "    callback.msg = msg\n"), put(JOY2TWIST, PUB, f"{PUB}    callback.msg = Twist()\n    rospy.Timer(rospy.Duration(0.05), lambda event: pub.publish(callback.msg))\n")], ["4.3", "4.4"]),
+    ("a Rate loop publishes", [put(JOY2TWIST, f"    {PUBLISH}\n", "    callback.msg = msg\n"), put(JOY2TWIST, "    rospy.spin()", "    callback.msg = Twist()\n    rate = rospy.Rate(20)\n    while not rospy.is_shutdown():\n        pub.publish(callback.msg)\n        rate.sleep()")], ["4.3"]),
+    ("topics from parameters", [put(JOY2TWIST, "'/cmd_vel', Twist", "rospy.get_param('~out', '/cmd_vel'), Twist")], ["4.3"]),
+    ("another node name, not anonymous", [put(JOY2TWIST, "'listener', anonymous=True", "'converter'")], ["4.3", "6.1"]),
+    ("talkers not anonymous", [put(TALKER, "anonymous=True", "anonymous=False")], ["3"]),
+    ("talker with 5 Hz and another text", [put(TALKER, "Rate(10)", "Rate(5)"), put(TALKER, "good day at %s", "bonjour %s")], ["3"]),
+    ("talker with a Timer", [write(TALKER, '#!/usr/bin/env python3\nimport rospy\nfrom std_msgs.msg import String\n\nrospy.init_node("talker", anonymous=True)\npub = rospy.Publisher("chatter", String, queue_size=10)\nrospy.Timer(rospy.Duration(0.1), lambda event: pub.publish("now %s" % rospy.get_time()))\nrospy.spin()\n')], ["3"]),
+    ("listener with print", [put(LISTENER, 'rospy.loginfo(rospy.get_caller_id() + "I heard %s", data.data)', 'print("heard: " + data.data)')], ["3"]),
+    ("package.xml format 1", [write(f"{J}/package.xml", f"<package>\n<name>{J}</name>\n<version>0.0.0</version>\n<description>x</description>\n<maintainer email='s@u.example'>s</maintainer>\n<license>TODO</license>\n<buildtool_depend>catkin</buildtool_depend>\n" + "".join(f"<build_depend>{d}</build_depend>\n<run_depend>{d}</run_depend>\n" for d in ("rospy", "std_msgs", "sensor_msgs", "geometry_msgs")) + "</package>\n", 0o644)], ["4.3"]),
+    ("package.xml format 3 with <depend>", [write(f"{B}/package.xml", f"<package format='3'>\n<name>{B}</name>\n<version>0.0.0</version>\n<description>x</description>\n<maintainer email='s@u.example'>s</maintainer>\n<license>TODO</license>\n<buildtool_depend>catkin</buildtool_depend>\n" + "".join(f"<depend>{d}</depend>\n" for d in ("rospy", "std_msgs", "roscpp", "sensor_msgs")) + "</package>\n", 0o644)], ["2"]),
+    ("our names in the launch files", [put(LAUNCH_BAG, "$(find rbx1_nav)/sim.rviz", "$(find fake_turtlebot_sim)/rviz/sim.rviz"), put(LAUNCH_BAG, "rbx1_bringup", "fake_turtlebot_sim"), put(LAUNCH_JOY, 'pkg="joy" name', 'pkg="gamepad" name')], ["5"]),
+    ("-l for --loop, output, required, arg", [put(LAUNCH_BAG, "--loop", "-l --clock"), put(LAUNCH_BAG, 'type="joy2twist.py"', 'type="joy2twist.py" output="screen" required="true"'), put(LAUNCH_BAG, "<launch>", '<launch>\n  <arg name="gui" default="true"/>'), put(LAUNCH_BAG, 'type="rviz"', 'type="rviz" if="$(arg gui)"')], ["5"]),
+    ("a bag of another name", [move(f"{J}/bag/joy.bag", f"{J}/bags/figure of eight.bag".replace(" ", "_")), put(LAUNCH_BAG, "bag/joy.bag", "bags/figure_of_eight.bag")], ["4.2", "5"]),
+    ("joy_node with parameters, in a group", [put(LAUNCH_JOY, '  <node pkg="joy" name="joy_node" type="joy_node">\n', '  <group>\n  <node pkg="joy" name="stick" type="joy_node">\n    <param name="dev" value="/dev/input/js0"/>\n    <param name="autorepeat_rate" value="10"/>\n'), put(LAUNCH_JOY, "  </node>\n</launch>", "  </node>\n  </group>\n</launch>")], ["5"]),
+    ("remap before the node, without /", [put(TURTLEBOT, f"    {REMAP}\n", ""), put(TURTLEBOT, "<launch>", '<launch>\n  <remap from="cmd_vel" to="cmd_vel_mux/input/teleop"/>')], ["6.1"]),
+    ("remap in args", [put(TURTLEBOT, f"    {REMAP}\n", ""), put(TURTLEBOT, 'type="joy2twist.py"', 'type="joy2twist.py" args="/cmd_vel:=/cmd_vel_mux/input/teleop"')], ["6.1"]),
+    ("remap by $(arg)", [put(TURTLEBOT, "/cmd_vel_mux/input/teleop", "$(arg out)"), put(TURTLEBOT, "<launch>", '<launch>\n  <arg name="out" default="/cmd_vel_mux/input/teleop"/>')], ["6.1"]),
+    ("minimal.launch included, the class driven", [put(REAL, "<launch>", '<launch>\n  <include file="$(find turtlebot_bringup)/launch/minimal.launch"/>'), put(TURTLEBOT, "joy2twist.py", "new_joy2twist.py")], ["6.1"]),
+    c("object, ROSInterruptException", ("NewJoy2Twist()", "NewJoy2Twist(object)"), ("        NewJoy2Twist(object)\n", "        NewJoy2Twist()\n"), ("    except:\n", "    except rospy.ROSInterruptException:\n")),
+    c("spin outside of __init__", ("        rospy.spin()\n", ""), ("        NewJoy2Twist()\n", "        NewJoy2Twist()\n        rospy.spin()\n")),
+    c("unregisters, no sleep, zeros", ("        rospy.Subscriber(", "        self.sub = rospy.Subscriber("), ("        self.cmd_vel.publish(Twist())\n        rospy.sleep(1)", "        self.sub.unregister()\n        for _ in range(5):\n            self.cmd_vel.publish(Twist())\n            rospy.sleep(0.05)")),
+    c("throttled", ("rospy.loginfo(rospy.get_name()", "rospy.loginfo_throttle(1.0, rospy.get_name()")),
+    c("a class named Joy2Twist, with main()", ("NewJoy2Twist", "Joy2Twist"), ("if __name__ == '__main__':\n    try:\n        Joy2Twist()\n" + END_OF_CLASS, "def main():\n    Joy2Twist()\n\n\nif __name__ == '__main__':\n    main()\n")),
+    ("the class in joy2twist.py", [move(CLASS, JOY2TWIST)], ["4.3", "6.2"]),
+    ("two nodes of one class name, a helper class", [put(CLASS, "class NewJoy2Twist", "class Config():\n    speed = 1.0\n\n\nclass NewJoy2Twist")], ["6.2"]),
+]  # fmt: skip

@@ -1,0 +1,232 @@
+"""Programs of others: started with limits, listened to with a limit, ended for certain.
+
+One thread does it all: whoever waits here also reads what the programs print, so that none of them
+ever waits for us, and what they print without end costs no more than the reading.
+"""
+
+import contextlib
+import os
+import resource
+import select
+import signal
+import subprocess
+import time
+import uuid
+from pathlib import Path
+
+GRACE_S = 3.0  # after Ctrl-C a program has this long to end by itself
+KEPT_FIRST, KEPT_LAST = 200_000, 50_000  # bytes of a program's output
+MARK = "TUTORIAL_CHECK_MARK"  # by which programs are known where they cannot be by user or session
+# What a program may use. The address space is what Python's threads reserve, not what they use.
+LIMITS = {
+    resource.RLIMIT_NPROC: 400,
+    resource.RLIMIT_AS: 6 << 30,
+    resource.RLIMIT_FSIZE: 64 << 20,
+    resource.RLIMIT_CPU: 60,
+    resource.RLIMIT_CORE: 0,
+    resource.RLIMIT_NOFILE: 1024,
+}
+
+
+class Program:
+    """A program of the student's, or one that serves the check."""
+
+    def __init__(self, process, name):
+        self.process = process
+        self.name = name
+        self.began_s = time.monotonic()
+        self.was_stopped = False  # by us: then how it ended says nothing
+        self._first, self._last, self.printed = bytearray(), bytearray(), 0
+
+    @property
+    def ended(self):
+        """Whether it has ended."""
+        return self.process.poll() is not None
+
+    @property
+    def output(self):
+        """What it printed; the middle of very much is left out."""
+        gap = b"\n[...]\n" if self.printed > KEPT_FIRST + KEPT_LAST else b""
+        return (self._first + gap + self._last).decode(errors="replace")
+
+    def read(self):
+        """Take what it printed since the last time; False at the end of its output."""
+        try:
+            data = os.read(self.process.stdout.fileno(), 65536)
+        except BlockingIOError:
+            return True
+        self.printed += len(data)
+        room = KEPT_FIRST - len(self._first)
+        self._first += data[:room]
+        self._last = (self._last + data[room:])[-KEPT_LAST:]
+        return bool(data)
+
+
+class Box:
+    """All programs of one check of one workspace.
+
+    uid: of the user as whom they run, or None; alone: whether this process and what it starts are
+    alone in a PID namespace.
+    """
+
+    def __init__(self, environment, uid=None, alone=False):
+        self.environment = environment
+        self._uid = uid
+        self._alone = alone
+        self._mark = str(uuid.uuid4())
+        self._open = []
+        self._trusted = {os.getsid(0)}
+        self._poll = select.poll()
+        self._reading = {}
+
+    def start(self, command, environment=None, cwd=None, trusted=False):
+        """Start a program. Raises OSError if there is nothing to start."""
+        read, write = os.pipe()
+        try:
+            process = subprocess.Popen(
+                command,
+                stdin=subprocess.DEVNULL,
+                stdout=write,
+                stderr=write,
+                cwd=cwd or self.environment["HOME"],
+                env={**self.environment, **(environment or {}), MARK: self._mark},
+                start_new_session=True,  # with a group that Ctrl-C reaches, as in a terminal
+                preexec_fn=None if trusted else self._restrict,  # noqa: PLW1509  one thread here
+            )
+        except BaseException:
+            os.close(read)
+            raise
+        finally:
+            os.close(write)
+        process.stdout = os.fdopen(read, "rb", buffering=0)
+        os.set_blocking(read, False)
+        program = Program(process, os.path.basename(command[0]))
+        self._open.append(program)
+        self._reading[read] = program
+        self._poll.register(read, select.POLLIN | select.POLLHUP)
+        if trusted:
+            self._trusted.add(process.pid)
+        return program
+
+    def _restrict(self):
+        """In the child, before the student's program: its limits and its user."""
+        for number in (signal.SIGINT, signal.SIGHUP, signal.SIGTERM):
+            signal.signal(number, signal.SIG_DFL)
+        for what, wanted in LIMITS.items():
+            with contextlib.suppress(ValueError, OSError):
+                hard = resource.getrlimit(what)[1]
+                limit = wanted if hard == resource.RLIM_INFINITY else min(wanted, hard)
+                resource.setrlimit(what, (limit, limit))
+        if self._uid is not None:
+            os.setgroups([])
+            os.setgid(self._uid)
+            os.setuid(self._uid)
+
+    def trust(self, pid):
+        """Leave alone a process that we forked, which leads a session of its own."""
+        self._trusted.add(pid)
+
+    def wait(self, condition, deadline_s):
+        """The first true value of condition(), or its value at the deadline."""
+        end = time.monotonic() + deadline_s
+        while True:
+            value = condition()
+            if value or time.monotonic() > end:
+                return value
+            self.pump(0.01)
+
+    def pump(self, longest_s):
+        """Read what was printed; return when something was, or after the given time."""
+        for descriptor, _ in self._poll.poll(longest_s * 1000):
+            program = self._reading[descriptor]
+            if not program.read():
+                self._forget(program)
+
+    def _forget(self, program):
+        descriptor = program.process.stdout.fileno()
+        self._poll.unregister(descriptor)
+        del self._reading[descriptor]
+        program.process.stdout.close()
+
+    def interrupt(self, program):
+        """Press Ctrl-C."""
+        with contextlib.suppress(ProcessLookupError, PermissionError):
+            os.killpg(program.process.pid, signal.SIGINT)
+
+    def end(self, program, grace_s=GRACE_S):
+        """End a program; how long it took after Ctrl-C [s], or None if it had to be killed."""
+        began_s = time.monotonic()
+        if not program.ended:
+            program.was_stopped = True
+            self.interrupt(program)
+            self.wait(lambda: program.ended, grace_s)
+        took_s = time.monotonic() - began_s if program.ended else None
+        with contextlib.suppress(ProcessLookupError, PermissionError):
+            os.killpg(program.process.pid, signal.SIGKILL)
+        program.process.wait()
+        while (
+            not program.process.stdout.closed
+            and select.select([program.process.stdout], [], [], 0)[0]
+        ):
+            if not program.read():
+                self._forget(program)
+        return took_s
+
+    def clear(self):
+        """End all that is left, whatever it is called and whoever started it."""
+        for program in self._open:
+            if not program.ended:
+                program.was_stopped = True
+                with contextlib.suppress(ProcessLookupError, PermissionError):
+                    os.killpg(program.process.pid, signal.SIGKILL)
+        if self._uid is not None:
+            self._kill_all_of_user()
+        for _ in range(50):  # a program that forks without end is faster than one round
+            strays = self._strays()
+            for pid in strays:
+                with contextlib.suppress(ProcessLookupError, PermissionError):
+                    os.kill(pid, signal.SIGSTOP)
+            for pid in strays:
+                with contextlib.suppress(ProcessLookupError, PermissionError):
+                    os.kill(pid, signal.SIGKILL)
+            if not strays:
+                break
+        for program in self._open:
+            program.process.wait()
+            if not program.process.stdout.closed:
+                self._forget(program)
+        self._open.clear()
+
+    def _kill_all_of_user(self):
+        """At one go, so that none can fork meanwhile."""
+        pid = os.fork()
+        if pid == 0:
+            with contextlib.suppress(BaseException):
+                os.setuid(self._uid)
+                os.kill(-1, signal.SIGKILL)
+            os._exit(0)
+        os.waitpid(pid, 0)
+
+    def _strays(self):
+        strays = []
+        for folder in Path("/proc").glob("[0-9]*"):
+            pid = int(folder.name)
+            try:
+                state, _, _, session = (folder / "stat").read_text().rsplit(")", 1)[1].split()[:4]
+                if state in "ZX" or pid == 1 or pid == os.getpid():
+                    continue
+                if self._uid is not None:
+                    is_ours = folder.stat().st_uid == self._uid
+                elif self._alone:
+                    is_ours = int(session) not in self._trusted
+                else:
+                    mark = f"{MARK}={self._mark}".encode()
+                    is_ours = (
+                        int(session) not in self._trusted
+                        and mark in (folder / "environ").read_bytes()
+                    )
+            except OSError:
+                continue  # ended meanwhile, or another user's
+            if is_ours:
+                strays.append(pid)
+        return strays

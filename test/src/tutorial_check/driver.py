@@ -1,0 +1,196 @@
+"""The other end of the student's topics: sends what we choose, keeps what comes back.
+
+Runs in the process of a forked.Helper; every method returns at once, waiting is the caller's.
+"""
+
+import logging
+import threading
+import time
+import xmlrpc.client
+
+import rosgraph
+import rospy
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import Joy
+from std_msgs.msg import String
+
+NAME = "tutorial_check"
+KINDS = {"String": String, "Joy": Joy, "Twist": Twist, "Odometry": Odometry}
+MOST_KEPT = 20_000  # messages of a topic
+
+
+def _joy(values):
+    axes, buttons = values
+    joy = Joy(axes=axes, buttons=buttons)
+    joy.header.stamp = rospy.Time.now()
+    return joy
+
+
+def _plain(message):
+    """A message as numbers or text."""
+    if isinstance(message, Twist):
+        return tuple(
+            getattr(part, axis) for part in (message.linear, message.angular) for axis in "xyz"
+        )
+    if isinstance(message, Joy):
+        return (tuple(message.axes), tuple(message.buttons))
+    if isinstance(message, Odometry):
+        pose, twist = message.pose.pose, message.twist.twist
+        return (
+            message.header.stamp.to_sec(),
+            pose.position.x,
+            pose.position.y,
+            pose.orientation.z,
+            pose.orientation.w,
+            twist.linear.x,
+            twist.angular.z,
+        )
+    return message.data
+
+
+class _Warnings(logging.Handler):
+    """Keeps what rospy says of its connections: it names a topic whose types do not fit."""
+
+    def __init__(self):
+        super().__init__(logging.WARNING)
+        self.lines = []
+
+    def emit(self, record):
+        if len(self.lines) < 100:
+            self.lines.append(record.getMessage())
+
+
+class Driver:
+    """A node with which the checker speaks to the student's."""
+
+    def __init__(self):
+        rospy.init_node(NAME, anonymous=False, disable_signals=True, disable_rosout=True)
+        self._master = rosgraph.Master(f"/{NAME}")
+        self._publishers, self._heard, self._sent = {}, {}, {}
+        self._streams, self._subscribers = {}, {}
+        self._warnings = _Warnings()
+        for name in ("rospy", "rosout"):
+            logging.getLogger(name).addHandler(self._warnings)
+
+    def warnings(self):
+        """What rospy complained of."""
+        return list(self._warnings.lines)
+
+    def advertise(self, topic, kind):
+        """Become a publisher."""
+        self._publishers[topic] = rospy.Publisher(
+            topic, KINDS[kind], queue_size=1000, tcp_nodelay=True
+        )
+
+    def listen(self, topic, kind):
+        """Keep from now on what comes."""
+        self._heard[topic] = []
+        self._subscribers[topic] = rospy.Subscriber(
+            topic, KINDS[kind], self._keep, topic, tcp_nodelay=True
+        )
+
+    def _keep(self, message, topic):
+        if len(self._heard[topic]) < MOST_KEPT:
+            caller = message._connection_header.get("callerid", "")
+            self._heard[topic].append((time.monotonic(), caller, _plain(message)))
+
+    def listeners(self, topic):
+        """How many are connected to our publisher."""
+        return self._publishers[topic].get_num_connections()
+
+    def speakers(self, topic):
+        """How many publishers our subscriber is connected to."""
+        return self._subscribers[topic].get_num_connections()
+
+    def heard(self, topic, since=0):
+        """[(monotonic time, sender, value)] from the given index on."""
+        return self._heard[topic][since:]
+
+    def count(self, topic):
+        """How many were heard."""
+        return len(self._heard[topic])
+
+    def send(self, topic, values):
+        """Publish one message: (axes, buttons), or text."""
+        publisher = self._publishers[topic]
+        publisher.publish(_joy(values) if publisher.data_class is Joy else values)
+        return time.monotonic()
+
+    def stream(self, topic, joys, rate, repeat):
+        """Publish these one after the other at a rate [Hz], in a thread; see sent()."""
+        self._sent[topic] = []
+        stop = threading.Event()
+        self._streams[topic] = stop
+        threading.Thread(
+            target=self._stream, args=(topic, joys, 1.0 / rate, repeat, stop), daemon=True
+        ).start()
+
+    def _stream(self, topic, joys, period, repeat, stop):
+        due = time.monotonic()
+        while True:
+            for joy in joys:
+                self._sent[topic].append(self.send(topic, joy))
+                due = max(due + period, time.monotonic() - period)
+                if stop.wait(max(0.0, due - time.monotonic())):
+                    return
+            if not repeat:
+                return
+
+    def sent(self, topic):
+        """When each message of the stream was sent."""
+        return list(self._sent[topic])
+
+    def end_stream(self, topic):
+        """End it."""
+        self._streams[topic].set()
+
+    def state(self):
+        """(publishers, subscribers), each {topic: [nodes]}, without ourselves."""
+        try:
+            publishers, subscribers, _ = self._master.getSystemState()
+        except (OSError, rosgraph.MasterException):
+            return {}, {}  # the master has gone; see alive()
+        return tuple(
+            {
+                topic: [node for node in nodes if node != f"/{NAME}"]
+                for topic, nodes in part
+                if any(node != f"/{NAME}" for node in nodes)
+            }
+            for part in (publishers, subscribers)
+        )
+
+    def types(self):
+        """{topic: type}."""
+        try:
+            return dict(self._master.getTopicTypes())
+        except (OSError, rosgraph.MasterException):
+            return {}
+
+    def alive(self):
+        """Whether the master answers."""
+        return rosgraph.is_master_online()
+
+    def node_answers(self, node):
+        """Whether a node answers, and as whom the master knows it."""
+        try:
+            uri = self._master.lookupNode(node)
+            with xmlrpc.client.ServerProxy(uri) as proxy:
+                return proxy.getPid(f"/{NAME}")[0] == 1
+        except (OSError, rosgraph.MasterException, xmlrpc.client.Error):
+            return False
+
+    def kill_node(self, node):
+        """What rosnode kill does; not waited for, as the node may take its time."""
+        threading.Thread(target=self._kill, args=(node,), daemon=True).start()
+
+    def _kill(self, node):
+        try:
+            with xmlrpc.client.ServerProxy(self._master.lookupNode(node)) as proxy:
+                proxy.shutdown(f"/{NAME}", "user request")
+        except (OSError, rosgraph.MasterException, xmlrpc.client.Error):
+            pass  # it is gone already
+
+    def set_parameter(self, name, value):
+        """On the parameter server."""
+        rospy.set_param(name, value)

@@ -1,0 +1,173 @@
+"""Starts examine in a place apart and reads what it tells. Knows no ROS."""
+
+import itertools
+import json
+import os
+import selectors
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from tutorial_check import place
+from tutorial_check.model import CannotCheck, Result, passed
+
+LONGEST_S = 240.0  # for all exercises; each check has deadlines of its own
+NUMBERS = itertools.count(os.getpid() * 100)
+
+
+@dataclass
+class Outcome:
+    """What came of one exercise."""
+
+    id: str
+    results: list = field(default_factory=list)
+    seconds: float = 0.0
+    done: bool = False
+
+    @property
+    def passed(self):
+        """Whether it is done, and nothing in it wrong."""
+        return self.done and passed(self.results)
+
+
+def examine(workspace, floor, exercises, tell=lambda outcome, result: None, only_first=False):
+    """[Outcome] of a workspace. tell is called with each result as soon as it is there.
+
+    floor: setup.bash of the devel space with what students use and never write. only_first: end
+    each exercise at the first check that is wrong.
+    Raises CannotCheck.
+    """
+    try:
+        if not Path(floor).is_file():
+            raise CannotCheck(f"{floor}: no such file; ./tutorial setup builds it")
+        if not Path(workspace).exists():
+            raise CannotCheck(f"{workspace}: no such folder")
+    except PermissionError as error:
+        raise CannotCheck(f"{error.filename}: may not be read") from None
+    folder = tempfile.mkdtemp(prefix="tutorial_check_")
+    try:
+        return _examine(
+            os.path.abspath(workspace),
+            os.path.abspath(floor),
+            exercises,
+            folder,
+            tell=tell,
+            only_first=only_first,
+        )
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def _kept(floor):
+    """Folders that the programs need though they may lie in the home folder: the floor, its sources."""
+    devel = Path(floor).parent
+    kept = [devel.parent, Path(sys.prefix) if sys.prefix != "/usr" else devel]
+    with_sources = devel / ".catkin"
+    if with_sources.is_file():
+        for source in with_sources.read_text().split(";"):
+            kept += (
+                [link.resolve() for link in Path(source).glob("*") if link.is_dir()]
+                if source
+                else []
+            )
+    return [str(each) for each in kept]
+
+
+def _examine(workspace, floor, exercises, folder, *, tell, only_first):
+    wrapper = place.wrapper()
+    orders = {
+        "workspace": workspace,
+        "floor": floor,
+        "exercises": list(exercises),
+        "folder": folder,
+        "apart": bool(wrapper),
+        "mapped": "--user" in wrapper,
+        "home": os.path.expanduser("~"),
+        "kept": _kept(floor),
+        "number": next(NUMBERS) % 1000,
+        "only_first": only_first,
+    }
+    source = str(Path(__file__).resolve().parents[1])
+    script = '. "$1" >/dev/null; export PYTHONPATH="$2:$PYTHONPATH"; shift 2; exec "$@"'
+    inner = [
+        "bash",
+        "-c",
+        script,
+        "bash",
+        floor,
+        source,
+        "/usr/bin/python3",
+        "-m",
+        "tutorial_check.examine",
+    ]
+    environment = {
+        **{
+            name: os.environ[name]
+            for name in ("HOME", "LANG", "TUTORIAL_CHECK_TIMES")
+            if name in os.environ
+        },
+        "PATH": "/usr/bin:/bin:/usr/sbin:/sbin",
+        "PYTHONDONTWRITEBYTECODE": "1",
+    }
+    log = tempfile.TemporaryFile("w+")  # noqa: SIM115  read below
+    process = subprocess.Popen(
+        [*wrapper, *inner],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=log,
+        env=environment,
+        start_new_session=True,
+        cwd="/",
+        text=True,
+    )
+    outcomes = {exercise: Outcome(exercise) for exercise in exercises}
+    try:
+        process.stdin.write(json.dumps(orders))
+        process.stdin.close()
+        ending = _listen(process, outcomes, tell)
+    finally:
+        process.kill()  # with it all of its namespaces
+        process.wait()
+        process.stdout.close()
+
+    if "TUTORIAL_CHECK_TIMES" in os.environ:
+        log.seek(0)
+        print(log.read(), file=sys.stderr)
+    if ending is None:
+        log.seek(0)
+        last = [line for line in log.read()[-2000:].splitlines() if line.strip()][-1:]
+        raise CannotCheck(f"the examination ended without a result: {''.join(last)}")
+    if "cannot" in ending:
+        raise CannotCheck(ending["cannot"])
+    return list(outcomes.values())
+
+
+def _listen(process, outcomes, tell):
+    """The last word of the examination, or None if there is none in time."""
+    end = time.monotonic() + LONGEST_S
+    buffer = ""
+    descriptor = process.stdout.fileno()
+    with selectors.DefaultSelector() as selector:
+        selector.register(descriptor, selectors.EVENT_READ)
+        while time.monotonic() < end:
+            if not selector.select(1.0):
+                continue
+            data = os.read(descriptor, 65536).decode(errors="replace")
+            if not data:
+                return None
+            *lines, buffer = (buffer + data).split("\n")
+            for line in lines:
+                word = json.loads(line)
+                if "exercise" not in word:
+                    return word
+                outcome = outcomes[word["exercise"]]
+                if "result" in word:
+                    outcome.results.append(Result(**word["result"]))
+                    tell(outcome, outcome.results[-1])
+                else:
+                    outcome.seconds, outcome.done = word["done"], True
+    raise CannotCheck(f"the examination took longer than {LONGEST_S:.0f} s")

@@ -1,0 +1,102 @@
+"""The examination itself, in its place apart: python3 -m tutorial_check.examine.
+
+Its orders come as JSON on standard input; what it finds goes out as JSON lines through a pipe that
+no program of the student's ever has: {"exercise": id, "result": {...}}, {"exercise": id, "done":
+seconds}, and at the end {"end": true} or {"cannot": "why"}.
+"""
+
+import json
+import os
+import sys
+import time
+from pathlib import Path
+
+from tutorial_check import place
+from tutorial_check.model import CannotCheck, Run
+
+LOWEST_UID = 1_000_000  # users of nobody's, one for each examination
+
+
+def main():
+    """Read the orders, examine, tell."""
+    orders = json.load(sys.stdin)
+    place.end_with_parent()
+    told = os.fdopen(os.dup(1), "w", buffering=1)
+    os.set_inheritable(told.fileno(), False)
+    os.dup2(2, 1)  # nothing else gets into what is told
+
+    def tell(**what):
+        told.write(json.dumps(what) + "\n")
+
+    try:
+        examine(orders, tell)
+        tell(end=True)
+    except CannotCheck as error:
+        tell(cannot=str(error))
+    except Exception as error:  # whatever it is, it is no fault of the student's
+        import traceback  # noqa: PLC0415
+
+        traceback.print_exc()
+        line = traceback.extract_tb(error.__traceback__)[-1]
+        tell(cannot=f"{type(error).__name__}: {error} ({Path(line.filename).name}:{line.lineno})")
+
+
+def examine(orders, tell):
+    """orders: workspace, folder, floor, exercises, apart, only_first ..."""
+    scratch = Path(orders["folder"])
+    granted = False
+    if orders["apart"]:
+        granted = place.furnish(
+            scratch,
+            orders["home"],
+            [*orders["kept"], orders["workspace"], str(Path(__file__).parents[3])],
+        )
+    # ROS, only now: it reads the environment as it loads.
+    home = scratch / "ours"
+    home.mkdir(exist_ok=True)
+    os.environ.update(HOME=str(home), ROS_HOME=str(home), ROS_LOG_DIR=str(home), ROS_IP="127.0.0.1")
+    os.environ.pop("ROS_HOSTNAME", None)
+    began_s = time.monotonic()
+    import rosmaster.master  # noqa: F401, PLC0415  loaded here for all that are forked
+    import rospy  # noqa: F401, PLC0415
+
+    from tutorial_check import box, session, workspace  # noqa: PLC0415
+    from tutorial_check.exercises import catalogue  # noqa: PLC0415
+
+    given = Path(orders["workspace"])
+    if given.is_file():
+        workspace.unpack(given, scratch / "unpacked")
+        given = scratch / "unpacked"
+    layout = workspace.find_layout(given)
+    (scratch / "ws").mkdir()
+    workspace.copy(layout, scratch / "ws")
+    uid = (
+        LOWEST_UID + os.getppid() % 1_000_000 + int(orders["number"])
+        if os.geteuid() == 0 and not orders["mapped"]
+        else None
+    )
+    session.prepare(scratch, uid)
+    scratch.chmod(0o755)
+    one = session.Session(
+        scratch,
+        layout,
+        orders["floor"],
+        lambda environment: box.Box(environment, uid, orders["apart"]),
+        can_have_devices=granted,
+    )
+    run = Run(catalogue(), one)
+    times = {"prepare": round(time.monotonic() - began_s, 2)}
+    for exercise in orders["exercises"]:
+        began_s = time.monotonic()
+        run.exercise(
+            exercise,
+            lambda result, exercise=exercise: tell(exercise=exercise, result=result.as_dict()),
+            orders["only_first"],
+        )
+        tell(exercise=exercise, done=round(time.monotonic() - began_s, 2))
+    if "TUTORIAL_CHECK_TIMES" in os.environ:
+        print({**times, **run.seconds}, file=sys.stderr)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,321 @@
+"""C5 to C10: talker and listener."""
+
+import statistics
+
+from tutorial_check.exercises.files import check_file, crash, find_script
+from tutorial_check.model import Note, Wrong, master_gone
+from tutorial_check.python_facts import flipped_anonymous
+from tutorial_check.tracebacks import first_traceback
+
+PACKAGE = "beginner_tutorials"
+LISTEN_S = 1.5  # to the talker
+TOPIC = "/chatter"
+
+
+def files(session):
+    """C5."""
+    scripts = [find_script(session, PACKAGE, name) for name in ("talker.py", "listener.py")]
+    for script in scripts:
+        check_file(session, PACKAGE, script)
+    return ", ".join(scripts)
+
+
+def _scripts(session):
+    return [find_script(session, PACKAGE, name) for name in ("talker.py", "listener.py")]
+
+
+def _facts(session, script):
+    return session.scripts(PACKAGE)[script]
+
+
+class Talk:
+    """What was seen with two talkers and two listeners, and then of the talkers alone."""
+
+    def __init__(self, session):
+        self.session = session
+        talker, listener = _scripts(session)
+        with session.stage() as stage:
+            stage.call("listen", TOPIC, "String")
+            self.talkers = [stage.start(PACKAGE, talker)]
+            self.listener = stage.start(PACKAGE, listener)
+            stage.wait(lambda: stage.call("count", TOPIC) or self.talkers[0].ended)
+            self.types = stage.call("types")
+            stage.call("advertise", TOPIC, "String")
+            stage.wait(lambda: stage.call("listeners", TOPIC) > 1 or self.listener.ended, 5.0)
+            stage.wait(lambda: len(self._heard(stage)) > 3 or self.talkers[0].ended, 2.0)
+            self.publishers, self.subscribers = stage.call("state")
+            self.warnings = stage.call("warnings")
+            first = len(self._heard(stage))
+            self.strings = [
+                f"tutorial check {word} {3 * number}" for number, word in enumerate("ABCDE", 7)
+            ]
+            for text in self.strings:
+                stage.call("send", TOPIC, text)
+            stage.wait(lambda: all(text in self.listener.output for text in self.strings), 2.0)
+            stage.wait(
+                lambda: len(self._heard(stage)) >= first + 6 or self.talkers[0].ended, LISTEN_S
+            )
+            self.heard = self._heard(stage)
+            self.talker_ended, self.listener_ended = self.talkers[0].ended, self.listener.ended
+            self.master_alive = stage.call("alive")
+            if self.talker_ended or self.listener_ended or not self.heard:
+                return
+            # A second talker of the same kind; both must go on, or the first must end.
+            self.talkers.append(stage.start(PACKAGE, talker))
+            names = set(self.publishers.get(TOPIC, []))
+            stage.wait(
+                lambda: set(stage.call("state")[0].get(TOPIC, [])) - names or self.talkers[0].ended
+            )
+            stage.wait(lambda: self.talkers[0].ended or self._both(stage), 1.5)
+            self.first_ended, self.both = self.talkers[0].ended, self._both(stage)
+            so_far = len(self._heard(stage))  # the one that is ended next must be well under way
+            stage.wait(lambda: len(self._heard(stage)) > so_far + 2 or self.talkers[1].ended, 3.0)
+            self.taken = {
+                name: session.box.end(program)
+                for name, program in (
+                    ("talker.py", self.talkers[-1]),
+                    ("listener.py", self.listener),
+                )
+            }
+
+    @staticmethod
+    def _heard(stage):
+        return [each for each in stage.call("heard", TOPIC) if each[1] != "/tutorial_check"]
+
+    def _both(self, stage):
+        return (
+            len({caller for _, caller, _ in self._heard(stage)[-20:]}) > 1
+            and not self.talkers[0].ended
+        )
+
+
+def _talk(session):
+    return session.memo("talk", lambda: Talk(session))
+
+
+def _check_master(talk):
+    if not talk.master_alive:
+        raise master_gone()
+
+
+def talker(session):
+    """C6."""
+    talk = _talk(session)
+    _check_master(talk)
+    script, _ = _scripts(session)
+    expected = "std_msgs/String on /chatter, about 10 times a second"
+    program = talk.talkers[0]
+    facts = _facts(session, script)
+    if not talk.heard:
+        made = facts.first("Publisher")
+        if talk.talker_ended or "Traceback" in program.output:
+            hint = "" if facts.has_main else "does the last line call talker()?"
+            raise crash(
+                session,
+                PACKAGE,
+                program,
+                expected,
+                hint or "does the last line call talker(), and does it loop?",
+            )
+        topics = sorted(topic for topic in talk.publishers if topic not in (TOPIC, "/rosout"))
+        if (
+            TOPIC in talk.publishers
+            and talk.types.get(TOPIC, "std_msgs/String") != "std_msgs/String"
+        ) or any("datatype" in line for line in talk.warnings):
+            raise Wrong(
+                expected,
+                f"/chatter carries {talk.types.get(TOPIC)}",
+                where=f"{script}:{made.line if made else 1}",
+                hint="rospy.Publisher('chatter', String, queue_size=10)",
+            )
+        if topics:
+            raise Wrong(
+                expected,
+                f"it publishes on {topics[0]}",
+                where=f"{script}:{made.line if made else 1}",
+                hint="the topic is called chatter",
+            )
+        raise Wrong(
+            expected,
+            "not one message",
+            where=script,
+            hint="is publish(...) called within the loop?",
+        )
+    texts = {value for _, _, value in talk.heard}
+    if talk.talker_ended:
+        raise crash(
+            session,
+            PACKAGE,
+            program,
+            "it goes on until Ctrl-C",
+            "while not rospy.is_shutdown(): ..., rate.sleep() within it",
+        )
+    times = [when for when, caller, _ in talk.heard if caller == talk.heard[0][1]]
+    rate = (
+        1 / max(1e-6, statistics.median(b - a for a, b in zip(times, times[1:])))
+        if len(times) > 2
+        else 0.0
+    )
+    if len(times) < 3:
+        return Note(f"{len(times)} messages in {LISTEN_S + 2:.0f} s: slower than 1 Hz")
+    if rate > 150:
+        raise Wrong(
+            expected,
+            f"{rate:.0f} a second",
+            where=script,
+            hint="rate.sleep() is missing within the loop",
+        )
+    if len(texts) == 1:
+        return Note(f"always the same text, {texts.pop()!r}; the handout's has the time in it")
+    if not 8 <= rate <= 12:
+        return Note(f"{rate:.1f} Hz, the handout's is 10")
+    return f"{rate:.1f} Hz"
+
+
+def listener(session):
+    """C7."""
+    talk = _talk(session)
+    _check_master(talk)
+    _, script = _scripts(session)
+    program = talk.listener
+    facts = _facts(session, script)
+    expected = "every text sent on /chatter, displayed once"
+    if talk.listener_ended:
+        has_spin = "spin" in facts.calls
+        bare = [line for line, text in facts.bare_names if text.endswith("spin")]
+        hint = (
+            "rospy.spin() at the end of listener() keeps it alive"
+            if not has_spin
+            else "does the last line call listener()?"
+        )
+        wrong = crash(session, PACKAGE, program, "it goes on until Ctrl-C", hint)
+        if bare and not wrong.where:
+            wrong.where, wrong.hint = f"{script}:{bare[0]}", "rospy.spin needs its (): rospy.spin()"
+        raise wrong
+    # Coloured or not, with or without a separator: the text itself is looked for.
+    found = [text for text in talk.strings if text in program.output]
+    if len(found) == len(talk.strings):
+        return None
+    if "Traceback" in program.output:
+        raise crash(session, PACKAGE, program, expected)
+    call = facts.first("Subscriber")
+    where = f"{script}:{call.line}" if call else script
+    if TOPIC not in talk.subscribers:
+        others = sorted(set(talk.subscribers) - {"/rosout"})
+        raise Wrong(
+            expected,
+            f"it subscribes to {others[0] if others else 'nothing'}",
+            where=where,
+            hint="the topic is called chatter",
+        )
+    if any("datatype" in line and "chatter" in line for line in talk.warnings):
+        raise Wrong(
+            expected,
+            "it wants another type of message on /chatter",
+            where=where,
+            hint="rospy.Subscriber('chatter', String, callback)",
+        )
+    raise Wrong(
+        expected,
+        f"{len(found)} of {len(talk.strings)} displayed",
+        where=where,
+        hint="does callback(data) display data.data, with rospy.loginfo?",
+    )
+
+
+def graph(session):
+    """C8."""
+    talk = _talk(session)
+    if not talk.publishers.get(TOPIC) or not talk.subscribers.get(TOPIC):
+        raise Wrong(
+            "talker -> /chatter -> listener",
+            "no such way in the graph",
+            hint="one name for the topic, in both",
+        )
+    return f"{talk.publishers[TOPIC][0]} -> /chatter -> {talk.subscribers[TOPIC][0]}"
+
+
+def anonymous(session):
+    """C9: as submitted, and with anonymous the other way round in a copy."""
+    script, _ = _scripts(session)
+    talk = _talk(session)
+    call = _facts(session, script).first("init_node")
+    is_anonymous = bool(call) and call.names.get("anonymous") == "True"
+    knows = bool(call) and call.names.get("anonymous", "False") in ("True", "False")
+    if is_anonymous and talk.first_ended:
+        raise Wrong(
+            "two talkers side by side",
+            "the second one ended the first",
+            where=f"{script}:{call.line}",
+        )
+    if knows and not is_anonymous and talk.both and not talk.first_ended:
+        raise Wrong(
+            "the second talker of one name ends the first",
+            "both go on",
+            where=f"{script}:{call.line}",
+        )
+    if not talk.both and not talk.first_ended:
+        raise Wrong("a second talker speaks, or ends the first", "neither", where=script)
+    flipped = flipped_anonymous(session.text(PACKAGE, script), not is_anonymous) if knows else None
+    if not flipped:
+        return Note("anonymous cannot be changed by the checker here; try both yourself")
+    ended = _second_ends_first(session, session.sibling(PACKAGE, script, flipped))
+    if ended == (not is_anonymous):
+        raise Wrong(
+            f"with anonymous={not is_anonymous} "
+            + ("both live" if not is_anonymous else "the second ends the first"),
+            "it was not so",
+            where=f"{script}:{call.line}",
+            hint="is anonymous given to rospy.init_node?",
+        )
+    return "as submitted, and the other way round"
+
+
+def _second_ends_first(session, script):
+    with session.stage() as stage:
+        stage.call("listen", TOPIC, "String")
+        first = stage.start(PACKAGE, script)
+        stage.wait(lambda: stage.call("count", TOPIC) or first.ended)
+        if first.ended:
+            raise crash(
+                session, PACKAGE, first, "the talker runs with anonymous the other way round"
+            )
+        caller = stage.call("heard", TOPIC)[0][1]
+        second = stage.start(PACKAGE, script)
+
+        def settled():
+            callers = {who for _, who, _ in stage.call("heard", TOPIC)}
+            return first.ended or second.ended or callers - {caller}
+
+        stage.wait(settled, 5.0)
+        stage.wait(lambda: first.ended, 0.7)
+        return first.ended
+
+
+def ctrl_c(session):
+    """C10."""
+    talk = _talk(session)
+    for name, program in (("talker.py", talk.talkers[-1]), ("listener.py", talk.listener)):
+        script = find_script(session, PACKAGE, name)
+        if talk.taken[name] is None:
+            raise Wrong(
+                f"{name} ends within 3 s of Ctrl-C",
+                "it had to be killed",
+                where=script,
+                hint="while not rospy.is_shutdown(): and no `except` that swallows the end",
+            )
+        trace = first_traceback(program.output, str(session.package(PACKAGE).folder))
+        if trace and "ROSInterrupt" in trace.error:
+            return Note(
+                f"{name} ends with a traceback, ROSInterruptException",
+                trace.where,
+                "except rospy.ROSInterruptException: pass",
+            )
+        if trace:
+            raise Wrong(
+                f"{name} ends without a traceback",
+                trace.error,
+                where=trace.where,
+                hint="try: ... except rospy.ROSInterruptException: pass",
+            )
+    return ", ".join(f"{name} {taken:.1f} s" for name, taken in talk.taken.items())

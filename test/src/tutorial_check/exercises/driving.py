@@ -1,0 +1,180 @@
+"""One program that turns Joy into Twist, driven over its topics; what was seen, without a verdict."""
+
+import collections
+import re
+import statistics
+
+from tutorial_check.mapping import judge, numbered_joys
+from tutorial_check.model import master_gone
+
+PACKAGE = "joy2twist"
+JOY, CMD_VEL = "/joy", "/cmd_vel"
+COUNT = 20
+RATE, STREAM_S = 50.0, 2.5
+NEUTRAL = ((0.0,) * 6, (0,) * 12)
+ANSWER_S = 1.0  # for one Twist, before it counts as missing
+NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e-?\d+)?")
+COLOUR = re.compile(r"\x1b\[[0-9;]*m")
+
+
+class Drive:
+    """What came of starting a program and sending it Joy messages."""
+
+    def __init__(self, session, script, wants_twist=True):
+        self.session, self.script = session, script
+        self.samples, self.missing, self.unasked, self.shown, self.asked = [], 0, 0, 0, 0
+        self.delays, self.sent, self.answered, self.foreign = [], 0, 0, []
+        with session.stage() as stage:
+            stage.call("advertise", JOY, "Joy")
+            stage.call("listen", CMD_VEL, "Twist")
+            self.program = stage.start(PACKAGE, script)
+            self.connected = bool(
+                stage.wait(lambda: stage.call("listeners", JOY) or self.program.ended)
+                and not self.program.ended
+            )
+            if self.connected and wants_twist:
+                stage.wait(lambda: stage.call("speakers", CMD_VEL) or self.program.ended, 1.5)
+            self.publishers, self.subscribers = stage.call("state")
+            if self.connected:
+                self._converse(stage, wants_twist)
+            self.ended_early = self.program.ended
+            publishers, _ = stage.call("state") if stage.call("alive") else ({}, {})
+            self.publishers = {**self.publishers, **publishers}
+            self.types, self.warnings = stage.call("types"), stage.call("warnings")
+            self.output = self.program.output
+            self.master_alive = stage.call("alive")
+            session.box.end(self.program, 0.5)
+
+    # ------------------------------------------------------------------------------ driving
+
+    def _converse(self, stage, wants_twist):
+        stage.call("send", JOY, NEUTRAL)
+        joys = numbered_joys(COUNT)
+        self.joys = joys
+        if wants_twist:
+            stage.wait(lambda: stage.call("count", CMD_VEL), 0.5)
+            self._one_by_one(stage, joys, 0.0)
+            if self.unasked > 2 or (self.samples and judge(self._plain())[0]):
+                # It publishes by a clock of its own; or is it only slow? With time, the same again.
+                first, self.samples, self.missing = self.samples, [], 0
+                self._one_by_one(stage, joys, 0.15)
+                if len(self.samples) < len(first):
+                    self.samples = first
+        else:
+            for joy in joys:
+                stage.call("send", JOY, joy)
+            self.asked = COUNT
+        stage.wait(lambda: self._displayed() >= min(5, self.asked) or self.program.ended, 0.7)
+        self.shown = self._displayed()
+        if wants_twist and len(self.samples) > COUNT / 2 and not self.program.ended:
+            for _ in range(2):
+                self._stream(stage)
+                if self.is_prompt or self.program.ended:
+                    break
+
+    def _one_by_one(self, stage, joys, settle_s):
+        unanswered = 0
+        for joy in joys:
+            before = stage.call("count", CMD_VEL)
+            stage.call("send", JOY, joy)
+            self.asked += 1
+            stage.wait(
+                lambda before=before: stage.call("count", CMD_VEL) > before or self.program.ended,
+                ANSWER_S,
+            )
+            if settle_s:
+                stage.wait(lambda: self.program.ended, settle_s)
+            heard = stage.call("heard", CMD_VEL, before)
+            if heard:
+                self.samples.append((joy[0], heard[-1][2] if settle_s else heard[0][2]))
+                self.unasked += len(heard) - 1
+            else:
+                self.missing += 1
+                unanswered += 1
+                if unanswered == 3 or self.program.ended:
+                    return
+
+    def _stream(self, stage):
+        count = int(RATE * STREAM_S)
+        joys = [
+            (
+                (0.2 + 0.002 * k, 0.3 + 0.005 * k, 0.0, 0.0, 0.0, 0.0),
+                (*NEUTRAL[1][:4], 1, *NEUTRAL[1][5:]),
+            )
+            for k in range(count)
+        ]
+        before = stage.call("count", CMD_VEL)
+        stage.call("stream", JOY, joys, RATE, False)
+        stage.wait(lambda: len(stage.call("sent", JOY)) >= count, STREAM_S + 3)
+        stage.wait(lambda: stage.call("count", CMD_VEL) - before >= count, 0.3)
+        sent, heard = stage.call("sent", JOY), stage.call("heard", CMD_VEL, before)
+        self.sent, self.answered = len(sent), len(heard)
+        self.foreign = sorted({caller for _, caller, _ in heard})
+        # Which Joy a Twist answers is told by its value, by the factor known from before.
+        factor = statistics.median(
+            [t[0] / a[1] for a, t in self.samples if abs(a[1]) > 0.1] or [1.0]
+        )
+        self.delays = []
+        often = collections.Counter(round(twist[0], 6) for _, _, twist in heard)
+        for when, _, twist in heard:
+            if often[round(twist[0], 6)] > 1:
+                continue  # at a limit, or repeated: it does not tell which
+            k = round((twist[0] / factor - 0.3) / 0.005) if factor else -1
+            if 0 <= k < len(sent):
+                self.delays.append(when - sent[k])
+
+    # ------------------------------------------------------------------------------- looking
+
+    def _plain(self):
+        return [(axes, twist) for axes, twist in self.samples]
+
+    @property
+    def delay_s(self):
+        """The median delay from Joy to Twist, or None."""
+        return statistics.median(self.delays) if self.delays else None
+
+    @property
+    def is_prompt(self):
+        """Whether (nearly) every Joy was answered, and soon."""
+        if self.answered < 0.95 * self.sent:
+            return False
+        return self.delay_s is None or self.delay_s < 0.05
+
+    @property
+    def all_shown(self):
+        """Whether as many Joys were displayed as can be asked for."""
+        return self.shown >= min(5, max(1, self.asked))
+
+    @property
+    def trouble(self):
+        """Whether the program printed a traceback."""
+        return "Traceback (most recent call last)" in self.program.output
+
+    def _displayed(self):
+        """How many of the Joys were displayed, all six axes in a line."""
+        return len(displayed(self.joys, COLOUR.sub("", self.program.output)))
+
+
+def displayed(joys, output):
+    """The Joys of which a line has all axes, with two decimals or more. Pure."""
+    lines = [[float(word) for word in NUMBER.findall(line)] for line in output.splitlines()]
+    lines = [line for line in lines if len(line) >= 6]
+    return [
+        joy
+        for joy in joys
+        if any(
+            all(any(abs(axis - seen) < 0.0056 for seen in line) for axis in joy[0])
+            for line in lines
+        )
+    ]
+
+
+def drive(session, script, wants_twist=True):
+    """The Drive of a script; made once."""
+    return session.memo(("drive", script, wants_twist), lambda: Drive(session, script, wants_twist))
+
+
+def check_master(seen):
+    """Raises Wrong if the master has gone."""
+    if not seen.master_alive:
+        raise master_gone(seen.script)

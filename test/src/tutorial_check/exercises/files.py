@@ -1,0 +1,148 @@
+"""What every program must be before it can run: C5 and C13."""
+
+import difflib
+import re
+import shutil
+
+from tutorial_check.model import Wrong
+from tutorial_check.tracebacks import syntax_hint
+
+INTERPRETER = re.compile(rb"#!\s*(\S+)(?:\s+(\S+))?")
+
+
+def find_script(session, package, name):
+    """The path of a program within its package. Raises Wrong."""
+    folder = session.package(package).folder
+    found = sorted(
+        path for path in folder.rglob("*") if path.is_file() and path.name in (name, name[:-3])
+    )
+    runnable = [path for path in found if path.stat().st_mode & 0o100 and path.name == name]
+    if len(runnable) > 1:
+        raise Wrong(
+            f"one program {name}",
+            "several: " + ", ".join(str(path.relative_to(folder)) for path in runnable),
+            where=str(runnable[1].relative_to(folder)),
+            hint=f"rosrun asks which one ('You have chosen a non-unique executable'): remove all but one {name}",
+        )
+    if found:
+        return str((runnable or found)[0].relative_to(folder))
+    others = {
+        path.name: path
+        for path in sorted(folder.rglob("*"))
+        if path.is_file() and path.name != "CMakeLists.txt"
+    }
+    near = [other for other in others if other.lower().startswith(name) or other.lower() == name]
+    near = near or difflib.get_close_matches(name, others, 1, 0.75)
+    if near:
+        raise Wrong(
+            f"a program {name}",
+            f"a file {near[0]}",
+            where=str(others[near[0]].relative_to(folder)),
+            hint=f"mv {near[0]} {name}: capitals, underscores and the ending count",
+        )
+    raise Wrong(
+        f"a program {name} in the package {package}",
+        "no such file anywhere in it",
+        hint=f"create scripts/{name} in YOUR package; `rosrun {package} {name}` that works all the same runs OURS",
+    )
+
+
+def check_file(session, package, script):
+    """What can be said of a program without running it. Raises Wrong."""
+    path = session.package(package).folder / script
+    name = path.name
+    data = path.read_bytes()
+    if not data.strip():
+        raise Wrong("a program", "the file is empty", where=script, hint="was it saved?")
+    if data.startswith((b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff")):
+        raise Wrong(
+            "#! as the very first two bytes",
+            "a byte order mark before them",
+            where=f"{script}:1",
+            hint="save the file as UTF-8 without BOM",
+        )
+    if re.match(rb"\s*<(!doctype|html)", data, re.IGNORECASE):
+        raise Wrong(
+            "a Python program",
+            "a web page",
+            where=script,
+            hint="the download gave the page and not the file: take the address of the raw file",
+        )
+    first = data.split(b"\n", 1)[0]
+    if b"\r\n" in data:
+        raise Wrong(
+            "Unix line ends",
+            "the file has Windows line ends (python3\\r: No such file)",
+            where=script,
+            hint=f"sed -i 's/\\r$//' {name}",
+        )
+    facts = session.scripts(package).get(script)
+    if facts and facts.error:
+        raise Wrong(
+            "Python that can be read",
+            f"{facts.error}: {facts.error_text}",
+            where=f"{script}:{facts.error_line}",
+            hint=syntax_hint(facts.error, facts.error_text),
+        )
+    if not first.startswith(b"#!"):
+        later = b"\n#!" in data
+        raise Wrong(
+            "#!/usr/bin/env python3 as the first line",
+            "it stands further down"
+            if later
+            else f"the first line is {first.decode(errors='replace')[:60]!r}",
+            where=f"{script}:1",
+            hint="without #! in the very first line the shell tries to run the Python lines itself (import: command not found)",
+        )
+    _check_interpreter(first, script)
+    if not path.stat().st_mode & 0o100:
+        raise Wrong(
+            "a program that may be run",
+            f"{name} is not executable (rosrun: Couldn't find executable)",
+            where=script,
+            hint=f"chmod +x {script}",
+        )
+
+
+def _check_interpreter(first, script):
+    found = INTERPRETER.match(first)
+    program = found[1].decode(errors="replace") if found else ""
+    if program.endswith("/env") and found[2]:
+        program = found[2].decode(errors="replace")
+    known = program in ("python", "python3") or (program and shutil.which(program))
+    if not known or "python" not in program:
+        raise Wrong(
+            "an interpreter that exists: #!/usr/bin/env python3",
+            first.decode(errors="replace")[:80],
+            where=f"{script}:1",
+            hint="#!/usr/bin/env python3, or #!/usr/bin/python3",
+        )
+    if re.search(r"python2", program):
+        raise Wrong(
+            "Python 3",
+            first.decode(errors="replace"),
+            where=f"{script}:1",
+            hint="ROS here belongs to Python 3: #!/usr/bin/env python3",
+        )
+
+
+def crash(session, package, program, what, default_hint=""):
+    """The Wrong for a program that ended or failed, with the cause as far as its output tells."""
+    from tutorial_check.tracebacks import explain, first_traceback, last_lines  # noqa: PLC0415
+
+    trace = first_traceback(program.output, str(session.package(package).folder))
+    if trace:
+        seen = trace.error + (f"   in: {trace.text}" if trace.text else "")
+        return Wrong(what, seen, where=trace.where, hint=explain(trace.error) or default_hint)
+    has_ended = program.ended and not program.was_stopped
+    if has_ended and program.process.returncode is not None and program.process.returncode < 0:
+        return Wrong(
+            what,
+            f"the program was ended by signal {-program.process.returncode}",
+            hint=default_hint,
+        )
+    said = last_lines(program.output)
+    ended = f"it ended at once, exit code {program.process.returncode}" if has_ended else "it runs"
+    return Wrong(
+        what, f"{ended}; it said: {said}" if said else f"{ended}, without a word", hint=default_hint
+    )

@@ -1,0 +1,234 @@
+"""C1 to C4 and C12: the workspace, its packages, their dependencies, the build."""
+
+import difflib
+import os
+import re
+from pathlib import Path
+
+from tutorial_check.model import Note, Wrong
+from tutorial_check.workspace import packages_below, underlays
+
+NAMES = ("beginner_tutorials", "joy2twist")
+WANTED = {
+    "beginner_tutorials": ("std_msgs", "rospy", "roscpp"),
+    "joy2twist": ("rospy", "std_msgs", "sensor_msgs", "geometry_msgs"),
+}
+CREATE = {name: f"catkin_create_pkg {name} {' '.join(words)}" for name, words in WANTED.items()}
+
+
+def workspace(session):
+    """C1: there is a src, and what was built was built over the suite."""
+    layout = session.layout
+    if not layout.source.is_dir():
+        where = "a package lies beside it" if packages_below(layout.root) else "no package anywhere"
+        raise Wrong(
+            "a folder src in the workspace",
+            f"none in {layout.root}; {where}",
+            hint="mkdir src in the workspace, packages belong into it",
+        )
+    if not layout.is_workspace:
+        return Note("handed in as packages, without their workspace: built afresh here")
+    found = underlays(layout.root / "devel")
+    if found is None:
+        if (layout.source / "build").is_dir() or (layout.source / "devel").is_dir():
+            raise Wrong(
+                "build and devel beside src",
+                "they are within src",
+                hint="catkin_make is called in the workspace: cd .., and remove src/build and src/devel",
+            )
+        return Note("never built here (no devel/setup.bash)", hint="catkin_make in the workspace")
+    made_for, below = found
+    floor = os.path.realpath(Path(session.floor).parent)
+    if os.path.realpath(made_for) != os.path.realpath(layout.root / "devel"):
+        return Note(f"its devel folder was made elsewhere ({made_for}); built afresh here")
+    if floor not in [os.path.realpath(each) for each in below]:
+        raise Wrong(
+            "a workspace built on top of this suite",
+            f"devel was built over {', '.join(below) or 'nothing'}",
+            where="devel",
+            hint="built in a terminal without ./tutorial shell: delete build and devel, then catkin_make in it",
+        )
+    return "src and devel, on top of this suite"
+
+
+def _similar(name, packages):
+    """A package that was meant to be the one of that name, or None."""
+    plain = re.sub(r"[^a-z0-9]", "", name)
+    for each in packages:
+        for word in (each.name, each.folder.name):
+            bare = re.sub(r"[^a-z0-9]", "", word.lower())
+            if bare == plain or difflib.SequenceMatcher(None, bare, plain).ratio() > 0.8:
+                return each
+    return None
+
+
+def _package(session, name):
+    packages = session.packages
+    named = [each for each in packages if each.name == name]
+    expected = f"one package {name} in src"
+    broken = [each for each in packages if each.error and name in (each.name, each.folder.name)]
+    if broken:
+        reason = broken[0].error
+        line = re.search(r"line (\d+)", reason)
+        raise Wrong(
+            "a package.xml that can be read",
+            reason,
+            where=f"{broken[0].inside}/package.xml" + (f":{line[1]}" if line else ""),
+            hint="repair that line or the one before: each <tag> needs its </tag>. Until then every"
+            " ROS command looks past your package",
+        )
+    if len(named) > 1:
+        raise Wrong(
+            expected,
+            f"{len(named)}: {', '.join(each.inside for each in named)}",
+            where=named[1].inside,
+            hint="remove the copy from src, or put an empty file CATKIN_IGNORE into it",
+        )
+    if named:
+        outer = next(
+            (
+                each
+                for each in packages
+                if each is not named[0] and each.folder in named[0].folder.parents
+            ),
+            None,
+        )
+        if outer:
+            raise Wrong(
+                expected,
+                f"it lies within another package, {outer.inside}",
+                where=named[0].inside,
+                hint="move it up: packages stand side by side in src",
+            )
+        return named[0]
+    beside = [
+        each
+        for each in (packages_below(session.layout.root) if session.layout.is_workspace else [])
+        if each.name == name and session.layout.source not in each.folder.parents
+    ]
+    if beside:
+        raise Wrong(
+            expected,
+            f"it lies beside src: {beside[0].inside}",
+            where=beside[0].inside,
+            hint=f"mv {beside[0].inside} src/",
+        )
+    similar = _similar(name, packages)
+    if similar:
+        raise Wrong(
+            expected,
+            f"a package called {similar.name}",
+            where=f"{similar.inside}/package.xml",
+            hint=f"its name must be exactly {name}: lower case, with _ and without -; in package.xml, CMakeLists.txt"
+            " and the folder",
+        )
+    raise Wrong(
+        expected,
+        "none; found: " + (", ".join(each.name for each in packages) or "no package at all"),
+        hint=f"cd to src of your workspace; {CREATE[name]}. A node of that name that runs all the same is OURS",
+    )
+
+
+def _dependencies(session, name):
+    package = _package(session, name)
+    odd = sorted(
+        each
+        for each in package.depends
+        if not re.fullmatch(r"[a-z][a-z0-9_+-]*", each, re.IGNORECASE)
+    )
+    if odd:
+        raise Wrong(
+            "names of packages",
+            f"a dependency on {odd[0]!r}",
+            where=f"{package.inside}/package.xml",
+            hint="between the dependencies stand spaces only, no commas: mend package.xml and CMakeLists.txt",
+        )
+    missing = [each for each in WANTED[name] if each not in package.depends]
+    if missing:
+        near = {
+            each: difflib.get_close_matches(each, package.depends - set(WANTED[name]), 1, 0.75)
+            for each in missing
+        }
+        seen = f"no {', '.join(missing)}"
+        for found in near.values():
+            seen += f" (but {found[0]})" if found else ""
+        raise Wrong(
+            f"dependencies on {', '.join(WANTED[name])}",
+            seen,
+            where=f"{package.inside}/package.xml",
+            hint=f"add <depend>{missing[0]}</depend>",
+        )
+    return package
+
+
+def beginner(session):
+    """C2."""
+    return f"src/{_package(session, 'beginner_tutorials').inside}"
+
+
+def beginner_dependencies(session):
+    """C3."""
+    _dependencies(session, "beginner_tutorials")
+
+
+def joy2twist(session):
+    """C12."""
+    return f"src/{_dependencies(session, 'joy2twist').inside}"
+
+
+def build(session):
+    """C4: catkin_make in a fresh copy."""
+    for each in session.packages:
+        if not (each.folder / "CMakeLists.txt").exists():
+            raise Wrong(
+                "catkin_make without an error",
+                "CMakeLists.txt is missing",
+                where=each.inside,
+                hint="catkin_create_pkg makes it; take it from a new package of the same name",
+            )
+    code, output = session.built()
+    if code is None:
+        raise Wrong(
+            "catkin_make ends",
+            "it runs for more than two minutes",
+            hint="catkin_make in your workspace",
+        )
+    if code != 0:
+        raise _build_error(output)
+    listed = re.search(r"traversing \d+ packages?[^:]*:((?:\s*--\s+~~\s+- .*)+)", output)
+    names = re.findall(r"- (\S+)", listed[1]) if listed else []
+    if listed and "beginner_tutorials" not in names:
+        raise Wrong(
+            "catkin_make goes through beginner_tutorials", f"it goes through {', '.join(names)}"
+        )
+
+
+def _build_error(output):
+    lines = [re.sub(r"\x1b\[[0-9;]*m", "", line).strip() for line in output.splitlines()]
+    words = next(
+        (
+            line
+            for line in lines
+            if re.search(
+                r"Error at|^E: |mismatched tag|error:|Could not find|Multiple packages", line
+            )
+        ),
+        lines[-1] if lines else "",
+    )
+    missing = re.search(
+        r"[Cc]ould not find .*?(?:package configuration file provided by |component )?\"([^\"]+)\"",
+        output,
+    )
+    hint = "read the first error of catkin_make: it names file and line"
+    if missing:
+        words = f"catkin cannot find {missing[1]}"
+        hint = (
+            f"is {missing[1]} spelt right in find_package of CMakeLists.txt, and without a comma?"
+        )
+    where = re.search(r"at ([\w./-]+CMakeLists\.txt):(\d+)", output)
+    return Wrong(
+        "catkin_make without an error",
+        words[:300],
+        where=f"{where[1]}:{where[2]}" if where else "",
+        hint=hint,
+    )

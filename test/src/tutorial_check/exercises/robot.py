@@ -1,0 +1,217 @@
+"""C11, C19, C20: a recording, the simulated robot, the joystick."""
+
+import math
+import os
+from pathlib import Path
+
+from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL, PACKAGE
+from tutorial_check.exercises.files import crash
+from tutorial_check.exercises.joy2twist import main_script
+from tutorial_check.model import CannotCheck, Note, Wrong
+from tutorial_check.pad import Pad
+
+FORWARDS, LEFT = 0.5, 0.8  # positions of the stick
+ODOM = "/odom"
+
+
+def held(left, forwards):
+    """A Joy with LB held."""
+    return (left, forwards, 0.0, 0.0, 0.0, 0.0), (*NEUTRAL[1][:4], 1, *NEUTRAL[1][5:])
+
+
+def recording(session):
+    """C11."""
+    import rosbag  # noqa: PLC0415
+
+    package = session.package(PACKAGE) or session.package("beginner_tutorials")
+    bags = sorted(session.source.rglob("*.bag")) if package else []
+    if not bags:
+        return Note("no bag in the workspace; look at /joy with rosbag play and rostopic echo /joy")
+    bag = next((each for each in bags if each.name == "joy.bag"), bags[0])
+    name = str(bag.relative_to(session.source))
+    try:
+        with rosbag.Bag(str(bag)) as opened:
+            topics = opened.get_type_and_topic_info().topics
+            joys = [
+                message
+                for _, (_, message, _) in zip(range(5), opened.read_messages(topics=[JOY, "joy"]))
+            ]
+    except (rosbag.ROSBagException, OSError, ValueError, KeyError, EOFError) as error:
+        raise Wrong(
+            "a recording that rosbag can read",
+            str(error) or type(error).__name__,
+            where=name,
+            hint="copy joy.bag anew",
+        ) from None
+    if not joys:
+        raise Wrong(
+            "sensor_msgs/Joy on /joy",
+            "topics: " + (", ".join(topics) or "none"),
+            where=name,
+            hint="rosbag record /joy",
+        )
+    if len(getattr(joys[0], "axes", ())) < 2:
+        raise Wrong("at least two axes", f"{len(getattr(joys[0], 'axes', ()))}", where=name)
+    return f"{name}: {', '.join(topics)}"
+
+
+def _yaw(odom):
+    return 2 * math.atan2(odom[3], odom[4])
+
+
+def steady(stage, how_long_s=0.8):
+    """(speed over ground, rate of turn) by the robot's own stamps, over a while of even driving."""
+
+    def since(stamp):
+        return [value for _, _, value in stage.call("heard", ODOM) if value[0] > stamp]
+
+    start = stage.call("heard", ODOM)[-1][2]
+    stage.wait(lambda: since(start[0] + how_long_s), how_long_s + 3)
+    path = [start, *since(start[0])]
+    length = sum(math.hypot(b[1] - a[1], b[2] - a[2]) for a, b in zip(path, path[1:]))
+    turned = sum(math.remainder(_yaw(b) - _yaw(a), math.tau) for a, b in zip(path, path[1:]))
+    took = path[-1][0] - start[0]
+    return (length / took, turned / took) if took > 0 else (0.0, 0.0)
+
+
+def simulated(session):
+    """C19."""
+    script = main_script(session)
+    with session.stage() as stage:
+        for topic, kind in ((CMD_VEL, "Twist"), (ODOM, "Odometry")):
+            stage.call("listen", topic, kind)
+        stage.call("advertise", JOY, "Joy")
+        robot = stage.launch(["rosrun", "fake_turtlebot_sim", "fake_turtlebot.py"], trusted=True)
+        program = stage.start(PACKAGE, script)
+        ready = stage.wait(
+            lambda: (
+                program.ended
+                or (
+                    stage.call("listeners", JOY)
+                    and stage.call("speakers", CMD_VEL)
+                    and stage.call("count", ODOM)
+                )
+            )
+        )
+        publishers = stage.call("state")[0].get(CMD_VEL, [])
+        if robot.ended or not stage.call("count", ODOM):
+            raise CannotCheck(f"the simulated robot does not start: {robot.output[-200:]}")
+        if not ready or program.ended:
+            raise crash(session, PACKAGE, program, "the node runs beside the simulated robot")
+        if len(set(publishers)) != 1:
+            raise Wrong(
+                "one node publishes on /cmd_vel",
+                f"{len(set(publishers))}: {', '.join(publishers)}",
+                hint="end the older version: rosnode list",
+            )
+        stage.call("send", JOY, NEUTRAL)
+        found = []
+        for joy in (held(0.0, FORWARDS), held(LEFT, 0.0)):
+            before = stage.call("count", CMD_VEL)
+            stage.call("stream", JOY, [joy], 20.0, True)
+            index = 0 if not found else 5
+            stage.wait(
+                lambda before=before, index=index: any(
+                    abs(v[index]) > 0.01 for _, _, v in stage.call("heard", CMD_VEL, before)
+                ),
+                3.0,
+            )
+            moving = stage.call("count", ODOM)
+            stage.wait(lambda moving=moving: stage.call("count", ODOM) > moving + 8, 3.0)
+            found.append((steady(stage), stage.call("heard", CMD_VEL, before)[-1:]))
+            stage.call("end_stream", JOY)
+        session.box.end(program, 0.5)
+    (straight, told), (turning, told_turn) = found
+    if not told or not told_turn:
+        raise Wrong("Twists that the robot obeys", "none came")
+    v, w = told[-1][2][0], told_turn[-1][2][5]
+    expected = f"forwards with {v:.2f} m/s, then turning left with {w:.2f} rad/s"
+    seen = f"{straight[0]:.2f} m/s, then {turning[1]:.2f} rad/s"
+    # A robot is as fast as it can, and no faster.
+    v, w = min(v, 0.7), min(w, math.pi)
+    if v <= 0 or w <= 0 or abs(straight[0] - v) > 0.1 * v or abs(turning[1] - w) > 0.1 * w:
+        raise Wrong(
+            expected,
+            seen,
+            where=script,
+            hint="linear.x = axes[1], angular.z = axes[0], for every Joy",
+        )
+    return seen
+
+
+def plug_in(session, stage, mode="D"):
+    """A virtual F710 behind /dev/input/js0, or a FIFO where that cannot be; (Pad, path)."""
+    path = Path("/dev/input/js0") if session.can_have_devices else session.folder / "js0"
+    if path.exists():
+        path.unlink()
+    pad = stage.help(lambda: Pad(str(path), mode))
+    pad.call("connected")
+    os.chmod(path, 0o666)
+    return pad, path
+
+
+def joystick(session):
+    """C20."""
+    script = main_script(session)
+    with session.stage() as stage:
+        stage.call("listen", JOY, "Joy")
+        stage.call("listen", CMD_VEL, "Twist")
+        pad, path = plug_in(session, stage)
+        node = stage.launch(
+            ["rosrun", "gamepad", "joy_node", f"_dev:={path}", "_autorepeat_rate:=20"], trusted=True
+        )
+        program = stage.start(PACKAGE, script)
+
+        def drives():
+            return any(abs(value[0]) > 0.1 for _, _, value in stage.call("heard", CMD_VEL))
+
+        stage.wait(
+            lambda: (
+                (stage.call("count", JOY) and stage.call("speakers", CMD_VEL))
+                or program.ended
+                or node.ended
+            )
+        )
+        pad.call("push", 0.0, 0.6)
+        stage.wait(lambda: drives() or program.ended or node.ended, 3.0)
+        if not stage.call("count", JOY):
+            raise CannotCheck(f"the joystick driver does not start: {node.output[-200:]}")
+        if program.ended or not drives():
+            raise crash(
+                session, PACKAGE, program, "the stick pushed forwards moves the robot: linear.x > 0"
+            )
+        if [value for _, _, value in stage.call("heard", CMD_VEL)][-1][0] < 0:
+            raise Wrong(
+                "the stick pushed forwards moves the robot forwards", "linear.x < 0", where=script
+            )
+        session.box.end(node)
+        # The switch at X: eight axes.
+        stage.call("advertise", JOY, "Joy")
+        stage.wait(lambda: stage.call("listeners", JOY) > 0)
+        before, said = stage.call("count", CMD_VEL), program.output.count("Traceback")
+        for k in range(5):
+            stage.call(
+                "send",
+                JOY,
+                ((0.1, 0.2 + 0.1 * k, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0), (0,) * 4 + (1,) + (0,) * 6),
+            )
+        stage.wait(
+            lambda: (
+                stage.call("count", CMD_VEL) > before + 4
+                or program.output.count("Traceback") > said
+                or program.ended
+            ),
+            1.5,
+        )
+        survives = (
+            stage.call("count", CMD_VEL) > before
+            and program.output.count("Traceback") == said
+            and not program.ended
+        )
+    if not survives:
+        return Note(
+            "with the switch at X (eight axes) it fails; the handout's does, too",
+            script,
+            "join all axes, however many",
+        )
+    return "switch at D and at X"

@@ -1,0 +1,165 @@
+"""C27 and C28: remapping, and the launch file for the real TurtleBot."""
+
+import re
+
+from tutorial_check.exercises import launching
+from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL, PACKAGE
+from tutorial_check.exercises.launching import REAL, TURTLEBOT
+from tutorial_check.exercises.robot import held
+from tutorial_check.model import CannotCheck, Wrong
+
+TELEOP, ACTIVE = "/cmd_vel_mux/input/teleop", "/cmd_vel_mux/active"
+REMAP = '<remap from="/cmd_vel" to="/cmd_vel_mux/input/teleop"/>'
+
+
+def remapped(session):
+    """C27."""
+    path = launching.check_file(session, TURTLEBOT)
+    text = path.read_text(errors="replace")
+    where = f"launch/{TURTLEBOT}"
+    launching.demand(session, TURTLEBOT, "joy2twist", launching.is_own, launching.OWN_HINT)
+    expected = f"Twists on {TELEOP}, none on {CMD_VEL}"
+    with session.stage() as stage:
+        for topic in (TELEOP, CMD_VEL):
+            stage.call("listen", topic, "Twist")
+        stage.call("advertise", JOY, "Joy")
+        program = stage.launch(["roslaunch", str(path)])
+        stage.wait(
+            lambda: (
+                program.ended
+                or (
+                    stage.call("listeners", JOY)
+                    and (stage.call("speakers", TELEOP) or stage.call("speakers", CMD_VEL))
+                )
+            ),
+            launching.START_S,
+        )
+        stage.call("send", JOY, NEUTRAL)
+        stage.call("stream", JOY, [held(0.2, 0.3)], 20.0, True)
+
+        def moving(topic):
+            return any(abs(value[0]) > 0.01 for _, _, value in stage.call("heard", topic))
+
+        stage.wait(
+            lambda: (
+                moving(TELEOP) or moving(CMD_VEL) or program.ended or launching._died(_Run(program))
+            ),
+            3.0,
+        )
+        good, bad = moving(TELEOP), moving(CMD_VEL)
+        publishers, subscribers = stage.call("state")
+        output = program.output
+    remaps = [remap for node in launching.nodes_of(session, TURTLEBOT) for remap in node["remaps"]]
+    line = f"{where}:{launching._line(text, 'remap' if 'remap' in text else 'joy2twist.py')}"
+    if good and not bad and CMD_VEL not in publishers:
+        return None
+    if "Traceback" in output or launching._died(_Run(program)):
+        from tutorial_check.tracebacks import explain, first_traceback, last_lines  # noqa: PLC0415
+
+        trace = first_traceback(output, str(session.package(PACKAGE).folder))
+        raise Wrong(
+            expected,
+            trace.error if trace else last_lines(output),
+            where=trace.where if trace else where,
+            hint=explain(trace.error) if trace else "",
+        )
+    if bad and re.search(r"<param\s+(from|name)=", text) and not remaps:
+        raise Wrong(
+            expected,
+            "Twists on /cmd_vel: a <param> renames nothing",
+            where=f"{where}:{launching._line(text, '<param')}",
+            hint=REMAP,
+        )
+    if bad and any(to.strip("/") == "cmd_vel" for _, to in remaps):
+        raise Wrong(
+            expected,
+            "Twists on /cmd_vel: from and to are swapped",
+            where=line,
+            hint=f"from is the name in the program: {REMAP}",
+        )
+    others = sorted(
+        topic
+        for topic in publishers
+        if re.search("vel|teleop|mux", topic) and topic not in (TELEOP, CMD_VEL)
+    )
+    if others:
+        raise Wrong(expected, f"it publishes on {others[0]}", where=line, hint=REMAP)
+    if bad:
+        seen = "Twists on /cmd_vel" + ("" if remaps else ": nothing is remapped")
+        if remaps:
+            seen += f": the remap from {remaps[0][0]} fits no topic of the program"
+        raise Wrong(expected, seen, where=line, hint=REMAP)
+    if JOY not in subscribers:
+        raise Wrong(
+            expected,
+            "nobody listens to /joy",
+            where=where,
+            hint="does the node start, and is /joy left as it is?",
+        )
+    raise Wrong(expected, "no Twist at all", where=where, hint=REMAP)
+
+
+class _Run:
+    def __init__(self, program):
+        self.program = program
+
+
+def real_robot(session):
+    """C28."""
+    path = launching.check_file(session, REAL)
+    text = path.read_text(errors="replace")
+    where = f"launch/{REAL}"
+    files = launching.facts(session, REAL)["files"]
+    if not any(each.endswith(f"/{TURTLEBOT}") for each in files):
+        raise Wrong(
+            f"it includes {TURTLEBOT}",
+            "it does not",
+            where=where,
+            hint=f'<include file="$(find {PACKAGE})/launch/{TURTLEBOT}"/>',
+        )
+    launching.demand(
+        session,
+        REAL,
+        "RViz",
+        launching.is_viewer,
+        '<include file="$(find turtlebot_rviz_launchers)/launch/view_robot.launch"/>',
+    )
+    launching.demand(session, REAL, "joy_node", launching.is_joystick, launching.JOY_HINT)
+    own = [node for node in launching.nodes_of(session, REAL) if launching.is_own(node)]
+    if len(own) > 1:
+        raise Wrong(
+            "one joy2twist",
+            f"{len(own)}: both would drive",
+            where=f"{where}:{launching._line(text, 'joy2twist.py')}",
+            hint=f"{TURTLEBOT} starts it already",
+        )
+    has_base = any(node["type"] == "cmd_vel_mux.py" for node in launching.nodes_of(session, REAL))
+    with session.stage() as stage:
+        stage.call("listen", ACTIVE, "String")
+        pad = launching.plug_in_for(session, stage, REAL)
+        base = None
+        if not has_base:
+            base = stage.launch(
+                ["roslaunch", "fake_turtlebot_sim", "minimal.launch", "model:=false"], trusted=True
+            )
+        launch = launching.Launch(session, REAL, stage, TELEOP)
+        pushed = launching.push_when_ready(stage, pad, launch)
+        stage.wait(
+            lambda: launch.moved() > 0.15 or launch.program.ended or launching._died(launch),
+            4.0 if pushed else 0.0,
+        )
+        if base and base.ended:
+            raise CannotCheck(f"the simulated TurtleBot does not start: {base.output[-200:]}")
+        moved = launch.moved() > 0.15
+        active = {value for _, _, value in stage.call("heard", ACTIVE)}
+        if not moved:
+            raise launch.wrong(
+                "cmd_vel_mux lets teleop through, and the robot moves with the stick"
+            )
+    if not any("teleop" in each for each in active):
+        raise Wrong(
+            "cmd_vel_mux/active says teleop",
+            f"{', '.join(sorted(active)) or 'nothing'}",
+            where=where,
+            hint=REMAP,
+        )

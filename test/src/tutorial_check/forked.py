@@ -1,0 +1,124 @@
+"""Trusted helpers in processes of their own, forked from this one so that ROS is loaded once."""
+
+import contextlib
+import os
+import pickle
+import select
+import signal
+import struct
+import sys
+import threading
+import time
+
+from tutorial_check.model import CannotCheck
+
+
+def _send(descriptor, thing):
+    data = pickle.dumps(thing)
+    os.write(descriptor, struct.pack("!I", len(data)))
+    view = memoryview(data)
+    while view:
+        view = view[os.write(descriptor, view) :]
+
+
+def _receive(descriptor):
+    def exactly(count):
+        data = b""
+        while len(data) < count:
+            part = os.read(descriptor, count - len(data))
+            if not part:
+                raise EOFError
+            data += part
+        return data
+
+    return pickle.loads(exactly(struct.unpack("!I", exactly(4))[0]))
+
+
+class Helper:
+    """An object in a forked process; its methods are called through a pipe that only we have."""
+
+    def __init__(self, make, environment):
+        """make(): the object, called in the new process, whose environment is given."""
+        question_out, question_in = os.pipe()
+        answer_out, answer_in = os.pipe()
+        self.pid = os.fork()
+        if self.pid == 0:
+            try:
+                os.close(question_in)
+                os.close(answer_out)
+                _serve(make, environment, question_out, answer_in)
+            finally:
+                os._exit(0)
+        os.close(question_out)
+        os.close(answer_in)
+        self._question, self._answer = question_in, answer_out
+
+    def call(self, method, *arguments, deadline_s=20.0):
+        """What the method returns. Raises CannotCheck if the helper fails or hangs."""
+        try:
+            _send(self._question, (method, arguments))
+            if not select.select([self._answer], [], [], deadline_s)[0]:
+                raise CannotCheck(f"the checker's own helper hangs in {method}")
+            worked, value = _receive(self._answer)
+        except (EOFError, OSError) as error:
+            raise CannotCheck(f"the checker's own helper has ended in {method}: {error}") from None
+        if not worked:
+            raise CannotCheck(f"the checker's own helper failed in {method}: {value}")
+        return value
+
+    def end(self):
+        """End the process."""
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(self.pid, signal.SIGKILL)
+        os.waitpid(self.pid, 0)
+        os.close(self._question)
+        os.close(self._answer)
+
+
+def _serve(make, environment, question, answer):
+    os.setsid()
+    nothing = os.open(os.devnull, os.O_RDWR)
+    for stream in (0, 1, 2):
+        os.dup2(nothing, stream)
+    sys.stdout = open(os.devnull, "w")  # noqa: SIM115  for the life of the process
+    sys.stderr = sys.stdout
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.SIG_IGN)
+    os.environ.clear()
+    os.environ.update(environment)
+    thing = None
+    while True:
+        try:
+            method, arguments = _receive(question)
+        except EOFError:
+            return
+        try:
+            if thing is None:
+                thing = make()
+            _send(answer, (True, getattr(thing, method)(*arguments)))
+        except Exception as error:
+            _send(answer, (False, f"{type(error).__name__}: {error}"))
+
+
+class MasterProcess:
+    """A ROS master, in the process of a Helper."""
+
+    def __init__(self, port):
+        from rosmaster.master import Master  # noqa: PLC0415  only where a master is wanted
+
+        self._master = Master(port)
+        self._master.start()
+        threading.Thread(target=self._end_when_told, daemon=True).start()
+
+    def _end_when_told(self):
+        """A master that was asked to shut down ends, as rosmaster's own program does."""
+        while self._master.ok():
+            time.sleep(0.05)
+        os._exit(0)
+
+    def uri(self):
+        """Where it answers; None after a second without an answer."""
+        end = time.monotonic() + 5
+        while self._master.uri is None and time.monotonic() < end:
+            time.sleep(0.002)
+        return self._master.uri

@@ -1,0 +1,121 @@
+"""The report as files for other programs. Pure."""
+
+import json
+import xml.etree.ElementTree as ET
+
+from tutorial_check.exercises import EXERCISES
+from tutorial_check.model import NOTE, OK, UNREACHED, WRONG
+from tutorial_check.report import lines_of
+
+FIELDS = ("id", "status", "title", "expected", "seen", "where", "hint")
+
+
+def as_json(outcomes):
+    """One object with all exercises and checks."""
+    return json.dumps(
+        {
+            "exercises": [
+                {
+                    "id": outcome.id,
+                    "passed": outcome.passed,
+                    "checks": [
+                        {name: getattr(result, name) for name in FIELDS}
+                        for result in outcome.results
+                    ],
+                }
+                for outcome in outcomes
+            ],
+            "passed": sum(outcome.passed for outcome in outcomes),
+            "total": len(outcomes),
+        },
+        indent=1,
+    )
+
+
+def as_junit(outcomes):
+    """JUnit's XML: an exercise is a suite, a check a case."""
+    root = ET.Element("testsuites", name="tutorial check")
+    for outcome in outcomes:
+        suite = ET.SubElement(
+            root,
+            "testsuite",
+            name=f"{outcome.id} {EXERCISES[outcome.id]}",
+            tests=str(len(outcome.results)),
+            time=f"{outcome.seconds:.2f}",
+            failures=str(sum(result.status == WRONG for result in outcome.results)),
+            skipped=str(sum(result.status == UNREACHED for result in outcome.results)),
+            errors="0",
+        )
+        for result in outcome.results:
+            case = ET.SubElement(
+                suite,
+                "testcase",
+                classname=f"exercise {outcome.id}",
+                name=f"{result.id} {result.title}",
+            )
+            text = _legal("\n".join(line.strip() for line in lines_of(result)[1:]))
+            if result.status == WRONG:
+                ET.SubElement(case, "failure", message=_legal(result.seen)).text = text
+            elif result.status == UNREACHED:
+                ET.SubElement(case, "skipped", message=_legal(result.seen))
+            elif result.status == NOTE:
+                ET.SubElement(case, "system-out").text = text
+    return ET.tostring(root, encoding="unicode", xml_declaration=True) + "\n"
+
+
+def _legal(text):
+    """Without the characters that XML forbids; a program may print anything."""
+    return "".join(
+        each
+        for each in text
+        if each in "\n\t" or (ord(each) >= 0x20 and ord(each) not in (0xFFFE, 0xFFFF))
+    )
+
+
+def as_gradescope(outcomes):
+    """Gradescope's results.json: one point a check."""
+    tests = [
+        {
+            "name": f"{outcome.id} {result.id}: {result.title}",
+            "score": 1.0 if result.status in (OK, NOTE) else 0.0,
+            "max_score": 1.0,
+            "output": "\n".join(line.strip() for line in lines_of(result)),
+            "visibility": "visible",
+        }
+        for outcome in outcomes
+        for result in outcome.results
+    ]
+    return json.dumps(
+        {"tests": tests, "execution_time": round(sum(each.seconds for each in outcomes), 1)},
+        indent=1,
+    )
+
+
+def as_classroom(outcomes):
+    """Classroom 50's result: one point an exercise."""
+    tests = [
+        {
+            "test-name": f"{outcome.id} {EXERCISES[outcome.id]}",
+            "passed": outcome.passed,
+            "score": int(outcome.passed),
+            "max-score": 1,
+        }
+        for outcome in outcomes
+    ]
+    return json.dumps(
+        {
+            "schema": "classroom50/result/v1",
+            "score": sum(outcome.passed for outcome in outcomes),
+            "max-score": len(outcomes),
+            "tests": tests,
+        },
+        indent=1,
+    )
+
+
+FORMATS = {
+    "json": as_json,
+    "junit": as_junit,
+    "gradescope": as_gradescope,
+    "classroom": as_classroom,
+}

@@ -1,0 +1,71 @@
+"""What launch files would start, read as roslaunch reads them and nothing started.
+
+A program of its own, run with the student's rights: what a launch file names is read.
+python3 -m tutorial_check.launch_facts FILE ... prints one JSON object a file.
+"""
+
+import contextlib
+import io
+import json
+import sys
+import xml.dom.minidom
+from pathlib import Path
+
+MARK = "launch facts: "
+
+
+def facts_of(path):
+    """A dict about one launch file."""
+    import roslaunch.config  # noqa: PLC0415
+    import roslaunch.loader  # noqa: PLC0415
+
+    # What <param command=...> prints is not wanted here, only what would be started.
+    value_of = roslaunch.loader.Loader.param_value
+
+    def without_command(self, *about):
+        *start, value, textfile, binfile, command = about
+        value = "" if command is not None else value
+        return value_of(self, *start, value, textfile, binfile, None)
+
+    roslaunch.loader.Loader.param_value = without_command
+    said = io.StringIO()
+    facts = {"path": path, "error": "", "nodes": [], "files": [], "said": "", "includes": []}
+    try:
+        document = xml.dom.minidom.parse(path)
+        facts["includes"] = [
+            each.getAttribute("file") for each in document.getElementsByTagName("include")
+        ]
+        facts["root"] = document.documentElement.tagName
+        facts["tags"] = [each.tagName for each in document.getElementsByTagName("*")]
+    except Exception as error:
+        facts["error"] = f"{error}"
+        return facts
+    try:
+        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
+            config = roslaunch.config.load_config_default([path], 11311, verbose=False)
+        facts["errors"] = [str(each) for each in config.config_errors]
+        facts["nodes"] = [
+            {
+                "package": node.package,
+                "type": node.type,
+                "name": node.name,
+                "namespace": node.namespace,
+                "args": node.args or "",
+                "remaps": [list(each) for each in node.remap_args],
+                "file": str(node.filename or ""),
+                "respawn": bool(node.respawn),
+                "output": node.output or "",
+            }
+            for node in config.nodes
+        ]
+        facts["params"] = sorted(config.params)
+        facts["files"] = sorted({str(Path(each).resolve()) for each in config.roslaunch_files})
+    except (Exception, SystemExit) as error:
+        facts["error"] = " ".join(str(error).split())
+    facts["said"] = said.getvalue()[-2000:]
+    return facts
+
+
+if __name__ == "__main__":
+    for name in sys.argv[1:]:
+        print(MARK + json.dumps(facts_of(str(Path(name)))), flush=True)

@@ -1,0 +1,160 @@
+"""Which rule turns these joysticks into these velocities? Pure."""
+
+from dataclasses import dataclass
+
+FIELDS = ("linear.x", "linear.y", "linear.z", "angular.x", "angular.y", "angular.z")
+LINEAR, ANGULAR = 0, 5  # the two fields that a robot in the plane obeys
+SMALL = 1e-4
+AXES = 6
+
+
+@dataclass(frozen=True)
+class Rule:
+    """field = factor * axes[axis], of all samples."""
+
+    axis: int
+    factor: float
+
+
+def numbered_joys(count, buttons=12):
+    """Joys of which no two are alike, nor any two axes: [(axes, buttons)], with LB held.
+
+    Signs change, so that a rule which is right only forwards or to the left is found out.
+    """
+    joys = []
+    for k in range(count):
+        forwards = (0.30 + 0.021 * k) * (1 if k % 2 == 0 else -1)
+        left = (0.25 + 0.017 * k) * (1 if k % 4 < 2 else -1)
+        # In an order of their own, so that none of them is by chance in proportion to these two.
+        rest = [0.03 + 0.05 * (index - 2) + 0.002 * (7 * k % 20) for index in range(2, AXES)]
+        joys.append(((left, forwards, *rest), tuple(int(index == 4) for index in range(buttons))))
+    return joys
+
+
+def factor_of(values, inputs):
+    """The constant of proportion, or None. Zeros (dead zone) and a limit may be among the values."""
+    pairs = [(value, given) for value, given in zip(values, inputs) if abs(given) > SMALL]
+    ratios = sorted(value / given for value, given in pairs if abs(value) > SMALL)
+    if len(ratios) < max(2, 0.5 * len(pairs)):
+        return None
+    factor = ratios[len(ratios) // 2]
+    limit = max(abs(value) for value, _ in pairs)
+    fits = limited = 0
+    for value, given in pairs:
+        if abs(value - factor * given) <= 0.02 * abs(factor * given) + SMALL:
+            fits += 1
+        elif abs(value) < SMALL or (
+            abs(abs(value) - limit) < SMALL
+            and value * factor * given > 0
+            and limit < abs(factor * given)
+        ):
+            limited += 1
+    return factor if fits + limited == len(pairs) and fits >= 0.5 * len(pairs) else None
+
+
+def rule_of(field, samples):
+    """The Rule that a field follows, or None. samples: [(axes, six values)]."""
+    values = [twist[field] for _, twist in samples]
+    for axis in range(AXES):
+        factor = factor_of(values, [axes[axis] for axes, _ in samples])
+        if factor is not None:
+            return Rule(axis, factor)
+    return None
+
+
+def is_monotone(field, axis, samples):
+    """Whether the field grows with the axis and has its sign: a curve, as for a dead zone."""
+    pairs = sorted((axes[axis], twist[field]) for axes, twist in samples)
+    rises = all(b[1] >= a[1] - SMALL for a, b in zip(pairs, pairs[1:]))
+    signs = all(value * given >= -SMALL for given, value in pairs)
+    return rises and signs and pairs[-1][1] - pairs[0][1] > 0.1
+
+
+def judge(samples):
+    """(complaint, hint) about samples [(axes, six values)], each empty if there is none.
+
+    A complaint without a hint does not occur; a hint without a complaint is a remark.
+    """
+    right = {LINEAR: 1, ANGULAR: 0}
+    rules = {field: rule_of(field, samples) for field in range(6)}
+    moving = [field for field in range(6) if any(abs(twist[field]) > SMALL for _, twist in samples)]
+    if not moving:
+        return (
+            "every Twist is zero",
+            "are linear.x and angular.z of the message that is published set from data.axes?",
+        )
+    for field, axis in right.items():
+        rule = rules[field]
+        other = ANGULAR if field == LINEAR else LINEAR
+        if rule and rule.axis == axis and rule.factor > 0:
+            continue
+        if rule and rule.axis == axis:
+            way = "backwards" if field == LINEAR else "right"
+            return (
+                f"{FIELDS[field]} = {rule.factor:.2f} * axes[{axis}]: the sign is wrong",
+                f"pushed {'forwards' if field == LINEAR else 'left'}, the robot goes {way}: leave the minus out",
+            )
+        if rule and rules[other] and rule.axis == right[other] and rules[other].axis == axis:
+            return (
+                "angular.z follows axes[1] and linear.x axes[0]: they are swapped",
+                "linear.x = axes[1] (forwards), angular.z = axes[0] (left)",
+            )
+        if rule:
+            return (
+                f"{FIELDS[field]} follows axes[{rule.axis}]",
+                f"{FIELDS[field]} = axes[{axis}]",
+            )
+        misplaced = next(
+            (f for f in moving if f not in right and rules[f] and rules[f].axis == axis), None
+        )
+        if field not in moving and misplaced is not None:
+            return (
+                f"{FIELDS[misplaced]} follows axes[{axis}], {FIELDS[field]} stays 0",
+                "a robot in the plane drives along x and turns about z: linear.x and angular.z",
+            )
+        if field not in moving:
+            return (f"{FIELDS[field]} is always 0", f"{FIELDS[field]} = axes[{axis}]")
+        complaint = _explain_odd(field, axis, samples)
+        if complaint:
+            return complaint
+    extra = [field for field in moving if field not in right]
+    if extra:
+        rule = rules[extra[0]]
+        what = (
+            f"{FIELDS[extra[0]]} follows axes[{rule.axis}]"
+            if rule
+            else f"{FIELDS[extra[0]]} is not 0"
+        )
+        return what, "only linear.x and angular.z move a robot in the plane; leave the others 0"
+    curves = [FIELDS[field] for field in right if rules[field] is None]
+    return (
+        "",
+        f"{' and '.join(curves)} is a curve of its axis, not a constant times it" if curves else "",
+    )
+
+
+def _explain_odd(field, axis, samples):
+    """A complaint about a field that follows no axis by a constant; None if it is a mere curve."""
+    values = [twist[field] for _, twist in samples]
+    given = [axes[axis] for axes, _ in samples]
+    name = FIELDS[field]
+    if factor_of(values, [abs(value) for value in given]):
+        return f"{name} has lost the sign of axes[{axis}]", f"{name} = axes[{axis}], without abs"
+    if factor_of(values[1:], given[:-1]):
+        return (
+            f"{name} follows the Joy before: each Twist is one message late",
+            "first put the values into the message, then publish it",
+        )
+    offsets = [value - each for value, each in zip(values, given)]
+    if max(offsets) - min(offsets) < 0.02:
+        return (
+            f"{name} = axes[{axis}] + {offsets[0]:.2f}: released, the robot still moves",
+            f"{name} = axes[{axis}]",
+        )
+    if is_monotone(field, axis, samples) and any(value != round(value) for value in values):
+        return None
+    if all(value == round(value) for value in values):
+        return f"{name} has whole numbers only", f"{name} = axes[{axis}], without int() or round()"
+    if len({round(value, 6) for value in values}) == 1:
+        return f"{name} is always {values[0]:.2f}", f"{name} = axes[{axis}]"
+    return f"{name} is no constant times axes[{axis}]", f"{name} = axes[{axis}]"

@@ -1,0 +1,183 @@
+"""What a check can come to, and the order in which checks are made. Pure."""
+
+import time
+from dataclasses import asdict, dataclass
+
+OK, WRONG, NOTE, UNREACHED = "ok", "wrong", "note", "unreached"
+
+
+@dataclass(frozen=True)
+class Result:
+    """What one check came to, in the student's words."""
+
+    id: str
+    status: str
+    title: str
+    expected: str = ""
+    seen: str = ""
+    where: str = ""
+    hint: str = ""
+    section: str = ""
+    look: str = ""  # a command with which to see it oneself
+
+    def as_dict(self):
+        """The result as --json has it."""
+        return asdict(self)
+
+
+@dataclass(frozen=True)
+class Note:
+    """A check that holds, with something worth saying."""
+
+    seen: str
+    where: str = ""
+    hint: str = ""
+
+
+class Wrong(Exception):
+    """A check that does not hold. Raised by checks, which so end at the first thing wrong."""
+
+    def __init__(self, expected, seen, where="", hint=""):
+        super().__init__(f"expected {expected}; seen {seen}")
+        self.expected, self.seen, self.where, self.hint = expected, seen, where, hint
+
+
+def master_gone(where=""):
+    """The Wrong for a program that ends the master."""
+    return Wrong(
+        "the ROS master is left alone",
+        "it no longer answers: a program of yours has ended it",
+        where,
+        "a node ends itself (rospy.signal_shutdown), never the master",
+    )
+
+
+class CannotCheck(Exception):
+    """The checker cannot work, through no fault of the student's; the text says why in one line."""
+
+
+@dataclass(frozen=True)
+class Check:
+    """One line of the report."""
+
+    id: str
+    exercise: str
+    title: str
+    section: str  # of the handout
+    needs: tuple = ()  # ids of the checks without which this one says nothing
+    look: str = ""
+
+
+class Catalogue:
+    """All checks, in order, with the function that makes each."""
+
+    def __init__(self, checks, functions):
+        """checks: Check objects; functions: id -> function(session), of each of them."""
+        self.checks = {check.id: check for check in checks}
+        self.functions = functions
+        if set(self.checks) != set(functions):
+            raise ValueError(
+                f"checks without or with too many functions: {set(self.checks) ^ set(functions)}"
+            )
+
+    def of(self, exercise):
+        """The checks of an exercise."""
+        return [check for check in self.checks.values() if check.exercise == exercise]
+
+
+class Run:
+    """Makes checks, each at most once, and none whose ground is missing."""
+
+    def __init__(self, catalogue, session):
+        """session: what the functions of the catalogue take."""
+        self._catalogue = catalogue
+        self._session = session
+        self._done = {}
+        self._blocked_by = {}  # id of a check not reached -> the results that are to blame
+        self._told = set()
+        self.seconds = {}  # that each check took, with those it needs
+
+    def result(self, check_id):
+        """The Result of a check; made now if it was not yet."""
+        if check_id not in self._done:
+            began_s = time.monotonic()
+            self._done[check_id] = self._make(self._catalogue.checks[check_id])
+            self.seconds[check_id] = round(time.monotonic() - began_s, 2)
+        return self._done[check_id]
+
+    def exercise(self, exercise, tell=lambda result: None, only_first=False):
+        """The results of an exercise, each told as soon as it is there.
+
+        only_first: whether to end at the first that is wrong.
+
+        What is wrong in an earlier exercise and keeps this one from being checked comes first,
+        unless it was told before.
+        """
+        results = []
+
+        def add(result):
+            if result.id not in self._told or result.status != WRONG:
+                results.append(result)
+                self._told.add(result.id)
+                tell(result)
+
+        for check in self._catalogue.of(exercise):
+            for culprit in self._culprits(check):
+                if self._catalogue.checks[culprit.id].exercise != exercise:
+                    add(culprit)
+            add(self.result(check.id))
+            if only_first and any(result.status == WRONG for result in results):
+                break
+        return results
+
+    def _culprits(self, check):
+        for needed in check.needs:
+            result = self.result(needed)
+            if result.status == WRONG:
+                yield result
+            elif result.status == UNREACHED:
+                yield from self._blocked_by[needed]
+
+    def _make(self, check):
+        culprits = list(self._culprits(check))
+        if culprits:
+            return self._unreached(check, culprits)
+        about = {"id": check.id, "title": check.title, "section": check.section, "look": check.look}
+        try:
+            found = self._catalogue.functions[check.id](self._session)
+        except Wrong as wrong:
+            told = (wrong.seen, wrong.where)
+            same = [
+                one
+                for one in self._done.values()
+                if (one.seen, one.where) == told and one.status == WRONG
+            ]
+            if same:  # one cause is told once, at the first check that it keeps from holding
+                return self._unreached(check, same)
+            what = {
+                "expected": wrong.expected,
+                "seen": wrong.seen,
+                "where": wrong.where,
+                "hint": wrong.hint,
+            }
+            return Result(status=WRONG, **about, **what)
+        if isinstance(found, Note):
+            return Result(status=NOTE, seen=found.seen, where=found.where, hint=found.hint, **about)
+        return Result(status=OK, seen=found or "", **about)
+
+    def _unreached(self, check, culprits):
+        self._blocked_by[check.id] = culprits
+        first = culprits[0]
+        return Result(
+            id=check.id,
+            status=UNREACHED,
+            title=check.title,
+            section=check.section,
+            look=check.look,
+            seen=f"first mend {first.id}: {first.title}",
+        )
+
+
+def passed(results):
+    """Whether an exercise is done: nothing wrong, and everything reached."""
+    return all(result.status in (OK, NOTE) for result in results)

@@ -1,0 +1,42 @@
+"""A virtual F710 in our hand, in the process of a forked.Helper: the device is a FIFO."""
+
+import threading
+import time
+
+from gamepad.gamepads import F710
+from gamepad.virtual.pads import StreamPad
+
+PERIOD_S = 0.02  # how often it looks whether somebody has begun to read
+
+
+class Pad:
+    """Stick and LB are where they were last put."""
+
+    def __init__(self, path, mode):
+        self._pad = StreamPad(F710[mode], path)
+        self._buttons = len(F710[mode].buttons)
+        self._axes = len(F710[mode].axes)
+        self._position = self._at(0.0, 0.0, 0)
+        threading.Thread(target=self._serve, daemon=True).start()
+
+    def _at(self, left, forwards, lb):
+        buttons = [0] * self._buttons
+        buttons[4] = lb
+        return (left, forwards, *(0.0,) * (self._axes - 2)), tuple(buttons)
+
+    def _serve(self):
+        while True:
+            self._pad.show(self._position)
+            time.sleep(PERIOD_S)
+
+    def connected(self):
+        """Whether a driver reads it."""
+        return self._pad.connected
+
+    def push(self, left, forwards):
+        """Hold LB and put the stick there."""
+        self._position = self._at(left, forwards, 1)
+
+    def release(self):
+        """Let go of all."""
+        self._position = self._at(0.0, 0.0, 0)

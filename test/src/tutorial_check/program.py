@@ -1,0 +1,117 @@
+"""The command line: ./tutorial check."""
+
+import argparse
+import os
+import sys
+from pathlib import Path
+
+from tutorial_check.examination import examine
+from tutorial_check.exercises import EXERCISES
+from tutorial_check.formats import FORMATS
+from tutorial_check.model import CannotCheck
+from tutorial_check.report import Terminal, summary
+
+FLOOR = "TUTORIAL_FLOOR"  # environment variable: setup.bash of the lower floor
+
+
+def parse(arguments):
+    """The command line."""
+    parser = argparse.ArgumentParser(
+        prog="./tutorial check",
+        description="Checks the exercises of the tutorial in your own workspace.",
+        epilog="exercises: " + ", ".join(f"{name} ({what})" for name, what in EXERCISES.items()),
+    )
+    where = parser.add_mutually_exclusive_group(required=True)
+    where.add_argument(
+        "--in",
+        dest="workspace",
+        metavar="WORKSPACE",
+        help="your catkin workspace, a folder of packages, or a zip",
+    )
+    where.add_argument(
+        "--all", metavar="FOLDER", help="for the professor: every workspace, or zip, in a folder"
+    )
+    parser.add_argument("exercises", nargs="*", metavar="EXERCISE", help="all without one")
+    parser.add_argument(
+        "--no-hints", action="store_true", help="say what is wrong, not how to mend it"
+    )
+    parser.add_argument("--watch", action="store_true", help="check again whenever a file is saved")
+    for name, what in (
+        ("json", "all results"),
+        ("junit", "JUnit's XML"),
+        ("gradescope", "Gradescope's results.json"),
+        ("classroom", "Classroom 50's result"),
+    ):
+        parser.add_argument(f"--{name}", metavar="FILE", help=f"write {what}")
+    parser.add_argument(
+        "--out",
+        metavar="FOLDER",
+        help="with --all: where the table and the reports go (FOLDER/check)",
+    )
+    parser.add_argument("--jobs", type=int, default=2, help="with --all: how many at a time (2)")
+    parser.add_argument(
+        "--floor",
+        default=os.environ.get(FLOOR),
+        metavar="SETUP",
+        help="setup.bash of what the exercises stand on",
+    )
+    options = parser.parse_args(arguments)
+    unknown = [each for each in options.exercises if each not in EXERCISES]
+    if unknown:
+        parser.error(f"no exercise {unknown[0]}; there are {', '.join(EXERCISES)}")
+    if options.watch and options.all:
+        parser.error("--watch is for one workspace")
+    if not options.floor:
+        parser.error("--floor is missing; ./tutorial check gives it")
+    # In the handout's order, whatever theirs.
+    options.exercises = [
+        each for each in EXERCISES if not options.exercises or each in options.exercises
+    ]
+    return options
+
+
+def write_files(options, outcomes):
+    """The files that were asked for. Raises CannotCheck."""
+    for name, make in FORMATS.items():
+        path = getattr(options, name)
+        if path:
+            try:
+                Path(path).write_text(make(outcomes), encoding="utf-8")
+            except OSError as error:
+                raise CannotCheck(f"{path}: {error.strerror}") from None
+
+
+def check_one(options):
+    """Check a workspace; the exit code."""
+    terminal = Terminal(hints=not options.no_hints)
+    terminal.busy("copying and preparing")
+    outcomes = examine(options.workspace, options.floor, options.exercises, terminal.tell)
+    terminal.done()
+    print(summary(outcomes))
+    write_files(options, outcomes)
+    return 0 if all(outcome.passed for outcome in outcomes) else 1
+
+
+def main():
+    """Exit code 0: nothing wrong; 1: something is; 2: the checker cannot work."""
+    options = parse(sys.argv[1:])
+    try:
+        if options.all:
+            from tutorial_check.professor import check_all  # noqa: PLC0415
+
+            code = check_all(options)
+        elif options.watch:
+            from tutorial_check.watch import watch  # noqa: PLC0415
+
+            code = watch(options)
+        else:
+            code = check_one(options)
+    except CannotCheck as error:
+        print(f"\ncheck: {error}", file=sys.stderr)
+        print(
+            "check: this is no verdict on the exercises: nothing could be checked", file=sys.stderr
+        )
+        code = 2
+    except KeyboardInterrupt:
+        code = 130
+    sys.exit(code)

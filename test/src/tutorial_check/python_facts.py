@@ -1,0 +1,185 @@
+"""What a Python file says of itself, read as Python reads it and never run. Pure."""
+
+import ast
+from dataclasses import dataclass, field
+
+
+@dataclass
+class Call:
+    """rospy.Publisher(...), rospy.Subscriber(...) and their like."""
+
+    line: int
+    words: list  # the arguments as text, strings without quotes
+    names: dict  # the same of keyword arguments
+
+
+@dataclass
+class PythonFacts:
+    """What a file contains."""
+
+    error: str = ""
+    error_line: int = 0
+    error_text: str = ""
+    calls: dict = field(default_factory=dict)  # last part of the name -> [Call]
+    classes: list = field(default_factory=list)  # [ClassFacts]
+    globals: list = field(default_factory=list)  # lines of `global`
+    broad_excepts: list = field(default_factory=list)  # lines of except: and except Exception:
+    imports: set = field(default_factory=set)
+    has_main: bool = False
+    functions: list = field(default_factory=list)
+    bare_names: list = field(default_factory=list)  # (line, text) of statements that do nothing
+
+    def first(self, name):
+        """The first call of that name, or None."""
+        return next(iter(self.calls.get(name, [])), None)
+
+    @property
+    def is_class_program(self):
+        """Whether it has a class that deals with ROS, or is meant to."""
+        return any(one.is_node for one in self.classes)
+
+
+@dataclass
+class ClassFacts:
+    """A class of the file."""
+
+    name: str
+    line: int
+    methods: list
+    instantiated: bool
+    is_node: bool
+    attributes_called: set
+
+
+def _text(node):
+    if isinstance(node, ast.Constant):
+        return str(node.value)
+    if isinstance(node, ast.Name):
+        return node.id
+    if isinstance(node, ast.Attribute):
+        return f"{_text(node.value)}.{node.attr}"
+    if isinstance(node, ast.Call):
+        return f"{_text(node.func)}()"
+    if isinstance(node, ast.Lambda):
+        return "lambda"
+    return type(node).__name__
+
+
+def _last(node):
+    return _text(node.func).rsplit(".", 1)[-1]
+
+
+def read_python(text):
+    """The PythonFacts of a file's text."""
+    facts = PythonFacts()
+    try:
+        tree = ast.parse(text)
+    except (SyntaxError, ValueError, RecursionError) as error:
+        facts.error = getattr(error, "msg", None) or str(error)
+        facts.error_line = getattr(error, "lineno", 0) or 0
+        lines = text.splitlines()
+        if 0 < facts.error_line <= len(lines):
+            facts.error_text = lines[facts.error_line - 1].strip()
+        return facts
+    called = set()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call):
+            called.add(_last(node))
+            facts.calls.setdefault(_last(node), []).append(
+                Call(
+                    node.lineno,
+                    [_text(word) for word in node.args],
+                    {word.arg: _text(word.value) for word in node.keywords if word.arg},
+                )
+            )
+        elif isinstance(node, ast.Global):
+            facts.globals.append(node.lineno)
+        elif isinstance(node, ast.ExceptHandler):
+            if node.type is None or _text(node.type) in ("Exception", "BaseException"):
+                facts.broad_excepts.append(node.lineno)
+        elif isinstance(node, ast.Import):
+            facts.imports.update(alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            facts.imports.update(f"{node.module}.{alias.name}" for alias in node.names)
+        elif isinstance(node, ast.FunctionDef):
+            facts.functions.append(node.name)
+        elif isinstance(node, ast.If) and "__name__" in ast.dump(node.test):
+            facts.has_main = True
+        elif isinstance(node, ast.Expr) and isinstance(node.value, (ast.Attribute, ast.Name)):
+            facts.bare_names.append((node.lineno, _text(node.value)))
+    for calls in facts.calls.values():
+        calls.sort(key=lambda call: call.line)
+    facts.classes = [
+        _class_facts(node, called) for node in ast.walk(tree) if isinstance(node, ast.ClassDef)
+    ]
+    return facts
+
+
+def _class_facts(node, called):
+    inside = {_text(part.func) for part in ast.walk(node) if isinstance(part, ast.Call)}
+    words = {name.rsplit(".", 1)[-1] for name in inside}
+    bases = {_text(base) for base in node.bases}
+    return ClassFacts(
+        name=node.name,
+        line=node.lineno,
+        methods=[part.name for part in node.body if isinstance(part, ast.FunctionDef)],
+        instantiated=node.name in called,
+        # A message or an exception of its own is no node.
+        is_node=bool(words & {"Subscriber", "Publisher", "init_node", "publish"})
+        and not any(base.endswith(("Exception", "Error")) for base in bases),
+        attributes_called={name for name in inside if name.startswith("self.")},
+    )
+
+
+def unmasked(text):
+    """The program with every except: that hides all made to show what it hides; or None."""
+    try:
+        tree = ast.parse(text)
+    except (SyntaxError, ValueError):
+        return None
+    lines = text.splitlines()
+    hidden = [
+        node
+        for node in ast.walk(tree)
+        if isinstance(node, ast.ExceptHandler)
+        and (node.type is None or _text(node.type) in ("Exception", "BaseException"))
+        and node.body[0].lineno > node.lineno
+    ]
+    if not hidden:
+        return None
+    for handler in sorted(hidden, key=lambda one: -one.body[0].lineno):
+        first = handler.body[0]
+        lines.insert(first.lineno - 1, " " * first.col_offset + "raise")
+    return "\n".join(lines) + "\n"
+
+
+def flipped_anonymous(text, wanted):
+    """The program with anonymous=wanted in its init_node; None if it has none that is plain."""
+    try:
+        tree = ast.parse(text)
+    except (SyntaxError, ValueError):
+        return None
+    for node in ast.walk(tree):
+        if not (isinstance(node, ast.Call) and _last(node) == "init_node"):
+            continue
+        lines = text.splitlines(keepends=True)
+        for word in node.keywords:
+            if word.arg == "anonymous" and isinstance(word.value, ast.Constant):
+                return _replaced(lines, word.value, str(wanted))
+            if word.arg == "anonymous":
+                return None
+        if node.args:
+            last = node.args[-1]
+            segment = ast.get_source_segment(text, last)
+            return _replaced(lines, last, f"{segment}, anonymous={wanted}") if segment else None
+    return None
+
+
+def _replaced(lines, node, new):
+    if node.lineno != node.end_lineno:
+        return None
+    line = lines[node.lineno - 1].encode()
+    lines[node.lineno - 1] = (
+        line[: node.col_offset] + new.encode() + line[node.end_col_offset :]
+    ).decode()
+    return "".join(lines)

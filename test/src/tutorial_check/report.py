@@ -1,0 +1,88 @@
+"""What the student reads in the terminal. Pure but for the printing."""
+
+import os
+import sys
+
+from tutorial_check.exercises import EXERCISES
+from tutorial_check.model import NOTE, OK, UNREACHED, WRONG
+
+WORDS = {OK: "ok", WRONG: "WRONG", NOTE: "note", UNREACHED: "-"}
+COLOURS = {OK: "32", WRONG: "1;31", NOTE: "33", UNREACHED: "2"}
+MARGIN = " " * 11
+
+
+def lines_of(result, hints=True):
+    """The report of one check: [line]."""
+    head = f"  {WORDS[result.status]:<6} {result.id:<4}{result.title}"
+    if result.status == OK:
+        return [head + (f"  ({result.seen})" if result.seen else "")]
+    if result.status == UNREACHED:
+        return [f"{head}: not reached; {result.seen}"]
+    lines = [head]
+    if result.expected:
+        lines.append(f"{MARGIN}expected: {result.expected}")
+    lines.append(f"{MARGIN}seen:     {result.seen}")
+    if result.where:
+        lines.append(f"{MARGIN}where:    {result.where}")
+    if hints and result.hint:
+        lines.append(f"{MARGIN}hint:     {result.hint}")
+    if result.status == WRONG:
+        see = f"; see it yourself: {result.look}" if result.look else ""
+        lines.append(f"{MARGIN}handout {result.section}{see}")
+    return lines
+
+
+def heading(outcome):
+    """The line above an exercise."""
+    return f"{outcome.id} {EXERCISES[outcome.id]}"
+
+
+def summary(outcomes):
+    """The last line."""
+    done = sum(outcome.passed for outcome in outcomes)
+    return f"{done} of {len(outcomes)} exercises done"
+
+
+def text_of(outcomes, hints=True):
+    """The whole report without colours."""
+    lines = []
+    for outcome in outcomes:
+        lines.append(heading(outcome))
+        for result in outcome.results:
+            lines += lines_of(result, hints)
+    return "\n".join([*lines, summary(outcomes)]) + "\n"
+
+
+class Terminal:
+    """Prints results as they come, with a line of what is done now where there is a terminal."""
+
+    def __init__(self, hints=True, out=None):
+        self._out = out or sys.stdout
+        self._hints = hints
+        self._heading = None
+        self.is_terminal = self._out.isatty()
+        self._has_colour = self.is_terminal and "NO_COLOR" not in os.environ
+
+    def busy(self, words):
+        """A line that the next one replaces."""
+        if self.is_terminal:
+            self._out.write(f"\r\x1b[K{words} ...")
+            self._out.flush()
+
+    def done(self):
+        """Take that line away."""
+        if self.is_terminal:
+            self._out.write("\r\x1b[K")
+            self._out.flush()
+
+    def tell(self, outcome, result):
+        """One result."""
+        self.done()
+        if self._heading != outcome.id:
+            self._heading = outcome.id
+            print(heading(outcome), file=self._out)
+        first, *rest = lines_of(result, self._hints)
+        if self._has_colour:
+            first = f"\x1b[{COLOURS[result.status]}m{first}\x1b[0m"
+        print("\n".join([first, *rest]), file=self._out, flush=True)
+        self.busy(f"  checking {outcome.id}")

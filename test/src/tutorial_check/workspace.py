@@ -1,0 +1,193 @@
+"""The student's workspace: found, unpacked, copied. Needs no ROS but catkin_pkg."""
+
+import os
+import shutil
+import stat
+import zipfile
+from dataclasses import dataclass, field
+from pathlib import Path
+from xml.parsers.expat import ExpatError
+
+from catkin_pkg.package import InvalidPackage, parse_package
+
+from tutorial_check.model import CannotCheck
+
+MOST_BYTES = 300 << 20  # of a workspace's sources; bags included
+MOST_FILES = 20_000
+LEFT_OUT = {".git", "build", "devel", "install", "__pycache__", ".catkin_tools", "logs"}
+
+
+@dataclass
+class Package:
+    """A folder with a package.xml."""
+
+    folder: Path  # in the copy
+    inside: str  # its path within the workspace, for the student
+    name: str = ""
+    error: str = ""  # why package.xml cannot be read
+    depends: set = field(default_factory=set)  # for building or running
+    warnings: list = field(default_factory=list)
+
+
+@dataclass
+class Layout:
+    """Where the sources of a workspace are."""
+
+    root: Path  # what the student handed in
+    source: Path  # its src folder, or the folder of packages itself
+    is_workspace: bool  # there is a src
+
+
+def unpack(archive, folder):
+    """Unpack a zip into a folder. Raises CannotCheck, also for one with a path outside."""
+    try:
+        with zipfile.ZipFile(archive) as opened:
+            members = opened.infolist()
+            if (
+                sum(member.file_size for member in members) > MOST_BYTES
+                or len(members) > MOST_FILES
+            ):
+                raise CannotCheck(f"{archive}: unpacked it is larger than {MOST_BYTES >> 20} MB")
+            for member in members:
+                path = Path(member.filename.replace("\\", "/"))
+                if path.is_absolute() or ".." in path.parts:
+                    raise CannotCheck(f"{archive}: has a path outside of itself: {member.filename}")
+                if stat.S_ISLNK(member.external_attr >> 16):
+                    continue
+                target = Path(opened.extract(member, folder))
+                mode = (member.external_attr >> 16) & 0o777
+                if target.is_file():
+                    # One made on Windows knows no rights; then chmod +x cannot be judged.
+                    target.chmod((mode or 0o755) | 0o600)
+    except (zipfile.BadZipFile, OSError, RuntimeError, NotImplementedError) as error:
+        raise CannotCheck(f"{archive}: cannot be unpacked: {error}") from None
+
+
+def find_layout(folder):
+    """The Layout of what was handed in: a workspace, its src, a folder of packages, or one."""
+    folder = Path(folder)
+    if not folder.exists():
+        raise CannotCheck(f"{folder}: no such folder")
+    if not folder.is_dir():
+        raise CannotCheck(f"{folder}: neither a folder nor a zip")
+    try:
+        for candidate in (folder, *_only_child(folder)):
+            if (candidate / "src").is_dir() and not (candidate / "package.xml").exists():
+                return Layout(candidate, candidate / "src", True)
+            if any(candidate.glob("*/package.xml")):
+                return Layout(candidate, candidate, False)
+            if (candidate / "package.xml").exists():
+                return Layout(candidate.parent, candidate, False)
+    except PermissionError as error:
+        raise CannotCheck(f"{error.filename}: may not be read") from None
+    return Layout(folder, folder / "src", True)
+
+
+def _only_child(folder):
+    """A zip often has one folder around everything; two at most."""
+    for _ in range(2):
+        inner = [
+            each for each in folder.iterdir() if each.is_dir() and each.name not in ("__MACOSX",)
+        ]
+        if len(inner) != 1:
+            return
+        folder = inner[0]
+        yield folder
+
+
+def copy(layout, target):
+    """Copy the sources to target/src. Raises CannotCheck for what cannot be read or is too large."""
+    target = Path(target) / "src"
+    target.mkdir(parents=True)
+    if not layout.source.is_dir():
+        return target
+    if (layout.source / "package.xml").exists():
+        _copy(layout.source, target / layout.source.name, [0, 0, os.path.realpath(target)], set())
+    else:
+        _copy(layout.source, target, [0, 0, os.path.realpath(target)], set())
+    return target
+
+
+def _copy(source, target, so_far, seen):
+    real = os.path.realpath(source)
+    if real in seen or real == so_far[2]:
+        return  # a link to a folder above, or the copy itself
+    target.mkdir(exist_ok=True)
+    try:
+        entries = sorted(os.scandir(source), key=lambda entry: entry.name)
+    except PermissionError:
+        raise CannotCheck(f"{source}: may not be read; chmod -R u+rX would help") from None
+    for entry in entries:
+        if entry.name in LEFT_OUT:
+            continue
+        try:
+            if entry.is_dir():
+                _copy(Path(entry.path), target / entry.name, so_far, seen | {real})
+            elif entry.is_file():
+                so_far[0] += entry.stat().st_size
+                so_far[1] += 1
+                if so_far[0] > MOST_BYTES or so_far[1] > MOST_FILES:
+                    raise CannotCheck(
+                        f"{source}: more than {MOST_BYTES >> 20} MB or {MOST_FILES} files"
+                    )
+                shutil.copy2(entry.path, target / entry.name)
+        except PermissionError:
+            raise CannotCheck(f"{entry.path}: may not be read; chmod -R u+rX would help") from None
+
+
+def packages_below(folder):
+    """Every package in a folder, with what is wrong with it, in the order of their paths."""
+    found = []
+    for place, folders, files in os.walk(folder):
+        folders[:] = sorted(
+            each for each in folders if each not in LEFT_OUT and not each.startswith(".")
+        )
+        if "CATKIN_IGNORE" in files:
+            folders.clear()
+        elif "package.xml" in files:
+            found.append(read_package(Path(place), folder))
+    return found
+
+
+def read_package(place, root):
+    """The Package in a folder."""
+    package = Package(place, os.path.relpath(place, root))
+    try:
+        parsed = parse_package(str(place), warnings=package.warnings)
+    except (InvalidPackage, ExpatError, OSError, ValueError, UnicodeError) as error:
+        package.error = " ".join(str(error).split())
+        package.name = place.name
+        return package
+    package.name = parsed.name
+    parsed.evaluate_conditions({"ROS_PYTHON_VERSION": "3", "ROS_VERSION": "1"})
+    package.depends = {
+        each.name
+        for each in (*parsed.build_depends, *parsed.exec_depends, *parsed.build_export_depends)
+    }
+    return package
+
+
+def underlays(devel):
+    """(folder for which a devel space was made, CMAKE_PREFIX_PATH it was laid over), or None."""
+    import ast  # noqa: PLC0415
+
+    try:
+        text = (Path(devel) / "_setup_util.py").read_text(errors="replace")
+        setup = (Path(devel) / "setup.sh").read_text(errors="replace")
+    except OSError:
+        return None
+    below = []
+    for line in text.splitlines():
+        # Written by catkin: CMAKE_PREFIX_PATH = r'/a;/b'.split(';')
+        words = line.strip()
+        if words.startswith("CMAKE_PREFIX_PATH = "):
+            below = ast.literal_eval(words.split(" = ", 1)[1].split(".split")[0]).split(";")
+    made_for = next(
+        (
+            line.split(":=", 1)[1].rstrip("} \t")
+            for line in setup.splitlines()
+            if "_CATKIN_SETUP_DIR:=" in line
+        ),
+        "",
+    )
+    return made_for, [each for each in below if each]

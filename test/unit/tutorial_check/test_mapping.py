@@ -1,0 +1,80 @@
+"""From pairs of Joy and Twist to the rule, in words."""
+
+import pytest
+
+from tutorial_check.mapping import judge, numbered_joys
+
+AXES = [axes for axes, _ in numbered_joys(20)]
+
+
+def samples(linear, angular, extra=None):
+    return [
+        (a, (linear(a), (extra or (lambda a: 0.0))(a), 0.0, 0.0, 0.0, angular(a))) for a in AXES
+    ]
+
+
+def test_no_two_joys_are_alike_and_lb_is_held():
+    joys = numbered_joys(20)
+    assert len({axes for axes, _ in joys}) == 20
+    assert all(buttons[4] == 1 and sum(buttons) == 1 for _, buttons in joys)
+    for axes in AXES:
+        assert len({round(abs(axis), 2) for axis in axes}) == 6
+    assert {(a[0] > 0, a[1] > 0) for a in AXES} == {
+        (p, q) for p in (True, False) for q in (True, False)
+    }
+
+
+@pytest.mark.parametrize(
+    "linear, angular",
+    [
+        (lambda a: a[1], lambda a: a[0]),
+        (lambda a: 0.5 * a[1], lambda a: 2.0 * a[0]),
+        (lambda a: a[1] if abs(a[1]) > 0.35 else 0.0, lambda a: a[0]),
+        (lambda a: max(-0.5, min(0.5, a[1])), lambda a: a[0]),
+    ],
+)
+def test_right(linear, angular):
+    assert judge(samples(linear, angular)) == ("", "")
+
+
+def test_a_curve_is_a_remark():
+    complaint, remark = judge(samples(lambda a: a[1] ** 3, lambda a: a[0]))
+    assert not complaint
+    assert "linear.x" in remark
+
+
+@pytest.mark.parametrize(
+    "linear, angular, word",
+    [
+        (lambda a: a[0], lambda a: a[1], "swapped"),
+        (lambda a: a[1], lambda a: -a[0], "angular.z = -1.00 * axes[0]"),
+        (lambda a: -a[1], lambda a: a[0], "linear.x = -1.00 * axes[1]"),
+        (lambda a: a[2], lambda a: a[0], "axes[2]"),
+        (lambda a: 0.0, lambda a: a[0], "linear.x is always 0"),
+        (lambda a: 0.0, lambda a: 0.0, "every Twist is zero"),
+        (lambda a: abs(a[1]), lambda a: a[0], "lost the sign"),
+        (lambda a: float(int(3 * a[1])), lambda a: a[0], "whole numbers"),
+        (lambda a: a[1] + 0.1, lambda a: a[0], "+ 0.10"),
+        (lambda a: a[1] + a[0], lambda a: a[0], "no constant"),
+    ],
+)
+def test_wrong(linear, angular, word):
+    complaint, hint = judge(samples(linear, angular))
+    assert word in complaint
+    assert hint
+
+
+def test_the_wrong_field():
+    complaint, _ = judge(samples(lambda a: a[1], lambda a: 0.0, lambda a: a[0]))
+    assert complaint == "linear.y follows axes[0], angular.z stays 0"
+
+
+def test_a_field_too_many():
+    complaint, _ = judge(samples(lambda a: a[1], lambda a: a[0], lambda a: a[0]))
+    assert complaint == "linear.y follows axes[0]"
+
+
+def test_one_message_late():
+    right = samples(lambda a: a[1], lambda a: a[0])
+    late = [(axes, before[1]) for (axes, _), before in zip(right[1:], right)]
+    assert "message late" in judge(late)[0]

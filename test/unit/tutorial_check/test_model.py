@@ -1,0 +1,98 @@
+"""The order of checks: none without its ground, none twice, one cause told once."""
+
+import pytest
+
+from tutorial_check.model import (
+    NOTE,
+    OK,
+    UNREACHED,
+    WRONG,
+    Catalogue,
+    Check,
+    Note,
+    Run,
+    Wrong,
+    passed,
+)
+
+CHECKS = (
+    Check("A", "1", "a", "1"),
+    Check("B", "1", "b", "1", ("A",)),
+    Check("C", "2", "c", "2", ("B",)),
+)
+
+
+def wrong(seen="bad", where="f:1"):
+    def check(session):
+        raise Wrong("good", seen, where)
+
+    return check
+
+
+def run(**functions):
+    called = []
+
+    def counted(name, function):
+        def call(session):
+            called.append(name)
+            return function(session)
+
+        return call
+
+    named = {name: functions.get(name, lambda session: None) for name in "ABC"}
+    return Run(Catalogue(CHECKS, {n: counted(n, f) for n, f in named.items()}), None), called
+
+
+def statuses(results):
+    return [(result.id, result.status) for result in results]
+
+
+def test_all_well():
+    one, called = run(B=lambda session: Note("odd"))
+    results = one.exercise("1")
+    assert statuses(results) == [("A", OK), ("B", NOTE)]
+    assert passed(results)
+    one.exercise("1")
+    assert called == ["A", "B"]
+
+
+def test_what_stands_on_something_wrong_is_not_reached():
+    one, called = run(A=wrong())
+    results = one.exercise("1")
+    assert statuses(results) == [("A", WRONG), ("B", UNREACHED)]
+    assert called == ["A"]
+    assert "A" in results[1].seen
+    assert not passed(results)
+
+
+def test_the_culprit_of_an_earlier_exercise_is_told_with_the_later_one():
+    one, _ = run(A=wrong())
+    assert statuses(one.exercise("2")) == [("A", WRONG), ("C", UNREACHED)]
+
+
+def test_it_is_told_once():
+    one, _ = run(A=wrong())
+    one.exercise("1")
+    assert statuses(one.exercise("2")) == [("C", UNREACHED)]
+
+
+def test_one_cause_is_one_result():
+    checks = (
+        Check("A", "1", "a", "1"),
+        Check("B", "1", "b", "1"),
+        Check("C", "1", "c", "1", ("B",)),
+    )
+    called = []
+    one = Run(Catalogue(checks, {"A": wrong(), "B": wrong(), "C": called.append}), None)
+    assert statuses(one.exercise("1")) == [("A", WRONG), ("B", UNREACHED), ("C", UNREACHED)]
+    assert not called
+
+
+def test_it_can_end_at_the_first():
+    one, _ = run(A=wrong())
+    assert statuses(one.exercise("1", only_first=True)) == [("A", WRONG)]
+
+
+def test_each_check_has_its_function():
+    with pytest.raises(ValueError, match="B"):
+        Catalogue(CHECKS[:2], {"A": None})

@@ -1,0 +1,58 @@
+"""What a program says of itself without being run."""
+
+from tutorial_check.python_facts import flipped_anonymous, read_python, unmasked
+
+PROGRAM = """
+import rospy
+class Node(object):
+    def __init__(self):
+        rospy.init_node("a", anonymous=False)
+        rospy.Subscriber("/joy", Joy, self.callback)
+    def callback(self, data): pass
+class Odd(Exception): pass
+if __name__ == "__main__":
+    try:
+        Node()
+    except:
+        pass
+    rospy.spin
+"""
+
+
+def test_facts():
+    facts = read_python(PROGRAM)
+    assert [one.name for one in facts.classes if one.is_node] == ["Node"]
+    assert facts.classes[0].instantiated
+    assert facts.classes[0].methods == ["__init__", "callback"]
+    assert facts.first("Subscriber").words == ["/joy", "Joy", "self.callback"]
+    assert facts.first("init_node").names == {"anonymous": "False"}
+    assert facts.has_main
+    assert facts.broad_excepts == [12]
+    assert facts.bare_names == [(14, "rospy.spin")]
+
+
+def test_a_syntax_error_has_its_line():
+    facts = read_python("import rospy\nfrom std msgs.msg import String\n")
+    assert facts.error_line == 2
+    assert facts.error_text == "from std msgs.msg import String"
+
+
+def test_null_bytes_are_an_error_and_no_crash():
+    assert read_python("a\0b").error
+
+
+def test_unmasked():
+    shown = unmasked(PROGRAM)
+    assert "    except:\n        raise\n        pass" in shown
+    assert unmasked("x = 1\n") is None
+    assert unmasked("def (") is None
+
+
+def test_flipped_anonymous():
+    assert 'init_node("a", anonymous=True)' in flipped_anonymous(PROGRAM, True)
+    assert (
+        flipped_anonymous('rospy.init_node("é")\n', True)
+        == 'rospy.init_node("é", anonymous=True)\n'
+    )
+    assert flipped_anonymous("rospy.init_node(name, anonymous=choice)", True) is None
+    assert flipped_anonymous("x = 1", True) is None

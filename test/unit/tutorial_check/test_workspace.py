@@ -1,0 +1,112 @@
+"""Finding, unpacking and copying what a student hands in."""
+
+import zipfile
+
+import pytest
+
+from tutorial_check import workspace
+from tutorial_check.exercises.driving import displayed
+from tutorial_check.mapping import numbered_joys
+from tutorial_check.model import CannotCheck
+
+XML = """<package format="2"><name>{}</name><version>0.0.0</version><description>x</description>
+<maintainer email="a@b.example">a</maintainer><license>x</license>
+<depend>rospy</depend></package>"""
+
+
+def package(folder, name="joy2twist"):
+    folder.mkdir(parents=True)
+    (folder / "package.xml").write_text(XML.format(name))
+    return folder
+
+
+@pytest.mark.parametrize(
+    "place", ["src/joy2twist", "joy2twist", "ada/src/joy2twist", "ada/joy2twist"]
+)
+def test_a_workspace_is_found(tmp_path, place):
+    package(tmp_path / place)
+    layout = workspace.find_layout(tmp_path)
+    copied = workspace.copy(layout, tmp_path / "copy")
+    assert [each.name for each in workspace.packages_below(copied)] == ["joy2twist"]
+
+
+def test_the_package_itself(tmp_path):
+    package(tmp_path / "joy2twist")
+    copied = workspace.copy(workspace.find_layout(tmp_path / "joy2twist"), tmp_path / "copy")
+    assert (copied / "joy2twist" / "package.xml").exists()
+
+
+def test_an_empty_folder_has_no_package(tmp_path):
+    (tmp_path / "ws").mkdir()
+    layout = workspace.find_layout(tmp_path / "ws")
+    assert workspace.packages_below(workspace.copy(layout, tmp_path / "copy")) == []
+
+
+def test_broken_xml_has_a_reason(tmp_path):
+    (package(tmp_path / "src" / "joy2twist") / "package.xml").write_text(
+        "<package><name></package>"
+    )
+    (found,) = workspace.packages_below(tmp_path / "src")
+    assert "mismatched tag" in found.error
+
+
+def test_a_link_to_a_folder_above_ends(tmp_path):
+    package(tmp_path / "src" / "joy2twist")
+    (tmp_path / "src" / "joy2twist" / "again").symlink_to(tmp_path / "src")
+    copied = workspace.copy(workspace.find_layout(tmp_path), tmp_path / "copy")
+    assert not (copied / "joy2twist" / "again" / "joy2twist" / "again" / "joy2twist").exists()
+
+
+def test_a_dangling_link_is_left_out(tmp_path):
+    (package(tmp_path / "src" / "joy2twist") / "gone").symlink_to(tmp_path / "nowhere")
+    copied = workspace.copy(workspace.find_layout(tmp_path), tmp_path / "copy")
+    assert (copied / "joy2twist" / "package.xml").exists()
+
+
+@pytest.mark.parametrize("name", ["../evil.txt", "/evil.txt", "a/../../evil.txt", "..\\evil.txt"])
+def test_a_zip_with_a_path_outside(tmp_path, name):
+    with zipfile.ZipFile(tmp_path / "a.zip", "w") as opened:
+        opened.writestr(name, "x")
+    with pytest.raises(CannotCheck, match="outside"):
+        workspace.unpack(tmp_path / "a.zip", tmp_path / "out")
+    assert not (tmp_path / "evil.txt").exists()
+
+
+def test_no_zip(tmp_path):
+    (tmp_path / "a.zip").write_text("x")
+    with pytest.raises(CannotCheck, match="cannot be unpacked"):
+        workspace.unpack(tmp_path / "a.zip", tmp_path / "out")
+
+
+def test_rights_survive_a_zip(tmp_path):
+    with zipfile.ZipFile(tmp_path / "a.zip", "w") as opened:
+        for name, mode in (("run.py", 0o755), ("forgotten.py", 0o644)):
+            info = zipfile.ZipInfo(name)
+            info.external_attr = mode << 16
+            opened.writestr(info, "x")
+    workspace.unpack(tmp_path / "a.zip", tmp_path / "out")
+    assert (tmp_path / "out" / "run.py").stat().st_mode & 0o100
+    assert not (tmp_path / "out" / "forgotten.py").stat().st_mode & 0o100
+
+
+def test_too_large(tmp_path, monkeypatch):
+    monkeypatch.setattr(workspace, "MOST_BYTES", 10)
+    package(tmp_path / "src" / "joy2twist")
+    with pytest.raises(CannotCheck, match="more than"):
+        workspace.copy(workspace.find_layout(tmp_path), tmp_path / "copy")
+
+
+@pytest.mark.parametrize(
+    "shape",
+    [
+        "[{:.2f}, {:.2f},{:.2f},{:.2f},{:.2f},{:.2f}]",
+        "{:.4f} {:.4f} {:.4f} {:.4f} {:.4f} {:.4f} buttons 0 1",
+    ],
+)
+def test_displayed(shape):
+    joys = numbered_joys(20)
+    lines = "\n".join(
+        f"[INFO] [1700000000.1]: /listener: {shape.format(*axes)}" for axes, _ in joys[3:9]
+    )
+    assert displayed(joys, lines) == joys[3:9]
+    assert displayed(joys, lines.replace(",", "\n").replace(" ", "\n")) == []
