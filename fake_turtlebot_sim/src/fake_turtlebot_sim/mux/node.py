@@ -71,8 +71,8 @@ class CmdVelMux:
                 return
             verdict = self._arbiter.command(name, velocity, now, sender)
             if verdict is Verdict.OBEYED and not self._has_ended:
-                # A stick that is held does not move a robot that was lost or is new; whoever drives
-                # by himself does.
+                # A stick that is held does not move a robot that was lost or is new; a program
+                # that drives does.
                 if self._output.holds and (velocity == ZERO or not self._arbiter.rearms(name)):
                     self._output.free()
                 self._output.publish(velocity)
