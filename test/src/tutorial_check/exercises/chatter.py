@@ -115,7 +115,8 @@ def talker(session):
                 PACKAGE,
                 program,
                 expected,
-                hint or "does the last line call talker(), and does it loop?",
+                hint
+                or "does the last line call talker(), and does it loop: while not rospy.is_shutdown()?",
             )
         topics = sorted(topic for topic in talk.publishers if topic not in (TOPIC, "/rosout"))
         if (
