@@ -53,7 +53,7 @@ RULES = {
 
 
 def check(name, value):
-    """Raises ValueError with one line if an argument's value will not do."""
+    """Raise ValueError with one line if an argument's value will not do."""
     try:
         RULES[name](value)
     except ValueError as error:

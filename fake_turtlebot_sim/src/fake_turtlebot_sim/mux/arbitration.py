@@ -53,7 +53,7 @@ class Arbiter:
     def command(self, name, velocity, now, sender=""):
         """Return the Verdict on a velocity (numbers, whatever their units) that came now [s].
 
-        The sender tells apart who speaks on one input, as to whether his commands may be late.
+        The sender tells apart what speaks on one input, as to whether its commands may be late.
         """
         if not all(map(isfinite, velocity)):
             return Verdict.REJECTED  # and the timeout runs on

@@ -69,8 +69,8 @@ class CmdVelMux:
                 return
             verdict = self._arbiter.command(name, velocity, now, sender)
             if verdict is Verdict.OBEYED and not self._has_ended:
-                # A stick that is held does not move a robot that was lost or is new; whoever drives
-                # by himself does.
+                # A stick that is held does not move a robot that was lost or is new; a program
+                # that drives does.
                 is_stick = self._arbiter.rearms(name)
                 if self._output.holds and (velocity == ZERO or not is_stick):
                     self._output.free()

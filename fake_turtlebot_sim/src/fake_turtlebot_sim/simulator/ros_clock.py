@@ -62,7 +62,7 @@ class Instant(NamedTuple):
 
 
 class Motion:
-    """Guards the motion of all robots: whoever holds it has them, and the present, to himself."""
+    """Guards the motion of all robots: who holds it has them, and the present, alone."""
 
     def __init__(self, clock):
         """Take a RealClock or a SimulatedClock."""

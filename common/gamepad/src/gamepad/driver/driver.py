@@ -57,7 +57,7 @@ class Driver:
         self._lifeless_at = math.inf
 
     def read(self, data, now):
-        """Bytes came from the gamepad; returns the messages to publish, oldest first."""
+        """Take bytes that came from the gamepad; return the messages to publish, oldest first."""
         messages = []
         for event in self._decoder.feed(data):
             self.events += 1

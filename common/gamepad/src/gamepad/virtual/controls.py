@@ -45,7 +45,7 @@ def positions(gamepad, controls):
 
 
 def check_controls(controls, mode):
-    """Raises ValueError, one line, if a position is out of range or a button is not there."""
+    """Raise ValueError, one line, if a position is out of range or a button is not there."""
     for name, low in (("left_stick", -1), ("right_stick", -1), ("dpad", -1), ("triggers", 0)):
         value = getattr(controls, name)
         numbers = [v for v in value if isinstance(v, (int, float)) and low <= v <= 1]

@@ -82,7 +82,7 @@ def launch_arguments(launch_file, arguments):
 
 
 def check_bag(path):
-    """Raises DemoError unless the file is a bag that can be played and holds joystick messages."""
+    """Raise DemoError unless the file is a bag that can be played and holds joystick messages."""
     try:
         with rosbag.Bag(str(path)) as bag:
             count = bag.get_message_count("/joy")
@@ -97,7 +97,7 @@ def check_bag(path):
 
 
 def check_master():
-    """Raises DemoError if another program answers where the ROS master is expected."""
+    """Raise DemoError if another program answers where the ROS master is expected."""
     uri = rosgraph.get_master_uri()
     try:
         host, port = rosgraph.network.parse_http_host_and_port(uri)
@@ -116,7 +116,7 @@ def check_master():
 
 
 def check_nodes(nodes):
-    """Raises DemoError if nodes run that the launch would end, or that send on its topics.
+    """Raise DemoError if nodes run that the launch would end, or that send on its topics.
 
     Those that have died are no hindrance, although the master still knows them.
     """

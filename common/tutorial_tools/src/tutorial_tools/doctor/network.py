@@ -1,6 +1,6 @@
 """Questions to the network that always end in time.
 
-No rospy here: a node of it may wait for a master, or for a name, without an end.
+No rospy here: a node of it may wait for a master, or for a name, for ever.
 """
 
 import itertools
