@@ -1,4 +1,4 @@
-"""Who reads a launch file: only where its nodes will be started on the master of all, it matters."""
+"""Who reads a launch file: it matters only where the nodes will be started on the master of all."""
 
 import pytest
 

@@ -29,7 +29,7 @@ def serve():
         for name, method in methods.items():
             server.register_function(method, name)
         threading.Thread(target=server.serve_forever, daemon=True).start()
-        return "http://127.0.0.1:%d" % server.server_address[1]
+        return f"http://127.0.0.1:{server.server_address[1]}"
 
     yield start
     for server in servers:
