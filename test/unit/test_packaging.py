@@ -1,5 +1,6 @@
 """What holds for every package: catkin's rules, versions, and that one file leads to the others."""
 
+import os
 import re
 import shutil
 import subprocess
@@ -39,3 +40,11 @@ def test_every_launch_argument_is_explained(package):
             assert arg.get("doc"), f"{launch.name}: {arg.get('name')}"
             explained = (REPOSITORY / package / "README.md").read_text()
             assert f"`{arg.get('name')}`" in explained, f"{launch.name}: {arg.get('name')}"
+
+
+def test_links_lead_to_files_of_this_repository():
+    links = [path for path in REPOSITORY.rglob("*") if path.is_symlink()]
+    assert links  # the recording and the view, which stand in two packages
+    for link in links:
+        assert not os.readlink(link).startswith("/"), link
+        assert REPOSITORY in link.resolve(strict=True).parents
