@@ -11,6 +11,7 @@ from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from std_msgs.msg import Empty, String
 
+from node_kit.questions import call
 from tutorial_testing.waiting import wait_for
 
 # Topic: (type, node that publishes it, node that subscribes to it).
@@ -26,6 +27,13 @@ TOPICS = {
     "/joint_states": ("sensor_msgs/JointState", "/mobile_base", None),
     "/tf": ("tf2_msgs/TFMessage", "/mobile_base", None),
 }
+
+
+def mux_has_its_base():
+    """Whether the base is connected to the mux."""
+    uri = call(rosgraph.get_master_uri(), "lookupNode", "/cmd_vel_mux")[1]
+    links = call(uri, "getBusInfo")[1] or []
+    return any(link[4] == "/mobile_base/commands/velocity" for link in links)
 
 
 class MinimalTest(unittest.TestCase):
@@ -59,6 +67,8 @@ class MinimalTest(unittest.TestCase):
         for publisher in (teleop, safety, reset):
             wait_for(publisher.get_num_connections, f"subscriber of {publisher.name}")
         wait_for(lambda: odometry and active, "first messages")
+        # Who comes in the middle of a motion would be held, and so would a base that starts late.
+        wait_for(mux_has_its_base, "connection of mux and base")
 
         def is_driven(name, speed):
             return active[-1] == name and odometry[-1].twist.twist.linear.x == speed
