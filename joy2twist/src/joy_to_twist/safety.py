@@ -74,12 +74,12 @@ class Safety:
     def drive(self, velocity, neutral, now, sender=None):
         """A good message asks for this velocity; None: its dead-man button is released.
 
-        neutral: whether its sticks are released. sender: tells one from another.
+        neutral: whether its sticks are released. sender: an object, which tells one from another.
         """
         stop = None
         if now >= self._silent_at:  # and tick() was not called in time
             stop = self.lost(self._silence, now)
-        elif sender != self._sender and self._parameters.arm_on_neutral:
+        elif sender is not self._sender and self._parameters.arm_on_neutral:
             stop = self.lost(ANOTHER, now)
         if stop is not None and not self._parameters.arm_on_neutral:
             return stop  # the next message is in time again

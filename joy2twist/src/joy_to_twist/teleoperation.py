@@ -41,8 +41,8 @@ class Teleoperation:
     def joy(self, axes, buttons, now, age_ns=0, sender=None):
         """A joystick message came. Returns the velocity to send at once.
 
-        age_ns: [ns] since its stamp; ignored unless max_joy_age is set. sender: tells one joystick
-        node from another.
+        age_ns: [ns] since its stamp; ignored unless max_joy_age is set. sender: an object, which
+        tells one joystick node from another.
         """
         if self._resumption.is_old(now):
             return None

@@ -44,8 +44,8 @@ def sender_of(message):
 
 
 def connection_of(message):
-    """What tells the connection over which a message came from every other, as long as it lasts."""
-    return id(message._connection_header)
+    """An object that is the same (`is`) for all messages of one connection, and for no others."""
+    return message._connection_header
 
 
 def _greet_in_time(self, sock, client_addr):
