@@ -66,3 +66,9 @@ def test_a_robot():
 
 def test_only_arguments_with_a_rule_are_asked_for():
     assert set(RULES) == {"bag", "loop", "name", "rviz", "virtual"}
+
+
+def test_the_package_of_the_driver():
+    for value in ("gamepad", "joy", "another"):
+        check("joy_pkg", value)
+    assert "give joy or gamepad" in refused("joy_pkg", "joy2twist")

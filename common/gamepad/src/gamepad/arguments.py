@@ -32,6 +32,12 @@ def recording(value):
         raise ValueError("is no recording of rosbag")
 
 
+def driver(value):
+    """A package with a joy_node; it was in joy2twist once."""
+    if value == "joy2twist":
+        raise ValueError("joy_node is no longer there: leave joy_pkg out, or give joy or gamepad")
+
+
 def robot(value):
     """A robot of classroom.launch: its topics begin with its name, so it must be one for ROS."""
     if not value:
@@ -45,6 +51,7 @@ def robot(value):
 
 RULES = {
     "bag": recording,
+    "joy_pkg": driver,
     "loop": true_or_false,
     "name": robot,
     "rviz": true_or_false,
