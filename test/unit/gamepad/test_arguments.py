@@ -65,7 +65,7 @@ def test_a_robot():
 
 
 def test_only_arguments_with_a_rule_are_asked_for():
-    assert set(RULES) == {"bag", "loop", "name", "rviz", "virtual"}
+    assert set(RULES) == {"bag", "joy_pkg", "loop", "name", "rviz", "virtual"}
 
 
 def test_the_package_of_the_driver():
