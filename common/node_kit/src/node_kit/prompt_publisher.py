@@ -136,7 +136,7 @@ class VelocityPublisher(PromptPublisher):
             if is_cut:
                 self._warn(f"The network to {name} is cut: it is told to stop. {UNTIL_RELEASED}")
             else:
-                self._warn(f"{name} can be driven again.")
+                self._warn(f"{name} is back: it can be driven again.")
 
         if held:
             self._warn(f"{name} has come in the middle of a motion. {UNTIL_RELEASED}")
