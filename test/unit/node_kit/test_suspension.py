@@ -70,6 +70,18 @@ def test_a_stop_by_a_signal_is_noticed_however_short(clock):
     assert suspensions.number() == 1
 
 
+def test_the_clock_and_the_signal_tell_of_one(clock):
+    suspensions = Suspensions()
+    clock[0] += 3.0
+    assert suspensions.number() == 1
+    clock[0] += 0.01
+    signal.raise_signal(signal.SIGCONT)
+    assert suspensions.number() == 1
+    clock[0] += 0.2
+    signal.raise_signal(signal.SIGCONT)
+    assert suspensions.number() == 2
+
+
 def test_the_thread_keeps_looking():
     before = signal.getsignal(signal.SIGCONT)
     suspensions = Suspensions()

@@ -11,6 +11,8 @@ _BEAT_S = 0.1  # how often a thread of our own looks at the clock
 # A clock that has jumped further than this from one look to the next was not looked at by a busy
 # machine, but by a process that did not run. [s]
 _LONGEST_GAP_S = 0.5
+# The clock and the signal tell of one suspension within this time. [s]
+_SAME_S = 0.1
 
 
 class Suspensions:
@@ -20,6 +22,7 @@ class Suspensions:
         """SIGCONT, which ends every stop by a signal, is noticed however short the stop was."""
         self._lock = threading.Lock()
         self._number = 0
+        self._counted = -_SAME_S  # when
         self._looked = _now()
         signal.signal(signal.SIGCONT, self._on_continue)
         threading.Thread(target=self._beat, daemon=True).start()
@@ -31,12 +34,15 @@ class Suspensions:
             with self._lock:  # of several threads that notice it, one counts it
                 if now - self._looked > _LONGEST_GAP_S:
                     self._number += 1
-                    self._looked = now
+                    self._counted = self._looked = now
         return self._number
 
     def _on_continue(self, _number, _frame):
-        self._looked = _now()
-        self._number += 1
+        # Without the lock: this comes in the middle of whatever the main thread does.
+        now = self._looked = _now()
+        if now - self._counted > _SAME_S:
+            self._number += 1
+            self._counted = now
 
     def _beat(self):
         while True:
