@@ -35,5 +35,5 @@ def test_mistake(row, literal, floor, record_property):
 
 
 def test_there_are_enough():
-    """The issue asks for 80; a row that is twice there counts once."""
+    """A row that is twice there counts once."""
     assert len({(row[0], row[1]) for row in ROWS}) == len(ROWS) >= 80
