@@ -163,12 +163,6 @@ class StartTest(unittest.TestCase):
         with joy2twist(ROS_MASTER_URI="nonsense") as node:
             self.check_line(node, "'nonsense'", "http://localhost:11311")
 
-    def test_no_master_is_one_line_for_the_earlier_versions(self):
-        for script in ("display_joy.py", "publish_twist.py"):
-            with Program("rosrun", "joy2twist", script, ROS_MASTER_URI=NOWHERE) as node:
-                self.assertEqual(node.wait(), 1)
-                self.assertRegex(node.output, "^no ROS master at .*roscore\n$")
-
     def test_the_mapping_is_said_in_words(self):
         with joy2twist("_scale_linear:=0.7", "_enable_button:=4", "__name:=words") as node:
             wait_for(lambda: "axis 0" in node.output, "mapping")
