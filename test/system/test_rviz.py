@@ -25,6 +25,7 @@ TRAIL_PIXELS = 1200 if "TUTORIAL_PICTURE" in os.environ else 200
 TRAIL = (255, 85, 0)  # colour of the odometry's arrows in sim.rviz
 # Straight from above, at 100 pixels a metre; a ground of a colour that nothing else has.
 SCALE, GROUND = 100, (20, 40, 250)
+LOOKS, NEAR_M = 30, 0.5  # how often it is looked, and how far the robot may drive meanwhile
 ROBOT_RADIUS_M = 0.178
 CLASS = 30  # robots
 DARK, GREY = 90, 25  # a body: no channel is brighter, and all are alike within
@@ -126,14 +127,21 @@ def robot_on(pixels):
 def test_rviz_shows_the_robot_where_odom_says(show, screen, tutorial, tmp_path):
     show(seen_from_above(tmp_path))
     wait_for(lambda: robot_on(picture(screen)), "robot on the screen", START_S)
-    for _ in range(3):  # the tour goes on meanwhile: three different places
+    judged = 0
+    for _ in range(LOOKS):  # the tour goes on meanwhile
         before = odometry(tutorial)
         seen = robot_on(picture(screen))
         after = odometry(tutorial)
         print(f"odom {before}, seen {seen}, odom {after}")
+        if math.dist(before, after) > NEAR_M:
+            continue  # a busy machine took so long to ask that the way between was no straight one
+        judged += 1
         # On the way between the two, give or take a part of the robot: RViz draws a little late.
         detour = math.dist(before, seen) + math.dist(seen, after) - math.dist(before, after)
         assert detour < ROBOT_RADIUS_M
+        if judged == 3:
+            return
+    assert judged, "the robot never stood still enough to be judged"
 
 
 def solid(mask):

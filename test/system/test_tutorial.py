@@ -48,7 +48,7 @@ def refuse(*command):
         (["frobnicate"], 'tutorial: "frobnicate" is not a word'),
         (
             ["test", "everything"],
-            'test: "everything" is not unit, ros, system, kernel or exercises',
+            'test: "everything" is not unit, ros, system, kernel or',
         ),
         (["setup", "moon"], 'setup: "moon" is not system or workspace'),
         (["bench", "moon"], 'bench: "moon" has no folder'),
