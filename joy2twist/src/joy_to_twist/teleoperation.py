@@ -58,7 +58,13 @@ class Teleoperation:
             return self._safety.reject(now)
         if not self._knows_gamepad:
             self._look_at_gamepad(axes)
-        return self._safety.drive(velocity, self._mapping.is_neutral(axes), now, sender)
+        # Only what arms, or frees a robot that was lost, is looked at this closely.
+        p = self._parameters
+        matters = p.arm_on_neutral and (
+            velocity is None or not p.require_enable_button or not self._safety.armed
+        )
+        neutral = matters and self._mapping.is_neutral(axes)
+        return self._safety.drive(velocity, neutral, now, sender)
 
     def suspended(self, number, now):
         """This node was suspended so many times so far. Returns the velocity to send at once."""
