@@ -344,3 +344,7 @@ def test_after_a_loss_it_is_no_longer_lifeless():
     assert not one.is_lifeless(3.0)
     one.opened((), False)
     assert not one.is_lifeless(1e9)
+
+
+def test_a_lifeless_source_is_lost_before_joy2twist_hears_silence_and_not_for_a_late_sign():
+    assert 0.3 < LONGEST_LIFELESS_S < 0.5  # two signs of virtual_joystick; joy2twist's ~joy_timeout
