@@ -146,7 +146,7 @@ class Session:
 
     @property
     def environment(self):
-        """In which the student's programs find his packages before all others, and nobody else's."""
+        """In which the student's programs find their packages before all others, and nobody else's."""
         return self.memo("environment", self._environment)
 
     def _environment(self):
