@@ -17,7 +17,7 @@ from sensor_msgs.msg import Joy
 
 from node_kit.questions import call
 from tutorial_testing.processes import Program
-from tutorial_testing.rig import BASE, DRIVER
+from tutorial_testing.rig import BASE, DRIVER, MUX
 from tutorial_testing.waiting import BUSY_S, DEADLINE_S, wait_for
 
 LB, FORWARD = [0] * 4 + [1] + [0] * 7, [0.0, 1.0, 0.0, 0.0, 0.0, 0.0]
@@ -86,7 +86,10 @@ class FaultsOfThePeers(unittest.TestCase):
         wait_for(lambda: not self.velocities[-1].linear.x, "zero")
         del self.velocities[:]
         with Program("/usr/bin/python3", "-c", SECOND_JOYSTICK) as second:
-            wait_for(lambda: "sent 50" in second.output, "second joystick")
+            # The first one goes on, so that it is not its silence that disarms.
+            wait_for(
+                lambda: first.publish(NEUTRAL) or "sent 50" in second.output, "second joystick"
+            )
             self.assertEqual([v.linear.x for v in self.velocities if v.linear.x], [])
 
     def test_a_message_that_cannot_be_read_makes_nobody_deaf(self):
@@ -126,8 +129,11 @@ class FaultsOfThePeers(unittest.TestCase):
         self.joy2twist()
         simulator = Program("rosrun", "fake_turtlebot_sim", "fake_turtlebot.py")
         self.addCleanup(simulator.__exit__)
+        mux = Program(*MUX_COMMAND[:-1])  # with its output under its own name
+        self.addCleanup(mux.__exit__)
         for node, topic, kind in (
             (DRIVER, "/cmd_vel", Twist),
+            (MUX, "/cmd_vel_mux/output", Twist),
             (BASE, "/odom", Odometry),
         ):
             way = wait_for(lambda node=node, topic=topic: way_to(node, topic), topic)
