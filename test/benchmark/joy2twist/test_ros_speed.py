@@ -30,7 +30,7 @@ LOADS = {50: 250, 1000: 4000}  # rate [Hz]: messages
 ROUNDS = 3
 # Its odometry comes often enough to time the wheels by.
 BASE = ["rosrun", "fake_turtlebot_sim", "fake_turtlebot.py", "_rate:=500"]
-PUSHES = 200
+PUSHES = 100
 TICKS_PER_S = os.sysconf("SC_CLK_TCK")
 
 

@@ -18,7 +18,7 @@ from tutorial_testing.waiting import wait_for
 LB, FORWARD = 4, 1
 SPEEDS = (0.2, 0.4)  # by turns; every relay gives 1 m/s at full deflection
 NEAR = 0.01
-DEADLINE_S = 5.0
+DEADLINE_S, REST_S = 5.0, 0.5
 
 awaited, shown = [0.0], threading.Event()
 
@@ -28,26 +28,30 @@ def on_odometry(odometry):
         shown.set()
 
 
-def push(speed):
-    """Move the stick, forward is negative; how long the wheels take [s]."""
+def push(speed, deadline_s=DEADLINE_S):
+    """Move the stick, forward is negative; how long the wheels take [s], None if they do not."""
     shown.clear()
     awaited[0] = speed
     began_s = time.monotonic()
     stream.send((AXIS, FORWARD, round(-FULL * speed)))
-    if not shown.wait(DEADLINE_S):
-        sys.exit("wheel_probe.py: the wheels do not follow")
-    return time.monotonic() - began_s
+    return time.monotonic() - began_s if shown.wait(deadline_s) else None
+
+
+def drives():
+    """Whether all nodes on the way are there; one that arms sees all released first."""
+    stream.send((BUTTON, LB, 0), (AXIS, FORWARD, 0))
+    time.sleep(REST_S)
+    stream.send((BUTTON, LB, 1))
+    return push(SPEEDS[1], deadline_s=1.0)
 
 
 rospy.init_node("wheel_probe")
-odometry = rospy.Subscriber("odom", Odometry, on_odometry, tcp_nodelay=True)
+rospy.Subscriber("odom", Odometry, on_odometry, tcp_nodelay=True)
 stream = Stream()
 try:
     with driver(stream.path, "deadzone:=0"):
         stream.plug_in()
-        wait_for(odometry.get_num_connections, "robot")
-        time.sleep(1.0)  # the other connections settle; the node that arms sees all released
-        stream.send((BUTTON, LB, 1))
+        wait_for(drives, "wheels that follow the stick")
         gc.freeze()
         latencies_s = []
         for number in range(int(sys.argv[1])):
@@ -55,4 +59,6 @@ try:
             latencies_s.append(push(SPEEDS[number % 2]))
 finally:
     stream.remove()
+if None in latencies_s:
+    sys.exit("wheel_probe.py: the wheels do not follow")
 print(json.dumps(sorted(latencies_s)))
