@@ -113,8 +113,12 @@ class FaultsOfThePeers(unittest.TestCase):
             whole(HELD)[:16] + struct.pack("<I", 2**31),  # so many axes
         ):
             said = node.output.count("cannot be read")
-            bad.publish(Wire(raw=raw))
-            wait_for(lambda said=said: node.output.count("cannot be read") > said, "warning")
+            wait_for(
+                lambda said=said, raw=raw: (
+                    bad.publish(Wire(raw=raw)) or node.output.count("cannot be read") > said
+                ),
+                "warning",
+            )
             del self.velocities[:]
             wait_for(lambda: bad.publish(good) or self.velocities, f"velocity after {raw!r}")
 
