@@ -93,9 +93,13 @@ class KeyboardRig:
         return self.speed == 0.0
 
     def drive(self):
-        """Tap LB and hold W until the robot moves."""
-        self.terminal.press("Space")
-        self.terminal.hold("w", self.moves, "moving robot")
+        """Hold LB and W until the robot moves; LB again and again, as W may come late."""
+
+        def moves():
+            self.terminal.press("Space")
+            return self.moves()
+
+        self.terminal.hold("w", moves, "moving robot")
 
     def close(self):
         for subscriber in self._subscribers:
