@@ -4,9 +4,10 @@ import re
 import time
 from pathlib import Path
 
-from tutorial_check.exercises import joy2twist as plain
+from tutorial_check.exercises import conversation
 from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL, PACKAGE, drive
 from tutorial_check.exercises.files import check_file, crash
+from tutorial_check.exercises.joy2twist import check_manifest
 from tutorial_check.exercises.robot import held
 from tutorial_check.model import Note, Wrong
 
@@ -61,7 +62,7 @@ def is_class(session):
     """C29."""
     script, path, one = program(session)
     check_file(session, PACKAGE, script)
-    plain.check_manifest(session, script)
+    check_manifest(session, script)
     facts = session.scripts(PACKAGE)[path]
     where = f"{path}:{one.line}"
     expected = "a class with __init__, its callback bound to self, made under __main__"
@@ -130,10 +131,10 @@ def behaves(session):
     script, _, _ = program(session)
     seen = drive(session, script)
     notes = [
-        plain.check_displays(session, script, seen, few_are_enough=True),
-        plain.check_topics(session, seen),
-        plain.check_mapping(session, seen),
-        plain.check_rate(session, seen),
+        conversation.check_displays(session, script, seen, few_are_enough=True),
+        conversation.check_topics(session, seen),
+        conversation.check_mapping(session, seen),
+        conversation.check_rate(session, seen),
     ]
     return next((note for note in notes if isinstance(note, Note)), None)
 
