@@ -14,7 +14,12 @@ import time
 import uuid
 from pathlib import Path
 
+from tutorial_check.patience import Patience
+
 GRACE_S = 3.0  # after Ctrl-C a program has this long to end by itself
+IDLE_S = (
+    2.0  # a program that has done nothing for so long only waits; a talker may do so for a second
+)
 KEPT_FIRST, KEPT_LAST = 200_000, 50_000  # bytes of a program's output
 MARK = "TUTORIAL_CHECK_MARK"  # by which programs are known where they cannot be by user or session
 # What a program may use. The address space is what Python's threads reserve, not what they use.
@@ -75,7 +80,8 @@ class Box:
         self._alone = alone
         self._mark = str(uuid.uuid4())
         self._open = []
-        self._trusted = {os.getsid(0)}
+        self._trusted = {os.getsid(0), os.getpid()}
+        self.patience = Patience(self._trusted)
         self._poll = select.poll()
         self._reading = {}
 
@@ -126,14 +132,23 @@ class Box:
         """Leave alone a process that we forked, which leads a session of its own."""
         self._trusted.add(pid)
 
-    def wait(self, condition, deadline_s):
-        """The first true value of condition(), or its value at the deadline."""
-        end = time.monotonic() + deadline_s
+    def wait(self, condition, deadline_s, or_idle=False):
+        """The first true value of condition(), or its value at the deadline.
+
+        The deadline goes by the programs' time, see Patience. or_idle: no longer than until they
+        have done nothing for IDLE_S.
+        """
+        began_s = self.patience.now()
         while True:
+            waited_s = self.patience.now() - began_s
+            is_over = waited_s > deadline_s or (
+                or_idle and min(waited_s, self.patience.idle_s()) > IDLE_S
+            )
+            asked_s = time.monotonic()
             value = condition()
-            if value or time.monotonic() > end:
+            if value or is_over:
                 return value
-            self.pump(0.01)
+            self.pump(max(0.01, 2 * (time.monotonic() - asked_s)))  # asking costs the others time
 
     def pump(self, longest_s):
         """Read what was printed; return when something was, or after the given time."""
@@ -155,12 +170,29 @@ class Box:
 
     def end(self, program, grace_s=GRACE_S):
         """End a program; how long it took after Ctrl-C [s], or None if it had to be killed."""
+        return self.end_all([program], grace_s)[0]
+
+    def end_all(self, programs, grace_s=GRACE_S):
+        """End several at once; of each how long it took."""
         began_s = time.monotonic()
-        if not program.ended:
-            program.was_stopped = True
-            self.interrupt(program)
-            self.wait(lambda: program.ended, grace_s)
-        took_s = time.monotonic() - began_s if program.ended else None
+        took_s = [0.0] * len(programs)
+        for program in programs:
+            if not program.ended:
+                program.was_stopped = True
+                self.interrupt(program)
+
+        def all_ended():
+            for number, program in enumerate(programs):
+                if program.ended and not took_s[number]:
+                    took_s[number] = time.monotonic() - began_s
+            return all(took_s)
+
+        self.wait(all_ended, grace_s)
+        for program in programs:
+            self._kill(program)
+        return [took or None for took in took_s]
+
+    def _kill(self, program):
         with contextlib.suppress(ProcessLookupError, PermissionError):
             os.killpg(program.process.pid, signal.SIGKILL)
         program.process.wait()
@@ -170,7 +202,6 @@ class Box:
         ):
             if not program.read():
                 self._forget(program)
-        return took_s
 
     def clear(self):
         """End all that is left, whatever it is called and whoever started it."""

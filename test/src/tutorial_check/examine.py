@@ -84,7 +84,7 @@ def examine(orders, tell):
         lambda environment: box.Box(environment, uid, orders["apart"]),
         can_have_devices=granted,
     )
-    run = Run(catalogue(), one)
+    run = Run(catalogue(), one, one.second_look)
     times = {"prepare": round(time.monotonic() - began_s, 2)}
     for exercise in orders["exercises"]:
         began_s = time.monotonic()

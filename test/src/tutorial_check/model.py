@@ -37,9 +37,11 @@ class Note:
 class Wrong(Exception):
     """A check that does not hold. Raised by checks, which so end at the first thing wrong."""
 
-    def __init__(self, expected, seen, where="", hint=""):
+    def __init__(self, expected, seen, where="", hint="", sure=False):
+        """sure: whatever else the machine had to do, it is no matter of time."""
         super().__init__(f"expected {expected}; seen {seen}")
         self.expected, self.seen, self.where, self.hint = expected, seen, where, hint
+        self.sure = sure
 
 
 def master_gone(where=""):
@@ -88,10 +90,14 @@ class Catalogue:
 class Run:
     """Makes checks, each at most once, and none whose ground is missing."""
 
-    def __init__(self, catalogue, session):
-        """session: what the functions of the catalogue take."""
+    def __init__(self, catalogue, session, second_look=lambda: False):
+        """session: what the functions of the catalogue take.
+
+        second_look(): asked once for a check that does not hold; whether to make it again.
+        """
         self._catalogue = catalogue
         self._session = session
+        self._second_look = second_look
         self._done = {}
         self._blocked_by = {}  # id of a check not reached -> the results that are to blame
         self._told = set()
@@ -144,7 +150,7 @@ class Run:
             return self._unreached(check, culprits)
         about = {"id": check.id, "title": check.title, "section": check.section, "look": check.look}
         try:
-            found = self._catalogue.functions[check.id](self._session)
+            found = self._call(self._catalogue.functions[check.id])
         except Wrong as wrong:
             told = (wrong.seen, wrong.where)
             same = [
@@ -164,6 +170,14 @@ class Run:
         if isinstance(found, Note):
             return Result(status=NOTE, seen=found.seen, where=found.where, hint=found.hint, **about)
         return Result(status=OK, seen=found or "", **about)
+
+    def _call(self, function):
+        try:
+            return function(self._session)
+        except (Wrong, CannotCheck) as error:
+            if getattr(error, "sure", False) or not self._second_look():
+                raise
+        return function(self._session)
 
     def _unreached(self, check, culprits):
         self._blocked_by[check.id] = culprits

@@ -13,6 +13,7 @@ from tutorial_check import driver, forked, python_facts
 from tutorial_check.model import CannotCheck, Wrong, master_gone
 from tutorial_check.workspace import packages_below
 
+SLOW_S = 120  # [s] for what needs a second, when the machine is very busy
 START_S = 8.0  # a node of the student's has this long to appear; a busy machine is slow
 # What of CMakeLists.txt makes a build necessary before anything can run.
 NEEDS_BUILD = re.compile(
@@ -20,6 +21,18 @@ NEEDS_BUILD = re.compile(
     r"|add_executable|catkin_install_python)\s*\(",
     re.MULTILINE,
 )
+
+
+def _once(memory, key, make):
+    if key not in memory:
+        try:
+            memory[key] = (True, make())
+        except Wrong as wrong:
+            memory[key] = (False, wrong)
+    worked, value = memory[key]
+    if not worked:
+        raise value
+    return value
 
 
 class Session:
@@ -32,21 +45,24 @@ class Session:
         self.source = self.folder / "ws" / "src"
         self.floor = floor
         self.can_have_devices = can_have_devices
-        self._memory = {}
+        self._memory, self._runs, self._siblings = {}, {}, 0
         self._base = self._sourced(floor, None)
         self.box = make_box(self._base)
 
     def memo(self, key, make):
-        """make(), once; what it raised is raised again."""
-        if key not in self._memory:
-            try:
-                self._memory[key] = (True, make())
-            except Wrong as wrong:
-                self._memory[key] = (False, wrong)
-        worked, value = self._memory[key]
-        if not worked:
-            raise value
-        return value
+        """make(), once; what it raised is raised again. For facts, which stay what they are."""
+        return _once(self._memory, key, make)
+
+    def run(self, key, make):
+        """The same for what programs were seen to do, which may be looked at again."""
+        return _once(self._runs, key, make)
+
+    def second_look(self):
+        """Forget what programs were seen to do, if the machine was so busy that it is worth it."""
+        if not self.box.patience.strained():
+            return False
+        self._runs.clear()
+        return True
 
     def _sourced(self, setup, start):
         """The environment after sourcing a setup.bash."""
@@ -62,7 +78,7 @@ class Session:
             env=start or clean,
             capture_output=True,
             check=False,
-            timeout=60,
+            timeout=SLOW_S,
         )
         if done.returncode != 0:
             raise CannotCheck(
@@ -122,7 +138,8 @@ class Session:
     def sibling(self, package, script, text):
         """A changed copy of a script, beside it so that its imports work; its path there."""
         original = self.package(package).folder / script
-        name = f"checked_{len(self._memory)}_{original.name}"
+        self._siblings += 1
+        name = f"checked_{self._siblings}_{original.name}"
         changed = original.with_name(name)
         changed.write_text(text)
         changed.chmod(0o755)
@@ -264,9 +281,13 @@ class Stage:
         """Of the driver."""
         return self._driver.call(method, *arguments)
 
-    def wait(self, condition, deadline_s=START_S):
+    def wait(self, condition, deadline_s):
         """See Box.wait."""
         return self.box.wait(condition, deadline_s)
+
+    def wait_for_start(self, condition, deadline_s=START_S):
+        """Until programs are as far as the condition says, or do nothing more."""
+        return self.box.wait(condition, deadline_s, or_idle=True)
 
     def end(self):
         """End everything on this stage."""

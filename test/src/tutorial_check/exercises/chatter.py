@@ -203,7 +203,7 @@ def _second_ends_first(session, script):
     with session.stage() as stage:
         stage.call("listen", TOPIC, "String")
         first = stage.start(PACKAGE, script)
-        stage.wait(lambda: stage.call("count", TOPIC) or first.ended)
+        stage.wait_for_start(lambda: stage.call("count", TOPIC) or first.ended)
         if first.ended:
             raise crash(
                 session, PACKAGE, first, "the talker runs with anonymous the other way round"
@@ -215,8 +215,7 @@ def _second_ends_first(session, script):
             callers = {who for _, who, _ in stage.call("heard", TOPIC)}
             return first.ended or second.ended or callers - {caller}
 
-        stage.wait(settled, 5.0)
-        stage.wait(lambda: first.ended, 0.7)
+        stage.wait_for_start(settled)
         return first.ended
 
 

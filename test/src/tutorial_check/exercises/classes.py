@@ -153,7 +153,7 @@ class Ending:
     def _end(self, session, stage, script, way):
         before = stage.call("count", CMD_VEL)
         started = stage.start(PACKAGE, script)
-        stage.wait(
+        stage.wait_for_start(
             lambda: (
                 (stage.call("listeners", JOY) and stage.call("speakers", CMD_VEL)) or started.ended
             )
@@ -182,7 +182,7 @@ class Ending:
         self.took[way] = time.monotonic() - began_s if gone else None
         stage.call("end_stream", JOY)
         session.box.end(started, 0.2)
-        stage.wait(lambda: not stage.call("speakers", CMD_VEL), 0.5)
+        stage.wait(lambda: not stage.call("speakers", CMD_VEL), 3.0)
         heard = stage.call("heard", CMD_VEL, index)
         first = next((number for number, (_, _, value) in enumerate(heard) if value == ZERO), None)
         self.zero_after[way] = heard[first][0] - began_s if first is not None else None
@@ -196,7 +196,7 @@ WAYS = ("Ctrl-C", "rosnode kill")
 
 
 def _ending(session):
-    return session.memo("ending", lambda: Ending(session, program(session)[0], WAYS))
+    return session.run("ending", lambda: Ending(session, program(session)[0], WAYS))
 
 
 def stops(session):

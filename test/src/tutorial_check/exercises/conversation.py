@@ -238,6 +238,7 @@ def check_mapping(session, seen):
             complaint,
             where=_line_of(session, seen.script, complaint) or where,
             hint=remark,
+            sure=not seen.missing and not seen.unasked,
         )
     if seen.trouble:
         wrong = crash_of(session, seen, expected)

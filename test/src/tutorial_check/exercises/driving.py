@@ -29,7 +29,7 @@ class Drive:
             stage.call("listen", CMD_VEL, "Twist")
             self.program = stage.start(PACKAGE, script)
             self.connected = bool(
-                stage.wait(lambda: stage.call("listeners", JOY) or self.program.ended)
+                stage.wait_for_start(lambda: stage.call("listeners", JOY) or self.program.ended)
                 and not self.program.ended
             )
             if self.connected and wants_twist:
@@ -171,7 +171,7 @@ def displayed(joys, output):
 
 def drive(session, script, wants_twist=True):
     """The Drive of a script; made once."""
-    return session.memo(("drive", script, wants_twist), lambda: Drive(session, script, wants_twist))
+    return session.run(("drive", script, wants_twist), lambda: Drive(session, script, wants_twist))
 
 
 def check_master(seen):

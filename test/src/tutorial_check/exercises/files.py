@@ -133,7 +133,9 @@ def crash(session, package, program, what, default_hint=""):
     trace = first_traceback(program.output, str(session.package(package).folder))
     if trace:
         seen = trace.error + (f"   in: {trace.text}" if trace.text else "")
-        return Wrong(what, seen, where=trace.where, hint=explain(trace.error) or default_hint)
+        return Wrong(
+            what, seen, where=trace.where, hint=explain(trace.error) or default_hint, sure=True
+        )
     has_ended = program.ended and not program.was_stopped
     if has_ended and program.process.returncode is not None and program.process.returncode < 0:
         return Wrong(

@@ -152,14 +152,14 @@ def _loops_by_words(session):
 
 def bag_drives(session):
     """C23."""
-    wrong, _, _ = session.memo("bag run", lambda: _bag_run(session))
+    wrong, _, _ = session.run("bag run", lambda: _bag_run(session))
     if wrong:
         raise wrong
 
 
 def bag_loops(session):
     """C24."""
-    _, _, loops = session.memo("bag run", lambda: _bag_run(session))
+    _, _, loops = session.run("bag run", lambda: _bag_run(session))
     if not loops:
         raise Wrong(
             "/joy flows on after the end of the recording",

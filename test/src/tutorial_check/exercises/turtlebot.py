@@ -24,7 +24,7 @@ def remapped(session):
             stage.call("listen", topic, "Twist")
         stage.call("advertise", JOY, "Joy")
         program = stage.launch(["roslaunch", str(path)])
-        stage.wait(
+        stage.wait_for_start(
             lambda: (
                 program.ended
                 or (
