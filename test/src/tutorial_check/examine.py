@@ -81,7 +81,8 @@ def examine(orders, tell):
         scratch,
         layout,
         orders["floor"],
-        lambda environment: box.Box(environment, uid, orders["apart"]),
+        orders["environment"],
+        make_box=lambda environment: box.Box(environment, uid, orders["apart"]),
         can_have_devices=granted,
     )
     run = Run(catalogue(), one, one.second_look)

@@ -7,7 +7,7 @@ import statistics
 from tutorial_check.driver import ECHO, Echo
 from tutorial_check.mapping import judge, numbered_joys
 from tutorial_check.model import master_gone
-from tutorial_check.session import START_S
+from tutorial_check.stage import START_S
 
 PACKAGE = "joy2twist"
 JOY, CMD_VEL = "/joy", "/cmd_vel"
@@ -70,7 +70,8 @@ class Drive:
             self.asked = COUNT
         stage.wait(lambda: self._displayed() >= min(5, self.asked) or self.program.ended, 0.7)
         self.shown = self._displayed()
-        if wants_twist and len(self.samples) > COUNT / 2 and not self.program.ended:
+        goes = len(self.samples) > COUNT / 2 and not judge(self._plain())[0]
+        if wants_twist and goes and not self.program.ended:
             self._stream(stage)
             if not self.is_prompt and not self.program.ended:
                 stage.call("listen", ECHO, "Twist")

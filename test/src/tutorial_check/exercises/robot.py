@@ -9,7 +9,7 @@ from tutorial_check.exercises.files import crash
 from tutorial_check.exercises.joy2twist import main_script
 from tutorial_check.model import CannotCheck, Note, Wrong
 from tutorial_check.pad import Pad
-from tutorial_check.session import START_S
+from tutorial_check.stage import START_S
 
 FORWARDS, LEFT = 0.5, 0.8  # positions of the stick
 ODOM = "/odom"
