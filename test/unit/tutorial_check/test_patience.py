@@ -16,9 +16,13 @@ class Machine:
     def __init__(self):
         self.now_s = 100.0
         self.threads = {OURS: [0, 0], THEIRS: [0, 0]}
+        self.is_ready = False
 
     def read(self):
         return {thread: (thread, *spent) for thread, spent in self.threads.items()}
+
+    def ready(self, process, thread):
+        return self.is_ready
 
     def clock(self):
         return self.now_s
@@ -36,7 +40,7 @@ def machine():
 
 @pytest.fixture
 def patience(machine):
-    made = Patience({OURS}, machine.read, machine.clock)
+    made = Patience({OURS}, machine.read, machine.ready, machine.clock)
     made.now()
     return made
 
@@ -77,8 +81,28 @@ def test_idle_is_who_neither_works_nor_stands_in_line(machine, patience):
     assert patience.idle_s() == pytest.approx(0.0)
 
 
+def test_what_is_told_late_counts_for_the_time_before(machine, patience):
+    began_s = patience.now()
+    for _ in range(4):
+        machine.pass_time(1.0)
+        patience.now()
+    machine.pass_time(1.0, in_line_ms=4000)
+    assert patience.now() - began_s == pytest.approx(1.0)
+
+
+def test_who_stands_in_line_is_not_idle_though_nothing_is_counted_yet(machine, patience):
+    machine.is_ready = True
+    for _ in range(5):
+        machine.pass_time(1.0)
+        assert patience.idle_s() == pytest.approx(0.0)
+    assert patience.starved()
+    machine.pass_time(0.1, worked_ms=5)
+    patience.now()
+    assert not patience.starved()
+
+
 def test_where_nothing_is_counted_nobody_is_idle_and_time_is_time(machine):
-    patience = Patience({OURS}, dict, machine.clock)
+    patience = Patience({OURS}, dict, machine.ready, machine.clock)
     began_s = patience.now()
     machine.pass_time(5.0)
     assert patience.now() - began_s == pytest.approx(5.0)

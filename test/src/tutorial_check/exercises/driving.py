@@ -153,7 +153,7 @@ class Drive:
     @property
     def trouble(self):
         """Whether the program printed a traceback."""
-        return "Traceback (most recent call last)" in self.program.output
+        return "Traceback (most recent call last)" in self.output
 
     def _displayed(self):
         """How many of the Joys were displayed, all six axes in a line."""
