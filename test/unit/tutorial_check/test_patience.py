@@ -22,7 +22,7 @@ class Machine:
         return {thread: (thread, *spent) for thread, spent in self.threads.items()}
 
     def ready(self, process, thread):
-        return self.is_ready
+        return self.is_ready and thread == THEIRS
 
     def clock(self):
         return self.now_s
