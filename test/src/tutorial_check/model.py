@@ -51,6 +51,7 @@ def master_gone(where=""):
         "it no longer answers: a program of yours has ended it",
         where,
         "a node ends itself (rospy.signal_shutdown), never the master",
+        sure=True,
     )
 
 
@@ -90,14 +91,15 @@ class Catalogue:
 class Run:
     """Makes checks, each at most once, and none whose ground is missing."""
 
-    def __init__(self, catalogue, session, second_look=lambda: False):
+    def __init__(self, catalogue, session, second_look=lambda: False, too_busy=lambda: False):
         """session: what the functions of the catalogue take.
 
         second_look(): asked once for a check that does not hold; whether to make it again.
+        too_busy(): asked if it does not hold then, either; whether that says nothing.
         """
         self._catalogue = catalogue
         self._session = session
-        self._second_look = second_look
+        self._second_look, self._too_busy = second_look, too_busy
         self._done = {}
         self._blocked_by = {}  # id of a check not reached -> the results that are to blame
         self._told = set()
@@ -150,7 +152,7 @@ class Run:
             return self._unreached(check, culprits)
         about = {"id": check.id, "title": check.title, "section": check.section, "look": check.look}
         try:
-            found = self._call(self._catalogue.functions[check.id])
+            found = self._call(check)
         except Wrong as wrong:
             told = (wrong.seen, wrong.where)
             same = [
@@ -171,13 +173,21 @@ class Run:
             return Result(status=NOTE, seen=found.seen, where=found.where, hint=found.hint, **about)
         return Result(status=OK, seen=found or "", **about)
 
-    def _call(self, function):
+    def _call(self, check):
+        function = self._catalogue.functions[check.id]
         try:
             return function(self._session)
         except (Wrong, CannotCheck) as error:
             if getattr(error, "sure", False) or not self._second_look():
                 raise
-        return function(self._session)
+        try:
+            return function(self._session)
+        except Wrong as wrong:
+            if wrong.sure or not self._too_busy():
+                raise
+            raise CannotCheck(
+                f"{check.id}: the machine has too much else to do for a verdict ({wrong.seen})"
+            ) from None
 
     def _unreached(self, check, culprits):
         self._blocked_by[check.id] = culprits

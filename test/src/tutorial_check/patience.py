@@ -13,6 +13,7 @@ SLOWEST = 0.05  # of real time: a deadline is at most twenty times as long
 LOOKING = 0.05  # of the time at most goes into looking
 IDLE = 0.1  # of one processor; who uses less only waits
 STRAINED = 0.15  # of the time spent in line: then what was seen late says little
+HOPELESS = 0.86
 REACH_S = 30.0  # the kernel tells how long one stood in line only when that is over
 STARVED_S = 0.5  # in line without a turn
 
@@ -102,4 +103,11 @@ class Patience:
 
     def strained(self):
         """Whether the machine was so busy that what came late says little."""
-        return self._lost_s > STRAINED * (self._clock() - self._began_s)
+        return self._lost_share() > STRAINED
+
+    def hopeless(self):
+        """Whether it was so busy that what came late says nothing."""
+        return self._lost_share() > HOPELESS
+
+    def _lost_share(self):
+        return self._lost_s / max(1e-3, self._clock() - self._began_s)

@@ -57,6 +57,7 @@ def test_what_was_spent_in_line_does_not_count(machine, patience):
     machine.pass_time(1.0, worked_ms=300, in_line_ms=700)
     assert patience.now() - began_s == pytest.approx(0.3)
     assert patience.strained()
+    assert not patience.hopeless()
 
 
 def test_the_checker_s_own_waiting_counts_as_well(machine, patience):
@@ -69,6 +70,7 @@ def test_it_never_stands_still(machine, patience):
     began_s = patience.now()
     machine.pass_time(10.0, in_line_ms=100_000)  # ten threads at once
     assert patience.now() - began_s == pytest.approx(10.0 * SLOWEST)
+    assert patience.hopeless()
 
 
 def test_idle_is_who_neither_works_nor_stands_in_line(machine, patience):
