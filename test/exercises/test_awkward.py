@@ -4,13 +4,15 @@ import json
 import os
 import shutil
 import subprocess
-import sys
 import tempfile
 import zipfile
 from pathlib import Path
 
+import mistakes_nodes
 import pytest
 from edits import JOY2TWIST, TALKER, B, J, apply, chmod, move, put
+
+from tutorial_check.examination import examine
 
 SOURCE = Path(__file__).resolve().parents[1] / "src"
 
@@ -22,7 +24,7 @@ def check(floor, *words, **options):
         capture_output=True,
         text=True,
         check=False,
-        timeout=300,
+        timeout=1800,  # of a busy machine; each check has deadlines of its own
         env={**os.environ, "PYTHONPATH": str(SOURCE)},
         **options,
     )
@@ -123,7 +125,7 @@ def test_an_unreadable_folder(literal, floor):
         capture_output=True,
         text=True,
         check=False,
-        timeout=100,
+        timeout=600,
         env={**os.environ, "PYTHONPATH": str(SOURCE), "HOME": "/nonexistent"},
     )
     (literal / J).chmod(0o755)
@@ -161,6 +163,22 @@ def test_the_professor(literal, floor, tmp_path):
     assert "the sign is wrong" in page
     assert "sign is wrong" in (room / "check" / "bob.txt").read_text()
     assert json.loads((room / "check" / "ada.json").read_text())["passed"] == 1
+
+
+def test_all_at_once_or_alone_is_the_same(literal, floor, tmp_path):
+    room = tmp_path / "room"
+    students = {"right": []} | {what: edits for _, what, edits, _, _ in mistakes_nodes.ROWS[:45:9]}
+    for name, edits in students.items():
+        shutil.copytree(literal.parent, room / name)
+        apply(edits, room / name / "src")
+    code, out, error = check(floor, "--all", room, "4.3")
+    assert code == 1, out + error
+    for name in students:
+        told = json.loads((room / "check" / f"{name}.json").read_text())["exercises"][0]["checks"]
+        alone = examine(room / name, floor, ["4.3"])[0].results
+        assert [(one["id"], one["status"]) for one in told] == [
+            (one.id, one.status) for one in alone
+        ], name
 
 
 def test_watch(literal, floor):
@@ -213,6 +231,5 @@ def test_alone_in_its_place(literal, floor):
         "3",
     ]
     both = [subprocess.Popen(command, env=env, stdout=subprocess.PIPE, text=True) for _ in range(2)]
-    told = [process.communicate(timeout=200)[0] for process in both]
+    told = [process.communicate(timeout=1800)[0] for process in both]
     assert [process.returncode for process in both] == [0, 0], told
-    assert sys.version_info

@@ -1,7 +1,6 @@
 """Programs that hang, fork, print without end or forge: an honest verdict, and nobody else harmed."""
 
 import os
-import time
 from pathlib import Path
 
 from edits import JOY2TWIST, LISTENER, TALKER, apply, put, write
@@ -9,15 +8,12 @@ from edits import JOY2TWIST, LISTENER, TALKER, apply, put, write
 from tutorial_check.examination import examine
 from tutorial_check.report import lines_of
 
-LONGEST_S = 60.0
 AFTER_INIT = "    rospy.init_node('listener', anonymous=True)\n"
 
 
 def wrong_of(src, floor, exercise):
-    """What is wrong in an exercise: the first one's id and text. The checker ends in time."""
-    began_s = time.monotonic()
+    """What is wrong in an exercise: the first one's id and text."""
     outcomes = examine(src.parent, floor, [exercise])
-    assert time.monotonic() - began_s < LONGEST_S
     results = [result for result in outcomes[0].results if result.status == "wrong"]
     return (results[0].id, "\n".join(lines_of(results[0]))) if results else (None, "")
 
@@ -51,6 +47,7 @@ def test_a_fork_bomb(literal, floor):
     )(literal)
     check, told = wrong_of(literal, floor, "3")
     assert check == "C6", told
+    assert "again and again" in told
     assert not processes_like("scripts/talker.py")
 
 

@@ -14,8 +14,13 @@ import time
 import uuid
 from pathlib import Path
 
+from tutorial_check.model import Wrong
+from tutorial_check.patience import Patience
+from tutorial_check.running import Forked, Program
+
 GRACE_S = 3.0  # after Ctrl-C a program has this long to end by itself
-KEPT_FIRST, KEPT_LAST = 200_000, 50_000  # bytes of a program's output
+IDLE_S = 2.0  # who has done nothing for so long waits for what does not come; a talker may for 1 s
+MOST_PROCESSES = 100  # a launch file's are a dozen
 MARK = "TUTORIAL_CHECK_MARK"  # by which programs are known where they cannot be by user or session
 # What a program may use. The address space is what Python's threads reserve, not what they use.
 LIMITS = {
@@ -26,40 +31,6 @@ LIMITS = {
     resource.RLIMIT_CORE: 0,
     resource.RLIMIT_NOFILE: 1024,
 }
-
-
-class Program:
-    """A program of the student's, or one that serves the check."""
-
-    def __init__(self, process, name):
-        self.process = process
-        self.name = name
-        self.began_s = time.monotonic()
-        self.was_stopped = False  # by us: then how it ended says nothing
-        self._first, self._last, self.printed = bytearray(), bytearray(), 0
-
-    @property
-    def ended(self):
-        """Whether it has ended."""
-        return self.process.poll() is not None
-
-    @property
-    def output(self):
-        """What it printed; the middle of very much is left out."""
-        gap = b"\n[...]\n" if self.printed > KEPT_FIRST + KEPT_LAST else b""
-        return (self._first + gap + self._last).decode(errors="replace")
-
-    def read(self):
-        """Take what it printed since the last time; False at the end of its output."""
-        try:
-            data = os.read(self.process.stdout.fileno(), 65536)
-        except BlockingIOError:
-            return True
-        self.printed += len(data)
-        room = KEPT_FIRST - len(self._first)
-        self._first += data[:room]
-        self._last = (self._last + data[room:])[-KEPT_LAST:]
-        return bool(data)
 
 
 class Box:
@@ -75,7 +46,8 @@ class Box:
         self._alone = alone
         self._mark = str(uuid.uuid4())
         self._open = []
-        self._trusted = {os.getsid(0)}
+        self._trusted = {os.getsid(0), os.getpid()}
+        self.patience = Patience(self._trusted)
         self._poll = select.poll()
         self._reading = {}
 
@@ -98,14 +70,38 @@ class Box:
             raise
         finally:
             os.close(write)
+        if trusted:
+            self._trusted.add(process.pid)
+        return self._listen_to(process, read, os.path.basename(command[0]))
+
+    def fork(self, run, environment, name):
+        """Start run() as a program in a copy of this process, which run() has to end."""
+        read, write = os.pipe()
+        pid = os.fork()
+        if pid == 0:
+            try:
+                os.setsid()
+                os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
+                for stream in (1, 2):
+                    os.dup2(write, stream)
+                os.closerange(3, resource.getrlimit(resource.RLIMIT_NOFILE)[0])
+                os.environ.clear()
+                os.environ.update({**self.environment, **environment, MARK: self._mark})
+                self._restrict()
+                os.chdir(self.environment["HOME"])
+                run()
+            finally:
+                os._exit(1)
+        os.close(write)
+        return self._listen_to(Forked(pid), read, name)
+
+    def _listen_to(self, process, read, name):
         process.stdout = os.fdopen(read, "rb", buffering=0)
         os.set_blocking(read, False)
-        program = Program(process, os.path.basename(command[0]))
+        program = Program(process, name)
         self._open.append(program)
         self._reading[read] = program
         self._poll.register(read, select.POLLIN | select.POLLHUP)
-        if trusted:
-            self._trusted.add(process.pid)
         return program
 
     def _restrict(self):
@@ -126,14 +122,30 @@ class Box:
         """Leave alone a process that we forked, which leads a session of its own."""
         self._trusted.add(pid)
 
-    def wait(self, condition, deadline_s):
-        """The first true value of condition(), or its value at the deadline."""
-        end = time.monotonic() + deadline_s
+    def wait(self, condition, deadline_s, or_idle=False):
+        """The first true value of condition(), or its value at the deadline.
+
+        The deadline goes by the programs' time, see Patience. or_idle: no longer than until they
+        have done nothing for IDLE_S. Raises Wrong for a program that multiplies without end.
+        """
+        began_s = self.patience.now()
         while True:
+            waited_s = self.patience.now() - began_s
+            is_over = waited_s > deadline_s and not self.patience.starved()
+            if or_idle and waited_s > IDLE_S:
+                is_over = is_over or self.patience.idle_s() > IDLE_S
+            asked_s = time.monotonic()
             value = condition()
-            if value or time.monotonic() > end:
+            if value or is_over:
                 return value
-            self.pump(0.01)
+            if self._alone and self.patience.crowd() > MOST_PROCESSES:
+                raise Wrong(
+                    "a program that is one process, or a few",
+                    f"it starts itself again and again: more than {MOST_PROCESSES} processes",
+                    hint="where does it call os.fork, or start programs?",
+                    sure=True,
+                )
+            self.pump(max(0.01, 2 * (time.monotonic() - asked_s)))  # asking costs the others time
 
     def pump(self, longest_s):
         """Read what was printed; return when something was, or after the given time."""
@@ -155,12 +167,29 @@ class Box:
 
     def end(self, program, grace_s=GRACE_S):
         """End a program; how long it took after Ctrl-C [s], or None if it had to be killed."""
+        return self.end_all([program], grace_s)[0]
+
+    def end_all(self, programs, grace_s=GRACE_S):
+        """End several at once; of each how long it took."""
         began_s = time.monotonic()
-        if not program.ended:
-            program.was_stopped = True
-            self.interrupt(program)
-            self.wait(lambda: program.ended, grace_s)
-        took_s = time.monotonic() - began_s if program.ended else None
+        took_s = [0.0] * len(programs)
+        for program in programs:
+            if not program.ended:
+                program.was_stopped = True
+                self.interrupt(program)
+
+        def all_ended():
+            for number, program in enumerate(programs):
+                if program.ended and not took_s[number]:
+                    took_s[number] = time.monotonic() - began_s
+            return all(took_s)
+
+        self.wait(all_ended, grace_s)
+        for program in programs:
+            self._kill(program)
+        return [took or None for took in took_s]
+
+    def _kill(self, program):
         with contextlib.suppress(ProcessLookupError, PermissionError):
             os.killpg(program.process.pid, signal.SIGKILL)
         program.process.wait()
@@ -170,7 +199,6 @@ class Box:
         ):
             if not program.read():
                 self._forget(program)
-        return took_s
 
     def clear(self):
         """End all that is left, whatever it is called and whoever started it."""

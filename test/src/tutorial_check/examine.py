@@ -81,10 +81,11 @@ def examine(orders, tell):
         scratch,
         layout,
         orders["floor"],
-        lambda environment: box.Box(environment, uid, orders["apart"]),
+        orders["environment"],
+        make_box=lambda environment: box.Box(environment, uid, orders["apart"]),
         can_have_devices=granted,
     )
-    run = Run(catalogue(), one)
+    run = Run(catalogue(), one, one.second_look, one.box.patience.hopeless)
     times = {"prepare": round(time.monotonic() - began_s, 2)}
     for exercise in orders["exercises"]:
         began_s = time.monotonic()

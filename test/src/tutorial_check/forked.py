@@ -53,7 +53,7 @@ class Helper:
         os.close(answer_in)
         self._question, self._answer = question_in, answer_out
 
-    def call(self, method, *arguments, deadline_s=20.0):
+    def call(self, method, *arguments, deadline_s=60.0):
         """What the method returns. Raises CannotCheck if the helper fails or hangs."""
         try:
             _send(self._question, (method, arguments))
@@ -117,8 +117,8 @@ class MasterProcess:
         os._exit(0)
 
     def uri(self):
-        """Where it answers; None after a second without an answer."""
-        end = time.monotonic() + 5
+        """Where it answers; None if it does not come to that."""
+        end = time.monotonic() + 30
         while self._master.uri is None and time.monotonic() < end:
             time.sleep(0.002)
         return self._master.uri

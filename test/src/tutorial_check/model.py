@@ -37,9 +37,11 @@ class Note:
 class Wrong(Exception):
     """A check that does not hold. Raised by checks, which so end at the first thing wrong."""
 
-    def __init__(self, expected, seen, where="", hint=""):
+    def __init__(self, expected, seen, where="", hint="", sure=False):
+        """sure: whatever else the machine had to do, it is no matter of time."""
         super().__init__(f"expected {expected}; seen {seen}")
         self.expected, self.seen, self.where, self.hint = expected, seen, where, hint
+        self.sure = sure
 
 
 def master_gone(where=""):
@@ -49,6 +51,7 @@ def master_gone(where=""):
         "it no longer answers: a program of yours has ended it",
         where,
         "a node ends itself (rospy.signal_shutdown), never the master",
+        sure=True,
     )
 
 
@@ -88,10 +91,15 @@ class Catalogue:
 class Run:
     """Makes checks, each at most once, and none whose ground is missing."""
 
-    def __init__(self, catalogue, session):
-        """session: what the functions of the catalogue take."""
+    def __init__(self, catalogue, session, second_look=lambda: False, too_busy=lambda: False):
+        """session: what the functions of the catalogue take.
+
+        second_look(): asked once for a check that does not hold; whether to make it again.
+        too_busy(): asked if it does not hold then, either; whether that says nothing.
+        """
         self._catalogue = catalogue
         self._session = session
+        self._second_look, self._too_busy = second_look, too_busy
         self._done = {}
         self._blocked_by = {}  # id of a check not reached -> the results that are to blame
         self._told = set()
@@ -144,7 +152,7 @@ class Run:
             return self._unreached(check, culprits)
         about = {"id": check.id, "title": check.title, "section": check.section, "look": check.look}
         try:
-            found = self._catalogue.functions[check.id](self._session)
+            found = self._call(check)
         except Wrong as wrong:
             told = (wrong.seen, wrong.where)
             same = [
@@ -164,6 +172,22 @@ class Run:
         if isinstance(found, Note):
             return Result(status=NOTE, seen=found.seen, where=found.where, hint=found.hint, **about)
         return Result(status=OK, seen=found or "", **about)
+
+    def _call(self, check):
+        function = self._catalogue.functions[check.id]
+        try:
+            return function(self._session)
+        except (Wrong, CannotCheck) as error:
+            if getattr(error, "sure", False) or not self._second_look():
+                raise
+        try:
+            return function(self._session)
+        except Wrong as wrong:
+            if wrong.sure or not self._too_busy():
+                raise
+            raise CannotCheck(
+                f"{check.id}: the machine has too much else to do for a verdict ({wrong.seen})"
+            ) from None
 
     def _unreached(self, check, culprits):
         self._blocked_by[check.id] = culprits

@@ -31,7 +31,7 @@ def wrapper():
             stdin=subprocess.DEVNULL,
             capture_output=True,
             check=False,
-            timeout=20,
+            timeout=60,
         )
     except (OSError, subprocess.TimeoutExpired):
         return []
@@ -62,7 +62,7 @@ def furnish(scratch, home, kept):
 
 
 def _mount(*words):
-    subprocess.run(["mount", *map(str, words)], check=True, capture_output=True, timeout=20)
+    subprocess.run(["mount", *map(str, words)], check=True, capture_output=True, timeout=60)
 
 
 def _hide(home, kept, side):

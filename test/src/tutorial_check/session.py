@@ -3,17 +3,15 @@
 import contextlib
 import os
 import re
-import shutil
-import socket
 import subprocess
-import uuid
 from pathlib import Path
 
-from tutorial_check import driver, forked, python_facts
+from tutorial_check import python_facts
 from tutorial_check.model import CannotCheck, Wrong, master_gone
+from tutorial_check.stage import Stage
 from tutorial_check.workspace import packages_below
 
-START_S = 8.0  # a node of the student's has this long to appear; a busy machine is slow
+SLOW_S = 120  # [s] for what needs a second, when the machine is very busy
 # What of CMakeLists.txt makes a build necessary before anything can run.
 NEEDS_BUILD = re.compile(
     r"^\s*(catkin_python_setup|add_message_files|add_service_files|generate_messages"
@@ -22,47 +20,55 @@ NEEDS_BUILD = re.compile(
 )
 
 
+def _once(memory, key, make):
+    if key not in memory:
+        try:
+            memory[key] = (True, make())
+        except Wrong as wrong:
+            memory[key] = (False, wrong)
+    worked, value = memory[key]
+    if not worked:
+        raise value
+    return value
+
+
 class Session:
     """One workspace, copied to folder/ws, and the box in which its programs run."""
 
-    def __init__(self, folder, layout, floor, make_box, can_have_devices):
-        """floor: setup.bash of the lower floor; make_box(environment): a box.Box."""
+    def __init__(self, folder, layout, floor, environment, *, make_box, can_have_devices):
+        """floor: its setup.bash; environment: of a shell that sourced it; make_box(environment): a Box."""
         self.folder = Path(folder)
         self.layout = layout
         self.source = self.folder / "ws" / "src"
         self.floor = floor
         self.can_have_devices = can_have_devices
-        self._memory = {}
-        self._base = self._sourced(floor, None)
+        self._memory, self._runs, self._siblings = {}, {}, 0
+        self._base = self._own(environment)
         self.box = make_box(self._base)
 
     def memo(self, key, make):
-        """make(), once; what it raised is raised again."""
-        if key not in self._memory:
-            try:
-                self._memory[key] = (True, make())
-            except Wrong as wrong:
-                self._memory[key] = (False, wrong)
-        worked, value = self._memory[key]
-        if not worked:
-            raise value
-        return value
+        """make(), once; what it raised is raised again. For facts, which stay what they are."""
+        return _once(self._memory, key, make)
 
-    def _sourced(self, setup, start):
-        """The environment after sourcing a setup.bash."""
-        home = self.folder / "home"
-        clean = {
-            "PATH": f"{self.folder / 'bin'}:/usr/bin:/bin",
-            "HOME": str(home),
-            "LANG": "C.UTF-8",
-            "TMPDIR": str(self.folder / "tmp"),
-        }
+    def run(self, key, make):
+        """The same for what programs were seen to do, which may be looked at again."""
+        return _once(self._runs, key, make)
+
+    def second_look(self):
+        """Forget what programs were seen to do, if the machine was so busy that it is worth it."""
+        if not self.box.patience.strained():
+            return False
+        self._runs.clear()
+        return True
+
+    def _sourced(self, setup):
+        """The environment after sourcing a setup.bash, too."""
         done = subprocess.run(
             ["bash", "-c", '. "$1" >/dev/null && env -0', "bash", str(setup)],
-            env=start or clean,
+            env=self._base,
             capture_output=True,
             check=False,
-            timeout=60,
+            timeout=SLOW_S,
         )
         if done.returncode != 0:
             raise CannotCheck(
@@ -75,9 +81,16 @@ class Session:
         )
         for name in ("_", "SHLVL", "PWD", "OLDPWD"):
             found.pop(name, None)
-        found["PATH"] = f"{self.folder / 'bin'}:{found['PATH']}"
+        return found
+
+    def _own(self, environment):
+        """The same with folders of this session's own."""
+        home = self.folder / "home"
         return {
-            **found,
+            **environment,
+            "PATH": f"{self.folder / 'bin'}:{environment['PATH']}",
+            "HOME": str(home),
+            "TMPDIR": str(self.folder / "tmp"),
             "ROS_IP": "127.0.0.1",
             "ROS_HOME": str(home / ".ros"),
             "ROS_LOG_DIR": str(home / ".ros" / "log"),
@@ -122,7 +135,8 @@ class Session:
     def sibling(self, package, script, text):
         """A changed copy of a script, beside it so that its imports work; its path there."""
         original = self.package(package).folder / script
-        name = f"checked_{len(self._memory)}_{original.name}"
+        self._siblings += 1
+        name = f"checked_{self._siblings}_{original.name}"
         changed = original.with_name(name)
         changed.write_text(text)
         changed.chmod(0o755)
@@ -166,7 +180,7 @@ class Session:
             each.exists() and NEEDS_BUILD.search(each.read_text(errors="replace")) for each in cmake
         )
         if needs_build and self.built()[0] == 0:
-            found = self._sourced(self.folder / "ws" / "devel" / "setup.bash", self._base)
+            found = self._sourced(self.folder / "ws" / "devel" / "setup.bash")
         else:
             # What a build makes of packages that have nothing to be built.
             devel = self.folder / "devel"
@@ -200,83 +214,6 @@ class Session:
             raise master_gone() from error
         finally:
             stage.end()
-
-
-class Stage:
-    """A master, a driver, and the student's programs."""
-
-    def __init__(self, session):
-        self.session = session
-        self.box = session.box
-        with socket.socket() as probe:
-            probe.bind(("127.0.0.1", 0))
-            port = probe.getsockname()[1]
-        self.environment = {
-            **session.environment,
-            "ROS_MASTER_URI": f"http://127.0.0.1:{port}",
-        }
-        # Logs of our own programs lie elsewhere: the student's may not write in folders of ours.
-        place = str(session.folder / "ours")
-        self._ours = ours = {
-            **self.environment,
-            "HOME": place,
-            "ROS_HOME": place,
-            "ROS_LOG_DIR": place,
-        }
-        self._master = forked.Helper(lambda: forked.MasterProcess(port), ours)
-        self.box.trust(self._master.pid)
-        self._driver = None
-        self._helpers = []
-        if not self._master.call("uri"):
-            raise CannotCheck("no ROS master can be started here")
-        self._driver = forked.Helper(driver.Driver, ours)
-        self.box.trust(self._driver.pid)
-        # As roscore does; else two roslaunch at once would each make up one, and one of them fail.
-        self.call("set_parameter", "/run_id", str(uuid.uuid4()))
-        # As common/node_kit/etc/ros/roscore.xml, which says why.
-        self.call("set_parameter", "/rosout_disable_topics_generation", False)
-
-    def start(self, package, script, *arguments):
-        """Start a script of the student's."""
-        return self.launch([*self.session.command(package, script), *arguments])
-
-    def help(self, make):
-        """A forked.Helper of one's own, for as long as the stage stands."""
-        helper = forked.Helper(make, self._ours)
-        self.box.trust(helper.pid)
-        self._helpers.append(helper)
-        return helper
-
-    def launch(self, command, trusted=False):
-        """Start a command on this master."""
-        try:
-            return self.box.start(
-                command, self._ours if trusted else self.environment, trusted=trusted
-            )
-        except OSError as error:
-            raise Wrong(
-                "a program that can be started",
-                f"{Path(command[0]).name}: {error.strerror}",
-                hint="look at the first line of the file: #!/usr/bin/env python3",
-            ) from None
-
-    def call(self, method, *arguments):
-        """Of the driver."""
-        return self._driver.call(method, *arguments)
-
-    def wait(self, condition, deadline_s=START_S):
-        """See Box.wait."""
-        return self.box.wait(condition, deadline_s)
-
-    def end(self):
-        """End everything on this stage."""
-        self.box.clear()
-        for helper in self._helpers:
-            helper.end()
-        if self._driver:
-            self._driver.end()
-        self._master.end()
-        shutil.rmtree(self.session.folder / "home" / ".ros", ignore_errors=True)
 
 
 def prepare(folder, uid):

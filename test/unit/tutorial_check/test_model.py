@@ -7,6 +7,7 @@ from tutorial_check.model import (
     OK,
     UNREACHED,
     WRONG,
+    CannotCheck,
     Catalogue,
     Check,
     Note,
@@ -96,3 +97,35 @@ def test_it_can_end_at_the_first():
 def test_each_check_has_its_function():
     with pytest.raises(ValueError, match="B"):
         Catalogue(CHECKS[:2], {"A": None})
+
+
+@pytest.mark.parametrize(
+    ("sure", "busy", "calls"), [(False, True, 2), (True, True, 1), (False, False, 1)]
+)
+def test_what_is_wrong_on_a_busy_machine_is_looked_at_twice(sure, busy, calls):
+    made = []
+
+    def slow(session):
+        made.append(session)
+        raise Wrong("soon", "late", sure=sure)
+
+    run = Run(Catalogue([Check("C1", "2", "first", "2.1")], {"C1": slow}), None, lambda: busy)
+    assert run.result("C1").status == "wrong"
+    assert len(made) == calls
+
+
+def test_on_a_machine_far_too_busy_there_is_no_verdict():
+    catalogue = Catalogue([Check("C1", "2", "first", "2.1")], {"C1": wrong()})
+    with pytest.raises(CannotCheck, match="C1: the machine has too much else to do"):
+        Run(catalogue, None, lambda: True, lambda: True).result("C1")
+
+
+def test_the_second_look_counts():
+    looks = iter([Wrong("soon", "late"), None])
+
+    def late_once(session):
+        if error := next(looks):
+            raise error
+
+    run = Run(Catalogue([Check("C1", "2", "first", "2.1")], {"C1": late_once}), None, lambda: True)
+    assert run.result("C1").status == "ok"

@@ -3,94 +3,21 @@
 import statistics
 
 from tutorial_check.exercises.files import check_file, crash, find_script
+from tutorial_check.exercises.talking import LISTEN_S, PACKAGE, TOPIC, scripts, talk_of
 from tutorial_check.model import Note, Wrong, master_gone
 from tutorial_check.python_facts import flipped_anonymous
 from tutorial_check.tracebacks import first_traceback
 
-PACKAGE = "beginner_tutorials"
-LISTEN_S = 1.5  # to the talker
-TOPIC = "/chatter"
-
 
 def files(session):
     """C5."""
-    scripts = [find_script(session, PACKAGE, name) for name in ("talker.py", "listener.py")]
-    for script in scripts:
+    for script in scripts(session):
         check_file(session, PACKAGE, script)
-    return ", ".join(scripts)
-
-
-def _scripts(session):
-    return [find_script(session, PACKAGE, name) for name in ("talker.py", "listener.py")]
+    return ", ".join(scripts(session))
 
 
 def _facts(session, script):
     return session.scripts(PACKAGE)[script]
-
-
-class Talk:
-    """What was seen with two talkers and two listeners, and then of the talkers alone."""
-
-    def __init__(self, session):
-        self.session = session
-        talker, listener = _scripts(session)
-        with session.stage() as stage:
-            stage.call("listen", TOPIC, "String")
-            self.talkers = [stage.start(PACKAGE, talker)]
-            self.listener = stage.start(PACKAGE, listener)
-            stage.wait(lambda: stage.call("count", TOPIC) or self.talkers[0].ended)
-            self.types = stage.call("types")
-            stage.call("advertise", TOPIC, "String")
-            stage.wait(lambda: stage.call("listeners", TOPIC) > 1 or self.listener.ended, 5.0)
-            stage.wait(lambda: len(self._heard(stage)) > 3 or self.talkers[0].ended, 2.0)
-            self.publishers, self.subscribers = stage.call("state")
-            self.warnings = stage.call("warnings")
-            first = len(self._heard(stage))
-            self.strings = [
-                f"tutorial check {word} {3 * number}" for number, word in enumerate("ABCDE", 7)
-            ]
-            for text in self.strings:
-                stage.call("send", TOPIC, text)
-            stage.wait(lambda: all(text in self.listener.output for text in self.strings), 2.0)
-            stage.wait(
-                lambda: len(self._heard(stage)) >= first + 6 or self.talkers[0].ended, LISTEN_S
-            )
-            self.heard = self._heard(stage)
-            self.talker_ended, self.listener_ended = self.talkers[0].ended, self.listener.ended
-            self.master_alive = stage.call("alive")
-            if self.talker_ended or self.listener_ended or not self.heard:
-                return
-            # A second talker of the same kind; both must go on, or the first must end.
-            self.talkers.append(stage.start(PACKAGE, talker))
-            names = set(self.publishers.get(TOPIC, []))
-            stage.wait(
-                lambda: set(stage.call("state")[0].get(TOPIC, [])) - names or self.talkers[0].ended
-            )
-            stage.wait(lambda: self.talkers[0].ended or self._both(stage), 1.5)
-            self.first_ended, self.both = self.talkers[0].ended, self._both(stage)
-            so_far = len(self._heard(stage))  # the one that is ended next must be well under way
-            stage.wait(lambda: len(self._heard(stage)) > so_far + 2 or self.talkers[1].ended, 3.0)
-            self.taken = {
-                name: session.box.end(program)
-                for name, program in (
-                    ("talker.py", self.talkers[-1]),
-                    ("listener.py", self.listener),
-                )
-            }
-
-    @staticmethod
-    def _heard(stage):
-        return [each for each in stage.call("heard", TOPIC) if each[1] != "/tutorial_check"]
-
-    def _both(self, stage):
-        return (
-            len({caller for _, caller, _ in self._heard(stage)[-20:]}) > 1
-            and not self.talkers[0].ended
-        )
-
-
-def _talk(session):
-    return session.memo("talk", lambda: Talk(session))
 
 
 def _check_master(talk):
@@ -100,9 +27,9 @@ def _check_master(talk):
 
 def talker(session):
     """C6."""
-    talk = _talk(session)
+    talk = talk_of(session)
     _check_master(talk)
-    script, _ = _scripts(session)
+    script, _ = scripts(session)
     expected = "std_msgs/String on /chatter, about 10 times a second"
     program = talk.talkers[0]
     facts = _facts(session, script)
@@ -175,9 +102,9 @@ def talker(session):
 
 def listener(session):
     """C7."""
-    talk = _talk(session)
+    talk = talk_of(session)
     _check_master(talk)
-    _, script = _scripts(session)
+    _, script = scripts(session)
     program = talk.listener
     facts = _facts(session, script)
     expected = "every text sent on /chatter, displayed once"
@@ -226,7 +153,7 @@ def listener(session):
 
 def graph(session):
     """C8."""
-    talk = _talk(session)
+    talk = talk_of(session)
     if not talk.publishers.get(TOPIC) or not talk.subscribers.get(TOPIC):
         raise Wrong(
             "talker -> /chatter -> listener",
@@ -238,8 +165,8 @@ def graph(session):
 
 def anonymous(session):
     """C9: as submitted, and with anonymous the other way round in a copy."""
-    script, _ = _scripts(session)
-    talk = _talk(session)
+    script, _ = scripts(session)
+    talk = talk_of(session)
     call = _facts(session, script).first("init_node")
     is_anonymous = bool(call) and call.names.get("anonymous") == "True"
     knows = bool(call) and call.names.get("anonymous", "False") in ("True", "False")
@@ -276,7 +203,7 @@ def _second_ends_first(session, script):
     with session.stage() as stage:
         stage.call("listen", TOPIC, "String")
         first = stage.start(PACKAGE, script)
-        stage.wait(lambda: stage.call("count", TOPIC) or first.ended)
+        stage.wait_for_start(lambda: stage.call("count", TOPIC) or first.ended)
         if first.ended:
             raise crash(
                 session, PACKAGE, first, "the talker runs with anonymous the other way round"
@@ -288,14 +215,13 @@ def _second_ends_first(session, script):
             callers = {who for _, who, _ in stage.call("heard", TOPIC)}
             return first.ended or second.ended or callers - {caller}
 
-        stage.wait(settled, 5.0)
-        stage.wait(lambda: first.ended, 0.7)
+        stage.wait_for_start(settled)
         return first.ended
 
 
 def ctrl_c(session):
     """C10."""
-    talk = _talk(session)
+    talk = talk_of(session)
     for name, program in (("talker.py", talk.talkers[-1]), ("listener.py", talk.listener)):
         script = find_script(session, PACKAGE, name)
         if talk.taken[name] is None:

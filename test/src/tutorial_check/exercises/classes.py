@@ -4,9 +4,10 @@ import re
 import time
 from pathlib import Path
 
-from tutorial_check.exercises import joy2twist as plain
+from tutorial_check.exercises import conversation
 from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL, PACKAGE, drive
 from tutorial_check.exercises.files import check_file, crash
+from tutorial_check.exercises.joy2twist import check_manifest
 from tutorial_check.exercises.robot import held
 from tutorial_check.model import Note, Wrong
 
@@ -61,7 +62,7 @@ def is_class(session):
     """C29."""
     script, path, one = program(session)
     check_file(session, PACKAGE, script)
-    plain.check_manifest(session, script)
+    check_manifest(session, script)
     facts = session.scripts(PACKAGE)[path]
     where = f"{path}:{one.line}"
     expected = "a class with __init__, its callback bound to self, made under __main__"
@@ -130,10 +131,10 @@ def behaves(session):
     script, _, _ = program(session)
     seen = drive(session, script)
     notes = [
-        plain.check_displays(session, script, seen, few_are_enough=True),
-        plain.check_topics(session, seen),
-        plain.check_mapping(session, seen),
-        plain.check_rate(session, seen),
+        conversation.check_displays(session, script, seen, few_are_enough=True),
+        conversation.check_topics(session, seen),
+        conversation.check_mapping(session, seen),
+        conversation.check_rate(session, seen),
     ]
     return next((note for note in notes if isinstance(note, Note)), None)
 
@@ -152,7 +153,7 @@ class Ending:
     def _end(self, session, stage, script, way):
         before = stage.call("count", CMD_VEL)
         started = stage.start(PACKAGE, script)
-        stage.wait(
+        stage.wait_for_start(
             lambda: (
                 (stage.call("listeners", JOY) and stage.call("speakers", CMD_VEL)) or started.ended
             )
@@ -181,7 +182,7 @@ class Ending:
         self.took[way] = time.monotonic() - began_s if gone else None
         stage.call("end_stream", JOY)
         session.box.end(started, 0.2)
-        stage.wait(lambda: not stage.call("speakers", CMD_VEL), 0.5)
+        stage.wait(lambda: not stage.call("speakers", CMD_VEL), 3.0)
         heard = stage.call("heard", CMD_VEL, index)
         first = next((number for number, (_, _, value) in enumerate(heard) if value == ZERO), None)
         self.zero_after[way] = heard[first][0] - began_s if first is not None else None
@@ -195,7 +196,7 @@ WAYS = ("Ctrl-C", "rosnode kill")
 
 
 def _ending(session):
-    return session.memo("ending", lambda: Ending(session, program(session)[0], WAYS))
+    return session.run("ending", lambda: Ending(session, program(session)[0], WAYS))
 
 
 def stops(session):

@@ -131,9 +131,11 @@ def crash(session, package, program, what, default_hint=""):
     from tutorial_check.tracebacks import explain, first_traceback, last_lines  # noqa: PLC0415
 
     trace = first_traceback(program.output, str(session.package(package).folder))
-    if trace:
+    if trace and not (program.was_stopped and trace.error.startswith("KeyboardInterrupt")):
         seen = trace.error + (f"   in: {trace.text}" if trace.text else "")
-        return Wrong(what, seen, where=trace.where, hint=explain(trace.error) or default_hint)
+        return Wrong(
+            what, seen, where=trace.where, hint=explain(trace.error) or default_hint, sure=True
+        )
     has_ended = program.ended and not program.was_stopped
     if has_ended and program.process.returncode is not None and program.process.returncode < 0:
         return Wrong(

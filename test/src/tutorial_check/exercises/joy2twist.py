@@ -1,24 +1,13 @@
-"""C13 to C18: the program joy2twist.py, first and second version. C30 asks the same of the class."""
+"""C13 to C18: the program joy2twist.py, first and second version."""
 
-import contextlib
-import re
-
-from tutorial_check.exercises.driving import (
-    CMD_VEL,
-    COUNT,
-    JOY,
-    NEUTRAL,
-    PACKAGE,
-    check_master,
-    drive,
-)
-from tutorial_check.exercises.files import check_file, crash, find_script
-from tutorial_check.mapping import judge
+from tutorial_check.exercises import conversation
+from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL, PACKAGE, drive
+from tutorial_check.exercises.files import check_file, find_script
 from tutorial_check.model import Note, Wrong
-from tutorial_check.python_facts import unmasked
+from tutorial_check.stage import START_S
 
 NAME = "joy2twist.py"
-TWIST_LINE = "rospy.Publisher('/cmd_vel', Twist, queue_size=10)"
+STARTS = 10  # under load, all at once
 
 
 def main_script(session):
@@ -65,297 +54,27 @@ def check_manifest(session, script):
         )
 
 
-def crash_of(session, seen, expected, hint=""):
-    """The Wrong for a program that failed; with an except that hides the cause taken away."""
-    program = seen.program
-    facts = session.scripts(PACKAGE)[seen.script]
-    if facts.broad_excepts and (seen.ended_early or not seen.trouble):
-        text = unmasked(session.text(PACKAGE, seen.script))
-        if text:
-            shown = drive(
-                session,
-                session.memo(
-                    ("unmasked", seen.script), lambda: session.sibling(PACKAGE, seen.script, text)
-                ),
-            )
-            if shown.trouble:
-                wrong = crash(session, PACKAGE, shown.program, expected, hint)
-                wrong.where = wrong.where.replace(shown.script, seen.script)
-                wrong.seen += f" (hidden by the except in line {facts.broad_excepts[0]})"
-                return wrong
-    return crash(session, PACKAGE, program, expected, hint)
-
-
-def _silent_end(session, script):
-    """Why a program ends at once without a word, as far as its text tells: (where, hint)."""
-    facts = session.scripts(PACKAGE)[script]
-    for line, text in facts.bare_names:
-        if text.endswith(("spin", "listener")):
-            return f"{script}:{line}", f"{text} needs its (): {text}()"
-    for one in facts.classes:
-        if one.is_node and "__init__" not in one.methods:
-            odd = next((each for each in one.methods if re.fullmatch(r"_*init_*", each)), None)
-            if odd:
-                return (
-                    f"{script}:{one.line}",
-                    f"`def {odd}`: Python calls `__init__`, two underscores on either side",
-                )
-        if one.is_node and not one.instantiated:
-            return (
-                f"{script}:{one.line}",
-                f"nobody makes one: {one.name}() under if __name__ == '__main__':",
-            )
-    if "spin" not in facts.calls:
-        return script, "rospy.spin() is missing: without it the program comes to its end"
-    if not facts.has_main:
-        return script, "nobody calls listener(): if __name__ == '__main__': listener()"
-    return script, "is the function called, in the last line, and with ()?"
-
-
-def check_connected(session, seen):
-    """It subscribes to /joy as Joy, or Wrong says why not."""
-    check_master(seen)
-    expected = "it subscribes to /joy, sensor_msgs/Joy"
-    facts = session.scripts(PACKAGE)[seen.script]
-    call = facts.first("Subscriber")
-    where = f"{seen.script}:{call.line}" if call else seen.script
-    if not seen.connected and JOY in seen.subscribers:
-        words = call.words[1] if call and len(call.words) > 1 else "another type"
-        raise Wrong(
-            expected,
-            f"it wants {words} on /joy",
-            where=where,
-            hint="rospy.Subscriber('/joy', Joy, callback)",
-        )
-    if seen.connected and not (seen.ended_early and not seen.samples and not seen.shown):
-        return
-    if seen.trouble or facts.broad_excepts:
-        wrong = crash_of(session, seen, expected)
-        if seen.trouble or wrong.where:
-            raise wrong
-    if seen.ended_early:
-        place, hint = _silent_end(session, seen.script)
-        raise Wrong(
-            expected, crash(session, PACKAGE, seen.program, "").seen, where=place, hint=hint
-        )
-    if JOY in seen.publishers:
-        raise Wrong(
-            expected,
-            f"it PUBLISHES on /joy ({seen.types.get(JOY)})",
-            where=where,
-            hint="a Subscriber hears what the joystick says, a Publisher speaks",
-        )
-    others = sorted(set(seen.subscribers) - {"/rosout", "/clock"})
-    if others:
-        raise Wrong(
-            expected, f"it subscribes to {others[0]}", where=where, hint="the topic is called /joy"
-        )
-    raise Wrong(
-        expected,
-        "it subscribes to nothing",
-        where=where,
-        hint="rospy.Subscriber('/joy', Joy, callback), after rospy.init_node and before rospy.spin()",
-    )
-
-
 def displays(session):
     """C14."""
     script = main_script(session)
     seen = drive(session, script)
-    return check_displays(session, script, seen)
-
-
-def check_displays(session, script, seen, few_are_enough=False):
-    """Joys appear in the output with all six axes, or Wrong."""
-    check_connected(session, seen)
-    expected = "every Joy displayed with its six axes, two decimals, in one line"
-    if seen.all_shown or (seen.shown and few_are_enough):
-        return None
-    if seen.trouble:
-        raise crash_of(session, seen, expected)
-    first = next(
-        (
-            other
-            for other, facts in session.scripts(PACKAGE).items()
-            if other != script
-            and "Subscriber" in facts.calls
-            and "Publisher" not in facts.calls
-            and not other.rsplit("/", 1)[-1].startswith("checked_")
-        ),
-        None,
-    )
-    if first:
-        with contextlib.suppress(Wrong):
-            check_file(session, PACKAGE, first)
-            if drive(session, first, wants_twist=False).all_shown:
-                return Note(f"displayed by {first}, no more by {script}")
-    if seen.shown:
-        return Note(f"{seen.shown} of {COUNT} were displayed")
-    facts = session.scripts(PACKAGE)[script]
-    has_words = any(name in facts.calls for name in ("loginfo", "print", "logdebug", "logwarn"))
-    values = [f"{abs(axis):.2f}" for axis in seen.joys[3][0]]
-    found = sum(value in seen.output for value in values)
-    if few_are_enough:
-        return Note("it displays nothing; the handout's does")
-    if found >= 2:
-        raise Wrong(
-            expected,
-            f"{found} of the six values of a message were found",
-            where=script,
-            hint="all six: [%.2f, %.2f, %.2f, %.2f, %.2f, %.2f] % data.axes",
-        )
-    if "logdebug" in facts.calls and "Publisher" in facts.calls:
-        return Note("it logs at the level debug, which is not shown")
-    raise Wrong(
-        expected,
-        "not one value of a message was found in its output",
-        where=script,
-        hint="rospy.loginfo(...) in the callback, with data.axes"
-        if not has_words
-        else "does the callback display data.axes?",
-    )
+    return conversation.check_displays(session, script, seen)
 
 
 def topics(session):
     """C15."""
     seen = drive(session, main_script(session))
-    return check_topics(session, seen)
-
-
-def check_topics(session, seen):
-    """/joy in, /cmd_vel out, with their types, or Wrong."""
-    check_connected(session, seen)
-    expected = "it publishes on /cmd_vel, geometry_msgs/Twist"
-    facts = session.scripts(PACKAGE)[seen.script]
-    call = facts.first("Publisher")
-    where = f"{seen.script}:{call.line}" if call else seen.script
-    if JOY in seen.publishers:
-        raise Wrong(
-            "it only listens to /joy",
-            f"it publishes on /joy itself ({', '.join(seen.publishers[JOY])})",
-            where=where,
-            hint="/joy belongs to the joystick",
-        )
-    if CMD_VEL in seen.publishers:
-        kind = seen.types.get(CMD_VEL)
-        if kind != "geometry_msgs/Twist" or any(
-            "datatype" in line and CMD_VEL in line for line in seen.warnings
-        ):
-            raise Wrong(expected, f"/cmd_vel carries {kind}", where=where, hint=TWIST_LINE)
-        if len(set(seen.publishers[CMD_VEL])) > 1:
-            raise Wrong(expected, f"several do: {', '.join(seen.publishers[CMD_VEL])}", where=where)
-        return "/joy -> /cmd_vel"
-    if seen.trouble and call:
-        raise crash_of(session, seen, expected)
-    others = sorted(set(seen.publishers) - {"/rosout", JOY})
-    if others:
-        raise Wrong(
-            expected,
-            f"it publishes on {others[0]}",
-            where=where,
-            hint="the topic is called /cmd_vel",
-        )
-    raise Wrong(
-        expected,
-        "it publishes nothing" + ("" if call else ": there is no rospy.Publisher in it"),
-        where=where,
-        hint=f"{TWIST_LINE}, and publish(msg) in the callback",
-    )
+    return conversation.check_topics(session, seen)
 
 
 def mapping(session):
     """C16."""
-    return check_mapping(session, drive(session, main_script(session)))
-
-
-def check_mapping(session, seen):
-    """linear.x follows axis 1, angular.z axis 0; or Wrong names the rule that was found."""
-    facts = session.scripts(PACKAGE)[seen.script]
-    expected = "for each Joy one Twist: linear.x = axes[1], angular.z = axes[0], all else 0"
-    publish = facts.first("publish")
-    where = f"{seen.script}:{publish.line}" if publish else seen.script
-    if len(seen.samples) < COUNT * 0.9:
-        if seen.trouble:
-            raise crash_of(session, seen, expected)
-        if seen.ended_early:
-            wrong = crash_of(session, seen, expected)
-            place, hint = _silent_end(session, seen.script)
-            wrong.where, wrong.hint = wrong.where or place, wrong.hint or hint
-            raise wrong
-        if not seen.samples:
-            hint = (
-                "is pub.publish(msg) called in the callback?"
-                if not publish
-                else "is publish reached for every message?"
-            )
-            raise Wrong(expected, "no Twist came for any Joy", where=where, hint=hint)
-        raise Wrong(
-            expected,
-            f"{len(seen.samples)} Twists for {COUNT} Joys",
-            where=where,
-            hint="publish in the callback, for every message",
-        )
-    complaint, remark = judge(seen.samples)
-    if complaint:
-        raise Wrong(
-            expected,
-            complaint,
-            where=_line_of(session, seen.script, complaint) or where,
-            hint=remark,
-        )
-    if seen.trouble:
-        wrong = crash_of(session, seen, expected)
-        return Note(f"right, but also: {wrong.seen}", wrong.where, wrong.hint)
-    if remark:
-        return Note(remark)
-    if any(
-        "latch" in call.names and call.names["latch"] == "True"
-        for call in facts.calls.get("Publisher", [])
-    ):
-        return Note(
-            "latch=True: a velocity of long ago reaches whoever comes later", hint="leave latch out"
-        )
-    return None
-
-
-def _line_of(session, script, complaint):
-    """Where the field is set that the complaint names."""
-    field = re.search(r"(linear|angular)\.[xyz]", complaint)
-    for number, line in enumerate(session.text(PACKAGE, script).splitlines(), 1):
-        if field and re.search(re.escape(field[0]) + r"\s*=", line):
-            return f"{script}:{number}"
-    return ""
+    return conversation.check_mapping(session, drive(session, main_script(session)))
 
 
 def rate(session):
     """C17."""
-    return check_rate(session, drive(session, main_script(session)))
-
-
-def check_rate(session, seen):
-    """50 Joys a second are answered, each soon."""
-    expected = "at 50 Joys a second as many Twists, each within 50 ms"
-    facts = session.scripts(PACKAGE)[seen.script]
-    sleeps = facts.first("sleep")
-    if seen.is_prompt:
-        return f"{seen.answered} for {seen.sent}" + (
-            f", {1000 * seen.delay_s:.1f} ms" if seen.delay_s is not None else ""
-        )
-    by_clock = seen.unasked > 2 or "Timer" in facts.calls or "Rate" in facts.calls
-    delay = f", {1000 * seen.delay_s:.0f} ms late" if seen.delay_s is not None else ""
-    told = f"{seen.answered} Twists for {seen.sent} Joys{delay}"
-    if by_clock and seen.answered >= 10 * 2 and (seen.delay_s is None or seen.delay_s < 0.2):
-        return Note(f"{told}: by a clock of its own; the handout publishes for every message")
-    if seen.trouble:
-        raise crash_of(session, seen, expected)
-    raise Wrong(
-        expected,
-        told,
-        where=f"{seen.script}:{sleeps.line}" if sleeps else seen.script,
-        hint="no sleep and no Rate in the callback: it is called for each message"
-        if sleeps
-        else "what in the callback takes so long?",
-    )
+    return conversation.check_rate(session, drive(session, main_script(session)))
 
 
 def under_load(session):
@@ -366,16 +85,19 @@ def under_load(session):
         stage.call("advertise", JOY, "Joy")
         stage.call("listen", CMD_VEL, "Twist")
         stage.call("stream", JOY, [NEUTRAL], 200.0, True)
-        programs = [stage.start(PACKAGE, script, f"__name:=loaded_{number}") for number in range(3)]
+        programs = [
+            stage.start_quickly(PACKAGE, script, f"__name:=loaded_{number}")
+            for number in range(STARTS)
+        ]
 
         def all_speak():
             callers = {caller for _, caller, _ in stage.call("heard", CMD_VEL)}
             return len(callers) >= len(programs) or any(
-                "Traceback" in each.output for each in programs
+                "NameError" in each.output for each in programs
             )
 
-        stage.wait(all_speak, 5.0)
-        failed = [each for each in programs if "Traceback" in each.output]
+        stage.wait(all_speak, START_S)
+        failed = [each for each in programs if "NameError" in each.output]
     first = {
         name: call.line
         for name in ("Subscriber", "Publisher")

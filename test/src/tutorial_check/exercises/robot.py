@@ -9,9 +9,11 @@ from tutorial_check.exercises.files import crash
 from tutorial_check.exercises.joy2twist import main_script
 from tutorial_check.model import CannotCheck, Note, Wrong
 from tutorial_check.pad import Pad
+from tutorial_check.stage import START_S
 
 FORWARDS, LEFT = 0.5, 0.8  # positions of the stick
 ODOM = "/odom"
+LOOKS = 3  # at the robot's speed: one stutter of a busy machine is none of the program's
 
 
 def held(left, forwards):
@@ -74,6 +76,15 @@ def steady(stage, how_long_s=0.8):
     return (length / took, turned / took) if took > 0 else (0.0, 0.0)
 
 
+def _possible(twist):
+    """(m/s, rad/s) of a Twist: a robot is as fast as it can, and no faster."""
+    return min(twist[0], 0.7), min(twist[5], math.pi)
+
+
+def _agree(measured, told):
+    return told > 0 and abs(measured - told) <= 0.1 * told
+
+
 def simulated(session):
     """C19."""
     script = main_script(session)
@@ -91,7 +102,8 @@ def simulated(session):
                     and stage.call("speakers", CMD_VEL)
                     and stage.call("count", ODOM)
                 )
-            )
+            ),
+            START_S,
         )
         publishers = stage.call("state")[0].get(CMD_VEL, [])
         if robot.ended or not stage.call("count", ODOM):
@@ -118,7 +130,11 @@ def simulated(session):
             )
             moving = stage.call("count", ODOM)
             stage.wait(lambda moving=moving: stage.call("count", ODOM) > moving + 8, 3.0)
-            found.append((steady(stage), stage.call("heard", CMD_VEL, before)[-1:]))
+            for _ in range(LOOKS):
+                measured, told = steady(stage), stage.call("heard", CMD_VEL, before)[-1:]
+                if told and _agree(measured[len(found)], _possible(told[0][2])[len(found)]):
+                    break
+            found.append((measured[len(found)], told))
             stage.call("end_stream", JOY)
         session.box.end(program, 0.5)
     (straight, told), (turning, told_turn) = found
@@ -126,10 +142,10 @@ def simulated(session):
         raise Wrong("Twists that the robot obeys", "none came")
     v, w = told[-1][2][0], told_turn[-1][2][5]
     expected = f"forwards with {v:.2f} m/s, then turning left with {w:.2f} rad/s"
-    seen = f"{straight[0]:.2f} m/s, then {turning[1]:.2f} rad/s"
-    # A robot is as fast as it can, and no faster.
-    v, w = min(v, 0.7), min(w, math.pi)
-    if v <= 0 or w <= 0 or abs(straight[0] - v) > 0.1 * v or abs(turning[1] - w) > 0.1 * w:
+    seen = f"{straight:.2f} m/s, then {turning:.2f} rad/s"
+    if not _agree(straight, _possible(told[-1][2])[0]) or not _agree(
+        turning, _possible(told_turn[-1][2])[1]
+    ):
         raise Wrong(
             expected,
             seen,
@@ -170,7 +186,8 @@ def joystick(session):
                 (stage.call("count", JOY) and stage.call("speakers", CMD_VEL))
                 or program.ended
                 or node.ended
-            )
+            ),
+            START_S,
         )
         pad.call("push", 0.0, 0.6)
         stage.wait(lambda: drives() or program.ended or node.ended, 3.0)
@@ -187,7 +204,7 @@ def joystick(session):
         session.box.end(node)
         # The switch at X: eight axes.
         stage.call("advertise", JOY, "Joy")
-        stage.wait(lambda: stage.call("listeners", JOY) > 0)
+        stage.wait(lambda: stage.call("listeners", JOY) > 0, START_S)
         before, said = stage.call("count", CMD_VEL), program.output.count("Traceback")
         for k in range(5):
             stage.call(

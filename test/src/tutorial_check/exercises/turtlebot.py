@@ -2,9 +2,9 @@
 
 import re
 
-from tutorial_check.exercises import launching
+from tutorial_check.exercises import launch_files, launch_nodes, launch_runs
 from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL, PACKAGE
-from tutorial_check.exercises.launching import REAL, TURTLEBOT
+from tutorial_check.exercises.launch_files import REAL, TURTLEBOT
 from tutorial_check.exercises.robot import held
 from tutorial_check.model import CannotCheck, Wrong
 
@@ -14,17 +14,17 @@ REMAP = '<remap from="/cmd_vel" to="/cmd_vel_mux/input/teleop"/>'
 
 def remapped(session):
     """C27."""
-    path = launching.check_file(session, TURTLEBOT)
+    path = launch_files.check_file(session, TURTLEBOT)
     text = path.read_text(errors="replace")
     where = f"launch/{TURTLEBOT}"
-    launching.demand(session, TURTLEBOT, "joy2twist", launching.is_own, launching.OWN_HINT)
+    launch_nodes.demand(session, TURTLEBOT, "joy2twist", launch_nodes.is_own, launch_nodes.OWN_HINT)
     expected = f"Twists on {TELEOP}, none on {CMD_VEL}"
     with session.stage() as stage:
         for topic in (TELEOP, CMD_VEL):
             stage.call("listen", topic, "Twist")
         stage.call("advertise", JOY, "Joy")
         program = stage.launch(["roslaunch", str(path)])
-        stage.wait(
+        stage.wait_for_start(
             lambda: (
                 program.ended
                 or (
@@ -32,7 +32,7 @@ def remapped(session):
                     and (stage.call("speakers", TELEOP) or stage.call("speakers", CMD_VEL))
                 )
             ),
-            launching.START_S,
+            launch_runs.START_S,
         )
         stage.call("send", JOY, NEUTRAL)
         stage.call("stream", JOY, [held(0.2, 0.3)], 20.0, True)
@@ -42,18 +42,23 @@ def remapped(session):
 
         stage.wait(
             lambda: (
-                moving(TELEOP) or moving(CMD_VEL) or program.ended or launching._died(_Run(program))
+                moving(TELEOP)
+                or moving(CMD_VEL)
+                or program.ended
+                or launch_runs.has_died(_Run(program))
             ),
             3.0,
         )
         good, bad = moving(TELEOP), moving(CMD_VEL)
         publishers, subscribers = stage.call("state")
         output = program.output
-    remaps = [remap for node in launching.nodes_of(session, TURTLEBOT) for remap in node["remaps"]]
-    line = f"{where}:{launching._line(text, 'remap' if 'remap' in text else 'joy2twist.py')}"
+    remaps = [
+        remap for node in launch_nodes.nodes_of(session, TURTLEBOT) for remap in node["remaps"]
+    ]
+    line = f"{where}:{launch_files.line_of(text, 'remap' if 'remap' in text else 'joy2twist.py')}"
     if good and not bad and CMD_VEL not in publishers:
         return None
-    if "Traceback" in output or launching._died(_Run(program)):
+    if "Traceback" in output or launch_runs.has_died(_Run(program)):
         from tutorial_check.tracebacks import explain, first_traceback, last_lines  # noqa: PLC0415
 
         trace = first_traceback(output, str(session.package(PACKAGE).folder))
@@ -67,7 +72,7 @@ def remapped(session):
         raise Wrong(
             expected,
             "Twists on /cmd_vel: a <param> renames nothing",
-            where=f"{where}:{launching._line(text, '<param')}",
+            where=f"{where}:{launch_files.line_of(text, '<param')}",
             hint=REMAP,
         )
     if bad and any(to.strip("/") == "cmd_vel" for _, to in remaps):
@@ -106,10 +111,10 @@ class _Run:
 
 def real_robot(session):
     """C28."""
-    path = launching.check_file(session, REAL)
+    path = launch_files.check_file(session, REAL)
     text = path.read_text(errors="replace")
     where = f"launch/{REAL}"
-    files = launching.facts(session, REAL)["files"]
+    files = launch_files.facts(session, REAL)["files"]
     if not any(each.endswith(f"/{TURTLEBOT}") for each in files):
         raise Wrong(
             f"it includes {TURTLEBOT}",
@@ -117,35 +122,37 @@ def real_robot(session):
             where=where,
             hint=f'<include file="$(find {PACKAGE})/launch/{TURTLEBOT}"/>',
         )
-    launching.demand(
+    launch_nodes.demand(
         session,
         REAL,
         "RViz",
-        launching.is_viewer,
+        launch_nodes.is_viewer,
         '<include file="$(find turtlebot_rviz_launchers)/launch/view_robot.launch"/>',
     )
-    launching.demand(session, REAL, "joy_node", launching.is_joystick, launching.JOY_HINT)
-    own = [node for node in launching.nodes_of(session, REAL) if launching.is_own(node)]
+    launch_nodes.demand(session, REAL, "joy_node", launch_nodes.is_joystick, launch_nodes.JOY_HINT)
+    own = [node for node in launch_nodes.nodes_of(session, REAL) if launch_nodes.is_own(node)]
     if len(own) > 1:
         raise Wrong(
             "one joy2twist",
             f"{len(own)}: both would drive",
-            where=f"{where}:{launching._line(text, 'joy2twist.py')}",
+            where=f"{where}:{launch_files.line_of(text, 'joy2twist.py')}",
             hint=f"{TURTLEBOT} starts it already",
         )
-    has_base = any(node["type"] == "cmd_vel_mux.py" for node in launching.nodes_of(session, REAL))
+    has_base = any(
+        node["type"] == "cmd_vel_mux.py" for node in launch_nodes.nodes_of(session, REAL)
+    )
     with session.stage() as stage:
         stage.call("listen", ACTIVE, "String")
-        pad = launching.plug_in_for(session, stage, REAL)
+        pad = launch_runs.plug_in_for(session, stage, REAL)
         base = None
         if not has_base:
             base = stage.launch(
                 ["roslaunch", "fake_turtlebot_sim", "minimal.launch", "model:=false"], trusted=True
             )
-        launch = launching.Launch(session, REAL, stage, TELEOP)
-        pushed = launching.push_when_ready(stage, pad, launch)
+        launch = launch_runs.Launch(session, REAL, stage, TELEOP)
+        pushed = launch_runs.push_when_ready(stage, pad, launch)
         stage.wait(
-            lambda: launch.moved() > 0.15 or launch.program.ended or launching._died(launch),
+            lambda: launch.moved() > 0.15 or launch.program.ended or launch_runs.has_died(launch),
             4.0 if pushed else 0.0,
         )
         if base and base.ended:

@@ -1,0 +1,167 @@
+"""C22 and C25: which nodes the launch files of section 5 start."""
+
+import os
+import shlex
+from pathlib import Path
+
+from tutorial_check.exercises.driving import PACKAGE
+from tutorial_check.exercises.launch_files import (
+    BAG,
+    STICK,
+    facts,
+    find_launch,
+    line_of,
+    relative,
+)
+from tutorial_check.model import Note, Wrong
+
+ROBOT_HINT = '<include file="$(find rbx1_bringup)/launch/fake_turtlebot.launch"/>'
+OWN_HINT = '<node pkg="joy2twist" type="joy2twist.py" name="myjoystick2twist"/>'
+BAG_HINT = (
+    '<node pkg="rosbag" type="play" name="rosbag" args="--loop $(find joy2twist)/bag/joy.bag"/>'
+)
+JOY_HINT = '<node pkg="joy" type="joy_node" name="joy_node"/>'
+
+
+def nodes_of(session, name):
+    """Those of a launch file, as launch_facts has them."""
+    return facts(session, name)["nodes"]
+
+
+def is_viewer(node):
+    """Whether RViz, or what starts it."""
+    return node["type"] in ("rviz", "view_robot")
+
+
+def is_simulator(node):
+    """Whether the simulated robot."""
+    return (
+        node["package"] == "fake_turtlebot_sim" and node["type"] == "fake_turtlebot.py"
+    ) or node["package"].startswith("arbotix")
+
+
+def is_player(node):
+    """Whether it plays a recording."""
+    return (node["package"], node["type"]) == ("rosbag", "play")
+
+
+def is_joystick(node):
+    """Whether a driver of joysticks."""
+    return (
+        node["type"] in ("joy_node", "joy_node.py", "joystick.py") and node["package"] != "rosbag"
+    )
+
+
+def is_own(node):
+    """Whether the student's joy2twist."""
+    return node["package"] == PACKAGE
+
+
+def demand(session, name, what, test, hint):
+    """The node of a launch file of which test() is true, or Wrong."""
+    path = find_launch(session, name)
+    found = [node for node in nodes_of(session, name) if test(node)]
+    if not found:
+        raise Wrong(
+            f"{name} starts {what}", "it does not", where=relative(session, path), hint=hint
+        )
+    return found[0]
+
+
+def check_viewer(session, name):
+    """RViz with a configuration that exists."""
+    node = demand(
+        session,
+        name,
+        "RViz",
+        is_viewer,
+        '<node pkg="rviz" type="rviz" name="my_rviz" args="-d $(find rbx1_nav)/sim.rviz"/>',
+    )
+    words = shlex.split(node["args"])
+    config = next(
+        (words[i + 1] for i, word in enumerate(words[:-1]) if word in ("-d", "--display-config")),
+        None,
+    )
+    where = f"{relative(session, find_launch(session, name))}:{line_of(find_launch(session, name).read_text(errors='replace'), 'rviz')}"
+    if config and config != "auto" and not Path(config).exists():
+        raise Wrong(
+            "-d FILE names a file that exists",
+            f"no file {config}",
+            where=where,
+            hint="-d $(find rbx1_nav)/sim.rviz",
+        )
+    if not config and node["type"] == "rviz":
+        return Note(
+            "RViz opens without -d FILE: its view is the last one used",
+            where,
+            "-d $(find rbx1_nav)/sim.rviz",
+        )
+    return None
+
+
+def bag_of(session):
+    """The recording that launch_bag plays: its path."""
+    node = demand(session, BAG, "rosbag play", is_player, BAG_HINT)
+    path = find_launch(session, BAG)
+    where = f"{relative(session, path)}:{line_of(path.read_text(errors='replace'), 'play')}"
+    words = [word for word in shlex.split(node["args"]) if not word.startswith("_")]
+    bags = [word for word in words if word.endswith(".bag")]
+    if not bags:
+        raise Wrong(
+            "rosbag play with the recording",
+            f"args: {node['args'] or 'none'}",
+            where=where,
+            hint=BAG_HINT,
+        )
+    if not os.path.isabs(bags[0]):
+        raise Wrong(
+            "a whole path to the recording",
+            bags[0],
+            where=where,
+            hint=f"roslaunch starts rosbag in a folder of its own: $(find joy2twist)/bag/{Path(bags[0]).name}",
+        )
+    if not Path(bags[0]).exists() and str(session.layout.root) not in bags[0]:
+        raise Wrong(
+            "a recording that exists",
+            f"no file {bags[0]}",
+            where=where,
+            hint="mkdir bag in your package, and copy joy.bag into it",
+        )
+    return bags[0], where
+
+
+def bag_nodes(session):
+    """C22."""
+    note = check_viewer(session, BAG)
+    demand(session, BAG, "the simulated robot", is_simulator, ROBOT_HINT)
+    demand(session, BAG, "joy2twist", is_own, OWN_HINT)
+    bag, where = bag_of(session)
+    if not bag.startswith(str(session.source)):
+        if (
+            not Path(bag).exists()
+            or "$(find"
+            not in find_launch(session, BAG).read_text(errors="replace").split("play", 1)[-1]
+        ):
+            return Note(
+                f"the recording is not in your package: {bag}",
+                where,
+                "$(find joy2twist)/bag/joy.bag goes wherever the package goes",
+            )
+        return Note(f"the recording is not in your package: {bag}", where)
+    return note
+
+
+def stick_nodes(session):
+    """C25."""
+    note = check_viewer(session, STICK)
+    demand(session, STICK, "the simulated robot", is_simulator, ROBOT_HINT)
+    demand(session, STICK, "joy2twist", is_own, OWN_HINT)
+    demand(session, STICK, "joy_node", is_joystick, JOY_HINT)
+    if any(is_player(node) for node in nodes_of(session, STICK)):
+        raise Wrong(
+            "a joystick only",
+            "it plays a recording, too: both would drive",
+            where=f"launch/{STICK}",
+            hint="take the rosbag node out",
+        )
+    return note

@@ -1,0 +1,220 @@
+"""C23, C24 and C26: the launch files of section 5 at work."""
+
+import math
+import os
+import re
+import shlex
+from pathlib import Path
+
+from tutorial_check.exercises.driving import CMD_VEL, JOY, PACKAGE
+from tutorial_check.exercises.launch_files import BAG, STICK, find_launch
+from tutorial_check.exercises.launch_nodes import (
+    ROBOT_HINT,
+    bag_of,
+    is_joystick,
+    is_player,
+    nodes_of,
+)
+from tutorial_check.exercises.robot import ODOM, plug_in
+from tutorial_check.model import Wrong
+from tutorial_check.tracebacks import explain, first_traceback
+
+BAG_S = 1.6  # length of the recording that takes the place of the student's
+START_S = 20.0  # for all nodes of a launch on a busy machine
+
+
+class Launch:
+    """A launch file run on a stage, and what flowed."""
+
+    def __init__(self, session, name, stage, twists=CMD_VEL):
+        """twists: the topic on which the velocities should come."""
+        self.session, self.stage, self.name, self.twists = session, stage, name, twists
+        for topic, kind in ((JOY, "Joy"), (twists, "Twist"), (ODOM, "Odometry")):
+            stage.call("listen", topic, kind)
+        self.program = stage.launch(["roslaunch", str(find_launch(session, name))])
+
+    def moved(self):
+        """How far the robot drove [m], along its way."""
+        path = [value for _, _, value in self.stage.call("heard", ODOM)]
+        return sum(math.hypot(b[1] - a[1], b[2] - a[2]) for a, b in zip(path, path[1:]))
+
+    def wrong(self, expected):
+        """The Wrong for a launch that does not do what it should, with the first cause there is."""
+        output = re.sub(r"\x1b\[[0-9;]*m|\x1b\][^\x07]*\x07", "", self.program.output)
+        trace = first_traceback(output, str(self.session.package(PACKAGE).folder))
+        if trace:
+            return Wrong(expected, trace.error, where=trace.where, hint=explain(trace.error))
+        counts = {topic: self.stage.call("count", topic) for topic in (JOY, self.twists, ODOM)}
+        silent = [topic for topic, count in counts.items() if not count]
+        errors = [
+            line
+            for line in output.splitlines()
+            if re.search(r"ERROR|died|Invalid|cannot|Unable", line)
+            and "rviz" not in line
+            and "INFO" not in line
+        ]
+        errors = errors or [
+            line for log in self._logs() for line in log.splitlines()[-1:] if "INFO" not in line
+        ]
+        seen = (
+            f"nothing on {', '.join(silent)}" if silent else f"the robot moved {self.moved():.2f} m"
+        )
+        if errors:
+            seen += f"; {errors[0].strip()[:200]}"
+        return Wrong(
+            expected, seen, where=f"launch/{self.name}", hint=_silence_hint(silent, self.twists)
+        )
+
+    def _logs(self):
+        """What nodes without output="screen" wrote."""
+        folder = Path(self.stage.environment["ROS_LOG_DIR"])
+        for path in sorted(folder.rglob("*-stdout.log")):
+            yield path.read_text(errors="replace")[-3000:]
+
+
+def _silence_hint(silent, twists):
+    if JOY in silent:
+        return "does the recording, or joy_node, run? rostopic hz /joy"
+    if twists in silent:
+        return f"does joy2twist run, and publish on {twists}? rosnode list"
+    if ODOM in silent:
+        return "does the simulated robot run? " + ROBOT_HINT
+    return "rostopic echo /cmd_vel"
+
+
+def _own_bag(session, path):
+    """A short recording in place of the student's: rest with LB released, then forwards."""
+    import rosbag  # noqa: PLC0415
+    import rospy  # noqa: PLC0415
+    from sensor_msgs.msg import Joy  # noqa: PLC0415
+
+    mode = os.stat(path).st_mode
+    os.unlink(path)
+    with rosbag.Bag(str(path), "w") as bag:
+        for k in range(int(BAG_S * 20)):
+            stamp = rospy.Time(1_600_000_000 + k / 20)
+            joy = Joy(
+                axes=[0.0, 0.5 if k > 4 else 0.0, 0.0, 0.0, 0.0, 0.0],
+                buttons=[0, 0, 0, 0, int(k > 4)] + [0] * 7,
+            )
+            joy.header.stamp = stamp
+            bag.write("/joy", joy, stamp)
+    os.chmod(path, mode | 0o444)
+
+
+def _bag_run(session):
+    bag, _ = bag_of(session)
+    replaced = bag.startswith(str(session.source))
+    if replaced:
+        _own_bag(session, bag)
+    with session.stage() as stage:
+        launch = Launch(session, BAG, stage)
+        enough = stage.wait(
+            lambda: (
+                launch.moved() > 0.3
+                or (launch.program.ended and "roslaunch")
+                or (has_died(launch) and "died")
+            ),
+            START_S,
+        )
+        drives = enough is True
+        wrong = (
+            None
+            if drives
+            else launch.wrong("/joy, /cmd_vel and /odom flow, and the robot drives more than 0.3 m")
+        )
+        loops = False
+        if drives:
+            begun = stage.call("heard", JOY)[0][0]
+            longest = BAG_S if replaced else 30.0
+
+            def again():
+                heard = stage.call("heard", JOY)
+                return heard[-1][0] - begun > longest + 0.5 or any(
+                    is_player(node) and node["respawn"] for node in nodes_of(session, BAG)
+                )
+
+            loops = bool(stage.wait(again, longest + 2.5)) if replaced else _loops_by_words(session)
+        return wrong, drives, loops
+
+
+def has_died(launch):
+    """Whether roslaunch said that a node has died; RViz needs a screen, and may."""
+    return any(
+        "has died" in line and "rviz" not in line for line in launch.program.output.splitlines()
+    )
+
+
+def _loops_by_words(session):
+    node = next(each for each in nodes_of(session, BAG) if is_player(each))
+    return node["respawn"] or bool({"--loop", "-l"} & set(shlex.split(node["args"])))
+
+
+def bag_drives(session):
+    """C23."""
+    wrong, _, _ = session.run("bag run", lambda: _bag_run(session))
+    if wrong:
+        raise wrong
+
+
+def bag_loops(session):
+    """C24."""
+    _, _, loops = session.run("bag run", lambda: _bag_run(session))
+    if not loops:
+        raise Wrong(
+            "/joy flows on after the end of the recording",
+            "it falls silent",
+            where=f"launch/{BAG}",
+            hint="rosbag play --loop",
+        )
+
+
+def stick_drives(session):
+    """C26."""
+    check_stick(session, STICK)
+
+
+def check_stick(session, name):
+    """A launch file with a joystick: the robot moves with the stick."""
+    with session.stage() as stage:
+        pad = plug_in_for(session, stage, name)
+        launch = Launch(session, name, stage)
+        pushed = push_when_ready(stage, pad, launch)
+        stage.wait(
+            lambda: launch.moved() > 0.15 or launch.program.ended or has_died(launch),
+            4.0 if pushed else 0.0,
+        )
+        if launch.moved() <= 0.15:
+            raise launch.wrong("the robot moves with the stick")
+        pad.call("release")
+        stage.wait(lambda: abs(stage.call("heard", ODOM)[-1][2][5]) < 0.01, 3.0)
+        if abs(stage.call("heard", ODOM)[-1][2][5]) > 0.01:
+            raise Wrong("released, the robot stands", "it drives on", where=f"launch/{name}")
+
+
+def plug_in_for(session, stage, name):
+    """A joystick where the joy_node of a launch file will look for it."""
+    pad, path = plug_in(session, stage)
+    if str(path) != "/dev/input/js0":
+        for node in nodes_of(session, name):
+            if is_joystick(node):
+                stage.call("set_parameter", f"{node['namespace']}{node['name']}/dev", str(path))
+    return pad
+
+
+def push_when_ready(stage, pad, launch):
+    """Push the stick forwards once everything runs; whether it came to that."""
+    topics = (JOY, launch.twists, ODOM)
+
+    def ready():
+        return (
+            pad.call("connected")
+            and all(stage.call("speakers", topic) for topic in topics)
+            and stage.call("count", JOY)
+        )
+
+    stage.wait(lambda: ready() or launch.program.ended or has_died(launch), START_S)
+    # A robot that has only just come obeys once it was told to rest for a while; so do we.
+    stage.wait(lambda: launch.program.ended, 0.6)
+    pad.call("push", 0.0, 0.6)
+    return bool(ready())

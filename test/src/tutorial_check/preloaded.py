@@ -1,0 +1,45 @@
+"""A student's program in an interpreter that has ROS loaded already: a start in a tenth of the time.
+
+For starting the same program many times. Modules of the student's that bear the name of one of
+ROS's do not count here; so what decides a check is started as the student starts it.
+"""
+
+import atexit
+import os
+import sys
+import threading
+import traceback
+import types
+
+
+def run(path, *arguments):
+    """Run it as python3 does, and end this process, which is forked for it."""
+    code = 0
+    try:
+        _become_main(path, arguments)
+    except SystemExit as error:
+        code = error.code if isinstance(error.code, int) else int(error.code is not None)
+    except BaseException as error:
+        code = 1
+        traceback.print_exception(error)
+    for finish in (threading._shutdown, atexit._run_exitfuncs, sys.stdout.flush):
+        try:
+            finish()
+        except BaseException:
+            traceback.print_exc()
+    os._exit(code)
+
+
+def _become_main(path, arguments):
+    # Text of each line at once, as with PYTHONUNBUFFERED.
+    sys.stdout, sys.stderr = (
+        open(number, "w", buffering=1, closefd=False)  # noqa: SIM115  for the life of the process
+        for number in (1, 2)
+    )
+    sys.argv = [path, *arguments]
+    sys.path[:0] = [os.path.dirname(path), *os.environ.get("PYTHONPATH", "").split(":")]
+    main = types.ModuleType("__main__")
+    main.__file__ = path
+    sys.modules["__main__"] = main
+    with open(path, "rb") as file:
+        exec(compile(file.read(), path, "exec"), main.__dict__)

@@ -1,0 +1,59 @@
+"""A program that runs, and what it printed."""
+
+import os
+import time
+
+KEPT_FIRST, KEPT_LAST = 200_000, 50_000  # bytes of a program's output
+
+
+class Program:
+    """A program of the student's, or one that serves the check."""
+
+    def __init__(self, process, name):
+        self.process = process
+        self.name = name
+        self.began_s = time.monotonic()
+        self.was_stopped = False  # by us: then how it ended says nothing
+        self._first, self._last, self.printed = bytearray(), bytearray(), 0
+
+    @property
+    def ended(self):
+        """Whether it has ended."""
+        return self.process.poll() is not None
+
+    @property
+    def output(self):
+        """What it printed; the middle of very much is left out."""
+        gap = b"\n[...]\n" if self.printed > KEPT_FIRST + KEPT_LAST else b""
+        return (self._first + gap + self._last).decode(errors="replace")
+
+    def read(self):
+        """Take what it printed since the last time; False at the end of its output."""
+        try:
+            data = os.read(self.process.stdout.fileno(), 65536)
+        except BlockingIOError:
+            return True
+        self.printed += len(data)
+        room = KEPT_FIRST - len(self._first)
+        self._first += data[:room]
+        self._last = (self._last + data[room:])[-KEPT_LAST:]
+        return bool(data)
+
+
+class Forked:
+    """What subprocess.Popen is to a program, to a copy of this process."""
+
+    def __init__(self, pid):
+        self.pid, self.returncode, self.stdout = pid, None, None
+
+    def poll(self):
+        """Its exit code, or None while it runs."""
+        return self.wait(os.WNOHANG)
+
+    def wait(self, options=0):
+        """Its exit code, once it has ended."""
+        if self.returncode is None:
+            pid, status = os.waitpid(self.pid, options)
+            if pid:
+                self.returncode = os.waitstatus_to_exitcode(status)
+        return self.returncode
