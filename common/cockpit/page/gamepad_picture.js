@@ -44,12 +44,11 @@ export class GamepadPicture {
   /** names: {D, X: names of the buttons of that mode}. axes, buttons: as on /joy, of either mode. */
   show(names, axes, buttons) {
     const mode = axes.length === 8 ? "X" : "D";
-    const padded = [...axes, ...[0, 0, 1, 0, 0, 1, 0, 0].slice(axes.length)];
-    const hands = handsOf(mode, names[mode], padded, buttons);
+    const hands = handsOf(mode, names[mode], axes.length ? axes : [0, 0], buttons);
     const [lt, rt] = hands.triggers;
     const held = new Set(hands.held);
-    if (axes.length && lt > 0.5) held.add("LT");
-    if (axes.length && rt > 0.5) held.add("RT");
+    if (lt > 0.5) held.add("LT");
+    if (rt > 0.5) held.add("RT");
     for (const part of this.svg.querySelectorAll("[data-name]")) {
       part.classList.toggle("held", held.has(part.dataset.name));
     }

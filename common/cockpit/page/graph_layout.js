@@ -1,6 +1,7 @@
 /** Where nodes and topics are drawn: in layers from left to right, as arrows go (pure). */
 
-const SIZE = { height: 34, letter: 7.6, padding: 26, between: 16, layers: 60, margin: 12 };
+const SIZE = { height: 34, letter: 7.2, padding: 24, between: 16, layers: 40, margin: 12 };
+const BEND = "bend "; // of a long arrow: a place in each layer between, where no box may be
 
 /**
  * items: names such as "node /a" and "topic /b". edges: [{from, to}].
@@ -11,8 +12,43 @@ export function layout(items, edges) {
   const layerOf = layers(items, known);
   const columns = [];
   for (const item of items) (columns[layerOf[item]] ??= []).push(item);
-  untangle(columns, known);
-  return place(columns, known);
+  const ways = known.map((edge, i) => wayOf(edge, i, layerOf, columns));
+  const steps = ways.flatMap((way) => way.slice(1).map((to, i) => ({ from: way[i], to })));
+  untangle(columns, steps);
+  const { width, height, boxes } = place(columns);
+  const arrows = known.map((edge, i) => {
+    const way = layerOf[edge.from] < layerOf[edge.to] ? ways[i] : ways[i].reverse();
+    return { ...edge, path: curve(way.map((item) => boxes[item])) };
+  });
+  return { width, height, boxes: Object.fromEntries(items.map((item) => [item, boxes[item]])), arrows };
+}
+
+/** The items of an arrow from left to right, with a bend in each layer that it passes. */
+function wayOf({ from, to }, number, layerOf, columns) {
+  const [left, right] = layerOf[from] < layerOf[to] ? [from, to] : [to, from];
+  const bends = [];
+  for (let layer = layerOf[left] + 1; layer < layerOf[right]; layer += 1) {
+    bends.push(`${BEND}${number} ${layer}`);
+    columns[layer].push(bends.at(-1));
+  }
+  return [left, ...bends, right];
+}
+
+/** An SVG path along boxes, whichever way they follow each other. */
+function curve(boxes) {
+  const ahead = boxes.at(-1).x > boxes[0].x;
+  const points = boxes.flatMap(({ x, y, w, h }, i) => {
+    const [near, far] = ahead ? [x, x + w] : [x + w, x];
+    const tip = ahead ? -3 : 3;
+    const ends = [[near + (i === boxes.length - 1 ? tip : 0), y + h / 2], [far, y + h / 2]];
+    return i === 0 ? [ends[1]] : i === boxes.length - 1 ? [ends[0]] : ends;
+  });
+  let path = `M${points[0]}`;
+  for (let i = 1; i < points.length; i += 1) {
+    const middle = (points[i - 1][0] + points[i][0]) / 2;
+    path += ` C${middle} ${points[i - 1][1]} ${middle} ${points[i][1]} ${points[i]}`;
+  }
+  return path;
 }
 
 /** Each item one layer after the last of those that lead to it; of a loop, the way back does not count. */
@@ -60,27 +96,23 @@ function untangle(columns, edges) {
   }
 }
 
-function place(columns, edges) {
+function place(columns) {
   const step = SIZE.height + SIZE.between;
   const tallest = Math.max(1, ...columns.map((column) => column.length));
   const boxes = {};
   let x = SIZE.margin;
   for (const column of columns) {
-    const name = (item) => item.slice(item.indexOf(" ") + 1);
-    const w = Math.max(...column.map((item) => name(item).length)) * SIZE.letter + SIZE.padding;
+    const widths = column.map((item) =>
+      item.startsWith(BEND) ? 0 : (item.length - item.indexOf(" ") - 1) * SIZE.letter + SIZE.padding);
+    const w = Math.max(...widths);
     const top = SIZE.margin + ((tallest - column.length) * step) / 2;
     column.forEach((item, i) => {
-      const own = name(item).length * SIZE.letter + SIZE.padding;
+      // A bend is as wide as its layer, so that the arrow is straight where boxes are.
+      const own = widths[i] || w;
       boxes[item] = { x: x + (w - own) / 2, y: top + i * step, w: own, h: SIZE.height };
     });
     x += w + SIZE.layers;
   }
-  const arrows = edges.map(({ from, to }) => {
-    const [a, b] = [boxes[from], boxes[to]];
-    const [x1, y1, x2, y2] = [a.x + a.w, a.y + a.h / 2, b.x - 3, b.y + b.h / 2];
-    const bend = x2 > x1 ? (x2 - x1) / 2 : 70; // a way back leaves to the right and comes from the left
-    return { from, to, path: `M${x1} ${y1} C${x1 + bend} ${y1} ${x2 - bend} ${y2} ${x2} ${y2}` };
-  });
   const width = Math.max(x - SIZE.layers + SIZE.margin, 100);
-  return { width, height: tallest * step + SIZE.margin, boxes, arrows };
+  return { width, height: tallest * step + SIZE.margin, boxes };
 }

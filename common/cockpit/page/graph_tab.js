@@ -96,7 +96,8 @@ export class GraphTab {
   #fill(kind, name, entries) {
     const list = element("dl", { className: "details" });
     for (const [title, key, value] of entries) {
-      list.append(element("dt", {}, title), element("dd", { "data-value": key }, ...[value].flat()));
+      list.append(element("div", {},
+        element("dt", {}, title), element("dd", { "data-value": key }, ...[value].flat())));
     }
     this.details.replaceChildren(element("h2", {}, `${kind} ${name}`), list);
   }
