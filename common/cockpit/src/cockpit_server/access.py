@@ -1,8 +1,8 @@
 """Who may look and who may drive (pure).
 
-A page of somewhere else can have a browser of this network send us requests: under our address, with
-its own Origin, or under a name of its own that it lets point to us (DNS rebinding). So the Host must
-be ours, and the Origin the same. An address in numbers is nobody's to let point to us.
+A page of somewhere else can have a browser of this network send us requests: under our address,
+with its own Origin, or under a name of its own that it lets point to us (DNS rebinding). So the
+Host must be ours, and the Origin the same. Nobody can let an address in numbers point elsewhere.
 """
 
 import hmac

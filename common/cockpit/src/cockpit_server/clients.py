@@ -2,12 +2,13 @@
 
 import json
 from dataclasses import dataclass, field
-from typing import Optional, Tuple
+from typing import ClassVar, Optional, Tuple
 
 from cockpit_server.access import DRIVER
+from cockpit_server.seat import RefusedError
 from node_kit.throttle import Throttle
 
-# A page sends each change of a stick and twenty inputs a second; fast gamepads change 125 times. [Hz]
+# A page sends each change of a stick; fast gamepads have 125 in a second. [Hz]
 MESSAGES_RATE, MESSAGES_BURST = 250.0, 250.0
 REFUSALS_RATE, REFUSALS_BURST = 2.0, 10.0
 LONGEST_FLOOD = 5000  # messages too many, after which the connection is closed
@@ -35,13 +36,17 @@ class Watch:
 
 @dataclass(eq=False)
 class Client:
-    """write: called with a text to send. is_behind: whether the last one has not gone out yet."""
+    """write: called with a text to send. is_behind: whether the last one has not gone out yet.
+
+    is_cut: whether the network to it seems to be down. close: called to end it.
+    """
 
     number: int
     role: str
     name: str
     write: callable
     is_behind: callable
+    is_cut: callable
     close: callable
     watch: Watch = Watch()
     seen: dict = field(default_factory=dict)  # by what it is about: the newest that was sent
@@ -53,6 +58,11 @@ class Client:
     def drives(self):
         """Whether it may."""
         return self.role == DRIVER
+
+    def must_drive(self):
+        """Raise RefusedError if it may not."""
+        if not self.drives:
+            raise RefusedError("this page was opened with the viewers' token: it may only look")
 
     def send(self, kind, **fields):
         """Send a message."""
@@ -78,6 +88,20 @@ class Client:
         if self.flood > LONGEST_FLOOD:
             self.close()
         return False
+
+
+class Source:
+    """Something that pages see. handlers: what is called for a kind of message that a page sends,
+    with the client, the time [s] and the fields.
+    """
+
+    handlers: ClassVar[dict] = {}
+
+    def prepare(self, clients, now):
+        """Gather what these clients want to see; twenty times a second."""
+
+    def give(self, client, now):
+        """Send a client what it lacks; it has read all that was sent before."""
 
 
 def encoded(kind, **fields):

@@ -46,7 +46,7 @@ class Graph:
         }
         return self.robots_with_odometry() | driven
 
-    def picture(self):
+    def parts(self):
         """nodes, topics and edges as pages get them."""
         edges = [
             edge

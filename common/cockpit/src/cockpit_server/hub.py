@@ -5,26 +5,40 @@ import time
 from cockpit_server.clients import Watch
 from cockpit_server.schema import check_lengths, check_message
 from cockpit_server.seat import PAGE, Input, RefusedError, Seat
-from cockpit_server.subscriptions import worker
+from cockpit_server.subscriptions import later
 from gamepad.gamepads import F710
 
 BEAT_S = 0.05  # of the server to who drives, and of the robots to all
-TICK_S = 0.025  # how often the seat looks at the time
+TICK_S = 0.01  # how often the seat and a recording that plays look at the time
 
 
 class Hub:
     """The pages that are open, who of them drives, and what each is sent."""
 
-    def __init__(self, graph_watch, robots, pads, joysticks, sources):
-        """robots, pads, sources: have prepare() and give()."""
-        self._graphs, self._robots, self._pads = graph_watch, robots, pads
-        self._joysticks, self._sources = joysticks, sources
+    def __init__(self, soon, graph_watch, joysticks, pads):
+        """soon: called in any thread with what is to be called in this one. pads: knows who else
+        moves a robot.
+        """
+        self.soon, self._graphs, self._joysticks, self._pads = soon, graph_watch, joysticks, pads
+        self._sources, self._player = [], None
+        self._handlers = {
+            "watch": self._on_watch, "drive": self._on_drive, "leave": self._on_leave,
+            "hand_over": self._on_hand_over, "input": self._on_input, "release": self._on_release,
+        }  # fmt: skip
         self.clients = {}
         self._next_number, self._ticks, self._beats = 1, 0, 0
         self._mode = "D"
         self._seat_version = 0
         self._sat_at = 0.0
         self.seat = Seat(joysticks.send, self._on_lost)
+
+    def add(self, sources, player):
+        """sources: of what pages see, with prepare(), give() and handlers, by kind of message.
+        player: the one that plays recordings.
+        """
+        self._sources, self._player = list(sources), player
+        for source in self._sources:
+            self._handlers.update(source.handlers)
 
     # ------------------------------------------------------------------ pages come and go
 
@@ -61,7 +75,7 @@ class Hub:
         kind = "message"
         try:
             kind, fields = check_message(data)
-            getattr(self, f"_on_{kind}")(client, now, **fields)
+            self._handlers[kind](client, now, **fields)
         except (ValueError, RefusedError) as error:
             client.refuse(kind, str(error), now)
 
@@ -72,15 +86,11 @@ class Hub:
         client.seen.clear()
 
     def _on_drive(self, client, now, robot, mode):
-        self._must_drive(client)
-        if robot not in self._graphs.graph.robots():
-            raise RefusedError(f"there is no robot {robot!r}")
-        self._change(lambda: self.seat.take(client.number, robot, PAGE, now))
-        self._mode, self._sat_at = mode, now
-        worker.submit(self._joysticks.advertise, robot)
+        self.sit_down(client, robot, PAGE, now)
+        self._mode = mode
 
     def _on_leave(self, client, _now):
-        self._change(lambda: self.seat.leave(client.number))
+        self.stand_up(client)
 
     def _on_hand_over(self, client, now, to):
         other = self.clients.get(to)
@@ -89,21 +99,34 @@ class Hub:
         self._change(lambda: self.seat.hand_over(client.number, to, now))
         self._sat_at = now
 
-    def _on_input(self, client, now, n, t, beat, axes, buttons, pad, source):
+    def _on_input(self, client, now, *, axes, buttons, source, **more):
         if client.number != self.seat.driver:
             raise RefusedError("this page does not drive")
         check_lengths(self._mode, axes, buttons)
-        said = Input(n, t / 1000, beat, axes, buttons, pad)
+        said = Input(axes=axes, buttons=buttons, **more)
         self._change(lambda: self.seat.input(client.number, said, now))
 
     def _on_release(self, client, _now, why):
         self._change(lambda: self.seat.release(client.number, why))
 
-    def _must_drive(self, client):
-        if not client.drives:
-            raise RefusedError("this page was opened with the viewers' token: it may only look")
-
     # ----------------------------------------------------------------------------- the seat
+
+    def sit_down(self, client, robot, how, now):
+        """Let a client drive a robot. Raises RefusedError."""
+        client.must_drive()
+        if robot not in self._graphs.graph.robots():
+            raise RefusedError(f"there is no robot {robot!r}")
+        self._change(lambda: self.seat.take(client.number, robot, how, now))
+        self._sat_at = now
+        later(self._joysticks.advertise, robot)
+
+    def stand_up(self, client):
+        """The client drives no longer."""
+        self._change(lambda: self.seat.leave(client.number))
+
+    def lose(self, why):
+        """Who drives is lost."""
+        self._change(lambda: self.seat.lose(why))
 
     def _change(self, action):
         """Do something with the seat, of which all pages are told if it changes."""
@@ -130,35 +153,33 @@ class Hub:
         """Time has passed."""
         now = time.monotonic()
         self._change(lambda: self.seat.tick(now))
+        self._player.play(now)
         self._ticks += 1
         if self._ticks % round(BEAT_S / TICK_S):
             return
         self._beat(now)
         clients = list(self.clients.values())
-        robots_known = self._graphs.graph.robots_with_odometry()
-        driven = self.seat.robot if self.seat.driver is not None else None
-        self._robots.prepare(clients, robots_known, now)
-        self._pads.prepare(clients, driven, now)
         for source in self._sources:
             source.prepare(clients, now)
         for client in clients:
             if client.is_behind():
                 continue  # it gets the newest once it has read
             self._give_seat(client)
-            for source in (self._robots, self._pads, *self._sources):
+            for source in self._sources:
                 source.give(client, now)
 
     def _beat(self, now):
+        self._pads.driven = self.seat.robot if self.seat.driver is not None else None
         if self.seat.driver is None:
             return
         rival = self._pads.rival(self.seat.robot, self._sat_at)
         if rival:
             self._change(lambda: self.seat.free(f"{rival} drives this robot, too: end it first"))
             return
-        driver = self.clients.get(self.seat.driver)
+        driver = self.clients[self.seat.driver]
         self._beats += 1
         self.seat.beat(self._beats, now)
-        if driver and not driver.is_behind():
+        if not driver.is_behind():
             driver.send("beat", n=self._beats, time=round(time.time(), 3), input=self.seat.newest)
 
     def end(self):

@@ -7,10 +7,18 @@ import threading
 import rospy
 from tornado.ioloop import PeriodicCallback
 
+from cockpit_server.bags import Bags
+from cockpit_server.doctor import Doctor
+from cockpit_server.graph_view import GraphView
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.hub import TICK_S, Hub
 from cockpit_server.joysticks import Joysticks
+from cockpit_server.logs import Logs
+from cockpit_server.plots import Plots
+from cockpit_server.resets import Resets
 from cockpit_server.robots import Pads, Robots
+from cockpit_server.teleop import Teleop
+from cockpit_server.topics import Topics
 from cockpit_server.web import server
 
 # How long the end may wait for the last message, and then for its delivery [s].
@@ -33,7 +41,14 @@ class Cockpit:
         self._sockets = sockets
         name = rospy.get_name()
         self._graphs = GraphWatch(name)
-        self._hub = Hub(self._graphs, Robots(), Pads(name), Joysticks(), [])
+        pads = Pads(name)
+        self._hub = Hub(self._soon, self._graphs, Joysticks(), pads)
+        bags, graphs = Bags(self._hub), self._graphs
+        sources = (
+            Robots(graphs), pads, Teleop(), Resets(graphs), GraphView(graphs), Topics(graphs),
+            Plots(graphs), Logs(), Doctor(), bags,
+        )  # fmt: skip
+        self._hub.add(sources, player=bags)
         self._server = server(self._hub, access)
         self._loop = None
         self._has_ended = threading.Event()
@@ -55,12 +70,15 @@ class Cockpit:
         await self._ended.wait()
         ticks.stop()
 
+    def _soon(self, action):
+        self._loop.call_soon_threadsafe(action)
+
     def _end(self):
         """Leave the robot at rest; rospy's other threads wait for this."""
-        self._loop.call_soon_threadsafe(self._rest)
+        self._soon(self._rest)
         if self._has_ended.wait(LONGEST_END_S):
             threading.Event().wait(DELIVERY_S)
-        self._loop.call_soon_threadsafe(self._ended.set)
+        self._soon(self._ended.set)
 
     def _rest(self):
         self._hub.end()

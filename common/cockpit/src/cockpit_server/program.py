@@ -2,7 +2,6 @@
 
 import argparse
 import errno
-import os
 import secrets
 import shutil
 import socket
@@ -51,7 +50,9 @@ def listening(port, lan):
         return [_listening(host, port) for host in hosts]
     except OSError as error:
         if error.errno == errno.EADDRINUSE:
-            fail(f"port {port} is taken, maybe by another cockpit: end that, or take --port {port + 1}")
+            fail(
+                f"port {port} is taken, maybe by another cockpit: end it, or take --port {port + 1}"
+            )
         fail(f"cannot listen on port {port}: {error.strerror}; take another: --port 8080")
 
 
@@ -68,7 +69,10 @@ def wait_for_master():
     """Wait until one answers, after one line that says so."""
     uri = rosgraph.get_master_uri()
     if call(uri, "getPid")[0] is Answer.REFUSED:
-        print(f"cockpit: waiting for a ROS master at {uri}: start roscore, or a launch file", flush=True)
+        print(
+            f"cockpit: waiting for a ROS master at {uri}: start roscore, or a launch file",
+            flush=True,
+        )
         while call(uri, "getPid")[0] is Answer.REFUSED:
             time.sleep(LOOK_S)
 

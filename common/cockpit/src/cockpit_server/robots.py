@@ -6,7 +6,7 @@ from math import hypot, isfinite
 import rospy
 from sensor_msgs.msg import Joy
 
-from cockpit_server.clients import encoded
+from cockpit_server.clients import Source, encoded
 from cockpit_server.lean_odometry import LeanOdometry
 from cockpit_server.subscriptions import Subscriptions
 from node_kit.careful_connections import sender_of
@@ -21,19 +21,21 @@ def topic_of(robot, name):
     return f"/{robot}/{name}" if robot else f"/{name}"
 
 
-class Robots:
+class Robots(Source):
     """The newest odometry of each robot, for all pages that show it."""
 
-    def __init__(self):
-        """Nothing is subscribed to before somebody looks."""
+    def __init__(self, graph_watch):
+        """graph_watch: knows the robots. Nothing is subscribed to before somebody looks."""
+        self._graphs = graph_watch
         self._subscriptions = Subscriptions(self._subscribe)
         self._states = {}  # robot -> (odometry, when it came [s], distance covered [m])
         self._text = ""
 
-    def prepare(self, clients, known, now):
-        """Gather what is sent to all that watch. known: names of robots with an odometry."""
+    def prepare(self, clients, now):
+        """Gather what is sent to all that watch."""
         watched = any(client.watch.robots for client in clients)
-        self._subscriptions.want(known if watched else ())
+        known = self._graphs.graph.robots_with_odometry() if watched else ()
+        self._subscriptions.want(known)
         if watched:
             robots = {
                 name: shown(*state, now) for name, state in self._states.items() if name in known
@@ -68,19 +70,20 @@ def shown(odometry, came, covered, now):
     return {name: round(value, DIGITS) for name, value in values.items() if isfinite(value)}
 
 
-class Pads:
-    """The newest joystick message of each robot that somebody looks at."""
+class Pads(Source):
+    """The newest joystick message of each robot that somebody looks at or drives."""
 
     def __init__(self, own_name):
         """own_name: of this node. Others that send on the same topic are told by rival()."""
         self._own_name = own_name
         self._subscriptions = Subscriptions(self._subscribe)
         self._newest = {}  # robot -> (message, when it came [s])
+        self.driven = None  # the robot that is driven from a page, too
         self._rivals = {}  # robot -> (name of the node, when it last spoke [s])
 
-    def prepare(self, clients, driven, _now):
-        """driven: the robot that is driven from a page, or None."""
-        looked_at = {client.watch.look for client in clients} | {driven}
+    def prepare(self, clients, _now):
+        """Subscribe to what is looked at now."""
+        looked_at = {client.watch.look for client in clients} | {self.driven}
         self._subscriptions.want(looked_at - {None})
 
     def give(self, client, now):

@@ -29,7 +29,7 @@ class RefusedError(Exception):
 class Input(NamedTuple):
     """What a page says its hand does, and when.
 
-    n: number of the message. t: the page's clock [s]. beat: the newest beat of the server that the
+    n: number of the message. t: the page's clock [ms]. beat: the newest beat of the server that the
     page has seen. axes, buttons: as on /joy. pad: the gamepad's own clock, any unit; None: a hand
     on glass or keys.
     """
@@ -130,13 +130,11 @@ class Seat:
             self._publish(message.axes, message.buttons)
 
     def _is_fresh(self, message, now):
-        late = now - message.t
+        late = now - message.t / 1000
         self._least = min(late, self._least + CLOCK_DRIFT * (now - self._least_at))
         self._least_at = now
         seen = self._beats.get(message.beat, -math.inf)
-        return (
-            message.n > self.newest and late - self._least <= LATE_S and now - seen <= SILENCE_S
-        )
+        return message.n > self.newest and late - self._least <= LATE_S and now - seen <= SILENCE_S
 
     def play(self, axes, buttons):
         """Publish a recorded message, for the client that sits here for that."""

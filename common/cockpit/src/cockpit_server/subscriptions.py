@@ -2,8 +2,22 @@
 
 from concurrent.futures import ThreadPoolExecutor
 
+import rospy
+
 # One thread for all questions to the master that may wait: they are asked one after the other.
-worker = ThreadPoolExecutor(1, thread_name_prefix="to_the_master")
+_worker = ThreadPoolExecutor(1, thread_name_prefix="to_the_master")
+
+
+def later(action, *arguments):
+    """Do something that may wait for the master, in another thread; a failure is logged."""
+
+    def do():
+        try:
+            action(*arguments)
+        except Exception as error:  # whatever the master or a node answered; the next one is asked
+            rospy.logwarn("cockpit: %s: %s", type(error).__name__, error)
+
+    _worker.submit(do)
 
 
 class Subscriptions:
@@ -20,7 +34,7 @@ class Subscriptions:
         wanted = frozenset(keys)
         if wanted != self._wanted:
             self._wanted = wanted
-            worker.submit(self._adjust)
+            later(self._adjust)
 
     def _adjust(self):
         wanted = self._wanted
@@ -30,3 +44,12 @@ class Subscriptions:
                 subscriber.unregister()
         for key in wanted - set(self._subscribers):
             self._subscribers[key] = self._subscribe(key)
+
+
+class Raw(rospy.AnyMsg):
+    """A message of any type that is not read before somebody needs it. data: its bytes."""
+
+    def deserialize(self, data):
+        """Keep the bytes."""
+        self.data = data
+        return self

@@ -12,11 +12,13 @@ from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
 from cockpit_server.clients import Client, name_of
 from cockpit_server.schema import LONGEST_MESSAGE
+from node_kit.newest_only import CUT_AFTER_RESENDS, resends
 
 CHARTS = Path("/usr/share/javascript/dygraphs")
 MOST_CLIENTS = 64  # a class, each with a page and a phone
 MOST_CONNECTIONS = 256  # each takes a file descriptor, of which a process may have 1024
 LONGEST_IDLE_S = 20.0  # a connection on which nothing is asked
+PING_S = 1.0  # a page that does not answer three of them is closed
 LONGEST_HEADER = 16384  # bytes
 LONGEST_BODY = 1024  # bytes; nothing is uploaded
 # What waits in the kernel for a page that does not read [bytes]; the kernel doubles it.
@@ -113,7 +115,7 @@ class _Socket(WebSocketHandler):
         hub = self.settings["hub"]
         name = name_of(self.request.headers.get("User-Agent", ""), self.request.remote_ip)
         self.client = Client(
-            hub.number(), self.role, name, self.send, self.stream.writing, self.close
+            hub.number(), self.role, name, self.send, self.stream.writing, self.is_cut, self.close
         )
         hub.join(self.client)
 
@@ -122,6 +124,9 @@ class _Socket(WebSocketHandler):
             self.write_message(text)
         except (WebSocketClosedError, StreamClosedError):
             pass  # on_close() comes
+
+    def is_cut(self):
+        return not self.stream.closed() and resends(self.stream.socket) >= CUT_AFTER_RESENDS
 
     def on_message(self, message):
         self.settings["hub"].hear(self.client, message)
@@ -164,8 +169,8 @@ def server(hub, access):
         hub=hub,
         page=page,
         websocket_max_message_size=LONGEST_MESSAGE,
-        websocket_ping_interval=2,
-        websocket_ping_timeout=6,
+        websocket_ping_interval=PING_S,
+        websocket_ping_timeout=3 * PING_S,
         log_function=lambda handler: None,
     )
     return _Server(

@@ -1,0 +1,61 @@
+"""The newest lines that nodes have logged."""
+
+import itertools
+from collections import deque
+
+import rospy
+from genpy import DeserializationError
+from rosgraph_msgs.msg import Log
+
+from cockpit_server.clients import Source
+from cockpit_server.subscriptions import Raw
+
+KEPT = 500  # lines
+LONGEST_LINE = 2000  # characters
+LEVELS = {
+    Log.DEBUG: "DEBUG", Log.INFO: "INFO", Log.WARN: "WARN", Log.ERROR: "ERROR", Log.FATAL: "FATAL",
+}  # fmt: skip
+TICKS = 2  # a message to pages each other time that they are looked after
+
+
+def shown(data):
+    """A line as pages get it, from the bytes of a rosgraph_msgs/Log; None if they are none."""
+    try:
+        log = Log().deserialize(data)
+    except DeserializationError:
+        return None
+    return {
+        "time": round(log.header.stamp.to_sec(), 3),
+        "level": LEVELS.get(log.level, str(log.level)),
+        "node": log.name,
+        "text": log.msg[:LONGEST_LINE],
+    }
+
+
+class Logs(Source):
+    """Keeps lines as they came, and reads them when a page wants to see them."""
+
+    def __init__(self):
+        """Listen for as long as the node runs."""
+        self._lines = deque(maxlen=KEPT)  # (number, bytes)
+        self._numbers = itertools.count(1)
+        self._ticks = 0
+        rospy.Subscriber("/rosout_agg", Raw, self._hear, queue_size=KEPT)
+
+    def prepare(self, clients, now):
+        """Count the time."""
+        self._ticks += 1
+
+    def give(self, client, _now):
+        """Send the lines that the client has not got."""
+        if not client.watch.log or self._ticks % TICKS:
+            return
+        known = client.seen.get("log", 0)
+        lines = [line for line in list(self._lines) if line[0] > known]
+        if lines or known == 0:
+            client.seen["log"] = lines[-1][0] if lines else -1
+            entries = [entry for entry in (shown(data) for _, data in lines) if entry]
+            client.send("log", entries=entries)
+
+    def _hear(self, message):
+        self._lines.append((next(self._numbers), message.data))

@@ -1,0 +1,49 @@
+"""What the joy2twist of each robot says of itself on /diagnostics."""
+
+import rospy
+from diagnostic_msgs.msg import DiagnosticArray
+from genpy import DeserializationError
+
+from cockpit_server.clients import Source
+from cockpit_server.graph import robot_of
+from cockpit_server.subscriptions import Raw
+
+MARK = ": joystick"  # the end of the name of joy2twist's status; before it stands its node's
+
+
+def said(data):
+    """[(robot, {state, why, level})] from the bytes of a DiagnosticArray."""
+    if MARK.encode() not in data:
+        return []
+    try:
+        statuses = DiagnosticArray().deserialize(data).status
+    except DeserializationError:
+        return []
+    found = [status for status in statuses if status.name.endswith(MARK)]
+    return [(robot_of(f"/{one.name[: -len(MARK)]}"), told(one)) for one in found]
+
+
+def told(status):
+    """A DiagnosticStatus as pages get it: state is its first word."""
+    state = status.message.partition(":")[0].partition(" ")[0]
+    return {"state": state, "why": status.message, "level": int(status.level)}
+
+
+class Teleop(Source):
+    """The newest words about each robot."""
+
+    def __init__(self):
+        """Listen, for as long as the node runs: it is little, and comes once a second."""
+        self._states = {}
+        rospy.Subscriber("/diagnostics", Raw, self._hear, queue_size=100)
+
+    def give(self, client, _now):
+        """Send what has changed of the robots that the client looks at."""
+        for robot, state in list(self._states.items()):
+            if (client.watch.robots or client.watch.look == robot) and client.lacks(
+                f"teleop {robot}", state
+            ):
+                client.send("teleop", robot=robot, **state)
+
+    def _hear(self, message):
+        self._states.update(said(message.data))
