@@ -5,7 +5,7 @@ import threading
 import rosgraph
 
 from cockpit_server.clients import Source, encoded
-from cockpit_server.subscriptions import later
+from cockpit_server.feeds import later
 from node_kit.questions import Answer, call
 from tutorial_tools.graph.program import DotError, dot_text, picture
 

@@ -3,12 +3,10 @@
 import itertools
 from collections import deque
 
-import rospy
 from genpy import DeserializationError
 from rosgraph_msgs.msg import Log
 
 from cockpit_server.clients import Source
-from cockpit_server.subscriptions import Raw
 
 KEPT = 500  # lines
 LONGEST_LINE = 2000  # characters
@@ -35,12 +33,12 @@ def shown(data):
 class Logs(Source):
     """Keeps lines as they came, and reads them when a page wants to see them."""
 
-    def __init__(self):
+    def __init__(self, feeds):
         """Listen for as long as the node runs."""
         self._lines = deque(maxlen=KEPT)  # (number, bytes)
         self._numbers = itertools.count(1)
         self._ticks = 0
-        rospy.Subscriber("/rosout_agg", Raw, self._hear, queue_size=KEPT)
+        feeds.want(self, {"/rosout_agg": self._hear}, every=True)
 
     def prepare(self, clients, now):
         """Count the time."""
@@ -57,5 +55,5 @@ class Logs(Source):
             entries = [entry for entry in (shown(data) for _, data in lines) if entry]
             client.send("log", entries=entries)
 
-    def _hear(self, message):
+    def _hear(self, message, _topic):
         self._lines.append((next(self._numbers), message.data))

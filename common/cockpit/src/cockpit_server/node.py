@@ -9,6 +9,7 @@ from tornado.ioloop import PeriodicCallback
 
 from cockpit_server.bags import Bags
 from cockpit_server.doctor import Doctor
+from cockpit_server.feeds import Feeds
 from cockpit_server.graph_view import GraphView
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.hub import TICK_S, Hub
@@ -41,12 +42,13 @@ class Cockpit:
         self._sockets = sockets
         name = rospy.get_name()
         self._graphs = GraphWatch(name)
-        pads = Pads(name)
+        feeds = Feeds()
+        pads = Pads(feeds, name)
         self._hub = Hub(self._soon, self._graphs, Joysticks(), pads)
         bags, graphs = Bags(self._hub), self._graphs
         sources = (
-            Robots(graphs), pads, Teleop(), Resets(graphs), GraphView(graphs), Topics(graphs),
-            Plots(graphs), Logs(), Doctor(), bags,
+            Robots(feeds, graphs), pads, Teleop(feeds), Resets(graphs), GraphView(graphs),
+            Topics(feeds, graphs), Plots(feeds, graphs), Logs(feeds), Doctor(), bags,
         )  # fmt: skip
         self._hub.add(sources, player=bags)
         self._server = server(self._hub, access)

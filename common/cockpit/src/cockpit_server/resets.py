@@ -4,9 +4,9 @@ import rospy
 from std_srvs.srv import Empty
 
 from cockpit_server.clients import Source
+from cockpit_server.feeds import later
 from cockpit_server.robots import topic_of
 from cockpit_server.seat import RefusedError
-from cockpit_server.subscriptions import later
 
 
 def reset_service(graph, robot):

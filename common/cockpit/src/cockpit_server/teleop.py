@@ -1,12 +1,10 @@
 """What the joy2twist of each robot says of itself on /diagnostics."""
 
-import rospy
 from diagnostic_msgs.msg import DiagnosticArray
 from genpy import DeserializationError
 
 from cockpit_server.clients import Source
 from cockpit_server.graph import robot_of
-from cockpit_server.subscriptions import Raw
 
 MARK = ": joystick"  # the end of the name of joy2twist's status; before it stands its node's
 
@@ -32,10 +30,10 @@ def told(status):
 class Teleop(Source):
     """The newest words about each robot."""
 
-    def __init__(self):
+    def __init__(self, feeds):
         """Listen, for as long as the node runs: it is little, and comes once a second."""
         self._states = {}
-        rospy.Subscriber("/diagnostics", Raw, self._hear, queue_size=100)
+        feeds.want(self, {"/diagnostics": self._hear}, every=True)
 
     def give(self, client, _now):
         """Send what has changed of the robots that the client looks at."""
@@ -45,5 +43,5 @@ class Teleop(Source):
             ):
                 client.send("teleop", robot=robot, **state)
 
-    def _hear(self, message):
+    def _hear(self, message, _topic):
         self._states.update(said(message.data))

@@ -2,11 +2,8 @@
 
 import time
 
-import rospy
-
 from cockpit_server.clients import Source
 from cockpit_server.plots import class_of
-from cockpit_server.subscriptions import Raw, Subscriptions
 
 PERIOD_S = 0.5
 LONGEST_TEXT = 4000  # characters of the newest message
@@ -22,7 +19,7 @@ class Topic:
         self.count, self.newest = 0, None
         self._marks = [(time.monotonic(), 0)]  # (when, count until then)
 
-    def hear(self, message):
+    def hear(self, message, _topic):
         """One more message."""
         self.newest = message.data
         self.count += 1
@@ -55,33 +52,33 @@ class Topic:
 class Topics(Source):
     """Those that pages look at; a page looks at one."""
 
-    def __init__(self, graph_watch):
+    def __init__(self, feeds, graph_watch):
         """graph_watch: knows the topics and their types."""
-        self._graphs = graph_watch
+        self._feeds, self._graphs = feeds, graph_watch
         self._topics, self._shown = {}, {}
         self._next = 0.0
-        self._subscriptions = Subscriptions(self._subscribe)
 
     def prepare(self, clients, now):
         """Twice a second, put together what is shown."""
         graph = self._graphs.graph
         looked_at = {client.watch.topic for client in clients} - {None}
-        self._subscriptions.want(looked_at & set(graph.published))
+        self._topics = {name: self._topics.get(name) or Topic() for name in looked_at}
+        self._feeds.want(self, {n: topic.hear for n, topic in self._topics.items()}, every=True)
         if now < self._next:
             return
         self._next = now + PERIOD_S
         self._shown = {name: self._about(graph, name, now) for name in looked_at}
 
     def _about(self, graph, name, now):
-        topic = self._topics.get(name)
+        topic = self._topics[name]
         type_name = graph.types.get(name, "")
         return {
             "name": name,
             "type": type_name,
-            "rate": round(topic.rate(now), 2) if topic else 0.0,
+            "rate": round(topic.rate(now), 2),
             "publishers": sorted(graph.publishers.get(name, ())),
             "subscribers": sorted(graph.subscribers.get(name, ())),
-            "last": topic.text(type_name) if topic else "",
+            "last": topic.text(type_name),
         }
 
     def give(self, client, _now):
@@ -90,7 +87,3 @@ class Topics(Source):
         about = self._shown.get(name)
         if about and client.lacks("topic", (name, self._next)):
             client.send("topic", **about)
-
-    def _subscribe(self, name):
-        topic = self._topics[name] = Topic()
-        return rospy.Subscriber(name, Raw, topic.hear)
