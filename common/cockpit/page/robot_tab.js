@@ -156,6 +156,9 @@ export class RobotTab {
     const who = seat.yours ? (seat.how === "bag" ? "You play a recording to" : "You drive") : `${seat.name} ${what}`;
     const why = seat.why ? ` Last stop: ${seat.why}.` : "";
     say(byId("seat"), seat.driver === null ? `Nobody drives.${why}` : `${who} ${shown(seat.robot)}.${why}`);
+    byId("seat").dataset.armed = Boolean(seat.yours && seat.armed);
+    say(byId("ready"), !seat.yours || seat.how === "bag" ? "" : seat.armed ? "Hold LB to move."
+      : "Release LB and the stick first.");
     byId("seat").dataset.state = seat.driver === null ? "free" : seat.yours ? "yours" : "taken";
     byId("hand-over").hidden = !seat.yours || seat.how === "bag";
     this.#showButtons();
