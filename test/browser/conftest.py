@@ -10,7 +10,6 @@ from tutorial_testing.cockpit.chromium import Chromium
 from tutorial_testing.cockpit.world import World
 
 REPOSITORY = Path(__file__).resolve().parents[2]
-stopping_times = defaultdict(list)  # way to lose the operator -> times until the robot rests [s]
 
 
 def pytest_addoption(parser):
@@ -20,8 +19,14 @@ def pytest_addoption(parser):
     parser.addoption("--picture", action="store_true", help="make common/cockpit/doc/cockpit.png")
 
 
-def pytest_terminal_summary(terminalreporter):
+def pytest_configure(config):
+    """Way to lose the operator -> times until the robot was at rest [s]."""
+    config.stopping_times = defaultdict(list)
+
+
+def pytest_terminal_summary(terminalreporter, config):
     """Print how long the robot went on after the operator was lost."""
+    stopping_times = config.stopping_times
     if stopping_times:
         terminalreporter.section("operator lost to wheels at rest")
         terminalreporter.line("| way | times | median [s] | worst [s] |")

@@ -6,7 +6,6 @@ import signal
 import time
 
 import pytest
-from conftest import stopping_times
 
 from tutorial_testing.cockpit.chromium import Chromium
 from tutorial_testing.cockpit.hands import Gamepad, Keys, Thumbs
@@ -216,8 +215,8 @@ def come_back(world, way, browser, hands):
     world.wait_for_rest()
 
 
-def judge(name, took_s):
-    stopping_times[name].append(took_s)
+def judge(request, name, took_s):
+    request.config.stopping_times[name].append(took_s)
     assert took_s < LIMIT_S + BUSY_S
 
 
@@ -226,7 +225,7 @@ def test_the_robot_comes_to_rest_and_stays(world, name, request):
     for _ in range(request.config.getoption("--trials")):
         with driving(world, WAYS[name]) as (browser, hands):
             way = WAYS[name](browser, hands, world)
-            judge(name, lose(world, way, hands))
+            judge(request, name, lose(world, way, hands))
             come_back(world, way, browser, hands)
 
 
@@ -242,7 +241,7 @@ def test_a_cut_network_and_its_return(request):
         browser, hands = stack.enter_context(driving(world, NetworkCut))
         for _ in range(trials):
             way = NetworkCut(browser, hands, world)
-            judge("network cut", lose(world, way, hands))
+            judge(request, "network cut", lose(world, way, hands))
             come_back(world, way, browser, hands)
 
 

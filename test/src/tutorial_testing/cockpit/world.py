@@ -5,6 +5,8 @@ import os
 import re
 import signal
 import socket
+import subprocess
+import threading
 from pathlib import Path
 from typing import NamedTuple
 
@@ -12,6 +14,7 @@ from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
 HERE = Path(__file__).resolve().parent
+START_S = 90.0  # of a machine that is busy with much else
 RESTING = 50  # odometry messages, a second of them, in which nothing moves
 
 
@@ -48,6 +51,7 @@ class World:
         self._host, self._address = host, address
         self._stack = contextlib.ExitStack()
         self._port = free_port()
+        self.odometry = []  # all Moments so far
         self.environment = {
             "ROS_MASTER_URI": f"http://127.0.0.1:{free_port()}", "ROS_IP": "127.0.0.1",
             "DISPLAY": "",
@@ -55,8 +59,9 @@ class World:
 
     def __enter__(self):
         self.launched = self.run("roslaunch", *self._launch)
-        self._observer = self.run(str(HERE / "observer.py"))
-        wait_for(lambda: self.odometry, "odometry", 90)
+        wait_for(lambda: "core service" in self.launched.output, "master", START_S)
+        self._observe()
+        wait_for(lambda: self.odometry, "odometry", START_S)
         self.start_cockpit()
         return self
 
@@ -68,12 +73,27 @@ class World:
         start = self._host.start if self._host else Program
         return self._stack.enter_context(start(*command, **self.environment))
 
+    def _observe(self):
+        command = [str(HERE / "observer.py")]
+        observer = subprocess.Popen(
+            self._host.command(*command) if self._host else command,
+            stdout=subprocess.PIPE, env={**os.environ, **self.environment}, text=True,
+        )  # fmt: skip
+        self._stack.enter_context(observer)
+        self._stack.callback(observer.terminate)
+
+        def read():
+            for line in observer.stdout:
+                self.odometry.append(Moment(*map(float, line.split())))
+
+        threading.Thread(target=read, daemon=True).start()
+
     def start_cockpit(self):
         """Start the cockpit, or start it anew under the same address."""
         lan = ["--lan"] if self._host else []
         self.cockpit = self.run("rosrun", "cockpit", "cockpit.py", "--port", str(self._port), *lan)
         shown = wait_for(lambda: re.search(r"to drive: \S+|open http\S+", self.cockpit.output),
-                         "address of the cockpit", 60)  # fmt: skip
+                         "address of the cockpit", START_S)  # fmt: skip
         token = re.search(r"\?token=\S+", shown[0])
         self.address = f"http://{self._address}:{self._port}/{token[0] if token else ''}"
 
@@ -82,12 +102,6 @@ class World:
         for pid in self.cockpit.left_behind():
             os.kill(pid, signal.SIGKILL)
         self.cockpit.wait()
-
-    @property
-    def odometry(self):
-        """All Moments so far."""
-        lines = self._observer.output.splitlines()[:-1]  # the last may be half written
-        return [Moment(*map(float, line.split())) for line in lines if line[:1].isdigit()]
 
     @property
     def now(self):
@@ -103,7 +117,7 @@ class World:
     def wait_for_rest(self):
         """Wait until the robot stands; return the stamp [s] of the message that first says so."""
         wait_for(lambda: not self.now.moves, "robot at rest")
-        moments = self.odometry
+        moments = list(self.odometry)
         last = max((i for i, moment in enumerate(moments) if moment.moves), default=-1)
         return moments[last + 1].stamp
 
