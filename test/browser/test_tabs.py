@@ -17,9 +17,8 @@ def shown(page, css):
 def drive_a_little(world, page):
     page.click("Drive from this page")
     hands = Keys(page)
-    hands.drive(world)
     x = world.now.x
-    wait_for(lambda: world.now.x > x + 0.1, "way of 0.1 m")
+    hands.drive(world, until=lambda: world.now.x > x + 0.1)
     hands.release()
     world.wait_for_rest()
     page.click("Stop driving")
@@ -60,7 +59,7 @@ def test_bag_shows_and_publishes_the_recording(world, page, ros):
     page.wait_for_text("#bag-topics", messages)
     assert len(page.all("#bag-curves label")) >= 6
     page.click("Publish")
-    assert world.wait_for_motion(LONG_S)
+    wait_for(lambda: world.now.moves, "robot that moves", LONG_S)
     page.wait_for_text("#seat", "You play")
     wait_for(lambda: shown(page, "#bag-at") > 1, "position after 1 s", LONG_S)
     page.click("Pause")

@@ -6,6 +6,7 @@ from selenium.common.exceptions import WebDriverException
 
 from tutorial_testing.waiting import wait_for
 
+LONG_S = 90.0  # for a machine that is busy with much else
 TRY_S = 5.0  # to hold all until the robot moves, before all is released and held again
 # A gamepad of the standard mapping in place of the browser's: no browser here has a real one.
 FAKE_GAMEPAD = """
@@ -35,24 +36,30 @@ class Hands:
     def still_held(self):
         """What goes on coming from hands that hold all, as after a return."""
 
-    def drive(self, world):
-        """Hold all until the robot moves, from all released; on a busy machine that may take more
-        than one go.
+    def drive(self, world, until=None):
+        """Hold all, from all released, until the robot moves, or until a condition(). On a machine
+        that is busy with much else it may take more than one go: the server lets nobody drive whose
+        page is late.
         """
+        until = until or (lambda: world.now.moves)
 
         def once():
             self.release()
             world.wait_for_rest()
             self.wait_until_released()
             self.hold()
-            return world.wait_for_motion(TRY_S)
+            with contextlib.suppress(AssertionError):
+                return wait_for(until, "effect", TRY_S)
+            return False
 
-        wait_for(once, "robot that drives", 90)
+        wait_for(once, "robot that drives", LONG_S)
 
     def wait_until_released(self):
         """Wait until the server has seen that nothing is held, and lets this page drive."""
         armed = "return document.getElementById('seat').dataset.armed"
-        wait_for(lambda: self.browser.driver.execute_script(armed) == "true", "all released")
+        wait_for(
+            lambda: self.browser.driver.execute_script(armed) == "true", "all released", LONG_S
+        )
 
 
 class Keys(Hands):

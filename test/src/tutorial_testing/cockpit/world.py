@@ -108,12 +108,6 @@ class World:
         """The newest Moment."""
         return self.odometry[-1]
 
-    def wait_for_motion(self, deadline_s):
-        """Wait until the robot moves; returns whether it did."""
-        with contextlib.suppress(AssertionError):
-            return wait_for(lambda: self.now.moves, "motion", deadline_s)
-        return False
-
     def wait_for_rest(self):
         """Wait until the robot stands; return the stamp [s] of the message that first says so."""
         wait_for(lambda: not self.now.moves, "robot at rest")
