@@ -1,12 +1,13 @@
 """A page of the cockpit without a browser: it speaks over a WebSocket, in a thread of its own."""
 
 import asyncio
+import contextlib
 import json
 import threading
 import time
 
 from tornado.httpclient import HTTPClientError, HTTPRequest
-from tornado.websocket import websocket_connect
+from tornado.websocket import WebSocketClosedError, websocket_connect
 
 from tutorial_testing.waiting import wait_for
 
@@ -75,10 +76,12 @@ class SocketPage:
             await asyncio.sleep(PERIOD_S)
 
     def _write(self, fields):
-        # tornado's future of a message to a connection that is closed is nobody's.
-        self._socket.write_message(json.dumps(fields)).add_done_callback(
-            lambda done: done.exception()
-        )
+        self._write_text(json.dumps(fields))
+
+    def _write_text(self, text):
+        with contextlib.suppress(WebSocketClosedError):
+            sent = self._socket.write_message(text)
+            sent.add_done_callback(lambda done: done.exception())  # it may be closed meanwhile
 
     def input(self, axes, buttons):
         """The next input, as a dict."""
@@ -95,7 +98,7 @@ class SocketPage:
 
     def say_raw(self, data):
         """Send anything."""
-        self._loop.call_soon_threadsafe(lambda: self._socket.write_message(data))
+        self._loop.call_soon_threadsafe(self._write_text, data)
 
     def watch(self, **fields):
         """Look at something."""
