@@ -19,7 +19,9 @@ def pytest_addoption(parser):
 
 def pytest_collection_modifyitems(config, items):
     """Leave out the other rows."""
-    rows = [item for item in items if "row" in getattr(getattr(item, "callspec", None), "params", ())]
+    rows = [
+        item for item in items if "row" in getattr(getattr(item, "callspec", None), "params", ())
+    ]
     left_out = {item for at, item in enumerate(rows) if at % config.getoption("--every")}
     items[:] = [item for item in items if item not in left_out]
 

@@ -25,9 +25,10 @@ LIBRARIES = {
 # Each module may import those that stand before it. The rules know neither ROS nor a clock.
 RULES = """
 node_kit.parameters node_kit.throttle node_kit.newest_only node_kit.questions node_kit.names
-node_kit.states node_kit.resumption gamepad.js_event gamepad.gamepads gamepad.driver.device_choice
-gamepad.driver.parameters gamepad.driver.schedule gamepad.driver.state gamepad.driver.driver
-gamepad.driver.report gamepad.virtual.controls gamepad.virtual.keyboard gamepad.virtual.moves
+node_kit.page node_kit.states node_kit.resumption gamepad.js_event gamepad.gamepads
+gamepad.driver.device_choice gamepad.driver.parameters gamepad.driver.schedule
+gamepad.driver.state gamepad.driver.driver gamepad.driver.report gamepad.virtual.controls
+gamepad.virtual.keyboard gamepad.virtual.moves
 gamepad.virtual.sources fake_turtlebot_sim.simulator.differential_drive
 fake_turtlebot_sim.simulator.velocity_command fake_turtlebot_sim.simulator.odometry_errors
 fake_turtlebot_sim.simulator.clock fake_turtlebot_sim.simulator.simulated_robot

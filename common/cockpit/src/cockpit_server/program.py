@@ -10,8 +10,10 @@ import sys
 import time
 
 import rosgraph
+import rospy
 
 from cockpit_server.access import Access
+from node_kit.page import PARAMETER
 from node_kit.questions import Answer, call
 from node_kit.start import run
 
@@ -106,9 +108,16 @@ def main():
 
     def spin(_parameters):
         tell(options.port, access)
+        rospy.set_param(PARAMETER, f"http://127.0.0.1:{options.port}/")
+        rospy.on_shutdown(forget)
         Cockpit(sockets, access).run()
 
     return run(NODE_NAME, no_parameters, spin)
+
+
+def forget():
+    """The page is there no longer."""
+    call(rosgraph.get_master_uri(), "deleteParam", PARAMETER)
 
 
 def no_parameters(given):

@@ -21,6 +21,8 @@ from urllib.parse import urlsplit
 
 import rosgraph
 
+from node_kit.page import address
+
 ENDINGS = (".png", ".svg", ".pdf", ".dot")
 TIMEOUT_S = 5.0  # for each answer of the master; on one network it takes milliseconds
 # Every node is connected to /rosout, which would hide the rest.
@@ -129,6 +131,12 @@ def picture(text, kind):
         words = " ".join(done.stderr.decode(errors="replace").split())
         raise DotError(f"dot cannot draw this: {words}")
     return done.stdout
+
+
+def page_of_graph():
+    """The address at which the cockpit shows the graph live; None if it does not run."""
+    page = address(rosgraph.get_master_uri())
+    return page and f"{page}#Graph"
 
 
 def fail(text):
