@@ -22,8 +22,8 @@ def test_held_it_moves_and_released_it_stops(world, kind):
         x = world.now.x
         hands.drive(world, until=lambda: world.now.x > x + 0.2)
         assert 0.0 < max(moment.v for moment in world.odometry) <= FULL + 1e-6
-        held = "return document.querySelector('#pad svg').dataset.held"
-        hands.drive(world, until=lambda: browser.driver.execute_script(held) == "LB")
+        held = "document.querySelector('#pad svg').dataset.held"
+        hands.drive(world, until=lambda: browser.ask(held) == "LB")
         hands.drive(world, until=lambda: browser.text("#teleop") == "driving")
         hands.release()
         world.wait_for_rest()

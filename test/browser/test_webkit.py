@@ -33,6 +33,9 @@ class WebKit:
     def __init__(self, driver):
         self.driver = driver
 
+    def ask(self, expression):
+        return self.driver.execute_script(f"return {expression}")
+
     def text(self, css):
         script = "return document.querySelector(arguments[0]).textContent"
         return self.driver.execute_script(script, css)

@@ -76,6 +76,10 @@ class Chromium:
         """All elements of a CSS selector."""
         return self.driver.find_elements(By.CSS_SELECTOR, css)
 
+    def ask(self, expression):
+        """The value of a JavaScript expression."""
+        return self.driver.execute_script(f"return {expression}")
+
     def text(self, css):
         """The text of an element, seen or not; "" if it is not there."""
         script = "return document.querySelector(arguments[0])?.textContent ?? ''"

@@ -56,10 +56,8 @@ class Hands:
 
     def wait_until_released(self):
         """Wait until the server has seen that nothing is held, and lets this page drive."""
-        armed = "return document.getElementById('seat').dataset.armed"
-        wait_for(
-            lambda: self.browser.driver.execute_script(armed) == "true", "all released", LONG_S
-        )
+        armed = "document.getElementById('seat').dataset.armed"
+        wait_for(lambda: self.browser.ask(armed) == "true", "all released", LONG_S)
 
 
 class Keys(Hands):
