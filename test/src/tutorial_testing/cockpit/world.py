@@ -83,8 +83,9 @@ class World:
         self._stack.callback(observer.terminate)
 
         def read():
-            for line in observer.stdout:
-                self.odometry.append(Moment(*map(float, line.split())))
+            with contextlib.suppress(ValueError):  # closed at the end
+                for line in observer.stdout:
+                    self.odometry.append(Moment(*map(float, line.split())))
 
         threading.Thread(target=read, daemon=True).start()
 
