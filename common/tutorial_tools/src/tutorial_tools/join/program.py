@@ -39,9 +39,7 @@ def check_host(host):
     name, port = found[1], int(found[2] or DEFAULT_PORT)
     known = addresses(name)
     if not known:
-        raise JoinError(
-            f'{name} cannot be looked up: write its address, or add "{name}" to /etc/hosts'
-        )
+        raise JoinError(f"{name} cannot be looked up: write its address, or add it to /etc/hosts")
     own = "127.0.0.1" if all(map(is_here, known)) else way_out(known[0])
     if not own:
         raise JoinError(f"there is no way to {name}: look at cable and Wi-Fi, try: ping {name}")
@@ -52,9 +50,8 @@ def check_master(uri, own):
     """Raise JoinError unless a master answers there and reaches this machine."""
     answer, _ = call(uri, "getPid")
     if answer is not Answer.WELL:
-        raise JoinError(
-            f"the master {uri} {answer.value}: has the teacher started classroom.launch?"
-        )
+        todo = "has the teacher started classroom.launch?"
+        raise JoinError(f"the master {uri} {answer.value}: {todo}")
     if not is_called_back(uri, own):
         raise JoinError(
             f"the master {uri} does not reach this machine at {own}: open its firewall, or join "
