@@ -52,6 +52,7 @@ fake_turtlebot_sim.classroom_view.node fake_turtlebot_sim.replay.bag_replay
 fake_turtlebot_sim.replay.command tutorial_tools.demo.in_the_way tutorial_tools.demo.launch
 tutorial_tools.demo.program tutorial_tools.doctor.network tutorial_tools.doctor.collect
 tutorial_tools.doctor.program tutorial_tools.graph.program tutorial_tools.bag.program
+tutorial_tools.join.program
 joy_to_twist.lean_joy
 joy_to_twist.console joy_to_twist.node
 cockpit_server.feeds cockpit_server.graph_watch cockpit_server.robots cockpit_server.joysticks

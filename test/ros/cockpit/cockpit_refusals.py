@@ -34,7 +34,7 @@ class Refused(unittest.TestCase):
         cls.rig.__exit__()
 
     def tearDown(self):
-        """Whatever came: nothing moved, the server lives, lets the right one drive, told no token."""
+        """Whatever came: nothing moved, no token was told, and the right one may still drive."""
         self.assertEqual([speed for _, speed in self.rig.speeds if speed], [])
         with self.rig.page() as page:
             self.rig.drive(page)

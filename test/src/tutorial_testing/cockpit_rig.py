@@ -44,6 +44,7 @@ class CockpitRig:
         return self
 
     def __exit__(self, *_):
+        print(f"the cockpit said:\n{self.program.output}")
         self.program.__exit__()
         for subscriber in self._subscribers:
             subscriber.unregister()

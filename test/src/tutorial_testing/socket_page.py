@@ -122,7 +122,10 @@ class SocketPage:
         count = len(self.of("seat"))
         self.say("drive", robot=robot, mode="D")
         self.hand = REST
-        wait_for(
-            lambda: any(seat["yours"] and seat["armed"] for seat in self.of("seat")[count:]),
-            "seat that is armed",
-        )
+        try:
+            wait_for(
+                lambda: any(seat["yours"] and seat["armed"] for seat in self.of("seat")[count:]),
+                "seat that is armed",
+            )
+        except AssertionError as error:
+            raise AssertionError(f"{error}: {self.messages[-10:]}") from None

@@ -33,15 +33,18 @@ def shown(data):
 class Logs(Source):
     """Keeps lines as they came, and reads them when a page wants to see them."""
 
-    def __init__(self, feeds):
-        """Listen for as long as the node runs."""
+    def __init__(self, feeds, graph_watch):
+        """Listen for as long as the node runs. graph_watch: knows whether the node rosout runs."""
+        self._feeds, self._graphs = feeds, graph_watch
         self._lines = deque(maxlen=KEPT)  # (number, bytes)
         self._numbers = itertools.count(1)
         self._ticks = 0
-        feeds.want(self, {"/rosout_agg": self._hear}, every=True)
 
     def prepare(self, clients, now):
-        """Count the time."""
+        """Listen to the node rosout, which gathers all lines, or where it is not to all nodes."""
+        gathered = "/rosout_agg" in self._graphs.graph.publishers
+        topic = "/rosout_agg" if gathered else "/rosout"
+        self._feeds.want(self, {topic: self._hear}, every=True)
         self._ticks += 1
 
     def give(self, client, _now):

@@ -48,7 +48,7 @@ class Cockpit:
         bags, graphs = Bags(self._hub), self._graphs
         sources = (
             Robots(feeds, graphs), pads, Teleop(feeds), Resets(graphs), GraphView(graphs),
-            Topics(feeds, graphs), Plots(feeds, graphs), Logs(feeds), Doctor(), bags,
+            Topics(feeds, graphs), Plots(feeds, graphs), Logs(feeds, graphs), Doctor(), bags,
         )  # fmt: skip
         self._hub.add(sources, player=bags)
         self._server = server(self._hub, access)

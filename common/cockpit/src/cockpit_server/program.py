@@ -109,15 +109,12 @@ def main():
     def spin(_parameters):
         tell(options.port, access)
         rospy.set_param(PARAMETER, f"http://127.0.0.1:{options.port}/")
-        rospy.on_shutdown(forget)
-        Cockpit(sockets, access).run()
+        try:
+            Cockpit(sockets, access).run()
+        finally:
+            call(rosgraph.get_master_uri(), "deleteParam", PARAMETER)
 
     return run(NODE_NAME, no_parameters, spin)
-
-
-def forget():
-    """The page is there no longer."""
-    call(rosgraph.get_master_uri(), "deleteParam", PARAMETER)
 
 
 def no_parameters(given):

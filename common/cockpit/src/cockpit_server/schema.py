@@ -75,7 +75,7 @@ def pressed(value):
     return value
 
 
-MILLISECONDS = number(0, 1e12)
+MILLISECONDS = number(0, 1e15)
 MESSAGES = {
     "watch": {
         "robots": switch,

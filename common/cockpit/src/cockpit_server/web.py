@@ -10,6 +10,7 @@ from tornado.iostream import StreamClosedError
 from tornado.web import Application, RequestHandler, StaticFileHandler
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
+from cockpit_server.access import without_token
 from cockpit_server.clients import Client, name_of
 from cockpit_server.schema import LONGEST_MESSAGE
 from node_kit.newest_only import CUT_AFTER_RESENDS, resends
@@ -154,8 +155,9 @@ class _Server(HTTPServer):
 
 def server(hub, access):
     """The HTTP server; it does not listen yet."""
-    for name in ("tornado.access", "tornado.application", "tornado.general"):
-        logging.getLogger(name).setLevel(logging.CRITICAL)  # a line for each refusal, and the token
+    for name in ("tornado.access", "tornado.general"):
+        logging.getLogger(name).setLevel(logging.CRITICAL)  # whatever strangers send is no news
+    logging.getLogger("tornado.application").addFilter(_hide_token)
     page = Path(rospkg.RosPack().get_path("cockpit")) / "page"
     application = Application(
         [
@@ -181,6 +183,11 @@ def server(hub, access):
         max_body_size=LONGEST_BODY,
         max_buffer_size=4 * LONGEST_HEADER,
     )
+
+
+def _hide_token(record):
+    record.msg, record.args = without_token(record.getMessage()), None
+    return True
 
 
 class _Nothing(_Guarded):
