@@ -15,12 +15,15 @@ LARGEST = 150_000  # bytes
 def test_picture(request, tmp_path):
     if not request.config.getoption("--picture"):
         pytest.skip("the README's picture is made only with --picture")
-    with World("joy2twist", "launch_bag.launch") as world, Chromium(1100, 700) as browser:
+    launch = ("joy2twist", "launch_bag.launch", "cockpit:=false")
+    with World(*launch) as world, Chromium(1280, 800) as browser:
         browser.open(world.address)
-        # Once around: to the right of the start, to the left of it, and back.
-        wait_for(lambda: max(moment.x for moment in world.odometry) > 0.5, "first loop", LONG_S)
-        wait_for(lambda: min(moment.x for moment in world.odometry) < -0.5, "second loop", LONG_S)
-        wait_for(lambda: abs(world.now.x) < 0.1, "robot that is back", LONG_S)
+        # The recording: the figure, a turn on the spot, a way back and forth, a rest; and again.
+        wait_for(lambda: world.now.v < 0, "way back", LONG_S)
+        world.wait_for_rest()
+        browser.click("Clear trail")
+        wait_for(lambda: world.now.v > 0, "figure of eight", LONG_S)
+        wait_for(lambda: world.now.v == 0, "turn on the spot", LONG_S)
         browser.click("Show all")
         browser.save_picture(tmp_path / "cockpit.png")
     drawn = (tmp_path / "cockpit.png").read_bytes()

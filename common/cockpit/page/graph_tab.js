@@ -3,6 +3,8 @@
 import { byId, element, say } from "./dom.js";
 import { layout } from "./graph_layout.js";
 
+// Every node is connected to /rosout, which would hide the rest; as draw_graph has it.
+const DEBUG = ["node /rosout", "topic /rosout", "topic /rosout_agg", "topic /statistics"];
 const LEAST_SCALE = 0.7; // to which the picture shrinks before it is scrolled
 const SVG = "http://www.w3.org/2000/svg";
 
@@ -23,6 +25,7 @@ export class GraphTab {
     this.picture = byId("graph-picture");
     this.details = byId("graph-details");
     link.on("graph", (graph) => this.#draw(graph));
+    byId("graph-all").addEventListener("change", () => this.#draw(this.#graph));
     link.on("topic", (topic) => this.#chosen === `topic ${topic.name}` && this.#showTopic(topic));
     link.on("node", (node) => this.#chosen === `node ${node.name}` && this.#showNode(node));
   }
@@ -55,8 +58,7 @@ export class GraphTab {
 
   #draw(graph) {
     this.#graph = graph;
-    const items = [...graph.nodes.map(({ name }) => `node ${name}`),
-      ...graph.topics.map(({ name }) => `topic ${name}`)];
+    const items = this.#items(graph);
     const wanted = JSON.stringify([items, graph.edges]);
     if (wanted === this.#drawn) return;
     this.#drawn = wanted;
@@ -74,6 +76,15 @@ export class GraphTab {
     this.picture.replaceChildren(items.length ? picture : element("p", { className: "hint" }, "Nothing runs."));
     this.#mark();
     if (focused) this.picture.querySelector(`[data-item="${CSS.escape(focused)}"]`)?.focus();
+  }
+
+  /** What is drawn: all, or all but /rosout and topics on which nobody speaks. */
+  #items({ nodes, topics, edges }) {
+    const items = [...nodes.map(({ name }) => `node ${name}`), ...topics.map(({ name }) => `topic ${name}`)];
+    if (byId("graph-all").checked) return items;
+    const spoken = new Set(edges.map(({ to }) => to));
+    return items.filter((item) =>
+      !DEBUG.includes(item) && (item.startsWith("node ") || spoken.has(item)));
   }
 
   #box(item, { x, y, w, h }) {
