@@ -8,7 +8,8 @@ import { GamepadPicture } from "./gamepad_picture.js";
 const STALE_S = 1; // after which what is shown is not news
 
 const shown = (name) => name || "the robot";
-const number = (value, digits = 2) => (Number.isFinite(value) ? value.toFixed(digits) : "–");
+const number = (value, digits = 2) =>
+  Number.isFinite(value) ? value.toFixed(digits).replace(/^-(0\.?0*)$/, "$1") : "–"; // no -0.00
 
 export class RobotTab {
   #hello = null;
