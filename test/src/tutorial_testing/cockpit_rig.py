@@ -64,7 +64,7 @@ class CockpitRig:
             raise AssertionError(f"the cockpit ended: {self.program.output}")
         try:
             with SocketPage(self.port, token=self.token("drive")) as page:
-                return self.robot in page.wait_for("hello")["robots"]
+                return not page.refusal and self.robot in page.wait_for("hello")["robots"]
         except OSError:
             return False
 

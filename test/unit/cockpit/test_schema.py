@@ -107,8 +107,9 @@ def test_random_changes_are_taken_or_refused_and_nothing_else():
 
 
 def test_as_many_axes_and_buttons_as_the_gamepad_has():
-    check_lengths("D", (0,) * 6, (0,) * 12)
-    check_lengths("X", (0,) * 8, (0,) * 11)
+    check_lengths(("D",), (0,) * 6, (0,) * 12)
+    check_lengths(("X",), (0,) * 8, (0,) * 11)
     for mode, axes, buttons in (("D", 8, 11), ("X", 6, 12), ("D", 0, 0), ("D", 6, 11)):
         with pytest.raises(ValueError, match=f"{mode} mode has"):
-            check_lengths(mode, (0,) * axes, (0,) * buttons)
+            check_lengths((mode,), (0,) * axes, (0,) * buttons)
+    check_lengths(("D", "X"), (0,) * 8, (0,) * 11)

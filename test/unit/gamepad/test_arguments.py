@@ -82,7 +82,9 @@ def test_a_robot():
 
 
 def test_only_arguments_with_a_rule_are_asked_for():
-    assert set(RULES) == {"bag", "joy_pkg", "loop", "name", "rviz", "virtual"}
+    assert set(RULES) == {
+        "bag", "cockpit", "cockpit_port", "joy_pkg", "joystick", "loop", "name", "rviz", "virtual",
+    }  # fmt: skip
 
 
 def test_the_package_of_the_driver():

@@ -18,7 +18,7 @@ class GraphView(Source):
         self._graphs = graph_watch
         self._drawn, self._text = None, ""  # the version that is drawn, and its message
         self._is_drawing = False
-        self._pids = {}  # node -> process
+        self._pids, self._pids_of = {}, None  # node -> process, in a version of the graph
 
     def prepare(self, clients, _now):
         """Have it drawn, in another thread, if somebody looks and it has changed."""
@@ -26,6 +26,8 @@ class GraphView(Source):
         if watched and self._drawn != self._graphs.version and not self._is_drawing:
             self._is_drawing = True
             threading.Thread(target=self._draw, daemon=True).start()
+        if self._pids_of != self._graphs.version:
+            self._pids, self._pids_of = {}, self._graphs.version
         for node in {client.watch.node for client in clients} - set(self._pids) - {None}:
             if node in self._graphs.graph.nodes:
                 self._pids[node] = None

@@ -1,6 +1,7 @@
 """Asks the master, once a second, who is there."""
 
 import threading
+import time
 from urllib.parse import urlsplit
 
 import rosgraph
@@ -19,17 +20,19 @@ class GraphWatch:
         self._own_name = own_name
         self._uri = rosgraph.get_master_uri()
         self.graph, self.version = Graph(), 0
-        self.is_lost = threading.Event()  # the master does not answer, or is another one
+        self._is_lost = False
         self._pid = call(self._uri, "getPid")[1]
         self.look()
 
-    def start(self):
-        """Look again and again, in a thread of its own."""
-        threading.Thread(target=self._run, daemon=True).start()
+    def start(self, lost):
+        """Look again and again, in a thread of its own. lost: called when the master has gone."""
+        threading.Thread(target=self._run, args=(lost,), daemon=True).start()
 
-    def _run(self):
-        while not self.is_lost.wait(PERIOD_S):
+    def _run(self, lost):
+        while not self._is_lost:
+            time.sleep(PERIOD_S)
             self.look()
+        lost()
 
     def look(self):
         """Ask once."""
@@ -37,7 +40,7 @@ class GraphWatch:
         if answer is Answer.SILENT:
             return
         if answer is not Answer.WELL or call(self._uri, "getPid")[1] != self._pid:
-            self.is_lost.set()
+            self._is_lost = True
             return
         _, types = call(self._uri, "getTopicTypes", caller=self._own_name)
         publishers, subscribers, services = [without(self._own_name, part) for part in state]

@@ -4,7 +4,7 @@ import time
 
 from cockpit_server.clients import Watch
 from cockpit_server.feeds import later
-from cockpit_server.schema import check_lengths, check_message
+from cockpit_server.schema import MODES, check_lengths, check_message
 from cockpit_server.seat import PAGE, Input, RefusedError, Seat
 from gamepad.gamepads import F710
 from node_kit.throttle import Throttle
@@ -29,7 +29,7 @@ class Hub:
         self.clients = {}
         self._next_number, self._beats = 1, 0
         self._may_beat = Throttle(1 / BEAT_S, burst=1.5)  # even, though the ticks are not
-        self._mode = "D"
+        self._modes = ()  # of the gamepad that may drive
         self._seat_version = 0
         self._sat_at = 0.0
         self.seat = Seat(joysticks.send, self._on_lost)
@@ -89,7 +89,7 @@ class Hub:
 
     def _on_drive(self, client, now, robot, mode):
         self.sit_down(client, robot, PAGE, now)
-        self._mode = mode
+        self._modes = (mode,)
 
     def _on_leave(self, client, _now):
         self.stand_up(client)
@@ -99,12 +99,14 @@ class Hub:
         if other is None or not other.drives:
             raise RefusedError("that page is not there, or may not drive")
         self._change(lambda: self.seat.hand_over(client.number, to, now))
+        self._modes = MODES  # the other hand may hold another gamepad
         self._sat_at = now
 
     def _on_input(self, client, now, *, axes, buttons, source, **more):
+        client.must_drive()
         if client.number != self.seat.driver:
-            raise RefusedError("this page does not drive")
-        check_lengths(self._mode, axes, buttons)
+            return  # it was on its way when the seat was lost
+        check_lengths(self._modes, axes, buttons)
         said = Input(axes=axes, buttons=buttons, **more)
         self._change(lambda: self.seat.input(client.number, said, now))
 

@@ -53,6 +53,7 @@ class Cockpit:
         self._hub.add(sources, player=bags)
         self._server = server(self._hub, access)
         self._loop = None
+        self.has_lost_master = False
         self._has_ended = threading.Event()
         self._ended = None
 
@@ -64,13 +65,17 @@ class Cockpit:
     async def _serve(self):
         self._loop = asyncio.get_running_loop()
         self._ended = asyncio.Event()
-        self._graphs.start()
+        self._graphs.start(self._lose_master)
         self._server.add_sockets(self._sockets)
         ticks = PeriodicCallback(self._hub.tick, 1000 * TICK_S)
         ticks.start()
         rospy.on_shutdown(self._end)
         await self._ended.wait()
         ticks.stop()
+
+    def _lose_master(self):
+        self.has_lost_master = True
+        rospy.signal_shutdown("the master has gone")
 
     def _soon(self, action):
         self._loop.call_soon_threadsafe(action)

@@ -2,6 +2,7 @@
 
 import argparse
 import errno
+import os
 import secrets
 import shutil
 import socket
@@ -21,6 +22,7 @@ NODE_NAME = "cockpit"
 DEFAULT_PORT = 8080
 LOOK_S = 1.0
 TOKEN_BYTES = 16
+TOKENS = "COCKPIT_TOKENS"  # environment variable, which only this user can read
 
 
 def port(text):
@@ -79,8 +81,8 @@ def wait_for_master():
             time.sleep(LOOK_S)
 
 
-def own_addresses():
-    """The addresses at which other machines may find this one, the one on the way out first."""
+def own_address():
+    """The address at which other machines may find this one."""
     try:
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
             probe.connect(("192.0.2.1", 9))  # nothing is sent; RFC 5737 has it for documentation
@@ -99,22 +101,37 @@ def main():
         fail("python3-tornado is missing: ./tutorial setup, or apt install python3-tornado")
     options = parse(rosgraph.myargv()[1:])
     sockets = listening(options.port, options.lan)
-    access = Access()
-    if options.lan:
-        host = socket.gethostname().lower()
-        tokens = [secrets.token_urlsafe(TOKEN_BYTES) for _ in range(2)]
-        access = Access(("localhost", host, f"{host}.local"), *tokens)
+    access = new_access() if options.lan else Access()
     wait_for_master()
 
     def spin(_parameters):
         tell(options.port, access)
         rospy.set_param(PARAMETER, f"http://127.0.0.1:{options.port}/")
+        cockpit = Cockpit(sockets, access)
         try:
-            Cockpit(sockets, access).run()
+            cockpit.run()
         finally:
             call(rosgraph.get_master_uri(), "deleteParam", PARAMETER)
+        if cockpit.has_lost_master:
+            begin_anew(access)
 
     return run(NODE_NAME, no_parameters, spin)
+
+
+def begin_anew(access):
+    """Wait for the next master, with the same tokens, in place of this process: rospy knows one."""
+    print("cockpit: the ROS master has gone", flush=True)
+    if access.driver_token:
+        os.environ[TOKENS] = f"{access.driver_token} {access.viewer_token}"
+    os.execv(sys.executable, [sys.executable, *sys.argv])
+
+
+def new_access():
+    """An Access for other machines, too: new tokens, or those from before begin_anew()."""
+    host = socket.gethostname().lower()
+    tokens = os.environ.pop(TOKENS, "").split()
+    tokens = tokens or [secrets.token_urlsafe(TOKEN_BYTES) for _ in range(2)]
+    return Access(("localhost", host, f"{host}.local"), *tokens)
 
 
 def no_parameters(given):
@@ -128,7 +145,7 @@ def tell(port, access):
     if access.driver_token is None:
         print(f"cockpit: open http://127.0.0.1:{port}/ on this machine", flush=True)
         return
-    address = f"http://{own_addresses()}:{port}/?token="
+    address = f"http://{own_address()}:{port}/?token="
     print(f"cockpit: to look:  {address}{access.viewer_token}")
     print(f"cockpit: to drive: {address}{access.driver_token}", flush=True)
     show_code(f"{address}{access.driver_token}")

@@ -1,10 +1,11 @@
 """Puts a robot back to where it started, by its service."""
 
+import threading
+
 import rospy
 from std_srvs.srv import Empty
 
 from cockpit_server.clients import Source
-from cockpit_server.feeds import later
 from cockpit_server.robots import topic_of
 from cockpit_server.seat import RefusedError
 
@@ -32,4 +33,13 @@ class Resets(Source):
 
     def _reset(self, client, _now, robot):
         client.must_drive()
-        later(rospy.ServiceProxy(reset_service(self._graphs.graph, robot), Empty))
+        name = reset_service(self._graphs.graph, robot)
+        # A thread of its own: a robot that hangs does not answer, and others are to be driven.
+        threading.Thread(target=_call, args=(name,), daemon=True).start()
+
+
+def _call(name):
+    try:
+        rospy.ServiceProxy(name, Empty)()
+    except rospy.ServiceException as error:
+        rospy.logwarn("cockpit: %s: %s", name, error)

@@ -140,13 +140,12 @@ def check_message(data):
     return kind, values
 
 
-def check_lengths(mode, axes, buttons):
-    """Raise ValueError unless these are as many as the gamepad in a mode has."""
-    pad = F710[mode]
-    if (len(axes), len(buttons)) != (len(pad.axes), len(pad.buttons)):
-        raise ValueError(
-            f"input: {mode} mode has {len(pad.axes)} axes and {len(pad.buttons)} buttons"
-        )
+def check_lengths(modes, axes, buttons):
+    """Raise ValueError unless these are as many as the gamepad in one of the modes has."""
+    allowed = {mode: (len(F710[mode].axes), len(F710[mode].buttons)) for mode in modes}
+    if (len(axes), len(buttons)) not in allowed.values():
+        has = [f"{mode} mode has {a} axes and {b} buttons" for mode, (a, b) in allowed.items()]
+        raise ValueError(f"input: {' and '.join(has)}")
 
 
 def _shown(word):

@@ -1,5 +1,7 @@
 """What the joy2twist of each robot says of itself on /diagnostics."""
 
+import time
+
 from diagnostic_msgs.msg import DiagnosticArray
 from genpy import DeserializationError
 
@@ -7,6 +9,8 @@ from cockpit_server.clients import Source
 from cockpit_server.graph import robot_of
 
 MARK = ": joystick"  # the end of the name of joy2twist's status; before it stands its node's
+SILENT_S = 4.0  # it speaks once a second
+SILENT = {"state": "silent", "why": "joy2twist says nothing any more", "level": 2}
 
 
 def said(data):
@@ -32,8 +36,15 @@ class Teleop(Source):
 
     def __init__(self, feeds):
         """Listen, for as long as the node runs: it is little, and comes once a second."""
-        self._states = {}
+        self._states = {}  # robot -> what is told
+        self._heard = {}  # robot -> when it spoke last [s]
         feeds.want(self, {"/diagnostics": self._hear}, every=True)
+
+    def prepare(self, clients, now):
+        """Notice who has fallen silent."""
+        for robot, heard in list(self._heard.items()):
+            if now - heard > SILENT_S:
+                self._states[robot] = SILENT
 
     def give(self, client, _now):
         """Send what has changed of the robots that the client looks at."""
@@ -44,4 +55,5 @@ class Teleop(Source):
                 client.send("teleop", robot=robot, **state)
 
     def _hear(self, message, _topic):
-        self._states.update(said(message.data))
+        for robot, state in said(message.data):
+            self._heard[robot], self._states[robot] = time.monotonic(), state
