@@ -50,7 +50,7 @@ export class Chart {
   show(series, window = null) {
     if (!this.root.clientWidth) return; // another tab is shown
     if (!globalThis.Dygraph) {
-      this.#wanted ?? loadLibrary().then(() => this.show(...this.#wanted));
+      if (!this.#wanted) loadLibrary().then(() => this.show(...this.#wanted));
       this.#wanted = [series, window];
       return;
     }

@@ -28,7 +28,10 @@ export function makeTabs(tablist, onChoose) {
     event.preventDefault();
     choose(tabs[next], true);
   });
-  const fromAddress = () => choose(tabs[Math.max(0, names.indexOf(location.hash.slice(1)))], false);
+  const fromAddress = () => {
+    const name = location.hash.slice(1).toLowerCase();
+    choose(tabs[Math.max(0, names.indexOf(name))], false);
+  };
   addEventListener("hashchange", fromAddress);
   fromAddress();
 }
