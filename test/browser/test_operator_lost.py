@@ -49,15 +49,20 @@ class TabClosed(Way):
 
 
 class Hidden(Way):
+    """Another tab is chosen."""
+
     def lose(self):
-        self.page = self.browser.driver.current_window_handle
+        send = self.browser.send
+        self.other = send("Target.createTarget", url="about:blank", background=True)["targetId"]
         now = time.time()
-        self.browser.driver.switch_to.new_window("tab")
+        send("Target.activateTarget", targetId=self.other)
         return now
 
     def back(self):
-        self.browser.driver.close()
-        self.browser.driver.switch_to.window(self.page)
+        driven = self.browser.driver.current_window_handle
+        self.browser.send("Target.activateTarget", targetId=driven)
+        self.browser.send("Target.closeTarget", targetId=self.other)
+        wait_for(lambda: self.browser.ask("document.visibilityState") == "visible", "page")
 
 
 class Killed(Way):
