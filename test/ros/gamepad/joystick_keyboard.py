@@ -71,7 +71,7 @@ class KeyboardTest(unittest.TestCase):
         subscriber = rospy.Subscriber("odom", Odometry, self.odometry.append)
         self.addCleanup(subscriber.unregister)
         self.device = f"/tmp/{uuid.uuid4()}"
-        arguments = f"virtual:=true rviz:=false joy_dev:={self.device}"
+        arguments = f"virtual:=true rviz:=false cockpit:=false joy_dev:={self.device}"
         self.terminal = Tmux(f"roslaunch joy2twist launch_joy_node.launch {arguments}")
         self.addCleanup(self.terminal.close)
         wait_for(lambda: "Opened joystick" in self.terminal.history, "driver")
