@@ -48,7 +48,7 @@ def refuse(*command):
         (["frobnicate"], 'tutorial: "frobnicate" is not a word'),
         (
             ["test", "everything"],
-            'test: "everything" is not unit, ros, system, kernel or',
+            'test: "everything" is not unit, ros, system, kernel, exercises or',
         ),
         (["setup", "moon"], 'setup: "moon" is not system or workspace'),
         (["bench", "moon"], 'bench: "moon" has no folder'),

@@ -28,6 +28,9 @@ RELAYS = {
 }  # fmt: skip
 LOADS = {50: 250, 1000: 4000}  # rate [Hz]: messages
 ROUNDS = 3
+# Its odometry comes often enough to time the wheels by.
+BASE = ["rosrun", "fake_turtlebot_sim", "fake_turtlebot.py", "_rate:=500"]
+PUSHES = 100
 TICKS_PER_S = os.sysconf("SC_CLK_TCK")
 
 
@@ -107,3 +110,29 @@ def test_latency_and_processor_time_beside_a_bare_relay():
     for (name, rate), (median, _, _) in ratios.items():
         if name.startswith("joy2twist.py"):
             assert median < 1.5, f"{median:.2f} times the latency of a bare relay at {rate} Hz"
+
+
+def stick_to_wheel(command):
+    """Median and 99th percentile [ms] of the time from a moved stick to the wheels."""
+    with running(BASE), running(command):
+        probe = [sys.executable, str(HERE / "wheel_probe.py"), str(PUSHES)]
+        done = subprocess.run(probe, stdout=subprocess.PIPE, text=True, check=True, timeout=120)
+    latency_s = json.loads(done.stdout)
+    return [1e3 * latency_s[len(latency_s) // 2], 1e3 * latency_s[len(latency_s) * 99 // 100]]
+
+
+def test_stick_to_wheel_beside_a_bare_relay():
+    rounds = {name: [] for name in RELAYS}
+    for _ in range(ROUNDS):
+        for name, command in RELAYS.items():
+            rounds[name].append(stick_to_wheel(command))
+    print("\n\n| stick to wheel, through | median | 99 of 100 |\n|---|---|---|")
+    bare = None
+    for name, measured in rounds.items():
+        figures = [statistics.median(f[k] for f in measured) for k in range(2)]
+        bare = bare or figures
+        ratios = [mine / least for mine, least in zip(figures, bare)]
+        cells = [f"{f:.1f} ms ({r:.2f})" for f, r in zip(figures, ratios)]
+        print(f"| {name} | " + " | ".join(cells) + " |")
+        if name.startswith("joy2twist.py"):
+            assert ratios[0] < 1.5, f"{ratios[0]:.2f} times the way through a bare relay"

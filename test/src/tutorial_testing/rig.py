@@ -34,8 +34,10 @@ CYCLE_S = 5.0  # to release all and drive again, at least
 class Rig:
     """The nodes, each a program of its own; a context manager that ends them all."""
 
-    def __init__(self, with_mux, **environment):
+    def __init__(self, with_mux, screen=None, **environment):
+        """screen: path of what the nodes write their lines to; None: they are kept."""
         self.with_mux = with_mux
+        self._screen = screen
         self._environment = environment
         self._folder = tempfile.TemporaryDirectory()
         self._fifo = os.path.join(self._folder.name, "js0")
@@ -90,7 +92,10 @@ class Rig:
         }[node]
         arguments = [f"_{name}:={json.dumps(value)}" for name, value in given.items()]
         arguments += [f"{name}:={to}" for name, to in remap.items()]
-        self.programs[node] = Program("rosrun", *command, *arguments, **self._environment)
+        command = ("rosrun", *command, *arguments)
+        if self._screen:
+            command = ("bash", "-c", 'exec "$@" >"$0" 2>&1', self._screen, *command)
+        self.programs[node] = Program(*command, **self._environment)
 
     def pid(self, node):
         """The process of a node."""

@@ -159,7 +159,7 @@ settings_of_node = st.fixed_dictionaries(
 )
 
 
-@settings(max_examples=1000, deadline=None)
+@settings(max_examples=1000)
 @given(settings_of_node, st.integers(0, 2**64))
 def test_100_000_random_messages_give_only_finite_velocities_within_the_limits(given, seed):
     random = Random(seed)

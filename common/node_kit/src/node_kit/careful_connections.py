@@ -16,14 +16,18 @@ from rospy.impl.tcpros_base import TCPROSServer
 from rospy.impl.tcpros_pubsub import TCPROSSub
 from rospy.msg import deserialize_messages
 
+from node_kit.throttle import ThrottleEach
+
 GREETING_S = 2.0  # for a peer to say what it wants; on one network it takes milliseconds
 # A message of which so much time after its first bytes others have come, but not its end, claims to
 # be longer than it is [s]. All that the nodes here subscribe to is short.
 LONGEST_ARRIVAL_S = 0.5
+WARNING_PERIOD_S = 1.0  # a sender may go on so a hundred times a second
 _LENGTH = struct.Struct("<I")
 
 _greet = TCPROSServer._tcp_server_callback  # rospy's own
 _warn = None  # called with a line about a message that cannot be read
+_may_warn = ThrottleEach(1.0 / WARNING_PERIOD_S)
 
 
 def be_careful():
@@ -33,7 +37,10 @@ def be_careful():
 
 
 def tell_of_bad_messages(warn):
-    """warn: called with one line when a message cannot be read; it must not wait."""
+    """warn: called with a line when a message cannot be read, once a second for a topic at most.
+
+    It must not wait.
+    """
     global _warn  # noqa: PLW0603  rospy makes the connections, and nobody can hand them anything
     _warn = warn
 
@@ -84,7 +91,7 @@ def _read_messages(self, buffer, messages, _sock):
         buffer.seek(0)
         buffer.truncate()
         self.incomplete_since = None
-        if _warn:
+        if _warn and _may_warn.ready(self.resolved_name, time.monotonic()):
             _warn(
                 f"A message on {self.resolved_name} cannot be read ({error}): the connection to "
                 "its sender is made anew."

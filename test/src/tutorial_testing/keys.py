@@ -1,0 +1,107 @@
+"""A terminal in which launch_joy_node.launch virtual:=true runs: its keys drive the robot."""
+
+import os
+import subprocess
+import uuid
+
+import rospy
+from diagnostic_msgs.msg import DiagnosticArray
+from nav_msgs.msg import Odometry
+
+from joy_to_twist.safety import ARMED
+from tutorial_testing.waiting import wait_for
+
+SPEED = 0.35  # [m/s] at full deflection, config/f710_d.yaml
+
+
+class Tmux:
+    """A terminal that a program can look at and type into."""
+
+    def __init__(self, *command):
+        self._socket = f"test-{uuid.uuid4()}"
+        self._run("new-session", "-d", "-x", "120", "-y", "50", *command)
+        self._run("set-option", "remain-on-exit", "on")
+
+    def _run(self, *words, check=True):
+        command = ("tmux", "-f", os.devnull, "-L", self._socket, *words)
+        return subprocess.run(command, check=check, capture_output=True, text=True).stdout
+
+    @property
+    def screen(self):
+        return self._run("capture-pane", "-p")
+
+    @property
+    def history(self):
+        """All that was written, also what has left the screen."""
+        return self._run("capture-pane", "-p", "-J", "-S", "-")
+
+    @property
+    def ended(self):
+        return self._run("list-panes", "-F", "#{pane_dead}").strip() == "1"
+
+    def press(self, key):
+        self._run("send-keys", key)
+
+    def hold(self, key, until, what):
+        """Repeat a key as a keyboard does, until something is true."""
+
+        def pressed():
+            self.press(key)
+            return until()
+
+        try:
+            wait_for(pressed, what)
+        except AssertionError as error:
+            raise AssertionError(f"{error}; the screen:\n{self.screen}") from None
+
+    def close(self):
+        """As the X of its window does; once more does no harm."""
+        self._run("kill-server", check=False)
+
+
+class KeyboardRig:
+    """The launch in its terminal, ready to be driven; close() it."""
+
+    def __init__(self):
+        self.odometry, self._states = [], []
+        self._subscribers = [
+            rospy.Subscriber("odom", Odometry, self.odometry.append),
+            rospy.Subscriber("/diagnostics", DiagnosticArray, self._keep_state),
+        ]
+        self.device = f"/tmp/{uuid.uuid4()}"
+        arguments = f"virtual:=true rviz:=false cockpit:=false joy_dev:={self.device}"
+        self.terminal = Tmux(f"roslaunch joy2twist launch_joy_node.launch {arguments}")
+
+    def wait_until_ready(self):
+        """A key pressed before joy2twist has seen the gamepad released would not drive."""
+        wait_for(lambda: "Opened joystick" in self.terminal.history, "driver")
+        wait_for(lambda: self.odometry, "robot")
+        wait_for(lambda: self._states and self._states[-1] == ARMED, "armed joy2twist")
+
+    def _keep_state(self, message):
+        self._states += [s.message for s in message.status if s.name.startswith("myjoystick2twist")]
+
+    @property
+    def speed(self):
+        """Of the newest odometry [m/s]."""
+        return self.odometry[-1].twist.twist.linear.x
+
+    def moves(self):
+        return abs(self.speed - SPEED) < 1e-6
+
+    def stands(self):
+        return self.speed == 0.0
+
+    def drive(self):
+        """Hold LB and W until the robot moves; LB again and again, as W may come late."""
+
+        def moves():
+            self.terminal.press("Space")
+            return self.moves()
+
+        self.terminal.hold("w", moves, "moving robot")
+
+    def close(self):
+        for subscriber in self._subscribers:
+            subscriber.unregister()
+        self.terminal.close()

@@ -1,0 +1,54 @@
+"""What cannot be read: named, but not as often as it comes, and nothing of it stays behind."""
+
+import io
+from types import SimpleNamespace
+
+import pytest
+from rospy.exceptions import TransportException
+from sensor_msgs.msg import Joy
+
+from node_kit import careful_connections
+from node_kit.throttle import ThrottleEach
+
+LIES = b"\x03\0\0\0abc"  # three bytes are no Joy
+
+
+@pytest.fixture
+def read(monkeypatch):
+    """Read bytes at a time [s] as a subscription does: the warnings, and the messages or None."""
+    now, lines = [0.0], []
+    monkeypatch.setattr(careful_connections, "time", SimpleNamespace(monotonic=lambda: now[0]))
+    monkeypatch.setattr(careful_connections, "_may_warn", ThrottleEach(1.0))
+    monkeypatch.setattr(careful_connections, "_warn", lines.append)
+    subscription = SimpleNamespace(queue_size=10, recv_data_class=Joy, resolved_name="/joy")
+
+    def read(data, at, buffer=None):
+        now[0] = at
+        buffer, messages = buffer or io.BytesIO(), []
+        buffer.write(data)
+        try:
+            careful_connections._read_messages(subscription, buffer, messages, None)
+        except TransportException:
+            assert (buffer.getvalue(), messages) == (b"", [])
+            return lines, None
+        return lines, messages
+
+    return read
+
+
+def test_who_goes_on_so_is_named_once_a_second(read):
+    for number in range(25):
+        lines, messages = read(LIES, 0.1 * number)
+        assert messages is None
+    assert len(lines) == 3
+    assert "/joy cannot be read" in lines[0]
+
+
+def test_a_message_that_does_not_end_is_named(read):
+    buffer = io.BytesIO()
+    begun = b"\0\0\1\0" + b"." * 20  # 65536 bytes, it says
+    assert read(begun, 0.0, buffer) == ([], [])
+    assert read(b".", 0.4, buffer) == ([], [])
+    lines, messages = read(b".", 0.6, buffer)
+    assert messages is None
+    assert "65536 bytes" in lines[0]
