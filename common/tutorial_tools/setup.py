@@ -9,6 +9,7 @@ setup(
             "tutorial_tools.demo",
             "tutorial_tools.doctor",
             "tutorial_tools.graph",
+            "tutorial_tools.join",
         ],
         package_dir={"": "src"},
     )

@@ -3,11 +3,11 @@
 import os
 import shutil
 import socket
-import subprocess
 from pathlib import Path
 
 import pytest
 
+from tutorial_testing.screen import virtual_screen
 from tutorial_testing.two_hosts.scene import Scene
 
 REPOSITORY = Path(__file__).resolve().parents[2]
@@ -54,16 +54,9 @@ def clean_environment(monkeypatch):
 
 @pytest.fixture
 def screen():
-    """A virtual screen, on a display number that Xvfb finds itself; yields its name."""
-    read, write = os.pipe()
-    # noreset: or it starts anew, and refuses for a moment, whenever its last client leaves.
-    command = ["Xvfb", "-displayfd", str(write), "-noreset", "-nolisten", "tcp"]
-    command += ["-screen", "0", f"{WIDTH}x{HEIGHT}x24"]
-    with subprocess.Popen(command, pass_fds=[write], stderr=subprocess.DEVNULL) as server:
-        os.close(write)
-        with os.fdopen(read) as told:
-            yield f":{told.readline().strip()}"
-        server.terminate()
+    """The name of a virtual screen."""
+    with virtual_screen(WIDTH, HEIGHT) as name:
+        yield name
 
 
 @pytest.fixture

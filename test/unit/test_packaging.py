@@ -10,7 +10,13 @@ from xml.etree import ElementTree
 import pytest
 
 REPOSITORY = Path(__file__).resolve().parents[2]
-LOWER_FLOOR = ("common/gamepad", "common/node_kit", "common/tutorial_tools", "fake_turtlebot_sim")
+LOWER_FLOOR = (
+    "common/cockpit",
+    "common/gamepad",
+    "common/node_kit",
+    "common/tutorial_tools",
+    "fake_turtlebot_sim",
+)
 PACKAGES = ("beginner_tutorials", *LOWER_FLOOR, "joy2twist")
 
 

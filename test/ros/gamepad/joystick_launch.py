@@ -65,7 +65,8 @@ class LaunchTest(unittest.TestCase):
         self.states += [s.message for s in message.status if s.name.startswith("myjoystick2twist")]
 
     def launch(self, *arguments, **environment):
-        command = ("roslaunch", "joy2twist", "launch_joy_node.launch", "rviz:=false")
+        command = ("roslaunch", "joy2twist", "launch_joy_node.launch")
+        command += ("rviz:=false", "cockpit:=false")
         program = Program(*command, f"joy_dev:={self.device}", *arguments, **environment)
         self.addCleanup(program.__exit__)
         return program

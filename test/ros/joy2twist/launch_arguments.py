@@ -75,7 +75,7 @@ class ArgumentsTest(unittest.TestCase):
             launch.wait()
 
     def test_a_recording_by_a_relative_path(self):
-        self.played("launch_bag.launch rviz:=false bag:=joy.bag", "/joy")
+        self.played("launch_bag.launch rviz:=false cockpit:=false bag:=joy.bag", "/joy")
         self.played("student.launch rviz:=false name:=ada bag:=../bag/joy.bag", "/ada/joy")
 
     def test_the_joystick_leaves_no_parameter_behind(self):
@@ -94,7 +94,7 @@ class ArgumentsTest(unittest.TestCase):
     def test_the_recording_is_not_driven_with_parameters_of_an_earlier_launch(self):
         rospy.set_param("/myjoystick2twist/enable_button", 4)
         master = rosgraph.Master("/test")
-        with roslaunch("launch_bag.launch", "rviz:=false") as launch:
+        with roslaunch("launch_bag.launch", "rviz:=false", "cockpit:=false") as launch:
             wait_for(lambda: "/myjoystick2twist" in known(), "joy2twist")
             self.assertFalse(master.hasParam("/myjoystick2twist/enable_button"))
             launch.interrupt()

@@ -69,7 +69,7 @@ class KeyboardRig:
             rospy.Subscriber("/diagnostics", DiagnosticArray, self._keep_state),
         ]
         self.device = f"/tmp/{uuid.uuid4()}"
-        arguments = f"virtual:=true rviz:=false joy_dev:={self.device}"
+        arguments = f"virtual:=true rviz:=false cockpit:=false joy_dev:={self.device}"
         self.terminal = Tmux(f"roslaunch joy2twist launch_joy_node.launch {arguments}")
 
     def wait_until_ready(self):

@@ -30,6 +30,23 @@ def test_true_or_false(name):
         assert refused(name, value) == "must be true or false"
 
 
+def test_the_page_of_the_cockpit():
+    for value in ("true", "False", "auto"):
+        check("cockpit", value)
+    for value in ("yes", "", "Auto "):
+        assert refused("cockpit", value) == "must be true, false or auto"
+    for value in ("1", "8080", "65535"):
+        check("cockpit_port", value)
+    for value in ("0", "65536", "-1", "http", "8080.5", ""):
+        assert refused("cockpit_port", value) == "must be a port, a number from 1 to 65535"
+
+
+def test_what_moves_the_robot():
+    check("joystick", "gamepad")
+    check("joystick", "browser")
+    assert refused("joystick", "keys") == "must be gamepad or browser"
+
+
 def test_a_recording(bag, tmp_path):
     check("bag", bag)
     check("bag", "none")
@@ -65,7 +82,9 @@ def test_a_robot():
 
 
 def test_only_arguments_with_a_rule_are_asked_for():
-    assert set(RULES) == {"bag", "joy_pkg", "loop", "name", "rviz", "virtual"}
+    assert set(RULES) == {
+        "bag", "cockpit", "cockpit_port", "joy_pkg", "joystick", "loop", "name", "rviz", "virtual",
+    }  # fmt: skip
 
 
 def test_the_package_of_the_driver():

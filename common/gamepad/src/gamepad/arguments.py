@@ -49,9 +49,31 @@ def robot(value):
         raise ValueError(f"must be a letter followed by letters, digits and underscores{meant}")
 
 
+def joystick(value):
+    """What moves the robot, unless a recording does."""
+    if value not in ("gamepad", "browser"):
+        raise ValueError("must be gamepad or browser")
+
+
+def true_false_or_auto(value):
+    if value != "auto":
+        try:
+            true_or_false(value)
+        except ValueError:
+            raise ValueError("must be true, false or auto") from None
+
+
+def port(value):
+    if not re.fullmatch(r"\d{1,5}", value) or not 1 <= int(value) <= 65535:
+        raise ValueError("must be a port, a number from 1 to 65535")
+
+
 RULES = {
     "bag": recording,
+    "cockpit": true_false_or_auto,
+    "cockpit_port": port,
     "joy_pkg": driver,
+    "joystick": joystick,
     "loop": true_or_false,
     "name": robot,
     "rviz": true_or_false,

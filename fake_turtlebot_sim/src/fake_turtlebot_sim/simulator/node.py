@@ -29,7 +29,7 @@ class FakeTurtlebot:
     Publishers: odom (nav_msgs/Odometry), joint_states (sensor_msgs/JointState),
         base_pose_ground_truth (nav_msgs/Odometry; only if the odometry has errors),
         /tf and /tf_static (tf2_msgs/TFMessage), /diagnostics (diagnostic_msgs/DiagnosticArray)
-    Services: ~reset (std_srvs/Empty)
+    Services: ~reset (std_srvs/Empty), and of several robots each one's own, reset
     Parameters: ~rate 50.0, ~cmd_vel_timeout 0.6, ~publish_tf true, ~wheel_separation 0.23,
         ~wheel_radius 0.035, ~max_linear_speed 0.7, ~max_angular_speed pi,
         ~max_linear_acceleration 0.0, ~max_angular_acceleration 0.0, ~initial_x 0.0,

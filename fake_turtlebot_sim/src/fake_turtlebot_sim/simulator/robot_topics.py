@@ -7,6 +7,7 @@ from geometry_msgs.msg import PoseWithCovarianceStamped, Twist
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Empty
+from std_srvs import srv
 
 from fake_turtlebot_sim.simulator.ros_messages import RobotMessages, pose_on_floor
 from fake_turtlebot_sim.simulator.simulated_robot import REST, SimulatedRobot
@@ -47,6 +48,8 @@ class RobotTopics:
         ):
             # Only the newest counts, so none may wait behind it.
             rospy.Subscriber(prefix + topic, kind, callback, queue_size=1, tcp_nodelay=True)
+        if name:  # of a single robot the node's own does the same
+            rospy.Service(f"{prefix}reset", srv.Empty, self._on_reset_call)
 
     def tell(self, stamp):
         """Write the robot's state into its messages; call while the motion is held."""
@@ -95,6 +98,10 @@ class RobotTopics:
         with self._motion.hold() as now:
             self.robot.advance(now.motion_ns)
             self.robot.reset()
+
+    def _on_reset_call(self, request):
+        self._on_reset(request)
+        return srv.EmptyResponse()
 
     def _say_once(self, text):
         if text not in self._said:

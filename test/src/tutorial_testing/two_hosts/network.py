@@ -3,12 +3,15 @@
 Nothing of it touches the machine's own network, and it is gone when its last program ends.
 """
 
+import contextlib
+import ctypes
 import os
 import subprocess
 
 from tutorial_testing.processes import Program
 
 AS_ROOT = os.geteuid() == 0
+CLONE_NEWNET = 0x40000000  # linux/sched.h
 
 
 class Host:
@@ -43,6 +46,25 @@ class Host:
     def start(self, *command, **environment):
         """Start a program on this host: a processes.Program."""
         return Program(*self.command(*command), **environment)
+
+    @contextlib.contextmanager
+    def inside(self):
+        """Let this thread, and what it starts, be on this host: only root may."""
+        with open("/proc/thread-self/ns/net") as own, open(
+            f"/proc/{self._holder.pid}/ns/net"
+        ) as there:
+            _enter(there)
+            try:
+                yield
+            finally:
+                _enter(own)
+
+
+def _enter(namespace):
+    # os.setns() is Python's from 3.12 on.
+    libc = ctypes.CDLL(None, use_errno=True)
+    if libc.setns(namespace.fileno(), CLONE_NEWNET):
+        raise OSError(ctypes.get_errno(), "setns")
 
 
 class Network:

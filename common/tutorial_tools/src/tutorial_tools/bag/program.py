@@ -7,7 +7,9 @@ import sys
 from pathlib import Path
 
 import rosbag
+import rosgraph
 
+from node_kit.page import address
 from tutorial_tools.bag.picture import curves, svg
 
 JOY = "sensor_msgs/Joy"
@@ -61,4 +63,7 @@ def main():
         except OSError as error:
             fail(f"cannot write {picture}: {os.strerror(error.errno)}")
         print(f"drawn in {picture}, which a browser shows")
+    page = address(rosgraph.get_master_uri())
+    if page:
+        print(f"scrub and publish it in a browser, if the cockpit started here: {page}#Bag")
     print(f"publish it (Ctrl-C ends it): rosbag play --loop {shlex.quote(str(path))}")

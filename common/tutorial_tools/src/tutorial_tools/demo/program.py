@@ -12,6 +12,7 @@ import re
 import signal
 import socket
 import sys
+import time
 from pathlib import Path
 
 import rosbag
@@ -22,6 +23,7 @@ import rospkg
 
 from gamepad.arguments import check
 from node_kit.names import holder
+from node_kit.page import address
 from node_kit.questions import Answer, call
 from tutorial_tools.demo.in_the_way import in_the_way, refusal
 from tutorial_tools.demo.launch import ENDING, TOPICS, DemoError, Launch
@@ -29,12 +31,12 @@ from tutorial_tools.demo.launch import ENDING, TOPICS, DemoError, Launch
 # What launch_bag.launch starts. Not by loading that file here: it looks itself for what runs.
 NODES = ("/fake_turtlebot", "/myjoystick2twist", "/robot_state_publisher", "/rosbag")
 RVIZ_NODE = "/my_rviz"
+PAGE_TIMEOUT_S = 5.0  # tornado and rospy load on a slow and busy machine, too
 CONNECT_TIMEOUT_S = 3.0  # a master on this machine answers within milliseconds
 RVIZ = re.compile("rviz:=")  # who says whether RViz opens, need not be told
-WITHOUT_SCREEN = (
-    "there is no screen (DISPLAY is not set), so RViz is left out; to see it drive, "
-    "in another terminal: ./tutorial run rostopic echo /odom/pose/pose/position"
-)
+WITHOUT_SCREEN = "there is no screen (DISPLAY is not set), so RViz is left out; to see it drive, "
+IN_TERMINAL = "in another terminal: ./tutorial run rostopic echo /odom/pose/pose/position"
+IN_BROWSER = "open {page} in a browser; from another machine: ssh -L {port}:127.0.0.1:{port} {host}"
 
 
 def duration(text):
@@ -75,7 +77,8 @@ def launch_arguments(launch_file, arguments):
             raise DemoError(f"{argument}: not an argument of launch_bag.launch, which has {names}")
         values[name] = value
     try:
-        check("rviz", values["rviz"])
+        for name in ("rviz", "cockpit", "cockpit_port"):
+            check(name, values[name])
     except ValueError as error:
         raise DemoError(error) from error
     return values
@@ -156,6 +159,26 @@ def claim_master():
     return claim
 
 
+def where_to_look(values):
+    """Where a robot is seen without a screen. values: of the arguments of launch_bag.launch."""
+    if not wait_for_page(values):
+        return IN_TERMINAL
+    port = values["cockpit_port"]
+    return IN_BROWSER.format(page=f"http://127.0.0.1:{port}/", port=port, host=socket.gethostname())
+
+
+def wait_for_page(values):
+    """Whether the cockpit serves its page, which takes a moment where it is wanted."""
+    if values["cockpit"].lower() in ("false", "0"):
+        return False
+    end = time.monotonic() + PAGE_TIMEOUT_S
+    while time.monotonic() < end:
+        if address(rosgraph.get_master_uri()):
+            return True
+        time.sleep(0.1)
+    return False
+
+
 def age_of_this_process():
     """How long ago [s] the user's command began; ./tutorial becomes this process by exec."""
     with open("/proc/self/stat") as stat, open("/proc/uptime") as uptime:
@@ -184,7 +207,7 @@ def main():
             launch.wait_for_odometry()
             print(f"demo: first /odom after {age_of_this_process():.1f} s", flush=True)
             if not with_rviz and not any(map(RVIZ.match, options.arguments)):
-                print(f"demo: {WITHOUT_SCREEN}", flush=True)
+                print(f"demo: {WITHOUT_SCREEN}{where_to_look(values)}", flush=True)
             launch.watch(math.inf if options.duration_s is None else options.duration_s)
     except DemoError as error:
         sys.exit(f"demo: {error}")

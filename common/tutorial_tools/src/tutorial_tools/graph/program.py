@@ -21,6 +21,8 @@ from urllib.parse import urlsplit
 
 import rosgraph
 
+from node_kit.page import address
+
 ENDINGS = (".png", ".svg", ".pdf", ".dot")
 TIMEOUT_S = 5.0  # for each answer of the master; on one network it takes milliseconds
 # Every node is connected to /rosout, which would hide the rest.
@@ -111,17 +113,30 @@ def ask_master():
     return state, machines
 
 
+class DotError(Exception):
+    """Nothing can be drawn; the text says in one line why and what to do."""
+
+
 def picture(text, kind):
-    """What dot draws of a text: the bytes of a file of some kind, such as png."""
+    """What dot draws of a text: the bytes of a file of some kind, such as png. Raises DotError."""
     try:
         done = subprocess.run(
             ["dot", f"-T{kind}"], input=text.encode(), capture_output=True, check=False
         )
     except FileNotFoundError:
-        fail("dot is missing: sudo apt install graphviz, or choose a FILE that ends in .dot")
+        raise DotError(
+            "dot is missing: sudo apt install graphviz, or choose a FILE that ends in .dot"
+        ) from None
     if done.returncode != 0:
-        fail(f"dot cannot draw this: {' '.join(done.stderr.decode(errors='replace').split())}")
+        words = " ".join(done.stderr.decode(errors="replace").split())
+        raise DotError(f"dot cannot draw this: {words}")
     return done.stdout
+
+
+def page_of_graph():
+    """The address at which the cockpit shows the graph live; None if it does not run."""
+    page = address(rosgraph.get_master_uri())
+    return page and f"{page}#Graph"
 
 
 def fail(text):
@@ -148,9 +163,11 @@ def main(arguments=None):
     text = dot_text(state, machines, options.all)
     if not shows_a_node(text):
         fail(f"nothing runs on {rosgraph.get_master_uri()} to be drawn; start a node first")
-    data = text.encode() if kind == ".dot" else picture(text, kind[1:])
     try:
+        data = text.encode() if kind == ".dot" else picture(text, kind[1:])
         file.write_bytes(data)
+    except DotError as error:
+        fail(error)
     except OSError as error:
         fail(f"cannot write {file}: {os.strerror(error.errno)}")
     print(f"draw_graph: wrote {file}")

@@ -1,0 +1,104 @@
+/** The tab Bag: a recording's curves and timeline, and its publication in a joystick's place. */
+
+import { Chart } from "./chart.js";
+import { byId, element, offer, row, say } from "./dom.js";
+
+export class BagTab {
+  #bag = null; // as the server described it
+  #yours = false; // whether this page is the one that plays
+  #scrubbed = 0; // when the slider was last moved by hand
+  #hidden = new Set(); // curves that are not to be seen
+
+  /** robot(): the name of the robot to play to. */
+  constructor(link, watch, robot) {
+    Object.assign(this, { link, watch, robot });
+    this.chart = new Chart(byId("bag-chart"));
+    link.on("bags", ({ names }) => offer(byId("bag-name"), names.map((name) => [name, name])));
+    link.on("bag", (bag) => this.#open(bag));
+    link.on("bag_at", (at) => this.#moveTo(at));
+    link.on("seat", (seat) => {
+      this.#yours = seat.yours && seat.how === "bag";
+    });
+    this.#listen();
+  }
+
+  show(on) {
+    this.watch({ bag: on });
+    if (on) requestAnimationFrame(() => this.#draw());
+  }
+
+  #listen() {
+    byId("bag-open").addEventListener("click", () =>
+      this.link.send("bag_open", { name: byId("bag-name").value }));
+    byId("bag-play").addEventListener("click", () => this.#play());
+    byId("bag-pause").addEventListener("click", () => this.link.send("bag_pause"));
+    byId("bag-position").addEventListener("input", () => {
+      this.#scrubbed = performance.now();
+      this.#seek(Number(byId("bag-position").value));
+    });
+    // What is changed while it plays counts at once.
+    for (const id of ["bag-rate", "bag-loop", "bag-topic"]) {
+      byId(id).addEventListener("change", () => this.#yours && this.#play());
+    }
+    byId("bag-chart").addEventListener("dblclick", () => this.chart.wholeRange());
+  }
+
+  #play() {
+    this.link.send("bag_play", {
+      topic: byId("bag-topic").value,
+      rate: Number(byId("bag-rate").value),
+      loop: byId("bag-loop").checked,
+      robot: this.robot(),
+    });
+  }
+
+  #seek(position) {
+    this.#showPosition(position);
+    this.link.send("bag_seek", { position });
+  }
+
+  #showPosition(position) {
+    say(byId("bag-at"), `${position.toFixed(1)} s`);
+    this.chart.cursor = position;
+  }
+
+  #open(bag) {
+    this.#bag = bag;
+    this.#hidden.clear();
+    const seconds = bag.end - bag.start;
+    const when = bag.start > 0 ? `, recorded ${new Date(bag.start * 1000).toLocaleString()}` : "";
+    say(byId("bag-about"), `${bag.path}: ${seconds.toFixed(1)} s${when}`);
+    byId("bag-position").max = seconds;
+    byId("bag-topics").replaceChildren(...bag.topics.map(({ name, type, count }) =>
+      row(name, type, String(count))));
+    const playable = bag.topics.filter(({ type }) => type === "sensor_msgs/Joy");
+    offer(byId("bag-topic"), playable.map(({ name }) => [name, name]));
+    byId("bag-play").disabled = playable.length === 0;
+    this.#draw();
+  }
+
+  #draw() {
+    if (!this.#bag) return;
+    this.chart.show(this.#bag.curves);
+    byId("bag-curves").replaceChildren(...Object.keys(this.#bag.curves).map((name, i) => {
+      const box = element("input", { type: "checkbox", checked: !this.#hidden.has(name) });
+      box.addEventListener("change", () => {
+        this.#hidden[box.checked ? "delete" : "add"](name);
+        this.chart.setVisible(i, box.checked);
+      });
+      this.chart.setVisible(i, box.checked);
+      const sample = element("i", { className: "sample" });
+      sample.style.background = this.chart.colour(i);
+      return element("label", { "data-curve": name }, box, sample, name);
+    }));
+  }
+
+  #moveTo({ position, playing }) {
+    if (performance.now() - this.#scrubbed > 500) {
+      byId("bag-position").value = position;
+      this.#showPosition(position);
+    }
+    byId("bag-pause").disabled = !playing;
+    byId("bag").dataset.playing = playing;
+  }
+}

@@ -1,0 +1,35 @@
+/** The tab Doctor: the lines of ./tutorial doctor. */
+
+import { byId, element, say } from "./dom.js";
+
+const SIGNS = { ok: "✓", note: "i", unknown: "?", wrong: "✗" };
+
+export class DoctorTab {
+  #asked = false;
+
+  constructor(link) {
+    this.link = link;
+    link.on("hello", () => (this.#asked = false));
+    link.on("doctor", (found) => this.#show(found));
+    byId("doctor-run").addEventListener("click", () => this.#ask());
+  }
+
+  show(on) {
+    if (on && !this.#asked) this.#ask();
+  }
+
+  #ask() {
+    this.#asked = this.link.send("doctor");
+    if (!this.#asked) return;
+    say(byId("doctor-state"), "Looking …");
+  }
+
+  #show({ lines, running }) {
+    const wrong = lines.filter(({ level }) => level === "wrong").length;
+    say(byId("doctor-state"), running ? "Looking …" : wrong ? `${wrong} wrong` : "Nothing wrong");
+    byId("doctor-run").disabled = running;
+    byId("doctor-lines").replaceChildren(...lines.map(({ level, text }) =>
+      element("li", { className: level, "data-level": level },
+        element("b", { className: "sign", "aria-label": level }, SIGNS[level] ?? "·"), text)));
+  }
+}

@@ -1,0 +1,39 @@
+/** The few words in which the views build their elements. */
+
+export const byId = (id) => document.getElementById(id);
+
+/** An element with properties, attributes (data-*, aria-*, role) and children: elements or texts. */
+export function element(tag, properties = {}, ...children) {
+  const made = document.createElement(tag);
+  for (const [name, value] of Object.entries(properties)) {
+    if (name.includes("-") || name === "role") made.setAttribute(name, value);
+    else made[name] = value;
+  }
+  made.append(...children);
+  return made;
+}
+
+/** A row of a table. */
+export const row = (...cells) => element("tr", {}, ...cells.map((cell) => element("td", {}, cell)));
+
+/** Let a <select> offer these [value, text] pairs, and keep what is chosen if it is still there. */
+export function offer(select, choices) {
+  const wanted = JSON.stringify(choices);
+  if (select.dataset.choices === wanted) return; // an open list is left alone
+  const chosen = select.value;
+  select.dataset.choices = wanted;
+  select.replaceChildren(...choices.map(([value, text]) => new Option(text, value)));
+  if (choices.some(([value]) => value === chosen)) select.value = chosen;
+}
+
+/** Set a text, if it is another one: what reads the page aloud speaks of changes only. */
+export function say(target, text) {
+  if (target.textContent !== text) target.textContent = text;
+}
+
+/** Let the browser save a Blob as a file. */
+export function save(blob, name) {
+  const url = URL.createObjectURL(blob);
+  element("a", { href: url, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(url), 10000);
+}

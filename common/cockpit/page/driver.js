@@ -1,0 +1,112 @@
+/**
+ * The person at this page as a joystick: what hands do on keys, glass or a gamepad goes to the server.
+ *
+ * Whether that moves a robot is the server's to decide. This side knows some losses of the operator
+ * earlier (a hidden page, a lost pointer), and tells them.
+ */
+
+import { Glass } from "./glass.js";
+import { Keys } from "./keys.js";
+import { Pad } from "./pad.js";
+import { isAtRest, positions } from "./f710.js";
+
+const LOOK_MS = 10; // how often gamepads are looked at; the browser itself does it every 16 ms or so
+
+export class Driver {
+  #n = 0;
+  #beat = 0; // the newest one of the server's that came
+  #sent = ""; // the newest input, without its numbers
+  #sentAt = 0;
+  #timer = null;
+  #away = false; // the page is hidden, or has not the keyboard
+
+  constructor(link, glass) {
+    this.link = link;
+    this.mode = "D";
+    this.names = null; // {D, X: names of the buttons of that mode}
+    this.periodMs = 50;
+    this.onLost = () => {};
+    const changed = () => this.#tell();
+    const lost = (why) => this.release(why);
+    this.keys = new Keys(() => this.isDriving, changed);
+    this.glass = new Glass(glass, changed, lost);
+    this.pad = new Pad(lost);
+    link.on("hello", (hello) => {
+      this.names = { D: hello.pad.D.buttons, X: hello.pad.X.buttons };
+      this.periodMs = hello.beat_ms;
+      this.stop(); // a new connection drives nothing
+    });
+    link.on("beat", (beat) => (this.#beat = beat.n));
+    addEventListener("blur", () => this.#leave("blur"));
+    addEventListener("pagehide", () => this.#leave("pagehide"));
+    document.addEventListener("freeze", () => this.#leave("freeze"));
+    document.addEventListener("visibilitychange", () => {
+      if (document.hidden) this.#leave("hidden");
+      else this.#away = false;
+    });
+    for (const kind of ["focus", "pageshow", "pointerdown", "keydown"]) {
+      addEventListener(kind, () => (this.#away = document.hidden), { capture: true });
+    }
+  }
+
+  get isDriving() {
+    return this.#timer !== null;
+  }
+
+  /** The seat is this page's: send what hands do, at every change and every period. */
+  start() {
+    if (this.isDriving) return;
+    this.#letGo();
+    this.#beat = 0;
+    this.#timer = setInterval(() => this.#tell(), LOOK_MS);
+  }
+
+  stop() {
+    clearInterval(this.#timer);
+    this.#timer = null;
+    this.#letGo();
+  }
+
+  /** The operator was lost: say so, and hold nothing any more. */
+  release(why) {
+    this.#letGo();
+    if (!this.isDriving) return;
+    this.link.send("release", { why });
+    this.onLost(why);
+  }
+
+  #leave(why) {
+    if (!this.#away) this.release(why);
+    this.#away = true;
+  }
+
+  #letGo() {
+    this.keys.clear();
+    this.glass.clear();
+    this.#sent = "";
+  }
+
+  /** Hands on keys and glass together: Shift may hold LB for a mouse on the stick. */
+  #ownHands() {
+    const [keys, glass] = [this.keys.hands, this.glass.hands];
+    const source = isAtRest(keys) ? "touch" : "keys";
+    const left = glass.left.some(Boolean) ? glass.left : keys.left;
+    return { source, hands: { ...glass, left, held: [...new Set([...keys.held, ...glass.held])] } };
+  }
+
+  #tell() {
+    if (!this.isDriving || this.#away) return;
+    let { source, hands } = this.#ownHands();
+    const pad = this.pad.read(this.names);
+    if (pad && isAtRest(hands)) ({ source, hands } = { source: "pad", hands: pad.hands });
+    const { axes, buttons } = positions(this.mode, this.names[this.mode], hands);
+    const now = performance.now();
+    const held = JSON.stringify([source, axes, buttons]);
+    if (held === this.#sent && now - this.#sentAt < this.periodMs - LOOK_MS / 2) return;
+    const stamp = source === "pad" ? pad.timestamp : null;
+    const message = { n: ++this.#n, t: now, beat: this.#beat, axes, buttons, pad: stamp, source };
+    if (!this.link.send("input", message)) return;
+    this.#sent = held;
+    this.#sentAt = now;
+  }
+}

@@ -1,0 +1,152 @@
+/** The tab Graph: which nodes run and what they tell each other, live. */
+
+import { byId, element, say } from "./dom.js";
+import { layout } from "./graph_layout.js";
+
+// Every node is connected to /rosout, which would hide the rest; as draw_graph has it.
+const DEBUG = ["node /rosout", "topic /rosout", "topic /rosout_agg", "topic /statistics"];
+const LEAST_SCALE = 0.7; // to which the picture shrinks before it is scrolled
+const SVG = "http://www.w3.org/2000/svg";
+
+function svg(tag, attributes = {}, ...children) {
+  const made = document.createElementNS(SVG, tag);
+  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, value);
+  made.append(...children);
+  return made;
+}
+
+export class GraphTab {
+  #chosen = null; // "node /a" or "topic /b"
+  #drawn = "";
+  #graph = { nodes: [], topics: [], edges: [] };
+
+  constructor(link, watch) {
+    this.watch = watch;
+    this.picture = byId("graph-picture");
+    this.details = byId("graph-details");
+    link.on("graph", (graph) => this.#draw(graph));
+    byId("graph-all").addEventListener("change", () => this.#draw(this.#graph));
+    link.on("topic", (topic) => this.#chosen === `topic ${topic.name}` && this.#showTopic(topic));
+    link.on("node", (node) => this.#chosen === `node ${node.name}` && this.#showNode(node));
+  }
+
+  show(on) {
+    this.watch({ graph: on, ...this.#asked(on ? this.#chosen : null) });
+  }
+
+  #asked(item) {
+    const [kind, name] = (item ?? "").split(" ");
+    return { topic: kind === "topic" ? name : null, node: kind === "node" ? name : null };
+  }
+
+  #choose(item) {
+    this.#chosen = item;
+    this.details.replaceChildren(element("p", { className: "hint" }, "…"));
+    this.#mark();
+    this.watch(this.#asked(item));
+  }
+
+  #mark() {
+    for (const part of this.picture.querySelectorAll("[data-item]")) {
+      part.classList.toggle("chosen", part.dataset.item === this.#chosen);
+    }
+    for (const arrow of this.picture.querySelectorAll("path[data-from]")) {
+      const { from, to } = arrow.dataset;
+      arrow.classList.toggle("chosen", this.#chosen === from || this.#chosen === to);
+    }
+  }
+
+  #draw(graph) {
+    this.#graph = graph;
+    const items = this.#items(graph);
+    const wanted = JSON.stringify([items, graph.edges]);
+    if (wanted === this.#drawn) return;
+    this.#drawn = wanted;
+    const focused = document.activeElement?.dataset?.item;
+    const { width, height, boxes, arrows } = layout(items, graph.edges);
+    const picture = svg("svg", { width, height, viewBox: `0 0 ${width} ${height}`, role: "group" },
+      svg("defs", {}, svg("marker", { id: "tip", viewBox: "0 0 8 8", refX: 7, refY: 4,
+        markerUnits: "userSpaceOnUse", markerWidth: 10, markerHeight: 10, orient: "auto" }, svg("path", { d: "M0 0 L8 4 L0 8 Z" }))));
+    picture.style.minWidth = `${width * LEAST_SCALE}px`;
+    for (const { from, to, path } of arrows) {
+      picture.append(svg("path", { d: path, class: "arrow", "data-from": from, "data-to": to,
+        "marker-end": "url(#tip)" }));
+    }
+    for (const item of items) picture.append(this.#box(item, boxes[item]));
+    this.picture.replaceChildren(items.length ? picture : element("p", { className: "hint" }, "Nothing runs."));
+    this.#mark();
+    if (focused) this.picture.querySelector(`[data-item="${CSS.escape(focused)}"]`)?.focus();
+  }
+
+  /** What is drawn: all, or all but /rosout and topics on which nobody speaks. */
+  #items({ nodes, topics, edges }) {
+    const items = [...nodes.map(({ name }) => `node ${name}`), ...topics.map(({ name }) => `topic ${name}`)];
+    if (byId("graph-all").checked) return items;
+    const spoken = new Set(edges.map(({ to }) => to));
+    return items.filter((item) =>
+      !DEBUG.includes(item) && (item.startsWith("node ") || spoken.has(item)));
+  }
+
+  #box(item, { x, y, w, h }) {
+    const [kind, name] = item.split(" ");
+    const shape = kind === "node"
+      ? svg("ellipse", { cx: x + w / 2, cy: y + h / 2, rx: w / 2, ry: h / 2 })
+      : svg("rect", { x, y, width: w, height: h, rx: 3 });
+    const label = svg("text", { x: x + w / 2, y: y + h / 2 + 5 }, name);
+    const box = svg("g", { class: kind, "data-item": item, role: "button", tabindex: 0,
+      "aria-label": item }, shape, label);
+    box.addEventListener("click", () => this.#choose(item));
+    box.addEventListener("keydown", (event) => {
+      if (event.key !== "Enter" && event.key !== " ") return;
+      event.preventDefault();
+      this.#choose(item);
+    });
+    return box;
+  }
+
+  #fill(kind, name, entries) {
+    const list = element("dl", { className: "details" });
+    for (const [title, key, value] of entries) {
+      list.append(element("div", {},
+        element("dt", {}, title), element("dd", { "data-value": key }, ...[value].flat())));
+    }
+    this.details.replaceChildren(element("h2", {}, `${kind} ${name}`), list);
+  }
+
+  /** Buttons that choose other nodes or topics, or a dash. */
+  #links(kind, names) {
+    if (!names?.length) return "–";
+    return names.map((name) => {
+      const button = element("button", { className: "link", type: "button" }, name);
+      button.addEventListener("click", () => this.#choose(`${kind} ${name}`));
+      return button;
+    });
+  }
+
+  #showTopic({ name, type, rate, publishers, subscribers, last }) {
+    const old = this.details.querySelector("[data-value=last] pre");
+    const isSame = this.details.querySelector("h2")?.textContent === `Topic ${name}`;
+    const perSecond = Number.isFinite(rate) ? `${rate.toFixed(1)} Hz` : "–";
+    if (isSame && old) { // only what changes, so that a link keeps the keyboard
+      say(this.details.querySelector("[data-value=rate]"), perSecond);
+      say(old, last ?? "none yet");
+      return;
+    }
+    this.#fill("Topic", name, [
+      ["Type", "type", type], ["Rate", "rate", perSecond],
+      ["Published by", "publishers", this.#links("node", publishers)],
+      ["Heard by", "subscribers", this.#links("node", subscribers)],
+      ["Last message", "last", element("pre", {}, last ?? "none yet")],
+    ]);
+  }
+
+  #showNode({ name, machine, pid, speaks_to: speaksTo, publishes, subscribes, services }) {
+    this.#fill("Node", name, [
+      ["Machine", "machine", machine || "–"], ["Process", "pid", String(pid ?? "–")],
+      ["Publishes", "publishes", this.#links("topic", publishes)],
+      ["Hears", "subscribes", this.#links("topic", subscribes)],
+      ["Speaks to", "speaks_to", this.#links("node", speaksTo)],
+      ["Services", "services", services?.join(", ") || "–"],
+    ]);
+  }
+}

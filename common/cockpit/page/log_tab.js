@@ -1,0 +1,62 @@
+/** The tab Log: what all nodes say on /rosout. */
+
+import { byId, element, say } from "./dom.js";
+
+const LEVELS = ["DEBUG", "INFO", "WARN", "ERROR", "FATAL"];
+const MOST = 1000; // lines that are kept
+
+export class LogTab {
+  #entries = [];
+
+  constructor(link, watch) {
+    this.watch = watch;
+    this.lines = byId("log-lines");
+    link.on("hello", () => {
+      this.#entries = [];
+      this.#showAll();
+    });
+    link.on("log", ({ entries }) => this.#add(entries));
+    byId("log-level").addEventListener("change", () => this.#showAll());
+    byId("log-filter").addEventListener("input", () => this.#showAll());
+  }
+
+  show(on) {
+    if (on) {
+      this.#entries = []; // the server begins with the last ones again
+      this.#showAll();
+    }
+    this.watch({ log: on });
+  }
+
+  #passes({ level, node, text }) {
+    const wanted = byId("log-filter").value.toLowerCase();
+    const loud = LEVELS.indexOf(level) >= LEVELS.indexOf(byId("log-level").value);
+    return loud && `${node} ${text}`.toLowerCase().includes(wanted);
+  }
+
+  #add(entries) {
+    this.#entries.push(...entries);
+    this.#entries.splice(0, this.#entries.length - MOST);
+    this.#append(entries.filter((entry) => this.#passes(entry)));
+  }
+
+  #showAll() {
+    this.lines.replaceChildren();
+    this.#append(this.#entries.filter((entry) => this.#passes(entry)));
+  }
+
+  #append(entries) {
+    const scroll = byId("log-scroll");
+    const atEnd = scroll.scrollHeight - scroll.scrollTop - scroll.clientHeight < 40;
+    this.lines.append(...entries.map(({ time, level, node, text }) => {
+      const clock = new Date(time * 1000).toTimeString().slice(0, 8);
+      const line = element("tr", { className: level.toLowerCase(), "data-level": level },
+        element("td", {}, clock), element("td", {}, level), element("td", {}, node),
+        element("td", {}, text));
+      return line;
+    }));
+    while (this.lines.childElementCount > MOST) this.lines.firstChild.remove();
+    if (atEnd) scroll.scrollTop = scroll.scrollHeight;
+    say(byId("log-count"), `${this.lines.childElementCount} of ${this.#entries.length}`);
+  }
+}

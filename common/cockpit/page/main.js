@@ -1,0 +1,59 @@
+/** The cockpit's page: one connection, six tabs, and what is to be asked of the server for them. */
+
+import { BagTab } from "./bag_tab.js";
+import { byId, say } from "./dom.js";
+import { DoctorTab } from "./doctor_tab.js";
+import { GraphTab } from "./graph_tab.js";
+import { Link } from "./link.js";
+import { LogTab } from "./log_tab.js";
+import { PlotTab } from "./plot_tab.js";
+import { RobotTab } from "./robot_tab.js";
+import { makeTabs } from "./tabs.js";
+
+const NOTICE_MS = 8000;
+const WORDS = {
+  connecting: "Connecting …", open: "Connected", lost: "Connection lost – trying again",
+};
+
+// What the server is asked to send. The robots' places are always watched: they tell that it is there.
+const watched = {
+  robots: true, look: null, graph: false, topic: null, node: null, fields: [], field_list: false,
+  log: false, bag: false,
+};
+let noticeEnd = null;
+
+const link = new Link((state) => {
+  byId("connection").dataset.state = state;
+  say(byId("connection"), WORDS[state]);
+  if (state === "lost") robot.disconnect();
+  if (state === "open") link.send("watch", watched);
+});
+
+function watch(fields) {
+  Object.assign(watched, fields);
+  link.send("watch", watched);
+}
+
+function notice(text) {
+  byId("notice").hidden = false;
+  say(byId("notice"), text);
+  clearTimeout(noticeEnd);
+  noticeEnd = setTimeout(() => (byId("notice").hidden = true), NOTICE_MS);
+}
+
+const robot = new RobotTab(link, watch, notice);
+const tabs = {
+  graph: new GraphTab(link, watch),
+  bag: new BagTab(link, watch, () => robot.look),
+  plot: new PlotTab(link, watch),
+  log: new LogTab(link, watch),
+  doctor: new DoctorTab(link),
+};
+link.on("refused", ({ what, why }) => {
+  if (what !== "input") notice(`${what}: ${why}`); // of the seat's loss the page is told otherwise
+});
+makeTabs(document.querySelector("[role=tablist]"), (name) => {
+  for (const [other, tab] of Object.entries(tabs)) if (other !== name) tab.show(false);
+  tabs[name]?.show(true);
+});
+link.connect();

@@ -1,0 +1,34 @@
+/** A real gamepad, as the browser's Gamepad API shows it. */
+
+import { handsOfGamepad, isAtRest, REST } from "./f710.js";
+
+export class Pad {
+  #index = null; // of the gamepad in use
+  #wasAtRest = false; // since it was plugged in; a stick that is held when it comes moves nothing
+
+  /** onLost(why): the gamepad was unplugged. */
+  constructor(onLost) {
+    this.onLost = onLost;
+  }
+
+  /** {hands, timestamp, name} of the first gamepad, or null. names: as handsOfGamepad() has it. */
+  read(names) {
+    const all = typeof navigator.getGamepads === "function" ? [...navigator.getGamepads()] : [];
+    const gamepad = all.find((one) => one?.connected && one.axes.length >= 2);
+    if (this.#index !== null && gamepad?.index !== this.#index) {
+      this.#index = null;
+      this.onLost("pad unplugged");
+    }
+    if (!gamepad) return null;
+    if (this.#index === null) this.#wasAtRest = false;
+    this.#index = gamepad.index;
+    const hands = handsOfGamepad(gamepad, names);
+    this.#wasAtRest ||= isAtRest(hands);
+    return {
+      hands: this.#wasAtRest ? hands : REST,
+      timestamp: gamepad.timestamp ?? null,
+      name: gamepad.id,
+      waits: !this.#wasAtRest,
+    };
+  }
+}

@@ -1,0 +1,128 @@
+/** The tab Plot: any numeric field of any topic over time. */
+
+import { Chart } from "./chart.js";
+import { byId, element, save, say } from "./dom.js";
+
+const MOST = 20; // fields at a time, as the server has it
+const LISTED = 200; // of the fields that are found
+const KEEP_S = 600; // longest window
+const DRAW_MS = 100;
+
+export class PlotTab {
+  #samples = {}; // field -> [[t, value], ...], t since #zero
+  #zero = null; // time of the first sample [s]
+  #all = [];
+  #fresh = false;
+  #paused = false;
+  #shown = false;
+
+  constructor(link, watch) {
+    this.watch = watch;
+    this.chart = new Chart(byId("plot-chart"), {
+      labelsKMB: false,
+      zoomCallback: () => (this.#fresh = true),
+    });
+    link.on("fields", ({ fields }) => {
+      if (fields.join() === this.#all.join()) return; // a list in use is left alone
+      this.#all = fields;
+      this.#list();
+    });
+    link.on("plot", ({ samples }) => this.#take(samples));
+    byId("plot-search").addEventListener("input", () => this.#list());
+    byId("plot-pause").addEventListener("click", () => this.#pause(!this.#paused));
+    byId("plot-zoom").addEventListener("click", () => this.chart.wholeRange());
+    byId("plot-clear").addEventListener("click", () => this.#clear());
+    byId("plot-csv").addEventListener("click", () => this.#saveCsv());
+    byId("plot-png").addEventListener("click", () =>
+      this.chart.picture().toBlob((blob) => save(blob, "plot.png")));
+    setInterval(() => this.#draw(), DRAW_MS);
+  }
+
+  show(on) {
+    this.#shown = on;
+    this.#fresh = on;
+    this.watch({ field_list: on, fields: this.fields });
+  }
+
+  get fields() {
+    return Object.keys(this.#samples);
+  }
+
+  #take(samples) {
+    for (const [field, points] of Object.entries(samples)) {
+      const kept = this.#samples[field];
+      if (!kept) continue; // not wanted any more
+      for (const [t, value] of points) {
+        this.#zero ??= t;
+        if (t - this.#zero < (kept.at(-1)?.[0] ?? 0) - 1) kept.length = 0; // time was set back: a bag that loops
+        kept.push([t - this.#zero, value]);
+      }
+      const oldest = (kept.at(-1)?.[0] ?? 0) - KEEP_S;
+      const first = kept.findIndex(([t]) => t >= oldest);
+      if (first > 500) kept.splice(0, first);
+    }
+    this.#fresh = true;
+  }
+
+  #draw() {
+    if (!this.#shown || !this.#fresh || this.#paused) return;
+    this.#fresh = false;
+    const seconds = Number(byId("plot-window").value);
+    const newest = Math.max(...Object.values(this.#samples).map((points) => points.at(-1)?.[0] ?? 0), 0);
+    const from = Math.max(0, newest - seconds);
+    const whole = this.chart.isZoomed;
+    const cut = (points) => (whole ? points : points.slice(points.findIndex(([t]) => t >= from)));
+    const seen = Object.entries(this.#samples).map(([field, points]) => [field, cut(points)]);
+    this.chart.show(Object.fromEntries(seen), [from, Math.max(newest, from + 1)]);
+    byId("plot-values").replaceChildren(...this.fields.map((field, i) => {
+      const value = this.#samples[field].at(-1)?.[1];
+      const sample = element("i", { className: "sample" });
+      sample.style.background = this.chart.colour(i);
+      return element("span", { "data-field": field }, sample, `${field} `,
+        element("output", {}, value === undefined ? "–" : String(Number(value.toFixed(4)))));
+    }));
+  }
+
+  #list() {
+    const words = byId("plot-search").value.toLowerCase().split(/\s+/).filter(Boolean);
+    const chosen = new Set(this.fields);
+    const found = this.#all.filter((field) => words.every((word) => field.toLowerCase().includes(word)));
+    const listed = [...this.fields, ...found.filter((field) => !chosen.has(field))].slice(0, LISTED);
+    byId("plot-fields").replaceChildren(...listed.map((field) => {
+      const box = element("input", { type: "checkbox", checked: chosen.has(field), value: field });
+      box.disabled = !box.checked && chosen.size >= MOST;
+      box.addEventListener("change", () => this.#choose(field, box.checked));
+      return element("li", {}, element("label", {}, box, ` ${field}`));
+    }));
+  }
+
+  #choose(field, on) {
+    if (on) this.#samples[field] = [];
+    else delete this.#samples[field];
+    if (!this.fields.length) this.#zero = null;
+    this.watch({ fields: this.fields });
+    this.#fresh = true;
+    for (const box of byId("plot-fields").querySelectorAll("input:not(:checked)")) {
+      box.disabled = this.fields.length >= MOST;
+    }
+  }
+
+  #pause(on) {
+    this.#paused = on;
+    byId("plot-pause").setAttribute("aria-pressed", String(on));
+    say(byId("plot-pause"), on ? "Go on" : "Pause");
+    this.#fresh = true;
+  }
+
+  #clear() {
+    for (const points of Object.values(this.#samples)) points.length = 0;
+    this.#zero = null;
+    this.#fresh = true;
+  }
+
+  #saveCsv() {
+    const lines = Object.entries(this.#samples).flatMap(([field, points]) =>
+      points.map(([t, value]) => `${t + this.#zero},${field},${value}`));
+    save(new Blob([["time,field,value", ...lines, ""].join("\n")], { type: "text/csv" }), "plot.csv");
+  }
+}

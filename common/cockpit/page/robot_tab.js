@@ -1,0 +1,183 @@
+/** The tab Robot: the floor, the joystick, who drives, and driving from here. */
+
+import { byId, offer, row, say } from "./dom.js";
+import { Driver } from "./driver.js";
+import { Floor } from "./floor.js";
+import { GamepadPicture } from "./gamepad_picture.js";
+
+const STALE_S = 1; // after which what is shown is not news
+
+const shown = (name) => name || "the robot";
+const number = (value, digits = 2) =>
+  Number.isFinite(value) ? value.toFixed(digits).replace(/^-(0\.?0*)$/, "$1") : "–"; // no -0.00
+
+export class RobotTab {
+  #hello = null;
+  #seat = { driver: null, yours: false };
+  #teleop = new Map(); // robot -> what its joy2twist says
+  #names = "";
+  #isNew = false; // a robot came or left
+
+  /** link: the Link. watch(fields): what to ask the server for. notice(text): a line for the user. */
+  constructor(link, watch, notice) {
+    Object.assign(this, { link, watch, notice });
+    this.floor = new Floor(byId("floor"));
+    this.picture = new GamepadPicture(byId("pad"));
+    this.driver = new Driver(link, byId("glass"));
+    this.driver.onLost = (why) => notice(`You let go (${why}). Release LB and the stick, then hold LB again.`);
+    link.on("hello", (hello) => this.#meet(hello));
+    link.on("robots", ({ robots }) => this.#showRobots(robots));
+    link.on("pad", (pad) => this.#showPad(pad));
+    link.on("teleop", (teleop) => this.#showTeleop(teleop));
+    link.on("seat", (seat) => this.#showSeat(seat));
+    link.on("lost", ({ why }) => notice(`Stopped: ${why}. Release LB and the stick, then hold LB again.`));
+    this.#listen();
+  }
+
+  get look() {
+    return byId("look").value;
+  }
+
+  /** The connection was lost: nothing here is news, and nothing drives. */
+  disconnect() {
+    this.driver.stop();
+    this.#showSeat({ driver: null, yours: false, why: "the connection was lost" });
+    byId("robot").classList.add("stale");
+  }
+
+  #listen() {
+    const { link, floor } = this;
+    const on = (id, act) => byId(id).addEventListener("click", act);
+    on("zoom-in", () => floor.zoom(1.25));
+    on("zoom-out", () => floor.zoom(0.8));
+    on("show-all", () => floor.showAll());
+    on("clear-trail", () => floor.clearTrails());
+    const follow = (yes) => {
+      floor.follow = yes;
+      byId("follow").setAttribute("aria-pressed", String(yes));
+    };
+    floor.onUnfollow = () => follow(false);
+    on("follow", () => follow(!floor.follow));
+    on("take", () => link.send("drive", { robot: this.look, mode: byId("mode").value }));
+    on("leave", () => this.#leave());
+    on("reset", () => link.send("reset", { robot: this.look }));
+    on("give", () => link.send("hand_over", { to: Number(byId("heir").value) }));
+    byId("look").addEventListener("change", () => this.#lookAt(this.look));
+    addEventListener("keydown", (event) => {
+      if (event.key === "Escape" && this.driver.isDriving) this.#leave();
+    });
+  }
+
+  #leave() {
+    this.driver.stop();
+    this.link.send("leave");
+  }
+
+  #meet(hello) {
+    this.#hello = hello;
+    byId("robot").classList.remove("stale");
+    say(byId("me"), `page ${hello.id}`);
+    this.#offerRobots(hello.robots);
+    this.#showButtons();
+    this.#lookAt(this.look);
+  }
+
+  #offerRobots(names) {
+    offer(byId("look"), names.map((name) => [name, name || "TurtleBot"]));
+    byId("class").hidden = names.length < 2;
+  }
+
+  #lookAt(name) {
+    this.floor.look = name;
+    byId("look").value = name;
+    this.picture.show({ D: [], X: [] }, [], []);
+    say(byId("pad-age"), "nothing yet");
+    this.#showTeleop(this.#teleop.get(name) ?? { robot: name });
+    this.watch({ look: name });
+  }
+
+  #showRobots(robots) {
+    const names = Object.keys(robots);
+    if (names.join() !== this.#names) {
+      this.#names = names.join();
+      const before = this.look;
+      this.#offerRobots(names.length ? names : this.#hello?.robots ?? [""]);
+      if (this.look !== before) this.#lookAt(this.look);
+      this.#isNew = true;
+    }
+    this.floor.show(robots);
+    if (this.#isNew && names.length > 1) this.floor.showAll();
+    this.#isNew = false;
+    const robot = robots[this.look] ?? {};
+    const degrees = (robot.yaw * 180) / Math.PI;
+    const digits = { x: 2, y: 2, yaw: 1, v: 2, w: 2, covered: 2 };
+    for (const [name, count] of Object.entries(digits)) {
+      const value = name === "yaw" ? degrees : robot[name];
+      say(document.querySelector(`#odometry [data-value=${name}]`), number(value, count));
+    }
+    byId("odometry").classList.toggle("stale", !(robot.age < STALE_S));
+    if (names.length > 1) this.#showClass(robots);
+  }
+
+  #showClass(robots) {
+    const rows = Object.entries(robots).map(([name, { x, y, age }]) => {
+      const teleop = this.#teleop.get(name);
+      const drives = this.#seat.driver !== null && this.#seat.robot === name;
+      const line = row(name, `${number(x)}, ${number(y)}`, drives ? this.#seat.name : "–", teleop?.why ?? "–");
+      line.dataset.robot = name;
+      line.classList.toggle("stale", !(age < STALE_S));
+      line.classList.toggle("chosen", name === this.look);
+      return line;
+    });
+    byId("robots").replaceChildren(...rows);
+    for (const line of rows) line.addEventListener("click", () => this.#lookAt(line.dataset.robot));
+  }
+
+  #showPad({ robot, axes, buttons, age }) {
+    if (robot !== this.look || !this.#hello) return;
+    const names = { D: this.#hello.pad.D.buttons, X: this.#hello.pad.X.buttons };
+    this.picture.show(names, axes, buttons);
+    say(byId("pad-age"), age > STALE_S ? `silent for ${number(age, 0)} s` : "");
+    byId("pad").classList.toggle("stale", age > STALE_S);
+  }
+
+  #showTeleop({ robot, state, why }) {
+    if (state) this.#teleop.set(robot, { robot, state, why });
+    if (robot !== this.look) return;
+    byId("teleop").dataset.state = state ?? "unknown";
+    say(byId("teleop"), why || state || "It has said nothing yet.");
+  }
+
+  #showSeat(seat) {
+    this.#seat = seat;
+    if (seat.yours) this.driver.mode = byId("mode").value;
+    if (seat.yours && seat.how !== "bag") this.driver.start();
+    else this.driver.stop();
+    const what = seat.how === "bag" ? "plays a recording to" : "drives";
+    const who = seat.yours ? (seat.how === "bag" ? "You play a recording to" : "You drive") : `${seat.name} ${what}`;
+    const why = seat.why ? ` Last stop: ${seat.why}.` : "";
+    say(byId("seat"), seat.driver === null ? `Nobody drives.${why}` : `${who} ${shown(seat.robot)}.${why}`);
+    byId("seat").dataset.armed = Boolean(seat.yours && seat.armed);
+    say(byId("ready"), !seat.yours || seat.how === "bag" ? "" : seat.armed ? "Hold LB to move."
+      : "Release LB and the stick first.");
+    byId("seat").dataset.state = seat.driver === null ? "free" : seat.yours ? "yours" : "taken";
+    byId("hand-over").hidden = !seat.yours || seat.how === "bag";
+    this.#showButtons();
+  }
+
+  #showButtons() {
+    const mayDrive = this.#hello?.role !== "viewer";
+    const { yours, driver } = this.#seat;
+    const held = document.activeElement === byId("take") || document.activeElement === byId("leave");
+    byId("take").hidden = yours;
+    byId("leave").hidden = !yours;
+    if (held) byId(yours ? "leave" : "take").focus(); // the keyboard stays where it was
+    byId("take").disabled = !mayDrive || (driver !== null && !yours);
+    byId("take").title = mayDrive ? "" : "This address may look, not drive";
+    byId("reset").disabled = !mayDrive;
+    byId("glass").hidden = !yours || this.#seat.how === "bag";
+    byId("look").disabled = yours;
+    byId("mode").disabled = yours;
+    document.body.classList.toggle("driving", yours);
+  }
+}

@@ -1,0 +1,60 @@
+"""Who may look and who may drive (pure).
+
+A page of somewhere else can have a browser of this network send us requests: under our address,
+with its own Origin, or under a name of its own that it lets point to us (DNS rebinding). So the
+Host must be ours, and the Origin the same. Nobody can let an address in numbers point elsewhere.
+"""
+
+import hmac
+import ipaddress
+import re
+from dataclasses import dataclass
+from typing import Optional, Tuple
+
+DRIVER, VIEWER = "driver", "viewer"
+
+
+@dataclass(frozen=True)
+class Access:
+    """names: of this machine. Without tokens whoever reaches the server may drive: only this
+    machine does.
+    """
+
+    names: Tuple[str, ...] = ("localhost",)
+    driver_token: Optional[str] = None
+    viewer_token: Optional[str] = None
+
+    def is_ours(self, host):
+        """Whether a Host header, NAME or NAME:PORT, means this machine."""
+        found = re.fullmatch(r"(\[[0-9a-fA-F:.]+\]|[^:\[\]]+)(:\d{1,5})?", host or "")
+        if not found:
+            return False
+        name = found[1].strip("[]").lower()
+        try:
+            address = ipaddress.ip_address(name)
+        except ValueError:
+            return name in self.names
+        return self.driver_token is not None or address.is_loopback
+
+    def may_request(self, host, origin):
+        """Whether a request may be answered. origin: the header, None if there is none."""
+        return self.is_ours(host) and origin in (None, f"http://{host}")
+
+    def may_connect(self, host, origin):
+        """Whether a WebSocket may be opened; every browser gives its Origin."""
+        return origin is not None and self.may_request(host, origin)
+
+    def role(self, token):
+        """DRIVER, VIEWER, or None if the token (None: there is none) is wrong."""
+        if self.driver_token is None:
+            return DRIVER
+        given = (token or "").encode()
+        # Both in any case: the time that it takes must say nothing.
+        drives = hmac.compare_digest(given, self.driver_token.encode())
+        views = hmac.compare_digest(given, self.viewer_token.encode())
+        return DRIVER if drives else VIEWER if views else None
+
+
+def without_token(uri):
+    """A request's path and query as it may be logged."""
+    return re.sub(r"(?i)(tok[^=&?]*=)[^&\s]*", r"\1...", uri)

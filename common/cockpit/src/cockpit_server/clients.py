@@ -1,0 +1,116 @@
+"""One page that is open somewhere, as the rest of the server sees it (pure)."""
+
+import json
+from dataclasses import dataclass, field
+from typing import ClassVar, Optional, Tuple
+
+from cockpit_server.access import DRIVER
+from cockpit_server.seat import RefusedError
+from node_kit.throttle import Throttle
+
+# A page sends each change of a stick; fast gamepads have 125 in a second. [Hz]
+MESSAGES_RATE, MESSAGES_BURST = 250.0, 250.0
+REFUSALS_RATE, REFUSALS_BURST = 2.0, 10.0
+LONGEST_FLOOD = 5000  # messages too many, after which the connection is closed
+BROWSERS = (("Firefox", "Firefox"), ("Edg", "Edge"), ("Chrom", "Chromium"), ("Safari", "Safari"))
+SYSTEMS = (
+    ("Android", "Android"), ("iPhone", "iPhone"), ("iPad", "iPad"), ("Windows", "Windows"),
+    ("Mac OS", "Mac"), ("CrOS", "ChromeOS"), ("Linux", "Linux"),
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Watch:
+    """What a page wants to see; see schema.MESSAGES."""
+
+    robots: bool = False
+    look: Optional[str] = None
+    graph: bool = False
+    topic: Optional[str] = None
+    node: Optional[str] = None
+    fields: Tuple[str, ...] = ()
+    field_list: bool = False
+    log: bool = False
+    bag: bool = False
+
+
+@dataclass(eq=False)
+class Client:
+    """write: called with a text to send. is_behind: whether the last one has not gone out yet.
+
+    is_cut: whether the network to it seems to be down. close: called to end it.
+    """
+
+    number: int
+    role: str
+    name: str
+    write: callable
+    is_behind: callable
+    is_cut: callable
+    close: callable
+    watch: Watch = Watch()
+    seen: dict = field(default_factory=dict)  # by what it is about: the newest that was sent
+    flood: int = 0
+    may_send: Throttle = field(default_factory=lambda: Throttle(MESSAGES_RATE, MESSAGES_BURST))
+    may_hear_no: Throttle = field(default_factory=lambda: Throttle(REFUSALS_RATE, REFUSALS_BURST))
+
+    @property
+    def drives(self):
+        """Whether it may."""
+        return self.role == DRIVER
+
+    def must_drive(self):
+        """Raise RefusedError if it may not."""
+        if not self.drives:
+            raise RefusedError("this page was opened with the viewers' token: it may only look")
+
+    def send(self, kind, **fields):
+        """Send a message."""
+        self.write(encoded(kind, **fields))
+
+    def refuse(self, what, why, now):
+        """Tell what was not done, and why, though not without end."""
+        if self.may_hear_no.ready(now):
+            self.send("refused", what=what, why=why)
+
+    def lacks(self, about, version):
+        """Whether the client has not got this version; from now on it has."""
+        if self.seen.get(about) == version:
+            return False
+        self.seen[about] = version
+        return True
+
+    def allows(self, now):
+        """Whether one more message may be read; a flood closes the connection."""
+        if self.may_send.ready(now):
+            return True
+        self.flood += 1
+        if self.flood > LONGEST_FLOOD:
+            self.close()
+        return False
+
+
+class Source:
+    """Something that pages see. handlers: what is called for a kind of message that a page sends,
+    with the client, the time [s] and the fields.
+    """
+
+    handlers: ClassVar[dict] = {}
+
+    def prepare(self, clients, now):
+        """Gather what these clients want to see; twenty times a second."""
+
+    def give(self, client, now):
+        """Send a client what it lacks; it has read all that was sent before."""
+
+
+def encoded(kind, **fields):
+    """A message as it is sent: JSON, which knows no infinity."""
+    return json.dumps({"kind": kind, **fields}, allow_nan=False, separators=(",", ":"))
+
+
+def name_of(user_agent, address):
+    """A page's name for people, such as "Chromium on Linux, 192.168.1.5"."""
+    browser = next((name for mark, name in BROWSERS if mark in user_agent), "a program")
+    system = next((f" on {name}" for mark, name in SYSTEMS if mark in user_agent), "")
+    return f"{browser}{system}, {address}"

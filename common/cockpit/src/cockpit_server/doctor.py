@@ -1,0 +1,55 @@
+"""The doctor's lines, as pages get them while it runs."""
+
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+import rospkg
+
+from cockpit_server.clients import Source
+
+LEVELS = {"ok": "ok", "wrong": "wrong"}  # what else it says is a note
+LONGEST_RUN_S = 60.0
+
+
+def shown(line):
+    """A line of the doctor as pages get it."""
+    level = line.split(maxsplit=1)[0] if line.strip() else ""
+    text = line[len(level) :].strip() if level in ("ok", "wrong", "unknown") else line.strip()
+    return {"level": LEVELS.get(level, "note"), "text": text}
+
+
+class Doctor(Source):
+    """Runs the doctor when a page asks for it, once at a time, and tells all pages."""
+
+    def __init__(self):
+        """It has not run yet."""
+        self.handlers = {"doctor": self._start}
+        self._lines, self._running, self._version = [], False, 0
+
+    def give(self, client, _now):
+        """Send the lines so far, if there are new ones."""
+        if self._version and client.lacks("doctor", self._version):
+            client.send("doctor", lines=self._lines, running=self._running)
+
+    def _start(self, _client, _now):
+        if not self._running:
+            self._running, self._lines = True, []
+            self._version += 1
+            threading.Thread(target=self._run, daemon=True).start()
+
+    def _run(self):
+        script = Path(rospkg.RosPack().get_path("tutorial_tools")) / "scripts" / "doctor.py"
+        with subprocess.Popen(
+            [sys.executable, str(script)], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT, text=True, errors="replace",
+        ) as program:  # fmt: skip
+            too_late = threading.Timer(LONGEST_RUN_S, program.kill)
+            too_late.start()
+            for line in program.stdout:
+                self._lines = [*self._lines, shown(line)]
+                self._version += 1
+            too_late.cancel()
+        self._running = False
+        self._version += 1

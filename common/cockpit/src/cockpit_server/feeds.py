@@ -1,0 +1,84 @@
+"""Subscribes to what is looked at, and to nothing else, without ever waiting for the master.
+
+A node of rospy has one subscription for a topic, whatever it wants it for: here it is of raw
+messages, and who wants it reads them as far as he needs.
+"""
+
+import time
+from concurrent.futures import ThreadPoolExecutor
+
+import rospy
+
+PERIOD_S = 0.05  # how often a topic is read of which only the newest message is wanted
+# One thread for all questions to the master that may wait: they are asked one after the other.
+_worker = ThreadPoolExecutor(1, thread_name_prefix="to_the_master")
+
+
+def later(action, *arguments):
+    """Do something that may wait for the master, in another thread; a failure is logged."""
+
+    def do():
+        try:
+            action(*arguments)
+        except Exception as error:  # whatever the master or a node answered; the next one is asked
+            rospy.logwarn("cockpit: %s: %s", type(error).__name__, error)
+
+    _worker.submit(do)
+
+
+class Raw(rospy.AnyMsg):
+    """A message of any type that is not read before somebody needs it. data: its bytes."""
+
+    def deserialize(self, data):
+        """Keep the bytes."""
+        self.data = data
+        return self
+
+
+class Feeds:
+    """Those topics that are wanted at this moment. Of one thread, but for the messages."""
+
+    def __init__(self):
+        """Nothing is wanted yet."""
+        self._wants = {}  # owner -> ({topic: hear}, whether every message is wanted)
+        self._listeners = {}  # topic -> functions to call
+        self._wanted = frozenset()  # (topic, whether every message is wanted)
+        self._subscribers = {}
+
+    def want(self, owner, hears, every):
+        """Have hear(message, topic) called for these topics, {topic: hear}, and for no others that
+        the owner wanted before. every: for every message, or only for the newest, now and then.
+        """
+        if self._wants.get(owner) == (hears, every):
+            return
+        self._wants[owner] = (hears, every)
+        listeners, complete = {}, set()
+        for wanted, wants_all in self._wants.values():
+            for topic, hear in wanted.items():
+                listeners.setdefault(topic, []).append(hear)
+            complete |= set(wanted) if wants_all else set()
+        self._listeners = listeners
+        self._wanted = frozenset((topic, topic in complete) for topic in listeners)
+        later(self._adjust)
+
+    def _adjust(self):
+        wanted = self._wanted
+        for key in set(self._subscribers) - wanted:
+            self._subscribers.pop(key).unregister()
+        for key in wanted - set(self._subscribers):
+            topic, every = key
+            if every:
+                subscriber = rospy.Subscriber(topic, Raw, self._hear, topic)
+            else:
+                subscriber = rospy.Subscriber(topic, Raw, self._hear_now_and_then, topic, 1)
+            self._subscribers[key] = subscriber
+
+    def _hear(self, message, topic):
+        for hear in self._listeners.get(topic, ()):
+            hear(message, topic)
+
+    def _hear_now_and_then(self, message, topic):
+        # While this sleeps, rospy does not read: the kernel keeps what comes, and of that rospy
+        # gives the newest. Thirty robots at 50 Hz would keep a processor busy otherwise.
+        self._hear(message, topic)
+        time.sleep(PERIOD_S)

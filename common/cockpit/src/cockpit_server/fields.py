@@ -1,0 +1,69 @@
+"""Numbers inside messages of any type, by names such as pose/position/x or axes[0] (pure).
+
+A message class is one that genpy made: __slots__ and _slot_types say what is in it.
+"""
+
+import re
+
+NUMBERS = {
+    "bool", "byte", "char", "float32", "float64", "int16", "int32", "int64", "int8", "uint16",
+    "uint32", "uint64", "uint8", "time", "duration",
+}  # fmt: skip
+FIRST_ENTRIES = 12  # of an array are offered; the others can be asked for by name
+DEEPEST = 8
+_PART = re.compile(r"([A-Za-z]\w*)(?:\[(\d{1,6})\])?")
+
+
+def numeric_fields(kind, class_of, depth=DEEPEST):
+    """The names of the numbers in messages of a class. class_of: gives the class of a type's name,
+    or None.
+    """
+    if depth == 0:
+        return
+    for name, slot_type in zip(kind.__slots__, kind._slot_types):
+        base, _, length = slot_type.partition("[")
+        if not length:
+            names = [name]
+        else:
+            count = min(int(length.rstrip("]") or FIRST_ENTRIES), FIRST_ENTRIES)
+            # Of an array of messages, which may be any long, only the first.
+            names = [f"{name}[{i}]" for i in range(count if base in NUMBERS else 1)]
+        if base in NUMBERS:
+            yield from names
+        elif base != "string":
+            inner = class_of(base)
+            if inner:
+                for inside in numeric_fields(inner, class_of, depth - 1):
+                    yield from (f"{one}/{inside}" for one in names)
+
+
+def parts_of(field):
+    """[(name, index or None)] of a field's name. Raises ValueError."""
+    parts = [_PART.fullmatch(part) for part in field.split("/")]
+    if not all(parts) or len(parts) > DEEPEST:
+        raise ValueError(f"{field!r} is no field: write it as pose/position/x or axes[0]")
+    return [(part[1], None if part[2] is None else int(part[2])) for part in parts]
+
+
+def value_at(message, parts):
+    """The number at parts_of(...) as a float, or None if the message has none there."""
+    for name, index in parts:
+        if name not in getattr(message, "__slots__", ()):
+            return None
+        message = getattr(message, name)
+        if index is not None:
+            if not isinstance(message, (list, tuple, bytes)) or index >= len(message):
+                return None
+            message = message[index]
+    if hasattr(message, "to_sec"):
+        return message.to_sec()
+    return float(message) if isinstance(message, (int, float)) else None
+
+
+def split(field, topics):
+    """(topic, the rest) of a field of one of the topics. Raises ValueError."""
+    fitting = [topic for topic in topics if field.startswith(f"{topic}/")]
+    if not fitting:
+        raise ValueError(f"{field!r} belongs to no topic that is published")
+    topic = max(fitting, key=len)
+    return topic, field[len(topic) + 1 :]

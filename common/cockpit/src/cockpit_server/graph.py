@@ -1,0 +1,106 @@
+"""What the master knows, as pages get it (pure)."""
+
+from dataclasses import dataclass, field
+from typing import Dict, FrozenSet
+
+ODOMETRY, JOY = "nav_msgs/Odometry", "sensor_msgs/Joy"
+
+
+@dataclass(frozen=True)
+class Graph:
+    """publishers, subscribers: topic -> names of nodes; services: name -> names of nodes; types:
+    topic -> type; machines: node -> the machine that it runs on.
+    """
+
+    publishers: Dict[str, FrozenSet[str]] = field(default_factory=dict)
+    subscribers: Dict[str, FrozenSet[str]] = field(default_factory=dict)
+    services: Dict[str, FrozenSet[str]] = field(default_factory=dict)
+    types: Dict[str, str] = field(default_factory=dict)
+    machines: Dict[str, str] = field(default_factory=dict)
+
+    @property
+    def nodes(self):
+        """The names of all nodes."""
+        columns = (self.publishers, self.subscribers, self.services)
+        return {node for column in columns for nodes in column.values() for node in nodes}
+
+    @property
+    def published(self):
+        """The topics that somebody publishes, in alphabetical order."""
+        return sorted(topic for topic, nodes in self.publishers.items() if nodes)
+
+    def robots_with_odometry(self):
+        """The names of all robots that say where they are."""
+        return {
+            robot_of(topic)
+            for topic in self.published
+            if topic.endswith("/odom") and self.types.get(topic) == ODOMETRY
+        }
+
+    def robots(self):
+        """The names of all robots, "" is the one without: they have an odometry, or hear a /joy."""
+        driven = {
+            robot_of(topic)
+            for topic, nodes in self.subscribers.items()
+            if nodes and topic.endswith("/joy") and self.types.get(topic) == JOY
+        }
+        return self.robots_with_odometry() | driven
+
+    def parts(self):
+        """nodes, topics and edges as pages get them."""
+        edges = [
+            edge
+            for topic in sorted(set(self.publishers) | set(self.subscribers))
+            for edge in self._edges(topic)
+        ]
+        return {
+            "nodes": [
+                {"name": name, "machine": self.machines.get(name, "")}
+                for name in sorted(self.nodes)
+            ],
+            "topics": [
+                {"name": name, "type": self.types.get(name, "")}
+                for name in sorted(set(self.publishers) | set(self.subscribers))
+            ],
+            "edges": edges,
+        }
+
+    def _edges(self, topic):
+        this = f"topic {topic}"
+        for node in sorted(self.publishers.get(topic, ())):
+            yield {"from": f"node {node}", "to": this}
+        for node in sorted(self.subscribers.get(topic, ())):
+            yield {"from": this, "to": f"node {node}"}
+
+    def about_node(self, name):
+        """What a node does, as pages get it."""
+        publishes = users_of(self.publishers, name)
+        subscribes = users_of(self.subscribers, name)
+        others = {n for topic in publishes for n in self.subscribers.get(topic, ())}
+        others |= {n for topic in subscribes for n in self.publishers.get(topic, ())}
+        return {
+            "name": name,
+            "machine": self.machines.get(name, ""),
+            "speaks_to": sorted(others - {name}),
+            "publishes": publishes,
+            "subscribes": subscribes,
+            "services": users_of(self.services, name),
+        }
+
+
+def users_of(column, node):
+    """The names under which a node stands in a column of the graph."""
+    return sorted(name for name, nodes in column.items() if node in nodes)
+
+
+def robot_of(topic):
+    """The robot that a topic belongs to: its namespace."""
+    return topic.rsplit("/", 1)[0].strip("/")
+
+
+def without(name, column):
+    """A column of getSystemState() as {name: nodes}, without one node: the cockpit looks at the
+    robots, and is no part of what it shows.
+    """
+    users = {entry: frozenset(nodes) - {name} for entry, nodes in column}
+    return {entry: nodes for entry, nodes in users.items() if nodes}

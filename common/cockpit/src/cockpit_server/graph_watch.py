@@ -1,0 +1,56 @@
+"""Asks the master, once a second, who is there."""
+
+import threading
+import time
+from urllib.parse import urlsplit
+
+import rosgraph
+
+from cockpit_server.graph import Graph, without
+from node_kit.questions import Answer, call
+
+PERIOD_S = 1.0
+
+
+class GraphWatch:
+    """The newest Graph, and a number that grows with each change of it."""
+
+    def __init__(self, own_name):
+        """own_name: of this node, which is left out."""
+        self._own_name = own_name
+        self._uri = rosgraph.get_master_uri()
+        self.graph, self.version = Graph(), 0
+        self._is_lost = False
+        self._pid = call(self._uri, "getPid")[1]
+        self.look()
+
+    def start(self, lost):
+        """Look again and again, in a thread of its own. lost: called when the master has gone."""
+        threading.Thread(target=self._run, args=(lost,), daemon=True).start()
+
+    def _run(self, lost):
+        while not self._is_lost:
+            time.sleep(PERIOD_S)
+            self.look()
+        lost()
+
+    def look(self):
+        """Ask once."""
+        answer, state = call(self._uri, "getSystemState", caller=self._own_name)
+        if answer is Answer.SILENT:
+            return
+        if answer is not Answer.WELL or call(self._uri, "getPid")[1] != self._pid:
+            self._is_lost = True
+            return
+        _, types = call(self._uri, "getTopicTypes", caller=self._own_name)
+        publishers, subscribers, services = [without(self._own_name, part) for part in state]
+        known = self.graph.machines
+        graph = Graph(publishers, subscribers, services, dict(types or []))
+        graph.machines.update({n: known.get(n) or self._machine(n) for n in graph.nodes})
+        if graph != self.graph:
+            self.graph = graph
+            self.version += 1
+
+    def _machine(self, node):
+        answer, uri = call(self._uri, "lookupNode", node, caller=self._own_name)
+        return (urlsplit(uri).hostname or "") if answer is Answer.WELL else ""

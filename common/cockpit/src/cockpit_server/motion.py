@@ -1,0 +1,31 @@
+"""The motion on the floor from the bytes of a nav_msgs/Odometry (pure)."""
+
+import struct
+from math import atan2
+from typing import NamedTuple
+
+# Little-endian: seq, secs, nsecs (uint32 each), frame_id and child_frame_id (length and bytes),
+# then as float64 position and quaternion, 36 covariances, linear and angular velocity.
+_HEADER_BYTES = 12
+_LENGTH = struct.Struct("<I")
+_MOTION = struct.Struct("<7d288x6d")
+
+
+class Motion(NamedTuple):
+    """x, y [m], yaw [rad] in the odometry frame; v [m/s], w [rad/s] in that of the base."""
+
+    x: float
+    y: float
+    yaw: float
+    v: float
+    w: float
+
+
+def motion(data):
+    """The Motion; struct.error if the bytes are none. Of thirty robots nobody reads covariances."""
+    at = _HEADER_BYTES
+    at += 4 + _LENGTH.unpack_from(data, at)[0]
+    at += 4 + _LENGTH.unpack_from(data, at)[0]
+    x, y, _, qx, qy, qz, qw, v, _, _, _, _, w = _MOTION.unpack_from(data, at)
+    yaw = atan2(2 * (qw * qz + qx * qy), qw * qw + qx * qx - qy * qy - qz * qz)
+    return Motion(x, y, yaw, v, w)

@@ -1,0 +1,92 @@
+"""The node: rospy's threads on one side, tornado's loop in the main thread on the other."""
+
+import asyncio
+import sys
+import threading
+
+import rospy
+from tornado.ioloop import PeriodicCallback
+
+from cockpit_server.bags import Bags
+from cockpit_server.doctor import Doctor
+from cockpit_server.feeds import Feeds
+from cockpit_server.graph_view import GraphView
+from cockpit_server.graph_watch import GraphWatch
+from cockpit_server.hub import TICK_S, Hub
+from cockpit_server.joysticks import Joysticks
+from cockpit_server.logs import Logs
+from cockpit_server.plots import Plots
+from cockpit_server.resets import Resets
+from cockpit_server.robots import Pads, Robots
+from cockpit_server.teleop import Teleop
+from cockpit_server.topics import Topics
+from cockpit_server.web import server
+
+# How long the end may wait for the last message, and then for its delivery [s].
+LONGEST_END_S, DELIVERY_S = 0.3, 0.1
+# How long a thread of rospy may keep the others from running [s]: an input must not wait for it.
+SWITCH_S = 0.0005
+
+
+class Cockpit:
+    """Shows the robots of a master to browsers, and lets one of them drive.
+
+    Subscribes: what pages look at: odom (nav_msgs/Odometry), joy (sensor_msgs/Joy) of the robots,
+        any topic; /diagnostics (diagnostic_msgs/DiagnosticArray), /rosout_agg (rosgraph_msgs/Log)
+    Publishes: joy (sensor_msgs/Joy) of a robot that is driven
+    Calls: mobile services of type std_srvs/Empty that end in /reset
+    """
+
+    def __init__(self, sockets, access):
+        """sockets: that listen. access: access.Access."""
+        self._sockets = sockets
+        name = rospy.get_name()
+        self._graphs = GraphWatch(name)
+        feeds = Feeds()
+        pads = Pads(feeds, name)
+        self._hub = Hub(self._soon, self._graphs, Joysticks(), pads)
+        bags, graphs = Bags(self._hub), self._graphs
+        sources = (
+            Robots(feeds, graphs), pads, Teleop(feeds), Resets(graphs), GraphView(graphs),
+            Topics(feeds, graphs), Plots(feeds, graphs), Logs(feeds, graphs), Doctor(), bags,
+        )  # fmt: skip
+        self._hub.add(sources, player=bags)
+        self._server = server(self._hub, access)
+        self._loop = None
+        self.has_lost_master = False
+        self._has_ended = threading.Event()
+        self._ended = None
+
+    def run(self):
+        """Serve until shut down."""
+        sys.setswitchinterval(SWITCH_S)
+        asyncio.run(self._serve())
+
+    async def _serve(self):
+        self._loop = asyncio.get_running_loop()
+        self._ended = asyncio.Event()
+        self._graphs.start(self._lose_master)
+        self._server.add_sockets(self._sockets)
+        ticks = PeriodicCallback(self._hub.tick, 1000 * TICK_S)
+        ticks.start()
+        rospy.on_shutdown(self._end)
+        await self._ended.wait()
+        ticks.stop()
+
+    def _lose_master(self):
+        self.has_lost_master = True
+        rospy.signal_shutdown("the master has gone")
+
+    def _soon(self, action):
+        self._loop.call_soon_threadsafe(action)
+
+    def _end(self):
+        """Leave the robot at rest; rospy's other threads wait for this."""
+        self._soon(self._rest)
+        if self._has_ended.wait(LONGEST_END_S):
+            threading.Event().wait(DELIVERY_S)
+        self._soon(self._ended.set)
+
+    def _rest(self):
+        self._hub.end()
+        self._has_ended.set()

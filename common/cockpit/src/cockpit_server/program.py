@@ -1,0 +1,163 @@
+"""The command: checks, waits for a master, and tells the address of the page."""
+
+import argparse
+import errno
+import os
+import secrets
+import shutil
+import socket
+import subprocess
+import sys
+import time
+
+import rosgraph
+import rospy
+
+from cockpit_server.access import Access
+from node_kit.page import PARAMETER
+from node_kit.questions import Answer, call
+from node_kit.start import run
+
+NODE_NAME = "cockpit"
+DEFAULT_PORT = 8080
+LOOK_S = 1.0
+TOKEN_BYTES = 16
+TOKENS = "COCKPIT_TOKENS"  # environment variable, which only this user can read
+
+
+def port(text):
+    """A TCP port; the type of --port. Raises what argparse tells the user."""
+    if not text.isdigit() or not 1 <= int(text) <= 65535:
+        raise argparse.ArgumentTypeError(f"{text}: not a port, a number from 1 to 65535")
+    return int(text)
+
+
+def parse(argv):
+    """The command line."""
+    parser = argparse.ArgumentParser(
+        prog="cockpit", description="Shows the robots in a browser, and lets one page drive."
+    )
+    parser.add_argument("--port", type=port, default=DEFAULT_PORT, help="of the page's address")
+    lan = "other machines may open the page, too, with a token that is printed"
+    parser.add_argument("--lan", action="store_true", help=lan)
+    return parser.parse_args(argv)
+
+
+def fail(line):
+    sys.exit(f"cockpit: {line}")
+
+
+def listening(port, lan):
+    """Sockets that listen; the line for the user if the port is taken."""
+    hosts = [""] if lan else ["127.0.0.1"]
+    try:
+        return [_listening(host, port) for host in hosts]
+    except OSError as error:
+        if error.errno == errno.EADDRINUSE:
+            fail(
+                f"port {port} is taken, maybe by another cockpit: end it, or take --port {port + 1}"
+            )
+        fail(f"cannot listen on port {port}: {error.strerror}; take another: --port 8080")
+
+
+def _listening(host, port):
+    one = socket.socket()
+    one.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    one.setblocking(False)
+    one.bind((host, port))
+    one.listen(128)
+    return one
+
+
+def wait_for_master():
+    """Wait until one answers, after one line that says so."""
+    uri = rosgraph.get_master_uri()
+    if call(uri, "getPid")[0] is Answer.REFUSED:
+        print(
+            f"cockpit: waiting for a ROS master at {uri}: start roscore, or a launch file",
+            flush=True,
+        )
+        while call(uri, "getPid")[0] is Answer.REFUSED:
+            time.sleep(LOOK_S)
+
+
+def own_address():
+    """The address at which other machines may find this one."""
+    try:
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+            probe.connect(("192.0.2.1", 9))  # nothing is sent; RFC 5737 has it for documentation
+            return probe.getsockname()[0]
+    except OSError:
+        return socket.gethostname()
+
+
+def main():
+    """Run the node until it is stopped; return its exit code."""
+    try:
+        from cockpit_server.node import Cockpit  # noqa: PLC0415  tornado may be missing
+    except ModuleNotFoundError as error:
+        if error.name != "tornado":
+            raise
+        fail("python3-tornado is missing: ./tutorial setup, or apt install python3-tornado")
+    options = parse(rosgraph.myargv()[1:])
+    sockets = listening(options.port, options.lan)
+    access = new_access() if options.lan else Access()
+    wait_for_master()
+
+    def spin(_parameters):
+        tell(options.port, access)
+        rospy.set_param(PARAMETER, f"http://127.0.0.1:{options.port}/")
+        cockpit = Cockpit(sockets, access)
+        try:
+            cockpit.run()
+        finally:
+            call(rosgraph.get_master_uri(), "deleteParam", PARAMETER)
+        if cockpit.has_lost_master:
+            begin_anew(access)
+
+    return run(NODE_NAME, no_parameters, spin)
+
+
+def begin_anew(access):
+    """Wait for the next master, with the same tokens, in place of this process: rospy knows one."""
+    print("cockpit: the ROS master has gone", flush=True)
+    if access.driver_token:
+        os.environ[TOKENS] = f"{access.driver_token} {access.viewer_token}"
+    os.execv(sys.executable, [sys.executable, *sys.argv])
+
+
+def new_access():
+    """An Access for other machines, too: new tokens, or those from before begin_anew()."""
+    host = socket.gethostname().lower()
+    tokens = os.environ.pop(TOKENS, "").split()
+    tokens = tokens or [secrets.token_urlsafe(TOKEN_BYTES) for _ in range(2)]
+    return Access(("localhost", host, f"{host}.local"), *tokens)
+
+
+def no_parameters(given):
+    """There are none. Raises ValueError."""
+    for name in given:
+        raise ValueError(f"~{name}: no such parameter; the port is --port, other machines --lan")
+
+
+def tell(port, access):
+    """Print where the page is; only here, and on nothing but this terminal, is a token shown."""
+    if access.driver_token is None:
+        print(f"cockpit: open http://127.0.0.1:{port}/ on this machine", flush=True)
+        return
+    address = f"http://{own_address()}:{port}/?token="
+    print(f"cockpit: to look:  {address}{access.viewer_token}")
+    print(f"cockpit: to drive: {address}{access.driver_token}", flush=True)
+    show_code(f"{address}{access.driver_token}")
+
+
+def show_code(text):
+    """The address as a QR code for a phone's camera. Not by an argument, which all users see."""
+    if not shutil.which("qrencode"):
+        print("cockpit: (for a QR code: apt install qrencode)", flush=True)
+        return
+    done = subprocess.run(
+        ["qrencode", "-t", "UTF8", "-m", "1"], input=text.encode(), capture_output=True, check=False
+    )
+    sys.stdout.write(done.stdout.decode(errors="replace"))
+    sys.stdout.flush()

@@ -1,0 +1,88 @@
+"""Reads a recording: what is in it, and the joystick messages of each topic."""
+
+from pathlib import Path
+from typing import Dict, List, NamedTuple, Tuple
+
+import rosbag
+
+JOY = "sensor_msgs/Joy"
+LARGEST = 200_000_000  # bytes
+MOST_MESSAGES = 500_000  # of joysticks; at 100 Hz more than an hour
+MOST_POINTS = 3000  # of a curve
+
+
+class RecordingError(Exception):
+    """It cannot be read; the text says in one line why."""
+
+
+class Recording(NamedTuple):
+    """start, end [s since 1970]. topics: name -> (type, messages). joys: topic -> its messages as
+    (time since the start [s], axes, buttons).
+    """
+
+    start: float
+    end: float
+    topics: Dict[str, Tuple[str, int]]
+    joys: Dict[str, List[tuple]]
+
+    @property
+    def duration(self):
+        """[s]."""
+        return self.end - self.start
+
+
+def read(path):
+    """The Recording of a file. Raises RecordingError."""
+    try:
+        if Path(path).stat().st_size > LARGEST:
+            raise RecordingError(f"{path}: larger than {LARGEST // 1_000_000} MB: use rosbag play")
+        with rosbag.Bag(str(path)) as bag:
+            return _read(bag)
+    except OSError as error:
+        raise RecordingError(f"{path}: cannot be read: {error.strerror}") from None
+    except rosbag.ROSBagUnindexedException:
+        raise RecordingError(f"{path}: cut short; mend it with: rosbag reindex {path}") from None
+    except RecordingError:
+        raise
+    except Exception as error:  # rosbag lets struct.error and more through from a damaged file
+        raise RecordingError(f"{path}: not a bag that can be read: {error}") from None
+
+
+def _read(bag):
+    info = bag.get_type_and_topic_info().topics
+    topics = {name: (one.msg_type, one.message_count) for name, one in info.items()}
+    if not topics:
+        raise RecordingError(f"{bag.filename}: is empty")
+    joys = {name: [] for name, (kind, _) in sorted(topics.items()) if kind == JOY}
+    if sum(topics[name][1] for name in joys) > MOST_MESSAGES:
+        raise RecordingError(f"{bag.filename}: too long: use rosbag play")
+    start = bag.get_start_time()
+    for topic, joy, stamp in bag.read_messages(topics=list(joys)) if joys else ():
+        joys[topic].append((stamp.to_sec() - start, joy.axes, joy.buttons))
+    return Recording(start, bag.get_end_time(), topics, joys)
+
+
+def curves(joys):
+    """{"/joy/axes[0]": [[time since the start [s], value], ...]} of all axes and buttons."""
+    found = {}
+    for topic, messages in joys.items():
+        step = len(messages) // MOST_POINTS + 1
+        for kind, part in (("axes", 1), ("buttons", 2)):
+            count = min((len(message[part]) for message in messages), default=0)
+            for i in range(count):
+                points = [
+                    [round(message[0], 3), round(float(message[part][i]), 4)]
+                    for message in messages[::step]
+                ]
+                found[f"{topic}/{kind}[{i}]"] = corners(points)
+    return found
+
+
+def corners(points):
+    """The points without those in the middle of a horizontal line."""
+    inner = [
+        point
+        for before, point, after in zip(points, points[1:], points[2:])
+        if not before[1] == point[1] == after[1]
+    ]
+    return [*points[:1], *inner, *points[1:][-1:]]

@@ -1,0 +1,117 @@
+"""The robots: where they are, by their odometry, and what moves them, by their joystick."""
+
+import struct
+import time
+from math import hypot, isfinite
+
+from genpy import DeserializationError
+from sensor_msgs.msg import Joy
+
+from cockpit_server.clients import Source, encoded
+from cockpit_server.motion import motion
+from node_kit.careful_connections import sender_of
+
+LONGEST_STEP_M = 0.5  # within a period; what is more was carried, or reset
+DIGITS = 4  # of metres: a tenth of a millimetre
+
+
+def topic_of(robot, name):
+    """The topic of a robot, "" is the one without a name."""
+    return f"/{robot}/{name}" if robot else f"/{name}"
+
+
+class Robots(Source):
+    """The newest odometry of each robot, for all pages that show it."""
+
+    def __init__(self, feeds, graph_watch):
+        """graph_watch: knows the robots. Nothing is subscribed to before somebody looks."""
+        self._feeds, self._graphs = feeds, graph_watch
+        self._newest = {}  # topic -> (bytes, when they came [s])
+        self._states = {}  # robot -> (Motion, when it came [s], distance covered [m])
+        self._text = ""
+
+    def prepare(self, clients, now):
+        """Gather what is sent to all that watch."""
+        watched = any(client.watch.robots for client in clients)
+        known = self._graphs.graph.robots_with_odometry() if watched else ()
+        topics = {topic_of(robot, "odom"): robot for robot in known}
+        self._feeds.want(self, dict.fromkeys(topics, self._hear), every=False)
+        if not watched:
+            self._states = {}
+            return
+        for topic, robot in topics.items():
+            self._read(topic, robot)
+        robots = {r: shown(*state, now) for r, state in self._states.items() if r in known}
+        self._text = encoded("robots", stamp=round(time.time(), 3), robots=robots)
+
+    def give(self, client, _now):
+        """Send the newest state."""
+        if client.watch.robots:
+            client.write(self._text)
+
+    def _hear(self, message, topic):
+        self._newest[topic] = (message.data, time.monotonic())
+
+    def _read(self, topic, robot):
+        data, came = self._newest.pop(topic, (None, 0.0))
+        if data is None:
+            return
+        try:
+            new = motion(data)
+        except struct.error:
+            return
+        last, _, covered = self._states.get(robot, (new, 0.0, 0.0))
+        step = hypot(new.x - last.x, new.y - last.y)
+        self._states[robot] = (new, came, covered + (step if step < LONGEST_STEP_M else 0.0))
+
+
+def shown(state, came, covered, now):
+    """A robot's state as pages get it; what is not finite is left out."""
+    values = {**state._asdict(), "covered": covered, "age": max(0.0, now - came)}
+    return {name: round(value, DIGITS) for name, value in values.items() if isfinite(value)}
+
+
+class Pads(Source):
+    """The newest joystick message of each robot that somebody looks at or drives."""
+
+    def __init__(self, feeds, own_name):
+        """own_name: of this node. Others that send on the same topic are told by rival()."""
+        self._feeds, self._own_name = feeds, own_name
+        self.driven = None  # the robot that is driven from a page
+        self._newest = {}  # topic -> (bytes, when they came [s])
+        self._rivals = {}  # topic -> (name of the node, when it last spoke [s])
+
+    def prepare(self, clients, _now):
+        """Subscribe to what is looked at now."""
+        robots = ({client.watch.look for client in clients} | {self.driven}) - {None}
+        hears = {topic_of(robot, "joy"): self._hear for robot in robots}
+        self._feeds.want(self, hears, every=False)
+        self._newest = {topic: self._newest[topic] for topic in hears if topic in self._newest}
+
+    def give(self, client, now):
+        """Send what is new of the one it looks at."""
+        robot = client.watch.look
+        if robot is None:
+            return
+        data, came = self._newest.get(topic_of(robot, "joy"), (None, 0.0))
+        if data is None or not client.lacks("pad", (robot, came)):
+            return
+        try:
+            joy = Joy().deserialize(data)
+        except DeserializationError:
+            return
+        axes = [round(value, DIGITS) if isfinite(value) else 0.0 for value in joy.axes]
+        age = round(max(0.0, now - came), 3)
+        client.send("pad", robot=robot, axes=axes, buttons=list(joy.buttons), age=age)
+
+    def rival(self, robot, since):
+        """The name of another node that has sent on the robot's topic since a time [s], or None."""
+        name, spoke = self._rivals.get(topic_of(robot, "joy"), ("", 0.0))
+        return name if spoke >= since and name else None
+
+    def _hear(self, message, topic):
+        now = time.monotonic()
+        self._newest[topic] = (message.data, now)
+        sender = sender_of(message)
+        if sender != self._own_name:
+            self._rivals[topic] = (sender, now)

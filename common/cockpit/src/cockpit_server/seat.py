@@ -1,0 +1,196 @@
+"""Who drives, and when the operator is lost (pure).
+
+Every method is given the time `now` [s] of one clock that never jumps; nothing here reads a clock.
+
+The rule for every loss: one neutral message, then silence, and nothing but silence until all
+buttons and sticks were seen released. Who is still there keeps the seat; who is away loses it.
+"""
+
+import math
+from typing import NamedTuple, Optional, Tuple
+
+from gamepad.gamepads import triggers_by_count
+
+SILENCE_S = 0.2  # without a fresh input the operator is lost
+LATE_S = 0.1  # an input that was longer on its way than the fastest one by this is dropped
+FROZEN_S = 0.2  # a gamepad's own time stands still for so long: it is frozen
+AWAY_S = 5.0  # without any fresh input the seat is free again
+KEPT_BEATS = 16  # of the server, as many as are sent in several SILENCE_S
+# The page's clock may run slower than ours by this; crystals differ by a tenth of it.
+CLOCK_DRIFT = 1e-3
+NEUTRAL = 0.1  # a stick that was let go is within this, as joy2twist has it
+PAGE, BAG = "page", "bag"
+
+
+class RefusedError(Exception):
+    """Something cannot be done; the text says in one line why."""
+
+
+class Input(NamedTuple):
+    """What a page says its hand does, and when.
+
+    n: number of the message. t: the page's clock [ms]. beat: the newest beat of the server that the
+    page has seen. axes, buttons: as on /joy. pad: the gamepad's own clock, any unit; None: a hand
+    on glass or keys.
+    """
+
+    n: int
+    t: float
+    beat: int
+    axes: Tuple[float, ...]
+    buttons: Tuple[int, ...]
+    pad: Optional[float] = None
+
+
+def neutral_of(axes, buttons):
+    """(axes, buttons) of the same gamepad when nobody touches it."""
+    triggers = triggers_by_count(len(axes))
+    return tuple([1.0 if i in triggers else 0.0 for i in range(len(axes))]), (0,) * len(buttons)
+
+
+def is_neutral(axes, buttons):
+    """Whether all buttons and sticks are released."""
+    rest, _ = neutral_of(axes, buttons)
+    return not any(buttons) and all(abs(a - r) <= NEUTRAL for a, r in zip(axes, rest))
+
+
+class Seat:
+    """The one place of the driver. A client is any number; a robot is a name."""
+
+    def __init__(self, send, lost):
+        """send: called with (robot, axes, buttons) for each message to publish. lost: called with
+        (client, why) when a client has lost its robot.
+        """
+        self._send, self._tell_lost = send, lost
+        self._has_ended = False
+        self._beats = {}  # number -> when it was sent
+        self.driver = None
+        self.why = ""  # why the last one was lost
+        self._clear()
+
+    def _clear(self):
+        self.driver, self.robot, self.how = None, "", PAGE
+        self.armed = False  # all was seen released since the last loss
+        self.newest = 0  # number of the newest input that was taken
+        self._last = None  # (axes, buttons) published last
+        self._fresh_at = -math.inf  # when the last fresh input came
+        self._least, self._least_at = math.inf, 0.0  # our clock minus the page's, at the least
+        self._pad, self._pad_at = None, 0.0  # the gamepad's clock, and when it last went on
+
+    @property
+    def state(self):
+        """What is told to all pages."""
+        return self.driver, self.robot, self.how, self.armed, self.why
+
+    def take(self, client, robot, how, now):
+        """Sit down. Raises RefusedError if another sits there."""
+        if self._has_ended:
+            raise RefusedError("the cockpit is being shut down")
+        if self.driver not in (None, client):
+            raise RefusedError("somebody else drives; who drives may hand over")
+        self.leave(client)
+        self.driver, self.robot, self.how, self.why = client, robot, how, ""
+        self.armed = how == BAG  # a recording begins as it begins
+        self._fresh_at = now
+        self._beats.clear()
+
+    def leave(self, client):
+        """Stand up, with the robot at rest."""
+        if client == self.driver:
+            self._rest()
+            self._clear()
+
+    def hand_over(self, client, to, now):
+        """Let another client sit down. Raises RefusedError if it is not client's to give."""
+        if client != self.driver or self.how != PAGE:
+            raise RefusedError("only who drives may hand over")
+        robot = self.robot
+        self.leave(client)
+        self.take(to, robot, PAGE, now)
+
+    def beat(self, number, now):
+        """A beat of the server was sent."""
+        self._beats[number] = now
+        self._beats.pop(number - KEPT_BEATS, None)
+
+    def input(self, client, message, now):
+        """An Input came from a client; one that is old or not the driver's is dropped."""
+        if client != self.driver or self.how != PAGE or not self._is_fresh(message, now):
+            return
+        self.tick(now)  # a silence that was not yet noticed
+        self.newest, self._fresh_at = message.n, now
+        neutral = is_neutral(message.axes, message.buttons)
+        if message.pad is None or message.pad != self._pad:
+            self._pad, self._pad_at = message.pad, now
+        elif not neutral and now - self._pad_at > FROZEN_S:
+            self.lose("the gamepad stands still: it is frozen or out of reach")
+        if neutral:
+            self.armed = True
+        if self.armed:
+            self._publish(message.axes, message.buttons)
+
+    def _is_fresh(self, message, now):
+        late = now - message.t / 1000
+        self._least = min(late, self._least + CLOCK_DRIFT * (now - self._least_at))
+        self._least_at = now
+        seen = self._beats.get(message.beat, -math.inf)
+        return message.n > self.newest and late - self._least <= LATE_S and now - seen <= SILENCE_S
+
+    def play(self, axes, buttons):
+        """Publish a recorded message, for the client that sits here for that."""
+        if self.how == BAG and self.driver is not None:
+            self._publish(axes, buttons)
+
+    def tick(self, now):
+        """Time has passed."""
+        if self.driver is None or self.how == BAG:
+            return
+        silent_s = now - self._fresh_at
+        if self.armed and silent_s > SILENCE_S:
+            self.lose(f"nothing came from the page for {SILENCE_S:g} s")
+        if silent_s > AWAY_S:
+            self.free("the page was away for too long")
+
+    def lose(self, why):
+        """The operator is lost; the seat stays with the client, who may still be there."""
+        if self.driver is None or not self.armed:
+            return
+        self._rest()
+        self.armed, self.why = False, why
+        self._tell_lost(self.driver, why)
+        if self.how == BAG:
+            self._clear()
+
+    def free(self, why):
+        """The operator is lost, and so is the seat."""
+        driver = self.driver
+        if driver is None:
+            return
+        self._rest()
+        self._clear()
+        self.why = why
+        self._tell_lost(driver, why)
+
+    def release(self, client, why):
+        """A page says that its operator is lost."""
+        if client == self.driver:
+            self.lose(why)
+
+    def gone(self, client):
+        """A client has left."""
+        if client == self.driver:
+            self.free("the page was closed, or the network is down")
+
+    def end(self):
+        """The server stops: the robot at rest, and nothing ever after."""
+        self.free("the cockpit was shut down")
+        self._has_ended = True
+
+    def _rest(self):
+        if self.armed and self._last is not None:
+            self._publish(*neutral_of(*self._last))
+            self._last = None
+
+    def _publish(self, axes, buttons):
+        self._last = (axes, buttons)
+        self._send(self.robot, axes, buttons)

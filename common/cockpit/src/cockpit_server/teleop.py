@@ -1,0 +1,59 @@
+"""What the joy2twist of each robot says of itself on /diagnostics."""
+
+import time
+
+from diagnostic_msgs.msg import DiagnosticArray
+from genpy import DeserializationError
+
+from cockpit_server.clients import Source
+from cockpit_server.graph import robot_of
+
+MARK = ": joystick"  # the end of the name of joy2twist's status; before it stands its node's
+SILENT_S = 4.0  # it speaks once a second
+SILENT = {"state": "silent", "why": "joy2twist says nothing any more", "level": 2}
+
+
+def said(data):
+    """[(robot, {state, why, level})] from the bytes of a DiagnosticArray."""
+    if MARK.encode() not in data:
+        return []
+    try:
+        statuses = DiagnosticArray().deserialize(data).status
+    except DeserializationError:
+        return []
+    found = [status for status in statuses if status.name.endswith(MARK)]
+    return [(robot_of(f"/{one.name[: -len(MARK)]}"), told(one)) for one in found]
+
+
+def told(status):
+    """A DiagnosticStatus as pages get it: state is its first word."""
+    state = status.message.partition(":")[0].partition(" ")[0]
+    return {"state": state, "why": status.message, "level": int(status.level)}
+
+
+class Teleop(Source):
+    """The newest words about each robot."""
+
+    def __init__(self, feeds):
+        """Listen, for as long as the node runs: it is little, and comes once a second."""
+        self._states = {}  # robot -> what is told
+        self._heard = {}  # robot -> when it spoke last [s]
+        feeds.want(self, {"/diagnostics": self._hear}, every=True)
+
+    def prepare(self, clients, now):
+        """Notice who has fallen silent."""
+        for robot, heard in list(self._heard.items()):
+            if now - heard > SILENT_S:
+                self._states[robot] = SILENT
+
+    def give(self, client, _now):
+        """Send what has changed of the robots that the client looks at."""
+        for robot, state in list(self._states.items()):
+            if (client.watch.robots or client.watch.look == robot) and client.lacks(
+                f"teleop {robot}", state
+            ):
+                client.send("teleop", robot=robot, **state)
+
+    def _hear(self, message, _topic):
+        for robot, state in said(message.data):
+            self._heard[robot], self._states[robot] = time.monotonic(), state

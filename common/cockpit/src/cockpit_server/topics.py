@@ -1,0 +1,89 @@
+"""The topic that a page looks at: who speaks, how often, and what was said last."""
+
+import time
+
+from cockpit_server.clients import Source
+from cockpit_server.plots import class_of
+
+PERIOD_S = 0.5
+LONGEST_TEXT = 4000  # characters of the newest message
+LONGEST_MESSAGE = 200_000  # bytes; a longer one is not read
+WINDOW_S = 2.0  # over which the rate is counted
+
+
+class Topic:
+    """What has come on one topic."""
+
+    def __init__(self):
+        """Nothing yet."""
+        self.count, self.newest = 0, None
+        self._marks = [(time.monotonic(), 0)]  # (when, count until then)
+
+    def hear(self, message, _topic):
+        """One more message."""
+        self.newest = message.data
+        self.count += 1
+
+    def rate(self, now):
+        """Messages in a second [Hz]; call about once a PERIOD_S."""
+        self._marks.append((now, self.count))
+        while len(self._marks) > 2 and self._marks[1][0] <= now - WINDOW_S:
+            self._marks.pop(0)
+        (since, before) = self._marks[0]
+        return (self.count - before) / (now - since) if now > since else 0.0
+
+    def text(self, type_name):
+        """The newest message as text."""
+        data = self.newest
+        if data is None:
+            return ""
+        kind = class_of(type_name)
+        if kind is None:
+            return f"({len(data)} bytes; the package of {type_name} is not installed here)"
+        if len(data) > LONGEST_MESSAGE:
+            return f"({len(data)} bytes)"
+        try:
+            text = str(kind().deserialize(data))
+        except Exception as error:  # whatever the bytes made a message class do
+            return f"(cannot be read: {error})"
+        return text if len(text) <= LONGEST_TEXT else f"{text[:LONGEST_TEXT]}\n..."
+
+
+class Topics(Source):
+    """Those that pages look at; a page looks at one."""
+
+    def __init__(self, feeds, graph_watch):
+        """graph_watch: knows the topics and their types."""
+        self._feeds, self._graphs = feeds, graph_watch
+        self._topics, self._shown = {}, {}
+        self._next = 0.0
+
+    def prepare(self, clients, now):
+        """Twice a second, put together what is shown."""
+        graph = self._graphs.graph
+        looked_at = {client.watch.topic for client in clients} - {None}
+        self._topics = {name: self._topics.get(name) or Topic() for name in looked_at}
+        self._feeds.want(self, {n: topic.hear for n, topic in self._topics.items()}, every=True)
+        if now < self._next:
+            return
+        self._next = now + PERIOD_S
+        self._shown = {name: self._about(graph, name, now) for name in looked_at}
+
+    def _about(self, graph, name, now):
+        topic = self._topics[name]
+        type_name = graph.types.get(name, "")
+        return {
+            "name": name,
+            "type": type_name,
+            "rate": round(topic.rate(now), 2),
+            "publishers": sorted(graph.publishers.get(name, ())),
+            "subscribers": sorted(graph.subscribers.get(name, ())),
+            "last": topic.text(type_name),
+        }
+
+    def give(self, client, _now):
+        """Send what is shown of the topic that the client looks at."""
+        name = client.watch.topic
+        about = self._shown.get(name)
+        if about and client.lacks("topic", (name, self._next)):
+            client.send("topic", **about)

@@ -1,0 +1,199 @@
+"""HTTP and WebSocket: who may have what, and how much of it."""
+
+import logging
+import socket
+from pathlib import Path
+
+import rospkg
+from tornado.httpserver import HTTPServer
+from tornado.iostream import StreamClosedError
+from tornado.web import Application, RequestHandler, StaticFileHandler
+from tornado.websocket import WebSocketClosedError, WebSocketHandler
+
+from cockpit_server.access import without_token
+from cockpit_server.clients import Client, name_of
+from cockpit_server.schema import LONGEST_MESSAGE
+from node_kit.newest_only import CUT_AFTER_RESENDS, resends
+
+CHARTS = Path("/usr/share/javascript/dygraphs")
+MOST_CLIENTS = 64  # a class, each with a page and a phone
+MOST_CONNECTIONS = 256  # each takes a file descriptor, of which a process may have 1024
+LONGEST_IDLE_S = 20.0  # a connection on which nothing is asked
+PING_S = 1.0  # a page that does not answer three of them is closed
+LONGEST_HEADER = 16384  # bytes
+LONGEST_BODY = 1024  # bytes; nothing is uploaded
+# What waits in the kernel for a page that does not read [bytes]; the kernel doubles it.
+SEND_BUFFER = 65536
+HEADERS = {
+    "X-Content-Type-Options": "nosniff",
+    "X-Frame-Options": "DENY",
+    "Referrer-Policy": "no-referrer",  # the token is in the address
+    "Cross-Origin-Opener-Policy": "same-origin",
+    "Cross-Origin-Resource-Policy": "same-origin",
+    "Permissions-Policy": "gamepad=(self), camera=(), microphone=(), geolocation=()",
+    "Cache-Control": "no-store",
+    "Server": "cockpit",
+}
+# connect-src: older browsers do not take a WebSocket for 'self'.
+POLICY = (
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "
+    "connect-src 'self' ws://{host}; frame-ancestors 'none'; base-uri 'none'; form-action 'none'"
+)
+
+
+class _Guarded(RequestHandler):
+    """Answers only who names this machine, and is not sent by another page."""
+
+    def set_default_headers(self):
+        for name, value in HEADERS.items():
+            self.set_header(name, value)
+
+    def prepare(self):
+        host = self.request.host
+        if not self.settings["access"].may_request(host, self.request.headers.get("Origin")):
+            self.refuse(403, "this address is not the cockpit's: open the one that it printed")
+            return
+        self.set_header("Content-Security-Policy", POLICY.format(host=host))
+
+    def refuse(self, status, why):
+        self.set_status(status)
+        self.set_header("Content-Type", "text/plain; charset=utf-8")
+        self.finish(f"{why}\n")
+
+    def write_error(self, status_code, **_):
+        self.set_header("Content-Type", "text/plain; charset=utf-8")
+        self.finish(f"{status_code}: nothing here\n")
+
+
+class _Page(_Guarded):
+    """The page itself, for who has a token if one is needed."""
+
+    def get(self):
+        role = self.settings["access"].role(self.get_query_argument("token", None))
+        if role is None:
+            self.refuse(403, "open the address that the cockpit printed, with its token")
+            return
+        self.set_header("Content-Type", "text/html; charset=utf-8")
+        self.finish((self.settings["page"] / "index.html").read_bytes())
+
+
+class _Files(_Guarded, StaticFileHandler):
+    """The page's scripts and styles, and the charts' ones."""
+
+    def set_extra_headers(self, path):
+        self.set_header("Cache-Control", "no-cache")
+
+
+class _Socket(WebSocketHandler):
+    """The way between a page and the Hub."""
+
+    client = None
+
+    async def get(self, *_, **__):
+        access, hub = self.settings["access"], self.settings["hub"]
+        origin = self.request.headers.get("Origin")
+        self.role = access.role(self.get_query_argument("token", None))
+        if not access.may_connect(self.request.host, origin):
+            self.refuse(403, "only this cockpit's own page may connect")
+        elif self.role is None:
+            self.refuse(403, "open the address that the cockpit printed, with its token")
+        elif len(hub.clients) >= MOST_CLIENTS:
+            self.refuse(503, f"{MOST_CLIENTS} pages are open: close one")
+        else:
+            await super().get()
+
+    def refuse(self, status, why):
+        self.set_status(status)
+        self.finish(f"{why}\n")
+
+    def check_origin(self, origin):
+        return True  # get() has looked at it
+
+    def open(self, *_, **__):
+        self.set_nodelay(True)
+        self.stream = self.ws_connection.stream
+        self.stream.socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SEND_BUFFER)
+        hub = self.settings["hub"]
+        name = name_of(self.request.headers.get("User-Agent", ""), self.request.remote_ip)
+        self.client = Client(
+            hub.number(), self.role, name, self.send, self.stream.writing, self.is_cut, self.close
+        )
+        hub.join(self.client)
+
+    def send(self, text):
+        try:
+            self.write_message(text)
+        except (WebSocketClosedError, StreamClosedError):
+            pass  # on_close() comes
+
+    def is_cut(self):
+        return not self.stream.closed() and resends(self.stream.socket) >= CUT_AFTER_RESENDS
+
+    def on_message(self, message):
+        self.settings["hub"].hear(self.client, message)
+
+    def on_close(self):
+        if self.client:
+            self.settings["hub"].leave(self.client)
+
+
+class _Server(HTTPServer):
+    """Takes no more connections than there is room for."""
+
+    def initialize(self, *arguments, **more):
+        super().initialize(*arguments, **more)
+        self._streams = set()
+
+    def handle_stream(self, stream, address):
+        self._streams = {one for one in self._streams if not one.closed()}
+        if len(self._streams) >= MOST_CONNECTIONS:
+            stream.close()
+            return
+        self._streams.add(stream)
+        super().handle_stream(stream, address)
+
+
+def server(hub, access):
+    """The HTTP server; it does not listen yet."""
+    for name in ("tornado.access", "tornado.general"):
+        logging.getLogger(name).setLevel(logging.CRITICAL)  # whatever strangers send is no news
+    logging.getLogger("tornado.application").addFilter(_hide_token)
+    page = Path(rospkg.RosPack().get_path("cockpit")) / "page"
+    application = Application(
+        [
+            ("/", _Page),
+            ("/ws", _Socket),
+            (r"/page/([\w.-]+)", _Files, {"path": str(page)}),
+            (r"/lib/(dygraph\.min\.js|dygraph\.css)", _Files, {"path": str(CHARTS)}),
+        ],
+        default_handler_class=_Nothing,
+        access=access,
+        hub=hub,
+        page=page,
+        websocket_max_message_size=LONGEST_MESSAGE,
+        websocket_ping_interval=PING_S,
+        websocket_ping_timeout=3 * PING_S,
+        log_function=lambda handler: None,
+    )
+    return _Server(
+        application,
+        idle_connection_timeout=LONGEST_IDLE_S,
+        body_timeout=LONGEST_IDLE_S,
+        max_header_size=LONGEST_HEADER,
+        max_body_size=LONGEST_BODY,
+        max_buffer_size=4 * LONGEST_HEADER,
+    )
+
+
+def _hide_token(record):
+    record.msg, record.args = without_token(record.getMessage()), None
+    return True
+
+
+class _Nothing(_Guarded):
+    """Whatever else is asked for."""
+
+    def prepare(self):
+        super().prepare()
+        if not self._finished:
+            self.refuse(404, "nothing here")

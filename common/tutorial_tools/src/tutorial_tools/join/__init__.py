@@ -1,0 +1,1 @@
+"""Joining the classroom of another machine."""

@@ -1,0 +1,88 @@
+"""The command join HOST NAME: checks the way to the teacher's machine, and starts student.launch.
+
+What it finds wrong it tells with the means of the doctor, and starts nothing.
+"""
+
+import argparse
+import os
+import re
+import sys
+
+from node_kit.questions import Answer
+from tutorial_tools.doctor.facts import some
+from tutorial_tools.doctor.network import addresses, call, is_called_back, is_here, way_out
+
+DEFAULT_PORT = 11311
+
+
+class JoinError(Exception):
+    """Why nothing can be started, in one line for the user."""
+
+
+def parse(argv):
+    """The command line."""
+    parser = argparse.ArgumentParser(
+        prog="join", description="Drives a robot of the classroom that runs on another machine."
+    )
+    parser.add_argument("host", metavar="HOST", help="the teacher's machine, or HOST:PORT")
+    parser.add_argument("name", metavar="NAME", help="of the robot, such as robot_7")
+    more = "for student.launch, such as virtual:=true or joystick:=browser"
+    parser.add_argument("arguments", nargs="*", metavar="NAME:=VALUE", help=more)
+    return parser.parse_args(argv)
+
+
+def check_host(host):
+    """(the master's URI, this machine's address on the way there). Raises JoinError."""
+    found = re.fullmatch(r"([\w.-]+)(?::(\d{1,5}))?", host, re.ASCII)
+    if not found:
+        raise JoinError(f"{host}: must be a name or an address of a machine, such as 192.168.1.5")
+    name, port = found[1], int(found[2] or DEFAULT_PORT)
+    known = addresses(name)
+    if not known:
+        raise JoinError(f"{name} cannot be looked up: write its address, or add it to /etc/hosts")
+    own = "127.0.0.1" if all(map(is_here, known)) else way_out(known[0])
+    if not own:
+        raise JoinError(f"there is no way to {name}: look at cable and Wi-Fi, try: ping {name}")
+    return f"http://{name}:{port}", own
+
+
+def check_master(uri, own):
+    """Raise JoinError unless a master answers there and reaches this machine."""
+    answer, _ = call(uri, "getPid")
+    if answer is not Answer.WELL:
+        todo = "has the teacher started classroom.launch?"
+        raise JoinError(f"the master {uri} {answer.value}: {todo}")
+    if not is_called_back(uri, own):
+        raise JoinError(
+            f"the master {uri} does not reach this machine at {own}: open its firewall, or join "
+            "through the same network"
+        )
+
+
+def check_robot(uri, name):
+    """Raise JoinError unless a robot of that name waits for a driver."""
+    _, state = call(uri, "getSystemState")
+    publishers, subscribers = (dict(part) for part in (state[:2] if state else ([], [])))
+    robots = [topic.split("/")[1] for topic in subscribers if re.fullmatch(r"/\w+/cmd_vel", topic)]
+    if name not in robots:
+        there = f"there are {some(robots)}" if robots else "there is no robot of a classroom"
+        raise JoinError(f"{name} is not there; {there}")
+    drivers = publishers.get(f"/{name}/cmd_vel")
+    if drivers:
+        raise JoinError(f"{name} is driven already, by {some(drivers)}; take another robot")
+
+
+def main():
+    """Check, then become roslaunch."""
+    options = parse(sys.argv[1:])
+    try:
+        uri, own = check_host(options.host)
+        check_master(uri, own)
+        check_robot(uri, options.name)
+    except JoinError as error:
+        sys.exit(f"join: {error}")
+    environment = {name: value for name, value in os.environ.items() if name != "ROS_HOSTNAME"}
+    environment.update(ROS_MASTER_URI=uri, ROS_IP=own)
+    print(f"join: ROS_MASTER_URI={uri} ROS_IP={own}", flush=True)
+    launch = ["roslaunch", "joy2twist", "student.launch", f"name:={options.name}"]
+    os.execvpe(launch[0], [*launch, *options.arguments], environment)

@@ -1,0 +1,102 @@
+#!/usr/bin/python3
+"""Times inputs of a page until their /cmd_vel comes, beside messages that are sent back.
+
+probe.py COCKPIT_PORT ECHO_PORT COUNT -> JSON: {"input": [s, ...], "echo": [s, ...]}
+"""
+
+import asyncio
+import gc
+import json
+import sys
+import time
+
+import rospy
+from geometry_msgs.msg import Twist
+from tornado.httpclient import HTTPRequest
+from tornado.websocket import websocket_connect
+
+STEP = 2.0**-12  # of the stick, from each input to the next: exact as float32
+SCALE = 0.35  # m/s for a whole stick, as config/f710_d.yaml has it
+PERIOD_S = 0.02  # a fast gamepad's; each input beside one message that is sent back
+sent_s, latency_s = {}, {"input": [], "echo": []}
+
+
+def on_twist(twist):
+    now = time.monotonic()
+    began = sent_s.pop(round(twist.linear.x / SCALE / STEP), None)
+    if began is not None:
+        latency_s["input"].append(now - began)
+
+
+class Page:
+    """As much of a page as drives."""
+
+    def __init__(self, socket):
+        self.socket, self.beat, self.number, self.armed = socket, 0, 0, False
+
+    def say(self, kind, **fields):
+        self.socket.write_message(json.dumps({"kind": kind, **fields}))
+
+    def input(self, stick, held):
+        self.number += 1
+        axes, buttons = [0.0, stick, 0.0, 0.0, 0.0, 0.0], [0, 0, 0, 0, held] + [0] * 7
+        self.say(
+            "input", n=self.number, t=1000 * time.monotonic(), beat=self.beat, axes=axes,
+            buttons=buttons, pad=None, source="keys",
+        )  # fmt: skip
+
+    async def read(self):
+        while True:
+            message = json.loads(await self.socket.read_message())
+            if message["kind"] == "beat":
+                self.beat = message["n"]
+            elif message["kind"] == "seat":
+                self.armed = message["yours"] and message["armed"]
+
+
+async def connect(port):
+    headers = {"Origin": f"http://127.0.0.1:{port}"}
+    socket = await websocket_connect(HTTPRequest(f"ws://127.0.0.1:{port}/ws", headers=headers))
+    socket.protocol.set_nodelay(True)
+    return socket
+
+
+async def read_echo(socket):
+    while True:
+        began = float(await socket.read_message())
+        latency_s["echo"].append(time.monotonic() - began)
+
+
+async def release(page):
+    while not (page.armed and subscriber.get_num_connections()):
+        page.input(0.0, 0)
+        await asyncio.sleep(PERIOD_S)
+
+
+async def main(cockpit_port, echo_port, count):
+    page, echo = Page(await connect(cockpit_port)), await connect(echo_port)
+    tasks = [asyncio.ensure_future(page.read()), asyncio.ensure_future(read_echo(echo))]
+    page.say("drive", robot="", mode="D")
+    await release(page)
+    for _ in range(20):  # all is warm then
+        page.input(0.0, 1)
+        await asyncio.sleep(PERIOD_S)
+    for number in range(1, count + 1):
+        if not page.armed:  # a busy machine lost us
+            await release(page)
+        stick = number % 2000 + 500
+        sent_s[stick] = time.monotonic()
+        page.input(stick * STEP, 1)
+        await asyncio.sleep(PERIOD_S / 2)
+        echo.write_message(str(time.monotonic()))
+        await asyncio.sleep(PERIOD_S / 2)
+    await asyncio.sleep(0.5)
+    for task in tasks:
+        task.cancel()
+
+
+rospy.init_node("probe", disable_signals=True)
+subscriber = rospy.Subscriber("/cmd_vel", Twist, on_twist, tcp_nodelay=True)
+gc.freeze()
+asyncio.run(main(*map(int, sys.argv[1:])))
+print(json.dumps(latency_s))

@@ -1,0 +1,77 @@
+"""What the tests in browsers share: a robot with a cockpit, browsers, the table of the ways."""
+
+import re
+from collections import defaultdict
+from pathlib import Path
+
+import pytest
+
+from tutorial_testing.cockpit.chromium import Chromium
+from tutorial_testing.cockpit.world import World
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+
+
+def pytest_addoption(parser):
+    """The options of `./tutorial test browser`."""
+    told = "lose the operator in each way so often (1)"
+    parser.addoption("--trials", type=int, default=1, metavar="N", help=told)
+    parser.addoption("--picture", action="store_true", help="make common/cockpit/doc/cockpit.png")
+
+
+def pytest_configure(config):
+    """Way to lose the operator -> times until the robot was at rest [s]."""
+    config.stopping_times = defaultdict(list)
+
+
+def pytest_terminal_summary(terminalreporter, config):
+    """Print how long the robot went on after the operator was lost."""
+    stopping_times = config.stopping_times
+    if stopping_times:
+        terminalreporter.section("operator lost to wheels at rest")
+        terminalreporter.line("| way | times | median [s] | worst [s] |")
+        terminalreporter.line("|---|---|---|---|")
+    for way, times in stopping_times.items():
+        middle = sorted(times)[len(times) // 2]
+        terminalreporter.line(f"| {way} | {len(times)} | {middle:.2f} | {max(times):.2f} |")
+
+
+@pytest.fixture(scope="session")
+def world():
+    """The simulated robot, joy2twist and a cockpit, for whoever leaves them as they were."""
+    with World() as world:
+        yield world
+
+
+@pytest.fixture
+def own_world():
+    """The same for one test, which may break it."""
+    with World() as world:
+        yield world
+
+
+@pytest.fixture
+def browser():
+    """A Chromium of its own, which shows nothing yet."""
+    with Chromium() as browser:
+        yield browser
+
+
+@pytest.fixture
+def page(world, browser):
+    """A Chromium with the page of the world; the console must be clean at the end."""
+    browser.open(world.address)
+    yield browser
+    assert browser.errors() == []
+
+
+@pytest.fixture
+def ros(world):
+    """Run a command of ROS beside the robot; returns what it prints."""
+
+    def ask(*command):
+        with world.run(*command) as program:
+            program.wait()
+            return re.sub(r"\x1b\[[0-9;]*m", "", program.output)
+
+    return ask

@@ -1,0 +1,87 @@
+"""A person at the page drives the simulated robot, in each of the three ways."""
+
+import pytest
+
+from tutorial_testing.cockpit.chromium import Chromium
+from tutorial_testing.cockpit.hands import Gamepad, Keys, Thumbs
+from tutorial_testing.waiting import wait_for
+
+HANDS = {"keys": Keys, "touch": Thumbs, "gamepad": Gamepad}
+FULL = 0.35  # m/s at full deflection: config/f710_d.yaml
+
+
+@pytest.mark.parametrize("kind", HANDS)
+def test_held_it_moves_and_released_it_stops(world, kind):
+    size = (360, 640) if HANDS[kind].touch else (1280, 800)
+    with Chromium(*size, touch=HANDS[kind].touch) as browser:
+        hands = HANDS[kind](browser)
+        hands.prepare()
+        browser.open(world.address)
+        browser.click("Drive from this page")
+        browser.wait_for_text("#seat", "You drive")
+        x = world.now.x
+        hands.drive(world, until=lambda: world.now.x > x + 0.2)
+        assert 0.0 < max(moment.v for moment in world.odometry) <= FULL + 1e-6
+        held = "document.querySelector('#pad svg').dataset.held"
+        hands.drive(world, until=lambda: browser.ask(held) == "LB")
+        hands.drive(world, until=lambda: browser.text("#teleop") == "driving")
+        hands.release()
+        world.wait_for_rest()
+        assert world.stays_at_rest()
+        browser.click("Stop driving")
+        browser.wait_for_text("#seat", "Nobody drives")
+        assert browser.errors() == []
+
+
+def test_without_the_dead_man_nothing_moves(world, page):
+    page.click("Drive from this page")
+    page.wait_for_text("#ready", "Hold LB")
+    page.key("rawKeyDown", "ArrowUp")
+    assert world.stays_at_rest()
+    page.key("keyUp", "ArrowUp")
+
+
+def test_esc_stops_driving(world, page):
+    page.click("Drive from this page")
+    hands = Keys(page)
+    hands.drive(world)
+    page.key("rawKeyDown", "Escape")
+    world.wait_for_rest()
+    page.wait_for_text("#seat", "Nobody drives")
+    assert world.stays_at_rest()  # although all is still held
+
+
+def test_a_second_page_is_refused_and_told_who_drives(world, page):
+    page.click("Drive from this page")
+    with Chromium() as second:
+        second.open(world.address)
+        second.wait_for_text("#seat", "drives")
+        assert not second.by_role("button", "Drive from this page").is_enabled()
+
+
+def test_a_driver_hands_over(world, page):
+    with Chromium() as second:
+        second.open(world.address)
+        number = second.text("#me").split()[-1]
+        page.click("Drive from this page")
+        hands = Keys(page)
+        hands.drive(world)
+        page.one("#heir").send_keys(number)
+        page.click("Hand over")
+        world.wait_for_rest()
+        second.wait_for_text("#seat", "You drive")
+        assert world.stays_at_rest()  # although the first one still holds all
+        Keys(second).drive(world)
+        Keys(second).release()
+        world.wait_for_rest()
+        assert second.errors() == []
+
+
+def test_reset_puts_the_robot_to_its_start(world, page):
+    page.click("Drive from this page")
+    hands = Keys(page)
+    hands.drive(world)
+    hands.release()
+    world.wait_for_rest()
+    page.click("Reset robot")
+    wait_for(lambda: abs(world.now.x) < 1e-9, "robot at x = 0")

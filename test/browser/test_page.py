@@ -1,0 +1,92 @@
+"""The page itself: small, from this host alone, for keyboards and phones, honest about a loss."""
+
+from urllib.parse import urlsplit
+
+import pytest
+
+from tutorial_testing.cockpit.chromium import Chromium
+from tutorial_testing.waiting import wait_for
+
+TABS = ("Robot", "Graph", "Bag", "Plot", "Log", "Doctor")
+FIRST_LOAD = 200_000  # bytes
+PHONES = {"upright": (360, 640), "on its side": (640, 360)}
+LEAST_TOUCH = 44  # pixel, of what a thumb holds; WCAG 2.5.5
+
+
+def test_it_asks_no_other_host_and_complains_of_nothing(world, browser):
+    browser.open(world.address)
+    for name in TABS:
+        browser.tab(name)
+        assert browser.by_role("tab", name).get_attribute("aria-selected") == "true"
+    host = urlsplit(world.address).netloc
+    asked = [urlsplit(url) for url in browser.requests()]
+    asked = [url.netloc for url in asked if url.scheme in ("http", "https", "ws", "wss")]
+    assert len(asked) > 10
+    assert set(asked) == {host}
+    assert browser.errors() == []
+
+
+def test_the_first_load_is_small(world, browser):
+    browser.open(world.address)
+    script = """return performance.getEntries().filter((e) => 'transferSize' in e)
+        .reduce((sum, e) => sum + e.transferSize, 0)"""
+    assert 10_000 < browser.driver.execute_script(script) < FIRST_LOAD
+
+
+def test_the_keyboard_alone_reaches_everything(page):
+    focused = "return document.activeElement.id || document.activeElement.textContent.trim()"
+    page.driver.execute_script("document.activeElement.blur()")
+    reached = []
+    for _ in range(40):
+        page.key("rawKeyDown", "Tab")
+        page.key("keyUp", "Tab")
+        reached.append(page.driver.execute_script(focused))
+        if len(reached) > 1 and reached[-1] == reached[0]:
+            break
+    wanted = page.driver.execute_script(
+        "return [...document.querySelectorAll('#robot button:enabled, #robot select:enabled')]"
+        ".filter((e) => e.checkVisibility()).map((e) => e.id)"
+    )
+    assert set(wanted) <= set(reached)
+    assert "take" in wanted
+    # Tabs are one stop; arrows go from one to the next.
+    page.by_role("tab", "Robot").click()
+    for name in (*TABS[1:], TABS[0]):
+        page.key("rawKeyDown", "ArrowRight")
+        page.key("keyUp", "ArrowRight")
+        assert page.by_role("tab", name).get_attribute("aria-selected") == "true"
+
+
+@pytest.mark.parametrize("held", PHONES)
+def test_a_phone_has_all_of_it(world, held):
+    width, height = PHONES[held]
+    with Chromium(width, height, touch=True) as phone:
+        phone.open(world.address)
+        for name in TABS:
+            phone.tab(name)
+            wide = phone.ask("document.documentElement.scrollWidth")
+            assert wide <= width, name
+        phone.tab("Robot")
+        phone.click("Drive from this page")
+        phone.wait_for_text("#seat", "You drive")
+        for css in ("#lb", "#stick"):
+            box = phone.one(css).rect
+            assert min(box["width"], box["height"]) >= LEAST_TOUCH
+            assert 0 <= box["x"] <= width - box["width"]
+            assert 0 <= box["y"] <= height - box["height"]
+        # A double tap zooms nowhere.
+        actions = (
+            "[...document.body.querySelectorAll('*')].map((e) => getComputedStyle(e).touchAction)"
+        )
+        assert "auto" not in phone.ask(actions)
+
+
+def test_a_lost_server_is_told_at_once_and_the_page_returns_by_itself(own_world, browser):
+    browser.open(own_world.address)
+    browser.click("Drive from this page")
+    browser.wait_for_text("#seat", "You drive")
+    own_world.kill_cockpit()
+    wait_for(lambda: "lost" in browser.text("#connection"), "word of the loss", 5)
+    own_world.start_cockpit()
+    browser.wait_for_text("#connection", "Connected")
+    browser.wait_for_text("#seat", "Nobody drives")

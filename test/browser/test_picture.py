@@ -1,0 +1,38 @@
+"""The README's picture of the page, `--picture`: the robot on its figure of eight."""
+
+from pathlib import Path
+
+import pytest
+
+from tutorial_testing.cockpit.chromium import LONG_S, Chromium
+from tutorial_testing.cockpit.world import World
+from tutorial_testing.waiting import wait_for
+
+PICTURE = Path(__file__).resolve().parents[2] / "common/cockpit/doc/cockpit.png"
+LARGEST = 150_000  # bytes
+
+
+def test_picture(request, tmp_path):
+    if not request.config.getoption("--picture"):
+        pytest.skip("the README's picture is made only with --picture")
+    robot = ("fake_turtlebot_sim", "fake_turtlebot.launch")
+    with World(*robot) as world, Chromium(1280, 800) as browser:
+        world.run("rosrun", "joy2twist", "joy2twist.py")  # at the scale of launch_bag.launch
+        browser.open(world.address)
+        browser.tab("Graph")
+        wait_for(lambda: browser.all('[data-item="topic /cmd_vel"]'), "joy2twist", LONG_S)
+        browser.tab("Bag")
+        browser.wait_for_text("#bag-name", "joy.bag")
+        browser.click("Open")
+        browser.wait_for_text("#bag-about", "joy.bag")
+        browser.click("Publish")
+        browser.tab("Robot")
+        # The recording: a figure of eight, then a turn on the spot.
+        wait_for(lambda: world.now.v > 0, "figure of eight", LONG_S)
+        wait_for(lambda: world.now.v == 0 and world.now.w, "turn on the spot", LONG_S)
+        browser.click("Show all")
+        browser.save_picture(tmp_path / "cockpit.png")
+    drawn = (tmp_path / "cockpit.png").read_bytes()
+    assert len(drawn) < LARGEST
+    PICTURE.parent.mkdir(exist_ok=True)
+    PICTURE.write_bytes(drawn)

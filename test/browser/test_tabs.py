@@ -1,0 +1,134 @@
+"""Every tab shows what is true: the same as ROS' own commands say."""
+
+import re
+
+from tutorial_testing.cockpit.chromium import LONG_S
+from tutorial_testing.cockpit.hands import Keys
+from tutorial_testing.waiting import wait_for
+
+POSITION = "/odom/pose/pose/position/x"
+
+
+def shown(page, css):
+    """The number that an element shows."""
+    return float(re.search(r"-?[\d.]+", page.text(css))[0])
+
+
+def drive_a_little(world, page):
+    page.click("Drive from this page")
+    hands = Keys(page)
+    x = world.now.x
+    hands.drive(world, until=lambda: world.now.x > x + 0.1)
+    hands.release()
+    world.wait_for_rest()
+    page.click("Stop driving")
+
+
+def test_robot_shows_the_odometry(world, page, ros):
+    drive_a_little(world, page)
+    x = float(ros("rostopic", "echo", "-n1", "/odom/pose/pose/position/x").split()[0])
+    assert x > 0.1
+    wait_for(lambda: shown(page, "[data-value=x]") == round(x, 2), f"x = {x:.2f}")
+    assert shown(page, "[data-value=v]") == 0
+    heard = ros("rostopic", "echo", "-n6", "/diagnostics")
+    said = re.findall(r'joystick"\s+message: "(.*)"', heard)
+    page.wait_for_text("#teleop", said[-1])
+
+
+def test_graph_shows_the_nodes_and_what_they_say(page, ros):
+    page.tab("Graph")
+    wait_for(lambda: page.all("#graph g.node"), "nodes", LONG_S)
+    nodes = {one.get_attribute("data-item").split()[1] for one in page.all("#graph g.node")}
+    assert nodes <= set(ros("rosnode", "list").split())
+    assert {"/fake_turtlebot", "/myjoystick2twist"} <= nodes
+    page.one('[data-item="topic /cmd_vel"]').click()
+    page.wait_for_text("[data-value=type]", ros("rostopic", "type", "/cmd_vel").strip())
+    page.wait_for_text("[data-value=publishers]", "/myjoystick2twist")
+    page.wait_for_text("[data-value=subscribers]", "/fake_turtlebot")
+    page.one('[data-item="node /fake_turtlebot"]').click()
+    page.wait_for_text("[data-value=publishes]", "/odom")
+    page.wait_for_text("[data-value=services]", "/fake_turtlebot/reset")
+
+
+def test_bag_shows_and_publishes_the_recording(world, page, ros):
+    page.tab("Bag")
+    wait_for(lambda: "joy.bag" in page.text("#bag-name"), "joy.bag", LONG_S)
+    page.click("Open")
+    info = ros("rosbag", "info", "-y", "-k", "duration", bag())
+    page.wait_for_text("#bag-about", f"{float(info.split()[0]):.1f} s")
+    messages = re.search(r"messages: (\d+)", ros("rosbag", "info", "-y", bag()))[1]
+    page.wait_for_text("#bag-topics", messages)
+    assert len(page.all("#bag-curves label")) >= 6
+    page.click("Publish")
+    wait_for(lambda: world.now.moves, "robot that moves", LONG_S)
+    page.wait_for_text("#seat", "You play")
+    wait_for(lambda: shown(page, "#bag-at") > 1, "position after 1 s", LONG_S)
+    page.click("Pause")
+    world.wait_for_rest()
+    assert world.stays_at_rest()
+
+
+def bag():
+    import rospkg  # noqa: PLC0415  of the workspace, which is there once the tests run
+
+    return f"{rospkg.RosPack().get_path('gamepad')}/bag/joy.bag"
+
+
+def choose(page, field):
+    page.tab("Plot")
+    page.one("#plot-search").send_keys(field)
+    found = f'#plot-fields input[value="{field}"]'
+    wait_for(lambda: page.all(found), field, LONG_S)
+    page.one(found).click()
+
+
+def test_plot_shows_the_newest_value(world, page):
+    choose(page, POSITION)
+    value = f'[data-field="{POSITION}"] output'
+    wait_for(lambda: re.search(r"\d", page.text(value)), "value", LONG_S)
+    assert abs(shown(page, value) - world.now.x) < 1e-3
+    wait_for(lambda: page.all("#plot-chart canvas"), "chart", LONG_S)
+
+
+def test_plot_saves_what_it_shows(page, tmp_path):
+    page.send("Browser.setDownloadBehavior", behavior="allow", downloadPath=str(tmp_path))
+    choose(page, POSITION)
+    wait_for(lambda: page.all("#plot-chart canvas"), "chart", LONG_S)
+    page.click("Save CSV")
+    page.click("Save PNG")
+    saved = tmp_path / "plot.csv"
+    csv = wait_for(lambda: saved.exists() and saved.read_text(), "CSV").splitlines()
+    assert csv[0] == "time,field,value"
+    assert len(csv) > 10
+    assert all(re.fullmatch(rf"[\d.]+,{POSITION},[-\d.e]+", line) for line in csv[1:])
+    png = tmp_path / "plot.png"
+    wait_for(lambda: png.exists() and png.read_bytes().startswith(b"\x89PNG"), "PNG")
+
+
+def test_log_shows_what_nodes_say_by_level_and_filter(world, page, ros):
+    page.tab("Log")
+    said = '{level: 4, name: /probe, msg: "look here"}'
+    ros("rostopic", "pub", "-1", "/rosout", "rosgraph_msgs/Log", said)
+    page.wait_for_text("#log-lines [data-level=WARN]", "look here")
+    page.one("#log-filter").send_keys("no such words")
+    wait_for(lambda: page.text("#log-lines") == "", "nothing that passes the filter")
+    page.one("#log-filter").clear()
+    page.one("#log-filter").send_keys("look")
+    page.wait_for_text("#log-lines", "/probe")
+    page.one("#log-level").send_keys("ERROR")
+    wait_for(lambda: page.text("#log-lines") == "", "nothing that is an error")
+
+
+def test_doctor_shows_its_lines(page, ros):
+    page.tab("Doctor")
+    wait_for(lambda: page.all("#doctor-lines li"), "lines", LONG_S)
+    wait_for(lambda: "Looking" not in page.text("#doctor-state"), "end of it", LONG_S)
+    *lines, _ = ros("rosrun", "tutorial_tools", "doctor.py").splitlines()
+    shown_lines = [one.text for one in page.all("#doctor-lines li")]
+    for line in lines:
+        level, subject = line.split()[:2]
+        assert any(subject in text for text in shown_lines), (line, shown_lines)
+        assert page.all(f"#doctor-lines [data-level={level.replace('unknown', 'note')}]")
+    page.click("Run again")
+    page.wait_for_text("#doctor-state", "Looking")
+    wait_for(lambda: page.text("#doctor-state") not in ("", "Looking …"), "second run", LONG_S)

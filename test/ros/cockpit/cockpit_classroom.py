@@ -1,0 +1,45 @@
+#!/usr/bin/python3
+"""A classroom on one page: each robot where it is, one of them driven and put back."""
+
+import time
+import unittest
+
+import rospy
+import rostest
+
+from node_kit.states import DRIVING
+from tutorial_testing.cockpit_rig import CockpitRig
+from tutorial_testing.waiting import wait_for
+
+OURS, OTHERS = "robot_2", ("robot_1", "robot_3")
+
+
+class Classroom(unittest.TestCase):
+    """One page of the teacher's."""
+
+    def test_one_robot_of_three(self):
+        with CockpitRig(robot=OURS) as rig, rig.page() as page:
+            self.assertEqual(page.wait_for("hello")["robots"], sorted([OURS, *OTHERS]))
+            page.watch(robots=True)
+
+            def seen():
+                return page.of("robots")[-1]["robots"]
+
+            wait_for(lambda: page.of("robots") and len(seen()) == 3, "three robots")
+            start = seen()
+            rig.drive(page)
+            wait_for(lambda: seen()[OURS]["covered"] > 0.2, "way driven")
+            page.wait_for("teleop", lambda told: [told["robot"], told["state"]] == [OURS, DRIVING])
+            page.say("leave")
+            rig.rest_after(time.time())
+            for robot in OTHERS:
+                self.assertEqual(seen()[robot]["x"], start[robot]["x"])
+            page.say("reset", robot=OURS)
+            wait_for(lambda: seen()[OURS]["x"] == start[OURS]["x"], "robot at its start")
+            page.say("drive", robot="robot_9", mode="D")
+            page.wait_for("refused", lambda no: no["why"] == "there is no robot 'robot_9'")
+
+
+if __name__ == "__main__":
+    rospy.init_node("cockpit_classroom")
+    rostest.rosrun("ros1_tutorial_test", "cockpit_classroom", Classroom)

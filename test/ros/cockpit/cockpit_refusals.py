@@ -1,0 +1,164 @@
+#!/usr/bin/python3
+"""Who is not to be let in, and what is not to be said."""
+
+import http.client
+import json
+import random
+import socket
+import string
+import unittest
+
+import rospy
+import rostest
+
+from tutorial_testing.cockpit_rig import CockpitRig
+from tutorial_testing.socket_page import DRIVE, SocketPage
+from tutorial_testing.waiting import wait_for
+
+MESSAGES = 10_000
+CONNECTIONS = 900  # and the test's own: a process may have 1024 files
+OVERSIZED = 100_000  # bytes
+
+
+class Refused(unittest.TestCase):
+    """A cockpit for other machines, a robot, and those who may not drive it."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.rig = CockpitRig("--lan")
+        cls.rig.__enter__()
+        cls.tokens = cls.rig.token("drive"), cls.rig.token("look")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.rig.__exit__()
+
+    def tearDown(self):
+        """Whatever came: nothing moved, no token was told, and the right one may still drive."""
+        self.assertEqual([speed for _, speed in self.rig.speeds if speed], [])
+        with self.rig.page() as page:
+            self.rig.drive(page)
+            page.say("leave")
+            wait_for(lambda: not self.rig.moves, "robot at rest")
+            self.assertTrue(self.rig.stays_at_rest())
+        self.rig.speeds.clear()
+        output = self.rig.program.output
+        self.assertNotIn("Traceback", output)
+        for token in self.tokens:
+            self.assertEqual(output.count(token), 1, output)  # where it was told in the beginning
+
+    def get(self, path, **headers):
+        """(status, words) of a request."""
+        connection = http.client.HTTPConnection("127.0.0.1", self.rig.port, timeout=20)
+        try:
+            connection.request("GET", path, headers=headers)
+            answer = connection.getresponse()
+            return answer.status, answer.read().decode()
+        finally:
+            connection.close()
+
+    def assert_refused(self, path, **headers):
+        status, words = self.get(path, **headers)
+        self.assertEqual(status, 403)
+        self.assertEqual(words.count("\n"), 1, words)
+
+    def test_a_foreign_host_or_origin(self):
+        page = f"/?token={self.tokens[0]}"
+        self.assertEqual(self.get(page)[0], 200)
+        for host in ("evil.example", f"evil.example:{self.rig.port}", "localhost.evil.example"):
+            self.assert_refused(page, Host=host)
+            self.assert_refused("/page/main.js", Host=host)
+        self.assert_refused(page, Origin="http://evil.example")
+
+    def test_a_page_without_a_token_or_with_a_wrong_one(self):
+        for path in ("/", "/?token=", "/?token=wrong", f"/?token={self.tokens[0]}x"):
+            self.assert_refused(path)
+
+    def test_nothing_else_is_served(self):
+        for path in ("/page/../package.xml", "/page/%2e%2e/package.xml", "/lib/dygraph.js", "/x"):
+            self.assertIn(self.get(f"{path}?token={self.tokens[0]}")[0], (403, 404), path)
+
+    def test_a_socket_of_somebody_else(self):
+        driver, port = self.tokens[0], self.rig.port
+        for token, headers in (
+            (None, {}),
+            ("wrong", {}),
+            (driver, {"Origin": "http://evil.example"}),
+            (driver, {"Origin": f"http://127.0.0.1:{port + 1}"}),
+            (driver, {"Origin": "null"}),
+            (driver, {"Host": f"evil.example:{port}"}),
+            (driver, {"Host": f"evil.example:{port}", "Origin": f"http://evil.example:{port}"}),
+        ):
+            with SocketPage(port, token=token, **headers) as page:
+                self.assertEqual(page.refusal, 403, (token, headers))
+
+    def test_a_viewer_may_not_drive(self):
+        with SocketPage(self.rig.port, token=self.tokens[1]) as page:
+            self.assertEqual(page.wait_for("hello")["role"], "viewer")
+            page.hand = DRIVE
+            page.say("drive", robot="", mode="D")
+            page.wait_for("refused", lambda no: no["what"] == "drive")
+            page.hand = None
+            page.say("reset", robot="")
+            page.say("bag_open", name="joy.bag")
+            page.wait_for("bag")
+            page.say("bag_play", topic="/joy", rate=1.0, loop=False, robot="")
+            for what in ("drive", "reset", "bag_play"):
+                why = page.wait_for("refused", lambda no, what=what: no["what"] == what)["why"]
+                self.assertIn("may only look", why)
+            self.assertEqual([seat for seat in page.of("seat") if seat["yours"]], [])
+
+    def test_random_messages(self):
+        dice = random.Random(1)
+        good = json.dumps({"kind": "drive", "robot": "", "mode": "D"})
+        with SocketPage(self.rig.port, token=self.tokens[1]) as page:
+            for _ in range(MESSAGES):
+                letters = list(good)
+                for _ in range(dice.randrange(1, 9)):
+                    letters[dice.randrange(len(letters))] = dice.choice(string.printable)
+                page.say_raw("".join(letters))
+            page.wait_for("closed")  # so many at once are a flood
+            self.assertTrue(page.of("refused"))
+            for refused in page.of("refused"):
+                self.assertEqual(refused["why"].count("\n"), 0)
+
+    def test_messages_that_are_too_long(self):
+        for data in ("x" * OVERSIZED, json.dumps({"kind": "release", "why": "x" * OVERSIZED})):
+            with self.rig.page() as page:
+                page.say_raw(data)
+                page.wait_for("closed")
+
+    def test_of_a_recording_only_a_joystick_is_published(self):
+        with self.rig.page() as page:
+            page.say("bag_open", name="joy.bag")
+            page.wait_for("bag")
+            page.say("bag_play", topic="/cmd_vel", rate=1.0, loop=False, robot="")
+            self.assertIn("no topic", page.wait_for("refused")["why"])
+
+    def test_very_many_connections(self):
+        connections = []
+        try:
+            with self.rig.page() as page:
+                page.watch(robots=True)
+                for _ in range(CONNECTIONS):
+                    connections.append(socket.create_connection(("127.0.0.1", self.rig.port), 20))
+                count = len(page.of("robots"))
+                wait_for(lambda: len(page.of("robots")) > count + 20, "robots, live as before")
+        finally:
+            for connection in connections:
+                connection.close()
+
+    def test_very_many_pages(self):
+        pages = [SocketPage(self.rig.port, token=self.tokens[1]) for _ in range(80)]
+        try:
+            statuses = [page.__enter__().refusal for page in pages]
+        finally:
+            for page in pages:
+                page.__exit__()
+        self.assertEqual(set(statuses), {None, 503})
+        self.assertIsNone(statuses[0])
+
+
+if __name__ == "__main__":
+    rospy.init_node("cockpit_refusals")
+    rostest.rosrun("ros1_tutorial_test", "cockpit_refusals", Refused)

@@ -1,0 +1,145 @@
+#!/usr/bin/python3
+"""What pages see is what runs."""
+
+import json
+import time
+import unittest
+
+import rospy
+import rostest
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import Joy
+
+from tutorial_testing.cockpit_rig import CockpitRig
+from tutorial_testing.socket_page import SocketPage
+from tutorial_testing.waiting import wait_for
+
+FIELD = "/odom/pose/pose/position/x"
+NEAR_M = 0.05  # at 0.35 m/s within a tenth of a second
+
+
+class Tabs(unittest.TestCase):
+    """One page for each test, and a robot."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.rig = CockpitRig()
+        cls.rig.__enter__()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.rig.__exit__()
+
+    def setUp(self):
+        self.page = self.rig.page()
+        self.page.__enter__()
+        self.addCleanup(self.page.__exit__)
+
+    def test_the_robot_is_where_its_odometry_says(self):
+        self.page.watch(robots=True, look="")
+        self.rig.drive(self.page)
+        wait_for(lambda: self.page.of("robots")[-1]["robots"][""]["x"] > 0.3, "way driven")
+        self.page.say("leave")
+        self.rig.rest_after(time.time())
+        at = rospy.wait_for_message("/odom", Odometry).pose.pose.position
+        count = len(self.page.of("robots"))
+        wait_for(lambda: len(self.page.of("robots")) > count + 2, "robots")
+        seen = self.page.of("robots")[-1]["robots"][""]
+        self.assertAlmostEqual(seen["x"], at.x, delta=0.001)
+        self.assertAlmostEqual(seen["y"], at.y, delta=0.001)
+        self.assertAlmostEqual(seen["covered"], at.x, delta=NEAR_M)
+        self.assertEqual(self.page.of("pad")[-1]["axes"], [0.0] * 6)
+        self.page.wait_for("teleop", lambda told: told["state"] == "stopped" and told["level"] == 1)
+
+    def test_the_graph_and_what_a_click_brings(self):
+        self.page.watch(graph=True, topic="/odom", node="/fake_turtlebot")
+        graph = self.page.wait_for("graph", lambda graph: "dot_svg" in graph)
+        names = {node["name"] for node in graph["nodes"]}
+        self.assertLessEqual({"/fake_turtlebot", "/myjoystick2twist"}, names)
+        self.assertIn({"name": "/odom", "type": "nav_msgs/Odometry"}, graph["topics"])
+        edge = {"from": "node /fake_turtlebot", "to": "topic /odom"}
+        self.assertIn(edge, graph["edges"])
+        self.assertIn("<svg", graph["dot_svg"])
+        topic = self.page.wait_for("topic", lambda topic: topic["rate"] > 40)
+        self.assertEqual(topic["type"], "nav_msgs/Odometry")
+        self.assertEqual(topic["publishers"], ["/fake_turtlebot"])
+        self.assertIn("child_frame_id", topic["last"])
+        node = self.page.wait_for("node", lambda node: "pid" in node)
+        self.assertIn("/odom", node["publishes"])
+        self.assertIn("/fake_turtlebot/reset", node["services"])
+
+    def test_every_sample_of_a_field(self):
+        self.page.watch(fields=[FIELD], field_list=True)
+        self.assertIn(FIELD, self.page.wait_for("fields")["fields"])
+        self.page.wait_for("plot")
+        count, begin = len(self.rig.speeds), len(self.page.of("plot"))
+        wait_for(lambda: len(self.rig.speeds) > count + 100, "odometry")
+        stamps = {round(stamp, 6) for stamp, _ in self.rig.speeds[count + 5 : count + 95]}
+        wait_for(lambda: len(self.page.of("plot")) > begin + 20, "plot")
+        seen = {t for plot in self.page.of("plot") for t, _ in plot["samples"][FIELD]}
+        self.assertEqual(stamps - seen, set())
+
+    def test_the_log(self):
+        self.page.watch(log=True)
+        rospy.logwarn("a line for the page")
+        self.page.wait_for("log")
+
+        def found():
+            entries = [entry for log in self.page.of("log") for entry in log["entries"]]
+            return [entry for entry in entries if entry["text"] == "a line for the page"]
+
+        entry = wait_for(found, "line of the log")[0]
+        self.assertEqual((entry["level"], entry["node"]), ("WARN", rospy.get_name()))
+
+    def test_the_doctor(self):
+        self.page.say("doctor")
+        told = self.page.wait_for(
+            "doctor", lambda doctor: doctor["lines"] and not doctor["running"]
+        )
+        texts = [line["text"] for line in told["lines"]]
+        self.assertTrue(any(text.startswith("master") for text in texts), texts)
+        self.assertLessEqual({line["level"] for line in told["lines"]}, {"ok", "note", "wrong"})
+
+    def test_a_recording_drives_and_takes_the_seat(self):
+        self.page.watch(bag=True)
+        self.assertIn("joy.bag", self.page.wait_for("bags")["names"])
+        self.page.say("bag_open", name="joy.bag")
+        bag = self.page.wait_for("bag")
+        self.assertEqual(bag["topics"][0]["type"], "sensor_msgs/Joy")
+        self.assertIn("/joy/axes[1]", bag["curves"])
+        self.assertLess(len(json.dumps(bag)), 200_000)
+        self.page.say("bag_play", topic="/joy", rate=1.0, loop=True, robot="")
+        self.page.wait_for("seat", lambda seat: seat["how"] == "bag" and seat["yours"])
+        with SocketPage(self.rig.port) as other:
+            other.say("drive", robot="", mode="D")
+            other.wait_for("refused", lambda no: "somebody else drives" in no["why"])
+        wait_for(lambda: self.rig.moves, "robot that follows the recording")
+        when = time.time()
+        self.page.say("bag_pause")
+        self.rig.rest_after(when)
+        self.assertTrue(self.rig.stays_at_rest())
+        position = self.page.of("bag_at")[-1]["position"]
+        self.page.say("bag_seek", position=position + 1.0)
+        self.page.wait_for("bag_at", lambda at: abs(at["position"] - position - 1.0) < 0.01)
+
+    def test_a_reset_puts_the_robot_back(self):
+        self.page.watch(robots=True)
+        self.rig.drive(self.page)
+        self.page.say("leave")
+        self.rig.rest_after(time.time())
+        self.page.say("reset", robot="")
+        wait_for(lambda: self.page.of("robots")[-1]["robots"][""]["x"] == 0.0, "robot at its start")
+
+    def test_another_joystick_has_the_first_say(self):
+        self.rig.drive(self.page)
+        rival = rospy.Publisher("/joy", Joy, queue_size=1)
+        try:
+            wait_for(lambda: rival.publish(Joy()) or self.page.of("lost"), "loss of the seat")
+        finally:
+            rival.unregister()
+        self.assertIn(rospy.get_name(), self.page.of("lost")[0]["why"])
+
+
+if __name__ == "__main__":
+    rospy.init_node("cockpit_tabs")
+    rostest.rosrun("ros1_tutorial_test", "cockpit_tabs", Tabs)

@@ -1,0 +1,168 @@
+"""A Chromium that a test uses as a person does: looks, presses keys, touches glass."""
+
+import contextlib
+import json
+import os
+import shutil
+import signal
+import tempfile
+import time
+from pathlib import Path
+
+from selenium import webdriver
+from selenium.common.exceptions import WebDriverException
+from selenium.webdriver.chrome.options import Options
+from selenium.webdriver.chrome.service import Service
+from selenium.webdriver.common.by import By
+
+from tutorial_testing.waiting import wait_for
+
+ARGUMENTS = [
+    "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+    "--disable-background-networking", "--disable-component-update", "--disable-sync",
+]  # fmt: skip
+LONG_S = 60.0  # for a machine that is busy with much else
+# Key code -> name of the key and the number that Windows has for it.
+KEYS = {
+    "ShiftLeft": ("Shift", 16), "ArrowUp": ("ArrowUp", 38), "ArrowLeft": ("ArrowLeft", 37),
+    "ArrowRight": ("ArrowRight", 39), "Tab": ("Tab", 9), "Enter": ("Enter", 13),
+    "Escape": ("Escape", 27),
+}  # fmt: skip
+
+
+class Chromium:
+    """One browser with one page. A context manager that leaves nothing behind."""
+
+    def __init__(self, width=1280, height=800, touch=False):
+        self._folder = tempfile.mkdtemp()
+        options = Options()
+        options.binary_location = shutil.which("chromium")
+        for argument in (*ARGUMENTS, f"--window-size={width},{height}"):
+            options.add_argument(argument)
+        options.add_argument(f"--user-data-dir={self._folder}")
+        options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+        service = Service(shutil.which("chromedriver"))
+        self.driver = webdriver.Chrome(service=service, options=options)
+        metrics = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": touch}
+        self.send("Emulation.setDeviceMetricsOverride", **metrics)
+        if touch:
+            self.send("Emulation.setTouchEmulationEnabled", enabled=True, maxTouchPoints=5)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.kill()
+        with contextlib.suppress(WebDriverException, OSError):
+            self.driver.service.stop()
+        shutil.rmtree(self._folder, ignore_errors=True)
+
+    # -------------------------------------------------------------------------------- looking
+
+    def send(self, method, **parameters):
+        """A command of the Chrome DevTools Protocol."""
+        return self.driver.execute_cdp_cmd(method, parameters)
+
+    def open(self, address):
+        """Open the cockpit's page, and wait until it is connected."""
+        self.driver.get(address)
+        self.wait_for_text("#connection", "Connected")
+
+    def one(self, css):
+        """The element of a CSS selector."""
+        return self.driver.find_element(By.CSS_SELECTOR, css)
+
+    def all(self, css):
+        """All elements of a CSS selector."""
+        return self.driver.find_elements(By.CSS_SELECTOR, css)
+
+    def ask(self, expression):
+        """The value of a JavaScript expression."""
+        return self.driver.execute_script(f"return {expression}")
+
+    def text(self, css):
+        """The text of an element, seen or not; "" if it is not there."""
+        script = "return document.querySelector(arguments[0])?.textContent ?? ''"
+        return self.driver.execute_script(script, css)
+
+    def wait_for_text(self, css, text):
+        """Wait until an element has a text in it."""
+        try:
+            wait_for(lambda: text in self.text(css), text, LONG_S)
+        except AssertionError as error:
+            raise AssertionError(f"{error}; {css} says {self.text(css)!r}") from None
+
+    def by_role(self, role, name):
+        """The button or tab of a name, as a screen reader finds it."""
+        wanted = "button" if role == "button" else f"[role={role}]"
+        found = [one for one in self.all(wanted) if one.accessible_name == name]
+        assert len(found) == 1, f"{len(found)} {role}s are named {name!r}"
+        return found[0]
+
+    def click(self, name):
+        """Press the button of a name."""
+        self.by_role("button", name).click()
+
+    def tab(self, name):
+        """Choose a tab."""
+        self.by_role("tab", name).click()
+
+    def errors(self):
+        """What the console complained of since the last call."""
+        return [e["message"] for e in self.driver.get_log("browser") if e["level"] != "INFO"]
+
+    def requests(self):
+        """The addresses of all requests and WebSockets since the last call."""
+        entries = [json.loads(e["message"])["message"] for e in self.driver.get_log("performance")]
+        sent = [e["params"] for e in entries if e["method"] == "Network.requestWillBeSent"]
+        sockets = [e["params"] for e in entries if e["method"] == "Network.webSocketCreated"]
+        return [one["request"]["url"] for one in sent] + [one["url"] for one in sockets]
+
+    def save_picture(self, path):
+        """Save what is seen as a PNG file."""
+        Path(path).write_bytes(self.driver.get_screenshot_as_png())
+
+    # --------------------------------------------------------------------------------- hands
+
+    def key(self, kind, code, repeats=False):
+        """kind: "rawKeyDown" or "keyUp". repeats: as a key does that is held."""
+        name, number = KEYS[code]
+        self.send("Input.dispatchKeyEvent", type=kind, code=code, key=name,
+                  windowsVirtualKeyCode=number, autoRepeat=repeats)  # fmt: skip
+
+    def touch(self, kind, *points):
+        """kind: "touchStart", "touchMove", "touchEnd", "touchCancel". points: (x, y) [pixel]."""
+        fingers = [{"x": x, "y": y, "id": i} for i, (x, y) in enumerate(points)]
+        self.send("Input.dispatchTouchEvent", type=kind, touchPoints=fingers)
+
+    def middle(self, css):
+        """The middle of an element [pixel]."""
+        box = self.one(css).rect
+        return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+    # ------------------------------------------------------------------------------ processes
+
+    @property
+    def pids(self):
+        """The browser's processes; not those of chromedriver."""
+        mark = f"--user-data-dir={self._folder}".encode()
+        found = []
+        for process in Path("/proc").glob("[0-9]*"):
+            with contextlib.suppress(OSError):
+                command = (process / "cmdline").read_bytes()
+                if mark in command and b"chromedriver" not in command.split(b"\0")[0]:
+                    found.append(int(process.name))
+        return found
+
+    def signal(self, number):
+        """Send a signal to all of the browser; returns the time [s] just before."""
+        pids = self.pids
+        now = time.time()
+        for pid in pids:
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(pid, number)
+        return now
+
+    def kill(self):
+        """kill -9; returns the time [s] just before."""
+        return self.signal(signal.SIGKILL)

@@ -1,0 +1,115 @@
+"""Three ways to hold LB and push the stick in a page: keys, thumbs on glass, a gamepad."""
+
+import contextlib
+
+from selenium.common.exceptions import WebDriverException
+
+from tutorial_testing.waiting import wait_for
+
+LONG_S = 90.0  # for a machine that is busy with much else
+TRY_S = 5.0  # to hold all until the robot moves, before all is released and held again
+# A gamepad of the standard mapping in place of the browser's: no browser here has a real one.
+FAKE_GAMEPAD = """
+globalThis.fake = {plugged: true, frozen: false, held: false, at: 0};
+navigator.getGamepads = () => {
+  if (!fake.plugged) return [null];
+  if (!fake.frozen) fake.at = performance.now();
+  const lb = {pressed: fake.held, value: +fake.held}, up = {pressed: false, value: 0};
+  const buttons = [up, up, up, up, lb, ...Array(12).fill(up)];
+  return [{id: "fake", index: 0, connected: true, mapping: "standard", timestamp: fake.at,
+           axes: [0, fake.held ? -1 : 0, 0, 0], buttons}];
+};
+"""
+
+
+class Hands:
+    """hold() and release() at a page; drive() until the robot moves."""
+
+    touch = False  # whether the browser is to have a touch screen
+
+    def __init__(self, browser):
+        self.browser = browser
+
+    def prepare(self):
+        """Before the page is opened."""
+
+    def still_held(self):
+        """What goes on coming from hands that hold all, as after a return."""
+
+    def drive(self, world, until=None):
+        """Hold all, from all released, until the robot moves, or until a condition(). On a machine
+        that is busy with much else it may take more than one go: the server lets nobody drive whose
+        page is late.
+        """
+        until = until or (lambda: world.now.moves)
+
+        def once():
+            self.release()
+            world.wait_for_rest()
+            self.wait_until_released()
+            self.hold()
+            with contextlib.suppress(AssertionError):
+                return wait_for(until, "effect", TRY_S)
+            return False
+
+        wait_for(once, "robot that drives", LONG_S)
+
+    def wait_until_released(self):
+        """Wait until the server has seen that nothing is held, and lets this page drive."""
+        armed = "document.getElementById('seat').dataset.armed"
+        wait_for(lambda: self.browser.ask(armed) == "true", "all released", LONG_S)
+
+
+class Keys(Hands):
+    """Shift and the arrow up."""
+
+    codes = ("ShiftLeft", "ArrowUp")
+
+    def hold(self):
+        for code in self.codes:
+            self.browser.key("rawKeyDown", code)
+
+    def still_held(self):
+        for code in self.codes:
+            self.browser.key("rawKeyDown", code, repeats=True)
+
+    def release(self):
+        for code in self.codes:
+            self.browser.key("keyUp", code)
+
+
+class Thumbs(Hands):
+    """One on LB, the other on the stick."""
+
+    touch = True
+    down = False
+
+    def hold(self):
+        lb, (x, y) = self.browser.middle("#lb"), self.browser.middle("#stick")
+        self.browser.touch("touchStart", lb)
+        self.browser.touch("touchStart", lb, (x, y))
+        self.browser.touch("touchMove", lb, (x, y - 70))
+        self.down = True
+
+    def release(self):
+        if self.down:
+            with contextlib.suppress(WebDriverException):  # they may have been cancelled
+                self.browser.touch("touchEnd")
+        self.down = False
+
+
+class Gamepad(Hands):
+    """A gamepad, which JavaScript plays."""
+
+    def prepare(self):
+        self.browser.send("Page.addScriptToEvaluateOnNewDocument", source=FAKE_GAMEPAD)
+
+    def set(self, **values):
+        script = "Object.assign(fake, arguments[0])"
+        self.browser.driver.execute_script(script, values)
+
+    def hold(self):
+        self.set(held=True)
+
+    def release(self):
+        self.set(held=False)

@@ -1,0 +1,131 @@
+"""A page of the cockpit without a browser: it speaks over a WebSocket, in a thread of its own."""
+
+import asyncio
+import contextlib
+import json
+import threading
+import time
+
+from tornado.httpclient import HTTPClientError, HTTPRequest
+from tornado.websocket import WebSocketClosedError, websocket_connect
+
+from tutorial_testing.waiting import wait_for
+
+PERIOD_S = 0.05
+REST = ([0.0] * 6, [0] * 12)
+DRIVE = ([0.0, 1.0, 0.0, 0.0, 0.0, 0.0], [0, 0, 0, 0, 1] + [0] * 7)
+LOOK = {
+    "robots": False, "look": None, "graph": False, "topic": None, "node": None, "fields": [],
+    "field_list": False, "log": False, "bag": False,
+}  # fmt: skip
+
+
+class SocketPage:
+    """A context manager; while hand is not None, that position is sent as a page does."""
+
+    def __init__(self, port, token=None, **headers):
+        self._address = f"127.0.0.1:{port}"
+        self._query = f"?token={token}" if token else ""
+        self._headers = {"Origin": f"http://{self._address}", **headers}
+        self.messages = []  # all that came but beats
+        self.refusal = None  # HTTP status, where the WebSocket was refused
+        self.hand = None
+        self.pad = None  # called for the timestamp of a gamepad
+        self.sees_beats = True
+        self.delay_s = 0.0  # by which what is said is older
+        self._beat, self._n = 0, 0
+        self._socket = None
+        self._loop = asyncio.new_event_loop()
+        self._thread = threading.Thread(target=self._loop.run_forever, daemon=True)
+
+    def __enter__(self):
+        self._thread.start()
+        asyncio.run_coroutine_threadsafe(self._connect(), self._loop).result(30)
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+        self._loop.call_soon_threadsafe(self._loop.stop)
+        self._thread.join()
+
+    async def _connect(self):
+        request = HTTPRequest(f"ws://{self._address}/ws{self._query}", headers=self._headers)
+        try:
+            self._socket = await websocket_connect(request)
+        except HTTPClientError as error:
+            self.refusal = error.code
+            return
+        self._tasks = [asyncio.ensure_future(self._read()), asyncio.ensure_future(self._send())]
+
+    async def _read(self):
+        while True:
+            text = await self._socket.read_message()
+            if text is None:
+                self.messages.append({"kind": "closed"})
+                return
+            message = json.loads(text)
+            if message["kind"] != "beat":
+                self.messages.append(message)
+            elif self.sees_beats:
+                self._beat = message["n"]
+
+    async def _send(self):
+        while True:
+            if self.hand is not None:
+                self._write(self.input(*self.hand))
+            await asyncio.sleep(PERIOD_S)
+
+    def _write(self, fields):
+        self._write_text(json.dumps(fields))
+
+    def _write_text(self, text):
+        with contextlib.suppress(WebSocketClosedError):
+            sent = self._socket.write_message(text)
+            sent.add_done_callback(lambda done: done.exception())  # it may be closed meanwhile
+
+    def input(self, axes, buttons):
+        """The next input, as a dict."""
+        self._n += 1
+        return {
+            "kind": "input", "n": self._n, "t": 1000 * (time.monotonic() - self.delay_s),
+            "beat": self._beat, "axes": axes, "buttons": buttons,
+            "pad": self.pad() if self.pad else None, "source": "pad" if self.pad else "keys",
+        }  # fmt: skip
+
+    def say(self, kind, **fields):
+        """Send a message."""
+        self._loop.call_soon_threadsafe(self._write, {"kind": kind, **fields})
+
+    def say_raw(self, data):
+        """Send anything."""
+        self._loop.call_soon_threadsafe(self._write_text, data)
+
+    def watch(self, **fields):
+        """Look at something."""
+        self.say("watch", **{**LOOK, **fields})
+
+    def close(self):
+        """As a tab that is closed."""
+        if self._socket:
+            self._loop.call_soon_threadsafe(self._socket.close)
+
+    def of(self, kind):
+        """All messages of a kind so far."""
+        return [message for message in list(self.messages) if message["kind"] == kind]
+
+    def wait_for(self, kind, fits=lambda message: True):
+        """The first message of a kind that fits."""
+        return wait_for(lambda: next(filter(fits, self.of(kind)), None), f"message {kind}")
+
+    def sit_down(self, robot=""):
+        """Take the seat, release all, until that was seen."""
+        count = len(self.of("seat"))
+        self.say("drive", robot=robot, mode="D")
+        self.hand = REST
+        try:
+            wait_for(
+                lambda: any(seat["yours"] and seat["armed"] for seat in self.of("seat")[count:]),
+                "seat that is armed",
+            )
+        except AssertionError as error:
+            raise AssertionError(f"{error}: {self.messages[-10:]}") from None

@@ -1,0 +1,115 @@
+"""What pages may say."""
+
+import json
+import random
+
+import pytest
+
+from cockpit_server.schema import LONGEST_MESSAGE, MESSAGES, check_lengths, check_message
+
+GOOD = {
+    "watch": {
+        "robots": True, "look": None, "graph": False, "topic": "/odom", "node": None,
+        "fields": ["/odom/pose/pose/position/x"], "field_list": False, "log": True, "bag": False,
+    },
+    "drive": {"robot": "", "mode": "D"},
+    "leave": {},
+    "hand_over": {"to": 3},
+    "input": {
+        "n": 1, "t": 12.5, "beat": 0, "axes": [0, 1, -1.0, 0, 0, 0], "buttons": [0] * 12,
+        "pad": None, "source": "keys",
+    },
+    "release": {"why": "hidden"},
+    "reset": {"robot": "robot_1"},
+    "bag_open": {"name": "joy.bag"},
+    "bag_play": {"topic": "/joy", "rate": 1, "loop": False, "robot": ""},
+    "bag_pause": {},
+    "bag_seek": {"position": 3.5},
+    "doctor": {},
+}  # fmt: skip
+WRONG = (None, True, -1, 1.5, 2**60, 1e300, "x" * 300, "a\nb", [], {}, [[]], [None] * 21)
+
+
+def say(kind, **fields):
+    return json.dumps({"kind": kind, **fields})
+
+
+def test_every_kind_has_an_example():
+    assert set(GOOD) == set(MESSAGES)
+
+
+@pytest.mark.parametrize("kind", MESSAGES)
+def test_what_is_good_is_taken(kind):
+    assert check_message(say(kind, **GOOD[kind]))[0] == kind
+
+
+@pytest.mark.parametrize("kind", MESSAGES)
+def test_a_missing_or_unknown_field_is_refused(kind):
+    for name in GOOD[kind]:
+        less = {field: value for field, value in GOOD[kind].items() if field != name}
+        with pytest.raises(ValueError, match=f"{kind} lacks {name}"):
+            check_message(say(kind, **less))
+    with pytest.raises(ValueError, match="has no field 'more'"):
+        check_message(say(kind, **GOOD[kind], more=1))
+
+
+@pytest.mark.parametrize("kind", MESSAGES)
+def test_each_field_has_bounds(kind):
+    for name in GOOD[kind]:
+        refused = 0
+        for value in WRONG:
+            try:
+                check_message(say(kind, **{**GOOD[kind], name: value}))
+            except ValueError as error:
+                assert len(str(error)) < 200 and "\n" not in str(error)
+                refused += 1
+        assert refused >= len(WRONG) / 2, name
+
+
+@pytest.mark.parametrize(
+    "axes",
+    [[1.01], [-2], ["0"], [True], [None], [0] * 9, [float("nan")], [float("inf")], 1, "0"],
+)
+def test_axes_are_few_numbers_from_minus_one_to_one(axes):
+    with pytest.raises(ValueError, match="axes"):
+        check_message(say("input", **{**GOOD["input"], "axes": axes}))
+
+
+@pytest.mark.parametrize("buttons", [[2], [-1], [True], [0.5], [0] * 13, "1"])
+def test_buttons_are_few_zeros_and_ones(buttons):
+    with pytest.raises(ValueError, match="buttons"):
+        check_message(say("input", **{**GOOD["input"], "buttons": buttons}))
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        b"{}", "", "null", "[]", "{", "1", '{"kind": 1}', '{"kind": "publish"}', "[" * 5000,
+        '{"kind": "leave"' + " " * LONGEST_MESSAGE + "}", '{"kind": ["leave"]}', '"leave"',
+    ],
+)  # fmt: skip
+def test_what_is_no_message_is_refused(data):
+    with pytest.raises(ValueError, match="message"):
+        check_message(data)
+
+
+def test_random_changes_are_taken_or_refused_and_nothing_else():
+    dice = random.Random(1)
+    for _ in range(3000):
+        kind = dice.choice(list(GOOD))
+        letters = list(say(kind, **GOOD[kind]))
+        for _ in range(dice.randrange(1, 4)):
+            letters[dice.randrange(len(letters))] = dice.choice('{}[]":,0e-x\\')
+        try:
+            check_message("".join(letters))
+        except ValueError as error:
+            assert len(str(error)) < 300
+
+
+def test_as_many_axes_and_buttons_as_the_gamepad_has():
+    check_lengths(("D",), (0,) * 6, (0,) * 12)
+    check_lengths(("X",), (0,) * 8, (0,) * 11)
+    for mode, axes, buttons in (("D", 8, 11), ("X", 6, 12), ("D", 0, 0), ("D", 6, 11)):
+        with pytest.raises(ValueError, match=f"{mode} mode has"):
+            check_lengths((mode,), (0,) * axes, (0,) * buttons)
+    check_lengths(("D", "X"), (0,) * 8, (0,) * 11)

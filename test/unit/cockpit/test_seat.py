@@ -1,0 +1,303 @@
+"""The seat: who drives, and when the operator is lost. Times are numbers; nothing waits."""
+
+import pytest
+
+from cockpit_server.seat import (
+    AWAY_S,
+    BAG,
+    FROZEN_S,
+    LATE_S,
+    PAGE,
+    SILENCE_S,
+    Input,
+    RefusedError,
+    Seat,
+    is_neutral,
+    neutral_of,
+)
+
+ANNA, BOB = 1, 2
+AXES, LB = 6, 4
+REST = ((0.0,) * 6, (0,) * 12)
+DRIVE = ((0.0, 1.0, 0.0, 0.0, 0.0, 0.0), (0,) * LB + (1,) + (0,) * 7)
+PERIOD_S = 0.05
+
+
+class Room:
+    """A seat, the pages around it, and a clock that is a number."""
+
+    def __init__(self):
+        self.sent, self.lost = [], []
+        self.seat = Seat(
+            lambda robot, axes, buttons: self.sent.append((robot, axes, buttons)),
+            lambda client, why: self.lost.append((client, why)),
+        )
+        self.now, self.n, self.beats = 100.0, 0, 0
+
+    def pass_time(self, seconds):
+        """Silence of the page, while the server goes on beating and looking at the time."""
+        end = self.now + seconds
+        while self.now < end - 1e-9:
+            self.now = min(end, self.now + PERIOD_S / 5)
+            self.beat()
+            self.seat.tick(self.now)
+
+    def beat(self):
+        self.beats += 1
+        self.seat.beat(self.beats, self.now)
+
+    def say(self, position, client=ANNA, *, delay_s=0.0, beat=None, n=None, pad=None):
+        """One input that was on its way for some time."""
+        self.now += PERIOD_S
+        self.beat()
+        self.n += 1
+        self.seat.input(
+            client,
+            Input(
+                n=self.n if n is None else n,
+                t=1000 * (self.now - 50.0 - delay_s),  # the page's clock began 50 s later
+                beat=self.beats if beat is None else beat,
+                axes=position[0],
+                buttons=position[1],
+                pad=pad,
+            ),
+            self.now,
+        )
+        self.seat.tick(self.now)
+
+    def drive(self):
+        """Sit down, release, hold LB and the stick."""
+        self.seat.take(ANNA, "ada", PAGE, self.now)
+        self.beat()
+        self.say(REST)
+        self.say(DRIVE)
+        assert self.sent[-1] == ("ada", *DRIVE)
+        self.sent.clear()
+
+
+@pytest.fixture
+def room():
+    return Room()
+
+
+def assert_stopped_until_released(room):
+    """One neutral message, then silence, whatever the hand does; LB released, and it drives."""
+    assert room.sent == [("ada", *REST)]
+    room.sent.clear()
+    for _ in range(10):
+        room.say(DRIVE)
+    assert room.sent == []
+    room.say(REST)
+    room.say(DRIVE)
+    assert room.sent == [("ada", *REST), ("ada", *DRIVE)]
+
+
+def test_every_fresh_input_is_published_at_once(room):
+    room.drive()
+    for _ in range(3):
+        room.say(DRIVE)
+    assert room.sent == 3 * [("ada", *DRIVE)]
+
+
+def test_nothing_before_all_was_seen_released(room):
+    room.seat.take(ANNA, "ada", PAGE, room.now)
+    for _ in range(5):
+        room.say(DRIVE)
+    assert room.sent == []
+
+
+def test_silence_is_a_loss(room):
+    room.drive()
+    room.pass_time(SILENCE_S - 0.01)
+    assert room.sent == []
+    room.pass_time(0.03)
+    assert room.lost == [(ANNA, "nothing came from the page for 0.2 s")]
+    assert_stopped_until_released(room)
+
+
+def test_a_silence_that_no_tick_noticed_is_noticed_by_the_next_input(room):
+    room.drive()
+    room.now += 1.0
+    room.say(DRIVE)
+    assert_stopped_until_released(room)
+
+
+def test_what_the_page_says_of_itself_is_a_loss(room):
+    room.drive()
+    room.seat.release(ANNA, "hidden")
+    assert room.lost == [(ANNA, "hidden")]
+    assert_stopped_until_released(room)
+
+
+def test_another_page_cannot_have_the_driver_lost(room):
+    room.drive()
+    room.seat.release(BOB, "hidden")
+    room.seat.leave(BOB)
+    room.seat.gone(BOB)
+    assert (room.sent, room.lost, room.seat.driver) == ([], [], ANNA)
+
+
+def test_a_page_that_is_closed_loses_the_seat(room):
+    room.drive()
+    room.seat.gone(ANNA)
+    assert room.sent == [("ada", *REST)]
+    assert room.seat.driver is None
+    room.say(DRIVE)
+    assert room.sent == [("ada", *REST)]
+
+
+def test_a_page_that_is_away_loses_the_seat_after_a_while(room):
+    room.drive()
+    room.pass_time(AWAY_S - 0.1)
+    assert room.seat.driver == ANNA
+    room.pass_time(0.2)
+    assert room.seat.driver is None
+    assert room.sent == [("ada", *REST)]  # one, at the loss
+
+
+def test_late_input_is_dropped_and_is_no_sign_of_life(room):
+    room.drive()
+    for i in range(6):  # as from a queue: each is older
+        room.say(DRIVE, delay_s=LATE_S + 0.01 + PERIOD_S * i)
+    assert room.sent == [("ada", *REST)]
+    assert len(room.lost) == 1
+
+
+def test_input_that_is_a_little_late_is_taken(room):
+    room.drive()
+    room.say(DRIVE, delay_s=LATE_S - 0.01)
+    assert room.sent == [("ada", *DRIVE)]
+
+
+def test_a_page_that_sees_no_beats_is_lost(room):
+    room.drive()
+    seen = room.beats
+    for _ in range(6):
+        room.say(DRIVE, beat=seen)
+    fresh = int(SILENCE_S / PERIOD_S)
+    assert room.sent[:fresh] == fresh * [("ada", *DRIVE)]
+    room.pass_time(SILENCE_S)
+    assert room.sent[fresh:] == [("ada", *REST)]
+
+
+def test_a_beat_that_was_never_sent_is_no_sign_of_life(room):
+    room.drive()
+    room.say(DRIVE, beat=room.beats + 1000)
+    assert room.sent == []
+
+
+def test_an_input_counts_once(room):
+    room.drive()
+    room.say(DRIVE)
+    room.say(DRIVE, n=room.n)
+    room.say(DRIVE, n=room.n - 2)
+    assert room.sent == [("ada", *DRIVE)]
+
+
+def test_clocks_that_drift_are_no_delay(room):
+    room.drive()
+    for _ in range(4000):
+        room.say(DRIVE, delay_s=2e-4 * (room.now - 100.0))  # 200 ppm, in 200 s 40 ms
+    assert room.lost == []
+
+
+def test_a_pad_that_stands_still_is_a_loss(room):
+    room.drive()
+    for i in range(10):
+        room.say(DRIVE, pad=1000.0 + i)
+    room.sent.clear()
+    for _ in range(int(FROZEN_S / PERIOD_S) + 2):
+        room.say(DRIVE, pad=1009.0)
+    assert room.lost == [(ANNA, "the gamepad stands still: it is frozen or out of reach")]
+    assert room.sent[-1] == ("ada", *REST)
+
+
+def test_a_pad_that_nobody_touches_may_stand_still(room):
+    room.drive()
+    room.say(REST, pad=1000.0)
+    for _ in range(100):
+        room.say(REST, pad=1000.0)
+    assert room.lost == []
+
+
+def test_a_second_driver_is_refused_and_the_first_goes_on(room):
+    room.drive()
+    with pytest.raises(RefusedError, match="somebody else drives"):
+        room.seat.take(BOB, "ada", PAGE, room.now)
+    room.say(DRIVE, client=BOB)
+    assert room.sent == []
+    room.say(DRIVE)
+    assert room.sent == [("ada", *DRIVE)]
+
+
+def test_a_hand_over_stops_the_robot_and_wants_the_new_hand_released(room):
+    room.drive()
+    room.seat.hand_over(ANNA, BOB, room.now)
+    assert room.seat.driver == BOB and room.seat.robot == "ada"
+    assert room.sent == [("ada", *REST)]
+    room.n = 0
+    room.say(DRIVE, client=BOB)
+    room.say(DRIVE, client=ANNA)
+    assert room.sent == [("ada", *REST)]
+    room.say(REST, client=BOB)
+    room.say(DRIVE, client=BOB)
+    assert room.sent[1:] == [("ada", *REST), ("ada", *DRIVE)]
+
+
+def test_only_who_drives_hands_over(room):
+    room.drive()
+    with pytest.raises(RefusedError):
+        room.seat.hand_over(BOB, BOB, room.now)
+    assert room.seat.driver == ANNA
+
+
+def test_another_robot_leaves_the_first_one_at_rest(room):
+    room.drive()
+    room.seat.take(ANNA, "bob", PAGE, room.now)
+    assert room.sent == [("ada", *REST)]
+
+
+def test_standing_up_leaves_the_robot_at_rest(room):
+    room.drive()
+    room.seat.leave(ANNA)
+    assert room.sent == [("ada", *REST)]
+    assert room.seat.driver is None and room.lost == []
+
+
+def test_the_end_of_the_server(room):
+    room.drive()
+    room.seat.end()
+    room.say(REST)
+    room.say(DRIVE)
+    assert room.sent == [("ada", *REST)]
+    with pytest.raises(RefusedError, match="shut down"):
+        room.seat.take(ANNA, "ada", PAGE, room.now)
+
+
+def test_a_recording_takes_the_same_place(room):
+    room.seat.take(ANNA, "ada", BAG, room.now)
+    room.seat.play(*DRIVE)
+    room.say(DRIVE)  # a hand beside it has no say
+    assert room.sent == [("ada", *DRIVE)]
+    with pytest.raises(RefusedError):
+        room.seat.take(BOB, "ada", PAGE, room.now)
+    room.seat.release(ANNA, "hidden")
+    room.seat.play(*DRIVE)
+    assert room.sent == [("ada", *DRIVE), ("ada", *REST)]
+    assert room.seat.driver is None
+
+
+def test_a_recording_needs_no_beats(room):
+    room.seat.take(ANNA, "ada", BAG, room.now)
+    room.pass_time(2 * AWAY_S)
+    assert room.seat.driver == ANNA
+
+
+def test_neutral_of_x_mode_has_its_triggers_at_one():
+    axes, buttons = neutral_of((0.0, 1.0, 1.0, 0.0, 0.0, -1.0, 0.0, 0.0), (1,) * 11)
+    assert axes == (0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0)
+    assert buttons == (0,) * 11
+    assert is_neutral(axes, buttons)
+    assert not is_neutral((0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0), buttons)  # RT half pulled
+    assert not is_neutral(*DRIVE)
+    assert is_neutral((0.09,) * 6, (0,) * 12)

@@ -1,0 +1,197 @@
+"""Fields, curves, the graph, clients and words: what goes to pages."""
+
+import json
+import struct
+from io import BytesIO
+from math import pi
+
+import pytest
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from geometry_msgs.msg import Quaternion
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import Joy
+
+from cockpit_server.access import DRIVER, VIEWER
+from cockpit_server.clients import LONGEST_FLOOD, Client, encoded, name_of
+from cockpit_server.doctor import shown
+from cockpit_server.fields import numeric_fields, parts_of, split, value_at
+from cockpit_server.graph import Graph, without
+from cockpit_server.motion import motion
+from cockpit_server.plots import class_of, fields_of
+from cockpit_server.recording import RecordingError, corners, curves, read
+from cockpit_server.resets import reset_service
+from cockpit_server.seat import RefusedError
+from cockpit_server.teleop import said
+
+
+def serialised(message):
+    buffer = BytesIO()
+    message.serialize(buffer)
+    return buffer.getvalue()
+
+
+def client(role=DRIVER):
+    sent = []
+    no, close = lambda: False, lambda: sent.append("closed")
+    return sent, Client(7, role, "x", sent.append, is_behind=no, is_cut=no, close=close)
+
+
+def test_numbers_in_messages():
+    fields = fields_of("nav_msgs/Odometry")
+    assert "pose/pose/position/x" in fields and "header/stamp" in fields
+    assert "pose/covariance[0]" in fields and "pose/covariance[12]" not in fields
+    assert "header/frame_id" not in fields
+    assert "axes[0]" in fields_of("sensor_msgs/Joy")
+    assert "transforms[0]/transform/rotation/w" in fields_of("tf2_msgs/TFMessage")
+    assert fields_of("no_such/Type") == ()
+    assert list(numeric_fields(class_of("std_msgs/String"), class_of)) == []
+
+
+def test_a_number_by_its_name():
+    odometry = Odometry()
+    odometry.pose.pose.position.x = 1.5
+    odometry.header.stamp.secs = 3
+    assert value_at(odometry, parts_of("pose/pose/position/x")) == 1.5
+    assert value_at(odometry, parts_of("header/stamp")) == 3.0
+    assert value_at(Joy(axes=[0.5, 0.25]), parts_of("axes[1]")) == 0.25
+    for nothing in ("axes[2]", "axes", "nothing", "serialize", "header/frame_id"):
+        assert value_at(Joy(axes=[0.5, 0.25]), parts_of(nothing)) is None
+
+
+@pytest.mark.parametrize(
+    "field", ["", "a b", "a//b", "a[-1]", "a[1", "a.b", "/".join("a" * 9), "__class__"]
+)
+def test_what_is_no_field(field):
+    with pytest.raises(ValueError, match="is no field"):
+        parts_of(field)
+
+
+def test_the_topic_of_a_field():
+    topics = ["/a", "/a/b", "/c"]
+    assert split("/a/b/x", topics) == ("/a/b", "x")
+    assert split("/a/x", topics) == ("/a", "x")
+    with pytest.raises(ValueError, match="no topic"):
+        split("/d/x", topics)
+
+
+def test_the_motion_of_an_odometry():
+    odometry = Odometry()
+    odometry.header.frame_id, odometry.child_frame_id = "robot_1/odom", "robot_1/base_footprint"
+    odometry.pose.pose.position.x, odometry.pose.pose.position.y = 1.0, -2.0
+    odometry.pose.pose.orientation = Quaternion(0.0, 0.0, 1.0, 0.0)
+    odometry.twist.twist.linear.x, odometry.twist.twist.angular.z = 0.5, -0.25
+    assert motion(serialised(odometry)) == (1.0, -2.0, pi, 0.5, -0.25)
+    with pytest.raises(struct.error):
+        motion(serialised(odometry)[:200])
+
+
+GRAPH = Graph(
+    publishers={"/odom": {"/sim"}, "/robot_1/odom": {"/room"}, "/robot_2/odom": {"/room"}},
+    subscribers={"/odom": {"/rviz"}, "/real/joy": {"/joy2twist"}},
+    services={"/sim/reset": {"/sim"}, "/room/reset": {"/room"}, "/robot_2/reset": {"/room"}},
+    types={
+        "/odom": "nav_msgs/Odometry", "/robot_1/odom": "nav_msgs/Odometry",
+        "/robot_2/odom": "std_msgs/String", "/real/joy": "sensor_msgs/Joy",
+    },
+)  # fmt: skip
+
+
+def test_robots_have_an_odometry_or_hear_a_joystick():
+    assert GRAPH.robots_with_odometry() == {"", "robot_1"}
+    assert GRAPH.robots() == {"", "robot_1", "real"}
+
+
+def test_a_node_and_whom_it_speaks_to():
+    about = GRAPH.about_node("/sim")
+    assert about["speaks_to"] == ["/rviz"]
+    assert (about["publishes"], about["services"]) == (["/odom"], ["/sim/reset"])
+    assert {"from": "topic /odom", "to": "node /rviz"} in GRAPH.parts()["edges"]
+
+
+def test_the_cockpit_is_no_part_of_the_graph():
+    column = [["/joy", ["/cockpit", "/joy_node"]], ["/robot/joy", ["/cockpit"]]]
+    assert without("/cockpit", column) == {"/joy": {"/joy_node"}}
+
+
+def test_a_reset_is_of_one_robot():
+    assert reset_service(GRAPH, "") == "/sim/reset"
+    assert reset_service(GRAPH, "robot_2") == "/robot_2/reset"
+    with pytest.raises(RefusedError, match="robot_1 has no service"):
+        reset_service(GRAPH, "robot_1")  # the node's own would reset both
+
+
+def test_what_joy2twist_says():
+    array = DiagnosticArray()
+    for name, words in (
+        ("myjoystick2twist: joystick", "driving"),
+        ("robot_1/myjoystick2twist: joystick", "stopped: not armed, release the sticks"),
+        ("fake_turtlebot: simulation", "running"),
+    ):
+        array.status.append(DiagnosticStatus(name=name, message=words, level=1))
+    told = dict(said(serialised(array)))
+    assert set(told) == {"", "robot_1"}
+    assert told[""]["state"] == "driving"
+    assert told["robot_1"]["state"] == "stopped" and told["robot_1"]["why"].endswith("sticks")
+    assert said(b"bytes that are none: joystick") == []
+
+
+def test_lines_of_the_doctor():
+    assert shown("ok       master    answers\n") == {"level": "ok", "text": "master    answers"}
+    assert shown("wrong    topics    nobody")["level"] == "wrong"
+    assert shown("unknown  joystick  none") == {"level": "note", "text": "joystick  none"}
+    summary = shown("doctor: 1 ok, 0 wrong, 0 unknown\n")
+    assert summary == {"level": "note", "text": "doctor: 1 ok, 0 wrong, 0 unknown"}
+
+
+def test_curves_keep_their_corners():
+    assert corners([[0, 1], [1, 1], [2, 1], [3, 2], [4, 1]]) == [[0, 1], [2, 1], [3, 2], [4, 1]]
+    assert corners([[0, 1]]) == [[0, 1]] and corners([]) == []
+    joys = {"/joy": [(0.0, (0.0, 1.0), (0,)), (0.5, (0.5, 1.0), (1,))]}
+    assert curves(joys)["/joy/axes[0]"] == [[0.0, 0.0], [0.5, 0.5]]
+    assert set(curves(joys)) == {"/joy/axes[0]", "/joy/axes[1]", "/joy/buttons[0]"}
+
+
+def test_a_recording_that_is_none(tmp_path):
+    (tmp_path / "x.bag").write_text("no bag")
+    for name in ("x.bag", "nothing.bag"):
+        with pytest.raises(RecordingError, match=name):
+            read(tmp_path / name)
+
+
+def test_names_of_pages():
+    agent = "Mozilla/5.0 (Linux; Android 14) AppleWebKit/537 Chrome/120 Safari/537"
+    assert name_of(agent, "10.0.0.5") == "Chromium on Android, 10.0.0.5"
+    assert name_of("", "::1") == "a program, ::1"
+
+
+def test_a_message_is_json_without_infinity():
+    assert json.loads(encoded("x", y=1)) == {"kind": "x", "y": 1}
+    with pytest.raises(ValueError):
+        encoded("x", y=float("inf"))
+
+
+def test_a_client_gets_each_version_once():
+    _, one = client()
+    assert one.lacks("seat", 1) and not one.lacks("seat", 1) and one.lacks("seat", 2)
+
+
+def test_a_viewer_may_not_drive():
+    client(DRIVER)[1].must_drive()
+    with pytest.raises(RefusedError, match="only look"):
+        client(VIEWER)[1].must_drive()
+
+
+def test_a_flood_is_dropped_and_then_closed():
+    sent, one = client()
+    taken = sum(one.allows(100.0) for _ in range(LONGEST_FLOOD))
+    assert taken < 300 and sent == []
+    while not sent:
+        one.allows(100.0)
+    assert sent == ["closed"]
+
+
+def test_refusals_are_told_but_not_without_end():
+    sent, one = client()
+    for _ in range(1000):
+        one.refuse("drive", "no", 100.0)
+    assert 0 < len(sent) <= 10

@@ -1,0 +1,48 @@
+"""What join says before it starts anything."""
+
+import pytest
+
+from node_kit.questions import Answer
+from tutorial_tools.join import program
+from tutorial_tools.join.program import JoinError, check_host, check_master, check_robot
+
+
+def test_a_host_that_is_none():
+    for host in ("http://10.0.0.1:11311", "a b", "", "host:x"):
+        with pytest.raises(JoinError, match="must be a name or an address"):
+            check_host(host)
+
+
+def test_this_machine_needs_no_way_out():
+    assert check_host("127.0.0.1") == ("http://127.0.0.1:11311", "127.0.0.1")
+    assert check_host("127.0.0.1:11999") == ("http://127.0.0.1:11999", "127.0.0.1")
+
+
+def test_a_name_that_nobody_knows(monkeypatch):
+    monkeypatch.setattr(program, "addresses", lambda name: [])
+    with pytest.raises(JoinError, match="cannot be looked up"):
+        check_host("teacher")
+
+
+def test_no_master_there(monkeypatch):
+    monkeypatch.setattr(program, "call", lambda *_: (Answer.REFUSED, None))
+    with pytest.raises(JoinError, match="has the teacher started"):
+        check_master("http://10.0.0.1:11311", "10.0.0.2")
+
+
+def test_a_master_that_does_not_reach_us(monkeypatch):
+    monkeypatch.setattr(program, "call", lambda *_: (Answer.WELL, 1))
+    monkeypatch.setattr(program, "is_called_back", lambda *_: False)
+    with pytest.raises(JoinError, match=r"does not reach this machine at 10\.0\.0\.2"):
+        check_master("http://10.0.0.1:11311", "10.0.0.2")
+
+
+def test_which_robots_there_are(monkeypatch):
+    publishers = [["/robot_2/cmd_vel", ["/robot_2/myjoystick2twist"]]]
+    subscribers = [["/robot_1/cmd_vel", ["/classroom"]], ["/robot_2/cmd_vel", ["/classroom"]]]
+    monkeypatch.setattr(program, "call", lambda *_: (Answer.WELL, [publishers, subscribers, []]))
+    check_robot("http://10.0.0.1:11311", "robot_1")
+    with pytest.raises(JoinError, match="there are robot_1, robot_2"):
+        check_robot("http://10.0.0.1:11311", "robot_7")
+    with pytest.raises(JoinError, match="driven already, by /robot_2/myjoystick2twist"):
+        check_robot("http://10.0.0.1:11311", "robot_2")
