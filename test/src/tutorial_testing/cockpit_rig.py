@@ -40,7 +40,11 @@ class CockpitRig:
             rospy.Subscriber(f"{prefix}/odom", Odometry, self._on_odometry, queue_size=1000),
             rospy.Subscriber(f"{prefix}/joy", Joy, self._on_joy, queue_size=1000),
         ]
-        self.start()
+        try:
+            self.start()
+        except BaseException:
+            self.__exit__()
+            raise
         return self
 
     def __exit__(self, *_):
