@@ -63,7 +63,7 @@ def examine(workspace, floor, exercises, tell=lambda outcome, result: None, only
         shutil.rmtree(folder, ignore_errors=True)
 
 
-@functools.cache
+@functools.lru_cache(maxsize=None)
 def _environment(floor):
     """What a shell has that has sourced setup.bash of the floor, and nothing else. Raises CannotCheck."""
     try:

@@ -55,5 +55,10 @@ class Forked:
         if self.returncode is None:
             pid, status = os.waitpid(self.pid, options)
             if pid:
-                self.returncode = os.waitstatus_to_exitcode(status)
+                self.returncode = _exit_code(status)
         return self.returncode
+
+
+def _exit_code(status):
+    """As subprocess has it: minus the signal that ended it, if one did."""
+    return -os.WTERMSIG(status) if os.WIFSIGNALED(status) else os.WEXITSTATUS(status)
