@@ -43,10 +43,6 @@ class Moment(int):
             return (int(self) - int(other)) / 1e6
         return self + -other
 
-    def __rsub__(self, other):
-        """The seconds until some other time."""
-        return math.inf if other == math.inf else Moment(round(other * 1e6)) - self
-
 
 PLAIN = (bool, int, float, str, tuple, type(None), Moment)
 
