@@ -61,7 +61,7 @@ def test_numbers_are_held_to_their_range(name):
     least, most, unit = RANGES[name]
     for value in (least, most):
         assert getattr(parse_parameters({name: value}), name) == value
-    for value in (least - 1e-3, most * 1.01, nan, inf, -inf, "1", True, None, [1.0]):
+    for value in (least - 1e-3, most + 1e-3, most * 1.01, nan, inf, -inf, "1", True, None, [1.0]):
         message = message_of({name: value})
         allowed = f"a number from {least:g} to {most:g} {unit}"
         assert message == f"~{name}: {value!r}: must be {allowed}"
@@ -142,6 +142,16 @@ def test_robots_that_are_lined_up_do_not_touch():
     places = list(line_up(range(35)).values())
     assert len(set(places)) == 35
     assert places[0] == (0.0, 0.0, 0.0)
+    assert places[9] == (0.0, -9.0, 0.0)
+    assert places[10] == (-1.0, 0.0, 0.0)
+    assert places[34] == (-3.0, -4.0, 0.0)
+
+
+def test_the_most_robots():
+    assert len(parse_parameters({"robots": 1000}).start_poses()) == 1000
+    names = [f"r{k}" for k in range(1000)]
+    assert list(parse_parameters({"robots": names}).start_poses()) == names
+    assert list(parse_parameters({"robots": 1}).start_poses()) == ["robot_1"]
 
 
 def test_noise_depends_on_the_name_and_the_seed_alone():

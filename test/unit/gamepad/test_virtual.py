@@ -212,6 +212,18 @@ def test_a_script_is_followed_in_time():
     assert source.at(14.0) is None
 
 
+def test_a_move_may_last_a_day_and_has_every_position():
+    move = {
+        "for": 86400, "left_stick": [-1, 1], "right_stick": [1, -1], "dpad": [-1, 1],
+        "triggers": [0, 1], "held": ["A"], "mode_led": True, "plugged": True,
+    }  # fmt: skip
+    ((duration, controls),) = load_script({"mode": "X", "moves": [move]}).moves
+    assert duration == 86400.0
+    assert controls == Controls(
+        (-1, 1), (1, -1), (-1, 1), (0, 1), frozenset(["A"]), mode_led=True, plugged=True
+    )
+
+
 def test_a_looped_script_begins_again():
     script = load_script({"mode": "X", "moves": [{"for": 1.0}, {"for": 1.0, "held": ["A"]}]})
     source = script_source(F710_X, script, loop=True)
@@ -231,6 +243,12 @@ def test_a_looped_script_begins_again():
         ({"moves": [7]}, "move 1: 7 is not a map"),
         ({"moves": [{"for": 1}, {}]}, "move 2: `for` is None"),
         ({"moves": [{"for": math.nan}]}, "move 1: `for` is nan"),
+        ({"moves": [{"for": 0}]}, "move 1: `for` is 0"),
+        ({"moves": [{"for": 86400.5}]}, "move 1: `for` is 86400.5"),
+        ({"moves": [{"for": "1"}]}, "move 1: `for` is '1'"),
+        ({"moves": [{"for": 1, "dpad": [0, -1.5]}]}, "move 1: dpad is [0, -1.5]; allowed"),
+        ({"moves": [{"for": 1, "right_stick": [1, 1, 1]}]}, "move 1: right_stick is [1, 1, 1]"),
+        ({"moves": [{"for": 1, "triggers": [-0.5, 0]}]}, "move 1: triggers is [-0.5, 0]; allowed"),
         ({"moves": [{"for": 1, "stick": [0, 0]}]}, "move 1: `stick` is unknown"),
         ({"moves": [{"for": 1, "left_stick": [0, 2]}]}, "move 1: left_stick is [0, 2]; allowed"),
         ({"moves": [{"for": 1, "left_stick": [0]}]}, "move 1: left_stick is [0]; allowed"),

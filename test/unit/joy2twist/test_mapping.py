@@ -137,6 +137,13 @@ def test_a_bad_message_is_named(given, axes, buttons, words):
     assert words in str(error.value)
 
 
+def test_the_largest_value_that_is_no_noise():
+    mapping = Mapping(load({}))
+    assert mapping.velocity((0.0, -1e6), ()) == (-1e6, 0, 0, 0, 0, 0)
+    with pytest.raises(BadJoyError):
+        mapping.velocity((0.0, 1e6 + 0.5), ())
+
+
 def test_neutral_looks_only_at_the_axes_in_use():
     mapping = Mapping(load({}))
     assert mapping.is_neutral((0.05, -0.1, 1.0, -1.0))  # triggers rest at the end

@@ -36,6 +36,18 @@ def test_what_is_wrong_is_said_once_in_five_seconds():
     assert "\n" not in warnings[0]
 
 
+def test_how_long_a_warning_and_a_robot_are_waited_for():
+    machine, warnings = teleoperation()
+    for now, told in ((0.0, 1), (4.9, 1), (5.1, 2), (9.9, 2), (10.1, 3)):
+        machine.joy((0.5, NAN), (), now)
+        assert len(warnings) == told
+    machine, warnings = teleoperation()
+    machine.joy((0.0, 1.0), (), 0.0)
+    for now, told in ((0.0, 0), (1.9, 0), (2.0, 0), (2.1, 1)):
+        machine.listeners(0, "cmd_vel", now)
+        assert len(warnings) == told
+
+
 def test_driving_that_reaches_nobody_is_said_once_until_somebody_listens():
     machine, warnings = teleoperation()
     machine.listeners(0, "/carl/cmd_vel", 0.0)  # and nobody drives

@@ -176,6 +176,7 @@ class Answering:
         ([1, 4, 3, 0, 9, 9], 3),
         ([1, 4, 1, 7], 1),
         ([1, 0, 0, 0], 0),
+        ([12, 4, 2, 0], 2),  # the last state that there is
         ([8, 4, 2, 0], 2),  # the other side has closed its half
         ([], 0),
         ([1], 0),
