@@ -18,6 +18,12 @@ class TestResumption:
         assert not resumption.notice(0, 5.0)
         assert not resumption.is_old(5.0)
         assert not resumption.holds(False, 5.0)
+        assert not resumption.is_old(0.0)
+
+    def test_any_other_number_is_new(self):
+        resumption = Resumption()
+        assert resumption.notice(3, 5.0)
+        assert resumption.notice(1, 5.1)
 
     def test_each_suspension_is_new_once(self):
         resumption = Resumption()
