@@ -1,5 +1,6 @@
 """The driver without ROS and without a device: bytes and times in, axes and buttons out."""
 
+import math
 import random
 import struct
 
@@ -9,6 +10,7 @@ from hypothesis import strategies as st
 
 from gamepad.driver.driver import LONGEST_LIFELESS_S, SHORTEST_SILENCE_S, Driver
 from gamepad.driver.parameters import DriverParameters
+from gamepad.driver.schedule import Schedule
 from gamepad.js_event import SIGN_OF_LIFE_MS, Decoder, JsEvent, pack
 
 BUTTON, AXIS, INIT = 1, 2, 0x80
@@ -185,6 +187,13 @@ def test_autorepeat_counts_from_the_last_message():
     ours.read(events((BUTTON, 0, 0)), now=1.04)
     assert ours.tick(1.0501) == []
     assert ours.tick(1.0901) == [((), (0,))]
+
+
+@pytest.mark.parametrize(("rate", "due"), [(0.5, 3.0), (1, 2.0), (0, math.inf), (-1, math.inf)])
+def test_the_repetition_may_be_slow_or_off(rate, due):
+    schedule = Schedule(0.001, rate)
+    schedule.published(1.0)
+    assert schedule.due == due
 
 
 class Simulated:
