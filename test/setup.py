@@ -6,6 +6,7 @@ setup(
         packages=[
             "tutorial_check",
             "tutorial_check.exercises",
+            "tutorial_faults",
             "tutorial_testing",
             "tutorial_testing.kernel",
             "tutorial_testing.two_hosts",

@@ -61,7 +61,7 @@ def test_numbers_are_held_to_their_range(name):
     least, most, unit = RANGES[name]
     for value in (least, most):
         assert getattr(parse_parameters({name: value}), name) == value
-    for value in (least - 1e-3, most * 1.01, nan, inf, -inf, "1", True, None, [1.0]):
+    for value in (least - 1e-3, most + 1e-3, most * 1.01, nan, inf, -inf, "1", True, None, [1.0]):
         message = message_of({name: value})
         allowed = f"a number from {least:g} to {most:g} {unit}"
         assert message == f"~{name}: {value!r}: must be {allowed}"
@@ -109,6 +109,25 @@ def test_a_mistake_is_named_with_its_value_and_what_is_allowed(given, parts):
         assert part in message
 
 
+def test_every_parameter_of_the_model_reaches_it():
+    given = {
+        "wheel_separation": 0.3, "wheel_radius": 0.05, "cmd_vel_timeout": 1.5,
+        "max_linear_speed": 0.4, "max_angular_speed": 2.0,
+        "max_linear_acceleration": 0.8, "max_angular_acceleration": 3.0,
+        "wheel_noise": 0.01, "wheel_radius_ratio": 1.02, "track_ratio": 0.97,
+    }  # fmt: skip
+    model = parse_parameters(given).robot_model("")
+    assert (model.wheel_separation, model.wheel_radius, model.cmd_vel_timeout) == (0.3, 0.05, 1.5)
+    limits = model.limits
+    assert (limits.linear, limits.angular) == (0.4, 2.0)
+    assert (limits.linear_acceleration, limits.angular_acceleration) == (0.8, 3.0)
+    errors = model.errors
+    assert (errors.wheel_noise, errors.wheel_radius_ratio, errors.track_ratio) == (0.01, 1.02, 0.97)
+    assert parse_parameters({"initial_x": 1, "initial_y": 2, "initial_yaw": 3}).start_poses() == {
+        "": (1.0, 2.0, 3.0)
+    }
+
+
 def test_robots_by_name_and_by_number():
     named = parse_parameters({"robots": {"alice": [0, 1, 2]}})
     assert named.start_poses() == {"alice": (0.0, 1.0, 2.0)}
@@ -123,6 +142,16 @@ def test_robots_that_are_lined_up_do_not_touch():
     places = list(line_up(range(35)).values())
     assert len(set(places)) == 35
     assert places[0] == (0.0, 0.0, 0.0)
+    assert places[9] == (0.0, -9.0, 0.0)
+    assert places[10] == (-1.0, 0.0, 0.0)
+    assert places[34] == (-3.0, -4.0, 0.0)
+
+
+def test_the_most_robots():
+    assert len(parse_parameters({"robots": 1000}).start_poses()) == 1000
+    names = [f"r{k}" for k in range(1000)]
+    assert list(parse_parameters({"robots": names}).start_poses()) == names
+    assert list(parse_parameters({"robots": 1}).start_poses()) == ["robot_1"]
 
 
 def test_noise_depends_on_the_name_and_the_seed_alone():

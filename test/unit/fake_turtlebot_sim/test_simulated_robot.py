@@ -103,6 +103,15 @@ def test_a_command_that_is_not_finite_is_ignored_and_does_not_feed_the_timeout(b
     assert robot.state().v == 0.0
 
 
+def test_a_command_is_in_force_for_the_timeout_to_the_nanosecond():
+    robot = SimulatedRobot(KOBUKI)
+    robot.command((0.5, 0.0), SECOND)
+    for later, drives in ((0, True), (599_999_999, True), (600_000_000, False)):
+        robot.advance(SECOND + later)
+        assert (robot.is_driven, robot.is_moving) == (drives, drives)
+    assert robot.state().x == pytest.approx(0.3, abs=1e-12)
+
+
 def test_verdicts():
     robot = SimulatedRobot(KOBUKI)
     assert robot.command((0.7, 1.0), 0) is Verdict.ACCEPTED

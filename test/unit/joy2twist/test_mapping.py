@@ -77,7 +77,25 @@ SIX_AXES = {
             id="turbo is the only dead-man",
         ),
         pytest.param(
+            {"enable_turbo_button": 0, "require_enable_button": True},
+            AXES,
+            (1, 0),
+            (0.4, 0, 0, 0, 0, 0.3),
+            id="turbo is button 0",
+        ),
+        pytest.param(
+            {"enable_turbo_button": 0, "require_enable_button": True},
+            AXES,
+            (0, 1),
+            None,
+            id="and no other drives, as the last does not",
+        ),
+        pytest.param({}, (0.3, -0.4), (), (-0.4, 0, 0, 0, 0, 0.3), id="reverse"),
+        pytest.param(
             {"inverted_reverse": True}, (0.3, 0.4), (), (0.4, 0, 0, 0, 0, 0.3), id="forward"
+        ),
+        pytest.param(
+            {"inverted_reverse": True}, (0.3, 0.0), (), (0, 0, 0, 0, 0, 0.3), id="on the spot"
         ),
         pytest.param(
             {"inverted_reverse": True}, (0.3, -0.4), (), (-0.4, 0, 0, 0, 0, -0.3), id="like a car"
@@ -117,6 +135,13 @@ def test_a_bad_message_is_named(given, axes, buttons, words):
     with pytest.raises(BadJoyError) as error:
         Mapping(load(given)).velocity(axes, buttons)
     assert words in str(error.value)
+
+
+def test_the_largest_value_that_is_no_noise():
+    mapping = Mapping(load({}))
+    assert mapping.velocity((0.0, -1e6), ()) == (-1e6, 0, 0, 0, 0, 0)
+    with pytest.raises(BadJoyError):
+        mapping.velocity((0.0, 1e6 + 0.5), ())
 
 
 def test_neutral_looks_only_at_the_axes_in_use():

@@ -18,6 +18,12 @@ class TestResumption:
         assert not resumption.notice(0, 5.0)
         assert not resumption.is_old(5.0)
         assert not resumption.holds(False, 5.0)
+        assert not resumption.is_old(0.0)
+
+    def test_any_other_number_is_new(self):
+        resumption = Resumption()
+        assert resumption.notice(3, 5.0)
+        assert resumption.notice(1, 5.1)
 
     def test_each_suspension_is_new_once(self):
         resumption = Resumption()
@@ -31,6 +37,9 @@ class TestResumption:
         assert resumption.is_old(5.0)
         assert resumption.is_old(5.0 + 0.99 * SETTLING_S)
         assert not resumption.is_old(5.0 + SETTLING_S)
+
+    def test_it_settles_for_a_quarter_of_a_second(self):
+        assert SETTLING_S == 0.25  # less than joy2twist's ~joy_timeout, more than a full socket
 
     def test_nothing_moves_before_a_stop_that_is_not_old(self):
         resumption = Resumption()
