@@ -1,0 +1,80 @@
+"""The results of many trials, as a table and as the last line (pure)."""
+
+import csv
+from typing import NamedTuple, Tuple
+
+from tutorial_faults.live.kinds import KINDS
+
+FIELDS = ("seed", "kinds", "rest_s", "violations")
+
+
+class Result(NamedTuple):
+    """One trial. kinds: of its faults. rest_s: longest time to rest [s]. violations: letters."""
+
+    seed: int
+    kinds: Tuple[str, ...]
+    rest_s: float
+    violations: Tuple[str, ...]
+
+
+def write(file, results, header=True):
+    """Write results as rows of CSV to an open file."""
+    rows = csv.writer(file)
+    if header:
+        rows.writerow(FIELDS)
+    for one in results:
+        rows.writerow(
+            [one.seed, "+".join(one.kinds), f"{one.rest_s:.3f}", "".join(one.violations)]
+        )
+
+
+def read(file):
+    """The results in an open file that write() wrote."""
+    return [
+        Result(
+            int(row["seed"]),
+            tuple(filter(None, row["kinds"].split("+"))),
+            float(row["rest_s"]),
+            tuple(row["violations"]),
+        )
+        for row in csv.DictReader(file)
+    ]
+
+
+def last_line(results):
+    """What the hunt ends with."""
+    faults = sum(len(one.kinds) for one in results)
+    violations = sum(bool(one.violations) for one in results)
+    worst_s = max((one.rest_s for one in results), default=0.0)
+    return (
+        f"{len(results)} trials, {faults} faults, {violations} violations, "
+        f"worst time to rest {worst_s:.2f} s"
+    )
+
+
+def by_kind(results):
+    """Lines of a table: kind, trials with it alone and in pairs, violations, worst times to rest."""
+    lines = [
+        "| kind | alone | in pairs | violations | worst time to rest alone, in pairs [s] |",
+        "|---|---|---|---|---|",
+    ]
+    for kind in KINDS:
+        having = [one for one in results if kind in one.kinds]
+        if not having:
+            continue
+        alone = [one for one in having if len(one.kinds) == 1]
+        pairs = [one for one in having if len(one.kinds) > 1]
+        worst = ", ".join(
+            f"{max(one.rest_s for one in group):.2f}" if group else "-" for group in (alone, pairs)
+        )
+        broken = sum(bool(one.violations) for one in having)
+        lines.append(f"| `{kind}` | {len(alone)} | {len(pairs)} | {broken} | {worst} |")
+    return lines
+
+
+def by_invariant(results):
+    """How many of the trials violate each invariant, from its letter."""
+    return {
+        letter: sum(letter in one.violations for one in results)
+        for letter in sorted({letter for one in results for letter in one.violations})
+    }
