@@ -67,7 +67,11 @@ def judge(record):
     found = judged([*record.wheels, *record.commands, *record.asked], limits)
     late, rest_s = _rest(record)
     found += late + _moved_again(record) + _went_on(record) + _outranked(record)
-    return Judgement(tuple(record.told + found), rest_s)
+    # Of each invariant the first: what follows is mostly the same.
+    first = {}
+    for violation in sorted(record.told + found, key=lambda violation: violation.at_s):
+        first.setdefault(violation.invariant, violation)
+    return Judgement(tuple(first.values()), rest_s)
 
 
 class Hands:
@@ -111,7 +115,7 @@ def _rest(record):
             elapsed_s = now - last
             worst_s = max(worst_s, elapsed_s)
             if elapsed_s > LIMIT_S + _allowed(record.injuries, began, now):
-                letter = "d" if kind or last > began or _near(record.injuries, began) else "a"
+                letter = "d" if kind else "a"
                 why = f"the loss by {kind}" if kind else f"LB was released ({shown})"
                 found.append(Violation(letter, now, f"wheels turn {elapsed_s:.3f} s after {why}"))
     return found[:1], worst_s
@@ -121,11 +125,6 @@ def _lost(injury, now):
     """Whether a part is lost at a time; when the base is, its wheels say nothing."""
     kind = KINDS[injury.kind]
     return kind.loses and kind.part != BASE and injury.begin_s < now <= injury.end_s
-
-
-def _near(injuries, now):
-    """Whether a fault goes on at a time, or has just ended."""
-    return any(i.begin_s <= now + LIMIT_S and now <= i.end_s + LIMIT_S for i in injuries)
 
 
 def _last_blow(injuries, began, now):

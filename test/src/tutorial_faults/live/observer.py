@@ -2,7 +2,7 @@
 
 Lines: kind, time of the system clock [s], linear x, y and angular z. The kinds: `wheels` (/odom, with
 its own stamp; when it came, under simulated time), `command` (cmd_vel of the base), `asked` (the
-mux's input teleop), `joy` (the axis forward, LB, RB), `late` (a gap [s] in which this did not run).
+mux's input teleop; both without what a stranger says), `joy` (the axis forward, LB, RB), `late` (a gap [s] in which this did not run).
 """
 
 import sys
@@ -14,9 +14,12 @@ from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Joy
 
+from node_kit.careful_connections import sender_of
+
 BEAT_S = 0.01
 LATE_S = 0.1  # a gap worth telling
 FORWARD, LB, RB = 1, 4, 5
+STRANGER = "/stranger"  # begins the name of who says what nobody should
 
 
 def main():
@@ -36,7 +39,8 @@ def main():
         tell("wheels", at_s, twist.linear.x, twist.linear.y, twist.angular.z)
 
     def command(twist, kind):
-        tell(kind, time.time(), twist.linear.x, twist.linear.y, twist.angular.z)
+        if not sender_of(twist).startswith(STRANGER):
+            tell(kind, time.time(), twist.linear.x, twist.linear.y, twist.angular.z)
 
     def joy(message):
         axes, buttons = message.axes, message.buttons

@@ -83,11 +83,20 @@ def draw(seed, names):
     kinds = [random.choice(others or clocks) for _ in range(random.choice((1, 2)))]
     if simulated:
         kinds[0] = random.choice(clocks)
+    if len(kinds) == 2 and _same_part(*kinds):
+        kinds.pop()
     faults, at_s = [], random.uniform(0.05, 0.3)
-    for kind in dict.fromkeys(kinds):
+    for kind in kinds:
         faults.append(_fault(random, kind, at_s))
         at_s += random.uniform(0.0, 0.6)
     return Plan(seed, simulated, _hands(random), tuple(faults))
+
+
+def _same_part(one, other):
+    """Whether two kinds hit the same part, one of which would spoil the other."""
+    return one == other or KINDS[one].part == KINDS[other].part != "" or {
+        KINDS[one].family, KINDS[other].family
+    } in ({"kill_master", "hang_master"}, {"unplug", "frozen_pad"}, {"stopped_viewer", "slow_viewer"})
 
 
 def _fault(random, kind, at_s):

@@ -103,6 +103,11 @@ class Hunt:
             except trial.LateError:
                 self.not_judged += 1
                 continue
+            except (AssertionError, TimeoutError, OSError) as error:  # of the hunt itself
+                self.not_judged += 1
+                print(f"{NAME}: seed {seed} could not be tried: {error}", file=sys.stderr)
+                self._leave()
+                continue
             letters = tuple(sorted({v.invariant for v in judgement.violations}))
             kinds = tuple(fault.kind for fault in plan.faults)
             self.results.append(Result(seed, kinds, judgement.rest_s, letters))
@@ -170,7 +175,7 @@ def hunt(options):
         counts = ", ".join(f"({k}) {n}" for k, n in by_invariant(results).items()) or "none"
         print(f"{whose}: trials that violate an invariant, of {len(results)}: {counts}")
     if the_hunt.not_judged:
-        print(f"{the_hunt.not_judged} trials not judged: this machine was too late each time")
+        print(f"{the_hunt.not_judged} trials not judged: this machine was too late, or lacked something")
     print(last_line(results))
     return int(any(result.violations for result in results))
 

@@ -14,8 +14,8 @@ class Talker:
         """module: of tutorial_faults.live. prefix: of its command line. hear: called with each line."""
         self._process = subprocess.Popen(
             [*prefix, PYTHON, "-m", f"tutorial_faults.live.{module}", *map(str, arguments)],
-            stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=environment,
-            start_new_session=True,
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+            text=True, env=environment, start_new_session=True,
         )  # fmt: skip
         self._ready = threading.Event()
         self._hear = hear
