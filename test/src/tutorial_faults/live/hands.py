@@ -13,7 +13,7 @@ SHOWN = {
     RELEASED: (0.0, 0.0, ()),
     DRIVE: (0.0, 0.8, ("LB",)),
     TURN: (0.6, 0.7, ("LB",)),
-    TURBO: (0.2, 0.8, ("RB",)),
+    TURBO: (0.2, 0.8, ("LB", "RB")),  # LB, too: between the one and the other is a release
     STICK: (0.0, 0.8, ()),
 }
 NUDGE = 0.1  # the stick never rests, so that nothing is still for a reason of its own
