@@ -53,7 +53,7 @@ def _kinds():
     yield Kind("second_joystick", (0.1, 1.0))
     # A bad message stops until the next good one, as joy2twist's README has it: no loss.
     yield Kind("nan_joy", (0.1, 1.0), rearms=False)
-    yield Kind("broken_joy", (0.1, 1.0))
+    yield Kind("broken_joy", (0.1, 1.0), rearms=False)
     yield Kind("kill_master", (0.1, 1.0), goes_on=True)
     yield Kind("hang_master", (0.1, 1.5), goes_on=True)
     for topic in ("teleop", "navi", "cmd_vel"):

@@ -3,6 +3,7 @@
 import argparse
 import contextlib
 import os
+import signal
 import sys
 import tempfile
 import time
@@ -13,6 +14,7 @@ from tutorial_faults.live.kinds import KINDS, chosen
 from tutorial_faults.live.plan import draw, in_words
 from tutorial_faults.live.report import violation_lines
 from tutorial_faults.live.shrink import shrink
+from tutorial_faults.live.soak import soak
 from tutorial_faults.live.table import Result, by_invariant, by_kind, last_line, write
 from tutorial_faults.live.world import World
 
@@ -191,4 +193,8 @@ def main(arguments=None):
         print(f"{NAME}: {error}", file=sys.stderr)
         return 2
     hosts.move_in(arguments)
+    # As the first process of a namespace this is spared every signal that it does not ask for.
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    if options.soak:
+        return soak(options.soak, options.picture)
     return hunt(options)
