@@ -95,7 +95,7 @@ class Hosts:
         host = Host()
         self._stack.callback(host.close)
         self.relay = self._stack.enter_context(Talker("relay", self._seed, "robot", "station"))
-        self.relay.wait_ready(10.0)
+        self.relay.wait_ready()
         _ip("link", "set", "station", "netns", host.command()[2])
         for run, name, address in ((_ip, "robot", ROBOT), (host.ip, "station", WORKSTATION)):
             run("address", "add", f"{address}/24", "dev", name)

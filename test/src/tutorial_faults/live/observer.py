@@ -15,9 +15,8 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Joy
 
 from node_kit.careful_connections import sender_of
+from tutorial_faults.live.beat import beat
 
-BEAT_S = 0.01
-LATE_S = 0.1  # a gap worth telling
 FORWARD, LB, RB = 1, 4, 5
 STRANGER = "/stranger"  # begins the name of who says what nobody should
 
@@ -52,20 +51,9 @@ def main():
     rospy.Subscriber("cmd_vel", Twist, command, "command", **options)
     rospy.Subscriber("cmd_vel_mux/input/teleop", Twist, command, "asked", **options)
     rospy.Subscriber("joy", Joy, joy, **options)
-    threading.Thread(target=beat, args=(tell,), daemon=True).start()
+    beat(lambda at_s, gap_s: tell("late", at_s, gap_s, 0.0, 0.0))
     print("ready", flush=True)
     sys.stdin.read()
-
-
-def beat(tell):
-    """Tell of the times in which this process was not run."""
-    before = time.monotonic()
-    while True:
-        time.sleep(BEAT_S)
-        now = time.monotonic()
-        if now - before > LATE_S:
-            tell("late", time.time(), now - before, 0.0, 0.0)
-        before = now
 
 
 if __name__ == "__main__":

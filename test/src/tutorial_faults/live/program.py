@@ -10,6 +10,7 @@ import time
 from pathlib import Path
 
 from tutorial_faults.live import hosts, trial
+from tutorial_faults.live.fuzz import fuzz
 from tutorial_faults.live.kinds import KINDS, chosen
 from tutorial_faults.live.plan import draw, in_words
 from tutorial_faults.live.report import violation_lines
@@ -195,6 +196,8 @@ def main(arguments=None):
     hosts.move_in(arguments)
     # As the first process of a namespace this is spared every signal that it does not ask for.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
+    if options.fuzz:
+        return fuzz(options.fuzz, options.seed)
     if options.soak:
         return soak(options.soak, options.picture)
     return hunt(options)

@@ -46,7 +46,7 @@ class Talker:
         except OSError:
             print(f"faults: {self._process.args[-1]} has ended", file=sys.stderr)
 
-    def wait_ready(self, deadline_s=30.0):
+    def wait_ready(self, deadline_s=120.0):
         """Wait until it has told the line `ready`. Raises TimeoutError."""
         if not self._ready.wait(deadline_s):
             raise TimeoutError(f"{self._process.args} is not ready")

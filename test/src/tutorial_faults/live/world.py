@@ -9,6 +9,7 @@ import rospkg
 import yaml
 
 from tutorial_faults.events import Twist, Wheels
+from tutorial_faults.live.beat import beat
 from tutorial_faults.live.hands import HandsOnPad
 from tutorial_faults.live.judge import Injury, Record
 from tutorial_faults.live.kinds import BASE, DRIVER, JOY2TWIST, LINK, MUX, NODES
@@ -32,10 +33,12 @@ class World:
         self.hosts, self.simulated = hosts, simulated
         self._folder, self._node = folder, node
         self._stack = contextlib.ExitStack()
+        self._packages = rospkg.RosPack()  # which looks through all folders once
         self.programs = {}
         self.record = Record()
         self._newest = None  # events.Wheels
         self.master = Master(hosts.robot_environment)
+        beat(lambda *late: self.record.late.append(late))
 
     def __enter__(self):
         enter = self._stack.enter_context
@@ -87,7 +90,7 @@ class World:
             old.__exit__()
 
     def _command(self, node):
-        find = rospkg.RosPack().get_path
+        find = self._packages.get_path
         if node == DRIVER:
             script, given, remaps = "gamepad/joy_node", {"dev": self.hands.path}, {}
         elif node == JOY2TWIST:
