@@ -15,6 +15,7 @@ class Joy(NamedTuple):
     sender: Hashable  # tells one joystick node from another
     axes: Tuple[float, ...]
     buttons: Tuple[int, ...]
+    age_s: float = 0.0  # since its stamp
 
 
 class Twist(NamedTuple):

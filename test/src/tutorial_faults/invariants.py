@@ -42,11 +42,17 @@ class HeldDeadMan:
         self._holds = holds
         self._slack_s = slack_s
         self.until_s = -math.inf  # the robot may move before this time
+        self.settled_s = -math.inf  # what comes before is old
 
     def take(self, event) -> Optional[Violation]:
-        """Take a Joy or a Twist."""
-        if isinstance(event, Joy):
-            if self._holds(event):
+        """Take a Joy, a Twist, or a Loss: of one that settles nothing counts that was heard before."""
+        if isinstance(event, Loss) and event.settles_s:
+            self.until_s = min(self.until_s, event.at_s + self._slack_s)
+            self.settled_s = max(self.settled_s, event.at_s + event.settles_s)
+        elif isinstance(event, Joy):
+            if event.at_s < self.settled_s:
+                pass
+            elif self._holds(event):
                 self.until_s = event.at_s + self._lasts_s + self._slack_s
             else:
                 self.until_s = min(self.until_s, event.at_s + self._slack_s)
@@ -188,7 +194,7 @@ class NeverLate:
         """rest_s: silent for longer [s], and so long nothing but zero before it moves again."""
         self._rest_s = rest_s
         self.held = self.moving = False
-        self.last_s = -math.inf  # the last command
+        self.last_s = -math.inf  # the last command, if it was a motion
         self.rests_since_s = math.inf  # the first zero after a motion
 
     def late(self, velocity, now: float) -> bool:
@@ -200,7 +206,8 @@ class NeverLate:
             self.rests_since_s = math.inf
         elif self.moving:
             self.rests_since_s = now
-        self.moving, self.last_s = moves(velocity), now
+        self.moving = moves(velocity)
+        self.last_s = now if self.moving else -math.inf  # only a motion can be broken off
         return self.held and self.moving
 
     def lost(self, now: float):

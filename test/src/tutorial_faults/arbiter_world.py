@@ -1,0 +1,168 @@
+"""Every state of the multiplexer's rules (Arbiter, LateGuard, Resumption), judged by (c) to (f).
+
+Clocks: when each input falls silent, one for each guard, the end of a suspension's settling.
+Thresholds: timeouts of 0.5 s, REARM_S 0.5 s, SETTLING_S 0.25 s. What the node adds, the order in
+which it asks them, is done here as there.
+"""
+
+import math
+from typing import NamedTuple, Tuple
+
+from fake_turtlebot_sim.mux.arbitration import Arbiter, Input, Verdict
+from node_kit.resumption import SETTLING_S, Resumption
+from tutorial_faults.events import Command, Through, Violation
+from tutorial_faults.explore import Moment, copy_of, key_of, until
+from tutorial_faults.invariants import REST_S, HighestSpeaks, NeverLate, WithinLimits, moves
+
+STEP_S = 0.05  # 0.25 s for four clocks
+HORIZON_S = REST_S + STEP_S  # the guards ask for more than REST_S
+ZERO, FORWARD = (0.0,) * 6, (0.5,) + (0.0,) * 5
+NOT_FINITE = (math.nan,) + (0.0,) * 5
+PASS, LOOK, SUSPENDED = "time passes", "look", "suspended"
+
+
+class Configuration(NamedTuple):
+    """Inputs of a multiplexer, and who speaks on them."""
+
+    inputs: Tuple[Input, ...]
+    speakers: Tuple[Tuple[str, str], ...]  # (input, sender)
+
+    def events(self):
+        """What can happen, by name."""
+        commands = {
+            f"{sender} on {name}: {what}": Command(0.0, name, velocity, sender)
+            for name, sender in self.speakers
+            for what, velocity in (("zero", ZERO), ("forward", FORWARD), ("NaN", NOT_FINITE))
+        }
+        return {**{name: name for name in (PASS, LOOK, SUSPENDED)}, **commands}
+
+
+STICK = Input("stick", "stick", 0.5, 7, rearm_on_zero=True)
+PROGRAM = Input("program", "program", 0.5, 5)
+OTHER = Input("other", "other", 0.25, 1)
+CONFIGURATIONS = {
+    "a stick and a program": Configuration((STICK, PROGRAM), (("stick", "ada"), ("program", "-"))),
+    "two sticks on one input": Configuration((STICK,), (("stick", "ada"), ("stick", "bob"))),
+    "three programs": Configuration(
+        (Input("top", "top", 0.5, 9), PROGRAM, OTHER), (("top", "-"), ("program", "-"), ("other", "-"))
+    ),
+}
+
+
+class ArbiterWorld:
+    """The real Arbiter, asked as the node asks it, and what it must hold to."""
+
+    def __init__(self, configuration):
+        """Take a Configuration."""
+        inputs = self._inputs = {one.name: one for one in configuration.inputs}
+        self._arbiter = Arbiter(configuration.inputs)
+        self._resumption = Resumption()
+        self._now = Moment(0)
+        self._sent = ZERO
+        self._late = {}  # (input, sender) -> NeverLate
+        self._speaks = HighestSpeaks({one.name: (one.priority, one.timeout) for one in inputs.values()})
+        self._limits = WithinLimits()
+
+    def copy(self):
+        """A World of its own, with what does not change shared."""
+        new = copy_of(self)
+        new._arbiter = arbiter = copy_of(self._arbiter)
+        arbiter._expiry_s = dict(arbiter._expiry_s)
+        arbiter._guards = {key: copy_of(guard) for key, guard in arbiter._guards.items()}
+        new._resumption = copy_of(self._resumption)
+        new._late = {key: copy_of(one) for key, one in self._late.items()}
+        new._speaks = copy_of(self._speaks)
+        new._speaks.spoke_s = dict(self._speaks.spoke_s)
+        return new
+
+    def key(self):
+        """All that decides what comes. spoke_s: the same clocks as _expiry_s, if all is well."""
+        now, arbiter = self._now, self._arbiter
+        parts = {"_inputs", "_expiry_s", "_guards"}
+        guards = [
+            (name, *key_of(guard, now, HORIZON_S, ("_since_s",)))
+            for name, guard in sorted(arbiter._guards.items())
+        ]
+        late = [
+            key_of(one, now, HORIZON_S, ("last_s", "rests_since_s"), without=("_rest_s",))
+            for _, one in sorted(self._late.items())
+        ]
+        return (
+            key_of(arbiter, now, without=parts),
+            tuple([until(now, time) for time in arbiter._expiry_s.values()]),
+            tuple(
+                [
+                    until(now, time + self._inputs[name].timeout)
+                    for name, time in self._speaks.spoke_s.items()
+                ]
+            ),
+            tuple(guards),
+            tuple(late),
+            until(now, self._resumption._settled_at),
+            self._resumption._needs_stop,
+            self._sent,
+        )
+
+    def take(self, event):
+        """Let one thing happen; what is wrong with what comes of it."""
+        if event == PASS:
+            self._now += STEP_S
+            return []
+        if event == LOOK:
+            return self._look()
+        if event == SUSPENDED:
+            assert self._resumption.notice(self._resumption._seen + 1, self._now)
+            self._sent = ZERO
+            self._arbiter.lost(self._now)
+            for one in self._late.values():
+                one.lost(self._now)
+            return []
+        return self._command(event._replace(at_s=self._now))
+
+    @property
+    def _speaking(self):
+        """The inputs that speak, by the invariant's own record."""
+        return [
+            one for one in self._inputs.values() if self._now < self._speaks.spoke_s[one.name] + one.timeout
+        ]
+
+    def _look(self):
+        if self._arbiter.must_stop(self._now):
+            self._sent = ZERO
+        wrong = []
+        if moves(self._sent) and not self._speaking:
+            wrong.append(("d", "no stop, though all inputs are silent"))
+        lull_s = self._arbiter.lull(self._now)
+        shortest_s = min(one.timeout for one in self._inputs.values())
+        ends_s = [self._speaks.spoke_s[one.name] + one.timeout - self._now for one in self._speaking]
+        if not 0 < lull_s <= shortest_s or (moves(self._sent) and lull_s > max(ends_s, default=0)):
+            wrong.append(("d", f"asleep for {lull_s} s, and something is due sooner"))
+        return [Violation(letter, self._now, what) for letter, what in wrong]
+
+    def _command(self, command):
+        name, velocity, now = command.input, command.velocity, self._now
+        if self._resumption.is_old(now):
+            return []
+        verdict = self._arbiter.command(name, velocity, now, command.sender)
+        is_finite = all(map(math.isfinite, velocity))
+        is_late = False
+        if is_finite and self._inputs[name].rearm_on_zero:
+            guard = self._late.setdefault((name, command.sender), NeverLate())
+            is_late = guard.late(velocity, now)
+        if is_finite and not is_late:
+            self._speaks.take(command)
+        wrong = []
+        if verdict is Verdict.OBEYED:
+            through = Through(now, name, velocity)
+            found = [self._limits.take(through), is_finite and self._speaks.take(through)]
+            self._sent = velocity
+            if is_late:
+                found.append(Violation("f", now, f"a late command of {command.sender} moves the robot"))
+            wrong = [violation for violation in found if violation]
+        elif is_finite and not is_late and max(self._speaking, key=_priority).name == name:
+            wrong = [Violation("e", now, f"{name} is the highest that speaks, and is not obeyed")]
+        return wrong
+
+
+def _priority(one):
+    return one.priority

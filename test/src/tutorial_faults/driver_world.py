@@ -1,0 +1,198 @@
+"""Every state of the joystick driver's rules (Driver, GamepadState, Schedule), judged by (b) and (d).
+
+The driver cannot move a robot by itself; its part is that nobody who listens is deceived: it never
+says "released" of a gamepad that it does not know to be, tells of a loss before it is silent, and
+is silent for longer than joy2twist waits before it speaks of another gamepad.
+
+Clocks: the next message and the sign of life; without a gamepad the end of the silence. Thresholds:
+LONGEST_LIFELESS_S 0.45 s, SHORTEST_SILENCE_S 0.6 s, autorepeat 0.3 s, coalesce_interval 0.15 s.
+"""
+
+import math
+import struct
+
+from gamepad.driver.driver import LONGEST_LIFELESS_S, Driver
+from gamepad.driver.parameters import load
+from gamepad.js_event import AXIS, BUTTON, FULL, INIT, SIGN_OF_LIFE_MS
+from tutorial_faults.events import Violation
+from tutorial_faults.explore import Moment, copy_of, key_of, until
+
+STEP_S = 0.05  # 0.15 s for two clocks
+JOY_TIMEOUT_S = 0.5  # joy2twist's default
+COALESCE_S, REPEAT_S = 0.15, 0.3
+GIVEN = {"coalesce_interval": COALESCE_S, "autorepeat_rate": 1.0 / REPEAT_S}
+
+
+def event(kind, value, number=0, time_ms=0):
+    """The bytes of an event of linux/joystick.h."""
+    return struct.pack("=IhBB", time_ms, value, kind, number)
+
+
+PRESS, RELEASE = event(BUTTON, 1), event(BUTTON, 0)
+BYTES = {
+    "press": PRESS,
+    "release": RELEASE,
+    "press and release at once": PRESS + RELEASE,
+    "stick": event(AXIS, -FULL),
+    "stick released": event(AXIS, 0),
+    "INIT: pressed": event(BUTTON | INIT, 1),
+    "INIT: stick": event(AXIS | INIT, -FULL),
+    "sign of life": event(BUTTON | INIT, 0, time_ms=SIGN_OF_LIFE_MS),
+    "unknown type": event(8, 1),
+}
+PASS, TICK, LOST = "time passes", "tick", "lost"
+OPEN = {"open: of the kernel": True, "open: a virtual one": False}
+EVENTS = {**{name: name for name in (PASS, TICK, LOST, *OPEN)}, **BYTES}
+
+
+class Gamepad:
+    """What a reader of the bytes knows of the gamepad that is open."""
+
+    def __init__(self, is_of_kernel):
+        """It was opened just now."""
+        self.is_of_kernel = is_of_kernel
+        self.rest = b""
+        self.changed = self.known = self.gives_signs = False
+        self.pressed = None  # button 0; None: not told
+
+    def feed(self, data, now):
+        """What changed: a list of (kind, value); kind BUTTON or AXIS, or 0 for the state told anew."""
+        data, changes = self.rest + data, []
+        for at in range(0, len(data) - len(data) % 8, 8):
+            time_ms, value, kind, _ = struct.unpack_from("=IhBB", data, at)
+            is_sign = bool(kind & INIT) and time_ms == SIGN_OF_LIFE_MS and not self.is_of_kernel
+            self.gives_signs = self.gives_signs or is_sign
+            is_told_anew = bool(kind & INIT) and not (self.is_of_kernel and self.changed)
+            self.changed = self.changed or not kind & INIT
+            kind &= ~INIT
+            if is_sign and self.pressed is not None:
+                continue
+            if kind == BUTTON:
+                self.pressed = int(value != 0)
+            if kind in (BUTTON, AXIS):
+                changes.append((0 if is_told_anew else kind, value))
+        self.rest = data[len(data) - len(data) % 8 :]
+        return changes
+
+
+class DriverWorld:
+    """The real Driver, called as the node calls it, and what it must hold to."""
+
+    def __init__(self):
+        """Nothing was opened yet."""
+        self._driver = Driver(load(GIVEN))
+        self._now = Moment(0)
+        self._pad = None  # the open Gamepad
+        self._is_mute = self._has_told = False
+        self._since_s = math.inf  # the first change that was not published
+        self._published_s = math.inf  # the last message of this gamepad
+        self._read_s = math.inf  # the last bytes of a gamepad that gives signs of life
+
+    def copy(self):
+        """A World of its own, with what does not change shared."""
+        new = copy_of(self)
+        new._driver = driver = copy_of(self._driver)
+        if driver._state is not None:
+            driver._state = state = copy_of(driver._state)
+            state._axes, state._buttons = list(state._axes), list(state._buttons)
+            driver._schedule = copy_of(driver._schedule)
+            driver._decoder = copy_of(driver._decoder)
+            new._pad = copy_of(self._pad)
+        return new
+
+    def key(self):
+        """All that decides what comes."""
+        now, driver = self._now, self._driver
+        parts = {"_parameters", "_state", "_schedule", "_decoder", "_triggers", "events", "unknown_events"}
+        key = (
+            self._is_mute,
+            self._has_told,
+            until(now, driver.opens_at),
+        )
+        if driver._state is None:
+            return (*key, driver._told, driver._mute)
+        return (
+            *key,
+            key_of(driver, now, future=("opens_at", "_lifeless_at"), without=parts),
+            tuple(driver._state._axes),
+            tuple(driver._state._buttons),
+            until(now, driver._schedule.due),
+            driver._decoder._rest,
+            driver._decoder._changed,
+            tuple(vars(self._pad).values()),
+            until(now, self._since_s + COALESCE_S),
+            until(now, self._published_s + REPEAT_S),
+            until(now, self._read_s + LONGEST_LIFELESS_S),
+        )
+
+    def take(self, event):
+        """Let one thing happen; what is wrong with what comes of it."""
+        is_open = self._pad is not None
+        wrong = []
+        if event == PASS:
+            self._now += STEP_S
+        elif event == TICK:
+            wrong = [*self._judge(self._driver.tick(self._now)), *self._must_be_called(True)]
+        elif event == LOST and is_open:
+            wrong = self._lose()
+        elif event in OPEN and not is_open and self._now >= self._driver.opens_at:
+            self._driver.opened((), OPEN[event])
+            self._pad = Gamepad(OPEN[event])
+            self._since_s = self._published_s = self._read_s = math.inf
+        elif isinstance(event, bytes) and is_open:
+            wrong = [*self._read(event), *self._must_be_called()]
+        return [Violation(letter, self._now, what) for letter, what in wrong]
+
+    def _lose(self):
+        messages = self._driver.lost(self._now)
+        if self._has_told and not messages:
+            yield "d", "nobody is told that the gamepad is lost"
+        if messages and not self._has_told:
+            yield "b", "tells of a gamepad of which nobody was told"
+        if any(any((*axes, *buttons)) for axes, buttons in messages):
+            yield "d", f"what is lost is not told as released: {messages}"
+        if self._driver.opens_at - self._now <= JOY_TIMEOUT_S:
+            yield "b", "the next gamepad is opened before joy2twist can notice the loss"
+        if self._driver.due != math.inf:
+            yield "d", "something is due of a gamepad that is lost"
+        self._pad, self._is_mute, self._has_told = None, True, False
+
+    def _read(self, data):
+        changes = self._pad.feed(data, self._now)
+        if any(kind for kind, _ in changes):
+            self._is_mute = False
+        if self._pad.gives_signs:
+            self._read_s = self._now
+        messages = self._driver.read(data, self._now)
+        if changes and self._since_s == math.inf:
+            self._since_s = self._now
+        yield from self._judge(messages)
+        told = [bool(buttons and buttons[0]) for _, buttons in messages]
+        presses = [bool(value) for kind, value in changes if kind == BUTTON]
+        if presses and told[-len(presses) :] != presses:
+            yield "d", f"pressed and released: {presses}, and told was {told}"
+
+    def _judge(self, messages):
+        for axes, buttons in messages:
+            if self._pad is None or self._is_mute:
+                yield "b", "tells of a gamepad that nobody has touched since it is back"
+            if not all(math.isfinite(value) and -1 <= value <= 1 for value in axes):
+                yield "c", f"axes beyond their ends: {axes}"
+        if messages and self._pad:
+            if bool(self._pad.pressed) != any(messages[-1][1]):
+                yield "a", f"the button is {self._pad.pressed}, and told is {messages[-1]}"
+            self._has_told = True
+            self._since_s, self._published_s = math.inf, self._now
+
+    def _must_be_called(self, has_ticked=False):
+        """Whether the node is called in time to tell what is new, what is old, and what is lost."""
+        driver, now = self._driver, self._now
+        if self._pad is None:
+            return
+        if not self._is_mute:
+            latest = min(self._since_s + COALESCE_S, self._published_s + REPEAT_S)
+            if driver.due > latest or (has_ticked and latest <= now):
+                yield "d", "a change or the repetition will be told too late"
+        lifeless_s = self._read_s + LONGEST_LIFELESS_S
+        if driver.due > lifeless_s or driver.is_lifeless(now) != (now >= lifeless_s):
+            yield "d", "a gamepad without a sign of life is not noticed"

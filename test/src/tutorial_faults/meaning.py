@@ -1,0 +1,42 @@
+"""What a Joy means for joy2twist, told anew from its documentation and not from its code (pure)."""
+
+import math
+
+RELEASED = 0.1  # a stick within this part of its way is released
+LARGEST = 1e6  # a length of all axes beyond this is noise
+
+
+class Meaning:
+    """Whether a Joy is good, holds the dead-man, has all released."""
+
+    def __init__(self, axes, enable=-1, turbo=-1, needs_dead_man=True, max_age_s=0.0):
+        """axes: numbers of those that drive. enable, turbo: buttons, -1 for none.
+
+        needs_dead_man: else every good message may move the robot. max_age_s: [s], 0 for any.
+        """
+        self._axes = axes
+        self._dead_men = [button for button in (enable, turbo) if button >= 0]
+        self._needs_dead_man = needs_dead_man
+        self._max_age_s = max_age_s or math.inf
+
+    def is_good(self, joy) -> bool:
+        """Whether it has all that is needed, only usable numbers, and is not too old."""
+        return (
+            len(joy.axes) > max(self._axes)
+            and len(joy.buttons) > max(self._dead_men, default=-1)
+            and all(map(math.isfinite, joy.axes))
+            and math.hypot(*joy.axes) <= LARGEST
+            and joy.age_s <= self._max_age_s
+        )
+
+    def holds(self, joy) -> bool:
+        """Whether the robot may move by it."""
+        return self.is_good(joy) and (not self._needs_dead_man or self._presses(joy))
+
+    def is_released(self, joy) -> bool:
+        """Whether it is good and has the sticks and, where there is one, the dead-man released."""
+        sticks = self.is_good(joy) and all(abs(joy.axes[axis]) <= RELEASED for axis in self._axes)
+        return sticks and not (self._needs_dead_man and self._presses(joy))
+
+    def _presses(self, joy):
+        return any(joy.buttons[button] for button in self._dead_men)

@@ -1,0 +1,238 @@
+"""Every state of Teleoperation (Mapping, Safety, arming), judged by (a), (b), (c) and (d).
+
+Clocks: the last good message, the next output, the end of a suspension's settling; the invariants
+have the same. Thresholds: joy_timeout 0.5 s, the period of the output 0.25 s, SETTLING_S 0.25 s.
+"""
+
+import math
+from typing import NamedTuple
+
+from joy_to_twist.limits import ZERO
+from joy_to_twist.parameters import load
+from joy_to_twist.teleoperation import Teleoperation
+from node_kit.resumption import SETTLING_S
+from tutorial_faults.events import Joy, Loss, Twist, Violation
+from tutorial_faults.explore import Moment, copy_of, key_of, until
+from tutorial_faults.invariants import HeldDeadMan, SeenReleased, WithinLimits, moves
+from tutorial_faults.meaning import Meaning
+
+STEP_S = 0.0625  # 0.25 s for three clocks
+OLD_S = 0.4  # more than max_joy_age
+BASE = {
+    "enable_button": 0, "enable_turbo_button": 1, "scale_linear": 0.5, "joy_timeout": 0.5,
+    "output_rate": 4.0, "stop_messages": 2, "max_linear_speed": 0.75, "max_angular_speed": 1.0,
+    "max_joy_age": 0.3,
+}  # fmt: skip
+ARMING = {**BASE, "arm_on_neutral": True}
+NO_DEAD_MAN = {"enable_button": -1, "enable_turbo_button": -1}
+RAMP = {"max_linear_acceleration": 1.0, "max_angular_acceleration": 2.0}
+# What decides which way a message takes.
+CONFIGURATIONS = {
+    "dead-man": BASE,
+    "dead-man, arming": ARMING,
+    "no dead-man": {**BASE, **NO_DEAD_MAN},
+    "no dead-man, arming": {**ARMING, **NO_DEAD_MAN},
+    "turbo alone, arming": {**ARMING, "enable_button": -1},
+    "no timeout, arming": {**ARMING, "joy_timeout": 0},
+    "ramp, arming": {**ARMING, **RAMP},
+    "ramp, no dead-man": {**BASE, **NO_DEAD_MAN, **RAMP},
+}
+
+
+class Message(NamedTuple):
+    """What a joystick node sends."""
+
+    sender: str
+    axes: tuple
+    buttons: tuple
+    age_s: float = 0.0
+
+
+STICK, BACK, WORN = (0.0, 1.0), (0.5, -1.0), (0.05, 0.0)
+MESSAGES = {
+    "neutral": Message("ada", (0.0, 0.0), (0, 0)),
+    "LB": Message("ada", (0.0, 0.0), (1, 0)),
+    "stick": Message("ada", STICK, (0, 0)),
+    "LB and stick": Message("ada", STICK, (1, 0)),
+    "LB and stick back": Message("ada", BACK, (1, 0)),
+    "turbo and stick": Message("ada", STICK, (0, 1)),
+    "LB and NaN": Message("ada", (0.0, math.nan), (1, 0)),
+    "LB and infinity": Message("ada", (math.inf, 0.0), (1, 0)),
+    "too few axes": Message("ada", (0.0,), (1, 0)),
+    "too few buttons": Message("ada", STICK, ()),
+    "LB and stick, old": Message("ada", STICK, (1, 0), OLD_S),
+    "another's neutral, worn": Message("bob", WORN, (0, 0)),
+    "another's LB": Message("bob", (0.0, 0.0), (1, 0)),
+    "another's LB and stick": Message("bob", STICK, (1, 0)),
+}
+# What is fixed, what is only for the user, and the parts that have keys of their own.
+NOT_IN_KEY = set(
+    """_parameters _warn _mapping _safety _hints _knows_gamepad _may_warn _max_age_ns _unheard_since
+    _resumption _messages _last_message _last_summary""".split()
+)
+FIXED_IN_SAFETY = {"_parameters", "_wake", "_period", "_gradual", "_changes", "state"}
+FIXED_IN_RELEASED = {"_is_good", "_is_released", "disarmed_s", "settled_s"}  # Resumption's
+PASS, TICK, LEFT, SUSPENDED = "time passes", "tick", "left", "suspended"
+EVENTS = {**{name: name for name in (PASS, TICK, LEFT, SUSPENDED)}, **MESSAGES}
+
+
+class TeleoperationWorld:
+    """The real Teleoperation, and what it must hold to."""
+
+    def __init__(self, **given):
+        """given: private parameters of joy2twist."""
+        p = self._parameters = load(given)
+        self._ramps = p.max_linear_acceleration > 0
+        self._woken = []  # of the transition that is made just now
+        self._machine = Teleoperation(p, lambda line: None, lambda: self._woken.append(True))
+        self._now = Moment(0)
+        self._sent = ZERO
+        self._zeros = p.stop_messages  # sent since the last motion, as far as they count
+        self._has_moved = False
+        self._all_released = True  # by the last message, if no loss came after it
+        meaning = self._meaning = Meaning(
+            (0, 1), p.enable_button, p.enable_turbo_button, p.require_enable_button, p.max_joy_age
+        )
+        self._held = HeldDeadMan(p.joy_timeout, meaning.holds)
+        self._armed = SeenReleased(p.joy_timeout, meaning.is_good, meaning.is_released)
+        self._limits = WithinLimits(p.max_linear_speed, p.max_angular_speed)
+
+    def copy(self):
+        """A World of its own, with what does not change shared."""
+        new = copy_of(self)
+        new._machine = machine = copy_of(self._machine)
+        machine._safety = copy_of(machine._safety)
+        machine._resumption = copy_of(machine._resumption)
+        new._held, new._armed = copy_of(self._held), copy_of(self._armed)
+        return new
+
+    def key(self):
+        """All that decides what comes. _seen counts suspensions, and is compared with the next."""
+        now, machine = self._now, self._machine
+        return (
+            key_of(machine, now, without=NOT_IN_KEY),
+            key_of(
+                machine._safety, now, self._parameters.joy_timeout, ("_heard",), ("_next_output",),
+                FIXED_IN_SAFETY,
+            ),
+            until(now, machine._resumption._settled_at),
+            until(now, self._held.until_s),
+            key_of(
+                self._armed, now, self._parameters.joy_timeout, ("heard_s",), (), FIXED_IN_RELEASED
+            ),
+            (self._sent, self._zeros, self._has_moved, self._all_released),
+        )  # fmt: skip
+
+    def take(self, event):
+        """Let one thing happen; what is wrong with what comes of it."""
+        if event == PASS:
+            self._now += STEP_S
+            return []
+        self._woken.clear()
+        due, sent, was_late = self._machine.due, self._sent, self._is_silent
+        if event == TICK:
+            self._all_released = self._all_released and not was_late
+            answer = self._machine.tick(self._now)
+        elif event == LEFT:
+            self._lose(Loss(self._now, "joystick node"))
+            answer = self._machine.left(self._now)
+        elif event == SUSPENDED:
+            self._lose(Loss(self._now, "joy2twist", SETTLING_S))
+            answer = self._machine.suspended(self._machine._resumption._seen + 1, self._now)
+        else:
+            answer = self._hear(event)
+        found = []
+        if answer is not None:
+            found += self._judge_velocity(answer, sent)
+            self._sent = answer
+            self._zeros = 0 if moves(answer) else min(self._zeros + 1, self._stop_messages)
+            self._has_moved = self._has_moved or moves(answer)
+        wrong = (
+            *self._must_stand(event),
+            *self._must_watch(event, due, answer),
+            *self._must_go_on(event, answer, was_late),
+        )
+        return found + [Violation(letter, self._now, what) for letter, what in wrong]
+
+    @property
+    def _stop_messages(self):
+        return self._parameters.stop_messages
+
+    @property
+    def _is_silent(self):
+        return self._now - self._armed.heard_s >= (self._parameters.joy_timeout or math.inf)
+
+    def _lose(self, loss):
+        self._held.take(loss)
+        self._armed.take(loss)
+        self._all_released = False
+
+    def _hear(self, message):
+        joy = Joy(self._now, *message)
+        if joy.at_s >= self._armed.settled_s:
+            self._all_released = self._meaning.is_released(joy)
+        self._held.take(joy)
+        self._armed.take(joy)
+        return self._machine.joy(
+            joy.axes, joy.buttons, self._now, round(joy.age_s * 1e9), joy.sender
+        )
+
+    def _judge_velocity(self, velocity, before):
+        twist = Twist(self._now, velocity)
+        judges = (self._held, self._limits, *([self._armed] if self._arms else []))
+        found = [violation for one in judges for violation in [one.take(twist)] if violation]
+        change = math.hypot(*(new - old for new, old in zip(velocity[:3], before[:3])))
+        most = self._parameters.max_linear_acceleration / self._parameters.output_rate
+        if self._ramps and moves(velocity) and change > most + 1e-9:
+            found.append(Violation("c", self._now, f"from {before[0]} to {velocity[0]} at once"))
+        return found
+
+    @property
+    def _arms(self):
+        return self._parameters.arm_on_neutral
+
+    def _must_stand(self, event):
+        """What the robot does until it hears something else is as important as what it hears."""
+        if moves(self._sent):
+            if self._now >= self._held.until_s:
+                yield "d", "no stop, though no dead-man is held any more"
+            if self._arms and not self._armed.armed:
+                yield "d", "no stop, though all must be seen released first"
+            if event in (LEFT, SUSPENDED):
+                yield "d", f"no stop, though: {event}"
+            if self._machine.due > self._held.until_s:
+                yield "d", "silence will be noticed too late"
+        if self._machine.released and self._has_moved:
+            if self._arms and not self._all_released:
+                yield "b", "a robot that was lost is driven on, and nothing was released"
+            if not self._arms and moves(self._sent):
+                yield "b", "a robot that was lost is driven on without a stop"
+
+    def _must_watch(self, event, due, answer):
+        """Whether the node is called in time, and stops are repeated."""
+        if self._machine.due < due and not self._woken:
+            yield "d", "something is due sooner, and the node sleeps on"
+        if event == TICK and self._never_sleeps():
+            yield "d", "the node is never let sleep"
+        p = self._parameters
+        is_over = self._now >= self._held.until_s and p.require_enable_button
+        if answer is not None and is_over and self._zeros < p.stop_messages:
+            if self._machine.due > self._now + 1.0 / p.output_rate:
+                yield "d", "a stop is not repeated"
+
+    def _never_sleeps(self):
+        machine = self.copy()._machine
+        for _ in range(self._parameters.stop_messages):
+            if machine.due > self._now:
+                return False
+            machine.tick(self._now)
+        return machine.due <= self._now
+
+    def _must_go_on(self, event, answer, was_late):
+        """Who holds the dead-man, in time and armed, drives."""
+        if not isinstance(event, Message) or self._ramps or self._now < self._armed.settled_s:
+            return
+        may = self._meaning.holds(Joy(self._now, *event)) and (self._armed.armed or not self._arms)
+        wants = moves(event.axes)
+        if may and wants and not was_late and not moves(answer or ZERO):
+            yield "h", "the dead-man is held, and the robot is not driven"
