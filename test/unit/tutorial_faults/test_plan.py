@@ -84,7 +84,10 @@ def test_an_unknown_kind_is_named_with_those_that_there_are():
 
 
 def test_in_words():
-    assert in_words(Plan(1, False, (), (A, B))) == "unplug at 0.10 s for 0.50 s + loss at 0.10 s for 0.50 s"
+    assert (
+        in_words(Plan(1, False, (), (A, B)))
+        == "unplug at 0.10 s for 0.50 s + loss at 0.10 s for 0.50 s"
+    )
     assert in_words(Plan(1, False, (), ())) == "no fault"
 
 

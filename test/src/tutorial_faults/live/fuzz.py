@@ -73,7 +73,9 @@ def fuzz_joys(world, the_fuzz, count, seed):
     """Send so many random Joy messages to joy2twist."""
     prefix, given = world.hosts.workstation_prefix, world.hosts.workstation_environment
     environment = {**os.environ, **given}
-    with Talker("fuzzer", seed, count, prefix=prefix, environment=environment, hear=the_fuzz.hear) as fuzzer:
+    with Talker(
+        "fuzzer", seed, count, prefix=prefix, environment=environment, hear=the_fuzz.hear
+    ) as fuzzer:
         fuzzer.wait_ready()
         warm = False
         while not the_fuzz.done and not fuzzer.ended:

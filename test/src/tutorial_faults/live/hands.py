@@ -80,4 +80,3 @@ class HandsOnPad:
                 forward += nudge if forward else 0.0
                 controls = Controls(left_stick=(left, forward), held=frozenset(held))
                 pad.show(positions(F710_D, controls) if self._plugged else None)
-

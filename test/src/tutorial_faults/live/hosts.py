@@ -26,8 +26,19 @@ def move_in(arguments):
         return
     user = [] if os.geteuid() == 0 else ["--user", "--map-root-user"]
     # Of processes, too: when the first one ends, by whatever, so do all.
-    enter = ["unshare", *user, "--net", "--mount", "--pid", "--fork", "--kill-child", "--mount-proc"]
-    tried = shutil.which("unshare") and subprocess.run([*enter, "true"], capture_output=True, check=False)
+    enter = [
+        "unshare",
+        *user,
+        "--net",
+        "--mount",
+        "--pid",
+        "--fork",
+        "--kill-child",
+        "--mount-proc",
+    ]
+    tried = shutil.which("unshare") and subprocess.run(
+        [*enter, "true"], capture_output=True, check=False
+    )
     if tried and tried.returncode == 0:
         os.environ[INSIDE] = "yes"
         os.execvp(enter[0], [*enter, sys.executable, "-m", "tutorial_faults", *arguments])
@@ -41,7 +52,7 @@ class Hosts:
     """
 
     def __init__(self, folder, seed):
-        """folder: for logs, on a small disk if one may be mounted. seed: of what the cable loses."""
+        """folder: for logs, on a small disk if that is granted. seed: of what the cable loses."""
         self._stack = contextlib.ExitStack()
         self._folder, self._seed = folder, seed
         self.granted, self.refused = {SIMULATED}, {}

@@ -147,8 +147,7 @@ def _busy_machine(_world, _kind, _fault):
 
 
 def _little_memory(_world, _kind, _fault):
-    code = f"import time; b = bytearray({MEMORY_BYTES})\nfor i in range(0, len(b), 4096): b[i] = 1\ntime.sleep(9)"
-    return _programs((PYTHON, "-c", code))
+    return _programs((PYTHON, "-c", f"import time; b = b'1' * {MEMORY_BYTES}; time.sleep(9)"))
 
 
 @contextlib.contextmanager

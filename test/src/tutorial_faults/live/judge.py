@@ -174,7 +174,7 @@ def _went_on(record):
 
 
 def _outranked(record):
-    """The Violations (e): a lower input, which alone has a part sideways, drives while teleop does."""
+    """The Violations (e): a lower input, known by its part sideways, drives while teleop speaks."""
     if any(KINDS[injury.kind].part == MUX for injury in record.injuries):
         return []
     spoke_s, found = -math.inf, []

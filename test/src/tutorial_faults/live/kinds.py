@@ -9,8 +9,8 @@ NODES = (DRIVER, JOY2TWIST, MUX, BASE)
 # What a kind needs of the machine.
 LINK, MOUNT, SIMULATED = "network namespaces", "mounting", "simulated time"
 
-# A sender that fell silent for longer must rest before it moves the robot again (the mux's REARM_S):
-# so late may a packet come that TCP sends once more, and still count.
+# A sender that fell silent for longer must rest before it moves the robot again (the mux's
+# REARM_S): so late may a packet come that TCP sends once more, and still count.
 RESENT_S = 0.5
 
 
@@ -20,8 +20,8 @@ class Kind:
 
     lasts_s: the shortest and the longest time [s]. loses: whether a part is lost meanwhile, so that
     the wheels must be at rest in time. goes_on: whether the robot must be driven on all the while.
-    late_s: what it may add to the time until the wheels are at rest [s]. rearms: whether a robot that
-    stood must wait for the release. needs: LINK, MOUNT or SIMULATED, "" for nothing.
+    late_s: what it may add to the time until the wheels are at rest [s]. rearms: whether a robot
+    that stood must wait for the release. needs: LINK, MOUNT or SIMULATED, "" for nothing.
     """
 
     name: str
@@ -84,8 +84,8 @@ KINDS: Dict[str, Kind] = {kind.name: kind for kind in _kinds()}
 def chosen(words, granted):
     """The names of the kinds of a command line; all of them if there are no words.
 
-    words: names of kinds, or of families such as kill. granted: those of LINK, MOUNT, SIMULATED that
-    there are. Raises ValueError for a word that is none.
+    words: names of kinds, or of families such as kill. granted: those of LINK, MOUNT, SIMULATED
+    that there are. Raises ValueError for a word that is none.
     """
     for word in words:
         if not any(word in (kind.name, kind.family) for kind in KINDS.values()):

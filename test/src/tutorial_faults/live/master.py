@@ -56,19 +56,22 @@ class Master:
         """Keep what it knows, for restore()."""
         publishers, subscribers, services = self.ask("getSystemState")
         types = dict(self.ask("getTopicTypes"))
-        names = {name for kind in (publishers, subscribers, services) for _, l in kind for name in l}
-        uris = {name: self.ask("lookupNode", name) for name in names}
+        uris = {}
 
-        def entries(kind):
-            return [
-                (name, uris[name], topic, types.get(topic, "*")) for topic, l in kind for name in l
-            ]
+        def entries(kind, more):
+            """(node, its uri, name of the topic or service, more about that)."""
+            for topic, nodes in kind:
+                for node in nodes:
+                    uris[node] = uris.get(node) or self.ask("lookupNode", node)
+                    yield node, uris[node], topic, more(topic)
 
-        service_uris = {service: self.ask("lookupService", service) for service, _ in services}
+        def type_of(topic):
+            return types.get(topic, "*")
+
         self._memory = Memory(
-            entries(publishers),
-            entries(subscribers),
-            [(name, uris[name], service, service_uris[service]) for service, l in services for name in l],
+            list(entries(publishers, type_of)),
+            list(entries(subscribers, type_of)),
+            list(entries(services, lambda service: self.ask("lookupService", service))),
         )
 
     def kill(self):
@@ -83,12 +86,7 @@ class Master:
         A node that has come meanwhile under a name is the newer one, and stays.
         """
         memory, self._memory = self._memory, None
-        new = {
-            name
-            for kind in self.ask("getSystemState")
-            for _, names in kind
-            for name in names
-        }
+        new = {name for kind in self.ask("getSystemState") for _, names in kind for name in names}
         server = xmlrpc.client.ServerProxy(self._uri)
         for name, uri, topic, kind in memory.publishers:
             if name not in new:

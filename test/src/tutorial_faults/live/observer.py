@@ -1,8 +1,9 @@
 """An observer beside the robot, of its own: it writes down what wheels and commands do.
 
-Lines: kind, time of the system clock [s], linear x, y and angular z. The kinds: `wheels` (/odom, with
-its own stamp; when it came, under simulated time), `command` (cmd_vel of the base), `asked` (the
-mux's input teleop; both without what a stranger says), `joy` (the axis forward, LB, RB), `late` (a gap [s] in which this did not run).
+Lines: kind, time of the system clock [s], linear x, y and angular z. The kinds: `wheels` (/odom,
+with its own stamp; when it came, under simulated time), `command` (cmd_vel of the base), `asked`
+(the mux's input teleop; both without what a stranger says), `joy` (the axis forward, LB, RB),
+`late` (a gap [s] in which this did not run).
 """
 
 import sys

@@ -13,7 +13,9 @@ from tutorial_faults.live.kinds import KINDS, SIMULATED
 DRIVE, TURN, TURBO, STICK, RELEASED = "drive", "turn", "turbo", "stick", "released"
 HELD = (DRIVE, TURN, TURBO)
 
-SIMULATED_BLOCK = 20  # so many seeds in a row have simulated time, as the nodes must start anew for it
+SIMULATED_BLOCK = (
+    20  # so many seeds in a row have simulated time, as the nodes must start anew for it
+)
 BLOCKS = 10  # one block of so many
 WATCHED_S = 0.8  # after the last fault
 UP_S = 1.0  # and so much more for a node that is started anew
@@ -94,9 +96,16 @@ def draw(seed, names):
 
 def _same_part(one, other):
     """Whether two kinds hit the same part, one of which would spoil the other."""
-    return one == other or KINDS[one].part == KINDS[other].part != "" or {
-        KINDS[one].family, KINDS[other].family
-    } in ({"kill_master", "hang_master"}, {"unplug", "frozen_pad"}, {"stopped_viewer", "slow_viewer"})
+    return (
+        one == other
+        or KINDS[one].part == KINDS[other].part != ""
+        or {KINDS[one].family, KINDS[other].family}
+        in (
+            {"kill_master", "hang_master"},
+            {"unplug", "frozen_pad"},
+            {"stopped_viewer", "slow_viewer"},
+        )
+    )
 
 
 def _fault(random, kind, at_s):

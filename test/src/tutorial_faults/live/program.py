@@ -32,13 +32,21 @@ def parse(arguments):
         prog="./tutorial faults", description="Hit the live system with random faults."
     )
     how_long = parser.add_mutually_exclusive_group()
-    how_long.add_argument("--for", type=float, metavar="SECONDS", dest="seconds", help="so long (60)")
+    how_long.add_argument(
+        "--for", type=float, metavar="SECONDS", dest="seconds", help="so long (60)"
+    )
     how_long.add_argument("--trials", type=int, metavar="N", help="so many trials")
     parser.add_argument("--seed", type=int, default=FIRST_SEED, help="of the first trial (1)")
     parser.add_argument("--kinds", nargs="+", default=[], metavar="KIND", help="these faults alone")
-    parser.add_argument("--shrink", action="store_true", help="look for the fewest faults that do it")
-    parser.add_argument("--node", metavar="PACKAGE/TYPE", help=f"in place of joy2twist; or {HANDOUT}")
-    parser.add_argument("--table", metavar="FILE", help="write each trial to FILE, and print a table")
+    parser.add_argument(
+        "--shrink", action="store_true", help="look for the fewest faults that do it"
+    )
+    parser.add_argument(
+        "--node", metavar="PACKAGE/TYPE", help=f"in place of joy2twist; or {HANDOUT}"
+    )
+    parser.add_argument(
+        "--table", metavar="FILE", help="write each trial to FILE, and print a table"
+    )
     parser.add_argument("--fuzz", type=int, metavar="N", help="N random messages and device bytes")
     parser.add_argument("--soak", type=float, metavar="HOURS", help="so long without faults")
     parser.add_argument("--picture", metavar="FILE", default="soak.png", help="of the soak")
@@ -178,7 +186,7 @@ def hunt(options):
         counts = ", ".join(f"({k}) {n}" for k, n in by_invariant(results).items()) or "none"
         print(f"{whose}: trials that violate an invariant, of {len(results)}: {counts}")
     if the_hunt.not_judged:
-        print(f"{the_hunt.not_judged} trials not judged: this machine was too late, or lacked something")
+        print(f"{the_hunt.not_judged} trials not judged: this machine was too late or failed")
     print(last_line(results))
     return int(any(result.violations for result in results))
 

@@ -28,7 +28,9 @@ def joy(random: Random, may_hold):
         packed = struct.pack(f"<{axes}f", *values)
     else:
         packed = random_bytes(random, 4 * axes)
-    buttons = [random.choice((0, 1, 1, -1, 2**31 - 1)) for _ in range(random.choice((12, 12, 11, 5, 0)))]
+    buttons = [
+        random.choice((0, 1, 1, -1, 2**31 - 1)) for _ in range(random.choice((12, 12, 11, 5, 0)))
+    ]
     if not may_hold:
         for number in (LB, RB):
             buttons[number : number + 1] = [0] * len(buttons[number : number + 1])

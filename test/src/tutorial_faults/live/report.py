@@ -7,7 +7,7 @@ STEP = 0.05  # a change of a velocity worth a line
 
 
 def timeline(record, violations=()):
-    """Lines, in the order of time: hands, faults, and every change of what wheels and commands do."""
+    """Lines, in the order of time: hands, faults, every change of what wheels and commands do."""
     events = [(at_s, f"hands show {shows}") for at_s, shows in record.hands]
     for injury in record.injuries:
         events.append((injury.begin_s, f"{injury.kind} begins"))
@@ -30,7 +30,9 @@ def _changes(entries, velocity_of, what):
             or moves(velocity) != moves(last)
             or any(not abs(a - b) < 2 * STEP for a, b in zip(velocity, last))
         ):
-            lines.append((entry.at_s, f"{what} {', '.join(f'{v:.2f}' for v in velocity if v) or 'rest'}"))
+            lines.append(
+                (entry.at_s, f"{what} {', '.join(f'{v:.2f}' for v in velocity if v) or 'rest'}")
+            )
             last = velocity
     return lines
 

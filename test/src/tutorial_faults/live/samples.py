@@ -1,4 +1,4 @@
-"""What the processes of a soak need, over time, and whether it grows (pure, but for reading /proc)."""
+"""What the processes of a soak need, over time, and whether it grows; sample() reads /proc."""
 
 import os
 import re

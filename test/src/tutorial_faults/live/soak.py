@@ -126,7 +126,9 @@ def draw(measured, began, picture):
         memory.plot([o.at_s / 60 for o in its], [o.memory_kb / 1024 for o in its], label=node)
     memory.set_ylabel("resident memory [MB]")
     memory.legend(fontsize=6, ncol=2)
-    rate.plot([(at - began) / 60 for at, *_ in measured.rates], [n / s for _, s, n, _ in measured.rates])
+    rate.plot(
+        [(at - began) / 60 for at, *_ in measured.rates], [n / s for _, s, n, _ in measured.rates]
+    )
     rate.set_ylabel("/odom [Hz]")
     times = [(at - began) / 60 for at, *_ in measured.laps]
     drift.plot(times, [1000 * metres for metres in measured.drift_m()], ".-")

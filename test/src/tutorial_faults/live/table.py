@@ -23,9 +23,7 @@ def write(file, results, header=True):
     if header:
         rows.writerow(FIELDS)
     for one in results:
-        rows.writerow(
-            [one.seed, "+".join(one.kinds), f"{one.rest_s:.3f}", "".join(one.violations)]
-        )
+        rows.writerow([one.seed, "+".join(one.kinds), f"{one.rest_s:.3f}", "".join(one.violations)])
 
 
 def read(file):
@@ -53,7 +51,7 @@ def last_line(results):
 
 
 def by_kind(results):
-    """Lines of a table: kind, trials with it alone and in pairs, violations, worst times to rest."""
+    """Lines of a table: kind, trials with it alone and in pairs, violations, worst times."""
     lines = [
         "| kind | alone | in pairs | violations | worst time to rest alone, in pairs [s] |",
         "|---|---|---|---|---|",

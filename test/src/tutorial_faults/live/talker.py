@@ -11,7 +11,7 @@ class Talker:
     """Such a program of this package, as long as this context lasts; it ends with its input."""
 
     def __init__(self, module, *arguments, prefix=(), environment=None, hear=None):
-        """module: of tutorial_faults.live. prefix: of its command line. hear: called with each line."""
+        """module: of tutorial_faults.live. prefix: of its command. hear: called with each line."""
         self._process = subprocess.Popen(
             [*prefix, PYTHON, "-m", f"tutorial_faults.live.{module}", *map(str, arguments)],
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,

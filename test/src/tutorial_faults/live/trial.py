@@ -66,4 +66,3 @@ def _act(world, plan):
     time.sleep(max(0.0, began + plan.lasts_s - time.monotonic()))
     world.hands.show(RELEASED)
     return world.record
-

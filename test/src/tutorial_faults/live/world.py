@@ -19,7 +19,12 @@ from tutorial_faults.live.talker import PYTHON, Talker
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
-NAMES = {DRIVER: "/joy_node", JOY2TWIST: "/NewJoy2Twist", MUX: "/cmd_vel_mux", BASE: "/fake_turtlebot"}
+NAMES = {
+    DRIVER: "/joy_node",
+    JOY2TWIST: "/NewJoy2Twist",
+    MUX: "/cmd_vel_mux",
+    BASE: "/fake_turtlebot",
+}
 RESTS_S = 0.6  # for which a multiplexer wants to see a sender rest
 STARTS_S = 4.0  # to release all and drive again, at least
 DRIVES_S = 40.0  # after which a system that does not drive is deaf
@@ -83,7 +88,9 @@ class World:
         arguments += [f"{name}:={to}" for name, to in remaps.items()]
         at_station = node in (DRIVER, JOY2TWIST)
         prefix = self.hosts.workstation_prefix if at_station else ()
-        environment = self.hosts.workstation_environment if at_station else self.hosts.robot_environment
+        environment = (
+            self.hosts.workstation_environment if at_station else self.hosts.robot_environment
+        )
         old = self.programs.get(node)
         self.programs[node] = Program(*prefix, *command, *arguments, **environment)
         if old:
@@ -189,4 +196,3 @@ class World:
 def _read(*path):
     with open(os.path.join(*path), encoding="utf-8") as file:
         return yaml.safe_load(file)
-
