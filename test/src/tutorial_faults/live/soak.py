@@ -76,9 +76,8 @@ def soak(hours, picture):
         uri = environment["ROS_MASTER_URI"]
         for command in programs():
             stack.enter_context(Program(*command, DISPLAY="", **environment))
-        observer = Talker("soak_observer", hear=measured.hear)
         wait_for(lambda: call(uri, "getPid")[1], "master", STARTS_S)
-        stack.enter_context(observer).wait_ready()
+        stack.enter_context(Talker("soak_observer", hear=measured.hear)).wait_ready()
         wait_for(lambda: len(node_pids(uri)) >= NODES, "nodes", STARTS_S)
         pids = node_pids(uri)
         began = time.monotonic()

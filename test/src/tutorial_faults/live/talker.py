@@ -3,6 +3,7 @@
 import subprocess
 import sys
 import threading
+import time
 
 PYTHON = "/usr/bin/python3"  # ROS's own
 
@@ -48,8 +49,11 @@ class Talker:
 
     def wait_ready(self, deadline_s=120.0):
         """Wait until it has told the line `ready`. Raises TimeoutError."""
-        if not self._ready.wait(deadline_s):
-            raise TimeoutError(f"{self._process.args} is not ready")
+        end = time.monotonic() + deadline_s
+        while not self._ready.wait(0.1):
+            if self.ended or time.monotonic() > end:
+                what = "has ended" if self.ended else "is not ready"
+                raise TimeoutError(f"{' '.join(self._process.args)} {what}")
 
     def _listen(self):
         for line in self._process.stdout:
