@@ -14,10 +14,8 @@ from node_kit.questions import call
 from tutorial_faults.events import Violation
 from tutorial_faults.live.kinds import BASE, KINDS
 from tutorial_faults.live.talker import PYTHON
-from tutorial_faults.live.world import NAMES
-from tutorial_testing.waiting import BUSY_S
+from tutorial_faults.live.world import ENDS_S, NAMES
 
-ENDS_S = 1.5 + BUSY_S  # for a node to end, when told to
 STARTS_S = 0.3  # a node that is started anew does nothing sooner: it is Python, and loads rospy
 HOGS = 4  # programs that compute; this is for machines of two cores
 MEMORY_BYTES = 400 << 20  # taken, and used, while memory is little

@@ -82,9 +82,16 @@ class Hunt:
         self._leave()
 
     def _leave(self):
+        """End the world."""
         if self._world:
             self._world.__exit__(None, None, None)
         self._world = None
+
+    def end(self):
+        """Have all nodes end as by Ctrl-C; say so if one does not, or leaves a process."""
+        for violation in self._world.end() if self._world and not self._node else ():
+            print(f"VIOLATION at the end: (g) {violation.what}", flush=True)
+            self.results.append(Result(self._options.seed, (), 0.0, ("g",)))
 
     def world(self, simulated):
         """The World, started if need be."""
@@ -178,6 +185,7 @@ def hunt(options):
 
         with contextlib.suppress(KeyboardInterrupt):
             the_hunt.run(tell)
+            the_hunt.end()
     results = the_hunt.results
     if options.table or options.node:
         print("\n".join(by_kind(results)))

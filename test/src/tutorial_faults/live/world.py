@@ -3,12 +3,14 @@
 import contextlib
 import json
 import os
+import signal
 import time
 
 import rospkg
 import yaml
 
-from tutorial_faults.events import Twist, Wheels
+from tutorial_faults.events import Twist, Violation, Wheels
+from tutorial_faults.invariants import unended
 from tutorial_faults.live.beat import beat
 from tutorial_faults.live.hands import HandsOnPad
 from tutorial_faults.live.judge import Injury, Record
@@ -17,7 +19,7 @@ from tutorial_faults.live.master import Master
 from tutorial_faults.live.plan import DRIVE, RELEASED
 from tutorial_faults.live.talker import PYTHON, Talker
 from tutorial_testing.processes import Program
-from tutorial_testing.waiting import wait_for
+from tutorial_testing.waiting import BUSY_S, wait_for
 
 NAMES = {
     DRIVER: "/joy_node",
@@ -25,6 +27,7 @@ NAMES = {
     MUX: "/cmd_vel_mux",
     BASE: "/fake_turtlebot",
 }
+ENDS_S = 1.5 + BUSY_S  # for a node to end, when told to
 RESTS_S = 0.6  # for which a multiplexer wants to see a sender rest
 STARTS_S = 4.0  # to release all and drive again, at least
 DRIVES_S = 40.0  # after which a system that does not drive is deaf
@@ -121,6 +124,20 @@ class World:
         with contextlib.suppress(ProcessLookupError):
             if not self.programs[node].ended:
                 os.kill(self.programs[node].pid, number)
+
+    def end(self):
+        """Press Ctrl-C at all nodes, from the gamepad to the base; the Violations of (g)."""
+        asked_s, ended_s, wrong = time.time(), {}, []
+        self.repair()
+        for node in NODES:
+            self.signal(node, signal.SIGINT)
+        for node in NODES:
+            with contextlib.suppress(AssertionError):
+                self.programs[node].wait(ENDS_S)
+                ended_s[node] = time.time()
+                if self.programs[node].left_behind():
+                    wrong.append(Violation("g", asked_s, f"{node} left a process behind"))
+        return wrong + unended(asked_s, {node: ended_s.get(node) for node in NODES}, ENDS_S)
 
     # ------------------------------------------------------------------------------ the record
 
