@@ -11,6 +11,7 @@ from tutorial_testing.waiting import wait_for
 
 ASKER = "/faults"
 QUESTION_S = 2.0
+STARTS_S = 120.0  # on a machine that is busy with something else
 
 
 class Memory(NamedTuple):
@@ -43,7 +44,7 @@ class Master:
         """Start it and wait for its first answer."""
         port = self._uri.rstrip("/").rsplit(":", 1)[1]
         self._program = Program("rosmaster", "--core", "-p", port, **self._environment)
-        wait_for(lambda: self.ask("getPid"), "master")
+        wait_for(lambda: self.ask("getPid"), "master", STARTS_S)
         # Or every line of a node's log asks the master first.
         self.ask("setParam", "/rosout_disable_topics_generation", False)
         self.ask("setParam", "/use_sim_time", simulated)

@@ -30,7 +30,7 @@ NAMES = {
 ENDS_S = 1.5 + BUSY_S  # for a node to end, when told to
 RESTS_S = 0.6  # for which a multiplexer wants to see a sender rest
 STARTS_S = 4.0  # to release all and drive again, at least
-DRIVES_S = 40.0  # after which a system that does not drive is deaf
+DRIVES_S = 90.0  # after which a system that does not drive is deaf
 
 
 class World:
@@ -65,7 +65,7 @@ class World:
             self.stranger = enter(self._talker("stranger"))
             for one in (self.observer, self.viewer, self.stranger):
                 one.wait_ready()
-            wait_for(lambda: self._newest, "odometry")
+            wait_for(lambda: self._newest, "odometry", DRIVES_S)
         except BaseException:
             self.__exit__(None, None, None)
             raise
