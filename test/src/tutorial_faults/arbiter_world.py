@@ -8,7 +8,7 @@ which it asks them, is done here as there.
 import math
 from typing import NamedTuple, Tuple
 
-from fake_turtlebot_sim.mux.arbitration import Arbiter, Input, Verdict
+from fake_turtlebot_sim.mux.arbitration import Arbiter, Input, LateGuard, Verdict
 from node_kit.resumption import SETTLING_S, Resumption
 from tutorial_faults.events import Command, Through, Violation
 from tutorial_faults.explore import Moment, copy_of, key_of, until
@@ -44,7 +44,8 @@ CONFIGURATIONS = {
     "a stick and a program": Configuration((STICK, PROGRAM), (("stick", "ada"), ("program", "-"))),
     "two sticks on one input": Configuration((STICK,), (("stick", "ada"), ("stick", "bob"))),
     "three programs": Configuration(
-        (Input("top", "top", 0.5, 9), PROGRAM, OTHER), (("top", "-"), ("program", "-"), ("other", "-"))
+        (Input("top", "top", 0.5, 9), PROGRAM, OTHER),
+        (("top", "-"), ("program", "-"), ("other", "-")),
     ),
 }
 
@@ -54,13 +55,16 @@ class ArbiterWorld:
 
     def __init__(self, configuration):
         """Take a Configuration."""
-        inputs = self._inputs = {one.name: one for one in configuration.inputs}
+        self._inputs = {one.name: one for one in configuration.inputs}
         self._arbiter = Arbiter(configuration.inputs)
         self._resumption = Resumption()
         self._now = Moment(0)
         self._sent = ZERO
+        self._settled_s = -math.inf  # what comes before was sent during a suspension
         self._late = {}  # (input, sender) -> NeverLate
-        self._speaks = HighestSpeaks({one.name: (one.priority, one.timeout) for one in inputs.values()})
+        self._speaks = HighestSpeaks(
+            {one.name: (one.priority, one.timeout) for one in configuration.inputs}
+        )
         self._limits = WithinLimits()
 
     def copy(self):
@@ -77,15 +81,17 @@ class ArbiterWorld:
 
     def key(self):
         """All that decides what comes. spoke_s: the same clocks as _expiry_s, if all is well."""
-        now, arbiter = self._now, self._arbiter
+        now, arbiter, guards = self._now, self._arbiter, self._arbiter._guards
         parts = {"_inputs", "_expiry_s", "_guards"}
-        guards = [
-            (name, *key_of(guard, now, HORIZON_S, ("_since_s",)))
-            for name, guard in sorted(arbiter._guards.items())
-        ]
-        late = [
-            key_of(one, now, HORIZON_S, ("last_s", "rests_since_s"), without=("_rest_s",))
-            for _, one in sorted(self._late.items())
+        # Of two senders on one input it does not matter which is which.
+        new = LateGuard()
+        senders = [
+            (
+                name,
+                key_of(guards.get((name, sender), new), now, HORIZON_S, past={"_since_s"}),
+                key_of(one, now, HORIZON_S, past={"last_s", "rests_since_s"}, without={"_rest_s"}),
+            )
+            for (name, sender), one in self._late.items()
         ]
         return (
             key_of(arbiter, now, without=parts),
@@ -96,23 +102,23 @@ class ArbiterWorld:
                     for name, time in self._speaks.spoke_s.items()
                 ]
             ),
-            tuple(guards),
-            tuple(late),
+            tuple(sorted(senders, key=repr)),
             until(now, self._resumption._settled_at),
+            until(now, self._settled_s),
             self._resumption._needs_stop,
             self._sent,
         )
 
     def take(self, event):
-        """Let one thing happen; what is wrong with what comes of it."""
-        if event == PASS:
-            self._now += STEP_S
+        """Let one thing happen (a number: seconds pass); what is wrong with what comes of it."""
+        if event == PASS or isinstance(event, float):
+            self._now += STEP_S if event == PASS else event
             return []
         if event == LOOK:
             return self._look()
         if event == SUSPENDED:
             assert self._resumption.notice(self._resumption._seen + 1, self._now)
-            self._sent = ZERO
+            self._sent, self._settled_s = ZERO, self._now + SETTLING_S
             self._arbiter.lost(self._now)
             for one in self._late.values():
                 one.lost(self._now)
@@ -123,7 +129,9 @@ class ArbiterWorld:
     def _speaking(self):
         """The inputs that speak, by the invariant's own record."""
         return [
-            one for one in self._inputs.values() if self._now < self._speaks.spoke_s[one.name] + one.timeout
+            one
+            for one in self._inputs.values()
+            if self._now < self._speaks.spoke_s[one.name] + one.timeout
         ]
 
     def _look(self):
@@ -134,7 +142,8 @@ class ArbiterWorld:
             wrong.append(("d", "no stop, though all inputs are silent"))
         lull_s = self._arbiter.lull(self._now)
         shortest_s = min(one.timeout for one in self._inputs.values())
-        ends_s = [self._speaks.spoke_s[one.name] + one.timeout - self._now for one in self._speaking]
+        spoke_s = self._speaks.spoke_s
+        ends_s = [spoke_s[one.name] + one.timeout - self._now for one in self._speaking]
         if not 0 < lull_s <= shortest_s or (moves(self._sent) and lull_s > max(ends_s, default=0)):
             wrong.append(("d", f"asleep for {lull_s} s, and something is due sooner"))
         return [Violation(letter, self._now, what) for letter, what in wrong]
@@ -144,25 +153,23 @@ class ArbiterWorld:
         if self._resumption.is_old(now):
             return []
         verdict = self._arbiter.command(name, velocity, now, command.sender)
-        is_finite = all(map(math.isfinite, velocity))
-        is_late = False
-        if is_finite and self._inputs[name].rearm_on_zero:
-            guard = self._late.setdefault((name, command.sender), NeverLate())
-            is_late = guard.late(velocity, now)
-        if is_finite and not is_late:
+        counts = all(map(math.isfinite, velocity)) and not self._is_late(command)
+        if counts:
             self._speaks.take(command)
-        wrong = []
-        if verdict is Verdict.OBEYED:
-            through = Through(now, name, velocity)
-            found = [self._limits.take(through), is_finite and self._speaks.take(through)]
-            self._sent = velocity
-            if is_late:
-                found.append(Violation("f", now, f"a late command of {command.sender} moves the robot"))
-            wrong = [violation for violation in found if violation]
-        elif is_finite and not is_late and max(self._speaking, key=_priority).name == name:
-            wrong = [Violation("e", now, f"{name} is the highest that speaks, and is not obeyed")]
-        return wrong
+        if verdict is not Verdict.OBEYED:
+            highest = max(self._speaking, key=lambda one: one.priority, default=None)
+            if counts and highest.name == name:
+                return [Violation("e", now, f"{name} is the highest that speaks, and not obeyed")]
+            return []
+        self._sent = velocity
+        through = Through(now, name, velocity)
+        found = [self._limits.take(through), self._speaks.take(through)]
+        if moves(velocity) and (not counts or now < self._settled_s):
+            found.append(Violation("f", now, f"a late command of {command.sender} is obeyed"))
+        return [violation for violation in found if violation]
 
-
-def _priority(one):
-    return one.priority
+    def _is_late(self, command):
+        if not self._inputs[command.input].rearm_on_zero:
+            return False
+        guard = self._late.setdefault((command.input, command.sender), NeverLate())
+        return guard.late(command.velocity, self._now)

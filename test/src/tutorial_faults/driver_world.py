@@ -1,11 +1,12 @@
-"""Every state of the joystick driver's rules (Driver, GamepadState, Schedule), judged by (b) and (d).
+"""Every state of the joystick driver's rules (Driver and its parts), judged by (a) to (d).
 
 The driver cannot move a robot by itself; its part is that nobody who listens is deceived: it never
 says "released" of a gamepad that it does not know to be, tells of a loss before it is silent, and
 is silent for longer than joy2twist waits before it speaks of another gamepad.
 
-Clocks: the next message and the sign of life; without a gamepad the end of the silence. Thresholds:
-LONGEST_LIFELESS_S 0.45 s, SHORTEST_SILENCE_S 0.6 s, autorepeat 0.3 s, coalesce_interval 0.15 s.
+Clocks: the next message and the sign of life; without a gamepad the end of the silence after it.
+Thresholds: LONGEST_LIFELESS_S 0.45 s, SHORTEST_SILENCE_S 0.6 s, autorepeat 0.3 s,
+coalesce_interval 0.15 s.
 """
 
 import math
@@ -17,6 +18,7 @@ from gamepad.js_event import AXIS, BUTTON, FULL, INIT, SIGN_OF_LIFE_MS
 from tutorial_faults.events import Violation
 from tutorial_faults.explore import Moment, copy_of, key_of, until
 
+LARGEST = 1.0001  # a little beyond 1: a kernel never gives -32768, but others may
 STEP_S = 0.05  # 0.15 s for two clocks
 JOY_TIMEOUT_S = 0.5  # joy2twist's default
 COALESCE_S, REPEAT_S = 0.15, 0.3
@@ -40,6 +42,10 @@ BYTES = {
     "sign of life": event(BUTTON | INIT, 0, time_ms=SIGN_OF_LIFE_MS),
     "unknown type": event(8, 1),
 }
+# What is fixed, what is only for the user, and the parts that have keys of their own.
+NOT_IN_KEY = {
+    "_parameters", "_state", "_schedule", "_decoder", "_triggers", "events", "unknown_events",
+}  # fmt: skip
 PASS, TICK, LOST = "time passes", "tick", "lost"
 OPEN = {"open: of the kernel": True, "open: a virtual one": False}
 EVENTS = {**{name: name for name in (PASS, TICK, LOST, *OPEN)}, **BYTES}
@@ -56,7 +62,7 @@ class Gamepad:
         self.pressed = None  # button 0; None: not told
 
     def feed(self, data, now):
-        """What changed: a list of (kind, value); kind BUTTON or AXIS, or 0 for the state told anew."""
+        """What changed: (kind, value) each; kind: BUTTON, AXIS, or 0 for the state at opening."""
         data, changes = self.rest + data, []
         for at in range(0, len(data) - len(data) % 8, 8):
             time_ms, value, kind, _ = struct.unpack_from("=IhBB", data, at)
@@ -103,17 +109,12 @@ class DriverWorld:
     def key(self):
         """All that decides what comes."""
         now, driver = self._now, self._driver
-        parts = {"_parameters", "_state", "_schedule", "_decoder", "_triggers", "events", "unknown_events"}
-        key = (
-            self._is_mute,
-            self._has_told,
-            until(now, driver.opens_at),
-        )
+        key = (self._is_mute, self._has_told, until(now, driver.opens_at))
         if driver._state is None:
             return (*key, driver._told, driver._mute)
         return (
             *key,
-            key_of(driver, now, future=("opens_at", "_lifeless_at"), without=parts),
+            key_of(driver, now, future={"opens_at", "_lifeless_at"}, without=NOT_IN_KEY),
             tuple(driver._state._axes),
             tuple(driver._state._buttons),
             until(now, driver._schedule.due),
@@ -126,11 +127,11 @@ class DriverWorld:
         )
 
     def take(self, event):
-        """Let one thing happen; what is wrong with what comes of it."""
+        """Let one thing happen (a number: seconds pass); what is wrong with what comes of it."""
         is_open = self._pad is not None
         wrong = []
-        if event == PASS:
-            self._now += STEP_S
+        if event == PASS or isinstance(event, float):
+            self._now += STEP_S if event == PASS else event
         elif event == TICK:
             wrong = [*self._judge(self._driver.tick(self._now)), *self._must_be_called(True)]
         elif event == LOST and is_open:
@@ -173,10 +174,10 @@ class DriverWorld:
             yield "d", f"pressed and released: {presses}, and told was {told}"
 
     def _judge(self, messages):
-        for axes, buttons in messages:
+        for axes, _ in messages:
             if self._pad is None or self._is_mute:
                 yield "b", "tells of a gamepad that nobody has touched since it is back"
-            if not all(math.isfinite(value) and -1 <= value <= 1 for value in axes):
+            if not all(abs(value) <= LARGEST for value in axes):
                 yield "c", f"axes beyond their ends: {axes}"
         if messages and self._pad:
             if bool(self._pad.pressed) != any(messages[-1][1]):

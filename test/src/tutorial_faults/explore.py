@@ -43,10 +43,6 @@ class Moment(int):
             return (int(self) - int(other)) / 1e6
         return self + -other
 
-    def __rsub__(self, other):
-        """The seconds until some other time."""
-        return math.inf if other == math.inf else Moment(round(other * 1e6)) - self
-
 
 PLAIN = (bool, int, float, str, tuple, type(None), Moment)
 
@@ -71,7 +67,7 @@ def until(now, then):
     return then if then in (None, math.inf) else then - now if then > now else OVER
 
 
-def key_of(one, now, horizon_s=0.0, past=(), future=(), without=()) -> Tuple:
+def key_of(one, now, horizon_s=0.0, *, past=(), future=(), without=()) -> Tuple:
     """The attributes of an object for a key.
 
     past, future: names of those that are times. horizon_s: at least all that a time of the past is
@@ -85,10 +81,11 @@ def key_of(one, now, horizon_s=0.0, past=(), future=(), without=()) -> Tuple:
         if type(value) not in PLAIN:
             raise TypeError(f"{type(one).__name__}.{name} is new: copy it, or leave it out")
         if name in past:
-            value = since(now, value, horizon_s)
+            values.append(since(now, value, horizon_s))
         elif name in future:
-            value = until(now, value)
-        values.append(value)
+            values.append(until(now, value))
+        else:
+            values.append(value)
     return tuple(values)
 
 
@@ -125,7 +122,7 @@ def explore(start, events: Dict[str, Any], most_states=1_000_000, most_violation
             for name, event in events.items():
                 transitions += 1
                 new = world.copy()
-                wrong = new.take(event)
+                wrong = _judged(new, event)
                 if wrong:
                     violations += [(one, (*_way(came_from, key), name)) for one in wrong]
                     if len(violations) >= most_violations:
@@ -139,6 +136,13 @@ def explore(start, events: Dict[str, Any], most_states=1_000_000, most_violation
             raise RuntimeError(f"more than {most_states} states: one of their parts grows for ever")
         frontier, depth = found, depth + bool(found)
     return Explored(len(came_from), transitions, depth, violations)
+
+
+def _judged(world, event):
+    try:
+        return world.take(event)
+    except Exception as error:  # whatever it is: the node would not go on
+        return [Violation("an exception", 0, repr(error))]
 
 
 def _way(came_from, key):

@@ -45,7 +45,7 @@ class HeldDeadMan:
         self.settled_s = -math.inf  # what comes before is old
 
     def take(self, event) -> Optional[Violation]:
-        """Take a Joy, a Twist, or a Loss: of one that settles nothing counts that was heard before."""
+        """Take a Joy, a Twist or a Loss; after one that settles nothing counts that came before."""
         if isinstance(event, Loss) and event.settles_s:
             self.until_s = min(self.until_s, event.at_s + self._slack_s)
             self.settled_s = max(self.settled_s, event.at_s + event.settles_s)

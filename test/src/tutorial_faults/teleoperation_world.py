@@ -25,6 +25,7 @@ BASE = {
 }  # fmt: skip
 ARMING = {**BASE, "arm_on_neutral": True}
 NO_DEAD_MAN = {"enable_button": -1, "enable_turbo_button": -1}
+TURBO_ALONE = {"enable_button": -1, "enable_turbo_button": 0, "require_enable_button": True}
 RAMP = {"max_linear_acceleration": 1.0, "max_angular_acceleration": 2.0}
 # What decides which way a message takes.
 CONFIGURATIONS = {
@@ -32,7 +33,8 @@ CONFIGURATIONS = {
     "dead-man, arming": ARMING,
     "no dead-man": {**BASE, **NO_DEAD_MAN},
     "no dead-man, arming": {**ARMING, **NO_DEAD_MAN},
-    "turbo alone, arming": {**ARMING, "enable_button": -1},
+    "no turbo": {**BASE, "enable_turbo_button": -1},
+    "turbo alone, arming": {**ARMING, **TURBO_ALONE},
     "no timeout, arming": {**ARMING, "joy_timeout": 0},
     "ramp, arming": {**ARMING, **RAMP},
     "ramp, no dead-man": {**BASE, **NO_DEAD_MAN, **RAMP},
@@ -66,14 +68,28 @@ MESSAGES = {
     "another's LB and stick": Message("bob", STICK, (1, 0)),
 }
 # What is fixed, what is only for the user, and the parts that have keys of their own.
-NOT_IN_KEY = set(
-    """_parameters _warn _mapping _safety _hints _knows_gamepad _may_warn _max_age_ns _unheard_since
-    _resumption _messages _last_message _last_summary""".split()
-)
+NOT_IN_KEY = {
+    "_parameters", "_warn", "_mapping", "_safety", "_hints", "_knows_gamepad", "_may_warn",
+    "_max_age_ns", "_unheard_since", "_resumption", "_messages", "_last_message", "_last_summary",
+}  # fmt: skip
 FIXED_IN_SAFETY = {"_parameters", "_wake", "_period", "_gradual", "_changes", "state"}
 FIXED_IN_RELEASED = {"_is_good", "_is_released", "disarmed_s", "settled_s"}  # Resumption's
 PASS, TICK, LEFT, SUSPENDED = "time passes", "tick", "left", "suspended"
 EVENTS = {**{name: name for name in (PASS, TICK, LEFT, SUSPENDED)}, **MESSAGES}
+# With a ramp there are many times more states; what is no velocity goes the same way as without.
+WITHOUT_RAMP = (
+    "stick", "turbo and stick", "LB and infinity", "too few axes", "too few buttons",
+    "LB and stick, old", "another's neutral, worn", "another's LB",
+)  # fmt: skip
+
+
+def events_of(name):
+    """The events for one of the CONFIGURATIONS."""
+    return {
+        event: what
+        for event, what in EVENTS.items()
+        if not (name.startswith("ramp") and event in WITHOUT_RAMP)
+    }
 
 
 class TeleoperationWorld:
@@ -82,7 +98,7 @@ class TeleoperationWorld:
     def __init__(self, **given):
         """given: private parameters of joy2twist."""
         p = self._parameters = load(given)
-        self._ramps = p.max_linear_acceleration > 0
+        self._ramps = p.max_linear_acceleration > 0 or p.max_angular_acceleration > 0
         self._woken = []  # of the transition that is made just now
         self._machine = Teleoperation(p, lambda line: None, lambda: self._woken.append(True))
         self._now = Moment(0)
@@ -95,7 +111,7 @@ class TeleoperationWorld:
         )
         self._held = HeldDeadMan(p.joy_timeout, meaning.holds)
         self._armed = SeenReleased(p.joy_timeout, meaning.is_good, meaning.is_released)
-        self._limits = WithinLimits(p.max_linear_speed, p.max_angular_speed)
+        self._limits = WithinLimits(p.max_linear_speed or math.inf, p.max_angular_speed or math.inf)
 
     def copy(self):
         """A World of its own, with what does not change shared."""
@@ -108,25 +124,23 @@ class TeleoperationWorld:
 
     def key(self):
         """All that decides what comes. _seen counts suspensions, and is compared with the next."""
-        now, machine = self._now, self._machine
+        now, machine, timeout_s = self._now, self._machine, self._parameters.joy_timeout
         return (
             key_of(machine, now, without=NOT_IN_KEY),
             key_of(
-                machine._safety, now, self._parameters.joy_timeout, ("_heard",), ("_next_output",),
-                FIXED_IN_SAFETY,
+                machine._safety, now, timeout_s, past={"_heard"}, future={"_next_output"},
+                without=FIXED_IN_SAFETY,
             ),
             until(now, machine._resumption._settled_at),
             until(now, self._held.until_s),
-            key_of(
-                self._armed, now, self._parameters.joy_timeout, ("heard_s",), (), FIXED_IN_RELEASED
-            ),
+            key_of(self._armed, now, timeout_s, past={"heard_s"}, without=FIXED_IN_RELEASED),
             (self._sent, self._zeros, self._has_moved, self._all_released),
         )  # fmt: skip
 
     def take(self, event):
-        """Let one thing happen; what is wrong with what comes of it."""
-        if event == PASS:
-            self._now += STEP_S
+        """Let one thing happen (a number: seconds pass); what is wrong with what comes of it."""
+        if event == PASS or isinstance(event, float):
+            self._now += STEP_S if event == PASS else event
             return []
         self._woken.clear()
         due, sent, was_late = self._machine.due, self._sent, self._is_silent
@@ -147,7 +161,10 @@ class TeleoperationWorld:
             self._sent = answer
             self._zeros = 0 if moves(answer) else min(self._zeros + 1, self._stop_messages)
             self._has_moved = self._has_moved or moves(answer)
+        is_rearmed = self._arms and self._armed.armed  # by this message, as silence disarms
+        is_late = was_late and not is_rearmed and moves(sent) and moves(answer or ZERO)
         wrong = (
+            *([("f", "no stop before a message that is late")] if is_late else []),
             *self._must_stand(event),
             *self._must_watch(event, due, answer),
             *self._must_go_on(event, answer, was_late),
@@ -182,8 +199,8 @@ class TeleoperationWorld:
         judges = (self._held, self._limits, *([self._armed] if self._arms else []))
         found = [violation for one in judges for violation in [one.take(twist)] if violation]
         change = math.hypot(*(new - old for new, old in zip(velocity[:3], before[:3])))
-        most = self._parameters.max_linear_acceleration / self._parameters.output_rate
-        if self._ramps and moves(velocity) and change > most + 1e-9:
+        most = (self._parameters.max_linear_acceleration or math.inf) / self._parameters.output_rate
+        if moves(velocity) and change > most * (1 + 1e-9):
             found.append(Violation("c", self._now, f"from {before[0]} to {velocity[0]} at once"))
         return found
 
@@ -216,9 +233,9 @@ class TeleoperationWorld:
             yield "d", "the node is never let sleep"
         p = self._parameters
         is_over = self._now >= self._held.until_s and p.require_enable_button
-        if answer is not None and is_over and self._zeros < p.stop_messages:
-            if self._machine.due > self._now + 1.0 / p.output_rate:
-                yield "d", "a stop is not repeated"
+        is_last = self._machine.due > self._now + 1.0 / p.output_rate
+        if answer is not None and is_over and self._zeros < p.stop_messages and is_last:
+            yield "d", "a stop is not repeated"
 
     def _never_sleeps(self):
         machine = self.copy()._machine
@@ -233,6 +250,6 @@ class TeleoperationWorld:
         if not isinstance(event, Message) or self._ramps or self._now < self._armed.settled_s:
             return
         may = self._meaning.holds(Joy(self._now, *event)) and (self._armed.armed or not self._arms)
-        wants = moves(event.axes)
+        wants = moves(event.axes[:2])
         if may and wants and not was_late and not moves(answer or ZERO):
             yield "h", "the dead-man is held, and the robot is not driven"

@@ -52,6 +52,14 @@ def test_a_clock_set_back_begins_a_new_count():
     assert lock.deadline_ns == 33
 
 
+def test_a_clock_set_back_not_as_far_as_the_start_does_so_too():
+    lock = PhaseLock(20, 100)
+    lock.complete(100)
+    lock.complete(500)
+    assert lock.complete(300) == 0
+    assert lock.deadline_ns == 320
+
+
 @given(st.lists(st.integers(0, 1000), min_size=1))
 def test_however_late_the_next_deadline_is_ahead_and_in_phase(lateness):
     lock = PhaseLock(20, 100)

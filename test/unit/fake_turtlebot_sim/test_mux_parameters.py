@@ -119,6 +119,16 @@ def test_a_mistake_is_named_with_its_value_and_what_is_allowed(given, parts):
         assert part in message
 
 
+def test_the_lowest_priority_is_0():
+    assert parse_mux_parameters(with_teleop(priority=0)).subscribers[0].priority == 0
+
+
+def test_the_shortest_and_the_longest_timeout():
+    for timeout in (0.02, 60):
+        parameters = parse_mux_parameters(with_teleop(timeout=timeout))
+        assert parameters.subscribers[0].timeout == timeout
+
+
 def test_the_number_of_the_entry_is_told():
     bad = {**NAVI, "timeout": -1}
     with pytest.raises(ValueError, match="entry 2: timeout: -1"):

@@ -69,6 +69,47 @@ def test_true_velocity_of_unequal_wheels():
     assert errors.true_velocity((1.0, 0.0)) == pytest.approx((1.0, 1.6))
 
 
+def test_wrong_wheels_bend_the_truth_away_from_the_odometry_wherever_it_starts():
+    start = (3.0, -2.0, pi / 2)
+    robot = SimulatedRobot(RobotModel(errors=ErrorModel(wheel_radius_ratio=1.1)), start)
+    robot.command((0.5, 0.0), 0)
+    robot.advance(SECOND // 2)
+    assert robot.state()[:3] == pytest.approx((3.0, -1.75, pi / 2), abs=1e-12)
+    assert robot.true_state().yaw > pi / 2 + 0.05  # the right wheel is the larger one
+    assert robot.true_state().x < 3.0 - 0.005
+
+
+@pytest.mark.parametrize("way", [1, -1], ids=["forward", "backward"])
+def test_the_noise_has_no_mean_and_the_size_that_is_told(way):
+    errors = OdometryErrors(ErrorModel(wheel_noise=0.01, seed="a"), SEPARATION)
+    # 1 m/s for 0.25 s: each wheel is off by 0.01 * sqrt(0.25) m, or 0.02 m/s.
+    drawn = np.array([errors.measured((way * 1.0, 0.0), 0.25) for _ in range(4000)])
+    assert drawn.mean(axis=0) == pytest.approx((way * 1.0, 0.0), abs=0.02)
+    # v: half the sum of the wheels' errors; w: their difference over the separation.
+    expected = (0.02 / 2**0.5, 0.02 * 2**0.5 / SEPARATION)
+    assert drawn.std(axis=0) == pytest.approx(expected, rel=0.05)
+
+
+def test_the_covariance_of_one_straight_step_by_hand():
+    errors = OdometryErrors(ErrorModel(wheel_noise=0.01), 0.2)
+    errors.grow((0.0, 0.0, 0.0), (0.5, 0.0, 0.0), (1.0, 0.0), 0.5)
+    # Each wheel has driven 0.5 m with a variance of 1e-4 * 0.5. A wheel's metre moves the middle
+    # by half of it, turns it by 1 / 0.2, and shifts it aside by half the step times that turn.
+    variance, turn, aside = 5e-5, 5.0, 1.25
+    expected = (
+        2
+        * variance
+        * np.array([[0.25, 0.0, 0.0], [0.0, aside**2, aside * turn], [0.0, aside * turn, turn**2]])
+    )
+    assert errors.covariance == pytest.approx(expected, rel=1e-12, abs=1e-18)
+    # A second step carries what it is turned by on, over its 0.5 m.
+    errors.grow((0.5, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 0.0), 0.5)
+    carried = np.array([[1, 0, 0], [0, 1, 0.5], [0, 0, 1]])
+    assert errors.covariance == pytest.approx(
+        carried @ expected @ carried.T + expected, rel=1e-12, abs=1e-18
+    )
+
+
 def noisy_drive(seed, rate_hz=10, noise=0.01):
     """Drive an S of 6 s and return (robot at its end, odometry minus truth)."""
     robot = SimulatedRobot(RobotModel(errors=ErrorModel(wheel_noise=noise, seed=seed)))

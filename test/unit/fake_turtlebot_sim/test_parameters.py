@@ -109,6 +109,25 @@ def test_a_mistake_is_named_with_its_value_and_what_is_allowed(given, parts):
         assert part in message
 
 
+def test_every_parameter_of_the_model_reaches_it():
+    given = {
+        "wheel_separation": 0.3, "wheel_radius": 0.05, "cmd_vel_timeout": 1.5,
+        "max_linear_speed": 0.4, "max_angular_speed": 2.0,
+        "max_linear_acceleration": 0.8, "max_angular_acceleration": 3.0,
+        "wheel_noise": 0.01, "wheel_radius_ratio": 1.02, "track_ratio": 0.97,
+    }  # fmt: skip
+    model = parse_parameters(given).robot_model("")
+    assert (model.wheel_separation, model.wheel_radius, model.cmd_vel_timeout) == (0.3, 0.05, 1.5)
+    limits = model.limits
+    assert (limits.linear, limits.angular) == (0.4, 2.0)
+    assert (limits.linear_acceleration, limits.angular_acceleration) == (0.8, 3.0)
+    errors = model.errors
+    assert (errors.wheel_noise, errors.wheel_radius_ratio, errors.track_ratio) == (0.01, 1.02, 0.97)
+    assert parse_parameters({"initial_x": 1, "initial_y": 2, "initial_yaw": 3}).start_poses() == {
+        "": (1.0, 2.0, 3.0)
+    }
+
+
 def test_robots_by_name_and_by_number():
     named = parse_parameters({"robots": {"alice": [0, 1, 2]}})
     assert named.start_poses() == {"alice": (0.0, 1.0, 2.0)}

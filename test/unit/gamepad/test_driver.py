@@ -348,3 +348,41 @@ def test_after_a_loss_it_is_no_longer_lifeless():
 
 def test_a_lifeless_source_is_lost_before_joy2twist_hears_silence_and_not_for_a_late_sign():
     assert 0.3 < LONGEST_LIFELESS_S < 0.5  # two signs of virtual_joystick; joy2twist's ~joy_timeout
+
+
+def test_after_a_loss_it_is_silent_for_longer_than_joy2twist_waits():
+    assert 0.5 < SHORTEST_SILENCE_S < 1.0  # joy2twist's ~joy_timeout
+
+
+def test_before_the_first_gamepad_there_is_nothing_to_say():
+    fresh = Driver(DriverParameters())
+    assert fresh.due == float("inf")
+    assert fresh.opens_at == -float("inf")
+    assert fresh.tick(1.0) == []
+    assert not fresh.is_lifeless(1e9)
+    assert (fresh.events, fresh.unknown_events) == (0, 0)
+
+
+def test_a_gamepad_that_never_said_anything_is_lost_without_a_word():
+    ours = driver()
+    assert ours.lost(1.0) == []
+    assert ours.due == float("inf")
+
+
+def test_the_events_are_counted():
+    ours = driver()
+    ours.read(events((BUTTON, 0, 1), (8, 0, 1), (AXIS, 0, 5)), 0.0)
+    assert (ours.events, ours.unknown_events) == (3, 1)
+
+
+def test_a_sticky_button_is_switched_off_by_the_second_press():
+    ours = driver(sticky_buttons=True)
+    shown = [ours.read(events((BUTTON, 1, value)), 0.1)[0][1] for value in (1, 0, 1, 0, 1)]
+    assert shown == [(0, 1), (0, 1), (0, 0), (0, 0), (0, 1)]
+
+
+def test_two_sticky_buttons_are_switched_apart():
+    ours = driver(sticky_buttons=True)
+    pressed = ((0, 1), (0, 0), (1, 1), (1, 0), (0, 1))
+    shown = [ours.read(events((BUTTON, *press)), 0.1)[0][1] for press in pressed]
+    assert shown == [(1,), (1,), (1, 1), (1, 1), (0, 1)]

@@ -62,6 +62,24 @@ def test_the_left_stick_is_on_axes_0_and_1_and_with_the_led_on_4_and_5():
     assert swapped == (0.0, 1.0, 0.0, 0.0, 1.0, 0.0)
 
 
+@pytest.mark.parametrize(
+    ("pushed", "shown"),
+    [(-1.0, -1.0), (-0.51, -1.0), (-0.5, 0.0), (0.0, 0.0), (0.5, 0.0), (0.51, 1.0), (1.0, 1.0)],
+)
+def test_a_d_pad_knows_only_its_ends_and_the_middle(pushed, shown):
+    for pad in F710.values():
+        assert positions(pad, Controls(dpad=(pushed, 0.0)))[0][-2:] == (shown, 0.0)
+        assert positions(pad, Controls(dpad=(0.0, pushed)))[0][-2:] == (0.0, shown)
+
+
+def test_the_right_stick_and_the_right_trigger():
+    moved = Controls(right_stick=(0.25, -0.75), triggers=(0.25, 0.75))
+    assert positions(F710_D, moved)[0] == (0.0, 0.0, 0.25, -0.75, 0.0, 0.0)
+    assert positions(F710_X, moved)[0] == (0.0, 0.0, 0.5, 0.25, -0.75, -0.5, 0.0, 0.0)
+    held = [name for name, down in zip(F710_D.buttons, positions(F710_D, moved)[1]) if down]
+    assert held == ["RT"]
+
+
 def test_triggers_are_axes_in_x_mode_and_buttons_in_d_mode():
     pulled = Controls(triggers=(1.0, 0.0), held=frozenset(["LB"]))
     assert positions(F710_X, pulled)[0] == (0.0, 0.0, -1.0, 0.0, 0.0, 1.0, 0.0, 0.0)
@@ -85,6 +103,54 @@ def test_a_key_that_is_not_repeated_is_released():
     assert at(keyboard, 1.0 + FIRST_HOLD_S - 0.01) == ((0, 1), [])
     assert at(keyboard, 1.0 + FIRST_HOLD_S) == ((0, 0), [])
     assert keyboard.at(9.0)[1] == math.inf
+
+
+@pytest.mark.parametrize(
+    ("keys", "stick"),
+    [
+        ("w W \x1b[A \x1bOA", (0, 1)),
+        ("s S \x1b[B \x1bOB", (0, -1)),
+        ("a A \x1b[D \x1bOD", (1, 0)),
+        ("d D \x1b[C \x1bOC", (-1, 0)),
+    ],
+)
+def test_every_key_of_a_direction(keys, stick):
+    for key in keys.split():
+        keyboard = Keyboard()
+        keyboard.press(key, 1.0)
+        assert at(keyboard, 1.0) == (stick, []), key
+
+
+@pytest.mark.parametrize(("key", "held"), [(" ", ["LB"]), ("t", ["RB"]), ("T", ["RB"])])
+def test_every_key_of_a_button(key, held):
+    keyboard = Keyboard()
+    keyboard.press(key, 1.0)
+    assert at(keyboard, 1.0) == ((0, 0), held)
+
+
+@pytest.mark.parametrize("key", ["q", "Q", "\x03", "\x04"])
+def test_every_key_that_quits(key):
+    keyboard = Keyboard()
+    keyboard.press(key, 1.0)
+    assert keyboard.quit
+
+
+@pytest.mark.parametrize("digit", range(10))
+def test_every_digit(digit):
+    keyboard = Keyboard()
+    keyboard.press(f"{digit}w", 1.0)
+    assert at(keyboard, 1.0) == ((0, digit / 10 if digit else 1.0), [])
+
+
+def test_how_long_a_key_counts_as_held():
+    assert 0.66 < FIRST_HOLD_S < 1.0  # the slowest terminal waits that long
+    assert 1 / 11 < REPEAT_HOLD_S < 0.5  # the slowest repetition; joy2twist's ~joy_timeout
+
+
+def test_a_second_m_and_a_second_u_undo_the_first():
+    keyboard = Keyboard()
+    keyboard.press("mumu", 0.0)
+    assert keyboard.at(0.0)[0] == Controls()
 
 
 def test_a_held_key_is_released_soon_after_its_last_repetition():
@@ -201,6 +267,8 @@ def test_a_recording_keeps_its_times():
             "a message has 8 axes and 11 buttons; this gamepad has 6",
         ),
         ([(0.0, ((math.nan,) * 6, (0,) * 12))], "a message has axes beyond"),
+        ([(0.0, ((0.0,) * 5 + (1.01,), (0,) * 12))], "a message has axes beyond"),
+        ([(0.0, ((-1.01,) + (0.0,) * 5, (0,) * 12))], "a message has axes beyond"),
         ([(0.0, ((0.0,) * 6, (0,) * 12))], "there are fewer than two messages"),
         ([(1.0, ((0.0,) * 6, (0,) * 12))] * 2, "all messages have one time"),
     ],

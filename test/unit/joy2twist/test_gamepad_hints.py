@@ -32,6 +32,23 @@ def test_a_stick_that_moves_axes_4_and_5_is_said_once():
     assert "MODE" in hint
 
 
+def test_worn_sticks_are_no_hint_and_end_no_search():
+    assert hints([six(a1=0.1, a4=0.1, a5=-0.1)]) == []
+    (hint,) = hints([six(a1=0.1), six(a5=0.11)])
+    assert "MODE" in hint
+
+
+def test_nothing_more_is_looked_for_once_the_stick_has_moved():
+    looker = GamepadHints(load({}))
+    assert not looker.finished
+    looker.hint(six())
+    assert not looker.finished
+    looker.hint(six(a1=-0.5))
+    assert looker.finished
+    looker.hint((0.0,) * 8)
+    assert looker.finished  # of 8 axes nothing can be swapped
+
+
 def test_a_swapped_stick_gives_whole_steps_as_a_d_pad_does():
     (hint,) = hints([six(), six(a5=1.0), six(a4=-1.0), six()])
     assert "left stick" in hint

@@ -77,7 +77,25 @@ SIX_AXES = {
             id="turbo is the only dead-man",
         ),
         pytest.param(
+            {"enable_turbo_button": 0, "require_enable_button": True},
+            AXES,
+            (1, 0),
+            (0.4, 0, 0, 0, 0, 0.3),
+            id="turbo is button 0",
+        ),
+        pytest.param(
+            {"enable_turbo_button": 0, "require_enable_button": True},
+            AXES,
+            (0, 1),
+            None,
+            id="and no other drives, as the last does not",
+        ),
+        pytest.param({}, (0.3, -0.4), (), (-0.4, 0, 0, 0, 0, 0.3), id="reverse"),
+        pytest.param(
             {"inverted_reverse": True}, (0.3, 0.4), (), (0.4, 0, 0, 0, 0, 0.3), id="forward"
+        ),
+        pytest.param(
+            {"inverted_reverse": True}, (0.3, 0.0), (), (0, 0, 0, 0, 0, 0.3), id="on the spot"
         ),
         pytest.param(
             {"inverted_reverse": True}, (0.3, -0.4), (), (-0.4, 0, 0, 0, 0, -0.3), id="like a car"

@@ -72,6 +72,10 @@ def test_a_named_enable_button_is_required_unless_said_otherwise(given, required
         ({"axis_angular": {"x": 1}}, ["~axis_angular", "roll, pitch, yaw"]),
         ({"axis_angular": [0]}, ["~axis_angular", "[0]"]),
         ({"scale_linear": "fast"}, ["~scale_linear", "'fast'", "from -100 to 100"]),
+        ({"scale_angular_turbo": -1e6}, ["~scale_angular_turbo", "from -100 to 100"]),
+        ({"scale_linear": 100.5}, ["~scale_linear", "100.5"]),
+        ({"scale_linear": {"x": 1.0, "y": "fast"}}, ["~scale_linear", "'fast'", "x, y, z"]),
+        ({"axis_linear": {"x": 1, "y": None}}, ["~axis_linear", "None", "x, y, z"]),
         ({"scale_linear": -101}, ["~scale_linear", "-101", "from -100 to 100"]),
         ({"scale_angular": float("nan")}, ["~scale_angular", "nan"]),
         (
@@ -90,7 +94,18 @@ def test_a_named_enable_button_is_required_unless_said_otherwise(given, required
         ({"max_joy_age": "1 s"}, ["~max_joy_age", "'1 s'"]),
         ({"output_rate": 0}, ["~output_rate", "0", "Hz"]),
         ({"stop_messages": 0}, ["~stop_messages", "0", "1 to 100"]),
-        ({"max_linear_speed": -1}, ["~max_linear_speed", "-1"]),
+        ({"stop_messages": 101}, ["~stop_messages", "101", "1 to 100"]),
+        ({"stop_messages": 2.5}, ["~stop_messages", "2.5", "whole number"]),
+        ({"output_rate": 0.5}, ["~output_rate", "0.5", "1 to 1000 Hz"]),
+        ({"joy_timeout": 61}, ["~joy_timeout", "61", "0 to 60 s"]),
+        ({"max_joy_age": -0.1}, ["~max_joy_age", "-0.1", "0 to 60 s"]),
+        ({"max_linear_speed": -1}, ["~max_linear_speed", "-1", "0 to 1000 m/s (0: no limit)"]),
+        ({"max_linear_speed": -0.5}, ["~max_linear_speed", "-0.5"]),
+        ({"max_angular_speed": -0.5}, ["~max_angular_speed", "-0.5", "0 to 1000 rad/s"]),
+        ({"max_linear_acceleration": -0.5}, ["~max_linear_acceleration", "0 to 1000 m/s2"]),
+        ({"max_angular_acceleration": 1001}, ["~max_angular_acceleration", "0 to 1000 rad/s2"]),
+        ({"diagnostic_period": 0}, ["~diagnostic_period", "0.1 to 60 s"]),
+        ({"gamepad_axes": -2}, ["~gamepad_axes", "-2", "or -1 for any"]),
         ({"max_angular_acceleration": None}, ["~max_angular_acceleration", "None"]),
         ({"log_rate": -5}, ["~log_rate", "-5", "lines a second"]),
         ({"gamepad_axes": "six"}, ["~gamepad_axes", "'six'"]),
@@ -104,3 +119,27 @@ def test_an_error_names_parameter_value_and_what_is_allowed(given, words):
     assert "\n" not in text
     for word in words:
         assert word in text
+
+
+def test_the_least_and_the_most_are_allowed():
+    least = {"stop_messages": 1, "output_rate": 1, "joy_timeout": 0, "diagnostic_period": 0.1}
+    most = {"stop_messages": 100, "output_rate": 1000, "joy_timeout": 60, "diagnostic_period": 60}
+    for given in (least, most):
+        p = load(given)
+        assert {name: getattr(p, name) for name in given} == given
+    assert load({"scale_linear": -100, "scale_angular": 100}).axes[0].scale == -100
+    assert load({"axis_linear": -1, "axis_angular": 0}).axes == (Axis(YAW, 0, 1.0, 1.0),)
+
+
+def test_all_defaults_written_out():
+    p = load({})
+    assert (p.stop_messages, p.output_rate, p.max_joy_age, p.inverted_reverse) == (5, 20, 0, False)
+    assert (p.max_linear_speed, p.max_angular_speed) == (0, 0)
+    assert (p.max_linear_acceleration, p.max_angular_acceleration) == (0, 0)
+    assert (p.gamepad_axes, p.diagnostic_period) == (-1, 1)
+
+
+@pytest.mark.parametrize(("enable", "turbo"), [(0, -1), (-1, 0), (1, 0), (0, 1)])
+def test_button_0_is_a_button(enable, turbo):
+    given = {"enable_button": enable, "enable_turbo_button": turbo, "require_enable_button": True}
+    assert load(given).require_enable_button

@@ -108,6 +108,15 @@ class TestDeadMan:
             assert machine.drive(None, True, i * 0.02 + 0.02) is None
         assert sent == [(0.12, ZERO), (0.22, ZERO)]
 
+    def test_every_release_stops_anew(self):
+        machine = safety(**DEAD_MAN, stop_messages=2)
+        for start in (0.0, 1.0, 1.2):
+            assert machine.drive(FORWARD, False, start) == FORWARD
+            assert machine.drive(None, False, start + 0.01) == ZERO
+            assert over_time(machine, start + 0.01, start + 0.1) == [
+                (pytest.approx(start + 0.06), ZERO)
+            ]
+
     def test_driving_again_ends_the_zeros(self):
         machine = safety(**DEAD_MAN)
         machine.drive(FORWARD, False, 0.0)
@@ -261,6 +270,16 @@ class TestAccelerationLimits:
         assert self.hold(machine, ZERO, 0.4, 0.8) == [
             (0.4, 0.15), (0.5, 0.05), (0.6, 0.0), (0.65, 0.0), (0.7, 0.0), (0.75, 0.0),
         ]  # fmt: skip
+
+    def test_an_angular_limit_alone_lets_it_drive_forward_at_once(self):
+        machine = safety(max_angular_acceleration=2.0, output_rate=10.0)
+        assert machine.drive((0.5, 0, 0, 0, 0, 1.0), False, 0.0) == (0.5, 0, 0, 0, 0, 0.2)
+        assert machine.tick(0.1) == (0.5, 0, 0, 0, 0, pytest.approx(0.4))
+
+    def test_each_part_has_a_limit_of_its_own(self):
+        machine = safety(**LIMITS, max_angular_acceleration=2.0)
+        machine.drive((0.5, 0, 0, 0, 0, 1.0), False, 0.0)
+        assert machine.tick(0.1) == pytest.approx((0.2, 0, 0, 0, 0, 0.4))
 
     def test_dead_man_stops_hard(self):
         machine = safety(**DEAD_MAN, **LIMITS, stop_messages=2)

@@ -106,6 +106,42 @@ def test_a_hint_on_the_gamepad_is_given_once_for_each_connection():
     assert len(warnings) == 2
 
 
+def test_another_mode_of_the_gamepad_is_told_once():
+    machine, warnings = teleoperation()
+    machine.joy((0.0,) * 6, (), 0.0)
+    for now in (0.1, 0.2):
+        machine.joy((0.0, 0.0, 0.0, 0.0, 0.0, 1.0), (), now)
+    (hint,) = warnings
+    assert "press MODE" in hint
+
+
+def test_who_leaves_stops_the_robot():
+    machine, _ = teleoperation(enable_button=0)
+    machine.joy((0.0, 1.0), (1,), 0.0)
+    assert machine.left(0.1) == (0,) * 6
+    assert machine.left(0.2) is None
+    assert machine.summary(0.3)[1] == "stopped: the joystick node has left"
+
+
+def test_with_arming_all_is_released_first_with_a_dead_man_and_without():
+    machine, _ = teleoperation(arm_on_neutral=True, enable_button=0)
+    assert machine.joy((0.0, 1.0), (1,), 0.0) == (0,) * 6
+    assert machine.joy((0.0, 1.0), (0,), 0.1) is None  # the stick is not
+    assert machine.joy((0.0, 1.0), (1,), 0.2) is None
+    assert not machine.released
+    machine.joy((0.0, 0.05), (0,), 0.3)
+    assert machine.released
+    assert machine.joy((0.0, 1.0), (1,), 0.4)[0] == 1.0
+    assert not machine.released
+
+    machine, _ = teleoperation(arm_on_neutral=True)
+    assert machine.joy((0.0, 1.0), (), 0.0) == (0,) * 6
+    machine.joy((0.0, 0.0), (), 0.1)
+    assert machine.released
+    assert machine.joy((0.0, 1.0), (), 0.2)[0] == 1.0
+    assert not machine.released
+
+
 def test_diagnostics():
     machine, _ = teleoperation(enable_button=0)
     assert machine.summary(0.0) == (

@@ -8,6 +8,7 @@ import pytest
 
 from node_kit import newest_only
 from node_kit.newest_only import CUT_AFTER_RESENDS, NewestOnly
+from tutorial_testing.waiting import wait_for
 
 SIZE = 52  # of a Twist on the wire
 DEADLINE_S = 20.0
@@ -207,3 +208,78 @@ def test_a_connection_that_works_has_no_resends(connection):
     near.sendall(STOP)
     far.recv(SIZE, socket.MSG_WAITALL)
     assert newest_only.resends(near) == 0
+
+
+def test_a_connection_is_cut_after_the_second_resend_as_the_first_may_be_one_lost_packet():
+    assert CUT_AFTER_RESENDS == 2
+
+
+class Scripted:
+    """A socket whose send() does what the test says: takes so many bytes, or raises."""
+
+    def __init__(self, near, *answers):
+        self._near, self._answers = near, list(answers)
+        self.sent = b""
+
+    def setsockopt(self, *_):
+        pass
+
+    def fileno(self):
+        return self._near.fileno()
+
+    def send(self, data, flags):
+        assert flags == socket.MSG_DONTWAIT
+        answer = self._answers.pop(0) if self._answers else len(data)
+        if isinstance(answer, Exception):
+            raise answer
+        self.sent += data[:answer]
+        return min(answer, len(data))
+
+
+def wait_until_caught_up(sender):
+    wait_for(lambda: not sender._behind, "end of the thread", DEADLINE_S)
+
+
+@pytest.mark.parametrize(
+    "answers",
+    [
+        (20,),  # a part, and the thread sends the rest
+        (20, BlockingIOError(), 20),
+        (BlockingIOError(),),
+        (BlockingIOError(), 1, BlockingIOError(), 1, 49),
+    ],
+)
+def test_a_message_is_never_torn(connection, answers):
+    near, _ = connection
+    scripted = Scripted(near, *answers)
+    sender = NewestOnly(scripted)
+    sender.write(message(1))
+    wait_until_caught_up(sender)
+    assert scripted.sent == message(1)
+    sender.write(message(2))
+    assert scripted.sent == message(1) + message(2)
+
+
+def test_the_begun_message_is_finished_before_the_newest_one(connection):
+    near, far = connection
+    near.setblocking(False)
+    with pytest.raises(BlockingIOError):
+        while True:
+            near.send(bytes(65536))
+    scripted = Scripted(near, 20)
+    sender = NewestOnly(scripted)
+    for number in (1, 2, 3):  # the thread waits for room in the full connection
+        sender.write(message(number))
+    while sender._behind:
+        far.recv(65536)
+    assert scripted.sent == message(1) + message(3)
+
+
+def test_after_an_error_in_the_thread_the_next_write_tells_of_it(connection):
+    near, _ = connection
+    scripted = Scripted(near, 20, ConnectionResetError("gone"), ConnectionResetError("gone"))
+    sender = NewestOnly(scripted)
+    sender.write(message(1))
+    wait_until_caught_up(sender)
+    with pytest.raises(ConnectionResetError):
+        sender.write(message(2))

@@ -32,6 +32,9 @@ class TestResumption:
         assert resumption.is_old(5.0 + 0.99 * SETTLING_S)
         assert not resumption.is_old(5.0 + SETTLING_S)
 
+    def test_it_settles_for_a_quarter_of_a_second(self):
+        assert SETTLING_S == 0.25  # less than joy2twist's ~joy_timeout, more than a full socket
+
     def test_nothing_moves_before_a_stop_that_is_not_old(self):
         resumption = Resumption()
         resumption.notice(1, 5.0)

@@ -34,6 +34,17 @@ def test_rate_zero_is_never():
     assert passed(Throttle(0, burst=5), range(100)) == 0
 
 
+def test_a_burst_is_no_longer_than_said():
+    throttle = Throttle(10, burst=3)
+    assert passed(throttle, [5.0] * 10) == 3
+    assert not throttle.ready(5.09)
+    assert throttle.ready(5.11)
+
+
+def test_a_rate_below_zero_is_never():
+    assert passed(Throttle(-1), range(100)) == 0
+
+
 def test_each_text_once_in_a_period():
     throttle = ThrottleEach(0.1)
     assert throttle.ready("a", 0.0)

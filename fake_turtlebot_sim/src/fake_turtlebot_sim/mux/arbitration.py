@@ -128,5 +128,5 @@ class LateGuard:
         if was_moving or self._is_moving:
             self._since_s = now
         if elapsed_s > REARM_S:
-            self._is_held = was_moving or (self._is_held and not self._is_moving)
+            self._is_held = was_moving
         return not (self._is_held and self._is_moving)

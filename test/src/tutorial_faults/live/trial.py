@@ -46,6 +46,8 @@ def _act(world, plan):
         world.drive()
     except AssertionError as error:
         record = world.record
+        if was_late(record):
+            raise LateError from error
         world.begin_record()
         record.told.append(Violation("h", time.time(), f"before the faults: {error}"))
         return record

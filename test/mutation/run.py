@@ -1,0 +1,192 @@
+"""Makes small changes to the rules, one at a time, and sees whether a unit test notices each.
+
+The changes are those of cosmic-ray (PyPI), which also makes them; but not to the file: a process of
+its own, forked from one that has loaded all else, imports the changed module and runs the tests of
+its package. So a change takes as long as the first test that fails, and the repository is left
+alone.
+"""
+
+import argparse
+import hashlib
+import importlib.abc
+import importlib.util
+import json
+import os
+import signal
+import sys
+import time
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent))
+
+import pytest
+from cosmic_ray.ast import ast_nodes, get_ast
+from cosmic_ray.mutating import mutate_code
+from cosmic_ray.plugins import get_operator, operator_names
+from explained import key_of, reasons
+from hypothesis import Phase, settings
+from modules import NOT_RUN, names, path_of, tests_of
+
+RESULTS = Path(__file__).with_name("results.json")
+# Not made, because no test could fail to notice them, or none could notice: bits of a float, and
+# the identity of numbers.
+NOT_MADE = ("_RShift", "_LShift", "_BitOr", "_BitAnd", "_BitXor", "_Pow", "_Is", "_IsNot")
+MADE_NEVERTHELESS = ("_Is_IsNot", "_IsNot_Is")
+PRELOADED = """pytest hypothesis.strategies hypothesis.stateful numpy rospy yaml rosgraph
+    sensor_msgs.msg geometry_msgs.msg nav_msgs.msg diagnostic_msgs.msg std_msgs.msg tf2_msgs.msg
+    visualization_msgs.msg"""
+LEAST_SHARE = 95.0  # [%] of the changes to a module that must be noticed or explained
+# A change after which the tests take so many times as long as without it, and a while, was noticed:
+# something waits for ever.
+LONGEST, A_WHILE_S = 10.0, 10.0
+
+
+def operators():
+    """Names of cosmic-ray's changes that are made."""
+    for name in operator_names():
+        takes_arguments = get_operator(name).arguments()
+        if takes_arguments or (name.endswith(NOT_MADE) and not name.endswith(MADE_NEVERTHELESS)):
+            continue
+        yield name
+
+
+def changes(source):
+    """All (operator, occurrence) of a module's source."""
+    tree = get_ast(source)
+    for name in operators():
+        operator = get_operator(name)()
+        count = sum(len(list(operator.mutation_positions(node))) for node in ast_nodes(tree))
+        yield from ((name, occurrence) for occurrence in range(count))
+
+
+class Changed(importlib.abc.MetaPathFinder, importlib.abc.Loader):
+    """Gives one module another source when it is imported."""
+
+    def __init__(self, module, source):
+        """module: its full name."""
+        self._module, self._source = module, source
+
+    def find_spec(self, fullname, path, target=None):
+        """As importlib asks."""
+        if fullname != self._module:
+            return None
+        return importlib.util.spec_from_file_location(fullname, path_of(fullname), loader=self)
+
+    def create_module(self, spec):
+        """As usual."""
+        return None
+
+    def exec_module(self, module):
+        """Run the changed source."""
+        exec(compile(self._source, module.__file__, "exec"), module.__dict__)
+
+
+def preload():
+    """Load what all tests need, and nothing of ours: every change is spared it."""
+    for name in PRELOADED.split():
+        importlib.import_module(name)
+
+
+def tests_pass(module, source, longest_s=600.0):
+    """Whether the tests pass with a source of the module; run in a process of its own."""
+    pid = os.fork()
+    if pid == 0:
+        try:
+            os._exit(_run_tests(module, source))
+        finally:
+            os._exit(99)
+    deadline = time.monotonic() + longest_s
+    while True:
+        ended, status = os.waitpid(pid, os.WNOHANG)
+        if ended:
+            return os.waitstatus_to_exitcode(status) == 0
+        if time.monotonic() > deadline:
+            os.killpg(pid, signal.SIGKILL)
+            os.waitpid(pid, 0)
+            return False
+        time.sleep(0.005)
+
+
+def _run_tests(module, source):
+    os.setpgid(0, 0)
+    nowhere = os.open(os.devnull, os.O_RDWR)
+    for descriptor in (0, 1, 2):
+        os.dup2(nowhere, descriptor)
+    # A failure need not be made small here, and a slow machine is none.
+    quick = {"phases": (Phase.explicit, Phase.generate), "database": None, "deadline": None}
+    settings.register_profile("changes", derandomize=True, **quick)
+    settings.load_profile("changes")
+    sys.meta_path.insert(0, Changed(module, source))
+    options = ["-x", "-q", "-p", "no:cacheprovider", "-p", "no:xdist", "-p", "no:benchmark"]
+    return pytest.main([*options, "-k", NOT_RUN, *map(str, tests_of(module))])
+
+
+def difference(before, after):
+    """The lines of a source that a change touches: (was, becomes)."""
+    old, new = before.splitlines(), after.splitlines()
+    if len(old) != len(new):  # a decorator is gone
+        at = next(i for i, (a, b) in enumerate(zip([*old, ""], [*new, ""])) if a != b)
+        return old[at].strip(), ""
+    pairs = [(a.strip(), b.strip()) for a, b in zip(old, new) if a != b]
+    return pairs[0] if pairs else ("", "")
+
+
+def examine(module, only_survivors, known):
+    """Try all changes of a module; the results: how many, and the survivors."""
+    source = path_of(module).read_text(encoding="utf-8")
+    digest = hashlib.sha256(source.encode()).hexdigest()[:16]
+    begin_s = time.monotonic()
+    if not tests_pass(module, source):
+        sys.exit(f"{module}: its tests fail as it is, or take too long: see ./tutorial test unit")
+    longest_s = LONGEST * (time.monotonic() - begin_s) + A_WHILE_S
+    again = None
+    if only_survivors and known and known["source"] == digest:
+        again = {tuple(one["change"]) for one in known["survivors"]}
+    count, survivors = 0, []
+    for change in changes(source):
+        count += 1
+        if again is not None and change not in again:
+            continue
+        name, occurrence = change
+        changed = mutate_code(source, get_operator(name)(), occurrence)
+        if changed is not None and tests_pass(module, changed, longest_s):
+            was, becomes = difference(source, changed)
+            survivors.append({"change": change, "was": was, "becomes": becomes})
+    return {"source": digest, "changes": count, "survivors": survivors}
+
+
+def report(module, found, known):
+    """Print the score of a module and what has no reason; whether all is well."""
+    survivors = [key_of(module, one) for one in found["survivors"]]
+    open_ones = [change for change in survivors if change not in known]
+    share = 100.0 * (1 - len(survivors) / found["changes"])
+    counts = f"{len(survivors)} of {found['changes']} not noticed, {len(open_ones)} not explained"
+    print(f"{module}: {share:.1f} %, {counts}", flush=True)
+    for change in open_ones:
+        print(f"    {change}", flush=True)
+    return not open_ones and share >= LEAST_SHARE
+
+
+def main():
+    """Run for the modules that are named, or for all; exit code 1 if a survivor has no reason."""
+    parser = argparse.ArgumentParser(prog="./tutorial test mutation", description=__doc__)
+    parser.add_argument("modules", nargs="*", metavar="MODULE", help="such as joy_to_twist.safety")
+    parser.add_argument(
+        "--survivors", action="store_true", help="only what was not noticed last time"
+    )
+    options = parser.parse_args()
+    unknown = set(options.modules) - set(names())
+    if unknown:
+        parser.error(f"{', '.join(sorted(unknown))}: not one of {' '.join(names())}")
+    preload()
+    results = json.loads(RESULTS.read_text()) if RESULTS.exists() else {}
+    all_well = True
+    for module in options.modules or names():
+        results[module] = examine(module, options.survivors, results.get(module))
+        RESULTS.write_text(json.dumps(results, indent=1, sort_keys=True) + "\n")
+        all_well = report(module, results[module], reasons()) and all_well
+    return 0 if all_well else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
