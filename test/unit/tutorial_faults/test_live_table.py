@@ -5,7 +5,7 @@ import io
 from tutorial_faults.live.relay import LONGEST_QUEUE, Cable
 from tutorial_faults.live.samples import Sample, complaints, growth
 from tutorial_faults.live.soak_observer import RESTS_S, Laps
-from tutorial_faults.live.table import Result, by_invariant, by_kind, last_line, read, write
+from tutorial_faults.live.table import Result, beside, by_kind, last_line, read, write
 
 RESULTS = [
     Result(1, ("unplug",), 0.1, ()),
@@ -34,8 +34,14 @@ def test_a_row_for_each_kind_that_came():
     ]
 
 
-def test_how_often_each_invariant_is_violated():
-    assert by_invariant(RESULTS) == {"a": 1, "d": 1}
+def test_how_often_each_invariant_is_violated_beside_ours():
+    assert beside({"theirs": RESULTS, "ours": RESULTS[:1]}) == [
+        "| invariant | theirs, of 3 | ours, of 1 |",
+        "|---|---|---|",
+        "| a | 1 | 0 |",
+        "| d | 1 | 0 |",
+        "| worst time to rest [s] | 0.25 | 0.10 |",
+    ]
 
 
 def samples(memory, threads=(5, 5), files=(9, 9)):

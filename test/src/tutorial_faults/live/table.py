@@ -70,9 +70,23 @@ def by_kind(results):
     return lines
 
 
-def by_invariant(results):
-    """How many of the trials violate each invariant, from its letter."""
-    return {
-        letter: sum(letter in one.violations for one in results)
-        for letter in sorted({letter for one in results for letter in one.violations})
-    }
+def beside(results_of):
+    """Lines of a table: in how many trials each invariant was violated, one column for each.
+
+    results_of: from a name to its results.
+    """
+    names = list(results_of)
+    letters = sorted(
+        {letter for results in results_of.values() for one in results for letter in one.violations}
+    )
+    lines = [
+        "| invariant | "
+        + " | ".join(f"{name}, of {len(results_of[name])}" for name in names)
+        + " |",
+        "|---" * (1 + len(names)) + "|",
+    ]
+    for letter in letters:
+        counts = [sum(letter in one.violations for one in results_of[name]) for name in names]
+        lines.append(f"| {letter} | {' | '.join(map(str, counts))} |")
+    worst = [max((one.rest_s for one in results_of[name]), default=0.0) for name in names]
+    return [*lines, f"| worst time to rest [s] | {' | '.join(f'{s:.2f}' for s in worst)} |"]
