@@ -20,4 +20,7 @@ def listen():
 
 
 if __name__ == "__main__":
-    listen()
+    try:
+        listen()
+    except rospy.ROSInitException:
+        pass  # told to stop while it waited for a master

@@ -24,5 +24,5 @@ def talk():
 if __name__ == "__main__":
     try:
         talk()
-    except rospy.ROSInterruptException:
-        pass  # told to stop while it slept
+    except rospy.ROSException:
+        pass  # told to stop while it slept, or while it waited for a master

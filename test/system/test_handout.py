@@ -1,4 +1,4 @@
-"""The tutorial's handout, typed word for word by a student with a workspace of his own.
+"""The tutorial's handout, typed word for word by a student with a workspace of their own.
 
 In its order; each row is the terminal, what is typed there, and what must be seen. Nothing of the
 solutions may be.
@@ -23,7 +23,7 @@ WORKSPACE = "ros/hydro/catkin_ws"
 # A set-up of ROS, not a mistake: no screen for RViz here, and Debian's own warnings.
 DEADLINE_S = 120.0  # for a catkin_make on a busy machine
 
-# {package} stands for the student's folder of it: what the handout has him download or write.
+# {package} stands for the student's folder of it: what the handout has them download or write.
 PACKAGES = [
     ("1", "cd ~/ros/hydro/catkin_ws/src", ""),
     (
@@ -192,7 +192,7 @@ class Student:
 
 @pytest.fixture
 def student(tmp_path):
-    """On a host of his own: roscore takes the port 11311 whatever ROS_MASTER_URI says."""
+    """On a host of their own: roscore takes the port 11311 whatever ROS_MASTER_URI says."""
     try:
         host = Host()
     except PermissionError as error:

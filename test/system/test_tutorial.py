@@ -433,6 +433,19 @@ def test_a_workspace_path_with_spaces_is_refused(clone, tmp_path, monkeypatch):
     assert "set TUTORIAL_WORKSPACE to a path without spaces" in line
 
 
+@pytest.mark.parametrize("started_by", ["roscore", "roslaunch"])
+def test_a_master_has_what_rospy_would_ask_for_with_every_line(tutorial, master_uri, started_by):
+    port = master_uri.rsplit(":", 1)[1]
+    launch = ["beginner_tutorials", "talker_listener.launch"] * (started_by == "roslaunch")
+    with Program(tutorial, "run", started_by, "-p", port, *launch) as master:
+        wait_for(lambda: "process[rosout-1]: started" in master.output, "rosout")
+        asked = ["rosparam", "get", "/rosout_disable_topics_generation"]
+        done = subprocess.run([tutorial, "run", *asked], capture_output=True, check=True, text=True)
+        assert done.stdout.strip() == "false"
+        master.interrupt()
+        master.wait()
+
+
 def test_shell_and_run_see_the_workspace_and_no_shell_file_is_touched(tutorial, tmp_path):
     home = tmp_path / "home"
     home.mkdir()

@@ -57,7 +57,8 @@ class NamesTest(unittest.TestCase):
         with Program("rosrun", "beginner_tutorials", f"{name}.py", ROS_MASTER_URI=nobody) as node:
             wait_for(lambda: line in node.output, line)
             node.interrupt()
-            node.wait()
+            self.assertEqual(node.wait(), 0)
+            self.assertNotIn("Traceback", node.output)
 
     def test_two_anonymous_talkers_live_side_by_side(self):
         self.check_anonymous("talker")

@@ -99,7 +99,7 @@ class RobotTest(unittest.TestCase):
                 moving = [arrival for arrival, speed in odometry if speed != 0.0]
                 delays_s.append(moving[-1] + PERIOD_S - killed)
         # The best of three, because this machine may be busy with something else.
-        self.assertLess(min(delays_s), COMMAND_TIMEOUT_S + PERIOD_S)
+        self.assertLess(min(delays_s), COMMAND_TIMEOUT_S + PERIOD_S + BUSY_S)
 
 
 class SubscriberTest(unittest.TestCase):

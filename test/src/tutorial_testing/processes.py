@@ -82,8 +82,11 @@ class Program:
         self._process.stdin.flush()
 
     def wait(self, deadline_s=DEADLINE_S):
-        """Wait for the end; return the exit code."""
-        wait_for(lambda: self.ended, f"end of {self._process.args[:3]}", deadline_s)
+        """Wait for the end; return the exit code. If it is late, AssertionError with the output."""
+        try:
+            wait_for(lambda: self.ended, f"end of {self._process.args}", deadline_s)
+        except AssertionError as error:
+            raise AssertionError(f"{error}; it printed:\n{self.output}") from None
         return self._process.returncode
 
     def left_behind(self):
