@@ -7,6 +7,7 @@ setup(
             "tutorial_check",
             "tutorial_check.exercises",
             "tutorial_faults",
+            "tutorial_faults.live",
             "tutorial_testing",
             "tutorial_testing.kernel",
             "tutorial_testing.two_hosts",

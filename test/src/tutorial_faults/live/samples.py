@@ -1,0 +1,66 @@
+"""What the processes of a soak need, over time, and whether it grows; sample() reads /proc."""
+
+import os
+import re
+from pathlib import Path
+from typing import NamedTuple
+
+SETTLES_S = 60.0  # after which nothing new is opened
+MOST_GROWTH_KB = 2048
+
+
+class Sample(NamedTuple):
+    """One process at one time [s] since the start: memory [kB], threads, open files."""
+
+    at_s: float
+    node: str
+    memory_kb: int
+    threads: int
+    files: int
+
+
+def sample(at_s, node, pid):
+    """The Sample of a process, or None if it has ended."""
+    try:
+        status = Path(f"/proc/{pid}/status").read_text()
+        files = len(os.listdir(f"/proc/{pid}/fd"))
+    except OSError:
+        return None
+    memory, threads = (
+        int(re.search(rf"^{name}:\s+(\d+)", status, re.M)[1]) for name in ("VmRSS", "Threads")
+    )
+    return Sample(at_s, node, memory, threads, files)
+
+
+def growth(samples, node):
+    """(memory [kB], threads, files) by which a node has grown after it settled; None: unknown.
+
+    Of memory the difference between the last tenth and the first, each by its smallest, as it comes
+    and goes; of threads and files the largest, beyond the largest of the first minute.
+    """
+    its = [one for one in samples if one.node == node]
+    before = [one for one in its if one.at_s <= SETTLES_S]
+    after = [one for one in its if one.at_s > SETTLES_S]
+    if not before or not after:
+        return None
+    tenth = max(1, len(after) // 10)
+    memory = min(one.memory_kb for one in after[-tenth:]) - min(
+        one.memory_kb for one in after[:tenth]
+    )
+    threads, files = (
+        max(getattr(one, name) for one in after) - max(getattr(one, name) for one in before)
+        for name in ("threads", "files")
+    )
+    return memory, threads, files
+
+
+def complaints(samples):
+    """Lines about the nodes that have grown."""
+    lines = []
+    for node in sorted({one.node for one in samples}):
+        grown = growth(samples, node)
+        if grown is None:
+            lines.append(f"{node}: did not live for longer than {SETTLES_S:.0f} s")
+        elif grown[0] > MOST_GROWTH_KB or grown[1] > 0 or grown[2] > 0:
+            lines.append(f"{node}: grew by {grown[0]} kB, {grown[1]} threads, {grown[2]} files")
+    return lines
