@@ -64,14 +64,12 @@ cockpit_server.program
 ALL = RULES + OUTER
 ALLOWED_IN_RULES = set(
     """
-    bisect collections dataclasses difflib enum errno hmac html ipaddress json math numpy os random
-    re struct sys typing
+    bisect dataclasses difflib enum errno hmac html ipaddress json math numpy os random re struct
+    sys typing
     """.split()
 )
 # What speaks to the other side of a socket, and waits for it, is handed the socket or the address.
-SOCKETS = set(
-    "fcntl http.client select socket termios threading urllib.parse xmlrpc.client".split()
-)
+SOCKETS = {"http.client", "select", "socket", "threading", "urllib.parse", "xmlrpc.client"}
 MAY_USE_SOCKETS = {"node_kit.newest_only", "node_kit.questions", "node_kit.names"}
 INSIDE_ROSPY = ("rospy.core", "rospy.client", "rospy.impl", "rospy.names")
 # Import name -> the name in package.xml, where they differ.

@@ -7,7 +7,7 @@ import threading
 import pytest
 
 from node_kit import newest_only
-from node_kit.newest_only import CUT_AFTER_RESENDS, LONGEST_UNDER_WAY_S, NewestOnly
+from node_kit.newest_only import CUT_AFTER_RESENDS, NewestOnly
 from tutorial_testing.waiting import wait_for
 
 SIZE = 52  # of a Twist on the wire
@@ -284,58 +284,3 @@ def test_after_an_error_in_the_thread_the_next_write_tells_of_it(connection):
     wait_until_caught_up(sender)
     with pytest.raises(ConnectionResetError):
         sender.write(message(2))
-
-
-class Way:
-    """A clock, and how much of what was sent is still under way."""
-
-    def __init__(self, monkeypatch):
-        self.now, self.bytes = 0.0, 0
-        monkeypatch.setattr(newest_only, "unacknowledged", lambda _: self.bytes)
-
-    def clock(self):
-        return self.now
-
-
-def test_of_what_a_slow_link_cannot_take_the_newest_goes(connection, monkeypatch):
-    """A stop must not wait behind seconds of old velocities: they wait before the link, unsent."""
-    near, far = connection
-    way = Way(monkeypatch)
-    sender = NewestOnly(near, STOP, buffer_bytes=8192, clock=way.clock)
-    for number in (1, 2, 3):
-        sender.write(message(number))
-        way.bytes += SIZE
-    assert numbers_until(far, 3) == [1, 2, 3]
-    way.now = LONGEST_UNDER_WAY_S
-    sender.write(message(4))  # not yet too long
-    way.bytes += SIZE
-    way.now += 0.01
-    for number in (5, 6, 7):
-        sender.write(message(number))
-    assert numbers_until(far, 4) == [4]
-    far.settimeout(0.1)
-    with pytest.raises(TimeoutError):
-        far.recv(1)
-    far.settimeout(DEADLINE_S)
-    way.bytes = SIZE  # of the fourth, which is not old yet
-    assert numbers_until(far, 7) == [7]
-
-
-def test_without_a_clock_nothing_waits_for_what_is_under_way(connection, monkeypatch):
-    near, far = connection
-    way = Way(monkeypatch)
-    sender = NewestOnly(near, STOP, buffer_bytes=8192)
-    way.bytes = 100 * SIZE
-    for number in range(20):
-        sender.write(message(number))
-    assert numbers_until(far, 19) == list(range(20))
-
-
-def test_what_is_unacknowledged_is_what_the_kernel_says(connection):
-    near, _ = connection
-    assert newest_only.unacknowledged(near) == 0
-    fill(NewestOnly(near), near)
-    assert newest_only.unacknowledged(near) > 0
-    with socket.socket() as closed:
-        pass
-    assert newest_only.unacknowledged(closed) == 0

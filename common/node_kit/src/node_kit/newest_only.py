@@ -1,28 +1,19 @@
 """Sends messages over a socket without ever waiting for the other side (pure: no ROS, no clock)."""
 
-import collections
-import fcntl
 import select
 import socket
-import struct
-import termios
 import threading
 
 # Linux resends what is not acknowledged after 0.2 s or more, then after twice that, and so on. A
 # packet lost on a radio link is resent once; a second time means that nobody has answered for some
 # 0.6 s, as long as a TurtleBot obeys a velocity.
 CUT_AFTER_RESENDS = 2
-# What is not acknowledged this long after it was sent waits somewhere on the way, as before a slow
-# radio link. More after it would only wait, too, and a stop behind all of it. [s]
-LONGEST_UNDER_WAY_S = 0.2
-_LOOK_S = 0.01  # how soon it is noticed that the way is free again
 # struct tcp_info of linux/tcp.h begins with these bytes: tcpi_state, tcpi_ca_state (4: packets were
 # lost), tcpi_retransmits. Four bytes are asked for, since QEMU's emulation of a processor knows
 # options of that length only, and leaves what was in memory in any other.
 _INFO_BYTES = 4
 _STATE_AT, _CONGESTION_AT, _RESENDS_AT = 0, 1, 2
 _STATES = range(1, 13)  # TCP_ESTABLISHED to TCP_NEW_SYN_RECV, linux/tcp_states.h
-_INT = struct.Struct("=i")  # SIOCOUTQ of linux/sockios.h, which is TIOCOUTQ
 _LOSS = 4  # TCP_CA_Loss: so it is whenever something was resent because no answer came
 
 
@@ -39,22 +30,14 @@ class NewestOnly:
     """
 
     def __init__(
-        self,
-        connected_socket,
-        stop=None,
-        tell=lambda is_cut: None,
-        buffer_bytes=None,
-        *,
-        held=False,
-        clock=None,
+        self, connected_socket, stop=None, tell=lambda is_cut: None, buffer_bytes=None, held=False
     ):
         """connected_socket: a TCP socket, on which nobody else sends.
 
         stop: the message to stop, or None if a late message does no harm. tell: called with True
         when the connection is cut, with False when it is in use again. buffer_bytes: room for
         messages on their way, which the kernel doubles; None: what the kernel finds right. held:
-        whether nothing is sent before free() is called. clock: gives seconds, and never jumps; with
-        it a link that is too slow for all messages gets the newest only, too.
+        whether nothing is sent before free() is called.
         """
         self._socket = connected_socket
         self._stop = stop
@@ -64,9 +47,6 @@ class NewestOnly:
         self._begun = b""  # the rest of a message of which the kernel has taken a part
         self._newest = b""  # the message to send after that
         self.held = held
-        self._clock = clock
-        self._sent = 0  # bytes that the kernel has taken
-        self._under_way = collections.deque()  # (those until then, when [s]), not acknowledged
         # A small message goes out at once instead of waiting for the answer to the last one.
         connected_socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         if buffer_bytes:
@@ -82,7 +62,7 @@ class NewestOnly:
             if self._behind:
                 self._newest = message
                 return
-            sent = 0 if self._is_slow() else self._send(message)
+            sent = self._send(message)
             if sent == len(message):
                 return
             self._begun, self._newest = (message[sent:], b"") if sent else (b"", message)
@@ -116,11 +96,7 @@ class NewestOnly:
             while self._behind:
                 room.poll()
                 with self._lock:
-                    is_slow = not self._begun and self._is_slow()
-                    if not is_slow:
-                        self._send_some()
-                if is_slow:
-                    threading.Event().wait(_LOOK_S)
+                    self._send_some()
         except (OSError, ValueError):
             # The other side is gone, or the connection was closed here. The next write() says so.
             with self._lock:
@@ -139,36 +115,9 @@ class NewestOnly:
     def _send(self, data):
         """The number of bytes that the kernel has taken."""
         try:
-            sent = self._socket.send(data, socket.MSG_DONTWAIT)
+            return self._socket.send(data, socket.MSG_DONTWAIT)
         except BlockingIOError:
             return 0
-        if self._clock:
-            self._sent += sent
-            self._under_way.append((self._sent, self._clock()))
-        return sent
-
-    def _is_slow(self):
-        """Whether something has been under way for too long."""
-        if not self._under_way:
-            return False
-        acknowledged = self._sent - unacknowledged(self._socket)
-        while self._under_way and self._under_way[0][0] <= acknowledged:
-            self._under_way.popleft()
-        if not self._under_way:
-            return False
-        return self._clock() - self._under_way[0][1] > LONGEST_UNDER_WAY_S
-
-
-def unacknowledged(connected_socket):
-    """How many bytes the kernel has taken that the other side has not acknowledged.
-
-    0 where it cannot be asked: an answer that is missing must not hold up a robot.
-    """
-    try:
-        answer = fcntl.ioctl(connected_socket, termios.TIOCOUTQ, bytes(_INT.size))
-    except (OSError, ValueError):  # ValueError: it was closed, as sending will tell
-        return 0
-    return _INT.unpack(answer)[0]
 
 
 def resends(connected_socket):

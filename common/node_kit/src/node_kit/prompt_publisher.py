@@ -8,7 +8,6 @@ the sending is done by NewestOnly, which never waits.
 
 import io
 import struct
-from time import monotonic
 
 import rospy
 from geometry_msgs.msg import Twist
@@ -96,7 +95,6 @@ UNTIL_RELEASED = (
 class VelocityPublisher(PromptPublisher):
     """Publishes geometry_msgs/Twist; a robot that was lost is not driven on when it is back.
 
-    Over a link that is too slow for all velocities the newest go, so that a stop waits for few.
     A subscriber whose network was cut gets no velocity before free() is called; neither does one
     that appears in the middle of a motion of a stick that is held, such as a robot started anew.
     """
@@ -142,4 +140,4 @@ class VelocityPublisher(PromptPublisher):
 
         if held:
             self._warn(f"{name} has come in the middle of a motion. {UNTIL_RELEASED}")
-        return NewestOnly(connection.socket, _STOP, tell, _BUFFER_BYTES, held=held, clock=monotonic)
+        return NewestOnly(connection.socket, _STOP, tell, _BUFFER_BYTES, held)
