@@ -35,6 +35,7 @@ LASTING = {
     "roslaunch joy2twist student.launch": "process[robot_7/my",
     "roslaunch joy2twist": "process[my",
     "rosrun rviz rviz": "",
+    "roslaunch cockpit cockpit.launch": "http://127.0.0.1",
 }
 # Of those, one at a time: each is ended, once its nodes run, before the next one starts.
 DRIVES = ("rosrun joy2twist", "roslaunch joy2twist")
