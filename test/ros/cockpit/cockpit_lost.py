@@ -10,7 +10,7 @@ import unittest
 import rospy
 import rostest
 
-from cockpit_server.seat import is_neutral
+from cockpit_server.seat import TICKS, is_neutral
 from tutorial_testing.cockpit_rig import ODOM_PERIOD_S, CockpitRig
 from tutorial_testing.socket_page import DRIVE
 from tutorial_testing.waiting import wait_for
@@ -32,13 +32,16 @@ class OperatorLost(unittest.TestCase):
         cls.rig.__exit__()
 
     def assert_stops(self, lose, regain):
-        """lose(page) and regain(page): the operator is gone, and is there again, still holding."""
+        """lose(page) and regain(page): the operator is gone, and is there again, still holding.
+
+        lose() may return when it was [s]; else it is when it was called.
+        """
         took = []
         for _ in range(ROUNDS):
             with self.rig.page() as page:
                 self.rig.drive(page)
                 when = time.time()
-                lose(page)
+                when = lose(page) or when
                 took.append(self.rig.rest_after(when))
                 self.assert_one_neutral(when)
                 regain(page)
@@ -80,12 +83,21 @@ class OperatorLost(unittest.TestCase):
         self.assert_stops(lose, regain)
 
     def test_a_gamepad_that_stands_still(self):
+        asked = []
+
+        def goes_on():
+            asked.append(1000 * time.time())
+            return asked[-1]
+
         def lose(page):
-            stood = 1000 * time.time()
-            page.pad = lambda: stood
+            asked.clear()
+            page.pad = goes_on
+            wait_for(lambda: len(asked) > 2 * TICKS, "time of the gamepad that goes on")
+            page.pad = lambda: asked[-1]
+            return asked[-1] / 1000
 
         def regain(page):
-            page.pad = lambda: 1000 * time.time()
+            page.pad = goes_on
 
         self.assert_stops(lose, regain)
 

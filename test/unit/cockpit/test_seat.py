@@ -212,6 +212,26 @@ def test_a_pad_that_stands_still_is_a_loss(room):
     assert room.sent[-1] == ("ada", *REST)
 
 
+def test_a_pad_whose_time_goes_on_only_with_movements_may_be_held_still(room):
+    room.drive()
+    time = 1000.0
+    for stick in (0.2, 0.4, 0.6, 0.8, 1.0) * 4:
+        time += 1.0
+        for _ in range(20):  # a second
+            room.say(((0.0, stick, 0.0, 0.0, 0.0, 0.0), DRIVE[1]), pad=time)
+    assert room.lost == []
+
+
+def test_a_pad_that_is_back_drives_after_a_release(room):
+    test_a_pad_that_stands_still_is_a_loss(room)
+    room.sent.clear()
+    room.say(DRIVE, pad=2000.0)
+    assert room.sent == []
+    room.say(REST, pad=2001.0)
+    room.say(DRIVE, pad=2002.0)
+    assert room.sent[-1] == ("ada", *DRIVE)
+
+
 def test_a_pad_that_nobody_touches_may_stand_still(room):
     room.drive()
     room.say(REST, pad=1000.0)

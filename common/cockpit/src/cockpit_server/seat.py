@@ -14,6 +14,9 @@ from gamepad.gamepads import triggers_by_count
 SILENCE_S = 0.2  # without a fresh input the operator is lost
 LATE_S = 0.1  # an input that was longer on its way than the fastest one by this is dropped
 FROZEN_S = 0.2  # a gamepad's own time stands still for so long: it is frozen
+# If its time went on in so many inputs before, while nothing moved. Where the browser has it go on
+# with movements alone (Chromium on Linux, gamepad_device_linux.cc), a stick held still is no loss.
+TICKS = 8
 AWAY_S = 5.0  # without any fresh input the seat is free again
 KEPT_BEATS = 16  # of the server, as many as are sent in several SILENCE_S
 # The page's clock may run slower than ours by this; crystals differ by a tenth of it.
@@ -76,6 +79,8 @@ class Seat:
         self._fresh_at = -math.inf  # when the last fresh input came
         self._least, self._least_at = math.inf, 0.0  # our clock minus the page's, at the least
         self._pad, self._pad_at = None, 0.0  # the gamepad's clock, and when it last went on
+        self._ticks = 0  # how often it did while nothing moved
+        self._heard = None  # (axes, buttons) of the newest input
 
     @property
     def state(self):
@@ -120,9 +125,7 @@ class Seat:
         self.tick(now)  # a silence that was not yet noticed
         self.newest, self._fresh_at = message.n, now
         neutral = is_neutral(message.axes, message.buttons)
-        if message.pad is None or message.pad != self._pad:
-            self._pad, self._pad_at = message.pad, now
-        elif not neutral and now - self._pad_at > FROZEN_S:
+        if self._is_frozen(message, now) and not neutral:
             self.lose("the gamepad stands still: it is frozen or out of reach")
         if neutral:
             self.armed = True
@@ -135,6 +138,18 @@ class Seat:
         self._least_at = now
         seen = self._beats.get(message.beat, -math.inf)
         return message.n > self.newest and late - self._least <= LATE_S and now - seen <= SILENCE_S
+
+    def _is_frozen(self, message, now):
+        still = (message.axes, message.buttons) == self._heard
+        self._heard = (message.axes, message.buttons)
+        if message.pad is None or message.pad != self._pad:
+            self._ticks += still and None not in (message.pad, self._pad)
+            self._pad, self._pad_at = message.pad, now
+            return False
+        if self._ticks < TICKS:
+            self._ticks = 0
+            return False
+        return now - self._pad_at > FROZEN_S
 
     def play(self, axes, buttons):
         """Publish a recorded message, for the client that sits here for that."""
