@@ -2,23 +2,16 @@
 
 import os
 import shutil
-import socket
 from pathlib import Path
 
 import pytest
 
+from tutorial_testing.ports import free_port
 from tutorial_testing.screen import virtual_screen
 from tutorial_testing.two_hosts.scene import Scene
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 WIDTH, HEIGHT = 1200, 800  # [pixel] of a virtual screen, and of RViz's window in sim.rviz
-
-
-def free_port():
-    """A TCP port of this machine that nobody uses now."""
-    with socket.socket() as probe:
-        probe.bind(("localhost", 0))
-        return probe.getsockname()[1]
 
 
 @pytest.fixture

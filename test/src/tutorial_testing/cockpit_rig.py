@@ -1,6 +1,5 @@
 """The cockpit as a program, and the robot that it drives as seen by /odom and /joy."""
 
-import socket
 import time
 
 import rospy
@@ -8,19 +7,13 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Joy
 
 from cockpit_server.seat import is_neutral
+from tutorial_testing.ports import free_port
 from tutorial_testing.processes import Program
 from tutorial_testing.socket_page import DRIVE, REST, SocketPage
 from tutorial_testing.waiting import wait_for
 
 RESTING_S = 0.7  # for which nothing moves; a velocity that comes late would be seen
 ODOM_PERIOD_S = 0.02
-
-
-def free_port():
-    """A TCP port of this machine that nobody uses now."""
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
 
 
 class CockpitRig:

@@ -6,13 +6,13 @@ Nothing of it touches the machine's own network or folders, and all is gone with
 import contextlib
 import os
 import shutil
-import socket
 import subprocess
 import sys
 from pathlib import Path
 
 from tutorial_faults.live.kinds import LINK, MOUNT, SIMULATED
 from tutorial_faults.live.talker import Talker
+from tutorial_testing.ports import free_port
 from tutorial_testing.two_hosts.network import Host
 
 INSIDE = "TUTORIAL_FAULTS_INSIDE"  # set in the namespaces
@@ -64,7 +64,7 @@ class Hosts:
         os.environ.pop("ROS_HOSTNAME", None)  # it would outdo ROS_IP
         if not os.environ.get(INSIDE):
             self.refused = dict.fromkeys((LINK, MOUNT), "no namespaces of our own are granted")
-            port = _free_port()
+            port = free_port()
             address = {"ROS_IP": "127.0.0.1", "ROS_MASTER_URI": f"http://127.0.0.1:{port}"}
             self.robot_environment = self.workstation_environment = self._environment(address)
             return self
@@ -121,9 +121,3 @@ class Hosts:
 
 def _ip(*arguments):
     subprocess.run(["ip", *arguments], check=True, timeout=30)
-
-
-def _free_port():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]

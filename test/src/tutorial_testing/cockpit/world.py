@@ -4,12 +4,12 @@ import contextlib
 import os
 import re
 import signal
-import socket
 import subprocess
 import threading
 from pathlib import Path
 from typing import NamedTuple
 
+from tutorial_testing.ports import free_port
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
@@ -30,13 +30,6 @@ class Moment(NamedTuple):
     @property
     def moves(self):
         return bool(self.v or self.w)
-
-
-def free_port():
-    """A TCP port of this machine that nobody uses now."""
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
 
 
 class World:
