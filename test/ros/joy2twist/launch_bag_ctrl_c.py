@@ -57,8 +57,10 @@ class CtrlCTest(unittest.TestCase):
         self.assertNotIn("/my_rviz", self.nodes("rviz:=false", DISPLAY=":99"))
 
     def test_the_demonstration_knows_the_nodes(self):
-        self.assertEqual(sorted(NODES), sorted(self.nodes("rviz:=false")))
-        self.assertEqual(sorted([*NODES, RVIZ_NODE]), sorted(self.nodes("rviz:=true")))
+        self.assertEqual(sorted(NODES), sorted(self.nodes("rviz:=false", "cockpit:=false")))
+        self.assertEqual(
+            sorted([*NODES, RVIZ_NODE]), sorted(self.nodes("rviz:=true", "cockpit:=false"))
+        )
 
 
 if __name__ == "__main__":
