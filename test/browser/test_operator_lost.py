@@ -16,6 +16,7 @@ from tutorial_testing.waiting import BUSY_S, wait_for
 # What is demanded: half a second, and a period of the odometry. A machine that is busy with much
 # else may add to it; the table at the end of the tests has what it really was.
 LIMIT_S = 0.5 + 0.02
+SEEN_TO_GO_ON_S = 1.0  # the time of a gamepad that does not move; more than seat.TICKS periods
 ANSWER_S = 5.0
 ROBOT, PHONE = "10.11.12.1", "10.11.12.2"
 CUT = "network cut"
@@ -122,9 +123,13 @@ class Unplugged(Way):
 
 
 class PadFrozen(Way):
+    """Its time goes on, whether or not it is moved, and then it does not."""
+
     hands = Gamepad
 
     def lose(self):
+        seen_from = self.world.odometry[-1].stamp + SEEN_TO_GO_ON_S
+        wait_for(lambda: self.world.odometry[-1].stamp > seen_from, "driving with a steady stick")
         now = time.time()
         self.held.set(frozen=True)
         return now
