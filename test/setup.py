@@ -9,6 +9,7 @@ setup(
             "tutorial_faults",
             "tutorial_faults.live",
             "tutorial_testing",
+            "tutorial_testing.cockpit",
             "tutorial_testing.kernel",
             "tutorial_testing.two_hosts",
         ],

@@ -5,13 +5,12 @@ import os
 import signal
 import statistics
 import time
-import unittest
 
 import rospy
 import rostest
 
 from cockpit_server.seat import TICKS, is_neutral
-from tutorial_testing.cockpit_rig import ODOM_PERIOD_S, CockpitRig
+from tutorial_testing.cockpit_rig import ODOM_PERIOD_S, WithCockpit
 from tutorial_testing.socket_page import DRIVE
 from tutorial_testing.waiting import wait_for
 
@@ -19,17 +18,8 @@ WITHIN_S = 0.5 + ODOM_PERIOD_S
 ROUNDS = 3  # of each way; on a busy machine one may be late
 
 
-class OperatorLost(unittest.TestCase):
+class OperatorLost(WithCockpit):
     """Each test loses the operator of a robot that drives."""
-
-    @classmethod
-    def setUpClass(cls):
-        cls.rig = CockpitRig()
-        cls.rig.__enter__()
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.rig.__exit__()
 
     def assert_stops(self, lose, regain):
         """lose(page) and regain(page): the operator is gone, and is there again, still holding.

@@ -6,12 +6,11 @@ import json
 import random
 import socket
 import string
-import unittest
 
 import rospy
 import rostest
 
-from tutorial_testing.cockpit_rig import CockpitRig
+from tutorial_testing.cockpit_rig import WithCockpit
 from tutorial_testing.socket_page import DRIVE, SocketPage
 from tutorial_testing.waiting import wait_for
 
@@ -20,18 +19,15 @@ CONNECTIONS = 900  # and the test's own: a process may have 1024 files
 OVERSIZED = 100_000  # bytes
 
 
-class Refused(unittest.TestCase):
+class Refused(WithCockpit):
     """A cockpit for other machines, a robot, and those who may not drive it."""
+
+    options = ("--lan",)
 
     @classmethod
     def setUpClass(cls):
-        cls.rig = CockpitRig("--lan")
-        cls.rig.__enter__()
+        super().setUpClass()
         cls.tokens = cls.rig.token("drive"), cls.rig.token("look")
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.rig.__exit__()
 
     def tearDown(self):
         """Whatever came: nothing moved, no token was told, and the right one may still drive."""

@@ -3,14 +3,13 @@
 
 import json
 import time
-import unittest
 
 import rospy
 import rostest
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Joy
 
-from tutorial_testing.cockpit_rig import CockpitRig
+from tutorial_testing.cockpit_rig import WithCockpit
 from tutorial_testing.socket_page import SocketPage
 from tutorial_testing.waiting import wait_for
 
@@ -18,17 +17,8 @@ FIELD = "/odom/pose/pose/position/x"
 NEAR_M = 0.05  # at 0.35 m/s within a tenth of a second
 
 
-class Tabs(unittest.TestCase):
+class Tabs(WithCockpit):
     """One page for each test, and a robot."""
-
-    @classmethod
-    def setUpClass(cls):
-        cls.rig = CockpitRig()
-        cls.rig.__enter__()
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.rig.__exit__()
 
     def setUp(self):
         self.page = self.rig.page()

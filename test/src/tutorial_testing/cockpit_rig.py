@@ -1,6 +1,7 @@
 """The cockpit as a program, and the robot that it drives as seen by /odom and /joy."""
 
 import time
+import unittest
 
 import rospy
 from nav_msgs.msg import Odometry
@@ -122,3 +123,18 @@ class CockpitRig:
         wait_for(lambda: self.joys and is_neutral(*self.joys[-1][1:]), "released joystick")
         self.drive(page)
         return True
+
+
+class WithCockpit(unittest.TestCase):
+    """One rig for all tests of a class."""
+
+    options = ()  # of the cockpit
+
+    @classmethod
+    def setUpClass(cls):
+        cls.rig = CockpitRig(*cls.options)
+        cls.rig.__enter__()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.rig.__exit__()

@@ -122,10 +122,16 @@ class SocketPage:
         count = len(self.of("seat"))
         self.say("drive", robot=robot, mode="D")
         self.hand = REST
+
+        def is_armed():
+            nonlocal count
+            seats = self.of("seat")[count:]
+            if seats and seats[-1]["driver"] is None:  # the page before this one has left only now
+                count += len(seats)
+                self.say("drive", robot=robot, mode="D")
+            return any(seat["yours"] and seat["armed"] for seat in seats)
+
         try:
-            wait_for(
-                lambda: any(seat["yours"] and seat["armed"] for seat in self.of("seat")[count:]),
-                "seat that is armed",
-            )
+            wait_for(is_armed, "seat that is armed")
         except AssertionError as error:
             raise AssertionError(f"{error}: {self.messages[-10:]}") from None

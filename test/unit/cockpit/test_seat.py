@@ -219,6 +219,10 @@ def test_a_pad_whose_time_goes_on_only_with_movements_may_be_held_still(room):
         time += 1.0
         for _ in range(20):  # a second
             room.say(((0.0, stick, 0.0, 0.0, 0.0, 0.0), DRIVE[1]), pad=time)
+    for number in range(40):  # moved all the while, and then held
+        room.say(((0.0, 0.2 + number / 50, 0.0, 0.0, 0.0, 0.0), DRIVE[1]), pad=time + number)
+    for _ in range(20):
+        room.say(((0.0, 0.98, 0.0, 0.0, 0.0, 0.0), DRIVE[1]), pad=time + number)
     assert room.lost == []
 
 

@@ -177,6 +177,13 @@ def _parse_error(session, error, where, text):
 def _check_node(session, node, where, text):
     package, kind = node["package"], node["type"]
     place = f"{where}:{line_of(text, kind)}"
+    if kind.endswith(".launch"):
+        raise Wrong(
+            "programs in <node>",
+            f'type="{kind}"',
+            where=place,
+            hint=f'<include file="$(find {package})/launch/{kind}"/>',
+        )
     if package == PACKAGE:
         folder = session.package(PACKAGE).folder
         found = [path for path in folder.rglob(kind) if path.is_file()]
@@ -186,13 +193,6 @@ def _check_node(session, node, where, text):
                 'pkg="joy2twist" has no joy_node: your package hides ours',
                 where=place,
                 hint='<node pkg="joy" type="joy_node" name="joy_node"/>',
-            )
-        if kind.endswith(".launch"):
-            raise Wrong(
-                "programs in <node>",
-                f'type="{kind}"',
-                where=place,
-                hint=f'<include file="$(find {package})/launch/{kind}"/>',
             )
         if not found:
             near = difflib.get_close_matches(
@@ -209,13 +209,6 @@ def _check_node(session, node, where, text):
                 f"{kind} may be run", "it is not executable", where=place, hint=f"chmod +x {kind}"
             )
         return
-    if kind.endswith(".launch"):
-        raise Wrong(
-            "programs in <node>",
-            f'type="{kind}"',
-            where=place,
-            hint=f'<include file="$(find {package})/launch/{kind}"/>',
-        )
     known = session.memo(("node", package, kind), lambda: _locate(session, package, kind))
     if not known:
         hint = (

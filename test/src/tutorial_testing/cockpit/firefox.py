@@ -28,12 +28,19 @@ class Firefox:
     def __enter__(self):
         options = ["--headless", "--no-remote", "--remote-debugging-port", "0"]
         self._program = Program("firefox-esr", *options, "--profile", self._profile)
+        try:
+            self._begin()
+        except BaseException:
+            self.__exit__()
+            raise
+        return self
+
+    def _begin(self):
         said = r"BiDi listening on (ws://\S+)"
         found = wait_for(lambda: re.search(said, self._program.output), "Firefox", LONG_S)
         self._socket = self._wait(websocket_connect, f"{found[1]}/session")
         self.send("session.new", capabilities={})
         self._context = self.send("browsingContext.getTree")["contexts"][0]["context"]
-        return self
 
     def __exit__(self, *_):
         self._program.__exit__()

@@ -1,28 +1,30 @@
-"""Collects the figures of a run and prints them as the table of the package's README."""
+"""Collects the figures of a run and prints them as the table of each package's README."""
 
 import os
 import platform
+from collections import defaultdict
 
 import pytest
 
-_rows = []
+_rows = defaultdict(list)  # package -> rows
 _load = os.getloadavg()[0]  # when the run begins: other work on the machine spoils the figures
 
 
 @pytest.fixture
-def figure():
-    """Take (what, measured, demanded) for the table."""
-    return lambda *row: _rows.append(row)
+def figure(request):
+    """Take (what, measured, demanded) for the table of the package that is measured."""
+    return lambda *row: _rows[request.path.parent.name].append(row)
 
 
 def pytest_terminal_summary(terminalreporter):
-    if _rows:
-        terminalreporter.section("figures of fake_turtlebot_sim")
+    """Print the tables."""
+    for package, rows in _rows.items():
+        terminalreporter.section(f"figures of {package}")
         terminalreporter.line(
             f"Python {platform.python_version()}, {os.cpu_count()} processors,"
             f" load at the beginning {_load:.1f}"
         )
         terminalreporter.line("| figure | measured | demanded |")
         terminalreporter.line("|---|---|---|")
-        for row in _rows:
+        for row in rows:
             terminalreporter.line("| " + " | ".join(row) + " |")
