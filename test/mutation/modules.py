@@ -21,6 +21,7 @@ MODULES = {
         " virtual.moves virtual.sources",
     ),
     "node_kit": ("common/node_kit", "parameters throttle newest_only resumption"),
+    "cockpit_server": ("common/cockpit", "seat access schema"),
 }
 # Tests whose names differ from that of the module; those of the own name come first anyway.
 ALSO = {
