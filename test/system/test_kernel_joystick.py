@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from tutorial_testing.processes import Program
+from tutorial_testing.waiting import wait_for
 
 KERNEL = Path(__file__).parents[1] / "src" / "tutorial_testing" / "kernel"
 from tutorial_testing.kernel.machine import (  # noqa: E402  the folder of this test
@@ -23,7 +24,9 @@ from tutorial_testing.kernel.machine import (  # noqa: E402  the folder of this 
     makes_joysticks,
 )
 
-DEADLINE_S = 480.0  # alone it takes 3 minutes; beside other tests twice that
+# Without a new line of the program. Alone all of it takes 3 minutes; how long beside other tests is
+# theirs to say.
+SILENT_S = 480.0
 NOT_HERE = "no /dev/uinput and joydev here, and no machine in the machine"
 ROS_ENVIRONMENT = ("PATH", "PYTHONPATH", "CMAKE_PREFIX_PATH", "LD_LIBRARY_PATH", "PKG_CONFIG_PATH")
 
@@ -59,13 +62,25 @@ def drive_in_guest(tmp_path):
     return where, Program(*command_of_machine(image, tmp_path / "initramfs"))
 
 
+def wait_while_it_speaks(program):
+    """Wait for the end of a Program; return its exit code. AssertionError if it falls silent."""
+    while not program.ended:
+        said = len(program.output)
+        wait_for(
+            lambda: program.ended or len(program.output) > said,  # noqa: B023  called at once
+            f"further line, after:\n{program.output}",
+            SILENT_S,
+        )
+    return program.wait()
+
+
 @pytest.mark.usefixtures("master_uri")
 def test_a_joystick_of_the_kernel_drives_the_robot(tmp_path, capsys):
     here = makes_joysticks()
     where, program = drive_here() if here else drive_in_guest(tmp_path)
     with program:
         try:
-            status = program.wait(DEADLINE_S)
+            status = wait_while_it_speaks(program)
         finally:
             output = program.output
             told = re.findall(r"^drive: .*?(?=\r?$)", output, re.MULTILINE)
