@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from tutorial_testing.two_hosts.network import Host
-from tutorial_testing.waiting import wait_for
+from tutorial_testing.waiting import DEADLINE_S, wait_for
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 # Programs and launch files as the handout prints them: env python, load_manifest, absolute topics,
@@ -21,7 +21,6 @@ REPOSITORY = Path(__file__).resolve().parents[2]
 LITERAL = REPOSITORY / "test" / "exercises" / "literal"
 WORKSPACE = "ros/hydro/catkin_ws"
 # A set-up of ROS, not a mistake: no screen for RViz here, and Debian's own warnings.
-DEADLINE_S = 120.0  # for a catkin_make on a busy machine
 
 # {package} stands for the student's folder of it: what the handout has them download or write.
 PACKAGES = [

@@ -13,7 +13,7 @@ import sys
 import pytest
 
 from tutorial_testing.two_hosts.scene import REPOSITORY, ROBOT, WORKSTATION
-from tutorial_testing.waiting import wait_for
+from tutorial_testing.waiting import DEADLINE_S, wait_for
 
 CPP_NODES = {"/rosout", "/robot_state_publisher", "/rosbag"}
 MASTER_PORT = 11311
@@ -47,7 +47,7 @@ def said(host, *command):
     """The lines that a command on a host prints."""
     command = host.command(*command)
     return subprocess.run(
-        command, check=True, capture_output=True, text=True, timeout=60
+        command, check=True, capture_output=True, text=True, timeout=DEADLINE_S
     ).stdout.splitlines()
 
 
@@ -106,7 +106,7 @@ def test_loopback_unless_the_user_names_an_address(tutorial, monkeypatch, variab
     for name, value in variables.items():
         monkeypatch.setenv(name, value)
     command = [tutorial, "run", "sh", "-c", 'echo "$ROS_IP"']
-    done = subprocess.run(command, check=True, capture_output=True, text=True, timeout=60)
+    done = subprocess.run(command, check=True, capture_output=True, text=True, timeout=DEADLINE_S)
     assert done.stdout.strip() == expected
 
 

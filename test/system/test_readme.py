@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from tutorial_testing.processes import Program
-from tutorial_testing.waiting import wait_for
+from tutorial_testing.waiting import DEADLINE_S, wait_for
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 README = REPOSITORY / "README.md"
@@ -90,7 +90,7 @@ def test_section(blocks, tutorial, screen, tmp_path):
     environment = {"DISPLAY": screen, "LIBGL_ALWAYS_SOFTWARE": "1", "HOME": str(tmp_path)}
     workspace = subprocess.run(
         [tutorial, "run", "sh", "-c", "echo ${CMAKE_PREFIX_PATH%%/devel:*}"],
-        check=True, capture_output=True, text=True, timeout=60,
+        check=True, capture_output=True, text=True, timeout=DEADLINE_S,
     ).stdout.strip()  # fmt: skip
     environment["TUTORIAL_WORKSPACE"] = workspace  # whatever HOME is
     lasting = {}

@@ -2,7 +2,7 @@
 
 import time
 
-DEADLINE_S = 60.0  # generous: a busy machine with one core takes seconds to start a node
+DEADLINE_S = 150.0  # generous: ten times what a build takes, or the start of a dozen nodes
 # What a busy machine may add to a time that is demanded of a program.
 BUSY_S = 2.0
 
