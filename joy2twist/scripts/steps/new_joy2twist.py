@@ -14,11 +14,14 @@ class NewJoy2Twist:
     def __init__(self):
         # Not anonymous: a second one ends the first, so that only one drives.
         rospy.init_node("NewJoy2Twist")
+        self.stopping = False
         self.cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
         self.joy = rospy.Subscriber("joy", Joy, self.callback)
         rospy.on_shutdown(self.shutdown)  # last: shutdown() uses what is made above
 
     def callback(self, joy):
+        if self.stopping:
+            return
         twist = Twist()
         if len(joy.axes) >= 2:
             twist.linear.x = joy.axes[1]
@@ -30,6 +33,7 @@ class NewJoy2Twist:
         rospy.loginfo("Stopping the node ...")
         # Unsubscribe first. The handout sends its zero and then sleeps while the subscriber still
         # lives: each Joy of that second becomes one more velocity, and the robot drives again.
+        self.stopping = True  # so does what rospy has read and not yet handed out
         self.joy.unregister()
         for _ in range(3):  # a callback that has begun already may send after the first zero
             self.cmd_vel.publish(Twist())

@@ -61,8 +61,11 @@ class LiveTest(unittest.TestCase):
         transforms = {t.header.stamp: t for t in self.moving()}
         joints = {j.header.stamp: j for j in self.joints}
         self.assertEqual(len(transforms), len(self.moving()))  # no stamp twice
-        both = [o for o in self.odometry if {o.header.stamp} <= transforms.keys() & joints.keys()]
-        self.assertGreater(len(both), 0.9 * len(self.odometry))
+        began = max(min(transforms), min(joints))  # on a busy machine one is heard later
+        heard = [o for o in self.odometry if o.header.stamp >= began]
+        both = [o for o in heard if {o.header.stamp} <= transforms.keys() & joints.keys()]
+        self.assertGreater(len(both), 0.9 * len(heard))
+        self.assertGreater(len(heard), SAMPLE / 2)
         for odometry in both:
             pose, transform = odometry.pose.pose, transforms[odometry.header.stamp]
             self.assertEqual(

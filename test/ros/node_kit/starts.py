@@ -14,6 +14,8 @@ from rospy import AnyMsg
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
+# The last message of joy.bag, after which it begins anew: where all of this takes longer than it.
+LAST_OF_BAG = 2759
 SIMULATOR = ("rosrun", "fake_turtlebot_sim", "fake_turtlebot.py")
 
 
@@ -34,6 +36,14 @@ class Watch:
     def of(self, sender):
         """The numbers of one sender."""
         return self.numbers.get(sender, [])
+
+    def gaps(self, sender):
+        """Pairs of numbers between which one of the sender's messages was lost."""
+        numbers = list(self.of(sender))
+        if numbers[0] == numbers[-1]:  # diagnostics are not numbered
+            return []
+        follow = zip(numbers, numbers[1:])
+        return [(a, b) for a, b in follow if b != a + 1 and (a, b) != (LAST_OF_BAG, 0)]
 
     def grows(self, sender):
         """Wait until one more message comes."""
@@ -74,10 +84,7 @@ class StartsTest(unittest.TestCase):
                 self.assertFalse(running.ended, command)
             for watch, sender in zip(watches, senders):
                 watch.grows(sender)
-                numbers = watch.of(sender)
-                whole = list(range(numbers[0], numbers[0] + len(numbers)))
-                if numbers[0] != numbers[-1]:  # diagnostics are not numbered
-                    self.assertEqual(numbers, whole)
+                self.assertEqual(watch.gaps(sender), [])
             self.assertNotIn("new node registered", running.output)
             self.assertNotIn("process has died", running.output)
             running.interrupt()
