@@ -14,6 +14,10 @@ velocities = st.tuples(*[speeds] * 6)
 
 def test_a_velocity_within_the_limits_stays():
     assert limit_speed((0.3, -0.4, 0, 0, 0, 0.2), 0.5, 0.2) == (0.3, -0.4, 0, 0, 0, 0.2)
+    # Also at the very limit, where scaling would change the last digit.
+    longest = (0.2, 0.3, 0.0, 0.2, 0.3, 0.0)
+    length = math.hypot(0.2, 0.3)
+    assert limit_speed(longest, length, length) == longest
 
 
 def test_a_longer_velocity_keeps_its_direction():

@@ -2,6 +2,7 @@
 
 import pytest
 
+from joy_to_twist.limits import ZERO
 from joy_to_twist.mapping import BadJoyError, Mapping
 from joy_to_twist.parameters import load
 
@@ -169,3 +170,27 @@ def test_the_mapping_in_words():
         Mapping(load(given)).describe()[0].endswith("; hold button 5 for turbo, the only dead-man")
     )
     assert "no axis drives" in Mapping(load({"axis_linear": -1, "axis_angular": -1})).describe()[0]
+
+
+@pytest.mark.parametrize(
+    ("given", "words"),
+    [
+        ({"enable_turbo_button": 0, "require_enable_button": False}, "; hold button 0 for turbo"),
+        (
+            {"enable_turbo_button": 0, "require_enable_button": True},
+            "turbo, the only",
+        ),
+        ({"enable_button": 0}, "; hold button 0"),
+        (
+            {"enable_button": 1, "enable_turbo_button": 0},
+            "(turbo: 1 m/s); hold button 1, or 0",
+        ),
+    ],
+)
+def test_button_0_is_a_button(given, words):
+    assert words in Mapping(load(given)).describe()[0]
+
+
+def test_where_no_axis_drives_none_is_asked_for():
+    mapping = Mapping(load({"axis_linear": -1, "axis_angular": -1}))
+    assert mapping.velocity((), ()) == ZERO

@@ -7,6 +7,7 @@ from joy_to_twist.parameters import load
 from joy_to_twist.safety import ARMED, BAD_MESSAGE, DRIVING, NOT_ARMED, WAITING, Safety
 
 FORWARD = (0.5, 0.0, 0.0, 0.0, 0.0, 0.0)
+BACKWARD = (-0.5, 0.0, 0.0, 0.0, 0.0, 0.0)
 DEAD_MAN = {"enable_button": 4}
 LIMITS = {"max_linear_acceleration": 1.0, "output_rate": 10.0}  # 0.1 m/s in each period
 
@@ -60,6 +61,11 @@ class TestWatchdog:
         machine = safety()
         machine.drive(ZERO, True, 0.0)
         assert over_time(machine, 0.0, 10.0) == []
+
+    def test_one_that_drives_backward_is(self):
+        machine = safety(stop_messages=1)
+        machine.drive(BACKWARD, False, 0.0)
+        assert over_time(machine, 0.0, 10.0) == [(0.5, ZERO)]
 
     def test_every_message_starts_the_time_anew(self):
         machine = safety(joy_timeout=0.3)
@@ -181,6 +187,12 @@ class TestArming:
         assert machine.drive(FORWARD, False, 0.2, "ada") is None
         assert machine.state == NOT_ARMED
 
+    def test_two_senders_that_look_alike_are_two(self):
+        machine = safety(**DEAD_MAN, arm_on_neutral=True)
+        ada, bob = ["joystick"], ["joystick"]
+        machine.drive(None, True, 0.0, ada)
+        assert machine.drive(FORWARD, False, 0.1, bob) is None
+
     def test_without_arming_every_sender_drives(self):
         machine = safety()
         assert machine.drive(FORWARD, False, 0.0, "ada") == FORWARD
@@ -188,6 +200,7 @@ class TestArming:
 
     def test_what_is_released_frees_a_robot_that_was_lost(self):
         machine = safety(**DEAD_MAN, arm_on_neutral=True)
+        assert machine.released  # nobody holds anything yet
         for velocity, neutral, now, released in (
             (None, True, 0.0, True),
             (FORWARD, False, 0.1, False),
@@ -206,6 +219,8 @@ class TestArming:
     def test_without_arming_a_stop_frees_a_robot_that_was_lost(self):
         machine = safety(**DEAD_MAN)
         machine.drive(FORWARD, False, 0.0)
+        assert not machine.released
+        machine.drive(BACKWARD, False, 0.05)
         assert not machine.released
         machine.drive(None, False, 0.1)
         assert machine.released
@@ -275,6 +290,20 @@ class TestAccelerationLimits:
         machine = safety(max_angular_acceleration=2.0, output_rate=10.0)
         assert machine.drive((0.5, 0, 0, 0, 0, 1.0), False, 0.0) == (0.5, 0, 0, 0, 0, 0.2)
         assert machine.tick(0.1) == (0.5, 0, 0, 0, 0, pytest.approx(0.4))
+
+    def test_backward_is_as_gradual_and_goes_with_the_stick(self):
+        machine = safety(max_linear_acceleration=0.5, output_rate=10.0)
+        assert self.hold(machine, (-0.1, 0, 0, 0, 0, 0), 0.0, 0.4) == [
+            (0.0, -0.05), (0.1, -0.1), (0.2, -0.1), (0.3, -0.1),
+        ]  # fmt: skip
+        assert self.hold(machine, ZERO, 0.4, 0.7) == [
+            (0.4, -0.05), (0.5, 0.0), (0.55, 0.0), (0.6, 0.0), (0.65, 0.0),
+        ]  # fmt: skip
+
+    def test_a_small_angular_limit_alone_counts(self):
+        machine = safety(max_angular_acceleration=0.5, output_rate=10.0)
+        turn = (0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+        assert machine.drive(turn, False, 0.0)[5] == pytest.approx(0.05)
 
     def test_each_part_has_a_limit_of_its_own(self):
         machine = safety(**LIMITS, max_angular_acceleration=2.0)
