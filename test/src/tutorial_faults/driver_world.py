@@ -58,16 +58,19 @@ class Gamepad:
         """It was opened just now."""
         self.is_of_kernel = is_of_kernel
         self.rest = b""
-        self.changed = self.known = self.gives_signs = False
+        self.changed = False
         self.pressed = None  # button 0; None: not told
 
-    def feed(self, data, now):
-        """What changed: (kind, value) each; kind: BUTTON, AXIS, or 0 for the state at opening."""
-        data, changes = self.rest + data, []
+    def feed(self, data):
+        """(what changed, whether a sign of life was among it).
+
+        A change is (kind, value); kind: BUTTON, AXIS, or 0 for the state at opening.
+        """
+        data, changes, signed = self.rest + data, [], False
         for at in range(0, len(data) - len(data) % 8, 8):
             time_ms, value, kind, _ = struct.unpack_from("=IhBB", data, at)
             is_sign = bool(kind & INIT) and time_ms == SIGN_OF_LIFE_MS and not self.is_of_kernel
-            self.gives_signs = self.gives_signs or is_sign
+            signed = signed or is_sign
             is_told_anew = bool(kind & INIT) and not (self.is_of_kernel and self.changed)
             self.changed = self.changed or not kind & INIT
             kind &= ~INIT
@@ -78,7 +81,7 @@ class Gamepad:
             if kind in (BUTTON, AXIS):
                 changes.append((0 if is_told_anew else kind, value))
         self.rest = data[len(data) - len(data) % 8 :]
-        return changes
+        return changes, signed
 
 
 class DriverWorld:
@@ -92,7 +95,7 @@ class DriverWorld:
         self._is_mute = self._has_told = False
         self._since_s = math.inf  # the first change that was not published
         self._published_s = math.inf  # the last message of this gamepad
-        self._read_s = math.inf  # the last bytes of a gamepad that gives signs of life
+        self._signed_s = math.inf  # the last sign of life
 
     def copy(self):
         """A World of its own, with what does not change shared."""
@@ -123,7 +126,7 @@ class DriverWorld:
             tuple(vars(self._pad).values()),
             until(now, self._since_s + COALESCE_S),
             until(now, self._published_s + REPEAT_S),
-            until(now, self._read_s + LONGEST_LIFELESS_S),
+            until(now, self._signed_s + LONGEST_LIFELESS_S),
         )
 
     def take(self, event):
@@ -139,7 +142,7 @@ class DriverWorld:
         elif event in OPEN and not is_open and self._now >= self._driver.opens_at:
             self._driver.opened((), OPEN[event])
             self._pad = Gamepad(OPEN[event])
-            self._since_s = self._published_s = self._read_s = math.inf
+            self._since_s = self._published_s = self._signed_s = math.inf
         elif isinstance(event, bytes) and is_open:
             wrong = [*self._read(event), *self._must_be_called()]
         return [Violation(letter, self._now, what) for letter, what in wrong]
@@ -159,11 +162,11 @@ class DriverWorld:
         self._pad, self._is_mute, self._has_told = None, True, False
 
     def _read(self, data):
-        changes = self._pad.feed(data, self._now)
+        changes, signed = self._pad.feed(data)
         if any(kind for kind, _ in changes):
             self._is_mute = False
-        if self._pad.gives_signs:
-            self._read_s = self._now
+        if signed:
+            self._signed_s = self._now
         messages = self._driver.read(data, self._now)
         if changes and self._since_s == math.inf:
             self._since_s = self._now
@@ -194,6 +197,6 @@ class DriverWorld:
             latest = min(self._since_s + COALESCE_S, self._published_s + REPEAT_S)
             if driver.due > latest or (has_ticked and latest <= now):
                 yield "d", "a change or the repetition will be told too late"
-        lifeless_s = self._read_s + LONGEST_LIFELESS_S
+        lifeless_s = self._signed_s + LONGEST_LIFELESS_S
         if driver.due > lifeless_s or driver.is_lifeless(now) != (now >= lifeless_s):
             yield "d", "a gamepad without a sign of life is not noticed"

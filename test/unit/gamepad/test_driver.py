@@ -312,9 +312,17 @@ def test_a_source_that_gave_signs_and_gives_none_any_more_is_lifeless():
     assert one.is_lifeless(1.0 + LONGEST_LIFELESS_S)
 
 
-def test_whatever_it_says_is_a_sign_of_life():
+def test_only_a_sign_is_a_sign_of_life():
+    """A byte that was lost makes noise of all that comes after it, and noise is no life."""
     one = with_signs()
-    one.read(events((AXIS, 0, 5)), 1.4)
+    one.read(b"?" + sign(*STATE), 1.2)
+    one.read(events((AXIS, 0, 5)), 1.3)
+    assert one.is_lifeless(1.0 + LONGEST_LIFELESS_S)
+
+
+def test_every_sign_is_one_for_the_time_that_follows():
+    one = with_signs()
+    one.read(sign(*STATE), 1.4)
     assert not one.is_lifeless(1.5)
     assert one.is_lifeless(1.4 + LONGEST_LIFELESS_S)
 

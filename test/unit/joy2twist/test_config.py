@@ -33,9 +33,9 @@ def test_preset(name):
     warnings = []
     machine = Teleoperation(load(PRESETS[name]), warnings.append, wake=lambda: None)
 
-    def joy(held):
+    def joy(held, value=1.0):
         axes, buttons = [0.0] * axis_count, [0] * button_count
-        axes[forward], axes[left] = 1.0, 0.5
+        axes[forward], axes[left] = value, value / 2
         for button in held:
             buttons[button] = 1
         return machine.joy(axes, buttons, now=0.0)
@@ -43,4 +43,6 @@ def test_preset(name):
     assert joy([dead_man]) == pytest.approx((0.35, 0, 0, 0, 0, 0.6))
     assert joy([turbo]) == pytest.approx((0.7, 0, 0, 0, 0, 1.0))
     assert joy([]) == ZERO
+    # What no stick says: the robot is told no more than the fastest of the preset.
+    assert joy([dead_man], -465.0) == pytest.approx((-0.7, 0, 0, 0, 0, -2.0))
     assert warnings == []  # the number of axes is as expected

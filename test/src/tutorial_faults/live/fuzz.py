@@ -127,7 +127,11 @@ def fuzz(count, seed):
             done = work(world, the_fuzz, count, seed)
             print(f"{done} random {what} in {time.monotonic() - began:.0f} s", flush=True)
             lines += the_fuzz.complaints()
-        world.drive()  # and it still does
+        try:
+            world.drive()  # and it still does
+        except AssertionError as error:
+            words = world.last_words().items()
+            lines += [f"(h) {error}", *(f"{node} said: {said}" for node, said in words if said)]
     print("\n".join(lines or ["no exception, no growth, no velocity that must not be"]))
     sys.stdout.flush()
     return int(bool(lines))

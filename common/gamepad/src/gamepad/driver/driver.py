@@ -53,7 +53,6 @@ class Driver:
         self._decoder = Decoder(late_init_is_change=kernel_device)
         self._schedule = Schedule(p.coalesce_interval, p.autorepeat_rate)
         self._can_give_signs = not kernel_device
-        self._gives_signs = False
         self._lifeless_at = math.inf
 
     def read(self, data, now):
@@ -62,7 +61,7 @@ class Driver:
         for event in self._decoder.feed(data):
             self.events += 1
             if event.type & INIT and event.time_ms == SIGN_OF_LIFE_MS and self._can_give_signs:
-                self._gives_signs = True
+                self._lifeless_at = now + LONGEST_LIFELESS_S
                 if self._state.knows(event):
                     continue
             urgency = self._state.apply(event)
@@ -76,8 +75,6 @@ class Driver:
             else:
                 self._schedule.soon(now)
             messages += self.tick(now)  # a quick press and release must not end up in one message
-        if data and self._gives_signs:
-            self._lifeless_at = now + LONGEST_LIFELESS_S
         return messages
 
     def tick(self, now):
