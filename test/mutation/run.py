@@ -134,9 +134,9 @@ def _run_tests(module, source):
 def difference(before, after):
     """The lines of a source that a change touches: (was, becomes)."""
     old, new = before.splitlines(), after.splitlines()
-    if len(old) != len(new):  # a decorator is gone
+    if len(old) != len(new):  # a decorator is gone, and perhaps the empty line before it
         at = next(i for i, (a, b) in enumerate(zip([*old, ""], [*new, ""])) if a != b)
-        return old[at].strip(), ""
+        return next(filter(None, map(str.strip, old[at:])), ""), ""
     pairs = [(a.strip(), b.strip()) for a, b in zip(old, new) if a != b]
     return pairs[0] if pairs else ("", "")
 

@@ -24,6 +24,7 @@ def teleoperation(**given):
 def test_a_message_becomes_a_velocity():
     machine, warnings = teleoperation()
     assert machine.joy((0.5, 0.7, 0, 0, 0, 0), (), 0.0) == pytest.approx((0.7, 0, 0, 0, 0, 0.5))
+    assert machine.due == 0.5  # the end of joy_timeout
     assert warnings == []
 
 
@@ -51,6 +52,11 @@ def test_how_long_a_warning_and_a_robot_are_waited_for():
 def test_driving_that_reaches_nobody_is_said_once_until_somebody_listens():
     machine, warnings = teleoperation()
     machine.listeners(0, "/carl/cmd_vel", 0.0)  # and nobody drives
+    armed, said = teleoperation(enable_button=0)
+    armed.joy((0.0, 0.0), (0,), 0.0)
+    for now in (0.0, 5.0):
+        armed.listeners(0, "/carl/cmd_vel", now)
+    assert said == []
     machine.joy((0.5, 0.7, 0, 0, 0, 0), (), 10.0)
     for now in (10.0, 11.9):
         machine.listeners(0, "/carl/cmd_vel", now)
@@ -103,6 +109,14 @@ def test_an_old_message_is_not_driven():
     assert machine.joy((0.0, 1.0), (), 0.2, -5 * SECOND_NS)[0] == 1.0
 
 
+@pytest.mark.parametrize("longest_s", [0.3, 60])
+def test_a_message_may_be_just_as_old_as_it_says(longest_s):
+    machine, _ = teleoperation(max_joy_age=longest_s)
+    longest_ns = round(longest_s * SECOND_NS)
+    assert machine.joy((0.0, 1.0), (), 0.0, longest_ns)[0] == 1.0
+    assert machine.joy((0.0, 1.0), (), 0.1, longest_ns + 1) == (0,) * 6
+
+
 def test_by_default_any_age_is_driven():
     machine, _ = teleoperation()
     assert machine.joy((0.0, 1.0), (), 0.0, 10**18)[0] == 1.0
@@ -145,6 +159,8 @@ def test_with_arming_all_is_released_first_with_a_dead_man_and_without():
     assert machine.released
     assert machine.joy((0.0, 1.0), (1,), 0.4)[0] == 1.0
     assert not machine.released
+    machine.joy((0.0, 0.0), (0,), 0.5)  # armed, too
+    assert machine.released
 
     machine, _ = teleoperation(arm_on_neutral=True)
     assert machine.joy((0.0, 1.0), (), 0.0) == (0,) * 6
@@ -152,6 +168,8 @@ def test_with_arming_all_is_released_first_with_a_dead_man_and_without():
     assert machine.released
     assert machine.joy((0.0, 1.0), (), 0.2)[0] == 1.0
     assert not machine.released
+    machine.joy((0.0, 0.0), (), 0.3)
+    assert machine.released
 
 
 def test_diagnostics():
@@ -167,11 +185,15 @@ def test_diagnostics():
     assert (well, state) == (True, "driving")
     assert details == {"Joy rate [Hz]": "50.0", "Age of the last Joy [s]": "0.020"}
     machine.joy((0.0, 1.0), (0,), 1.0)
-    assert machine.summary(1.5)[1].startswith("armed")
+    for _ in range(2):
+        machine.joy((0.0, 1.0), (0,), 1.5)
+    _, state, details = machine.summary(3.0)
+    assert state.startswith("armed")
+    assert details["Joy rate [Hz]"] == "1.5"
     machine.tick(5.0)
     well, state, details = machine.summary(5.5)
     assert (well, state) == (False, "stopped: no message for 0.5 s")
-    assert details["Age of the last Joy [s]"] == "4.500"
+    assert details["Age of the last Joy [s]"] == "4.000"
 
 
 def random_axis(random):
