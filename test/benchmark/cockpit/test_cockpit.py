@@ -79,7 +79,7 @@ def test_an_input_until_the_velocity(figure):
             f"{milliseconds(times['input'])} / {milliseconds(times['echo'])}: {milliseconds(more)}",
             f"≤ {milliseconds(most)} more",
         )
-    # On a busy machine the operator is lost now and then, and what he holds then is not driven.
+    # On a busy machine the operator is lost now and then, and what is held then is not driven.
     figure("velocities for inputs", f"{len(heard['input'])} of {INPUTS}", "all, on an idle machine")
     assert len(heard["input"]) > INPUTS / 2
     assert medians["input"] - medians["echo"] <= MEDIAN_MORE_S

@@ -14,7 +14,7 @@ What makes the states finite:
   once, in steps of g / (n + 1). Every order in which clocks can lie between, at and beyond their
   thresholds then occurs on this grid (the regions of a timed automaton); longer pauses are several
   steps.
-- Texts, counts for the user, and what only decides whether he is warned, are left out of a key.
+- Texts, counts for the user, and what only decides whether one is warned, are left out of a key.
 """
 
 import math

@@ -1,7 +1,7 @@
 """Subscribes to what is looked at, and to nothing else, without ever waiting for the master.
 
 A node of rospy has one subscription for a topic, whatever it wants it for: here it is of raw
-messages, and who wants it reads them as far as he needs.
+messages, and whoever wants them reads as far as needed.
 """
 
 import time
