@@ -23,7 +23,7 @@ from tutorial_testing.kernel.machine import (  # noqa: E402  the folder of this 
     makes_joysticks,
 )
 
-DEADLINE_S = 480.0  # alone it takes 3 minutes; beside other tests twice that
+DEADLINE_S = 900.0  # alone it takes 3 minutes; behind other tests, as .ci/run has it, far longer
 NOT_HERE = "no /dev/uinput and joydev here, and no machine in the machine"
 ROS_ENVIRONMENT = ("PATH", "PYTHONPATH", "CMAKE_PREFIX_PATH", "LD_LIBRARY_PATH", "PKG_CONFIG_PATH")
 
