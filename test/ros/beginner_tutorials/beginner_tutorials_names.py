@@ -8,6 +8,7 @@ import rosnode
 import rospy
 import rostest
 
+from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
@@ -21,10 +22,10 @@ class NamesTest(unittest.TestCase):
     def run_two(self, script, *switch):
         """Start a node, and when it is there a second one; return both."""
         name = script[: -len(".py")]
-        first = Program("rosrun", "beginner_tutorials", script, *switch)
+        first = Program(node_path("beginner_tutorials", script), *switch)
         self.addCleanup(first.__exit__)
         wait_for(lambda: nodes(name), f"first {name}")
-        second = Program("rosrun", "beginner_tutorials", script, *switch)
+        second = Program(node_path("beginner_tutorials", script), *switch)
         self.addCleanup(second.__exit__)
         return first, second
 
@@ -54,7 +55,7 @@ class NamesTest(unittest.TestCase):
         """rospy itself says what is missing, and Ctrl-C ends the waiting."""
         nobody = "http://localhost:9"  # the port named "discard": no master lives there
         line = f"Unable to register with master node [{nobody}]"
-        with Program("rosrun", "beginner_tutorials", f"{name}.py", ROS_MASTER_URI=nobody) as node:
+        with Program(node_path("beginner_tutorials", f"{name}.py"), ROS_MASTER_URI=nobody) as node:
             wait_for(lambda: line in node.output, line)
             node.interrupt()
             self.assertEqual(node.wait(), 0)

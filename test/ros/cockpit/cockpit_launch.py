@@ -12,6 +12,7 @@ import rostest
 
 from node_kit.page import address
 from tutorial_testing.cockpit_rig import CockpitRig
+from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
@@ -42,7 +43,7 @@ class BrowserJoystick(unittest.TestCase):
             rig.drive(page)
             page.close()
             rig.rest_after(time.time())
-            command = ("rosrun", "cockpit", "cockpit.py", "--port", str(rig.port))
+            command = (node_path("cockpit", "cockpit.py"), "--port", str(rig.port))
             with Program(*command, "__name:=another") as second:
                 self.assertEqual(second.wait(), 1)
                 self.assertRegex(second.output, rf"^cockpit: port {rig.port} is taken[^\n]*\n$")
@@ -51,7 +52,7 @@ class BrowserJoystick(unittest.TestCase):
 
     def test_rqt_commands_lead_to_the_page(self):
         page = wait_for(lambda: address(rosgraph.get_master_uri()), "address of the page")
-        with Program("rosrun", "tutorial_tools", "rqt_graph", DISPLAY="") as graph:
+        with Program(node_path("tutorial_tools", "rqt_graph"), DISPLAY="") as graph:
             self.assertEqual(graph.wait(), 0)
             self.assertEqual(graph.output, f"rqt_graph: see {page}#Graph\n")
 

@@ -10,10 +10,11 @@ import rospy
 import rostest
 from geometry_msgs.msg import Twist
 
+from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
-NODE = ("rosrun", "fake_turtlebot_sim", "cmd_vel_mux.py")
+NODE = (node_path("fake_turtlebot_sim", "cmd_vel_mux.py"),)
 
 
 def run(*arguments, **environment):

@@ -1,8 +1,9 @@
 #!/usr/bin/python3
-"""Commands in, pose out: ~commands and what to ~expect are data of the .test files.
+"""Commands in, pose out: what to send and what to expect are data of the .test file.
 
-~commands: list of {send: [v, w], shown: [v, w] (if the robot executes another), wait: seconds}
-~expect: names from below with values, exact to 1e-9
+~cases: for each name, which is the namespace of a robot of its own,
+  commands: list of {send: [v, w], shown: [v, w] (if the robot executes another), wait: seconds}
+  expect: names from below with values, exact to 1e-9
 """
 
 import sys
@@ -11,7 +12,7 @@ from math import atan2
 
 import rospy
 import rostest
-from fake_turtlebot_stepping import Robot, World
+from fake_turtlebot_stepping import PERIOD_NS, Robot, World
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import JointState
 
@@ -19,31 +20,44 @@ from tutorial_testing.waiting import wait_for
 
 
 class DriveTest(unittest.TestCase):
-    def test_the_robot_is_where_it_was_sent(self):
-        robot = Robot()
+    """One test method for every case; one clock for all of them, which never goes back."""
+
+    world_ns = PERIOD_NS
+
+    def drive(self, name, commands, expect):
+        robot = Robot(f"/{name}/")
         joints, truths = [], []
-        rospy.Subscriber("joint_states", JointState, joints.append)
-        rospy.Subscriber("base_pose_ground_truth", Odometry, truths.append)
-        world = World([robot])
-        for command in rospy.get_param("~commands"):
+        rospy.Subscriber(f"/{name}/joint_states", JointState, joints.append)
+        rospy.Subscriber(f"/{name}/base_pose_ground_truth", Odometry, truths.append)
+        world = World([robot], DriveTest.world_ns)
+        for command in commands:
             v, w = command["send"]
             began_ns = world.command(robot, v, w, tuple(command.get("shown", (v, w))))
             world.step(command["wait"] - (world.now_ns - began_ns) * 1e-9)
+        DriveTest.world_ns = world.now_ns
         end = robot.odometry[-1]
         wait_for(lambda: joints and joints[-1].header.stamp == end.header.stamp, "wheel joints")
         result = dict(pose_of(end), **twist_of(end))
         result.update(zip(("left_angle", "right_angle"), joints[-1].position))
         result.update(zip(("left_joint", "right_joint"), joints[-1].name))
         result.update(frame=end.header.frame_id, base_frame=end.child_frame_id)
-        expected = rospy.get_param("~expect")
-        if any(name.startswith("true_") for name in expected):
+        if any(key.startswith("true_") for key in expect):
             wait_for(lambda: truths and truths[-1].header.stamp == end.header.stamp, "truth")
-            result.update({f"true_{name}": value for name, value in pose_of(truths[-1]).items()})
-        for name, value in expected.items():
+            result.update({f"true_{key}": value for key, value in pose_of(truths[-1]).items()})
+        for key, value in expect.items():
             if isinstance(value, str):
-                self.assertEqual(result[name], value, name)
+                self.assertEqual(result[key], value, key)
             else:
-                self.assertAlmostEqual(result[name], value, msg=name, delta=1e-9)
+                self.assertAlmostEqual(result[key], value, msg=key, delta=1e-9)
+
+
+def add_cases(cases):
+    for name, case in cases.items():
+        setattr(
+            DriveTest,
+            f"test_{name}",
+            lambda test, name=name, case=case: test.drive(name, **case),
+        )
 
 
 def pose_of(odometry):
@@ -57,4 +71,5 @@ def twist_of(odometry):
 
 if __name__ == "__main__":
     rospy.init_node("fake_turtlebot_drive")
+    add_cases(rospy.get_param("~cases"))
     rostest.rosrun("ros1_tutorial_test", "fake_turtlebot_drive", DriveTest, sys.argv)

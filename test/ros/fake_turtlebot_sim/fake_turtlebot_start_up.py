@@ -9,10 +9,11 @@ import rospy
 import rostest
 from nav_msgs.msg import Odometry
 
+from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
-NODE = ("rosrun", "fake_turtlebot_sim", "fake_turtlebot.py")
+NODE = (node_path("fake_turtlebot_sim", "fake_turtlebot.py"),)
 
 
 def run(*arguments, **environment):

@@ -16,13 +16,14 @@ from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 
 from node_kit.questions import call
+from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.rig import BASE, DRIVER, JOYSTICK, MUX, Rig, go_on, stop
 from tutorial_testing.waiting import BUSY_S, wait_for
 
 INPUTS = '[{"name": "a", "topic": "input", "timeout": 1.0, "priority": 1}]'
 MUX_COMMAND = (
-    "rosrun", "fake_turtlebot_sim", "cmd_vel_mux.py", f"_subscribers:={INPUTS}",
+    node_path("fake_turtlebot_sim", "cmd_vel_mux.py"), f"_subscribers:={INPUTS}",
     "cmd_vel_mux/output:=cmd_vel",
 )  # fmt: skip
 LONGEST_END_S = 1.5 + BUSY_S
@@ -93,7 +94,7 @@ class FaultsUnderAHungMaster(unittest.TestCase):
 
         nodes = [
             Program(*MUX_COMMAND),
-            Program("rosrun", "fake_turtlebot_sim", "fake_turtlebot.py"),
+            Program(node_path("fake_turtlebot_sim", "fake_turtlebot.py")),
         ]
         for node in nodes:
             self.addCleanup(node.__exit__)

@@ -13,6 +13,7 @@ import rostest
 from nav_msgs.msg import Odometry
 
 from tutorial_testing.keys import KeyboardRig
+from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.rig import go_on, stop
 from tutorial_testing.waiting import wait_for
@@ -78,7 +79,7 @@ class FaultsOfTheScript(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             script = Path(folder) / "script.yaml"
             script.write_text(SCRIPT)
-            gamepad = ("rosrun", "gamepad", "virtual_joystick", "--stream", device, "--loop")
+            gamepad = (node_path("gamepad", "virtual_joystick"), "--stream", device, "--loop")
             launch = ("launch_joy_node.launch", "rviz:=false", f"joy_dev:={device}")
             with Program("roslaunch", "joy2twist", *launch), Program(
                 *gamepad, "--script", str(script)

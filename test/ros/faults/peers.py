@@ -17,6 +17,7 @@ from rosgraph.network import encode_ros_handshake_header, read_ros_handshake_hea
 from sensor_msgs.msg import Joy
 
 from node_kit.questions import call
+from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.rig import BASE, DRIVER, MUX
 from tutorial_testing.waiting import DEADLINE_S, wait_for
@@ -28,7 +29,7 @@ HELD = Joy(axes=FORWARD, buttons=LB)
 
 INPUTS = '[{"name": "a", "topic": "input", "timeout": 1.0, "priority": 1}]'
 MUX_COMMAND = (
-    "rosrun", "fake_turtlebot_sim", "cmd_vel_mux.py", f"_subscribers:={INPUTS}",
+    node_path("fake_turtlebot_sim", "cmd_vel_mux.py"), f"_subscribers:={INPUTS}",
     "cmd_vel_mux/output:=cmd_vel",
 )  # fmt: skip
 
@@ -77,7 +78,7 @@ class FaultsOfThePeers(unittest.TestCase):
         self.addCleanup(self.robot.unregister)
 
     def joy2twist(self, *parameters):
-        program = Program("rosrun", "joy2twist", "joy2twist.py", *parameters)
+        program = Program(node_path("joy2twist", "joy2twist.py"), *parameters)
         self.addCleanup(program.__exit__)
         return program
 
@@ -149,7 +150,7 @@ class FaultsOfThePeers(unittest.TestCase):
 
     def test_a_peer_that_says_nothing_holds_up_nobody(self):
         self.joy2twist()
-        simulator = Program("rosrun", "fake_turtlebot_sim", "fake_turtlebot.py")
+        simulator = Program(node_path("fake_turtlebot_sim", "fake_turtlebot.py"))
         self.addCleanup(simulator.__exit__)
         mux = Program(*MUX_COMMAND[:-1])  # with its output under its own name
         self.addCleanup(mux.__exit__)

@@ -12,6 +12,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 from gamepad.driver.driver import SHORTEST_SILENCE_S
 from gamepad.js_event import AXIS, BUTTON, FULL, INIT
 from tutorial_testing.joystick_stream import AXES, BUTTONS, JoyLog, Stream, driver
+from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import BUSY_S, wait_for
 
@@ -146,7 +147,7 @@ class DriverTest(unittest.TestCase):
             "joy_node: ~deadzon: 0.1: no such parameter; did you mean ~deadzone?",
         )
         self.refuse(
-            Program("rosrun", "gamepad", "joy_node", ROS_MASTER_URI="http://localhost:1"),
+            Program(node_path("gamepad", "joy_node"), ROS_MASTER_URI="http://localhost:1"),
             "joy_node: no ROS master at http://localhost:1",
         )
 

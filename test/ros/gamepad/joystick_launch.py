@@ -17,6 +17,7 @@ from nav_msgs.msg import Odometry
 
 from joy_to_twist.safety import WAITING
 from tutorial_testing.joystick_stream import JoyLog
+from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
@@ -81,7 +82,7 @@ class LaunchTest(unittest.TestCase):
         # The script begins with its reader, and the robot must be ready then.
         wait_for(lambda: self.odometry and WAITING in self.states, "joy2twist and robot")
         path = os.path.join(rospkg.RosPack().get_path("gamepad"), *SQUARE)
-        command = ("rosrun", "gamepad", "virtual_joystick", "--stream", self.device)
+        command = (node_path("gamepad", "virtual_joystick"), "--stream", self.device)
         with Program(*command, "--script", path) as program:
             self.assertEqual(program.wait(SCRIPT_S), 0, program.output)
         places = closed_form(yaml.safe_load(Path(path).read_text(encoding="utf-8"))["moves"])

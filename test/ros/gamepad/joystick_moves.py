@@ -13,6 +13,7 @@ import rostest
 
 from gamepad.gamepads import F710_D
 from tutorial_testing.joystick_stream import JoyLog, driver
+from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
@@ -39,7 +40,7 @@ class MovesTest(unittest.TestCase):
     def start(self, *arguments, deadzone=0.05):
         """virtual_joystick, and a driver that reads its FIFO."""
         program = Program(
-            "rosrun", "gamepad", "virtual_joystick", "--stream", self.device, *arguments
+            node_path("gamepad", "virtual_joystick"), "--stream", self.device, *arguments
         )
         self.addCleanup(program.__exit__)
         reader = driver(self.device, f"deadzone:={deadzone}")
@@ -80,7 +81,7 @@ class MovesTest(unittest.TestCase):
         self.assertTrue(any(joy.buttons[4] for joy in self.log.messages))
 
     def refuse(self, line, *arguments):
-        with Program("rosrun", "gamepad", "virtual_joystick", *arguments) as program:
+        with Program(node_path("gamepad", "virtual_joystick"), *arguments) as program:
             self.assertEqual(program.wait(), 1)
             self.assertIn(line, program.output)
             self.assertEqual(program.output.count("\n"), 1, program.output)

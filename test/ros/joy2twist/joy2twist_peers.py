@@ -16,6 +16,7 @@ from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Joy
 
+from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import BUSY_S, DEADLINE_S, wait_for
 
@@ -28,7 +29,7 @@ ECHO_SPEED = ("rostopic", "echo", "-p", "cmd_vel/linear/x")
 
 
 def joy2twist(*parameters, **environment):
-    return Program("rosrun", "joy2twist", "joy2twist.py", *parameters, **environment)
+    return Program(node_path("joy2twist", "joy2twist.py"), *parameters, **environment)
 
 
 def send_signal(number, program):
@@ -89,7 +90,7 @@ class RobotTest(unittest.TestCase):
         )
         self.addCleanup(subscriber.unregister)
         delays_s = []
-        with Program(*PUBLISH_JOY), Program("rosrun", "fake_turtlebot_sim", "fake_turtlebot.py"):
+        with Program(*PUBLISH_JOY), Program(node_path("fake_turtlebot_sim", "fake_turtlebot.py")):
             for _ in range(3):
                 with joy2twist() as node:
                     wait_for(lambda: odometry and odometry[-1][1] == 0.5, "moving robot")
@@ -143,7 +144,7 @@ class MasterTest(unittest.TestCase):
         return master
 
     def start_driving(self):
-        node = self.start("rosrun", "joy2twist", "joy2twist.py")
+        node = self.start(node_path("joy2twist", "joy2twist.py"))
         self.start(*PUBLISH_JOY)
         echo = self.start(*ECHO_SPEED)
         wait_for(lambda: ",0.5" in echo.output, "velocity")

@@ -12,6 +12,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Twist
 from sensor_msgs.msg import Joy
 
+from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import BUSY_S, DEADLINE_S, wait_for
 
@@ -21,7 +22,7 @@ NOWHERE = "http://localhost:9"  # the port named "discard": no master lives ther
 
 
 def joy2twist(*parameters, **environment):
-    return Program("rosrun", "joy2twist", "joy2twist.py", *parameters, **environment)
+    return Program(node_path("joy2twist", "joy2twist.py"), *parameters, **environment)
 
 
 class RunningTest(unittest.TestCase):

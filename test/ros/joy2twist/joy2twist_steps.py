@@ -10,6 +10,7 @@ import rostest
 from geometry_msgs.msg import Twist
 from sensor_msgs.msg import Joy
 
+from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
@@ -33,7 +34,7 @@ class StepsTest(unittest.TestCase):
         self.joystick.publish(Joy(axes=axes))
 
     def start(self, step):
-        node = Program("rosrun", "joy2twist", step)
+        node = Program(node_path("joy2twist", step))
         self.addCleanup(node.__exit__)
         wait_for(lambda: self.send(0.25, 0.5, 0.125) or "0.25, 0.5" in node.output, "line")
         return node

@@ -62,8 +62,11 @@ class StudentTest(unittest.TestCase):
     def test_ten_drive_their_own_robots_and_the_others_stand(self):
         driven = {name: [] for name in DRIVEN}
         standing = {name: set() for name in ROBOTS[len(DRIVEN) :]}
-        for name, odometry in driven.items():
-            rospy.Subscriber(f"/{name}/odom", Odometry, odometry.append)
+        for name, raw in driven.items():
+            # To be read later, and then every fifth: ten robots at 50 Hz are work.
+            rospy.Subscriber(
+                f"/{name}/odom", AnyMsg, lambda message, raw: raw.append(message._buff), raw
+            )
         for name, states in standing.items():
             rospy.Subscriber(
                 f"/{name}/odom",
@@ -93,10 +96,11 @@ class StudentTest(unittest.TestCase):
         asked = replay()
         length_m = sum(abs(after - before) for before, after in zip(asked, asked[1:]))
         self.assertGreater(length_m, 1.0)
-        for name, odometry in driven.items():
+        for name, raw in driven.items():
+            odometry = [Odometry().deserialize(one) for one in [*raw[::5], raw[-1]]]
             start, direction = place(odometry[0])
-            path = [(place(o)[0] - start) / direction for o in odometry[::5]]
-            end = (place(odometry[-1])[0] - start) / direction
+            path = [(place(o)[0] - start) / direction for o in odometry]
+            end = path[-1]
             off_m = max(min(abs(place - near) for near in asked[::5]) for place in path)
             missed_m = max(min(abs(near - place) for place in path) for near in asked[::50])
             self.assertLess(max(off_m, missed_m), TOLERANCE_M, name)

@@ -11,12 +11,21 @@ import rospy
 import rostest
 from rospy import AnyMsg
 
+from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
 # The last message of joy.bag, after which it begins anew: where all of this takes longer than it.
 LAST_OF_BAG = 2759
-SIMULATOR = ("rosrun", "fake_turtlebot_sim", "fake_turtlebot.py")
+SIMULATOR = (node_path("fake_turtlebot_sim", "fake_turtlebot.py"),)
+
+
+def start(command):
+    """A Program, from a line of the table."""
+    words = shlex.split(command)
+    if words[0] == "rosrun":
+        words[:3] = [node_path(*words[1:3])]
+    return Program(*words)
 
 
 class Watch:
@@ -59,7 +68,7 @@ class StartsTest(unittest.TestCase):
         return watch
 
     def check_refusal(self, command, words):
-        with Program(*shlex.split(command)) as started:
+        with start(command) as started:
             code, said = started.wait(), started.output
         self.assertEqual(code, 1, f"{command}: {said}")
         lines = [line for line in said.splitlines() if words in line]
@@ -67,7 +76,7 @@ class StartsTest(unittest.TestCase):
         self.assertNotIn("Traceback (most", said)
 
     def check_company(self, command, topic):
-        with Program(*shlex.split(command)) as started:
+        with start(command) as started:
             self.watch(topic)
             started.interrupt()
             started.wait()

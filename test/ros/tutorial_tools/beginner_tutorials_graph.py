@@ -11,6 +11,7 @@ import rospkg
 import rospy
 import rostest
 
+from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
@@ -25,7 +26,7 @@ class GraphTest(unittest.TestCase):
 
     def run_it(self, *arguments, **environment):
         """Run it from rosrun, to its end; (exit code, what it printed)."""
-        command = ["rosrun", "tutorial_tools", "draw_graph.py"]
+        command = [node_path("tutorial_tools", "draw_graph.py")]
         with Program(*command, *map(str, arguments), **environment) as program:
             return program.wait(), program.output
 

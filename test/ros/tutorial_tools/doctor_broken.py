@@ -16,6 +16,7 @@ from sensor_msgs.msg import Joy
 from std_msgs.msg import String
 
 from tutorial_testing.doctor_run import doctor
+from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
@@ -41,7 +42,7 @@ class BrokenTest(unittest.TestCase):
             self.wrong("does not answer", ROS_MASTER_URI=f"http://localhost:{port}")
 
     def test_a_node_that_died(self):
-        with Program("rosrun", "beginner_tutorials", "talker.py", "--unique") as talker:
+        with Program(node_path("beginner_tutorials", "talker.py"), "--unique") as talker:
             wait_for(lambda: "hello" in talker.output, "talker")
             for pid in talker.left_behind():
                 os.kill(pid, signal.SIGKILL)

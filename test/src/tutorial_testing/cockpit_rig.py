@@ -8,6 +8,7 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Joy
 
 from cockpit_server.seat import is_neutral
+from tutorial_testing.nodes import node_path
 from tutorial_testing.ports import free_port
 from tutorial_testing.processes import Program
 from tutorial_testing.socket_page import DRIVE, REST, SocketPage
@@ -52,7 +53,7 @@ class CockpitRig:
         if self.program:
             self.program.__exit__()
         options = ("--port", str(self.port), *self._options)
-        self.program = Program("rosrun", "cockpit", "cockpit.py", *options)
+        self.program = Program(node_path("cockpit", "cockpit.py"), *options)
         self.program.__enter__()
         wait_for(self.listens, "page of the cockpit")
 

@@ -3,6 +3,7 @@
 import re
 import time
 
+from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
 
 LONGEST_S = 15.0
@@ -12,7 +13,7 @@ LINE = r"^(ok|wrong|unknown) +(\w+) +\S.*$"
 def doctor(test, **environment):
     """(exit code, {level: lines}) of a run, which ends in time and without a traceback."""
     began_s = time.monotonic()
-    with Program("rosrun", "tutorial_tools", "doctor.py", **environment) as program:
+    with Program(node_path("tutorial_tools", "doctor.py"), **environment) as program:
         code = program.wait()
         took_s = time.monotonic() - began_s
         output = program.output

@@ -9,6 +9,7 @@ import rospy
 from sensor_msgs.msg import Joy
 
 from gamepad.js_event import AXIS, BUTTON, INIT, JsEvent, pack
+from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
@@ -84,4 +85,4 @@ def driver(path, *parameters):
     if rospy.has_param("/joy_node"):
         rospy.delete_param("/joy_node")  # of the test before: the master keeps them
     given = [f"_{parameter}" for parameter in (f"dev:={path}", *parameters)]
-    return Program("rosrun", "gamepad", "joy_node", *given)
+    return Program(node_path("gamepad", "joy_node"), *given)

@@ -21,6 +21,7 @@ from gamepad.gamepads import F710_D
 from gamepad.virtual.controls import Controls, positions
 from gamepad.virtual.pads import StreamPad
 from node_kit.questions import call
+from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
@@ -92,7 +93,7 @@ class Rig:
         }[node]
         arguments = [f"_{name}:={json.dumps(value)}" for name, value in given.items()]
         arguments += [f"{name}:={to}" for name, to in remap.items()]
-        command = ("rosrun", *command, *arguments)
+        command = (node_path(*command), *arguments)
         if self._screen:
             command = ("bash", "-c", 'exec "$@" >"$0" 2>&1', self._screen, *command)
         self.programs[node] = Program(*command, **self._environment)

@@ -9,6 +9,7 @@ import threading
 from pathlib import Path
 from typing import NamedTuple
 
+from tutorial_testing.nodes import node_path
 from tutorial_testing.ports import free_port
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
@@ -85,7 +86,7 @@ class World:
     def start_cockpit(self):
         """Start the cockpit, or start it anew under the same address."""
         lan = ["--lan"] if self._host else []
-        self.cockpit = self.run("rosrun", "cockpit", "cockpit.py", "--port", str(self._port), *lan)
+        self.cockpit = self.run(node_path("cockpit", "cockpit.py"), "--port", str(self._port), *lan)
         shown = wait_for(lambda: re.search(r"to drive: \S+|open http\S+", self.cockpit.output),
                          "address of the cockpit", START_S)  # fmt: skip
         token = re.search(r"\?token=\S+", shown[0])

@@ -1,0 +1,43 @@
+"""What the demonstration refuses before it starts; test/system/ has some as a user sees them."""
+
+from pathlib import Path
+
+import pytest
+
+from tutorial_tools.demo.launch import DemoError
+from tutorial_tools.demo.program import check_bag, launch_arguments, parse
+
+JOY2TWIST = Path(__file__).resolve().parents[3] / "joy2twist"
+LAUNCH_FILE = str(JOY2TWIST / "launch" / "launch_bag.launch")
+
+
+@pytest.mark.parametrize("size", [0, 12, 30, 4096, 5000, 200_000, -4000, -1])
+def test_a_truncated_bag_gets_one_clear_line(tmp_path, capfd, size):
+    bag = tmp_path / "truncated.bag"
+    bag.write_bytes((JOY2TWIST / "bag" / "joy.bag").read_bytes()[:size])
+    with pytest.raises(DemoError) as told:
+        check_bag(bag)
+    assert str(told.value).startswith(f"{bag}: ")
+    assert len(str(told.value).splitlines()) == 1
+    assert capfd.readouterr() == ("", "")
+
+
+def test_a_folder_is_no_bag():
+    with pytest.raises(DemoError, match=r"^/: cannot be read: Is a directory$"):
+        check_bag("/")
+
+
+@pytest.mark.parametrize(
+    ("argument", "line"),
+    [("rviz", "rviz: not an argument"), ("rviz:=perhaps", "rviz:=perhaps: must be true or false")],
+)
+def test_a_wrong_argument_is_named(argument, line):
+    with pytest.raises(DemoError, match=f"^{line}"):
+        launch_arguments(LAUNCH_FILE, [argument])
+
+
+@pytest.mark.parametrize("time", ["ever", "-1", "0", "nan", "inf"])
+def test_a_wrong_time_is_named(capsys, time):
+    with pytest.raises(SystemExit):
+        parse(["--for", time])
+    assert f"{time}: not a time in seconds" in capsys.readouterr().err
