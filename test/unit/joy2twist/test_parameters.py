@@ -1,5 +1,7 @@
 """Names, defaults and checks of the private parameters."""
 
+from dataclasses import FrozenInstanceError
+
 import pytest
 
 from joy_to_twist.parameters import Axis, load
@@ -107,7 +109,8 @@ def test_a_named_enable_button_is_required_unless_said_otherwise(given, required
         ({"diagnostic_period": 0}, ["~diagnostic_period", "0.1 to 60 s"]),
         ({"gamepad_axes": -2}, ["~gamepad_axes", "-2", "or -1 for any"]),
         ({"max_angular_acceleration": None}, ["~max_angular_acceleration", "None"]),
-        ({"log_rate": -5}, ["~log_rate", "-5", "lines a second"]),
+        ({"log_rate": -0.5}, ["~log_rate", "-0.5", "0 to 1000 lines a second"]),
+        ({"log_rate": 1000.5}, ["~log_rate", "1000.5", "0 to 1000 lines a second"]),
         ({"gamepad_axes": "six"}, ["~gamepad_axes", "'six'"]),
         ({"axis_liner": 1}, ["~axis_liner", "axis_linear"]),
     ],
@@ -122,13 +125,26 @@ def test_an_error_names_parameter_value_and_what_is_allowed(given, words):
 
 
 def test_the_least_and_the_most_are_allowed():
-    least = {"stop_messages": 1, "output_rate": 1, "joy_timeout": 0, "diagnostic_period": 0.1}
-    most = {"stop_messages": 100, "output_rate": 1000, "joy_timeout": 60, "diagnostic_period": 60}
+    least = {
+        "stop_messages": 1, "output_rate": 1, "joy_timeout": 0, "diagnostic_period": 0.1,
+        "log_rate": 0, "gamepad_axes": -1,
+    }  # fmt: skip
+    most = {
+        "stop_messages": 100, "output_rate": 1000, "joy_timeout": 60, "diagnostic_period": 60,
+        "log_rate": 1000,
+    }  # fmt: skip
     for given in (least, most):
         p = load(given)
         assert {name: getattr(p, name) for name in given} == given
     assert load({"scale_linear": -100, "scale_angular": 100}).axes[0].scale == -100
     assert load({"axis_linear": -1, "axis_angular": 0}).axes == (Axis(YAW, 0, 1.0, 1.0),)
+
+
+def test_nobody_changes_what_was_checked():
+    parameters = load({})
+    for thing, name in ((parameters, "joy_timeout"), (parameters.axes[0], "scale")):
+        with pytest.raises(FrozenInstanceError):
+            setattr(thing, name, 1.0)
 
 
 def test_all_defaults_written_out():
