@@ -68,3 +68,7 @@ def test_a_pad_with_other_than_six_axes_has_no_such_led():
 
 def test_a_message_without_the_axes_in_use_is_no_trouble():
     assert hints([six(a4=0.5)], axis_linear=7) != []
+
+
+def test_an_axis_just_beyond_those_that_are_there_is_not_looked_at():
+    assert hints([six(), six(a1=0.5)], axis_linear=6) == []
