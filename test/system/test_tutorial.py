@@ -458,6 +458,18 @@ def test_a_master_has_what_rospy_would_ask_for_with_every_line(tutorial, master_
         master.wait()
 
 
+@pytest.mark.usefixtures("clean_environment")
+def test_what_is_kept_of_the_environment_is_what_setup_bash_sets(tutorial):
+    script = """
+        show() { echo "$CMAKE_PREFIX_PATH $ROS_PACKAGE_PATH $PYTHONPATH"; }
+        show; . "${CMAKE_PREFIX_PATH%%:*}/setup.bash"; show"""
+    done = subprocess.run(
+        [tutorial, "run", "bash", "-c", script], capture_output=True, text=True, check=True
+    )
+    kept, set_anew = done.stdout.splitlines()
+    assert kept == set_anew
+
+
 def test_shell_and_run_see_the_workspace_and_no_shell_file_is_touched(tutorial, tmp_path):
     home = tmp_path / "home"
     home.mkdir()
