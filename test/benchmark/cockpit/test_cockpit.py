@@ -13,7 +13,11 @@ from pathlib import Path
 
 import pytest
 import rospkg
-from live import FAKE_TURTLEBOT, master, processor_time, running
+from live import FAKE_TURTLEBOT, lost_periods, master, processor_time, running
+from live import HERE as LIVE
+
+from tutorial_faults.live.samples import complaints, growth, sample
+from tutorial_testing.nodes import node_path
 
 HERE = Path(__file__).parent
 INPUTS = 1000
@@ -21,6 +25,7 @@ ROBOTS, VIEWERS, SECONDS = 30, 5, 20
 START_S = 90
 MEDIAN_MORE_S, WORST_MORE_S = 0.003, 0.015
 MOST_PROCESSOR = 0.2
+SAMPLE_S = 5
 LEAST_FRAMES = 15  # in a second, of 20, on a busy machine
 
 
@@ -119,6 +124,41 @@ def test_thirty_robots_on_five_pages(figure):
     assert shares <= MOST_PROCESSOR
     assert min(frames) > LEAST_FRAMES
     assert min(frames2) > 0.9 * min(frames)
+
+
+def test_nothing_grows(figure, request):
+    """The same scene for --hours: memory, threads, sockets and files of server and simulator."""
+    seconds = 3600 * request.config.getoption("--hours")
+    simulator = [node_path("fake_turtlebot_sim", "fake_turtlebot.py"), f"_robots:={ROBOTS}"]
+    watched = ["/robot_1/odom", f"/robot_{ROBOTS}/odom"]
+    with ExitStack() as stack:
+        robots = stack.enter_context(running(simulator))
+        process, port = start_cockpit(stack)
+        looks = [str(seconds)] * VIEWERS + ["stalled"]
+        programs = [[sys.executable, str(HERE / "viewer.py"), str(port), one] for one in looks]
+        programs.append([sys.executable, str(LIVE / "observer.py"), str(seconds), *watched])
+        options = {"stdout": subprocess.PIPE, "text": True}
+        *viewers, _, observer = (stack.enter_context(running(one, **options)) for one in programs)
+        for one in (*viewers, observer):
+            assert one.stdout.readline() == "ready\n"
+        samples, began_s = [], time.monotonic()
+        while time.monotonic() - began_s < seconds:
+            for name, pid in (("server", process.pid), ("simulator", robots.pid)):
+                samples.append(sample(time.monotonic() - began_s, name, pid))
+            time.sleep(SAMPLE_S)
+        heard = json.loads(observer.stdout.readline())
+        frames = [json.loads(one.stdout.readline())["frames"] for one in viewers]
+    lost = sum(lost_periods(heard[topic]) for topic in watched)
+    for name in ("server", "simulator"):
+        memory, threads, files = growth(samples, name)
+        figure(
+            f"{name}, {ROBOTS} robots on {VIEWERS} pages for {seconds / 60:.0f} minutes",
+            f"{memory:+} kB, {threads:+} threads, {files:+} files and sockets",
+            "≤ 2 MB, 0, 0",
+        )
+    figure("meanwhile", f"{min(frames):.1f} frames/s; {lost} periods lost", "20/s; 0")
+    assert complaints(samples) == []
+    assert lost == 0
 
 
 def measure_viewers(stack, process, port):
