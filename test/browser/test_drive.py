@@ -55,7 +55,7 @@ def test_a_second_page_is_refused_and_told_who_drives(world, page):
     page.click("Drive from this page")
     with Chromium() as second:
         second.open(world.address)
-        second.wait_for_text("#seat", "drives")
+        second.wait_for_text("#seat", "drives the robot")
         assert not second.by_role("button", "Drive from this page").is_enabled()
 
 
