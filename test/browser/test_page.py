@@ -82,21 +82,25 @@ def test_a_phone_has_all_of_it(world, held):
         assert "auto" not in phone.ask(actions)
 
 
-def test_a_server_that_begins_anew_may_know_the_robots_later(page):
-    script = """const done = arguments[0], robots = {a: {}, b: {}}, handlers = {};
+@pytest.mark.parametrize("robots", [[""], ["robot_1", "robot_2"]])
+def test_a_server_that_begins_anew_may_know_the_robots_later(page, robots):
+    script = """const [names, done] = arguments, handlers = {};
     const link = {isOpen: true, send() {}, on(kind, handler) { handlers[kind] = handler; }};
-    const pad = {D: {buttons: []}, X: {buttons: []}};
     const hear = (kind, message) => handlers[kind]({kind, ...message});
+    const look = document.getElementById("look"), pad = {D: {buttons: []}, X: {buttons: []}};
+    const begin = () => {
+      hear("hello", {id: 1, role: "driver", robots: [], pad});
+      hear("robots", {robots: {}});
+      hear("robots", {robots: Object.fromEntries(names.map((name) => [name, {}]))});
+    };
     import('/page/robot_tab.js').then(({RobotTab}) => {
       new RobotTab(link, () => {}, () => {});
-      for (let servers = 0; servers < 2; servers++) {
-        hear("hello", {id: 1, role: "driver", robots: [], pad});
-        hear("robots", {robots: {}});
-        hear("robots", {robots});
-      }
-      done([...document.getElementById("look").options].map((option) => option.value));
+      begin();
+      look.value = names.at(-1);
+      begin();
+      done([look.options.length, look.value]);
     })"""
-    assert page.driver.execute_async_script(script) == ["a", "b"]
+    assert page.driver.execute_async_script(script, robots) == [len(robots), robots[-1]]
 
 
 def test_a_server_that_hangs_for_a_while_leaves_the_seat_to_who_has_it(world, page):
