@@ -57,12 +57,21 @@ def browser():
         yield browser
 
 
+@pytest.fixture(scope="session")
+def shared_browser():
+    """A Chromium for whoever leaves nothing but a page."""
+    with Chromium() as browser:
+        yield browser
+
+
 @pytest.fixture
-def page(world, browser):
-    """A Chromium with the page of the world; the console must be clean at the end."""
-    browser.open(world.address)
-    yield browser
-    assert browser.errors() == []
+def page(world, shared_browser):
+    """A Chromium with the page of the world, opened anew; the console must be clean at the end."""
+    shared_browser.open(world.address)
+    yield shared_browser
+    complaints = shared_browser.errors()
+    shared_browser.driver.get("about:blank")  # it drives no more
+    assert complaints == []
 
 
 @pytest.fixture

@@ -1,5 +1,6 @@
 """The page itself: small, from this host alone, for keyboards and phones, honest about a loss."""
 
+import signal
 from urllib.parse import urlsplit
 
 import pytest
@@ -79,6 +80,44 @@ def test_a_phone_has_all_of_it(world, held):
             "[...document.body.querySelectorAll('*')].map((e) => getComputedStyle(e).touchAction)"
         )
         assert "auto" not in phone.ask(actions)
+
+
+@pytest.mark.parametrize("robots", [[""], ["robot_1", "robot_2"]])
+def test_a_server_that_begins_anew_may_know_the_robots_later(page, robots):
+    script = """const [names, done] = arguments, handlers = {};
+    const link = {isOpen: true, send() {}, on(kind, handler) { handlers[kind] = handler; }};
+    const hear = (kind, message) => handlers[kind]({kind, ...message});
+    const look = document.getElementById("look"), pad = {D: {buttons: []}, X: {buttons: []}};
+    const begin = () => {
+      hear("hello", {id: 1, role: "driver", robots: [], pad});
+      hear("robots", {robots: {}});
+      hear("robots", {robots: Object.fromEntries(names.map((name) => [name, {}]))});
+    };
+    import('/page/robot_tab.js').then(({RobotTab}) => {
+      new RobotTab(link, () => {}, () => {});
+      begin();
+      look.value = names.at(-1);
+      begin();
+      done([look.options.length, look.value]);
+    })"""
+    assert page.driver.execute_async_script(script, robots) == [len(robots), robots[-1]]
+
+
+def test_a_server_that_hangs_for_a_while_leaves_the_seat_to_who_has_it(world, page):
+    page.click("Drive from this page")
+    page.wait_for_text("#seat", "You drive")
+    number = page.text("#me")
+    world.signal_cockpit(signal.SIGSTOP)
+    try:
+        page.wait_for_text("#connection", "lost")
+        assert not page.by_role("button", "Drive from this page").is_enabled()
+    finally:
+        world.signal_cockpit(signal.SIGCONT)
+    page.wait_for_text("#connection", "Connected")
+    page.wait_for_text("#seat", "You drive")
+    assert page.text("#me") == number
+    page.click("Stop driving")
+    page.wait_for_text("#seat", "Nobody drives")
 
 
 def test_a_lost_server_is_told_at_once_and_the_page_returns_by_itself(own_world, browser):

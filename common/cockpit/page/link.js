@@ -1,18 +1,24 @@
-/** The connection to the server: JSON messages both ways, and its return after a loss. */
+/**
+ * The connection to the server: JSON messages both ways, and its return after a loss.
+ *
+ * Silence is a loss, which is told at once; but who is silent may only be busy, or far from the Wi-Fi for
+ * a moment. So the connection is kept for a while: with it goes the seat of who drives.
+ */
 
 const RETRY_MS = 500;
 const CONNECT_MS = 3000; // after which an attempt is given up: a cut network answers nothing
 const QUIET_MS = 1000; // the robots' places come 20 times a second, so that silence is a loss
+const GONE_MS = 4000; // of silence; as long as the server waits for a page that does not answer
 const FULL = 4096; // [byte] waiting to be sent: what is added now would come late
 
 export class Link {
   #socket = null;
   #handlers = new Map();
   #lastHeard = 0;
-  #heardRobots = false;
   #attempt = 0;
+  #state = "connecting";
 
-  /** onState(state): "connecting", "open" or "lost". */
+  /** onState(state): "open" or "lost", at each change. */
   constructor(onState) {
     this.onState = onState;
     setInterval(() => this.#watch(), 250);
@@ -25,7 +31,6 @@ export class Link {
 
   connect() {
     this.#attempt = performance.now();
-    this.#heardRobots = false;
     const scheme = location.protocol === "https:" ? "wss" : "ws";
     const token = new URLSearchParams(location.search).get("token");
     const query = token === null ? "" : `?token=${encodeURIComponent(token)}`;
@@ -33,14 +38,14 @@ export class Link {
     this.#socket = socket;
     socket.onopen = () => {
       this.#lastHeard = performance.now();
-      this.onState("open");
+      this.#become("open");
     };
     socket.onmessage = (event) => this.#hear(event.data);
     socket.onclose = () => this.#lose(socket);
   }
 
   get isOpen() {
-    return this.#socket?.readyState === WebSocket.OPEN;
+    return this.#state === "open" && this.#socket.readyState === WebSocket.OPEN;
   }
 
   /** Send a message, or drop it: nothing waits for a better time. Returns whether it was sent. */
@@ -50,20 +55,28 @@ export class Link {
     return true;
   }
 
+  #become(state) {
+    if (state === this.#state) return;
+    this.#state = state;
+    this.onState(state);
+  }
+
   #hear(text) {
     this.#lastHeard = performance.now();
+    this.#become("open"); // who was silent speaks again
     const message = JSON.parse(text);
-    if (message.kind === "robots") this.#heardRobots = true;
     for (const handler of this.#handlers.get(message.kind) ?? []) handler(message);
   }
 
   #watch() {
     const now = performance.now();
     const state = this.#socket?.readyState;
+    const silence = now - this.#lastHeard;
     if (document.hidden) {
       this.#lastHeard = now; // timers and messages of a hidden page come late, which is no loss
-    } else if (state === WebSocket.OPEN && this.#heardRobots && now - this.#lastHeard > QUIET_MS) {
-      this.#lose(this.#socket);
+    } else if (state === WebSocket.OPEN && silence > QUIET_MS) {
+      if (silence > GONE_MS) this.#lose(this.#socket);
+      else this.#become("lost");
     } else if (state === WebSocket.CONNECTING && now - this.#attempt > CONNECT_MS) {
       this.#lose(this.#socket);
     }
@@ -74,7 +87,7 @@ export class Link {
     this.#socket = null;
     socket.onmessage = socket.onopen = null;
     socket.close();
-    this.onState("lost");
+    this.#become("lost");
     setTimeout(() => this.connect(), RETRY_MS);
   }
 }

@@ -11,9 +11,7 @@ import { RobotTab } from "./robot_tab.js";
 import { makeTabs } from "./tabs.js";
 
 const NOTICE_MS = 8000;
-const WORDS = {
-  connecting: "Connecting …", open: "Connected", lost: "Connection lost – trying again",
-};
+const WORDS = { open: "Connected", lost: "Connection lost – trying again" };
 
 // What the server is asked to send. The robots' places are always watched: they tell that it is there.
 const watched = {
@@ -25,8 +23,8 @@ let noticeEnd = null;
 const link = new Link((state) => {
   byId("connection").dataset.state = state;
   say(byId("connection"), WORDS[state]);
-  if (state === "lost") robot.disconnect();
-  if (state === "open") link.send("watch", watched);
+  robot.connect(state === "open");
+  if (state === "open") link.send("watch", watched); // with it all is told anew, who drives, too
 });
 
 function watch(fields) {

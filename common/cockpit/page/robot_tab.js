@@ -15,7 +15,7 @@ export class RobotTab {
   #hello = null;
   #seat = { driver: null, yours: false };
   #teleop = new Map(); // robot -> what its joy2twist says
-  #names = "";
+  #names = ""; // of the robots, as JSON
   #isNew = false; // a robot came or left
 
   /** link: the Link. watch(fields): what to ask the server for. notice(text): a line for the user. */
@@ -38,11 +38,11 @@ export class RobotTab {
     return byId("look").value;
   }
 
-  /** The connection was lost: nothing here is news, and nothing drives. */
-  disconnect() {
-    this.driver.stop();
-    this.#showSeat({ driver: null, yours: false, why: "the connection was lost" });
-    byId("robot").classList.add("stale");
+  /** The connection is open or lost. Without it nothing here is news, and nothing drives. */
+  connect(isOpen) {
+    byId("robot").classList.toggle("stale", !isOpen);
+    if (isOpen) this.#showButtons();
+    else this.#showSeat({ driver: null, yours: false, why: "the connection was lost" });
   }
 
   #listen() {
@@ -75,9 +75,8 @@ export class RobotTab {
 
   #meet(hello) {
     this.#hello = hello;
-    byId("robot").classList.remove("stale");
     say(byId("me"), `page ${hello.id}`);
-    this.#offerRobots(hello.robots);
+    if (!this.#names) this.#offerRobots(hello.robots); // a server that has just begun may know none
     this.#showButtons();
     this.#lookAt(this.look);
   }
@@ -98,10 +97,10 @@ export class RobotTab {
 
   #showRobots(robots) {
     const names = Object.keys(robots);
-    if (names.join() !== this.#names) {
-      this.#names = names.join();
+    if (names.length && JSON.stringify(names) !== this.#names) {
+      this.#names = JSON.stringify(names);
       const before = this.look;
-      this.#offerRobots(names.length ? names : this.#hello?.robots ?? [""]);
+      this.#offerRobots(names);
       if (this.look !== before) this.#lookAt(this.look);
       this.#isNew = true;
     }
@@ -166,14 +165,15 @@ export class RobotTab {
   }
 
   #showButtons() {
-    const mayDrive = this.#hello?.role !== "viewer";
+    const isViewer = this.#hello?.role === "viewer";
+    const mayDrive = this.link.isOpen && !isViewer;
     const { yours, driver } = this.#seat;
     const held = document.activeElement === byId("take") || document.activeElement === byId("leave");
     byId("take").hidden = yours;
     byId("leave").hidden = !yours;
     if (held) byId(yours ? "leave" : "take").focus(); // the keyboard stays where it was
     byId("take").disabled = !mayDrive || (driver !== null && !yours);
-    byId("take").title = mayDrive ? "" : "This address may look, not drive";
+    byId("take").title = isViewer ? "This address may look, not drive" : "";
     byId("reset").disabled = !mayDrive;
     byId("glass").hidden = !yours || this.#seat.how === "bag";
     byId("look").disabled = yours;

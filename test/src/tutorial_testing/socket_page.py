@@ -40,13 +40,18 @@ class SocketPage:
 
     def __enter__(self):
         self._thread.start()
-        asyncio.run_coroutine_threadsafe(self._connect(), self._loop).result(30)
+        try:
+            asyncio.run_coroutine_threadsafe(self._connect(), self._loop).result(30)
+        except BaseException:
+            self.__exit__()
+            raise
         return self
 
     def __exit__(self, *_):
         self.close()
         self._loop.call_soon_threadsafe(self._loop.stop)
         self._thread.join()
+        self._loop.close()  # a loop is three files, and a process may have only 1024
 
     async def _connect(self):
         request = HTTPRequest(f"ws://{self._address}/ws{self._query}", headers=self._headers)

@@ -155,6 +155,16 @@ def test_a_page_that_is_away_loses_the_seat_after_a_while(room):
     assert room.sent == [("ada", *REST)]  # one, at the loss
 
 
+def test_an_input_after_all_that_while_takes_no_seat(room):
+    room.seat.take(ANNA, "", PAGE, room.now)
+    room.say(REST)
+    room.now += AWAY_S  # and no tick: the server itself was away
+    room.say(REST)
+    assert room.seat.driver is None
+    assert not room.seat.armed
+    assert room.sent == [("", *REST), ("", *REST)]  # the one that stops, and none of nobody's
+
+
 def test_late_input_is_dropped_and_is_no_sign_of_life(room):
     room.drive()
     for i in range(6):  # as from a queue: each is older

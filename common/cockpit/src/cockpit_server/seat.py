@@ -120,9 +120,9 @@ class Seat:
 
     def input(self, client, message, now):
         """An Input came from a client; one that is old or not the driver's is dropped."""
+        self.tick(now)  # a silence that was not yet noticed
         if client != self.driver or self.how != PAGE or not self._is_fresh(message, now):
             return
-        self.tick(now)  # a silence that was not yet noticed
         self.newest, self._fresh_at = message.n, now
         neutral = is_neutral(message.axes, message.buttons)
         if self._is_frozen(message, now) and not neutral:

@@ -7,7 +7,10 @@ from selenium.common.exceptions import WebDriverException
 from tutorial_testing.waiting import wait_for
 
 LONG_S = 90.0  # for a machine that is busy with much else
-TRY_S = 5.0  # to hold all until the robot moves, before all is released and held again
+TRY_S = 5.0  # for the seat, or until the robot moves, before all is released and held again
+SIT_DOWN = """document.getElementById("seat").dataset.state !== "yours"
+  && document.getElementById("take").click()"""
+ARMED = "document.getElementById('seat').dataset.armed"
 # A gamepad of the standard mapping in place of the browser's: no browser here has a real one.
 FAKE_GAMEPAD = """
 globalThis.fake = {plugged: true, frozen: false, held: false, at: 0};
@@ -37,27 +40,24 @@ class Hands:
         """What goes on coming from hands that hold all, as after a return."""
 
     def drive(self, world, until=None):
-        """Hold all, from all released, until the robot moves, or until a condition(). On a machine
-        that is busy with much else it may take more than one go: the server lets nobody drive whose
-        page is late.
+        """Take the seat if it is free, and hold all, from all released, until the robot moves, or
+        until a condition(). On a machine that is busy with much else it may take more than one go:
+        the server lets nobody drive whose page is late.
         """
         until = until or (lambda: world.now.moves)
 
         def once():
             self.release()
             world.wait_for_rest()
-            self.wait_until_released()
-            self.hold()
+            self.browser.ask(SIT_DOWN)
             with contextlib.suppress(AssertionError):
+                # The server has seen that nothing is held, and lets this page drive.
+                wait_for(lambda: self.browser.ask(ARMED) == "true", "all released", TRY_S)
+                self.hold()
                 return wait_for(until, "effect", TRY_S)
             return False
 
         wait_for(once, "robot that drives", LONG_S)
-
-    def wait_until_released(self):
-        """Wait until the server has seen that nothing is held, and lets this page drive."""
-        armed = "document.getElementById('seat').dataset.armed"
-        wait_for(lambda: self.browser.ask(armed) == "true", "all released", LONG_S)
 
 
 class Keys(Hands):

@@ -6,6 +6,7 @@ import re
 import signal
 import subprocess
 import threading
+import time
 from pathlib import Path
 from typing import NamedTuple
 
@@ -92,11 +93,19 @@ class World:
         token = re.search(r"\?token=\S+", shown[0])
         self.address = f"http://{self._address}:{self._port}/{token[0] if token else ''}"
 
+    def signal_cockpit(self, number):
+        """Send a signal to all of the cockpit; returns the time [s] just before."""
+        pids = self.cockpit.left_behind()
+        now = time.time()
+        for pid in pids:
+            os.kill(pid, number)
+        return now
+
     def kill_cockpit(self):
-        """Let the cockpit end as by a lack of memory."""
-        for pid in self.cockpit.left_behind():
-            os.kill(pid, signal.SIGKILL)
+        """Let the cockpit end as by a lack of memory; returns the time [s] just before."""
+        now = self.signal_cockpit(signal.SIGKILL)
         self.cockpit.wait()
+        return now
 
     @property
     def now(self):
