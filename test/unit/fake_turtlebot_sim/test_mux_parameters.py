@@ -1,7 +1,7 @@
 """The parameters of cmd_vel_mux: a TurtleBot's own file works, every mistake is one clear line."""
 
 import re
-from dataclasses import MISSING, fields
+from dataclasses import MISSING, FrozenInstanceError, fields
 from math import inf, nan
 from pathlib import Path
 
@@ -117,6 +117,11 @@ def test_a_mistake_is_named_with_its_value_and_what_is_allowed(given, parts):
     assert "\n" not in message
     for part in parts:
         assert part in message
+
+
+def test_nobody_changes_what_was_checked():
+    with pytest.raises(FrozenInstanceError):
+        parse_mux_parameters(with_teleop()).publisher = "elsewhere"
 
 
 def test_the_lowest_priority_is_0():

@@ -1,7 +1,7 @@
 """Private parameters: defaults, one clear line for every mistake, and the same names everywhere."""
 
 import ast
-from dataclasses import asdict
+from dataclasses import FrozenInstanceError, asdict
 from math import inf, nan, pi
 from pathlib import Path
 
@@ -177,3 +177,8 @@ def test_the_node_and_the_readme_tell_all_parameters_with_their_defaults():
         default = {"True": "true", str(pi): "pi"}.get(str(value), str(value))
         assert f"~{name} {default}" in docstring
         assert f"| `~{name}` | {default} " in readme
+
+
+def test_nobody_changes_what_was_checked():
+    with pytest.raises(FrozenInstanceError):
+        parse_parameters({}).rate = 1.0
