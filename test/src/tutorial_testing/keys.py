@@ -9,6 +9,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 from nav_msgs.msg import Odometry
 
 from joy_to_twist.safety import ARMED
+from tutorial_testing.processes import lives
 from tutorial_testing.waiting import wait_for
 
 SPEED = 0.35  # [m/s] at full deflection, config/f710_d.yaml
@@ -21,6 +22,7 @@ class Tmux:
         self._socket = f"test-{uuid.uuid4()}"
         self._run("new-session", "-d", "-x", "120", "-y", "50", *command)
         self._run("set-option", "remain-on-exit", "on")
+        self._pid = self._run("list-panes", "-F", "#{pane_pid}").strip()
 
     def _run(self, *words, check=True):
         command = ("tmux", "-f", os.devnull, "-L", self._socket, *words)
@@ -55,8 +57,9 @@ class Tmux:
             raise AssertionError(f"{error}; the screen:\n{self.screen}") from None
 
     def close(self):
-        """As the X of its window does; once more does no harm."""
+        """As the X of its window does; once more does no harm. What ran in it has ended then."""
         self._run("kill-server", check=False)
+        wait_for(lambda: not lives(self._pid), "end of what ran in the terminal")
 
 
 class KeyboardRig:

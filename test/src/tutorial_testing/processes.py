@@ -19,6 +19,14 @@ for number in (signal.SIGINT, signal.SIGHUP):
 MARK = "STARTED_BY_A_TEST"  # environment variable by which a program's descendants are known
 
 
+def lives(pid):
+    """Whether a process is there and has not ended; one that nobody has waited for has."""
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] != "Z"
+    except OSError:
+        return False
+
+
 class Program:
     """A program and all that it starts; its output, both streams together, is kept.
 
@@ -98,9 +106,8 @@ class Program:
         for process in Path("/proc").glob("[0-9]*"):
             try:
                 marked = self._mark.encode() in (process / "environ").read_bytes().split(b"\0")
-                zombie = (process / "stat").read_text().rsplit(")", 1)[1].split()[0] == "Z"
             except OSError:
                 continue  # ended meanwhile, or another user's
-            if marked and not zombie:
+            if marked and lives(process.name):
                 pids.append(int(process.name))
         return pids
