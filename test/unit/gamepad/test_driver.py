@@ -36,6 +36,16 @@ def test_an_event_is_read_field_by_field():
     ]
 
 
+def test_the_time_of_a_sign_of_life_is_the_last_that_the_clock_can_show():
+    assert SIGN_OF_LIFE_MS == 0xFFFF_FFFF
+
+
+def test_unless_told_otherwise_the_state_at_opening_stays_one():
+    """Only of a kernel's device it is known that it means a change, once there was one."""
+    told = Decoder().feed(events((BUTTON, 0, 1)) + events((BUTTON | INIT, 0, 1)))
+    assert [event.type for event in told] == [BUTTON, BUTTON | INIT]
+
+
 @given(st.lists(st.binary(max_size=20)))
 def test_reads_may_be_cut_anywhere(pieces):
     decoder = Decoder()
