@@ -11,8 +11,6 @@ from tutorial_check.examination import examine
 from tutorial_check.exercises import EXERCISES
 from tutorial_check.report import lines_of
 
-LONGEST_S = {"one": 15.0, "all": 90.0}
-
 
 def check(workspace, floor, exercises, record_property):
     """Examine; the outcomes; fails with the report of what is called wrong."""
@@ -41,6 +39,13 @@ def test_a_literal_solution(literal, floor, record_property):
     assert len(seen) == 33
     # What the handout's own listings do is worth a word, no more.
     assert [seen[check] for check in ("C18", "C20", "C32", "C33")] == ["note"] * 4
+
+
+def test_an_except_that_tells_hides_nothing(literal, floor, record_property):
+    _, edits, exercises = next(row for row in ROWS if row[0] == "an except that tells")
+    apply(edits, literal)
+    (outcome,) = check(literal.parent, floor, exercises, record_property)
+    assert [one.status for one in outcome.results if one.id == "C33"] == ["ok"]
 
 
 @pytest.mark.parametrize("row", ROWS, ids=[row[0] for row in ROWS])
