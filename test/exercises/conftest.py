@@ -22,7 +22,7 @@ def pytest_addoption(parser):
     add("--every", type=int, default=1, metavar="N", help="only every Nth row of data")
     add("--students", type=int, metavar="N", help="--all with N students and all exercises")
     add("--repeat", type=int, metavar="N", help="only N checks of right solutions, in turn")
-    add("--busy", action="store_true", help="beside as many idle loops as there are processors")
+    add("--busy", action="store_true", help="beside an endless loop on each processor")
 
 
 def pytest_configure(config):
@@ -55,7 +55,9 @@ def pytest_collection_modifyitems(config, items):
     if config.getoption("--repeat"):
         items[:] = [item for item in items if "variant" in getattr(item, "fixturenames", ())]
     rows = [
-        item for item in items if "row" in getattr(getattr(item, "callspec", None), "params", ())
+        item
+        for item in items
+        if {"row", "variant"} & set(getattr(getattr(item, "callspec", None), "params", ()))
     ]
     left_out = {item for at, item in enumerate(rows) if at % config.getoption("--every")}
     items[:] = [item for item in items if item not in left_out]
