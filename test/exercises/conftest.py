@@ -20,7 +20,7 @@ def pytest_addoption(parser):
     """The rows are many, and each builds a workspace."""
     add = parser.addoption
     add("--every", type=int, default=1, metavar="N", help="only every Nth row of data")
-    add("--students", type=int, metavar="N", help="--all with N students and all exercises")
+    add("--students", type=int, default=6, metavar="N", help="how many in the test of --all")
     add("--repeat", type=int, metavar="N", help="only N checks of right solutions, in turn")
     add("--busy", action="store_true", help="beside an endless loop on each processor")
 
