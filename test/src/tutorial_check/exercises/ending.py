@@ -65,10 +65,13 @@ class Endings:
         file.write_text(LAUNCH_FILE.format(package=PACKAGE, program=program_name, name=name))
         return self._stage.launch(["roslaunch", str(file)])
 
-    def _twists(self, way, since=0):
-        """[(when, six values)] that one of them sent."""
-        heard = self._stage.call("heard", CMD_VEL, since)
-        return [(when, value) for when, caller, value in heard if caller == NODES[way]]
+    def _twists(self, since=0):
+        """{way: [(when, six values)]} that they have sent."""
+        sent = {name: [] for name in NODES.values()}
+        for when, caller, value in self._stage.call("heard", CMD_VEL, since):
+            if caller in sent:
+                sent[caller].append((when, value))
+        return {way: sent[name] for way, name in NODES.items()}
 
     def _robot_stands(self):
         last = self._stage.call("heard", ODOM, -1)
@@ -82,7 +85,7 @@ class Endings:
             return any(each.ended for each in programs.values())
 
         def have_sent(count, which):
-            return all(sum(map(which, self._twists(way))) >= count for way in programs)
+            return all(sum(map(which, sent)) >= count for sent in self._twists().values())
 
         def moves(twist):
             return twist[1] != ZERO
@@ -105,8 +108,9 @@ class Endings:
         stage.wait(
             lambda: one_has_ended() or (have_sent(10, moves) and not self._robot_stands()), 4.0
         )
+        sent = self._twists()
         for way, each in programs.items():
-            if each.ended or not any(map(moves, self._twists(way))):
+            if each.ended or not any(map(moves, sent[way])):
                 how = "started by a launch file" if way == LAUNCH else "started under another name"
                 expected = f"the class drives, {how} as well"
                 raise crash(self._session, PACKAGE, each, expected, ARGUMENTS_HINT)
@@ -124,16 +128,15 @@ class Endings:
         def all_gone():
             for way, each in self._programs.items():
                 # A launch takes its time, also when its nodes are gone.
-                gone = each.ended or (way == LAUNCH and not Path(f"/proc/{launched}").exists())
-                if gone and took_s[way] is None:
+                left = way == LAUNCH and launched and not Path(f"/proc/{launched}").exists()
+                if (each.ended or left) and took_s[way] is None:
                     took_s[way] = time.monotonic() - began_s
             return all(took_s.values())
 
         def all_stopped():
             all_gone()
-            for way in NODES:
-                zero = any(value == ZERO for _, value in self._twists(way, index))
-                in_time[way] = zero or bool(took_s[way])
+            for way, sent in self._twists(index).items():
+                in_time[way] = bool(took_s[way]) or any(value == ZERO for _, value in sent)
             return all(in_time.values())
 
         before_s = box.patience.now()
@@ -144,8 +147,7 @@ class Endings:
         box.end_all(list(self._programs.values()), 0.2)
         stage.wait(lambda: not stage.call("speakers", CMD_VEL), 3.0)
         self.ends = {}
-        for way in NODES:
-            sent = self._twists(way, index)
+        for way, sent in self._twists(index).items():
             first = next((at for at, (_, value) in enumerate(sent) if value == ZERO), None)
             self.ends[way] = End(
                 zero_after_s=None if first is None else max(0.0, sent[first][0] - began_s),
@@ -172,7 +174,7 @@ def stops(session):
         if not seen:
             continue
         trace = first_traceback(end.output, str(session.package(PACKAGE).folder))
-        if trace and not end.in_time:
+        if trace and (end.zero_after_s is None or not end.in_time):
             seen, hint, where = trace.error, explain(trace.error), trace.where or where
         raise Wrong(expected, f"after {way}: {seen}", where=where, hint=hint)
     if not endings.stands:
