@@ -2,9 +2,13 @@
 
 import os
 import shutil
+import subprocess
+import sys
+import time
 from pathlib import Path
 
 import pytest
+import variants
 
 HERE = Path(__file__).resolve().parent
 REPOSITORY = HERE.parents[1]
@@ -14,13 +18,46 @@ KINDS = ("found", "wrongly blamed", "missed", "not checked")
 
 def pytest_addoption(parser):
     """The rows are many, and each builds a workspace."""
-    parser.addoption("--every", type=int, default=1, metavar="N", help="only every Nth row of data")
+    add = parser.addoption
+    add("--every", type=int, default=1, metavar="N", help="only every Nth row of data")
+    add("--students", type=int, default=6, metavar="N", help="how many in the test of --all")
+    add("--repeat", type=int, metavar="N", help="only N checks of right solutions, in turn")
+    add("--busy", action="store_true", help="beside an endless loop on each processor")
+
+
+def pytest_configure(config):
+    """Keep the processors busy, if asked to; once, and not in each worker."""
+    config.began_s = time.monotonic()
+    is_worker = hasattr(config, "workerinput")
+    count = os.cpu_count() if config.getoption("--busy") and not is_worker else 0
+    loop = [sys.executable, "-c", "while True: pass"]
+    config.loops = [subprocess.Popen(loop) for _ in range(count)]
+
+
+def pytest_unconfigure(config):
+    """Leave them in peace."""
+    for process in config.loops:
+        process.kill()
+        process.wait()
+
+
+def pytest_generate_tests(metafunc):
+    """The rows of right solutions: each once, or as many in turn as are asked for."""
+    if "variant" in metafunc.fixturenames:
+        count = metafunc.config.getoption("--repeat") or len(variants.ROWS)
+        rows = [variants.ROWS[turn % len(variants.ROWS)] for turn in range(count)]
+        names = [f"{turn} {row[0]}" for turn, row in enumerate(rows)]
+        metafunc.parametrize("variant", rows, ids=names)
 
 
 def pytest_collection_modifyitems(config, items):
-    """Leave out the other rows."""
+    """Leave out what was not asked for."""
+    if config.getoption("--repeat"):
+        items[:] = [item for item in items if "variant" in getattr(item, "fixturenames", ())]
     rows = [
-        item for item in items if "row" in getattr(getattr(item, "callspec", None), "params", ())
+        item
+        for item in items
+        if {"row", "variant"} & set(getattr(getattr(item, "callspec", None), "params", ()))
     ]
     left_out = {item for at, item in enumerate(rows) if at % config.getoption("--every")}
     items[:] = [item for item in items if item not in left_out]
@@ -54,7 +91,7 @@ def solutions(tmp_path):
 def pytest_terminal_summary(terminalreporter):
     """The table of mistakes: found, wrongly blamed, missed."""
     table = {kind: [] for kind in KINDS}
-    alarms, checks = [], 0
+    counts = {"solution": [], "checks": [], "alarm": [], "no verdict": []}
     for reports in terminalreporter.stats.values():
         for report in reports:
             for name, value in (
@@ -64,10 +101,8 @@ def pytest_terminal_summary(terminalreporter):
             ):
                 if name in table:
                     table[name].append(value)
-                elif name == "checks":
-                    checks += value
-                elif name == "alarm":
-                    alarms.append(value)
+                elif name in counts:
+                    counts[name].append(value)
     if any(table.values()):
         terminalreporter.section("mistakes")
         for kind, rows in table.items():
@@ -75,8 +110,13 @@ def pytest_terminal_summary(terminalreporter):
             if kind != "found":
                 for row in rows:
                     terminalreporter.write_line(f"{'':>17}{row}")
-    if checks:
+    if counts["solution"]:
         terminalreporter.section("right solutions")
-        terminalreporter.write_line(f"{checks} checks, {len(alarms)} false alarms")
-        for alarm in alarms:
-            terminalreporter.write_line(f"  {alarm}")
+        took_s = time.monotonic() - terminalreporter.config.began_s
+        terminalreporter.write_line(
+            f"{len(counts['solution'])} checks of right solutions ({sum(counts['checks'])} lines),"
+            f" {len(counts['alarm'])} false alarms, {len(counts['no verdict'])} without a verdict;"
+            f" {took_s:.0f} s, load {os.getloadavg()[0]:.1f}"
+        )
+        for each in counts["alarm"] + counts["no verdict"]:
+            terminalreporter.write_line(f"  {each}")

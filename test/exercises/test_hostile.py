@@ -37,6 +37,7 @@ def test_one_that_ignores_ctrl_c(literal, floor):
     )(literal)
     check, told = wrong_of(literal, floor, "3")
     assert check == "C6", told
+    assert "works all the time" in told
     assert not processes_like("scripts/talker.py")
 
 

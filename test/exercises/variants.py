@@ -81,6 +81,8 @@ ROWS = [
     c("object, ROSInterruptException", ("NewJoy2Twist()", "NewJoy2Twist(object)"), ("        NewJoy2Twist(object)\n", "        NewJoy2Twist()\n"), ("    except:\n", "    except rospy.ROSInterruptException:\n")),
     c("spin outside of __init__", ("        rospy.spin()\n", ""), ("        NewJoy2Twist()\n", "        NewJoy2Twist()\n        rospy.spin()\n")),
     c("unregisters, no sleep, zeros", ("        rospy.Subscriber(", "        self.sub = rospy.Subscriber("), ("        self.cmd_vel.publish(Twist())\n        rospy.sleep(1)", "        self.sub.unregister()\n        for _ in range(5):\n            self.cmd_vel.publish(Twist())\n            rospy.sleep(0.05)")),
+    c("an except that tells", ("    except:\n", "    except Exception as error:\n"), ('"The node has ended."', 'f"Error: {error}"')),
+    c("anonymous", ("anonymous=False", "anonymous=True")),
     c("throttled", ("rospy.loginfo(rospy.get_name()", "rospy.loginfo_throttle(1.0, rospy.get_name()")),
     c("a class named Joy2Twist, with main()", ("NewJoy2Twist", "Joy2Twist"), ("if __name__ == '__main__':\n    try:\n        Joy2Twist()\n" + END_OF_CLASS, "def main():\n    Joy2Twist()\n\n\nif __name__ == '__main__':\n    main()\n")),
     ("the class in joy2twist.py", [move(CLASS, JOY2TWIST)], ["4.3", "6.2"]),

@@ -174,6 +174,7 @@ class Box:
         began_s = time.monotonic()
         took_s = [0.0] * len(programs)
         for program in programs:
+            program.note_work()
             if not program.ended:
                 program.was_stopped = True
                 self.interrupt(program)
@@ -203,6 +204,7 @@ class Box:
     def clear(self):
         """End all that is left, whatever it is called and whoever started it."""
         for program in self._open:
+            program.note_work()
             if not program.ended:
                 program.was_stopped = True
                 with contextlib.suppress(ProcessLookupError, PermissionError):

@@ -190,14 +190,13 @@ class Driver:
         """Whether the master answers."""
         return rosgraph.is_master_online()
 
-    def node_answers(self, node):
-        """Whether a node answers, and as whom the master knows it."""
+    def node_process(self, node):
+        """The id of a node's process, or None if it does not answer."""
         try:
-            uri = self._master.lookupNode(node)
-            with xmlrpc.client.ServerProxy(uri) as proxy:
-                return proxy.getPid(f"/{NAME}")[0] == 1
+            with xmlrpc.client.ServerProxy(self._master.lookupNode(node)) as proxy:
+                return proxy.getPid(f"/{NAME}")[2]
         except (OSError, rosgraph.MasterException, xmlrpc.client.Error):
-            return False
+            return None
 
     def kill_node(self, node):
         """What rosnode kill does; not waited for, as the node may take its time."""

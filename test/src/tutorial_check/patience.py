@@ -5,6 +5,7 @@ its author's. So deadlines go by a clock that nearly stands still meanwhile; and
 done nothing for a while, although it could have, need not be waited for any longer.
 """
 
+import contextlib
 import os
 import time
 from pathlib import Path
@@ -18,15 +19,22 @@ REACH_S = 30.0  # the kernel tells how long one stood in line only when that is 
 STARVED_S = 0.5  # in line without a turn
 
 
+def _threads(proc):
+    for process in filter(str.isdigit, os.listdir(proc)):
+        with contextlib.suppress(OSError):  # ended meanwhile; pathlib's glob would raise that
+            yield from ((process, thread) for thread in os.listdir(f"{proc}/{process}/task"))
+
+
 def times(proc="/proc"):
     """{thread: (its process, nanoseconds at work, nanoseconds in line)}, of all that can be seen."""
     found = {}
-    for path in Path(proc).glob("[0-9]*/task/[0-9]*/schedstat"):
+    for process, thread in _threads(proc):
         try:
-            at_work, in_line, _ = path.read_text().split()
+            with open(f"{proc}/{process}/task/{thread}/schedstat") as file:
+                at_work, in_line, _ = file.read().split()
         except (OSError, ValueError):
             continue  # ended meanwhile, or a kernel that does not count
-        found[int(path.parts[-2])] = int(path.parts[-4]), int(at_work), int(in_line)
+        found[int(thread)] = int(process), int(at_work), int(in_line)
     return found
 
 

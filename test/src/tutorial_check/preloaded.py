@@ -38,6 +38,8 @@ def _become_main(path, arguments):
     )
     sys.argv = [path, *arguments]
     sys.path[:0] = [os.path.dirname(path), *os.environ.get("PYTHONPATH", "").split(":")]
+    # load_manifest looks where ROS's packages were when roslib was loaded.
+    sys.modules["roslib.launcher"]._rospack = sys.modules["rospkg"].RosPack()
     main = types.ModuleType("__main__")
     main.__file__ = path
     sys.modules["__main__"] = main

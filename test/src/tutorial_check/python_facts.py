@@ -153,6 +153,24 @@ def unmasked(text):
     return "\n".join(lines) + "\n"
 
 
+def without_name(text, name):
+    """The program without something that it imports; None if it does not import it by name."""
+    try:
+        tree = ast.parse(text)
+    except (SyntaxError, ValueError):
+        return None
+    lines = text.splitlines()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ImportFrom) and name in {
+            each.asname or each.name for each in node.names
+        }:
+            line = lines[node.lineno - 1]
+            margin = line[: len(line) - len(line.lstrip())]
+            lines.insert(node.end_lineno, f"{margin}del {name}")
+            return "\n".join(lines) + "\n"
+    return None
+
+
 def flipped_anonymous(text, wanted):
     """The program with anonymous=wanted in its init_node; None if it has none that is plain."""
     try:

@@ -1,9 +1,12 @@
 """A program that runs, and what it printed."""
 
+import contextlib
 import os
 import time
+from pathlib import Path
 
 KEPT_FIRST, KEPT_LAST = 200_000, 50_000  # bytes of a program's output
+SPINNING_S = 6.0  # of a processor's time; to start, a ROS program needs less than one
 
 
 class Program:
@@ -14,12 +17,24 @@ class Program:
         self.name = name
         self.began_s = time.monotonic()
         self.was_stopped = False  # by us: then how it ended says nothing
+        self._worked_s = 0.0
         self._first, self._last, self.printed = bytearray(), bytearray(), 0
 
     @property
     def ended(self):
         """Whether it has ended."""
         return self.process.poll() is not None
+
+    def note_work(self):
+        """Look how long it has worked. To be called before it is ended: later nobody can tell."""
+        with contextlib.suppress(OSError):
+            fields = Path(f"/proc/{self.process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+            self._worked_s = sum(map(int, fields[11:13])) / os.sysconf("SC_CLK_TCK")
+
+    @property
+    def spins(self):
+        """Whether it worked without end until we ended it, so that no busy machine is to blame."""
+        return self.was_stopped and self._worked_s > SPINNING_S
 
     @property
     def output(self):

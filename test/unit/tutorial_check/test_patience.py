@@ -113,3 +113,12 @@ def test_where_nothing_is_counted_nobody_is_idle_and_time_is_time(machine):
 
 def test_this_process_is_among_those_seen():
     assert {process for process, _, _ in times().values()} >= {os.getpid()}
+
+
+def test_one_that_ends_while_it_is_looked_at_is_left_out(tmp_path):
+    (tmp_path / "7").mkdir()  # its threads have gone
+    (tmp_path / "8" / "task" / "81").mkdir(parents=True)  # this one in the very last moment
+    (tmp_path / "9" / "task" / "9").mkdir(parents=True)
+    (tmp_path / "9" / "task" / "9" / "schedstat").write_text("5 6 7\n")
+    (tmp_path / "uptime").write_text("1 2\n")
+    assert times(tmp_path) == {9: (9, 5, 6)}

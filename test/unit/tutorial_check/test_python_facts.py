@@ -1,6 +1,6 @@
 """What a program says of itself without being run."""
 
-from tutorial_check.python_facts import flipped_anonymous, read_python, unmasked
+from tutorial_check.python_facts import flipped_anonymous, read_python, unmasked, without_name
 
 PROGRAM = """
 import rospy
@@ -56,3 +56,12 @@ def test_flipped_anonymous():
     )
     assert flipped_anonymous("rospy.init_node(name, anonymous=choice)", True) is None
     assert flipped_anonymous("x = 1", True) is None
+
+
+def test_without_a_name_it_lacks_what_it_imported():
+    text = "if True:\n    from sensor_msgs.msg import (\n        Joy,\n    )\nprint(Joy)\n"
+    lines = without_name(text, "Joy").splitlines()
+    assert lines[4] == "    del Joy"
+    assert lines[:4] + lines[5:] == text.splitlines()
+    assert without_name("import sensor_msgs.msg\n", "Joy") is None
+    assert without_name("from x import (\n", "Joy") is None

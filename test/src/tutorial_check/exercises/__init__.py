@@ -48,7 +48,7 @@ CHECKS = (
     Check("C30", "6.2", "the class does what the functions did", "6.2", ("C29",), "rostopic echo /cmd_vel"),
     Check("C31", "6.2", "ended, it stops the robot", "6.2", ("C30",), "rostopic echo /cmd_vel; Ctrl-C in the node's terminal"),
     Check("C32", "6.2", "nothing follows the zero", "6.2", ("C31",), "rostopic echo /cmd_vel"),
-    Check("C33", "6.2", "its errors are seen", "6.2", ("C29",), ""),
+    Check("C33", "6.2", "its errors are seen", "6.2", ("C30",), "rosrun joy2twist THE_CLASS, without a joystick"),
 )  # fmt: skip
 
 
@@ -57,6 +57,8 @@ def catalogue():
     from tutorial_check.exercises import (  # noqa: PLC0415  the command line needs no ROS
         chatter,
         classes,
+        ending,
+        hidden_errors,
         joy2twist,
         launch_files,
         launch_nodes,
@@ -76,7 +78,7 @@ def catalogue():
         "C20": robot.joystick, "C21": launch_files.files, "C22": launch_nodes.bag_nodes,
         "C23": launch_runs.bag_drives, "C24": launch_runs.bag_loops, "C25": launch_nodes.stick_nodes,
         "C26": launch_runs.stick_drives, "C27": turtlebot.remapped, "C28": turtlebot.real_robot,
-        "C29": classes.is_class, "C30": classes.behaves, "C31": classes.stops,
-        "C32": classes.nothing_after, "C33": classes.errors_are_seen,
+        "C29": classes.is_class, "C30": classes.behaves, "C31": ending.stops,
+        "C32": ending.nothing_after, "C33": hidden_errors.errors_are_seen,
     }  # fmt: skip
     return Catalogue(CHECKS, functions)

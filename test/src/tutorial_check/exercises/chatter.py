@@ -35,7 +35,7 @@ def talker(session):
     facts = _facts(session, script)
     if not talk.heard:
         made = facts.first("Publisher")
-        if talk.talker_ended or "Traceback" in program.output:
+        if talk.talker_ended or "Traceback" in program.output or program.spins:
             hint = "" if facts.has_main else "does the last line call talker()?"
             raise crash(
                 session,
@@ -124,7 +124,7 @@ def listener(session):
     found = [text for text in talk.strings if text in program.output]
     if len(found) == len(talk.strings):
         return None
-    if "Traceback" in program.output:
+    if "Traceback" in program.output or program.spins:
         raise crash(session, PACKAGE, program, expected)
     call = facts.first("Subscriber")
     where = f"{script}:{call.line}" if call else script

@@ -23,7 +23,8 @@ def crash_of(session, seen, expected, hint=""):
     """The Wrong for a program that failed; with an except that hides the cause taken away."""
     program = seen.program
     facts = session.scripts(PACKAGE)[seen.script]
-    if facts.broad_excepts and (seen.ended_early or not seen.trouble):
+    hides = facts.broad_excepts and not program.spins
+    if hides and (seen.ended_early or not seen.trouble):
         text = unmasked(session.text(PACKAGE, seen.script))
         if text:
             shown = drive(
@@ -83,6 +84,8 @@ def check_connected(session, seen):
         )
     if seen.connected and not (seen.ended_early and not seen.samples and not seen.shown):
         return
+    if seen.program.spins:
+        raise crash_of(session, seen, expected)
     if seen.trouble or facts.broad_excepts:
         wrong = crash_of(session, seen, expected)
         if seen.trouble or wrong.where:

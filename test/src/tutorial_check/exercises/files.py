@@ -143,6 +143,10 @@ def crash(session, package, program, what, default_hint=""):
             f"the program was ended by signal {-program.process.returncode}",
             hint=default_hint,
         )
+    if program.spins:
+        hint = "a loop without end? In the callback, and before rospy.init_node, there is none"
+        seen = f"{program.name} works all the time and gets nowhere"
+        return Wrong(what, seen, hint=hint, sure=True)
     said = last_lines(program.output)
     ended = f"it ended at once, exit code {program.process.returncode}" if has_ended else "it runs"
     return Wrong(

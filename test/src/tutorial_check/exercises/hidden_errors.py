@@ -1,0 +1,50 @@
+"""C33: a program that cannot go on says why."""
+
+import re
+
+from tutorial_check.exercises.classes import program
+from tutorial_check.exercises.driving import JOY, PACKAGE
+from tutorial_check.model import Note, Wrong
+from tutorial_check.python_facts import without_name
+from tutorial_check.tracebacks import last_lines
+
+ALONE_S = 1.5  # without a joystick
+TELLS = re.compile(r"Traceback|Error\b|Exception|not defined|exceeded|\[(?:ERROR|FATAL|WARN)\]")
+
+
+def errors_are_seen(session):
+    """C33: started without a joystick; and a copy that lacks the import of Joy."""
+    script, path, _ = program(session)
+    broken_text = without_name(session.text(PACKAGE, script), "Joy")
+    with session.stage() as stage:
+        alone = stage.start(PACKAGE, script)
+        broken = None
+        if broken_text:
+            copy = session.memo(
+                ("broken", script), lambda: session.sibling(PACKAGE, script, broken_text)
+            )
+            broken = stage.start_quickly(PACKAGE, copy, "__name:=broken")
+        stage.wait_for_start(lambda: alone.ended or JOY in stage.call("state")[1])
+        stage.wait(lambda: alone.ended, ALONE_S)
+        if broken:
+            stage.wait_for_start(lambda: broken.ended)
+        has_ended, broken_ended = alone.ended, bool(broken) and broken.ended
+    excepts = session.scripts(PACKAGE)[path].broad_excepts
+    where = f"{path}:{excepts[0]}" if excepts else path
+    if has_ended and not TELLS.search(alone.output):
+        raise Wrong(
+            "without a joystick it waits for one, or says what it misses",
+            f"nobody publishes on /joy, and it ends; it said: {last_lines(alone.output) or 'nothing'}",
+            where=where,
+            hint="a Subscriber waits by itself, for as long as it takes; what an except catches, it should show",
+        )
+    hides = not TELLS.search(broken.output) if broken_ended else bool(excepts)
+    if hides:
+        return Note(
+            "except: hides every mistake, a misspelt name as well as Ctrl-C",
+            where,
+            "except rospy.ROSInterruptException:",
+        )
+    if has_ended:
+        return Note(f"without a joystick it ends: {last_lines(alone.output, 1)}", where)
+    return None
