@@ -92,6 +92,7 @@ def talker(session):
             f"{rate:.0f} a second",
             where=script,
             hint="rate.sleep() is missing within the loop",
+            sure=True,  # no busy machine makes it faster
         )
     if len(texts) == 1:
         return Note(f"always the same text, {texts.pop()!r}; the handout's has the time in it")
