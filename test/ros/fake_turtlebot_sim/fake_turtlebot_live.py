@@ -93,7 +93,9 @@ class LiveTest(unittest.TestCase):
         self.assertEqual(self.odometry[-1].twist.twist.linear.x, 0.0)
 
     def test_nothing_is_complained_about(self):
-        self.assertEqual([line.msg for line in self.log if line.level >= Log.WARN], [])
+        lines = [line.msg for line in self.log if line.level >= Log.WARN]
+        # rospy's word for a peer that came and went, as they do on a busy machine.
+        self.assertEqual([line for line in lines if not line.startswith("Inbound TCP")], [])
 
 
 if __name__ == "__main__":
