@@ -13,7 +13,8 @@ A case begins with `node: NAMESPACE` of the node (default: the root). A step is 
   silent_for_s: t       nothing is sent for so long
   leave: true           the publisher of joy leaves; the next joy step brings another one
   clock_s: t            publish the simulated time
-  state: text           /diagnostics reports a state that begins so
+  state: text           /diagnostics, which come once a second, report a state that begins so; with
+                        `again: true` the last Joy is repeated meanwhile
 
 After the last step nothing else may have been sent.
 """
@@ -51,7 +52,7 @@ class Node:
         self._robot = rospy.Subscriber(
             f"{namespace}/cmd_vel", Twist, self._on_twist, tcp_nodelay=True
         )
-        self._joystick = None
+        self._joystick = self._last_joy = None
         self._last_x = 0.0
         self._last_step = time.monotonic()
         # A connection is there when messages go all the way round.
@@ -88,6 +89,7 @@ class Node:
             message = Joy(axes=[float(axis) for axis in joy], buttons=buttons)
             message.header.stamp = rospy.Time.now() - rospy.Duration(age_s)
             self._joystick.publish(message)
+            self._last_joy = message
             self._last_step = time.monotonic()
             time.sleep(every_s)
 
@@ -131,9 +133,16 @@ class Node:
         now = rospy.Time(clock_s)
         wait_for(lambda: clock.publish(Clock(now)) or rospy.Time.now() == now, "simulated time")
 
-    def _state(self, state):
+    def _state(self, state, again=False):
         name = f"{self._namespace}/NewJoy2Twist: joystick".strip("/")
-        wait_for(lambda: states.get(name, "").startswith(state), f"state {state} of {name}")
+
+        def told():
+            if again:
+                self._last_joy.header.stamp = rospy.Time.now()
+                self._joystick.publish(self._last_joy)
+            return states.get(name, "").startswith(state)
+
+        wait_for(told, f"state {state} of {name}")
 
 
 class CasesTest(unittest.TestCase):
