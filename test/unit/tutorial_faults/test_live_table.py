@@ -58,6 +58,12 @@ def test_memory_that_comes_and_goes_is_no_growth():
     assert complaints(flat) == []
 
 
+def test_a_thread_that_comes_and_goes_is_no_growth():
+    steady = samples(lambda at_s: 50_000)
+    steady[-3] = steady[-3]._replace(threads=6, files=10)
+    assert complaints(steady) == []
+
+
 def test_what_grows_is_named():
     assert complaints(samples(lambda at_s: 50_000 + 10 * int(at_s))) == [
         "/node: grew by 4800 kB, 0 threads, 0 files"

@@ -35,8 +35,9 @@ def sample(at_s, node, pid):
 def growth(samples, node):
     """(memory [kB], threads, files) by which a node has grown after it settled; None: unknown.
 
-    Of memory the difference between the last tenth and the first, each by its smallest, as it comes
-    and goes; of threads and files the largest, beyond the largest of the first minute.
+    The smallest of the last tenth of the time, as what comes and goes is no growth, such as the
+    thread that answers one question. Of memory beyond the smallest of the first tenth; of threads
+    and files beyond the largest of the first minute.
     """
     its = [one for one in samples if one.node == node]
     before = [one for one in its if one.at_s <= SETTLES_S]
@@ -44,11 +45,10 @@ def growth(samples, node):
     if not before or not after:
         return None
     tenth = max(1, len(after) // 10)
-    memory = min(one.memory_kb for one in after[-tenth:]) - min(
-        one.memory_kb for one in after[:tenth]
-    )
+    last, first = after[-tenth:], after[:tenth]
+    memory = min(one.memory_kb for one in last) - min(one.memory_kb for one in first)
     threads, files = (
-        max(getattr(one, name) for one in after) - max(getattr(one, name) for one in before)
+        min(getattr(one, name) for one in last) - max(getattr(one, name) for one in before)
         for name in ("threads", "files")
     )
     return memory, threads, files
