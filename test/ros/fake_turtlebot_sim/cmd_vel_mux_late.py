@@ -16,7 +16,7 @@ from geometry_msgs.msg import Twist
 from rosgraph_msgs.msg import Log
 from std_msgs.msg import String
 
-from tutorial_testing.processes import Program
+from tutorial_testing.processes import Program, suspend
 from tutorial_testing.waiting import wait_for
 
 TELEOP = "/cmd_vel_mux/input/teleop"
@@ -37,7 +37,7 @@ def cut_off(node):
     """Keep a node from reading: what is sent to it meanwhile waits in its connections."""
     uri = rosgraph.Master(rospy.get_name()).lookupNode(node)
     _, _, pid = ServerProxy(uri).getPid(rospy.get_name())
-    os.kill(pid, signal.SIGSTOP)
+    suspend([pid])
     try:
         ends_s = time.monotonic() + OUTAGE_S
         yield

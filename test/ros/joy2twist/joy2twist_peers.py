@@ -17,7 +17,7 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Joy
 
 from tutorial_testing.nodes import node_path
-from tutorial_testing.processes import Program
+from tutorial_testing.processes import Program, suspend
 from tutorial_testing.waiting import BUSY_S, DEADLINE_S, wait_for
 
 LONGEST_EXIT_S = 1.5 + BUSY_S
@@ -111,7 +111,7 @@ class SubscriberTest(unittest.TestCase):
         self.addCleanup(joystick.unregister)
         with joy2twist("_log_rate:=0"), Program(*ECHO_SPEED, PYTHONUNBUFFERED="1") as echo:
             wait_for(lambda: joystick.publish(Joy(axes=[0, 0.5])) or ",0.5" in echo.output, "echo")
-            send_signal(signal.SIGSTOP, echo)
+            suspend(echo.left_behind())
             rounds = 20_000  # more than the connection holds: see below
             for _ in range(rounds):
                 robot.answer_to(lambda: joystick.publish(Joy(axes=[0, 0.5])))
@@ -180,7 +180,7 @@ class MasterTest(unittest.TestCase):
     def test_a_master_that_does_not_answer_does_not_hold_the_end(self):
         master = self.start_master()
         node, echo = self.start_driving()
-        send_signal(signal.SIGSTOP, master)
+        suspend(master.left_behind())
         self.check_drives_on(echo)
         self.check_end(node, echo)
 

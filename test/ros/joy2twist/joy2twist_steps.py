@@ -39,12 +39,13 @@ class StepsTest(unittest.TestCase):
         wait_for(lambda: self.send(0.25, 0.5, 0.125) or "0.25, 0.5" in node.output, "line")
         return node
 
-    def end(self, node):
+    def end(self, node, may_publish_too_late=False):
         """Press Ctrl-C, and go on with the stick as it is until the node is gone."""
         node.interrupt()
         wait_for(lambda: self.send(0.25, 0.5, 0.125) or node.ended, "end")
         wait_for(lambda: self.robot.get_num_connections() == 0, "end of the connection")
-        self.assertNotIn("Traceback", node.output)
+        refused = node.output.count("publish() to a closed topic") if may_publish_too_late else 0
+        self.assertEqual(node.output.count("Traceback"), refused, node.output)
 
     def test_step_1_displays(self):
         node = self.start("display_joy.py")
@@ -60,7 +61,8 @@ class StepsTest(unittest.TestCase):
         node = self.start("publish_twist.py")
         self.check_velocities()
         wait_for(lambda: self.send(1.0) or (0.0, 0.0) in self.velocities, "zero for too few axes")
-        self.end(node)
+        # rospy closes the topic while the callback goes on, which is what step 3 is about.
+        self.end(node, may_publish_too_late=True)
 
     def test_step_3_publishes_and_leaves_the_robot_standing(self):
         node = self.start("new_joy2twist.py")

@@ -12,7 +12,7 @@ import rostest
 from rospy import AnyMsg
 
 from tutorial_testing.nodes import node_path
-from tutorial_testing.processes import Program
+from tutorial_testing.processes import Program, suspend
 from tutorial_testing.waiting import wait_for
 
 # The last message of joy.bag, after which it begins anew: where all of this takes longer than it.
@@ -124,8 +124,7 @@ class StartsTest(unittest.TestCase):
         with Program(*SIMULATOR, "__name:=stopped") as node:
             watch = self.watch("odom")
             pids = node.left_behind()
-            for pid in pids:
-                os.kill(pid, signal.SIGSTOP)
+            suspend(pids)
             self.check_refusal(" ".join([*SIMULATOR, "__name:=stopped"]), "does not answer")
             for pid in pids:
                 os.kill(pid, signal.SIGCONT)

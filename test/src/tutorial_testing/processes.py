@@ -27,6 +27,21 @@ def lives(pid):
         return False
 
 
+def suspend(pids):
+    """Stop processes as Ctrl-Z does; return when none of their threads works any more."""
+    for pid in pids:
+        os.kill(pid, signal.SIGSTOP)
+    wait_for(lambda: all(map(_is_stopped, pids)), f"end of the work of {pids}")
+
+
+def _is_stopped(pid):
+    try:
+        threads = [path.read_text() for path in Path(f"/proc/{pid}/task").glob("*/stat")]
+    except OSError:
+        return False  # one has ended meanwhile
+    return all(text.rsplit(")", 1)[1].split()[0] in "TtZ" for text in threads)
+
+
 class Program:
     """A program and all that it starts; its output, both streams together, is kept.
 

@@ -22,7 +22,7 @@ from gamepad.virtual.controls import Controls, positions
 from gamepad.virtual.pads import StreamPad
 from node_kit.questions import call
 from tutorial_testing.nodes import node_path
-from tutorial_testing.processes import Program
+from tutorial_testing.processes import Program, suspend
 from tutorial_testing.waiting import wait_for
 
 JOYSTICK, DRIVER, MUX, BASE = "/joy_node", "/NewJoy2Twist", "/cmd_vel_mux", "/fake_turtlebot"
@@ -164,8 +164,7 @@ class Rig:
 def stop(pids):
     """Suspend processes; the time [s] just before."""
     now = time.time()
-    for pid in pids:
-        os.kill(pid, signal.SIGSTOP)
+    suspend(pids)
     return now
 
 
