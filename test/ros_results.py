@@ -1,19 +1,14 @@
 #!/usr/bin/python3
-"""Tells what the rostests came to, from the JUnit files that catkin's run_tests leaves.
+"""Tells what tests came to, from the JUnit files that rostest and catkin's run_tests leave.
 
     ros_results.py FOLDER
-    ros_results.py FOLDER TESTS
 
-Exit code 1 if a test failed, if one was skipped without a reason, or if none ran. With TESTS, where
-the .test files are, only those files are told in which something failed.
+Exit code 1 if a test failed, if one was skipped without a reason, or if none ran.
 """
 
-import re
 import sys
 from pathlib import Path
 from xml.etree import ElementTree
-
-TEST_NAME = re.compile(r'test-name="(\w+)"')
 
 
 def outcome(case):
@@ -43,21 +38,7 @@ def results(folder):
                 yield f"{path.stem}: {name}", result, message
 
 
-def failed(folder, tests):
-    """The .test files, sorted, below the folder `tests` in which something failed."""
-    names = {name.split(":")[0] for name, result, _ in results(folder) if result == "failed"}
-    for path in sorted(tests.rglob("*.test")):
-        # A test in the file has its own name; the file itself one that catkin makes of its path.
-        own = {f"rosunit-{name}" for name in TEST_NAME.findall(path.read_text(encoding="utf-8"))}
-        if names & {*own, f"rostest-ros_{path.parent.name}_{path.stem}"}:
-            yield path
-
-
 def main():
-    if len(sys.argv) > 2:
-        for path in failed(Path(sys.argv[1]), Path(sys.argv[2])):
-            print(path)
-        return
     count = {"passed": 0, "failed": 0, "skipped": 0}
     for name, result, message in results(Path(sys.argv[1])):
         count[result] += 1

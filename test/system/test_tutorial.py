@@ -51,7 +51,7 @@ def refuse(*command):
         (["frobnicate"], 'tutorial: "frobnicate" is not a word'),
         (
             ["test", "everything"],
-            'test: "everything" is none of unit ros system again',
+            'test: "everything" is none of unit launch ros system again',
         ),
         (["setup", "moon"], 'setup: "moon" is not system or workspace'),
         (["bench", "moon"], 'bench: "moon" has no folder'),

@@ -53,17 +53,3 @@ def test_a_skip_with_a_reason_is_told(tmp_path):
 
 def test_no_result_at_all_fails(tmp_path):
     assert told(tmp_path) == (1, "0 passed, 0 failed, 0 skipped")
-
-
-def test_the_files_are_told_in_which_something_failed(tmp_path):
-    no = '<testsuite><testcase name="a"><error>no</error></testcase></testsuite>'
-    told(tmp_path, **{"rosunit-x": no, "rosunit-y": PASSED, "rostest-ros_robot_late": no})
-    folder = tmp_path / "ros" / "robot"
-    folder.mkdir(parents=True)
-    for name, test in (("one", "x"), ("two", "y"), ("late", "z")):
-        (folder / f"{name}.test").write_text(f'<test test-name="{test}" pkg="p" type="t.py"/>')
-    done = subprocess.run(
-        [sys.executable, str(SCRIPT), str(tmp_path / "package"), str(folder.parent)],
-        capture_output=True, text=True, check=True,
-    )  # fmt: skip
-    assert done.stdout.split() == [str(folder / "late.test"), str(folder / "one.test")]

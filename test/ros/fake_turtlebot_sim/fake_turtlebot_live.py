@@ -25,9 +25,11 @@ class LiveTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.odometry, cls.transforms, cls.joints, cls.log = [], [], [], []
-        rospy.Subscriber("odom", Odometry, cls.odometry.append)
-        rospy.Subscriber("/tf", TFMessage, cls.transforms.append)
-        rospy.Subscriber("joint_states", JointState, cls.joints.append)
+        subscribers = [
+            rospy.Subscriber("odom", Odometry, cls.odometry.append),
+            rospy.Subscriber("/tf", TFMessage, cls.transforms.append),
+            rospy.Subscriber("joint_states", JointState, cls.joints.append),
+        ]
         rospy.Subscriber("/rosout", Log, cls.log.append)
         cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=1)
         wait_for(cmd_vel.get_num_connections, "subscriber of cmd_vel")
@@ -42,6 +44,8 @@ class LiveTest(unittest.TestCase):
             lambda: cls.joints[-1].header.stamp >= last and cls.moving()[-1].header.stamp >= last,
             "transforms and joints of the last odometry",
         )
+        for subscriber in subscribers:  # the sample grows no more
+            subscriber.unregister()
 
     @classmethod
     def moving(cls):
