@@ -11,10 +11,8 @@ import rostest
 from geometry_msgs.msg import Twist
 
 from tutorial_testing.processes import Program
-from tutorial_testing.waiting import BUSY_S, wait_for
+from tutorial_testing.waiting import wait_for
 from tutorial_tools.demo.program import NODES, RVIZ_NODE
-
-END_S = 5.0 + BUSY_S  # how soon all must be over
 
 
 class CtrlCTest(unittest.TestCase):
@@ -28,11 +26,12 @@ class CtrlCTest(unittest.TestCase):
         with launch:
             wait_for(lambda: velocities and velocities[-1][0] > 0.1, "velocity")
             launch.interrupt()
-            self.assertEqual(launch.wait(END_S), 0)
-            wait_for(lambda: not launch.left_behind(), "end of every process", END_S)
-            wait_for(lambda: velocities[-1] == (0.0, 0.0), "zero as the last velocity", END_S)
+            self.assertEqual(launch.wait(), 0)
+            wait_for(lambda: not launch.left_behind(), "end of every process")
+            wait_for(lambda: velocities[-1] == (0.0, 0.0), "zero as the last velocity")
             self.assertNotIn("Traceback", launch.output)
-            self.assertNotIn("escalating", launch.output)  # roslaunch had to kill a node
+            # Where a node has not ended after 15 s, roslaunch says so, and kills it.
+            self.assertNotIn("escalating", launch.output)
 
     def test_by_package(self):
         self.check(Program("roslaunch", "joy2twist", "launch_bag.launch", "rviz:=false"))
