@@ -73,7 +73,7 @@ def test_rviz_opens_by_itself_and_shows_the_trail(show, screen, tmp_path):
 
 
 def drawn_slowly(path, folder, change=lambda manager: None):
-    """A copy of a configuration, changed; drawn less often, which without a graphics card is work."""
+    """A copy of a configuration, changed; drawn less often, as there is no graphics card."""
     config = yaml.safe_load(path.read_text())
     config["Visualization Manager"]["Global Options"]["Frame Rate"] = 5
     change(config["Visualization Manager"])

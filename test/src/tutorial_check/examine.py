@@ -80,8 +80,9 @@ def examine(orders, tell):
     one = session.Session(
         scratch,
         layout,
-        orders["floor"],
+        orders["exercises"],
         orders["environment"],
+        floor=orders["floor"],
         make_box=lambda environment: box.Box(environment, uid, orders["apart"]),
         can_have_devices=granted,
     )

@@ -5,6 +5,7 @@ python3 -m tutorial_check.launch_facts FILE ... prints one JSON object a file.
 """
 
 import contextlib
+import functools
 import io
 import json
 import sys
@@ -12,6 +13,17 @@ import xml.dom.minidom
 from pathlib import Path
 
 MARK = "launch facts: "
+
+
+@functools.lru_cache(maxsize=None)
+def can_be_found(package, kind):
+    """Whether rosrun would find such a program."""
+    import roslib.packages  # noqa: PLC0415
+
+    try:
+        return bool(roslib.packages.find_node(package, kind))
+    except roslib.packages.ROSPkgException:
+        return False
 
 
 def facts_of(path):
@@ -55,6 +67,7 @@ def facts_of(path):
                 "file": str(node.filename or ""),
                 "respawn": bool(node.respawn),
                 "output": node.output or "",
+                "found": can_be_found(node.package, node.type),
             }
             for node in config.nodes
         ]

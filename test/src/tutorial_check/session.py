@@ -35,10 +35,13 @@ def _once(memory, key, make):
 class Session:
     """One workspace, copied to folder/ws, and the box in which its programs run."""
 
-    def __init__(self, folder, layout, floor, environment, *, make_box, can_have_devices):
+    def __init__(
+        self, folder, layout, exercises, environment, *, floor, make_box, can_have_devices
+    ):
         """floor: its setup.bash; environment: of a shell that sourced it; make_box(environment): a Box."""
         self.folder = Path(folder)
         self.layout = layout
+        self.exercises = frozenset(exercises)  # that are asked for
         self.source = self.folder / "ws" / "src"
         self.floor = floor
         self.can_have_devices = can_have_devices
@@ -94,6 +97,7 @@ class Session:
             "ROS_IP": "127.0.0.1",
             "ROS_HOME": str(home / ".ros"),
             "ROS_LOG_DIR": str(home / ".ros" / "log"),
+            "DISPLAY": ":99",  # whatever is there: for RViz stands a program that only waits
             "PYTHONUNBUFFERED": "1",
             "PYTHONDONTWRITEBYTECODE": "1",
         }

@@ -58,7 +58,7 @@ def _read(session):
     if not paths:
         return {}
     source = Path(__file__).resolve().parents[2]
-    environment = {**session.environment, "DISPLAY": ":99"}
+    environment = dict(session.environment)
     environment["PYTHONPATH"] = f"{source}:{environment.get('PYTHONPATH', '')}"
     program = session.box.start(
         ["/usr/bin/python3", "-m", "tutorial_check.launch_facts", *paths.values()], environment
@@ -209,8 +209,7 @@ def _check_node(session, node, where, text):
                 f"{kind} may be run", "it is not executable", where=place, hint=f"chmod +x {kind}"
             )
         return
-    known = session.memo(("node", package, kind), lambda: _locate(session, package, kind))
-    if not known:
+    if not node["found"] and (package, kind) != ("rviz", "rviz"):
         hint = (
             "look at pkg= and type=: rosrun PACKAGE and twice Tab lists the programs of a package"
         )
@@ -222,16 +221,6 @@ def _check_node(session, node, where, text):
             where=place,
             hint=hint,
         )
-
-
-def _locate(session, package, kind):
-    if package == "rviz" and kind == "rviz":
-        return True
-    code = "import sys, roslib.packages as p\ntry: sys.exit(not p.find_node(*sys.argv[1:]))\nexcept Exception: sys.exit(1)"
-    found = session.box.start(["/usr/bin/python3", "-c", code, package, kind], session.environment)
-    session.box.wait(lambda: found.ended, 10.0)
-    session.box.end(found)
-    return found.process.returncode == 0
 
 
 def _check_finds(session, path, where, text):

@@ -19,7 +19,7 @@ from tutorial_check.exercises.robot import ODOM, plug_in
 from tutorial_check.model import Wrong
 from tutorial_check.tracebacks import explain, first_traceback
 
-BAG_S = 1.6  # length of the recording that takes the place of the student's
+BAG_S = 1.2  # length of the recording that takes the place of the student's
 START_S = 20.0  # for all nodes of a launch on a busy machine
 
 
@@ -94,7 +94,7 @@ def _own_bag(session, path):
         for k in range(int(BAG_S * 20)):
             stamp = rospy.Time(1_600_000_000 + k / 20)
             joy = Joy(
-                axes=[0.0, 0.5 if k > 4 else 0.0, 0.0, 0.0, 0.0, 0.0],
+                axes=[0.0, float(k > 4), 0.0, 0.0, 0.0, 0.0],
                 buttons=[0, 0, 0, 0, int(k > 4)] + [0] * 7,
             )
             joy.header.stamp = stamp
@@ -216,5 +216,5 @@ def push_when_ready(stage, pad, launch):
     stage.wait(lambda: ready() or launch.program.ended or has_died(launch), START_S)
     # A robot that has only just come obeys once it was told to rest for a while; so do we.
     stage.wait(lambda: launch.program.ended, 0.6)
-    pad.call("push", 0.0, 0.6)
+    pad.call("push", 0.0, 1.0)
     return bool(ready())
