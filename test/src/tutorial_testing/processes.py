@@ -27,6 +27,16 @@ def lives(pid):
         return False
 
 
+def refuse(*command):
+    """Run a command that must fail; return the line in which it says why."""
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=DEADLINE_S)
+    assert done.returncode not in (0, 124)
+    assert "Traceback" not in done.stdout + done.stderr
+    lines = [line for line in done.stderr.splitlines() if not line.startswith("usage:")]
+    assert len(lines) == 1, done.stderr
+    return lines[0]
+
+
 def suspend(pids):
     """Stop processes as Ctrl-Z does; return when none of their threads works any more."""
     for pid in pids:

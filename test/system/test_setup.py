@@ -1,0 +1,153 @@
+"""./tutorial setup where nothing is installed yet, or something cannot be."""
+
+import re
+import subprocess
+
+import pytest
+
+from tutorial_testing.processes import Program
+from tutorial_testing.waiting import DEADLINE_S, wait_for
+
+# A system on which nothing is installed yet. LACKING: what its archive has not; SLOW: download or
+# install, which then lasts until the file `go_on` is there; BROKEN: no network.
+FAKES = {
+    "dpkg-query": """
+        touch installed
+        for name in "$@"; do ! grep -qx -e "$name" installed || echo "installed $name"; done""",
+    "apt-cache": """
+        shift
+        for name in "$@"; do
+            [[ " $LACKING " == *" $name "* ]] || printf '%s:\\n  Candidate: 1\\n' "$name"
+        done""",
+    "apt-get": """
+        echo "$*" >>calls
+        last() {
+            [ "$SLOW" = "$1" ] || return 0
+            touch "slow_$1"
+            until [ -e go_on ]; do sleep 0.05; done
+        }
+        if [ -n "$BROKEN" ]; then echo 'Err:1 no network' ; [[ $* == *" update" ]]; exit; fi
+        case $* in
+        *" update") ;;
+        'install -s'*) for name in $LACKING; do [[ " $* " != *" $name "* ]] || exit 100; done ;;
+        *--download-only*)
+            echo dlstatus:1:50.0:words >&3
+            last download
+            ;;
+        *)
+            echo pmstatus:package:50.0:words >&3
+            last install
+            printf '%s\\n' "$@" >>installed
+            ;;
+        esac""",
+    "id": "echo 1000",  # not root, so by sudo, which closes all file descriptors above 2
+    "sudo": """
+        for number in {3..99}; do eval "exec $number>&-"; done
+        exec "$@" """,
+}
+
+
+@pytest.fixture
+def bare_system(tutorial, tmp_path, monkeypatch, clean_environment):
+    """A folder for FAKES and their files; programs that start see them instead of Debian's."""
+    for name, script in FAKES.items():
+        (tmp_path / name).write_text(f"#!/bin/bash\ncd '{tmp_path}'\n{script}\n")
+        (tmp_path / name).chmod(0o755)
+    monkeypatch.setenv("PATH", str(tmp_path), prepend=":")
+    monkeypatch.setenv("TMPDIR", str(tmp_path))
+    # What is built is built; only the list of what the archive lacks is another.
+    workspace = subprocess.run(
+        [tutorial, "run", "bash", "-c", "dirname ${CMAKE_PREFIX_PATH%%:*}"],
+        env={**clean_environment, "PATH": "/usr/bin:/bin"},
+        check=True, capture_output=True, text=True, timeout=DEADLINE_S,
+    ).stdout.strip()  # fmt: skip
+    (tmp_path / "ws").mkdir()
+    for name in ("built", "devel", "python"):
+        (tmp_path / "ws" / name).symlink_to(f"{workspace}/{name}")
+    monkeypatch.setenv("TUTORIAL_WORKSPACE", str(tmp_path / "ws"))
+    for name in ("LACKING", "SLOW", "BROKEN"):
+        monkeypatch.setenv(name, "")
+    return tmp_path
+
+
+@pytest.mark.usefixtures("bare_system")
+def test_set_up_by_sudo_shows_how_far_it_is(tutorial):
+    with Program(tutorial, "setup", "system") as setup:
+        assert setup.wait() == 0, setup.output
+        assert "tutorial:    download 50 %\ntutorial:    install 50 %\n" in setup.output
+
+
+def test_what_the_archive_lacks_is_said_once_and_done_without(tutorial, bare_system, monkeypatch):
+    monkeypatch.setenv("LACKING", "rviz graphviz")
+    with Program(tutorial, "run", "true") as first:
+        assert first.wait() == 0, first.output
+        line = r"^tutorial: done without, as the archive of .* lacks it: rviz graphviz$"
+        assert len(re.findall(line, first.output, re.MULTILINE)) == 1, first.output
+    with Program(tutorial, "run", "true") as second:
+        assert second.wait() == 0
+        assert second.output == ""
+    monkeypatch.setenv("LACKING", "")
+    with Program(tutorial, "setup", "system") as later:  # looks again
+        assert later.wait() == 0
+    assert {"rviz", "graphviz"} <= set((bare_system / "installed").read_text().split())
+
+
+def test_an_archive_without_what_drives_is_named(tutorial, bare_system, monkeypatch):
+    monkeypatch.setenv("LACKING", "rviz python3-rospy")
+    with Program(tutorial, "demo") as demo:
+        assert demo.wait() == 1
+        assert "lacks python3-rospy, without which nothing drives" in demo.output
+        assert "network" not in demo.output
+    assert not (bare_system / "installed").read_text()
+
+
+@pytest.mark.usefixtures("bare_system")
+def test_without_a_network_it_says_so(tutorial, monkeypatch):
+    monkeypatch.setenv("BROKEN", "yes")
+    with Program(tutorial, "demo") as demo:
+        assert demo.wait() == 1
+        assert re.search(r"Err:1 no network\n.* not installed: .*Check the network", demo.output)
+
+
+INTERRUPTED = "tutorial: interrupted; ./tutorial setup goes on where it stopped"
+
+
+def test_ctrl_c_ends_a_download_quietly(tutorial, bare_system, monkeypatch):
+    monkeypatch.setenv("SLOW", "download")
+    with Program(tutorial, "demo") as demo:
+        wait_for((bare_system / "slow_download").exists, "download")
+        demo.interrupt()
+        assert demo.wait() == 130
+        assert demo.output.splitlines()[1:] == ["tutorial:    download 50 %", INTERRUPTED]
+        wait_for(lambda: not demo.left_behind(), "end of apt-get")
+
+
+def test_ctrl_c_waits_for_dpkg_and_says_so(tutorial, bare_system, monkeypatch):
+    monkeypatch.setenv("SLOW", "install")
+    with Program(tutorial, "demo") as demo:
+        wait_for((bare_system / "slow_install").exists, "installation")
+        demo.interrupt()
+        wait_for(lambda: "is finished first, as dpkg must not be cut" in demo.output, "word of it")
+        assert not demo.ended
+        (bare_system / "go_on").touch()
+        assert demo.wait() == 130
+        assert demo.output.splitlines()[-1] == INTERRUPTED
+    assert "python3-rospy\n" in (bare_system / "installed").read_text()
+
+
+def test_without_pypi_only_replay_bag_is_missing(tutorial, bare_system):
+    """Nothing answers there; it is told once."""
+    with Program(tutorial, "setup", "system") as setup:
+        assert setup.wait() == 0
+    (bare_system / "ws" / "python").unlink()
+    offline = {
+        "PIP_INDEX_URL": "http://localhost:9/", "PIP_RETRIES": "0", "PIP_NO_CACHE_DIR": "1",
+        "PIP_CONFIG_FILE": "/dev/null", "PIP_EXTRA_INDEX_URL": "", "PIP_FIND_LINKS": "",
+    }  # fmt: skip
+    with Program(tutorial, "run", "echo", "went on", **offline) as first:
+        assert first.wait() == 0
+        assert "not installed from PyPI: rosbags vermin" in first.output.replace("\n", " ")
+        assert first.output.endswith("tutorial: all but replay_bag works without\nwent on\n")
+    with Program(tutorial, "run", "echo", "went on", **offline) as second:
+        assert second.wait() == 0
+        assert second.output == "went on\n"
