@@ -6,7 +6,7 @@ from typing import Dict
 
 import pytest
 
-from node_kit.parameters import checked, number, parameter, switch, text, whole_number
+from node_kit.parameters import checked, number, parameter, switch, text, unknown, whole_number
 
 
 @dataclass(frozen=True)
@@ -76,6 +76,19 @@ def test_no_whole_number_within_the_bounds(value):
     assert message_of({"count": value}) == f"~count: {value!r}: must be {allowed}"
 
 
+@pytest.mark.parametrize("value", [1, 2, 9])
+def test_the_bounds_of_a_whole_number_are_allowed(value):
+    assert checked(Parameters, {"count": value})["count"] == value
+
+
+def test_one_bound_of_a_whole_number_is_enough():
+    least, most = whole_number(least=2, allowed="2 or more"), whole_number(most=2)
+    assert (least(2), least(99), most(2), most(-99)) == (2, 99, 2, -99)
+    for check, value in ((least, 1), (most, 3), (least, "3"), (most, 1.0)):
+        with pytest.raises(ValueError, match=r"must be (2 or more|a whole number)"):
+            check(value)
+
+
 def test_a_whole_number_without_bounds():
     assert checked(Parameters, {"seed": -(10**9)})["seed"] == -(10**9)
     assert message_of({"seed": 1.5}) == "~seed: 1.5: must be a whole number"
@@ -115,3 +128,9 @@ def test_a_missing_one_and_where_it_is():
     assert line == "entry 2: topic: missing; as in topic: a"
     line = message_of({"topci": 1}, Entry, where="entry 2: ")
     assert line == "entry 2: topci: 1: no such parameter; did you mean topic?"
+    assert checked(Entry, {"topic": "/odom"}) == {"topic": "/odom"}
+
+
+def test_only_what_stands_after_the_bare_sign_of_the_node_is_named_with_it():
+    line = "~entry 2: topci: 1: no such parameter; did you mean topic?"
+    assert unknown("topci", 1, ["topic"], where="~entry 2: ") == line
