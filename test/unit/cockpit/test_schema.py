@@ -93,6 +93,13 @@ def test_what_is_no_message_is_refused(data):
         check_message(data)
 
 
+@pytest.mark.parametrize("name", ["t", "pad", "axes"])
+def test_a_number_of_four_hundred_digits_is_refused_like_any_other(name):
+    value = [10**400] if name == "axes" else 10**400
+    with pytest.raises(ValueError, match=f"input: {name} must be a number from"):
+        check_message(say("input", **{**GOOD["input"], name: value}))
+
+
 def test_random_changes_are_taken_or_refused_and_nothing_else():
     dice = random.Random(1)
     for _ in range(3000):

@@ -1,12 +1,22 @@
 """Parameters: one line for every mistake, which names the parameter, its value, what is allowed."""
 
+import sys
 from dataclasses import MISSING, dataclass
 from math import inf, nan
 from typing import Dict
 
 import pytest
 
-from node_kit.parameters import checked, number, parameter, switch, text, unknown, whole_number
+from node_kit.parameters import (
+    checked,
+    is_number,
+    number,
+    parameter,
+    switch,
+    text,
+    unknown,
+    whole_number,
+)
 
 
 @dataclass(frozen=True)
@@ -64,6 +74,15 @@ def test_the_bounds_are_allowed(value):
 def test_no_number_within_the_bounds(value):
     allowed = "a number from 5 to 1000 Hz"
     assert message_of({"rate": value}) == f"~rate: {value!r}: must be {allowed}"
+
+
+def test_a_whole_number_that_is_too_large_for_a_float_is_no_number():
+    largest = sys.float_info.max
+    assert all(map(is_number, (largest, -largest, int(largest), -int(largest))))
+    for value in (10**400, -(10**400)):
+        assert not is_number(value)
+        line = f"~rate: {value}: must be a number from 5 to 1000 Hz"
+        assert message_of({"rate": value}) == line
 
 
 def test_a_number_without_a_unit():

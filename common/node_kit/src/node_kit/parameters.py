@@ -13,7 +13,7 @@ one line of the same form: `~rate: 0: must be a number from 5 to 1000 Hz`.
 
 import difflib
 from dataclasses import MISSING, field, fields
-from math import isfinite
+from sys import float_info
 
 
 def parameter(default, check, **more):
@@ -71,8 +71,8 @@ def is_whole(value):
 
 
 def is_number(value):
-    """Whether it is a finite number."""
-    return (isinstance(value, float) or is_whole(value)) and isfinite(value)
+    """Whether it is a finite number; a whole one that is too large for a float is none."""
+    return (isinstance(value, float) or is_whole(value)) and abs(value) <= float_info.max
 
 
 def number(least, most, unit=""):
