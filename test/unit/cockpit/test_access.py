@@ -53,6 +53,11 @@ def test_on_this_machine_everybody_drives():
     assert HERE.role(None) == HERE.role("x") == DRIVER
 
 
+def test_nobody_changes_who_may_do_what():
+    with pytest.raises(AttributeError, match="driver_token"):
+        HERE.driver_token = "x"
+
+
 def test_tokens_give_roles():
     assert LAN.role("drive-token") == DRIVER
     assert LAN.role("view-token") == VIEWER

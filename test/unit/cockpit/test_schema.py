@@ -93,11 +93,93 @@ def test_what_is_no_message_is_refused(data):
         check_message(data)
 
 
+def taken(kind, name, value):
+    """What is kept of a field's value; None if it is refused."""
+    try:
+        return check_message(say(kind, **{**GOOD[kind], name: value}))[1][name]
+    except ValueError:
+        return None
+
+
+# The last values on both sides that are taken, and the first ones that are not.
+@pytest.mark.parametrize(
+    ("kind", "name", "good", "bad"),
+    [
+        ("input", "n", [0, 2**53 - 1], [-1, 2**53]),
+        ("input", "t", [0, 1e15], [-0.001, 1e15 + 1]),
+        ("input", "pad", [0, 1e15], [-0.001, 1e15 + 1]),
+        ("bag_play", "rate", [0.1, 10], [0.099, 10.01]),
+        ("bag_seek", "position", [0, 1e6], [-0.001, 1000000.1]),
+        ("release", "why", ["", "x" * 200], ["x" * 201]),
+        ("drive", "mode", ["D", "X"], ["d", "", "DX"]),
+        ("input", "source", ["pad", "touch", "keys"], ["mouse"]),
+    ],
+)
+def test_the_bounds_are_taken_and_nothing_beyond_them(kind, name, good, bad):
+    assert [taken(kind, name, value) for value in good] == good
+    assert [taken(kind, name, value) for value in bad] == [None] * len(bad)
+
+
 @pytest.mark.parametrize("name", ["t", "pad", "axes"])
 def test_a_number_of_four_hundred_digits_is_refused_like_any_other(name):
     value = [10**400] if name == "axes" else 10**400
     with pytest.raises(ValueError, match=f"input: {name} must be a number from"):
         check_message(say("input", **{**GOOD["input"], name: value}))
+
+
+@pytest.mark.parametrize(
+    ("kind", "name", "one", "most"),
+    [
+        ("watch", "fields", "/a/x", 20),
+        ("input", "axes", -1, 8),
+        ("input", "axes", 1, 8),
+        ("input", "buttons", 0, 12),
+        ("input", "buttons", 1, 12),
+    ],
+)
+def test_lists_of_at_most_so_many(kind, name, one, most):
+    assert taken(kind, name, []) == ()
+    assert taken(kind, name, [one] * most) == (one,) * most
+    assert taken(kind, name, [one] * (most + 1)) is None
+
+
+def test_numbers_become_float_and_counts_stay_whole():
+    _, values = check_message(say("input", **GOOD["input"]))
+    assert values == {**GOOD["input"], "axes": (0, 1, -1, 0, 0, 0), "buttons": (0,) * 12}
+    assert [type(values[name]) for name in ("n", "t", "beat")] == [int, float, int]
+    assert {type(axis) for axis in values["axes"]} == {float}
+
+
+@pytest.mark.parametrize(
+    ("kind", "name", "value", "words"),
+    [
+        ("input", "n", -1, "must be a whole number from 0"),
+        ("input", "axes", [2], "must be a number from -1 to 1"),
+        ("input", "axes", [0] * 9, "must be a list of at most 8"),
+        ("input", "buttons", [2], "must be 0 or 1"),
+        ("input", "source", "mouse", "must be pad, touch, keys"),
+        ("release", "why", None, "must be a text of at most 200 characters"),
+        ("watch", "log", 1, "must be true or false"),
+    ],
+)
+def test_what_a_page_is_told(kind, name, value, words):
+    with pytest.raises(ValueError) as caught:
+        check_message(say(kind, **{**GOOD[kind], name: value}))
+    assert str(caught.value) == f"{kind}: {name} {words}"
+
+
+def test_the_longest_message():
+    message = say("leave")
+    longest = message + " " * (8192 - len(message))
+    assert check_message(longest) == ("leave", {})
+    with pytest.raises(ValueError, match="a message must have at most 8192 characters"):
+        check_message(longest + " ")
+
+
+def test_forty_characters_of_a_strange_word_are_told():
+    with pytest.raises(ValueError) as caught:
+        check_message(say("x" * 41))
+    assert str(caught.value) == f"no such kind of message: '{'x' * 40}'"
 
 
 def test_random_changes_are_taken_or_refused_and_nothing_else():
@@ -119,4 +201,8 @@ def test_as_many_axes_and_buttons_as_the_gamepad_has():
     for mode, axes, buttons in (("D", 8, 11), ("X", 6, 12), ("D", 0, 0), ("D", 6, 11)):
         with pytest.raises(ValueError, match=f"{mode} mode has"):
             check_lengths((mode,), (0,) * axes, (0,) * buttons)
+    with pytest.raises(ValueError) as caught:
+        check_lengths(("D", "X"), (0,) * 6, (0,) * 11)
+    has = "D mode has 6 axes and 12 buttons and X mode has 8 axes and 11 buttons"
+    assert str(caught.value) == f"input: {has}"
     check_lengths(("D", "X"), (0,) * 8, (0,) * 11)
