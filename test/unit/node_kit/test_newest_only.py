@@ -185,6 +185,7 @@ class Answering:
         ([0, 4, 9, 0], 0),  # there is no state 0
         ([13, 4, 9, 0], 0),
         ([1, 0, 9, 0], 0),  # resent without a loss: that cannot be
+        ([1, 5, 9, 0], 0),  # there is no such state of congestion
         ([0x5A, 0x5A, 0x5A, 0x5A], 0),
     ],
 )
