@@ -1,0 +1,61 @@
+"""A driver's seat and the pages around it: time is a number, and nothing waits."""
+
+from cockpit_server.seat import PAGE, Input, Seat
+
+ANNA, BOB = 1, 2
+LB = 4
+REST = ((0.0,) * 6, (0,) * 12)
+DRIVE = ((0.0, 1.0, 0.0, 0.0, 0.0, 0.0), (0,) * LB + (1,) + (0,) * 7)
+PERIOD_S = 0.05
+
+
+class Room:
+    """A seat, the pages around it, and a clock that is a number."""
+
+    def __init__(self):
+        self.sent, self.lost = [], []
+        self.seat = Seat(
+            lambda robot, axes, buttons: self.sent.append((robot, axes, buttons)),
+            lambda client, why: self.lost.append((client, why)),
+        )
+        self.now, self.n, self.beats = 100.0, 0, 0
+
+    def pass_time(self, seconds):
+        """Silence of the page, while the server goes on beating and looking at the time."""
+        end = self.now + seconds
+        while self.now < end - 1e-9:
+            self.now = min(end, self.now + PERIOD_S / 5)
+            self.beat()
+            self.seat.tick(self.now)
+
+    def beat(self):
+        self.beats += 1
+        self.seat.beat(self.beats, self.now)
+
+    def say(self, position, client=ANNA, *, delay_s=0.0, beat=None, n=None, pad=None):
+        """One input that was on its way for some time."""
+        self.now += PERIOD_S
+        self.beat()
+        self.n += 1
+        self.seat.input(
+            client,
+            Input(
+                n=self.n if n is None else n,
+                t=1000 * (self.now - 50.0 - delay_s),  # the page's clock began 50 s later
+                beat=self.beats if beat is None else beat,
+                axes=position[0],
+                buttons=position[1],
+                pad=pad,
+            ),
+            self.now,
+        )
+        self.seat.tick(self.now)
+
+    def drive(self):
+        """Sit down, release, hold LB and the stick."""
+        self.seat.take(ANNA, "ada", PAGE, self.now)
+        self.beat()
+        self.say(REST)
+        self.say(DRIVE)
+        assert self.sent[-1] == ("ada", *DRIVE)
+        self.sent.clear()
