@@ -26,6 +26,9 @@ START_S = 90
 MEDIAN_MORE_S, WORST_MORE_S = 0.003, 0.015
 MOST_PROCESSOR = 0.2
 SAMPLE_S = 5
+WATCHED = ("/robot_1/odom", f"/robot_{ROBOTS}/odom")
+PERIOD_S = 0.02
+FEW_LOST = 5  # by chance
 LEAST_FRAMES = 15  # in a second, of 20, on a busy machine
 
 
@@ -126,29 +129,44 @@ def test_thirty_robots_on_five_pages(figure):
     assert min(frames2) > 0.9 * min(frames)
 
 
-def test_nothing_grows(figure, request):
-    """The same scene for --hours: memory, threads, sockets and files of server and simulator."""
-    seconds = 3600 * request.config.getoption("--hours")
+def simulate(stack, seconds):
+    """(simulator, observer) of 30 robots on the master that ROS_MASTER_URI names."""
     simulator = [node_path("fake_turtlebot_sim", "fake_turtlebot.py"), f"_robots:={ROBOTS}"]
-    watched = ["/robot_1/odom", f"/robot_{ROBOTS}/odom"]
+    observer = [sys.executable, str(LIVE / "observer.py"), str(seconds), *WATCHED]
+    options = {"stdout": subprocess.PIPE, "text": True}
+    return [stack.enter_context(one) for one in (running(simulator), running(observer, **options))]
+
+
+def test_nothing_grows(figure, request, monkeypatch):
+    """The same scene for --hours: memory, threads, sockets and files of server and simulator.
+
+    Periods that the simulator loses are the machine's if another one, at which nobody looks, loses
+    as many meanwhile.
+    """
+    seconds = 3600 * request.config.getoption("--hours")
     with ExitStack() as stack:
-        robots = stack.enter_context(running(simulator))
+        robots, observer = simulate(stack, seconds)
         process, port = start_cockpit(stack)
+        with monkeypatch.context() as other:
+            other.setenv("ROS_MASTER_URI", "")  # which master() sets, and this puts back
+            stack.enter_context(master())
+            _, observer_alone = simulate(stack, seconds)
         looks = [str(seconds)] * VIEWERS + ["stalled"]
         programs = [[sys.executable, str(HERE / "viewer.py"), str(port), one] for one in looks]
-        programs.append([sys.executable, str(LIVE / "observer.py"), str(seconds), *watched])
         options = {"stdout": subprocess.PIPE, "text": True}
-        *viewers, _, observer = (stack.enter_context(running(one, **options)) for one in programs)
-        for one in (*viewers, observer):
+        *viewers, _ = (stack.enter_context(running(one, **options)) for one in programs)
+        for one in (*viewers, observer, observer_alone):
             assert one.stdout.readline() == "ready\n"
         samples, began_s = [], time.monotonic()
         while time.monotonic() - began_s < seconds:
             for name, pid in (("server", process.pid), ("simulator", robots.pid)):
                 samples.append(sample(time.monotonic() - began_s, name, pid))
             time.sleep(SAMPLE_S)
-        heard = json.loads(observer.stdout.readline())
         frames = [json.loads(one.stdout.readline())["frames"] for one in viewers]
-    lost = sum(lost_periods(heard[topic]) for topic in watched)
+        lost, lost_alone = (
+            sum(map(lost_periods, json.loads(one.stdout.readline()).values()))
+            for one in (observer, observer_alone)
+        )
     for name in ("server", "simulator"):
         memory, threads, files = growth(samples, name)
         figure(
@@ -156,9 +174,15 @@ def test_nothing_grows(figure, request):
             f"{memory:+} kB, {threads:+} threads, {files:+} files and sockets",
             "≤ 2 MB, 0, 0",
         )
-    figure("meanwhile", f"{min(frames):.1f} frames/s; {lost} periods lost", "20/s; 0")
+    figure("meanwhile", f"{min(frames):.1f} frames/s", "20/s")
+    of = int(len(WATCHED) * seconds / PERIOD_S)
+    figure(
+        "periods lost by the simulator; by one at which nobody looks",
+        f"{lost}; {lost_alone}, of {of}",
+        "no more",
+    )
     assert complaints(samples) == []
-    assert lost == 0
+    assert lost <= 2 * lost_alone + FEW_LOST
 
 
 def measure_viewers(stack, process, port):
