@@ -20,8 +20,18 @@ ROBOTS = 10
 PERIOD_S = 10.0
 # All of them, but for the cockpit, whose name is its own.
 NODES = frozenset(
-    "/classroom /fake_turtlebot /myjoystick2twist /robot_1/myjoystick2twist /robot_1/rosbag"
-    " /robot_2/myjoystick2twist /robot_2/rosbag /robot_state_publisher /rosbag /rosout".split()
+    [
+        "/classroom",
+        "/fake_turtlebot",
+        "/myjoystick2twist",
+        "/robot_1/myjoystick2twist",
+        "/robot_1/rosbag",
+        "/robot_2/myjoystick2twist",
+        "/robot_2/rosbag",
+        "/robot_state_publisher",
+        "/rosbag",
+        "/rosout",
+    ]
 )
 STARTS_S = 600.0  # for all to start, on a busy machine
 
@@ -82,7 +92,7 @@ def soak(hours, picture):
             stack.enter_context(Program(*command, DISPLAY="", **environment))
         wait_for(lambda: call(uri, "getPid")[1], "master", STARTS_S)
         stack.enter_context(Talker("soak_observer", hear=measured.hear)).wait_ready()
-        wait_for(lambda: NODES <= set(node_pids(uri)), "nodes", STARTS_S)
+        wait_for(lambda: set(node_pids(uri)) >= NODES, "nodes", STARTS_S)
         pids = node_pids(uri)
         began = time.monotonic()
         with contextlib.suppress(KeyboardInterrupt):
