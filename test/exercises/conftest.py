@@ -21,6 +21,9 @@ def pytest_addoption(parser):
     add = parser.addoption
     add("--every", type=int, default=1, metavar="N", help="only every Nth row of data")
     add("--students", type=int, default=6, metavar="N", help="how many in the test of --all")
+    add(
+        "--everything", action="store_true", help="in it all exercises, and mistakes in any of them"
+    )
     add("--repeat", type=int, metavar="N", help="only N checks of right solutions, in turn")
     add("--busy", action="store_true", help="beside an endless loop on each processor")
 

@@ -11,9 +11,11 @@ from pathlib import Path
 
 import mistakes_nodes
 import pytest
+import test_mistakes
 from edits import JOY2TWIST, TALKER, B, J, apply, chmod, move, put
 
 from tutorial_check.examination import examine
+from tutorial_check.exercises import EXERCISES
 
 SOURCE = Path(__file__).resolve().parents[1] / "src"
 
@@ -169,7 +171,9 @@ def test_the_professor(literal, floor, tmp_path):
 def test_all_at_once_or_alone_is_the_same(literal, floor, tmp_path, request):
     """Of many students each has the same verdict as alone. Prints how long they all took."""
     count = request.config.getoption("--students")
-    rows = [row for row in mistakes_nodes.ROWS if row[0] == "4.3"]
+    rows, exercises = [row for row in mistakes_nodes.ROWS if row[0] == "4.3"], ["4.3"]
+    if request.config.getoption("--everything"):
+        rows, exercises = test_mistakes.ROWS, list(EXERCISES)
     room = tmp_path / "room"
     students = {"right": []}
     for number in range(1, count):
@@ -178,14 +182,14 @@ def test_all_at_once_or_alone_is_the_same(literal, floor, tmp_path, request):
         shutil.copytree(literal.parent, room / name)
         apply(edits, room / name / "src")
     began_s = time.monotonic()
-    code, out, error = check(floor, "--all", room, "4.3")
+    code, out, error = check(floor, "--all", room, *exercises)
     print(f"\n{count} students: {time.monotonic() - began_s:.0f} s, load {os.getloadavg()[0]:.1f}")
     assert code == 1, out + error
     for name in students:
-        told = json.loads((room / "check" / f"{name}.json").read_text())["exercises"][0]["checks"]
-        alone = examine(room / name, floor, ["4.3"])[0].results
-        assert [(one["id"], one["status"]) for one in told] == [
-            (one.id, one.status) for one in alone
+        told = json.loads((room / "check" / f"{name}.json").read_text())["exercises"]
+        alone = examine(room / name, floor, exercises)
+        assert [(one["id"], one["status"]) for exercise in told for one in exercise["checks"]] == [
+            (one.id, one.status) for outcome in alone for one in outcome.results
         ], name
 
 

@@ -15,6 +15,7 @@ from tutorial_faults.live.random_bytes import events
 from tutorial_faults.live.samples import MOST_GROWTH_KB, sample
 from tutorial_faults.live.talker import Talker
 from tutorial_faults.live.world import World
+from tutorial_testing.waiting import wait_for
 
 CHUNK = 64  # events
 WARMS_UP = 0.1  # part of all, after which nothing may grow
@@ -89,24 +90,41 @@ def fuzz_joys(world, the_fuzz, count, seed):
 
 def fuzz_device(world, the_fuzz, count, seed):
     """Write so many random bytes to the gamepad's FIFO; how many the driver has taken."""
-    random, written, warm = Random(seed), 0, False
+    random, written, opened, warm = Random(seed), 0, 1, False
     world.hands.freeze(True)
-    fd = os.open(world.hands.path, os.O_WRONLY | os.O_NONBLOCK)
+    fd = _open(world.hands.path)
     try:
         while written < count:
             _, writable, _ = select.select((), [fd], (), STALLED_S)
             if not writable:
                 the_fuzz.bad.append(f"the driver takes no bytes after {written}")
                 break
-            with contextlib.suppress(BlockingIOError):
+            try:
                 written += os.write(fd, events(random, CHUNK))
+            except BlockingIOError:
+                continue
+            except BrokenPipeError:  # to the driver all of it was noise for so long
+                os.close(fd)
+                fd = _open(world.hands.path)
+                opened += 1
             if not warm and written >= WARMS_UP * count:
                 warm = True
                 the_fuzz.measure()
     finally:
         os.close(fd)
         world.hands.freeze(False)
+    print(f"the driver opened its device {opened} times")
     return written
+
+
+def _open(path):
+    """A FIFO, for writing, as soon as the driver reads it."""
+
+    def try_it():
+        with contextlib.suppress(OSError):
+            return os.open(path, os.O_WRONLY | os.O_NONBLOCK)
+
+    return wait_for(try_it, "driver that opens its device", STALLED_S)
 
 
 def fuzz(count, seed):
