@@ -27,9 +27,8 @@ MODULES = {
 ALSO = {
     "joy_to_twist.safety": ["test_safety", "test_teleoperation"],
     "fake_turtlebot_sim.mux.parameters": ["test_mux_parameters"],
-    "gamepad.js_event": ["test_driver", "test_device"],
-    "gamepad.driver.state": ["test_driver"],
-    "gamepad.driver.schedule": ["test_driver"],
+    "gamepad.js_event": ["test_js_event", "test_driver", "test_device"],
+    "gamepad.driver.state": ["test_state", "test_driver"],
     "node_kit.resumption": ["test_suspension"],
 }
 # Longer than all others together; what they find, others must find too.

@@ -1,0 +1,102 @@
+"""When the driver publishes: events join, and what stays the same is repeated."""
+
+import math
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from gamepad.driver.schedule import Schedule
+from tutorial_testing.gamepad_events import AXIS, BUTTON, INIT, driver, events
+
+
+def test_axes_within_the_interval_go_out_together():
+    ours = driver(coalesce_interval=0.01)
+    assert ours.read(events((AXIS, 0, -32767)), now=1.0) == []
+    assert ours.read(events((AXIS, 1, 32767)), now=1.009) == []
+    assert ours.due == pytest.approx(1.01)  # counted from the first
+    assert ours.tick(1.009) == []
+    assert ours.tick(1.0101) == [((1.0, -1.0), ())]
+
+
+def test_a_button_goes_out_at_once_and_takes_waiting_axes_along():
+    ours = driver(autorepeat_rate=0)
+    ours.read(events((AXIS, 0, -32767)), now=1.0)
+    assert ours.read(events((BUTTON, 0, 1), (BUTTON, 0, 0)), now=1.0) == [
+        ((1.0,), (1,)),
+        ((1.0,), (0,)),
+    ]
+    assert ours.due == float("inf")
+
+
+def test_the_first_state_waits_for_all_of_it():
+    ours = driver()
+    first = events((BUTTON | INIT, 0, 0), (BUTTON | INIT, 1, 1), (AXIS | INIT, 1, -9000))
+    assert ours.read(first, now=0.0) == []
+    assert ours.tick(0.001) == [((0.0, 0.0), (0, 1))]
+
+
+def test_autorepeat_counts_from_the_last_message():
+    ours = driver(autorepeat_rate=20)
+    ours.read(events((BUTTON, 0, 1)), now=1.0)
+    assert ours.due == pytest.approx(1.05)
+    ours.read(events((BUTTON, 0, 0)), now=1.04)
+    assert ours.tick(1.0501) == []
+    assert ours.tick(1.0901) == [((), (0,))]
+
+
+@pytest.mark.parametrize(("rate", "due"), [(0.5, 3.0), (1, 2.0), (0, math.inf), (-1, math.inf)])
+def test_the_repetition_may_be_slow_or_off(rate, due):
+    schedule = Schedule(0.001, rate)
+    schedule.published(1.0)
+    assert schedule.due == due
+
+
+class Simulated:
+    """A driver whose waits end on time. Times are whole numbers, so that their sums are exact."""
+
+    def __init__(self, **parameters):
+        self.driver = driver(deadzone=0.0, **parameters)
+        self.now, self.sent = 0, 0
+        self.untold = []  # when the changes were read that no message has told yet
+        self.ages = []  # of the oldest untold change, for each message
+
+    def change(self, after, pressed=False):
+        """After a time an axis changes to the number of changes so far, and maybe a button."""
+        self.now += after
+        while self.driver.due < self.now:
+            due = self.driver.due
+            self.published(self.driver.tick(due), due)
+        self.sent += 1
+        self.untold.append(self.now)
+        new = [(AXIS, 0, self.sent)] + [(BUTTON, 0, self.sent % 2)] * pressed
+        self.published(self.driver.read(events(*new), self.now), self.now)
+
+    def published(self, messages, now):
+        for axes, _ in messages:
+            assert round(-axes[0] * 32767) == self.sent, "not the newest state"
+            self.ages.append(now - min(self.untold, default=now))
+            self.untold = []
+
+
+@settings(max_examples=500)
+@given(
+    st.lists(st.tuples(st.integers(0, 30), st.booleans()), max_size=60),
+    st.integers(0, 20),
+    st.sampled_from((0, 1 / 4, 1 / 32)),
+)
+def test_every_message_tells_the_newest_state_and_none_is_older_than_the_interval(
+    changes, interval, autorepeat_rate
+):
+    simulated = Simulated(coalesce_interval=interval, autorepeat_rate=autorepeat_rate)
+    for change in changes:
+        simulated.change(*change)
+        assert all(age <= interval for age in simulated.ages)
+        assert simulated.driver.due <= min(simulated.untold, default=float("inf")) + interval
+
+
+def test_a_burst_is_coalesced_to_one_message_in_an_interval():
+    simulated = Simulated(coalesce_interval=5, autorepeat_rate=0)
+    for _ in range(1000):  # one event in every unit of time
+        simulated.change(1)
+    assert simulated.ages == [5] * 166  # 6 units from one message to the next

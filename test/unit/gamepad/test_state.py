@@ -1,0 +1,98 @@
+"""Axes and buttons of a gamepad: what each event makes of them."""
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tutorial_testing.gamepad_events import AXIS, BUTTON, INIT, driver, events
+
+
+@pytest.mark.parametrize(
+    ("value", "deadzone", "axis"),
+    [
+        (32767, 0.05, -1.0),
+        (-32767, 0.05, 1.0),
+        (1638, 0.05, 0.0),  # 0.05 of 32767 is 1638.35
+        (-16384, 0.0, 16384 / 32767),
+        (-16384, 0.05, (16384 / 32767 - 0.05) / 0.95),
+        (29490, 1.0, 0.0),  # capped at 0.9
+        (32767, 1.0, -1.0),
+    ],
+)
+def test_left_and_up_are_positive_and_the_deadzone_is_rescaled(value, deadzone, axis):
+    ours = driver(deadzone=deadzone)
+    ours.read(events((AXIS, 0, value)), now=0.0)
+    [(axes, _)] = ours.tick(0.5)
+    assert axes == (pytest.approx(axis, abs=1e-12),)
+
+
+def test_a_sticky_button_is_switched_off_by_the_second_press():
+    ours = driver(sticky_buttons=True)
+    shown = [ours.read(events((BUTTON, 1, value)), 0.1)[0][1] for value in (1, 0, 1, 0, 1)]
+    assert shown == [(0, 1), (0, 1), (0, 0), (0, 0), (0, 1)]
+
+
+def test_two_sticky_buttons_are_switched_apart():
+    ours = driver(sticky_buttons=True)
+    pressed = ((0, 1), (0, 0), (1, 1), (1, 0), (0, 1))
+    shown = [ours.read(events((BUTTON, *press)), 0.1)[0][1] for press in pressed]
+    assert shown == [(1,), (1,), (1, 1), (1, 1), (0, 1)]
+
+
+def upstream(sequence, deadzone, default_trig_val, sticky):
+    """The messages of ROS Noetic's joy_node, if it publishes after each event, written plainly."""
+    axes, buttons, before, switched = {}, {}, {}, {}
+    messages = []
+    for kind, number, value in sequence:
+        if kind in (BUTTON, BUTTON + INIT):
+            buttons[number] = 1 if value else 0
+        elif kind == AXIS or (kind == AXIS + INIT and default_trig_val):
+            size = max(0.0, abs(value) - 32767 * deadzone) / (32767 * (1 - deadzone))
+            axes[number] = -size if value > 0 else size
+        elif kind == AXIS + INIT:
+            axes.setdefault(number, 0.0)
+        else:
+            continue
+        for i, pressed in buttons.items():
+            if pressed and not before.get(i):
+                switched[i] = not switched.get(i, False)
+        before = dict(buttons)
+        shown = switched if sticky else buttons
+        messages.append(
+            (
+                [axes.get(i, 0.0) for i in range(max(axes, default=-1) + 1)],
+                [int(shown.get(i, 0)) for i in range(max(buttons, default=-1) + 1)],
+            )
+        )
+    return messages
+
+
+EVENTS = st.tuples(
+    st.sampled_from((BUTTON, AXIS, BUTTON | INIT, AXIS | INIT, 0, 3, 0x42)),
+    st.integers(0, 9),
+    st.sampled_from((0, 1, -1, 1638, 1639, -1639, 32767, -32767, -32768))
+    | st.integers(-32768, 32767),
+)
+
+
+@settings(max_examples=500)
+@given(
+    st.lists(EVENTS, max_size=40),
+    st.sampled_from((0.0, 0.05, 0.5, 0.9)),
+    st.booleans(),
+    st.booleans(),
+)
+def test_every_sequence_gives_what_upstream_gives(sequence, deadzone, trigger, sticky):
+    ours = driver(
+        kernel_device=False,
+        deadzone=deadzone,
+        default_trig_val=trigger,
+        sticky_buttons=sticky,
+        coalesce_interval=0.0,
+    )
+    messages = [message for event in sequence for message in ours.read(events(event), now=0.0)]
+    expected = upstream(sequence, deadzone, trigger, sticky)
+    assert len(messages) == len(expected)
+    for (axes, buttons), (expected_axes, expected_buttons) in zip(messages, expected):
+        assert axes == pytest.approx(tuple(expected_axes), abs=1e-12)
+        assert buttons == tuple(expected_buttons)
