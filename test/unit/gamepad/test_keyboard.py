@@ -103,7 +103,7 @@ def test_mode_unplug_and_quit():
     controls, _ = keyboard.at(0.0)
     assert controls.mode_led and not controls.plugged
     assert not keyboard.quit
-    keyboard.press("xyz\x1b[9q", 0.0)
+    keyboard.press("xyz\x1b[9~q", 0.0)
     assert keyboard.quit
 
 
@@ -113,3 +113,75 @@ def test_released_keys_are_up_whatever_was_held():
     assert keyboard.at(1.1)[0].held == {"LB"}
     keyboard.release()
     assert keyboard.at(1.1)[0] == Controls()
+
+
+def test_all_other_keys_do_nothing():
+    mean_something = set("wasd tmuq0123456789\x03\x04")
+    others = [chr(n) for n in range(0x250) if chr(n).lower() not in mean_something]
+    keyboard = Keyboard()
+    for key in [*others, "\ufffd"]:
+        keyboard.press(key, 1.0)
+        assert keyboard.at(1.0) == (Controls(), math.inf), key
+        assert not keyboard.quit, key
+
+
+@pytest.mark.parametrize(
+    "key",
+    [
+        *("\x1bOP", "\x1bOQ", "\x1bOS", "\x1b[[A", "\x1b[[D", "\x1b[15~"),  # F1 to F5
+        *("\x1b[1;5A", "\x1b[1;2D", "\x1bOa", "\x1b[a"),  # arrows with Ctrl or Shift
+        *("\x1b[3~", "\x1b[Z"),  # Delete, Shift and Tab
+    ],
+)
+def test_a_function_key_does_nothing_whatever_letters_it_sends(key):
+    """F4 drove backward, Ctrl with the arrow up to the left, and Delete changed the speed."""
+    keyboard = Keyboard()
+    keyboard.press(key, 1.0)
+    assert keyboard.at(1.0) == (Controls(), math.inf)
+    assert not keyboard.quit
+    keyboard.press(f"w{key}a", 1.0)
+    assert at(keyboard, 1.0) == ((1, 1), [])
+
+
+def test_a_superscript_is_no_digit():
+    """A key of French keyboards; it ended the program."""
+    keyboard = Keyboard()
+    keyboard.press("5w\u00b2", 1.0)
+    assert at(keyboard, 1.0) == ((0, 0.5), [])
+
+
+def test_a_capital_that_becomes_two_letters_takes_no_other_key_along():
+    keyboard = Keyboard()
+    keyboard.press("\u0130w", 1.0)  # a key of Turkish keyboards
+    assert at(keyboard, 1.0) == ((0, 1), [])
+
+
+def test_a_direction_by_another_key_is_the_same_one_and_not_a_second():
+    keyboard = Keyboard()
+    keyboard.press("w\x1b[A", 1.0)
+    assert at(keyboard, 1.0) == ((0, 1), [])
+    keyboard.press("aw", 1.1)
+    assert at(keyboard, 1.1) == ((1, 1), [])
+
+
+def test_a_key_held_once_is_held_longer_than_one_that_repeats():
+    keyboard = Keyboard()
+    keyboard.press("a", 1.0)
+    assert keyboard.at(1.0)[1] == 1.0 + FIRST_HOLD_S
+    keyboard.press("a", 1.5)
+    assert keyboard.at(1.5)[1] == 1.5 + REPEAT_HOLD_S
+
+
+def test_at_first_the_stick_goes_all_the_way_and_nothing_is_held():
+    keyboard = Keyboard()
+    assert keyboard.at(0.0) == (Controls(), math.inf)
+    keyboard.press("d", 0.5)
+    assert at(keyboard, 0.5) == ((-1.0, 0), [])
+
+
+def test_m_swaps_and_u_unplugs_and_neither_does_the_others_work():
+    for key, expected in (("m", Controls(mode_led=True)), ("u", Controls(plugged=False))):
+        keyboard = Keyboard()
+        keyboard.press(key, 0.0)
+        assert keyboard.at(0.0) == (expected, math.inf)
+        assert not keyboard.quit

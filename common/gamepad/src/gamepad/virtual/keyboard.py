@@ -6,6 +6,7 @@ longer than its repetition takes, and all keys are released together then.
 """
 
 import math
+import re
 
 from gamepad.virtual.controls import Controls
 
@@ -33,18 +34,14 @@ DIRECTIONS = {
 }  # fmt: skip
 BUTTONS = {" ": "LB", "t": "RB"}
 QUIT = ("q", "\x03", "\x04")
-_ARROW_LENGTH = 3
+# One key: a sequence, as of F4 or Ctrl with an arrow, or a character. Sequences are those of
+# ECMA-48, and of the function keys of the Linux console.
+_KEY = re.compile(r"\x1b(?:\[\[.|\[[0-?]*[ -/]*[@-~]|O.)|.", re.DOTALL)
 
 
 def split_keys(text):
     """The keys in what a terminal sent: characters in lower case, and arrows as they are."""
-    keys = []
-    while text:
-        arrow = text[:_ARROW_LENGTH]
-        key = arrow if arrow in DIRECTIONS else text[0].lower()
-        keys.append(key)
-        text = text[len(key) :]
-    return keys
+    return [key if key in DIRECTIONS else key.lower() for key in _KEY.findall(text)]
 
 
 class Keyboard:
@@ -52,7 +49,7 @@ class Keyboard:
 
     def __init__(self):
         """All keys are released."""
-        self._held = {}  # direction or button -> the key that holds it
+        self._held = set()  # keys of directions and buttons
         self._released_at = 0.0
         self._deflection = 1.0
         self._mode_led = False
@@ -67,7 +64,7 @@ class Keyboard:
                 self.quit = True
             elif key in DIRECTIONS or key in BUTTONS:
                 self._hold(key, now)
-            elif key.isdigit():
+            elif key.isdecimal():  # and no superscript, a key of French keyboards
                 self._deflection = int(key) / 10 or 1.0
             elif key == "m":
                 self._mode_led = not self._mode_led
@@ -76,7 +73,7 @@ class Keyboard:
 
     def release(self):
         """Release all keys: nobody sees what they do, or their terminal is held."""
-        self._held = {}
+        self._held = set()
 
     def at(self, now):
         """(Controls at a time, the time at which they change by themselves or infinity)."""
@@ -92,7 +89,7 @@ class Keyboard:
 
     def _expire(self, now):
         if now >= self._released_at:
-            self._held = {}
+            self._held = set()
 
     def _hold(self, key, now):
         repeated = key in self._held
@@ -100,6 +97,6 @@ class Keyboard:
             axis = DIRECTIONS[key].index(0)
             for other in [k for k in self._held if k in DIRECTIONS]:
                 if DIRECTIONS[other].index(0) == axis:
-                    del self._held[other]
-        self._held[key] = True
+                    self._held.remove(other)
+        self._held.add(key)
         self._released_at = now + (REPEAT_HOLD_S if repeated else FIRST_HOLD_S)
