@@ -34,7 +34,7 @@ def load_script(document: Any) -> Script:
     if unknown:
         raise ValueError(f"`{unknown[0]}` is unknown; allowed are `mode` and `moves`")
     mode = document.get("mode", "D")
-    if mode not in F710:
+    if not isinstance(mode, str) or mode not in F710:
         raise ValueError(f"mode is {mode!r}; allowed are {' and '.join(F710)}")
     moves = []
     for number, move in enumerate(document["moves"], 1):
@@ -56,7 +56,7 @@ def _load_move(move, mode):
         raise ValueError(f"`{unknown[0]}` is unknown; allowed are for, {', '.join(names)}")
     duration = move.get("for")
     if not isinstance(duration, (int, float)) or not 0 < duration <= LONGEST_S:
-        raise ValueError(f"`for` is {duration!r}; allowed are seconds above 0")
+        raise ValueError(f"`for` is {duration!r}; allowed are seconds above 0, up to {LONGEST_S}")
     given = {}
     for name in set(move) - {"for"}:
         value, default = move[name], names[name]
