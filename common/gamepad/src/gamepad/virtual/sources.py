@@ -65,7 +65,7 @@ class TimedSource:
         rounds, time_s = divmod(now - self._start, self._ends[-1])
         if rounds and not self._loop:
             return None
-        index = min(bisect.bisect_right(self._ends, time_s), len(self._ends) - 1)
+        index = bisect.bisect_right(self._ends, time_s)
         until = self._start + rounds * self._ends[-1] + self._ends[index]
         return self._positions[index], until
 
