@@ -6,6 +6,7 @@ import pytest
 
 from gamepad.driver.driver import LONGEST_LIFELESS_S, SHORTEST_SILENCE_S, Driver
 from gamepad.driver.parameters import DriverParameters
+from gamepad.js_event import SIGN_OF_LIFE_MS
 from tutorial_testing.gamepad_events import AXIS, BUTTON, INIT, driver, events, sign
 
 
@@ -88,6 +89,7 @@ def test_a_source_that_gave_signs_and_gives_none_any_more_is_lifeless():
     assert not one.is_lifeless(1.0 + LONGEST_LIFELESS_S - 0.01)
     assert one.due == 1.0 + LONGEST_LIFELESS_S
     assert one.is_lifeless(1.0 + LONGEST_LIFELESS_S)
+    assert one.is_lifeless(1e9)
 
 
 def test_only_a_sign_is_a_sign_of_life():
@@ -168,3 +170,57 @@ def test_the_events_are_counted():
     ours = driver()
     ours.read(events((BUTTON, 0, 1), (8, 0, 1), (AXIS, 0, 5)), 0.0)
     assert (ours.events, ours.unknown_events) == (3, 1)
+
+
+def test_a_change_is_no_sign_whatever_its_time():
+    one = driver(kernel_device=False)
+    change = events((BUTTON, 0, 1), time_ms=SIGN_OF_LIFE_MS)
+    assert one.read(change, 1.0) == [((), (1,))]
+    assert not one.is_lifeless(1e9)
+
+
+def test_a_change_that_comes_with_a_sign_is_told():
+    one = with_signs()
+    ((axes, buttons),) = one.read(sign(*STATE) + events((BUTTON, 0, 1)) + sign(*STATE), 1.2)
+    assert (len(axes), buttons) == (2, (1, 0, 0, 0, 1))
+
+
+def test_a_sign_of_an_axis_or_button_not_told_before_makes_room_for_it():
+    for new, sizes in (((AXIS, 2, 0), (3, 5)), ((AXIS, 4, 0), (5, 5)), ((BUTTON, 9, 0), (2, 10))):
+        one = with_signs()
+        one.read(sign(new), 1.1)
+        ((axes, buttons),) = one.read(events((BUTTON, 0, 1)), 1.2)
+        assert (len(axes), len(buttons)) == sizes
+    many_axes = driver(kernel_device=False)
+    many_axes.read(events((AXIS, 5, 0), (BUTTON, 0, 1)) + sign((BUTTON, 3, 0)), 1.0)
+    assert many_axes.lost(2.0) == [((0.0,) * 6, (0,) * 4)]
+
+
+def test_what_is_known_is_not_changed_by_a_sign():
+    """Neither of the two is taken for the other."""
+    one = driver(kernel_device=False, autorepeat_rate=0)
+    one.read(events((AXIS, 5, -32767), (BUTTON, 0, 1)), 1.0)
+    assert one.read(sign((AXIS, 5, 0), (BUTTON, 0, 0)), 1.1) == []
+    assert one.tick(2.0) == []
+    ((axes, buttons),) = one.read(events((BUTTON, 1, 1)), 3.0)
+    assert (axes[5], buttons) == (1.0, (1, 1))
+
+
+def test_a_gamepad_that_came_back_and_was_not_touched_is_lost_without_a_word():
+    ours = driver()
+    ours.read(events((BUTTON, 4, 1)), 0.0)
+    ours.lost(1.0)
+    ours.opened((), kernel_device=True)
+    ours.read(events((BUTTON | INIT, 4, 1)), 2.0)
+    assert ours.lost(3.0) == []
+    assert ours.opens_at == 3.0 + SHORTEST_SILENCE_S
+
+
+def test_it_goes_out_when_it_is_due_and_not_before():
+    ours = driver(coalesce_interval=0.25, autorepeat_rate=2)
+    ours.read(events((AXIS, 0, -32767)), 1.0)
+    assert ours.due == 1.25
+    assert ours.tick(1.2) == []
+    assert ours.tick(1.25) == [((1.0,), ())]
+    assert ours.due == 1.75
+    assert ours.tick(9.0) == [((1.0,), ())]

@@ -60,7 +60,8 @@ class Driver:
         messages = []
         for event in self._decoder.feed(data):
             self.events += 1
-            if event.type & INIT and event.time_ms == SIGN_OF_LIFE_MS and self._can_give_signs:
+            initial = event.type & INIT
+            if initial and event.time_ms == SIGN_OF_LIFE_MS and self._can_give_signs:
                 self._lifeless_at = now + LONGEST_LIFELESS_S
                 if self._state.knows(event):
                     continue
@@ -68,7 +69,7 @@ class Driver:
             if urgency == NOTHING:
                 self.unknown_events += 1
                 continue
-            if not event.type & INIT:
+            if not initial:
                 self._mute = False
             if urgency == NOW:
                 self._schedule.at_once(now)
