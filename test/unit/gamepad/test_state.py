@@ -4,7 +4,53 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tutorial_testing.gamepad_events import AXIS, BUTTON, INIT, driver, events
+from tutorial_testing.gamepad_events import AXIS, BUTTON, INIT, driver, events, sign
+
+
+def after(*fields, **parameters):
+    """(axes, buttons) after events that come at one time."""
+    ours = driver(kernel_device=False, deadzone=0.0, **parameters)
+    messages = ours.read(events(*fields), now=0.0)
+    return (messages + ours.tick(1.0))[-1]
+
+
+def test_the_middle_reads_zero_without_a_sign():
+    """-0.0 would be shown as such by rostopic."""
+    for deadzone in (0.0, 0.05):
+        ours = driver(deadzone=deadzone)
+        ours.read(events((AXIS, 0, 0)), 0.0)
+        assert repr(ours.tick(1.0)) == "[((0.0,), ())]"
+
+
+def test_every_value_but_zero_is_a_press():
+    for value, pressed in ((1, 1), (2, 1), (-1, 1), (-32768, 1), (0, 0)):
+        assert after((BUTTON, 0, value)) == ((), (pressed,))
+        assert after((BUTTON | INIT, 0, value)) == ((), (pressed,))
+
+
+def test_an_axis_is_zero_until_it_moves_unless_its_value_at_opening_is_wanted():
+    opening = (AXIS | INIT, 1, -32767)
+    assert after(opening) == ((0.0, 0.0), ())
+    assert after(opening, default_trig_val=True) == ((0.0, 1.0), ())
+    assert after(opening, (AXIS, 1, 32767)) == ((0.0, -1.0), ())
+    assert after((AXIS, 1, 32767), opening) == ((0.0, -1.0), ())
+
+
+def test_what_was_skipped_is_zero():
+    assert after((AXIS, 2, -32767)) == ((0.0, 0.0, 1.0), ())
+    assert after((BUTTON, 3, 1)) == ((), (0, 0, 0, 1))
+    assert after((BUTTON, 3, 1), (BUTTON, 1, 1)) == ((), (0, 1, 0, 1))
+
+
+@pytest.mark.parametrize("kind", [0, 3, 4, 0x42, 0x7F, 0x83, 0xFF])
+def test_an_event_of_another_type_changes_nothing_and_is_counted(kind):
+    ours = driver(kernel_device=False)
+    assert ours.read(events((kind, 0, 1)), 0.0) == []
+    assert ours.tick(1.0) == []
+    assert ours.read(events((BUTTON, 0, 1), (AXIS, 0, 0)), 2.0) == [((), (1,))]
+    assert (ours.events, ours.unknown_events) == (3, 1)
+    ours.read(sign((kind, 0, 1)), 3.0)
+    assert ours.unknown_events == 2
 
 
 @pytest.mark.parametrize(

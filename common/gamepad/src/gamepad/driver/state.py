@@ -50,7 +50,7 @@ class GamepadState:
 
     def knows(self, event):
         """Whether the axis or button of a js_event.JsEvent was told before."""
-        known = self._buttons if event.type & ~INIT == BUTTON else self._axes
+        known = {BUTTON: self._buttons, AXIS: self._axes}.get(event.type & ~INIT, ())
         return event.number < len(known)
 
     def publish(self):
