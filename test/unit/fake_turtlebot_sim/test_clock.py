@@ -60,6 +60,27 @@ def test_a_clock_set_back_not_as_far_as_the_start_does_so_too():
     assert lock.deadline_ns == 320
 
 
+def test_the_same_instant_twice_is_no_clock_set_back():
+    lock = PhaseLock(20, 100)
+    lock.complete(127)
+    assert lock.deadline_ns == 140
+    assert lock.complete(127) == 0
+    assert lock.deadline_ns == 160  # and not a period after 127
+
+
+def test_before_its_deadline_no_period_went_by_unused():
+    lock = PhaseLock(20, 100)
+    lock.complete(100)
+    assert lock.complete(110) == 0
+    assert lock.deadline_ns == 140
+
+
+def test_the_shortest_period_is_not_missed_at_its_own_instant():
+    lock = PhaseLock(1, 100)
+    assert [lock.complete(now_ns) for now_ns in (100, 101, 102)] == [0, 0, 0]
+    assert lock.deadline_ns == 103
+
+
 @given(st.lists(st.integers(0, 1000), min_size=1))
 def test_however_late_the_next_deadline_is_ahead_and_in_phase(lateness):
     lock = PhaseLock(20, 100)
