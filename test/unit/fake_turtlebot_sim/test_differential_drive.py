@@ -1,13 +1,20 @@
 """The kinematics against closed forms and extended precision."""
 
-from math import cos, pi, sin
+from math import cos, pi, sin, tau
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fake_turtlebot_sim.simulator.differential_drive import arc, arcs, ramp, wheel_rates, wrap_angle
+from fake_turtlebot_sim.simulator.differential_drive import (
+    arc,
+    arcs,
+    drive,
+    ramp,
+    wheel_rates,
+    wrap_angle,
+)
 
 ORIGIN = (0.0, 0.0, 0.0)
 POSE = st.tuples(st.floats(-1, 1), st.floats(-1, 1), st.floats(-3.14, 3.14))
@@ -77,6 +84,12 @@ def test_half_a_turn_is_pi_from_both_sides():
     assert arc(ORIGIN, (0.0, -pi), 1.0)[2] == pi
 
 
+def test_a_turn_over_the_edge_goes_on_at_the_other_side():
+    assert arc((0.0, 0.0, 3.0), (0.0, 1.0), 1.0)[2] == pytest.approx(4.0 - tau, abs=1e-15)
+    assert arc((0.0, 0.0, -3.0), (0.0, -1.0), 1.0)[2] == pytest.approx(tau - 4.0, abs=1e-15)
+    assert ramp((0.0, 0.0, 3.0), (0.0, 0.0), (0.0, 2.0), 1.0)[2] == pytest.approx(4.0 - tau)
+
+
 def random_segments(rng, hour_s=3600.0):
     """One hour of velocities held for 0.2 to 2 s, as (v [m/s], w [rad/s], periods of 50 Hz)."""
     periods = rng.integers(10, 101, size=int(hour_s))
@@ -144,6 +157,30 @@ def test_a_ramp_from_rest_follows_the_circle_of_its_curvature():
     assert ramped == pytest.approx(circle(0.7, 2.0, 1.5), abs=1e-12)
 
 
+@pytest.mark.parametrize(("w", "dt"), [(1.0, 1.0), (-0.1, 10.0), (40.0, 10.0), (-100.0, 0.05)])
+def test_a_ramp_is_exact_however_far_it_turns(w, dt):
+    x, y, yaw = ramp(ORIGIN, (0.0, 0.0), (0.7, w), dt)
+    # As above. In a piece of 1 rad, seven nodes in place of eight are 5e-14 m off.
+    turned = 0.5 * w * dt
+    chord = 0.7 / w * 2.0 * sin(0.5 * turned)
+    expected = (chord * cos(0.5 * turned), chord * sin(0.5 * turned))
+    assert (x, y) == pytest.approx(expected, rel=0, abs=5e-15)
+    assert yaw == pytest.approx(wrap_angle(turned), abs=1e-15)
+
+
+def test_a_straight_ramp_is_driven_at_its_mean_velocity():
+    assert ramp((1.0, 2.0, 0.0), (0.25, 0.0), (0.75, 0.0), 2.0) == pytest.approx((2.0, 2.0, 0.0))
+    assert ramp((1.0, 2.0, 0.0), (0.5, 0.0), (-0.5, 0.0), 2.0) == pytest.approx((1.0, 2.0, 0.0))
+
+
+def test_one_velocity_drives_the_arc_and_two_the_ramp_between():
+    pose, slow, fast = (1.0, 2.0, 0.5), (0.25, 0.5), (0.75, 1.5)
+    assert drive(pose, slow, slow, 0.5) == arc(pose, slow, 0.5)
+    assert drive(pose, slow, fast, 0.5) == ramp(pose, slow, fast, 0.5)
+    assert drive(pose, fast, slow, 0.5) == ramp(pose, fast, slow, 0.5)
+    assert ramp(pose, slow, fast, 0.5) != arc(pose, slow, 0.5)
+
+
 def test_a_ramp_is_the_limit_of_many_short_arcs():
     pose, steps, dt = ORIGIN, 100_000, 2.0
     for k in range(steps):
@@ -161,3 +198,25 @@ def test_many_robots_at_once_are_the_same_as_one_by_one(robots):
         assert together[:2] == pytest.approx(alone[:2], abs=1e-13)
         assert wrap_angle(together[2] - alone[2]) == pytest.approx(0, abs=1e-13)
         assert -pi < together[2] <= pi
+
+
+def test_many_robots_that_stand_turn_and_drive_straight_at_once():
+    velocities = [(0.5, 0.0), (0.5, 2.0), (0.5, -2.0), (0.0, 2.0), (0.0, 0.0), (-0.5, 0.0)]
+    poses = np.full((3, len(velocities)), 0.25)
+    arcs(poses, np.array(velocities).T, 1.0)
+    for velocity, together in zip(velocities, poses.T):
+        assert together == pytest.approx(arc((0.25, 0.25, 0.25), velocity, 1.0), abs=1e-15)
+
+
+def test_half_a_turn_is_pi_for_many_at_once_too():
+    yaws = [-pi, pi, 3.0, -3.0, 0.0]
+    poses = np.array([[0.0] * 5, [0.0] * 5, yaws])
+    arcs(poses, np.zeros((2, 5)), 1.0)
+    assert poses[2].tolist() == [pi, pi, 3.0, -3.0, 0.0]
+
+
+@pytest.mark.parametrize("turns", [8.5, 9.5, -8.5, -9.5])
+def test_no_rounding_after_many_turns_leads_out_of_the_circle(turns):
+    poses = np.array([[0.0], [0.0], [turns * tau]])
+    arcs(poses, np.zeros((2, 1)), 1.0)
+    assert poses[2, 0] == pi

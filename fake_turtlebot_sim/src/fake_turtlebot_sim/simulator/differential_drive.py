@@ -98,4 +98,5 @@ def arcs(poses, velocities, dt):
     if turned.any():
         wrapped = yaw[turned]
         wrapped -= tau * np.rint(wrapped / tau)
-        yaw[turned] = np.where(wrapped > -pi, wrapped, pi)
+        # Half a turn is pi, also where rounding after many turns leaves a digit more.
+        yaw[turned] = np.where(np.abs(wrapped) < pi, wrapped, pi)
