@@ -1,5 +1,6 @@
 """Which commands are obeyed, and how far."""
 
+from dataclasses import FrozenInstanceError
 from math import inf, nan, pi
 
 import pytest
@@ -36,6 +37,8 @@ def test_what_the_robot_can_do_is_not_touched(velocity):
         ((1.4, 1.0), (0.7, 0.5)),
         ((-1.4, 1.0), (-0.7, 0.5)),
         ((0.5, 2 * pi), (0.25, pi)),
+        ((0.5, 1.25 * pi), (0.4, pi)),
+        ((1.4, 1.25 * pi), (0.7, 0.625 * pi)),  # within the limit of w once v is
         ((7.0, 20 * pi), (0.35, pi)),
         ((1e300, 0.0), (0.7, 0.0)),
         ((1e300, -1e300), (0.7, -0.7)),
@@ -71,5 +74,27 @@ def test_the_slower_part_sets_the_time():
     assert ramp_time((0.0, 1.0), (0.5, -3.0), limits) == 2.0
 
 
+def test_a_ramp_takes_as_long_as_the_change_is_and_not_as_the_velocity():
+    linear = VelocityLimits(linear_acceleration=0.5)
+    assert ramp_time((0.25, 5.0), (0.625, -5.0), linear) == 0.75
+    assert ramp_time((0.625, 0.0), (0.25, 0.0), linear) == 0.75
+    assert ramp_time((0.25, 0.0), (-0.5, 0.0), linear) == 1.5
+    angular = VelocityLimits(angular_acceleration=2.0)
+    assert ramp_time((5.0, 0.25), (-5.0, 1.5), angular) == 0.625
+
+
 def test_between_two_velocities():
     assert between((0.0, 2.0), (1.0, -2.0), 0.25) == (0.25, 1.0)
+    assert between((0.5, 1.5), (-1.0, 4.5), 0.25) == (0.125, 2.25)
+    assert between((0.5, 1.5), (-1.0, 4.5), 0.0) == (0.5, 1.5)
+    assert between((0.5, 1.5), (-1.0, 4.5), 1.0) == (-1.0, 4.5)
+
+
+def test_a_base_that_cannot_do_the_one_may_still_do_the_other():
+    assert limit((0.0, 1.0), VelocityLimits(linear=0.0)) == (0.0, 1.0)
+    assert limit((0.5, 0.0), VelocityLimits(angular=0.0)) == (0.5, 0.0)
+
+
+def test_the_limits_of_a_robot_stay_as_they_are():
+    with pytest.raises(FrozenInstanceError):
+        VelocityLimits().linear = 1.0
