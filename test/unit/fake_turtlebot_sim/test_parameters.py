@@ -56,6 +56,14 @@ def test_whole_numbers_pass_for_numbers():
     assert parse_parameters({"rate": 30}).rate == 30.0
 
 
+@pytest.mark.parametrize(
+    ("rate", "period_ns"),
+    [(1.0, 10**9), (6.0, 166_666_667), (14.0, 71_428_571), (30.0, 33_333_333), (1000.0, 10**6)],
+)
+def test_the_period_is_right_to_the_nanosecond(rate, period_ns):
+    assert Parameters(rate=rate).period_ns() == period_ns
+
+
 @pytest.mark.parametrize("name", RANGES)
 def test_numbers_are_held_to_their_range(name):
     least, most, unit = RANGES[name]
@@ -83,6 +91,7 @@ def test_numbers_are_held_to_their_range(name):
         ({"colour": "red"}, ["~colour: 'red'", "allowed:", "wheel_radius"]),
         ({"robots": 0}, ["~robots: 0", "1 to 1000", "[ada, bob]", "{ada: [0, 0, 0]"]),
         ({"robots": 1001}, ["~robots: 1001", "1 to 1000"]),
+        ({"robots": 2.5}, ["~robots: 2.5", "1 to 1000"]),
         ({"robots": True}, ["~robots: True"]),
         ({"robots": "ada"}, ["~robots: 'ada'", "[ada, bob]"]),
         ({"robots": []}, ["~robots: []", "[ada, bob]"]),
@@ -99,6 +108,9 @@ def test_numbers_are_held_to_their_range(name):
             {"robots": {"bob": [0, 0]}},
             ["~robots: {", "bob: [0, 0]: must be [x in m, y in m, yaw in rad]"],
         ),
+        ({"robots": {"bob": [0, 0, 0, 0]}}, ["bob: [0, 0, 0, 0]: must be [x in m"]),
+        ({"robots": {"bob": "low"}}, ["bob: 'low': must be [x in m"]),
+        ({"robots": {"bob": {0: 1, 1: 2, 2: 3}}}, ["bob: {0: 1, 1: 2, 2: 3}: must be [x in m"]),
         ({"robots": {"bob": [0, 0, nan]}}, ["bob: [0, 0, nan]"]),
         ({"robots": {"bob": [0, 0, "a"]}}, ["bob: [0, 0, 'a']"]),
     ],
@@ -136,6 +148,8 @@ def test_robots_by_name_and_by_number():
     listed = parse_parameters({"robots": ["ada", "bob"]}).start_poses()
     assert list(listed) == ["ada", "bob"]
     assert list(listed.values()) == list(numbered.values())[:2]
+    assert parse_parameters({"robots": ["ada"]}).start_poses() == {"ada": (0.0, 0.0, 0.0)}
+    assert list(parse_parameters({"robots": 2.0}).start_poses()) == ["robot_1", "robot_2"]
 
 
 def test_robots_that_are_lined_up_do_not_touch():
