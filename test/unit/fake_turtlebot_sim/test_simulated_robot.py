@@ -1,11 +1,13 @@
 """A robot under commands: rates, timeout, limits, reset."""
 
 import random
+from dataclasses import FrozenInstanceError
 from math import cos, hypot, inf, nan, pi, sin
 
 import pytest
 
 from fake_turtlebot_sim.simulator.differential_drive import arc, wrap_angle
+from fake_turtlebot_sim.simulator.odometry_errors import ErrorModel
 from fake_turtlebot_sim.simulator.simulated_robot import RobotModel, SimulatedRobot
 from fake_turtlebot_sim.simulator.velocity_command import VelocityLimits, Verdict
 
@@ -112,8 +114,29 @@ def test_a_command_is_in_force_for_the_timeout_to_the_nanosecond():
     assert robot.state().x == pytest.approx(0.3, abs=1e-12)
 
 
+def test_a_robot_that_nobody_drives_any_more_is_not_driven_and_one_backwards_moves():
+    robot = SimulatedRobot(KOBUKI)
+    assert (robot.is_driven, robot.is_moving) == (False, False)
+    robot.command((-0.5, 0.0), 0)
+    robot.advance(SECOND // 2)
+    assert (robot.is_driven, robot.is_moving) == (True, True)
+    robot.advance(SECOND)
+    assert (robot.is_driven, robot.is_moving) == (False, False)
+
+
+def test_one_step_may_be_any_time_long():
+    robot = SimulatedRobot(RobotModel(cmd_vel_timeout=60.0))
+    robot.command((0.5, 0.0), 0)
+    for second in (1, 2, 4, 7, 8):
+        robot.advance(second * SECOND)
+        assert robot.state().x == pytest.approx(0.5 * second, abs=1e-12)
+
+
 def test_verdicts():
     robot = SimulatedRobot(KOBUKI)
+    assert robot.command((-0.7, -1.0), 0) is Verdict.ACCEPTED
+    assert robot.command((-1e300, -1.0), 0) is Verdict.LIMITED
+    assert robot.command((0.0, -4.0), 0) is Verdict.LIMITED
     assert robot.command((0.7, 1.0), 0) is Verdict.ACCEPTED
     assert robot.command((1e300, 1.0), 0) is Verdict.LIMITED
     robot.advance(10 * SECOND)
@@ -170,6 +193,46 @@ def test_acceleration_limits_ramp_up_and_down():
     robot.advance(3 * SECOND)
     assert robot.state().x == pytest.approx(0.125 + 0.5 + 0.125, abs=1e-12)
     assert robot.state().v == 0.0
+
+
+@pytest.mark.parametrize("way", [1, -1], ids=["forward", "backward"])
+def test_the_wheels_follow_a_ramp_up_and_down(way):
+    robot = SimulatedRobot(RAMPING)
+    robot.command((way * 0.5, 0.0), 0)
+    # 0.125 m up in 0.5 s, 0.1 s at 0.5 m/s until the timeout, 0.125 m down.
+    for now_ns, metres in ((SECOND // 2, 0.125), (SECOND * 6 // 10, 0.175), (2 * SECOND, 0.3)):
+        robot.advance(now_ns)
+        state = robot.state()
+        assert state.x == pytest.approx(way * metres, abs=1e-12)
+        assert state.left_angle == pytest.approx(way * metres / 0.035, abs=1e-9)
+        assert state.right_angle == state.left_angle
+
+
+def test_a_noisy_robot_ramps_to_rest_after_its_timeout_however_often_it_is_looked_at():
+    noisy = RobotModel(limits=RAMPING.limits, errors=ErrorModel(wheel_noise=0.01))
+    robot = SimulatedRobot(noisy)
+    robot.command((0.5, 0.0), 0)
+    for now_ns in range(0, 2 * SECOND, PERIOD):
+        robot.advance(now_ns)
+        robot.advance(now_ns)
+    assert robot.true_state().x == pytest.approx(0.3, abs=1e-12)
+    assert (robot.state().v, robot.is_moving) == (0.0, False)
+
+
+def test_a_rest_draws_no_error_and_changes_none_that_follow():
+    noisy = RobotModel(errors=ErrorModel(wheel_noise=0.01))
+    at_once, rested = SimulatedRobot(noisy), SimulatedRobot(noisy)
+    for _ in range(3):
+        rested.advance(SECOND)
+    for robot, now_ns in ((at_once, 0), (rested, SECOND)):
+        robot.command((0.5, 1.0), now_ns)
+        robot.advance(now_ns + SECOND // 2)
+    assert rested.state() == at_once.state()
+
+
+def test_the_model_of_a_robot_stays_as_it_is():
+    with pytest.raises(FrozenInstanceError):
+        KOBUKI.cmd_vel_timeout = 60.0
 
 
 def test_a_ramp_from_rest_stays_on_the_circle():
