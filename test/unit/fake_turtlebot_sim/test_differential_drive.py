@@ -215,6 +215,13 @@ def test_half_a_turn_is_pi_for_many_at_once_too():
     assert poses[2].tolist() == [pi, pi, 3.0, -3.0, 0.0]
 
 
+def test_turns_of_many_at_once_may_be_more_than_one():
+    poses = np.zeros((3, 4))
+    arcs(poses, np.array([[0.0] * 4, [7.0, -7.0, 20.0, -20.0]]), 1.0)
+    expected = (7.0 - tau, tau - 7.0, 20.0 - 3 * tau, 3 * tau - 20.0)
+    assert poses[2] == pytest.approx(expected, rel=0, abs=1e-14)
+
+
 @pytest.mark.parametrize("turns", [8.5, 9.5, -8.5, -9.5])
 def test_no_rounding_after_many_turns_leads_out_of_the_circle(turns):
     poses = np.array([[0.0], [0.0], [turns * tau]])
