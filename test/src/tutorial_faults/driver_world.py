@@ -62,11 +62,11 @@ class Gamepad:
         self.pressed = None  # button 0; None: not told
 
     def feed(self, data):
-        """(what changed, whether a sign of life was among it).
+        """(what changed, whether a sign of life was among it, whether noise was).
 
         A change is (kind, value); kind: BUTTON, AXIS, or 0 for the state at opening.
         """
-        data, changes, signed = self.rest + data, [], False
+        data, changes, signed, noisy = self.rest + data, [], False, False
         for at in range(0, len(data) - len(data) % 8, 8):
             time_ms, value, kind, _ = struct.unpack_from("=IhBB", data, at)
             is_sign = bool(kind & INIT) and time_ms == SIGN_OF_LIFE_MS and not self.is_of_kernel
@@ -80,8 +80,10 @@ class Gamepad:
                 self.pressed = int(value != 0)
             if kind in (BUTTON, AXIS):
                 changes.append((0 if is_told_anew else kind, value))
+            else:
+                noisy = True
         self.rest = data[len(data) - len(data) % 8 :]
-        return changes, signed
+        return changes, signed, noisy
 
 
 class DriverWorld:
@@ -95,7 +97,7 @@ class DriverWorld:
         self._is_mute = self._has_told = False
         self._since_s = math.inf  # the first change that was not published
         self._published_s = math.inf  # the last message of this gamepad
-        self._signed_s = math.inf  # the last sign of life
+        self._sign_due_s = math.inf  # when a sign of life must have come
 
     def copy(self):
         """A World of its own, with what does not change shared."""
@@ -126,7 +128,7 @@ class DriverWorld:
             tuple(vars(self._pad).values()),
             until(now, self._since_s + COALESCE_S),
             until(now, self._published_s + REPEAT_S),
-            until(now, self._signed_s + LONGEST_LIFELESS_S),
+            until(now, self._sign_due_s),
         )
 
     def take(self, event):
@@ -142,7 +144,7 @@ class DriverWorld:
         elif event in OPEN and not is_open and self._now >= self._driver.opens_at:
             self._driver.opened((), OPEN[event])
             self._pad = Gamepad(OPEN[event])
-            self._since_s = self._published_s = self._signed_s = math.inf
+            self._since_s = self._published_s = self._sign_due_s = math.inf
         elif isinstance(event, bytes) and is_open:
             wrong = [*self._read(event), *self._must_be_called()]
         return [Violation(letter, self._now, what) for letter, what in wrong]
@@ -162,11 +164,12 @@ class DriverWorld:
         self._pad, self._is_mute, self._has_told = None, True, False
 
     def _read(self, data):
-        changes, signed = self._pad.feed(data)
+        changes, signed, noisy = self._pad.feed(data)
         if any(kind for kind, _ in changes):
             self._is_mute = False
-        if signed:
-            self._signed_s = self._now
+        must_give = noisy and not self._pad.is_of_kernel and self._sign_due_s == math.inf
+        if signed or must_give:
+            self._sign_due_s = self._now + LONGEST_LIFELESS_S
         messages = self._driver.read(data, self._now)
         if changes and self._since_s == math.inf:
             self._since_s = self._now
@@ -197,6 +200,5 @@ class DriverWorld:
             latest = min(self._since_s + COALESCE_S, self._published_s + REPEAT_S)
             if driver.due > latest or (has_ticked and latest <= now):
                 yield "d", "a change or the repetition will be told too late"
-        lifeless_s = self._signed_s + LONGEST_LIFELESS_S
-        if driver.due > lifeless_s or driver.is_lifeless(now) != (now >= lifeless_s):
+        if driver.due > self._sign_due_s or driver.is_lifeless(now) != (now >= self._sign_due_s):
             yield "d", "a gamepad without a sign of life is not noticed"

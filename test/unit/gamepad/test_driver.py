@@ -100,6 +100,22 @@ def test_only_a_sign_is_a_sign_of_life():
     assert one.is_lifeless(1.0 + LONGEST_LIFELESS_S)
 
 
+def test_noise_without_any_sign_is_no_life_either():
+    """As after a byte was lost, and the source then opened anew in the middle of an event."""
+    one = driver(kernel_device=False)
+    one.read(b"???" + sign(*STATE), 1.0)
+    one.read(sign(*STATE), 1.3)
+    assert one.due <= 1.0 + LONGEST_LIFELESS_S
+    assert not one.is_lifeless(1.0 + LONGEST_LIFELESS_S - 0.01)
+    assert one.is_lifeless(1.0 + LONGEST_LIFELESS_S)
+
+
+def test_a_kernel_device_may_make_noise_for_ever():
+    one = driver(kernel_device=True)
+    one.read(events((8, 0, 1)), 1.0)
+    assert not one.is_lifeless(1e9)
+
+
 def test_every_sign_is_one_for_the_time_that_follows():
     one = with_signs()
     one.read(sign(*STATE), 1.4)

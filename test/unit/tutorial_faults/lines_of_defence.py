@@ -107,6 +107,8 @@ LINES = [
      "self.opens_at = now", PAD),
     ("no sign of life is noticed", DRIVER, "self._lifeless_at = now + LONGEST_LIFELESS_S",
      "pass", PAD),
+    ("noise without a sign is noticed", DRIVER,
+     "self._lifeless_at = min(self._lifeless_at, now + LONGEST_LIFELESS_S)", "pass", PAD),
     ("a quick press is told", DRIVER, "messages += self.tick(now)  # a quick", "pass  # a quick",
      PAD),
     ("what the kernel tells anew is a change", "gamepad.js_event",

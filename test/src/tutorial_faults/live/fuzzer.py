@@ -22,7 +22,9 @@ from tutorial_faults.live.random_bytes import broken_joy, joy
 BLOCK = 5000  # messages that may hold the dead-man, and then as many that do not
 BURST = 25  # messages in one write: less than joy2twist keeps
 BROKEN_EACH = 2000  # one message of so many cannot be read; the connection is made anew for each
-SETTLES_S = 1.0  # from one block to the next: what is under way arrives
+# From one block to the next all that is under way arrives: so long nothing has moved, and at the
+# latest after so long, on a busy machine.
+SETTLES_S, LONGEST_S = 1.0, 60.0
 
 
 class Watch:
@@ -31,6 +33,7 @@ class Watch:
     def __init__(self):
         """Nothing is held."""
         self.may_move = False
+        self.moved_s = 0.0  # when it last moved
         self._limits = WithinLimits(MAX_LINEAR, MAX_ANGULAR)
 
     def take(self, twist):
@@ -40,8 +43,18 @@ class Watch:
         wrong = self._limits.take(Asked(time.time(), velocity))
         if wrong:
             print(f"bad (c) {wrong.what}", flush=True)
-        if moves(velocity) and not self.may_move:
-            print(f"bad (a) {velocity} without a dead-man held", flush=True)
+        if moves(velocity):
+            self.moved_s = time.monotonic()
+            if not self.may_move:
+                print(f"bad (a) {velocity} without a dead-man held", flush=True)
+
+    def settle(self):
+        """Return when nothing has moved for a while; from then on nothing may."""
+        began_s = now_s = time.monotonic()
+        while now_s - max(began_s, self.moved_s) < SETTLES_S and now_s - began_s < LONGEST_S:
+            time.sleep(0.05)
+            now_s = time.monotonic()
+        self.may_move = False
 
 
 def sockets(publisher):
@@ -86,8 +99,7 @@ def fuzz(random, count, watch, publisher):
                 watch.may_move = True
             else:
                 send(publisher, joy(random, False))
-                time.sleep(SETTLES_S)
-                watch.may_move = False
+                watch.settle()
             print("sent", sent, flush=True)
         if sent % BROKEN_EACH < BURST:
             send(publisher, broken_joy(random))

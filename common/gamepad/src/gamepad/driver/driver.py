@@ -10,7 +10,8 @@ from gamepad.js_event import INIT, SIGN_OF_LIFE_MS, Decoder
 # joy2twist's ~joy_timeout) must have noticed, however quick the hand that plugs it in again.
 SHORTEST_SILENCE_S = 0.6
 # A source that has once given a sign of life and gives none for this time [s] is lost: three signs
-# of our virtual gamepad, and less than joy2twist's ~joy_timeout.
+# of our virtual gamepad, and less than joy2twist's ~joy_timeout. So is one that makes noise and
+# gives none: somebody lost a byte of it, and whatever comes after it would be noise for ever.
 LONGEST_LIFELESS_S = 0.45
 
 
@@ -39,7 +40,7 @@ class Driver:
         return min(math.inf if self._mute else self._schedule.due, self._lifeless_at)
 
     def is_lifeless(self, now):
-        """Whether the source, which can give signs of life, has given none for too long."""
+        """Whether the source, of which signs of life must come, has given none for too long."""
         return self._state is not None and now >= self._lifeless_at
 
     def opened(self, triggers, kernel_device):
@@ -68,6 +69,8 @@ class Driver:
             urgency = self._state.apply(event)
             if urgency == NOTHING:
                 self.unknown_events += 1
+                if self._can_give_signs:
+                    self._lifeless_at = min(self._lifeless_at, now + LONGEST_LIFELESS_S)
                 continue
             if not initial:
                 self._mute = False
