@@ -5,7 +5,9 @@ emulated in software (TCG), so that no right is needed; its root is this system'
 9p, below an overlay in memory that takes all changes.
 
 While it works, its clock counts its instructions. So the work of other programs on this machine
-makes the test longer, but no time that is measured in it.
+makes the test longer, but no time that is measured in it. KVM would have the clock of this machine;
+and a /dev/kvm without the processor's help (kvm_pvm, inside of some virtual machines) does make a
+machine, but one in which this kernel still unpacks itself after a minute.
 """
 
 import os
