@@ -1,11 +1,15 @@
-"""joy_node and launch_joy_node.launch with a joystick of a real Linux kernel: see kernel/drive.py.
+"""A joystick of a real Linux kernel: with launch_joy_node.launch, and with the cockpit's page.
 
-Here, if this kernel makes joysticks; else in QEMU with Debian's kernel: see kernel/machine.py.
+What is driven is in kernel/drive.py and kernel/drive_page.py. Here, if this kernel makes joysticks;
+else in QEMU with Debian's kernel: see kernel/machine.py.
 """
 
 import os
 import platform
 import re
+import shlex
+import shutil
+from importlib.util import find_spec
 from pathlib import Path
 
 import pytest
@@ -16,6 +20,7 @@ from tutorial_testing.waiting import wait_for
 KERNEL = Path(__file__).parents[1] / "src" / "tutorial_testing" / "kernel"
 from tutorial_testing.kernel.machine import (  # noqa: E402  the folder of this test
     EXIT,
+    SHIFT,
     MachineError,
     NoKernelError,
     command_of_machine,
@@ -24,9 +29,12 @@ from tutorial_testing.kernel.machine import (  # noqa: E402  the folder of this 
     makes_joysticks,
 )
 
-# Without a new line of the program. Alone all of it takes 3 minutes; how long beside other tests is
-# theirs to say.
-SILENT_S = 480.0
+# Without a new line of the program. Alone each of the two takes some minutes, the start of Chromium
+# more than one of them; how long beside other tests is theirs to say.
+SILENT_S = 900.0
+# A processor twice as fast as for nodes alone: 0.2 s after a beat the cockpit calls a page late.
+SHIFT_OF_PAGE = 0
+UDEVD, UDEV_RUNS = "/lib/systemd/systemd-udevd", Path("/run/udev/control")
 NOT_HERE = "no /dev/uinput and joydev here, and no machine in the machine"
 ROS_ENVIRONMENT = ("PATH", "PYTHONPATH", "CMAKE_PREFIX_PATH", "LD_LIBRARY_PATH", "PKG_CONFIG_PATH")
 
@@ -41,13 +49,12 @@ def environment_of_guest():
     return [f"{name}={value}" for name, value in given.items()]
 
 
-def drive_here():
+def start_here(command):
     """(where it runs, the program)."""
-    program = Program("/usr/bin/python3", str(KERNEL / "drive.py"))
-    return f"here, Linux {platform.release()}", program
+    return f"here, Linux {platform.release()}", Program(*command)
 
 
-def drive_in_guest(tmp_path):
+def start_in_guest(command, tmp_path, shift):
     """(where it runs, the program)."""
     try:
         image, tree = kernel()
@@ -55,11 +62,10 @@ def drive_in_guest(tmp_path):
         pytest.skip(f"{NOT_HERE}: {error}")
     except MachineError as error:
         pytest.fail(f"{NOT_HERE}: {error}")
-    command = ["/usr/bin/env", "-i", *environment_of_guest()]
-    command += ["/usr/bin/python3", str(KERNEL / "drive.py")]
+    command = ["/usr/bin/env", "-i", *environment_of_guest(), *command]
     make_initramfs(tmp_path / "initramfs", tree, command)
     where = f"in QEMU, {image.name.replace('vmlinuz-', 'Linux ')}"
-    return where, Program(*command_of_machine(image, tmp_path / "initramfs"))
+    return where, Program(*command_of_machine(image, tmp_path / "initramfs", shift))
 
 
 def wait_while_it_speaks(program):
@@ -74,10 +80,9 @@ def wait_while_it_speaks(program):
     return program.wait()
 
 
-@pytest.mark.usefixtures("master_uri")
-def test_a_joystick_of_the_kernel_drives_the_robot(tmp_path, capsys):
-    here = makes_joysticks()
-    where, program = drive_here() if here else drive_in_guest(tmp_path)
+def run(name, command, here, tmp_path, capsys, *, shift=SHIFT):
+    """Run a program to its end, and show what it tells; AssertionError unless it says "passed"."""
+    where, program = start_here(command) if here else start_in_guest(command, tmp_path, shift)
     with program:
         try:
             status = wait_while_it_speaks(program)
@@ -85,13 +90,32 @@ def test_a_joystick_of_the_kernel_drives_the_robot(tmp_path, capsys):
             output = program.output
             told = re.findall(r"^drive: .*?(?=\r?$)", output, re.MULTILINE)
             with capsys.disabled():
-                print(f"\nkernel joystick, {where}:", *told, sep="\n  ")
+                print(f"\n{name}, {where}:", *told, sep="\n  ")
             print(output)  # which pytest shows if this fails
     if not here:  # the exit code was that of QEMU
         ended = re.search(f"{EXIT} (\\d+)", output)
         status = int(ended[1]) if ended else None
     assert status == 0
     assert told[-1] == "drive: passed"
+
+
+@pytest.mark.usefixtures("master_uri")
+def test_a_joystick_of_the_kernel_drives_the_robot(tmp_path, capsys):
+    command = ["/usr/bin/python3", str(KERNEL / "drive.py")]
+    run("kernel joystick", command, makes_joysticks(), tmp_path, capsys)
+
+
+@pytest.mark.usefixtures("master_uri")
+def test_chromium_sees_a_joystick_of_the_kernel_and_its_page_drives_the_robot(tmp_path, capsys):
+    missing = [name for name in ("chromium", "chromedriver", UDEVD) if not shutil.which(name)]
+    if missing or not find_spec("selenium"):
+        missing = ", ".join([*missing, *([] if find_spec("selenium") else ["python3-selenium"])])
+        pytest.skip(f"{missing} is missing: ./tutorial test browser installs it")
+    here = makes_joysticks() and UDEV_RUNS.exists()
+    command = ["/usr/bin/python3", str(KERNEL / "drive_page.py")]
+    if not here:
+        command = ["/bin/sh", "-c", f"{UDEVD} --daemon && exec {shlex.join(command)}"]
+    run("kernel joystick in Chromium", command, here, tmp_path, capsys, shift=SHIFT_OF_PAGE)
 
 
 @pytest.mark.parametrize(
