@@ -24,6 +24,7 @@ import sys
 import time
 import unittest
 
+import rosgraph
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray
@@ -31,6 +32,7 @@ from geometry_msgs.msg import Twist
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Joy
 
+from node_kit.questions import call
 from tutorial_testing.waiting import wait_for
 
 COMPONENTS = [f"{kind}.{axis}" for kind in ("linear", "angular") for axis in "xyz"]
@@ -130,8 +132,17 @@ class Node:
         self._joystick = None
 
     def _clock_s(self, clock_s):
-        now = rospy.Time(clock_s)
+        now, before = rospy.Time(clock_s), self._clock_bytes()
         wait_for(lambda: clock.publish(Clock(now)) or rospy.Time.now() == now, "simulated time")
+        # The node, too: a stamp of another time would be too old for it.
+        wait_for(lambda: self._clock_bytes() > before, "simulated time in the node")
+
+    def _clock_bytes(self):
+        """How much of /clock the node has received."""
+        uri = rosgraph.Master(rospy.get_name()).lookupNode(f"{self._namespace}/NewJoy2Twist")
+        _, (_, subscribed, _) = call(uri, "getBusStats")
+        connections = dict(subscribed).get("/clock", [])
+        return sum(received for _, received, *_ in connections)
 
     def _state(self, state, again=False):
         name = f"{self._namespace}/NewJoy2Twist: joystick".strip("/")
