@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 import rospkg
-from live import FAKE_TURTLEBOT, lost_periods, master, processor_time, running
+from live import FAKE_TURTLEBOT, PERIOD_NS, lost_periods, master, processor_time, running
 from live import HERE as LIVE
 
 from tutorial_faults.live.samples import complaints, growth, sample
@@ -27,7 +27,6 @@ MEDIAN_MORE_S, WORST_MORE_S = 0.003, 0.015
 MOST_PROCESSOR = 0.2
 SAMPLE_S = 5
 WATCHED = ("/robot_1/odom", f"/robot_{ROBOTS}/odom")
-PERIOD_S = 0.02
 FEW_LOST = 5  # by chance
 LEAST_FRAMES = 15  # in a second, of 20, on a busy machine
 
@@ -175,7 +174,7 @@ def test_nothing_grows(figure, request, monkeypatch):
             "≤ 2 MB, 0, 0",
         )
     figure("meanwhile", f"{min(frames):.1f} frames/s", "20/s")
-    of = int(len(WATCHED) * seconds / PERIOD_S)
+    of = int(len(WATCHED) * seconds * 1e9 / PERIOD_NS)
     figure(
         "periods lost by the simulator; by one at which nobody looks",
         f"{lost}; {lost_alone}, of {of}",
