@@ -143,6 +143,29 @@ def test_a_function_key_does_nothing_whatever_letters_it_sends(key):
     assert at(keyboard, 1.0) == ((1, 1), [])
 
 
+@pytest.mark.parametrize(
+    "key", ["\x1b[B", "\x1bOB", "\x1b[[D", "\x1b[15~", "\x1b[1;5A", "\x1b[0 q"]
+)
+def test_a_key_cut_in_two_is_read_as_in_one(key):
+    """Over a slow line an arrow's last letter came alone: down was A, to the left."""
+    whole = Keyboard()
+    whole.press(f"t{key}5", 1.0)
+    for cut in range(1, len(key)):
+        keyboard = Keyboard()
+        keyboard.press(f"t{key[:cut]}", 1.0)
+        keyboard.press(f"{key[cut:]}5", 1.0)
+        assert keyboard.at(1.0) == whole.at(1.0), cut
+        assert not keyboard.quit
+
+
+@pytest.mark.parametrize("begun", ["\x1b", "\x1b["])
+def test_a_sequence_that_never_ends_holds_no_key_back(begun):
+    keyboard = Keyboard()
+    keyboard.press(begun, 1.0)
+    keyboard.press("\x03", 2.0)
+    assert keyboard.quit
+
+
 def test_a_superscript_is_no_digit():
     """A key of French keyboards; it ended the program."""
     keyboard = Keyboard()

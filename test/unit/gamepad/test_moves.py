@@ -44,6 +44,8 @@ def test_a_move_may_last_a_day_and_has_every_position():
             "move 1: `for` is 86400.5; allowed are seconds above 0, up to 86400",
         ),
         ({"moves": [{"for": "1"}]}, "move 1: `for` is '1'"),
+        ({"moves": [{"for": True}]}, "move 1: `for` is True"),
+        ({"moves": [{"for": 1, "dpad": [0, True]}]}, "move 1: dpad is [0, True]; allowed"),
         ({"moves": [{"for": 1, "dpad": [0, -1.5]}]}, "move 1: dpad is [0, -1.5]; allowed"),
         ({"moves": [{"for": 1, "right_stick": [1, 1, 1]}]}, "move 1: right_stick is [1, 1, 1]"),
         ({"moves": [{"for": 1, "triggers": [-0.5, 0]}]}, "move 1: triggers is [-0.5, 0]; allowed"),

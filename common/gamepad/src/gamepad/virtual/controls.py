@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import FrozenSet, Tuple
 
 from gamepad.gamepads import F710, F710_X
+from node_kit.parameters import is_number
 
 # A stick moves the D-pad's axes, which know only -1, 0 and 1, from this deflection on.
 DIGITAL_THRESHOLD = 0.5
@@ -48,7 +49,7 @@ def check_controls(controls, mode):
     """Raise ValueError, one line, if a position is out of range or a button is not there."""
     for name, low in (("left_stick", -1), ("right_stick", -1), ("dpad", -1), ("triggers", 0)):
         value = getattr(controls, name)
-        numbers = [v for v in value if isinstance(v, (int, float)) and low <= v <= 1]
+        numbers = [v for v in value if is_number(v) and low <= v <= 1]
         if len(value) != 2 or len(numbers) != 2:
             raise ValueError(f"{name} is {list(value)}; allowed are two numbers from {low} to 1")
     buttons = F710[mode].buttons

@@ -37,11 +37,18 @@ QUIT = ("q", "\x03", "\x04")
 # One key: a sequence, as of F4 or Ctrl with an arrow, or a character. Sequences are those of
 # ECMA-48, and of the function keys of the Linux console.
 _KEY = re.compile(r"\x1b(?:\[\[.|\[[0-?]*[ -/]*[@-~]|O.)|.", re.DOTALL)
+_BEGUN_KEY = re.compile(r"\x1b(?:\[\[|\[[0-?]*[ -/]*|O)?\Z")
 
 
 def split_keys(text):
-    """The keys in what a terminal sent: characters in lower case, and arrows as they are."""
-    return [key if key in DIRECTIONS else key.lower() for key in _KEY.findall(text)]
+    """(Keys, the rest) of what a terminal sent: characters in lower case, and arrows as they are.
+
+    The rest is the begin of a sequence that a slow line has cut, to be put before what comes next.
+    """
+    rest = _BEGUN_KEY.search(text)
+    whole = text[: rest.start()] if rest else text
+    keys = [key if key in DIRECTIONS else key.lower() for key in _KEY.findall(whole)]
+    return keys, text[len(whole) :]
 
 
 class Keyboard:
@@ -49,6 +56,7 @@ class Keyboard:
 
     def __init__(self):
         """All keys are released."""
+        self._rest = ""  # of a sequence, so far
         self._held = set()  # keys of directions and buttons
         self._released_at = 0.0
         self._deflection = 1.0
@@ -59,7 +67,8 @@ class Keyboard:
     def press(self, text, now):
         """Take in what the terminal sent at a time."""
         self._expire(now)
-        for key in split_keys(text):
+        keys, self._rest = split_keys(self._rest + text)
+        for key in keys:
             if key in QUIT:
                 self.quit = True
             elif key in DIRECTIONS or key in BUTTONS:

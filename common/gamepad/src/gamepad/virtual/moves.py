@@ -14,6 +14,7 @@ from typing import Any, Tuple
 
 from gamepad.gamepads import F710
 from gamepad.virtual.controls import Controls, check_controls
+from node_kit.parameters import is_number
 
 LONGEST_S = 86400
 
@@ -55,7 +56,7 @@ def _load_move(move, mode):
     if unknown:
         raise ValueError(f"`{unknown[0]}` is unknown; allowed are for, {', '.join(names)}")
     duration = move.get("for")
-    if not isinstance(duration, (int, float)) or not 0 < duration <= LONGEST_S:
+    if not is_number(duration) or not 0 < duration <= LONGEST_S:
         raise ValueError(f"`for` is {duration!r}; allowed are seconds above 0, up to {LONGEST_S}")
     given = {}
     for name in set(move) - {"for"}:
