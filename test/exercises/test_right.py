@@ -1,8 +1,10 @@
 """Right solutions, the suite's, a literal one and many variants: nothing is called wrong."""
 
+import os
 import subprocess
 import sys
 
+import pytest
 from edits import apply
 from variants import ROWS
 
@@ -10,6 +12,8 @@ from tutorial_check.examination import examine
 from tutorial_check.exercises import EXERCISES
 from tutorial_check.model import CannotCheck
 from tutorial_check.report import lines_of
+
+NOETIC = "/opt/ros/noetic/setup.bash"  # where ROS is not of Debian
 
 
 def check(workspace, floor, exercises, record_property):
@@ -51,6 +55,18 @@ def test_an_except_that_tells_hides_nothing(literal, floor, record_property):
     apply(edits, literal)
     (outcome,) = check(literal.parent, floor, exercises, record_property)
     assert [one.status for one in outcome.results if one.id == "C33"] == ["ok"]
+
+
+@pytest.mark.parametrize(("below", "status"), [("floor", "ok"), ("nothing of the suite", "wrong")])
+def test_a_workspace_that_was_built(literal, floor, below, status):
+    """As catkin writes its devel folder, over the suite or without it."""
+    under = floor if below == "floor" else NOETIC
+    build = f"[ ! -e '{under}' ] || . '{under}'; catkin_make"
+    environment = {"PATH": "/usr/bin:/bin", "HOME": os.environ["HOME"]}
+    subprocess.run(["bash", "-c", build], cwd=literal.parent, check=True, env=environment)
+    (outcome,) = examine(literal.parent, floor, ["2"])
+    seen = {result.id: (result.status, result.seen) for result in outcome.results}
+    assert seen["C1"][0] == status, seen["C1"]
 
 
 def test_variant(variant, literal, floor, record_property):

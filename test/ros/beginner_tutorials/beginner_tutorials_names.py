@@ -5,10 +5,9 @@ import sys
 import unittest
 
 import rosnode
-import rospy
 import rostest
 
-from tutorial_testing.nodes import node_path
+from tutorial_testing.nodes import init_node, node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
@@ -81,5 +80,5 @@ class NamesTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("names_test")
+    init_node("names_test")
     rostest.rosrun("ros1_tutorial_test", "beginner_tutorials_names", NamesTest, sys.argv)

@@ -10,6 +10,7 @@ import rostest
 from rosgraph_msgs.msg import Log
 from std_msgs.msg import String
 
+from tutorial_testing.nodes import init_node
 from tutorial_testing.waiting import wait_for
 
 
@@ -34,5 +35,5 @@ class TalkTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("talk_test")
+    init_node("talk_test")
     rostest.rosrun("ros1_tutorial_test", "beginner_tutorials_talk", TalkTest, sys.argv)

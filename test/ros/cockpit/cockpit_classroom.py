@@ -4,11 +4,11 @@
 import time
 import unittest
 
-import rospy
 import rostest
 
 from node_kit.states import DRIVING
 from tutorial_testing.cockpit_rig import CockpitRig
+from tutorial_testing.nodes import init_node
 from tutorial_testing.waiting import wait_for
 
 OURS, OTHERS = "robot_2", ("robot_1", "robot_3")
@@ -41,5 +41,5 @@ class Classroom(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("cockpit_classroom")
+    init_node("cockpit_classroom")
     rostest.rosrun("ros1_tutorial_test", "cockpit_classroom", Classroom)

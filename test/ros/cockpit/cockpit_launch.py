@@ -7,12 +7,11 @@ from urllib.parse import urlsplit
 
 import rosgraph
 import rosnode
-import rospy
 import rostest
 
 from node_kit.page import address
 from tutorial_testing.cockpit_rig import CockpitRig
-from tutorial_testing.nodes import node_path
+from tutorial_testing.nodes import init_node, node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
@@ -58,5 +57,5 @@ class BrowserJoystick(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("cockpit_launch")
+    init_node("cockpit_launch")
     rostest.rosrun("ros1_tutorial_test", "cockpit_launch", BrowserJoystick)

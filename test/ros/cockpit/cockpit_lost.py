@@ -6,11 +6,11 @@ import signal
 import statistics
 import time
 
-import rospy
 import rostest
 
 from cockpit_server.seat import TICKS, is_neutral
 from tutorial_testing.cockpit_rig import ODOM_PERIOD_S, WithCockpit
+from tutorial_testing.nodes import init_node
 from tutorial_testing.socket_page import DRIVE
 from tutorial_testing.waiting import wait_for
 
@@ -156,5 +156,5 @@ class OperatorLost(WithCockpit):
 
 
 if __name__ == "__main__":
-    rospy.init_node("cockpit_lost")
+    init_node("cockpit_lost")
     rostest.rosrun("ros1_tutorial_test", "cockpit_lost", OperatorLost)

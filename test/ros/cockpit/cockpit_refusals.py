@@ -8,10 +8,10 @@ import resource
 import socket
 import string
 
-import rospy
 import rostest
 
 from tutorial_testing.cockpit_rig import WithCockpit
+from tutorial_testing.nodes import init_node
 from tutorial_testing.socket_page import DRIVE, SocketPage
 from tutorial_testing.waiting import wait_for
 
@@ -160,5 +160,5 @@ class Refused(WithCockpit):
 
 
 if __name__ == "__main__":
-    rospy.init_node("cockpit_refusals")
+    init_node("cockpit_refusals")
     rostest.rosrun("ros1_tutorial_test", "cockpit_refusals", Refused)

@@ -10,6 +10,7 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Joy
 
 from tutorial_testing.cockpit_rig import WithCockpit
+from tutorial_testing.nodes import init_node
 from tutorial_testing.socket_page import SocketPage
 from tutorial_testing.waiting import wait_for
 
@@ -131,5 +132,5 @@ class Tabs(WithCockpit):
 
 
 if __name__ == "__main__":
-    rospy.init_node("cockpit_tabs")
+    init_node("cockpit_tabs")
     rostest.rosrun("ros1_tutorial_test", "cockpit_tabs", Tabs)

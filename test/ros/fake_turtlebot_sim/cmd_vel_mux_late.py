@@ -16,6 +16,7 @@ from geometry_msgs.msg import Twist
 from rosgraph_msgs.msg import Log
 from std_msgs.msg import String
 
+from tutorial_testing.nodes import init_node
 from tutorial_testing.processes import Program, suspend
 from tutorial_testing.waiting import wait_for
 
@@ -93,5 +94,5 @@ class LateTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("cmd_vel_mux_late")
+    init_node("cmd_vel_mux_late")
     rostest.rosrun("ros1_tutorial_test", "cmd_vel_mux_late", LateTest, sys.argv)

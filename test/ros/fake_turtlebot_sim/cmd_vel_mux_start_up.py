@@ -10,7 +10,7 @@ import rospy
 import rostest
 from geometry_msgs.msg import Twist
 
-from tutorial_testing.nodes import node_path
+from tutorial_testing.nodes import init_node, node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
@@ -75,5 +75,5 @@ class StartUpTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("cmd_vel_mux_start_up")
+    init_node("cmd_vel_mux_start_up")
     rostest.rosrun("ros1_tutorial_test", "cmd_vel_mux_start_up", StartUpTest, sys.argv)

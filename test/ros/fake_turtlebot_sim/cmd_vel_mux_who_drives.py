@@ -12,6 +12,7 @@ from geometry_msgs.msg import Twist
 from rosgraph_msgs.msg import Log
 from std_msgs.msg import String
 
+from tutorial_testing.nodes import init_node
 from tutorial_testing.waiting import wait_for
 
 PERIOD_S = 0.05
@@ -88,5 +89,5 @@ class WhoDrivesTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("cmd_vel_mux_who_drives")
+    init_node("cmd_vel_mux_who_drives")
     rostest.rosrun("ros1_tutorial_test", "cmd_vel_mux_who_drives", WhoDrivesTest, sys.argv)

@@ -11,6 +11,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 from fake_turtlebot_stepping import Robot, World, twist
 from rosgraph_msgs.msg import Log
 
+from tutorial_testing.nodes import init_node
 from tutorial_testing.waiting import wait_for
 
 BAD = [(nan, 0.0), (0.0, nan), (inf, 0.0), (0.0, -inf), (nan, inf)]
@@ -67,5 +68,5 @@ class BadCommandsTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("fake_turtlebot_bad_commands")
+    init_node("fake_turtlebot_bad_commands")
     rostest.rosrun("ros1_tutorial_test", "fake_turtlebot_bad_commands", BadCommandsTest, sys.argv)

@@ -11,6 +11,7 @@ from fake_turtlebot_stepping import PERIOD_NS, Robot, World, twist
 from rosgraph_msgs.msg import Log
 from tf2_msgs.msg import TFMessage
 
+from tutorial_testing.nodes import init_node
 from tutorial_testing.waiting import wait_for
 
 SPEED = 0.7  # [m/s]
@@ -92,5 +93,5 @@ class ClockTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("fake_turtlebot_clock")
+    init_node("fake_turtlebot_clock")
     rostest.rosrun("ros1_tutorial_test", "fake_turtlebot_clock", ClockTest, sys.argv)

@@ -16,6 +16,7 @@ from fake_turtlebot_stepping import PERIOD_NS, Robot, World
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import JointState
 
+from tutorial_testing.nodes import init_node
 from tutorial_testing.waiting import wait_for
 
 
@@ -70,6 +71,6 @@ def twist_of(odometry):
 
 
 if __name__ == "__main__":
-    rospy.init_node("fake_turtlebot_drive")
+    init_node("fake_turtlebot_drive")
     add_cases(rospy.get_param("~cases"))
     rostest.rosrun("ros1_tutorial_test", "fake_turtlebot_drive", DriveTest, sys.argv)

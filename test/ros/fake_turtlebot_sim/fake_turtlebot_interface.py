@@ -11,6 +11,7 @@ import rospy
 import rostest
 
 from fake_turtlebot_sim.simulator.node import FakeTurtlebot
+from tutorial_testing.nodes import init_node
 from tutorial_testing.waiting import wait_for
 
 NODE = "/fake_turtlebot"
@@ -54,5 +55,5 @@ class InterfaceTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("fake_turtlebot_interface")
+    init_node("fake_turtlebot_interface")
     rostest.rosrun("ros1_tutorial_test", "fake_turtlebot_interface", InterfaceTest, sys.argv)

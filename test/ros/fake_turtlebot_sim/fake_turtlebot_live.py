@@ -14,6 +14,7 @@ from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import JointState
 from tf2_msgs.msg import TFMessage
 
+from tutorial_testing.nodes import init_node
 from tutorial_testing.waiting import wait_for
 
 PERIOD_S = 0.02
@@ -103,5 +104,5 @@ class LiveTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("fake_turtlebot_live")
+    init_node("fake_turtlebot_live")
     rostest.rosrun("ros1_tutorial_test", "fake_turtlebot_live", LiveTest, sys.argv)

@@ -8,6 +8,7 @@ import rospy
 import rostest
 from tf2_msgs.msg import TFMessage
 
+from tutorial_testing.nodes import init_node
 from tutorial_testing.waiting import wait_for
 
 
@@ -31,5 +32,5 @@ class ModelTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("fake_turtlebot_model")
+    init_node("fake_turtlebot_model")
     rostest.rosrun("ros1_tutorial_test", "fake_turtlebot_model", ModelTest, sys.argv)

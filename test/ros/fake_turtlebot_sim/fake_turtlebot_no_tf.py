@@ -9,6 +9,7 @@ import rostest
 from fake_turtlebot_stepping import Robot, World
 from tf2_msgs.msg import TFMessage
 
+from tutorial_testing.nodes import init_node
 from tutorial_testing.waiting import wait_for
 
 
@@ -23,5 +24,5 @@ class NoTfTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("fake_turtlebot_no_tf")
+    init_node("fake_turtlebot_no_tf")
     rostest.rosrun("ros1_tutorial_test", "fake_turtlebot_no_tf", NoTfTest, sys.argv)

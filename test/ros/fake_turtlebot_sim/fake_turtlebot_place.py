@@ -14,6 +14,7 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Empty
 from std_srvs.srv import Empty as EmptyService
 
+from tutorial_testing.nodes import init_node
 from tutorial_testing.waiting import wait_for
 
 
@@ -86,5 +87,5 @@ class PlaceTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("fake_turtlebot_place")
+    init_node("fake_turtlebot_place")
     rostest.rosrun("ros1_tutorial_test", "fake_turtlebot_place", PlaceTest, sys.argv)

@@ -12,6 +12,7 @@ from tf2_msgs.msg import TFMessage
 
 from fake_turtlebot_sim.simulator.parameters import parse_parameters
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
+from tutorial_testing.nodes import init_node
 from tutorial_testing.waiting import wait_for
 
 
@@ -30,6 +31,7 @@ class RobotsTest(unittest.TestCase):
             velocity = (rng.uniform(-0.7, 0.7), rng.uniform(-3, 3))
             arrived_ns = self.world.command(self.robots[name], *velocity)
             log.append((arrived_ns, name, velocity))
+        self.world.step()  # in which the last one shows, if it came as a step ended
         begin_ns = log[0][0]
         for name in self.names:
             told = [o for o in self.robots[name].odometry if o.header.stamp.to_nsec() > begin_ns]
@@ -70,5 +72,5 @@ class RobotsTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("fake_turtlebot_robots")
+    init_node("fake_turtlebot_robots")
     rostest.rosrun("ros1_tutorial_test", "fake_turtlebot_robots", RobotsTest, sys.argv)

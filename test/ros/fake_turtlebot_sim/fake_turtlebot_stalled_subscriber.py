@@ -12,6 +12,7 @@ import rostest
 from nav_msgs.msg import Odometry
 from rosgraph.network import encode_ros_handshake_header
 
+from tutorial_testing.nodes import init_node
 from tutorial_testing.waiting import DEADLINE_S, wait_for
 
 NODE, STALLED = "/fake_turtlebot", "/stalled"
@@ -73,7 +74,7 @@ class StalledSubscriberTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("fake_turtlebot_stalled_subscriber")
+    init_node("fake_turtlebot_stalled_subscriber")
     rostest.rosrun(
         "ros1_tutorial_test", "fake_turtlebot_stalled_subscriber", StalledSubscriberTest, sys.argv
     )

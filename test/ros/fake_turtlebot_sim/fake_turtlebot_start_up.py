@@ -9,7 +9,7 @@ import rospy
 import rostest
 from nav_msgs.msg import Odometry
 
-from tutorial_testing.nodes import node_path
+from tutorial_testing.nodes import init_node, node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
@@ -64,5 +64,5 @@ class StartUpTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("fake_turtlebot_start_up")
+    init_node("fake_turtlebot_start_up")
     rostest.rosrun("ros1_tutorial_test", "fake_turtlebot_start_up", StartUpTest, sys.argv)

@@ -12,6 +12,7 @@ from nav_msgs.msg import Odometry
 from std_msgs.msg import Empty, String
 
 from node_kit.questions import call
+from tutorial_testing.nodes import init_node
 from tutorial_testing.waiting import wait_for
 
 # Topic: (type, node that publishes it, node that subscribes to it).
@@ -98,5 +99,5 @@ class MinimalTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("minimal")
+    init_node("minimal")
     rostest.rosrun("ros1_tutorial_test", "minimal", MinimalTest, sys.argv)

@@ -10,9 +10,9 @@ import time
 import unittest
 from pathlib import Path
 
-import rospy
 import rostest
 
+from tutorial_testing.nodes import init_node
 from tutorial_testing.rig import BASE, Rig, go_on, stop
 from tutorial_testing.waiting import BUSY_S, wait_for
 
@@ -80,5 +80,5 @@ class FaultsAtTheEnd(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("ends")
+    init_node("ends")
     rostest.rosrun("ros1_tutorial_test", "ends", FaultsAtTheEnd, sys.argv)

@@ -16,7 +16,7 @@ from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 
 from node_kit.questions import call
-from tutorial_testing.nodes import node_path
+from tutorial_testing.nodes import init_node, node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.rig import BASE, DRIVER, JOYSTICK, MUX, Rig, go_on, stop
 from tutorial_testing.waiting import BUSY_S, wait_for
@@ -107,5 +107,5 @@ class FaultsUnderAHungMaster(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("hung_master")
+    init_node("hung_master")
     rostest.rosrun("ros1_tutorial_test", "hung_master", "__main__", sys.argv)

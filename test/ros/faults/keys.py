@@ -13,7 +13,7 @@ import rostest
 from nav_msgs.msg import Odometry
 
 from tutorial_testing.keys import KeyboardRig
-from tutorial_testing.nodes import node_path
+from tutorial_testing.nodes import init_node, node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.rig import go_on, stop
 from tutorial_testing.waiting import wait_for
@@ -102,5 +102,5 @@ moves:
 
 
 if __name__ == "__main__":
-    rospy.init_node("keys")
+    init_node("keys")
     rostest.rosrun("ros1_tutorial_test", "keys", "__main__", sys.argv)

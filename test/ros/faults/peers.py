@@ -6,7 +6,10 @@ import io
 import socket
 import struct
 import sys
+import threading
 import unittest
+from socketserver import ThreadingMixIn
+from xmlrpc.server import SimpleXMLRPCServer
 
 import rosgraph
 import rospy
@@ -17,7 +20,7 @@ from rosgraph.network import encode_ros_handshake_header, read_ros_handshake_hea
 from sensor_msgs.msg import Joy
 
 from node_kit.questions import call
-from tutorial_testing.nodes import node_path
+from tutorial_testing.nodes import init_node, node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.rig import BASE, DRIVER, MUX
 from tutorial_testing.waiting import DEADLINE_S, wait_for
@@ -67,6 +70,34 @@ def greeting(way, topic, kind):
         header = {"callerid": "/new", "topic": topic, "type": kind._type, "md5sum": kind._md5sum}
         subscriber.sendall(encode_ros_handshake_header(header))
         return read_ros_handshake_header(subscriber, io.BytesIO(), 4096)
+
+
+class SlowPublisher(ThreadingMixIn, SimpleXMLRPCServer):
+    """A publisher that tells its way only to two who ask at once, or after a while to one."""
+
+    daemon_threads = True
+    WHILE_S = 2.0
+
+    def __init__(self):
+        super().__init__(("127.0.0.1", 0), logRequests=False, allow_none=True)
+        self.uri = f"http://127.0.0.1:{self.server_address[1]}/"
+        self.asked, self._asked_twice = 0, threading.Event()
+        self.way = socket.create_server(("127.0.0.1", 0))
+        self.way.settimeout(DEADLINE_S)
+        self.register_function(self.request_topic, "requestTopic")
+        threading.Thread(target=self.serve_forever, daemon=True).start()
+
+    def request_topic(self, *_):
+        self.asked += 1
+        if self.asked > 1:
+            self._asked_twice.set()
+        self._asked_twice.wait(self.WHILE_S)
+        return 1, "", ["TCPROS", *self.way.getsockname()]
+
+    def end(self):
+        self.shutdown()
+        self.server_close()
+        self.way.close()
 
 
 class FaultsOfThePeers(unittest.TestCase):
@@ -165,6 +196,22 @@ class FaultsOfThePeers(unittest.TestCase):
                 self.assertEqual(greeting(way, topic, kind)["callerid"], node)
                 self.assertEqual(silent.recv(1), b"")  # let go
 
+    def test_a_publisher_that_is_heard_of_twice_is_connected_to_once(self):
+        """The two ends may each give up another one of two connections, and the node is deaf."""
+        self.joy2twist()
+        publisher = SlowPublisher()
+        self.addCleanup(publisher.end)
+
+        def tell():
+            node = call(rosgraph.get_master_uri(), "lookupNode", DRIVER)[1]
+            if node:  # perhaps not yet subscribed, or the one of another test, which ends
+                call(node, "publisherUpdate", "/joy", [publisher.uri, publisher.uri])
+
+        wait_for(lambda: tell() or publisher.asked, "question for the way")
+        connection, _ = publisher.way.accept()
+        self.addCleanup(connection.close)
+        self.assertEqual(publisher.asked, 1)
+
     def test_a_publisher_without_a_name_is_obeyed_by_the_mux(self):
         mux = Program(*MUX_COMMAND)
         self.addCleanup(mux.__exit__)
@@ -206,5 +253,5 @@ while not rospy.is_shutdown():
 
 
 if __name__ == "__main__":
-    rospy.init_node("peers")
+    init_node("peers")
     rostest.rosrun("ros1_tutorial_test", "peers", "__main__", sys.argv)

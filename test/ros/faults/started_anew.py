@@ -7,9 +7,9 @@ import sys
 import threading
 import unittest
 
-import rospy
 import rostest
 
+from tutorial_testing.nodes import init_node
 from tutorial_testing.rig import BASE, DRIVER, MUX, Rig, go_on, stop
 from tutorial_testing.waiting import wait_for
 
@@ -75,5 +75,5 @@ class FaultsOfTheRobot(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("started_anew")
+    init_node("started_anew")
     rostest.rosrun("ros1_tutorial_test", "started_anew", "__main__", sys.argv)

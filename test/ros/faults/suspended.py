@@ -9,6 +9,7 @@ import unittest
 import rospy
 import rostest
 
+from tutorial_testing.nodes import init_node
 from tutorial_testing.rig import BASE, TIMEOUT_S, Rig, go_on, stop
 from tutorial_testing.waiting import wait_for
 
@@ -54,5 +55,5 @@ class SuspendedTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("suspended")
+    init_node("suspended")
     rostest.rosrun("ros1_tutorial_test", "suspended", SuspendedTest, sys.argv)

@@ -12,7 +12,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 from gamepad.driver.driver import SHORTEST_SILENCE_S
 from gamepad.js_event import AXIS, BUTTON, FULL, INIT
 from tutorial_testing.joystick_stream import AXES, BUTTONS, JoyLog, Stream, driver
-from tutorial_testing.nodes import node_path
+from tutorial_testing.nodes import init_node, node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import BUSY_S, wait_for
 
@@ -153,5 +153,5 @@ class DriverTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("joystick_driver_test")
+    init_node("joystick_driver_test")
     rostest.rosrun("ros1_tutorial_test", "joystick_driver", DriverTest, sys.argv)

@@ -6,10 +6,10 @@ import re
 import sys
 import unittest
 
-import rospy
 import rostest
 
 from tutorial_testing.keys import KeyboardRig
+from tutorial_testing.nodes import init_node
 from tutorial_testing.waiting import wait_for
 
 HINT = "  without LB: tap space, then this key at once"
@@ -61,5 +61,5 @@ class KeyboardTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("joystick_keyboard_test")
+    init_node("joystick_keyboard_test")
     rostest.rosrun("ros1_tutorial_test", "joystick_keyboard", KeyboardTest, sys.argv)

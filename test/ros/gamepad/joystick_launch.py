@@ -17,7 +17,7 @@ from nav_msgs.msg import Odometry
 
 from joy_to_twist.safety import WAITING
 from tutorial_testing.joystick_stream import JoyLog
-from tutorial_testing.nodes import node_path
+from tutorial_testing.nodes import init_node, node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
@@ -131,5 +131,5 @@ def closed_form(moves):
 
 
 if __name__ == "__main__":
-    rospy.init_node("joystick_launch_test")
+    init_node("joystick_launch_test")
     rostest.rosrun("ros1_tutorial_test", "joystick_launch", LaunchTest, sys.argv)

@@ -8,11 +8,11 @@ import time
 import unittest
 from pathlib import Path
 
-import rospy
 import rostest
 
 from gamepad.js_event import FULL
 from tutorial_testing.joystick_stream import JoyLog, Stream, driver
+from tutorial_testing.nodes import init_node
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
@@ -109,5 +109,5 @@ def command_of(pid):
 
 
 if __name__ == "__main__":
-    rospy.init_node("joystick_load_test")
+    init_node("joystick_load_test")
     rostest.rosrun("ros1_tutorial_test", "joystick_load", LoadTest, sys.argv)

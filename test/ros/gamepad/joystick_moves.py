@@ -8,12 +8,11 @@ import unittest
 
 import rosbag
 import rospkg
-import rospy
 import rostest
 
 from gamepad.gamepads import F710_D
 from tutorial_testing.joystick_stream import JoyLog, driver
-from tutorial_testing.nodes import node_path
+from tutorial_testing.nodes import init_node, node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
@@ -98,5 +97,5 @@ class MovesTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("joystick_moves_test")
+    init_node("joystick_moves_test")
     rostest.rosrun("ros1_tutorial_test", "joystick_moves", MovesTest, sys.argv)

@@ -33,6 +33,7 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Joy
 
 from node_kit.questions import call
+from tutorial_testing.nodes import init_node
 from tutorial_testing.waiting import wait_for
 
 COMPONENTS = [f"{kind}.{axis}" for kind in ("linear", "angular") for axis in "xyz"]
@@ -177,7 +178,7 @@ def add_cases(cases):
 
 
 if __name__ == "__main__":
-    rospy.init_node("joy2twist_cases")
+    init_node("joy2twist_cases")
     states = {}  # of every node, by its name in /diagnostics
     rospy.Subscriber(
         "/diagnostics",

@@ -16,7 +16,7 @@ from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Joy
 
-from tutorial_testing.nodes import node_path
+from tutorial_testing.nodes import init_node, node_path
 from tutorial_testing.processes import Program, suspend
 from tutorial_testing.waiting import BUSY_S, DEADLINE_S, wait_for
 
@@ -186,5 +186,5 @@ class MasterTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("joy2twist_peers")
+    init_node("joy2twist_peers")
     rostest.rosrun("ros1_tutorial_test", "joy2twist_peers", "__main__", sys.argv)

@@ -12,7 +12,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Twist
 from sensor_msgs.msg import Joy
 
-from tutorial_testing.nodes import node_path
+from tutorial_testing.nodes import init_node, node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import BUSY_S, DEADLINE_S, wait_for
 
@@ -171,5 +171,5 @@ class StartTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("joy2twist_program")
+    init_node("joy2twist_program")
     rostest.rosrun("ros1_tutorial_test", "joy2twist_program", "__main__", sys.argv)

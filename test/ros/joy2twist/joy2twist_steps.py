@@ -10,7 +10,7 @@ import rostest
 from geometry_msgs.msg import Twist
 from sensor_msgs.msg import Joy
 
-from tutorial_testing.nodes import node_path
+from tutorial_testing.nodes import init_node, node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
@@ -83,5 +83,5 @@ class StepsTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("steps_test")
+    init_node("steps_test")
     rostest.rosrun("ros1_tutorial_test", "joy2twist_steps", StepsTest, sys.argv)

@@ -13,6 +13,7 @@ import rostest
 import yaml
 from sensor_msgs.msg import Joy
 
+from tutorial_testing.nodes import init_node
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
@@ -102,5 +103,5 @@ class ArgumentsTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("launch_arguments_test")
+    init_node("launch_arguments_test")
     rostest.rosrun("ros1_tutorial_test", "launch_arguments", ArgumentsTest, sys.argv)

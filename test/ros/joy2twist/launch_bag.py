@@ -12,6 +12,7 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import JointState, Joy
 from tf2_msgs.msg import TFMessage
 
+from tutorial_testing.nodes import init_node
 from tutorial_testing.waiting import wait_for
 
 RATE_HZ = 50  # of joy.bag and of the simulation
@@ -112,5 +113,5 @@ class LaunchBagTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("launch_bag_test")
+    init_node("launch_bag_test")
     rostest.rosrun("ros1_tutorial_test", "launch_bag", LaunchBagTest, sys.argv)

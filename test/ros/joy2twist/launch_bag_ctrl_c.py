@@ -10,6 +10,7 @@ import rospy
 import rostest
 from geometry_msgs.msg import Twist
 
+from tutorial_testing.nodes import init_node
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 from tutorial_tools.demo.program import NODES, RVIZ_NODE
@@ -63,5 +64,5 @@ class CtrlCTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("ctrl_c_test")
+    init_node("ctrl_c_test")
     rostest.rosrun("ros1_tutorial_test", "launch_bag_ctrl_c", CtrlCTest, sys.argv)

@@ -18,6 +18,7 @@ from rospy import AnyMsg
 from fake_turtlebot_sim.simulator.simulated_robot import RobotModel, SimulatedRobot
 from joy_to_twist.parameters import load
 from joy_to_twist.teleoperation import Teleoperation
+from tutorial_testing.nodes import init_node
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
@@ -116,5 +117,5 @@ def drivers():
 
 
 if __name__ == "__main__":
-    rospy.init_node("student")
+    init_node("student")
     rostest.rosrun("ros1_tutorial_test", "student", StudentTest, sys.argv)

@@ -17,6 +17,7 @@ from geometry_msgs.msg import Twist
 
 from node_kit.names import holder
 from tutorial_testing.joystick_stream import AXIS, BUTTON, Stream
+from tutorial_testing.nodes import init_node
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
@@ -129,5 +130,5 @@ class WorkstationTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("turtlebot_workstation")
+    init_node("turtlebot_workstation")
     rostest.rosrun("ros1_tutorial_test", "turtlebot_workstation", WorkstationTest, sys.argv)

@@ -11,7 +11,7 @@ import rospy
 import rostest
 from rospy import AnyMsg
 
-from tutorial_testing.nodes import node_path
+from tutorial_testing.nodes import init_node, node_path
 from tutorial_testing.processes import Program, suspend
 from tutorial_testing.waiting import wait_for
 
@@ -138,7 +138,7 @@ def add_row(row):
 
 
 if __name__ == "__main__":
-    rospy.init_node("starts")
+    init_node("starts")
     for one in rospy.get_param("~table"):
         add_row(one)
     rostest.rosrun("ros1_tutorial_test", "starts", StartsTest, sys.argv)

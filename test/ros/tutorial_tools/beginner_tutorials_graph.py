@@ -8,10 +8,9 @@ import unittest
 from pathlib import Path
 
 import rospkg
-import rospy
 import rostest
 
-from tutorial_testing.nodes import node_path
+from tutorial_testing.nodes import init_node, node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
@@ -98,5 +97,5 @@ class GraphTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("graph_test")
+    init_node("graph_test")
     rostest.rosrun("ros1_tutorial_test", "beginner_tutorials_graph", GraphTest, sys.argv)

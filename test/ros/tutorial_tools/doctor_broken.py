@@ -16,7 +16,7 @@ from sensor_msgs.msg import Joy
 from std_msgs.msg import String
 
 from tutorial_testing.doctor_run import doctor
-from tutorial_testing.nodes import node_path
+from tutorial_testing.nodes import init_node, node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
@@ -85,5 +85,5 @@ class BrokenTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("doctor_broken")
+    init_node("doctor_broken")
     rostest.rosrun("ros1_tutorial_test", "doctor_broken", BrokenTest, sys.argv)

@@ -10,6 +10,7 @@ from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 
 from tutorial_testing.doctor_run import doctor
+from tutorial_testing.nodes import init_node
 from tutorial_testing.waiting import wait_for
 
 NOBODYS = "192.0.2.7"  # an address for documentation (RFC 5737)
@@ -61,5 +62,5 @@ class WellTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("doctor_well")
+    init_node("doctor_well")
     rostest.rosrun("ros1_tutorial_test", "doctor_well", WellTest, sys.argv)

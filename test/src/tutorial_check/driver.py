@@ -15,6 +15,8 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Joy
 from std_msgs.msg import String
 
+from node_kit.careful_connections import connect_once
+
 NAME = "tutorial_check"
 ECHO = f"/{NAME}/echo"  # topic of the Echo
 KINDS = {"String": String, "Joy": Joy, "Twist": Twist, "Odometry": Odometry}
@@ -66,6 +68,7 @@ class Echo:
     """A right joy2twist of our own: no more can be asked of the student's on this machine."""
 
     def __init__(self):
+        connect_once()
         rospy.init_node(f"{NAME}_echo", disable_signals=True, disable_rosout=True)
         self._publisher = rospy.Publisher(ECHO, Twist, queue_size=1, tcp_nodelay=True)
         rospy.Subscriber("/joy", Joy, self._answer)
@@ -84,6 +87,7 @@ class Driver:
     """A node with which the checker speaks to the student's."""
 
     def __init__(self):
+        connect_once()
         rospy.init_node(NAME, anonymous=False, disable_signals=True, disable_rosout=True)
         self._master = rosgraph.Master(f"/{NAME}")
         self._publishers, self._heard, self._sent = {}, {}, {}

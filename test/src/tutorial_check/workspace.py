@@ -1,6 +1,7 @@
 """The student's workspace: found, unpacked, copied. Needs no ROS but catkin_pkg."""
 
 import os
+import re
 import shutil
 import stat
 import zipfile
@@ -169,19 +170,14 @@ def read_package(place, root):
 
 def underlays(devel):
     """(folder for which a devel space was made, CMAKE_PREFIX_PATH it was laid over), or None."""
-    import ast  # noqa: PLC0415
-
     try:
         text = (Path(devel) / "_setup_util.py").read_text(errors="replace")
         setup = (Path(devel) / "setup.sh").read_text(errors="replace")
     except OSError:
         return None
-    below = []
-    for line in text.splitlines():
-        # Written by catkin: CMAKE_PREFIX_PATH = r'/a;/b'.split(';')
-        words = line.strip()
-        if words.startswith("CMAKE_PREFIX_PATH = "):
-            below = ast.literal_eval(words.split(" = ", 1)[1].split(".split")[0]).split(";")
+    # The first of its assignments, written by catkin: CMAKE_PREFIX_PATH = r'/a;/b'.split(';')
+    found = re.search(r"^\s*CMAKE_PREFIX_PATH = r?(['\"])(.*)\1\.split\(", text, re.MULTILINE)
+    below = found[2].split(";") if found else []
     made_for = next(
         (
             line.split(":=", 1)[1].rstrip("} \t")

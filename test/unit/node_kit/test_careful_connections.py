@@ -1,6 +1,7 @@
 """What cannot be read: named, but not as often as it comes, and nothing of it stays behind."""
 
 import io
+import threading
 from types import SimpleNamespace
 
 import pytest
@@ -52,3 +53,37 @@ def test_a_message_that_does_not_end_is_named(read):
     lines, messages = read(b".", 0.6, buffer)
     assert messages is None
     assert "65536 bytes" in lines[0]
+
+
+def test_one_publisher_is_connected_to_by_one_thread_at_a_time(monkeypatch):
+    """And another publisher, or another topic of the same one, meanwhile."""
+    now, most = {}, {}
+    others, counting = threading.Barrier(3), threading.Lock()
+
+    def connect(_self, topic, uri):
+        with counting:
+            now[topic, uri] = now.get((topic, uri), 0) + 1
+            most[topic, uri] = max(most.get((topic, uri), 0), now[topic, uri])
+        if first.acquire(blocking=False):  # the others get by, whoever waits for his turn
+            others.wait(30)
+        with counting:
+            now[topic, uri] -= 1
+        return topic, uri
+
+    first = threading.Semaphore(3)
+    monkeypatch.setattr(careful_connections, "_connect", connect)
+    calls = [("/joy", "a")] * 20 + [("/joy", "b"), ("/odom", "a")]
+    answers = []
+    threads = [
+        threading.Thread(
+            target=lambda one=one: answers.append(careful_connections._connect_in_turn(None, *one))
+        )
+        for one in calls
+    ]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert sorted(answers) == sorted(calls)
+    assert set(most.values()) == {1}
+    assert not careful_connections._turns  # nothing is kept of who has gone

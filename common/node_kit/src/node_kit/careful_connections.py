@@ -1,8 +1,10 @@
-"""Two faults of rospy's connections, mended from outside: the only place that knows its classes.
+"""Three faults of rospy's connections, mended from outside: the only place that knows its classes.
 
 A peer that connects and says nothing holds up every other that wants to subscribe, since rospy
 greets one after the other. A message that cannot be read leaves its bytes in the buffer, so that
-the connection made anew is taken for broken as well, and the node is deaf for good.
+the connection made anew is taken for broken as well, and the node is deaf for good. So it is, now
+and then, when it hears twice of a publisher and connects twice at once: the publisher may give up
+one of the two, and the subscriber the other.
 """
 
 import contextlib
@@ -10,8 +12,10 @@ import socket
 import struct
 import threading
 import time
+import weakref
 
 from rospy.exceptions import TransportException
+from rospy.impl.masterslave import ROSHandler
 from rospy.impl.tcpros_base import TCPROSServer
 from rospy.impl.tcpros_pubsub import TCPROSSub
 from rospy.msg import deserialize_messages
@@ -26,6 +30,9 @@ WARNING_PERIOD_S = 1.0  # a sender may go on so a hundred times a second
 _LENGTH = struct.Struct("<I")
 
 _greet = TCPROSServer._tcp_server_callback  # rospy's own
+_connect = ROSHandler._connect_topic  # rospy's own
+_turns = weakref.WeakValueDictionary()  # a lock for each (topic, publisher), while it is used
+_turns_lock = threading.Lock()
 _warn = None  # called with a line about a message that cannot be read
 _may_warn = ThrottleEach(1.0 / WARNING_PERIOD_S)
 
@@ -34,6 +41,12 @@ def be_careful():
     """Have all connections of this node made carefully; call before rospy.init_node()."""
     TCPROSServer._tcp_server_callback = _greet_in_time
     TCPROSSub.read_messages = _read_messages
+    connect_once()
+
+
+def connect_once():
+    """Have this node connect to no publisher twice, and nothing more: for one that observes."""
+    ROSHandler._connect_topic = _connect_in_turn
 
 
 def tell_of_bad_messages(warn):
@@ -68,6 +81,14 @@ def _greet_in_time(self, sock, client_addr):
         too_late.cancel()
 
     threading.Thread(target=greet, daemon=True).start()
+
+
+def _connect_in_turn(self, topic, uri):
+    """In place of ROSHandler's: who comes second finds the connection that the first has made."""
+    with _turns_lock:
+        turn = _turns.setdefault((topic, uri), threading.Lock())
+    with turn:
+        return _connect(self, topic, uri)
 
 
 def _cut(sock):

@@ -10,12 +10,14 @@ import time
 import rospy
 from rosgraph_msgs.msg import Clock
 
+from tutorial_testing.nodes import init_node
+
 PERIOD_S = 0.01
 
 
 def main():
     """Publish until the standard input ends."""
-    rospy.init_node("simulated_clock", disable_signals=True, disable_rosout=True)
+    init_node("simulated_clock", disable_signals=True, disable_rosout=True)
     publisher = rospy.Publisher("/clock", Clock, queue_size=10, tcp_nodelay=True)
     offset = [time.time() - time.monotonic()]
     until = [0.0]

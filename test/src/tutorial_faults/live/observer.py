@@ -17,6 +17,7 @@ from sensor_msgs.msg import Joy
 
 from node_kit.careful_connections import sender_of
 from tutorial_faults.live.beat import beat
+from tutorial_testing.nodes import init_node
 
 FORWARD, LB, RB = 1, 4, 5
 STRANGER = "/stranger"  # begins the name of who says what nobody should
@@ -24,7 +25,7 @@ STRANGER = "/stranger"  # begins the name of who says what nobody should
 
 def main():
     """Observe until the standard input ends."""
-    rospy.init_node("observer", disable_signals=True, disable_rosout=True)
+    init_node("observer", disable_signals=True, disable_rosout=True)
     simulated = not rospy.rostime.is_wallclock()
     lock = threading.Lock()
 

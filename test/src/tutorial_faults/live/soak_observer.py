@@ -12,6 +12,8 @@ import rospy
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 
+from tutorial_testing.nodes import init_node
+
 # Longer than it stands between two moves of the recording, and less than between two rounds [s].
 RESTS_S = 1.65
 PERIOD_S = 10.0
@@ -38,7 +40,7 @@ class Laps:
 
 def main():
     """Observe until the standard input ends."""
-    rospy.init_node("soak_observer", disable_signals=True, disable_rosout=True)
+    init_node("soak_observer", disable_signals=True, disable_rosout=True)
     laps, counts = Laps(), {"odometry": 0, "commands": 0, "since": time.monotonic()}
 
     def odometry(message):

@@ -4,6 +4,8 @@
 import rospy
 from nav_msgs.msg import Odometry
 
+from tutorial_testing.nodes import init_node
+
 
 def tell(odometry):
     twist, place = odometry.twist.twist, odometry.pose.pose.position
@@ -12,6 +14,6 @@ def tell(odometry):
 
 
 if __name__ == "__main__":
-    rospy.init_node("observer", disable_rosout=True)
+    init_node("observer", disable_rosout=True)
     rospy.Subscriber("odom", Odometry, tell, queue_size=100, tcp_nodelay=True)
     rospy.spin()

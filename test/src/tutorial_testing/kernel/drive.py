@@ -20,6 +20,7 @@ from sensor_msgs.msg import Joy
 from gamepad.gamepads import F710_D, F710_X
 from gamepad.virtual.controls import Controls, positions
 from gamepad.virtual.pads import UinputPad
+from tutorial_testing.nodes import init_node
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
@@ -205,7 +206,7 @@ def check_unplugged(pad, raw, launch, robot):
 def check_all(pad, raw, launch):
     """What the launch file's nodes make of the gamepad."""
     wait_for(lambda: "Opened joystick" in launch.output, "driver", DEADLINE_S)
-    rospy.init_node("drive")
+    init_node("drive")
     robot = Robot()
     wait_for(lambda: robot.joy and robot.odometry, "joystick and robot", DEADLINE_S)
     hint = "This is a Logitech F710 in D mode"

@@ -9,6 +9,8 @@ import time
 import rospy
 from nav_msgs.msg import Odometry
 
+from tutorial_testing.nodes import init_node
+
 
 def tell(odometry):
     now, place = time.monotonic(), odometry.pose.pose.position
@@ -16,6 +18,6 @@ def tell(odometry):
 
 
 if __name__ == "__main__":
-    rospy.init_node("observer")
+    init_node("observer")
     rospy.Subscriber("odom", Odometry, tell, queue_size=100, tcp_nodelay=True)
     rospy.spin()

@@ -15,6 +15,8 @@ import time
 import rospy
 from sensor_msgs.msg import Joy
 
+from tutorial_testing.nodes import init_node
+
 PERIOD_S = 0.02
 FORWARD, LB = 1, 4  # indices of the axis and the button
 HANDS = {"drive": (0.5, 1), "release": (0.5, 0), "neutral": (0.0, 0)}
@@ -22,7 +24,7 @@ HANDS = {"drive": (0.5, 1), "release": (0.5, 0), "neutral": (0.0, 0)}
 
 def main():
     # Without /rosout: to ask the robot's master something at every line would not survive a cut.
-    rospy.init_node("pilot", disable_rosout=True, disable_signals=True)
+    init_node("pilot", disable_rosout=True, disable_signals=True)
     publisher = rospy.Publisher("joy", Joy, queue_size=1, tcp_nodelay=True)
     lock = threading.Lock()
     joy = Joy(axes=[0.0] * 6, buttons=[0] * 12)

@@ -11,7 +11,7 @@ import rospy
 from nav_msgs.msg import Odometry
 from rospy import AnyMsg
 
-from node_kit.careful_connections import sender_of
+from node_kit.careful_connections import connect_once, sender_of
 from tutorial_tools.demo.drive_report import DriveReport
 
 TOPICS = ("/joy", "/cmd_vel", "/odom")
@@ -75,6 +75,7 @@ class Launch:
         """Listen to the topics, until the first odometry is there."""
         deadline = time.monotonic() + START_TIMEOUT_S
         self.wait(deadline, rosgraph.is_master_online)
+        connect_once()
         rospy.init_node("demo", anonymous=True, disable_signals=True, log_level=rospy.ERROR)
         rospy.Subscriber("/odom", Odometry, self._on_odometry)
         for topic in ("/joy", "/cmd_vel"):
