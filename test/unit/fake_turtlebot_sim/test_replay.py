@@ -1,7 +1,7 @@
 """Bags in, bags out: the library bag_replay and the command around it."""
 
 from io import BytesIO
-from math import inf, nan, pi
+from math import cos, hypot, inf, nan, pi, remainder, sin
 from pathlib import Path
 
 import pytest
@@ -14,6 +14,7 @@ from tf2_msgs.msg import TFMessage
 from fake_turtlebot_sim.replay import bag_replay
 from fake_turtlebot_sim.replay import command as replay_command
 from fake_turtlebot_sim.simulator.parameters import Parameters
+from fake_turtlebot_sim.simulator.simulated_robot import RobotModel, SimulatedRobot
 
 START_NS = 1_400_000_000 * 10**9
 JOY_BAG = Path(__file__).parents[3] / "joy2twist" / "bag" / "joy.bag"
@@ -210,3 +211,25 @@ def test_a_missing_library_is_named(commands, tmp_path, capsys, monkeypatch):
     missing = ModuleNotFoundError(name="rosbags")
     monkeypatch.setattr(replay_command, "missing", missing, raising=False)
     assert "needs rosbags: ./tutorial setup" in failure_of(capsys, commands, out)
+
+
+def test_an_hour_of_laps_closes_where_the_first_one_says():
+    """Each lap begins where the last one closed, and takes the same way from there."""
+    with Reader(JOY_BAG) as reader:
+        joys = [(at, Joy().deserialize(data)) for _, at, data in reader.messages()]
+    robot = SimulatedRobot(RobotModel())
+    begin_ns, lap_ns = joys[0][0], joys[-1][0] - joys[0][0] + 20_000_000
+    laps = round(3600e9 / lap_ns)
+    closed = []
+    for lap in range(laps):
+        for at_ns, joy in joys:
+            robot.command((joy.axes[1], joy.axes[0]), lap * lap_ns + at_ns - begin_ns)
+        robot.advance((lap + 1) * lap_ns)
+        closed.append(robot.state()[:3])
+    x, y, yaw = closed[0]
+    expected = (0.0, 0.0, 0.0)
+    for pose in closed:
+        c, s = cos(expected[2]), sin(expected[2])
+        expected = (expected[0] + c * x - s * y, expected[1] + s * x + c * y, expected[2] + yaw)
+        assert hypot(pose[0] - expected[0], pose[1] - expected[1]) < 1e-6
+        assert abs(remainder(pose[2] - expected[2], 2 * pi)) < 1e-6
