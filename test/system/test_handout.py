@@ -224,6 +224,19 @@ def test_the_handout_from_its_first_command_to_its_last(student):
     student.do(TURTLEBOT)
 
 
+def test_the_workspace_that_a_shell_has_made_and_built_can_be_checked(student):
+    student.run("true")
+    said = student.terminal("1").output
+    assert "no screen for RViz here" in said
+    assert f"packages go into {student.workspace}/src" in said
+    for package in ("beginner_tutorials", "joy2twist"):
+        shutil.copytree(LITERAL / package, student.workspace / "src" / package)
+    student.run("catkin_make -C ~/ros/hydro/catkin_ws")
+    said = student.run(f"{REPOSITORY}/tutorial check --in ~/ros/hydro/catkin_ws 2")
+    assert re.search(r"ok +C1 .*on top of this suite", said), said
+    assert "1 of 1 exercises done" in said
+
+
 def test_without_files_of_his_own_a_student_gets_none_of_ours(student):
     assert "not found" in student.run("rospack find joy2twist")
     said = student.run("roslaunch joy2twist launch_bag.launch")
