@@ -21,7 +21,7 @@ BURST = ("/usr/bin/python3", str(Path(__file__).with_name("joystick_burst.py")))
 BURST_EVENTS = 3000
 COALESCE_S = 0.005
 SLACK_S = 0.005  # what the newest state may be older than the coalesce interval
-# By how much a larger part of the messages may be late than those of a bare loop: a busy machine does
+# By so much a larger part of the messages may be late than of a bare loop's: a busy machine does
 # not hold up both alike.
 LATER_PART = 0.5
 
