@@ -100,6 +100,8 @@ ROWS = [
     node("gaps in __main__", "'__main__'", "' main '", "C13", ("joy2twist.py:24", "if __name__ == '__main__':")),
     node("msq of the PDF", "    msg = Twist()", "    msq = Twist()", "C16", ("joy2twist.py:11", "msq in line 10")),
     cls("the line of a callback without self", "def callback(self, data)", "def callback(data)", "C30", "new_joy2twist.py:16"),
+    cls("the line of a shutdown without self", "def shutdown(self)", "def shutdown()", "C31", "new_joy2twist.py:23"),
+    cls("Twst in shutdown", "self.cmd_vel.publish(Twist())", "self.cmd_vel.publish(Twst())", "C31", ("new_joy2twist.py:25", "Twist in line 5")),
     ("6.2", "chmod forgotten", [chmod(CLASS, 0o644)], "C29", "chmod"),
     ("6.2", "no class", [lambda src: (src / CLASS).unlink()], "C29", "no class"),
     node("v1 under two names", PUBLISH, "pub.publish(Twist())", "C16", "zero"),

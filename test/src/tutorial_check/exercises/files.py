@@ -184,19 +184,19 @@ def _check_interpreter(first, script):
         )
 
 
-def _place_and_hint(session, package, program, trace):
-    """(the line that is to blame, what to do), as far as the text of the program tells."""
-    name = re.sub(r"^checked_\d+_", "", program.name)
+def cause_of(session, package, name, trace):
+    """(the line that is to blame, what to do) for a Traceback of the program of that name."""
+    name = re.sub(r"^checked_\d+_", "", name)
     script = next((each for each in session.scripts(package) if Path(each).name == name), "")
     script = trace.where.rpartition(":")[0] or script
     if not script:
-        return trace.where, ""
+        return trace.where, explain(trace.error)
     names = read_python(session.text(package, script)).names
     function = re.search(r"(\w+)\(\) (?:takes|missing)", trace.error)
     place = trace.where
     if not place and function and function[1] in names:  # called by rospy itself
         place = f"{script}:{names[function[1]]}"
-    return place, misspelt(trace.error, names)
+    return place, misspelt(trace.error, names) or explain(trace.error)
 
 
 def crash(session, package, program, what, default_hint=""):
@@ -204,9 +204,8 @@ def crash(session, package, program, what, default_hint=""):
     trace = first_traceback(program.output, str(session.package(package).folder))
     if trace and not (program.was_stopped and trace.error.startswith("KeyboardInterrupt")):
         seen = trace.error + (f"   in: {trace.text}" if trace.text else "")
-        place, hint = _place_and_hint(session, package, program, trace)
-        hint = hint or explain(trace.error) or default_hint
-        return Wrong(what, seen, where=place, hint=hint, sure=True)
+        place, hint = cause_of(session, package, program.name, trace)
+        return Wrong(what, seen, where=place, hint=hint or default_hint, sure=True)
     has_ended = program.ended and not program.was_stopped
     if has_ended and program.process.returncode is not None and program.process.returncode < 0:
         return Wrong(

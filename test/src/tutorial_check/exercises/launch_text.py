@@ -1,6 +1,7 @@
 """The text of a launch file, and what roslaunch says of it: from both to a line and a hint."""
 
 import difflib
+import os
 import re
 from pathlib import Path
 
@@ -110,7 +111,7 @@ def _no_file(expected, path, where, text):
     if not path.is_absolute():
         hint = 'an include needs the whole path: file="$(find PACKAGE)/launch/FILE"'
         return Wrong(expected, seen, place, hint)
-    beside = [each.name for each in path.parent.glob("*")] if path.parent.is_dir() else []
+    beside = [each.name for each in path.parent.glob("*")] if os.path.isdir(path.parent) else []
     near = difflib.get_close_matches(path.name, beside, 1, 0.7)
     hint = f"is {near[0]} meant?" if near else "look at the name of the file, and of its folder"
     return Wrong(expected, seen, place, hint)

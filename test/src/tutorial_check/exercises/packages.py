@@ -83,7 +83,7 @@ def _check_below(session, below):
 
 def _is_suite(devel):
     """Whether a devel folder is the lower floor of some copy of this suite; it may be hidden here."""
-    is_there = any((Path(devel, "share", name)).is_dir() for name in SUITE)
+    is_there = any(os.path.isdir(os.path.join(devel, "share", name)) for name in SUITE)
     return is_there or Path(devel).parts[-2:] == ("lower", "devel")
 
 
