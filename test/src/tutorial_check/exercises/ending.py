@@ -179,9 +179,7 @@ def stops(session):
         if trace and (end.zero_after_s is None or not end.in_time):
             place, hint = cause_of(session, PACKAGE, Path(path).name, trace)
             seen, where = trace.error, place or where
-            sure = sure or trace.error.startswith(
-                ("NameError", "TypeError")
-            )  # at any other time, too
+            sure = sure or trace.error.startswith(("NameError", "TypeError"))  # no matter of time
         raise Wrong(expected, f"after {way}: {seen}", where=where, hint=hint, sure=sure)
     if not endings.stands:
         raise Wrong(
