@@ -1,4 +1,4 @@
-"""Mistakes in launch files, each a row: (exercise, what, edits, check, word of the diagnosis)."""
+"""Mistakes in launch files, each a row: (exercise, what, edits, check, word or words of the diagnosis)."""
 
 from edits import (  # noqa: F401
     JOY2TWIST,
@@ -12,6 +12,7 @@ from edits import (  # noqa: F401
     put,
     remove,
     windows,
+    write,
 )
 
 OWN = '  <node pkg="joy2twist" name="myjoystick2twist" type="joy2twist.py">\n  </node>\n'
@@ -19,12 +20,24 @@ ROBOT = '  <include file="$(find rbx1_bringup)/launch/fake_turtlebot.launch"/>\n
 JOY = '  <node pkg="joy" name="joy_node" type="joy_node">\n  </node>\n'
 RVIZ = '  <node pkg="rviz" name="my_rviz" type="rviz" args="-d $(find rbx1_nav)/sim.rviz">\n  </node>\n'
 INCLUDE = '  <include file="$(find joy2twist)/launch/joy2twist_turtlebot.launch"/>\n'
+# Words of the mistakes below, in a comment: no place that a diagnosis may name.
+COMMENT = (
+    "<launch>",
+    "<launch>\n  <!-- rviz, fake_turtlebot.launch, sim.rvz, joy2twist, joy_node, rosbag play -->",
+)
 REMAP = '<remap from="/cmd_vel" to="/cmd_vel_mux/input/teleop"/>'
 
 
 def bag(what, old, new, check, word):
     """A row with one change in launch_bag.launch."""
     return ("5", what, [put(LAUNCH_BAG, old, new, 1)], check, word)
+
+
+def commented(file, change, check, *words):
+    """A row with one change in a launch file that begins with a comment."""
+    old, new = change
+    what = f"{new} below a comment"
+    return ("5", what, [put(file, old, new, 1), put(file, *COMMENT)], check, words)
 
 
 def joy(what, old, new, check, word):
@@ -79,4 +92,16 @@ ROWS = [
     ("6.1", "the include forgotten", [put(REAL, INCLUDE, "")], "C28", "include"),
     ("6.1", "no joystick", [put(REAL, JOY, "")], "C28", "joy_node"),
     ("6.1", "joy2twist twice", [put(REAL, JOY, JOY + OWN.replace("my", "your"))], "C28", "both"),
+    commented(LAUNCH_BAG, ('type="joy2twist.py"', 'type="joy2twist"'), "C21", "launch_bag.launch:6", "joy2twist.py"),
+    commented(LAUNCH_BAG, ("sim.rviz", "sim.rvz"), "C22", "launch_bag.launch:3"),
+    commented(LAUNCH_JOY, ('type="joy_node"', 'type="joy_nod"'), "C21", "launch_joy_node.launch:8", 'type="joy_node"'),
+    commented(LAUNCH_BAG, ("rbx1_bringup)", "rbx1_bringup"), "C21", "launch_bag.launch:5", "needs its )"),
+    commented(LAUNCH_BAG, ("fake_turtlebot.launch", "fake_turtelbot.launch"), "C21", "launch_bag.launch:5", "is fake_turtlebot.launch meant"),
+    bag("a gap in $(find)", "$(find rbx1_nav)", "$(find rbx1 nav)", "C21", ("launch_bag.launch:2", "$(find rbx1_nav)")),
+    bag("a package misspelt", "$(find rbx1_nav)", "$(find rbx1_nv)", "C21", ("launch_bag.launch:2", "rbx1_nav")),
+    ("6.1", "the include misspelt", [put(REAL, "joy2twist_turtlebot", "joy2twist_turtelbot")], "C28", ("realTurtlebot.launch:3", "no such file: src/joy2twist", "is joy2twist_turtlebot.launch meant")),
+    mux("remap after the node", f"    {REMAP}\n  </node>\n", f"  </node>\n  {REMAP}\n", "C27", ("turtlebot.launch:4", "between")),
+    ("5", "the line of --loop", [put(LAUNCH_BAG, "--loop ", "")], "C24", "launch_bag.launch:7"),
+    ("5", "no recording", [remove(f"{J}/bag/joy.bag")], "C21", "cp \"$(rospack find gamepad)/bag/joy.bag\" bag"),
+    ("4.2", "a recording that is none", [write(f"{J}/bag/joy.bag", "none")], "C11", "rospack find gamepad"),
 ]  # fmt: skip

@@ -1,4 +1,4 @@
-"""Mistakes in joy2twist and in the class, each a row: (exercise, what, edits, check, word)."""
+"""Mistakes in joy2twist and in the class, each a row: (exercise, what, edits, check, word or words)."""
 
 from edits import CLASS, JOY2TWIST, chmod, put
 
@@ -96,6 +96,12 @@ ROWS = [
     cls("at its end it starts the older version", "Twist())\n        rospy.sleep(1)", "Twist())\n        import rosnode, subprocess\n        subprocess.Popen([__file__.replace('new_joy', 'joy')])\n        while 'listener' not in str(rosnode.get_node_names()):\n            rospy.sleep(0.05)\n        rospy.sleep(1)", "C31", "still drives"),
     cls("ends where there is no joystick yet", "        rospy.Subscriber(", "        dict(rospy.get_published_topics())['/joy']\n        rospy.Subscriber(", "C33", "nobody publishes on /joy"),
     ("6.2", "ends without a joystick and a word", [put(CLASS, "        rospy.Subscriber(", "        '/joy' in dict(rospy.get_published_topics()) or exit()\n        rospy.Subscriber("), put(CLASS, "except:", "except rospy.ROSInterruptException:")], "C33", "and it ends"),
+    node("a gap in the topic", "'/cmd_vel'", "'/cmd vel'", "C13", ("joy2twist.py:20", "has a space", "'/cmd_vel'")),
+    node("gaps in __main__", "'__main__'", "' main '", "C13", ("joy2twist.py:24", "if __name__ == '__main__':")),
+    node("msq of the PDF", "    msg = Twist()", "    msq = Twist()", "C16", ("joy2twist.py:11", "msq in line 10")),
+    cls("the line of a callback without self", "def callback(self, data)", "def callback(data)", "C30", "new_joy2twist.py:16"),
+    cls("the line of a shutdown without self", "def shutdown(self)", "def shutdown()", "C31", "new_joy2twist.py:23"),
+    cls("Twst in shutdown", "self.cmd_vel.publish(Twist())", "self.cmd_vel.publish(Twst())", "C31", ("new_joy2twist.py:25", "Twist in line 5")),
     ("6.2", "chmod forgotten", [chmod(CLASS, 0o644)], "C29", "chmod"),
     ("6.2", "no class", [lambda src: (src / CLASS).unlink()], "C29", "no class"),
     node("v1 under two names", PUBLISH, "pub.publish(Twist())", "C16", "zero"),

@@ -87,12 +87,18 @@ def examine(orders, tell):
         can_have_devices=granted,
     )
     run = Run(catalogue(), one, one.second_look, one.box.patience.hopeless)
+    shown = (f"{scratch}/ws/", "") if layout.is_workspace else (f"{scratch}/ws/src/", "")
+
+    def as_told(result):
+        """The result with the paths of the copy as the student knows them."""
+        return {name: words.replace(*shown) for name, words in result.as_dict().items()}
+
     times = {"prepare": round(time.monotonic() - began_s, 2)}
     for exercise in orders["exercises"]:
         began_s = time.monotonic()
         run.exercise(
             exercise,
-            lambda result, exercise=exercise: tell(exercise=exercise, result=result.as_dict()),
+            lambda result, exercise=exercise: tell(exercise=exercise, result=as_told(result)),
             orders["only_first"],
         )
         tell(exercise=exercise, done=round(time.monotonic() - began_s, 2))

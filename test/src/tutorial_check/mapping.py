@@ -127,10 +127,14 @@ def judge(samples):
         )
         return what, "only linear.x and angular.z move a robot in the plane; leave the others 0"
     curves = [FIELDS[field] for field in right if rules[field] is None]
-    return (
-        "",
-        f"{' and '.join(curves)} is a curve of its axis, not a constant times it" if curves else "",
-    )
+    if curves:
+        return "", f"{' and '.join(curves)} is a curve of its axis, not a constant times it"
+    scaled = [
+        f"{FIELDS[field]} = {rules[field].factor:.2f} * axes[{axis}]"
+        for field, axis in right.items()
+        if abs(rules[field].factor - 1) > 0.02
+    ]
+    return "", f"{', '.join(scaled)}; the handout's has no factor" if scaled else ""
 
 
 def _explain_odd(field, axis, samples):

@@ -37,6 +37,8 @@ class Note:
 class Wrong(Exception):
     """A check that does not hold. Raised by checks, which so end at the first thing wrong."""
 
+    look = ""  # a command with which to see it oneself, if not that of the check
+
     def __init__(self, expected, seen, where="", hint="", sure=False):
         """sure: whatever else the machine had to do, it is no matter of time."""
         super().__init__(f"expected {expected}; seen {seen}")
@@ -168,6 +170,7 @@ class Run:
                 "where": wrong.where,
                 "hint": wrong.hint,
             }
+            about["look"] = wrong.look or check.look
             return Result(status=WRONG, **about, **what)
         if isinstance(found, Note):
             return Result(status=NOTE, seen=found.seen, where=found.where, hint=found.hint, **about)

@@ -14,6 +14,11 @@ from tutorial_check.report import Terminal, summary
 FLOOR = "TUTORIAL_FLOOR"  # environment variable: setup.bash of the lower floor
 
 
+def meant(word):
+    """The exercises that a word means: 4 is all of 4.2 to 4.5."""
+    return [each for each in EXERCISES if each.startswith(f"{word.rstrip('.')}.")] or [word]
+
+
 def parse(arguments):
     """The command line."""
     parser = argparse.ArgumentParser(
@@ -56,6 +61,7 @@ def parse(arguments):
         help="setup.bash of what the exercises stand on",
     )
     options = parser.parse_args(arguments)
+    options.exercises = [name for each in options.exercises for name in meant(each)]
     unknown = [each for each in options.exercises if each not in EXERCISES]
     if unknown:
         parser.error(f"no exercise {unknown[0]}; there are {', '.join(EXERCISES)}")

@@ -26,7 +26,9 @@ class PythonFacts:
     broad_excepts: list = field(default_factory=list)  # lines of except: and except Exception:
     imports: set = field(default_factory=set)
     has_main: bool = False
-    functions: list = field(default_factory=list)
+    odd_main: tuple = ()  # (line, text) of an `if` that is meant to be that of __main__, and is not
+    names: dict = field(default_factory=dict)  # what the program makes, or is given -> first line
+    loops: list = field(default_factory=list)  # lines of `while`
     bare_names: list = field(default_factory=list)  # (line, text) of statements that do nothing
 
     def first(self, name):
@@ -101,18 +103,48 @@ def read_python(text):
             facts.imports.update(alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom):
             facts.imports.update(f"{node.module}.{alias.name}" for alias in node.names)
-        elif isinstance(node, ast.FunctionDef):
-            facts.functions.append(node.name)
+        elif isinstance(node, ast.While):
+            facts.loops.append(node.lineno)
         elif isinstance(node, ast.If) and "__name__" in ast.dump(node.test):
             facts.has_main = True
         elif isinstance(node, ast.Expr) and isinstance(node.value, (ast.Attribute, ast.Name)):
             facts.bare_names.append((node.lineno, _text(node.value)))
+    facts.names = _names(tree)
+    facts.odd_main = _odd_main(tree, text, facts.names)
     for calls in facts.calls.values():
         calls.sort(key=lambda call: call.line)
     facts.classes = [
         _class_facts(node, called) for node in ast.walk(tree) if isinstance(node, ast.ClassDef)
     ]
     return facts
+
+
+def _names(tree):
+    """{name: first line} of variables, parameters, functions, classes and imports."""
+    found = []
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            found.append((node.lineno, node.id))
+        elif isinstance(node, ast.arg):
+            found.append((node.lineno, node.arg))
+        elif isinstance(node, (ast.FunctionDef, ast.ClassDef)):
+            found.append((node.lineno, node.name))
+        elif isinstance(node, (ast.Import, ast.ImportFrom)):
+            found += [(node.lineno, each.asname or each.name) for each in node.names]
+    return {name: line for line, name in sorted(found, reverse=True)}
+
+
+def _odd_main(tree, text, names):
+    """(line, text) of `if __name__ == ' main ':` and its like; empty if there is none."""
+    for node in tree.body:
+        if not (isinstance(node, ast.If) and isinstance(node.test, ast.Compare)):
+            continue
+        left, right = _text(node.test.left), _text(node.test.comparators[0])
+        if left in names or left.strip("_") != "name" or right.strip(" _") != "main":
+            continue
+        if (left, right) != ("__name__", "__main__"):
+            return node.lineno, text.splitlines()[node.lineno - 1].strip()
+    return ()
 
 
 def _class_facts(node, called):

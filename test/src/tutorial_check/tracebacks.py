@@ -1,5 +1,6 @@
 """From what a program printed to the cause, in words. Pure."""
 
+import difflib
 import re
 from dataclasses import dataclass
 
@@ -165,6 +166,21 @@ def explain(error):
         if found:
             return words.format(**{key: value for key, value in found.groupdict().items() if value})
     return ""
+
+
+def misspelt(error, names):
+    """Which name was meant by one that is not defined; empty if none is like it.
+
+    names: {name: line} of what the program makes.
+    """
+    found = re.search(r"name '(\w+)' is not defined", error)
+    if not found or found[1] in names:
+        return ""
+    near = difflib.get_close_matches(found[1], names, 3, 0.6)
+    near = [each for each in near if each[0].lower() == found[1][0].lower()]
+    if not near:
+        return ""
+    return f"{near[0]} in line {names[near[0]]}, {found[1]} here: one name for one thing"
 
 
 def syntax_hint(message, text, line=""):

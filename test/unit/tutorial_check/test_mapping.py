@@ -28,13 +28,18 @@ def test_no_two_joys_are_alike_and_lb_is_held():
     "linear, angular",
     [
         (lambda a: a[1], lambda a: a[0]),
-        (lambda a: 0.5 * a[1], lambda a: 2.0 * a[0]),
         (lambda a: a[1] if abs(a[1]) > 0.35 else 0.0, lambda a: a[0]),
         (lambda a: max(-0.5, min(0.5, a[1])), lambda a: a[0]),
     ],
 )
 def test_right(linear, angular):
     assert judge(samples(linear, angular)) == ("", "")
+
+
+def test_a_factor_is_a_remark():
+    complaint, remark = judge(samples(lambda a: 0.5 * a[1], lambda a: 2.0 * a[0]))
+    assert not complaint
+    assert remark.startswith("linear.x = 0.50 * axes[1], angular.z = 2.00 * axes[0]")
 
 
 def test_a_curve_is_a_remark():

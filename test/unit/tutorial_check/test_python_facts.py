@@ -1,5 +1,7 @@
 """What a program says of itself without being run."""
 
+import pytest
+
 from tutorial_check.python_facts import flipped_anonymous, read_python, unmasked, without_name
 
 PROGRAM = """
@@ -65,3 +67,23 @@ def test_without_a_name_it_lacks_what_it_imported():
     assert lines[:4] + lines[5:] == text.splitlines()
     assert without_name("import sensor_msgs.msg\n", "Joy") is None
     assert without_name("from x import (\n", "Joy") is None
+
+
+def test_names_have_their_first_line():
+    names = read_python("import rospy\ndef f(data):\n    msq = 1\n    msq = 2\n").names
+    assert names == {"rospy": 1, "f": 2, "data": 2, "msq": 3}
+
+
+@pytest.mark.parametrize(
+    ("line", "is_odd"),
+    [
+        ("if __name__ == '__main__':", False),
+        ("if __name__ == ' main ':", True),
+        ("if name == ' main ':", True),
+        ("if _name_ == '_main_':", True),
+        ("name = 'main'\nif name == 'main':", False),
+        ("if __name__ == 'joy2twist':", False),
+    ],
+)
+def test_a_line_of_main_that_is_none(line, is_odd):
+    assert bool(read_python(f"import rospy\n{line}\n    pass\n").odd_main) == is_odd

@@ -2,7 +2,13 @@
 
 import pytest
 
-from tutorial_check.tracebacks import explain, first_traceback, last_lines, syntax_hint
+from tutorial_check.tracebacks import (
+    explain,
+    first_traceback,
+    last_lines,
+    misspelt,
+    syntax_hint,
+)
 
 OUTPUT = """[ERROR] [1.0]: bad callback: <function callback at 0x7f>
 Traceback (most recent call last):
@@ -69,3 +75,11 @@ def test_syntax(message, text, word):
 
 def test_last_lines_have_no_colours():
     assert last_lines("\x1b[31ma\x1b[0m\n\nb\nc\nd\n") == "b / c / d"
+
+
+def test_a_name_like_the_one_that_is_missing():
+    names = {"msq": 10, "data": 8, "sub": 20}
+    assert "msq in line 10" in misspelt("NameError: name 'msg' is not defined", names)
+    assert "data in line 8" in misspelt("NameError: name 'date' is not defined", names)
+    for error in ("name 'pub' is not defined", "name 'msq' is not defined", "IndexError: list"):
+        assert not misspelt(error, names)

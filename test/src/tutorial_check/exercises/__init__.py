@@ -44,7 +44,7 @@ CHECKS = (
     Check("C26", "5", "launch_joy_node drives the robot", "5.1", ("C25", "C16"), "roslaunch joy2twist launch_joy_node.launch"),
     Check("C27", "6.1", "joy2twist_turtlebot sends to the multiplexer", "6.1", ("C16",), "rostopic echo /cmd_vel_mux/input/teleop"),
     Check("C28", "6.1", "launch_joy_node_realTurtlebot drives the TurtleBot", "6.1", ("C27",), "rostopic echo /cmd_vel_mux/active"),
-    Check("C29", "6.2", "the program is a class", "6.2", ("C12",), "python3 -m py_compile FILE"),
+    Check("C29", "6.2", "the program is a class", "6.2", ("C12",), "rosrun joy2twist THE_CLASS"),
     Check("C30", "6.2", "the class does what the functions did", "6.2", ("C29",), "rostopic echo /cmd_vel"),
     Check("C31", "6.2", "ended, it stops the robot", "6.2", ("C30",), "rostopic echo /cmd_vel; Ctrl-C in the node's terminal"),
     Check("C32", "6.2", "nothing follows the zero", "6.2", ("C31",), "rostopic echo /cmd_vel"),

@@ -6,10 +6,10 @@ from pathlib import Path
 
 from tutorial_check.exercises.classes import program
 from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL, PACKAGE
-from tutorial_check.exercises.files import crash
+from tutorial_check.exercises.files import cause_of, crash
 from tutorial_check.exercises.robot import ODOM, held
 from tutorial_check.model import CannotCheck, Note, Wrong
-from tutorial_check.tracebacks import explain, first_traceback
+from tutorial_check.tracebacks import first_traceback
 
 CTRL_C, KILL, LAUNCH = "Ctrl-C", "rosnode kill", "the end of a launch"
 # One node for each way, all at once: each ends in its way, and the robot stands when all have gone.
@@ -173,11 +173,13 @@ def stops(session):
         seen, hint = _complaint(end, bool(call))
         if not seen:
             continue
-        trace = first_traceback(end.output, str(session.package(PACKAGE).folder))
-        if trace and (end.zero_after_s is None or not end.in_time):
-            seen, hint, where = trace.error, explain(trace.error), trace.where or where
         # One that has gone, and whose text knows no shutdown, will not send a zero another time.
         sure = end.zero_after_s is None and end.took_s is not None and not call
+        trace = first_traceback(end.output, str(session.package(PACKAGE).folder))
+        if trace and (end.zero_after_s is None or not end.in_time):
+            place, hint = cause_of(session, PACKAGE, Path(path).name, trace)
+            seen, where = trace.error, place or where
+            sure = sure or trace.error.startswith(("NameError", "TypeError"))  # no matter of time
         raise Wrong(expected, f"after {way}: {seen}", where=where, hint=hint, sure=sure)
     if not endings.stands:
         raise Wrong(

@@ -3,11 +3,26 @@
 import difflib
 import re
 import shutil
+from pathlib import Path
 
 from tutorial_check.model import Wrong
-from tutorial_check.tracebacks import syntax_hint
+from tutorial_check.python_facts import read_python
+from tutorial_check.tracebacks import (
+    explain,
+    first_traceback,
+    last_lines,
+    misspelt,
+    syntax_hint,
+)
 
 INTERPRETER = re.compile(rb"#!\s*(\S+)(?:\s+(\S+))?")
+
+
+def _wrong(look, *about):
+    """A Wrong with a command of its own to see it."""
+    wrong = Wrong(*about)
+    wrong.look = look
+    return wrong
 
 
 def find_script(session, package, name):
@@ -40,15 +55,25 @@ def find_script(session, package, name):
             where=str(others[near[0]].relative_to(folder)),
             hint=f"mv {near[0]} {name}: capitals, underscores and the ending count",
         )
-    raise Wrong(
+    raise _wrong(
+        f"ls {package}/scripts",
         f"a program {name} in the package {package}",
         "no such file anywhere in it",
-        hint=f"create scripts/{name} in YOUR package; `rosrun {package} {name}` that works all the same runs OURS",
+        "",
+        f"create scripts/{name} in YOUR package; ./tutorial shell without --in has one of OURS",
     )
 
 
 def check_file(session, package, script):
     """What can be said of a program without running it. Raises Wrong."""
+    try:
+        _check_text(session, package, script)
+    except Wrong as wrong:
+        wrong.look = wrong.look or f"rosrun {package} {Path(script).name}"
+        raise
+
+
+def _check_text(session, package, script):
     path = session.package(package).folder / script
     name = path.name
     data = path.read_bytes()
@@ -70,38 +95,71 @@ def check_file(session, package, script):
         )
     first = data.split(b"\n", 1)[0]
     if b"\r\n" in data:
-        raise Wrong(
+        raise _wrong(
+            f"head -1 {script} | cat -A",
             "Unix line ends",
             "the file has Windows line ends (python3\\r: No such file)",
-            where=script,
-            hint=f"sed -i 's/\\r$//' {name}",
+            f"{script}:1",
+            f"sed -i 's/\\r$//' {script}",
         )
     facts = session.scripts(package).get(script)
     if facts and facts.error:
-        raise Wrong(
+        raise _wrong(
+            f"python3 -m py_compile {script}",
             "Python that can be read",
             f"{facts.error}: {facts.error_text}",
-            where=f"{script}:{facts.error_line}",
-            hint=syntax_hint(facts.error, facts.error_text),
+            f"{script}:{facts.error_line}",
+            syntax_hint(facts.error, facts.error_text),
         )
     if not first.startswith(b"#!"):
         later = b"\n#!" in data
-        raise Wrong(
+        raise _wrong(
+            f"head -3 {script}",
             "#!/usr/bin/env python3 as the first line",
             "it stands further down"
             if later
             else f"the first line is {first.decode(errors='replace')[:60]!r}",
-            where=f"{script}:1",
-            hint="without #! in the very first line the shell tries to run the Python lines itself (import: command not found)",
+            f"{script}:1",
+            "without #! in the very first line the shell tries to run the Python lines itself (import: command not found)",
         )
-    _check_interpreter(first, script)
+    try:
+        _check_interpreter(first, script)
+    except Wrong as wrong:
+        wrong.look = f"head -1 {script}"
+        raise
     if not path.stat().st_mode & 0o100:
-        raise Wrong(
+        raise _wrong(
+            f"ls -l {script}",
             "a program that may be run",
             f"{name} is not executable (rosrun: Couldn't find executable)",
-            where=script,
-            hint=f"chmod +x {script}",
+            script,
+            f"chmod +x {script}",
         )
+    if facts:
+        _check_gaps(facts, script)
+
+
+def _check_gaps(facts, script):
+    """Underscores that the PDF shows as gaps and that Python reads all the same. Raises Wrong."""
+    if facts.odd_main:
+        line, text = facts.odd_main
+        raise Wrong(
+            "if __name__ == '__main__':",
+            text,
+            where=f"{script}:{line}",
+            hint="two underscores on either side of name and of main: the PDF shows them as gaps",
+        )
+    for call in [
+        each for kind in ("Publisher", "Subscriber") for each in facts.calls.get(kind, [])
+    ]:
+        topic = call.words[0] if call.words else ""
+        if " " in topic:
+            raise Wrong(
+                "names of topics without a space",
+                f"the name {topic!r} has a space",
+                where=f"{script}:{call.line}",
+                hint=f"the PDF shows _ as a gap: {'_'.join(topic.split())!r}",
+            )
 
 
 def _check_interpreter(first, script):
@@ -126,16 +184,28 @@ def _check_interpreter(first, script):
         )
 
 
+def cause_of(session, package, name, trace):
+    """(the line that is to blame, what to do) for a Traceback of the program of that name."""
+    name = re.sub(r"^checked_\d+_", "", name)
+    script = next((each for each in session.scripts(package) if Path(each).name == name), "")
+    script = trace.where.rpartition(":")[0] or script
+    if not script:
+        return trace.where, explain(trace.error)
+    names = read_python(session.text(package, script)).names
+    function = re.search(r"(\w+)\(\) (?:takes|missing)", trace.error)
+    place = trace.where
+    if not place and function and function[1] in names:  # called by rospy itself
+        place = f"{script}:{names[function[1]]}"
+    return place, misspelt(trace.error, names) or explain(trace.error)
+
+
 def crash(session, package, program, what, default_hint=""):
     """The Wrong for a program that ended or failed, with the cause as far as its output tells."""
-    from tutorial_check.tracebacks import explain, first_traceback, last_lines  # noqa: PLC0415
-
     trace = first_traceback(program.output, str(session.package(package).folder))
     if trace and not (program.was_stopped and trace.error.startswith("KeyboardInterrupt")):
         seen = trace.error + (f"   in: {trace.text}" if trace.text else "")
-        return Wrong(
-            what, seen, where=trace.where, hint=explain(trace.error) or default_hint, sure=True
-        )
+        place, hint = cause_of(session, package, program.name, trace)
+        return Wrong(what, seen, where=place, hint=hint or default_hint, sure=True)
     has_ended = program.ended and not program.was_stopped
     if has_ended and program.process.returncode is not None and program.process.returncode < 0:
         return Wrong(

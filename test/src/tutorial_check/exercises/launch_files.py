@@ -7,6 +7,7 @@ import re
 from pathlib import Path
 
 from tutorial_check.exercises.driving import PACKAGE
+from tutorial_check.exercises.launch_text import attribute, parse_error, place_of, read
 from tutorial_check.launch_facts import MARK
 from tutorial_check.model import CannotCheck, Wrong
 from tutorial_check.tracebacks import last_lines
@@ -14,6 +15,7 @@ from tutorial_check.tracebacks import last_lines
 BAG, STICK = "launch_bag.launch", "launch_joy_node.launch"
 TURTLEBOT, REAL = "joy2twist_turtlebot.launch", "launch_joy_node_realTurtlebot.launch"
 ALL = (BAG, STICK, TURTLEBOT, REAL)
+COPY_BAG = 'in your package: mkdir -p bag; cp "$(rospack find gamepad)/bag/joy.bag" bag'
 
 
 def find_launch(session, name):
@@ -40,7 +42,7 @@ def find_launch(session, name):
         f"{PACKAGE}/launch/{name}",
         "no such file in your package",
         where=f"{PACKAGE}/launch",
-        hint=f"write it; `roslaunch {PACKAGE} {name}` that works all the same runs OURS",
+        hint=f"write it: launch/{name} in YOUR package. ./tutorial shell without --in has one of OURS",
     )
 
 
@@ -91,9 +93,9 @@ def check_file(session, name):
     path = find_launch(session, name)
     where = relative(session, path)
     one = facts(session, name)
-    text = path.read_text(errors="replace")
+    text = read(path)
     if one["error"]:
-        raise _parse_error(session, one["error"], where, text)
+        raise parse_error(one["error"], where, text)
     unknown = re.findall(
         r"unrecognized tag (\S+)|[Uu]nknown (?:<\w+> )?attribute (\S+)",
         one["said"] + " ".join(one.get("errors", [])),
@@ -101,11 +103,10 @@ def check_file(session, name):
     odd = [tag for tag in one["tags"] if tag not in _TAGS]
     if odd or unknown:
         word = odd[0] if odd else next(each for each in unknown[0] if each)
-        line = line_of(text, f"<{word}" if odd else word)
         raise Wrong(
             "tags and attributes that roslaunch knows",
             f"{word}: ignored by roslaunch",
-            where=f"{where}:{line}",
+            where=place_of(where, text, f"<{word}" if odd else word),
             hint=f"lower case: <{word.lower()}>"
             if word.lower() in _TAGS
             else "look at its spelling",
@@ -132,51 +133,9 @@ _TAGS = {
 }
 
 
-def line_of(text, word):
-    """The number of the first line with a word; 1 if there is none."""
-    for number, line in enumerate(text.splitlines(), 1):
-        if word in line:
-            return number
-    return 1
-
-
-def _parse_error(session, error, where, text):
-    line = re.search(r"line (\d+)", error)
-    place = f"{where}:{line[1]}" if line else where
-    hint = "roslaunch --nodes FILE shows the same"
-    missing = re.search(r"Resource not found: (\S+)|package \[?'?([\w-]+)", error)
-    if (
-        "mismatched tag" in error
-        or "no element found" in error
-        or "not well-formed" in error
-        or "junk after" in error
-        or "unclosed token" in error
-    ):
-        hint = "each <tag> needs its </tag> or />; the mistake is in the line named or in the one before"
-        if any(quote in text for quote in "“”‘’"):
-            hint = 'curly quotes came from the PDF: type " instead'
-            place = f"{where}:{next(n for n, each in enumerate(text.splitlines(), 1) if any(q in each for q in '“”‘’'))}"
-    elif missing:
-        name = (missing[1] or missing[2]).rstrip(":.")
-        hint = f"there is no package {name}: look at the spelling in $(find {name}) or pkg="
-        place = f"{where}:{line_of(text, name)}"
-    elif "No such file" in error or "does not exist" in error or "cannot resolve" in error.lower():
-        file = re.search(r"'([^']+)'|\[([^\]]+)\]", error)
-        named = Path(next((each for each in file.groups() if each), "")).name if file else ""
-        hint = 'an include needs the whole path: file="$(find PACKAGE)/launch/FILE"'
-        place = f"{where}:{line_of(text, named)}"
-    elif "attribute" in error or "requires" in error:
-        hint = 'a node has pkg=, type= and name=; an include has file="$(find PACKAGE)/launch/FILE"'
-        tag = re.search(r"<(\w+)>", error)
-        place = f"{where}:{line_of(text, '<' + tag[1] if tag else '<node')}"
-    elif "arg" in error:
-        hint = 'each $(arg x) needs an <arg name="x" default="..."/>'
-    return Wrong("a launch file that roslaunch can read", error[:250], where=place, hint=hint)
-
-
 def _check_node(session, node, where, text):
     package, kind = node["package"], node["type"]
-    place = f"{where}:{line_of(text, kind)}"
+    place = place_of(where, text, *attribute("type", kind))
     if kind.endswith(".launch"):
         raise Wrong(
             "programs in <node>",
@@ -213,7 +172,7 @@ def _check_node(session, node, where, text):
         hint = (
             "look at pkg= and type=: rosrun PACKAGE and twice Tab lists the programs of a package"
         )
-        if kind == "joy_node":
+        if difflib.get_close_matches(kind, ["joy_node"], 1, 0.8):
             hint = '<node pkg="joy" type="joy_node" name="joy_node"/>'
         raise Wrong(
             "nodes that exist",
@@ -230,7 +189,7 @@ def _check_finds(session, path, where, text):
         for rest in re.findall(rf"\$\(find\s+{PACKAGE}\)([^\s\"'<>$]*)", line):
             if rest.strip("/") and not (folder / rest.strip("/")).exists():
                 note = (
-                    "mkdir bag, and copy joy.bag into it"
+                    COPY_BAG
                     if rest.endswith(".bag")
                     else f"write {Path(rest).name} in YOUR package"
                 )

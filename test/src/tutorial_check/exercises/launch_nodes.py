@@ -7,12 +7,13 @@ from pathlib import Path
 from tutorial_check.exercises.driving import PACKAGE
 from tutorial_check.exercises.launch_files import (
     BAG,
+    COPY_BAG,
     STICK,
     facts,
     find_launch,
-    line_of,
     relative,
 )
+from tutorial_check.exercises.launch_text import attribute, place_of, read
 from tutorial_check.model import Note, Wrong
 
 ROBOT_HINT = '<include file="$(find rbx1_bringup)/launch/fake_turtlebot.launch"/>'
@@ -82,7 +83,11 @@ def check_viewer(session, name):
         (words[i + 1] for i, word in enumerate(words[:-1]) if word in ("-d", "--display-config")),
         None,
     )
-    where = f"{relative(session, find_launch(session, name))}:{line_of(find_launch(session, name).read_text(errors='replace'), 'rviz')}"
+    path = find_launch(session, name)
+    text, where = read(path), relative(session, path)
+    where = place_of(
+        where, text, Path(config).name if config else "", *attribute("type", node["type"])
+    )
     if config and config != "auto" and not Path(config).exists():
         raise Wrong(
             "-d FILE names a file that exists",
@@ -99,11 +104,24 @@ def check_viewer(session, name):
     return None
 
 
+def odd_name(session, name):
+    """A Note about a node whose name has a space; None if there is none."""
+    for node in nodes_of(session, name):
+        if " " in node["name"]:
+            path = find_launch(session, name)
+            return Note(
+                f'name="{node["name"]}": the name of a node has no space',
+                place_of(relative(session, path), read(path), *attribute("name", node["name"])),
+                f'the PDF shows _ as a gap: name="{node["name"].replace(" ", "_")}"',
+            )
+    return None
+
+
 def bag_of(session):
     """The recording that launch_bag plays: its path."""
     node = demand(session, BAG, "rosbag play", is_player, BAG_HINT)
     path = find_launch(session, BAG)
-    where = f"{relative(session, path)}:{line_of(path.read_text(errors='replace'), 'play')}"
+    where = place_of(relative(session, path), read(path), *attribute("type", "play"))
     words = [word for word in shlex.split(node["args"]) if not word.startswith("_")]
     bags = [word for word in words if word.endswith(".bag")]
     if not bags:
@@ -125,22 +143,21 @@ def bag_of(session):
             "a recording that exists",
             f"no file {bags[0]}",
             where=where,
-            hint="mkdir bag in your package, and copy joy.bag into it",
+            hint=COPY_BAG,
         )
     return bags[0], where
 
 
 def bag_nodes(session):
     """C22."""
-    note = check_viewer(session, BAG)
+    note = check_viewer(session, BAG) or odd_name(session, BAG)
     demand(session, BAG, "the simulated robot", is_simulator, ROBOT_HINT)
     demand(session, BAG, "joy2twist", is_own, OWN_HINT)
     bag, where = bag_of(session)
     if not bag.startswith(str(session.source)):
         if (
             not Path(bag).exists()
-            or "$(find"
-            not in find_launch(session, BAG).read_text(errors="replace").split("play", 1)[-1]
+            or "$(find" not in read(find_launch(session, BAG)).split("play", 1)[-1]
         ):
             return Note(
                 f"the recording is not in your package: {bag}",
@@ -153,7 +170,7 @@ def bag_nodes(session):
 
 def stick_nodes(session):
     """C25."""
-    note = check_viewer(session, STICK)
+    note = check_viewer(session, STICK) or odd_name(session, STICK)
     demand(session, STICK, "the simulated robot", is_simulator, ROBOT_HINT)
     demand(session, STICK, "joy2twist", is_own, OWN_HINT)
     demand(session, STICK, "joy_node", is_joystick, JOY_HINT)

@@ -164,8 +164,8 @@ def bag_loops(session):
         raise Wrong(
             "/joy flows on after the end of the recording",
             "it falls silent",
-            where=f"launch/{BAG}",
-            hint="rosbag play --loop",
+            where=bag_of(session)[1],
+            hint="rosbag play --loop: in args= of that node",
         )
 
 

@@ -5,6 +5,7 @@ import os
 import re
 from pathlib import Path
 
+from tutorial_check.exercises.launch_text import place_of, read
 from tutorial_check.model import Note, Wrong
 from tutorial_check.workspace import packages_below, underlays
 
@@ -13,6 +14,7 @@ WANTED = {
     "beginner_tutorials": ("std_msgs", "rospy", "roscpp"),
     "joy2twist": ("rospy", "std_msgs", "sensor_msgs", "geometry_msgs"),
 }
+SUITE = ("node_kit", "fake_turtlebot_sim")  # packages of the lower floor
 CREATE = {name: f"catkin_create_pkg {name} {' '.join(words)}" for name, words in WANTED.items()}
 
 
@@ -28,7 +30,17 @@ def workspace(session):
         )
     if not layout.is_workspace:
         return Note("handed in as packages, without their workspace: built afresh here")
-    found = underlays(layout.root / "devel")
+    devel = layout.root / "devel"
+    setup = devel / "setup.bash"
+    found = underlays(devel)
+    if setup.is_file() and (found is None or not setup.stat().st_size):
+        gone = setup.name if found else "_setup_util.py or setup.sh"
+        raise Wrong(
+            "a devel folder as catkin_make makes it",
+            f"it is not whole: {gone} is missing or empty",
+            where="devel",
+            hint="rm -r build devel, then catkin_make",
+        )
     if found is None:
         if (layout.source / "build").is_dir() or (layout.source / "devel").is_dir():
             raise Wrong(
@@ -38,17 +50,41 @@ def workspace(session):
             )
         return Note("never built here (no devel/setup.bash)", hint="catkin_make in the workspace")
     made_for, below = found
-    floor = os.path.realpath(Path(session.floor).parent)
-    if os.path.realpath(made_for) != os.path.realpath(layout.root / "devel"):
+    if os.path.realpath(made_for) != os.path.realpath(devel):
         return Note(f"its devel folder was made elsewhere ({made_for}); built afresh here")
-    if floor not in [os.path.realpath(each) for each in below]:
-        raise Wrong(
-            "a workspace built on top of this suite",
-            f"devel was built over {', '.join(below) or 'nothing'}",
-            where="devel",
-            hint="built in a terminal without ./tutorial shell: delete build and devel, then catkin_make in it",
-        )
+    _check_below(
+        session, [each for each in below if os.path.realpath(each) != str(devel.resolve())]
+    )
     return "src and devel, on top of this suite"
+
+
+def _check_below(session, below):
+    """This suite is among the folders that a workspace was built over, or Wrong."""
+    floor = os.path.realpath(Path(session.floor).parent)
+    if floor in [os.path.realpath(each) for each in below]:
+        return
+    expected = "a workspace built on top of this suite"
+    other = next((each for each in below if _is_suite(each)), None)
+    if other:
+        raise Wrong(
+            expected,
+            f"devel was built over another copy of the suite, {other}; this one is {floor}",
+            where="devel",
+            hint="rm -r build devel, then catkin_make in the ./tutorial shell of this copy; or check"
+            " with the ./tutorial (and TUTORIAL_WORKSPACE) of the other",
+        )
+    raise Wrong(
+        expected,
+        f"devel was built over {', '.join(below) or 'nothing'}",
+        where="devel",
+        hint="built in a terminal without ./tutorial shell: delete build and devel, then catkin_make in it",
+    )
+
+
+def _is_suite(devel):
+    """Whether a devel folder is the lower floor of some copy of this suite; it may be hidden here."""
+    is_there = any(os.path.isdir(os.path.join(devel, "share", name)) for name in SUITE)
+    return is_there or Path(devel).parts[-2:] == ("lower", "devel")
 
 
 def _similar(name, packages):
@@ -125,7 +161,7 @@ def _package(session, name):
     raise Wrong(
         expected,
         "none; found: " + (", ".join(each.name for each in packages) or "no package at all"),
-        hint=f"cd to src of your workspace; {CREATE[name]}. A node of that name that runs all the same is OURS",
+        hint=f"cd to src of your workspace; {CREATE[name]}. ./tutorial shell without --in has one of OURS",
     )
 
 
@@ -145,18 +181,22 @@ def _dependencies(session, name):
         )
     missing = [each for each in WANTED[name] if each not in package.depends]
     if missing:
-        near = {
-            each: difflib.get_close_matches(each, package.depends - set(WANTED[name]), 1, 0.75)
-            for each in missing
-        }
-        seen = f"no {', '.join(missing)}"
-        for found in near.values():
-            seen += f" (but {found[0]})" if found else ""
+        others = package.depends - set(WANTED[name])
+        near = {each: difflib.get_close_matches(each, others, 1, 0.65) for each in missing}
+        seen, where = f"no {', '.join(missing)}", f"{package.inside}/package.xml"
+        text = read(package.folder / "package.xml")
+        place = place_of(where, text, "exec_depend>", "run_depend>", "depend>", "</package>")
+        hint = f"add <depend>{missing[0]}</depend>"
+        for each, found in near.items():
+            if found:
+                seen += f" (but {found[0]})"
+                place = place_of(where, text, f">{found[0]}<", found[0])
+                hint = f"correct {found[0]} to {each}, in each line that has it"
         raise Wrong(
             f"dependencies on {', '.join(WANTED[name])}",
             seen,
-            where=f"{package.inside}/package.xml",
-            hint=f"add <depend>{missing[0]}</depend>",
+            where=place,
+            hint=hint,
         )
     return package
 
@@ -194,7 +234,7 @@ def build(session):
             hint="catkin_make in your workspace",
         )
     if code != 0:
-        raise _build_error(output)
+        raise _build_error(session, output)
     listed = re.search(r"traversing \d+ packages?[^:]*:((?:\s*--\s+~~\s+- .*)+)", output)
     names = re.findall(r"- (\S+)", listed[1]) if listed else []
     if listed and "beginner_tutorials" not in names:
@@ -203,7 +243,7 @@ def build(session):
         )
 
 
-def _build_error(output):
+def _build_error(session, output):
     lines = [re.sub(r"\x1b\[[0-9;]*m", "", line).strip() for line in output.splitlines()]
     words = next(
         (
@@ -220,15 +260,28 @@ def _build_error(output):
         output,
     )
     hint = "read the first error of catkin_make: it names file and line"
+    found = re.search(r"at ([\w./-]+CMakeLists\.txt):(\d+)", output)
+    where = f"{found[1]}:{found[2]}" if found else ""
     if missing:
         words = f"catkin cannot find {missing[1]}"
         hint = (
             f"is {missing[1]} spelt right in find_package of CMakeLists.txt, and without a comma?"
         )
-    where = re.search(r"at ([\w./-]+CMakeLists\.txt):(\d+)", output)
-    return Wrong(
-        "catkin_make without an error",
-        words[:300],
-        where=f"{where[1]}:{where[2]}" if where else "",
-        hint=hint,
-    )
+        place, text = _place_in_cmake(session, missing[1])
+        absent = {name for names in WANTED.values() for name in names if name not in text}
+        near = difflib.get_close_matches(missing[1], absent, 1, 0.65)
+        if near and "," not in missing[1]:
+            hint = f"correct {missing[1]} to {near[0]} in CMakeLists.txt"
+        where = place or where
+    return Wrong("catkin_make without an error", words[:300], where=where, hint=hint)
+
+
+def _place_in_cmake(session, word):
+    """(first line with a word in a CMakeLists.txt of the student's, its text); or empty."""
+    for each in session.packages:
+        name = f"{each.inside}/CMakeLists.txt"
+        text = (each.folder / "CMakeLists.txt").read_text(errors="replace")
+        place = place_of(name, re.sub(r"#.*", "", text), word)
+        if place != name:
+            return place, text
+    return "", ""

@@ -13,6 +13,7 @@ from tutorial_check.stage import START_S
 
 FORWARDS, LEFT = 0.5, 0.8  # positions of the stick
 ODOM = "/odom"
+COPY_BAG = 'cp "$(rospack find gamepad)/bag/joy.bag" .'
 LOOKS = 3  # at the robot's speed: one stutter of a busy machine is none of the program's
 
 
@@ -28,7 +29,10 @@ def recording(session):
     package = session.package(PACKAGE) or session.package("beginner_tutorials")
     bags = sorted(session.source.rglob("*.bag")) if package else []
     if not bags:
-        return Note("no bag in the workspace; look at /joy with rosbag play and rostopic echo /joy")
+        return Note(
+            "no bag in the workspace; look at /joy with rosbag play and rostopic echo /joy",
+            hint=f"the recording: {COPY_BAG}",
+        )
     bag = next((each for each in bags if each.name == "joy.bag"), bags[0])
     name = str(bag.relative_to(session.source))
     try:
@@ -43,14 +47,14 @@ def recording(session):
             "a recording that rosbag can read",
             str(error) or type(error).__name__,
             where=name,
-            hint="copy joy.bag anew",
+            hint=f"copy it anew: {COPY_BAG}",
         ) from None
     if not joys:
         raise Wrong(
             "sensor_msgs/Joy on /joy",
             "topics: " + (", ".join(topics) or "none"),
             where=name,
-            hint="rosbag record /joy",
+            hint=f"rosbag record /joy; or copy ours: {COPY_BAG}",
         )
     if len(getattr(joys[0], "axes", ())) < 2:
         raise Wrong("at least two axes", f"{len(getattr(joys[0], 'axes', ()))}", where=name)

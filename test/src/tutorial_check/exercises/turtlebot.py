@@ -5,6 +5,7 @@ import re
 from tutorial_check.exercises import launch_files, launch_nodes, launch_runs
 from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL, PACKAGE
 from tutorial_check.exercises.launch_files import REAL, TURTLEBOT
+from tutorial_check.exercises.launch_text import place_of, read
 from tutorial_check.exercises.robot import held
 from tutorial_check.model import CannotCheck, Wrong
 
@@ -15,7 +16,7 @@ REMAP = '<remap from="/cmd_vel" to="/cmd_vel_mux/input/teleop"/>'
 def remapped(session):
     """C27."""
     path = launch_files.check_file(session, TURTLEBOT)
-    text = path.read_text(errors="replace")
+    text = read(path)
     where = f"launch/{TURTLEBOT}"
     launch_nodes.demand(session, TURTLEBOT, "joy2twist", launch_nodes.is_own, launch_nodes.OWN_HINT)
     expected = f"Twists on {TELEOP}, none on {CMD_VEL}"
@@ -53,9 +54,12 @@ def remapped(session):
         publishers, subscribers = stage.call("state")
         output = program.output
     remaps = [
-        remap for node in launch_nodes.nodes_of(session, TURTLEBOT) for remap in node["remaps"]
+        remap
+        for node in launch_nodes.nodes_of(session, TURTLEBOT)
+        if launch_nodes.is_own(node)
+        for remap in node["remaps"]
     ]
-    line = f"{where}:{launch_files.line_of(text, 'remap' if 'remap' in text else 'joy2twist.py')}"
+    line = place_of(where, text, "<remap", "joy2twist.py")
     if good and not bad and CMD_VEL not in publishers:
         return None
     if "Traceback" in output or launch_runs.has_died(_Run(program)):
@@ -72,8 +76,16 @@ def remapped(session):
         raise Wrong(
             expected,
             "Twists on /cmd_vel: a <param> renames nothing",
-            where=f"{where}:{launch_files.line_of(text, '<param')}",
+            where=place_of(where, text, "<param"),
             hint=REMAP,
+        )
+    if bad and not remaps and "<remap" in text:
+        raise Wrong(
+            expected,
+            "Twists on /cmd_vel: the <remap> stands outside of the node, and not before it",
+            where=line,
+            hint="a <remap> holds for the node around it, and for those below it: put it between"
+            " <node ...> and </node>",
         )
     if bad and any(to.strip("/") == "cmd_vel" for _, to in remaps):
         raise Wrong(
@@ -112,7 +124,7 @@ class _Run:
 def real_robot(session):
     """C28."""
     path = launch_files.check_file(session, REAL)
-    text = path.read_text(errors="replace")
+    text = read(path)
     where = f"launch/{REAL}"
     files = launch_files.facts(session, REAL)["files"]
     if not any(each.endswith(f"/{TURTLEBOT}") for each in files):
@@ -135,7 +147,7 @@ def real_robot(session):
         raise Wrong(
             "one joy2twist",
             f"{len(own)}: both would drive",
-            where=f"{where}:{launch_files.line_of(text, 'joy2twist.py')}",
+            where=place_of(where, text, "joy2twist.py"),
             hint=f"{TURTLEBOT} starts it already",
         )
     has_base = any(

@@ -1,0 +1,49 @@
+"""From a launch file and roslaunch's words to a line and a hint."""
+
+import pytest
+
+from tutorial_check.exercises.launch_text import parse_error, place_of, without_comments
+
+TEXT = """<launch>
+  <!-- rviz and
+       sim.rviz -->
+  <node pkg="rviz" type="rviz" args="-d $(find rbx1_nav)/sim.rviz"/>
+</launch>
+"""
+
+
+def test_a_comment_is_no_place():
+    text = without_comments(TEXT)
+    assert len(text.splitlines()) == len(TEXT.splitlines())
+    assert place_of("a.launch", text, "rviz") == "a.launch:4"
+    assert place_of("a.launch", text, "nothing", "<node") == "a.launch:4"
+    assert place_of("a.launch", text, "nothing") == "a.launch"
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "error", "word"),
+    [
+        ("rbx1_nav", "rbx1 nav", "[find rbx1 nav]", "$(find rbx1_nav)"),
+        ("rbx1_nav)", "rbx1_nav", "[Errno 2] No such file", "needs its )"),
+        ("rbx1_nav", "rbx1_nv", "rbx1_nv ROS path [0]=/x", "is rbx1_nav meant?"),
+        ('"rviz"', "“rviz”", "not well-formed (invalid token): line 4, column 12", "curly"),
+        ("/>", ">", "mismatched tag: line 4, column 2", "</tag>"),
+        ("-d", "$(arg d)", "arg 'd' is not defined", "<arg name="),
+    ],
+)
+def test_what_roslaunch_cannot_read(old, new, error, word):
+    wrong = parse_error(error, "a.launch", without_comments(TEXT.replace(old, new)))
+    assert word in wrong.hint
+    assert wrong.where == "a.launch:4"
+
+
+def test_a_file_that_is_not_there(tmp_path):
+    (tmp_path / "sim.launch").touch()
+    for path, word in (
+        (tmp_path / "simm.launch", "is sim.launch meant?"),
+        ("simm.launch", "whole"),
+    ):
+        error = f"[Errno 2] No such file or directory: '{path}'"
+        wrong = parse_error(error, "a.launch", '<launch>\n<include file="simm.launch"/>')
+        assert word in wrong.hint
+        assert wrong.where == "a.launch:2"

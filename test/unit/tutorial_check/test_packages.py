@@ -1,0 +1,68 @@
+"""C1 of a devel folder: whole or not, and what it was built over."""
+
+from types import SimpleNamespace
+
+import pytest
+
+from tutorial_check.exercises.packages import workspace
+from tutorial_check.model import Wrong
+from tutorial_check.workspace import Layout
+
+
+@pytest.fixture
+def session(tmp_path):
+    """A workspace whose devel folder is still empty, and the floor of this copy of the suite."""
+    for folder in ("ws/src", "ws/devel", "this/lower/devel", "other/lower/devel"):
+        (tmp_path / folder).mkdir(parents=True)
+    floor = tmp_path / "this/lower/devel/setup.bash"
+    root = tmp_path / "ws"
+    return SimpleNamespace(layout=Layout(root, root / "src", True), floor=str(floor))
+
+
+def build(session, *below):
+    """What catkin_make writes, as far as C1 reads it."""
+    devel = session.layout.root / "devel"
+    paths = ";".join(map(str, below))
+    (devel / "_setup_util.py").write_text(f"    CMAKE_PREFIX_PATH = r'{paths}'.split(';')\n")
+    (devel / "setup.sh").write_text(f": ${{_CATKIN_SETUP_DIR:={devel}}}\n")
+    (devel / "setup.bash").write_text("# as catkin has it\n")
+    return devel
+
+
+def test_over_this_suite(session, tmp_path):
+    build(session, tmp_path / "this/lower/devel")
+    assert "on top of this suite" in workspace(session)
+
+
+def test_over_another_copy_of_the_suite(session, tmp_path):
+    other = tmp_path / "other/lower/devel"
+    devel = session.layout.root / "devel"
+    build(session, devel, other)
+    with pytest.raises(Wrong) as wrong:
+        workspace(session)
+    assert f"another copy of the suite, {other};" in wrong.value.seen
+    assert str(devel) not in wrong.value.seen
+
+
+def test_over_nothing_of_a_suite(session):
+    build(session, session.layout.root / "devel", "/opt/ros/noetic")
+    with pytest.raises(Wrong) as wrong:
+        workspace(session)
+    assert wrong.value.seen == "devel was built over /opt/ros/noetic"
+    assert "without ./tutorial shell" in wrong.value.hint
+
+
+@pytest.mark.parametrize("gone", ["setup.bash", "_setup_util.py", "setup.sh"])
+def test_not_whole(session, tmp_path, gone):
+    devel = build(session, tmp_path / "this/lower/devel")
+    (devel / gone).unlink()
+    (devel / "setup.bash").touch()
+    with pytest.raises(Wrong) as wrong:
+        workspace(session)
+    assert "not whole" in wrong.value.seen
+    assert gone in wrong.value.seen
+    assert wrong.value.hint == "rm -r build devel, then catkin_make"
+
+
+def test_never_built(session):
+    assert "never built" in workspace(session).seen
