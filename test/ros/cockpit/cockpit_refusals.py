@@ -11,7 +11,9 @@ import string
 import rostest
 
 from tutorial_testing.cockpit_rig import WithCockpit
-from tutorial_testing.nodes import init_node
+from tutorial_testing.nodes import init_node, node_path
+from tutorial_testing.ports import free_port
+from tutorial_testing.processes import Program
 from tutorial_testing.socket_page import DRIVE, SocketPage
 from tutorial_testing.waiting import wait_for
 
@@ -67,6 +69,14 @@ class Refused(WithCockpit):
             self.assert_refused(page, Host=host)
             self.assert_refused("/page/main.js", Host=host)
         self.assert_refused(page, Origin="http://evil.example")
+
+    def test_a_second_cockpit_does_not_end_the_first(self):
+        port = str(free_port())
+        with Program(node_path("cockpit", "cockpit.py"), "--port", port) as second:
+            self.assertEqual(second.wait(), 1)
+            self.assertIn("/cockpit runs already", second.output)
+            self.assertEqual(second.output.count("\n"), 1, second.output)
+        self.assertFalse(self.rig.program.ended)
 
     def test_a_page_without_a_token_or_with_a_wrong_one(self):
         for path in ("/", "/?token=", "/?token=wrong", f"/?token={self.tokens[0]}x"):

@@ -115,7 +115,7 @@ def main():
         if cockpit.has_lost_master:
             begin_anew(access)
 
-    return run(NODE_NAME, no_parameters, spin)
+    return run(NODE_NAME, no_parameters, spin, keeps_name=True)
 
 
 def begin_anew(access):
