@@ -20,6 +20,7 @@ from tutorial_testing.waiting import DEADLINE_S, wait_for
         ),
         (["setup", "moon"], 'setup: "moon" is not system or workspace'),
         (["bench", "moon"], 'bench: "moon" has no folder'),
+        (["doctor", "--in", "/no/such"], "doctor: --in /no/such: no workspace"),
         (["shell", "moon"], 'shell: "moon" is none of its arguments'),
         (["run"], "run: a command is missing"),
         (["run", "rosrun", "rviz", "rviz", "-d", "x"], "run: no screen for RViz"),

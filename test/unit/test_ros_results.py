@@ -38,6 +38,7 @@ def test_the_file_of_a_rostest_repeats_and_is_not_counted_twice(tmp_path):
         '<testsuite errors="1"><testcase name="a"><error>no</error></testcase></testsuite>',
         '<testsuite errors="0" failures="1"></testsuite>',  # of a subTest: counted, not named
         '<testsuite><testcase name="a"><skipped/></testcase></testsuite>',  # without a reason
+        "",  # of a test that was ended from outside
     ],
 )
 def test_a_failure_in_any_form_fails(tmp_path, suite):

@@ -295,6 +295,8 @@ def test_a_mux_that_says_nothing():
 def test_what_joy2twist_says():
     state = "stopped: not armed, release the sticks and the dead-man button once"
     wrong(replace(WELL, states={"/joy2twist": (False, state)}), f"/joy2twist says: {state}")
+    state = "stopped: no message for 0.5 s"
+    wrong(replace(WELL, states={"/joy2twist": (False, state)}), "move the joystick, or start it")
 
 
 def test_joysticks():

@@ -263,7 +263,11 @@ def rivals(facts):
 def states(facts):
     """What joy2twist itself says on /diagnostics."""
     for node, (well, text) in sorted(facts.states.items()):
-        yield Finding(OK if well else WRONG, "state", f"{node} says: {text}")
+        silent = not well and "no message" in text
+        what_to_do = "move the joystick, or start it: rostopic hz joy shows its messages"
+        yield Finding(
+            OK if well else WRONG, "state", f"{node} says: {text}", what_to_do if silent else ""
+        )
 
 
 def joysticks(facts):

@@ -27,7 +27,7 @@ def parse(argv):
     parser.add_argument("host", metavar="HOST", help="the teacher's machine, or HOST:PORT")
     parser.add_argument("name", metavar="NAME", help="of the robot, such as robot_7")
     more = "for student.launch, such as virtual:=true or joystick:=browser"
-    parser.add_argument("arguments", nargs="*", metavar="NAME:=VALUE", help=more)
+    parser.add_argument("arguments", nargs="*", default=[], metavar="NAME:=VALUE", help=more)
     return parser.parse_args(argv)
 
 
