@@ -2,7 +2,9 @@
 
 import argparse
 import contextlib
+import math
 import os
+import shlex
 import signal
 import sys
 import tempfile
@@ -23,17 +25,39 @@ FIRST_SEED = 1
 CANNOT = 2  # exit code
 
 
+def amount(text):
+    """A time; the type of --for and --soak. Raises what argparse tells the user."""
+    try:
+        number = float(text)
+    except ValueError:
+        number = math.nan
+    if not 0 < number < math.inf:
+        raise argparse.ArgumentTypeError(f"{text}: not a number above 0, such as 0.5 or 60")
+    return number
+
+
+def count(text):
+    """How many; the type of --trials and --fuzz. Raises what argparse tells the user."""
+    try:
+        number = int(text)
+    except ValueError:
+        number = 0
+    if number < 1:
+        raise argparse.ArgumentTypeError(f"{text}: not a whole number above 0, such as 100")
+    return number
+
+
 def parse(arguments):
-    """The command line."""
+    """The command line; seed: None if it has none."""
     parser = argparse.ArgumentParser(
         prog="./tutorial faults", description="Hit the live system with random faults."
     )
     how_long = parser.add_mutually_exclusive_group()
     how_long.add_argument(
-        "--for", type=float, metavar="SECONDS", dest="seconds", help="so long (60)"
+        "--for", type=amount, metavar="SECONDS", dest="seconds", help="so long (60)"
     )
-    how_long.add_argument("--trials", type=int, metavar="N", help="so many trials")
-    parser.add_argument("--seed", type=int, default=FIRST_SEED, help="of the first trial (1)")
+    how_long.add_argument("--trials", type=count, metavar="N", help="so many trials")
+    parser.add_argument("--seed", type=int, help=f"of the first trial ({FIRST_SEED})")
     parser.add_argument("--kinds", nargs="+", default=[], metavar="KIND", help="these faults alone")
     parser.add_argument(
         "--shrink", action="store_true", help="look for the fewest faults that do it"
@@ -44,8 +68,10 @@ def parse(arguments):
     parser.add_argument(
         "--table", metavar="FILE", help="write each trial to FILE, and print a table"
     )
-    parser.add_argument("--fuzz", type=int, metavar="N", help="N random messages and device bytes")
-    parser.add_argument("--soak", type=float, metavar="HOURS", help="so long without faults")
+    parser.add_argument(
+        "--fuzz", type=count, metavar="N", help="N random messages and device bytes"
+    )
+    parser.add_argument("--soak", type=amount, metavar="HOURS", help="so long without faults")
     parser.add_argument("--picture", metavar="FILE", default="soak.png", help="of the soak")
     return parser.parse_args(arguments)
 
@@ -59,6 +85,15 @@ def command_of_node(word):
     if word.count("/") != 1:
         raise ValueError(f"--node {word}: must be PACKAGE/TYPE, such as joy2twist/joy2twist.py")
     return ("rosrun", *word.split("/"))
+
+
+def check_writable(path):
+    """Raise ValueError if a file cannot be written; what stands in it stays."""
+    try:
+        with open(path, "a"):
+            pass
+    except OSError as error:
+        raise ValueError(f"{path}: cannot be written: {error.strerror}") from error
 
 
 def hunt(options):
@@ -115,14 +150,20 @@ def main(arguments=None):
     try:
         command_of_node(options.node)
         chosen(options.kinds, ())
+        if options.table:
+            check_writable(options.table)
     except ValueError as error:
         print(f"{NAME}: {error}", file=sys.stderr)
         return CANNOT
     hosts.move_in(arguments)
     # As the first process of a namespace this is spared every signal that it does not ask for.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
+    if options.soak and not options.fuzz:
+        return soak(options.soak, options.picture)
+    if options.seed is None:
+        options.seed = FIRST_SEED
+        again = shlex.join(["./tutorial", NAME, *arguments, "--seed", str(FIRST_SEED)])
+        print(f"{NAME}: seed {FIRST_SEED}; the same again: {again}", flush=True)
     if options.fuzz:
         return fuzz(options.fuzz, options.seed)
-    if options.soak:
-        return soak(options.soak, options.picture)
     return hunt(options)
