@@ -280,7 +280,8 @@ def _place_in_cmake(session, word):
     """(first line with a word in a CMakeLists.txt of the student's, its text); or empty."""
     for each in session.packages:
         name = f"{each.inside}/CMakeLists.txt"
-        text = (each.folder / "CMakeLists.txt").read_text(errors="replace")
+        file = each.folder / "CMakeLists.txt"
+        text = file.read_text(errors="replace") if file.is_file() else ""
         place = place_of(name, re.sub(r"#.*", "", text), word)
         if place != name:
             return place, text

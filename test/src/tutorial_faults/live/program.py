@@ -68,10 +68,10 @@ def parse(arguments):
     parser.add_argument(
         "--table", metavar="FILE", help="write each trial to FILE, and print a table"
     )
-    parser.add_argument(
+    how_long.add_argument(
         "--fuzz", type=count, metavar="N", help="N random messages and device bytes"
     )
-    parser.add_argument("--soak", type=amount, metavar="HOURS", help="so long without faults")
+    how_long.add_argument("--soak", type=amount, metavar="HOURS", help="so long without faults")
     parser.add_argument("--picture", metavar="FILE", default="soak.png", help="of the soak")
     return parser.parse_args(arguments)
 
@@ -150,15 +150,16 @@ def main(arguments=None):
     try:
         command_of_node(options.node)
         chosen(options.kinds, ())
-        if options.table:
-            check_writable(options.table)
+        file = options.picture if options.soak else options.table
+        if file and not options.fuzz:
+            check_writable(file)
     except ValueError as error:
         print(f"{NAME}: {error}", file=sys.stderr)
         return CANNOT
     hosts.move_in(arguments)
     # As the first process of a namespace this is spared every signal that it does not ask for.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
-    if options.soak and not options.fuzz:
+    if options.soak:
         return soak(options.soak, options.picture)
     if options.seed is None:
         options.seed = FIRST_SEED
