@@ -98,7 +98,7 @@ ROWS = [
     cls("ends where there is no joystick yet", "        rospy.Subscriber(", "        dict(rospy.get_published_topics())['/joy']\n        rospy.Subscriber(", "C33", "nobody publishes on /joy"),
     ("6.2", "ends without a joystick and a word", [put(CLASS, "        rospy.Subscriber(", "        '/joy' in dict(rospy.get_published_topics()) or exit()\n        rospy.Subscriber("), put(CLASS, "except:", "except rospy.ROSInterruptException:")], "C33", "and it ends"),
     node("a gap in the topic", "'/cmd_vel'", "'/cmd vel'", "C13", ("joy2twist.py:20", "has a space", "'/cmd_vel'")),
-    node("a gap in the node's name", "'listener'", "'joy listener'", "C13", ("joy2twist.py:22", "has a space", "'joy_listener'")),
+    node("a gap in the node's name", "'listener'", "'joy listener'", "C13", ("joy2twist.py:18", "has a space", "'joy_listener'")),
     node("gaps in __main__", "'__main__'", "' main '", "C13", ("joy2twist.py:24", "if __name__ == '__main__':")),
     node("msq of the PDF", "    msg = Twist()", "    msq = Twist()", "C16", ("joy2twist.py:11", "msq in line 10")),
     cls("the line of a callback without self", "def callback(self, data)", "def callback(data)", "C30", "new_joy2twist.py:16"),
