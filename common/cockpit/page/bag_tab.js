@@ -87,18 +87,17 @@ export class BagTab {
         this.chart.setVisible(i, box.checked);
       });
       this.chart.setVisible(i, box.checked);
-      const sample = element("i", { className: "sample" });
-      sample.style.background = this.chart.colour(i);
-      return element("label", { "data-curve": name }, box, sample, name);
+      return element("label", { "data-curve": name }, box, this.chart.sample(i), name);
     }));
   }
 
-  #moveTo({ position, playing }) {
+  #moveTo({ position, playing, topic }) {
     if (performance.now() - this.#scrubbed > 500) {
       byId("bag-position").value = position;
       this.#showPosition(position);
     }
     byId("bag-pause").disabled = !playing;
+    say(byId("bag-state"), playing ? `Publishing ${topic}. Pause stops the robot.` : "");
     byId("bag").dataset.playing = playing;
   }
 }

@@ -1,7 +1,12 @@
 /** Curves over time, drawn by dygraphs: several series, each with times of its own. */
 
+import { element } from "./dom.js";
+
 // Told apart with either kind of background, and by most who see colours otherwise.
 const COLOURS = ["#2b83d6", "#d9700a", "#1f9e6e", "#c2438f", "#8a6fd1", "#a38712", "#d6403a", "#3fa9b5"];
+// Where the colours begin again, lines are broken: lengths of strokes and gaps [px], and their name in CSS.
+const STROKES = [null, [7, 3], [2, 3]];
+const BORDERS = ["solid", "dashed", "dotted"];
 
 let library = null;
 
@@ -38,6 +43,17 @@ export class Chart {
     return COLOURS[i % COLOURS.length];
   }
 
+  #stroke(i) {
+    return Math.floor(i / COLOURS.length) % STROKES.length;
+  }
+
+  /** An element that looks as the line of a series. */
+  sample(i) {
+    const made = element("i", { className: "sample" });
+    made.style.borderTop = `4px ${BORDERS[this.#stroke(i)]} ${this.colour(i)}`;
+    return made;
+  }
+
   get isZoomed() {
     return this.#graph?.isZoomed("x") ?? false;
   }
@@ -72,6 +88,7 @@ export class Chart {
     this.#graph = new globalThis.Dygraph(this.root, rows, {
       labels: ["time [s]", ...labels],
       colors: labels.map((_, i) => this.colour(i)),
+      series: Object.fromEntries(labels.map((label, i) => [label, { strokePattern: STROKES[this.#stroke(i)] }])),
       connectSeparatedPoints: true,
       axisLineColor: "#8888",
       gridLineColor: "#8883",
@@ -127,9 +144,15 @@ export class Chart {
     pen.textAlign = "left";
     let x = 8;
     this.#labels.forEach((label, i) => {
-      pen.fillStyle = this.colour(i);
-      pen.fillText(label, x, height + 12);
-      x += pen.measureText(label).width + 16;
+      pen.fillStyle = pen.strokeStyle = this.colour(i);
+      pen.lineWidth = 3;
+      pen.setLineDash(STROKES[this.#stroke(i)] ?? []);
+      pen.beginPath();
+      pen.moveTo(x, height + 12);
+      pen.lineTo(x + 18, height + 12);
+      pen.stroke();
+      pen.fillText(label, x + 22, height + 12);
+      x += pen.measureText(label).width + 38;
     });
     return canvas;
   }

@@ -26,10 +26,12 @@ export class DoctorTab {
 
   #show({ lines, running }) {
     const wrong = lines.filter(({ level }) => level === "wrong").length;
-    say(byId("doctor-state"), running ? "Looking …" : wrong ? `${wrong} wrong` : "Nothing wrong");
+    const looking = lines.length ? "Looking for more …" : "Looking …";
+    say(byId("doctor-state"), running ? looking : wrong ? `${wrong} wrong` : "Nothing wrong");
     byId("doctor-run").disabled = running;
-    byId("doctor-lines").replaceChildren(...lines.map(({ level, text }) =>
+    byId("doctor-lines").replaceChildren(...lines.map(({ level, subject, text }) =>
       element("li", { className: level, "data-level": level },
-        element("b", { className: "sign", "aria-label": level }, SIGNS[level] ?? "·"), text)));
+        element("b", { className: "sign", "aria-label": level }, SIGNS[level] ?? "·"),
+        element("b", { className: "subject" }, subject && `${subject}: `), text)));
   }
 }

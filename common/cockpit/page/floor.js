@@ -14,8 +14,10 @@ export class Floor {
   #pointers = new Map();
   #due = false;
 
-  constructor(canvas) {
+  /** above(): the elements that lie on the canvas, under which nothing is written. */
+  constructor(canvas, above) {
     this.canvas = canvas;
+    this.above = above;
     this.follow = true;
     this.look = ""; // the robot that is followed
     this.onUnfollow = () => {};
@@ -164,15 +166,23 @@ export class Floor {
     const [east, south] = this.#toFloor(width, height);
     pen.font = "12px system-ui, sans-serif";
     pen.lineWidth = 1;
+    const corner = this.canvas.getBoundingClientRect();
+    const boxes = this.above().map((one) => one.getBoundingClientRect());
+    const write = (text, x, y) => {
+      const [left, low] = [corner.left + x, corner.top + y];
+      const right = left + pen.measureText(text).width;
+      const isHidden = boxes.some((box) =>
+        box.left < right && left < box.right && box.top < low && low - 12 < box.bottom);
+      pen.fillStyle = colour("--muted");
+      if (!isHidden) pen.fillText(text, x, y);
+    };
     for (let x = Math.ceil(west / step) * step; x <= east; x += step) {
       this.#line(pen, [x, north], [x, south], colour(x === 0 ? "--axis" : "--grid"));
-      pen.fillStyle = colour("--muted");
-      pen.fillText(`${x} m`, this.#toPixels([x, 0])[0] + 3, height - 6);
+      write(`${x} m`, this.#toPixels([x, 0])[0] + 3, height - 6);
     }
     for (let y = Math.ceil(south / step) * step; y <= north; y += step) {
       this.#line(pen, [west, y], [east, y], colour(y === 0 ? "--axis" : "--grid"));
-      pen.fillStyle = colour("--muted");
-      pen.fillText(`${y} m`, 4, this.#toPixels([0, y])[1] - 4);
+      write(`${y} m`, 4, this.#toPixels([0, y])[1] - 4);
     }
   }
 

@@ -126,17 +126,18 @@ export class GraphTab {
   #showTopic({ name, type, rate, publishers, subscribers, last }) {
     const old = this.details.querySelector("[data-value=last] pre");
     const isSame = this.details.querySelector("h2")?.textContent === `Topic ${name}`;
-    const perSecond = Number.isFinite(rate) ? `${rate.toFixed(1)} Hz` : "–";
+    const newest = last || "none since you look";
+    const perSecond = last && Number.isFinite(rate) ? `${rate.toFixed(1)} Hz` : "–";
     if (isSame && old) { // only what changes, so that a link keeps the keyboard
       say(this.details.querySelector("[data-value=rate]"), perSecond);
-      say(old, last ?? "none yet");
+      say(old, newest);
       return;
     }
     this.#fill("Topic", name, [
       ["Type", "type", type], ["Rate", "rate", perSecond],
       ["Published by", "publishers", this.#links("node", publishers)],
       ["Heard by", "subscribers", this.#links("node", subscribers)],
-      ["Last message", "last", element("pre", {}, last ?? "none yet")],
+      ["Last message", "last", element("pre", {}, newest)],
     ]);
   }
 

@@ -32,8 +32,9 @@ function watch(fields) {
   link.send("watch", watched);
 }
 
+/** Show a line for a while, or none (""). */
 function notice(text) {
-  byId("notice").hidden = false;
+  byId("notice").hidden = !text;
   say(byId("notice"), text);
   clearTimeout(noticeEnd);
   noticeEnd = setTimeout(() => (byId("notice").hidden = true), NOTICE_MS);

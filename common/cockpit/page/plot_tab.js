@@ -76,9 +76,7 @@ export class PlotTab {
     this.chart.show(Object.fromEntries(seen), [from, Math.max(newest, from + 1)]);
     byId("plot-values").replaceChildren(...this.fields.map((field, i) => {
       const value = this.#samples[field].at(-1)?.[1];
-      const sample = element("i", { className: "sample" });
-      sample.style.background = this.chart.colour(i);
-      return element("span", { "data-field": field }, sample, `${field} `,
+      return element("span", { "data-field": field }, this.chart.sample(i), `${field} `,
         element("output", {}, value === undefined ? "–" : String(Number(value.toFixed(4)))));
     }));
   }

@@ -14,6 +14,7 @@ const number = (value, digits = 2) =>
 export class RobotTab {
   #hello = null;
   #seat = { driver: null, yours: false };
+  #deadman = null; // whether joy2twist of the robot that is looked at wants a button held; null: not told
   #teleop = new Map(); // robot -> what its joy2twist says
   #names = ""; // of the robots, as JSON
   #isNew = false; // a robot came or left
@@ -21,7 +22,8 @@ export class RobotTab {
   /** link: the Link. watch(fields): what to ask the server for. notice(text): a line for the user. */
   constructor(link, watch, notice) {
     Object.assign(this, { link, watch, notice });
-    this.floor = new Floor(byId("floor"));
+    const onFloor = ".toolbar button, #glass button, #stick";
+    this.floor = new Floor(byId("floor"), () => [...byId("robot").querySelectorAll(onFloor)]);
     this.picture = new GamepadPicture(byId("pad"));
     this.driver = new Driver(link, byId("glass"));
     this.driver.onLost = (why) => notice(`You let go (${why}). Release LB and the stick, then hold LB again.`);
@@ -60,7 +62,10 @@ export class RobotTab {
     on("follow", () => follow(!floor.follow));
     on("take", () => link.send("drive", { robot: this.look, mode: byId("mode").value }));
     on("leave", () => this.#leave());
-    on("reset", () => link.send("reset", { robot: this.look }));
+    on("reset", () => {
+      this.notice("");
+      link.send("reset", { robot: this.look });
+    });
     on("give", () => link.send("hand_over", { to: Number(byId("heir").value) }));
     byId("look").addEventListener("change", () => this.#lookAt(this.look));
     addEventListener("keydown", (event) => {
@@ -69,6 +74,7 @@ export class RobotTab {
   }
 
   #leave() {
+    this.notice(""); // why it stopped before
     this.driver.stop();
     this.link.send("leave");
   }
@@ -140,9 +146,11 @@ export class RobotTab {
     byId("pad").classList.toggle("stale", age > STALE_S);
   }
 
-  #showTeleop({ robot, state, why }) {
-    if (state) this.#teleop.set(robot, { robot, state, why });
+  #showTeleop({ robot, state, why, deadman = null }) {
+    if (state) this.#teleop.set(robot, { robot, state, why, deadman });
     if (robot !== this.look) return;
+    this.#deadman = deadman;
+    this.#showReady();
     byId("teleop").dataset.state = state ?? "unknown";
     say(byId("teleop"), why || state || "It has said nothing yet.");
   }
@@ -157,11 +165,18 @@ export class RobotTab {
     const why = seat.why ? ` Last stop: ${seat.why}.` : "";
     say(byId("seat"), seat.driver === null ? `Nobody drives.${why}` : `${who} ${shown(seat.robot)}.${why}`);
     byId("seat").dataset.armed = Boolean(seat.yours && seat.armed);
-    say(byId("ready"), !seat.yours || seat.how === "bag" ? "" : seat.armed ? "Hold LB to move."
-      : "Release LB and the stick first.");
+    if (seat.yours && seat.armed) this.notice(""); // it may go on
+    this.#showReady();
     byId("seat").dataset.state = seat.driver === null ? "free" : seat.yours ? "yours" : "taken";
     byId("hand-over").hidden = !seat.yours || seat.how === "bag";
     this.#showButtons();
+  }
+
+  #showReady() {
+    const { yours, how, armed } = this.#seat;
+    const held = this.#deadman === false ? "Move the stick: this robot needs no button held."
+      : "Hold LB, then move the stick.";
+    say(byId("ready"), !yours || how === "bag" ? "" : armed ? held : "Release LB and the stick first.");
   }
 
   #showButtons() {
@@ -179,5 +194,6 @@ export class RobotTab {
     byId("look").disabled = yours;
     byId("mode").disabled = yours;
     document.body.classList.toggle("driving", yours);
+    document.body.classList.toggle("by-hand", !byId("glass").hidden);
   }
 }

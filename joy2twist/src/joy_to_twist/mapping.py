@@ -64,6 +64,13 @@ class Mapping:
         button = self._needed_buttons - 1
         return f"no button {button} (enable or turbo): it has {len(buttons)} buttons"
 
+    @property
+    def deadman(self):
+        """The number of the button that has to be held, or "none"; turbo's, if it is the only."""
+        if not self._parameters.require_enable_button:
+            return "none"
+        return str(self._enable if self._enable >= 0 else self._turbo)
+
     def describe(self):
         """One line for every axis that drives the robot, in words."""
         p = self._parameters

@@ -122,5 +122,9 @@ class Teleoperation:
         self._last_summary = (self._messages, now)
         rate = (self._messages - messages) / (now - since) if since not in (None, now) else 0.0
         age = "none yet" if self._last_message is None else f"{now - self._last_message:.3f}"
-        details = {"Joy rate [Hz]": f"{rate:.1f}", "Age of the last Joy [s]": age}
+        details = {
+            "Joy rate [Hz]": f"{rate:.1f}",
+            "Age of the last Joy [s]": age,
+            "Dead-man button": self._mapping.deadman,
+        }
         return state in (ARMED, DRIVING), state, details

@@ -16,6 +16,8 @@ class Traceback:
 
 FRAME = re.compile(r'^\s*File "(?P<file>[^"]+)", line (?P<line>\d+)')
 ERROR = re.compile(r"^(?:[A-Za-z_][\w.]*(?:Error|Exception|NotFound|Interrupt|Exit)\b.*)$")
+# Said of a node that is just being ended: rospy closes topics shortly before it says so. No mistake.
+CLOSED = "publish() to a closed topic"
 
 # What an error line most often means here: (pattern, what to do). The first that fits counts.
 CAUSES = (
@@ -141,6 +143,7 @@ def first_traceback(output, folder):
     """
     blocks = output.split("Traceback (most recent call last)")[1:]
     found = [_traceback(block, folder) for block in blocks[:50]]
+    found = [trace for trace in found if CLOSED not in trace.error]
     return next((trace for trace in found if trace.where), found[0] if found else None)
 
 

@@ -275,6 +275,15 @@ def test_what_is_lost_is_told_once(room):
     assert room.sent == [("ada", *REST)]
 
 
+def test_why_it_was_lost_is_worth_reading_until_it_moves_again(room):
+    room.drive()
+    room.seat.lose("hidden")
+    room.say(REST)
+    assert (room.seat.armed, room.seat.why) == (True, "hidden")
+    room.say(DRIVE)
+    assert room.seat.why == ""
+
+
 def test_a_seat_that_is_taken_again_is_released_first(room):
     room.drive()
     room.seat.take(ANNA, "ada", PAGE, room.now)

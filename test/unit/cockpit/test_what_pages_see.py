@@ -6,7 +6,7 @@ from io import BytesIO
 from math import pi
 
 import pytest
-from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from geometry_msgs.msg import Quaternion
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Joy
@@ -16,7 +16,7 @@ from cockpit_server.clients import LONGEST_FLOOD, Client, encoded, name_of
 from cockpit_server.doctor import shown
 from cockpit_server.fields import numeric_fields, parts_of, split, value_at
 from cockpit_server.graph import Graph, without
-from cockpit_server.motion import motion
+from cockpit_server.motion import Motion, covered, motion
 from cockpit_server.plots import class_of, fields_of
 from cockpit_server.recording import RecordingError, corners, curves, read
 from cockpit_server.resets import reset_service
@@ -45,6 +45,7 @@ def test_numbers_in_messages():
     assert "transforms[0]/transform/rotation/w" in fields_of("tf2_msgs/TFMessage")
     assert fields_of("no_such/Type") == ()
     assert list(numeric_fields(class_of("std_msgs/String"), class_of)) == []
+    assert fields[0] == "pose/pose/position/x"  # what is seldom drawn comes last
 
 
 def test_a_number_by_its_name():
@@ -85,6 +86,16 @@ def test_the_motion_of_an_odometry():
         motion(serialised(odometry)[:200])
 
 
+@pytest.mark.parametrize(
+    ("x", "yaw", "way"),
+    [(1.1, 0.5, 7.1), (1.1, 0.0, 7.1), (1.6, 0.5, 0.0), (0.0, 0.0, 0.0)],
+    ids=["drives", "drives straight", "was carried", "was reset"],
+)
+def test_the_way_covered(x, yaw, way):
+    last = Motion(1.0 if x else 0.2, 0.0, yaw, 0.5, 0.0)
+    assert covered(last, Motion(x, 0.0, yaw, 0.5, 0.0), 7.0) == pytest.approx(way)
+
+
 GRAPH = Graph(
     publishers={"/odom": {"/sim"}, "/robot_1/odom": {"/room"}, "/robot_2/odom": {"/room"}},
     subscribers={"/odom": {"/rviz"}, "/real/joy": {"/joy2twist"}},
@@ -108,9 +119,11 @@ def test_a_node_and_whom_it_speaks_to():
     assert {"from": "topic /odom", "to": "node /rviz"} in GRAPH.parts()["edges"]
 
 
-def test_the_cockpit_is_no_part_of_the_graph():
-    column = [["/joy", ["/cockpit", "/joy_node"]], ["/robot/joy", ["/cockpit"]]]
-    assert without("/cockpit", column) == {"/joy": {"/joy_node"}}
+def test_the_cockpit_is_a_part_of_the_graph_where_it_drives():
+    column = [["/rosout", ["/cockpit", "/joy_node"]], ["/robot/joy", ["/cockpit"]]]
+    assert without("/cockpit", column) == {"/rosout": {"/joy_node"}}
+    shown = without("/cockpit", column, shown_in={"/robot/joy"})
+    assert shown == {"/rosout": {"/joy_node"}, "/robot/joy": {"/cockpit"}}
 
 
 def test_a_reset_is_of_one_robot():
@@ -132,15 +145,21 @@ def test_what_joy2twist_says():
     assert set(told) == {"", "robot_1"}
     assert told[""]["state"] == "driving"
     assert told["robot_1"]["state"] == "stopped" and told["robot_1"]["why"].endswith("sticks")
+    assert told[""]["deadman"] is None
+    for button, wants in (("4", True), ("none", False)):
+        array.status[0].values = [KeyValue("Dead-man button", button)]
+        assert dict(said(serialised(array)))[""]["deadman"] is wants
     assert said(b"bytes that are none: joystick") == []
 
 
 def test_lines_of_the_doctor():
-    assert shown("ok       master    answers\n") == {"level": "ok", "text": "master    answers"}
+    well = {"level": "ok", "subject": "master", "text": "it answers"}
+    assert shown("ok       master    it answers\n") == well
     assert shown("wrong    topics    nobody")["level"] == "wrong"
-    assert shown("unknown  joystick  none") == {"level": "note", "text": "joystick  none"}
+    unknown = {"level": "note", "subject": "joystick", "text": "none"}
+    assert shown("unknown  joystick  none") == unknown
     summary = shown("doctor: 1 ok, 0 wrong, 0 unknown\n")
-    assert summary == {"level": "note", "text": "doctor: 1 ok, 0 wrong, 0 unknown"}
+    assert summary == {"level": "note", "subject": "", "text": "doctor: 1 ok, 0 wrong, 0 unknown"}
 
 
 def test_curves_keep_their_corners():

@@ -172,18 +172,32 @@ def test_with_arming_all_is_released_first_with_a_dead_man_and_without():
     assert machine.released
 
 
+@pytest.mark.parametrize(
+    ("given", "button"),
+    [
+        ({}, "none"),
+        ({"enable_button": 4, "enable_turbo_button": 5}, "4"),
+        ({"enable_turbo_button": 5, "require_enable_button": True}, "5"),
+        ({"enable_button": 4, "require_enable_button": False}, "none"),
+    ],
+)
+def test_diagnostics_name_the_deadman_button(given, button):
+    machine, _ = teleoperation(**given)
+    assert machine.summary(0.0)[2]["Dead-man button"] == button
+
+
 def test_diagnostics():
     machine, _ = teleoperation(enable_button=0)
     assert machine.summary(0.0) == (
         False,
         "waiting for the joystick",
-        {"Joy rate [Hz]": "0.0", "Age of the last Joy [s]": "none yet"},
+        {"Joy rate [Hz]": "0.0", "Age of the last Joy [s]": "none yet", "Dead-man button": "0"},
     )
     for i in range(50):
         machine.joy((0.0, 1.0), (1,), i * 0.02)
     well, state, details = machine.summary(1.0)
     assert (well, state) == (True, "driving")
-    assert details == {"Joy rate [Hz]": "50.0", "Age of the last Joy [s]": "0.020"}
+    assert (details["Joy rate [Hz]"], details["Age of the last Joy [s]"]) == ("50.0", "0.020")
     machine.joy((0.0, 1.0), (0,), 1.0)
     for _ in range(2):
         machine.joy((0.0, 1.0), (0,), 1.5)

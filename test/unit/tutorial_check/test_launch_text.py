@@ -24,6 +24,7 @@ def test_a_comment_is_no_place():
     ("old", "new", "error", "word"),
     [
         ("rbx1_nav", "rbx1 nav", "[find rbx1 nav]", "$(find rbx1_nav)"),
+        ('pkg="rviz"', 'pkg="rviz one"', "rviz one", 'pkg="rviz_one"'),
         ("rbx1_nav)", "rbx1_nav", "[Errno 2] No such file", "needs its )"),
         ("rbx1_nav", "rbx1_nv", "rbx1_nv ROS path [0]=/x", "is rbx1_nav meant?"),
         ('"rviz"', "“rviz”", "not well-formed (invalid token): line 4, column 12", "curly"),

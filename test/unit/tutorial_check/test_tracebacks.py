@@ -31,6 +31,15 @@ def test_the_students_own_line():
     assert "square brackets" in explain(trace.error)
 
 
+def test_a_topic_that_rospy_closed_at_the_end_is_no_mistake():
+    ended = OUTPUT.replace(
+        "TypeError: 'tuple' object is not callable",
+        "rospy.exceptions.ROSException: publish() to a closed topic",
+    )
+    assert first_traceback(ended, "/tmp/ws/joy2twist") is None
+    assert first_traceback(ended + OUTPUT, "/tmp/ws/joy2twist").error.startswith("TypeError")
+
+
 def test_no_traceback():
     assert first_traceback("all is well", "/tmp") is None
 

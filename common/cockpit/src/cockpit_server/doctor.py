@@ -14,10 +14,11 @@ LONGEST_RUN_S = 60.0
 
 
 def shown(line):
-    """A line of the doctor as pages get it."""
-    level = line.split(maxsplit=1)[0] if line.strip() else ""
-    text = line[len(level) :].strip() if level in ("ok", "wrong", "unknown") else line.strip()
-    return {"level": LEVELS.get(level, "note"), "text": text}
+    """A line of the doctor as pages get it: subject is what it is about."""
+    level, subject, text = [*line.split(maxsplit=2), "", "", ""][:3]
+    if level not in ("ok", "wrong", "unknown"):
+        subject, text = "", line
+    return {"level": LEVELS.get(level, "note"), "subject": subject, "text": text.strip()}
 
 
 class Doctor(Source):

@@ -98,9 +98,12 @@ def robot_of(topic):
     return topic.rsplit("/", 1)[0].strip("/")
 
 
-def without(name, column):
-    """A column of getSystemState() as {name: nodes}, without one node: the cockpit looks at the
-    robots, and is no part of what it shows.
+def without(name, column, shown_in=()):
+    """A column of getSystemState() as {name: nodes}, without one node, but where it is to be shown:
+    the cockpit only looks at robots, and is a part of the graph where it moves them.
     """
-    users = {entry: frozenset(nodes) - {name} for entry, nodes in column}
+    users = {
+        entry: frozenset(nodes) - ({name} if entry not in shown_in else set())
+        for entry, nodes in column
+    }
     return {entry: nodes for entry, nodes in users.items() if nodes}

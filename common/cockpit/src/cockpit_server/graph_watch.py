@@ -6,7 +6,7 @@ from urllib.parse import urlsplit
 
 import rosgraph
 
-from cockpit_server.graph import Graph, without
+from cockpit_server.graph import JOY, Graph, without
 from node_kit.questions import Answer, call
 
 PERIOD_S = 1.0
@@ -16,7 +16,7 @@ class GraphWatch:
     """The newest Graph, and a number that grows with each change of it."""
 
     def __init__(self, own_name):
-        """own_name: of this node, which is left out."""
+        """own_name: of this node, which is left out, but as a joystick."""
         self._own_name = own_name
         self._uri = rosgraph.get_master_uri()
         self.graph, self.version = Graph(), 0
@@ -43,9 +43,12 @@ class GraphWatch:
             self._is_lost = True
             return
         _, types = call(self._uri, "getTopicTypes", caller=self._own_name)
-        publishers, subscribers, services = [without(self._own_name, part) for part in state]
+        types = dict(types or [])
+        joysticks = {topic for topic, kind in types.items() if kind == JOY}
+        publishers = without(self._own_name, state[0], shown_in=joysticks)
+        subscribers, services = [without(self._own_name, part) for part in state[1:]]
         known = self.graph.machines
-        graph = Graph(publishers, subscribers, services, dict(types or []))
+        graph = Graph(publishers, subscribers, services, types)
         graph.machines.update({n: known.get(n) or self._machine(n) for n in graph.nodes})
         if graph != self.graph:
             self.graph = graph

@@ -1,7 +1,7 @@
 """The motion on the floor from the bytes of a nav_msgs/Odometry (pure)."""
 
 import struct
-from math import atan2
+from math import atan2, hypot
 from typing import NamedTuple
 
 # Little-endian: seq, secs, nsecs (uint32 each), frame_id and child_frame_id (length and bytes),
@@ -9,6 +9,9 @@ from typing import NamedTuple
 _HEADER_BYTES = 12
 _LENGTH = struct.Struct("<I")
 _MOTION = struct.Struct("<7d288x6d")
+
+
+LONGEST_STEP_M = 0.5  # within a period; what is more was carried, or reset
 
 
 class Motion(NamedTuple):
@@ -29,3 +32,10 @@ def motion(data):
     x, y, _, qx, qy, qz, qw, v, _, _, _, _, w = _MOTION.unpack_from(data, at)
     yaw = atan2(2 * (qw * qz + qx * qy), qw * qw + qx * qx - qy * qy - qz * qz)
     return Motion(x, y, yaw, v, w)
+
+
+def covered(last, new, so_far):
+    """The way [m] since the robot was put where it began; so_far: until the last Motion."""
+    step = hypot(new.x - last.x, new.y - last.y)
+    at_origin = new.x == new.y == new.yaw == 0.0  # as a reset has it, and no drive by chance
+    return 0.0 if at_origin or step > LONGEST_STEP_M else so_far + step

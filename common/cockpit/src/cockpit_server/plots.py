@@ -26,9 +26,14 @@ def class_of(type_name):
 
 @lru_cache(maxsize=None)
 def fields_of(type_name):
-    """The names of all numbers in messages of a type."""
+    """The names of all numbers in messages of a type, what is seldom drawn last."""
     kind = class_of(type_name)
-    return tuple(numeric_fields(kind, class_of)) if kind else ()
+    return tuple(sorted(numeric_fields(kind, class_of), key=is_seldom_drawn)) if kind else ()
+
+
+def is_seldom_drawn(field):
+    """Whether a field belongs to the end of a list: a header's number and time, a covariance."""
+    return "header/" in field or "covariance" in field
 
 
 class Plots(Source):

@@ -106,12 +106,16 @@ def main():
 
     def spin(_parameters):
         tell(options.port, access)
-        rospy.set_param(PARAMETER, f"http://127.0.0.1:{options.port}/")
+        address = f"http://127.0.0.1:{options.port}/"
+        rospy.set_param(PARAMETER, address)
         cockpit = Cockpit(sockets, access)
         try:
             cockpit.run()
         finally:
-            call(rosgraph.get_master_uri(), "deleteParam", PARAMETER)
+            uri = rosgraph.get_master_uri()
+            # Another cockpit, under a name of its own, may have put its own there.
+            if call(uri, "getParam", PARAMETER) == (Answer.WELL, address):
+                call(uri, "deleteParam", PARAMETER)
         if cockpit.has_lost_master:
             begin_anew(access)
 

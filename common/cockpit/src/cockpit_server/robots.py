@@ -2,16 +2,15 @@
 
 import struct
 import time
-from math import hypot, isfinite
+from math import isfinite
 
 from genpy import DeserializationError
 from sensor_msgs.msg import Joy
 
 from cockpit_server.clients import Source, encoded
-from cockpit_server.motion import motion
+from cockpit_server.motion import covered, motion
 from node_kit.careful_connections import sender_of
 
-LONGEST_STEP_M = 0.5  # within a period; what is more was carried, or reset
 DIGITS = 4  # of metres: a tenth of a millimetre
 
 
@@ -60,14 +59,13 @@ class Robots(Source):
             new = motion(data)
         except struct.error:
             return
-        last, _, covered = self._states.get(robot, (new, 0.0, 0.0))
-        step = hypot(new.x - last.x, new.y - last.y)
-        self._states[robot] = (new, came, covered + (step if step < LONGEST_STEP_M else 0.0))
+        last, _, so_far = self._states.get(robot, (new, 0.0, 0.0))
+        self._states[robot] = (new, came, covered(last, new, so_far))
 
 
-def shown(state, came, covered, now):
+def shown(state, came, way, now):
     """A robot's state as pages get it; what is not finite is left out."""
-    values = {**state._asdict(), "covered": covered, "age": max(0.0, now - came)}
+    values = {**state._asdict(), "covered": way, "age": max(0.0, now - came)}
     return {name: round(value, DIGITS) for name, value in values.items() if isfinite(value)}
 
 

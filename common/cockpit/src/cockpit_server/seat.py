@@ -130,6 +130,8 @@ class Seat:
         if neutral:
             self.armed = True
         if self.armed:
+            if not neutral:
+                self.why = ""  # of the last loss; until somebody moves again it is worth reading
             self._publish(message.axes, message.buttons)
 
     def _is_fresh(self, message, now):

@@ -10,11 +10,12 @@ from cockpit_server.graph import robot_of
 
 MARK = ": joystick"  # the end of the name of joy2twist's status; before it stands its node's
 SILENT_S = 4.0  # it speaks once a second
-SILENT = {"state": "silent", "why": "joy2twist says nothing any more", "level": 2}
+SILENT = {"state": "silent", "why": "joy2twist says nothing any more", "level": 2, "deadman": None}
+DEADMAN = "Dead-man button"  # the name of the value that tells which one it is, or "none"
 
 
 def said(data):
-    """[(robot, {state, why, level})] from the bytes of a DiagnosticArray."""
+    """[(robot, {state, why, level, deadman})] from the bytes of a DiagnosticArray."""
     if MARK.encode() not in data:
         return []
     try:
@@ -26,9 +27,17 @@ def said(data):
 
 
 def told(status):
-    """A DiagnosticStatus as pages get it: state is its first word."""
+    """A DiagnosticStatus as pages get it: state is its first word, deadman whether a button has to
+    be held (None: an older joy2twist does not tell).
+    """
     state = status.message.partition(":")[0].partition(" ")[0]
-    return {"state": state, "why": status.message, "level": int(status.level)}
+    button = {pair.key: pair.value for pair in status.values}.get(DEADMAN)
+    return {
+        "state": state,
+        "why": status.message,
+        "level": int(status.level),
+        "deadman": None if button is None else button != "none",
+    }
 
 
 class Teleop(Source):

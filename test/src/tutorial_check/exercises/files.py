@@ -150,15 +150,17 @@ def _check_gaps(facts, script):
             hint="two underscores on either side of name and of main: the PDF shows them as gaps",
         )
     for call in [
-        each for kind in ("Publisher", "Subscriber") for each in facts.calls.get(kind, [])
+        each
+        for kind in ("Publisher", "Subscriber", "init_node")
+        for each in facts.calls.get(kind, [])
     ]:
-        topic = call.words[0] if call.words else ""
-        if " " in topic:
+        name = call.words[0] if call.words else ""
+        if " " in name:
             raise Wrong(
-                "names of topics without a space",
-                f"the name {topic!r} has a space",
+                "names of nodes and topics without a space",
+                f"the name {name!r} has a space",
                 where=f"{script}:{call.line}",
-                hint=f"the PDF shows _ as a gap: {'_'.join(topic.split())!r}",
+                hint=f"the PDF shows _ as a gap: {'_'.join(name.split())!r}",
             )
 
 

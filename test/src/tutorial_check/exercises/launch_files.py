@@ -7,7 +7,7 @@ import re
 from pathlib import Path
 
 from tutorial_check.exercises.driving import PACKAGE
-from tutorial_check.exercises.launch_text import attribute, parse_error, place_of, read
+from tutorial_check.exercises.launch_text import attribute, parse_error, place_of, read, space_hint
 from tutorial_check.launch_facts import MARK
 from tutorial_check.model import CannotCheck, Wrong
 from tutorial_check.tracebacks import last_lines
@@ -111,6 +111,9 @@ def check_file(session, name):
             if word.lower() in _TAGS
             else "look at its spelling",
         )
+    gap, hint = space_hint(text)
+    if gap:
+        raise Wrong("names in one word", gap, where=place_of(where, text, gap), hint=hint)
     for each in one["nodes"]:
         _check_node(session, each, where, text)
     _check_finds(session, path, where, text)

@@ -23,6 +23,11 @@ PACKAGES = (
 NOT_XML = r"mismatched tag|no element found|not well-formed|junk after|unclosed token"
 NO_FILE = r"No such file or directory: '([^']+)'|\[([^\]]+)\] (?:does not exist|cannot be)"
 NO_PACKAGE = r"Resource not found: (\S+)|package \[?'?([\w-]+)|(\S+) ROS path \[0\]="
+# Names in two words.
+GAPS = (
+    r"\$\(find\s+(\w+(?:[ \t]+\w+)+)\s*\)",
+    r"\b(?:pkg|type|name)\s*=\s*[\"'](\w+(?:[ \t]+[\w.]+)+)[\"']",
+)
 CURLY = re.compile("[“”‘’]")
 
 
@@ -52,11 +57,12 @@ def attribute(name, value):
 
 def space_hint(text):
     """(what has a space that should be an underscore, what to do); empty if there is none."""
-    found = re.search(r"\$\(find\s+(\w+(?:[ \t]+\w+)+)\s*\)", text)
-    if not found:
-        return "", ""
-    whole = "_".join(found[1].split())
-    return found[0], f"a name of a package has no space, the PDF shows _ as a gap: $(find {whole})"
+    for pattern in GAPS:
+        found = re.search(pattern, text)
+        if found:
+            whole = found[0].replace(found[1], "_".join(found[1].split()))
+            return found[0], f"a name has no space, the PDF shows _ as a gap: {whole}"
+    return "", ""
 
 
 def parse_error(error, where, text):
