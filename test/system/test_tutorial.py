@@ -119,3 +119,10 @@ def test_shell_and_run_see_the_workspace_and_no_shell_file_is_touched(tutorial, 
     ]
     assert [path.name for path in home.iterdir() if path.name != ".bash_history"] == [".bashrc"]
     assert (home / ".bashrc").read_text() == "alias mine=true\n"
+
+
+def test_of_two_calls_at_once_one_builds_and_both_go_on(tutorial, tmp_path):
+    command = [tutorial, "run", "--in", str(tmp_path / "catkin_ws"), "rospack", "find", "joy"]
+    with Program(*command) as one, Program(*command) as other:
+        assert (one.wait(), other.wait()) == (0, 0), one.output + other.output
+        assert (one.output + other.output).count("tutorial: building") == 1
