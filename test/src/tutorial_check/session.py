@@ -6,6 +6,7 @@ import re
 import subprocess
 from pathlib import Path
 
+from node_kit.manifests import broken_manifests
 from tutorial_check import python_facts
 from tutorial_check.model import CannotCheck, Wrong, master_gone
 from tutorial_check.stage import Stage
@@ -146,6 +147,21 @@ class Session:
         changed.chmod(0o755)
         return str(Path(script).with_name(name))
 
+    def must_be_startable(self):
+        """rospy and roslaunch read every package.xml first, not only that of the package. Raises Wrong."""
+        broken = self.memo("broken manifests", lambda: broken_manifests(self.source))
+        if not broken:
+            return
+        path, complaint = broken[0]
+        line = re.search(r"line (\d+)", complaint)
+        raise Wrong(
+            "every package.xml in src is one that ROS can read",
+            f"{complaint}; with it no node of the workspace starts, of whatever package",
+            where=os.path.relpath(path, self.source) + (f":{line[1]}" if line else ""),
+            hint="mend that line or the one before: each <tag> needs its </tag>",
+            sure=True,
+        )
+
     # ------------------------------------------------------------------------- environment
 
     def built(self):
@@ -209,6 +225,7 @@ class Session:
     @contextlib.contextmanager
     def stage(self):
         """A ROS master of its own, and a driver; all that was started on it ends with it."""
+        self.must_be_startable()
         stage = Stage(self)
         try:
             yield stage

@@ -90,6 +90,15 @@ def test_whose_joy2twist_would_run(workspace, path, level, words):
     assert words in findings[0].line()
 
 
+def test_a_broken_package_xml_is_named():
+    broken = [("/ws/src/a/package.xml", "mismatched tag: line 5"), ("/ws/src/b/package.xml", "x")]
+    findings = judge(Facts(workspace="/ws", joy2twist="", broken_manifests=broken))
+    told = [finding.line() for finding in findings if finding.about == "floor"]
+    assert len(told) == 2
+    for line, (path, why) in zip(told, broken):
+        assert line.startswith("wrong") and f"{path}: {why}" in line and "no ROS program" in line
+
+
 def test_each_finding_is_one_line():
     for finding in judge(WELL):
         assert "\n" not in finding.line()

@@ -52,6 +52,7 @@ def facts(session, name):
 
 
 def _read(session):
+    session.must_be_startable()
     folder = session.package(PACKAGE).folder
     paths = {}
     for name in ALL:

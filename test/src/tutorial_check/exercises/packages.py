@@ -110,8 +110,8 @@ def _package(session, name):
             "a package.xml that can be read",
             reason,
             where=f"{broken[0].inside}/package.xml" + (f":{line[1]}" if line else ""),
-            hint="repair that line or the one before: each <tag> needs its </tag>. Until then every"
-            " ROS command looks past your package",
+            hint="repair that line or the one before: each <tag> needs its </tag>. Until then"
+            " catkin_make fails",
         )
     if len(named) > 1:
         raise Wrong(

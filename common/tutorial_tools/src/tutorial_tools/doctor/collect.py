@@ -13,6 +13,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from genpy import DeserializationError
 from std_msgs.msg import String
 
+from node_kit.manifests import broken_manifests
 from tutorial_tools.doctor.facts import JOY, Answer, Facts, Joystick, Mux, MuxInput, Node, Offset
 from tutorial_tools.doctor.network import (
     CALLER,
@@ -82,17 +83,25 @@ def this_machine():
         "own_is_here": bool(own_addresses) and all(map(is_here, own_addresses)),
         "joysticks": [joystick(path) for path in sorted(glob.glob("/dev/input/js*"))],
         "workspace": os.environ.get("TUTORIAL_IN", ""),
+        "broken_manifests": broken_in_own_folders(),
         "joy2twist": folder_of("joy2twist"),
         "container": any(map(os.path.exists, ("/.dockerenv", "/run/.containerenv"))),
         "wsl": "microsoft" in os.uname().release.lower(),
     }
 
 
+def broken_in_own_folders():
+    """[(path, what is wrong)] of what broken_manifests() finds in the user's own workspaces."""
+    folders = os.environ.get("ROS_PACKAGE_PATH", "").split(":")
+    own = [each for each in folders if each and not each.startswith(("/usr/", "/opt/"))]
+    return [broken for folder in own for broken in broken_manifests(folder)]
+
+
 def folder_of(package):
     """Where a package lies, links followed; "" if it is not found."""
     try:
         return os.path.realpath(rospkg.RosPack().get_path(package))
-    except rospkg.ResourceNotFound:
+    except Exception:  # not found, or whatever a broken package.xml brings about
         return ""
 
 

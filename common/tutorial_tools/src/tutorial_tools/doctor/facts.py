@@ -92,6 +92,7 @@ class Facts:
     called_back: Optional[bool] = True  # whether the master reached us; None: not tried
     joysticks: List[Joystick] = field(default_factory=list)
     workspace: str = ""  # a student's, which takes the place of the solutions
+    broken_manifests: List[Tuple[str, str]] = field(default_factory=list)  # path, what is wrong
     joy2twist: str = "/suite/joy2twist"  # folder of the package that would run; "": none
     container: bool = False
     wsl: bool = False

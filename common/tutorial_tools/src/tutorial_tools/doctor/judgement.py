@@ -44,6 +44,11 @@ def judge(facts):
 def floor(facts):
     """Whose joy2twist would run."""
     path, workspace = facts.joy2twist, facts.workspace
+    for broken, why in facts.broken_manifests:
+        todo = "mend that line or the one before; until then no ROS program starts"
+        yield Finding(WRONG, "floor", f"{broken}: {why}", todo)
+    if facts.broken_manifests:
+        return
     if not workspace and path:
         yield Finding(OK, "floor", f"joy2twist is the suite's: {path}")
     elif not workspace:

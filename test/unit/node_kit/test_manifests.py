@@ -1,0 +1,57 @@
+"""Which package.xml rospkg cannot read, and no other."""
+
+import pytest
+import rospkg
+
+from node_kit.manifests import broken_manifests, main
+
+GOOD = "<package><name>good</name></package>"
+
+
+def package(folder, text):
+    folder.mkdir(parents=True)
+    (folder / "package.xml").write_text(text)
+    return folder
+
+
+@pytest.mark.parametrize(
+    ("text", "word"),
+    [
+        ("<package>\n<name>x</nam>\n</package>", "mismatched tag: line 2"),
+        ("", "no element found"),
+        ("<package></package>", "no <name>"),
+        ('<?xml version="1.0" encoding="moon"?><package/>', "encoding"),
+    ],
+)
+def test_what_rospkg_cannot_read_is_named(tmp_path, text, word):
+    package(tmp_path / "src" / "good", GOOD)
+    bad = package(tmp_path / "src" / "deep" / "bad", text)
+    with pytest.raises(Exception):  # noqa: B017  rospkg's own, of several kinds
+        rospkg.RosPack([str(tmp_path)]).list()
+    ((path, complaint),) = broken_manifests(tmp_path)
+    assert path == f"{bad}/package.xml"
+    assert word in complaint
+
+
+def test_what_rospkg_does_not_read_may_be_broken(tmp_path):
+    package(tmp_path / "ignored", "")
+    (tmp_path / "ignored" / "CATKIN_IGNORE").touch()
+    package(tmp_path / "good", GOOD)
+    package(tmp_path / "good" / "inside", "")
+    (tmp_path / "loop").symlink_to(tmp_path)
+    assert rospkg.RosPack([str(tmp_path / "ignored"), str(tmp_path / "good")]).list() == ["good"]
+    assert broken_manifests(tmp_path) == []
+    assert broken_manifests(tmp_path / "nothing") == []
+
+
+def test_the_command_names_them(tmp_path, monkeypatch, capsys):
+    package(tmp_path / "bad", "")
+    for folder, code in ((tmp_path, True), (tmp_path / "nothing", False)):
+        monkeypatch.setattr("sys.argv", ["manifests", str(folder)])
+        with pytest.raises(SystemExit) as end:
+            main()
+        assert end.value.code == code
+    assert (
+        capsys.readouterr().out
+        == f"{tmp_path}/bad/package.xml: no element found: line 1, column 0\n"
+    )
