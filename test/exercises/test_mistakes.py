@@ -25,6 +25,9 @@ def test_mistake(row, literal, floor, record_property):
         record_property("not checked", f"{title}: {error}")
         raise
     wrong = [result for result in outcomes[0].results if result.status == "wrong"]
+    if outcomes[0].trouble:
+        record_property("not checked", f"{title}: {outcomes[0].trouble}")
+        pytest.fail("not checked")
     if not wrong:
         record_property("missed", f"{title}: should be {check}")
         pytest.fail("missed")

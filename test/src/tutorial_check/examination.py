@@ -31,6 +31,7 @@ class Outcome:
     results: list = field(default_factory=list)
     seconds: float = 0.0
     done: bool = False
+    trouble: str = ""  # why a check could not be made, through no fault of the student's
 
     @property
     def passed(self):
@@ -185,6 +186,7 @@ def _listen(process, outcomes, tell):
                     tell(outcome, outcome.results[-1])
                 else:
                     outcome.seconds, outcome.done = word["done"], True
+                    outcome.trouble = word["trouble"]
     raise CannotCheck(
         f"the examination took longer than {LONGEST_S:.0f} s: the machine has too much else to do"
     )

@@ -2,7 +2,8 @@
 
 Its orders come as JSON on standard input; what it finds goes out as JSON lines through a pipe that
 no program of the student's ever has: {"exercise": id, "result": {...}}, {"exercise": id, "done":
-seconds}, and at the end {"end": true} or {"cannot": "why"}.
+seconds, "trouble": why it could not be checked as a whole, or ""}, and at the end {"end": true} or
+{"cannot": "why"}.
 """
 
 import json
@@ -101,7 +102,8 @@ def examine(orders, tell):
             lambda result, exercise=exercise: tell(exercise=exercise, result=as_told(result)),
             orders["only_first"],
         )
-        tell(exercise=exercise, done=round(time.monotonic() - began_s, 2))
+        seconds = round(time.monotonic() - began_s, 2)
+        tell(exercise=exercise, done=seconds, trouble=run.trouble(exercise))
     if "TUTORIAL_CHECK_TIMES" in os.environ:
         print({**times, **run.seconds}, file=sys.stderr)
 

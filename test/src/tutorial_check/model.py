@@ -1,9 +1,13 @@
 """What a check can come to, and the order in which checks are made. Pure."""
 
+import re
 import time
+import traceback
 from dataclasses import asdict, dataclass
+from pathlib import Path
 
 OK, WRONG, NOTE, UNREACHED = "ok", "wrong", "note", "unreached"
+LINE = re.compile(r":\d+$")  # of a file, at the end of a place
 
 
 @dataclass(frozen=True)
@@ -105,6 +109,7 @@ class Run:
         self._done = {}
         self._blocked_by = {}  # id of a check not reached -> the results that are to blame
         self._told = set()
+        self._troubles = {}  # id of a check that could not be made -> why
         self.seconds = {}  # that each check took, with those it needs
 
     def result(self, check_id):
@@ -133,12 +138,18 @@ class Run:
 
         for check in self._catalogue.of(exercise):
             for culprit in self._culprits(check):
-                if self._catalogue.checks[culprit.id].exercise != exercise:
+                elsewhere = self._catalogue.checks[culprit.id].exercise != exercise
+                if elsewhere and culprit.id not in self._told:
                     add(culprit)
             add(self.result(check.id))
             if only_first and any(result.status == WRONG for result in results):
                 break
         return results
+
+    def trouble(self, exercise):
+        """Why a check of the exercise could not be made, though nothing is wrong with it; or empty."""
+        own = [check.id for check in self._catalogue.of(exercise)]
+        return next((f"{one}: {self._troubles[one]}" for one in own if one in self._troubles), "")
 
     def _culprits(self, check):
         for needed in check.needs:
@@ -156,11 +167,10 @@ class Run:
         try:
             found = self._call(check)
         except Wrong as wrong:
-            told = (wrong.seen, wrong.where)
             same = [
                 one
                 for one in self._done.values()
-                if (one.seen, one.where) == told and one.status == WRONG
+                if one.status == WRONG and _is_one_cause(one, wrong)
             ]
             if same:  # one cause is told once, at the first check that it keeps from holding
                 return self._unreached(check, same)
@@ -172,6 +182,13 @@ class Run:
             }
             about["look"] = wrong.look or check.look
             return Result(status=WRONG, **about, **what)
+        except CannotCheck as error:
+            return self._not_checked(about, str(error))
+        except Exception as error:  # a fault of ours: the other checks are made all the same
+            traceback.print_exc()
+            line = traceback.extract_tb(error.__traceback__)[-1]
+            place = f"{Path(line.filename).name}:{line.lineno}"
+            return self._not_checked(about, f"{type(error).__name__}: {error} ({place})")
         if isinstance(found, Note):
             return Result(status=NOTE, seen=found.seen, where=found.where, hint=found.hint, **about)
         return Result(status=OK, seen=found or "", **about)
@@ -192,17 +209,32 @@ class Run:
                 f"{check.id}: the machine has too much else to do for a verdict ({wrong.seen})"
             ) from None
 
+    def _not_checked(self, about, why):
+        self._troubles[about["id"]] = why
+        result = Result(status=UNREACHED, seen=f"could not be checked: {why}", **about)
+        self._blocked_by[result.id] = [result]
+        return result
+
     def _unreached(self, check, culprits):
         self._blocked_by[check.id] = culprits
         first = culprits[0]
+        why = f"first mend {first.id}: {first.title}"
+        if first.status == UNREACHED:
+            why = f"{first.id} could not be checked"
         return Result(
             id=check.id,
             status=UNREACHED,
             title=check.title,
             section=check.section,
             look=check.look,
-            seen=f"first mend {first.id}: {first.title}",
+            seen=why,
         )
+
+
+def _is_one_cause(result, wrong):
+    """Whether a Result tells of what a Wrong is about. "No such file" alone may be said of two files."""
+    is_same = (result.seen, result.where) == (wrong.seen, wrong.where)
+    return is_same and (bool(LINE.search(wrong.where)) or result.expected == wrong.expected)
 
 
 def passed(results):

@@ -63,9 +63,10 @@ def check_all(options):
     write_csv(out / "table.csv", students, options.exercises)
     (out / "table.html").write_text(table_html(students, options.exercises), encoding="utf-8")
     print(f"{out}/table.html, table.csv, and a report of each")
-    if any(student.trouble for student in students):
+    outcomes = [outcome for student in students for outcome in student.outcomes]
+    if any(one.trouble for one in (*students, *outcomes)):
         return 2
-    return 0 if all(outcome.passed for student in students for outcome in student.outcomes) else 1
+    return 0 if all(outcome.passed for outcome in outcomes) else 1
 
 
 def _check(student, options):
@@ -99,6 +100,8 @@ def _cell(student, exercise):
     if outcome.passed:
         return "ok", ""
     wrong = [result for result in outcome.results if result.status == WRONG]
+    if outcome.trouble and not wrong:
+        return "?", outcome.trouble
     return (wrong[0].id, "\n".join(lines_of(wrong[0]))) if wrong else ("-", "not reached")
 
 

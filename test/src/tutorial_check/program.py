@@ -95,6 +95,11 @@ def check_one(options):
     terminal.done()
     print(summary(outcomes))
     write_files(options, outcomes)
+    troubles = [outcome for outcome in outcomes if outcome.trouble]
+    for one in troubles:
+        print(f"check: {one.id}: no verdict: {one.trouble}", file=sys.stderr)
+    if troubles:
+        return 2
     return 0 if all(outcome.passed for outcome in outcomes) else 1
 
 

@@ -149,18 +149,29 @@ class Session:
 
     def must_be_startable(self):
         """rospy and roslaunch read every package.xml first, not only that of the package. Raises Wrong."""
-        broken = self.memo("broken manifests", lambda: broken_manifests(self.source))
-        if not broken:
-            return
-        path, complaint = broken[0]
-        line = re.search(r"line (\d+)", complaint)
-        raise Wrong(
-            "every package.xml in src is one that ROS can read",
-            f"{complaint}; with it no node of the workspace starts, of whatever package",
-            where=os.path.relpath(path, self.source) + (f":{line[1]}" if line else ""),
-            hint="mend that line or the one before: each <tag> needs its </tag>",
-            sure=True,
-        )
+        for path, complaint in self.memo("broken", lambda: broken_manifests(self.source)):
+            inside = os.path.relpath(os.path.dirname(path), self.source)
+            package = next((each for each in self.packages if each.inside == inside), None)
+            raise _unreadable(inside, (package and package.error) or complaint)
+
+    def must_be_launchable(self):
+        """catkin reads them as well, and roslaunch asks catkin. Raises Wrong."""
+        self.must_be_startable()
+        names = {}
+        for each in self.packages:
+            if each.error:
+                raise _unreadable(each.inside, each.error)
+            names.setdefault(each.name, []).append(each.inside)
+        for name, places in names.items():
+            if len(places) > 1:
+                raise Wrong(
+                    f"one package {name} in src",
+                    f"{len(places)}: {', '.join(places)}",
+                    where=places[1],
+                    hint="remove the copy from src, or put an empty file CATKIN_IGNORE into it:"
+                    " with both of them roslaunch starts nothing",
+                    sure=True,
+                )
 
     # ------------------------------------------------------------------------- environment
 
@@ -235,6 +246,19 @@ class Session:
             raise master_gone() from error
         finally:
             stage.end()
+
+
+def _unreadable(inside, complaint):
+    """The Wrong for a package.xml, as the checks of the packages have it."""
+    line = re.search(r"line (\d+)", complaint)
+    return Wrong(
+        "a package.xml that can be read",
+        complaint,
+        where=f"{inside}/package.xml" + (f":{line[1]}" if line else ""),
+        hint="ROS reads every one in src, whichever package is started: until this one is mended, no"
+        " node of the workspace starts",
+        sure=True,
+    )
 
 
 def prepare(folder, uid):

@@ -42,6 +42,7 @@ class Endings:
 
     def __init__(self, session, script):
         self._session, self._script = session, script
+        session.must_be_launchable()
         with session.stage() as stage:
             self._stage = stage
             robot = stage.launch(

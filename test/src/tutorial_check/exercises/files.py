@@ -47,7 +47,8 @@ def find_script(session, package, name):
         if path.is_file() and path.name != "CMakeLists.txt"
     }
     near = [other for other in others if other.lower().startswith(name) or other.lower() == name]
-    near = near or difflib.get_close_matches(name, others, 1, 0.75)
+    # new_joy2twist.py is another program, and no misspelt joy2twist.py.
+    near = near or difflib.get_close_matches(name, [o for o in others if name not in o], 1, 0.75)
     if near:
         raise Wrong(
             f"a program {name}",

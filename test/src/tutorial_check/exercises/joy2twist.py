@@ -14,7 +14,9 @@ def main_script(session):
     """The program that turns Joy into Twist: joy2twist.py, unless that is the first version still."""
     script = find_script(session, PACKAGE, NAME)
     scripts = session.scripts(PACKAGE)
-    facts = scripts[script]
+    facts = scripts.get(script)
+    if facts is None:
+        return script  # no Python, as C13 says
     is_first = "Subscriber" in facts.calls and not {"Publisher", "publish"} & set(facts.calls)
     if is_first and "geometry_msgs.msg.Twist" not in facts.imports:
         for other, facts in scripts.items():
@@ -32,15 +34,20 @@ def main_script(session):
 
 def file(session):
     """C13."""
-    for script in dict.fromkeys((find_script(session, PACKAGE, NAME), main_script(session))):
-        check_file(session, PACKAGE, script)
-        check_manifest(session, script)
-    return main_script(session)
+    script = find_script(session, PACKAGE, NAME)
+    check_file(session, PACKAGE, script)  # before its text is relied on
+    check_manifest(session, script)
+    main = main_script(session)
+    if main != script:
+        check_file(session, PACKAGE, main)
+        check_manifest(session, main)
+    return main
 
 
 def check_manifest(session, script):
     """roslib.load_manifest names a package that exists, or Wrong."""
-    call = session.scripts(PACKAGE)[script].first("load_manifest")
+    facts = session.scripts(PACKAGE).get(script)
+    call = facts and facts.first("load_manifest")
     if not call or not call.words or session.package(call.words[0]):
         return
     found = session.box.start(["rospack", "find", call.words[0]], session.environment)

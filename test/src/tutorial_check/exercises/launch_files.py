@@ -7,6 +7,8 @@ import re
 from pathlib import Path
 
 from tutorial_check.exercises.driving import PACKAGE
+from tutorial_check.exercises.files import find_script
+from tutorial_check.exercises.joy2twist import NAME
 from tutorial_check.exercises.launch_text import attribute, parse_error, place_of, read, space_hint
 from tutorial_check.launch_facts import MARK
 from tutorial_check.model import CannotCheck, Wrong
@@ -21,7 +23,15 @@ COPY_BAG = 'in your package: mkdir -p bag; cp "$(rospack find gamepad)/bag/joy.b
 def find_launch(session, name):
     """The path of a launch file in the student's package. Raises Wrong."""
     folder = session.package(PACKAGE).folder
-    found = sorted(folder.rglob(name))
+    found = sorted(path for path in folder.rglob(name) if path.is_file())
+    if len(found) > 1:
+        raise Wrong(
+            f"one file {name}",
+            "several: " + ", ".join(str(path.relative_to(folder)) for path in found),
+            where=str(found[1].relative_to(folder)),
+            hint=f"roslaunch says 'multiple files named {name}' and starts nothing: keep one in"
+            f" {PACKAGE}/launch",
+        )
     if found:
         return found[0]
     others = {
@@ -52,11 +62,11 @@ def facts(session, name):
 
 
 def _read(session):
-    session.must_be_startable()
+    session.must_be_launchable()
     folder = session.package(PACKAGE).folder
     paths = {}
     for name in ALL:
-        for path in sorted(folder.rglob(name))[:1]:
+        for path in sorted(each for each in folder.rglob(name) if each.is_file())[:1]:
             paths[name] = str(path)
     if not paths:
         return {}
@@ -139,7 +149,14 @@ _TAGS = {
 
 def _check_node(session, node, where, text):
     package, kind = node["package"], node["type"]
-    place = place_of(where, text, *attribute("type", kind))
+    place = place_of(where, text, *attribute("type", kind), Path(kind).name)
+    if "/" in kind:
+        raise Wrong(
+            "type is the name of a program, without its folder",
+            f'type="{kind}"',
+            where=place,
+            hint=f'type="{Path(kind).name}"',
+        )
     if kind.endswith(".launch"):
         raise Wrong(
             "programs in <node>",
@@ -149,7 +166,7 @@ def _check_node(session, node, where, text):
         )
     if package == PACKAGE:
         folder = session.package(PACKAGE).folder
-        found = [path for path in folder.rglob(kind) if path.is_file()]
+        found = [path for path in folder.rglob("*") if path.name == kind and path.is_file()]
         if kind == "joy_node":
             raise Wrong(
                 "joy_node of package joy",
@@ -157,6 +174,8 @@ def _check_node(session, node, where, text):
                 where=place,
                 hint='<node pkg="joy" type="joy_node" name="joy_node"/>',
             )
+        if not found and kind == NAME:
+            find_script(session, PACKAGE, NAME)  # which says what is there in its place
         if not found:
             near = difflib.get_close_matches(
                 kind, [path.name for path in folder.rglob("*") if path.is_file()], 1, 0.7

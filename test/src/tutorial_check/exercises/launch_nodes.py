@@ -14,6 +14,7 @@ from tutorial_check.exercises.launch_files import (
     relative,
 )
 from tutorial_check.exercises.launch_text import attribute, place_of, read
+from tutorial_check.exercises.robot import check_recording
 from tutorial_check.model import Note, Wrong
 
 ROBOT_HINT = '<include file="$(find rbx1_bringup)/launch/fake_turtlebot.launch"/>'
@@ -69,6 +70,20 @@ def demand(session, name, what, test, hint):
     return found[0]
 
 
+def words_of(session, name, node):
+    """The arguments of a node, as a shell would part them. Raises Wrong."""
+    try:
+        return shlex.split(node["args"])
+    except ValueError as error:
+        path = find_launch(session, name)
+        raise Wrong(
+            "a second quote for each one in args",
+            f"{node['args']} ({error})",
+            where=place_of(relative(session, path), read(path), *attribute("type", node["type"])),
+            hint="leave the ' out: a path without spaces needs none",
+        ) from None
+
+
 def check_viewer(session, name):
     """RViz with a configuration that exists."""
     node = demand(
@@ -78,7 +93,7 @@ def check_viewer(session, name):
         is_viewer,
         '<node pkg="rviz" type="rviz" name="my_rviz" args="-d $(find rbx1_nav)/sim.rviz"/>',
     )
-    words = shlex.split(node["args"])
+    words = words_of(session, name, node)
     config = next(
         (words[i + 1] for i, word in enumerate(words[:-1]) if word in ("-d", "--display-config")),
         None,
@@ -88,7 +103,7 @@ def check_viewer(session, name):
     where = place_of(
         where, text, Path(config).name if config else "", *attribute("type", node["type"])
     )
-    if config and config != "auto" and not Path(config).exists():
+    if config and config != "auto" and not os.path.isfile(config):
         raise Wrong(
             "-d FILE names a file that exists",
             f"no file {config}",
@@ -122,7 +137,7 @@ def bag_of(session):
     node = demand(session, BAG, "rosbag play", is_player, BAG_HINT)
     path = find_launch(session, BAG)
     where = place_of(relative(session, path), read(path), *attribute("type", "play"))
-    words = [word for word in shlex.split(node["args"]) if not word.startswith("_")]
+    words = [word for word in words_of(session, BAG, node) if not word.startswith("_")]
     bags = [word for word in words if word.endswith(".bag")]
     if not bags:
         raise Wrong(
@@ -138,13 +153,15 @@ def bag_of(session):
             where=where,
             hint=f"roslaunch starts rosbag in a folder of its own: $(find joy2twist)/bag/{Path(bags[0]).name}",
         )
-    if not Path(bags[0]).exists() and str(session.layout.root) not in bags[0]:
+    if not os.path.isfile(bags[0]) and str(session.layout.root) not in bags[0]:
         raise Wrong(
             "a recording that exists",
             f"no file {bags[0]}",
             where=where,
             hint=COPY_BAG,
         )
+    if bags[0].startswith(f"{session.source}/"):
+        check_recording(bags[0], os.path.relpath(bags[0], session.source))
     return bags[0], where
 
 
@@ -156,7 +173,7 @@ def bag_nodes(session):
     bag, where = bag_of(session)
     if not bag.startswith(str(session.source)):
         if (
-            not Path(bag).exists()
+            not os.path.isfile(bag)
             or "$(find" not in read(find_launch(session, BAG)).split("play", 1)[-1]
         ):
             return Note(

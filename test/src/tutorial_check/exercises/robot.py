@@ -24,8 +24,6 @@ def held(left, forwards):
 
 def recording(session):
     """C11."""
-    import rosbag  # noqa: PLC0415
-
     package = session.package(PACKAGE) or session.package("beginner_tutorials")
     bags = sorted(session.source.rglob("*.bag")) if package else []
     if not bags:
@@ -35,6 +33,13 @@ def recording(session):
         )
     bag = next((each for each in bags if each.name == "joy.bag"), bags[0])
     name = str(bag.relative_to(session.source))
+    return f"{name}: {', '.join(check_recording(bag, name))}"
+
+
+def check_recording(bag, name):
+    """The topics of a recording that can be played to joy2twist. name: as the student knows it. Raises Wrong."""
+    import rosbag  # noqa: PLC0415
+
     try:
         with rosbag.Bag(str(bag)) as opened:
             topics = opened.get_type_and_topic_info().topics
@@ -58,7 +63,7 @@ def recording(session):
         )
     if len(getattr(joys[0], "axes", ())) < 2:
         raise Wrong("at least two axes", f"{len(getattr(joys[0], 'axes', ()))}", where=name)
-    return f"{name}: {', '.join(topics)}"
+    return list(topics)
 
 
 def _yaw(odom):
