@@ -73,6 +73,9 @@ def tell_once(options, examine):
         if wrong:
             print("\n".join(lines_of(wrong[0], not options.no_hints)))
             break
+        if outcomes[-1].trouble:
+            print(f"check: {exercise}: no verdict: {outcomes[-1].trouble}")
+            break
     done = ", ".join(outcome.id for outcome in outcomes if outcome.passed)
     print(
         f"done: {done or 'none yet'}"
