@@ -82,25 +82,74 @@ def test_a_phone_has_all_of_it(world, held):
         assert "auto" not in phone.ask(actions)
 
 
+# A page of its own, which a server of the test speaks to: hear(); sent is what it was asked for.
+ROBOT_TAB = """const [names, done] = arguments, handlers = {}, sent = [];
+const link = {isOpen: true, send(...said) { sent.push(said); },
+              on(kind, handler) { handlers[kind] = handler; }};
+const hear = (kind, message) => handlers[kind]({kind, ...message});
+const look = document.getElementById("look"), pad = {D: {buttons: []}, X: {buttons: []}};
+const hello = (robots) => hear("hello", {id: 1, role: "driver", robots, pad});
+const choose = (name) => { look.value = name; look.dispatchEvent(new Event("change")); };
+const options = () => [...look.options].map((one) => one.text);
+const drive = () => { take.click(); return sent.at(-1)[1].robot; };
+const take = document.getElementById("take").cloneNode();
+document.getElementById("take").replaceWith(take);
+document.getElementById("robots").replaceChildren();
+import('/page/robot_tab.js').then(({RobotTab}) => {
+  const tab = new RobotTab(link, (fields) => sent.push(["watch", fields]), () => {});
+  take.disabled = false;
+  %s
+})"""
+
+
 @pytest.mark.parametrize("robots", [[""], ["robot_1", "robot_2"]])
 def test_a_server_that_begins_anew_may_know_the_robots_later(page, robots):
-    script = """const [names, done] = arguments, handlers = {};
-    const link = {isOpen: true, send() {}, on(kind, handler) { handlers[kind] = handler; }};
-    const hear = (kind, message) => handlers[kind]({kind, ...message});
-    const look = document.getElementById("look"), pad = {D: {buttons: []}, X: {buttons: []}};
-    const begin = () => {
-      hear("hello", {id: 1, role: "driver", robots: [], pad});
-      hear("robots", {robots: {}});
-      hear("robots", {robots: Object.fromEntries(names.map((name) => [name, {}]))});
+    script = """const begin = () => {
+      hello([]);
+      hear("names", {names: []});
+      hear("names", {names});
     };
-    import('/page/robot_tab.js').then(({RobotTab}) => {
-      new RobotTab(link, () => {}, () => {});
-      begin();
-      look.value = names.at(-1);
-      begin();
-      done([look.options.length, look.value]);
-    })"""
-    assert page.driver.execute_async_script(script, robots) == [len(robots), robots[-1]]
+    begin();
+    choose(names.at(-1));
+    begin();
+    done([look.options.length, look.value, tab.look]);"""
+    shown = page.driver.execute_async_script(ROBOT_TAB % script, robots)
+    assert shown == [len(robots), robots[-1], robots[-1]]
+
+
+def test_the_chosen_robot_stays_chosen_while_it_is_gone(page):
+    script = """hello(names);
+    choose("robot_2");
+    hear("names", {names: ["robot_1"]});
+    hear("robots", {robots: {robot_1: {}}});
+    const gone = [options(), look.value, drive()];
+    hear("names", {names});
+    done([gone, [options(), look.value, drive()]]);"""
+    robots = ["robot_1", "robot_2"]
+    gone, back = page.driver.execute_async_script(ROBOT_TAB % script, robots)
+    assert gone == [["robot_1", "robot_2 (gone)"], "robot_2", "robot_2"]
+    assert back == [robots, "robot_2", "robot_2"]
+
+
+def test_who_is_handed_a_robot_looks_at_it_and_at_no_other(page):
+    script = """hello(names);
+    const seat = {driver: 1, name: "x", robot: "robot_2", how: "page", armed: false, why: ""};
+    hear("seat", {...seat, yours: false});
+    const before = tab.look;
+    hear("seat", {...seat, yours: true});
+    const watched = sent.filter(([kind]) => kind === "watch").at(-1)[1];
+    hear("robots", {robots: {robot_1: {}, robot_2: {}}});
+    document.querySelector("#robots [data-robot=robot_1]").click();
+    const driving = [tab.look, tab.floor.look, watched.look];
+    tab.driver.stop();
+    hear("seat", {...seat, driver: null, yours: false});
+    hear("robots", {robots: {robot_1: {}, robot_2: {}}});
+    document.querySelector("#robots [data-robot=robot_1]").click();
+    done([before, driving, tab.look]);"""
+    before, driving, after = page.driver.execute_async_script(
+        ROBOT_TAB % script, ["robot_1", "robot_2"]
+    )
+    assert (before, driving, after) == ("robot_1", ["robot_2"] * 3, "robot_1")
 
 
 def test_a_server_that_hangs_for_a_while_leaves_the_seat_to_who_has_it(world, page):

@@ -20,7 +20,7 @@ def topic_of(robot, name):
 
 
 class Robots(Source):
-    """The newest odometry of each robot, for all pages that show it."""
+    """The robots' names, and the newest odometry of each, for all pages that show them."""
 
     def __init__(self, feeds, graph_watch):
         """graph_watch: knows the robots. Nothing is subscribed to before somebody looks."""
@@ -44,9 +44,13 @@ class Robots(Source):
         self._text = encoded("robots", stamp=round(time.time(), 3), robots=robots)
 
     def give(self, client, _now):
-        """Send the newest state."""
-        if client.watch.robots:
-            client.write(self._text)
+        """Send the names where they have changed, and the newest state."""
+        if not client.watch.robots:
+            return
+        names = sorted(self._graphs.graph.robots())
+        if client.lacks("names", names):
+            client.send("names", names=names)
+        client.write(self._text)
 
     def _hear(self, message, topic):
         self._newest[topic] = (message.data, time.monotonic())
