@@ -131,6 +131,25 @@ def test_the_chosen_robot_stays_chosen_while_it_is_gone(page):
     assert back == [robots, "robot_2", "robot_2"]
 
 
+def test_a_row_of_the_table_outlives_its_news(page):
+    script = """hello(names);
+    const news = (x) => hear("robots", {robots: {robot_1: {x, y: 0}, robot_2: {x, y: 1}}});
+    const row = () => document.querySelector("#robots [data-robot=robot_2]");
+    news(1);
+    const pressed = row();
+    news(2);
+    const same = [row() === pressed, pressed.cells[1].textContent];
+    pressed.click();
+    const hidden = [document.getElementById("class").hidden];
+    hear("names", {names: ["robot_2"]});
+    hidden.push(document.getElementById("class").hidden);
+    done([same, tab.look, hidden]);"""
+    same, look, hidden = page.driver.execute_async_script(
+        ROBOT_TAB % script, ["robot_1", "robot_2"]
+    )
+    assert (same, look, hidden) == ([True, "2.00, 1.00"], "robot_2", [False, True])
+
+
 def test_who_is_handed_a_robot_looks_at_it_and_at_no_other(page):
     script = """hello(names);
     const seat = {driver: 1, name: "x", robot: "robot_2", how: "page", armed: false, why: ""};

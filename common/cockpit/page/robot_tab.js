@@ -18,6 +18,7 @@ export class RobotTab {
   #teleop = new Map(); // robot -> what its joy2twist says
   #names = []; // of the robots
   #look = null; // the name of the one that is looked at, once there is one
+  #rows = new Map(); // name -> its row in the table of all; rows stay, as a click takes its time
   #onFloor = ""; // the names of those that say where they are, as JSON
 
   /** link: the Link. watch(fields): what to ask the server for. notice(text): a line for the user. */
@@ -92,6 +93,8 @@ export class RobotTab {
   #showNames(names) {
     this.#names = names;
     byId("class").hidden = names.length < 2;
+    this.#rows = new Map(names.map((name) => [name, this.#rows.get(name) ?? this.#rowOf(name)]));
+    byId("robots").replaceChildren(...this.#rows.values());
     if (this.#look === null && names.length) this.#lookAt(names[0]);
     else this.#offerRobots();
   }
@@ -129,23 +132,26 @@ export class RobotTab {
       say(document.querySelector(`#odometry [data-value=${name}]`), number(value, count));
     }
     byId("odometry").classList.toggle("stale", !(robot.age < STALE_S));
-    if (this.#names.length > 1) this.#showClass(robots);
+    this.#showClass(robots);
+  }
+
+  #rowOf(name) {
+    const line = row(name, "", "", "");
+    line.dataset.robot = name;
+    // Who drives sees what is driven.
+    line.addEventListener("click", () => this.#seat.yours || this.#lookAt(name));
+    return line;
   }
 
   #showClass(robots) {
-    const rows = this.#names.map((name) => {
+    for (const [name, line] of this.#rows) {
       const { x, y, age } = robots[name] ?? {};
-      const teleop = this.#teleop.get(name);
       const drives = this.#seat.driver !== null && this.#seat.robot === name;
-      const line = row(name, `${number(x)}, ${number(y)}`, drives ? this.#seat.name : "–", teleop?.why ?? "–");
-      line.dataset.robot = name;
+      const why = this.#teleop.get(name)?.why;
+      const texts = [name, `${number(x)}, ${number(y)}`, drives ? this.#seat.name : "–", why ?? "–"];
+      texts.forEach((text, i) => say(line.cells[i], text));
       line.classList.toggle("stale", !(age < STALE_S));
       line.classList.toggle("chosen", name === this.look);
-      return line;
-    });
-    byId("robots").replaceChildren(...rows);
-    for (const line of rows) {
-      line.addEventListener("click", () => this.#seat.yours || this.#lookAt(line.dataset.robot));
     }
   }
 
