@@ -5,7 +5,7 @@ from types import SimpleNamespace
 from cockpit_server.access import DRIVER
 from cockpit_server.clients import Client, Source
 from cockpit_server.graph import Graph
-from cockpit_server.guard import Guard
+from cockpit_server.guard import MOST_TOLD, Guard
 from cockpit_server.hub import Hub
 
 
@@ -75,3 +75,6 @@ def test_a_failure_is_told_once_of_each_thing():
         guard("c", done.append, 1)
     assert [line.partition(": ")[2].split(":")[0] for line in told] == ["a", "b"]
     assert "ValueError" in told[0] and "IndexError" in told[1] and done == [1, 1, 1]
+    for number in range(2 * MOST_TOLD):
+        guard(f"topic {number}", [].pop)
+    assert len(told) == MOST_TOLD

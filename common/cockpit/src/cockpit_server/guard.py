@@ -1,5 +1,7 @@
 """Lets one thing fail and the others go on (pure)."""
 
+MOST_TOLD = 100  # things; a page may ask for any number of topics that are none
+
 
 class Guard:
     """Calls what may fail; of each thing that does it tells once."""
@@ -13,6 +15,6 @@ class Guard:
         try:
             action(*arguments)
         except Exception as error:  # whatever it is, it is a fault of that thing alone
-            if about not in self._told:
+            if about not in self._told and len(self._told) < MOST_TOLD:
                 self._told.add(about)
                 self._tell(f"cockpit: {about}: {type(error).__name__}: {error}")

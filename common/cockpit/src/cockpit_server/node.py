@@ -43,9 +43,10 @@ class Cockpit:
         self._sockets = sockets
         name = rospy.get_name()
         self._graphs = GraphWatch(name)
-        feeds = Feeds()
+        log = Log()
+        feeds = Feeds(log.warn)
         pads = Pads(feeds, name)
-        self._hub = Hub(self._soon, self._graphs, Joysticks(), pads, Log().warn)
+        self._hub = Hub(self._soon, self._graphs, Joysticks(), pads, log.warn)
         bags, graphs = Bags(self._hub), self._graphs
         sources = (
             Robots(feeds, graphs), pads, Teleop(feeds), Resets(graphs), GraphView(graphs),
