@@ -171,6 +171,24 @@ def test_who_is_handed_a_robot_looks_at_it_and_at_no_other(page):
     assert (before, driving, after) == ("robot_1", ["robot_2"] * 3, "robot_1")
 
 
+@pytest.mark.parametrize("place", [{}, {"x": 1e17, "y": 1e17, "yaw": 0}])
+def test_the_floor_is_drawn_whatever_a_robot_says(page, place):
+    script = """const [place, done] = arguments, canvas = document.createElement("canvas");
+    Object.assign(canvas.style, {position: "fixed", width: "300px", height: "300px"});
+    document.body.append(canvas);
+    import('/page/floor.js').then(({Floor}) => {
+      const floor = new Floor(canvas, () => []);
+      floor.show({"": place});
+      requestAnimationFrame(() => requestAnimationFrame(() => {
+        const {data} = canvas.getContext("2d").getImageData(0, 0, 300, 300);
+        done(new Set(new Uint32Array(data.buffer)).size);
+        canvas.remove();
+      }));
+    })"""
+    colours = page.driver.execute_async_script(script, place)
+    assert colours > 1  # a grid
+
+
 def test_a_server_that_hangs_for_a_while_leaves_the_seat_to_who_has_it(world, page):
     page.click("Drive from this page")
     page.wait_for_text("#seat", "You drive")

@@ -8,7 +8,7 @@ from genpy import DeserializationError
 from sensor_msgs.msg import Joy
 
 from cockpit_server.clients import Source, encoded
-from cockpit_server.motion import covered, motion
+from cockpit_server.motion import covered, is_somewhere, motion
 from node_kit.careful_connections import sender_of
 
 DIGITS = 4  # of metres: a tenth of a millimetre
@@ -68,8 +68,11 @@ class Robots(Source):
 
 
 def shown(state, came, way, now):
-    """A robot's state as pages get it; what is not finite is left out."""
+    """A robot's state as pages get it; what is not finite is left out, and a place that is none."""
     values = {**state._asdict(), "covered": way, "age": max(0.0, now - came)}
+    if not is_somewhere(state):
+        for name in ("x", "y", "yaw"):
+            del values[name]
     return {name: round(value, DIGITS) for name, value in values.items() if isfinite(value)}
 
 
