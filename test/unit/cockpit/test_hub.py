@@ -1,12 +1,17 @@
 """What the hub sends, when a part of what it joins fails."""
 
+import json
+from io import BytesIO
 from types import SimpleNamespace
+
+from rosgraph_msgs.msg import Log
 
 from cockpit_server.access import DRIVER
 from cockpit_server.clients import Client, Source
 from cockpit_server.graph import Graph
 from cockpit_server.guard import MOST_TOLD, Guard
 from cockpit_server.hub import Hub
+from cockpit_server.logs import Logs
 
 
 class Broken(Source):
@@ -78,3 +83,44 @@ def test_a_failure_is_told_once_of_each_thing():
     for number in range(2 * MOST_TOLD):
         guard(f"topic {number}", [].pop)
     assert len(told) == MOST_TOLD
+
+
+def test_who_watches_the_log_gets_each_line_once():
+    hub, _ = made()
+    logs = Logs(SimpleNamespace(want=lambda *_, **__: None), SimpleNamespace(graph=Graph()))
+    sent = join(hub)
+    one = hub.clients[1]
+
+    def lines(text, **watch):
+        data = BytesIO()
+        Log(msg=text).serialize(data)
+        logs._hear(SimpleNamespace(data=data.getvalue()), "/rosout")
+        nothing = dict.fromkeys(("robots", "graph", "field_list", "bag"), False)
+        nothing.update(look=None, topic=None, node=None, fields=[], **watch)
+        hub.hear(one, json.dumps({"kind": "watch", **nothing}))
+        sent.clear()
+        for _ in range(2):  # it speaks each other time
+            logs.prepare([one], 0.0)
+            logs.give(one, 0.0)
+        entries = [json.loads(text)["entries"] for text in sent]
+        return [entry["text"] for some in entries for entry in some]
+
+    assert lines("a", log=True) == ["a"]
+    assert lines("b", log=True) == ["b"]  # as a page does that was silent for a while
+    assert lines("c", log=False) == []
+    assert lines("d", log=True) == ["a", "b", "c", "d"]
+
+
+def test_all_else_is_told_anew_to_who_watches_anew():
+    hub, _ = made()
+    join(hub)
+    one = hub.clients[1]
+    one.seen = {"seat": 1, "log": 5}
+    hub._on_watch(one, 0.0, log=True)
+    assert one.seen == {}  # the log was off
+    one.seen = {"seat": 1}
+    hub._on_watch(one, 0.0, log=True)
+    assert one.seen == {}
+    one.seen = {"seat": 1, "log": 5}
+    hub._on_watch(one, 0.0, log=True)
+    assert one.seen == {"log": 5}

@@ -86,8 +86,10 @@ class Hub:
     # ------------------------------------------------------------------------ what they say
 
     def _on_watch(self, client, _now, **fields):
+        # All is told anew, but for the log, which the page has and which would stand there twice.
+        goes_on = client.watch.log and fields["log"] and "log" in client.seen
+        client.seen = {"log": client.seen["log"]} if goes_on else {}
         client.watch = Watch(**fields)
-        client.seen.clear()
 
     def _on_drive(self, client, now, robot, mode):
         self.sit_down(client, robot, PAGE, now)
