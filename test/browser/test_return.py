@@ -1,4 +1,4 @@
-"""After a connection was lost: what the tabs then say is so."""
+"""After a connection was lost, or time set back: what the tabs then say is so."""
 
 # Tabs of their own beside those of the page, which a server of the test speaks to.
 TAB = """const done = arguments[0], sent = [];
@@ -63,3 +63,31 @@ def test_the_log_stays_where_its_tab_is_chosen_again(page):
     hear("hello", {});
     done([...counts, lines()]);"""
     assert run(page, script, "log_tab.js") == [1, 0, 0]
+
+
+def test_curves_of_another_time_are_not_drawn(page):
+    script = """import('/page/chart.js').then(({Chart}) => {
+      let drawn = null;
+      Chart.prototype.show = (curves) => (drawn = curves);
+      const tab = new tabs.PlotTab(link, watch), shown = [];
+      const next = (samples, then) => {
+        hear("plot", {samples});
+        drawn = null;
+        const wait = () => {
+          if (drawn === null) return setTimeout(wait, 20);
+          shown.push(drawn);
+          then();
+        };
+        wait();
+      };
+      hear("fields", {fields: ["a", "b"]});
+      for (const box of document.querySelectorAll("#plot-fields input")) box.click();
+      tab.show(true);
+      next({a: [[100, 1]], b: [[100.5, 5]]}, () =>
+        next({a: [[101, 1], [50, 2]], b: [[51, 7]]}, () =>
+          next({a: [[1000, 3]]}, () => done(shown))));
+    });"""
+    both, set_back, later = run(page, script, "plot_tab.js")
+    assert both == {"a": [[0, 1]], "b": [[0.5, 5]]}
+    assert set_back == {"a": [[0, 2]], "b": [[1, 7]]}
+    assert later == {"a": [[950, 3]], "b": []}  # of the last 30 s
