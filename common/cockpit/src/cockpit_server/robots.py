@@ -12,6 +12,9 @@ from cockpit_server.motion import covered, is_somewhere, motion
 from node_kit.careful_connections import sender_of
 
 DIGITS = 4  # of metres: a tenth of a millimetre
+# [byte]; a gamepad's message has some 100. The thread that reads them, and sends each to all pages,
+# also watches over who drives, and a huge one would hold it up.
+LONGEST_JOY = 4000
 
 
 def topic_of(robot, name):
@@ -76,6 +79,18 @@ def shown(state, came, way, now):
     return {name: round(value, DIGITS) for name, value in values.items() if isfinite(value)}
 
 
+def joy_shown(data):
+    """{axes, buttons} as pages get them, from the bytes of a Joy; None if none, or too many."""
+    if len(data) > LONGEST_JOY:
+        return None
+    try:
+        joy = Joy().deserialize(data)
+    except DeserializationError:
+        return None
+    axes = [round(value, DIGITS) if isfinite(value) else 0.0 for value in joy.axes]
+    return {"axes": axes, "buttons": list(joy.buttons)}
+
+
 class Pads(Source):
     """The newest joystick message of each robot that somebody looks at or drives."""
 
@@ -84,30 +99,31 @@ class Pads(Source):
         self._feeds, self._own_name = feeds, own_name
         self.driven = None  # the robot that is driven from a page
         self._newest = {}  # topic -> (bytes, when they came [s])
+        self._shown = {}  # topic -> (when it came [s], what pages get of it or None)
         self._rivals = {}  # topic -> (name of the node, when it last spoke [s])
 
     def prepare(self, clients, _now):
-        """Subscribe to what is looked at now."""
+        """Subscribe to what is looked at now, and read what is new, once for all pages."""
         robots = ({client.watch.look for client in clients} | {self.driven}) - {None}
         hears = {topic_of(robot, "joy"): self._hear for robot in robots}
         self._feeds.want(self, hears, every=False)
         self._newest = {topic: self._newest[topic] for topic in hears if topic in self._newest}
+        before = self._shown
+        self._shown = {
+            topic: before[topic]
+            if before.get(topic, (None,))[0] == came
+            else (came, joy_shown(data))
+            for topic, (data, came) in self._newest.items()
+        }
 
     def give(self, client, now):
         """Send what is new of the one it looks at."""
         robot = client.watch.look
         if robot is None:
             return
-        data, came = self._newest.get(topic_of(robot, "joy"), (None, 0.0))
-        if data is None or not client.lacks("pad", (robot, came)):
-            return
-        try:
-            joy = Joy().deserialize(data)
-        except DeserializationError:
-            return
-        axes = [round(value, DIGITS) if isfinite(value) else 0.0 for value in joy.axes]
-        age = round(max(0.0, now - came), 3)
-        client.send("pad", robot=robot, axes=axes, buttons=list(joy.buttons), age=age)
+        came, joy = self._shown.get(topic_of(robot, "joy"), (0.0, None))
+        if joy and client.lacks("pad", (robot, came)):
+            client.send("pad", robot=robot, age=round(max(0.0, now - came), 3), **joy)
 
     def rival(self, robot, since):
         """The name of another node that has sent on the robot's topic since a time [s], or None."""
