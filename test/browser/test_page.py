@@ -215,3 +215,25 @@ def test_a_lost_server_is_told_at_once_and_the_page_returns_by_itself(own_world,
     own_world.start_cockpit()
     browser.wait_for_text("#connection", "Connected")
     browser.wait_for_text("#seat", "Nobody drives")
+
+
+@pytest.mark.parametrize(
+    ("event", "held", "left"),
+    [
+        ("new PointerEvent('pointermove', {shiftKey: true})", ["LB"], [0, 1]),
+        ("new PointerEvent('pointermove', {shiftKey: false})", [], [0, 1]),
+        ("new KeyboardEvent('keyup', {code: 'ShiftLeft', shiftKey: true})", [], [0, 1]),
+        ("new KeyboardEvent('keydown', {code: 'MetaLeft', metaKey: true})", [], [0, 0]),
+    ],
+)
+def test_keys_are_let_go_of_as_any_event_tells(page, event, held, left):
+    script = """const done = arguments[0];
+    import('/page/keys.js').then(({Keys}) => {
+      const keys = new Keys(() => true, () => {});
+      for (const code of ["ShiftLeft", "ShiftRight", "KeyW"]) {
+        dispatchEvent(new KeyboardEvent("keydown", {code, shiftKey: true}));
+      }
+      dispatchEvent(%s);
+      done([keys.hands.held, keys.hands.left]);
+    })"""
+    assert page.driver.execute_async_script(script % event) == [held, left]
