@@ -33,6 +33,46 @@ def test_held_it_moves_and_released_it_stops(world, kind):
         assert browser.errors() == []
 
 
+def both_shifts(page):
+    """Of two that are let go of one release is told; the other one seems to be held."""
+    page.key("rawKeyDown", "ShiftRight")
+    page.key("keyUp", "ShiftLeft")
+
+
+NOT_HEARD = {
+    "Shift, as the mouse tells": lambda page: page.mouse("mouseMoved", "#teleop"),
+    "one Shift of two": both_shifts,
+    "keys beside Cmd": lambda page: page.key("rawKeyDown", "MetaLeft"),
+    "all, in an open list": lambda page: page.mouse("mousePressed", "#bag-rate", "left", True),
+}
+
+
+@pytest.mark.parametrize("name", NOT_HEARD)
+def test_a_release_that_is_not_heard_stops_all_the_same(world, page, name):
+    hands = Keys(page)
+    hands.drive(world)
+    if "list" in name:  # of a tab whose lists are open to who drives
+        page.driver.execute_script("document.getElementById('tab-bag').click()")
+    NOT_HEARD[name](page)
+    world.wait_for_rest()
+    assert world.stays_at_rest()
+    for code in ("ShiftLeft", "ShiftRight", "MetaLeft"):
+        page.key("keyUp", code)
+    page.mouse("mouseReleased", "#connection", "left")
+    page.tab("Robot")
+    hands.drive(world)
+    hands.release()
+
+
+def test_no_menu_opens_where_a_page_drives(world, page):
+    event = "new Event('contextmenu', {cancelable: true, bubbles: true})"
+    script = f"document.body.dispatchEvent({event})"
+    assert page.ask(script) is True
+    page.click("Drive from this page")
+    page.wait_for_text("#seat", "You drive")
+    assert page.ask(script) is False
+
+
 def test_without_the_dead_man_nothing_moves(world, page):
     page.click("Drive from this page")
     page.wait_for_text("#ready", "Hold LB")

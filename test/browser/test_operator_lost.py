@@ -108,6 +108,18 @@ class PointerCancel(Way):
         self.held.down = False
 
 
+class Menu(Way):
+    """The right button, whose menu takes the keys, so that their release is not heard."""
+
+    def lose(self):
+        now = time.time()
+        self.browser.mouse("mousePressed", "#teleop", button="right", shift=True)
+        return now
+
+    def back(self):
+        self.browser.mouse("mouseReleased", "#teleop", button="right", shift=True)
+
+
 class Unplugged(Way):
     hands = Gamepad
 
@@ -168,7 +180,8 @@ class NetworkCut(Way):
 WAYS = {
     "tab closed": TabClosed, "page hidden": Hidden, "browser killed with -9": Killed,
     "page frozen (SIGSTOP)": Frozen, "Alt-Tab with a key held": AltTab,
-    "pointercancel": PointerCancel, "gamepad unplugged": Unplugged, "gamepad frozen": PadFrozen,
+    "pointercancel": PointerCancel, "right button of the mouse": Menu,
+    "gamepad unplugged": Unplugged, "gamepad frozen": PadFrozen,
     "server killed with -9": ServerKilled, "server ended": ServerEnded, CUT: NetworkCut,
 }  # fmt: skip
 

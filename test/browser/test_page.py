@@ -82,25 +82,111 @@ def test_a_phone_has_all_of_it(world, held):
         assert "auto" not in phone.ask(actions)
 
 
+# A page of its own, which a server of the test speaks to: hear(); sent is what it was asked for.
+ROBOT_TAB = """const [names, done] = arguments, handlers = {}, sent = [];
+const link = {isOpen: true, send(...said) { sent.push(said); },
+              on(kind, handler) { handlers[kind] = handler; }};
+const hear = (kind, message) => handlers[kind]({kind, ...message});
+const look = document.getElementById("look"), pad = {D: {buttons: []}, X: {buttons: []}};
+const hello = (robots) => hear("hello", {id: 1, role: "driver", robots, pad});
+const choose = (name) => { look.value = name; look.dispatchEvent(new Event("change")); };
+const options = () => [...look.options].map((one) => one.text);
+const drive = () => { take.click(); return sent.at(-1)[1].robot; };
+const take = document.getElementById("take").cloneNode();
+document.getElementById("take").replaceWith(take);
+document.getElementById("robots").replaceChildren();
+import('/page/robot_tab.js').then(({RobotTab}) => {
+  const tab = new RobotTab(link, (fields) => sent.push(["watch", fields]), () => {});
+  take.disabled = false;
+  %s
+})"""
+
+
 @pytest.mark.parametrize("robots", [[""], ["robot_1", "robot_2"]])
 def test_a_server_that_begins_anew_may_know_the_robots_later(page, robots):
-    script = """const [names, done] = arguments, handlers = {};
-    const link = {isOpen: true, send() {}, on(kind, handler) { handlers[kind] = handler; }};
-    const hear = (kind, message) => handlers[kind]({kind, ...message});
-    const look = document.getElementById("look"), pad = {D: {buttons: []}, X: {buttons: []}};
-    const begin = () => {
-      hear("hello", {id: 1, role: "driver", robots: [], pad});
-      hear("robots", {robots: {}});
-      hear("robots", {robots: Object.fromEntries(names.map((name) => [name, {}]))});
+    script = """const begin = () => {
+      hello([]);
+      hear("names", {names: []});
+      hear("names", {names});
     };
-    import('/page/robot_tab.js').then(({RobotTab}) => {
-      new RobotTab(link, () => {}, () => {});
-      begin();
-      look.value = names.at(-1);
-      begin();
-      done([look.options.length, look.value]);
+    begin();
+    choose(names.at(-1));
+    begin();
+    done([look.options.length, look.value, tab.look]);"""
+    shown = page.driver.execute_async_script(ROBOT_TAB % script, robots)
+    assert shown == [len(robots), robots[-1], robots[-1]]
+
+
+def test_the_chosen_robot_stays_chosen_while_it_is_gone(page):
+    script = """hello(names);
+    choose("robot_2");
+    hear("names", {names: ["robot_1"]});
+    hear("robots", {robots: {robot_1: {}}});
+    const gone = [options(), look.value, drive()];
+    hear("names", {names});
+    done([gone, [options(), look.value, drive()]]);"""
+    robots = ["robot_1", "robot_2"]
+    gone, back = page.driver.execute_async_script(ROBOT_TAB % script, robots)
+    assert gone == [["robot_1", "robot_2 (gone)"], "robot_2", "robot_2"]
+    assert back == [robots, "robot_2", "robot_2"]
+
+
+def test_a_row_of_the_table_outlives_its_news(page):
+    script = """hello(names);
+    const news = (x) => hear("robots", {robots: {robot_1: {x, y: 0}, robot_2: {x, y: 1}}});
+    const row = () => document.querySelector("#robots [data-robot=robot_2]");
+    news(1);
+    const pressed = row();
+    news(2);
+    const same = [row() === pressed, pressed.cells[1].textContent];
+    pressed.click();
+    const hidden = [document.getElementById("class").hidden];
+    hear("names", {names: ["robot_2"]});
+    hidden.push(document.getElementById("class").hidden);
+    done([same, tab.look, hidden]);"""
+    same, look, hidden = page.driver.execute_async_script(
+        ROBOT_TAB % script, ["robot_1", "robot_2"]
+    )
+    assert (same, look, hidden) == ([True, "2.00, 1.00"], "robot_2", [False, True])
+
+
+def test_who_is_handed_a_robot_looks_at_it_and_at_no_other(page):
+    script = """hello(names);
+    const seat = {driver: 1, name: "x", robot: "robot_2", how: "page", armed: false, why: ""};
+    hear("seat", {...seat, yours: false});
+    const before = tab.look;
+    hear("seat", {...seat, yours: true});
+    const watched = sent.filter(([kind]) => kind === "watch").at(-1)[1];
+    hear("robots", {robots: {robot_1: {}, robot_2: {}}});
+    document.querySelector("#robots [data-robot=robot_1]").click();
+    const driving = [tab.look, tab.floor.look, watched.look];
+    tab.driver.stop();
+    hear("seat", {...seat, driver: null, yours: false});
+    hear("robots", {robots: {robot_1: {}, robot_2: {}}});
+    document.querySelector("#robots [data-robot=robot_1]").click();
+    done([before, driving, tab.look]);"""
+    before, driving, after = page.driver.execute_async_script(
+        ROBOT_TAB % script, ["robot_1", "robot_2"]
+    )
+    assert (before, driving, after) == ("robot_1", ["robot_2"] * 3, "robot_1")
+
+
+@pytest.mark.parametrize("place", [{}, {"x": 1e17, "y": 1e17, "yaw": 0}])
+def test_the_floor_is_drawn_whatever_a_robot_says(page, place):
+    script = """const [place, done] = arguments, canvas = document.createElement("canvas");
+    Object.assign(canvas.style, {position: "fixed", width: "300px", height: "300px"});
+    document.body.append(canvas);
+    import('/page/floor.js').then(({Floor}) => {
+      const floor = new Floor(canvas, () => []);
+      floor.show({"": place});
+      requestAnimationFrame(() => requestAnimationFrame(() => {
+        const {data} = canvas.getContext("2d").getImageData(0, 0, 300, 300);
+        done(new Set(new Uint32Array(data.buffer)).size);
+        canvas.remove();
+      }));
     })"""
-    assert page.driver.execute_async_script(script, robots) == [len(robots), robots[-1]]
+    colours = page.driver.execute_async_script(script, place)
+    assert colours > 1  # a grid
 
 
 def test_a_server_that_hangs_for_a_while_leaves_the_seat_to_who_has_it(world, page):
@@ -129,3 +215,25 @@ def test_a_lost_server_is_told_at_once_and_the_page_returns_by_itself(own_world,
     own_world.start_cockpit()
     browser.wait_for_text("#connection", "Connected")
     browser.wait_for_text("#seat", "Nobody drives")
+
+
+@pytest.mark.parametrize(
+    ("event", "held", "left"),
+    [
+        ("new PointerEvent('pointermove', {shiftKey: true})", ["LB"], [0, 1]),
+        ("new PointerEvent('pointermove', {shiftKey: false})", [], [0, 1]),
+        ("new KeyboardEvent('keyup', {code: 'ShiftLeft', shiftKey: true})", [], [0, 1]),
+        ("new KeyboardEvent('keydown', {code: 'MetaLeft', metaKey: true})", [], [0, 0]),
+    ],
+)
+def test_keys_are_let_go_of_as_any_event_tells(page, event, held, left):
+    script = """const done = arguments[0];
+    import('/page/keys.js').then(({Keys}) => {
+      const keys = new Keys(() => true, () => {});
+      for (const code of ["ShiftLeft", "ShiftRight", "KeyW"]) {
+        dispatchEvent(new KeyboardEvent("keydown", {code, shiftKey: true}));
+      }
+      dispatchEvent(%s);
+      done([keys.hands.held, keys.hands.left]);
+    })"""
+    assert page.driver.execute_async_script(script % event) == [held, left]

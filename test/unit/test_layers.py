@@ -39,6 +39,7 @@ tutorial_tools.doctor.judgement joy_to_twist.parameters joy_to_twist.limits joy_
 joy_to_twist.gamepad_hints joy_to_twist.safety joy_to_twist.teleoperation
 cockpit_server.access cockpit_server.schema cockpit_server.seat cockpit_server.player
 cockpit_server.motion cockpit_server.fields cockpit_server.graph cockpit_server.clients
+cockpit_server.guard
 """.split()
 OUTER = """
 node_kit.launch_check node_kit.manifests node_kit.suspension node_kit.careful_connections

@@ -16,6 +16,10 @@ export class BagTab {
     link.on("bags", ({ names }) => offer(byId("bag-name"), names.map((name) => [name, name])));
     link.on("bag", (bag) => this.#open(bag));
     link.on("bag_at", (at) => this.#moveTo(at));
+    link.on("hello", () => {
+      this.#tell(false);
+      if (this.#bag) link.send("bag_open", { name: this.#bag.path }); // the server knows this page no more
+    });
     link.on("seat", (seat) => {
       this.#yours = seat.yours && seat.how === "bag";
     });
@@ -96,6 +100,10 @@ export class BagTab {
       byId("bag-position").value = position;
       this.#showPosition(position);
     }
+    this.#tell(playing, topic);
+  }
+
+  #tell(playing, topic) {
     byId("bag-pause").disabled = !playing;
     say(byId("bag-state"), playing ? `Publishing ${topic}. Pause stops the robot.` : "");
     byId("bag").dataset.playing = playing;

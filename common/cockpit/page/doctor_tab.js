@@ -6,15 +6,21 @@ const SIGNS = { ok: "✓", note: "i", unknown: "?", wrong: "✗" };
 
 export class DoctorTab {
   #asked = false;
+  #shown = false;
 
   constructor(link) {
     this.link = link;
-    link.on("hello", () => (this.#asked = false));
+    link.on("hello", () => {
+      this.#asked = false; // and the one that ran may have ended with its server
+      byId("doctor-run").disabled = false;
+      this.show(this.#shown);
+    });
     link.on("doctor", (found) => this.#show(found));
     byId("doctor-run").addEventListener("click", () => this.#ask());
   }
 
   show(on) {
+    this.#shown = on;
     if (on && !this.#asked) this.#ask();
   }
 

@@ -11,6 +11,7 @@ import { Pad } from "./pad.js";
 import { isAtRest, positions } from "./f710.js";
 
 const LOOK_MS = 10; // how often gamepads are looked at; the browser itself does it every 16 ms or so
+const RIGHT = 2, RIGHT_HELD = 2; // of a mouse, as event.button and in event.buttons
 
 export class Driver {
   #n = 0;
@@ -44,6 +45,7 @@ export class Driver {
       if (document.hidden) this.#leave("hidden");
       else this.#away = false;
     });
+    this.#shunMenus();
     for (const kind of ["focus", "pageshow", "pointerdown", "keydown"]) {
       addEventListener(kind, () => (this.#away = document.hidden), { capture: true });
     }
@@ -73,6 +75,25 @@ export class Driver {
     if (!this.isDriving) return;
     this.link.send("release", { why });
     this.onLost(why);
+  }
+
+  /**
+   * A menu takes the keys, and with them the word of their release; the window keeps the focus. So
+   * while this page drives none is to open, and what opens one all the same is a loss: the list of a
+   * <select>, and the right button, with which Firefox shows its menu whenever Shift is held.
+   */
+  #shunMenus() {
+    const options = { capture: true };
+    addEventListener("contextmenu", (event) => this.isDriving && event.preventDefault(), options);
+    // While another button is held, the right one is told by a pointermove.
+    for (const kind of ["pointerdown", "pointermove"]) {
+      addEventListener(kind, ({ pointerType, button, buttons }) => {
+        if (pointerType === "mouse" && button === RIGHT && buttons & RIGHT_HELD) this.release("menu");
+      }, options);
+    }
+    addEventListener("pointerdown", ({ target }) => {
+      if (target.closest?.("select")) this.release("menu");
+    }, options);
   }
 
   #leave(why) {

@@ -26,10 +26,11 @@ export class Floor {
     this.#listen();
   }
 
-  /** robots: {name: {x, y, yaw, v, w}} [m, rad]. */
+  /** robots: {name: {x, y, yaw, v, w}} [m, rad]; one without a place is nowhere to be seen. */
   show(robots) {
-    this.#robots = robots;
-    for (const [name, { x, y }] of Object.entries(robots)) {
+    const placed = Object.entries(robots).filter(([, { x, y, yaw }]) => [x, y, yaw].every(Number.isFinite));
+    this.#robots = Object.fromEntries(placed);
+    for (const [name, { x, y }] of placed) {
       const trail = this.#trails.get(name) ?? [];
       const [lastX, lastY] = trail.at(-1) ?? [Infinity, 0];
       const step = Math.hypot(x - lastX, y - lastY);
@@ -176,11 +177,16 @@ export class Floor {
       pen.fillStyle = colour("--muted");
       if (!isHidden) pen.fillText(text, x, y);
     };
-    for (let x = Math.ceil(west / step) * step; x <= east; x += step) {
+    // Counted in whole numbers: far away, x + step is x again, for ever.
+    const multiples = (from, to) => {
+      const first = Math.ceil(from / step);
+      return Array.from({ length: Math.floor(to / step) - first + 1 }, (_, i) => (first + i) * step);
+    };
+    for (const x of multiples(west, east)) {
       this.#line(pen, [x, north], [x, south], colour(x === 0 ? "--axis" : "--grid"));
       write(`${x} m`, this.#toPixels([x, 0])[0] + 3, height - 6);
     }
-    for (let y = Math.ceil(south / step) * step; y <= north; y += step) {
+    for (const y of multiples(south, north)) {
       this.#line(pen, [west, y], [east, y], colour(y === 0 ? "--axis" : "--grid"));
       write(`${y} m`, 4, this.#toPixels([0, y])[1] - 4);
     }

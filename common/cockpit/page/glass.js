@@ -35,7 +35,6 @@ export class Glass {
       },
       holds: (event) => this.#thumb === event.pointerId,
     });
-    root.addEventListener("contextmenu", (event) => event.preventDefault()); // of a long press
   }
 
   get hands() {
@@ -56,6 +55,7 @@ export class Glass {
       this.onChange();
     };
     element.addEventListener("pointerdown", (event) => {
+      if (event.button !== 0) return;
       event.preventDefault();
       element.setPointerCapture(event.pointerId);
       down(event);

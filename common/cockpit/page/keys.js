@@ -7,6 +7,8 @@ const STICK = {
   ArrowLeft: [1, 0], KeyA: [1, 0], ArrowRight: [-1, 0], KeyD: [-1, 0],
 };
 const BUTTONS = { ShiftLeft: "LB", ShiftRight: "LB" };
+const SHIFTS = Object.keys(BUTTONS);
+const SAY_SHIFT = ["keydown", "keyup", "pointerdown", "pointermove", "pointerup", "wheel"];
 const TYPED_INTO = "input:not([type=checkbox]), select, textarea";
 
 export class Keys {
@@ -14,6 +16,19 @@ export class Keys {
 
   /** isOurs(): whether keys drive now. onChange(): after each change. */
   constructor(isOurs, onChange) {
+    const drop = (codes) => {
+      const count = this.#down.size;
+      for (const code of codes) this.#down.delete(code);
+      if (this.#down.size !== count) onChange();
+    };
+    // A menu or another program may have taken a key's release, but each event tells of Shift anew.
+    // While Cmd of a Mac is down, no release is told at all.
+    for (const kind of SAY_SHIFT) {
+      addEventListener(kind, (event) => {
+        if (event.metaKey) drop([...this.#down]);
+        else if (event.shiftKey === false) drop(SHIFTS);
+      }, { capture: true, passive: true });
+    }
     // Before anybody else: while they drive, arrows do not choose tabs.
     addEventListener("keydown", (event) => {
       const ours = event.code in STICK || event.code in BUTTONS;
@@ -26,7 +41,8 @@ export class Keys {
       onChange();
     }, { capture: true });
     addEventListener("keyup", (event) => {
-      if (this.#down.delete(event.code)) onChange();
+      // Of two Shifts that are let go of Windows tells one.
+      drop(event.code in BUTTONS ? SHIFTS : [event.code]);
     }, { capture: true });
   }
 

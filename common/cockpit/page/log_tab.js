@@ -7,6 +7,7 @@ const MOST = 1000; // lines that are kept
 
 export class LogTab {
   #entries = [];
+  #shown = false;
 
   constructor(link, watch) {
     this.watch = watch;
@@ -21,10 +22,11 @@ export class LogTab {
   }
 
   show(on) {
-    if (on) {
+    if (on && !this.#shown) {
       this.#entries = []; // the server begins with the last ones again
       this.#showAll();
     }
+    this.#shown = on;
     this.watch({ log: on });
   }
 

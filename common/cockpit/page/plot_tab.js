@@ -7,6 +7,17 @@ const MOST = 20; // fields at a time, as the server has it
 const LISTED = 200; // of the fields that are found
 const KEEP_S = 600; // longest window
 const DRAW_MS = 100;
+const SET_BACK_S = 1; // by so much and more
+
+/** The index of the first of [[t, value], ...] since time was set back, as by a bag that loops, or -1. */
+function setBack(points, last) {
+  let first = -1;
+  points.forEach(([t], i) => {
+    if (t < last - SET_BACK_S) first = i;
+    last = t;
+  });
+  return first;
+}
 
 export class PlotTab {
   #samples = {}; // field -> [[t, value], ...], t since #zero
@@ -49,12 +60,14 @@ export class PlotTab {
   }
 
   #take(samples) {
-    for (const [field, points] of Object.entries(samples)) {
+    const wanted = Object.entries(samples).filter(([field]) => this.#samples[field]);
+    const newest = (field) => (this.#samples[field].at(-1)?.[0] ?? -Infinity) + this.#zero;
+    const begins = wanted.map(([field, points]) => setBack(points, newest(field)));
+    if (begins.some((i) => i >= 0)) this.#clear(); // what was before is of another time, of all fields
+    for (const [field, points] of wanted) {
       const kept = this.#samples[field];
-      if (!kept) continue; // not wanted any more
-      for (const [t, value] of points) {
+      for (const [t, value] of points.slice(Math.max(0, begins.shift()))) {
         this.#zero ??= t;
-        if (t - this.#zero < (kept.at(-1)?.[0] ?? 0) - 1) kept.length = 0; // time was set back: a bag that loops
         kept.push([t - this.#zero, value]);
       }
       const oldest = (kept.at(-1)?.[0] ?? 0) - KEEP_S;
@@ -71,7 +84,7 @@ export class PlotTab {
     const newest = Math.max(...Object.values(this.#samples).map((points) => points.at(-1)?.[0] ?? 0), 0);
     const from = Math.max(0, newest - seconds);
     const whole = this.chart.isZoomed;
-    const cut = (points) => (whole ? points : points.slice(points.findIndex(([t]) => t >= from)));
+    const cut = (points) => (whole ? points : points.filter(([t]) => t >= from));
     const seen = Object.entries(this.#samples).map(([field, points]) => [field, cut(points)]);
     this.chart.show(Object.fromEntries(seen), [from, Math.max(newest, from + 1)]);
     byId("plot-values").replaceChildren(...this.fields.map((field, i) => {

@@ -16,8 +16,10 @@ export class RobotTab {
   #seat = { driver: null, yours: false };
   #deadman = null; // whether joy2twist of the robot that is looked at wants a button held; null: not told
   #teleop = new Map(); // robot -> what its joy2twist says
-  #names = ""; // of the robots, as JSON
-  #isNew = false; // a robot came or left
+  #names = []; // of the robots
+  #look = null; // the name of the one that is looked at, once there is one
+  #rows = new Map(); // name -> its row in the table of all; rows stay, as a click takes its time
+  #onFloor = ""; // the names of those that say where they are, as JSON
 
   /** link: the Link. watch(fields): what to ask the server for. notice(text): a line for the user. */
   constructor(link, watch, notice) {
@@ -28,6 +30,7 @@ export class RobotTab {
     this.driver = new Driver(link, byId("glass"));
     this.driver.onLost = (why) => notice(`You let go (${why}). Release LB and the stick, then hold LB again.`);
     link.on("hello", (hello) => this.#meet(hello));
+    link.on("names", ({ names }) => this.#showNames(names));
     link.on("robots", ({ robots }) => this.#showRobots(robots));
     link.on("pad", (pad) => this.#showPad(pad));
     link.on("teleop", (teleop) => this.#showTeleop(teleop));
@@ -37,7 +40,7 @@ export class RobotTab {
   }
 
   get look() {
-    return byId("look").value;
+    return this.#look ?? "";
   }
 
   /** The connection is open or lost. Without it nothing here is news, and nothing drives. */
@@ -67,7 +70,7 @@ export class RobotTab {
       link.send("reset", { robot: this.look });
     });
     on("give", () => link.send("hand_over", { to: Number(byId("heir").value) }));
-    byId("look").addEventListener("change", () => this.#lookAt(this.look));
+    byId("look").addEventListener("change", () => this.#lookAt(byId("look").value));
     addEventListener("keydown", (event) => {
       if (event.key === "Escape" && this.driver.isDriving) this.#leave();
     });
@@ -82,19 +85,33 @@ export class RobotTab {
   #meet(hello) {
     this.#hello = hello;
     say(byId("me"), `page ${hello.id}`);
-    if (!this.#names) this.#offerRobots(hello.robots); // a server that has just begun may know none
+    this.#showNames(hello.robots);
     this.#showButtons();
-    this.#lookAt(this.look);
+    if (this.#look !== null) this.#lookAt(this.#look);
   }
 
-  #offerRobots(names) {
-    offer(byId("look"), names.map((name) => [name, name || "TurtleBot"]));
+  #showNames(names) {
+    this.#names = names;
     byId("class").hidden = names.length < 2;
+    this.#rows = new Map(names.map((name) => [name, this.#rows.get(name) ?? this.#rowOf(name)]));
+    byId("robots").replaceChildren(...this.#rows.values());
+    if (this.#look === null && names.length) this.#lookAt(names[0]);
+    else this.#offerRobots();
+  }
+
+  /** Who has chosen a robot is never given another one: a robot that has gone may come back. */
+  #offerRobots() {
+    const isGone = this.#look !== null && !this.#names.includes(this.#look);
+    const choices = this.#names.map((name) => [name, name || "TurtleBot"]);
+    if (isGone) choices.push([this.#look, `${this.#look || "TurtleBot"} (gone)`]);
+    offer(byId("look"), choices);
+    if (this.#look !== null) byId("look").value = this.#look;
   }
 
   #lookAt(name) {
+    this.#look = name;
+    this.#offerRobots();
     this.floor.look = name;
-    byId("look").value = name;
     this.picture.show({ D: [], X: [] }, [], []);
     say(byId("pad-age"), "nothing yet");
     this.#showTeleop(this.#teleop.get(name) ?? { robot: name });
@@ -102,17 +119,11 @@ export class RobotTab {
   }
 
   #showRobots(robots) {
-    const names = Object.keys(robots);
-    if (names.length && JSON.stringify(names) !== this.#names) {
-      this.#names = JSON.stringify(names);
-      const before = this.look;
-      this.#offerRobots(names);
-      if (this.look !== before) this.#lookAt(this.look);
-      this.#isNew = true;
-    }
     this.floor.show(robots);
-    if (this.#isNew && names.length > 1) this.floor.showAll();
-    this.#isNew = false;
+    const names = Object.keys(robots);
+    const isNew = names.length && JSON.stringify(names) !== this.#onFloor;
+    if (isNew && names.length > 1) this.floor.showAll();
+    if (isNew) this.#onFloor = JSON.stringify(names);
     const robot = robots[this.look] ?? {};
     const degrees = (robot.yaw * 180) / Math.PI;
     const digits = { x: 2, y: 2, yaw: 1, v: 2, w: 2, covered: 2 };
@@ -121,21 +132,27 @@ export class RobotTab {
       say(document.querySelector(`#odometry [data-value=${name}]`), number(value, count));
     }
     byId("odometry").classList.toggle("stale", !(robot.age < STALE_S));
-    if (names.length > 1) this.#showClass(robots);
+    this.#showClass(robots);
+  }
+
+  #rowOf(name) {
+    const line = row(name, "", "", "");
+    line.dataset.robot = name;
+    // Who drives sees what is driven.
+    line.addEventListener("click", () => this.#seat.yours || this.#lookAt(name));
+    return line;
   }
 
   #showClass(robots) {
-    const rows = Object.entries(robots).map(([name, { x, y, age }]) => {
-      const teleop = this.#teleop.get(name);
+    for (const [name, line] of this.#rows) {
+      const { x, y, age } = robots[name] ?? {};
       const drives = this.#seat.driver !== null && this.#seat.robot === name;
-      const line = row(name, `${number(x)}, ${number(y)}`, drives ? this.#seat.name : "–", teleop?.why ?? "–");
-      line.dataset.robot = name;
+      const why = this.#teleop.get(name)?.why;
+      const texts = [name, `${number(x)}, ${number(y)}`, drives ? this.#seat.name : "–", why ?? "–"];
+      texts.forEach((text, i) => say(line.cells[i], text));
       line.classList.toggle("stale", !(age < STALE_S));
       line.classList.toggle("chosen", name === this.look);
-      return line;
-    });
-    byId("robots").replaceChildren(...rows);
-    for (const line of rows) line.addEventListener("click", () => this.#lookAt(line.dataset.robot));
+    }
   }
 
   #showPad({ robot, axes, buttons, age }) {
@@ -157,6 +174,7 @@ export class RobotTab {
 
   #showSeat(seat) {
     this.#seat = seat;
+    if (seat.yours && seat.robot !== this.#look) this.#lookAt(seat.robot); // it was handed over
     if (seat.yours) this.driver.mode = byId("mode").value;
     if (seat.yours && seat.how !== "bag") this.driver.start();
     else this.driver.stop();

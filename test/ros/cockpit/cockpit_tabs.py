@@ -44,13 +44,12 @@ class Tabs(WithCockpit):
 
     def test_the_graph_and_what_a_click_brings(self):
         self.page.watch(graph=True, topic="/odom", node="/fake_turtlebot")
-        graph = self.page.wait_for("graph", lambda graph: "dot_svg" in graph)
+        graph = self.page.wait_for("graph", lambda graph: len(graph["nodes"]) > 1)
         names = {node["name"] for node in graph["nodes"]}
         self.assertLessEqual({"/fake_turtlebot", "/myjoystick2twist"}, names)
         self.assertIn({"name": "/odom", "type": "nav_msgs/Odometry"}, graph["topics"])
         edge = {"from": "node /fake_turtlebot", "to": "topic /odom"}
         self.assertIn(edge, graph["edges"])
-        self.assertIn("<svg", graph["dot_svg"])
         topic = self.page.wait_for("topic", lambda topic: topic["rate"] > 40)
         self.assertEqual(topic["type"], "nav_msgs/Odometry")
         self.assertEqual(topic["publishers"], ["/fake_turtlebot"])

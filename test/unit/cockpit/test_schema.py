@@ -111,6 +111,8 @@ def taken(kind, name, value):
         ("bag_play", "rate", [0.1, 10], [0.099, 10.01]),
         ("bag_seek", "position", [0, 1e6], [-0.001, 1000000.1]),
         ("release", "why", ["", "x" * 200], ["x" * 201]),
+        ("watch", "topic", [None, "/", "/odom", "/" + "x" * 199], ["", "odom", "/" + "x" * 200]),
+        ("watch", "node", [None, "/", "/sim", "/" + "x" * 199], ["", "sim/", "/" + "x" * 200]),
         ("drive", "mode", ["D", "X"], ["d", "", "DX"]),
         ("input", "source", ["pad", "touch", "keys"], ["mouse"]),
     ],
@@ -160,6 +162,8 @@ def test_numbers_become_float_and_counts_stay_whole():
         ("input", "source", "mouse", "must be pad, touch, keys"),
         ("release", "why", None, "must be a text of at most 200 characters"),
         ("watch", "log", 1, "must be true or false"),
+        ("watch", "topic", "odom", "must begin with /"),
+        ("watch", "topic", 1, "must be a text of at most 200 characters"),
     ],
 )
 def test_what_a_page_is_told(kind, name, value, words):

@@ -3,7 +3,7 @@
 import json
 import struct
 from io import BytesIO
-from math import pi
+from math import inf, nan, pi
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
@@ -20,6 +20,7 @@ from cockpit_server.motion import Motion, covered, motion
 from cockpit_server.plots import class_of, fields_of
 from cockpit_server.recording import RecordingError, corners, curves, read
 from cockpit_server.resets import reset_service
+from cockpit_server.robots import shown as robot_shown
 from cockpit_server.seat import RefusedError
 from cockpit_server.teleop import said
 
@@ -88,12 +89,28 @@ def test_the_motion_of_an_odometry():
 
 @pytest.mark.parametrize(
     ("x", "yaw", "way"),
-    [(1.1, 0.5, 7.1), (1.1, 0.0, 7.1), (1.6, 0.5, 0.0), (0.0, 0.0, 0.0)],
-    ids=["drives", "drives straight", "was carried", "was reset"],
+    [(1.1, 0.5, 7.1), (1.1, 0.0, 7.1), (1.6, 0.5, 7.0), (0.0, 0.0, 0.0), (nan, 0.5, 7.0)],
+    ids=["drives", "drives straight", "was carried", "was reset", "is nowhere"],
 )
 def test_the_way_covered(x, yaw, way):
     last = Motion(1.0 if x else 0.2, 0.0, yaw, 0.5, 0.0)
     assert covered(last, Motion(x, 0.0, yaw, 0.5, 0.0), 7.0) == pytest.approx(way)
+
+
+def test_the_way_covered_goes_on_after_nowhere():
+    nowhere, here = Motion(nan, 0.0, 0.5, 0.5, 0.0), Motion(1.0, 0.0, 0.5, 0.5, 0.0)
+    assert covered(nowhere, here, 7.0) == 7.0
+    assert covered(here, here._replace(x=1.5), 7.0) == 7.5  # LONGEST_STEP_M
+
+
+def test_a_place_that_is_none_is_left_out():
+    here = Motion(1.0, -1e6, 0.5, 0.25, -0.5)
+    everything = {"x", "y", "yaw", "v", "w", "covered", "age"}
+    assert set(robot_shown(here, 1.0, 2.0, 3.0)) == everything
+    for wrong in ({"x": nan}, {"y": inf}, {"yaw": nan}, {"x": 1e6 + 1}, {"y": -1e300}):
+        there = here._replace(**wrong)
+        assert set(robot_shown(there, 1.0, 2.0, 3.0)) == everything - {"x", "y", "yaw"}
+    assert set(robot_shown(here._replace(w=nan), 1.0, 2.0, 3.0)) == everything - {"w"}
 
 
 GRAPH = Graph(

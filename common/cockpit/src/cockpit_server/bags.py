@@ -6,7 +6,7 @@ from pathlib import Path
 
 import rospkg
 
-from cockpit_server.clients import Source
+from cockpit_server.clients import Source, encoded
 from cockpit_server.player import Player
 from cockpit_server.recording import JOY, RecordingError, curves, read
 from cockpit_server.seat import BAG, RefusedError
@@ -80,23 +80,27 @@ class Bags(Source):
     def _read(self, client, name, path):
         try:
             recording = read(path)
-            lines = curves(recording.joys)
-        except RecordingError as error:
-            why = str(error)
+            topics = [
+                {"name": topic, "type": kind, "count": count}
+                for topic, (kind, count) in sorted(recording.topics.items())
+            ]
+            # Before anything changes: what cannot be shown is not opened.
+            text = encoded(
+                "bag", path=name, start=recording.start, end=recording.end, topics=topics,
+                curves=curves(recording.joys),
+            )  # fmt: skip
+        except Exception as error:  # whatever is in the file: who asked for it is told
+            known = isinstance(error, RecordingError)
+            why = str(error) if known else f"{name}: {type(error).__name__}: {error}"
             self._hub.soon(lambda: client.refuse("bag_open", why, time.monotonic()))
             return
-        topics = [
-            {"name": topic, "type": kind, "count": count}
-            for topic, (kind, count) in sorted(recording.topics.items())
-        ]
 
         def show():
+            if self._plays(client.number):
+                self._hub.stand_up(client)  # it was begun meanwhile, and is not what is shown
             self._opened[client.number] = Opened(name, recording)
             client.seen.pop("bag_at", None)
-            client.send(
-                "bag", path=name, start=recording.start, end=recording.end, topics=topics,
-                curves=lines,
-            )  # fmt: skip
+            client.write(text)
 
         self._hub.soon(show)
 

@@ -41,6 +41,15 @@ class Doctor(Source):
             threading.Thread(target=self._run, daemon=True).start()
 
     def _run(self):
+        try:
+            self._listen()
+        except Exception as error:  # whatever keeps it from running; the next run may go well
+            self._lines = [*self._lines, shown(f"wrong doctor {type(error).__name__}: {error}")]
+        finally:
+            self._running = False
+            self._version += 1
+
+    def _listen(self):
         script = Path(rospkg.RosPack().get_path("tutorial_tools")) / "scripts" / "doctor.py"
         with subprocess.Popen(
             [sys.executable, str(script)], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
@@ -52,5 +61,3 @@ class Doctor(Source):
                 self._lines = [*self._lines, shown(line)]
                 self._version += 1
             too_late.cancel()
-        self._running = False
-        self._version += 1

@@ -9,6 +9,8 @@ from concurrent.futures import ThreadPoolExecutor
 
 import rospy
 
+from cockpit_server.guard import Guard
+
 PERIOD_S = 0.05  # how often a topic is read of which only the newest message is wanted
 # One thread for all questions to the master that may wait: they are asked one after the other.
 _worker = ThreadPoolExecutor(1, thread_name_prefix="to_the_master")
@@ -38,8 +40,9 @@ class Raw(rospy.AnyMsg):
 class Feeds:
     """Those topics that are wanted at this moment. Of one thread, but for the messages."""
 
-    def __init__(self):
-        """Nothing is wanted yet."""
+    def __init__(self, tell):
+        """Nothing is wanted yet. tell: called with a line about a topic that rospy refuses."""
+        self._guard = Guard(tell)
         self._wants = {}  # owner -> ({topic: hear}, whether every message is wanted)
         self._listeners = {}  # topic -> functions to call
         self._wanted = frozenset()  # (topic, whether every message is wanted)
@@ -63,15 +66,18 @@ class Feeds:
 
     def _adjust(self):
         wanted = self._wanted
+        # One that rospy refuses must not keep the others away, by which a rival is noticed, too.
         for key in set(self._subscribers) - wanted:
-            self._subscribers.pop(key).unregister()
+            self._guard(repr(key[0]), self._subscribers.pop(key).unregister)
         for key in wanted - set(self._subscribers):
-            topic, every = key
-            if every:
-                subscriber = rospy.Subscriber(topic, Raw, self._hear, topic)
-            else:
-                subscriber = rospy.Subscriber(topic, Raw, self._hear_now_and_then, topic, 1)
-            self._subscribers[key] = subscriber
+            self._guard(repr(key[0]), self._subscribe, *key)
+
+    def _subscribe(self, topic, every):
+        if every:
+            subscriber = rospy.Subscriber(topic, Raw, self._hear, topic)
+        else:
+            subscriber = rospy.Subscriber(topic, Raw, self._hear_now_and_then, topic, 1)
+        self._subscribers[topic, every] = subscriber
 
     def _hear(self, message, topic):
         for hear in self._listeners.get(topic, ()):

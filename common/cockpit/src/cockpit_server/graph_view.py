@@ -1,13 +1,10 @@
 """The graph as pages see it, and what a click on a node brings."""
 
-import threading
-
 import rosgraph
 
 from cockpit_server.clients import Source, encoded
 from cockpit_server.feeds import later
 from node_kit.questions import Answer, call
-from tutorial_tools.graph.program import DotError, dot_text, picture
 
 
 class GraphView(Source):
@@ -16,16 +13,16 @@ class GraphView(Source):
     def __init__(self, graph_watch):
         """graph_watch: knows the graph."""
         self._graphs = graph_watch
-        self._drawn, self._text = None, ""  # the version that is drawn, and its message
-        self._is_drawing = False
+        self._written, self._text = None, ""  # a version, and its message
         self._pids, self._pids_of = {}, None  # node -> process, in a version of the graph
 
     def prepare(self, clients, _now):
-        """Have it drawn, in another thread, if somebody looks and it has changed."""
+        """Write it down if somebody looks and it has changed."""
         watched = any(client.watch.graph for client in clients)
-        if watched and self._drawn != self._graphs.version and not self._is_drawing:
-            self._is_drawing = True
-            threading.Thread(target=self._draw, daemon=True).start()
+        if watched and self._written != self._graphs.version:
+            # The version first: what changes meanwhile is written down again.
+            self._written = self._graphs.version
+            self._text = encoded("graph", **self._graphs.graph.parts())
         if self._pids_of != self._graphs.version:
             self._pids, self._pids_of = {}, self._graphs.version
         for node in {client.watch.node for client in clients} - set(self._pids) - {None}:
@@ -35,7 +32,7 @@ class GraphView(Source):
 
     def give(self, client, _now):
         """Send what has changed."""
-        if client.watch.graph and self._text and client.lacks("graph", self._drawn):
+        if client.watch.graph and self._text and client.lacks("graph", self._written):
             client.write(self._text)
         node = client.watch.node
         if node and client.lacks("node", (node, self._graphs.version, self._pids.get(node))):
@@ -43,16 +40,6 @@ class GraphView(Source):
             if self._pids.get(node):
                 about["pid"] = self._pids[node]
             client.send("node", **about)
-
-    def _draw(self):
-        version, graph = self._graphs.version, self._graphs.graph
-        columns = [graph.publishers.items(), graph.subscribers.items()]
-        try:
-            drawn = {"dot_svg": picture(dot_text(columns, graph.machines), "svg").decode()}
-        except DotError:
-            drawn = {}  # the page draws the nodes and topics itself
-        self._text = encoded("graph", **graph.parts(), **drawn)
-        self._drawn, self._is_drawing = version, False
 
     def _ask_pid(self, node):
         answer, uri = call(rosgraph.get_master_uri(), "lookupNode", node)

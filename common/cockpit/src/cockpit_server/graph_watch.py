@@ -21,7 +21,7 @@ class GraphWatch:
         self._uri = rosgraph.get_master_uri()
         self.graph, self.version = Graph(), 0
         self._is_lost = False
-        self._pid = call(self._uri, "getPid")[1]
+        self._pid = None  # of the master, once it has told
         self.look()
 
     def start(self, lost):
@@ -39,10 +39,15 @@ class GraphWatch:
         answer, state = call(self._uri, "getSystemState", caller=self._own_name)
         if answer is Answer.SILENT:
             return
-        if answer is not Answer.WELL or call(self._uri, "getPid")[1] != self._pid:
+        told, pid = call(self._uri, "getPid", caller=self._own_name)
+        heard, types = call(self._uri, "getTopicTypes", caller=self._own_name)
+        if answer is Answer.WELL and Answer.SILENT in (told, heard):
+            return  # it is busy, and is asked again
+        if self._pid is None:
+            self._pid = pid
+        if {answer, told} != {Answer.WELL} or pid != self._pid:
             self._is_lost = True
             return
-        _, types = call(self._uri, "getTopicTypes", caller=self._own_name)
         types = dict(types or [])
         joysticks = {topic for topic, kind in types.items() if kind == JOY}
         publishers = without(self._own_name, state[0], shown_in=joysticks)

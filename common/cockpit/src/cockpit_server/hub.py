@@ -4,6 +4,7 @@ import time
 
 from cockpit_server.clients import Watch
 from cockpit_server.feeds import later
+from cockpit_server.guard import Guard
 from cockpit_server.schema import MODES, check_lengths, check_message
 from cockpit_server.seat import PAGE, Input, RefusedError, Seat
 from gamepad.gamepads import F710
@@ -16,10 +17,11 @@ TICK_S = 0.01  # how often the seat and a recording that plays look at the time
 class Hub:
     """The pages that are open, who of them drives, and what each is sent."""
 
-    def __init__(self, soon, graph_watch, joysticks, pads):
+    def __init__(self, soon, graph_watch, joysticks, pads, tell):
         """soon: called in any thread with what is to be called in this one. pads: knows who else
-        moves a robot.
+        moves a robot. tell: called with a line about what has failed; it must not wait.
         """
+        self._guard = Guard(tell)
         self.soon, self._graphs, self._joysticks, self._pads = soon, graph_watch, joysticks, pads
         self._sources, self._player = [], None
         self._handlers = {
@@ -84,8 +86,10 @@ class Hub:
     # ------------------------------------------------------------------------ what they say
 
     def _on_watch(self, client, _now, **fields):
+        # All is told anew, but for the log, which the page has and which would stand there twice.
+        goes_on = client.watch.log and fields["log"] and "log" in client.seen
+        client.seen = {"log": client.seen["log"]} if goes_on else {}
         client.watch = Watch(**fields)
-        client.seen.clear()
 
     def _on_drive(self, client, now, robot, mode):
         self.sit_down(client, robot, PAGE, now)
@@ -157,19 +161,20 @@ class Hub:
         """Time has passed."""
         now = time.monotonic()
         self._change(lambda: self.seat.tick(now))
-        self._player.play(now)
+        self._guard("the player of recordings", self._player.play, now)
         if not self._may_beat.ready(now):
             return
         self._beat(now)
         clients = list(self.clients.values())
-        for source in self._sources:
-            source.prepare(clients, now)
+        guard, named = self._guard, [(type(one).__name__, one) for one in self._sources]
+        for name, source in named:
+            guard(name, source.prepare, clients, now)
         for client in clients:
             if client.is_behind():
                 continue  # it gets the newest once it has read
-            self._give_seat(client)
-            for source in self._sources:
-                source.give(client, now)
+            guard("the seat", self._give_seat, client)
+            for name, source in named:
+                guard(name, source.give, client, now)
 
     def _beat(self, now):
         self._pads.driven = self.seat.robot if self.seat.driver is not None else None

@@ -1,7 +1,7 @@
 """The motion on the floor from the bytes of a nav_msgs/Odometry (pure)."""
 
 import struct
-from math import atan2, hypot
+from math import atan2, hypot, isfinite
 from typing import NamedTuple
 
 # Little-endian: seq, secs, nsecs (uint32 each), frame_id and child_frame_id (length and bytes),
@@ -11,7 +11,8 @@ _LENGTH = struct.Struct("<I")
 _MOTION = struct.Struct("<7d288x6d")
 
 
-LONGEST_STEP_M = 0.5  # within a period; what is more was carried, or reset
+LONGEST_STEP_M = 0.5  # within a period; what is more was carried, or odometry was not heard
+FARTHEST_M = 1e6  # from the origin; what is beyond is no place of a robot
 
 
 class Motion(NamedTuple):
@@ -34,8 +35,15 @@ def motion(data):
     return Motion(x, y, yaw, v, w)
 
 
+def is_somewhere(state):
+    """Whether a Motion has a place that can be shown."""
+    finite = isfinite(state.x) and isfinite(state.y) and isfinite(state.yaw)
+    return finite and max(abs(state.x), abs(state.y)) <= FARTHEST_M
+
+
 def covered(last, new, so_far):
     """The way [m] since the robot was put where it began; so_far: until the last Motion."""
+    if new.x == new.y == new.yaw == 0.0:  # as a reset has it, and no drive by chance
+        return 0.0
     step = hypot(new.x - last.x, new.y - last.y)
-    at_origin = new.x == new.y == new.yaw == 0.0  # as a reset has it, and no drive by chance
-    return 0.0 if at_origin or step > LONGEST_STEP_M else so_far + step
+    return so_far + step if step <= LONGEST_STEP_M else so_far  # NaN is not less, either

@@ -21,6 +21,7 @@ from cockpit_server.robots import Pads, Robots
 from cockpit_server.teleop import Teleop
 from cockpit_server.topics import Topics
 from cockpit_server.web import server
+from node_kit.log import Log
 
 # How long the end may wait for the last message, and then for its delivery [s].
 LONGEST_END_S, DELIVERY_S = 0.3, 0.1
@@ -42,9 +43,10 @@ class Cockpit:
         self._sockets = sockets
         name = rospy.get_name()
         self._graphs = GraphWatch(name)
-        feeds = Feeds()
+        log = Log()
+        feeds = Feeds(log.warn)
         pads = Pads(feeds, name)
-        self._hub = Hub(self._soon, self._graphs, Joysticks(), pads)
+        self._hub = Hub(self._soon, self._graphs, Joysticks(), pads, log.warn)
         bags, graphs = Bags(self._hub), self._graphs
         sources = (
             Robots(feeds, graphs), pads, Teleop(feeds), Resets(graphs), GraphView(graphs),

@@ -1,16 +1,17 @@
 """Curves of numbers in messages, every one of them, for the pages that draw them."""
 
 import threading
-import time
 from collections import deque
 from functools import lru_cache
 from math import isfinite
 
 import roslib.message
+import rospy
 
 from cockpit_server.clients import Source
 from cockpit_server.fields import numeric_fields, parts_of, split, value_at
 
+NEAR_S = 1.0  # of a stamp and this clock; curves of two clocks would not be seen side by side
 KEPT = 2000  # samples of a field for a page that is behind
 FIELDS_TICKS = 20  # how often the list of fields is looked at
 
@@ -101,8 +102,9 @@ class Plots(Source):
         except Exception:  # whatever the bytes made a message class do
             return
         header = getattr(message, "header", None)
-        stamp = header.stamp.to_sec() if hasattr(header, "stamp") else 0.0
-        t = round(stamp or time.time(), 6)
+        now = rospy.get_time()
+        stamp = header.stamp.to_sec() if hasattr(header, "stamp") else now
+        t = round(stamp if abs(stamp - now) <= NEAR_S else now, 6)
         for field, parts in self._wanted.get(topic, {}).items():
             value = value_at(message, parts)
             if value is not None and isfinite(value):

@@ -1,5 +1,6 @@
 """Reads a recording: what is in it, and the joystick messages of each topic."""
 
+from math import isfinite
 from pathlib import Path
 from typing import Dict, List, NamedTuple, Tuple
 
@@ -63,7 +64,9 @@ def _read(bag):
 
 
 def curves(joys):
-    """{"/joy/axes[0]": [[time since the start [s], value], ...]} of all axes and buttons."""
+    """{"/joy/axes[0]": [[time since the start [s], value], ...]} of all axes and buttons,
+    without what is no number that can be drawn.
+    """
     found = {}
     for topic, messages in joys.items():
         step = len(messages) // MOST_POINTS + 1
@@ -73,6 +76,7 @@ def curves(joys):
                 points = [
                     [round(message[0], 3), round(float(message[part][i]), 4)]
                     for message in messages[::step]
+                    if isfinite(message[part][i])
                 ]
                 found[f"{topic}/{kind}[{i}]"] = corners(points)
     return found

@@ -8,10 +8,13 @@ from genpy import DeserializationError
 from sensor_msgs.msg import Joy
 
 from cockpit_server.clients import Source, encoded
-from cockpit_server.motion import covered, motion
+from cockpit_server.motion import covered, is_somewhere, motion
 from node_kit.careful_connections import sender_of
 
 DIGITS = 4  # of metres: a tenth of a millimetre
+# [byte]; a gamepad's message has some 100. The thread that reads them, and sends each to all pages,
+# also watches over who drives, and a huge one would hold it up.
+LONGEST_JOY = 4000
 
 
 def topic_of(robot, name):
@@ -20,7 +23,7 @@ def topic_of(robot, name):
 
 
 class Robots(Source):
-    """The newest odometry of each robot, for all pages that show it."""
+    """The robots' names, and the newest odometry of each, for all pages that show them."""
 
     def __init__(self, feeds, graph_watch):
         """graph_watch: knows the robots. Nothing is subscribed to before somebody looks."""
@@ -44,9 +47,13 @@ class Robots(Source):
         self._text = encoded("robots", stamp=round(time.time(), 3), robots=robots)
 
     def give(self, client, _now):
-        """Send the newest state."""
-        if client.watch.robots:
-            client.write(self._text)
+        """Send the names where they have changed, and the newest state."""
+        if not client.watch.robots:
+            return
+        names = sorted(self._graphs.graph.robots())
+        if client.lacks("names", names):
+            client.send("names", names=names)
+        client.write(self._text)
 
     def _hear(self, message, topic):
         self._newest[topic] = (message.data, time.monotonic())
@@ -64,9 +71,24 @@ class Robots(Source):
 
 
 def shown(state, came, way, now):
-    """A robot's state as pages get it; what is not finite is left out."""
+    """A robot's state as pages get it; what is not finite is left out, and a place that is none."""
     values = {**state._asdict(), "covered": way, "age": max(0.0, now - came)}
+    if not is_somewhere(state):
+        for name in ("x", "y", "yaw"):
+            del values[name]
     return {name: round(value, DIGITS) for name, value in values.items() if isfinite(value)}
+
+
+def joy_shown(data):
+    """{axes, buttons} as pages get them, from the bytes of a Joy; None if none, or too many."""
+    if len(data) > LONGEST_JOY:
+        return None
+    try:
+        joy = Joy().deserialize(data)
+    except DeserializationError:
+        return None
+    axes = [round(value, DIGITS) if isfinite(value) else 0.0 for value in joy.axes]
+    return {"axes": axes, "buttons": list(joy.buttons)}
 
 
 class Pads(Source):
@@ -77,30 +99,31 @@ class Pads(Source):
         self._feeds, self._own_name = feeds, own_name
         self.driven = None  # the robot that is driven from a page
         self._newest = {}  # topic -> (bytes, when they came [s])
+        self._shown = {}  # topic -> (when it came [s], what pages get of it or None)
         self._rivals = {}  # topic -> (name of the node, when it last spoke [s])
 
     def prepare(self, clients, _now):
-        """Subscribe to what is looked at now."""
+        """Subscribe to what is looked at now, and read what is new, once for all pages."""
         robots = ({client.watch.look for client in clients} | {self.driven}) - {None}
         hears = {topic_of(robot, "joy"): self._hear for robot in robots}
         self._feeds.want(self, hears, every=False)
         self._newest = {topic: self._newest[topic] for topic in hears if topic in self._newest}
+        before = self._shown
+        self._shown = {
+            topic: before[topic]
+            if before.get(topic, (None,))[0] == came
+            else (came, joy_shown(data))
+            for topic, (data, came) in self._newest.items()
+        }
 
     def give(self, client, now):
         """Send what is new of the one it looks at."""
         robot = client.watch.look
         if robot is None:
             return
-        data, came = self._newest.get(topic_of(robot, "joy"), (None, 0.0))
-        if data is None or not client.lacks("pad", (robot, came)):
-            return
-        try:
-            joy = Joy().deserialize(data)
-        except DeserializationError:
-            return
-        axes = [round(value, DIGITS) if isfinite(value) else 0.0 for value in joy.axes]
-        age = round(max(0.0, now - came), 3)
-        client.send("pad", robot=robot, axes=axes, buttons=list(joy.buttons), age=age)
+        came, joy = self._shown.get(topic_of(robot, "joy"), (0.0, None))
+        if joy and client.lacks("pad", (robot, came)):
+            client.send("pad", robot=robot, age=round(max(0.0, now - came), 3), **joy)
 
     def rival(self, robot, since):
         """The name of another node that has sent on the robot's topic since a time [s], or None."""

@@ -37,6 +37,13 @@ def text(value):
     return value
 
 
+def full_name(value):
+    """A name of the graph with its namespace: rospy would take "x" for one beside the cockpit."""
+    if not text(value).startswith("/"):
+        raise ValueError("must begin with /")
+    return value
+
+
 def switch(value):
     if not isinstance(value, bool):
         raise ValueError("must be true or false")
@@ -81,8 +88,8 @@ MESSAGES = {
         "robots": switch,
         "look": or_null(text),
         "graph": switch,
-        "topic": or_null(text),
-        "node": or_null(text),
+        "topic": or_null(full_name),
+        "node": or_null(full_name),
         "fields": list_of(text, MOST_FIELDS),
         "field_list": switch,
         "log": switch,

@@ -24,10 +24,12 @@ ARGUMENTS = [
 LONG_S = 60.0  # for a machine that is busy with much else
 # Key code -> name of the key and the number that Windows has for it.
 KEYS = {
-    "ShiftLeft": ("Shift", 16), "ArrowUp": ("ArrowUp", 38), "ArrowLeft": ("ArrowLeft", 37),
+    "ShiftLeft": ("Shift", 16), "ShiftRight": ("Shift", 16), "MetaLeft": ("Meta", 91),
+    "ArrowUp": ("ArrowUp", 38), "ArrowLeft": ("ArrowLeft", 37),
     "ArrowRight": ("ArrowRight", 39), "Tab": ("Tab", 9), "Enter": ("Enter", 13),
     "Escape": ("Escape", 27),
 }  # fmt: skip
+META, SHIFT = 4, 8  # as the protocol has modifiers
 
 
 class Chromium:
@@ -35,6 +37,7 @@ class Chromium:
 
     def __init__(self, width=1280, height=800, touch=False):
         self._folder = tempfile.mkdtemp()
+        self._shifts = set()  # that are held
         options = Options()
         options.binary_location = shutil.which("chromium")
         for argument in (*ARGUMENTS, f"--window-size={width},{height}"):
@@ -65,6 +68,7 @@ class Chromium:
 
     def open(self, address):
         """Open the cockpit's page, and wait until it is connected."""
+        self._shifts.clear()
         self.driver.get(address)
         self.wait_for_text("#connection", "Connected")
 
@@ -127,8 +131,17 @@ class Chromium:
     def key(self, kind, code, repeats=False):
         """kind: "rawKeyDown" or "keyUp". repeats: as a key does that is held."""
         name, number = KEYS[code]
-        self.send("Input.dispatchKeyEvent", type=kind, code=code, key=name,
+        if name == "Shift":
+            (self._shifts.discard if kind == "keyUp" else self._shifts.add)(code)
+        held = (META if name == "Meta" else 0) | (SHIFT if self._shifts else 0)
+        self.send("Input.dispatchKeyEvent", type=kind, code=code, key=name, modifiers=held,
                   windowsVirtualKeyCode=number, autoRepeat=repeats)  # fmt: skip
+
+    def mouse(self, kind, css, button="none", shift=False):
+        """kind: "mouseMoved", "mousePressed" or "mouseReleased", in the middle of an element."""
+        x, y = self.middle(css)
+        self.send("Input.dispatchMouseEvent", type=kind, x=x, y=y, button=button, clickCount=1,
+                  modifiers=SHIFT if shift else 0)  # fmt: skip
 
     def touch(self, kind, *points):
         """kind: "touchStart", "touchMove", "touchEnd", "touchCancel". points: (x, y) [pixel]."""

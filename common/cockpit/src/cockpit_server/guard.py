@@ -1,0 +1,20 @@
+"""Lets one thing fail and the others go on (pure)."""
+
+MOST_TOLD = 100  # things; a page may ask for any number of topics that are none
+
+
+class Guard:
+    """Calls what may fail; of each thing that does it tells once."""
+
+    def __init__(self, tell):
+        """tell: called with a line; it must not wait."""
+        self._tell, self._told = tell, set()
+
+    def __call__(self, about, action, *arguments):
+        """Do something. about: what a failure is told of, such as the name of a tab's source."""
+        try:
+            action(*arguments)
+        except Exception as error:  # whatever it is, it is a fault of that thing alone
+            if about not in self._told and len(self._told) < MOST_TOLD:
+                self._told.add(about)
+                self._tell(f"cockpit: {about}: {type(error).__name__}: {error}")

@@ -1,0 +1,97 @@
+"""Recordings on pages: what is opened is what is shown and played."""
+
+import json
+import queue
+from math import inf, nan
+from types import SimpleNamespace
+
+import pytest
+import rosbag
+import rospy
+from sensor_msgs.msg import Joy
+
+from cockpit_server import bags
+from cockpit_server.access import DRIVER
+from cockpit_server.clients import Client
+from cockpit_server.recording import curves
+from cockpit_server.seat import BAG
+
+
+class Hub:
+    """The seat, and what is to be done soon."""
+
+    def __init__(self):
+        self.soon = queue.Queue().put
+        self.wait = self.soon.__self__.get
+        self.seat = SimpleNamespace(driver=None, how="")
+
+    def sit_down(self, client, _robot, how, _now):
+        self.seat = SimpleNamespace(driver=client.number, how=how)
+
+    def stand_up(self, _client):
+        self.seat = SimpleNamespace(driver=None, how="")
+
+
+class Page:
+    """One page, and the Bags that it speaks to."""
+
+    def __init__(self):
+        self.hub, self.sent = Hub(), []
+        self.bags = bags.Bags(self.hub)
+        hear = lambda text: self.sent.append(json.loads(text))  # noqa: E731  short
+        no = lambda: False  # noqa: E731
+        self.client = Client(7, DRIVER, "x", hear, no, no, lambda: None)
+
+    def say(self, kind, **fields):
+        self.bags.handlers[kind](self.client, 0.0, **fields)
+
+    def open(self, name):
+        """Ask for a recording; what is done once it is read."""
+        self.say("bag_open", name=name)
+        return self.hub.wait(timeout=60)
+
+    def play(self):
+        self.say("bag_play", topic="/joy", rate=1.0, loop=False, robot="")
+
+
+@pytest.fixture
+def page(monkeypatch, tmp_path):
+    """A page, to which two recordings are offered: good.bag and odd.bag."""
+    for name, axes in (("good.bag", [0.5, 1.0]), ("odd.bag", [nan, inf])):
+        with rosbag.Bag(str(tmp_path / name), "w") as bag:
+            for second in range(1, 4):
+                values = axes if second == 2 else [0.25, 0.5]
+                bag.write("/joy", Joy(axes=values, buttons=[1]), rospy.Time(second))
+    monkeypatch.setattr(bags, "bags_here", lambda: {one.name: one for one in tmp_path.glob("*")})
+    return Page()
+
+
+def test_what_is_not_finite_is_left_out_of_curves(page):
+    page.open("odd.bag")()
+    assert page.sent[-1]["path"] == "odd.bag"
+    assert page.sent[-1]["curves"] == {
+        "/joy/axes[0]": [[0.0, 0.25], [2.0, 0.25]],
+        "/joy/axes[1]": [[0.0, 0.5], [2.0, 0.5]],
+        "/joy/buttons[0]": [[0.0, 1.0], [2.0, 1.0]],
+    }
+    assert curves({"/joy": [(0.0, (nan,), ())]}) == {"/joy/axes[0]": []}
+
+
+@pytest.mark.parametrize("broken", ["read", "encoded"])
+def test_what_cannot_be_shown_is_refused_and_not_opened(page, monkeypatch, broken):
+    page.open("good.bag")()
+    monkeypatch.setattr(bags, broken, lambda *_, **__: [].pop())
+    page.open("odd.bag")()
+    assert page.sent[-1]["kind"] == "refused"
+    assert page.sent[-1]["why"].startswith("odd.bag: IndexError")
+    assert page.bags._opened[7].name == "good.bag"
+
+
+def test_what_plays_when_another_is_shown_is_ended(page):
+    page.open("good.bag")()
+    show = page.open("odd.bag")
+    page.play()
+    assert page.hub.seat.how == BAG
+    show()
+    assert page.hub.seat.driver is None
+    assert page.sent[-1]["path"] == "odd.bag"

@@ -1,0 +1,30 @@
+"""Subscriptions to what is looked at."""
+
+from cockpit_server import feeds
+
+
+class Subscriber:
+    """In rospy's place, which refuses "" and topics that it does not know how to name."""
+
+    def __init__(self, topic, *_):
+        if not topic.startswith("/"):
+            raise ValueError("no topic")
+        self.topic = topic
+
+    def unregister(self):
+        """rospy may fail here, too."""
+        raise OSError("the master")
+
+
+def test_a_topic_that_is_refused_keeps_no_other_away(monkeypatch):
+    told = []
+    monkeypatch.setattr(feeds.rospy, "Subscriber", Subscriber)
+    monkeypatch.setattr(feeds, "later", lambda action: action())
+    all_feeds = feeds.Feeds(told.append)
+    topics = ["", *(f"/t{i}" for i in range(20)), "x"]  # in a set, so that some come after ""
+    for every in (True, False, True):
+        all_feeds.want("page", dict.fromkeys(topics, print), every=every)
+        held = {(topic, every) for topic in topics if topic.startswith("/")}
+        assert set(all_feeds._subscribers) == held
+    assert len(told) == len(topics)  # of each once: two are refused, the others do not end well
+    assert sum("ValueError" in line for line in told) == 2

@@ -1,0 +1,126 @@
+"""What the hub sends, when a part of what it joins fails."""
+
+import json
+from io import BytesIO
+from types import SimpleNamespace
+
+from rosgraph_msgs.msg import Log
+
+from cockpit_server.access import DRIVER
+from cockpit_server.clients import Client, Source
+from cockpit_server.graph import Graph
+from cockpit_server.guard import MOST_TOLD, Guard
+from cockpit_server.hub import Hub
+from cockpit_server.logs import Logs
+
+
+class Broken(Source):
+    """Fails in whatever it is asked for."""
+
+    def prepare(self, clients, now):
+        raise KeyError("prepare")
+
+    def give(self, client, now):
+        raise OSError("give")
+
+    def play(self, now):
+        raise ZeroDivisionError("play")
+
+
+class Well(Source):
+    """Says one word."""
+
+    def give(self, client, now):
+        client.send("well")
+
+
+def made(*sources, player=None):
+    """(Hub, what it tells)."""
+    told = []
+    graphs = SimpleNamespace(graph=Graph(subscribers={}))
+    pads, joysticks = SimpleNamespace(driven=None), SimpleNamespace(send=None)
+    hub = Hub(None, graphs, joysticks, pads, told.append)
+    hub.add(sources, player or SimpleNamespace(play=lambda now: None))
+    return hub, told
+
+
+def join(hub):
+    """What a new page of the hub is sent, as texts."""
+    sent = []
+    no = lambda: False  # noqa: E731  short
+    hub.join(Client(hub.number(), DRIVER, "x", sent.append, no, no, lambda: None))
+    return sent
+
+
+def test_a_source_that_fails_holds_up_no_other_and_no_page():
+    hub, told = made(Broken(), Well(), player=Broken())
+    pages = [join(hub), join(hub)]
+    hub.tick()
+    for sent in pages:
+        assert sum('"kind":"well"' in text for text in sent) == 1
+        assert any('"kind":"seat"' in text for text in sent)
+    assert len(told) == 2  # of the player, and of the source, once
+
+
+def test_a_page_that_cannot_be_written_to_holds_up_no_other():
+    hub, _ = made(Well())
+    first, second = join(hub), join(hub)
+    hub.clients[1].write = None
+    hub.tick()
+    assert not any("well" in text for text in first)
+    assert any("well" in text for text in second)
+
+
+def test_a_failure_is_told_once_of_each_thing():
+    told, done = [], []
+    guard = Guard(told.append)
+    for _ in range(3):
+        guard("a", int, "x")
+        guard("b", [].pop)
+        guard("c", done.append, 1)
+    assert [line.partition(": ")[2].split(":")[0] for line in told] == ["a", "b"]
+    assert "ValueError" in told[0] and "IndexError" in told[1] and done == [1, 1, 1]
+    for number in range(2 * MOST_TOLD):
+        guard(f"topic {number}", [].pop)
+    assert len(told) == MOST_TOLD
+
+
+def test_who_watches_the_log_gets_each_line_once():
+    hub, _ = made()
+    logs = Logs(SimpleNamespace(want=lambda *_, **__: None), SimpleNamespace(graph=Graph()))
+    sent = join(hub)
+    one = hub.clients[1]
+
+    def lines(text, **watch):
+        data = BytesIO()
+        Log(msg=text).serialize(data)
+        logs._hear(SimpleNamespace(data=data.getvalue()), "/rosout")
+        nothing = dict.fromkeys(("robots", "graph", "field_list", "bag"), False)
+        nothing.update(look=None, topic=None, node=None, fields=[], **watch)
+        hub.hear(one, json.dumps({"kind": "watch", **nothing}))
+        sent.clear()
+        for _ in range(2):  # it speaks each other time
+            logs.prepare([one], 0.0)
+            logs.give(one, 0.0)
+        entries = [json.loads(text)["entries"] for text in sent]
+        return [entry["text"] for some in entries for entry in some]
+
+    assert lines("a", log=True) == ["a"]
+    assert lines("b", log=True) == ["b"]  # as a page does that was silent for a while
+    assert lines("c", log=False) == []
+    assert lines("d", log=True) == ["a", "b", "c", "d"]
+
+
+def test_all_else_is_told_anew_to_who_watches_anew():
+    hub, _ = made()
+    join(hub)
+    one = hub.clients[1]
+    one.seen = {"seat": 1, "log": 5}
+    hub._on_watch(one, 0.0, log=True)
+    assert one.seen == {}  # the log was off
+    one.seen = {"seat": 1}
+    hub._on_watch(one, 0.0, log=True)
+    assert one.seen == {}
+    one.seen = {"seat": 1, "log": 5}
+    hub._on_watch(one, 0.0, log=True)
+    assert one.seen == {"log": 5}
