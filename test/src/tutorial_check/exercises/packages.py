@@ -149,6 +149,14 @@ def _package(session, name):
             where=beside[0].inside,
             hint=f"mv {beside[0].inside} src/",
         )
+    link = session.layout.source / name
+    if link.is_symlink() and not link.exists():
+        raise Wrong(
+            expected,
+            f"src/{name} is a link to {os.readlink(link)}, and leads nowhere here",
+            where=f"src/{name}",
+            hint="put the folder itself into src in place of the link",
+        )
     similar = _similar(name, packages)
     if similar:
         raise Wrong(
