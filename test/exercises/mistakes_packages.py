@@ -39,6 +39,8 @@ ROWS = [
     ("2", "the place of a dependency", [lines(PUT_XML, 11, 14)], "C3", (f"{B}/package.xml:11", "add <depend>roscpp")),
     ("2", "rospcc in CMakeLists.txt", [put(f"{B}/CMakeLists.txt", "roscpp", "rospcc")], "C4", (f"{B}/CMakeLists.txt:4", "correct rospcc to roscpp")),
     ("2", "an empty devel/setup.bash", [write("../devel/setup.bash", "")], "C1", "rm -r build devel"),
+    ("2", "a part of the suite in src", [copy(PUT_XML, "sim/package.xml"), put("sim/package.xml", f"<name>{B}<", "<name>fake_turtlebot_sim<")], "C1", ("where:    src/sim", "remove it from src")),
+    ("2", "catkin_create_pkg without a name", [move(B, "std_msgs"), put("std_msgs/package.xml", f"<name>{B}<", "<name>std_msgs<")], "C1", ("src/std_msgs", "first word is the name")),
     ("3", "no talker.py", [remove(TALKER)], "C5", "no such file"),
     ("3", "talker.py misnamed", [move(TALKER, f"{B}/scripts/Talker.py")], "C5", "Talker.py"),
     ("3", "chmod forgotten", [chmod(TALKER, 0o644)], "C5", "chmod +x"),

@@ -36,6 +36,11 @@ def c(what, *changes):
     return (what, [put(CLASS, old, new) for old, new in changes], ["6.2"])
 
 
+def part(name):
+    """A package of a name of the suite's, in which its programs are missing."""
+    return write(f"{name}/package.xml", f"<package><name>{name}</name></package>", 0o644)
+
+
 ROWS = [
     ("shebang /usr/bin/python3", [put(JOY2TWIST, "/usr/bin/env python", "/usr/bin/python3"), put(TALKER, "/usr/bin/env python", "/usr/bin/env python3")], ["3", "4.3"]),
     ("installed by catkin_install_python", [put(f"{J}/CMakeLists.txt", "catkin_package()", "catkin_package()\ncatkin_install_python(PROGRAMS scripts/joy2twist.py scripts/new_joy2twist.py DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})")], ["4.3", "6.2"]),
@@ -87,4 +92,5 @@ ROWS = [
     c("a class named Joy2Twist, with main()", ("NewJoy2Twist", "Joy2Twist"), ("if __name__ == '__main__':\n    try:\n        Joy2Twist()\n" + END_OF_CLASS, "def main():\n    Joy2Twist()\n\n\nif __name__ == '__main__':\n    main()\n")),
     ("the class in joy2twist.py", [move(CLASS, JOY2TWIST)], ["4.3", "6.2"]),
     ("two nodes of one class name, a helper class", [put(CLASS, "class NewJoy2Twist", "class Config():\n    speed = 1.0\n\n\nclass NewJoy2Twist")], ["6.2"]),
+    ("a part of the suite in src, which hides nothing from the checker", [part("fake_turtlebot_sim"), part("gamepad")], ["4.4", "4.5"]),
 ]  # fmt: skip

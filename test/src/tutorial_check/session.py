@@ -39,7 +39,10 @@ class Session:
     def __init__(
         self, folder, layout, exercises, environment, *, floor, make_box, can_have_devices
     ):
-        """floor: its setup.bash; environment: of a shell that sourced it; make_box(environment): a Box."""
+        """floor: its setup.bash; environment: of a shell that sourced it; make_box(environment): a Box.
+
+        floor_environment: the latter in folders of this session's own, without the student's packages.
+        """
         self.folder = Path(folder)
         self.layout = layout
         self.exercises = frozenset(exercises)  # that are asked for
@@ -47,8 +50,8 @@ class Session:
         self.floor = floor
         self.can_have_devices = can_have_devices
         self._memory, self._runs, self._siblings = {}, {}, 0
-        self._base = self._own(environment)
-        self.box = make_box(self._base)
+        self.floor_environment = self._own(environment)
+        self.box = make_box(self.floor_environment)
 
     def memo(self, key, make):
         """make(), once; what it raised is raised again. For facts, which stay what they are."""
@@ -69,7 +72,7 @@ class Session:
         """The environment after sourcing a setup.bash, too."""
         done = subprocess.run(
             ["bash", "-c", '. "$1" >/dev/null && env -0', "bash", str(setup)],
-            env=self._base,
+            env=self.floor_environment,
             capture_output=True,
             check=False,
             timeout=SLOW_S,
@@ -169,7 +172,7 @@ class Session:
         return self.memo("built", self._build)
 
     def _build(self):
-        environment = dict(self._base)
+        environment = dict(self.floor_environment)
         program = self.box.start(
             ["catkin_make", "-C", str(self.folder / "ws"), "-DPYTHON_EXECUTABLE=/usr/bin/python3"],
             environment,
@@ -206,7 +209,7 @@ class Session:
             devel = self.folder / "devel"
             devel.mkdir()
             (devel / ".catkin").write_text(str(self.source))
-            found = dict(self._base)
+            found = dict(self.floor_environment)
             found["CMAKE_PREFIX_PATH"] = f"{devel}:{found.get('CMAKE_PREFIX_PATH', '')}".rstrip(":")
             found["ROS_PACKAGE_PATH"] = f"{self.source}:{found.get('ROS_PACKAGE_PATH', '')}".rstrip(
                 ":"
