@@ -18,6 +18,19 @@ from edits import (
 
 PUT_XML, PUT_JOY_XML = f"{B}/package.xml", f"{J}/package.xml"
 
+
+def manifest(format_, depends):
+    """A package.xml of so many lines, with dependencies in the sixth."""
+    return f"""<package {format_}>
+<name>{B}</name><version>0.0.0</version>
+<description>x</description>
+<maintainer email="s@u.example">s</maintainer>
+<license>x</license>
+{depends}
+</package>
+"""
+
+
 ROWS = [
     ("2", "package beside src", [move(B, f"../{B}")], "C2", "beside src"),
     ("2", "no package", [move(B, "../../gone")], "C2", "none; found"),
@@ -28,6 +41,12 @@ ROWS = [
     ("2", "within another package", [move(B, f"{J}/{B}")], "C2", "within another"),
     ("2", "broken package.xml", [put(PUT_XML, "</description>", "</describtion>")], "C2", "mismatched tag"),
     ("2", "package.xml cut off", [put(PUT_XML, "</package>", "")], "C2", "no element found"),
+    ("2", "run_depend in format 2", [write(PUT_XML, manifest("format='2'", "<run_depend>rospy</run_depend>"))], "C2", (f"{B}/package.xml:6", "write exec_depend")),
+    ("2", "exec_depend in format 1", [write(PUT_XML, manifest("", "<exec_depend>rospy</exec_depend>"))], "C2", (f"{B}/package.xml:6", "write <package format")),
+    ("2", "no license", [write(PUT_XML, manifest("format='2'", "").replace("<license>x</license>", ""))], "C2", ('one "license" tag', "catkin wants what is named")),
+    ("2", "a format yet to come", [write(PUT_XML, manifest("format='4'", ""))], "C2", (f"{B}/package.xml:1", "write <package format")),
+    ("2", "a condition with one =", [write(PUT_XML, manifest("format='3'", "<depend condition='$ROS_VERSION = 1'>rospy</depend>"))], "C2", (f"{B}/package.xml:6", "by two =")),
+    ("2", "run_depend in a folder of another name", [move(B, "mine"), write("mine/package.xml", manifest("format='2'", "<run_depend>rospy</run_depend>"))], "C2", ("mine/package.xml:6", "write exec_depend")),
     ("2", "roscpp forgotten", [put(PUT_XML, "roscpp", "rospy")], "C3", "roscpp"),
     ("2", "std_msg", [put(PUT_XML, "std_msgs", "std_msg")], "C3", "std_msg"),
     ("2", "commas in package.xml", [put(PUT_XML, "<build_depend>rospy<", "<build_depend>rospy,<")], "C3", "comma"),

@@ -13,6 +13,18 @@ WANTED = {
     "beginner_tutorials": ("std_msgs", "rospy", "roscpp"),
     "joy2twist": ("rospy", "std_msgs", "sensor_msgs", "geometry_msgs"),
 }
+# What catkin says of a package.xml, the word that it means, what to do.
+WANTS = (
+    ("replace <run_depend>", "<run_depend", "run_depend is of format 1: write exec_depend"),
+    (
+        "replace <exec_depend>",
+        "<exec_depend",
+        'exec_depend is of format 2: write <package format="2">',
+    ),
+    ("format version '|invalid literal", "<package", 'write <package format="2">'),
+    ("condition", "condition=", 'a condition compares by two =, as in "$ROS_VERSION == 1"'),
+    ("", "", "its tags are well formed, but catkin wants what is named here"),
+)
 CREATE = {name: f"catkin_create_pkg {name} {' '.join(words)}" for name, words in WANTED.items()}
 
 
@@ -27,21 +39,32 @@ def _similar(name, packages):
     return None
 
 
+def _unreadable(package):
+    """The Wrong for a package.xml that is no XML, or not what catkin makes of it."""
+    where = f"{package.inside}/package.xml"
+    if package.malformed:
+        line = re.search(r"line (\d+)", package.error)
+        where += f":{line[1]}" if line else ""
+        hint = "repair that line or the one before: each <tag> needs its </tag>"
+    else:
+        file = package.folder / "package.xml"
+        _, word, hint = next(each for each in WANTS if re.search(each[0], package.error))
+        where = place_of(where, read(file), word) if word else where
+    return Wrong(
+        "a package.xml that can be read",
+        package.error,
+        where=where,
+        hint=f"{hint}. Until then catkin_make fails",
+    )
+
+
 def _package(session, name):
     packages = session.packages
     named = [each for each in packages if each.name == name]
     expected = f"one package {name} in src"
     broken = [each for each in packages if each.error and name in (each.name, each.folder.name)]
     if broken:
-        reason = broken[0].error
-        line = re.search(r"line (\d+)", reason)
-        raise Wrong(
-            "a package.xml that can be read",
-            reason,
-            where=f"{broken[0].inside}/package.xml" + (f":{line[1]}" if line else ""),
-            hint="repair that line or the one before: each <tag> needs its </tag>. Until then"
-            " catkin_make fails",
-        )
+        raise _unreadable(broken[0])
     if len(named) > 1:
         raise Wrong(
             expected,
