@@ -1,6 +1,6 @@
 """Mistakes in joy2twist and in the class, each a row: (exercise, what, edits, check, word or words)."""
 
-from edits import CLASS, JOY2TWIST, chmod, put
+from edits import CLASS, JOY2TWIST, chmod, latin1, put
 
 SHOW = 'rospy.loginfo(rospy.get_name() + ": axes [%.2f, %.2f, %.2f, %.2f, %.2f, %.2f]" % data.axes)'
 X, Z = "msg.linear.x = data.axes[1]", "msg.angular.z = data.axes[0]"
@@ -20,6 +20,7 @@ def cls(what, old, new, check, word):
 
 
 ROWS = [
+    ("4.3", "Latin-1", [latin1(JOY2TWIST, "import rospy\n", "# von Jörg, für alle")], "C13", ("joy2twist.py:", "save the file as UTF-8")),
     node("nothing displayed", SHOW, "pass", "C14", "not one value"),
     node("five of six values", SHOW, 'rospy.loginfo("[%.2f, %.2f, %.2f, %.2f, %.2f]" % data.axes)', "C14", "as many %.2f"),
     node("% data", "% data.axes", "% data", "C14", "data.axes"),
