@@ -54,6 +54,8 @@ ROWS = [
     ("2", "commas in CMakeLists.txt", [put(f"{B}/CMakeLists.txt", "std_msgs rospy", "std_msgs, rospy,")], "C4", "comma"),
     ("2", "CMakeLists.txt broken", [put(f"{B}/CMakeLists.txt", "catkin_package()", "catkin_package(")], "C4", "CMakeLists"),
     ("2", "CMakeLists.txt missing", [remove(f"{B}/CMakeLists.txt")], "C4", "CMakeLists"),
+    ("2", "CMakeLists.txt is a folder", [remove(f"{B}/CMakeLists.txt"), write(f"{B}/CMakeLists.txt/CMakeLists.txt", "")], "C4", "CMakeLists"),
+    ("3", "another topic, and CMakeLists.txt is a folder", [remove(f"{B}/CMakeLists.txt"), write(f"{B}/CMakeLists.txt/CMakeLists.txt", ""), put(TALKER, "'chatter'", "'chater'")], "C6", "/chater"),
     ("2", "unknown component", [put(f"{B}/CMakeLists.txt", "roscpp", "roscpp_tutorial_x")], "C4", "roscpp_tutorial_x"),
     ("2", "rosccp in package.xml", [put(PUT_XML, "roscpp", "rosccp")], "C3", (f"{B}/package.xml:11", "correct rosccp to roscpp")),
     ("2", "the place of a dependency", [lines(PUT_XML, 11, 14)], "C3", (f"{B}/package.xml:11", "add <depend>roscpp")),

@@ -200,7 +200,8 @@ class Session:
         stub.chmod(0o755)
         cmake = [each.folder / "CMakeLists.txt" for each in self.packages]
         needs_build = any(
-            each.exists() and NEEDS_BUILD.search(each.read_text(errors="replace")) for each in cmake
+            each.is_file() and NEEDS_BUILD.search(each.read_text(errors="replace"))
+            for each in cmake
         )
         if needs_build and self.built()[0] == 0:
             found = self._sourced(self.folder / "ws" / "devel" / "setup.bash")

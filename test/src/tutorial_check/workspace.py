@@ -123,9 +123,10 @@ def _copy(source, target, so_far, seen):
         if entry.name in LEFT_OUT:
             continue
         try:
-            if entry.is_dir():
+            # Of os.path, to which a link to itself is neither; an entry raises OSError.
+            if os.path.isdir(entry.path):
                 _copy(Path(entry.path), target / entry.name, so_far, seen | {real})
-            elif entry.is_file():
+            elif os.path.isfile(entry.path):
                 so_far[0] += entry.stat().st_size
                 so_far[1] += 1
                 if so_far[0] > MOST_BYTES or so_far[1] > MOST_FILES:

@@ -90,6 +90,13 @@ def test_a_dangling_link_is_left_out(tmp_path):
     assert (copied / "joy2twist" / "package.xml").exists()
 
 
+def test_a_link_to_itself_is_left_out(tmp_path):
+    (package(tmp_path / "src" / "joy2twist") / "bag").symlink_to("bag")
+    copied = workspace.copy(workspace.find_layout(tmp_path), tmp_path / "copy")
+    assert (copied / "joy2twist" / "package.xml").exists()
+    assert not (copied / "joy2twist" / "bag").is_symlink()
+
+
 @pytest.mark.parametrize("name", ["../evil.txt", "/evil.txt", "a/../../evil.txt", "..\\evil.txt"])
 def test_a_zip_with_a_path_outside(tmp_path, name):
     with zipfile.ZipFile(tmp_path / "a.zip", "w") as opened:

@@ -179,10 +179,10 @@ def joy2twist(session):
 def build(session):
     """C4: catkin_make in a fresh copy."""
     for each in session.packages:
-        if not (each.folder / "CMakeLists.txt").exists():
+        if not (each.folder / "CMakeLists.txt").is_file():
             raise Wrong(
                 "catkin_make without an error",
-                "CMakeLists.txt is missing",
+                "the file CMakeLists.txt is missing",
                 where=each.inside,
                 hint="catkin_create_pkg makes it; take it from a new package of the same name",
             )
