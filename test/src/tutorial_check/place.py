@@ -89,9 +89,8 @@ def _hide(home, kept, side):
         _mount("--rbind", side / str(number), folder)
         _mount("-o", "remount,bind,ro", folder)
     for name, folder in names.items():
-        if not os.path.lexists(
-            name
-        ):  # a link of the home folder, or below one: catkin wrote it down
+        # By a link that was hidden with the home folder: catkin may have written that name down.
+        if not os.path.lexists(name):
             name.parent.mkdir(parents=True, exist_ok=True)
             name.symlink_to(folder)
 
