@@ -71,6 +71,18 @@ def windows(path):
     return lambda src: (src / path).write_bytes((src / path).read_bytes().replace(b"\n", b"\r\n"))
 
 
+def latin1(path, after, text):
+    """Add a line of text in Latin-1 after a line, which must be there."""
+
+    def edit(src):
+        data = (src / path).read_bytes()
+        assert after.encode() in data, f"{after!r} is not in {path}"
+        added = f"{after}{text}\n".encode("latin-1")
+        (src / path).write_bytes(data.replace(after.encode(), added, 1))
+
+    return edit
+
+
 def lines(path, *numbers):
     """Leave out the lines of these numbers, from 1."""
 

@@ -8,6 +8,7 @@ from edits import (
     J,
     chmod,
     copy,
+    latin1,
     lines,
     move,
     put,
@@ -17,6 +18,19 @@ from edits import (
 )
 
 PUT_XML, PUT_JOY_XML = f"{B}/package.xml", f"{J}/package.xml"
+
+
+def manifest(format_, depends):
+    """A package.xml of so many lines, with dependencies in the sixth."""
+    return f"""<package {format_}>
+<name>{B}</name><version>0.0.0</version>
+<description>x</description>
+<maintainer email="s@u.example">s</maintainer>
+<license>x</license>
+{depends}
+</package>
+"""
+
 
 ROWS = [
     ("2", "package beside src", [move(B, f"../{B}")], "C2", "beside src"),
@@ -28,17 +42,27 @@ ROWS = [
     ("2", "within another package", [move(B, f"{J}/{B}")], "C2", "within another"),
     ("2", "broken package.xml", [put(PUT_XML, "</description>", "</describtion>")], "C2", "mismatched tag"),
     ("2", "package.xml cut off", [put(PUT_XML, "</package>", "")], "C2", "no element found"),
+    ("2", "run_depend in format 2", [write(PUT_XML, manifest("format='2'", "<run_depend>rospy</run_depend>"))], "C2", (f"{B}/package.xml:6", "write exec_depend")),
+    ("2", "exec_depend in format 1", [write(PUT_XML, manifest("", "<exec_depend>rospy</exec_depend>"))], "C2", (f"{B}/package.xml:6", "write <package format")),
+    ("2", "no license", [write(PUT_XML, manifest("format='2'", "").replace("<license>x</license>", ""))], "C2", ('one "license" tag', "catkin wants what is named")),
+    ("2", "a format yet to come", [write(PUT_XML, manifest("format='4'", ""))], "C2", (f"{B}/package.xml:1", "write <package format")),
+    ("2", "a condition with one =", [write(PUT_XML, manifest("format='3'", "<depend condition='$ROS_VERSION = 1'>rospy</depend>"))], "C2", (f"{B}/package.xml:6", "by two =")),
+    ("2", "run_depend in a folder of another name", [move(B, "mine"), write("mine/package.xml", manifest("format='2'", "<run_depend>rospy</run_depend>"))], "C2", ("mine/package.xml:6", "write exec_depend")),
     ("2", "roscpp forgotten", [put(PUT_XML, "roscpp", "rospy")], "C3", "roscpp"),
     ("2", "std_msg", [put(PUT_XML, "std_msgs", "std_msg")], "C3", "std_msg"),
     ("2", "commas in package.xml", [put(PUT_XML, "<build_depend>rospy<", "<build_depend>rospy,<")], "C3", "comma"),
     ("2", "commas in CMakeLists.txt", [put(f"{B}/CMakeLists.txt", "std_msgs rospy", "std_msgs, rospy,")], "C4", "comma"),
     ("2", "CMakeLists.txt broken", [put(f"{B}/CMakeLists.txt", "catkin_package()", "catkin_package(")], "C4", "CMakeLists"),
     ("2", "CMakeLists.txt missing", [remove(f"{B}/CMakeLists.txt")], "C4", "CMakeLists"),
+    ("2", "CMakeLists.txt is a folder", [remove(f"{B}/CMakeLists.txt"), write(f"{B}/CMakeLists.txt/CMakeLists.txt", "")], "C4", "CMakeLists"),
+    ("3", "another topic, and CMakeLists.txt is a folder", [remove(f"{B}/CMakeLists.txt"), write(f"{B}/CMakeLists.txt/CMakeLists.txt", ""), put(TALKER, "'chatter'", "'chater'")], "C6", "/chater"),
     ("2", "unknown component", [put(f"{B}/CMakeLists.txt", "roscpp", "roscpp_tutorial_x")], "C4", "roscpp_tutorial_x"),
     ("2", "rosccp in package.xml", [put(PUT_XML, "roscpp", "rosccp")], "C3", (f"{B}/package.xml:11", "correct rosccp to roscpp")),
     ("2", "the place of a dependency", [lines(PUT_XML, 11, 14)], "C3", (f"{B}/package.xml:11", "add <depend>roscpp")),
     ("2", "rospcc in CMakeLists.txt", [put(f"{B}/CMakeLists.txt", "roscpp", "rospcc")], "C4", (f"{B}/CMakeLists.txt:4", "correct rospcc to roscpp")),
     ("2", "an empty devel/setup.bash", [write("../devel/setup.bash", "")], "C1", "rm -r build devel"),
+    ("2", "a part of the suite in src", [copy(PUT_XML, "sim/package.xml"), put("sim/package.xml", f"<name>{B}<", "<name>fake_turtlebot_sim<")], "C1", ("where:    src/sim", "remove it from src")),
+    ("2", "catkin_create_pkg without a name", [move(B, "std_msgs"), put("std_msgs/package.xml", f"<name>{B}<", "<name>std_msgs<")], "C1", ("src/std_msgs", "first word is the name")),
     ("3", "no talker.py", [remove(TALKER)], "C5", "no such file"),
     ("3", "talker.py misnamed", [move(TALKER, f"{B}/scripts/Talker.py")], "C5", "Talker.py"),
     ("3", "chmod forgotten", [chmod(TALKER, 0o644)], "C5", "chmod +x"),
@@ -50,6 +74,8 @@ ROWS = [
     ("3", "byte order mark", [put(TALKER, "#!/usr", "\ufeff#!/usr")], "C5", "byte order mark"),
     ("3", "an empty file", [write(TALKER, "")], "C5", "empty"),
     ("3", "a web page", [write(TALKER, "<!DOCTYPE html>\n<html></html>\n")], "C5", "web page"),
+    ("3", "Latin-1", [latin1(TALKER, "import rospy\n", "# by Jörg")], "C5", ("talker.py:3", "save the file as UTF-8")),
+    ("3", "a coding that is none", [latin1(LISTENER, "#!/usr/bin/env python\n", "# coding: utf-88")], "C5", ("listener.py:2", "utf-88")),
     ("3", "underscore lost: std msgs", [put(TALKER, "std_msgs", "std msgs")], "C5", "underscores"),
     ("3", "underscore lost: init node", [put(LISTENER, "init_node", "init node")], "C5", "underscores"),
     ("3", "underscore lost: queue size", [put(TALKER, "queue_size", "queue size")], "C5", "underscores"),

@@ -11,6 +11,7 @@ from edits import (
     TURTLEBOT,
     B,
     J,
+    latin1,
     move,
     put,
     write,
@@ -36,6 +37,11 @@ def c(what, *changes):
     return (what, [put(CLASS, old, new) for old, new in changes], ["6.2"])
 
 
+def part(name):
+    """A package of a name of the suite's, in which its programs are missing."""
+    return write(f"{name}/package.xml", f"<package><name>{name}</name></package>", 0o644)
+
+
 ROWS = [
     ("shebang /usr/bin/python3", [put(JOY2TWIST, "/usr/bin/env python", "/usr/bin/python3"), put(TALKER, "/usr/bin/env python", "/usr/bin/env python3")], ["3", "4.3"]),
     ("installed by catkin_install_python", [put(f"{J}/CMakeLists.txt", "catkin_package()", "catkin_package()\ncatkin_install_python(PROGRAMS scripts/joy2twist.py scripts/new_joy2twist.py DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})")], ["4.3", "6.2"]),
@@ -45,6 +51,7 @@ ROWS = [
     ("no load_manifest", [put(JOY2TWIST, MANIFEST, ""), put(CLASS, MANIFEST, "")], ["4.3", "6.2"]),
     ("relative topics", [put(JOY2TWIST, "/joy", "joy"), put(JOY2TWIST, "/cmd_vel", "cmd_vel")], ["4.3", "6.1"]),
     ("three versions in three files", [move(JOY2TWIST, f"{J}/scripts/joy2twist_v2.py"), write(JOY2TWIST, '#!/usr/bin/env python3\nimport rospy\nfrom sensor_msgs.msg import Joy\n\n\ndef callback(data):\n    rospy.loginfo("%s", ",".join("%.2f" % a for a in data.axes))\n\n\nrospy.init_node("listener", anonymous=True)\nrospy.Subscriber("/joy", Joy, callback)\nrospy.spin()\n')], ["4.3"]),
+    ("Latin-1, and a line that says so", [latin1(JOY2TWIST, "#!/usr/bin/env python\n", "# -*- coding: latin-1 -*-\n# von Jörg"), latin1(CLASS, "#!/usr/bin/env python\n", "# vim: set fileencoding=iso-8859-15 :\n# von Jörg")], ["4.3", "6.2"]),
     j("queue_size=1", "'/cmd_vel', Twist", "'/cmd_vel', Twist, queue_size=1"),
     j("publisher first", f'    rospy.Subscriber("/joy", Joy, callback)\n{PUB}', f'{PUB}    rospy.Subscriber("/joy", Joy, callback)\n'),
     ("publisher before init_node", [put(JOY2TWIST, PUB, ""), put(JOY2TWIST, "    rospy.init_node", f"{PUB}    rospy.init_node")], ["4.3"]),
@@ -87,4 +94,5 @@ ROWS = [
     c("a class named Joy2Twist, with main()", ("NewJoy2Twist", "Joy2Twist"), ("if __name__ == '__main__':\n    try:\n        Joy2Twist()\n" + END_OF_CLASS, "def main():\n    Joy2Twist()\n\n\nif __name__ == '__main__':\n    main()\n")),
     ("the class in joy2twist.py", [move(CLASS, JOY2TWIST)], ["4.3", "6.2"]),
     ("two nodes of one class name, a helper class", [put(CLASS, "class NewJoy2Twist", "class Config():\n    speed = 1.0\n\n\nclass NewJoy2Twist")], ["6.2"]),
+    ("a part of the suite in src, which hides nothing from the checker", [part("fake_turtlebot_sim"), part("gamepad")], ["4.4", "4.5"]),
 ]  # fmt: skip

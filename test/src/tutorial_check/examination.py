@@ -39,11 +39,14 @@ class Outcome:
         return self.done and passed(self.results)
 
 
-def examine(workspace, floor, exercises, tell=lambda outcome, result: None, only_first=False):
+def examine(
+    workspace, floor, exercises, tell=lambda outcome, result: None, *, only_first=False, own=True
+):
     """[Outcome] of a workspace. tell is called with each result as soon as it is there.
 
     floor: setup.bash of the devel space with what students use and never write. only_first: end
-    each exercise at the first check that is wrong.
+    each exercise at the first check that is wrong. own: it is the caller's own workspace, whose
+    links may lead into his home folder.
     Raises CannotCheck.
     """
     try:
@@ -62,6 +65,7 @@ def examine(workspace, floor, exercises, tell=lambda outcome, result: None, only
             folder,
             tell=tell,
             only_first=only_first,
+            own=own,
         )
     finally:
         shutil.rmtree(folder, ignore_errors=True)
@@ -102,10 +106,11 @@ def _kept(floor):
     return [str(each) for each in kept]
 
 
-def _examine(workspace, floor, exercises, folder, *, tell, only_first):
+def _examine(workspace, floor, exercises, folder, *, tell, only_first, own):
     wrapper = place.wrapper()
     orders = {
         "workspace": workspace,
+        "own": own,
         "floor": floor,
         "exercises": list(exercises),
         "folder": folder,
@@ -131,7 +136,8 @@ def _examine(workspace, floor, exercises, folder, *, tell, only_first):
     }
     log = tempfile.TemporaryFile("w+")  # noqa: SIM115  read below
     process = subprocess.Popen(
-        [*wrapper, "/usr/bin/python3", "-m", "tutorial_check.examine"],
+        # -s: without what pip put into the home folder, which is hidden soon
+        [*wrapper, "/usr/bin/python3", "-s", "-m", "tutorial_check.examine"],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=log,

@@ -12,7 +12,7 @@ import sys
 import time
 from pathlib import Path
 
-from tutorial_check import place
+from tutorial_check import place, workspace
 from tutorial_check.model import CannotCheck, Run
 
 LOWEST_UID = 1_000_000  # users of nobody's, one for each examination
@@ -43,34 +43,31 @@ def main():
 
 
 def examine(orders, tell):
-    """orders: workspace, folder, floor, exercises, apart, only_first ..."""
+    """orders: workspace, own, folder, floor, exercises, apart, only_first ..."""
+    began_s = time.monotonic()
     scratch = Path(orders["folder"])
-    granted = False
-    if orders["apart"]:
-        granted = place.furnish(
-            scratch,
-            orders["home"],
-            [*orders["kept"], orders["workspace"], str(Path(__file__).parents[3])],
-        )
+    granted = orders["apart"] and place.limit(scratch)
+    layout = _hand_in(orders["workspace"], scratch)
+    kept = [*orders["kept"], orders["workspace"], Path(__file__).parents[3]]
+    # Links of one's own workspace lead where they lead; those of others, not into the home folder
+    # of who checks them. No program of theirs runs before that is hidden.
+    if orders["own"]:
+        workspace.copy(layout, scratch / "ws")
+        kept.append(layout.source)
+    granted = granted and place.furnish(scratch, orders["home"], kept)
+    if not orders["own"]:
+        workspace.copy(layout, scratch / "ws")
     # ROS, only now: it reads the environment as it loads.
     home = scratch / "ours"
     home.mkdir(exist_ok=True)
     os.environ.update(HOME=str(home), ROS_HOME=str(home), ROS_LOG_DIR=str(home), ROS_IP="127.0.0.1")
     os.environ.pop("ROS_HOSTNAME", None)
-    began_s = time.monotonic()
     import rosmaster.master  # noqa: F401, PLC0415  loaded here for all that are forked
     import rospy  # noqa: F401, PLC0415
 
-    from tutorial_check import box, session, workspace  # noqa: PLC0415
+    from tutorial_check import box, session  # noqa: PLC0415
     from tutorial_check.exercises import catalogue  # noqa: PLC0415
 
-    given = Path(orders["workspace"])
-    if given.is_file():
-        workspace.unpack(given, scratch / "unpacked")
-        given = scratch / "unpacked"
-    layout = workspace.find_layout(given)
-    (scratch / "ws").mkdir()
-    workspace.copy(layout, scratch / "ws")
     uid = (
         LOWEST_UID + os.getppid() % 1_000_000 + int(orders["number"])
         if os.geteuid() == 0 and not orders["mapped"]
@@ -106,6 +103,15 @@ def examine(orders, tell):
         tell(exercise=exercise, done=seconds, trouble=run.trouble(exercise))
     if "TUTORIAL_CHECK_TIMES" in os.environ:
         print({**times, **run.seconds}, file=sys.stderr)
+
+
+def _hand_in(given, scratch):
+    """The Layout of a workspace, or of a zip, which is unpacked in scratch."""
+    given = Path(given)
+    if given.is_file():
+        workspace.unpack(given, scratch / "unpacked")
+        given = scratch / "unpacked"
+    return workspace.find_layout(given)
 
 
 if __name__ == "__main__":

@@ -43,18 +43,26 @@ def is_inside():
     return INSIDE in os.environ
 
 
+def limit(scratch):
+    """Have what is written in a folder count against the limit; whether that was granted."""
+    try:
+        _mount("-t", "tmpfs", "-o", f"size={SCRATCH_MB}m,mode=755", "none", scratch)
+    except (OSError, subprocess.SubprocessError):
+        return False
+    return True
+
+
 def furnish(scratch, home, kept):
-    """Make the mounts and the loopback; whether all was granted.
+    """Make the other mounts and the loopback; whether all was granted.
 
     scratch: the folder for what is written; home: the folder to hide; kept: those below it (or
     elsewhere) that are needed still, read-only.
     """
     try:
         _loopback_up()
-        _mount("-t", "tmpfs", "-o", f"size={SCRATCH_MB}m,mode=755", "none", scratch)
         side = Path(scratch) / "mounts"
         side.mkdir()
-        _hide(home, [Path(each).resolve() for each in kept], side)
+        _hide(home, kept, side)
         _devices(side)
     except (OSError, subprocess.SubprocessError):
         return False
@@ -67,7 +75,8 @@ def _mount(*words):
 
 def _hide(home, kept, side):
     """An empty folder in place of home; in it and elsewhere the kept ones, read-only."""
-    kept = [each for each in dict.fromkeys(kept) if each.is_dir()]
+    names = {Path(each): Path(each).resolve() for each in kept if Path(each).is_dir()}
+    kept = list(dict.fromkeys(names.values()))
     home = Path(home).resolve()
     for number, folder in enumerate(kept):
         (side / str(number)).mkdir()
@@ -79,6 +88,11 @@ def _hide(home, kept, side):
             folder.mkdir(parents=True)
         _mount("--rbind", side / str(number), folder)
         _mount("-o", "remount,bind,ro", folder)
+    for name, folder in names.items():
+        # By a link that was hidden with the home folder: catkin may have written that name down.
+        if not os.path.lexists(name):
+            name.parent.mkdir(parents=True, exist_ok=True)
+            name.symlink_to(folder)
 
 
 def _devices(side):

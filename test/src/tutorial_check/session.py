@@ -6,8 +6,8 @@ import re
 import subprocess
 from pathlib import Path
 
-from node_kit.manifests import broken_manifests
 from tutorial_check import python_facts
+from tutorial_check.exercises.manifests import must_be_startable
 from tutorial_check.model import CannotCheck, Wrong, master_gone
 from tutorial_check.stage import Stage
 from tutorial_check.workspace import packages_below
@@ -39,7 +39,10 @@ class Session:
     def __init__(
         self, folder, layout, exercises, environment, *, floor, make_box, can_have_devices
     ):
-        """floor: its setup.bash; environment: of a shell that sourced it; make_box(environment): a Box."""
+        """floor: its setup.bash; environment: of a shell that sourced it; make_box(environment): a Box.
+
+        floor_environment: the latter in folders of this session's own, without the student's packages.
+        """
         self.folder = Path(folder)
         self.layout = layout
         self.exercises = frozenset(exercises)  # that are asked for
@@ -47,8 +50,8 @@ class Session:
         self.floor = floor
         self.can_have_devices = can_have_devices
         self._memory, self._runs, self._siblings = {}, {}, 0
-        self._base = self._own(environment)
-        self.box = make_box(self._base)
+        self.floor_environment = self._own(environment)
+        self.box = make_box(self.floor_environment)
 
     def memo(self, key, make):
         """make(), once; what it raised is raised again. For facts, which stay what they are."""
@@ -69,7 +72,7 @@ class Session:
         """The environment after sourcing a setup.bash, too."""
         done = subprocess.run(
             ["bash", "-c", '. "$1" >/dev/null && env -0', "bash", str(setup)],
-            env=self._base,
+            env=self.floor_environment,
             capture_output=True,
             check=False,
             timeout=SLOW_S,
@@ -147,32 +150,6 @@ class Session:
         changed.chmod(0o755)
         return str(Path(script).with_name(name))
 
-    def must_be_startable(self):
-        """rospy and roslaunch read every package.xml first, not only that of the package. Raises Wrong."""
-        for path, complaint in self.memo("broken", lambda: broken_manifests(self.source)):
-            inside = os.path.relpath(os.path.dirname(path), self.source)
-            package = next((each for each in self.packages if each.inside == inside), None)
-            raise _unreadable(inside, (package and package.error) or complaint)
-
-    def must_be_launchable(self):
-        """catkin reads them as well, and roslaunch asks catkin. Raises Wrong."""
-        self.must_be_startable()
-        names = {}
-        for each in self.packages:
-            if each.error:
-                raise _unreadable(each.inside, each.error)
-            names.setdefault(each.name, []).append(each.inside)
-        for name, places in names.items():
-            if len(places) > 1:
-                raise Wrong(
-                    f"one package {name} in src",
-                    f"{len(places)}: {', '.join(places)}",
-                    where=places[1],
-                    hint="remove the copy from src, or put an empty file CATKIN_IGNORE into it:"
-                    " with both of them roslaunch starts nothing",
-                    sure=True,
-                )
-
     # ------------------------------------------------------------------------- environment
 
     def built(self):
@@ -180,7 +157,7 @@ class Session:
         return self.memo("built", self._build)
 
     def _build(self):
-        environment = dict(self._base)
+        environment = dict(self.floor_environment)
         program = self.box.start(
             ["catkin_make", "-C", str(self.folder / "ws"), "-DPYTHON_EXECUTABLE=/usr/bin/python3"],
             environment,
@@ -208,7 +185,8 @@ class Session:
         stub.chmod(0o755)
         cmake = [each.folder / "CMakeLists.txt" for each in self.packages]
         needs_build = any(
-            each.exists() and NEEDS_BUILD.search(each.read_text(errors="replace")) for each in cmake
+            each.is_file() and NEEDS_BUILD.search(each.read_text(errors="replace"))
+            for each in cmake
         )
         if needs_build and self.built()[0] == 0:
             found = self._sourced(self.folder / "ws" / "devel" / "setup.bash")
@@ -217,7 +195,7 @@ class Session:
             devel = self.folder / "devel"
             devel.mkdir()
             (devel / ".catkin").write_text(str(self.source))
-            found = dict(self._base)
+            found = dict(self.floor_environment)
             found["CMAKE_PREFIX_PATH"] = f"{devel}:{found.get('CMAKE_PREFIX_PATH', '')}".rstrip(":")
             found["ROS_PACKAGE_PATH"] = f"{self.source}:{found.get('ROS_PACKAGE_PATH', '')}".rstrip(
                 ":"
@@ -236,7 +214,7 @@ class Session:
     @contextlib.contextmanager
     def stage(self):
         """A ROS master of its own, and a driver; all that was started on it ends with it."""
-        self.must_be_startable()
+        must_be_startable(self)
         stage = Stage(self)
         try:
             yield stage
@@ -246,19 +224,6 @@ class Session:
             raise master_gone() from error
         finally:
             stage.end()
-
-
-def _unreadable(inside, complaint):
-    """The Wrong for a package.xml, as the checks of the packages have it."""
-    line = re.search(r"line (\d+)", complaint)
-    return Wrong(
-        "a package.xml that can be read",
-        complaint,
-        where=f"{inside}/package.xml" + (f":{line[1]}" if line else ""),
-        hint="ROS reads every one in src, whichever package is started: until this one is mended, no"
-        " node of the workspace starts",
-        sure=True,
-    )
 
 
 def prepare(folder, uid):

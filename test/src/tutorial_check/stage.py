@@ -20,14 +20,14 @@ class Stage:
         with socket.socket() as probe:
             probe.bind(("127.0.0.1", 0))
             port = probe.getsockname()[1]
-        self.environment = {
-            **session.environment,
-            "ROS_MASTER_URI": f"http://127.0.0.1:{port}",
-        }
-        # Logs of our own programs lie elsewhere: the student's may not write in folders of ours.
+        master = {"ROS_MASTER_URI": f"http://127.0.0.1:{port}"}
+        self.environment = {**session.environment, **master}
+        # Our own programs are found on the floor alone, whatever of their name the student has. Their
+        # logs lie elsewhere: the student's may not write in folders of ours.
         place = str(session.folder / "ours")
         self._ours = ours = {
-            **self.environment,
+            **session.floor_environment,
+            **master,
             "HOME": place,
             "ROS_HOME": place,
             "ROS_LOG_DIR": place,

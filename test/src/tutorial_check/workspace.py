@@ -7,7 +7,7 @@ import stat
 import zipfile
 from dataclasses import dataclass, field
 from pathlib import Path
-from xml.parsers.expat import ExpatError
+from xml.etree import ElementTree
 
 from catkin_pkg.package import InvalidPackage, parse_package
 
@@ -25,7 +25,8 @@ class Package:
     folder: Path  # in the copy
     inside: str  # its path within the workspace, for the student
     name: str = ""
-    error: str = ""  # why package.xml cannot be read
+    error: str = ""  # why catkin cannot read package.xml
+    malformed: bool = False  # so that it is no XML at all
     depends: set = field(default_factory=set)  # for building or running
     warnings: list = field(default_factory=list)
 
@@ -122,9 +123,10 @@ def _copy(source, target, so_far, seen):
         if entry.name in LEFT_OUT:
             continue
         try:
-            if entry.is_dir():
+            # Of os.path, to which a link to itself is neither; an entry raises OSError.
+            if os.path.isdir(entry.path):
                 _copy(Path(entry.path), target / entry.name, so_far, seen | {real})
-            elif entry.is_file():
+            elif os.path.isfile(entry.path):
                 so_far[0] += entry.stat().st_size
                 so_far[1] += 1
                 if so_far[0] > MOST_BYTES or so_far[1] > MOST_FILES:
@@ -155,17 +157,28 @@ def read_package(place, root):
     package = Package(place, os.path.relpath(place, root))
     try:
         parsed = parse_package(str(place), warnings=package.warnings)
-    except (InvalidPackage, ExpatError, OSError, ValueError, UnicodeError) as error:
+        parsed.evaluate_conditions({"ROS_PYTHON_VERSION": "3", "ROS_VERSION": "1"})
+    # An AssertionError is catkin's word for a format that is yet to come.
+    except (InvalidPackage, AssertionError, OSError, ValueError) as error:
         package.error = " ".join(str(error).split())
-        package.name = place.name
+        package.name = _name_in(place / "package.xml")
+        package.malformed = package.name is None
+        package.name = package.name or place.name
         return package
     package.name = parsed.name
-    parsed.evaluate_conditions({"ROS_PYTHON_VERSION": "3", "ROS_VERSION": "1"})
     package.depends = {
         each.name
         for each in (*parsed.build_depends, *parsed.exec_depends, *parsed.build_export_depends)
     }
     return package
+
+
+def _name_in(manifest):
+    """The name that a package.xml gives, perhaps none; None if it is no XML."""
+    try:
+        return ElementTree.parse(manifest).findtext("name", "").strip()
+    except (ElementTree.ParseError, OSError, ValueError, LookupError):
+        return None
 
 
 def underlays(devel):

@@ -1,8 +1,17 @@
 """What a program says of itself without being run."""
 
+import subprocess
+import sys
+
 import pytest
 
-from tutorial_check.python_facts import flipped_anonymous, read_python, unmasked, without_name
+from tutorial_check.python_facts import (
+    flipped_anonymous,
+    read_python,
+    unmasked,
+    unreadable,
+    without_name,
+)
 
 PROGRAM = """
 import rospy
@@ -87,3 +96,30 @@ def test_names_have_their_first_line():
 )
 def test_a_line_of_main_that_is_none(line, is_odd):
     assert bool(read_python(f"import rospy\n{line}\n    pass\n").odd_main) == is_odd
+
+
+@pytest.mark.parametrize(
+    ("data", "line"),
+    [
+        ("#!x\n# Jörg\n".encode(), None),
+        ("#!x\n\n# Jörg\n".encode("latin-1"), 3),
+        ("# Jörg\n".encode("latin-1"), 1),
+        ("# -*- coding: latin-1 -*-\n# Jörg\n".encode("latin-1"), None),
+        ("#!x\n# vim: set fileencoding=cp1252 :\n# Jörg\n".encode("latin-1"), None),
+        ("\n\n# coding: latin-1\n# Jörg\n".encode("latin-1"), 4),
+        ("x = 1\n# coding: latin-1\n# Jörg\n".encode("latin-1"), 3),
+        ("# coding: ascii\n\n# Jörg\n".encode(), 3),
+        (b"#!x\n# coding: nonsense\n", 2),
+        (b"# coding: hex\n", 1),
+        (b"", None),
+    ],
+)
+def test_the_first_byte_that_is_not_of_the_files_coding(tmp_path, data, line):
+    """As Python itself has it."""
+    found = unreadable(data)
+    assert (found and found[0]) == line
+    (tmp_path / "program.py").write_bytes(data)
+    done = subprocess.run(
+        [sys.executable, tmp_path / "program.py"], capture_output=True, check=False
+    )
+    assert (b"SyntaxError" in done.stderr) == (line is not None), done.stderr

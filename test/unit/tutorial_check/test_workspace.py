@@ -1,5 +1,6 @@
 """Finding, unpacking and copying what a student hands in."""
 
+import re
 import zipfile
 
 import pytest
@@ -48,6 +49,32 @@ def test_broken_xml_has_a_reason(tmp_path):
     )
     (found,) = workspace.packages_below(tmp_path / "src")
     assert "mismatched tag" in found.error
+    assert found.malformed
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "reason"),
+    [
+        ('format="2"', 'format="4"', "format version '4'"),
+        ('format="2"', 'format="two"', "'two'"),
+        ('format="2"', 'format="1"', "tags: depend"),
+        (
+            '"2"><name>joy2twist</name>',
+            '"3"><name>joy2twist</name><depend condition="$ROS_VERSION = 1">roscpp</depend>',
+            "condition",
+        ),
+        ("<license>x</license>", "", "license"),
+    ],
+)
+def test_xml_that_is_not_catkins_has_a_reason(tmp_path, old, new, reason):
+    file = package(tmp_path / "src" / "mine") / "package.xml"
+    text = XML.format("joy2twist")
+    assert old in text
+    file.write_text(text.replace(old, new))
+    (found,) = workspace.packages_below(tmp_path / "src")
+    assert re.search(reason, found.error)
+    assert found.name == "joy2twist"
+    assert not found.malformed
 
 
 def test_a_link_to_a_folder_above_ends(tmp_path):
@@ -61,6 +88,13 @@ def test_a_dangling_link_is_left_out(tmp_path):
     (package(tmp_path / "src" / "joy2twist") / "gone").symlink_to(tmp_path / "nowhere")
     copied = workspace.copy(workspace.find_layout(tmp_path), tmp_path / "copy")
     assert (copied / "joy2twist" / "package.xml").exists()
+
+
+def test_a_link_to_itself_is_left_out(tmp_path):
+    (package(tmp_path / "src" / "joy2twist") / "bag").symlink_to("bag")
+    copied = workspace.copy(workspace.find_layout(tmp_path), tmp_path / "copy")
+    assert (copied / "joy2twist" / "package.xml").exists()
+    assert not (copied / "joy2twist" / "bag").is_symlink()
 
 
 @pytest.mark.parametrize("name", ["../evil.txt", "/evil.txt", "a/../../evil.txt", "..\\evil.txt"])

@@ -29,7 +29,7 @@ def _broken(folder, above):
             yield str(folder / "package.xml"), complaint
         return  # below a package there is none, says rospkg
     for name in sorted(inside):
-        if inside[name].is_dir():
+        if os.path.isdir(inside[name].path):  # not is_dir(), which fails for a link to itself
             yield from _broken(folder / name, above | {here})
 
 

@@ -58,6 +58,7 @@ def catalogue():
         chatter,
         classes,
         ending,
+        floor,
         hidden_errors,
         joy2twist,
         launch_files,
@@ -69,7 +70,7 @@ def catalogue():
     )
 
     functions = {
-        "C1": packages.workspace, "C2": packages.beginner, "C3": packages.beginner_dependencies,
+        "C1": floor.workspace, "C2": packages.beginner, "C3": packages.beginner_dependencies,
         "C4": packages.build, "C5": chatter.files, "C6": chatter.talker, "C7": chatter.listener,
         "C8": chatter.graph, "C9": chatter.anonymous, "C10": chatter.ctrl_c,
         "C11": robot.recording, "C12": packages.joy2twist, "C13": joy2twist.file,

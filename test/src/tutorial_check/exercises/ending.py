@@ -7,6 +7,7 @@ from pathlib import Path
 from tutorial_check.exercises.classes import program
 from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL, PACKAGE
 from tutorial_check.exercises.files import cause_of, crash
+from tutorial_check.exercises.manifests import must_be_launchable
 from tutorial_check.exercises.robot import ODOM, held
 from tutorial_check.model import CannotCheck, Note, Wrong
 from tutorial_check.tracebacks import first_traceback
@@ -42,7 +43,7 @@ class Endings:
 
     def __init__(self, session, script):
         self._session, self._script = session, script
-        session.must_be_launchable()
+        must_be_launchable(session)
         with session.stage() as stage:
             self._stage = stage
             robot = stage.launch(

@@ -6,7 +6,7 @@ import shutil
 from pathlib import Path
 
 from tutorial_check.model import Wrong
-from tutorial_check.python_facts import read_python
+from tutorial_check.python_facts import read_python, unreadable
 from tutorial_check.tracebacks import (
     explain,
     first_traceback,
@@ -104,6 +104,15 @@ def _check_text(session, package, script):
             f"sed -i 's/\\r$//' {script}",
         )
     facts = session.scripts(package).get(script)
+    odd = unreadable(data) if facts else None
+    if odd:
+        raise _wrong(
+            f"python3 -m py_compile {script}",
+            "a file in UTF-8, or in the coding that its first lines name",
+            odd[1],
+            f"{script}:{odd[0]}",
+            "save the file as UTF-8 and name no other coding; or name the right one in line 2: # coding: latin-1",
+        )
     if facts and facts.error:
         raise _wrong(
             f"python3 -m py_compile {script}",

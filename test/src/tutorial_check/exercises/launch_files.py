@@ -10,6 +10,7 @@ from tutorial_check.exercises.driving import PACKAGE
 from tutorial_check.exercises.files import find_script
 from tutorial_check.exercises.joy2twist import NAME
 from tutorial_check.exercises.launch_text import attribute, parse_error, place_of, read, space_hint
+from tutorial_check.exercises.manifests import must_be_launchable
 from tutorial_check.launch_facts import MARK
 from tutorial_check.model import CannotCheck, Wrong
 from tutorial_check.tracebacks import last_lines
@@ -62,7 +63,7 @@ def facts(session, name):
 
 
 def _read(session):
-    session.must_be_launchable()
+    must_be_launchable(session)
     folder = session.package(PACKAGE).folder
     paths = {}
     for name in ALL:

@@ -1,90 +1,20 @@
-"""C1 to C4 and C12: the workspace, its packages, their dependencies, the build."""
+"""C2 to C4 and C12: the packages, their dependencies, the build."""
 
 import difflib
 import os
 import re
-from pathlib import Path
 
 from tutorial_check.exercises.launch_text import place_of, read
-from tutorial_check.model import Note, Wrong
-from tutorial_check.workspace import packages_below, underlays
+from tutorial_check.exercises.manifests import unreadable
+from tutorial_check.model import Wrong
+from tutorial_check.workspace import packages_below
 
 NAMES = ("beginner_tutorials", "joy2twist")
 WANTED = {
     "beginner_tutorials": ("std_msgs", "rospy", "roscpp"),
     "joy2twist": ("rospy", "std_msgs", "sensor_msgs", "geometry_msgs"),
 }
-SUITE = ("node_kit", "fake_turtlebot_sim")  # packages of the lower floor
 CREATE = {name: f"catkin_create_pkg {name} {' '.join(words)}" for name, words in WANTED.items()}
-
-
-def workspace(session):
-    """C1: there is a src, and what was built was built over the suite."""
-    layout = session.layout
-    if not layout.source.is_dir():
-        where = "a package lies beside it" if packages_below(layout.root) else "no package anywhere"
-        raise Wrong(
-            "a folder src in the workspace",
-            f"none in {layout.root}; {where}",
-            hint="mkdir src in the workspace, packages belong into it",
-        )
-    if not layout.is_workspace:
-        return Note("handed in as packages, without their workspace: built afresh here")
-    devel = layout.root / "devel"
-    setup = devel / "setup.bash"
-    found = underlays(devel)
-    if setup.is_file() and (found is None or not setup.stat().st_size):
-        gone = setup.name if found else "_setup_util.py or setup.sh"
-        raise Wrong(
-            "a devel folder as catkin_make makes it",
-            f"it is not whole: {gone} is missing or empty",
-            where="devel",
-            hint="rm -r build devel, then catkin_make",
-        )
-    if found is None:
-        if (layout.source / "build").is_dir() or (layout.source / "devel").is_dir():
-            raise Wrong(
-                "build and devel beside src",
-                "they are within src",
-                hint="catkin_make is called in the workspace: cd .., and remove src/build and src/devel",
-            )
-        return Note("never built here (no devel/setup.bash)", hint="catkin_make in the workspace")
-    made_for, below = found
-    if os.path.realpath(made_for) != os.path.realpath(devel):
-        return Note(f"its devel folder was made elsewhere ({made_for}); built afresh here")
-    _check_below(
-        session, [each for each in below if os.path.realpath(each) != str(devel.resolve())]
-    )
-    return "src and devel, on top of this suite"
-
-
-def _check_below(session, below):
-    """This suite is among the folders that a workspace was built over, or Wrong."""
-    floor = os.path.realpath(Path(session.floor).parent)
-    if floor in [os.path.realpath(each) for each in below]:
-        return
-    expected = "a workspace built on top of this suite"
-    other = next((each for each in below if _is_suite(each)), None)
-    if other:
-        raise Wrong(
-            expected,
-            f"devel was built over another copy of the suite, {other}; this one is {floor}",
-            where="devel",
-            hint="rm -r build devel, then catkin_make in the ./tutorial shell of this copy; or check"
-            " with the ./tutorial (and TUTORIAL_WORKSPACE) of the other",
-        )
-    raise Wrong(
-        expected,
-        f"devel was built over {', '.join(below) or 'nothing'}",
-        where="devel",
-        hint="built in a terminal without ./tutorial shell: delete build and devel, then catkin_make in it",
-    )
-
-
-def _is_suite(devel):
-    """Whether a devel folder is the lower floor of some copy of this suite; it may be hidden here."""
-    is_there = any(os.path.isdir(os.path.join(devel, "share", name)) for name in SUITE)
-    return is_there or Path(devel).parts[-2:] == ("lower", "devel")
 
 
 def _similar(name, packages):
@@ -104,15 +34,7 @@ def _package(session, name):
     expected = f"one package {name} in src"
     broken = [each for each in packages if each.error and name in (each.name, each.folder.name)]
     if broken:
-        reason = broken[0].error
-        line = re.search(r"line (\d+)", reason)
-        raise Wrong(
-            "a package.xml that can be read",
-            reason,
-            where=f"{broken[0].inside}/package.xml" + (f":{line[1]}" if line else ""),
-            hint="repair that line or the one before: each <tag> needs its </tag>. Until then"
-            " catkin_make fails",
-        )
+        raise unreadable(broken[0])
     if len(named) > 1:
         raise Wrong(
             expected,
@@ -148,6 +70,14 @@ def _package(session, name):
             f"it lies beside src: {beside[0].inside}",
             where=beside[0].inside,
             hint=f"mv {beside[0].inside} src/",
+        )
+    link = session.layout.source / name
+    if link.is_symlink() and not link.exists():
+        raise Wrong(
+            expected,
+            f"src/{name} is a link to {os.readlink(link)}, and leads nowhere here",
+            where=f"src/{name}",
+            hint="put the folder itself into src in place of the link",
         )
     similar = _similar(name, packages)
     if similar:
@@ -219,10 +149,10 @@ def joy2twist(session):
 def build(session):
     """C4: catkin_make in a fresh copy."""
     for each in session.packages:
-        if not (each.folder / "CMakeLists.txt").exists():
+        if not (each.folder / "CMakeLists.txt").is_file():
             raise Wrong(
                 "catkin_make without an error",
-                "CMakeLists.txt is missing",
+                "the file CMakeLists.txt is missing",
                 where=each.inside,
                 hint="catkin_create_pkg makes it; take it from a new package of the same name",
             )

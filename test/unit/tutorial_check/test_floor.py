@@ -1,12 +1,12 @@
-"""C1 of a devel folder: whole or not, and what it was built over."""
+"""C1: a devel folder that is whole or not, over this suite or not; names that hide the floor's."""
 
 from types import SimpleNamespace
 
 import pytest
 
-from tutorial_check.exercises.packages import workspace
+from tutorial_check.exercises.floor import workspace
 from tutorial_check.model import Wrong
-from tutorial_check.workspace import Layout
+from tutorial_check.workspace import Layout, Package
 
 
 @pytest.fixture
@@ -16,7 +16,7 @@ def session(tmp_path):
         (tmp_path / folder).mkdir(parents=True)
     floor = tmp_path / "this/lower/devel/setup.bash"
     root = tmp_path / "ws"
-    return SimpleNamespace(layout=Layout(root, root / "src", True), floor=str(floor))
+    return SimpleNamespace(layout=Layout(root, root / "src", True), floor=str(floor), packages=[])
 
 
 def build(session, *below):
@@ -66,3 +66,21 @@ def test_not_whole(session, tmp_path, gone):
 
 def test_never_built(session):
     assert "never built" in workspace(session).seen
+
+
+@pytest.mark.parametrize(
+    ("name", "whose"),
+    [("gamepad", "suite"), ("std_msgs", "ROS"), ("joy", ""), ("rbx1_nav", ""), ("my_robot", "")],
+)
+def test_names_that_hide_what_the_exercises_stand_on(session, tmp_path, name, whose):
+    for each in ("gamepad", "joy", "rbx1_nav"):
+        (tmp_path / "this/lower/devel/share" / each).mkdir(parents=True)
+    session.packages = [Package(tmp_path / "ws/src/old" / name, f"old/{name}", name)]
+    if not whose:
+        assert "never built" in workspace(session).seen
+        return
+    with pytest.raises(Wrong) as wrong:
+        workspace(session)
+    assert wrong.value.where == f"src/old/{name}"
+    assert f"{whose}'s own" in wrong.value.seen
+    assert "remove it from src" in wrong.value.hint

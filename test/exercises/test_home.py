@@ -1,0 +1,91 @@
+"""What is handed in may lie in the home folder, which is hidden before a program runs, and be a link."""
+
+import shutil
+import zipfile
+from pathlib import Path
+
+import pytest
+from edits import TALKER, B, J, put
+from test_awkward import check
+
+from tutorial_check import place
+from tutorial_check.examination import examine
+
+pytestmark = pytest.mark.skipif(not place.wrapper(), reason="no namespaces here: nothing is hidden")
+
+
+@pytest.fixture
+def home(tmp_path, monkeypatch):
+    """A home folder, in which `literal` lies too."""
+    monkeypatch.setenv("HOME", str(tmp_path))
+    return tmp_path
+
+
+def pack(src, path):
+    """A zip of a workspace."""
+    with zipfile.ZipFile(path, "w") as opened:
+        for each in sorted(src.rglob("*")):
+            opened.write(each, Path("src") / each.relative_to(src))
+
+
+def away(path, home):
+    """Move a file or folder into the home folder; a link stays in its place."""
+    path = path.resolve()
+    (home / "git").mkdir()
+    shutil.move(str(path), str(home / "git" / path.name))
+    path.symlink_to(home / "git" / path.name)
+
+
+def verdicts(workspace, floor, exercise="2", **options):
+    """{check: result} of an exercise."""
+    (outcome,) = examine(workspace, floor, [exercise], **options)
+    return {result.id: result for result in outcome.results}
+
+
+def test_a_zip(literal, floor, home):
+    pack(literal, home / "x.zip")
+    code, out, error = check(floor, "--in", home / "x.zip", "2")
+    assert code == 0, out + error
+
+
+def test_zips_of_a_class(literal, floor, home):
+    (home / "class").mkdir()
+    pack(literal, home / "class" / "ada.zip")
+    code, out, error = check(floor, "--all", home / "class", "2")
+    assert code == 0, out + error
+
+
+def test_the_workspace_is_a_link(literal, floor, home):
+    (home / "catkin_ws").symlink_to(literal.parent)
+    devel = literal.parent / "devel"
+    devel.mkdir()
+    (devel / "_setup_util.py").write_text(
+        f"CMAKE_PREFIX_PATH = r'{Path(floor).parent}'.split(';')\n"
+    )
+    (devel / "setup.sh").write_text(f": ${{_CATKIN_SETUP_DIR:={home}/catkin_ws/devel}}\n")
+    (devel / "setup.bash").write_text("# as catkin has it\n")
+    seen = verdicts(home / "catkin_ws", floor)
+    assert "on top of this suite" in seen["C1"].seen, seen["C1"]
+    assert {result.status for result in seen.values()} <= {"ok", "note"}
+
+
+@pytest.mark.parametrize(("what", "exercise"), [("", "2"), (J, "4.3"), (TALKER, "3")])
+def test_links_of_ones_own(literal, floor, home, what, exercise):
+    """The whole src, a package, a file."""
+    away(literal / what, home)
+    seen = verdicts(literal.parent, floor, exercise)
+    assert {result.status for result in seen.values()} <= {"ok", "note"}, seen
+
+
+def test_links_of_others(literal, floor, home):
+    """They lead not into the home folder of who checks, and it is said."""
+    away(literal / B, home)
+    seen = verdicts(literal.parent, floor, own=False)["C2"]
+    assert f"a link to {home}/git/{B}, and leads nowhere here" in seen.seen
+
+
+def test_no_program_sees_the_home_folder(literal, floor, home):
+    (home / "secret").touch()
+    look = f"import os\n    assert not os.path.exists('{home}/secret')\n    rospy.init_node"
+    put(TALKER, "rospy.init_node", look)(literal)
+    assert verdicts(literal.parent, floor, "3")["C6"].status == "ok"

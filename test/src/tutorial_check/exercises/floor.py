@@ -1,0 +1,97 @@
+"""C1: the workspace, and the floor that it stands on."""
+
+import os
+from pathlib import Path
+
+from tutorial_check.exercises.packages import WANTED
+from tutorial_check.model import Note, Wrong
+from tutorial_check.workspace import packages_below, underlays
+
+SUITE = ("node_kit", "fake_turtlebot_sim")  # packages of the lower floor
+# Of the suite's own these are stand-ins: the real ones may well lie in a student's src.
+STAND_INS = ("joy", "rbx1_", "turtlebot_")
+
+
+def workspace(session):
+    """C1: there is a src, and what was built was built over the suite."""
+    layout = session.layout
+    if not layout.source.is_dir():
+        where = "a package lies beside it" if packages_below(layout.root) else "no package anywhere"
+        raise Wrong(
+            "a folder src in the workspace",
+            f"none in {layout.root}; {where}",
+            hint="mkdir src in the workspace, packages belong into it",
+        )
+    _check_names(session)
+    if not layout.is_workspace:
+        return Note("handed in as packages, without their workspace: built afresh here")
+    devel = layout.root / "devel"
+    setup = devel / "setup.bash"
+    found = underlays(devel)
+    if setup.is_file() and (found is None or not setup.stat().st_size):
+        gone = setup.name if found else "_setup_util.py or setup.sh"
+        raise Wrong(
+            "a devel folder as catkin_make makes it",
+            f"it is not whole: {gone} is missing or empty",
+            where="devel",
+            hint="rm -r build devel, then catkin_make",
+        )
+    if found is None:
+        if (layout.source / "build").is_dir() or (layout.source / "devel").is_dir():
+            raise Wrong(
+                "build and devel beside src",
+                "they are within src",
+                hint="catkin_make is called in the workspace: cd .., and remove src/build and src/devel",
+            )
+        return Note("never built here (no devel/setup.bash)", hint="catkin_make in the workspace")
+    made_for, below = found
+    if os.path.realpath(made_for) != os.path.realpath(devel):
+        return Note(f"its devel folder was made elsewhere ({made_for}); built afresh here")
+    _check_below(
+        session, [each for each in below if os.path.realpath(each) != str(devel.resolve())]
+    )
+    return "src and devel, on top of this suite"
+
+
+def _check_below(session, below):
+    """This suite is among the folders that a workspace was built over, or Wrong."""
+    floor = os.path.realpath(Path(session.floor).parent)
+    if floor in [os.path.realpath(each) for each in below]:
+        return
+    expected = "a workspace built on top of this suite"
+    other = next((each for each in below if _is_suite(each)), None)
+    if other:
+        raise Wrong(
+            expected,
+            f"devel was built over another copy of the suite, {other}; this one is {floor}",
+            where="devel",
+            hint="rm -r build devel, then catkin_make in the ./tutorial shell of this copy; or check"
+            " with the ./tutorial (and TUTORIAL_WORKSPACE) of the other",
+        )
+    raise Wrong(
+        expected,
+        f"devel was built over {', '.join(below) or 'nothing'}",
+        where="devel",
+        hint="built in a terminal without ./tutorial shell: delete build and devel, then catkin_make in it",
+    )
+
+
+def _is_suite(devel):
+    """Whether a devel folder is the lower floor of some copy of this suite; it may be hidden here."""
+    is_there = any(os.path.isdir(os.path.join(devel, "share", name)) for name in SUITE)
+    return is_there or Path(devel).parts[-2:] == ("lower", "devel")
+
+
+def _check_names(session):
+    """No package has the name of one that the exercises stand on, or Wrong."""
+    share = Path(session.floor).parent / "share"
+    for each in session.packages:
+        is_suite = (share / each.name).is_dir() and not each.name.startswith(STAND_INS)
+        if is_suite or any(each.name in names for names in WANTED.values()):
+            raise Wrong(
+                "packages of names of their own",
+                f"a package {each.name}: it hides {'the suite' if is_suite else 'ROS'}'s own",
+                where=f"src/{each.inside}",
+                hint="remove it from src. If catkin_create_pkg made it: its first word is the name"
+                " of the new package, those after it what that depends on",
+            )

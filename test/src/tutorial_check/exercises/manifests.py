@@ -1,0 +1,71 @@
+"""Every package.xml of the workspace: what is wrong with one of them keeps the other packages, too."""
+
+import os
+import re
+
+from node_kit.manifests import broken_manifests
+from tutorial_check.exercises.launch_text import place_of, read
+from tutorial_check.model import Wrong
+
+# What catkin says of a package.xml, the word that it means, what to do.
+WANTS = (
+    ("replace <run_depend>", "<run_depend", "run_depend is of format 1: write exec_depend"),
+    (
+        "replace <exec_depend>",
+        "<exec_depend",
+        'exec_depend is of format 2: write <package format="2">',
+    ),
+    ("format version '|invalid literal", "<package", 'write <package format="2">'),
+    ("condition", "condition=", 'a condition compares by two =, as in "$ROS_VERSION == 1"'),
+    ("", "", "its tags are well formed, but catkin wants what is named here"),
+)
+
+
+def unreadable(package):
+    """The Wrong for a package.xml that is no XML, or not what catkin makes of it."""
+    where = f"{package.inside}/package.xml"
+    if package.malformed:
+        line = re.search(r"line (\d+)", package.error)
+        where += f":{line[1]}" if line else ""
+        hint = "repair that line or the one before: each <tag> needs its </tag>"
+    else:
+        file = package.folder / "package.xml"
+        _, word, hint = next(each for each in WANTS if re.search(each[0], package.error))
+        where = place_of(where, read(file), word) if word else where
+    so = "no node of the workspace starts" if package.malformed else "roslaunch starts nothing"
+    return Wrong(
+        "a package.xml that can be read",
+        package.error,
+        where=where,
+        hint=f"{hint}. Until then catkin_make fails, and {so}",
+        sure=True,
+    )
+
+
+def must_be_startable(session):
+    """rospy reads every package.xml first, not only that of the package. Raises Wrong."""
+    broken = session.memo("broken", lambda: broken_manifests(session.source))
+    folders = {os.path.relpath(os.path.dirname(path), session.source) for path, _ in broken}
+    for package in session.packages:
+        if package.inside in folders:
+            raise unreadable(package)
+
+
+def must_be_launchable(session):
+    """catkin reads them as well, and roslaunch asks catkin. Raises Wrong."""
+    must_be_startable(session)
+    places = {}
+    for package in session.packages:
+        if package.error:
+            raise unreadable(package)
+        places.setdefault(package.name, []).append(package.inside)
+    for name, folders in places.items():
+        if len(folders) > 1:
+            raise Wrong(
+                f"one package {name} in src",
+                f"{len(folders)}: {', '.join(folders)}",
+                where=folders[1],
+                hint="remove the copy from src, or put an empty file CATKIN_IGNORE into it: with"
+                " both of them roslaunch starts nothing",
+                sure=True,
+            )
