@@ -7,34 +7,64 @@ import pytest
 from edits import apply
 
 from tutorial_check.examination import examine
+from tutorial_check.exercises import EXERCISES
 from tutorial_check.model import CannotCheck
 from tutorial_check.report import lines_of
 
 ROWS = mistakes_packages.ROWS + mistakes_nodes.ROWS + mistakes_launch.ROWS
 
 
-@pytest.mark.parametrize("row", ROWS, ids=[f"{row[0]} {row[1]}" for row in ROWS])
-def test_mistake(row, literal, floor, record_property):
-    exercise, what, edits, check, words = row
+def is_told(result, words):
+    """Whether all the words, or the one, are in what is told of a Result."""
     words = [words] if isinstance(words, str) else words
-    apply(edits, literal)
-    title = f"{exercise} {what}"
+    told = "\n".join(lines_of(result)).lower()
+    return all(word.lower() in told for word in words)
+
+
+NAMES = [f"{row[0]} {row[1]}" for row in ROWS]
+
+
+def found(row, literal, floor, record_property, exercises):
+    """All results that are wrong, when these exercises are checked."""
+    apply(row[2], literal)
     try:
-        outcomes = examine(literal.parent, floor, [exercise], only_first=True)
+        outcomes = examine(literal.parent, floor, exercises, only_first=len(exercises) == 1)
+        trouble = next((each.trouble for each in outcomes if each.trouble), "")
     except CannotCheck as error:
-        record_property("not checked", f"{title}: {error}")
-        raise
-    wrong = [result for result in outcomes[0].results if result.status == "wrong"]
-    if outcomes[0].trouble:
-        record_property("not checked", f"{title}: {outcomes[0].trouble}")
-        pytest.fail("not checked")
+        trouble = str(error)
+    if trouble:
+        record_property("not checked", f"{row[0]} {row[1]}: {trouble}")
+        pytest.fail(trouble)
+    return [one for each in outcomes for one in each.results if one.status == "wrong"]
+
+
+@pytest.mark.parametrize("row", ROWS, ids=NAMES)
+def test_mistake(row, literal, floor, record_property):
+    exercise, what, _, check, words = row
+    title = f"{exercise} {what}"
+    wrong = found(row, literal, floor, record_property, [exercise])
     if not wrong:
         record_property("missed", f"{title}: should be {check}")
         pytest.fail("missed")
-    told = "\n".join(lines_of(wrong[0]))
-    if wrong[0].id != check or not all(word.lower() in told.lower() for word in words):
+    if wrong[0].id != check or not is_told(wrong[0], words):
+        told = "\n".join(lines_of(wrong[0]))
         record_property("wrongly blamed", f"{title}: should be {check} with {words}, is {told}")
         pytest.fail(told)
+    record_property("found", title)
+
+
+@pytest.mark.parametrize("row", ROWS, ids=NAMES)
+def test_in_all_exercises(row, literal, floor, record_property):
+    """Its cause is told, maybe by an earlier check, and it keeps no other one from a verdict."""
+    title = f"{row[0]} {row[1]}"
+    wrong = found(row, literal, floor, record_property, list(EXERCISES))
+    causes = [one for one in wrong if is_told(one, row[4])]
+    others = [one.id for one in wrong if one not in causes]
+    if others:
+        record_property("told as well", f"{title}: {', '.join(others)}")
+    if not causes:
+        record_property("missed", f"{title}: should have {row[4]}")
+        pytest.fail("missed")
     record_property("found", title)
 
 
