@@ -28,9 +28,9 @@ def _wrong(look, *about):
 def find_script(session, package, name):
     """The path of a program within its package. Raises Wrong."""
     folder = session.package(package).folder
-    found = sorted(
-        path for path in folder.rglob("*") if path.is_file() and path.name in (name, name[:-3])
-    )
+    found = [path for path in folder.rglob("*") if path.name in (name, name[:-3])]
+    # One without .py counts where there is none with it.
+    found = sorted(filter(Path.is_file, found), key=lambda path: (path.name != name, path))
     runnable = [path for path in found if path.stat().st_mode & 0o100 and path.name == name]
     if len(runnable) > 1:
         raise Wrong(
