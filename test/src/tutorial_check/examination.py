@@ -9,6 +9,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -20,6 +21,8 @@ from tutorial_check.model import CannotCheck, Result, passed
 # machine stretches. Ten times as long is enough: where programs have less than a seventh of the time,
 # there is no verdict anyway (patience.HOPELESS), and a student waits for an answer.
 LONGEST_S = 900.0
+_running = set()  # processes, each with all that it started
+_no_more = threading.Event()
 NUMBERS = itertools.count(os.getpid() * 100)
 
 
@@ -69,6 +72,13 @@ def examine(
         )
     finally:
         shutil.rmtree(folder, ignore_errors=True)
+
+
+def end_all():
+    """End the examinations of all threads, and those that are just begun; each raises CannotCheck."""
+    _no_more.set()
+    for process in list(_running):
+        process.kill()
 
 
 @functools.lru_cache(maxsize=None)
@@ -147,6 +157,9 @@ def _examine(workspace, floor, exercises, folder, *, tell, only_first, own):
         text=True,
     )
     outcomes = {exercise: Outcome(exercise) for exercise in exercises}
+    _running.add(process)
+    if _no_more.is_set():
+        process.kill()
     try:
         process.stdin.write(json.dumps(orders))
         process.stdin.close()
@@ -154,6 +167,7 @@ def _examine(workspace, floor, exercises, folder, *, tell, only_first, own):
     finally:
         process.kill()  # with it all of its namespaces
         process.wait()
+        _running.discard(process)
         process.stdout.close()
 
     if "TUTORIAL_CHECK_TIMES" in os.environ:

@@ -7,7 +7,7 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from tutorial_check.examination import examine
+from tutorial_check.examination import end_all, examine
 from tutorial_check.exercises import EXERCISES
 from tutorial_check.formats import as_json
 from tutorial_check.model import WRONG, CannotCheck
@@ -53,13 +53,20 @@ def check_all(options):
     with ThreadPoolExecutor(max(1, options.jobs)) as pool, tqdm(
         total=len(students), unit="student", disable=None
     ) as bar:
-        for done in as_completed([pool.submit(_check, student, options) for student in students]):
-            student = done.result()
-            _write(out, student, not options.no_hints)
-            bar.update()
-            bar.write(
-                f"{student.name}: {student.trouble or summary(student.outcomes)}, {student.seconds:.0f} s"
-            )
+        checks = [pool.submit(_check, student, options) for student in students]
+        try:
+            for done in as_completed(checks):
+                student = done.result()
+                _write(out, student, not options.no_hints)
+                bar.update()
+                bar.write(
+                    f"{student.name}: {student.trouble or summary(student.outcomes)}, {student.seconds:.0f} s"
+                )
+        except KeyboardInterrupt:  # the pool would go on to the last student
+            for check in checks:
+                check.cancel()
+            end_all()
+            raise
     write_csv(out / "table.csv", students, options.exercises)
     (out / "table.html").write_text(table_html(students, options.exercises), encoding="utf-8")
     print(f"{out}/table.html, table.csv, and a report of each")
