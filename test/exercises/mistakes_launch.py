@@ -110,7 +110,6 @@ ROWS = [
     ("5", "two packages of one name", [copy(f"{B}/package.xml", "old/package.xml")], "C21", ("old", "roslaunch starts nothing")),
     ("5", "a package.xml that catkin refuses", [put(f"{B}/package.xml", "<license>TODO</license>", "")], "C21", (f"{B}/package.xml", "license")),
     bag("a gap in pkg", 'pkg="rviz"', 'pkg="rviz one"', "C21", ("launch_bag.launch:2", 'pkg="rviz_one"')),
-    bag("a gap in name", 'name="my_rviz"', 'name="my rviz"', "C21", ("launch_bag.launch:2", 'name="my_rviz"')),
     bag("a package misspelt", "$(find rbx1_nav)", "$(find rbx1_nv)", "C21", ("launch_bag.launch:2", "rbx1_nav")),
     ("6.1", "the include misspelt", [put(REAL, "joy2twist_turtlebot", "joy2twist_turtelbot")], "C28", ("realTurtlebot.launch:3", "no such file: src/joy2twist", "is joy2twist_turtlebot.launch meant")),
     mux("remap after the node", f"    {REMAP}\n  </node>\n", f"  </node>\n  {REMAP}\n", "C27", ("turtlebot.launch:4", "between")),

@@ -3,6 +3,7 @@
 import os
 from pathlib import Path
 
+import pytest
 from edits import JOY2TWIST, LISTENER, TALKER, apply, put, write
 
 from tutorial_check.examination import examine
@@ -30,7 +31,16 @@ def processes_like(word):
     return found
 
 
-def test_one_that_ignores_ctrl_c(literal, floor):
+@pytest.fixture
+def scratch(tmp_path, monkeypatch):
+    """Where the examinations of a test have their copies, and no other's."""
+    folder = tmp_path / "scratch"
+    folder.mkdir()
+    monkeypatch.setattr("tempfile.tempdir", str(folder))
+    return folder
+
+
+def test_one_that_ignores_ctrl_c(literal, floor, scratch):
     write(
         TALKER,
         "#!/usr/bin/env python3\nimport signal\nsignal.signal(signal.SIGINT, signal.SIG_IGN)\nwhile True:\n    pass\n",
@@ -38,10 +48,10 @@ def test_one_that_ignores_ctrl_c(literal, floor):
     check, told = wrong_of(literal, floor, "3")
     assert check == "C6", told
     assert "works all the time" in told
-    assert not processes_like("scripts/talker.py")
+    assert not processes_like(f"{scratch}/")
 
 
-def test_a_fork_bomb(literal, floor):
+def test_a_fork_bomb(literal, floor, scratch):
     write(
         TALKER,
         "#!/usr/bin/env python3\nimport os\nwhile True:\n    try:\n        os.fork()\n    except OSError:\n        pass\n",
@@ -49,7 +59,7 @@ def test_a_fork_bomb(literal, floor):
     check, told = wrong_of(literal, floor, "3")
     assert check == "C6", told
     assert "again and again" in told
-    assert not processes_like("scripts/talker.py")
+    assert not processes_like(f"{scratch}/")
 
 
 def test_output_without_end(literal, floor):

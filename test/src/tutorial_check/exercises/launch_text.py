@@ -23,10 +23,10 @@ PACKAGES = (
 NOT_XML = r"mismatched tag|no element found|not well-formed|junk after|unclosed token"
 NO_FILE = r"No such file or directory: '([^']+)'|\[([^\]]+)\] (?:does not exist|cannot be)"
 NO_PACKAGE = r"Resource not found: (\S+)|package \[?'?([\w-]+)|(\S+) ROS path \[0\]="
-# Names in two words.
+# Names in two words. (That of a node may have them, says roslaunch; that is worth a note.)
 GAPS = (
     r"\$\(find\s+(\w+(?:[ \t]+\w+)+)\s*\)",
-    r"\b(?:pkg|type|name)\s*=\s*[\"'](\w+(?:[ \t]+[\w.]+)+)[\"']",
+    r"\b(?:pkg|type)\s*=\s*[\"'](\w+(?:[ \t]+[\w.]+)+)[\"']",
 )
 CURLY = re.compile("[“”‘’]")
 
