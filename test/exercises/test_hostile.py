@@ -1,6 +1,7 @@
 """Programs that hang, fork, print without end or forge: an honest verdict, and nobody else harmed."""
 
 import os
+import tempfile
 from pathlib import Path
 
 import pytest
@@ -32,12 +33,12 @@ def processes_like(word):
 
 
 @pytest.fixture
-def scratch(tmp_path, monkeypatch):
-    """Where the examinations of a test have their copies, and no other's."""
-    folder = tmp_path / "scratch"
-    folder.mkdir()
-    monkeypatch.setattr("tempfile.tempdir", str(folder))
-    return folder
+def scratch(monkeypatch):
+    """Where the examinations of a test have their copies, and no other's. Its users are nobody's."""
+    with tempfile.TemporaryDirectory() as folder:
+        Path(folder).chmod(0o755)
+        monkeypatch.setattr(tempfile, "tempdir", folder)
+        yield folder
 
 
 def test_one_that_ignores_ctrl_c(literal, floor, scratch):
