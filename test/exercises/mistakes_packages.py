@@ -110,6 +110,7 @@ ROWS = [
     ("3", "the loop without sleep", [put(TALKER, "        rate.sleep()\n", "")], "C6", ("talker.py:10", "a second")),
     ("4.3", "dependency forgotten", [put(PUT_JOY_XML, "sensor_msgs", "rospy")], "C12", "sensor_msgs"),
     ("4.3", "broken package.xml of the other package", [put(PUT_XML, "</description>", "</describtion>")], "C14", ("beginner_tutorials/package.xml:5", "no node of the workspace starts")),
+    ("4.3", "broken package.xml in a hidden folder", [write(".old/package.xml", "<package>")], "C14", (".old/package.xml:1", "no node of the workspace starts")),
     ("5", "broken package.xml beside the launch files", [put(PUT_XML, "</description>", "</describtion>")], "C21", ("beginner_tutorials/package.xml:5", "no node of the workspace starts")),
     ("4.3", "no package joy2twist", [put(PUT_JOY_XML, "<name>joy2twist<", "<name>joy-2-twist<")], "C12", "exactly"),
     ("4.3", "misspelt program", [move(JOY2TWIST, f"{J}/scripts/Joy2Twist.py")], "C13", "Joy2Twist.py"),

@@ -26,7 +26,7 @@ from tutorial_testing.waiting import DEADLINE_S, wait_for
         (["run", "rosrun", "rviz", "rviz", "-d", "x"], "run: no screen for RViz"),
         (["run", "no_such_command"], 'run: there is no command "no_such_command"'),
         (["demo", "colour:=red"], "demo: colour:=red: not an argument of launch_bag.launch"),
-        (["demo", "--for", "ever"], "ever: not a time in seconds"),
+        (["demo", "--for", "ever"], "ever: not a number above 0"),
         (["demo", "bag:=/no/such.bag"], "demo: /no/such.bag: cannot be read: No such file"),
     ],
 )

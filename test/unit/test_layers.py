@@ -24,8 +24,9 @@ LIBRARIES = {
 }
 # Each module may import those that stand before it. The rules know neither ROS nor a clock.
 RULES = """
-node_kit.parameters node_kit.throttle node_kit.newest_only node_kit.questions node_kit.names
-node_kit.page node_kit.states node_kit.resumption gamepad.js_event gamepad.gamepads
+node_kit.arguments node_kit.parameters node_kit.throttle node_kit.newest_only
+node_kit.questions node_kit.names node_kit.page node_kit.states node_kit.resumption
+gamepad.js_event gamepad.gamepads
 gamepad.driver.device_choice gamepad.driver.parameters gamepad.driver.schedule
 gamepad.driver.state gamepad.driver.driver gamepad.driver.report gamepad.virtual.controls
 gamepad.virtual.keyboard gamepad.virtual.moves
@@ -65,8 +66,8 @@ cockpit_server.program
 ALL = RULES + OUTER
 ALLOWED_IN_RULES = set(
     """
-    bisect dataclasses difflib enum errno hmac html ipaddress json math numpy os random re struct
-    sys typing
+    argparse bisect dataclasses difflib enum errno hmac html ipaddress json math numpy os random re
+    struct sys typing
     """.split()
 )
 # What speaks to the other side of a socket, and waits for it, is handed the socket or the address.

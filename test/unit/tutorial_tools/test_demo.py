@@ -40,4 +40,4 @@ def test_a_wrong_argument_is_named(argument, line):
 def test_a_wrong_time_is_named(capsys, time):
     with pytest.raises(SystemExit):
         parse(["--for", time])
-    assert f"{time}: not a time in seconds" in capsys.readouterr().err
+    assert f"{time}: not a number above 0" in capsys.readouterr().err

@@ -6,6 +6,7 @@ import re
 from node_kit.manifests import broken_manifests
 from tutorial_check.exercises.launch_text import place_of, read
 from tutorial_check.model import Wrong
+from tutorial_check.workspace import Package
 
 # What catkin says of a package.xml, the word that it means, what to do.
 WANTS = (
@@ -45,10 +46,13 @@ def unreadable(package):
 def must_be_startable(session):
     """rospy reads every package.xml first, not only that of the package. Raises Wrong."""
     broken = session.memo("broken", lambda: broken_manifests(session.source))
-    folders = {os.path.relpath(os.path.dirname(path), session.source) for path, _ in broken}
-    for package in session.packages:
-        if package.inside in folders:
-            raise unreadable(package)
+    if broken:
+        path, complaint = broken[0]
+        inside = os.path.relpath(os.path.dirname(path), session.source)
+        packages = {package.inside: package for package in session.packages}
+        # In a hidden folder catkin sees no package, and rospy does.
+        hidden = Package(session.source / inside, inside, error=complaint, malformed=True)
+        raise unreadable(packages.get(inside, hidden))
 
 
 def must_be_launchable(session):

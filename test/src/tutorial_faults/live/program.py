@@ -2,7 +2,6 @@
 
 import argparse
 import contextlib
-import math
 import os
 import shlex
 import signal
@@ -10,6 +9,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+from node_kit.arguments import above_zero
 from tutorial_faults.live import hosts
 from tutorial_faults.live.fuzz import fuzz
 from tutorial_faults.live.hunting import Hunt
@@ -23,17 +23,6 @@ LITERAL = Path(__file__).resolve().parents[3] / "exercises/literal/joy2twist/scr
 HANDOUT = "handout"
 FIRST_SEED = 1
 CANNOT = 2  # exit code
-
-
-def amount(text):
-    """A time; the type of --for and --soak. Raises what argparse tells the user."""
-    try:
-        number = float(text)
-    except ValueError:
-        number = math.nan
-    if not 0 < number < math.inf:
-        raise argparse.ArgumentTypeError(f"{text}: not a number above 0, such as 0.5 or 60")
-    return number
 
 
 def count(text):
@@ -54,7 +43,7 @@ def parse(arguments):
     )
     how_long = parser.add_mutually_exclusive_group()
     how_long.add_argument(
-        "--for", type=amount, metavar="SECONDS", dest="seconds", help="so long (60)"
+        "--for", type=above_zero, metavar="SECONDS", dest="seconds", help="so long (60)"
     )
     how_long.add_argument("--trials", type=count, metavar="N", help="so many trials")
     parser.add_argument("--seed", type=int, help=f"of the first trial ({FIRST_SEED})")
@@ -71,7 +60,7 @@ def parse(arguments):
     how_long.add_argument(
         "--fuzz", type=count, metavar="N", help="N random messages and device bytes"
     )
-    how_long.add_argument("--soak", type=amount, metavar="HOURS", help="so long without faults")
+    how_long.add_argument("--soak", type=above_zero, metavar="HOURS", help="so long without faults")
     parser.add_argument("--picture", metavar="FILE", default="soak.png", help="of the soak")
     return parser.parse_args(arguments)
 

@@ -22,6 +22,7 @@ import roslaunch.arg_dump
 import rospkg
 
 from gamepad.arguments import check
+from node_kit.arguments import above_zero
 from node_kit.names import holder
 from node_kit.page import address
 from node_kit.questions import Answer, call
@@ -39,24 +40,13 @@ IN_TERMINAL = "in another terminal: ./tutorial run rostopic echo /odom/pose/pose
 IN_BROWSER = "open {page} in a browser; from another machine: ssh -L {port}:127.0.0.1:{port} {host}"
 
 
-def duration(text):
-    """A time in seconds; the type of --for. Raises what argparse tells the user."""
-    try:
-        seconds = float(text)
-    except ValueError:
-        seconds = math.nan
-    if not 0 < seconds < math.inf:
-        raise argparse.ArgumentTypeError(f"{text}: not a time in seconds above 0, such as 20")
-    return seconds
-
-
 def parse(argv):
     """The command line: how long to drive (None: until stopped) and NAME:=VALUE arguments."""
     parser = argparse.ArgumentParser(
         prog="demo", description="Drives the simulated TurtleBot with the recorded joystick."
     )
     parser.add_argument(
-        "--for", dest="duration_s", type=duration, metavar="SECONDS",
+        "--for", dest="duration_s", type=above_zero, metavar="SECONDS",
         help="end by itself, with one line that tells the drive; exit code 0 if the robot moved",
     )  # fmt: skip
     parser.add_argument("arguments", nargs="*", metavar="NAME:=VALUE", help="for launch_bag.launch")
