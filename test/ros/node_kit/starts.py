@@ -7,6 +7,7 @@ import signal
 import sys
 import unittest
 
+import rosgraph
 import rospy
 import rostest
 from rospy import AnyMsg
@@ -119,6 +120,16 @@ class StartsTest(unittest.TestCase):
             with Program(*SIMULATOR, "__name:=replaced", "_take_over:=true"):
                 self.assertEqual(old.wait(), 0)
                 watch.grows("/replaced")
+
+    def test_a_robot_does_not_end_in_place_of_one_that_died_on_its_port(self):
+        with Program(*SIMULATOR, "__name:=alive") as node:
+            watch = self.watch("odom")
+            died = rosgraph.Master("/died")
+            for uri in died.lookupNode("/alive"), "http://localhost:1":
+                died.registerPublisher("/of_the_dead", "std_msgs/String", uri)
+            wait_for(lambda: "it goes on" in node.output, "its word")
+            watch.grows("/alive")
+            self.assertFalse(node.ended)
 
     def test_a_robot_that_is_stopped_and_may_go_on_keeps_its_name(self):
         with Program(*SIMULATOR, "__name:=stopped") as node:

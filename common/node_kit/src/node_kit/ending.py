@@ -1,14 +1,22 @@
-"""The end of a node: quiet, in time, and with the robot at rest first."""
+"""The end of a node: quiet, in time, with the robot at rest first, and not in place of another."""
 
 import os
 import signal
 import threading
 
+import rosgraph
 import rospy
+from rospy.impl.masterslave import ROSHandler
+
+from node_kit.questions import Answer, call
+
+REPLACED = "new node registered with same name"  # rosmaster's registrations.py
 
 # How long rospy may say goodbye to the master and to other nodes [s]. It would wait for ever for
 # one that does not answer; roslaunch waits 15 s for a node, a user does not.
 LONGEST_GOODBYE_S = 1.2
+
+_end = ROSHandler.shutdown  # rospy's own
 
 
 def end_on_signals():
@@ -31,6 +39,31 @@ def end_on_signals():
 def end_in_time():
     """Limit what comes after the node's own shutdown, however it began; call after init_node()."""
     rospy.on_shutdown(_exit_soon)
+
+
+def end_only_if_replaced():
+    """Stay when a master takes this node for another; call before rospy.init_node().
+
+    A node that died stays registered where it was. Once its name is used anew, the master tells
+    whoever has its port by then to end: a node of another name, or even of another master.
+    """
+    ROSHandler.shutdown = _end_if_meant
+
+
+def _end_if_meant(self, *arguments):
+    """In place of ROSHandler's; arguments: who asks for the end, and why."""
+    if REPLACED in str(arguments[1:]) and _has_its_name():
+        rospy.logwarn(
+            "A master says that another node has this one's name, and its own master does not: "
+            "it goes on. Its port was that of a node that died."
+        )
+        return 1, "not ended", 0
+    return _end(self, *arguments)
+
+
+def _has_its_name():
+    answer, uri = call(rosgraph.get_master_uri(), "lookupNode", rospy.get_name())
+    return answer is Answer.WELL and uri == rospy.get_node_uri()
 
 
 def _exit_soon():

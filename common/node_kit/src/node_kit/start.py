@@ -7,7 +7,7 @@ import rospy
 from rospy.client import load_command_line_node_params
 
 from node_kit.careful_connections import be_careful
-from node_kit.ending import end_in_time, end_on_signals, is_ending
+from node_kit.ending import end_in_time, end_on_signals, end_only_if_replaced, is_ending
 from node_kit.names import holder
 from node_kit.parameters import checked_value, switch
 from node_kit.questions import Answer, call
@@ -42,6 +42,7 @@ def run(name, load, main, keeps_name=False):
     except ValueError as error:
         return _fail(name, f"{error} (~ stands for {full_name}/)")
     end_on_signals()
+    end_only_if_replaced()
     be_careful()
     try:
         rospy.init_node(name, argv=_without_parameters(sys.argv), disable_signals=True)
