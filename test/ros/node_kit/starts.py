@@ -6,6 +6,7 @@ import shlex
 import signal
 import sys
 import unittest
+from xmlrpc.client import ServerProxy
 
 import rosgraph
 import rospy
@@ -125,9 +126,14 @@ class StartsTest(unittest.TestCase):
         with Program(*SIMULATOR, "__name:=alive") as node:
             watch = self.watch("odom")
             died = rosgraph.Master("/died")
-            for uri in died.lookupNode("/alive"), "http://localhost:1":
-                died.registerPublisher("/of_the_dead", "std_msgs/String", uri)
-            wait_for(lambda: "it goes on" in node.output, "its word")
+            uri = died.lookupNode("/alive")
+            for each in uri, "http://localhost:1":
+                died.registerPublisher("/of_the_dead", "std_msgs/String", each)
+            wait_for(lambda: "another node is /died now" in node.output, "its word")
+            # Another master, of which the one that died had the same name.
+            reason = "[/alive] Reason: new node registered with same name"
+            ServerProxy(uri).shutdown("/master", reason)
+            wait_for(lambda: "another node is /alive now" in node.output, "its word")
             watch.grows("/alive")
             self.assertFalse(node.ended)
 

@@ -1,6 +1,7 @@
 """The end of a node: quiet, in time, with the robot at rest first, and not in place of another."""
 
 import os
+import re
 import signal
 import threading
 
@@ -10,7 +11,8 @@ from rospy.impl.masterslave import ROSHandler
 
 from node_kit.questions import Answer, call
 
-REPLACED = "new node registered with same name"  # rosmaster's registrations.py
+# What rosmaster's registrations.py says to a node that is replaced, and the name of that.
+REPLACED = re.compile(r"\[(\S*)\] Reason: new node registered with same name")
 
 # How long rospy may say goodbye to the master and to other nodes [s]. It would wait for ever for
 # one that does not answer; roslaunch waits 15 s for a node, a user does not.
@@ -52,18 +54,30 @@ def end_only_if_replaced():
 
 def _end_if_meant(self, *arguments):
     """In place of ROSHandler's; arguments: who asks for the end, and why."""
-    if REPLACED in str(arguments[1:]) and _has_its_name():
+    replaced = REPLACED.search(str(arguments[-1:]))
+    if replaced and (replaced[1] != rospy.get_name() or _has_its_name()):
         rospy.logwarn(
-            "A master says that another node has this one's name, and its own master does not: "
-            "it goes on. Its port was that of a node that died."
+            f"A master says that another node is {replaced[1]} now, and means one that died and "
+            "whose port this node has: it goes on."
         )
         return 1, "not ended", 0
     return _end(self, *arguments)
 
 
 def _has_its_name():
-    answer, uri = call(rosgraph.get_master_uri(), "lookupNode", rospy.get_name())
-    return answer is Answer.WELL and uri == rospy.get_node_uri()
+    """Whether the own master knows this node as before; it forgets the topics of one replaced."""
+    master, name = rosgraph.get_master_uri(), rospy.get_name()
+    if call(master, "lookupNode", name) != (Answer.WELL, rospy.get_node_uri()):
+        return False
+    answer, state = call(master, "getSystemState")
+    if answer is not Answer.WELL:
+        return False
+    topics = rospy.topics.get_topic_manager()
+    ours = (topics.get_publications(), topics.get_subscriptions())
+    return all(
+        {topic for topic, _ in own} <= {topic for topic, nodes in known if name in nodes}
+        for own, known in zip(ours, state)
+    )
 
 
 def _exit_soon():

@@ -29,13 +29,15 @@ class Suspensions:
 
     def number(self):
         """How many there were until now; cheap enough to be asked for every message."""
-        now = _now()
+        self._notice(_now())
+        return self._number
+
+    def _notice(self, now):
         if now - self._looked > _LONGEST_GAP_S:
             with self._lock:  # of several threads that notice it, one counts it
                 if now - self._looked > _LONGEST_GAP_S:
                     self._number += 1
                     self._counted = self._looked = now
-        return self._number
 
     def _on_continue(self, _number, _frame):
         # Without the lock: this comes in the middle of whatever the main thread does.
@@ -47,8 +49,13 @@ class Suspensions:
     def _beat(self):
         while True:
             time.sleep(_BEAT_S)
-            self.number()
-            self._looked = _now()
+            self._look()
+
+    def _look(self):
+        now = _now()
+        self._notice(now)
+        # Not the time by now: a suspension since then is still to be noticed.
+        self._looked = max(self._looked, now)
 
 
 def _now():
