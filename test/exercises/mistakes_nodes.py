@@ -68,6 +68,7 @@ ROWS = [
     node("msq for msg", "msg = Twist()", "msq = Twist()", "C16", "ms"),
     node("published before it is set", f"    {X}\n    {Z}\n    {PUBLISH}", f"    {PUBLISH}\n    {X}\n    {Z}", "C16", "zero"),
     node("whole numbers", X, "msg.linear.x = int(data.axes[1])", "C16", "linear.x"),
+    node("forwards only", X, "msg.linear.x = max(0, data.axes[1])", "C16", "linear.x is 0 wherever axes[1] is below 0"),
     node("abs", X, "msg.linear.x = abs(data.axes[1])", "C16", "sign"),
     node("sum", X, "msg.linear.x = data.axes[1] + data.axes[0]", "C16", "constant"),
     node("an offset", X, "msg.linear.x = data.axes[1] + 0.1", "C16", "released"),

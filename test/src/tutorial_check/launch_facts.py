@@ -8,6 +8,7 @@ import contextlib
 import functools
 import io
 import json
+import re
 import sys
 import xml.dom.minidom
 from pathlib import Path
@@ -24,6 +25,13 @@ def can_be_found(package, kind):
         return bool(roslib.packages.find_node(package, kind))
     except roslib.packages.ROSPkgException:
         return False
+
+
+def device_of(node, params):
+    """The device that a node is told to read, as joy_node is; or empty."""
+    in_args = re.search(r"(?:^|\s)_dev:=(\S+)", node.args or "")
+    in_file = params.get(f"{node.namespace}{node.name}/dev")
+    return in_args[1] if in_args else str(in_file.value) if in_file else ""
 
 
 def facts_of(path):
@@ -67,11 +75,11 @@ def facts_of(path):
                 "file": str(node.filename or ""),
                 "respawn": bool(node.respawn),
                 "output": node.output or "",
+                "device": device_of(node, config.params),
                 "found": can_be_found(node.package, node.type),
             }
             for node in config.nodes
         ]
-        facts["params"] = sorted(config.params)
         facts["files"] = sorted({str(Path(each).resolve()) for each in config.roslaunch_files})
     except (Exception, SystemExit) as error:
         facts["error"] = " ".join(str(error).split())

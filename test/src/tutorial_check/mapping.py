@@ -34,16 +34,18 @@ def numbered_joys(count, buttons=12):
 def factor_of(values, inputs):
     """The constant of proportion, or None. Zeros (dead zone) and a limit may be among the values."""
     pairs = [(value, given) for value, given in zip(values, inputs) if abs(given) > SMALL]
-    ratios = sorted(value / given for value, given in pairs if abs(value) > SMALL)
+    moving = [(value, given) for value, given in pairs if abs(value) > SMALL]
+    ratios = sorted(value / given for value, given in moving)
     if len(ratios) < max(2, 0.5 * len(pairs)):
         return None
     factor = ratios[len(ratios) // 2]
     limit = max(abs(value) for value, _ in pairs)
+    dead_zone = min(abs(given) for _, given in moving)
     fits = limited = 0
     for value, given in pairs:
         if abs(value - factor * given) <= 0.02 * abs(factor * given) + SMALL:
             fits += 1
-        elif abs(value) < SMALL or (
+        elif (abs(value) <= SMALL and abs(given) < dead_zone) or (
             abs(abs(value) - limit) < SMALL
             and value * factor * given > 0
             and limit < abs(factor * given)
@@ -67,7 +69,7 @@ def is_monotone(field, axis, samples):
     pairs = sorted((axes[axis], twist[field]) for axes, twist in samples)
     rises = all(b[1] >= a[1] - SMALL for a, b in zip(pairs, pairs[1:]))
     signs = all(value * given >= -SMALL for given, value in pairs)
-    return rises and signs and pairs[-1][1] - pairs[0][1] > 0.1
+    return rises and signs and min(pairs[-1][1], -pairs[0][1]) > 0.05
 
 
 def judge(samples):
@@ -149,6 +151,13 @@ def _explain_odd(field, axis, samples):
             f"{name} follows the Joy before: each Twist is one message late",
             "first put the values into the message, then publish it",
         )
+    for sign, side in ((1, "below"), (-1, "above")):
+        rest = [value for value, each in zip(values, given) if sign * each < 0]
+        if not any(rest) and factor_of(values, [max(0.0, sign * each) for each in given]):
+            return (
+                f"{name} is 0 wherever axes[{axis}] is {side} 0",
+                f"{name} = axes[{axis}], of either sign",
+            )
     offsets = [value - each for value, each in zip(values, given)]
     if max(offsets) - min(offsets) < 0.02:
         return (

@@ -54,6 +54,7 @@ class Patience:
         self._me = os.getpid()
         self._ours, self._read, self._ready, self._clock = ours, read, ready, clock
         self._began_s = self._last_s = self._busy_s = clock()
+        self._part = self._began_s, 0.0  # its beginning, and what had been lost by then
         self._last, self._changed_s = {}, {}
         self._next_s = self._lost_s = self._reach_s = 0.0
 
@@ -109,13 +110,19 @@ class Patience:
         """How many processes the programs are."""
         return len({process for process, _, _ in self._last.values()} - self._ours)
 
+    def begin(self):
+        """What begins now is looked at by itself."""
+        self.now()
+        self._part = self._clock(), self._lost_s
+
     def strained(self):
-        """Whether the machine was so busy that what came late says little."""
-        return self._lost_share() > STRAINED
+        """Whether the machine was so busy that what came late says little: ever, or just now."""
+        return max(self._lost_share(), self._lost_share(*self._part)) > STRAINED
 
     def hopeless(self):
         """Whether it was so busy that what came late says nothing."""
         return self._lost_share() > HOPELESS
 
-    def _lost_share(self):
-        return self._lost_s / max(1e-3, self._clock() - self._began_s)
+    def _lost_share(self, began_s=None, lost_s=0.0):
+        began_s = self._began_s if began_s is None else began_s
+        return (self._lost_s - lost_s) / max(1e-3, self._clock() - began_s)

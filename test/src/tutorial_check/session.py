@@ -215,6 +215,7 @@ class Session:
     def stage(self):
         """A ROS master of its own, and a driver; all that was started on it ends with it."""
         must_be_startable(self)
+        self.box.patience.begin()
         stage = Stage(self)
         try:
             yield stage

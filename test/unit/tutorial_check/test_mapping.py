@@ -48,6 +48,12 @@ def test_a_curve_is_a_remark():
     assert "linear.x" in remark
 
 
+def test_slower_backwards_is_a_remark():
+    complaint, remark = judge(samples(lambda a: a[1] if a[1] > 0 else 0.5 * a[1], lambda a: a[0]))
+    assert not complaint
+    assert "linear.x is a curve" in remark
+
+
 @pytest.mark.parametrize(
     "linear, angular, word",
     [
@@ -58,6 +64,9 @@ def test_a_curve_is_a_remark():
         (lambda a: 0.0, lambda a: a[0], "linear.x is always 0"),
         (lambda a: 0.0, lambda a: 0.0, "every Twist is zero"),
         (lambda a: abs(a[1]), lambda a: a[0], "lost the sign"),
+        (lambda a: max(0.0, a[1]), lambda a: a[0], "linear.x is 0 wherever axes[1] is below 0"),
+        (lambda a: a[1], lambda a: min(0.0, a[0]), "angular.z is 0 wherever axes[0] is above 0"),
+        (lambda a: max(0.0, a[1]) ** 2, lambda a: a[0], "no constant"),
         (lambda a: float(int(3 * a[1])), lambda a: a[0], "whole numbers"),
         (lambda a: a[1] + 0.1, lambda a: a[0], "+ 0.10"),
         (lambda a: a[1] + a[0], lambda a: a[0], "no constant"),

@@ -122,3 +122,20 @@ def test_one_that_ends_while_it_is_looked_at_is_left_out(tmp_path):
     (tmp_path / "9" / "task" / "9" / "schedstat").write_text("5 6 7\n")
     (tmp_path / "uptime").write_text("1 2\n")
     assert times(tmp_path) == {9: (9, 5, 6)}
+
+
+def test_a_short_strain_after_a_long_calm_is_seen(machine, patience):
+    machine.pass_time(80.0, worked_ms=10_000)
+    patience.begin()
+    machine.pass_time(3.0, worked_ms=1_000, in_line_ms=1_500)
+    patience.now()
+    assert patience.strained()
+    assert not patience.hopeless()
+
+
+def test_a_calm_after_a_strain_is_still_strained(machine, patience):
+    machine.pass_time(3.0, worked_ms=1_000, in_line_ms=1_500)
+    patience.begin()
+    machine.pass_time(1.0, worked_ms=100)
+    patience.now()
+    assert patience.strained()

@@ -79,21 +79,18 @@ def talker(session):
             "while not rospy.is_shutdown(): ..., rate.sleep() within it",
         )
     times = [when for when, caller, _ in talk.heard if caller == talk.heard[0][1]]
-    rate = (
-        1 / max(1e-6, statistics.median(b - a for a, b in zip(times, times[1:])))
-        if len(times) > 2
-        else 0.0
-    )
     if len(times) < 3:
         return Note(f"{len(times)} messages in {LISTEN_S + 2:.0f} s: slower than 1 Hz")
-    if rate > 150:
+    rate = 1 / max(1e-6, statistics.median(b - a for a, b in zip(times, times[1:])))
+    # Where we come late for some, they come at once; but not more of them than were sent.
+    if min(rate, (len(times) - 1) / max(1e-6, times[-1] - times[0])) > 150:
         told = f"{rate:.0f}" if rate < 1000 else "thousands of"
         raise Wrong(
             expected,
             f"{told} messages a second",
             where=f"{script}:{facts.loops[0]}" if facts.loops else script,
             hint="rate.sleep() is missing within the loop",
-            sure=True,  # no busy machine makes it faster
+            sure=True,
         )
     if len(texts) == 1:
         return Note(f"always the same text, {texts.pop()!r}; the handout's has the time in it")

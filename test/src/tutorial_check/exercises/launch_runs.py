@@ -16,7 +16,7 @@ from tutorial_check.exercises.launch_nodes import (
     words_of,
 )
 from tutorial_check.exercises.robot import ODOM, plug_in
-from tutorial_check.model import Wrong
+from tutorial_check.model import CannotCheck, Wrong
 from tutorial_check.tracebacks import explain, first_traceback
 
 BAG_S = 1.2  # length of the recording that takes the place of the student's
@@ -195,11 +195,14 @@ def check_stick(session, name):
 
 def plug_in_for(session, stage, name):
     """A joystick where the joy_node of a launch file will look for it."""
-    pad, path = plug_in(session, stage)
-    if str(path) != "/dev/input/js0":
-        for node in nodes_of(session, name):
-            if is_joystick(node):
-                stage.call("set_parameter", f"{node['namespace']}{node['name']}/dev", str(path))
+    nodes = [node for node in nodes_of(session, name) if is_joystick(node)]
+    named = [node["device"] for node in nodes if node["device"].startswith("/dev/input/")]
+    if named and not session.can_have_devices:
+        raise CannotCheck(f"the system grants no {named[0]} to try {name} with")
+    pad, path = plug_in(session, stage, *named[:1])
+    if not session.can_have_devices:
+        for node in nodes:
+            stage.call("set_parameter", f"{node['namespace']}{node['name']}/dev", str(path))
     return pad
 
 

@@ -105,15 +105,13 @@ def simulated(session):
         robot = stage.launch(["rosrun", "fake_turtlebot_sim", "fake_turtlebot.py"], trusted=True)
         program = stage.start(PACKAGE, script)
         ready = stage.wait(
-            lambda: (
-                program.ended
-                or (
-                    stage.call("listeners", JOY)
-                    and stage.call("speakers", CMD_VEL)
-                    and stage.call("count", ODOM)
-                )
-            ),
+            lambda: program.ended or (stage.call("listeners", JOY) and stage.call("count", ODOM)),
             START_S,
+        )
+        # Its Publisher may be made in the callback.
+        stage.call("send", JOY, NEUTRAL)
+        ready = ready and stage.wait(
+            lambda: program.ended or stage.call("speakers", CMD_VEL), START_S
         )
         publishers = stage.call("state")[0].get(CMD_VEL, [])
         if robot.ended or not stage.call("count", ODOM):
@@ -126,7 +124,6 @@ def simulated(session):
                 f"{len(set(publishers))}: {', '.join(publishers)}",
                 hint="end the older version: rosnode list",
             )
-        stage.call("send", JOY, NEUTRAL)
         found = []
         for joy in (held(0.0, FORWARDS), held(LEFT, 0.0)):
             before = stage.call("count", CMD_VEL)
@@ -165,9 +162,10 @@ def simulated(session):
     return seen
 
 
-def plug_in(session, stage, mode="D"):
-    """A virtual F710 behind /dev/input/js0, or a FIFO where that cannot be; (Pad, path)."""
-    path = Path("/dev/input/js0") if session.can_have_devices else session.folder / "js0"
+def plug_in(session, stage, device="/dev/input/js0", mode="D"):
+    """A virtual F710 behind a device, or a FIFO where that cannot be; (Pad, path)."""
+    path = Path(device) if session.can_have_devices else session.folder / "js0"
+    path.parent.mkdir(parents=True, exist_ok=True)
     if path.exists():
         path.unlink()
     pad = stage.help(lambda: Pad(str(path), mode))
@@ -189,7 +187,7 @@ def joystick(session):
         program = stage.start(PACKAGE, script)
 
         def drives():
-            return any(abs(value[0]) > 0.1 for _, _, value in stage.call("heard", CMD_VEL))
+            return any(abs(value[0]) > 0.01 for _, _, value in stage.call("heard", CMD_VEL))
 
         stage.wait(
             lambda: (
