@@ -65,7 +65,7 @@ ROWS = [
     bag("include pkg= file=", 'include file="$(find rbx1_bringup)/launch/fake_turtlebot.launch"', 'include pkg="rbx1_bringup" file="fake_turtlebot.launch"', "C21", "include"),
     bag("a node that is a launch file", ROBOT, '  <node pkg="rbx1_bringup" name="robot" type="fake_turtlebot.launch"/>\n', "C21", "<include"),
     bag('type="joy2twist"', 'type="joy2twist.py"', 'type="joy2twist"', "C21", "joy2twist.py"),
-    bag("type missing", ' type="joy2twist.py"', "", "C21", "type"),
+    bag("type missing", ' type="joy2twist.py"', "", "C21", ("'type'", "launch_bag.launch:5")),
     bag("bag folder not made", "/bag/joy.bag", "/bags/joy.bag", "C21", "bag"),
     joy('pkg="joy2twist" type="joy_node"', 'pkg="joy" name="joy_node"', 'pkg="joy2twist" name="joy_node"', "C21", 'pkg="joy"'),
     joy("joy_node misspelt", 'type="joy_node"', 'type="joynode"', "C21", "joynode"),

@@ -33,6 +33,7 @@ ROWS = [
     node("spin without ()", "rospy.spin()", "rospy.spin", "C14", "()"),
     node("listener without ()", "__main__':\n    listener()", "__main__':\n    listener", "C14", "listener()"),
     node("no Subscriber", f"    {SUB}\n", "", "C14", "Subscriber"),
+    node("no callback given", "Joy, callback)", "Joy)", "C14", ("joy2twist.py:19", "no callback")),
     node("another topic to hear", '"/joy"', '"/joystick"', "C14", "/joystick"),
     node("capital in the topic", '"/joy"', '"/Joy"', "C14", "/Joy"),
     node("Twist for Joy", '"/joy", Joy,', '"/joy", Twist,', "C14", "wants Twist"),

@@ -97,6 +97,8 @@ ROWS = [
     ("3", "listener on another topic", [put(LISTENER, '"chatter"', '"/chat"')], "C7", "/chat"),
     ("3", "spin without ()", [put(LISTENER, "rospy.spin()", "rospy.spin")], "C7", "()"),
     ("3", "spin forgotten", [put(LISTENER, "    rospy.spin()\n", "")], "C7", "spin"),
+    ("3", "no Subscriber in the listener", [put(LISTENER, '    rospy.Subscriber("chatter", String, callback)\n', "")], "C7", "rospy.Subscriber('chatter', String, callback)"),
+    ("3", "no callback given", [put(LISTENER, "String, callback)", "String)")], "C7", "no callback"),
     ("3", "listener() not called", [put(LISTENER, "__main__':\n    listener()", "__main__':\n    pass")], "C7", "listener()"),
     ("3", "data for data.data", [put(LISTENER, "data.data", "dat.data")], "C7", "dat"),
     ("3", "callback()", [put(LISTENER, "String, callback)", "String, callback())")], "C7", "without ()"),

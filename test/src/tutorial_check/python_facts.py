@@ -40,6 +40,18 @@ class PythonFacts:
         return next(iter(self.calls.get(name, [])), None)
 
     @property
+    def deaf(self):
+        """The first Subscriber that is given no callback, or None."""
+        return next(
+            (
+                call
+                for call in self.calls.get("Subscriber", [])
+                if len(call.words) == 2 and "callback" not in call.names
+            ),
+            None,
+        )
+
+    @property
     def is_class_program(self):
         """Whether it has a class that deals with ROS, or is meant to."""
         return any(one.is_node for one in self.classes)

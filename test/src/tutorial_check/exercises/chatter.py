@@ -129,11 +129,19 @@ def listener(session):
     where = f"{script}:{call.line}" if call else script
     if TOPIC not in talk.subscribers:
         others = sorted(set(talk.subscribers) - {"/rosout"})
+        line = "rospy.Subscriber('chatter', String, callback)"
         raise Wrong(
             expected,
             f"it subscribes to {others[0] if others else 'nothing'}",
             where=where,
-            hint="the topic is called chatter",
+            hint="the topic is called chatter" if others else f"{line}, before rospy.spin()",
+        )
+    if facts.deaf and not found:
+        raise Wrong(
+            expected,
+            "its Subscriber has no callback",
+            where=f"{script}:{facts.deaf.line}",
+            hint="rospy.Subscriber('chatter', String, callback)",
         )
     if any("datatype" in line and "chatter" in line for line in talk.warnings):
         raise Wrong(

@@ -82,6 +82,13 @@ def check_connected(session, seen):
             where=where,
             hint="rospy.Subscriber('/joy', Joy, callback)",
         )
+    if facts.deaf and not (seen.samples or seen.shown):
+        raise Wrong(
+            expected,
+            "its Subscriber has no callback",
+            where=f"{seen.script}:{facts.deaf.line}",
+            hint="rospy.Subscriber('/joy', Joy, callback): the callback is called for every message",
+        )
     if seen.connected and not (seen.ended_early and not seen.samples and not seen.shown):
         return
     if seen.program.spins:

@@ -92,11 +92,22 @@ def parse_error(error, where, text):
     if "attribute" in error or "requires" in error:
         hint = 'a node has pkg=, type= and name=; an include has file="$(find PACKAGE)/launch/FILE"'
         tag = re.search(r"<(\w+)>", error)
-        place = place_of(where, text, f"<{tag[1]}" if tag else "<node")
+        place = _tag_without(
+            where, text, tag[1] if tag else "node", re.findall(r"'(\w+)'|(\w+)/(\w+) attr", error)
+        )
     elif re.search(r"\barg", error):
         hint = 'each $(arg x) needs an <arg name="x" default="..."/>'
         place = place_of(where, text, "$(arg")
     return Wrong(expected, error[:250], place, hint)
+
+
+def _tag_without(where, text, tag, attributes):
+    """FILE:LINE of the first such tag that lacks an attribute. attributes: as re.findall has them."""
+    names = [name for found in attributes for name in found if name]
+    for found in re.finditer(rf"<{tag}\b[^<>]*", text):
+        if not all(re.search(rf"\b{name}\s*=", found[0]) for name in names):
+            return f"{where}:{text.count(chr(10), 0, found.start()) + 1}"
+    return place_of(where, text, f"<{tag}")
 
 
 def _not_xml(error, where, text):
