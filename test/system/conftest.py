@@ -2,6 +2,7 @@
 
 import os
 import shutil
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -9,6 +10,7 @@ import pytest
 from tutorial_testing.ports import free_port
 from tutorial_testing.screen import virtual_screen
 from tutorial_testing.two_hosts.scene import Scene
+from tutorial_testing.waiting import DEADLINE_S
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 WIDTH, HEIGHT = 1200, 800  # [pixel] of a virtual screen, and of RViz's window in sim.rviz
@@ -43,6 +45,21 @@ def clean_environment(monkeypatch):
     for name in ("CMAKE_PREFIX_PATH", "ROS_PACKAGE_PATH", "PYTHONPATH"):
         monkeypatch.delenv(name, raising=False)
     return os.environ
+
+
+@pytest.fixture
+def own_workspace(tutorial, tmp_path, monkeypatch, clean_environment):
+    """A TUTORIAL_WORKSPACE of the test: built like ours, and with nothing else in it yet."""
+    workspace = subprocess.run(
+        [tutorial, "run", "bash", "-c", "dirname ${CMAKE_PREFIX_PATH%%:*}"],
+        env=clean_environment, check=True, capture_output=True, text=True, timeout=DEADLINE_S,
+    ).stdout.strip()  # fmt: skip
+    own = tmp_path / "ws"
+    own.mkdir()
+    for name in ("built", "devel", "python"):
+        (own / name).symlink_to(f"{workspace}/{name}")
+    monkeypatch.setenv("TUTORIAL_WORKSPACE", str(own))
+    return own
 
 
 @pytest.fixture

@@ -1,4 +1,4 @@
-"""test/run_rostests: what an end by Ctrl-C leaves behind, which is nothing."""
+"""test/run_rostests: an address of the user hinders none; what is ended leaves nothing behind."""
 
 import os
 import signal
@@ -10,10 +10,10 @@ from tutorial_testing.processes import Program
 from tutorial_testing.waiting import DEADLINE_S, wait_for
 
 TESTS = Path(__file__).resolve().parents[1]
-LONG_TESTS = [
+SHORT_TEST, *LONG_TESTS = (
     str(TESTS / "ros" / "fake_turtlebot_sim" / f"{name}.test")
-    for name in ("fake_turtlebot_interface", "fake_turtlebot_live")
-]
+    for name in ("minimal", "fake_turtlebot_interface", "fake_turtlebot_live")
+)
 
 
 def runs_nodes(program):
@@ -28,15 +28,19 @@ def runs_nodes(program):
     return False
 
 
-@pytest.mark.parametrize("end", ["Ctrl-C", "SIGTERM"])
+@pytest.mark.parametrize("name", ["ROS_IP", "ROS_HOSTNAME"])
+def test_an_address_of_the_user_hinders_no_rostest(name, tmp_path):
+    command = [str(TESTS / "run_rostests"), "1", str(tmp_path / "results"), SHORT_TEST]
+    with Program(*command, **{name: "192.0.2.7"}) as rostests:  # which no machine has
+        assert rostests.wait() == 0, rostests.output
+
+
+@pytest.mark.parametrize("end", ["SIGINT", "SIGTERM", "SIGHUP"])
 def test_rostests_that_are_ended_leave_nothing(end, tmp_path):
     command = [str(TESTS / "run_rostests"), "2", str(tmp_path / "results"), *LONG_TESTS]
     with Program(*command) as rostests:
         wait_for(lambda: runs_nodes(rostests), "nodes", DEADLINE_S)
-        if end == "Ctrl-C":
-            rostests.interrupt()
-        else:
-            os.kill(rostests.pid, signal.SIGTERM)
+        os.kill(rostests.pid, signal.Signals[end])
         assert rostests.wait() == -signal.SIGINT
         assert "rostests: interrupted" in rostests.output
         assert "passed" not in rostests.output

@@ -1,15 +1,15 @@
 """./tutorial setup where nothing is installed yet, or something cannot be."""
 
 import re
-import subprocess
+import shutil
 
 import pytest
 
 from tutorial_testing.processes import Program
-from tutorial_testing.waiting import DEADLINE_S, wait_for
+from tutorial_testing.waiting import wait_for
 
 # A system on which nothing is installed yet. LACKING: what its archive has not; SLOW: download or
-# install, which then lasts until the file `go_on` is there; BROKEN: no network.
+# install, which then lasts until the file `go_on` is there; BROKEN: no network, nor lists of apt's.
 FAKES = {
     "dpkg-query": """
         touch installed
@@ -48,23 +48,13 @@ FAKES = {
 
 
 @pytest.fixture
-def bare_system(tutorial, tmp_path, monkeypatch, clean_environment):
+def bare_system(tmp_path, monkeypatch, own_workspace):
     """A folder for FAKES and their files; programs that start see them instead of Debian's."""
     for name, script in FAKES.items():
         (tmp_path / name).write_text(f"#!/bin/bash\ncd '{tmp_path}'\n{script}\n")
         (tmp_path / name).chmod(0o755)
     monkeypatch.setenv("PATH", str(tmp_path), prepend=":")
     monkeypatch.setenv("TMPDIR", str(tmp_path))
-    # What is built is built; only the list of what the archive lacks is another.
-    workspace = subprocess.run(
-        [tutorial, "run", "bash", "-c", "dirname ${CMAKE_PREFIX_PATH%%:*}"],
-        env={**clean_environment, "PATH": "/usr/bin:/bin"},
-        check=True, capture_output=True, text=True, timeout=DEADLINE_S,
-    ).stdout.strip()  # fmt: skip
-    (tmp_path / "ws").mkdir()
-    for name in ("built", "devel", "python"):
-        (tmp_path / "ws" / name).symlink_to(f"{workspace}/{name}")
-    monkeypatch.setenv("TUTORIAL_WORKSPACE", str(tmp_path / "ws"))
     for name in ("LACKING", "SLOW", "BROKEN"):
         monkeypatch.setenv(name, "")
     return tmp_path
@@ -109,6 +99,24 @@ def test_without_a_network_it_says_so(tutorial, monkeypatch):
         assert re.search(r"Err:1 no network\n.* not installed: .*Check the network", demo.output)
 
 
+def test_what_an_unreachable_archive_may_have_is_asked_for_again(
+    tutorial, bare_system, monkeypatch
+):
+    installed = bare_system / "installed"
+    with Program(tutorial, "setup", "system") as setup:
+        assert setup.wait() == 0
+    installed.write_text(installed.read_text().replace("rviz\n", ""))
+    monkeypatch.setenv("BROKEN", "yes")
+    with Program(tutorial, "run", "echo", "went on") as offline:
+        assert offline.wait() == 0
+        line = "tutorial: done without this time, as apt does not reach all of its archives: rviz."
+        assert f"{line} Check the network\nwent on\n" in offline.output
+    monkeypatch.setenv("BROKEN", "")
+    with Program(tutorial, "run", "true") as online:
+        assert online.wait() == 0
+    assert "rviz\n" in installed.read_text()
+
+
 INTERRUPTED = "tutorial: interrupted; ./tutorial setup goes on where it stopped"
 
 
@@ -151,3 +159,25 @@ def test_without_pypi_only_replay_bag_is_missing(tutorial, bare_system):
     with Program(tutorial, "run", "echo", "went on", **offline) as second:
         assert second.wait() == 0
         assert second.output == "went on\n"
+
+
+def test_after_a_build_that_failed_nothing_counts_as_built(clone, own_workspace, tmp_path):
+    """What is built of another list of packages is removed before."""
+    copy = tmp_path / "copy"
+    shutil.copytree(clone, copy, symlinks=True)
+    (copy / "common" / "node_kit" / "package.xml").write_text("no XML")
+    with Program(str(copy / "tutorial"), "setup", "workspace") as setup:
+        assert setup.wait() == 1
+        assert "tutorial: catkin_make failed" in setup.output
+    assert not (own_workspace / "built").exists()
+
+
+def test_why_a_workspace_is_not_built_is_said_in_catkins_words(tutorial, tmp_path):
+    """Those of a workspace of catkin build's, which no word for an error is among."""
+    for name in ("src", "build"):
+        (tmp_path / name).mkdir()
+    (tmp_path / "build" / ".built_by").write_text("catkin build")
+    with Program(tutorial, "run", "--in", str(tmp_path), "echo", "went on") as run:
+        assert run.wait() == 0
+        assert "was previously built by 'catkin build'" in run.output
+        assert run.output.endswith("\nwent on\n")
