@@ -47,6 +47,12 @@ def test_a_node_that_answers_holds_its_name(serve):
     assert holder(master(serve, node), "/robot") == (node, f"at {node}, process 77")
 
 
+@pytest.mark.parametrize(("own", "is_free"), [("/robot", False), ("/joy2twist", True)])
+def test_a_port_may_be_another_nodes_by_now(serve, own, is_free):
+    node = serve(getPid=lambda _: (1, "", 77), getName=lambda _: (1, "", own))
+    assert (holder(master(serve, node), "/robot") is None) == is_free
+
+
 def test_a_name_that_nobody_has_is_free(serve):
     assert holder(master(serve, "http://127.0.0.1:1"), "/other") is None
 

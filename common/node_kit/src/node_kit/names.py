@@ -12,14 +12,18 @@ PATIENCE_S = 3.0
 def holder(master_uri, name):
     """Where the node of a name runs, as (uri, words), or None if nobody holds the name.
 
-    A name whose node is dead (its port refuses, or its host is gone) is free; one whose node takes
-    the connection but does not answer is not, since a stopped robot may go on.
+    A name whose node is dead (its port refuses or is another node's by now, or its host is gone) is
+    free; one whose node takes the connection but does not answer is not, since a stopped robot may
+    go on.
     """
     answer, uri = call(master_uri, "lookupNode", name)
     if answer is not Answer.WELL:
         return None
     answer, pid = call(uri, "getPid", timeout_s=PATIENCE_S)
     if answer is Answer.WELL:
+        answer, own = call(uri, "getName", timeout_s=PATIENCE_S)  # rospy's nodes know it
+        if answer is Answer.WELL and own != name:
+            return None
         return uri, f"at {uri}, process {pid}"
     if answer is Answer.SILENT and accepts(uri):
         return uri, f"at {uri}, but does not answer"
