@@ -219,9 +219,11 @@ def test_all_at_once_or_alone_is_the_same(literal, floor, tmp_path, request):
         ], name
 
 
-def test_watch(literal, floor):
-    """It tells what is wrong, and after the file is mended that it is done."""
-    chmod(TALKER, 0o644)(literal)
+def test_watch(literal, floor, tmp_path):
+    """It tells what is wrong, and after the file is mended that it is done, wherever the workspace is."""
+    workspace = shutil.move(str(literal.parent), str(tmp_path / "build"))
+    src = Path(workspace) / "src"
+    chmod(TALKER, 0o644)(src)
     with subprocess.Popen(
         [
             "/usr/bin/python3",
@@ -230,7 +232,7 @@ def test_watch(literal, floor):
             "--floor",
             str(floor),
             "--in",
-            str(literal.parent),
+            workspace,
             "--watch",
             "3",
         ],
@@ -245,7 +247,7 @@ def test_watch(literal, floor):
                 if line.startswith("waiting"):
                     break
             assert "chmod +x" in "".join(first)
-            chmod(TALKER, 0o755)(literal)
+            chmod(TALKER, 0o755)(src)
             for line in process.stdout:
                 if line.startswith("1 of 1 exercises done"):
                     break

@@ -1,6 +1,7 @@
 """What is handed in may lie in the home folder, which is hidden before a program runs, and be a link."""
 
 import shutil
+import tempfile
 import zipfile
 from pathlib import Path
 
@@ -89,3 +90,14 @@ def test_no_program_sees_the_home_folder(literal, floor, home):
     look = f"import os\n    assert not os.path.exists('{home}/secret')\n    rospy.init_node"
     put(TALKER, "rospy.init_node", look)(literal)
     assert verdicts(literal.parent, floor, "3")["C6"].status == "ok"
+
+
+def test_no_program_meets_anothers_files_in_tmp(literal, floor):
+    with tempfile.NamedTemporaryFile(dir="/tmp") as left:
+        left.write(b"of another student")
+        left.flush()
+        use = f"open('{left.name}', 'a').write('mine')\n    rospy.init_node"
+        put(TALKER, "rospy.init_node", use)(literal)
+        seen = verdicts(literal.parent, floor, "3")
+        assert {result.status for result in seen.values()} <= {"ok", "note"}, seen
+        assert Path(left.name).read_bytes() == b"of another student"

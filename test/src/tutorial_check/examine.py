@@ -10,10 +10,11 @@ import json
 import os
 import sys
 import time
+import traceback
 from pathlib import Path
 
 from tutorial_check import place, workspace
-from tutorial_check.model import CannotCheck, Run
+from tutorial_check.model import CannotCheck, Run, fault
 
 LOWEST_UID = 1_000_000  # users of nobody's, one for each examination
 
@@ -32,14 +33,10 @@ def main():
     try:
         examine(orders, tell)
         tell(end=True)
-    except CannotCheck as error:
-        tell(cannot=str(error))
     except Exception as error:  # whatever it is, it is no fault of the student's
-        import traceback  # noqa: PLC0415
-
-        traceback.print_exc()
-        line = traceback.extract_tb(error.__traceback__)[-1]
-        tell(cannot=f"{type(error).__name__}: {error} ({Path(line.filename).name}:{line.lineno})")
+        if not isinstance(error, CannotCheck):
+            traceback.print_exc()
+        tell(cannot=fault(error))
 
 
 def examine(orders, tell):

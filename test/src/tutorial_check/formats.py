@@ -1,10 +1,10 @@
-"""The report as files for other programs. Pure."""
+"""The report as files for other programs. Pure but for the writing."""
 
 import json
 import xml.etree.ElementTree as ET
 
 from tutorial_check.exercises import EXERCISES
-from tutorial_check.model import NOTE, OK, UNREACHED, WRONG
+from tutorial_check.model import NOTE, OK, UNREACHED, WRONG, CannotCheck
 from tutorial_check.report import lines_of
 
 FIELDS = ("id", "status", "title", "expected", "seen", "where", "hint")
@@ -119,3 +119,12 @@ FORMATS = {
     "gradescope": as_gradescope,
     "classroom": as_classroom,
 }
+
+
+def write(path, text):
+    """Write a file; a name in it that is no UTF-8, as Python shows such a name. Raises CannotCheck."""
+    try:
+        with open(path, "w", encoding="utf-8", errors="backslashreplace", newline="") as file:
+            file.write(text)
+    except OSError as error:
+        raise CannotCheck(f"{path}: {error.strerror}") from None

@@ -65,6 +65,14 @@ class CannotCheck(Exception):
     """The checker cannot work, through no fault of the student's; the text says why in one line."""
 
 
+def fault(error):
+    """In one line why an exception keeps the checker from working; where, if it is a fault of ours."""
+    if isinstance(error, CannotCheck):
+        return str(error)
+    line = traceback.extract_tb(error.__traceback__)[-1]
+    return f"{type(error).__name__}: {error} ({Path(line.filename).name}:{line.lineno})"
+
+
 @dataclass(frozen=True)
 class Check:
     """One line of the report."""
@@ -182,13 +190,10 @@ class Run:
             }
             about["look"] = wrong.look or check.look
             return Result(status=WRONG, **about, **what)
-        except CannotCheck as error:
-            return self._not_checked(about, str(error))
-        except Exception as error:  # a fault of ours: the other checks are made all the same
-            traceback.print_exc()
-            line = traceback.extract_tb(error.__traceback__)[-1]
-            place = f"{Path(line.filename).name}:{line.lineno}"
-            return self._not_checked(about, f"{type(error).__name__}: {error} ({place})")
+        except Exception as error:  # also a fault of ours: the other checks are made all the same
+            if not isinstance(error, CannotCheck):
+                traceback.print_exc()
+            return self._not_checked(about, fault(error))
         if isinstance(found, Note):
             return Result(status=NOTE, seen=found.seen, where=found.where, hint=found.hint, **about)
         return Result(status=OK, seen=found or "", **about)

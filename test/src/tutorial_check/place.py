@@ -1,9 +1,9 @@
 """A place apart: namespaces of its own where the system grants them.
 
 Network: loopback only, so that two checks cannot meet and no program speaks to the outside. PIDs:
-whatever is left ends with the check. Mounts: the home folder is hidden, the student's workspace is
-read-only, /dev has no devices but those every program needs, and what is written counts against a
-limit.
+whatever is left ends with the check. Mounts: the home folder is hidden, /tmp is empty at first, the
+student's workspace is read-only, /dev has no devices but those every program needs, and what is
+written counts against a limit.
 """
 
 import ctypes
@@ -81,6 +81,7 @@ def _hide(home, kept, side):
     for number, folder in enumerate(kept):
         (side / str(number)).mkdir()
         _mount("--rbind", folder, side / str(number))
+    _own_tmp(side)
     if home.is_dir() and str(home) != "/":
         _mount("-t", "tmpfs", "-o", "size=1m,mode=755", "none", home)
     for number, folder in enumerate(kept):
@@ -93,6 +94,17 @@ def _hide(home, kept, side):
         if not os.path.lexists(name):
             name.parent.mkdir(parents=True, exist_ok=True)
             name.symlink_to(folder)
+
+
+def _own_tmp(side):
+    """A /tmp of its own, where no other student's file is in the way; with side, if that is in it."""
+    tmp, scratch, new = Path("/tmp").resolve(), side.parent.resolve(), side / "tmp"
+    new.mkdir()
+    _mount("-t", "tmpfs", "-o", "size=64m,mode=1777", "none", new)
+    if tmp in scratch.parents:
+        (new / scratch.relative_to(tmp)).mkdir(parents=True)
+        _mount("--rbind", scratch, new / scratch.relative_to(tmp))
+    _mount("--rbind", new, tmp)
 
 
 def _devices(side):

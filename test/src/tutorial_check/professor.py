@@ -1,16 +1,20 @@
 """--all: every student of a folder, a table of them all, and each one's report."""
 
+import contextlib
 import csv
 import html
+import io
+import os
 import time
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass, field
 from pathlib import Path
+from urllib.parse import quote
 
 from tutorial_check.examination import end_all, examine
 from tutorial_check.exercises import EXERCISES
-from tutorial_check.formats import as_json
-from tutorial_check.model import WRONG, CannotCheck
+from tutorial_check.formats import as_json, write
+from tutorial_check.model import WRONG, CannotCheck, fault
 from tutorial_check.report import lines_of, summary, text_of
 
 
@@ -31,16 +35,20 @@ def find_students(folder, out):
         entries = sorted(Path(folder).iterdir())
     except OSError as error:
         raise CannotCheck(f"{folder}: {error.strerror}") from None
-    students = [
-        Student(path.name[:-4] if path.suffix == ".zip" else path.name, path)
+    paths = [
+        path
         for path in entries
         if (path.is_dir() or path.suffix == ".zip")
         and not path.name.startswith(".")
         and path.resolve() != out.resolve()
     ]
-    if not students:
+    if not paths:
         raise CannotCheck(f"{folder}: no workspace and no zip in it")
-    return students
+    names = {path.name for path in paths}
+    return [
+        Student(path.stem if path.suffix == ".zip" and path.stem not in names else path.name, path)
+        for path in paths
+    ]
 
 
 def check_all(options):
@@ -49,7 +57,7 @@ def check_all(options):
 
     out = Path(options.out or Path(options.all) / "check")
     students = find_students(options.all, out)
-    out.mkdir(parents=True, exist_ok=True)
+    _make_folder(out)
     with ThreadPoolExecutor(max(1, options.jobs)) as pool, tqdm(
         total=len(students), unit="student", disable=None
     ) as bar:
@@ -57,7 +65,10 @@ def check_all(options):
         try:
             for done in as_completed(checks):
                 student = done.result()
-                _write(out, student, not options.no_hints)
+                try:
+                    _write(out, student, not options.no_hints)
+                except Exception as error:  # as in _check
+                    student.trouble = student.trouble or fault(error)
                 bar.update()
                 bar.write(
                     f"{student.name}: {student.trouble or summary(student.outcomes)}, {student.seconds:.0f} s"
@@ -67,8 +78,8 @@ def check_all(options):
                 check.cancel()
             end_all()
             raise
-    write_csv(out / "table.csv", students, options.exercises)
-    (out / "table.html").write_text(table_html(students, options.exercises), encoding="utf-8")
+    write(out / "table.csv", table_csv(students, options.exercises))
+    write(out / "table.html", table_html(students, options.exercises))
     print(f"{out}/table.html, table.csv, and a report of each")
     outcomes = [outcome for student in students for outcome in student.outcomes]
     if any(one.trouble for one in (*students, *outcomes)):
@@ -76,14 +87,20 @@ def check_all(options):
     return 0 if all(outcome.passed for outcome in outcomes) else 1
 
 
+def _make_folder(out):
+    """Make the folder of the results. Raises CannotCheck: not only when all are examined."""
+    with contextlib.suppress(OSError):
+        out.mkdir(parents=True, exist_ok=True)
+    if not (os.path.isdir(out) and os.access(out, os.W_OK | os.X_OK)):
+        raise CannotCheck(f"{out}: no folder that may be written to; --out names another one")
+
+
 def _check(student, options):
     began_s = time.monotonic()
     try:
         student.outcomes = examine(student.path, options.floor, options.exercises, own=False)
-    except CannotCheck as error:
-        student.trouble = str(error)
     except Exception as error:  # whatever it is, it must not spoil the others
-        student.trouble = f"{type(error).__name__}: {error}"
+        student.trouble = fault(error)
     student.seconds = time.monotonic() - began_s
     return student
 
@@ -94,14 +111,14 @@ def _write(out, student, hints):
         if student.trouble
         else text_of(student.outcomes, hints)
     )
-    (out / f"{student.name}.txt").write_text(text, encoding="utf-8")
+    write(out / f"{student.name}.txt", text)
     if student.outcomes:
-        (out / f"{student.name}.json").write_text(as_json(student.outcomes), encoding="utf-8")
+        write(out / f"{student.name}.json", as_json(student.outcomes))
 
 
 def _cell(student, exercise):
     """(word, details) of one exercise of a student."""
-    if student.trouble:
+    if not student.outcomes:
         return "?", student.trouble
     outcome = next(each for each in student.outcomes if each.id == exercise)
     if outcome.passed:
@@ -112,18 +129,17 @@ def _cell(student, exercise):
     return (wrong[0].id, "\n".join(lines_of(wrong[0]))) if wrong else ("-", "not reached")
 
 
-def write_csv(path, students, exercises):
+def table_csv(students, exercises):
     """One line a student: ok, the first check that is wrong, - (not reached), ? (not checked)."""
-    with path.open("w", newline="", encoding="utf-8") as file:
-        table = csv.writer(file)
-        table.writerow(["student", *exercises, "done", "seconds", "remark"])
-        for student in students:
-            cells = [_cell(student, exercise)[0] for exercise in exercises]
-            # A name may begin like a formula of a spreadsheet.
-            name = f"'{student.name}" if student.name[:1] in "=+-@" else student.name
-            table.writerow(
-                [name, *cells, cells.count("ok"), f"{student.seconds:.1f}", student.trouble]
-            )
+    lines = io.StringIO()
+    table = csv.writer(lines)
+    table.writerow(["student", *exercises, "done", "seconds", "remark"])
+    for student in students:
+        cells = [_cell(student, exercise)[0] for exercise in exercises]
+        # A name may begin like a formula of a spreadsheet.
+        name = f"'{student.name}" if student.name[:1] in "=+-@" else student.name
+        table.writerow([name, *cells, cells.count("ok"), f"{student.seconds:.1f}", student.trouble])
+    return lines.getvalue()
 
 
 def table_html(students, exercises):
@@ -137,10 +153,10 @@ def table_html(students, exercises):
             cells.append(
                 f'<td class="{kind}" title="{html.escape(details, quote=True)}">{html.escape(word)}</td>'
             )
-        link = html.escape(student.name)
+        link = quote(f"{student.name}.txt", errors="surrogateescape")  # a name may be no UTF-8
         done = sum(outcome.passed for outcome in student.outcomes)
         rows.append(
-            f'<tr><td><a href="{link}.txt">{link}</a></td>{"".join(cells)}<td>{done}</td><td>{student.seconds:.0f} s</td></tr>'
+            f'<tr><td><a href="{link}">{html.escape(student.name)}</a></td>{"".join(cells)}<td>{done}</td><td>{student.seconds:.0f} s</td></tr>'
         )
     head = "".join(
         f"<th>{each}<br><small>{html.escape(EXERCISES[each])}</small></th>" for each in exercises

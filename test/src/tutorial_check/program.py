@@ -3,12 +3,11 @@
 import argparse
 import os
 import sys
-from pathlib import Path
 
 from tutorial_check.examination import examine
 from tutorial_check.exercises import EXERCISES
-from tutorial_check.formats import FORMATS
-from tutorial_check.model import CannotCheck
+from tutorial_check.formats import FORMATS, write
+from tutorial_check.model import fault
 from tutorial_check.report import Terminal, summary
 
 FLOOR = "TUTORIAL_FLOOR"  # environment variable: setup.bash of the lower floor
@@ -17,6 +16,13 @@ FLOOR = "TUTORIAL_FLOOR"  # environment variable: setup.bash of the lower floor
 def meant(word):
     """The exercises that a word means: 4 is all of 4.2 to 4.5."""
     return [each for each in EXERCISES if each.startswith(f"{word.rstrip('.')}.")] or [word]
+
+
+def path(word):
+    """A path of the command line: as it was given, but that an empty word would be the current folder."""
+    if not word:
+        raise argparse.ArgumentTypeError("an empty word is no path")
+    return word
 
 
 def parse(arguments):
@@ -30,11 +36,15 @@ def parse(arguments):
     where.add_argument(
         "--in",
         dest="workspace",
+        type=path,
         metavar="WORKSPACE",
         help="your catkin workspace, a folder of packages, or a zip",
     )
     where.add_argument(
-        "--all", metavar="FOLDER", help="for the professor: every workspace, or zip, in a folder"
+        "--all",
+        type=path,
+        metavar="FOLDER",
+        help="for the professor: every workspace, or zip, in a folder",
     )
     parser.add_argument("exercises", nargs="*", metavar="EXERCISE", help="all without one")
     parser.add_argument(
@@ -47,15 +57,17 @@ def parse(arguments):
         ("gradescope", "Gradescope's results.json"),
         ("classroom", "Classroom 50's result"),
     ):
-        parser.add_argument(f"--{name}", metavar="FILE", help=f"write {what}")
+        parser.add_argument(f"--{name}", type=path, metavar="FILE", help=f"write {what}")
     parser.add_argument(
         "--out",
+        type=path,
         metavar="FOLDER",
         help="with --all: where the table and the reports go (FOLDER/check)",
     )
     parser.add_argument("--jobs", type=int, default=2, help="with --all: how many at a time (2)")
     parser.add_argument(
         "--floor",
+        type=path,
         default=os.environ.get(FLOOR),
         metavar="SETUP",
         help="setup.bash of what the exercises stand on",
@@ -79,12 +91,9 @@ def parse(arguments):
 def write_files(options, outcomes):
     """The files that were asked for. Raises CannotCheck."""
     for name, make in FORMATS.items():
-        path = getattr(options, name)
-        if path:
-            try:
-                Path(path).write_text(make(outcomes), encoding="utf-8")
-            except OSError as error:
-                raise CannotCheck(f"{path}: {error.strerror}") from None
+        file = getattr(options, name)
+        if file:
+            write(file, make(outcomes))
 
 
 def check_one(options):
@@ -105,6 +114,7 @@ def check_one(options):
 
 def main():
     """Exit code 0: nothing wrong; 1: something is; 2: the checker cannot work."""
+    sys.stdout.reconfigure(errors="backslashreplace")  # for names of files that are no UTF-8
     options = parse(sys.argv[1:])
     try:
         if options.all:
@@ -117,11 +127,9 @@ def main():
             code = watch(options)
         else:
             code = check_one(options)
-    except CannotCheck as error:
-        print(f"\ncheck: {error}", file=sys.stderr)
-        print(
-            "check: this is no verdict on the exercises: nothing could be checked", file=sys.stderr
-        )
+    except Exception as error:  # whatever it is, it is no fault of the student's
+        print(f"\ncheck: {fault(error)}", file=sys.stderr)
+        print("check: this is no verdict on the exercises, and no fault in them", file=sys.stderr)
         code = 2
     except KeyboardInterrupt:
         code = 130

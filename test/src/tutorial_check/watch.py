@@ -1,5 +1,6 @@
 """--watch: checks again when a file is saved, the first wrong check on top."""
 
+import os
 import threading
 import time
 
@@ -11,24 +12,39 @@ QUIET_S = 0.3  # editors save in several steps; it begins when they have finishe
 IGNORED = ("/build/", "/devel/", "/.git/", "__pycache__", ".swp", "~")
 
 
+def matters(path, folder):
+    """Whether a change of a file in a folder is one of the student's."""
+    inside = f"/{os.path.relpath(path, folder)}/"
+    return not any(word in inside for word in IGNORED)
+
+
 class Changes:
     """Tells when a file of a folder has changed."""
 
     def __init__(self, folder):
+        """Raises CannotCheck."""
         from watchdog.events import FileSystemEventHandler  # noqa: PLC0415  only here
         from watchdog.observers import Observer  # noqa: PLC0415
 
+        if not os.path.isdir(folder):
+            raise CannotCheck(f"{folder}: no folder, and --watch is for one")
+        self._folder = folder
         self._changed = threading.Event()
         handler = FileSystemEventHandler()
         handler.on_any_event = self._on_event
         self._observer = Observer()
-        self._observer.schedule(handler, str(folder), recursive=True)
-        self._observer.start()
+        try:
+            self._observer.schedule(handler, str(folder), recursive=True)
+            self._observer.start()
+        except OSError as error:
+            raise CannotCheck(
+                f"{folder}: {error.strerror}; without --watch it is checked once"
+            ) from None
 
     def _on_event(self, event):
         if event.event_type in ("opened", "closed_no_write"):
             return
-        if not event.is_directory and not any(word in event.src_path + "/" for word in IGNORED):
+        if not event.is_directory and matters(event.src_path, self._folder):
             self._changed.set()
 
     def wait(self):

@@ -51,7 +51,9 @@ def unpack(archive, folder):
             ):
                 raise CannotCheck(f"{archive}: unpacked it is larger than {MOST_BYTES >> 20} MB")
             for member in members:
-                path = Path(member.filename.replace("\\", "/"))
+                # Of an older PowerShell, whose zips have them against the rule.
+                member.filename = member.filename.replace("\\", "/")
+                path = Path(member.filename)
                 if path.is_absolute() or ".." in path.parts:
                     raise CannotCheck(f"{archive}: has a path outside of itself: {member.filename}")
                 if stat.S_ISLNK(member.external_attr >> 16):

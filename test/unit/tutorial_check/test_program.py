@@ -1,13 +1,16 @@
 """The command line."""
 
 import csv
+import io
+import sys
 
 import pytest
 
 from tutorial_check import program
 from tutorial_check.examination import Outcome
+from tutorial_check.formats import FORMATS
 from tutorial_check.model import OK, UNREACHED, WRONG, Result
-from tutorial_check.professor import Student, table_html, write_csv
+from tutorial_check.professor import Student, table_csv, table_html
 from tutorial_check.program import parse
 
 BEFORE = ["--floor", "setup.bash", "--in", "ws"]
@@ -31,6 +34,14 @@ def test_no_such_exercise(word, capsys):
     with pytest.raises(SystemExit):
         parse([*BEFORE, word])
     assert "no exercise" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("option", ["--in", "--all", "--out", "--json", "--floor"])
+def test_an_empty_word_is_not_the_current_folder(option, capsys):
+    before = [] if option in ("--in", "--all") else BEFORE
+    with pytest.raises(SystemExit, match="2"):
+        parse([*before, option, ""])
+    assert f"{option}: an empty word is no path" in capsys.readouterr().err
 
 
 WELL = Outcome("2", [Result("C1", OK, "one")], 1.0, True)
@@ -63,8 +74,41 @@ def test_the_professors_table_has_what_could_be_checked(tmp_path):
         Student("=bob", tmp_path, [BAD, WELL]),
     ]
     students[1].outcomes[1] = Outcome("5", [Result("C21", UNREACHED, "two")], 1.0, True)
-    write_csv(tmp_path / "table.csv", students, ["2", "5"])
-    rows = list(csv.reader((tmp_path / "table.csv").open()))
+    rows = list(csv.reader(table_csv(students, ["2", "5"]).splitlines()))
     assert [row[:4] for row in rows[1:]] == [["ada", "ok", "?", "1"], ["'=bob", "C1", "-", "0"]]
     page = table_html(students, ["2", "5"])
     assert 'title="C21: no room">?</td>' in page and 'class="wrong"' in page
+
+
+def main(monkeypatch, examine, *words):
+    """The exit code."""
+    monkeypatch.setattr(program, "examine", examine)
+    monkeypatch.setattr(sys, "argv", ["check", *BEFORE, "2", *map(str, words)])
+    with pytest.raises(SystemExit) as ended:
+        program.main()
+    return ended.value.code
+
+
+def test_a_fault_of_the_checker_is_none_of_the_students(monkeypatch, capsys):
+    assert main(monkeypatch, lambda *_: [].pop()) == 2
+    error = capsys.readouterr().err
+    assert "check: IndexError: pop from empty list (test_program.py:" in error
+    assert "no fault in them" in error
+    assert "Traceback" not in error
+
+
+def test_a_name_that_is_no_utf_8_is_told(tmp_path, monkeypatch):
+    outcome = Outcome("2", [Result("C1", WRONG, "one", seen="no file M\udcfcller.bag")], 1.0, True)
+
+    def examine(workspace, floor, exercises, tell):
+        tell(outcome, outcome.results[0])
+        return [outcome]
+
+    printed = io.BytesIO()
+    monkeypatch.setattr(sys, "stdout", io.TextIOWrapper(printed, "utf-8"))
+    files = [word for name in FORMATS for word in (f"--{name}", tmp_path / name)]
+    assert main(monkeypatch, examine, *files) == 1
+    sys.stdout.flush()
+    assert b"no file M\\udcfcller.bag" in printed.getvalue()
+    assert "M\\udcfcller.bag" in (tmp_path / "junit").read_text(encoding="utf-8")
+    assert all((tmp_path / name).stat().st_size for name in FORMATS)

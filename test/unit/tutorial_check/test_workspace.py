@@ -106,6 +106,18 @@ def test_a_zip_with_a_path_outside(tmp_path, name):
     assert not (tmp_path / "evil.txt").exists()
 
 
+def test_a_zip_of_an_older_powershell(tmp_path):
+    """It has backslashes in its paths."""
+    with zipfile.ZipFile(tmp_path / "a.zip", "w") as opened:
+        opened.writestr("ws\\src\\joy2twist\\package.xml", XML.format("joy2twist"))
+        opened.writestr("ws\\src\\joy2twist\\bag\\", "")
+    workspace.unpack(tmp_path / "a.zip", tmp_path / "out")
+    layout = workspace.find_layout(tmp_path / "out")
+    assert layout.source == tmp_path / "out/ws/src"
+    assert [each.name for each in workspace.packages_below(layout.source)] == ["joy2twist"]
+    assert (layout.source / "joy2twist/bag").is_dir()
+
+
 def test_no_zip(tmp_path):
     (tmp_path / "a.zip").write_text("x")
     with pytest.raises(CannotCheck, match="cannot be unpacked"):

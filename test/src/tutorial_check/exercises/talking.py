@@ -45,6 +45,7 @@ class Talk:
             self.heard = self._heard(stage)
             self.talker_ended, self.listener_ended = self.talkers[0].ended, self.listener.ended
             self.master_alive = stage.call("alive")
+            self.first_ended, self.both, self.taken = False, False, {}
             if self.talker_ended or self.listener_ended or not self.heard:
                 return
             # A second talker of the same kind; both must go on, or the first must end.

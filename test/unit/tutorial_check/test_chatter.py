@@ -1,0 +1,80 @@
+"""C9 and C10 look again, and talker and listener do not come as far as they did before."""
+
+import contextlib
+from types import SimpleNamespace
+
+import pytest
+
+from tutorial_check.exercises import chatter
+from tutorial_check.exercises.talking import PACKAGE
+from tutorial_check.model import Wrong
+from tutorial_check.session import Session
+
+TALKER = """#!/usr/bin/env python3
+rospy.init_node('talker', anonymous={})
+"""
+
+
+class Stage:
+    """One on which programs are as said, and nobody has ended the master."""
+
+    def __init__(self, heard, ended):
+        self._heard, self._ended = heard, ended
+
+    def start(self, _, script):
+        """A program that has ended, or does nothing."""
+        process = SimpleNamespace(returncode=0)
+        state = {"ended": script in self._ended, "was_stopped": False, "spins": False}
+        return SimpleNamespace(name=script, output="", process=process, **state)
+
+    def call(self, method, *_):
+        """Of the driver."""
+        said = {"state": ({}, {}), "types": {}, "warnings": [], "heard": self._heard}
+        return {**said, "alive": True}.get(method, 0)
+
+    def wait(self, condition, *_):
+        """See Box.wait."""
+        return condition()
+
+    wait_for_start = wait
+
+
+@pytest.fixture
+def session(tmp_path):
+    """A session with a talker and a listener."""
+    folder = tmp_path / "ws/src" / PACKAGE
+    folder.mkdir(parents=True)
+    (folder / "package.xml").write_text(f"<package><name>{PACKAGE}</name></package>")
+    for name in ("talker.py", "listener.py"):
+        (folder / name).write_text(TALKER.format(True))
+    return Session(
+        tmp_path,
+        None,
+        ["3"],
+        {"PATH": ""},
+        floor="",
+        make_box=lambda environment: None,
+        can_have_devices=False,
+    )
+
+
+@pytest.mark.parametrize("check", [chatter.anonymous, chatter.ctrl_c])
+@pytest.mark.parametrize(
+    ("heard", "ended", "seen"),
+    [
+        ([], ["talker.py"], "ended at once"),
+        ([], [], "not one message"),
+        ([(0.0, "/talker", "hello")], ["listener.py"], "ended at once"),
+    ],
+)
+def test_why_no_second_talker_was_seen(session, check, heard, ended, seen):
+    session.stage = lambda: contextlib.nullcontext(Stage(heard, ended))
+    with pytest.raises(Wrong, match=seen):
+        check(session)
+
+
+def test_a_changed_talker_that_is_not_heard(session):
+    session.stage = lambda: contextlib.nullcontext(Stage([], []))
+    session.run = lambda key, make: SimpleNamespace(taken={"": 0}, both=True, first_ended=False)
+    with pytest.raises(Wrong, match="the other way round"):
+        chatter.anonymous(session)

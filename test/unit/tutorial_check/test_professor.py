@@ -1,0 +1,76 @@
+"""--all: whose names are odd, and what cannot be written, costs nobody else his results."""
+
+import csv
+import os
+from types import SimpleNamespace
+
+import pytest
+
+from tutorial_check import professor
+from tutorial_check.examination import Outcome
+from tutorial_check.model import OK, CannotCheck, Result
+
+WELL = Outcome("2", [Result("C1", OK, "one")], 1.0, True)
+
+
+@pytest.fixture
+def room(tmp_path, monkeypatch):
+    """A folder for students, all of whom are right."""
+    monkeypatch.setattr(professor, "examine", lambda *_, **__: [WELL])
+    (tmp_path / "room").mkdir()
+    return tmp_path / "room"
+
+
+def check_all(room, out=None):
+    """(exit code, rows of the table)."""
+    options = SimpleNamespace(
+        all=str(room), out=out, jobs=1, no_hints=False, floor="", exercises=["2"]
+    )
+    code = professor.check_all(options)
+    with (room / "check" / "table.csv").open(newline="", encoding="utf-8") as table:
+        return code, list(csv.reader(table))[1:]
+
+
+def test_a_folder_and_a_zip_of_one_name_have_each_a_report(room):
+    (room / "anna").mkdir()
+    for name in ("anna.zip", "bob.zip"):
+        (room / name).touch()
+    names = ["anna", "anna.zip", "bob"]
+    code, rows = check_all(room)
+    assert (code, [row[0] for row in rows]) == (0, names)
+    assert sorted(path.stem for path in (room / "check").glob("*.txt")) == names
+    page = (room / "check/table.html").read_text()
+    assert all(f'<a href="{name}.txt">{name}</a>' in page for name in names)
+
+
+def test_a_name_that_is_no_utf_8(room):
+    for name in (b"anna", b"m\xfcller", b"zoe"):
+        os.mkdir(os.path.join(os.fsencode(room), name))
+    code, rows = check_all(room)
+    assert (code, [row[:2] for row in rows]) == (
+        0,
+        [["anna", "ok"], ["m\\udcfcller", "ok"], ["zoe", "ok"]],
+    )
+    assert b"m\xfcller.txt" in os.listdir(os.fsencode(room / "check"))
+    page = (room / "check/table.html").read_text(encoding="utf-8")
+    assert '<a href="m%FCller.txt">m\\udcfcller</a>' in page
+
+
+def test_a_report_that_cannot_be_written(room):
+    longest = "n" * 255
+    for name in ("anna", longest, "zoe"):
+        (room / name).mkdir()
+    code, rows = check_all(room)
+    assert (code, [row[:2] for row in rows]) == (
+        2,
+        [["anna", "ok"], [longest, "ok"], ["zoe", "ok"]],
+    )
+    assert "File name too long" in rows[1][-1]
+    assert (room / "check/zoe.txt").exists()
+
+
+def test_results_that_have_no_place(room):
+    (room / "anna").mkdir()
+    (room / "file").touch()
+    with pytest.raises(CannotCheck, match="--out names another"):
+        check_all(room, room / "file")
