@@ -189,6 +189,7 @@ def test_ctrl_c_ends_the_check_of_all(literal, floor, tmp_path):
         begun = wait_for(lambda: examinations(professor.pid), "examination")
         professor.interrupt()
         assert professor.wait() == 130
+        assert "interrupted: no verdict" in professor.output
         assert not any(map(lives, begun))
         assert "Traceback" not in professor.output
         assert not (tmp_path / "room" / "check" / "table.csv").exists()

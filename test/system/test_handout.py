@@ -236,6 +236,8 @@ def test_the_workspace_that_a_shell_has_made_and_built_can_be_checked(student, m
     said = student.run(f"{REPOSITORY}/tutorial check --in ~/ros/hydro/catkin_ws 2")
     assert re.search(r"ok +C1 .*on top of this suite", said), said
     assert "1 of 1 exercises done" in said
+    assert "1 of 1 exercises done" in student.run("cd / && tutorial check 2")
+    assert f"{student.workspace}/src/joy2twist" in student.run("tutorial doctor")
 
 
 def test_without_files_of_his_own_a_student_gets_none_of_ours(student):

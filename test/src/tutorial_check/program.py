@@ -11,6 +11,7 @@ from tutorial_check.model import fault
 from tutorial_check.report import Terminal, summary
 
 FLOOR = "TUTORIAL_FLOOR"  # environment variable: setup.bash of the lower floor
+WORKSPACE = "TUTORIAL_IN"  # environment variable: the workspace of the shell that this is called in
 
 
 def meant(word):
@@ -32,13 +33,15 @@ def parse(arguments):
         description="Checks the exercises of the tutorial in your own workspace.",
         epilog="exercises: " + ", ".join(f"{name} ({what})" for name, what in EXERCISES.items()),
     )
-    where = parser.add_mutually_exclusive_group(required=True)
+    of_shell = os.environ.get(WORKSPACE) or None
+    where = parser.add_mutually_exclusive_group(required=not of_shell)
     where.add_argument(
         "--in",
         dest="workspace",
         type=path,
+        default=of_shell,
         metavar="WORKSPACE",
-        help="your catkin workspace, a folder of packages, or a zip",
+        help="your catkin workspace, a folder of packages, or a zip; in a shell of it not needed",
     )
     where.add_argument(
         "--all",
@@ -132,5 +135,7 @@ def main():
         print("check: this is no verdict on the exercises, and no fault in them", file=sys.stderr)
         code = 2
     except KeyboardInterrupt:
+        if not options.watch:
+            print("\ncheck: interrupted: no verdict", file=sys.stderr)
         code = 130
     sys.exit(code)

@@ -29,6 +29,14 @@ def test_a_section_is_all_its_exercises(words, exercises):
     assert parse([*BEFORE, *words]).exercises == exercises
 
 
+def test_in_a_shell_of_a_workspace_that_is_meant(monkeypatch):
+    monkeypatch.setenv("TUTORIAL_IN", "/mine")
+    floor = ["--floor", "/setup.bash"]
+    assert parse(floor).workspace == "/mine"
+    assert parse([*floor, "--in", "/another"]).workspace == "/another"
+    assert parse([*floor, "--all", "/class"]).all == "/class"
+
+
 @pytest.mark.parametrize("word", ["7", "", ".", "4.9"])
 def test_no_such_exercise(word, capsys):
     with pytest.raises(SystemExit):
