@@ -4,7 +4,8 @@ import errno
 import os
 
 NO_GAMEPAD = (
-    "No gamepad? Add virtual:=true to the line of roslaunch, or rosrun gamepad virtual_joystick."
+    "No gamepad? rosrun gamepad virtual_joystick makes one; so does virtual:=true for a launch file "
+    "of this suite."
 )
 
 

@@ -57,7 +57,8 @@ class UinputPad:
         except (OSError, self._evdev.UInputError) as error:
             raise PadError(
                 f"no virtual gamepad can be made with {UINPUT} ({error}): load it with `sudo "
-                "modprobe uinput` and become its owner, or use --stream PATH"
+                "modprobe uinput` and become its owner, or use --stream PATH, which joy_node reads "
+                "with _dev:=PATH"
             ) from None
 
     def show(self, position):
