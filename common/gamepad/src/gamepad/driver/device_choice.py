@@ -4,8 +4,8 @@ import errno
 import os
 
 NO_GAMEPAD = (
-    "No gamepad? rosrun gamepad virtual_joystick makes one; so does virtual:=true for a launch file "
-    "of this suite."
+    "No gamepad? rosrun gamepad virtual_joystick makes one; so does virtual:=true, for a launch "
+    "file of this suite."
 )
 
 
