@@ -32,6 +32,8 @@ def read(path):
                 for _, message, stamp in bag.read_messages(topics=joys[:1])
                 if joys
             ]
+    except FileNotFoundError:
+        fail(f'{path}: no such file. For ours: cp "$(rospack find gamepad)/bag/joy.bag" .')
     except OSError as error:
         fail(f"{path}: cannot be read: {error.strerror}")
     except rosbag.ROSBagUnindexedException:
