@@ -14,6 +14,7 @@ import time
 import uuid
 from pathlib import Path
 
+from tutorial_check import limits
 from tutorial_check.model import Wrong
 from tutorial_check.patience import Patience
 from tutorial_check.running import Forked, Program
@@ -22,15 +23,6 @@ GRACE_S = 3.0  # after Ctrl-C a program has this long to end by itself
 IDLE_S = 2.0  # who has done nothing for so long waits for what does not come; a talker may for 1 s
 MOST_PROCESSES = 100  # a launch file's are a dozen
 MARK = "TUTORIAL_CHECK_MARK"  # by which programs are known where they cannot be by user or session
-# What a program may use. The address space is what Python's threads reserve, not what they use.
-LIMITS = {
-    resource.RLIMIT_NPROC: 400,
-    resource.RLIMIT_AS: 6 << 30,
-    resource.RLIMIT_FSIZE: 64 << 20,
-    resource.RLIMIT_CPU: 60,
-    resource.RLIMIT_CORE: 0,
-    resource.RLIMIT_NOFILE: 1024,
-}
 
 
 class Box:
@@ -44,6 +36,7 @@ class Box:
         self.environment = environment
         self._uid = uid
         self._alone = alone
+        self._limits = limits.of_programs(uid)
         self._mark = str(uuid.uuid4())
         self._open = []
         self._trusted = {os.getsid(0), os.getpid()}
@@ -108,11 +101,7 @@ class Box:
         """In the child, before the student's program: its limits and its user."""
         for number in (signal.SIGINT, signal.SIGHUP, signal.SIGTERM):
             signal.signal(number, signal.SIG_DFL)
-        for what, wanted in LIMITS.items():
-            with contextlib.suppress(ValueError, OSError):
-                hard = resource.getrlimit(what)[1]
-                limit = wanted if hard == resource.RLIM_INFINITY else min(wanted, hard)
-                resource.setrlimit(what, (limit, limit))
+        limits.put(self._limits)
         if self._uid is not None:
             os.setgroups([])
             os.setgid(self._uid)
