@@ -47,6 +47,8 @@ def examine(orders, tell):
     began_s = time.monotonic()
     scratch = Path(orders["folder"])
     granted = orders["apart"] and place.limit(scratch)
+    if orders["apart"]:
+        place.loopback_up()
     layout = _hand_in(orders["workspace"], scratch)
     kept = [*orders["kept"], orders["workspace"], Path(__file__).parents[3]]
     # Links of one's own workspace lead where they lead; those of others, not into the home folder

@@ -53,13 +53,12 @@ def limit(scratch):
 
 
 def furnish(scratch, home, kept):
-    """Make the other mounts and the loopback; whether all was granted.
+    """Make the other mounts; whether all was granted. What is refused hides nothing.
 
     scratch: the folder for what is written; home: the folder to hide; kept: those below it (or
     elsewhere) that are needed still, read-only.
     """
     try:
-        _loopback_up()
         side = Path(scratch) / "mounts"
         side.mkdir()
         _hide(home, kept, side)
@@ -74,20 +73,31 @@ def _mount(*words):
 
 
 def _hide(home, kept, side):
-    """An empty folder in place of home; in it and elsewhere the kept ones, read-only."""
+    """An empty folder in place of home; in it and elsewhere the kept ones, read-only.
+
+    It is made aside and put there in one step, so that home is never hidden without them; and with
+    the folder for what is written, where that lies below home.
+    """
     names = {Path(each): Path(each).resolve() for each in kept if Path(each).is_dir()}
-    kept = list(dict.fromkeys(names.values()))
-    home = Path(home).resolve()
-    for number, folder in enumerate(kept):
-        (side / str(number)).mkdir()
-        _mount("--rbind", folder, side / str(number))
-    if home.is_dir() and str(home) != "/":
-        _mount("-t", "tmpfs", "-o", "size=1m,mode=755", "none", home)
-    for number, folder in enumerate(kept):
-        if not folder.is_dir():
-            folder.mkdir(parents=True)
-        _mount("--rbind", side / str(number), folder)
-        _mount("-o", "remount,bind,ro", folder)
+    home, scratch = Path(home).resolve(), side.parent.resolve()
+    hides = home.is_dir() and str(home) != "/"
+    new = side / "home"
+    new.mkdir()
+    _mount("-t", "tmpfs", "-o", "size=1m,mode=755", "none", new)
+
+    def bind(folder):
+        below = hides and home in (folder, *folder.parents)
+        there = new / folder.relative_to(home) if below else folder
+        there.mkdir(parents=True, exist_ok=True)
+        _mount("--rbind", folder, there)
+        return there
+
+    for folder in dict.fromkeys(names.values()):
+        _mount("-o", "remount,bind,ro", bind(folder))
+    if hides and home in scratch.parents:
+        bind(scratch)
+    if hides:
+        _mount("--rbind", new, home)
     for name, folder in names.items():
         # By a link that was hidden with the home folder: catkin may have written that name down.
         if not os.path.lexists(name):
@@ -112,7 +122,8 @@ def _devices(side):
     _mount("--rbind", new, "/dev")
 
 
-def _loopback_up():
+def loopback_up():
+    """Have this machine speak to itself, which in a network of its own nothing else does."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
         request = struct.pack("16sH14s", b"lo", 0, b"")
         flags = struct.unpack("16sH14s", fcntl.ioctl(probe, SIOCGIFFLAGS, request))[1]
