@@ -10,6 +10,7 @@ import resource
 import select
 import signal
 import subprocess
+import sys
 import time
 import uuid
 from pathlib import Path
@@ -29,10 +30,11 @@ class Box:
     """All programs of one check of one workspace.
 
     uid: of the user as whom they run, or None; alone: whether this process and what it starts are
-    alone in a PID namespace.
+    alone in a PID namespace; told: a pipe's end for writing, without whose reader nothing of this
+    is wanted any more: he has ended, or was killed.
     """
 
-    def __init__(self, environment, uid=None, alone=False):
+    def __init__(self, environment, uid=None, alone=False, told=None):
         self.environment = environment
         self._uid = uid
         self._alone = alone
@@ -42,6 +44,9 @@ class Box:
         self._trusted = {os.getsid(0), os.getpid()}
         self.patience = Patience(self._trusted)
         self._poll = select.poll()
+        self._told = told
+        if told is not None:
+            self._poll.register(told, 0)  # the end of its reader is an error, which is always told
         self._reading = {}
 
     def start(self, command, environment=None, cwd=None, trusted=False):
@@ -137,8 +142,13 @@ class Box:
             self.pump(max(0.01, 2 * (time.monotonic() - asked_s)))  # asking costs the others time
 
     def pump(self, longest_s):
-        """Read what was printed; return when something was, or after the given time."""
+        """Read what was printed; return when something was, or after the given time.
+
+        Raises SystemExit when it is of no use any more; clear() ends what was started.
+        """
         for descriptor, _ in self._poll.poll(longest_s * 1000):
+            if descriptor == self._told:
+                sys.exit("nobody listens any more")
             program = self._reading[descriptor]
             if not program.read():
                 self._forget(program)

@@ -6,9 +6,11 @@ read-only, /dev has no devices but those every program needs, and what is writte
 limit.
 """
 
+import contextlib
 import ctypes
 import fcntl
 import os
+import shutil
 import socket
 import struct
 import subprocess
@@ -134,3 +136,25 @@ def end_with_parent():
     """Have the kernel end this process when the one that started it ends."""
     pr_set_pdeathsig, sigkill = 1, 9
     ctypes.CDLL(None).prctl(pr_set_pdeathsig, sigkill)
+
+
+@contextlib.contextmanager
+def removed(scratch, apart):
+    """Remove the folder for what is written at the end: who made it may have been killed.
+
+    apart: whether this is such a place, in which the folder is a mount, and others in it lead to
+    what is not ours to remove.
+    """
+    scratch, mnt_detach = Path(scratch), 2
+    # By this it is found also where something was mounted over it.
+    parent = os.open(scratch.parent, os.O_PATH | os.O_DIRECTORY)
+    try:
+        yield
+    finally:
+        if apart:
+            mount = f"/proc/self/fd/{parent}/{scratch.name}"
+            ctypes.CDLL(None).umount2(mount.encode(), mnt_detach)
+            with contextlib.suppress(OSError):
+                os.rmdir(scratch.name, dir_fd=parent)
+        else:
+            shutil.rmtree(scratch, ignore_errors=True)

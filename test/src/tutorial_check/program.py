@@ -2,6 +2,7 @@
 
 import argparse
 import os
+import signal
 import sys
 from pathlib import Path
 
@@ -106,6 +107,9 @@ def check_one(options):
 def main():
     """Exit code 0: nothing wrong; 1: something is; 2: the checker cannot work."""
     options = parse(sys.argv[1:])
+    for number in (signal.SIGTERM, signal.SIGHUP):  # as Ctrl-C: what was started ends, too
+        if signal.getsignal(number) != signal.SIG_IGN:  # as nohup has it
+            signal.signal(number, signal.default_int_handler)
     try:
         if options.all:
             from tutorial_check.professor import check_all  # noqa: PLC0415

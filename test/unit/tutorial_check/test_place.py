@@ -15,16 +15,17 @@ from tutorial_check import place
 
 home, scratch = map(Path, sys.argv[1:3])
 {before}
-limited = place.limit(scratch)
-print(limited, place.furnish(scratch, str(home), [str(home / "link")]))
-(scratch / "written").touch()
-for path in ("secret", "link/file", "work/ws/file"):
-    print(path, (home / path).exists())
-try:
-    (home / "work/ws/file").touch()
-    print("written")
-except OSError:
-    print("read-only")
+with place.removed(scratch, True):
+    limited = place.limit(scratch)
+    print(limited, place.furnish(scratch, str(home), [str(home / "link")]))
+    (scratch / "written").touch()
+    for path in ("secret", "link/file", "work/ws/file"):
+        print(path, (home / path).exists())
+    try:
+        (home / "work/ws/file").touch()
+        print("written")
+    except OSError:
+        print("read-only")
 """
 
 
@@ -65,6 +66,13 @@ def test_home_is_hidden_but_for_what_is_needed(home, folder):
     assert furnish(home, home.parent / folder) == HIDDEN
 
 
+@pytest.mark.parametrize("folder", ["scratch", "home/tmp/scratch"])
+def test_at_the_end_the_folder_is_removed_and_no_other(home, folder):
+    furnish(home, home.parent / folder)
+    assert not (home.parent / folder).exists()
+    assert (home / "work" / "ws" / "file").exists()
+
+
 REFUSED = """
 def mount(*words, mount=place._mount):
     if {words!r} <= set(map(str, words)):
@@ -94,7 +102,7 @@ def speak(*_):
 
 place.limit = lambda scratch: False
 examine._hand_in = speak
-examine.examine({"folder": "/nowhere", "apart": True, "workspace": "/nowhere"}, None)
+examine.examine({"folder": "/nowhere", "apart": True, "workspace": "/nowhere"}, None, None)
 """
 
 
