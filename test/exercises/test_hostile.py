@@ -1,5 +1,6 @@
 """Programs that hang, fork, print without end or forge: an honest verdict, and nobody else harmed."""
 
+import contextlib
 import os
 import tempfile
 from pathlib import Path
@@ -23,12 +24,10 @@ def wrong_of(src, floor, exercise):
 def processes_like(word):
     """Ids of running processes whose command line has a word."""
     found = []
-    for path in Path("/proc").glob("[0-9]*/cmdline"):
-        try:
-            if word.encode() in path.read_bytes():
-                found.append(path.parent.name)
-        except OSError:
-            continue
+    for pid in filter(str.isdigit, os.listdir("/proc")):
+        with contextlib.suppress(OSError):  # ended meanwhile; pathlib's glob would raise that
+            if word.encode() in Path(f"/proc/{pid}/cmdline").read_bytes():
+                found.append(pid)
     return found
 
 

@@ -10,10 +10,12 @@ import resource
 import select
 import signal
 import subprocess
+import sys
 import time
 import uuid
 from pathlib import Path
 
+from tutorial_check import limits
 from tutorial_check.model import Wrong
 from tutorial_check.patience import Patience
 from tutorial_check.running import Forked, Program
@@ -22,33 +24,29 @@ GRACE_S = 3.0  # after Ctrl-C a program has this long to end by itself
 IDLE_S = 2.0  # who has done nothing for so long waits for what does not come; a talker may for 1 s
 MOST_PROCESSES = 100  # a launch file's are a dozen
 MARK = "TUTORIAL_CHECK_MARK"  # by which programs are known where they cannot be by user or session
-# What a program may use. The address space is what Python's threads reserve, not what they use.
-LIMITS = {
-    resource.RLIMIT_NPROC: 400,
-    resource.RLIMIT_AS: 6 << 30,
-    resource.RLIMIT_FSIZE: 64 << 20,
-    resource.RLIMIT_CPU: 60,
-    resource.RLIMIT_CORE: 0,
-    resource.RLIMIT_NOFILE: 1024,
-}
 
 
 class Box:
     """All programs of one check of one workspace.
 
     uid: of the user as whom they run, or None; alone: whether this process and what it starts are
-    alone in a PID namespace.
+    alone in a PID namespace; told: a pipe's end for writing, without whose reader nothing of this
+    is wanted any more: he has ended, or was killed.
     """
 
-    def __init__(self, environment, uid=None, alone=False):
+    def __init__(self, environment, uid=None, alone=False, told=None):
         self.environment = environment
         self._uid = uid
         self._alone = alone
+        self._limits = limits.of_programs(uid)
         self._mark = str(uuid.uuid4())
         self._open = []
         self._trusted = {os.getsid(0), os.getpid()}
         self.patience = Patience(self._trusted)
         self._poll = select.poll()
+        self._told = told
+        if told is not None:
+            self._poll.register(told, 0)  # the end of its reader is an error, which is always told
         self._reading = {}
 
     def start(self, command, environment=None, cwd=None, trusted=False):
@@ -108,11 +106,7 @@ class Box:
         """In the child, before the student's program: its limits and its user."""
         for number in (signal.SIGINT, signal.SIGHUP, signal.SIGTERM):
             signal.signal(number, signal.SIG_DFL)
-        for what, wanted in LIMITS.items():
-            with contextlib.suppress(ValueError, OSError):
-                hard = resource.getrlimit(what)[1]
-                limit = wanted if hard == resource.RLIM_INFINITY else min(wanted, hard)
-                resource.setrlimit(what, (limit, limit))
+        limits.put(self._limits)
         if self._uid is not None:
             os.setgroups([])
             os.setgid(self._uid)
@@ -148,8 +142,13 @@ class Box:
             self.pump(max(0.01, 2 * (time.monotonic() - asked_s)))  # asking costs the others time
 
     def pump(self, longest_s):
-        """Read what was printed; return when something was, or after the given time."""
+        """Read what was printed; return when something was, or after the given time.
+
+        Raises SystemExit when it is of no use any more; clear() ends what was started.
+        """
         for descriptor, _ in self._poll.poll(longest_s * 1000):
+            if descriptor == self._told:
+                sys.exit("nobody listens any more")
             program = self._reading[descriptor]
             if not program.read():
                 self._forget(program)

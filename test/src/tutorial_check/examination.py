@@ -21,7 +21,7 @@ from tutorial_check.model import CannotCheck, Result, passed
 # machine stretches. Ten times as long is enough: where programs have less than a seventh of the time,
 # there is no verdict anyway (patience.HOPELESS), and a student waits for an answer.
 LONGEST_S = 900.0
-_running = set()  # processes, each with all that it started
+END_S = 10.0  # an examination that nobody listens to has this long to end what it started
 _no_more = threading.Event()
 NUMBERS = itertools.count(os.getpid() * 100)
 
@@ -77,8 +77,6 @@ def examine(
 def end_all():
     """End the examinations of all threads, and those that are just begun; each raises CannotCheck."""
     _no_more.set()
-    for process in list(_running):
-        process.kill()
 
 
 @functools.lru_cache(maxsize=None)
@@ -157,18 +155,20 @@ def _examine(workspace, floor, exercises, folder, *, tell, only_first, own):
         text=True,
     )
     outcomes = {exercise: Outcome(exercise) for exercise in exercises}
-    _running.add(process)
-    if _no_more.is_set():
-        process.kill()
     try:
         process.stdin.write(json.dumps(orders))
         process.stdin.close()
         ending = _listen(process, outcomes, tell)
     finally:
-        process.kill()  # with it all of its namespaces
-        process.wait()
-        _running.discard(process)
-        process.stdout.close()
+        process.stdout.close()  # by which it knows
+        try:
+            if not wrapper:
+                process.wait(END_S)
+        except subprocess.TimeoutExpired:
+            pass
+        finally:
+            process.kill()  # with it all of its namespaces
+            process.wait()
 
     if "TUTORIAL_CHECK_TIMES" in os.environ:
         log.seek(0)
@@ -190,7 +190,9 @@ def _listen(process, outcomes, tell):
     with selectors.DefaultSelector() as selector:
         selector.register(descriptor, selectors.EVENT_READ)
         while time.monotonic() < end:
-            if not selector.select(1.0):
+            if _no_more.is_set():
+                return None
+            if not selector.select(0.2):
                 continue
             data = os.read(descriptor, 65536).decode(errors="replace")
             if not data:

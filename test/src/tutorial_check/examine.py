@@ -8,6 +8,7 @@ seconds, "trouble": why it could not be checked as a whole, or ""}, and at the e
 
 import json
 import os
+import signal
 import sys
 import time
 import traceback
@@ -22,7 +23,10 @@ LOWEST_UID = 1_000_000  # users of nobody's, one for each examination
 def main():
     """Read the orders, examine, tell."""
     orders = json.load(sys.stdin)
-    place.end_with_parent()
+    if orders["apart"]:
+        place.end_with_parent()  # which is unshare
+    else:  # its box notices that the one who reads has ended, and ends what was started
+        signal.signal(signal.SIGTERM, signal.SIG_IGN)
     told = os.fdopen(os.dup(1), "w", buffering=1)
     os.set_inheritable(told.fileno(), False)
     os.dup2(2, 1)  # nothing else gets into what is told
@@ -31,19 +35,22 @@ def main():
         told.write(json.dumps(what) + "\n")
 
     try:
-        examine(orders, tell)
-        tell(end=True)
+        with place.removed(orders["folder"], orders["apart"]):
+            examine(orders, tell, told.fileno())
+            tell(end=True)
     except Exception as error:  # whatever it is, it is no fault of the student's
         if not isinstance(error, CannotCheck):
             traceback.print_exc()
         tell(cannot=fault(error))
 
 
-def examine(orders, tell):
-    """orders: workspace, own, folder, floor, exercises, apart, only_first ..."""
+def examine(orders, tell, told):
+    """orders: workspace, own, folder, floor, exercises, apart, only_first ...; told: see Box."""
     began_s = time.monotonic()
     scratch = Path(orders["folder"])
     granted = orders["apart"] and place.limit(scratch)
+    if orders["apart"]:
+        place.loopback_up()
     layout = _hand_in(orders["workspace"], scratch)
     kept = [*orders["kept"], orders["workspace"], Path(__file__).parents[3]]
     # Links of one's own workspace lead where they lead; those of others, not into the home folder
@@ -78,7 +85,7 @@ def examine(orders, tell):
         orders["exercises"],
         orders["environment"],
         floor=orders["floor"],
-        make_box=lambda environment: box.Box(environment, uid, orders["apart"]),
+        make_box=lambda environment: box.Box(environment, uid, orders["apart"], told),
         can_have_devices=granted,
     )
     run = Run(catalogue(), one, one.second_look, one.box.patience.hopeless)
@@ -89,15 +96,18 @@ def examine(orders, tell):
         return {name: words.replace(*shown) for name, words in result.as_dict().items()}
 
     times = {"prepare": round(time.monotonic() - began_s, 2)}
-    for exercise in orders["exercises"]:
-        began_s = time.monotonic()
-        run.exercise(
-            exercise,
-            lambda result, exercise=exercise: tell(exercise=exercise, result=as_told(result)),
-            orders["only_first"],
-        )
-        seconds = round(time.monotonic() - began_s, 2)
-        tell(exercise=exercise, done=seconds, trouble=run.trouble(exercise))
+    try:
+        for exercise in orders["exercises"]:
+            began_s = time.monotonic()
+            run.exercise(
+                exercise,
+                lambda result, exercise=exercise: tell(exercise=exercise, result=as_told(result)),
+                orders["only_first"],
+            )
+            seconds = round(time.monotonic() - began_s, 2)
+            tell(exercise=exercise, done=seconds, trouble=run.trouble(exercise))
+    finally:
+        one.box.clear()  # a build, too, is ended; where no namespace is, nothing else does that
     if "TUTORIAL_CHECK_TIMES" in os.environ:
         print({**times, **run.seconds}, file=sys.stderr)
 

@@ -52,13 +52,17 @@ class Helper:
         os.close(question_out)
         os.close(answer_in)
         self._question, self._answer = question_in, answer_out
+        self._hangs = ""
 
     def call(self, method, *arguments, deadline_s=60.0):
-        """What the method returns. Raises CannotCheck if the helper fails or hangs."""
+        """What the method returns. Raises CannotCheck if the helper fails or hangs, or did so once."""
+        if self._hangs:  # what it answers late would be taken for the answer to this
+            raise CannotCheck(self._hangs)
         try:
             _send(self._question, (method, arguments))
             if not select.select([self._answer], [], [], deadline_s)[0]:
-                raise CannotCheck(f"the checker's own helper hangs in {method}")
+                self._hangs = f"the checker's own helper hangs in {method}"
+                raise CannotCheck(self._hangs)
             worked, value = _receive(self._answer)
         except (EOFError, OSError) as error:
             raise CannotCheck(f"the checker's own helper has ended in {method}: {error}") from None

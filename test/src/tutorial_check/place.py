@@ -6,9 +6,11 @@ student's workspace is read-only, /dev has no devices but those every program ne
 written counts against a limit.
 """
 
+import contextlib
 import ctypes
 import fcntl
 import os
+import shutil
 import socket
 import struct
 import subprocess
@@ -53,13 +55,12 @@ def limit(scratch):
 
 
 def furnish(scratch, home, kept):
-    """Make the other mounts and the loopback; whether all was granted.
+    """Make the other mounts; whether all was granted. What is refused hides nothing.
 
     scratch: the folder for what is written; home: the folder to hide; kept: those below it (or
     elsewhere) that are needed still, read-only.
     """
     try:
-        _loopback_up()
         side = Path(scratch) / "mounts"
         side.mkdir()
         _hide(home, kept, side)
@@ -74,37 +75,42 @@ def _mount(*words):
 
 
 def _hide(home, kept, side):
-    """An empty folder in place of home; in it and elsewhere the kept ones, read-only."""
+    """Empty folders in place of home and /tmp; in them and elsewhere the kept ones, read-only.
+
+    Each is made aside and put there in one step, so that nothing is ever hidden without what is
+    kept; and with the folder for what is written, where that lies below it.
+    """
     names = {Path(each): Path(each).resolve() for each in kept if Path(each).is_dir()}
-    kept = list(dict.fromkeys(names.values()))
+    scratch, sizes = side.parent.resolve(), {Path("/tmp").resolve(): "size=64m,mode=1777"}
     home = Path(home).resolve()
-    for number, folder in enumerate(kept):
-        (side / str(number)).mkdir()
-        _mount("--rbind", folder, side / str(number))
-    _own_tmp(side)
     if home.is_dir() and str(home) != "/":
-        _mount("-t", "tmpfs", "-o", "size=1m,mode=755", "none", home)
-    for number, folder in enumerate(kept):
-        if not folder.is_dir():
-            folder.mkdir(parents=True)
-        _mount("--rbind", side / str(number), folder)
-        _mount("-o", "remount,bind,ro", folder)
+        sizes.setdefault(home, "size=1m,mode=755")
+    # The one goes with the other where it lies below it.
+    hidden = {
+        each: side / f"new_{each.name}" for each in sizes if not set(each.parents) & set(sizes)
+    }
+    for folder, new in hidden.items():
+        new.mkdir()
+        _mount("-t", "tmpfs", "-o", sizes[folder], "none", new)
+
+    def bind(folder):
+        over = next((each for each in hidden if each in (folder, *folder.parents)), None)
+        there = hidden[over] / folder.relative_to(over) if over else folder
+        there.mkdir(parents=True, exist_ok=True)
+        _mount("--rbind", folder, there)
+        return there
+
+    for folder in dict.fromkeys(names.values()):
+        _mount("-o", "remount,bind,ro", bind(folder))
+    if set(scratch.parents) & set(hidden):
+        bind(scratch)  # with what is made aside
+    for folder, new in hidden.items():
+        _mount("--rbind", new, folder)
     for name, folder in names.items():
         # By a link that was hidden with the home folder: catkin may have written that name down.
         if not os.path.lexists(name):
             name.parent.mkdir(parents=True, exist_ok=True)
             name.symlink_to(folder)
-
-
-def _own_tmp(side):
-    """A /tmp of its own, where no other student's file is in the way; with side, if that is in it."""
-    tmp, scratch, new = Path("/tmp").resolve(), side.parent.resolve(), side / "tmp"
-    new.mkdir()
-    _mount("-t", "tmpfs", "-o", "size=64m,mode=1777", "none", new)
-    if tmp in scratch.parents:
-        (new / scratch.relative_to(tmp)).mkdir(parents=True)
-        _mount("--rbind", scratch, new / scratch.relative_to(tmp))
-    _mount("--rbind", new, tmp)
 
 
 def _devices(side):
@@ -124,7 +130,8 @@ def _devices(side):
     _mount("--rbind", new, "/dev")
 
 
-def _loopback_up():
+def loopback_up():
+    """Have this machine speak to itself, which in a network of its own nothing else does."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
         request = struct.pack("16sH14s", b"lo", 0, b"")
         flags = struct.unpack("16sH14s", fcntl.ioctl(probe, SIOCGIFFLAGS, request))[1]
@@ -135,3 +142,25 @@ def end_with_parent():
     """Have the kernel end this process when the one that started it ends."""
     pr_set_pdeathsig, sigkill = 1, 9
     ctypes.CDLL(None).prctl(pr_set_pdeathsig, sigkill)
+
+
+@contextlib.contextmanager
+def removed(scratch, apart):
+    """Remove the folder for what is written at the end: who made it may have been killed.
+
+    apart: whether this is such a place, in which the folder is a mount, and others in it lead to
+    what is not ours to remove.
+    """
+    scratch, mnt_detach = Path(scratch), 2
+    # By this it is found also where something was mounted over it.
+    parent = os.open(scratch.parent, os.O_PATH | os.O_DIRECTORY)
+    try:
+        yield
+    finally:
+        if apart:
+            mount = f"/proc/self/fd/{parent}/{scratch.name}"
+            ctypes.CDLL(None).umount2(mount.encode(), mnt_detach)
+            with contextlib.suppress(OSError):
+                os.rmdir(scratch.name, dir_fd=parent)
+        else:
+            shutil.rmtree(scratch, ignore_errors=True)

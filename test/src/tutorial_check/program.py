@@ -2,6 +2,7 @@
 
 import argparse
 import os
+import signal
 import sys
 
 from tutorial_check.examination import examine
@@ -119,6 +120,9 @@ def main():
     """Exit code 0: nothing wrong; 1: something is; 2: the checker cannot work."""
     sys.stdout.reconfigure(errors="backslashreplace")  # for names of files that are no UTF-8
     options = parse(sys.argv[1:])
+    for number in (signal.SIGTERM, signal.SIGHUP):  # as Ctrl-C: what was started ends, too
+        if signal.getsignal(number) != signal.SIG_IGN:  # as nohup has it
+            signal.signal(number, signal.default_int_handler)
     try:
         if options.all:
             from tutorial_check.professor import check_all  # noqa: PLC0415

@@ -1,0 +1,93 @@
+"""However the checker ends, nothing is left of what it has started: no process, no folder."""
+
+import contextlib
+import os
+import signal
+import tempfile
+from pathlib import Path
+
+import pytest
+from edits import TALKER, B, write
+from test_awkward import SOURCE
+from test_hostile import processes_like
+
+from tutorial_check import place
+from tutorial_testing.processes import Program, lives
+from tutorial_testing.waiting import wait_for
+
+# The checker itself would end such a build after two minutes, and such a node in a few seconds.
+SOON_S = 60.0
+NODE = """#!/usr/bin/env python3
+import os, signal
+for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+    signal.signal(number, signal.SIG_IGN)
+if os.fork() == 0:
+    os.setsid()
+while True:
+    signal.pause()
+"""
+BUILD = "execute_process(COMMAND sleep 3600)\n"
+WORKS = {
+    # exercise, file, its text, a word of the command line that is then seen
+    "node": ("3", TALKER, NODE, TALKER),
+    "build": ("2", f"{B}/CMakeLists.txt", BUILD, "cmake"),
+}
+
+
+def descendants(pid):
+    """A process and all that come from it, in whatever namespace they are."""
+    children = []
+    with contextlib.suppress(OSError):  # ended meanwhile
+        for each in Path(f"/proc/{pid}/task").glob("*/children"):  # each thread has its own
+            children += each.read_text().split()
+    return [pid, *(one for child in children for one in descendants(child))]
+
+
+@pytest.fixture
+def scratch():
+    """Where the examination has its copy. Its users are nobody's."""
+    with tempfile.TemporaryDirectory() as folder:
+        Path(folder).chmod(0o755)
+        yield folder
+        for pid in processes_like(f"{folder}/"):  # where the test has failed
+            os.kill(int(pid), signal.SIGKILL)
+
+
+@pytest.fixture(params=["apart", "bare"])
+def environment(request, tmp_path, scratch):
+    """Of a checker that finds namespaces, or none."""
+    path = os.environ["PATH"]
+    if request.param == "bare":
+        (tmp_path / "bin").mkdir()
+        (tmp_path / "bin" / "unshare").symlink_to("/bin/false")
+        path = f"{tmp_path}/bin:{path}"
+    elif not place.wrapper():
+        pytest.skip("no namespaces here")
+    return {"PYTHONPATH": str(SOURCE), "PATH": path, "TMPDIR": scratch}
+
+
+@pytest.mark.parametrize("work", WORKS)
+@pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGTERM, signal.SIGHUP])
+def test_nothing_is_left(literal, floor, environment, how, work):
+    exercise, file, text, seen = WORKS[work]
+    write(file, text)(literal)
+    command = ["/usr/bin/python3", "-m", "tutorial_check", "--floor", str(floor)]
+    command += ["--in", str(literal.parent), exercise]
+    scratch = environment["TMPDIR"]
+    with Program(*command, **environment) as checker:
+        wait_for(lambda: [pid for pid in processes_like(f"{scratch}/") if seen in words(pid)], work)
+        begun = descendants(checker.pid)
+        os.kill(checker.pid, how)
+        assert checker.wait() == (-9 if how == signal.SIGKILL else 130)
+        wait_for(lambda: not any(map(lives, begun)), "end of what was started", SOON_S)
+        wait_for(lambda: not processes_like(f"{scratch}/"), "end of what that started", SOON_S)
+        wait_for(lambda: not os.listdir(scratch), "end of its folder", SOON_S)
+        assert "Traceback" not in checker.output
+
+
+def words(pid):
+    """The command line of a process."""
+    try:
+        return Path(f"/proc/{pid}/cmdline").read_text()
+    except OSError:
+        return ""  # ended meanwhile

@@ -1,0 +1,114 @@
+"""What is hidden, and what is not: in namespaces, which the system has to grant."""
+
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import pytest
+
+from tutorial_check import place
+
+pytestmark = pytest.mark.skipif(not place.wrapper(), reason="no namespaces here: nothing is hidden")
+FURNISH = """
+import os, subprocess, sys
+from pathlib import Path
+from tutorial_check import place
+
+home, scratch = map(Path, sys.argv[1:3])
+{before}
+with place.removed(scratch, True):
+    limited = place.limit(scratch)
+    print(limited, place.furnish(scratch, str(home), [str(home / "link")]))
+    (scratch / "written").touch()
+    for path in ("secret", "link/file", "work/ws/file"):
+        print(path, (home / path).exists())
+    try:
+        (home / "work/ws/file").touch()
+        print("written")
+    except OSError:
+        print("read-only")
+"""
+
+
+@pytest.fixture(params=["/tmp", "/var/tmp"])  # the one is hidden as well
+def home(request):
+    """A home folder with a workspace, a link to it, and a file that is nobody's business."""
+    with tempfile.TemporaryDirectory(dir=request.param) as folder:
+        home = Path(folder) / "home"
+        (home / "work" / "ws").mkdir(parents=True)
+        (home / "work" / "ws" / "file").touch()
+        (home / "secret").touch()
+        (home / "link").symlink_to(home / "work" / "ws")
+        yield home
+
+
+def run(text, *words):
+    """The lines that a Python program prints in a place of its own."""
+    done = subprocess.run(
+        [*place.wrapper(), sys.executable, "-c", text, *words],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=60,
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout.splitlines()
+
+
+def furnish(home, scratch, before=""):
+    """What is seen in a furnished place: each line is a fact."""
+    scratch.mkdir(parents=True)
+    return run(FURNISH.format(before=before), home, scratch)
+
+
+HIDDEN = ["True True", "secret False", "link/file True", "work/ws/file True", "read-only"]
+
+
+@pytest.mark.parametrize("folder", ["scratch", "home/tmp/scratch", "home/work/ws/tmp/scratch"])
+def test_home_is_hidden_but_for_what_is_needed(home, folder):
+    assert furnish(home, home.parent / folder) == HIDDEN
+
+
+@pytest.mark.parametrize("folder", ["scratch", "home/tmp/scratch"])
+def test_at_the_end_the_folder_is_removed_and_no_other(home, folder):
+    furnish(home, home.parent / folder)
+    assert not (home.parent / folder).exists()
+    assert (home / "work" / "ws" / "file").exists()
+
+
+REFUSED = """
+def mount(*words, mount=place._mount):
+    if {words!r} <= set(map(str, words)):
+        raise subprocess.SubprocessError("refused")
+    mount(*words)
+
+
+place._mount = mount
+"""
+
+
+@pytest.mark.parametrize("words", [{"remount,bind,ro"}, {"--rbind"}, {"size=64m,mode=1777"}])
+def test_where_something_is_refused_nothing_is_hidden(home, words):
+    seen = furnish(home, home.parent / "scratch", REFUSED.format(words=words))
+    assert seen[:4] == ["True False", "secret True", "link/file True", "work/ws/file True"]
+
+
+NO_LIMIT = """
+import socket
+from tutorial_check import examine, place
+
+def speak(*_):
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        socket.create_connection(server.getsockname()).close()
+    print("heard")
+    raise SystemExit
+
+place.limit = lambda scratch: False
+examine._hand_in = speak
+examine.examine({"folder": "/nowhere", "apart": True, "workspace": "/nowhere"}, None, None)
+"""
+
+
+def test_programs_hear_each_other_also_where_nothing_is_hidden():
+    assert run(NO_LIMIT) == ["heard"]
