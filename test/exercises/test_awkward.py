@@ -16,7 +16,7 @@ from edits import JOY2TWIST, TALKER, B, J, apply, chmod, move, put
 
 from tutorial_check.examination import examine
 from tutorial_check.exercises import EXERCISES
-from tutorial_testing.processes import Program, lives
+from tutorial_testing.processes import Program, command_line, descendants, lives
 from tutorial_testing.waiting import wait_for
 
 SOURCE = Path(__file__).resolve().parents[1] / "src"
@@ -170,27 +170,22 @@ def test_the_professor(literal, floor, tmp_path):
     assert json.loads((room / "check" / "ada.json").read_text())["passed"] == 1
 
 
-def examinations(pid):
-    """The processes of the examinations that a program has started and that still run."""
-    lists = Path(f"/proc/{pid}/task").glob("*/children")  # each thread has its own
-    pids = [word for each in lists for word in each.read_text().split() if lives(word)]
-    return [
-        pid
-        for pid in pids
-        if b"tutorial_check.examine" in Path(f"/proc/{pid}/cmdline").read_bytes()
-    ]
-
-
 def test_ctrl_c_ends_the_check_of_all(literal, floor, tmp_path):
     for number in range(4):
         shutil.copytree(literal.parent, tmp_path / "room" / str(number))
     command = ("/usr/bin/python3", "-m", "tutorial_check", "--floor", str(floor), "--all")
     with Program(*command, str(tmp_path / "room"), PYTHONPATH=str(SOURCE)) as professor:
-        begun = wait_for(lambda: examinations(professor.pid), "examination")
+        wait_for(
+            lambda: any(
+                "tutorial_check.examine" in command_line(p) for p in descendants(professor.pid)
+            ),
+            "examination",
+        )
+        begun = descendants(professor.pid)
         professor.interrupt()
         assert professor.wait() == 130
         assert "interrupted: no verdict" in professor.output
-        assert not any(map(lives, begun))
+        wait_for(lambda: not any(map(lives, begun)), "end of the examinations")
         assert "Traceback" not in professor.output
         assert not (tmp_path / "room" / "check" / "table.csv").exists()
 

@@ -1,6 +1,5 @@
 """However the checker ends, nothing is left of what it has started: no process, no folder."""
 
-import contextlib
 import os
 import signal
 import tempfile
@@ -12,7 +11,7 @@ from test_awkward import SOURCE
 from test_hostile import processes_like
 
 from tutorial_check import place
-from tutorial_testing.processes import Program, lives
+from tutorial_testing.processes import Program, command_line, descendants, lives
 from tutorial_testing.waiting import wait_for
 
 # The checker itself would end such a build after two minutes, and such a node in a few seconds.
@@ -32,15 +31,6 @@ WORKS = {
     "node": ("3", TALKER, NODE, TALKER),
     "build": ("2", f"{B}/CMakeLists.txt", BUILD, "cmake"),
 }
-
-
-def descendants(pid):
-    """A process and all that come from it, in whatever namespace they are."""
-    children = []
-    with contextlib.suppress(OSError):  # ended meanwhile
-        for each in Path(f"/proc/{pid}/task").glob("*/children"):  # each thread has its own
-            children += each.read_text().split()
-    return [pid, *(one for child in children for one in descendants(child))]
 
 
 @pytest.fixture
@@ -75,7 +65,10 @@ def test_nothing_is_left(literal, floor, environment, how, work):
     command += ["--in", str(literal.parent), exercise]
     scratch = environment["TMPDIR"]
     with Program(*command, **environment) as checker:
-        wait_for(lambda: [pid for pid in processes_like(f"{scratch}/") if seen in words(pid)], work)
+        wait_for(
+            lambda: [pid for pid in processes_like(f"{scratch}/") if seen in command_line(pid)],
+            work,
+        )
         begun = descendants(checker.pid)
         os.kill(checker.pid, how)
         assert checker.wait() == (-9 if how == signal.SIGKILL else 130)
@@ -83,11 +76,3 @@ def test_nothing_is_left(literal, floor, environment, how, work):
         wait_for(lambda: not processes_like(f"{scratch}/"), "end of what that started", SOON_S)
         wait_for(lambda: not os.listdir(scratch), "end of its folder", SOON_S)
         assert "Traceback" not in checker.output
-
-
-def words(pid):
-    """The command line of a process."""
-    try:
-        return Path(f"/proc/{pid}/cmdline").read_text()
-    except OSError:
-        return ""  # ended meanwhile

@@ -27,6 +27,23 @@ def lives(pid):
         return False
 
 
+def descendants(pid):
+    """A process and all that come from it, whatever their namespace and environment."""
+    children = []
+    with contextlib.suppress(OSError):  # ended meanwhile
+        for each in Path(f"/proc/{pid}/task").glob("*/children"):  # each thread has its own
+            children += each.read_text().split()
+    return [pid, *(one for child in children for one in descendants(int(child)))]
+
+
+def command_line(pid):
+    """That of a process; empty if it has ended."""
+    try:
+        return Path(f"/proc/{pid}/cmdline").read_text()
+    except OSError:
+        return ""
+
+
 def refuse(*command):
     """Run a command that must fail; return the line in which it says why."""
     done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=DEADLINE_S)

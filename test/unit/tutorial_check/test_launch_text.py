@@ -30,6 +30,18 @@ def test_a_comment_is_no_place():
         ('"rviz"', "“rviz”", "not well-formed (invalid token): line 4, column 12", "curly"),
         ("/>", ">", "mismatched tag: line 4, column 2", "</tag>"),
         ("-d", "$(arg d)", "arg 'd' is not defined", "<arg name="),
+        (
+            "<node",
+            '<arg name="d"/><node',
+            "[a.launch] requires the 'd' arg to be set",
+            'name="d" default=',
+        ),
+        (
+            ' type="rviz"',
+            "",
+            "<node> tag is missing required attribute: 'type'",
+            "pkg=, type= and name=",
+        ),
     ],
 )
 def test_what_roslaunch_cannot_read(old, new, error, word):

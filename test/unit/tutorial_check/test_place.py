@@ -21,10 +21,10 @@ with place.removed(scratch, True):
     limited = place.limit(scratch)
     print(limited, place.furnish(scratch, str(home), [str(home / "link")]))
     (scratch / "written").touch()
-    for path in ("secret", "link/file", "work/ws/file"):
+    for path in ("secret", "link/file", "course/ws/file"):
         print(path, (home / path).exists())
     try:
-        (home / "work/ws/file").touch()
+        (home / "course/ws/file").touch()
         print("written")
     except OSError:
         print("read-only")
@@ -36,10 +36,10 @@ def home(request):
     """A home folder with a workspace, a link to it, and a file that is nobody's business."""
     with tempfile.TemporaryDirectory(dir=request.param) as folder:
         home = Path(folder) / "home"
-        (home / "work" / "ws").mkdir(parents=True)
-        (home / "work" / "ws" / "file").touch()
+        (home / "course" / "ws").mkdir(parents=True)
+        (home / "course" / "ws" / "file").touch()
         (home / "secret").touch()
-        (home / "link").symlink_to(home / "work" / "ws")
+        (home / "link").symlink_to(home / "course" / "ws")
         yield home
 
 
@@ -62,10 +62,10 @@ def furnish(home, scratch, before=""):
     return run(FURNISH.format(before=before), home, scratch)
 
 
-HIDDEN = ["True True", "secret False", "link/file True", "work/ws/file True", "read-only"]
+HIDDEN = ["True True", "secret False", "link/file True", "course/ws/file True", "read-only"]
 
 
-@pytest.mark.parametrize("folder", ["scratch", "home/tmp/scratch", "home/work/ws/tmp/scratch"])
+@pytest.mark.parametrize("folder", ["scratch", "home/tmp/scratch", "home/course/ws/tmp/scratch"])
 def test_home_is_hidden_but_for_what_is_needed(home, folder):
     assert furnish(home, home.parent / folder) == HIDDEN
 
@@ -74,7 +74,7 @@ def test_home_is_hidden_but_for_what_is_needed(home, folder):
 def test_at_the_end_the_folder_is_removed_and_no_other(home, folder):
     furnish(home, home.parent / folder)
     assert not (home.parent / folder).exists()
-    assert (home / "work" / "ws" / "file").exists()
+    assert (home / "course" / "ws" / "file").exists()
 
 
 REFUSED = """
@@ -91,7 +91,7 @@ place._mount = mount
 @pytest.mark.parametrize("words", [{"remount,bind,ro"}, {"--rbind"}, {"size=64m,mode=1777"}])
 def test_where_something_is_refused_nothing_is_hidden(home, words):
     seen = furnish(home, home.parent / "scratch", REFUSED.format(words=words))
-    assert seen[:4] == ["True False", "secret True", "link/file True", "work/ws/file True"]
+    assert seen[:4] == ["True False", "secret True", "link/file True", "course/ws/file True"]
 
 
 NO_LIMIT = """

@@ -8,6 +8,8 @@ from tutorial_check.model import Note, Wrong, master_gone
 from tutorial_check.python_facts import flipped_anonymous
 from tutorial_check.tracebacks import first_traceback
 
+SUBSCRIBER_LINE = "rospy.Subscriber('chatter', String, callback)"
+
 
 def files(session):
     """C5."""
@@ -129,26 +131,27 @@ def listener(session):
     where = f"{script}:{call.line}" if call else script
     if TOPIC not in talk.subscribers:
         others = sorted(set(talk.subscribers) - {"/rosout"})
-        line = "rospy.Subscriber('chatter', String, callback)"
         raise Wrong(
             expected,
             f"it subscribes to {others[0] if others else 'nothing'}",
             where=where,
-            hint="the topic is called chatter" if others else f"{line}, before rospy.spin()",
+            hint="the topic is called chatter"
+            if others
+            else f"{SUBSCRIBER_LINE}, before rospy.spin()",
         )
     if facts.deaf and not found:
         raise Wrong(
             expected,
             "its Subscriber has no callback",
             where=f"{script}:{facts.deaf.line}",
-            hint="rospy.Subscriber('chatter', String, callback)",
+            hint=SUBSCRIBER_LINE,
         )
     if any("datatype" in line and "chatter" in line for line in talk.warnings):
         raise Wrong(
             expected,
             "it wants another type of message on /chatter",
             where=where,
-            hint="rospy.Subscriber('chatter', String, callback)",
+            hint=SUBSCRIBER_LINE,
         )
     raise Wrong(
         expected,

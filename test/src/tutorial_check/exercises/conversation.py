@@ -16,6 +16,7 @@ from tutorial_check.mapping import judge
 from tutorial_check.model import Note, Wrong
 from tutorial_check.python_facts import unmasked
 
+JOY_LINE = "rospy.Subscriber('/joy', Joy, callback)"
 TWIST_LINE = "rospy.Publisher('/cmd_vel', Twist, queue_size=10)"
 
 
@@ -80,15 +81,11 @@ def check_connected(session, seen):
             expected,
             f"it wants {words} on /joy",
             where=where,
-            hint="rospy.Subscriber('/joy', Joy, callback)",
+            hint=JOY_LINE,
         )
     if facts.deaf and not (seen.samples or seen.shown):
-        raise Wrong(
-            expected,
-            "its Subscriber has no callback",
-            where=f"{seen.script}:{facts.deaf.line}",
-            hint="rospy.Subscriber('/joy', Joy, callback): the callback is called for every message",
-        )
+        place = f"{seen.script}:{facts.deaf.line}"
+        raise Wrong(expected, "its Subscriber has no callback", where=place, hint=JOY_LINE)
     if seen.connected and not (seen.ended_early and not seen.samples and not seen.shown):
         return
     if seen.program.spins:
@@ -118,7 +115,7 @@ def check_connected(session, seen):
         expected,
         "it subscribes to nothing",
         where=where,
-        hint="rospy.Subscriber('/joy', Joy, callback), after rospy.init_node and before rospy.spin()",
+        hint=f"{JOY_LINE}, after rospy.init_node and before rospy.spin()",
     )
 
 

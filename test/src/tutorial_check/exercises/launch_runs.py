@@ -20,9 +20,7 @@ from tutorial_check.model import CannotCheck, Wrong
 from tutorial_check.tracebacks import explain, first_traceback
 
 BAG_S = 1.2  # length of the recording that takes the place of the student's, and is played again
-ONCE_S = (
-    60.0  # and of one that is not: it lasts until the others have started, as the student's does
-)
+ONCE_S = 60.0  # and of one that is not: like the student's it lasts until the others have started
 LOOP = re.compile(r"--l(oop|oo|o)?|-[a-z]*l[a-z]*")  # of rosbag play, as it may be written
 START_S = 20.0  # for all nodes of a launch on a busy machine
 

@@ -89,7 +89,11 @@ def parse_error(error, where, text):
         hint += f"; is {near[0]} meant?" if near else ""
         return Wrong(expected, f"package not found: {name}", place_of(where, text, name), hint)
     hint, place = "roslaunch --nodes FILE shows the same", where
-    if "attribute" in error or "requires" in error:
+    arg = re.search(r"requires the '(\w+)' arg", error)
+    if arg:
+        hint = f'give it a value: <arg name="{arg[1]}" default="..."/>, or value="..." in the <include>'
+        place = place_of(where, text, f'name="{arg[1]}"', "<include")
+    elif "attribute" in error or "requires" in error:
         hint = 'a node has pkg=, type= and name=; an include has file="$(find PACKAGE)/launch/FILE"'
         tag = re.search(r"<(\w+)>", error)
         place = _tag_without(
