@@ -1,7 +1,9 @@
 """test/run_rostests: an address of the user hinders none; what is ended leaves nothing behind."""
 
+import contextlib
 import os
 import signal
+import subprocess
 from pathlib import Path
 
 import pytest
@@ -16,16 +18,14 @@ SHORT_TEST, *LONG_TESTS = (
 )
 
 
-def runs_nodes(program):
-    """Whether roslaunch has started nodes below a program."""
+def networks_of_nodes(program):
+    """The networks of the nodes that roslaunch has started below a program: a set, empty before."""
+    networks = set()
     for pid in program.left_behind():
-        try:
-            arguments = Path(f"/proc/{pid}/cmdline").read_bytes()
-        except OSError:
-            continue
-        if b"__name:=" in arguments:
-            return True
-    return False
+        with contextlib.suppress(OSError):  # it has just ended
+            if b"__name:=" in Path(f"/proc/{pid}/cmdline").read_bytes():
+                networks.add(os.readlink(f"/proc/{pid}/ns/net"))
+    return networks
 
 
 @pytest.mark.parametrize("name", ["ROS_IP", "ROS_HOSTNAME"])
@@ -35,11 +35,22 @@ def test_an_address_of_the_user_hinders_no_rostest(name, tmp_path):
         assert rostests.wait() == 0, rostests.output
 
 
+def test_each_rostest_has_a_network_of_its_own(tmp_path):
+    if subprocess.run(["unshare", "--net", "true"], stderr=subprocess.DEVNULL).returncode:
+        pytest.skip("the system grants no networks: rostests share the machine's, as they must")
+    command = [str(TESTS / "run_rostests"), "2", str(tmp_path / "results"), *LONG_TESTS]
+    with Program(*command) as rostests:
+        wait_for(lambda: len(networks_of_nodes(rostests)) >= len(LONG_TESTS), "two networks")
+        assert os.readlink("/proc/self/ns/net") not in networks_of_nodes(rostests)
+        os.kill(rostests.pid, signal.SIGTERM)
+        rostests.wait()
+
+
 @pytest.mark.parametrize("end", ["SIGINT", "SIGTERM", "SIGHUP"])
 def test_rostests_that_are_ended_leave_nothing(end, tmp_path):
     command = [str(TESTS / "run_rostests"), "2", str(tmp_path / "results"), *LONG_TESTS]
     with Program(*command) as rostests:
-        wait_for(lambda: runs_nodes(rostests), "nodes", DEADLINE_S)
+        wait_for(lambda: networks_of_nodes(rostests), "nodes", DEADLINE_S)
         os.kill(rostests.pid, signal.Signals[end])
         assert rostests.wait() == -signal.SIGINT
         assert "rostests: interrupted" in rostests.output

@@ -15,12 +15,23 @@ FORWARDS, LEFT = 0.5, 0.8  # positions of the stick
 ODOM = "/odom"
 COPY_BAG = 'cp "$(rospack find gamepad)/bag/joy.bag" .'
 SLOW_S = 4.0  # for a program that sleeps in its callback to answer what has gathered
+REST_S = 0.5  # for a Twist at rest; not every program sends one
 LOOKS = 3  # at the robot's speed: one stutter of a busy machine is none of the program's
 
 
 def held(left, forwards):
     """A Joy with LB held."""
     return (left, forwards, 0.0, 0.0, 0.0, 0.0), (*NEUTRAL[1][:4], 1, *NEUTRAL[1][5:])
+
+
+def rest(stage, *topics):
+    """Send Joys at rest until a Twist answers, or for a while: some programs drive only after it.
+
+    A single Joy may be lost to a Subscriber with queue_size=1 that was still busy: so, several.
+    """
+    stage.call("stream", JOY, [NEUTRAL], 20.0, True)
+    stage.wait(lambda: any(stage.call("count", topic) for topic in topics), REST_S)
+    stage.call("end_stream", JOY)
 
 
 def recording(session):
@@ -108,8 +119,8 @@ def simulated(session):
             lambda: program.ended or (stage.call("listeners", JOY) and stage.call("count", ODOM)),
             START_S,
         )
+        rest(stage, CMD_VEL)
         # Its Publisher may be made in the callback.
-        stage.call("send", JOY, NEUTRAL)
         ready = ready and stage.wait(
             lambda: program.ended or stage.call("speakers", CMD_VEL), START_S
         )

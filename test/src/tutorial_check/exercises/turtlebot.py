@@ -3,10 +3,10 @@
 import re
 
 from tutorial_check.exercises import launch_files, launch_nodes, launch_runs
-from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL, PACKAGE
+from tutorial_check.exercises.driving import CMD_VEL, JOY, PACKAGE
 from tutorial_check.exercises.launch_files import REAL, TURTLEBOT
 from tutorial_check.exercises.launch_text import place_of, read
-from tutorial_check.exercises.robot import held
+from tutorial_check.exercises.robot import held, rest
 from tutorial_check.model import CannotCheck, Wrong
 
 TELEOP, ACTIVE = "/cmd_vel_mux/input/teleop", "/cmd_vel_mux/active"
@@ -35,7 +35,7 @@ def remapped(session):
             ),
             launch_runs.START_S,
         )
-        stage.call("send", JOY, NEUTRAL)
+        rest(stage, TELEOP, CMD_VEL)
         stage.call("stream", JOY, [held(0.2, 0.3)], 20.0, True)
 
         def moving(topic):
