@@ -20,6 +20,14 @@ NEEDS_BUILD = re.compile(
     re.MULTILINE,
 )
 
+# With launch-prefix="xterm -e" a node has a window; there is no screen here, so it runs without one.
+TERMINALS = ("xterm", "gnome-terminal", "konsole")
+NO_WINDOW = """#!/bin/sh
+while [ $# -gt 1 ] && [ "$1" != -e ] && [ "$1" != -x ] && [ "$1" != -- ]; do shift; done
+shift
+exec "$@"
+"""
+
 
 def _once(memory, key, make):
     if key not in memory:
@@ -183,6 +191,7 @@ class Session:
         stub = view / "lib" / "rviz" / "rviz"
         stub.write_text("#!/bin/sh\nexec sleep 600\n")
         stub.chmod(0o755)
+        (self.folder / "bin" / "rviz").symlink_to(stub)  # for who does not ask rosrun
         cmake = [each.folder / "CMakeLists.txt" for each in self.packages]
         needs_build = any(
             each.is_file() and NEEDS_BUILD.search(each.read_text(errors="replace"))
@@ -234,6 +243,10 @@ def prepare(folder, uid):
         (folder / name).mkdir(exist_ok=True)
     # The handout's listings begin with `env python`, as did all in its time.
     (folder / "bin" / "python").symlink_to("/usr/bin/python3")
+    for name in TERMINALS:
+        path = folder / "bin" / name
+        path.write_text(NO_WINDOW)
+        path.chmod(0o755)
     if uid is not None:
         for place, _, files in os.walk(folder / "ws"):
             os.chown(place, uid, uid)

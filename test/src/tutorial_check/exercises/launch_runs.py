@@ -141,9 +141,10 @@ def _bag_run(session):
 
 
 def has_died(launch):
-    """Whether roslaunch said that a node has died; RViz needs a screen, and may."""
+    """Whether roslaunch said that a node has died; RViz, or rqt_graph, needs a screen, and may."""
     return any(
-        "has died" in line and "rviz" not in line for line in launch.program.output.splitlines()
+        "has died" in line and "rviz" not in line and "rqt" not in line
+        for line in launch.program.output.splitlines()
     )
 
 
@@ -202,19 +203,30 @@ def plug_in_for(session, stage, name):
     return pad
 
 
-def push_when_ready(stage, pad, launch):
-    """Push the stick forwards once everything runs; whether it came to that."""
+def push_when_ready(stage, pad, launch, *signs):
+    """Push the stick forwards once everything runs; whether it came to that.
+
+    signs: topics, listened to, on which a message comes as soon as their node works.
+    """
     topics = (JOY, launch.twists, ODOM)
 
     def ready():
         return (
             pad.call("connected")
             and all(stage.call("speakers", topic) for topic in topics)
-            and stage.call("count", JOY)
+            and all(stage.call("count", topic) for topic in signs)
         )
 
-    stage.wait(lambda: ready() or launch.program.ended or has_died(launch), START_S)
+    def over():
+        return launch.program.ended or has_died(launch)
+
+    stage.wait(lambda: ready() or over(), START_S)
+    # LB alone, touched and let go: a joy_node with autorepeat_rate 0 is silent while nothing moves.
+    for lb in (("push", 0.0, 0.0), ("release",)):
+        before = stage.call("count", JOY)
+        pad.call(*lb)
+        stage.wait(lambda before=before: stage.call("count", JOY) > before or over(), 1.0)
     # A robot that has only just come obeys once it was told to rest for a while; so do we.
-    stage.wait(lambda: launch.program.ended, 0.6)
+    stage.wait(over, 0.6)
     pad.call("push", 0.0, 1.0)
     return bool(ready())

@@ -223,7 +223,8 @@ def joystick(session):
         session.box.end(node)
         # The switch at X: eight axes.
         stage.call("advertise", JOY, "Joy")
-        stage.wait(lambda: stage.call("listeners", JOY) > 0, START_S)
+        # Our own Subscriber is one of them.
+        stage.wait(lambda: stage.call("listeners", JOY) > 1 or program.ended, START_S)
 
         def since(index):
             return [value[0] for _, _, value in stage.call("heard", CMD_VEL, index)]

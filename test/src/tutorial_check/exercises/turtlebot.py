@@ -162,7 +162,7 @@ def real_robot(session):
                 ["roslaunch", "fake_turtlebot_sim", "minimal.launch", "model:=false"], trusted=True
             )
         launch = launch_runs.Launch(session, REAL, stage, TELEOP)
-        pushed = launch_runs.push_when_ready(stage, pad, launch)
+        pushed = launch_runs.push_when_ready(stage, pad, launch, ACTIVE)
         stage.wait(
             lambda: launch.moved() > 0.15 or launch.program.ended or launch_runs.has_died(launch),
             4.0 if pushed else 0.0,
