@@ -13,7 +13,7 @@ from urllib.parse import quote
 
 from tutorial_check.examination import end_all, examine
 from tutorial_check.exercises import EXERCISES
-from tutorial_check.formats import as_json, write
+from tutorial_check.formats import as_json, without_hints, write
 from tutorial_check.model import WRONG, CannotCheck, fault
 from tutorial_check.report import lines_of, summary, text_of
 
@@ -58,6 +58,10 @@ def check_all(options):
     out = Path(options.out or Path(options.all) / "check")
     students = find_students(options.all, out)
     _make_folder(out)
+    for student in students:
+        _forget(out, student)
+    # Now, too: that they cannot be written is not to be found out at the end.
+    _write_tables(out, students, options.exercises)
     with ThreadPoolExecutor(max(1, options.jobs)) as pool, tqdm(
         total=len(students), unit="student", disable=None
     ) as bar:
@@ -66,7 +70,7 @@ def check_all(options):
             for done in as_completed(checks):
                 student = done.result()
                 try:
-                    _write(out, student, not options.no_hints)
+                    _write(out, student)
                 except Exception as error:  # as in _check
                     student.trouble = student.trouble or fault(error)
                 bar.update()
@@ -78,8 +82,7 @@ def check_all(options):
                 check.cancel()
             end_all()
             raise
-    write(out / "table.csv", table_csv(students, options.exercises))
-    write(out / "table.html", table_html(students, options.exercises))
+    _write_tables(out, students, options.exercises)
     print(f"{out}/table.html, table.csv, and a report of each")
     outcomes = [outcome for student in students for outcome in student.outcomes]
     if any(one.trouble for one in (*students, *outcomes)):
@@ -95,21 +98,34 @@ def _make_folder(out):
         raise CannotCheck(f"{out}: no folder that may be written to; --out names another one")
 
 
+def _write_tables(out, students, exercises):
+    write(out / "table.csv", table_csv(students, exercises))
+    write(out / "table.html", table_html(students, exercises))
+
+
+def _forget(out, student):
+    """Remove what an earlier check said of a student."""
+    for ending in (".txt", ".json"):
+        with contextlib.suppress(OSError):
+            (out / f"{student.name}{ending}").unlink()
+
+
 def _check(student, options):
     began_s = time.monotonic()
     try:
-        student.outcomes = examine(student.path, options.floor, options.exercises, own=False)
+        outcomes = examine(student.path, options.floor, options.exercises, own=False)
+        student.outcomes = without_hints(outcomes) if options.no_hints else outcomes
     except Exception as error:  # whatever it is, it must not spoil the others
         student.trouble = fault(error)
     student.seconds = time.monotonic() - began_s
     return student
 
 
-def _write(out, student, hints):
+def _write(out, student):
     text = f"{student.name}\n\n" + (
         f"could not be checked: {student.trouble}\n"
         if student.trouble
-        else text_of(student.outcomes, hints)
+        else text_of(student.outcomes)
     )
     write(out / f"{student.name}.txt", text)
     if student.outcomes:
