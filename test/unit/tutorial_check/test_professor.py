@@ -33,9 +33,9 @@ def check_all(room, out=None, no_hints=False):
 
 def test_a_folder_and_a_zip_of_one_name_have_each_a_report(room):
     (room / "anna").mkdir()
-    for name in ("anna.zip", "bob.zip"):
+    for name in ("anna.zip", "anna.zip.zip", "bob.zip"):
         (room / name).touch()
-    names = ["anna", "anna.zip", "bob"]
+    names = ["anna", "anna.zip", "anna.zip.zip", "bob"]
     code, rows = check_all(room)
     assert (code, [row[0] for row in rows]) == (0, names)
     assert sorted(path.stem for path in (room / "check").glob("*.txt")) == names
@@ -109,3 +109,19 @@ def test_hints_only_where_they_are_wanted(room, monkeypatch, no_hints):
     check_all(room, no_hints=no_hints)
     for name in ("ada.txt", "ada.json", "table.html"):
         assert ("mkdir src" in (room / "check" / name).read_text()) != no_hints, name
+
+
+def test_what_is_no_folder_and_no_zip_has_a_row_all_the_same(room):
+    for name in ("ADA.ZIP", "bob.tar.gz", "carl.7z", "dora.zip", "dora.ZIP", "README.md", "a.csv"):
+        (room / name).touch()
+    (room / "emma").symlink_to(room / "nowhere")
+    (room / "loop").symlink_to(room / "loop")
+    names = [one.name for one in professor.find_students(room, room / "check")]
+    assert names == ["ADA", "bob.tar.gz", "carl.7z", "dora.ZIP", "dora.zip", "emma", "loop"]
+
+
+def test_the_results_of_an_earlier_check_are_no_student(room, tmp_path):
+    (room / "ada").mkdir()
+    check_all(room)
+    assert [row[0] for row in check_all(room, tmp_path / "elsewhere")[1]] == ["ada"]
+    assert "check" not in (tmp_path / "elsewhere" / "table.csv").read_text()
