@@ -53,6 +53,7 @@ ROWS = [
     ("2", "commas in package.xml", [put(PUT_XML, "<build_depend>rospy<", "<build_depend>rospy,<")], "C3", "comma"),
     ("2", "commas in CMakeLists.txt", [put(f"{B}/CMakeLists.txt", "std_msgs rospy", "std_msgs, rospy,")], "C4", "comma"),
     ("2", "CMakeLists.txt broken", [put(f"{B}/CMakeLists.txt", "catkin_package()", "catkin_package(")], "C4", "CMakeLists"),
+    ("2", "another name in CMakeLists.txt", [put(f"{B}/CMakeLists.txt", f"project({B})", "project(beginner-tutorials)")], "C4", ("PROJECT_NAME 'beginner-tutorials'", f"{B}/CMakeLists.txt:", "into project()")),
     ("2", "CMakeLists.txt missing", [remove(f"{B}/CMakeLists.txt")], "C4", "CMakeLists"),
     ("2", "CMakeLists.txt is a folder", [remove(f"{B}/CMakeLists.txt"), write(f"{B}/CMakeLists.txt/CMakeLists.txt", "")], "C4", "CMakeLists"),
     ("3", "another topic, and CMakeLists.txt is a folder", [remove(f"{B}/CMakeLists.txt"), write(f"{B}/CMakeLists.txt/CMakeLists.txt", ""), put(TALKER, "'chatter'", "'chater'")], "C6", "/chater"),

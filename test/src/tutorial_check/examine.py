@@ -113,12 +113,16 @@ def examine(orders, tell, told):
 
 
 def _hand_in(given, scratch):
-    """The Layout of a workspace, or of a zip, which is unpacked in scratch."""
+    """The Layout of a workspace, or of a zip, or of a folder with nothing but a zip, unpacked in scratch."""
     given = Path(given)
-    if given.is_file():
-        workspace.unpack(given, scratch / "unpacked")
-        given = scratch / "unpacked"
-    return workspace.find_layout(given)
+    archive = given
+    if not given.is_file():
+        layout = workspace.find_layout(given)
+        archive = None if layout.source.is_dir() else workspace.only_zip(given)
+        if not archive:
+            return layout
+    workspace.unpack(archive, scratch / "unpacked")
+    return workspace.find_layout(scratch / "unpacked")
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
 """Which rule turns these joysticks into these velocities? Pure."""
 
+import math
 from dataclasses import dataclass
 
 FIELDS = ("linear.x", "linear.y", "linear.z", "angular.x", "angular.y", "angular.z")
@@ -77,6 +78,13 @@ def judge(samples):
 
     A complaint without a hint does not occur; a hint without a complaint is a remark.
     """
+    for _, twist in samples:
+        for name, value in zip(FIELDS, twist):
+            if not math.isfinite(value):
+                return (
+                    f"{name} is {value}, which is no number",
+                    "look at what it is calculated from",
+                )
     right = {LINEAR: 1, ANGULAR: 0}
     rules = {field: rule_of(field, samples) for field in range(6)}
     moving = [field for field in range(6) if any(abs(twist[field]) > SMALL for _, twist in samples)]

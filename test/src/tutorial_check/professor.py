@@ -6,6 +6,7 @@ import html
 import io
 import os
 import time
+from collections import Counter
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -13,9 +14,11 @@ from urllib.parse import quote
 
 from tutorial_check.examination import end_all, examine
 from tutorial_check.exercises import EXERCISES
-from tutorial_check.formats import as_json, write
+from tutorial_check.formats import as_json, clear, without_hints, write
 from tutorial_check.model import WRONG, CannotCheck, fault
 from tutorial_check.report import lines_of, summary, text_of
+
+ARCHIVES = (".zip", ".tar", ".tgz", ".gz", ".bz2", ".xz", ".7z", ".rar")
 
 
 @dataclass
@@ -30,7 +33,10 @@ class Student:
 
 
 def find_students(folder, out):
-    """The Students of a folder: each folder and each zip in it, but that of the results."""
+    """The Students of a folder: each folder, archive and dangling link in it, but those of results.
+
+    Of an archive that is no zip, and of a link that leads nowhere, the table is to say so.
+    """
     try:
         entries = sorted(Path(folder).iterdir())
     except OSError as error:
@@ -38,17 +44,23 @@ def find_students(folder, out):
     paths = [
         path
         for path in entries
-        if (path.is_dir() or path.suffix == ".zip")
+        if (path.is_dir() or path.suffix.lower() in ARCHIVES or not path.exists())
         and not path.name.startswith(".")
-        and path.resolve() != out.resolve()
+        and not _has_results(path, out)
     ]
     if not paths:
         raise CannotCheck(f"{folder}: no workspace and no zip in it")
-    names = {path.name for path in paths}
+    short = [path.stem if path.suffix.lower() == ".zip" else path.name for path in paths]
+    claims = Counter(word for path, name in zip(paths, short) for word in {name, path.name})
     return [
-        Student(path.stem if path.suffix == ".zip" and path.stem not in names else path.name, path)
-        for path in paths
+        Student(name if claims[name] == 1 else path.name, path) for name, path in zip(short, paths)
     ]
+
+
+def _has_results(path, out):
+    """Whether it is the folder of the results, or that of an earlier check."""
+    tables = [os.path.isfile(path / name) for name in ("table.csv", "table.html")]
+    return os.path.realpath(path) == os.path.realpath(out) or all(tables)
 
 
 def check_all(options):
@@ -58,6 +70,10 @@ def check_all(options):
     out = Path(options.out or Path(options.all) / "check")
     students = find_students(options.all, out)
     _make_folder(out)
+    for student in students:
+        _forget(out, student)
+    clear(out / "table.csv")
+    clear(out / "table.html")
     with ThreadPoolExecutor(max(1, options.jobs)) as pool, tqdm(
         total=len(students), unit="student", disable=None
     ) as bar:
@@ -66,7 +82,7 @@ def check_all(options):
             for done in as_completed(checks):
                 student = done.result()
                 try:
-                    _write(out, student, not options.no_hints)
+                    _write(out, student)
                 except Exception as error:  # as in _check
                     student.trouble = student.trouble or fault(error)
                 bar.update()
@@ -95,21 +111,29 @@ def _make_folder(out):
         raise CannotCheck(f"{out}: no folder that may be written to; --out names another one")
 
 
+def _forget(out, student):
+    """Remove what an earlier check said of a student."""
+    for ending in (".txt", ".json"):
+        with contextlib.suppress(OSError):
+            (out / f"{student.name}{ending}").unlink()
+
+
 def _check(student, options):
     began_s = time.monotonic()
     try:
-        student.outcomes = examine(student.path, options.floor, options.exercises, own=False)
+        outcomes = examine(student.path, options.floor, options.exercises, own=False)
+        student.outcomes = without_hints(outcomes) if options.no_hints else outcomes
     except Exception as error:  # whatever it is, it must not spoil the others
         student.trouble = fault(error)
     student.seconds = time.monotonic() - began_s
     return student
 
 
-def _write(out, student, hints):
+def _write(out, student):
     text = f"{student.name}\n\n" + (
         f"could not be checked: {student.trouble}\n"
         if student.trouble
-        else text_of(student.outcomes, hints)
+        else text_of(student.outcomes)
     )
     write(out / f"{student.name}.txt", text)
     if student.outcomes:

@@ -7,8 +7,8 @@ import sys
 
 from tutorial_check.examination import examine
 from tutorial_check.exercises import EXERCISES
-from tutorial_check.formats import FORMATS, write
-from tutorial_check.model import fault
+from tutorial_check.formats import FORMATS, clear, without_hints, write
+from tutorial_check.model import CannotCheck, fault
 from tutorial_check.report import Terminal, summary
 
 FLOOR = "TUTORIAL_FLOOR"  # environment variable: setup.bash of the lower floor
@@ -68,7 +68,7 @@ def parse(arguments):
         metavar="FOLDER",
         help="with --all: where the table and the reports go (FOLDER/check)",
     )
-    parser.add_argument("--jobs", type=int, default=2, help="with --all: how many at a time (2)")
+    parser.add_argument("--jobs", type=int, help="with --all: how many at a time (2)")
     parser.add_argument(
         "--floor",
         type=path,
@@ -81,8 +81,9 @@ def parse(arguments):
     unknown = [each for each in options.exercises if each not in EXERCISES]
     if unknown:
         parser.error(f"no exercise {unknown[0]}; there are {', '.join(EXERCISES)}")
-    if options.watch and options.all:
-        parser.error("--watch is for one workspace")
+    _refuse_idle(parser, options)
+    if options.jobs is None:
+        options.jobs = 2
     if not options.floor:
         parser.error("--floor is missing; ./tutorial check gives it")
     # In the handout's order, whatever theirs.
@@ -92,22 +93,49 @@ def parse(arguments):
     return options
 
 
-def write_files(options, outcomes):
-    """The files that were asked for. Raises CannotCheck."""
-    for name, make in FORMATS.items():
-        file = getattr(options, name)
-        if file:
-            write(file, make(outcomes))
+def _refuse_idle(parser, options):
+    """End with a line if an option would do nothing."""
+    files = [f"--{name}" for name in FORMATS if getattr(options, name)]
+    if options.watch and options.all:
+        parser.error("--watch is for one workspace")
+    if files and options.all:
+        parser.error(f"{files[0]} is for one workspace; --all writes a .json of each student")
+    if files and options.watch:
+        parser.error(f"{files[0]} is for one check; leave --watch out")
+    for name in ("out", "jobs"):
+        if getattr(options, name) is not None and not options.all:
+            parser.error(f"--{name} is for --all")
+
+
+def write_files(files, outcomes):
+    """The files that were asked for, each though another cannot be written. Raises CannotCheck."""
+    faults = []
+    for name, file in files.items():
+        if name == "classroom" and any(outcome.trouble for outcome in outcomes):
+            # It has no word for this. Without a file it tells of an error, and of no points.
+            print(
+                f"check: {file} is not written: not every exercise has a verdict", file=sys.stderr
+            )
+            continue
+        try:
+            write(file, FORMATS[name](outcomes))
+        except CannotCheck as error:
+            faults.append(str(error))
+    if faults:
+        raise CannotCheck("; ".join(faults))
 
 
 def check_one(options):
     """Check a workspace; the exit code."""
+    files = {name: getattr(options, name) for name in FORMATS if getattr(options, name)}
+    for file in files.values():
+        clear(file)
     terminal = Terminal(hints=not options.no_hints)
     terminal.busy("copying and preparing")
     outcomes = examine(options.workspace, options.floor, options.exercises, terminal.tell)
     terminal.done()
     print(summary(outcomes))
-    write_files(options, outcomes)
+    write_files(files, without_hints(outcomes) if options.no_hints else outcomes)
     troubles = [outcome for outcome in outcomes if outcome.trouble]
     for one in troubles:
         print(f"check: {one.id}: no verdict: {one.trouble}", file=sys.stderr)

@@ -1,6 +1,7 @@
 """What a Python file says of itself, read as Python reads it and never run. Pure."""
 
 import ast
+import io
 import re
 from dataclasses import dataclass, field
 
@@ -102,6 +103,11 @@ def unreadable(data):
     return None
 
 
+def python_lines(text):
+    """The lines of a program as Python counts them; for splitlines() one also ends at a form feed or U+2028."""
+    return [line.rstrip("\r\n") for line in io.StringIO(text, newline="")]
+
+
 def read_python(text):
     """The PythonFacts of a file's text."""
     facts = PythonFacts()
@@ -110,7 +116,7 @@ def read_python(text):
     except (SyntaxError, ValueError, RecursionError) as error:
         facts.error = getattr(error, "msg", None) or str(error)
         facts.error_line = getattr(error, "lineno", 0) or 0
-        lines = text.splitlines()
+        lines = python_lines(text)
         if 0 < facts.error_line <= len(lines):
             facts.error_text = lines[facts.error_line - 1].strip()
         return facts
@@ -174,7 +180,7 @@ def _odd_main(tree, text, names):
         if left in names or left.strip("_") != "name" or right.strip(" _") != "main":
             continue
         if (left, right) != ("__name__", "__main__"):
-            return node.lineno, text.splitlines()[node.lineno - 1].strip()
+            return node.lineno, python_lines(text)[node.lineno - 1].strip()
     return ()
 
 
@@ -200,7 +206,7 @@ def unmasked(text):
         tree = ast.parse(text)
     except (SyntaxError, ValueError):
         return None
-    lines = text.splitlines()
+    lines = python_lines(text)
     hidden = [
         node
         for node in ast.walk(tree)
@@ -222,7 +228,7 @@ def without_name(text, name):
         tree = ast.parse(text)
     except (SyntaxError, ValueError):
         return None
-    lines = text.splitlines()
+    lines = python_lines(text)
     for node in ast.walk(tree):
         if isinstance(node, ast.ImportFrom) and name in {
             each.asname or each.name for each in node.names
@@ -243,7 +249,7 @@ def flipped_anonymous(text, wanted):
     for node in ast.walk(tree):
         if not (isinstance(node, ast.Call) and _last(node) == "init_node"):
             continue
-        lines = text.splitlines(keepends=True)
+        lines = python_lines(text)
         for word in node.keywords:
             if word.arg == "anonymous" and isinstance(word.value, ast.Constant):
                 return _replaced(lines, word.value, str(wanted))
@@ -263,4 +269,4 @@ def _replaced(lines, node, new):
     lines[node.lineno - 1] = (
         line[: node.col_offset] + new.encode() + line[node.end_col_offset :]
     ).decode()
-    return "".join(lines)
+    return "\n".join(lines) + "\n"

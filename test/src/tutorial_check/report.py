@@ -43,13 +43,13 @@ def summary(outcomes):
     return f"{done} of {len(outcomes)} exercises done"
 
 
-def text_of(outcomes, hints=True):
+def text_of(outcomes):
     """The whole report without colours."""
     lines = []
     for outcome in outcomes:
         lines.append(heading(outcome))
         for result in outcome.results:
-            lines += lines_of(result, hints)
+            lines += lines_of(result)
     return "\n".join([*lines, summary(outcomes)]) + "\n"
 
 

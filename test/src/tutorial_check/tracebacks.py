@@ -142,7 +142,8 @@ def first_traceback(output, folder):
     folder: the package's; its files count as the student's.
     """
     blocks = output.split("Traceback (most recent call last)")[1:]
-    found = [_traceback(block, folder) for block in blocks[:50]]
+    # One that was cut off behind this line tells nothing.
+    found = [_traceback(block, folder) for block in blocks[:50] if block.strip(": \n")]
     found = [trace for trace in found if CLOSED not in trace.error]
     return next((trace for trace in found if trace.where), found[0] if found else None)
 

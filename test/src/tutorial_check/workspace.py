@@ -67,6 +67,17 @@ def unpack(archive, folder):
         raise CannotCheck(f"{archive}: cannot be unpacked: {error}") from None
 
 
+def only_zip(folder):
+    """The one zip in a folder that has no package, as Moodle hands out what was handed in; or None."""
+    zips = [each for each in sorted(Path(folder).iterdir()) if is_zip(each)]
+    return zips[0] if len(zips) == 1 and not packages_below(folder) else None
+
+
+def is_zip(path):
+    """Whether it is named like a zip. A link is none: it may lead to what is not the student's."""
+    return path.suffix.lower() == ".zip" and path.is_file() and not path.is_symlink()
+
+
 def find_layout(folder):
     """The Layout of what was handed in: a workspace, its src, a folder of packages, or one."""
     folder = Path(folder)
@@ -88,10 +99,12 @@ def find_layout(folder):
 
 
 def _only_child(folder):
-    """A zip often has one folder around everything; two at most."""
+    """A zip, or a repository, often has one folder around everything; two at most."""
     for _ in range(2):
         inner = [
-            each for each in folder.iterdir() if each.is_dir() and each.name not in ("__MACOSX",)
+            each
+            for each in folder.iterdir()
+            if each.is_dir() and each.name != "__MACOSX" and not each.name.startswith(".")
         ]
         if len(inner) != 1:
             return

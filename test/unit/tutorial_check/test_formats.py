@@ -3,8 +3,17 @@
 import json
 import xml.etree.ElementTree as ET
 
+import pytest
+
 from tutorial_check.examination import Outcome
-from tutorial_check.formats import as_classroom, as_gradescope, as_json, as_junit
+from tutorial_check.formats import (
+    FORMATS,
+    as_classroom,
+    as_gradescope,
+    as_json,
+    as_junit,
+    without_hints,
+)
 from tutorial_check.model import NOTE, OK, UNREACHED, WRONG, Result
 from tutorial_check.report import summary, text_of
 
@@ -28,6 +37,7 @@ BAD = Outcome(
     2.0,
     True,
 )
+NO_VERDICT = Outcome("5", [Result("C21", UNREACHED, "five")], 1.0, True, "C21: no\x1b room")
 CUT_OFF = Outcome("5", [Result("C21", OK, "five")], 0.0, False)
 
 
@@ -67,6 +77,46 @@ def test_classroom():
     assert [test["passed"] for test in told["tests"]] == [True, False]
 
 
+def test_classroom_50_is_told_which_submission_it_is():
+    """All that its runner demands of a result and does not write itself."""
+    given = {
+        "CLASSROOM": "ros",
+        "ASSIGNMENT": "joy",
+        "SUBMISSION_TAG": "submit/1",
+        "COMMIT_URL": "https://git.example/c",
+        "RELEASE_URL": "https://git.example/r",
+    }
+    told = json.loads(as_classroom([GOOD], given))
+    assert [told[name] for name in ("classroom", "assignment", "submission")] == [
+        "ros",
+        "joy",
+        "submit/1",
+    ]
+    assert (told["commit"], told["release"]) == (given["COMMIT_URL"], given["RELEASE_URL"])
+    assert told["review"] == given["COMMIT_URL"]
+    told = json.loads(as_classroom([GOOD], {**given, "REVIEW_URL": "https://git.example/v"}))
+    assert told["review"] == "https://git.example/v"
+    assert set(json.loads(as_classroom([GOOD], {}))) == {"schema", "score", "max-score", "tests"}
+
+
+def test_no_verdict_is_an_error_and_no_fault_of_the_students():
+    suite = ET.fromstring(as_junit([GOOD, NO_VERDICT]))[1]
+    assert (suite.get("errors"), suite.get("tests"), len(suite)) == ("1", "2", 2)
+    assert suite.find(".//error").get("message") == "C21: no room"
+    assert ET.fromstring(as_junit([GOOD]))[0].get("errors") == "0"
+    told = json.loads(as_json([GOOD, NO_VERDICT]))
+    assert [each["trouble"] for each in told["exercises"]] == ["", NO_VERDICT.trouble]
+    output = json.loads(as_gradescope([GOOD, NO_VERDICT]))["output"]
+    assert "no verdict on exercise 5, through no fault of yours: C21: no" in output
+    assert "output" not in json.loads(as_gradescope([GOOD, BAD]))
+
+
+@pytest.mark.parametrize("make", [*FORMATS.values(), text_of])
+def test_without_hints(make):
+    assert "do it" not in make(without_hints([BAD]))
+    assert BAD.results[0].hint == "do it"
+
+
 def test_an_exercise_that_was_cut_off_is_not_done():
     assert summary([GOOD, CUT_OFF]) == "1 of 2 exercises done"
 
@@ -80,4 +130,3 @@ def test_text():
         "handout 4.3; see it yourself: rostopic echo",
     ):
         assert word in text
-    assert "hint:" not in text_of([BAD], hints=False)

@@ -2,6 +2,7 @@
 
 import pytest
 
+from tutorial_check.exercises.driving import _delays as delays
 from tutorial_check.mapping import judge, numbered_joys
 
 AXES = [axes for axes, _ in numbered_joys(20)]
@@ -76,6 +77,20 @@ def test_wrong(linear, angular, word):
     complaint, hint = judge(samples(linear, angular))
     assert word in complaint
     assert hint
+
+
+@pytest.mark.parametrize("value", ["nan", "inf", "-inf"])
+def test_what_is_no_number(value):
+    odd = samples(lambda a: a[1], lambda a: float(value) if a[0] < 0 else a[0])
+    complaint, hint = judge(odd)
+    assert complaint == f"angular.z is {value}, which is no number"
+    assert hint
+
+
+def test_what_is_no_number_answers_no_joy():
+    heard = [(1.0, "", (float(value), 0.0)) for value in ("nan", "inf")]
+    heard.append((1.5, "", (0.3, 0.0)))
+    assert delays([1.0, 1.1], heard, 1.0) == [0.5]
 
 
 def test_the_wrong_field():

@@ -8,7 +8,7 @@ import pytest
 
 from tutorial_check import professor
 from tutorial_check.examination import Outcome
-from tutorial_check.model import OK, CannotCheck, Result
+from tutorial_check.model import OK, WRONG, CannotCheck, Result
 
 WELL = Outcome("2", [Result("C1", OK, "one")], 1.0, True)
 
@@ -21,10 +21,10 @@ def room(tmp_path, monkeypatch):
     return tmp_path / "room"
 
 
-def check_all(room, out=None):
+def check_all(room, out=None, no_hints=False):
     """(exit code, rows of the table)."""
     options = SimpleNamespace(
-        all=str(room), out=out, jobs=1, no_hints=False, floor="", exercises=["2"]
+        all=str(room), out=out, jobs=1, no_hints=no_hints, floor="", exercises=["2"]
     )
     code = professor.check_all(options)
     with (room / "check" / "table.csv").open(newline="", encoding="utf-8") as table:
@@ -33,9 +33,9 @@ def check_all(room, out=None):
 
 def test_a_folder_and_a_zip_of_one_name_have_each_a_report(room):
     (room / "anna").mkdir()
-    for name in ("anna.zip", "bob.zip"):
+    for name in ("anna.zip", "anna.zip.zip", "bob.zip"):
         (room / name).touch()
-    names = ["anna", "anna.zip", "bob"]
+    names = ["anna", "anna.zip", "anna.zip.zip", "bob"]
     code, rows = check_all(room)
     assert (code, [row[0] for row in rows]) == (0, names)
     assert sorted(path.stem for path in (room / "check").glob("*.txt")) == names
@@ -74,3 +74,54 @@ def test_results_that_have_no_place(room):
     (room / "file").touch()
     with pytest.raises(CannotCheck, match="--out names another"):
         check_all(room, room / "file")
+
+
+def fail(*_, **__):
+    raise CannotCheck("no room")
+
+
+def test_what_was_said_last_week_is_not_todays(room, monkeypatch):
+    (room / "ada").mkdir()
+    assert check_all(room)[0] == 0
+    told = [room / "check" / name for name in ("ada.json", "ada.txt")]
+    assert all(file.exists() for file in told)
+    monkeypatch.setattr(professor, "examine", fail)
+    assert check_all(room)[0] == 2
+    assert [file.exists() for file in told] == [False, True]
+    assert "no room" in told[1].read_text()
+
+
+def test_a_table_that_cannot_be_written_is_found_before_the_work(room, monkeypatch):
+    (room / "ada").mkdir()
+    (room / "check" / "table.html").mkdir(parents=True)
+    begun = []
+    monkeypatch.setattr(professor, "examine", lambda *_, **__: begun.append(1))
+    with pytest.raises(CannotCheck, match="Is a directory"):
+        check_all(room)
+    assert not begun
+
+
+@pytest.mark.parametrize("no_hints", [True, False])
+def test_hints_only_where_they_are_wanted(room, monkeypatch, no_hints):
+    bad = Outcome("2", [Result("C1", WRONG, "one", seen="none", hint="mkdir src")], 1.0, True)
+    monkeypatch.setattr(professor, "examine", lambda *_, **__: [bad])
+    (room / "ada").mkdir()
+    check_all(room, no_hints=no_hints)
+    for name in ("ada.txt", "ada.json", "table.html"):
+        assert ("mkdir src" in (room / "check" / name).read_text()) != no_hints, name
+
+
+def test_what_is_no_folder_and_no_zip_has_a_row_all_the_same(room):
+    for name in ("ADA.ZIP", "bob.tar.gz", "carl.7z", "dora.zip", "dora.ZIP", "README.md", "a.csv"):
+        (room / name).touch()
+    (room / "emma").symlink_to(room / "nowhere")
+    (room / "loop").symlink_to(room / "loop")
+    names = [one.name for one in professor.find_students(room, room / "check")]
+    assert names == ["ADA", "bob.tar.gz", "carl.7z", "dora.ZIP", "dora.zip", "emma", "loop"]
+
+
+def test_the_results_of_an_earlier_check_are_no_student(room, tmp_path):
+    (room / "ada").mkdir()
+    check_all(room)
+    assert [row[0] for row in check_all(room, tmp_path / "elsewhere")[1]] == ["ada"]
+    assert "check" not in (tmp_path / "elsewhere" / "table.csv").read_text()

@@ -2,6 +2,7 @@
 
 import csv
 import io
+import os
 import sys
 
 import pytest
@@ -52,6 +53,26 @@ def test_an_empty_word_is_not_the_current_folder(option, capsys):
     assert f"{option}: an empty word is no path" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["--all", "class", "--json", "a"], "--json is for one workspace"),
+        (["--all", "class", "--watch"], "--watch is for one workspace"),
+        (["--in", "ws", "--watch", "--classroom", "a"], "leave --watch out"),
+        (["--in", "ws", "--out", "a"], "--out is for --all"),
+        (["--in", "ws", "--jobs", "2"], "--jobs is for --all"),
+    ],
+)
+def test_an_option_that_would_do_nothing(words, told, capsys):
+    with pytest.raises(SystemExit, match="2"):
+        parse(["--floor", "setup.bash", *words])
+    assert told in capsys.readouterr().err
+
+
+def test_two_students_at_a_time():
+    assert parse(["--floor", "setup.bash", "--all", "class"]).jobs == 2
+
+
 WELL = Outcome("2", [Result("C1", OK, "one")], 1.0, True)
 BAD = Outcome("2", [Result("C1", WRONG, "one")], 1.0, True)
 NO_VERDICT = Outcome("5", [Result("C21", UNREACHED, "two")], 1.0, True, "C21: no room")
@@ -88,6 +109,23 @@ def test_the_professors_table_has_what_could_be_checked(tmp_path):
     assert 'title="C21: no room">?</td>' in page and 'class="wrong"' in page
 
 
+def test_without_a_verdict_classroom_50_gets_no_file(tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr(program, "examine", lambda *_: [WELL, NO_VERDICT])
+    files = {name: tmp_path / name for name in ("classroom", "json")}
+    words = [word for name, file in files.items() for word in (f"--{name}", str(file))]
+    assert program.check_one(parse([*BEFORE, "2", "5", *words])) == 2
+    assert not files["classroom"].exists()
+    assert files["json"].exists()
+    assert f"check: {files['classroom']} is not written" in capsys.readouterr().err
+
+
+def test_no_hints_holds_for_files_too(tmp_path, monkeypatch):
+    outcome = Outcome("2", [Result("C1", WRONG, "one", hint="mkdir src")], 1.0, True)
+    monkeypatch.setattr(program, "examine", lambda *_: [outcome])
+    program.check_one(parse([*BEFORE, "2", "--no-hints", "--json", str(tmp_path / "told")]))
+    assert "mkdir src" not in (tmp_path / "told").read_text()
+
+
 def main(monkeypatch, examine, *words):
     """The exit code."""
     monkeypatch.setattr(program, "examine", examine)
@@ -103,6 +141,46 @@ def test_a_fault_of_the_checker_is_none_of_the_students(monkeypatch, capsys):
     assert "check: IndexError: pop from empty list (test_program.py:" in error
     assert "no fault in them" in error
     assert "Traceback" not in error
+
+
+@pytest.mark.parametrize("name", FORMATS)
+def test_a_file_of_an_earlier_check_is_not_left_for_this_one(tmp_path, monkeypatch, name):
+    (tmp_path / "told").write_text("last week's")
+    assert main(monkeypatch, lambda *_: [].pop(), f"--{name}", tmp_path / "told") == 2
+    assert not (tmp_path / "told").exists()
+
+
+def test_a_link_stays_one_and_so_does_what_is_no_file(tmp_path, monkeypatch):
+    (tmp_path / "link").symlink_to(tmp_path / "told")
+    os.mkfifo(tmp_path / "pipe")
+    reader = os.open(tmp_path / "pipe", os.O_RDONLY | os.O_NONBLOCK)
+    words = ["--json", tmp_path / "link", "--junit", tmp_path / "pipe"]
+    assert main(monkeypatch, lambda *_: [WELL], *words) == 0
+    assert (tmp_path / "link").is_symlink()
+    assert (tmp_path / "told").stat().st_size
+    assert b"testsuites" in os.read(reader, 1000)
+    os.close(reader)
+
+
+@pytest.mark.parametrize("place", [".", "nowhere/told"])
+def test_a_file_that_cannot_be_written_is_found_before_the_work(
+    tmp_path, monkeypatch, capsys, place
+):
+    begun = []
+    assert main(monkeypatch, lambda *_: begun.append(1), "--json", tmp_path / place) == 2
+    assert not begun
+    assert f"check: {tmp_path / place}: " in capsys.readouterr().err
+
+
+def test_a_file_is_written_though_another_cannot_be(tmp_path, monkeypatch, capsys):
+    def examine(*_):
+        (tmp_path / "json").mkdir()
+        return [WELL]
+
+    words = ["--json", tmp_path / "json", "--junit", tmp_path / "junit"]
+    assert main(monkeypatch, examine, *words) == 2
+    assert "json: Is a directory" in capsys.readouterr().err
+    assert "testsuites" in (tmp_path / "junit").read_text()
 
 
 def test_a_name_that_is_no_utf_8_is_told(tmp_path, monkeypatch):

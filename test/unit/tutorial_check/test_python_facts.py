@@ -78,6 +78,19 @@ def test_without_a_name_it_lacks_what_it_imported():
     assert without_name("from x import (\n", "Joy") is None
 
 
+@pytest.mark.parametrize("odd", ["\f", "\v", "\x1c", "\x85", "\u2028"])
+def test_what_ends_no_line_for_python(odd):
+    """As text has it that was copied out of a PDF."""
+    text = f"# a page{odd}and the next\r\n{PROGRAM}"
+    assert 'init_node("a", anonymous=True)' in flipped_anonymous(text, True)
+    assert "    except:\n        raise\n        pass" in unmasked(text)
+    assert without_name(f"{text}from m import Joy", "Joy").endswith("from m import Joy\ndel Joy\n")
+    assert read_python(f"# {odd}\nfrom std msgs.msg import String").error_text.startswith(
+        "from std"
+    )
+    assert read_python(f"# {odd}\nif name == ' main ':\n    pass").odd_main[1].startswith("if name")
+
+
 def test_names_have_their_first_line():
     names = read_python("import rospy\ndef f(data):\n    msq = 1\n    msq = 2\n").names
     assert names == {"rospy": 1, "f": 2, "data": 2, "msq": 3}

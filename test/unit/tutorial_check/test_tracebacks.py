@@ -40,6 +40,13 @@ def test_a_topic_that_rospy_closed_at_the_end_is_no_mistake():
     assert first_traceback(ended + OUTPUT, "/tmp/ws/joy2twist").error.startswith("TypeError")
 
 
+@pytest.mark.parametrize("ending", ["", ":", ":\n"])
+def test_one_that_was_cut_off_at_its_first_line_tells_nothing(ending):
+    cut_off = f"Traceback (most recent call last){ending}"
+    assert first_traceback(cut_off, "/tmp/ws") is None
+    assert first_traceback(OUTPUT + cut_off, "/tmp/ws/joy2twist").error.startswith("TypeError")
+
+
 def test_no_traceback():
     assert first_traceback("all is well", "/tmp") is None
 

@@ -6,6 +6,7 @@ import zipfile
 import pytest
 
 from tutorial_check import workspace
+from tutorial_check.examine import _hand_in as hand_in
 from tutorial_check.exercises.driving import displayed
 from tutorial_check.mapping import numbered_joys
 from tutorial_check.model import CannotCheck
@@ -29,6 +30,48 @@ def test_a_workspace_is_found(tmp_path, place):
     layout = workspace.find_layout(tmp_path)
     copied = workspace.copy(layout, tmp_path / "copy")
     assert [each.name for each in workspace.packages_below(copied)] == ["joy2twist"]
+
+
+@pytest.mark.parametrize("hidden", [".git", ".github", ".vscode"])
+def test_a_workspace_in_a_repository_is_found(tmp_path, hidden):
+    package(tmp_path / "catkin_ws/src/joy2twist")
+    (tmp_path / hidden).mkdir()
+    assert workspace.find_layout(tmp_path).source == tmp_path / "catkin_ws/src"
+
+
+def zipped(archive, path="ws/src/joy2twist"):
+    archive.parent.mkdir(exist_ok=True)
+    with zipfile.ZipFile(archive, "w") as opened:
+        opened.writestr(f"{path}/package.xml", XML.format("joy2twist"))
+    return archive
+
+
+@pytest.mark.parametrize("name", ["ada.zip", "Ada_1_file/my_ws.zip", "Ada_1_file/MY WS.ZIP"])
+def test_a_zip_alone_or_in_a_folder_is_handed_in(tmp_path, name):
+    given = archive = zipped(tmp_path / name)
+    if archive.parent != tmp_path:
+        (archive.parent / "remark.txt").touch()
+        given = archive.parent
+    layout = hand_in(given, tmp_path / "scratch")
+    assert layout.source == tmp_path / "scratch/unpacked/ws/src"
+
+
+@pytest.mark.parametrize("beside", ["second.zip", "src/", "a/b/c/joy2twist/package.xml"])
+def test_a_zip_beside_something_else_is_not_unpacked(tmp_path, beside):
+    folder = zipped(tmp_path / "ada" / "first.zip").parent
+    if beside.endswith("/"):
+        (folder / beside).mkdir()
+    else:
+        (folder / beside).parent.mkdir(parents=True, exist_ok=True)
+        (folder / beside).write_text(XML.format("joy2twist"))
+    assert hand_in(folder, tmp_path / "scratch").root == folder
+    assert not (tmp_path / "scratch").exists()
+
+
+def test_a_link_to_a_zip_is_not_unpacked(tmp_path):
+    (tmp_path / "ada").mkdir()
+    (tmp_path / "ada" / "ws.zip").symlink_to(zipped(tmp_path / "another.zip"))
+    assert hand_in(tmp_path / "ada", tmp_path / "scratch").root == tmp_path / "ada"
 
 
 def test_the_package_itself(tmp_path):

@@ -14,7 +14,7 @@ from tutorial_check.exercises.driving import (
 from tutorial_check.exercises.files import check_file, crash
 from tutorial_check.mapping import judge
 from tutorial_check.model import Note, Wrong
-from tutorial_check.python_facts import unmasked
+from tutorial_check.python_facts import python_lines, unmasked
 
 JOY_LINE = "rospy.Subscriber('/joy', Joy, callback)"
 TWIST_LINE = "rospy.Publisher('/cmd_vel', Twist, queue_size=10)"
@@ -265,7 +265,7 @@ def check_mapping(session, seen):
 def _line_of(session, script, complaint):
     """Where the field is set that the complaint names."""
     field = re.search(r"(linear|angular)\.[xyz]", complaint)
-    for number, line in enumerate(session.text(PACKAGE, script).splitlines(), 1):
+    for number, line in enumerate(python_lines(session.text(PACKAGE, script)), 1):
         if field and re.search(re.escape(field[0]) + r"\s*=", line):
             return f"{script}:{number}"
     return ""

@@ -1,6 +1,7 @@
 """One program that turns Joy into Twist, driven over its topics; what was seen, without a verdict."""
 
 import collections
+import math
 import re
 import statistics
 
@@ -164,6 +165,7 @@ class Drive:
 def _delays(sent, heard, factor):
     """[s] from each Joy to its Twist. Which Joy it answers is told by its value, by a known factor."""
     delays = []
+    heard = [each for each in heard if math.isfinite(each[2][0])]
     often = collections.Counter(round(twist[0], 6) for _, _, twist in heard)
     for when, _, twist in heard:
         if often[round(twist[0], 6)] > 1:

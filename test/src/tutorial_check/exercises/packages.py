@@ -16,6 +16,13 @@ WANTED = {
 }
 CREATE = {name: f"catkin_create_pkg {name} {' '.join(words)}" for name, words in WANTED.items()}
 
+# What a message of CMake's most often means here: (pattern, what to do). The first that fits counts.
+CMAKE_HINTS = (
+    (r"does not match current PROJECT_NAME", "write the name that package.xml has into project()"),
+    (r"non-existing file|Cannot find source file", "look at the spelling of the file's path"),
+    (r"Unknown CMake command", "look at the spelling of the command"),
+)
+
 
 def _similar(name, packages):
     """A package that was meant to be the one of that name, or None."""
@@ -174,7 +181,8 @@ def build(session):
 
 
 def _build_error(session, output):
-    lines = [re.sub(r"\x1b\[[0-9;]*m", "", line).strip() for line in output.splitlines()]
+    output = re.sub(r"\x1b\[[0-9;]*m", "", output)
+    lines = [line.strip() for line in output.splitlines()]
     words = next(
         (
             line
@@ -189,9 +197,13 @@ def _build_error(session, output):
         r"[Cc]ould not find .*?(?:package configuration file provided by |component )?\"([^\"]+)\"",
         output,
     )
-    hint = "read the first error of catkin_make: it names file and line"
-    found = re.search(r"at ([\w./-]+CMakeLists\.txt):(\d+)", output)
-    where = f"{found[1]}:{found[2]}" if found else ""
+    message, where = _cmake_error(output)
+    if words.startswith("CMake Error") and message:
+        words = f"CMake: {message}"
+    hint = next(
+        (what for pattern, what in CMAKE_HINTS if re.search(pattern, message)),
+        "read the first error of catkin_make: it names file and line",
+    )
     if missing:
         words = f"catkin cannot find {missing[1]}"
         hint = (
@@ -204,6 +216,18 @@ def _build_error(session, output):
             hint = f"correct {missing[1]} to {near[0]} in CMakeLists.txt"
         where = place or where
     return Wrong("catkin_make without an error", words[:300], where=where, hint=hint)
+
+
+def _cmake_error(output):
+    """(message, FILE:LINE of the student's) of CMake's first error, each perhaps empty.
+
+    Where the error is met, it is often in a file of catkin's; the call stack tells who called that.
+    """
+    found = re.search(r"^CMake Error(?: at [^\n]*)?:\s(.*?)(?:\n\n\n|\Z)", output, re.M | re.S)
+    if not found:
+        return "", ""
+    place = re.search(r"(?<!\S)[^/\s]\S*/CMakeLists\.txt:\d+", found[0])
+    return " ".join(found[1].split("Call Stack")[0].split()), place[0] if place else ""
 
 
 def _place_in_cmake(session, word):
