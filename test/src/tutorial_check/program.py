@@ -16,8 +16,11 @@ WORKSPACE = "TUTORIAL_IN"  # environment variable: the workspace of the shell th
 
 
 def meant(word):
-    """The exercises that a word means: 4 is all of 4.2 to 4.5."""
-    return [each for each in EXERCISES if each.startswith(f"{word.rstrip('.')}.")] or [word]
+    """The exercises that a word means: 4 is all of 4.2 to 4.5, and 5.1, a section of it, is 5."""
+    section = f"{word.rstrip('.')}."
+    inner = [each for each in EXERCISES if each.startswith(section)]
+    whole = [each for each in EXERCISES if section.startswith(f"{each}.")]
+    return inner or whole or [word]
 
 
 def path(word):

@@ -24,6 +24,7 @@ BEFORE = ["--floor", "setup.bash", "--in", "ws"]
         (["6", "2"], ["2", "6.1", "6.2"]),
         (["4.3", "4"], ["4.2", "4.3", "4.4", "4.5"]),
         (["5"], ["5"]),
+        (["5.1", "3.2."], ["3", "5"]),
     ],
 )
 def test_a_section_is_all_its_exercises(words, exercises):
