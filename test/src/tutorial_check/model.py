@@ -105,10 +105,13 @@ class Catalogue:
 class Run:
     """Makes checks, each at most once, and none whose ground is missing."""
 
-    def __init__(self, catalogue, session, second_look=lambda: False, too_busy=lambda: False):
+    def __init__(
+        self, catalogue, session, second_look=lambda explained: False, too_busy=lambda: False
+    ):
         """session: what the functions of the catalogue take.
 
-        second_look(): asked once for a check that does not hold; whether to make it again.
+        second_look(explained): asked once for a check that does not hold; whether to make it again.
+        explained: whether a line of the student's is to blame.
         too_busy(): asked if it does not hold then, either; whether that says nothing.
         """
         self._catalogue = catalogue
@@ -203,7 +206,8 @@ class Run:
         try:
             return function(self._session)
         except (Wrong, CannotCheck) as error:
-            if getattr(error, "sure", False) or not self._second_look():
+            explained = bool(LINE.search(getattr(error, "where", "")))
+            if getattr(error, "sure", False) or not self._second_look(explained):
                 raise
         try:
             return function(self._session)

@@ -57,7 +57,7 @@ class Session:
         self.source = self.folder / "ws" / "src"
         self.floor = floor
         self.can_have_devices = can_have_devices
-        self._memory, self._runs, self._siblings = {}, {}, 0
+        self._memory, self._runs, self._siblings, self._has_played = {}, {}, 0, False
         self.floor_environment = self._own(environment)
         self.box = make_box(self.floor_environment)
 
@@ -69,9 +69,12 @@ class Session:
         """The same for what programs were seen to do, which may be looked at again."""
         return _once(self._runs, key, make)
 
-    def second_look(self):
-        """Forget what programs were seen to do, if the machine was so busy that it is worth it."""
-        if not self.box.patience.strained():
+    def second_look(self, explained):
+        """Whether what programs were seen to do is forgotten, as it is worth to look again.
+
+        It is if the machine was busy, or if programs have run and nothing explains what they did.
+        """
+        if not self.box.patience.strained() and (explained or not self._has_played):
             return False
         self._runs.clear()
         return True
@@ -225,6 +228,7 @@ class Session:
         """A ROS master of its own, and a driver; all that was started on it ends with it."""
         must_be_startable(self)
         self.box.patience.begin()
+        self._has_played = True
         stage = Stage(self)
         try:
             yield stage

@@ -151,14 +151,16 @@ def test_what_is_wrong_on_a_busy_machine_is_looked_at_twice(sure, busy, calls):
         made.append(session)
         raise Wrong("soon", "late", sure=sure)
 
-    run = Run(Catalogue([Check("C1", "2", "first", "2.1")], {"C1": slow}), None, lambda: busy)
+    run = Run(
+        Catalogue([Check("C1", "2", "first", "2.1")], {"C1": slow}), None, lambda explained: busy
+    )
     assert run.result("C1").status == "wrong"
     assert len(made) == calls
 
 
 def test_on_a_machine_far_too_busy_there_is_no_verdict():
     catalogue = Catalogue([Check("C1", "2", "first", "2.1")], {"C1": wrong()})
-    one = Run(catalogue, None, lambda: True, lambda: True)
+    one = Run(catalogue, None, lambda explained: True, lambda: True)
     assert one.result("C1").status == UNREACHED
     assert "the machine has too much else to do" in one.trouble("2")
 
@@ -170,5 +172,19 @@ def test_the_second_look_counts():
         if error := next(looks):
             raise error
 
-    run = Run(Catalogue([Check("C1", "2", "first", "2.1")], {"C1": late_once}), None, lambda: True)
+    run = Run(
+        Catalogue([Check("C1", "2", "first", "2.1")], {"C1": late_once}),
+        None,
+        lambda explained: True,
+    )
     assert run.result("C1").status == "ok"
+
+
+@pytest.mark.parametrize(
+    ("where", "explained"), [("scripts/a.py:3", True), ("scripts/a.py", False)]
+)
+def test_what_a_line_explains_is_told_apart(where, explained):
+    asked = []
+    catalogue = Catalogue([Check("C1", "2", "first", "2.1")], {"C1": wrong(where=where)})
+    Run(catalogue, None, asked.append).result("C1")
+    assert asked == [explained]
