@@ -69,22 +69,24 @@ class ClassFacts:
     attributes_called: set
 
 
-def _text(node):
+def text_of(node):
+    """A short text of an expression; for what has none, its kind."""
     if isinstance(node, ast.Constant):
         return str(node.value)
     if isinstance(node, ast.Name):
         return node.id
     if isinstance(node, ast.Attribute):
-        return f"{_text(node.value)}.{node.attr}"
+        return f"{text_of(node.value)}.{node.attr}"
     if isinstance(node, ast.Call):
-        return f"{_text(node.func)}()"
+        return f"{text_of(node.func)}()"
     if isinstance(node, ast.Lambda):
         return "lambda"
     return type(node).__name__
 
 
-def _last(node):
-    return _text(node.func).rsplit(".", 1)[-1]
+def last_name(node):
+    """The last part of the name of what is called."""
+    return text_of(node.func).rsplit(".", 1)[-1]
 
 
 def unreadable(data):
@@ -117,18 +119,18 @@ def read_python(text):
     called = set()
     for node in ast.walk(tree):
         if isinstance(node, ast.Call):
-            called.add(_last(node))
-            facts.calls.setdefault(_last(node), []).append(
+            called.add(last_name(node))
+            facts.calls.setdefault(last_name(node), []).append(
                 Call(
                     node.lineno,
-                    [_text(word) for word in node.args],
-                    {word.arg: _text(word.value) for word in node.keywords if word.arg},
+                    [text_of(word) for word in node.args],
+                    {word.arg: text_of(word.value) for word in node.keywords if word.arg},
                 )
             )
         elif isinstance(node, ast.Global):
             facts.globals.append(node.lineno)
         elif isinstance(node, ast.ExceptHandler):
-            if node.type is None or _text(node.type) in ("Exception", "BaseException"):
+            if node.type is None or text_of(node.type) in ("Exception", "BaseException"):
                 facts.broad_excepts.append(node.lineno)
         elif isinstance(node, ast.Import):
             facts.imports.update(alias.name for alias in node.names)
@@ -139,7 +141,7 @@ def read_python(text):
         elif isinstance(node, ast.If) and "__name__" in ast.dump(node.test):
             facts.has_main = True
         elif isinstance(node, ast.Expr) and isinstance(node.value, (ast.Attribute, ast.Name)):
-            facts.bare_names.append((node.lineno, _text(node.value)))
+            facts.bare_names.append((node.lineno, text_of(node.value)))
     facts.names = _names(tree)
     facts.odd_main = _odd_main(tree, text, facts.names)
     for calls in facts.calls.values():
@@ -170,7 +172,7 @@ def _odd_main(tree, text, names):
     for node in tree.body:
         if not (isinstance(node, ast.If) and isinstance(node.test, ast.Compare)):
             continue
-        left, right = _text(node.test.left), _text(node.test.comparators[0])
+        left, right = text_of(node.test.left), text_of(node.test.comparators[0])
         if left in names or left.strip("_") != "name" or right.strip(" _") != "main":
             continue
         if (left, right) != ("__name__", "__main__"):
@@ -179,9 +181,9 @@ def _odd_main(tree, text, names):
 
 
 def _class_facts(node, called):
-    inside = {_text(part.func) for part in ast.walk(node) if isinstance(part, ast.Call)}
+    inside = {text_of(part.func) for part in ast.walk(node) if isinstance(part, ast.Call)}
     words = {name.rsplit(".", 1)[-1] for name in inside}
-    bases = {_text(base) for base in node.bases}
+    bases = {text_of(base) for base in node.bases}
     return ClassFacts(
         name=node.name,
         line=node.lineno,
@@ -192,75 +194,3 @@ def _class_facts(node, called):
         and not any(base.endswith(("Exception", "Error")) for base in bases),
         attributes_called={name for name in inside if name.startswith("self.")},
     )
-
-
-def unmasked(text):
-    """The program with every except: that hides all made to show what it hides; or None."""
-    try:
-        tree = ast.parse(text)
-    except (SyntaxError, ValueError):
-        return None
-    lines = text.splitlines()
-    hidden = [
-        node
-        for node in ast.walk(tree)
-        if isinstance(node, ast.ExceptHandler)
-        and (node.type is None or _text(node.type) in ("Exception", "BaseException"))
-        and node.body[0].lineno > node.lineno
-    ]
-    if not hidden:
-        return None
-    for handler in sorted(hidden, key=lambda one: -one.body[0].lineno):
-        first = handler.body[0]
-        lines.insert(first.lineno - 1, " " * first.col_offset + "raise")
-    return "\n".join(lines) + "\n"
-
-
-def without_name(text, name):
-    """The program without something that it imports; None if it does not import it by name."""
-    try:
-        tree = ast.parse(text)
-    except (SyntaxError, ValueError):
-        return None
-    lines = text.splitlines()
-    for node in ast.walk(tree):
-        if isinstance(node, ast.ImportFrom) and name in {
-            each.asname or each.name for each in node.names
-        }:
-            line = lines[node.lineno - 1]
-            margin = line[: len(line) - len(line.lstrip())]
-            lines.insert(node.end_lineno, f"{margin}del {name}")
-            return "\n".join(lines) + "\n"
-    return None
-
-
-def flipped_anonymous(text, wanted):
-    """The program with anonymous=wanted in its init_node; None if it has none that is plain."""
-    try:
-        tree = ast.parse(text)
-    except (SyntaxError, ValueError):
-        return None
-    for node in ast.walk(tree):
-        if not (isinstance(node, ast.Call) and _last(node) == "init_node"):
-            continue
-        lines = text.splitlines(keepends=True)
-        for word in node.keywords:
-            if word.arg == "anonymous" and isinstance(word.value, ast.Constant):
-                return _replaced(lines, word.value, str(wanted))
-            if word.arg == "anonymous":
-                return None
-        if node.args:
-            last = node.args[-1]
-            segment = ast.get_source_segment(text, last)
-            return _replaced(lines, last, f"{segment}, anonymous={wanted}") if segment else None
-    return None
-
-
-def _replaced(lines, node, new):
-    if node.lineno != node.end_lineno:
-        return None
-    line = lines[node.lineno - 1].encode()
-    lines[node.lineno - 1] = (
-        line[: node.col_offset] + new.encode() + line[node.end_col_offset :]
-    ).decode()
-    return "".join(lines)

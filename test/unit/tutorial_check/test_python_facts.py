@@ -5,13 +5,7 @@ import sys
 
 import pytest
 
-from tutorial_check.python_facts import (
-    flipped_anonymous,
-    read_python,
-    unmasked,
-    unreadable,
-    without_name,
-)
+from tutorial_check.python_facts import read_python, unreadable
 
 PROGRAM = """
 import rospy
@@ -50,32 +44,6 @@ def test_a_syntax_error_has_its_line():
 
 def test_null_bytes_are_an_error_and_no_crash():
     assert read_python("a\0b").error
-
-
-def test_unmasked():
-    shown = unmasked(PROGRAM)
-    assert "    except:\n        raise\n        pass" in shown
-    assert unmasked("x = 1\n") is None
-    assert unmasked("def (") is None
-
-
-def test_flipped_anonymous():
-    assert 'init_node("a", anonymous=True)' in flipped_anonymous(PROGRAM, True)
-    assert (
-        flipped_anonymous('rospy.init_node("é")\n', True)
-        == 'rospy.init_node("é", anonymous=True)\n'
-    )
-    assert flipped_anonymous("rospy.init_node(name, anonymous=choice)", True) is None
-    assert flipped_anonymous("x = 1", True) is None
-
-
-def test_without_a_name_it_lacks_what_it_imported():
-    text = "if True:\n    from sensor_msgs.msg import (\n        Joy,\n    )\nprint(Joy)\n"
-    lines = without_name(text, "Joy").splitlines()
-    assert lines[4] == "    del Joy"
-    assert lines[:4] + lines[5:] == text.splitlines()
-    assert without_name("import sensor_msgs.msg\n", "Joy") is None
-    assert without_name("from x import (\n", "Joy") is None
 
 
 def test_names_have_their_first_line():

@@ -2,10 +2,10 @@
 
 import statistics
 
+from tutorial_check.changed_programs import flipped_anonymous
 from tutorial_check.exercises.files import check_file, crash, find_script
 from tutorial_check.exercises.talking import LISTEN_S, PACKAGE, TOPIC, scripts, talk_of
 from tutorial_check.model import Note, Wrong, master_gone
-from tutorial_check.python_facts import flipped_anonymous
 from tutorial_check.tracebacks import first_traceback
 
 SUBSCRIBER_LINE = "rospy.Subscriber('chatter', String, callback)"

@@ -3,6 +3,7 @@
 import contextlib
 import re
 
+from tutorial_check.changed_programs import unmasked
 from tutorial_check.exercises.driving import (
     CMD_VEL,
     COUNT,
@@ -14,7 +15,6 @@ from tutorial_check.exercises.driving import (
 from tutorial_check.exercises.files import check_file, crash
 from tutorial_check.mapping import judge
 from tutorial_check.model import Note, Wrong
-from tutorial_check.python_facts import unmasked
 
 JOY_LINE = "rospy.Subscriber('/joy', Joy, callback)"
 TWIST_LINE = "rospy.Publisher('/cmd_vel', Twist, queue_size=10)"

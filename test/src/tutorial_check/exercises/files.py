@@ -5,15 +5,10 @@ import re
 import shutil
 from pathlib import Path
 
+from tutorial_check.causes import explain, misspelt, syntax_hint
 from tutorial_check.model import Wrong
 from tutorial_check.python_facts import read_python, unreadable
-from tutorial_check.tracebacks import (
-    explain,
-    first_traceback,
-    last_lines,
-    misspelt,
-    syntax_hint,
-)
+from tutorial_check.tracebacks import first_traceback, last_lines
 
 INTERPRETER = re.compile(rb"#!\s*(\S+)(?:\s+(\S+))?")
 

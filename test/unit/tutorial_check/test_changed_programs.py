@@ -1,0 +1,45 @@
+"""Programs with one thing changed."""
+
+from tutorial_check.changed_programs import flipped_anonymous, unmasked, without_name
+
+PROGRAM = """
+import rospy
+class Node(object):
+    def __init__(self):
+        rospy.init_node("a", anonymous=False)
+        rospy.Subscriber("/joy", Joy, self.callback)
+    def callback(self, data): pass
+class Odd(Exception): pass
+if __name__ == "__main__":
+    try:
+        Node()
+    except:
+        pass
+    rospy.spin
+"""
+
+
+def test_unmasked():
+    shown = unmasked(PROGRAM)
+    assert "    except:\n        raise\n        pass" in shown
+    assert unmasked("x = 1\n") is None
+    assert unmasked("def (") is None
+
+
+def test_flipped_anonymous():
+    assert 'init_node("a", anonymous=True)' in flipped_anonymous(PROGRAM, True)
+    assert (
+        flipped_anonymous('rospy.init_node("é")\n', True)
+        == 'rospy.init_node("é", anonymous=True)\n'
+    )
+    assert flipped_anonymous("rospy.init_node(name, anonymous=choice)", True) is None
+    assert flipped_anonymous("x = 1", True) is None
+
+
+def test_without_a_name_it_lacks_what_it_imported():
+    text = "if True:\n    from sensor_msgs.msg import (\n        Joy,\n    )\nprint(Joy)\n"
+    lines = without_name(text, "Joy").splitlines()
+    assert lines[4] == "    del Joy"
+    assert lines[:4] + lines[5:] == text.splitlines()
+    assert without_name("import sensor_msgs.msg\n", "Joy") is None
+    assert without_name("from x import (\n", "Joy") is None
