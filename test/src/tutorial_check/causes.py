@@ -3,8 +3,29 @@
 import difflib
 import re
 
+# The messages of the handout, and what else its packages are often asked for: the package of each.
+HOMES = {
+    "Joy": "sensor_msgs",
+    "Twist": "geometry_msgs",
+    "Vector3": "geometry_msgs",
+    "String": "std_msgs",
+    "Float32": "std_msgs",
+}
+
+
+def _imports(message, home):
+    """What the lack of a message's import leads to."""
+    line = f"from {home}.msg import {message}"
+    return (
+        (rf"cannot import name '{message}' from '{home}'", f"messages are in .msg: {line}"),
+        (rf"cannot import name '{message}' from", f"{message} is in {home}: {line}"),
+        (rf"name '{message}' is not defined", f"{message} is not imported: {line}"),
+    )
+
+
 # What an error line most often means here: (pattern, what to do). The first that fits counts.
 CAUSES = (
+    *(row for message, home in HOMES.items() for row in _imports(message, home)),
     (
         r"No module named '(?P<m>std|sensor|geometry|nav)\w*'",
         "the module is written with _msgs: from {m}_msgs.msg import ...",
@@ -32,10 +53,6 @@ CAUSES = (
     (
         r"name '(?P<m>[^']+)' is not defined\. Did you mean: '(?P<n>[^']+)'",
         "the program knows {n}, not {m}: one name for one thing",
-    ),
-    (
-        r"name '(?P<m>Twist|Joy|String|Float32)' is not defined",
-        "{m} is not imported: from ..._msgs.msg import {m}",
     ),
     (r"name '(?P<m>rospy|roslib)' is not defined", "write `import {m}` at the top"),
     (r"name '(?P<m>callback|shutdown)' is not defined", "within a class it is self.{m}"),
@@ -135,7 +152,7 @@ def misspelt(error, names):
     names: {name: line} of what the program makes.
     """
     found = re.search(r"name '(\w+)' is not defined", error)
-    if not found or found[1] in names:
+    if not found or found[1] in names or found[1] in HOMES:
         return ""
     near = difflib.get_close_matches(found[1], names, 3, 0.6)
     near = [each for each in near if each[0].lower() == found[1][0].lower()]
