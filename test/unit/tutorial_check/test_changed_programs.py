@@ -1,5 +1,7 @@
 """Programs with one thing changed."""
 
+import pytest
+
 from tutorial_check.changed_programs import flipped_anonymous, unmasked, without_name
 
 PROGRAM = """
@@ -20,10 +22,24 @@ if __name__ == "__main__":
 
 
 def test_unmasked():
-    shown = unmasked(PROGRAM)
-    assert "    except:\n        raise\n        pass" in shown
+    assert unmasked(PROGRAM) == PROGRAM.replace("except:", "except ():")
     assert unmasked("x = 1\n") is None
     assert unmasked("def (") is None
+
+
+@pytest.mark.parametrize(
+    "handler",
+    [
+        "\texcept:\n\t\tpass\n",
+        "\texcept: pass\n",
+        "\texcept Exception as error:\n\t\tprint(error)\n",
+        "\texcept BaseException: pass\n",
+        "\texcept:\n\t\tif True:\n\t\t\tpass\n",
+    ],
+)
+def test_what_is_hidden_by_tabs_or_in_one_line_is_shown(handler):
+    with pytest.raises(ZeroDivisionError):
+        exec(unmasked(f"if True:\n\ttry:\n\t\t1 / 0\n{handler}"), {})
 
 
 def test_flipped_anonymous():
