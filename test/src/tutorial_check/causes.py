@@ -23,6 +23,8 @@ def _imports(message, home):
     )
 
 
+UNDEFINED = r"name '(\w+)' is not defined"
+NO_VECTOR = r"'(?:float|int)' object has no attribute '[xyz]'"  # where one should be
 # What an error line most often means here: (pattern, what to do). The first that fits counts.
 CAUSES = (
     *(row for message, home in HOMES.items() for row in _imports(message, home)),
@@ -146,12 +148,35 @@ def explain(error):
     return ""
 
 
+def traced(error, line, facts):
+    """(line to blame, what to do) as far as the program's text tells; (line, "") if it does not.
+
+    line: where the error came up, or 0; facts: the PythonFacts.
+    """
+    for name, (place, value) in facts.attributes.items():
+        part = {"linear": "x", "angular": "z"}.get(name.rpartition(".")[2])
+        if part and not value.endswith("()") and re.search(NO_VECTOR, error):
+            return place, f"{name} has three parts: {name}.{part} = ..."
+    found = re.search(UNDEFINED, error)
+    if not found:
+        return line, ""
+    name = found[1]
+    if name in facts.inner_names and line in facts.loose:
+        return (
+            line,
+            f"this line stands outside of {facts.loose[line]}: indent it as the lines above",
+        )
+    if f"self.{name}" in facts.attributes:
+        return line, f"within a class it is self.{name}"
+    return line, misspelt(error, facts.names)
+
+
 def misspelt(error, names):
     """Which name was meant by one that is not defined; empty if none is like it.
 
     names: {name: line} of what the program makes.
     """
-    found = re.search(r"name '(\w+)' is not defined", error)
+    found = re.search(UNDEFINED, error)
     if not found or found[1] in names or found[1] in HOMES:
         return ""
     near = difflib.get_close_matches(found[1], names, 3, 0.6)

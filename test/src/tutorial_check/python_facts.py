@@ -32,6 +32,9 @@ class PythonFacts:
     has_main: bool = False
     odd_main: tuple = ()  # (line, text) of an `if` that is meant to be that of __main__, and is not
     names: dict = field(default_factory=dict)  # what the program makes, or is given -> first line
+    inner_names: set = field(default_factory=set)  # those of them that functions make, or are given
+    attributes: dict = field(default_factory=dict)  # "self.pub" -> (first line, what it is set to)
+    loose: dict = field(default_factory=dict)  # line beside functions, not in one -> the one above
     loops: list = field(default_factory=list)  # lines of `while`
     bare_names: list = field(default_factory=list)  # (line, text) of statements that do nothing
 
@@ -138,11 +141,19 @@ def read_python(text):
             facts.imports.update(f"{node.module}.{alias.name}" for alias in node.names)
         elif isinstance(node, ast.While):
             facts.loops.append(node.lineno)
-        elif isinstance(node, ast.If) and "__name__" in ast.dump(node.test):
+        elif _is_main(node):
             facts.has_main = True
         elif isinstance(node, ast.Expr) and isinstance(node.value, (ast.Attribute, ast.Name)):
             facts.bare_names.append((node.lineno, text_of(node.value)))
     facts.names = _names(tree)
+    facts.inner_names = {
+        name
+        for function in ast.walk(tree)
+        if isinstance(function, ast.FunctionDef)
+        for _, name in _made(function)
+    }
+    facts.attributes = _attributes(tree)
+    facts.loose = _loose(tree)
     facts.odd_main = _odd_main(tree, text, facts.names)
     for calls in facts.calls.values():
         calls.sort(key=lambda call: call.line)
@@ -154,17 +165,52 @@ def read_python(text):
 
 def _names(tree):
     """{name: first line} of variables, parameters, functions, classes and imports."""
-    found = []
+    found = list(_made(tree))
     for node in ast.walk(tree):
-        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
-            found.append((node.lineno, node.id))
-        elif isinstance(node, ast.arg):
-            found.append((node.lineno, node.arg))
-        elif isinstance(node, (ast.FunctionDef, ast.ClassDef)):
+        if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
             found.append((node.lineno, node.name))
         elif isinstance(node, (ast.Import, ast.ImportFrom)):
             found += [(node.lineno, each.asname or each.name) for each in node.names]
     return {name: line for line, name in sorted(found, reverse=True)}
+
+
+def _made(tree):
+    """(line, name) of each variable and parameter."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            yield node.lineno, node.id
+        elif isinstance(node, ast.arg):
+            yield node.lineno, node.arg
+
+
+def _attributes(tree):
+    """{"msg.linear.x": (first line, what it is set to)}."""
+    found = [
+        (node.lineno, text_of(target), text_of(node.value))
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Assign)
+        for target in node.targets
+        if isinstance(target, ast.Attribute)
+    ]
+    return {name: (line, value) for line, name, value in sorted(found, reverse=True)}
+
+
+def _loose(tree):
+    """{line: the function above it} of what stands beside functions and may have fallen out of one."""
+    found = {}
+    for block in ast.walk(tree):
+        above = ""
+        for node in block.body if isinstance(block, (ast.Module, ast.ClassDef)) else ():
+            functions = [each.name for each in ast.walk(node) if isinstance(each, ast.FunctionDef)]
+            if functions:
+                above = functions[-1]
+            elif above and not _is_main(node):
+                found.update(dict.fromkeys(range(node.lineno, node.end_lineno + 1), above))
+    return found
+
+
+def _is_main(node):
+    return isinstance(node, ast.If) and "__name__" in ast.dump(node.test)
 
 
 def _odd_main(tree, text, names):

@@ -2,7 +2,8 @@
 
 import pytest
 
-from tutorial_check.causes import explain, misspelt, syntax_hint
+from tutorial_check.causes import explain, misspelt, syntax_hint, traced
+from tutorial_check.python_facts import read_python
 
 
 @pytest.mark.parametrize(
@@ -66,3 +67,70 @@ def test_a_name_like_the_one_that_is_missing():
     assert not misspelt("NameError: name 'Twist' is not defined", {"twist": 9})  # never imported
     for error in ("name 'pub' is not defined", "name 'msq' is not defined", "IndexError: list"):
         assert not misspelt(error, names)
+
+
+CLASS = """class Node():
+    def __init__(self):
+        self.pub = rospy.Publisher('/cmd_vel', Twist)
+
+    def callback(self, data):
+        pub.publish(Twist())
+{}
+if __name__ == '__main__':
+    Node()
+"""
+
+
+def test_within_a_class_a_name_needs_self():
+    facts = read_python(CLASS.format(""))
+    line, hint = traced("NameError: name 'pub' is not defined", 6, facts)
+    assert (line, hint) == (6, "within a class it is self.pub")
+
+
+FALLEN = """def callback(data):
+    rospy.loginfo(data)
+msg = Twist()
+msg.linear.x = data.axes[1]
+def listener():
+    global pub
+    pub = rospy.Publisher('/cmd_vel', Twist)
+    print(data)
+if __name__ == '__main__':
+    print(data)
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "name", "function"),
+    [
+        (FALLEN, 4, "data", "callback"),
+        (FALLEN, 4, "pub", "callback"),
+        (FALLEN, 4, "msg", None),
+        (FALLEN, 4, "listener", None),
+        (FALLEN, 8, "data", None),
+        (FALLEN, 10, "data", None),
+        (CLASS.format("    msg.linear.x = data.axes[1]"), 7, "data", "callback"),
+        (CLASS.format("    self.pub.publish(msg)"), 7, "self", "callback"),
+        (CLASS.format("msg.linear.x = data.axes[1]"), 7, "data", "callback"),
+    ],
+)
+def test_a_line_that_fell_out_of_its_function(text, line, name, function):
+    _, hint = traced(f"NameError: name '{name}' is not defined", line, read_python(text))
+    assert (f"outside of {function}: indent" in hint) if function else "outside" not in hint
+
+
+VECTOR = """def callback(data):
+    msg = Twist()
+    msg.linear = {}
+    msg.angular.z = data.axes[0]
+    pub.publish(msg)
+"""
+
+
+def test_a_number_for_the_three_parts_of_a_velocity():
+    facts = read_python(VECTOR.format("data.axes[1]"))
+    error = "AttributeError: 'float' object has no attribute 'x'"
+    assert traced(error, 5, facts) == (3, "msg.linear has three parts: msg.linear.x = ...")
+    assert traced("AttributeError: 'int' object has no attribute 'x'", 5, facts)[0] == 3
+    assert traced(error, 5, read_python(VECTOR.format("Vector3(data.axes[1], 0, 0)"))) == (5, "")
+    assert traced("IndexError: tuple index out of range", 3, facts) == (3, "")

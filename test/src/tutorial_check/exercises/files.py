@@ -5,7 +5,7 @@ import re
 import shutil
 from pathlib import Path
 
-from tutorial_check.causes import explain, misspelt, syntax_hint
+from tutorial_check.causes import explain, syntax_hint, traced
 from tutorial_check.model import Wrong
 from tutorial_check.python_facts import read_python, unreadable
 from tutorial_check.tracebacks import first_traceback, last_lines
@@ -198,12 +198,13 @@ def cause_of(session, package, name, trace):
     script = trace.where.rpartition(":")[0] or script
     if not script:
         return trace.where, explain(trace.error)
-    names = read_python(session.text(package, script)).names
+    facts = read_python(session.text(package, script))
     function = re.search(r"(\w+)\(\) (?:takes|missing)", trace.error)
-    place = trace.where
-    if not place and function and function[1] in names:  # called by rospy itself
-        place = f"{script}:{names[function[1]]}"
-    return place, misspelt(trace.error, names) or explain(trace.error)
+    line = int(trace.where.rpartition(":")[2] or 0)
+    if not line and function:  # called by rospy itself
+        line = facts.names.get(function[1], 0)
+    line, hint = traced(trace.error, line, facts)
+    return f"{script}:{line}" if line else "", hint or explain(trace.error)
 
 
 def crash(session, package, program, what, default_hint=""):
