@@ -30,6 +30,7 @@ class PythonFacts:
     broad_excepts: list = field(default_factory=list)  # lines of except: and except Exception:
     imports: set = field(default_factory=set)
     has_main: bool = False
+    sunken_main: tuple = ()  # (line, function) of one that stands within a function
     odd_main: tuple = ()  # (line, text) of an `if` that is meant to be that of __main__, and is not
     names: dict = field(default_factory=dict)  # what the program makes, or is given -> first line
     inner_names: set = field(default_factory=set)  # those of them that functions make, or are given
@@ -154,6 +155,7 @@ def read_python(text):
     }
     facts.attributes = _attributes(tree)
     facts.loose = _loose(tree)
+    facts.sunken_main = _sunken_main(tree)
     facts.odd_main = _odd_main(tree, text, facts.names)
     for calls in facts.calls.values():
         calls.sort(key=lambda call: call.line)
@@ -211,6 +213,15 @@ def _loose(tree):
 
 def _is_main(node):
     return isinstance(node, ast.If) and "__name__" in ast.dump(node.test)
+
+
+def _sunken_main(tree):
+    """(line, function) of `if __name__ == '__main__':` within a function; empty if there is none."""
+    for function in ast.walk(tree):
+        if isinstance(function, ast.FunctionDef):
+            for node in filter(_is_main, ast.walk(function)):
+                return node.lineno, function.name
+    return ()
 
 
 def _odd_main(tree, text, names):
