@@ -25,7 +25,8 @@ def _imports(message, home):
 
 UNDEFINED = r"name '(\w+)' is not defined"
 NO_VECTOR = r"'(?:float|int)' object has no attribute '[xyz]'"  # where one should be
-# What an error line most often means here: (pattern, what to do). The first that fits counts.
+# What an error most often means here: (pattern, what to do). The first that fits counts. It is looked
+# for in the error and, in a line of its own, the program's line.
 CAUSES = (
     *(row for message, home in HOMES.items() for row in _imports(message, home)),
     (
@@ -63,6 +64,10 @@ CAUSES = (
         "{m} is used but never made: look at its spelling, and at `self.` or `global`",
     ),
     (
+        r"serialize\(\) missing",
+        "Twist is the kind, Twist() is a message: write the (), and so for String()",
+    ),
+    (
         r"(?P<m>\w+)\(\) missing (?P<n>\d+) required positional argument",
         "hand over {m} without (): with them Python calls it now; within a class the first parameter is self",
     ),
@@ -92,12 +97,12 @@ CAUSES = (
         "publish the Twist message itself: pub.publish(msg)",
     ),
     (
-        r"not all arguments converted during string formatting",
+        r"(?:not all arguments converted|not enough arguments for).*\n.*axes",
         "as many %.2f as there are axes: 6 with the switch at D, 8 at X",
     ),
     (
-        r"not enough arguments for format string",
-        "as many %.2f as there are axes: 6 with the switch at D, 8 at X",
+        r"not all arguments converted|not enough arguments for format string",
+        'one % for each value: rospy.loginfo("I heard %s", data.data)',
     ),
     (
         r"must be real number, not (?:Joy|tuple|list)",
@@ -129,6 +134,10 @@ CAUSES = (
     ),
     (r"ROSInitException", "rospy.init_node(...) is called once, before all else"),
     (
+        r"unsupported operand .*'(?:function|method)'|can only concatenate str \(not \"(?:function|method)",
+        "() is missing: a function is called by them, as in rospy.get_caller_id()",
+    ),
+    (
         r"can only concatenate str|unsupported operand",
         "text and number do not add: use % or a comma in loginfo",
     ),
@@ -139,10 +148,10 @@ CAUSES = (
 )
 
 
-def explain(error):
-    """What an error line most often means here; empty if nothing is known."""
+def explain(error, text=""):
+    """What an error most often means here, in a line of that text; empty if nothing is known."""
     for pattern, words in CAUSES:
-        found = re.search(pattern, error)
+        found = re.search(pattern, f"{error}\n{text}")
         if found:
             return words.format(**{key: value for key, value in found.groupdict().items() if value})
     return ""

@@ -13,7 +13,12 @@ from tutorial_check.python_facts import read_python
         ("NameError: name 'msg' is not defined. Did you mean: 'msq'?", "msq"),
         ("ModuleNotFoundError: No module named 'std_msg'", "std_msgs.msg"),
         ("TypeError: callback() missing 1 required positional argument: 'data'", "without ()"),
-        ("TypeError: not all arguments converted during string formatting", "as many %.2f"),
+        ("TypeError: Twist.serialize() missing 1 required positional argument: 'buff'", "Twist()"),
+        ("TypeError: not all arguments converted during string formatting", "one % for each"),
+        ("TypeError: unsupported operand type(s) for +: 'function' and 'str'", "() is missing"),
+        ("TypeError: unsupported operand type(s) for +: 'int' and 'str'", "do not add"),
+        ('TypeError: can only concatenate str (not "function") to str', "() is missing"),
+        ('TypeError: can only concatenate str (not "float") to str', "do not add"),
         (
             "rospy.exceptions.ROSInitException: client code must call rospy.init_node() first",
             "init_node",
@@ -39,6 +44,24 @@ from tutorial_check.python_facts import read_python
 )
 def test_causes(error, word):
     assert word in explain(error)
+
+
+@pytest.mark.parametrize(
+    ("line", "word"),
+    [
+        ('rospy.loginfo("%.2f %.2f" % data.axes)', "as many %.2f as there are axes"),
+        ('rospy.loginfo("I heard", data.data)', "one % for each value"),
+    ],
+)
+@pytest.mark.parametrize(
+    "error",
+    [
+        "TypeError: not all arguments converted during string formatting",
+        "TypeError: not enough arguments for format string",
+    ],
+)
+def test_the_programs_line_tells_which_values(error, line, word):
+    assert word in explain(error, line)
 
 
 def test_an_unknown_error_is_not_explained():

@@ -197,14 +197,14 @@ def cause_of(session, package, name, trace):
     script = next((each for each in session.scripts(package) if Path(each).name == name), "")
     script = trace.where.rpartition(":")[0] or script
     if not script:
-        return trace.where, explain(trace.error)
+        return trace.where, explain(trace.error, trace.text)
     facts = read_python(session.text(package, script))
     function = re.search(r"(\w+)\(\) (?:takes|missing)", trace.error)
     line = int(trace.where.rpartition(":")[2] or 0)
     if not line and function:  # called by rospy itself
         line = facts.names.get(function[1], 0)
     line, hint = traced(trace.error, line, facts)
-    return f"{script}:{line}" if line else "", hint or explain(trace.error)
+    return f"{script}:{line}" if line else "", hint or explain(trace.error, trace.text)
 
 
 def crash(session, package, program, what, default_hint=""):
