@@ -195,25 +195,71 @@ def misspelt(error, names):
     return f"{near[0]} in line {names[near[0]]}, {found[1]} here: one name for one thing"
 
 
-def syntax_hint(message, text, line=""):
+NOWHERE = r"(?!)"
+# What a SyntaxError most often means: (pattern of its message, of the program's line, what to do). The
+# first of which either fits counts.
+SYNTAX = (
+    (
+        r"U\+00A0",
+        "\xa0",
+        "invisible blanks came from the PDF: type those of this line anew, or sed -i 's/\\xc2\\xa0/ /g' FILE",
+    ),
+    (
+        r"call to 'print'",
+        r"^\s*print\s+[^(=]",
+        "that is Python 2: print(...) has parentheses",
+    ),
+    (NOWHERE, "[‘’“”]", "curly quotes came from the PDF: type \" or ' instead"),
+    (
+        r"invalid character '(?P<m>.)'",
+        NOWHERE,
+        "{m} came from the PDF, or a text program: type - for a dash, ' for a quote, * for a cross",
+    ),
+    (
+        r"invalid (?:non-printable )?character",
+        NOWHERE,
+        "a character of this line only looks right, or like nothing: type the line anew",
+    ),
+    (
+        NOWHERE,
+        r"\b(?:std|sensor|geometry|nav) msgs|init node|queue size|load manifest|cmd vel|is shutdown"
+        r"|get time|on shutdown|get name|get caller id|hello str",
+        "the PDF shows underscores as gaps: write _ (sensor_msgs, init_node, queue_size)",
+    ),
+    (
+        r"indent|inconsistent use of tabs",
+        NOWHERE,
+        "indent with four spaces, every line of a block alike, and never with tabs",
+    ),
+    (
+        r"expected ':'",
+        r"^(?:def|class|if|while|try|except|for|else)\b[^:]*$",
+        "a line with def, class, if, while, try or except ends with :",
+    ),
+    (
+        r"never closed|unmatched|EOF",
+        NOWHERE,
+        "a bracket is opened and not closed, here or in the line before",
+    ),
+    (r"unterminated|EOL", NOWHERE, "a quote is opened and not closed"),
+    (
+        r"name '(?P<m>\w+)' is (?:assigned to|used prior to) .*global",
+        NOWHERE,
+        "`global {m}` is the first line of the function",
+    ),
+    (r"name '(?P<m>\w+)' is parameter and global", NOWHERE, "a parameter needs no `global {m}`"),
+    (
+        r"'(?P<m>return|break|continue)' (?:outside|not properly)",
+        NOWHERE,
+        "{m} stands outside of its function or loop: indent it as the lines that belong to it",
+    ),
+)
+
+
+def syntax_hint(message, text):
     """What a SyntaxError most often means here. text: the message's line of the program."""
-    if re.search(r"^\s*print\s+[^(=]", text) or "call to 'print'" in message:
-        return "that is Python 2: print(...) has parentheses"
-    if any(quote in text for quote in "‘’“”"):
-        return "curly quotes came from the PDF: type \" or ' instead"
-    if re.search(
-        r"\b(?:std|sensor|geometry|nav) msgs|init node|queue size|load manifest|cmd vel|is shutdown|get time|on shutdown|get name|get caller id|hello str",
-        text + line,
-    ):
-        return "the PDF shows underscores as gaps: write _ (sensor_msgs, init_node, queue_size)"
-    if "indent" in message or "inconsistent use of tabs" in message:
-        return "indent with four spaces, every line of a block alike, and never with tabs"
-    if "expected ':'" in message or re.match(
-        r"^(def|class|if|while|try|except|for|else)\b[^:]*$", text
-    ):
-        return "a line with def, class, if, while, try or except ends with :"
-    if "never closed" in message or "unmatched" in message or "EOF" in message:
-        return "a bracket is opened and not closed, here or in the line before"
-    if "unterminated" in message or "EOL" in message:
-        return "a quote is opened and not closed"
+    for in_message, in_text, words in SYNTAX:
+        found = re.search(in_message, message) or re.search(in_text, text)
+        if found:
+            return words.format(**found.groupdict())
     return "Python cannot read this line; the mistake can also be in the line before"

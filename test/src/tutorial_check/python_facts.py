@@ -2,6 +2,7 @@
 
 import ast
 import re
+import warnings
 from dataclasses import dataclass, field
 
 # In which a file is written, from a comment in the first or second line (PEP 263).
@@ -112,13 +113,16 @@ def read_python(text):
     """The PythonFacts of a file's text."""
     facts = PythonFacts()
     try:
-        tree = ast.parse(text)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            tree = ast.parse(text)
+            compile(tree, "program", "exec")  # which refuses more: a late `global`, a lone `return`
     except (SyntaxError, ValueError, RecursionError) as error:
         facts.error = getattr(error, "msg", None) or str(error)
         facts.error_line = getattr(error, "lineno", 0) or 0
         lines = text.splitlines()
         if 0 < facts.error_line <= len(lines):
-            facts.error_text = lines[facts.error_line - 1].strip()
+            facts.error_text = lines[facts.error_line - 1].strip(" \t")
         return facts
     called = set()
     for node in ast.walk(tree):

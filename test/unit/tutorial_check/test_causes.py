@@ -77,6 +77,7 @@ def test_an_unknown_error_is_not_explained():
         ("expected ':'", "def f()", "ends with :"),
         ("'(' was never closed", "f(", "bracket"),
         ("unexpected indent", "  x = 1", "indent"),
+        ("nonsense", "x", "cannot read"),
     ],
 )
 def test_syntax(message, text, word):
@@ -157,3 +158,24 @@ def test_a_number_for_the_three_parts_of_a_velocity():
     assert traced("AttributeError: 'int' object has no attribute 'x'", 5, facts)[0] == 3
     assert traced(error, 5, read_python(VECTOR.format("Vector3(data.axes[1], 0, 0)"))) == (5, "")
     assert traced("IndexError: tuple index out of range", 3, facts) == (3, "")
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "word"),
+    [
+        ("def f():\n\xa0\xa0\xa0\xa0x = 1\n", 2, "invisible blanks"),
+        ("x\xa0= 1\n", 1, "sed -i 's/\\xc2\\xa0/ /g' FILE"),
+        ("x = y\u200b\n", 1, "type the line anew"),
+        ("x = 3 \u2013 2\n", 1, "type - for a dash"),
+        ("def f():\n    pub = 1\n    global pub\n", 3, "`global pub` is the first line"),
+        ("def f():\n    print(pub)\n    global pub\n", 3, "`global pub` is the first line"),
+        ("def f(pub):\n    global pub\n", 2, "needs no `global pub`"),
+        ("def f():\n    x = 1\nreturn x\n", 3, "return stands outside"),
+        ("while True:\n    pass\nbreak\n", 3, "break stands outside"),
+    ],
+)
+def test_what_python_refuses(text, line, word):
+    facts = read_python(text)
+    assert facts.error_line == line
+    # Python 3.8 names no characters.
+    assert word in syntax_hint(facts.error, facts.error_text) or facts.error.endswith("identifier")

@@ -91,3 +91,8 @@ def test_the_first_byte_that_is_not_of_the_files_coding(tmp_path, data, line):
         [sys.executable, tmp_path / "program.py"], capture_output=True, check=False
     )
     assert (b"SyntaxError" in done.stderr) == (line is not None), done.stderr
+
+
+def test_a_warning_is_no_error_and_not_shown(recwarn):
+    assert not read_python("x = 1 is 1\ny = '\\d'\n").error
+    assert not recwarn
