@@ -90,7 +90,7 @@ def _check_text(session, package, script):
             hint="the download gave the page and not the file: take the address of the raw file",
         )
     first = data.split(b"\n", 1)[0]
-    if b"\r\n" in data:
+    if first.endswith(b"\r"):  # further down they do no harm
         raise _wrong(
             f"head -1 {script} | cat -A",
             "Unix line ends",
@@ -132,7 +132,7 @@ def _check_text(session, package, script):
     except Wrong as wrong:
         wrong.look = f"head -1 {script}"
         raise
-    if not path.stat().st_mode & 0o100:
+    if not is_runnable(session, package, path):
         raise _wrong(
             f"ls -l {script}",
             "a program that may be run",
@@ -142,6 +142,12 @@ def _check_text(session, package, script):
         )
     if facts:
         _check_gaps(facts, script)
+
+
+def is_runnable(session, package, path):
+    """Whether rosrun takes a program: it may be run, or catkin has made one of it in devel."""
+    may_be_run = path.stat().st_mode & 0o100
+    return bool(may_be_run) or session.command(package, path) != [str(path)]
 
 
 def _check_gaps(facts, script):
