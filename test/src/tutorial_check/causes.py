@@ -173,7 +173,7 @@ def traced(error, line, facts):
     if name in facts.inner_names and line in facts.loose:
         return (
             line,
-            f"this line stands outside of {facts.loose[line]}: indent it as the lines above",
+            f"this line stands outside of {facts.loose[line]}: indent it as those within",
         )
     if f"self.{name}" in facts.attributes:
         return line, f"within a class it is self.{name}"
