@@ -104,6 +104,7 @@ ROWS = [
     ("3", "data for data.data", [put(LISTENER, "data.data", "dat.data")], "C7", "dat"),
     ("3", "callback()", [put(LISTENER, "String, callback)", "String, callback())")], "C7", "without ()"),
     ("3", "the listener displays nothing", [put(LISTENER, 'rospy.loginfo(rospy.get_caller_id() + "I heard %s", data.data)', "pass")], "C7", "display"),
+    ("3", "loginfo as if it were print", [put(LISTENER, 'rospy.get_caller_id() + "I heard %s", data.data', '"I heard", data.data')], "C7", ("listener.py:7", "one % for each value")),
     ("3", "ends not on Ctrl-C", [put(TALKER, "while not rospy.is_shutdown():", "import signal\n    signal.signal(signal.SIGINT, signal.SIG_IGN)\n    while True:")], "C10", "killed"),
     ("3", "gaps in the line of main", [put(TALKER, "__name__ == '__main__'", "name == ' main '")], "C5", ("talker.py:17", "if __name__ == '__main__':")),
     ("3", "Windows line ends, seen oneself", [windows(LISTENER)], "C5", ("listener.py:1", "yourself: head -1 scripts/listener.py")),

@@ -3,6 +3,7 @@
 import ast
 import io
 import re
+import warnings
 from dataclasses import dataclass, field
 
 # In which a file is written, from a comment in the first or second line (PEP 263).
@@ -31,8 +32,12 @@ class PythonFacts:
     broad_excepts: list = field(default_factory=list)  # lines of except: and except Exception:
     imports: set = field(default_factory=set)
     has_main: bool = False
+    sunken_main: tuple = ()  # (line, function) of one that stands within a function
     odd_main: tuple = ()  # (line, text) of an `if` that is meant to be that of __main__, and is not
     names: dict = field(default_factory=dict)  # what the program makes, or is given -> first line
+    inner_names: set = field(default_factory=set)  # those of them that functions make, or are given
+    attributes: dict = field(default_factory=dict)  # "self.pub" -> (first line, what it is set to)
+    loose: dict = field(default_factory=dict)  # line beside functions, not in one -> the one above
     loops: list = field(default_factory=list)  # lines of `while`
     bare_names: list = field(default_factory=list)  # (line, text) of statements that do nothing
 
@@ -70,22 +75,24 @@ class ClassFacts:
     attributes_called: set
 
 
-def _text(node):
+def text_of(node):
+    """A short text of an expression; for what has none, its kind."""
     if isinstance(node, ast.Constant):
         return str(node.value)
     if isinstance(node, ast.Name):
         return node.id
     if isinstance(node, ast.Attribute):
-        return f"{_text(node.value)}.{node.attr}"
+        return f"{text_of(node.value)}.{node.attr}"
     if isinstance(node, ast.Call):
-        return f"{_text(node.func)}()"
+        return f"{text_of(node.func)}()"
     if isinstance(node, ast.Lambda):
         return "lambda"
     return type(node).__name__
 
 
-def _last(node):
-    return _text(node.func).rsplit(".", 1)[-1]
+def last_name(node):
+    """The last part of the name of what is called."""
+    return text_of(node.func).rsplit(".", 1)[-1]
 
 
 def unreadable(data):
@@ -112,29 +119,32 @@ def read_python(text):
     """The PythonFacts of a file's text."""
     facts = PythonFacts()
     try:
-        tree = ast.parse(text)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            tree = ast.parse(text)
+            compile(tree, "program", "exec")  # which refuses more: a late `global`, a lone `return`
     except (SyntaxError, ValueError, RecursionError) as error:
         facts.error = getattr(error, "msg", None) or str(error)
         facts.error_line = getattr(error, "lineno", 0) or 0
         lines = python_lines(text)
         if 0 < facts.error_line <= len(lines):
-            facts.error_text = lines[facts.error_line - 1].strip()
+            facts.error_text = lines[facts.error_line - 1].strip(" \t")
         return facts
     called = set()
     for node in ast.walk(tree):
         if isinstance(node, ast.Call):
-            called.add(_last(node))
-            facts.calls.setdefault(_last(node), []).append(
+            called.add(last_name(node))
+            facts.calls.setdefault(last_name(node), []).append(
                 Call(
                     node.lineno,
-                    [_text(word) for word in node.args],
-                    {word.arg: _text(word.value) for word in node.keywords if word.arg},
+                    [text_of(word) for word in node.args],
+                    {word.arg: text_of(word.value) for word in node.keywords if word.arg},
                 )
             )
         elif isinstance(node, ast.Global):
             facts.globals.append(node.lineno)
         elif isinstance(node, ast.ExceptHandler):
-            if node.type is None or _text(node.type) in ("Exception", "BaseException"):
+            if node.type is None or text_of(node.type) in ("Exception", "BaseException"):
                 facts.broad_excepts.append(node.lineno)
         elif isinstance(node, ast.Import):
             facts.imports.update(alias.name for alias in node.names)
@@ -142,11 +152,20 @@ def read_python(text):
             facts.imports.update(f"{node.module}.{alias.name}" for alias in node.names)
         elif isinstance(node, ast.While):
             facts.loops.append(node.lineno)
-        elif isinstance(node, ast.If) and "__name__" in ast.dump(node.test):
+        elif _is_main(node):
             facts.has_main = True
         elif isinstance(node, ast.Expr) and isinstance(node.value, (ast.Attribute, ast.Name)):
-            facts.bare_names.append((node.lineno, _text(node.value)))
+            facts.bare_names.append((node.lineno, text_of(node.value)))
     facts.names = _names(tree)
+    facts.inner_names = {
+        name
+        for function in ast.walk(tree)
+        if isinstance(function, ast.FunctionDef)
+        for _, name in _made(function)
+    }
+    facts.attributes = _attributes(tree)
+    facts.loose = _loose(tree)
+    facts.sunken_main = _sunken_main(tree)
     facts.odd_main = _odd_main(tree, text, facts.names)
     for calls in facts.calls.values():
         calls.sort(key=lambda call: call.line)
@@ -158,17 +177,61 @@ def read_python(text):
 
 def _names(tree):
     """{name: first line} of variables, parameters, functions, classes and imports."""
-    found = []
+    found = list(_made(tree))
     for node in ast.walk(tree):
-        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
-            found.append((node.lineno, node.id))
-        elif isinstance(node, ast.arg):
-            found.append((node.lineno, node.arg))
-        elif isinstance(node, (ast.FunctionDef, ast.ClassDef)):
+        if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
             found.append((node.lineno, node.name))
         elif isinstance(node, (ast.Import, ast.ImportFrom)):
             found += [(node.lineno, each.asname or each.name) for each in node.names]
     return {name: line for line, name in sorted(found, reverse=True)}
+
+
+def _made(tree):
+    """(line, name) of each variable and parameter."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            yield node.lineno, node.id
+        elif isinstance(node, ast.arg):
+            yield node.lineno, node.arg
+
+
+def _attributes(tree):
+    """{"msg.linear.x": (first line, what it is set to)}."""
+    found = [
+        (node.lineno, text_of(target), text_of(node.value))
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Assign)
+        for target in node.targets
+        if isinstance(target, ast.Attribute)
+    ]
+    return {name: (line, value) for line, name, value in sorted(found, reverse=True)}
+
+
+def _loose(tree):
+    """{line: the function above it} of what stands beside functions and may have fallen out of one."""
+    found = {}
+    for block in ast.walk(tree):
+        above = ""
+        for node in block.body if isinstance(block, (ast.Module, ast.ClassDef)) else ():
+            functions = [each.name for each in ast.walk(node) if isinstance(each, ast.FunctionDef)]
+            if functions:
+                above = functions[-1]
+            elif above and not _is_main(node):
+                found.update(dict.fromkeys(range(node.lineno, node.end_lineno + 1), above))
+    return found
+
+
+def _is_main(node):
+    return isinstance(node, ast.If) and "__name__" in ast.dump(node.test)
+
+
+def _sunken_main(tree):
+    """(line, function) of `if __name__ == '__main__':` within a function; empty if there is none."""
+    for function in ast.walk(tree):
+        if isinstance(function, ast.FunctionDef):
+            for node in filter(_is_main, ast.walk(function)):
+                return node.lineno, function.name
+    return ()
 
 
 def _odd_main(tree, text, names):
@@ -176,7 +239,7 @@ def _odd_main(tree, text, names):
     for node in tree.body:
         if not (isinstance(node, ast.If) and isinstance(node.test, ast.Compare)):
             continue
-        left, right = _text(node.test.left), _text(node.test.comparators[0])
+        left, right = text_of(node.test.left), text_of(node.test.comparators[0])
         if left in names or left.strip("_") != "name" or right.strip(" _") != "main":
             continue
         if (left, right) != ("__name__", "__main__"):
@@ -185,9 +248,9 @@ def _odd_main(tree, text, names):
 
 
 def _class_facts(node, called):
-    inside = {_text(part.func) for part in ast.walk(node) if isinstance(part, ast.Call)}
+    inside = {text_of(part.func) for part in ast.walk(node) if isinstance(part, ast.Call)}
     words = {name.rsplit(".", 1)[-1] for name in inside}
-    bases = {_text(base) for base in node.bases}
+    bases = {text_of(base) for base in node.bases}
     return ClassFacts(
         name=node.name,
         line=node.lineno,
@@ -198,75 +261,3 @@ def _class_facts(node, called):
         and not any(base.endswith(("Exception", "Error")) for base in bases),
         attributes_called={name for name in inside if name.startswith("self.")},
     )
-
-
-def unmasked(text):
-    """The program with every except: that hides all made to show what it hides; or None."""
-    try:
-        tree = ast.parse(text)
-    except (SyntaxError, ValueError):
-        return None
-    lines = python_lines(text)
-    hidden = [
-        node
-        for node in ast.walk(tree)
-        if isinstance(node, ast.ExceptHandler)
-        and (node.type is None or _text(node.type) in ("Exception", "BaseException"))
-        and node.body[0].lineno > node.lineno
-    ]
-    if not hidden:
-        return None
-    for handler in sorted(hidden, key=lambda one: -one.body[0].lineno):
-        first = handler.body[0]
-        lines.insert(first.lineno - 1, " " * first.col_offset + "raise")
-    return "\n".join(lines) + "\n"
-
-
-def without_name(text, name):
-    """The program without something that it imports; None if it does not import it by name."""
-    try:
-        tree = ast.parse(text)
-    except (SyntaxError, ValueError):
-        return None
-    lines = python_lines(text)
-    for node in ast.walk(tree):
-        if isinstance(node, ast.ImportFrom) and name in {
-            each.asname or each.name for each in node.names
-        }:
-            line = lines[node.lineno - 1]
-            margin = line[: len(line) - len(line.lstrip())]
-            lines.insert(node.end_lineno, f"{margin}del {name}")
-            return "\n".join(lines) + "\n"
-    return None
-
-
-def flipped_anonymous(text, wanted):
-    """The program with anonymous=wanted in its init_node; None if it has none that is plain."""
-    try:
-        tree = ast.parse(text)
-    except (SyntaxError, ValueError):
-        return None
-    for node in ast.walk(tree):
-        if not (isinstance(node, ast.Call) and _last(node) == "init_node"):
-            continue
-        lines = python_lines(text)
-        for word in node.keywords:
-            if word.arg == "anonymous" and isinstance(word.value, ast.Constant):
-                return _replaced(lines, word.value, str(wanted))
-            if word.arg == "anonymous":
-                return None
-        if node.args:
-            last = node.args[-1]
-            segment = ast.get_source_segment(text, last)
-            return _replaced(lines, last, f"{segment}, anonymous={wanted}") if segment else None
-    return None
-
-
-def _replaced(lines, node, new):
-    if node.lineno != node.end_lineno:
-        return None
-    line = lines[node.lineno - 1].encode()
-    lines[node.lineno - 1] = (
-        line[: node.col_offset] + new.encode() + line[node.end_col_offset :]
-    ).decode()
-    return "\n".join(lines) + "\n"

@@ -20,13 +20,22 @@ NEEDS_BUILD = re.compile(
     re.MULTILINE,
 )
 
+# RViz is for human eyes: a program of its name only waits.
+NO_VIEW = """#!/bin/sh
+exec sleep 600
+"""
 # With launch-prefix="xterm -e" a node has a window; there is no screen here, so it runs without one.
-TERMINALS = ("xterm", "gnome-terminal", "konsole")
 NO_WINDOW = """#!/bin/sh
 while [ $# -gt 1 ] && [ "$1" != -e ] && [ "$1" != -x ] && [ "$1" != -- ]; do shift; done
 shift
 exec "$@"
 """
+STAND_INS = {
+    "rviz": NO_VIEW,
+    "xterm": NO_WINDOW,
+    "gnome-terminal": NO_WINDOW,
+    "konsole": NO_WINDOW,
+}
 
 
 def _once(memory, key, make):
@@ -183,7 +192,7 @@ class Session:
         return self.memo("environment", self._environment)
 
     def _environment(self):
-        view = self.folder / "view"  # RViz is for human eyes: a program of its name that only waits
+        view = self.folder / "view"  # with RViz for who asks ROS where it is
         for folder in (view / "lib" / "rviz", view / "src" / "rviz"):
             folder.mkdir(parents=True)
         (view / ".catkin").write_text(str(view / "src"))
@@ -192,9 +201,8 @@ class Session:
             '<maintainer email="a@b.example">x</maintainer><license>x</license></package>'
         )
         stub = view / "lib" / "rviz" / "rviz"
-        stub.write_text("#!/bin/sh\nexec sleep 600\n")
+        stub.write_text(NO_VIEW)
         stub.chmod(0o755)
-        (self.folder / "bin" / "rviz").symlink_to(stub)  # for who does not ask rosrun
         cmake = [each.folder / "CMakeLists.txt" for each in self.packages]
         needs_build = any(
             each.is_file() and NEEDS_BUILD.search(each.read_text(errors="replace"))
@@ -247,9 +255,9 @@ def prepare(folder, uid):
         (folder / name).mkdir(exist_ok=True)
     # The handout's listings begin with `env python`, as did all in its time.
     (folder / "bin" / "python").symlink_to("/usr/bin/python3")
-    for name in TERMINALS:
+    for name, text in STAND_INS.items():
         path = folder / "bin" / name
-        path.write_text(NO_WINDOW)
+        path.write_text(text)
         path.chmod(0o755)
     if uid is not None:
         for place, _, files in os.walk(folder / "ws"):

@@ -1,6 +1,5 @@
-"""From what a program printed to the cause, in words. Pure."""
+"""From what a program printed to its traceback. Pure."""
 
-import difflib
 import re
 from dataclasses import dataclass
 
@@ -18,122 +17,6 @@ FRAME = re.compile(r'^\s*File "(?P<file>[^"]+)", line (?P<line>\d+)')
 ERROR = re.compile(r"^(?:[A-Za-z_][\w.]*(?:Error|Exception|NotFound|Interrupt|Exit)\b.*)$")
 # Said of a node that is just being ended: rospy closes topics shortly before it says so. No mistake.
 CLOSED = "publish() to a closed topic"
-
-# What an error line most often means here: (pattern, what to do). The first that fits counts.
-CAUSES = (
-    (
-        r"No module named '(?P<m>std|sensor|geometry|nav)\w*'",
-        "the module is written with _msgs: from {m}_msgs.msg import ...",
-    ),
-    (
-        r"No module named '(?P<m>[^']+)'",
-        "nothing is called {m}: look at the spelling in the import line",
-    ),
-    (
-        r"cannot import name '(?P<m>[^']+)'",
-        "no message is called {m}: look at the spelling, capitals count",
-    ),
-    (
-        r"client code must call rospy\.init_node",
-        "rospy.init_node(...) must come before the first use of ROS",
-    ),
-    (
-        r"name 'pub' is not defined",
-        "pub belongs to another function: write `global pub` where it is made, and make it before the subscriber",
-    ),
-    (
-        r"(?:name|local variable) 'data' (?:is not defined|referenced)",
-        "the callback's parameter and what it uses must have one name: data",
-    ),
-    (
-        r"name '(?P<m>[^']+)' is not defined\. Did you mean: '(?P<n>[^']+)'",
-        "the program knows {n}, not {m}: one name for one thing",
-    ),
-    (
-        r"name '(?P<m>Twist|Joy|String|Float32)' is not defined",
-        "{m} is not imported: from ..._msgs.msg import {m}",
-    ),
-    (r"name '(?P<m>rospy|roslib)' is not defined", "write `import {m}` at the top"),
-    (r"name '(?P<m>callback|shutdown)' is not defined", "within a class it is self.{m}"),
-    (
-        r"name '(?P<m>[^']+)' is not defined",
-        "{m} is used but never made: look at its spelling, and at `self.` or `global`",
-    ),
-    (
-        r"(?P<m>\w+)\(\) missing (?P<n>\d+) required positional argument",
-        "hand over {m} without (): with them Python calls it now; within a class the first parameter is self",
-    ),
-    (
-        r"(?P<m>\w+)\(\) takes (?P<n>\d+) positional arguments? but",
-        "{m} gets another number of arguments: in a class the first parameter is self, and a callback gets the message",
-    ),
-    (r"'tuple' object is not callable", "axes is a list of numbers: axes[1], with square brackets"),
-    (
-        r"tuple index out of range|list index out of range",
-        "the handout's joystick has 6 axes, 0 to 5, and 12 buttons: look at the number in [ ]",
-    ),
-    (
-        r"tuple indices must be integers",
-        "axes is a list: axes[1], a number without quotes in square brackets",
-    ),
-    (
-        r"member_descriptor|type object 'Twist' has no attribute",
-        "Twist is the kind, Twist() is a message: write the ()",
-    ),
-    (
-        r"expected \[geometry_msgs/Vector3\]|wrong type|field linear must be|invalid .*Twist",
-        "publish the Twist: pub.publish(msg)",
-    ),
-    (
-        r"'float' object has no attribute|Invalid number of arguments",
-        "publish the Twist message itself: pub.publish(msg)",
-    ),
-    (
-        r"not all arguments converted during string formatting",
-        "as many %.2f as there are axes: 6 with the switch at D, 8 at X",
-    ),
-    (
-        r"not enough arguments for format string",
-        "as many %.2f as there are axes: 6 with the switch at D, 8 at X",
-    ),
-    (
-        r"must be real number, not (?:Joy|tuple|list)",
-        "% needs the numbers: % data.axes, with one %.2f for each",
-    ),
-    (
-        r"'(?P<m>Joy|Twist|String|_?Vector3)' object has no attribute '(?P<n>[^']+)'",
-        "a {m} has no field {n}: rosmsg show lists its fields",
-    ),
-    (
-        r"'(?P<m>\w+)' object has no attribute '(?P<n>[^']+)'",
-        "the object has no {n}: look at its spelling, at `self.`, and whether it is made before it is used",
-    ),
-    (
-        r"module 'rospy[\w.]*' has no attribute '(?P<m>[^']+)'",
-        "rospy has no {m}: look at the spelling, capitals count (rospy.Publisher, rospy.loginfo)",
-    ),
-    (
-        r"ResourceNotFound: (?P<m>\S+)",
-        "roslib.load_manifest names {m}, which is no package: write your package's name, or leave the line out",
-    ),
-    (
-        r"unexpected keyword argument '(?P<m>[^']+)'",
-        "{m} is not the name of a parameter: look at its spelling",
-    ),
-    (
-        r"'NoneType' object",
-        "something that should be a thing is None: was () written where none belongs?",
-    ),
-    (r"ROSInitException", "rospy.init_node(...) is called once, before all else"),
-    (
-        r"can only concatenate str|unsupported operand",
-        "text and number do not add: use % or a comma in loginfo",
-    ),
-    (
-        r"PermissionError|Read-only file system|Permission denied",
-        "the program writes where it may not; the checker lets it write in its own home folder only",
-    ),
-)
 
 
 def first_traceback(output, folder):
@@ -161,54 +44,6 @@ def _traceback(block, folder):
             error = line.strip()
             break
     return Traceback(error or lines[-1].strip(), where, text)
-
-
-def explain(error):
-    """What an error line most often means here; empty if nothing is known."""
-    for pattern, words in CAUSES:
-        found = re.search(pattern, error)
-        if found:
-            return words.format(**{key: value for key, value in found.groupdict().items() if value})
-    return ""
-
-
-def misspelt(error, names):
-    """Which name was meant by one that is not defined; empty if none is like it.
-
-    names: {name: line} of what the program makes.
-    """
-    found = re.search(r"name '(\w+)' is not defined", error)
-    if not found or found[1] in names:
-        return ""
-    near = difflib.get_close_matches(found[1], names, 3, 0.6)
-    near = [each for each in near if each[0].lower() == found[1][0].lower()]
-    if not near:
-        return ""
-    return f"{near[0]} in line {names[near[0]]}, {found[1]} here: one name for one thing"
-
-
-def syntax_hint(message, text, line=""):
-    """What a SyntaxError most often means here. text: the message's line of the program."""
-    if re.search(r"^\s*print\s+[^(=]", text) or "call to 'print'" in message:
-        return "that is Python 2: print(...) has parentheses"
-    if any(quote in text for quote in "‘’“”"):
-        return "curly quotes came from the PDF: type \" or ' instead"
-    if re.search(
-        r"\b(?:std|sensor|geometry|nav) msgs|init node|queue size|load manifest|cmd vel|is shutdown|get time|on shutdown|get name|get caller id|hello str",
-        text + line,
-    ):
-        return "the PDF shows underscores as gaps: write _ (sensor_msgs, init_node, queue_size)"
-    if "indent" in message or "inconsistent use of tabs" in message:
-        return "indent with four spaces, every line of a block alike, and never with tabs"
-    if "expected ':'" in message or re.match(
-        r"^(def|class|if|while|try|except|for|else)\b[^:]*$", text
-    ):
-        return "a line with def, class, if, while, try or except ends with :"
-    if "never closed" in message or "unmatched" in message or "EOF" in message:
-        return "a bracket is opened and not closed, here or in the line before"
-    if "unterminated" in message or "EOL" in message:
-        return "a quote is opened and not closed"
-    return "Python cannot read this line; the mistake can also be in the line before"
 
 
 def last_lines(output, count=3):

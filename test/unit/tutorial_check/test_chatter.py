@@ -78,3 +78,15 @@ def test_a_changed_talker_that_is_not_heard(session):
     session.run = lambda key, make: SimpleNamespace(taken={"": 0}, both=True, first_ended=False)
     with pytest.raises(Wrong, match="the other way round"):
         chatter.anonymous(session)
+
+
+@pytest.mark.parametrize("check", [chatter.talker, chatter.listener])
+def test_a_line_of_main_within_the_function(session, check):
+    name = check.__name__
+    text = f"def {name}():\n    rospy.spin()\n    if __name__ == '__main__':\n        {name}()\n"
+    (session.package(PACKAGE).folder / f"{name}.py").write_text(text)
+    session.stage = lambda: contextlib.nullcontext(Stage([], [f"{name}.py"]))
+    with pytest.raises(Wrong) as caught:
+        check(session)
+    assert caught.value.where == f"{name}.py:3"
+    assert f"within {name}()" in caught.value.hint

@@ -1,14 +1,9 @@
-"""From what a program printed to the cause."""
+"""From what a program printed to its traceback."""
 
 import pytest
 
-from tutorial_check.tracebacks import (
-    explain,
-    first_traceback,
-    last_lines,
-    misspelt,
-    syntax_hint,
-)
+from tutorial_check.causes import explain
+from tutorial_check.tracebacks import first_traceback, last_lines
 
 OUTPUT = """[ERROR] [1.0]: bad callback: <function callback at 0x7f>
 Traceback (most recent call last):
@@ -51,51 +46,5 @@ def test_no_traceback():
     assert first_traceback("all is well", "/tmp") is None
 
 
-@pytest.mark.parametrize(
-    "error, word",
-    [
-        ("NameError: name 'pub' is not defined", "global"),
-        ("NameError: name 'msg' is not defined. Did you mean: 'msq'?", "msq"),
-        ("ModuleNotFoundError: No module named 'std_msg'", "std_msgs.msg"),
-        ("TypeError: callback() missing 1 required positional argument: 'data'", "without ()"),
-        ("TypeError: not all arguments converted during string formatting", "as many %.2f"),
-        (
-            "rospy.exceptions.ROSInitException: client code must call rospy.init_node() first",
-            "init_node",
-        ),
-        ("rospkg.common.ResourceNotFound: joy2twst", "joy2twst"),
-    ],
-)
-def test_causes(error, word):
-    assert word in explain(error)
-
-
-def test_an_unknown_error_is_not_explained():
-    assert explain("ZeroDivisionError: division by zero") == ""
-
-
-@pytest.mark.parametrize(
-    "message, text, word",
-    [
-        ("invalid syntax", "from std msgs.msg import String", "underscores"),
-        ("Missing parentheses in call to 'print'", "print data", "Python 2"),
-        ("invalid character", "x = “a”", "curly"),
-        ("expected ':'", "def f()", "ends with :"),
-        ("'(' was never closed", "f(", "bracket"),
-        ("unexpected indent", "  x = 1", "indent"),
-    ],
-)
-def test_syntax(message, text, word):
-    assert word in syntax_hint(message, text)
-
-
 def test_last_lines_have_no_colours():
     assert last_lines("\x1b[31ma\x1b[0m\n\nb\nc\nd\n") == "b / c / d"
-
-
-def test_a_name_like_the_one_that_is_missing():
-    names = {"msq": 10, "data": 8, "sub": 20}
-    assert "msq in line 10" in misspelt("NameError: name 'msg' is not defined", names)
-    assert "data in line 8" in misspelt("NameError: name 'date' is not defined", names)
-    for error in ("name 'pub' is not defined", "name 'msq' is not defined", "IndexError: list"):
-        assert not misspelt(error, names)

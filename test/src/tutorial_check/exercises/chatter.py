@@ -2,10 +2,11 @@
 
 import statistics
 
+from tutorial_check.changed_programs import flipped_anonymous
 from tutorial_check.exercises.files import check_file, crash, find_script
+from tutorial_check.exercises.silent_end import sunken_main
 from tutorial_check.exercises.talking import LISTEN_S, PACKAGE, TOPIC, scripts, talk_of
 from tutorial_check.model import Note, Wrong, master_gone
-from tutorial_check.python_facts import flipped_anonymous
 from tutorial_check.tracebacks import first_traceback
 
 SUBSCRIBER_LINE = "rospy.Subscriber('chatter', String, callback)"
@@ -38,8 +39,10 @@ def talker(session):
     if not talk.heard:
         made = facts.first("Publisher")
         if talk.talker_ended or "Traceback" in program.output or program.spins:
-            hint = "" if facts.has_main else "does the last line call talker()?"
-            raise crash(
+            place, hint = sunken_main(facts, script)
+            if not facts.has_main:
+                hint = "does the last line call talker()?"
+            wrong = crash(
                 session,
                 PACKAGE,
                 program,
@@ -47,6 +50,8 @@ def talker(session):
                 hint
                 or "does the last line call talker(), and does it loop: while not rospy.is_shutdown()?",
             )
+            wrong.where = wrong.where or place
+            raise wrong
         topics = sorted(topic for topic in talk.publishers if topic not in (TOPIC, "/rosout"))
         if (
             TOPIC in talk.publishers
@@ -112,12 +117,14 @@ def listener(session):
     if talk.listener_ended:
         has_spin = "spin" in facts.calls
         bare = [line for line, text in facts.bare_names if text.endswith("spin")]
-        hint = (
+        place, hint = sunken_main(facts, script)
+        hint = hint or (
             "rospy.spin() at the end of listener() keeps it alive"
             if not has_spin
             else "does the last line call listener()?"
         )
         wrong = crash(session, PACKAGE, program, "it goes on until Ctrl-C", hint)
+        wrong.where = wrong.where or place
         if bare and not wrong.where:
             wrong.where, wrong.hint = f"{script}:{bare[0]}", "rospy.spin needs its (): rospy.spin()"
         raise wrong

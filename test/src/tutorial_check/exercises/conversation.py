@@ -3,6 +3,7 @@
 import contextlib
 import re
 
+from tutorial_check.changed_programs import unmasked
 from tutorial_check.exercises.driving import (
     CMD_VEL,
     COUNT,
@@ -12,9 +13,10 @@ from tutorial_check.exercises.driving import (
     drive,
 )
 from tutorial_check.exercises.files import check_file, crash
+from tutorial_check.exercises.silent_end import silent_end
 from tutorial_check.mapping import judge
 from tutorial_check.model import Note, Wrong
-from tutorial_check.python_facts import python_lines, unmasked
+from tutorial_check.python_facts import python_lines
 
 JOY_LINE = "rospy.Subscriber('/joy', Joy, callback)"
 TWIST_LINE = "rospy.Publisher('/cmd_vel', Twist, queue_size=10)"
@@ -40,32 +42,6 @@ def crash_of(session, seen, expected, hint=""):
                 wrong.seen += f" (hidden by the except in line {facts.broad_excepts[0]})"
                 return wrong
     return crash(session, PACKAGE, program, expected, hint)
-
-
-def _silent_end(session, script):
-    """Why a program ends at once without a word, as far as its text tells: (where, hint)."""
-    facts = session.scripts(PACKAGE)[script]
-    for line, text in facts.bare_names:
-        if text.endswith(("spin", "listener")):
-            return f"{script}:{line}", f"{text} needs its (): {text}()"
-    for one in facts.classes:
-        if one.is_node and "__init__" not in one.methods:
-            odd = next((each for each in one.methods if re.fullmatch(r"_*init_*", each)), None)
-            if odd:
-                return (
-                    f"{script}:{one.line}",
-                    f"`def {odd}`: Python calls `__init__`, two underscores on either side",
-                )
-        if one.is_node and not one.instantiated:
-            return (
-                f"{script}:{one.line}",
-                f"nobody makes one: {one.name}() under if __name__ == '__main__':",
-            )
-    if "spin" not in facts.calls:
-        return script, "rospy.spin() is missing: without it the program comes to its end"
-    if not facts.has_main:
-        return script, "nobody calls listener(): if __name__ == '__main__': listener()"
-    return script, "is the function called, in the last line, and with ()?"
 
 
 def check_connected(session, seen):
@@ -95,7 +71,7 @@ def check_connected(session, seen):
         if seen.trouble or wrong.where:
             raise wrong
     if seen.ended_early:
-        place, hint = _silent_end(session, seen.script)
+        place, hint = silent_end(facts, seen.script)
         raise Wrong(
             expected, crash(session, PACKAGE, seen.program, "").seen, where=place, hint=hint
         )
@@ -222,7 +198,7 @@ def check_mapping(session, seen):
             raise crash_of(session, seen, expected)
         if seen.ended_early:
             wrong = crash_of(session, seen, expected)
-            place, hint = _silent_end(session, seen.script)
+            place, hint = silent_end(facts, seen.script)
             wrong.where, wrong.hint = wrong.where or place, wrong.hint or hint
             raise wrong
         if not seen.samples:

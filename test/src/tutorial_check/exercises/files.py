@@ -5,15 +5,10 @@ import re
 import shutil
 from pathlib import Path
 
+from tutorial_check.causes import explain, syntax_hint, traced
 from tutorial_check.model import Wrong
 from tutorial_check.python_facts import read_python, unreadable
-from tutorial_check.tracebacks import (
-    explain,
-    first_traceback,
-    last_lines,
-    misspelt,
-    syntax_hint,
-)
+from tutorial_check.tracebacks import first_traceback, last_lines
 
 INTERPRETER = re.compile(rb"#!\s*(\S+)(?:\s+(\S+))?")
 
@@ -95,7 +90,7 @@ def _check_text(session, package, script):
             hint="the download gave the page and not the file: take the address of the raw file",
         )
     first = data.split(b"\n", 1)[0]
-    if b"\r\n" in data:
+    if first.endswith(b"\r"):  # further down they do no harm
         raise _wrong(
             f"head -1 {script} | cat -A",
             "Unix line ends",
@@ -137,7 +132,7 @@ def _check_text(session, package, script):
     except Wrong as wrong:
         wrong.look = f"head -1 {script}"
         raise
-    if not path.stat().st_mode & 0o100:
+    if not is_runnable(session, package, path):
         raise _wrong(
             f"ls -l {script}",
             "a program that may be run",
@@ -147,6 +142,12 @@ def _check_text(session, package, script):
         )
     if facts:
         _check_gaps(facts, script)
+
+
+def is_runnable(session, package, path):
+    """Whether rosrun takes a program: it may be run, or catkin has made one of it in devel."""
+    may_be_run = path.stat().st_mode & 0o100
+    return bool(may_be_run) or session.command(package, path) != [str(path)]
 
 
 def _check_gaps(facts, script):
@@ -202,13 +203,14 @@ def cause_of(session, package, name, trace):
     script = next((each for each in session.scripts(package) if Path(each).name == name), "")
     script = trace.where.rpartition(":")[0] or script
     if not script:
-        return trace.where, explain(trace.error)
-    names = read_python(session.text(package, script)).names
+        return trace.where, explain(trace.error, trace.text)
+    facts = read_python(session.text(package, script))
     function = re.search(r"(\w+)\(\) (?:takes|missing)", trace.error)
-    place = trace.where
-    if not place and function and function[1] in names:  # called by rospy itself
-        place = f"{script}:{names[function[1]]}"
-    return place, misspelt(trace.error, names) or explain(trace.error)
+    line = int(trace.where.rpartition(":")[2] or 0)
+    if not line and function:  # called by rospy itself
+        line = facts.names.get(function[1], 0)
+    line, hint = traced(trace.error, line, facts)
+    return f"{script}:{line}" if line else "", hint or explain(trace.error, trace.text)
 
 
 def crash(session, package, program, what, default_hint=""):

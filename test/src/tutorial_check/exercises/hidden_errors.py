@@ -2,10 +2,10 @@
 
 import re
 
+from tutorial_check.changed_programs import without_name
 from tutorial_check.exercises.classes import program
 from tutorial_check.exercises.driving import JOY, PACKAGE
 from tutorial_check.model import Note, Wrong
-from tutorial_check.python_facts import without_name
 from tutorial_check.tracebacks import last_lines
 
 ALONE_S = 1.5  # without a joystick

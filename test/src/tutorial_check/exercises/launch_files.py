@@ -7,7 +7,7 @@ import re
 from pathlib import Path
 
 from tutorial_check.exercises.driving import PACKAGE
-from tutorial_check.exercises.files import find_script
+from tutorial_check.exercises.files import find_script, is_runnable
 from tutorial_check.exercises.joy2twist import NAME
 from tutorial_check.exercises.launch_text import attribute, parse_error, place_of, read, space_hint
 from tutorial_check.exercises.manifests import must_be_launchable
@@ -187,7 +187,7 @@ def _check_node(session, node, where, text):
                 where=place,
                 hint=f'type="{near[0]}"' if near else "type is the name of the file, with .py",
             )
-        if not any(path.stat().st_mode & 0o100 for path in found):
+        if not any(is_runnable(session, PACKAGE, path) for path in found):
             raise Wrong(
                 f"{kind} may be run", "it is not executable", where=place, hint=f"chmod +x {kind}"
             )

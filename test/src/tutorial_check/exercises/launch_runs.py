@@ -5,6 +5,7 @@ import os
 import re
 from pathlib import Path
 
+from tutorial_check.causes import explain
 from tutorial_check.exercises.driving import CMD_VEL, JOY, PACKAGE
 from tutorial_check.exercises.launch_files import BAG, STICK, find_launch
 from tutorial_check.exercises.launch_nodes import (
@@ -17,7 +18,7 @@ from tutorial_check.exercises.launch_nodes import (
 )
 from tutorial_check.exercises.robot import ODOM, plug_in
 from tutorial_check.model import CannotCheck, Wrong
-from tutorial_check.tracebacks import explain, first_traceback
+from tutorial_check.tracebacks import first_traceback
 
 BAG_S = 1.2  # length of the recording that takes the place of the student's, and is played again
 ONCE_S = 60.0  # and of one that is not: like the student's it lasts until the others have started

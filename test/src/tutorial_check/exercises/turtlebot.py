@@ -63,7 +63,8 @@ def remapped(session):
     if good and not bad and CMD_VEL not in publishers:
         return None
     if "Traceback" in output or launch_runs.has_died(_Run(program)):
-        from tutorial_check.tracebacks import explain, first_traceback, last_lines  # noqa: PLC0415
+        from tutorial_check.causes import explain  # noqa: PLC0415
+        from tutorial_check.tracebacks import first_traceback, last_lines  # noqa: PLC0415
 
         trace = first_traceback(output, str(session.package(PACKAGE).folder))
         raise Wrong(
