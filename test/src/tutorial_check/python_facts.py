@@ -32,6 +32,7 @@ class PythonFacts:
     has_main: bool = False
     odd_main: tuple = ()  # (line, text) of an `if` that is meant to be that of __main__, and is not
     names: dict = field(default_factory=dict)  # what the program makes, or is given -> first line
+    functions: dict = field(default_factory=dict)  # of those the functions and methods
     loops: list = field(default_factory=list)  # lines of `while`
     bare_names: list = field(default_factory=list)  # (line, text) of statements that do nothing
 
@@ -67,6 +68,8 @@ class ClassFacts:
     instantiated: bool
     is_node: bool
     attributes_called: set
+    attributes: set  # that an object has, besides methods
+    bases: set  # but object
 
 
 def _text(node):
@@ -141,6 +144,9 @@ def read_python(text):
         elif isinstance(node, ast.Expr) and isinstance(node.value, (ast.Attribute, ast.Name)):
             facts.bare_names.append((node.lineno, _text(node.value)))
     facts.names = _names(tree)
+    facts.functions = {
+        node.name: node.lineno for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)
+    }
     facts.odd_main = _odd_main(tree, text, facts.names)
     for calls in facts.calls.values():
         calls.sort(key=lambda call: call.line)
@@ -191,7 +197,15 @@ def _class_facts(node, called):
         is_node=bool(words & {"Subscriber", "Publisher", "init_node", "publish"})
         and not any(base.endswith(("Exception", "Error")) for base in bases),
         attributes_called={name for name in inside if name.startswith("self.")},
+        attributes=_stored(node),
+        bases=bases - {"object"},
     )
+
+
+def _stored(node):
+    """What is assigned in a class: names as well as attributes."""
+    stored = [part for part in ast.walk(node) if isinstance(getattr(part, "ctx", None), ast.Store)]
+    return {getattr(part, "attr", getattr(part, "id", "")) for part in stored}
 
 
 def unmasked(text):

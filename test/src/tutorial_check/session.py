@@ -125,7 +125,9 @@ class Session:
         found = {}
         package = self.package(name)
         for path in sorted(package.folder.rglob("*")) if package else []:
-            if not path.is_file() or (path.is_symlink() and not path.exists()):
+            inside = path.relative_to(package.folder)
+            # What editors and file managers keep for themselves is hidden.
+            if not path.is_file() or any(part.startswith(".") for part in inside.parts):
                 continue
             is_python = path.suffix == ".py"
             if not is_python and not path.suffix:
@@ -133,7 +135,7 @@ class Session:
                     is_python = file.read(2) == b"#!" and b"python" in file.readline()
             if is_python and path.name not in ("setup.py", "__init__.py"):
                 text = path.read_bytes().decode(errors="replace")
-                found[str(path.relative_to(package.folder))] = python_facts.read_python(text)
+                found[str(inside)] = python_facts.read_python(text)
         return found
 
     def text(self, package, script):
