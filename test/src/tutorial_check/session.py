@@ -168,6 +168,18 @@ class Session:
         self.box.end(program)
         return (program.process.returncode if ended else None), program.output
 
+    def _needs_build(self):
+        cmake = [each.folder / "CMakeLists.txt" for each in self.packages]
+        return any(
+            each.is_file() and NEEDS_BUILD.search(each.read_text(errors="replace"))
+            for each in cmake
+        )
+
+    @property
+    def lacks_build(self):
+        """Whether the programs run without what catkin_make should have made for them."""
+        return self._needs_build() and self.built()[0] != 0
+
     @property
     def environment(self):
         """In which the student's programs find their packages before all others, and nobody else's."""
@@ -185,12 +197,7 @@ class Session:
         stub = view / "lib" / "rviz" / "rviz"
         stub.write_text("#!/bin/sh\nexec sleep 600\n")
         stub.chmod(0o755)
-        cmake = [each.folder / "CMakeLists.txt" for each in self.packages]
-        needs_build = any(
-            each.is_file() and NEEDS_BUILD.search(each.read_text(errors="replace"))
-            for each in cmake
-        )
-        if needs_build and self.built()[0] == 0:
+        if self._needs_build() and self.built()[0] == 0:
             found = self._sourced(self.folder / "ws" / "devel" / "setup.bash")
         else:
             # What a build makes of packages that have nothing to be built.

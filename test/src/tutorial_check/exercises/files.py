@@ -208,7 +208,11 @@ def cause_of(session, package, name, trace):
     place = trace.where
     if not place and function and function[1] in names:  # called by rospy itself
         place = f"{script}:{names[function[1]]}"
-    return place, misspelt(trace.error, names) or explain(trace.error)
+    hint = misspelt(trace.error, names) or explain(trace.error)
+    if re.match("ImportError|ModuleNotFoundError", trace.error) and session.lacks_build:
+        fails = "catkin_make, which may have to make it, fails: exercise 2 says why"
+        hint = f"{hint}; {fails}" if hint else fails
+    return place, hint
 
 
 def crash(session, package, program, what, default_hint=""):
