@@ -55,8 +55,9 @@ def mux(what, old, new, check, word):
 ROWS = [
     ("5", "no launch_bag.launch", [remove(LAUNCH_BAG)], "C21", "no such file"),
     ("5", "misnamed", [move(LAUNCH_JOY, f"{J}/launch/launch_joynode.launch")], "C21", "launch_joynode"),
-    bag("</node> missing", "  </node>\n  <include", "  <include", "C21", "</tag>"),
-    bag("</launch> missing", "</launch>", "", "C21", "</tag>"),
+    bag("</node> missing", "  </node>\n  <include", "  <include", "C21", ("launch_bag.launch:2", "the <node> of line 2 is never closed")),
+    ("5", "</node> only at the end", [put(LAUNCH_BAG, "  </node>\n  <include", "  <include"), put(LAUNCH_BAG, "</launch>", "  </node>\n</launch>")], "C21", ("launch_bag.launch:2", "<include> in it", "close it first")),
+    bag("</launch> missing", "</launch>", "", "C21", "the <launch> of line 1 is never closed"),
     bag("curly quotes", '"rviz"', "“rviz”", "C21", "curly"),
     bag("<Node>", '<node pkg="joy2twist" name="myjoystick2twist" type="joy2twist.py">\n  </node>', '<Node pkg="joy2twist" name="myjoystick2twist" type="joy2twist.py">\n  </Node>', "C21", "lower case"),
     bag("a package that does not exist", "$(find rbx1_bringup)", "$(find rbx1_bringupp)", "C21", "rbx1_bringupp"),

@@ -6,7 +6,7 @@ import zipfile
 from pathlib import Path
 
 import pytest
-from edits import TALKER, B, J, put
+from edits import LAUNCH_BAG, TALKER, B, J, put
 from test_awkward import check
 
 from tutorial_check import place
@@ -83,6 +83,17 @@ def test_links_of_others(literal, floor, home):
     away(literal / B, home)
     seen = verdicts(literal.parent, floor, own=False)["C2"]
     assert f"a link to {home}/git/{B}, and leads nowhere here" in seen.seen
+
+
+def test_a_recording_in_the_home_folder(literal, floor, home):
+    """The student has it, and by a whole path it is played."""
+    away(literal / "joy2twist/bag", home)
+    (literal / "joy2twist/bag").unlink()
+    put(LAUNCH_BAG, "$(find joy2twist)/bag", f"{home}/git/bag")(literal)
+    seen = verdicts(literal.parent, floor, "5")
+    assert seen["C22"].status == "note"
+    assert f"not in your package: {home}/git/bag/joy.bag" in seen["C22"].seen
+    assert {result.status for result in seen.values()} <= {"ok", "note"}, seen
 
 
 def test_no_program_sees_the_home_folder(literal, floor, home):

@@ -56,8 +56,8 @@ def examine(orders, tell, told):
     # Links of one's own workspace lead where they lead; those of others, not into the home folder
     # of who checks them. No program of theirs runs before that is hidden.
     if orders["own"]:
-        workspace.copy(layout, scratch / "ws")
-        kept.append(layout.source)
+        copied = workspace.copy(layout, scratch / "ws")
+        kept += [layout.source, *workspace.named_outside(copied)]
     granted = granted and place.furnish(scratch, orders["home"], kept)
     if not orders["own"]:
         workspace.copy(layout, scratch / "ws")

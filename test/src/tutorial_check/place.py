@@ -57,8 +57,8 @@ def limit(scratch):
 def furnish(scratch, home, kept):
     """Make the other mounts; whether all was granted. What is refused hides nothing.
 
-    scratch: the folder for what is written; home: the folder to hide; kept: those below it (or
-    elsewhere) that are needed still, read-only.
+    scratch: the folder for what is written; home: the folder to hide; kept: folders and files below
+    it (or elsewhere) that are needed still, read-only.
     """
     try:
         side = Path(scratch) / "mounts"
@@ -80,7 +80,7 @@ def _hide(home, kept, side):
     Each is made aside and put there in one step, so that nothing is ever hidden without what is
     kept; and with the folder for what is written, where that lies below it.
     """
-    names = {Path(each): Path(each).resolve() for each in kept if Path(each).is_dir()}
+    names = {Path(each): Path(each).resolve() for each in kept if Path(each).exists()}
     scratch, sizes = side.parent.resolve(), {Path("/tmp").resolve(): "size=64m,mode=1777"}
     home = Path(home).resolve()
     if home.is_dir() and str(home) != "/":
@@ -93,24 +93,28 @@ def _hide(home, kept, side):
         new.mkdir()
         _mount("-t", "tmpfs", "-o", sizes[folder], "none", new)
 
-    def bind(folder):
-        over = next((each for each in hidden if each in (folder, *folder.parents)), None)
-        there = hidden[over] / folder.relative_to(over) if over else folder
-        there.mkdir(parents=True, exist_ok=True)
-        _mount("--rbind", folder, there)
+    def bind(path):
+        over = next((each for each in hidden if each in (path, *path.parents)), None)
+        there = hidden[over] / path.relative_to(over) if over else path
+        if path.is_dir():
+            there.mkdir(parents=True, exist_ok=True)
+        elif not there.exists():
+            there.parent.mkdir(parents=True, exist_ok=True)
+            there.touch()
+        _mount("--rbind", path, there)
         return there
 
-    for folder in dict.fromkeys(names.values()):
-        _mount("-o", "remount,bind,ro", bind(folder))
+    for path in dict.fromkeys(names.values()):
+        _mount("-o", "remount,bind,ro", bind(path))
     if set(scratch.parents) & set(hidden):
         bind(scratch)  # with what is made aside
     for folder, new in hidden.items():
         _mount("--rbind", new, folder)
-    for name, folder in names.items():
+    for name, path in names.items():
         # By a link that was hidden with the home folder: catkin may have written that name down.
         if not os.path.lexists(name):
             name.parent.mkdir(parents=True, exist_ok=True)
-            name.symlink_to(folder)
+            name.symlink_to(path)
 
 
 def _devices(side):

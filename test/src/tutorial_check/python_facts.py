@@ -38,6 +38,7 @@ class PythonFacts:
     inner_names: set = field(default_factory=set)  # those of them that functions make, or are given
     attributes: dict = field(default_factory=dict)  # "self.pub" -> (first line, what it is set to)
     loose: dict = field(default_factory=dict)  # line beside functions, not in one -> the one above
+    functions: dict = field(default_factory=dict)  # of those the functions and methods
     loops: list = field(default_factory=list)  # lines of `while`
     bare_names: list = field(default_factory=list)  # (line, text) of statements that do nothing
 
@@ -73,6 +74,8 @@ class ClassFacts:
     instantiated: bool
     is_node: bool
     attributes_called: set
+    attributes: set  # that an object has, besides methods
+    bases: set  # but object
 
 
 def text_of(node):
@@ -166,6 +169,9 @@ def read_python(text):
     facts.attributes = _attributes(tree)
     facts.loose = _loose(tree)
     facts.sunken_main = _sunken_main(tree)
+    facts.functions = {
+        node.name: node.lineno for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)
+    }
     facts.odd_main = _odd_main(tree, text, facts.names)
     for calls in facts.calls.values():
         calls.sort(key=lambda call: call.line)
@@ -260,4 +266,12 @@ def _class_facts(node, called):
         is_node=bool(words & {"Subscriber", "Publisher", "init_node", "publish"})
         and not any(base.endswith(("Exception", "Error")) for base in bases),
         attributes_called={name for name in inside if name.startswith("self.")},
+        attributes=_stored(node),
+        bases=bases - {"object"},
     )
+
+
+def _stored(node):
+    """What is assigned in a class: names as well as attributes."""
+    stored = [part for part in ast.walk(node) if isinstance(getattr(part, "ctx", None), ast.Store)]
+    return {getattr(part, "attr", getattr(part, "id", "")) for part in stored}

@@ -145,7 +145,9 @@ class Session:
         found = {}
         package = self.package(name)
         for path in sorted(package.folder.rglob("*")) if package else []:
-            if not path.is_file() or (path.is_symlink() and not path.exists()):
+            inside = path.relative_to(package.folder)
+            # What editors and file managers keep for themselves is hidden.
+            if not path.is_file() or any(part.startswith(".") for part in inside.parts):
                 continue
             is_python = path.suffix == ".py"
             if not is_python and not path.suffix:
@@ -153,7 +155,7 @@ class Session:
                     is_python = file.read(2) == b"#!" and b"python" in file.readline()
             if is_python and path.name not in ("setup.py", "__init__.py"):
                 text = path.read_bytes().decode(errors="replace")
-                found[str(path.relative_to(package.folder))] = python_facts.read_python(text)
+                found[str(inside)] = python_facts.read_python(text)
         return found
 
     def text(self, package, script):
@@ -186,6 +188,18 @@ class Session:
         self.box.end(program)
         return (program.process.returncode if ended else None), program.output
 
+    def _needs_build(self):
+        cmake = [each.folder / "CMakeLists.txt" for each in self.packages]
+        return any(
+            each.is_file() and NEEDS_BUILD.search(each.read_text(errors="replace"))
+            for each in cmake
+        )
+
+    @property
+    def lacks_build(self):
+        """Whether the programs run without what catkin_make should have made for them."""
+        return self._needs_build() and self.built()[0] != 0
+
     @property
     def environment(self):
         """In which the student's programs find their packages before all others, and nobody else's."""
@@ -203,12 +217,7 @@ class Session:
         stub = view / "lib" / "rviz" / "rviz"
         stub.write_text(NO_VIEW)
         stub.chmod(0o755)
-        cmake = [each.folder / "CMakeLists.txt" for each in self.packages]
-        needs_build = any(
-            each.is_file() and NEEDS_BUILD.search(each.read_text(errors="replace"))
-            for each in cmake
-        )
-        if needs_build and self.built()[0] == 0:
+        if self._needs_build() and self.built()[0] == 0:
             found = self._sourced(self.folder / "ws" / "devel" / "setup.bash")
         else:
             # What a build makes of packages that have nothing to be built.

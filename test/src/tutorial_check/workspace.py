@@ -15,6 +15,8 @@ from tutorial_check.model import CannotCheck
 
 MOST_BYTES = 300 << 20  # of a workspace's sources; bags included
 MOST_FILES = 20_000
+# A whole path in a launch file to what a node of the exercises reads.
+WHOLE_PATH = re.compile(r"(?<=[\s\"'=])/[^\s\"'<>$]+\.(?:bag|rviz)\b")
 LEFT_OUT = {".git", "build", "devel", "install", "__pycache__", ".catkin_tools", "logs"}
 
 
@@ -151,6 +153,15 @@ def _copy(source, target, so_far, seen):
                 shutil.copy2(entry.path, target / entry.name)
         except PermissionError:
             raise CannotCheck(f"{entry.path}: may not be read; chmod -R u+rX would help") from None
+
+
+def named_outside(source):
+    """The recordings and RViz views that exist and that launch files name by whole paths."""
+    texts = [
+        each.read_text(errors="replace") for each in source.rglob("*.launch") if each.is_file()
+    ]
+    named = {path for text in texts for path in WHOLE_PATH.findall(text)}
+    return sorted(each for each in named if os.path.isfile(each))
 
 
 def packages_below(folder):

@@ -86,6 +86,19 @@ def test_an_empty_folder_has_no_package(tmp_path):
     assert workspace.packages_below(workspace.copy(layout, tmp_path / "copy")) == []
 
 
+def test_what_launch_files_name_by_whole_paths(tmp_path):
+    kept, view = tmp_path / "joy.bag", tmp_path / "my.rviz"
+    for path in (kept, view, tmp_path / "secret", tmp_path / "bag.old"):
+        path.touch()
+    launch = tmp_path / "src/joy2twist/launch"
+    launch.mkdir(parents=True)
+    (launch / "a.launch").write_text(
+        f'<node args="--loop {kept} $(find x){view} {tmp_path}/none.bag {tmp_path}/secret"/>'
+    )
+    (launch / "b.launch").write_text(f"<node args='{view} {tmp_path}/bag.old'/>")
+    assert workspace.named_outside(tmp_path / "src") == [str(kept), str(view)]
+
+
 def test_broken_xml_has_a_reason(tmp_path):
     (package(tmp_path / "src" / "joy2twist") / "package.xml").write_text(
         "<package><name></package>"

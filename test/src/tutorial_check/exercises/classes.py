@@ -6,7 +6,7 @@ from pathlib import Path
 from tutorial_check.exercises import conversation
 from tutorial_check.exercises.driving import PACKAGE, drive
 from tutorial_check.exercises.files import check_file
-from tutorial_check.exercises.joy2twist import check_manifest
+from tutorial_check.exercises.joy2twist import NAME, check_manifest
 from tutorial_check.model import Note, Wrong
 
 
@@ -18,9 +18,20 @@ def _class_files(session):
         for path, facts in scripts.items()
         if facts.is_class_program and "checked_" not in path
     }
-    return dict(
-        sorted(found.items(), key=lambda item: (not _fits(item[1].name + item[0]), item[0]))
-    )
+    folder = session.package(PACKAGE).folder
+
+    def unlikely(path):
+        """The step before, under joy2twist.py, may be a class already; and there are old copies."""
+        return (
+            not _fits(found[path].name + path),
+            bool(re.search(r"(^|/)(old|backup|copy)[^/]*/", path, re.IGNORECASE)),
+            "on_shutdown" not in scripts[path].calls,
+            not (folder / path).stat().st_mode & 0o100,
+            Path(path).name == NAME,
+            path,
+        )
+
+    return {path: found[path] for path in sorted(found, key=unlikely)}
 
 
 def _fits(words):
@@ -82,21 +93,8 @@ def is_class(session):
             hint=f"{one.name}() with (), under if __name__ == '__main__':",
         )
     for call in facts.calls.get("on_shutdown", []):
-        if call.words and call.words[0].endswith("()"):
-            raise Wrong(
-                "rospy.on_shutdown gets the method itself",
-                f"on_shutdown({call.words[0]}): it is called at the start",
-                where=f"{path}:{call.line}",
-                hint=f"without (): rospy.on_shutdown({call.words[0][:-2]})",
-            )
-        name = call.words[0].rsplit(".", 1)[-1] if call.words else ""
-        if call.words and call.words[0].startswith("self.") and name not in one.methods:
-            raise Wrong(
-                "rospy.on_shutdown gets a method that exists",
-                f"the class has no {name}",
-                where=f"{path}:{call.line}",
-                hint=f"one name: def {name}(self), or one of {', '.join(one.methods)}",
-            )
+        word = call.words[0] if call.words else ""
+        _check_method(facts, one, word, "rospy.on_shutdown", f"{path}:{call.line}")
     for call in facts.calls.get("Subscriber", []):
         callback = call.words[2] if len(call.words) > 2 else call.names.get("callback", "")
         if callback in one.methods:
@@ -106,19 +104,35 @@ def is_class(session):
                 where=f"{path}:{call.line}",
                 hint=f"self.{callback}",
             )
-        if callback.endswith("()"):
-            raise Wrong(
-                "the Subscriber gets the method itself",
-                f"{callback} is called at once",
-                where=f"{path}:{call.line}",
-                hint=f"without (): {callback[:-2]}",
-            )
+        _check_method(facts, one, callback, "the Subscriber", f"{path}:{call.line}")
     if facts.globals:
         return Note(
             "a class needs no `global`: self. keeps what its methods share",
             f"{path}:{facts.globals[0]}",
         )
     return f"{one.name} in {path}"
+
+
+def _check_method(facts, one, word, taker, where):
+    """What is given in place of a method is one, as far as can be told. Raises Wrong."""
+    name = word.rsplit(".", 1)[-1]
+    if name.endswith("()") and name[:-2] in facts.functions:
+        raise Wrong(
+            f"{taker} gets the method itself",
+            f"{word} is called at once",
+            where=where,
+            hint=f"without (): {word[:-2]}",
+        )
+    # Another object's, or an inherited one, is not known here.
+    known = any(name in {*each.methods, *each.attributes} or each.bases for each in facts.classes)
+    if word != f"self.{name}" or name.endswith("()") or known:
+        return
+    seen, hint = f"the class has no {name}", f"one name: def {name}(self), or one of "
+    hint += ", ".join(one.methods)
+    if name in facts.functions:
+        seen = f"`def {name}` in line {facts.functions[name]} is no method of the class"
+        hint = "indent it like `def __init__`: neither further, nor less"
+    raise Wrong(f"{taker} gets a method that exists", seen, where=where, hint=hint)
 
 
 def behaves(session):

@@ -210,7 +210,11 @@ def cause_of(session, package, name, trace):
     if not line and function:  # called by rospy itself
         line = facts.names.get(function[1], 0)
     line, hint = traced(trace.error, line, facts)
-    return f"{script}:{line}" if line else "", hint or explain(trace.error, trace.text)
+    hint = hint or explain(trace.error, trace.text)
+    if re.match("ImportError|ModuleNotFoundError", trace.error) and session.lacks_build:
+        fails = "catkin_make, which may have to make it, fails: exercise 2 says why"
+        hint = f"{hint}; {fails}" if hint else fails
+    return f"{script}:{line}" if line else "", hint
 
 
 def crash(session, package, program, what, default_hint=""):

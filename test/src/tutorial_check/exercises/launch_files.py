@@ -10,6 +10,7 @@ from tutorial_check.exercises.driving import PACKAGE
 from tutorial_check.exercises.files import find_script, is_runnable
 from tutorial_check.exercises.joy2twist import NAME
 from tutorial_check.exercises.launch_text import attribute, parse_error, place_of, read, space_hint
+from tutorial_check.exercises.launch_xml import unclosed_node
 from tutorial_check.exercises.manifests import must_be_launchable
 from tutorial_check.launch_facts import MARK
 from tutorial_check.model import CannotCheck, Wrong
@@ -107,10 +108,10 @@ def check_file(session, name):
     one = facts(session, name)
     text = read(path)
     if one["error"]:
-        raise parse_error(one["error"], where, text)
+        raise parse_error(one["error"], where, path.read_text(errors="replace"))
+    said = one["said"] + " ".join(one.get("errors", []))
     unknown = re.findall(
-        r"unrecognized tag (\S+)|[Uu]nknown (?:<\w+> )?attribute (\S+)",
-        one["said"] + " ".join(one.get("errors", [])),
+        r"unrecognized tag (\S+)|[Uu]nknown (?:<\w+> )?attribute '?([^\s']+)", said
     )
     odd = [tag for tag in one["tags"] if tag not in _TAGS]
     if odd or unknown:
@@ -122,6 +123,15 @@ def check_file(session, name):
             hint=f"lower case: <{word.lower()}>"
             if word.lower() in _TAGS
             else "look at its spelling",
+        )
+    inside = re.search(r"unrecognized '(\w+)' child tag", said)
+    line = unclosed_node(text, inside[1]) if inside else None
+    if line:
+        raise Wrong(
+            "no tag in a <node> but remap, param, rosparam and env",
+            f"<{inside[1]}> in it: ignored by roslaunch",
+            where=f"{where}:{line}",
+            hint="the <node> of this line goes on to its </node>: close it first, with /> or </node>",
         )
     gap, hint = space_hint(text)
     if gap:

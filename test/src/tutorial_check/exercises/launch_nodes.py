@@ -106,7 +106,7 @@ def check_viewer(session, name):
     if config and config != "auto" and not os.path.isfile(config):
         raise Wrong(
             "-d FILE names a file that exists",
-            f"no file {config}",
+            f"no file {config} on this machine",
             where=where,
             hint="-d $(find rbx1_nav)/sim.rviz",
         )
@@ -156,7 +156,7 @@ def bag_of(session):
     if not os.path.isfile(bags[0]) and str(session.layout.root) not in bags[0]:
         raise Wrong(
             "a recording that exists",
-            f"no file {bags[0]}",
+            f"no file {bags[0]} on this machine",
             where=where,
             hint=COPY_BAG,
         )

@@ -5,6 +5,7 @@ import os
 import re
 from pathlib import Path
 
+from tutorial_check.exercises.launch_xml import NOT_XML, line_of, not_xml, without_comments
 from tutorial_check.model import Wrong
 
 # Those that a launch file of the exercises may name.
@@ -20,7 +21,6 @@ PACKAGES = (
     "rosbag",
     "rviz",
 )
-NOT_XML = r"mismatched tag|no element found|not well-formed|junk after|unclosed token"
 NO_FILE = r"No such file or directory: '([^']+)'|\[([^\]]+)\] (?:does not exist|cannot be)"
 NO_PACKAGE = r"Resource not found: (\S+)|package \[?'?([\w-]+)|(\S+) ROS path \[0\]="
 # Names in two words. (That of a node may have them, says roslaunch; that is worth a note.)
@@ -28,12 +28,12 @@ GAPS = (
     r"\$\(find\s+(\w+(?:[ \t]+\w+)+)\s*\)",
     r"\b(?:pkg|type)\s*=\s*[\"'](\w+(?:[ \t]+[\w.]+)+)[\"']",
 )
-CURLY = re.compile("[“”‘’]")
-
-
-def without_comments(text):
-    """The text with blanks in place of comments: its lines keep their numbers."""
-    return re.sub(r"<!--.*?-->", lambda found: re.sub(r"[^\n]", " ", found[0]), text, flags=re.S)
+# What roslaunch wants in a tag.
+ATTRIBUTES = {
+    "node": "a node has pkg=, type= and name=",
+    "include": 'an include has file="$(find PACKAGE)/launch/FILE"',
+    "remap": '<remap from="name in the program" to="name on the robot"/>',
+}
 
 
 def read(path):
@@ -66,12 +66,14 @@ def space_hint(text):
 
 
 def parse_error(error, where, text):
-    """The Wrong for a file that roslaunch cannot read. text: without comments."""
+    """The Wrong for a file that roslaunch cannot read. text: with its comments."""
     expected = "a launch file that roslaunch can read"
+    if re.search(NOT_XML, error):
+        line, hint = not_xml(error, text)
+        return Wrong(expected, error[:250], f"{where}:{line}" if line else where, hint)
+    text = without_comments(text)
     gap, hint = space_hint(text)
     open_find = re.search(r"\$\((?:find|arg)\b[^)\"'<>]*[\"'<>]", text)
-    if re.search(NOT_XML, error):
-        return Wrong(expected, error[:250], *_not_xml(error, where, text))
     if gap:
         return Wrong(expected, gap, place_of(where, text, gap), hint)
     if open_find:
@@ -88,21 +90,41 @@ def parse_error(error, where, text):
         hint = f"there is no package {name}: look at the spelling in $(find {name}) or pkg="
         hint += f"; is {near[0]} meant?" if near else ""
         return Wrong(expected, f"package not found: {name}", place_of(where, text, name), hint)
-    hint, place = "roslaunch --nodes FILE shows the same", where
+    return Wrong(expected, error[:250], *_place_and_hint(error, where, text))
+
+
+def _place_and_hint(error, where, text):
+    """The same for what says neither file nor package."""
     arg = re.search(r"requires the '(\w+)' arg", error)
     if arg:
-        hint = f'give it a value: <arg name="{arg[1]}" default="..."/>, or value="..." in the <include>'
-        place = place_of(where, text, f'name="{arg[1]}"', "<include")
-    elif "attribute" in error or "requires" in error:
-        hint = 'a node has pkg=, type= and name=; an include has file="$(find PACKAGE)/launch/FILE"'
-        tag = re.search(r"<(\w+)>", error)
-        place = _tag_without(
-            where, text, tag[1] if tag else "node", re.findall(r"'(\w+)'|(\w+)/(\w+) attr", error)
+        return (
+            place_of(where, text, f'name="{arg[1]}"', f"$(arg {arg[1]})", "<include"),
+            f'give it a value: <arg name="{arg[1]}" default="..."/>, or value="..." in the <include>',
         )
-    elif re.search(r"\barg", error):
-        hint = 'each $(arg x) needs an <arg name="x" default="..."/>'
-        place = place_of(where, text, "$(arg")
-    return Wrong(expected, error[:250], place, hint)
+    command = re.search(r"Unknown substitution command \[(\S+)([^\]]*)\]", error)
+    if command:
+        hint = f"there is no $({command[1]} ...): look at its spelling, as in $(find PACKAGE)"
+        if command[1] == "rospack":
+            hint = f"in a launch file it is $({command[2].strip()}), without rospack"
+        return place_of(where, text, f"$({command[1]}"), hint
+    twice = re.search(r"multiple nodes named \[(?:.*/)?([^/\]]+)\]", error)
+    if twice:
+        name = re.escape(twice[1])
+        found = list(re.finditer(rf"<node\b[^<>]*\bname\s*=\s*[\"']{name}[\"']", text))
+        place = f"{where}:{line_of(text, found[:2][-1].end())}" if found else where
+        return place, "each node has a name of its own, those of included files as well"
+    about = error.split(" xml is ")[0]  # without the tag itself, in which there may be any word
+    lacks = re.search(r"<(\w+)> tag is missing", about)
+    tag = "include" if error == "'file'" else lacks[1] if lacks else ""
+    if tag:
+        names = re.findall(r"'(\w+)'|(\w+)/(\w+) attr", about)
+        place = _tag_without(where, text, tag, names)
+        return place, ATTRIBUTES.get(tag, "look at the names of its attributes")
+    if "$(arg" in about:
+        return place_of(
+            where, text, "$(arg"
+        ), 'each $(arg x) needs an <arg name="x" default="..."/>'
+    return where, "roslaunch --nodes FILE shows the same"
 
 
 def _tag_without(where, text, tag, attributes):
@@ -110,20 +132,8 @@ def _tag_without(where, text, tag, attributes):
     names = [name for found in attributes for name in found if name]
     for found in re.finditer(rf"<{tag}\b[^<>]*", text):
         if not all(re.search(rf"\b{name}\s*=", found[0]) for name in names):
-            return f"{where}:{text.count(chr(10), 0, found.start()) + 1}"
+            return f"{where}:{line_of(text, found.start())}"
     return place_of(where, text, f"<{tag}")
-
-
-def _not_xml(error, where, text):
-    """(place, hint)."""
-    curly = CURLY.search(text)
-    if curly:
-        return place_of(where, text, curly[0]), 'curly quotes came from the PDF: type " instead'
-    line = re.search(r"line (\d+)", error)
-    hint = (
-        "each <tag> needs its </tag> or />; the mistake is in the line named or in the one before"
-    )
-    return f"{where}:{line[1]}" if line else where, hint
 
 
 def _no_file(expected, path, where, text):

@@ -1,0 +1,134 @@
+"""C29: which file has the class, and what its form tells without running it."""
+
+import pytest
+
+from tutorial_check.exercises import classes
+from tutorial_check.exercises.driving import PACKAGE
+from tutorial_check.model import Wrong
+from tutorial_check.session import Session
+
+CLASS = """#!/usr/bin/python3
+import rospy
+
+
+class NewJoy2Twist:
+    def __init__(self):
+        rospy.init_node('x')
+        rospy.on_shutdown(self.shutdown)
+        rospy.Subscriber('/joy', Joy, self.callback)
+
+    def callback(self, data):
+        pass
+
+    def shutdown(self):
+        pass
+
+
+if __name__ == '__main__':
+    NewJoy2Twist()
+"""
+NO_SHUTDOWN = CLASS.replace("        rospy.on_shutdown(self.shutdown)\n", "")
+IN_INIT = CLASS.replace("    def shutdown(self):\n        pass", "        def shutdown(self): pass")
+OUTSIDE = CLASS.replace("    def callback(self, data):\n        pass", "") + (
+    "\n\ndef callback(self, data):\n    pass\n"
+)
+ROBOT = """class Robot:
+    def __init__(self):
+        rospy.on_shutdown(self.stop)
+
+    def stop(self):
+        pass
+
+
+"""
+
+
+def write(folder, path, text, mode=0o755):
+    file = folder / path
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.write_text(text)
+    file.chmod(mode)
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """That of the student's package."""
+    write(tmp_path, f"ws/src/{PACKAGE}/package.xml", f"<package><name>{PACKAGE}</name></package>")
+    return tmp_path / "ws/src" / PACKAGE
+
+
+@pytest.fixture
+def session(tmp_path, folder):
+    nothing = {"floor": "", "make_box": lambda environment: None, "can_have_devices": False}
+    return Session(tmp_path, None, ["6.2"], {"PATH": ""}, **nothing)
+
+
+@pytest.mark.parametrize(
+    ("other", "text", "mode"),
+    [
+        ("scripts/joy2twist.py", NO_SHUTDOWN, 0o755),
+        ("scripts/joy2twist.py", CLASS, 0o755),
+        ("old/new_joy2twist.py", CLASS, 0o755),
+        ("backup_1/new_joy2twist.py", CLASS, 0o755),
+        ("scripts/class_joy2twist.py", CLASS, 0o644),
+        (".history/scripts/joy2twist_2.py", CLASS, 0o755),
+        (".history/scripts/a.py", CLASS, 0o755),
+    ],
+)
+def test_the_class_of_several_that_is_the_last_step(folder, session, other, text, mode):
+    write(folder, other, text, mode)
+    write(folder, "scripts/new_joy2twist.py", CLASS)
+    assert classes.program(session)[0] == "scripts/new_joy2twist.py"
+
+
+def test_a_hidden_folder_has_no_class(folder, session):
+    write(folder, ".history/new_joy2twist.py", CLASS)
+    with pytest.raises(Wrong, match="no class"):
+        classes.program(session)
+
+
+@pytest.fixture
+def form(folder, session, monkeypatch):
+    """What C29 says of the form of a text."""
+    monkeypatch.setattr(classes, "check_file", lambda *_: None)
+    monkeypatch.setattr(classes, "check_manifest", lambda *_: None)
+
+    def check(text):
+        write(folder, "scripts/new_joy2twist.py", text)
+        return classes.is_class(session)
+
+    return check
+
+
+@pytest.mark.parametrize(
+    ("text", "seen", "hint"),
+    [
+        (IN_INIT, "`def shutdown` in line 14 is no method of the class", "like `def __init__`"),
+        (OUTSIDE, "`def callback` in line 21 is no method of the class", "like `def __init__`"),
+        (CLASS.replace("def shutdown", "def stop"), "the class has no shutdown", "stop"),
+        (CLASS.replace("def callback", "def called"), "the class has no callback", "called"),
+        (CLASS.replace("self.shutdown)", "self.shutdown())"), "called at once", "without ()"),
+        (CLASS.replace("self.callback)", "self.callback())"), "called at once", "without ()"),
+        (CLASS.replace("self.callback)", "callback)"), "callback alone", "self.callback"),
+    ],
+)
+def test_what_is_no_method(form, text, seen, hint):
+    with pytest.raises(Wrong) as raised:
+        form(text)
+    assert seen in raised.value.seen
+    assert hint in raised.value.hint
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        CLASS.replace("self.shutdown)", "self.robot.stop)"),
+        CLASS.replace("self.shutdown)", "self.ended)\n        self.ended = print"),
+        CLASS.replace("self.shutdown)", "lambda: self.shutdown())"),
+        CLASS.replace("self.callback)", "partial(self.callback, 1))"),
+        CLASS.replace("NewJoy2Twist:", "NewJoy2Twist(Base):").replace("def shutdown", "def other"),
+        CLASS.replace("class", f"{ROBOT}class", 1),
+    ],
+)
+def test_what_may_be_right(form, text):
+    assert form(text) == "NewJoy2Twist in scripts/new_joy2twist.py"
