@@ -13,6 +13,7 @@ from tutorial_check.exercises.launch_nodes import (
     bag_of,
     is_joystick,
     is_player,
+    is_viewer,
     nodes_of,
     words_of,
 )
@@ -24,6 +25,7 @@ BAG_S = 1.2  # length of the recording that takes the place of the student's, an
 ONCE_S = 60.0  # and of one that is not: like the student's it lasts until the others have started
 LOOP = re.compile(r"--l(oop|oo|o)?|-[a-z]*l[a-z]*")  # of rosbag play, as it may be written
 START_S = 20.0  # for all nodes of a launch on a busy machine
+UP_S = 6.0  # for what they are there for, once all of them are
 
 
 class Launch:
@@ -35,6 +37,25 @@ class Launch:
         for topic, kind in ((JOY, "Joy"), (twists, "Twist"), (ODOM, "Odometry")):
             stage.call("listen", topic, kind)
         self.program = stage.launch(["roslaunch", str(find_launch(session, name))])
+
+    def wait(self, condition):
+        """condition(), as soon as it is true, the launch is over, or its nodes have had their time."""
+        self.stage.wait(lambda: condition() or self.is_over() or self._is_up(), START_S)
+        self.stage.wait(lambda: condition() or self.is_over(), UP_S)
+        return condition()
+
+    def is_over(self):
+        """Whether it has come to its end, or a node of it."""
+        return self.program.ended or has_died(self)
+
+    def _is_up(self):
+        """Whether the master knows all of its nodes; each has /rosout."""
+        there = self.stage.call("state")[0].get("/rosout", [])
+        return all(
+            node["namespace"] + node["name"] in there
+            for node in nodes_of(self.session, self.name)
+            if not is_viewer(node)
+        )
 
     def moved(self):
         """How far the robot drove [m], along its way."""
@@ -115,16 +136,8 @@ def _bag_run(session):
         _own_bag(bag, BAG_S if loops else ONCE_S)
     with session.stage() as stage:
         launch = Launch(session, BAG, stage)
-        enough = stage.wait(
-            lambda: (
-                launch.moved() > 0.3
-                or (launch.program.ended and "roslaunch")
-                or (has_died(launch) and "died")
-            ),
-            START_S,
-        )
         # A robot that drives by another topic has not shown that /joy does it.
-        drives = enough is True and bool(stage.call("count", JOY))
+        drives = launch.wait(lambda: launch.moved() > 0.3) and bool(stage.call("count", JOY))
         wrong = (
             None
             if drives
@@ -179,10 +192,7 @@ def check_stick(session, name):
         pad = plug_in_for(session, stage, name)
         launch = Launch(session, name, stage)
         pushed = push_when_ready(stage, pad, launch)
-        stage.wait(
-            lambda: launch.moved() > 0.15 or launch.program.ended or has_died(launch),
-            4.0 if pushed else 0.0,
-        )
+        stage.wait(lambda: launch.moved() > 0.15 or launch.is_over(), 4.0 if pushed else 0.0)
         if launch.moved() <= 0.15:
             raise launch.wrong("the robot moves with the stick")
         pad.call("release")
@@ -218,16 +228,13 @@ def push_when_ready(stage, pad, launch, *signs):
             and all(stage.call("count", topic) for topic in signs)
         )
 
-    def over():
-        return launch.program.ended or has_died(launch)
-
-    stage.wait(lambda: ready() or over(), START_S)
+    launch.wait(ready)
     # LB alone, touched and let go: a joy_node with autorepeat_rate 0 is silent while nothing moves.
     for lb in (("push", 0.0, 0.0), ("release",)):
         before = stage.call("count", JOY)
         pad.call(*lb)
-        stage.wait(lambda before=before: stage.call("count", JOY) > before or over(), 1.0)
+        stage.wait(lambda before=before: stage.call("count", JOY) > before or launch.is_over(), 1.0)
     # A robot that has only just come obeys once it was told to rest for a while; so do we.
-    stage.wait(over, 0.6)
+    stage.wait(launch.is_over, 0.6)
     pad.call("push", 0.0, 1.0)
     return bool(ready())

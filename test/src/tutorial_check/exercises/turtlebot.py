@@ -21,19 +21,14 @@ def remapped(session):
     launch_nodes.demand(session, TURTLEBOT, "joy2twist", launch_nodes.is_own, launch_nodes.OWN_HINT)
     expected = f"Twists on {TELEOP}, none on {CMD_VEL}"
     with session.stage() as stage:
-        for topic in (TELEOP, CMD_VEL):
-            stage.call("listen", topic, "Twist")
+        stage.call("listen", CMD_VEL, "Twist")
         stage.call("advertise", JOY, "Joy")
-        program = stage.launch(["roslaunch", str(path)])
-        stage.wait_for_start(
+        launch = launch_runs.Launch(session, TURTLEBOT, stage, TELEOP)
+        launch.wait(
             lambda: (
-                program.ended
-                or (
-                    stage.call("listeners", JOY)
-                    and (stage.call("speakers", TELEOP) or stage.call("speakers", CMD_VEL))
-                )
-            ),
-            launch_runs.START_S,
+                stage.call("listeners", JOY) > 1  # one is ours
+                and (stage.call("speakers", TELEOP) or stage.call("speakers", CMD_VEL))
+            )
         )
         rest(stage, TELEOP, CMD_VEL)
         stage.call("stream", JOY, [held(0.2, 0.3)], 20.0, True)
@@ -41,18 +36,10 @@ def remapped(session):
         def moving(topic):
             return any(abs(value[0]) > 0.01 for _, _, value in stage.call("heard", topic))
 
-        stage.wait(
-            lambda: (
-                moving(TELEOP)
-                or moving(CMD_VEL)
-                or program.ended
-                or launch_runs.has_died(_Run(program))
-            ),
-            3.0,
-        )
+        stage.wait(lambda: moving(TELEOP) or moving(CMD_VEL) or launch.is_over(), 3.0)
         good, bad = moving(TELEOP), moving(CMD_VEL)
         publishers, subscribers = stage.call("state")
-        output = program.output
+        output, has_died = launch.program.output, launch_runs.has_died(launch)
     remaps = [
         remap
         for node in launch_nodes.nodes_of(session, TURTLEBOT)
@@ -62,7 +49,7 @@ def remapped(session):
     line = place_of(where, text, "<remap", "joy2twist.py")
     if good and not bad and CMD_VEL not in publishers:
         return None
-    if "Traceback" in output or launch_runs.has_died(_Run(program)):
+    if "Traceback" in output or has_died:
         from tutorial_check.causes import explain  # noqa: PLC0415
         from tutorial_check.tracebacks import first_traceback, last_lines  # noqa: PLC0415
 
@@ -117,11 +104,6 @@ def remapped(session):
     raise Wrong(expected, "no Twist at all", where=where, hint=REMAP)
 
 
-class _Run:
-    def __init__(self, program):
-        self.program = program
-
-
 def real_robot(session):
     """C28."""
     path = launch_files.check_file(session, REAL)
@@ -166,10 +148,7 @@ def real_robot(session):
             )
         launch = launch_runs.Launch(session, REAL, stage, TELEOP)
         pushed = launch_runs.push_when_ready(stage, pad, launch, ACTIVE)
-        stage.wait(
-            lambda: launch.moved() > 0.15 or launch.program.ended or launch_runs.has_died(launch),
-            4.0 if pushed else 0.0,
-        )
+        stage.wait(lambda: launch.moved() > 0.15 or launch.is_over(), 4.0 if pushed else 0.0)
         if base and base.ended:
             raise CannotCheck(f"the simulated TurtleBot does not start: {base.output[-200:]}")
         moved = launch.moved() > 0.15
