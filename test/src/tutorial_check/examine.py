@@ -22,6 +22,7 @@ LOWEST_UID = 1_000_000  # users of nobody's, one for each examination
 
 def main():
     """Read the orders, examine, tell."""
+    os.umask(0o022)  # what we write is read by programs that run as somebody else
     orders = json.load(sys.stdin)
     if orders["apart"]:
         place.end_with_parent()  # which is unshare
