@@ -28,6 +28,7 @@ def main():
         place.end_with_parent()  # which is unshare
     else:  # its box notices that the one who reads has ended, and ends what was started
         signal.signal(signal.SIGTERM, signal.SIG_IGN)
+        place.adopt_orphans()  # in a container nobody else may reap them
     told = os.fdopen(os.dup(1), "w", buffering=1)
     os.set_inheritable(told.fileno(), False)
     os.dup2(2, 1)  # nothing else gets into what is told
