@@ -123,10 +123,9 @@ def _examine(workspace, floor, exercises, folder, *, tell, only_first, own):
         "exercises": list(exercises),
         "folder": folder,
         "apart": bool(wrapper),
-        "mapped": "--user" in wrapper,
         "home": os.path.expanduser("~"),
         "kept": _kept(floor),
-        "number": next(NUMBERS) % 1000,
+        "number": next(NUMBERS),
         "only_first": only_first,
         "environment": _environment(floor),
     }
