@@ -69,7 +69,7 @@ def examine(orders, tell, told):
     import rosmaster.master  # noqa: F401, PLC0415  loaded here for all that are forked
     import rospy  # noqa: F401, PLC0415
 
-    from tutorial_check import box, session  # noqa: PLC0415
+    from tutorial_check import box, session, trial  # noqa: PLC0415
     from tutorial_check.exercises import catalogue  # noqa: PLC0415
 
     uid = limits.user(orders["number"], _uid_map()) if os.geteuid() == 0 else None
@@ -84,6 +84,7 @@ def examine(orders, tell, told):
         make_box=lambda environment: box.Box(environment, uid, orders["apart"], told),
         can_have_devices=granted,
     )
+    trial.must_be_possible(one.box, scratch, [*orders["kept"], Path(__file__)])
     run = Run(catalogue(), one, one.second_look, one.box.patience.hopeless)
     shown = (f"{scratch}/ws/", "") if layout.is_workspace else (f"{scratch}/ws/src/", "")
 

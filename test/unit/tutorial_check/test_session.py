@@ -51,5 +51,5 @@ def test_what_it_leaves_in_the_background_is_not_waited_for(sourced):
 
 @pytest.mark.parametrize("end", ["exit 3", "exit", "false"])
 def test_it_is_told_if_it_cannot_be_sourced(sourced, end):
-    with pytest.raises(CannotCheck, match="cannot be sourced: no such thing: moon$"):
+    with pytest.raises(CannotCheck, match=r"cannot be sourced: no such thing: moon$"):
         sourced(f"printf 'no such thing:\\nmoon\\n' >&2; {end}\n")
