@@ -17,7 +17,8 @@ def must_be_possible(box, scratch, needed):
     script = Path(scratch) / "trial"
     script.write_text(SCRIPT)
     script.chmod(0o755)
-    above = (folder for each in map(Path, needed) for folder in (*reversed(each.parents), each))
+    needed = [Path(each) for each in needed]
+    above = (folder for each in needed for folder in (*reversed(each.parents), each))
     folders = [str(each) for each in dict.fromkeys(above) if each.is_dir()]
     try:
         program = box.start([str(script), *folders])
@@ -29,8 +30,11 @@ def must_be_possible(box, scratch, needed):
     box.wait(lambda: program.ended, SLOW_S)
     box.end(program)
     if program.output:
-        closed = program.output.strip()
+        closed = Path(program.output.strip())
+        # What lies below one that was made so is as closed; but a home folder is opened no further.
+        is_needed = set(needed) & {closed, *closed.parents}
         raise CannotCheck(
-            f"{closed} is closed to others, as one of whom the programs run: chmod o+x {closed},"
+            f"{closed} is closed to others, as one of whom the programs run:"
+            f" {'chmod -R o+rX' if is_needed else 'chmod o+x'} {closed},"
             " or keep this suite, and TUTORIAL_WORKSPACE, where others may enter"
         )

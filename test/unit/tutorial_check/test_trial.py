@@ -41,9 +41,10 @@ def test_what_others_may_enter_is_well(home):
 
 
 @as_root
-def test_what_is_closed_is_named(home):
-    with pytest.raises(CannotCheck, match=rf"^{home}/closed is closed .*: chmod"):
-        attempt(home, home / "open", [home / "open" / "setup.bash", home / "closed" / "suite"])
+@pytest.mark.parametrize(("needed", "how"), [("closed/suite", r"o\+x"), ("closed", r"-R o\+rX")])
+def test_what_is_closed_is_named(home, needed, how):
+    with pytest.raises(CannotCheck, match=rf"^{home}/closed is .*: chmod {how} {home}/closed,"):
+        attempt(home, home / "open", [home / "open" / "setup.bash", home / needed])
 
 
 @as_root
