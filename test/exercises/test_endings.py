@@ -43,14 +43,19 @@ def scratch():
             os.kill(int(pid), signal.SIGKILL)
 
 
+def path_without_namespaces(folder):
+    """A PATH on which unshare is refused."""
+    (folder / "bin").mkdir()
+    (folder / "bin" / "unshare").symlink_to("/bin/false")
+    return f"{folder}/bin:{os.environ['PATH']}"
+
+
 @pytest.fixture(params=["apart", "bare"])
 def environment(request, tmp_path, scratch):
     """Of a checker that finds namespaces, or none."""
     path = os.environ["PATH"]
     if request.param == "bare":
-        (tmp_path / "bin").mkdir()
-        (tmp_path / "bin" / "unshare").symlink_to("/bin/false")
-        path = f"{tmp_path}/bin:{path}"
+        path = path_without_namespaces(tmp_path)
     elif not place.wrapper():
         pytest.skip("no namespaces here")
     return {"PYTHONPATH": str(SOURCE), "PATH": path, "TMPDIR": scratch}

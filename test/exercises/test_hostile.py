@@ -16,8 +16,12 @@ AFTER_INIT = "    rospy.init_node('listener', anonymous=True)\n"
 
 def wrong_of(src, floor, exercise):
     """What is wrong in an exercise: the first one's id and text."""
-    outcomes = examine(src.parent, floor, [exercise])
-    results = [result for result in outcomes[0].results if result.status == "wrong"]
+    return first_wrong(*examine(src.parent, floor, [exercise]))
+
+
+def first_wrong(outcome):
+    """The id and text of what is wrong first."""
+    results = [result for result in outcome.results if result.status == "wrong"]
     return (results[0].id, "\n".join(lines_of(results[0]))) if results else (None, "")
 
 
@@ -52,13 +56,16 @@ def test_one_that_ignores_ctrl_c(literal, floor, scratch):
 
 
 def test_a_fork_bomb(literal, floor, scratch):
+    """It does not spoil what comes after it, either."""
     write(
         TALKER,
         "#!/usr/bin/env python3\nimport os\nwhile True:\n    try:\n        os.fork()\n    except OSError:\n        pass\n",
     )(literal)
-    check, told = wrong_of(literal, floor, "3")
+    bombed, after = examine(literal.parent, floor, ["3", "4.3"])
+    check, told = first_wrong(bombed)
     assert check == "C6", told
     assert "again and again" in told
+    assert after.passed, after
     assert not processes_like(f"{scratch}/")
 
 

@@ -63,6 +63,18 @@ def test_a_workspace_path_with_spaces_is_refused(clone, tmp_path, monkeypatch):
     assert "set TUTORIAL_WORKSPACE to a path without spaces" in line
 
 
+def test_a_check_that_cannot_be_set_up_blames_no_student(tutorial, tmp_path, monkeypatch):
+    monkeypatch.setenv("TUTORIAL_WORKSPACE", str(tmp_path / "with space"))
+    done = subprocess.run(
+        [tutorial, "check", "--in", str(tmp_path)],
+        capture_output=True, text=True, check=False, timeout=DEADLINE_S,
+    )  # fmt: skip
+    why, verdict = done.stderr.splitlines()
+    assert "set TUTORIAL_WORKSPACE to a path without spaces" in why
+    assert verdict == "check: this is no verdict on the exercises, and no fault in them"
+    assert done.returncode == 2
+
+
 @pytest.mark.parametrize("started_by", ["roscore", "roslaunch"])
 def test_a_master_has_what_rospy_would_ask_for_with_every_line(tutorial, master_uri, started_by):
     port = master_uri.rsplit(":", 1)[1]

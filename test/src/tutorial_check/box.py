@@ -18,11 +18,12 @@ from pathlib import Path
 from tutorial_check import limits
 from tutorial_check.model import Wrong
 from tutorial_check.patience import Patience
-from tutorial_check.running import Forked, Program
+from tutorial_check.running import Forked, Program, fields_of
 
 GRACE_S = 3.0  # after Ctrl-C a program has this long to end by itself
 IDLE_S = 2.0  # who has done nothing for so long waits for what does not come; a talker may for 1 s
 MOST_PROCESSES = 100  # a launch file's are a dozen
+ENDED = (b"Z", b"X")  # states of processes that are no more than a number
 MARK = "TUTORIAL_CHECK_MARK"  # by which programs are known where they cannot be by user or session
 
 
@@ -132,7 +133,7 @@ class Box:
             value = condition()
             if value or is_over:
                 return value
-            if self._alone and self.patience.crowd() > MOST_PROCESSES:
+            if self._is_crowded():
                 raise Wrong(
                     "a program that is one process, or a few",
                     f"it starts itself again and again: more than {MOST_PROCESSES} processes",
@@ -140,6 +141,14 @@ class Box:
                     sure=True,
                 )
             self.pump(max(0.01, 2 * (time.monotonic() - asked_s)))  # asking costs the others time
+
+    def _is_crowded(self):
+        """Whether the programs are too many. Those that have ended are none, and are reaped."""
+        if not self._alone or self.patience.crowd() <= MOST_PROCESSES:
+            return False
+        self._reap()
+        living = {pid for pid, state, *_ in _processes() if state not in ENDED}
+        return len(living - self._trusted) > MOST_PROCESSES
 
     def pump(self, longest_s):
         """Read what was printed; return when something was, or after the given time.
@@ -225,6 +234,15 @@ class Box:
             if not program.process.stdout.closed:
                 self._forget(program)
         self._open.clear()
+        self._reap()
+
+    def _reap(self):
+        """Let go of orphans that have ended: till then they count against the user's limit."""
+        known = {program.process.pid for program in self._open} | self._trusted
+        for pid, state, parent, _ in _processes():
+            if state in ENDED and parent == os.getpid() and pid not in known:
+                with contextlib.suppress(ChildProcessError):
+                    os.waitpid(pid, os.WNOHANG)
 
     def _kill_all_of_user(self):
         """At one go, so that none can fork meanwhile."""
@@ -237,25 +255,25 @@ class Box:
         os.waitpid(pid, 0)
 
     def _strays(self):
+        """Ids of what is left: of the user's, or in a session that is not trusted."""
         strays = []
-        for folder in Path("/proc").glob("[0-9]*"):
-            pid = int(folder.name)
-            try:
-                state, _, _, session = (folder / "stat").read_text().rsplit(")", 1)[1].split()[:4]
-                if state in "ZX" or pid == 1 or pid == os.getpid():
-                    continue
-                if self._uid is not None:
-                    is_ours = folder.stat().st_uid == self._uid
-                elif self._alone:
-                    is_ours = int(session) not in self._trusted
-                else:
-                    mark = f"{MARK}={self._mark}".encode()
-                    is_ours = (
-                        int(session) not in self._trusted
-                        and mark in (folder / "environ").read_bytes()
-                    )
-            except OSError:
-                continue  # ended meanwhile, or another user's
-            if is_ours:
-                strays.append(pid)
+        for pid, state, _, session in _processes():
+            if state in ENDED or pid in (1, os.getpid()):
+                continue
+            with contextlib.suppress(OSError):  # ended meanwhile, or another user's
+                if os.stat(f"/proc/{pid}").st_uid == self._uid or (
+                    session not in self._trusted and (self._alone or self._is_marked(pid))
+                ):
+                    strays.append(pid)
         return strays
+
+    def _is_marked(self, pid):
+        return f"{MARK}={self._mark}".encode() in Path(f"/proc/{pid}/environ").read_bytes()
+
+
+def _processes():
+    """(id, state, parent, session) of each process that can be seen."""
+    for pid in filter(str.isdigit, os.listdir("/proc")):
+        with contextlib.suppress(OSError):  # ended meanwhile
+            state, parent, _, session = fields_of(f"/proc/{pid}/stat")[:4]
+            yield int(pid), state, int(parent), int(session)

@@ -123,10 +123,9 @@ def _examine(workspace, floor, exercises, folder, *, tell, only_first, own):
         "exercises": list(exercises),
         "folder": folder,
         "apart": bool(wrapper),
-        "mapped": "--user" in wrapper,
         "home": os.path.expanduser("~"),
         "kept": _kept(floor),
-        "number": next(NUMBERS) % 1000,
+        "number": next(NUMBERS),
         "only_first": only_first,
         "environment": _environment(floor),
     }
@@ -176,14 +175,22 @@ def _examine(workspace, floor, exercises, folder, *, tell, only_first, own):
     if ending is None:
         log.seek(0)
         last = [line for line in log.read()[-2000:].splitlines() if line.strip()][-1:]
-        raise CannotCheck(f"the examination ended without a result: {''.join(last)}")
-    if "cannot" in ending:
-        raise CannotCheck(ending["cannot"])
-    return list(outcomes.values())
+        ending = {"cannot": f"the examination ended without a result: {''.join(last)}"}
+    return _concluded(list(outcomes.values()), ending.get("cannot", ""))
+
+
+def _concluded(outcomes, trouble):
+    """The Outcomes, those that were not done with the trouble. Raises CannotCheck if that is all."""
+    if trouble and (_no_more.is_set() or not any(outcome.results for outcome in outcomes)):
+        raise CannotCheck(trouble)
+    for outcome in outcomes:
+        if not outcome.done:
+            outcome.trouble = trouble
+    return outcomes
 
 
 def _listen(process, outcomes, tell):
-    """The last word of the examination, or None if there is none in time."""
+    """The last word of the examination, or None if it ends without one."""
     end = time.monotonic() + LONGEST_S
     buffer = ""
     descriptor = process.stdout.fileno()
@@ -209,6 +216,7 @@ def _listen(process, outcomes, tell):
                 else:
                     outcome.seconds, outcome.done = word["done"], True
                     outcome.trouble = word["trouble"]
-    raise CannotCheck(
-        f"the examination took longer than {LONGEST_S:.0f} s: the machine has too much else to do"
-    )
+    return {
+        "cannot": f"the examination took longer than {LONGEST_S:.0f} s: "
+        "the machine has too much else to do"
+    }

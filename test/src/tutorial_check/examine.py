@@ -14,19 +14,19 @@ import time
 import traceback
 from pathlib import Path
 
-from tutorial_check import place, workspace
+from tutorial_check import limits, place, workspace
 from tutorial_check.model import CannotCheck, Run, fault
-
-LOWEST_UID = 1_000_000  # users of nobody's, one for each examination
 
 
 def main():
     """Read the orders, examine, tell."""
+    os.umask(0o022)  # what we write is read by programs that run as somebody else
     orders = json.load(sys.stdin)
     if orders["apart"]:
         place.end_with_parent()  # which is unshare
     else:  # its box notices that the one who reads has ended, and ends what was started
         signal.signal(signal.SIGTERM, signal.SIG_IGN)
+        place.adopt_orphans()  # in a container nobody else may reap them
     told = os.fdopen(os.dup(1), "w", buffering=1)
     os.set_inheritable(told.fileno(), False)
     os.dup2(2, 1)  # nothing else gets into what is told
@@ -69,14 +69,10 @@ def examine(orders, tell, told):
     import rosmaster.master  # noqa: F401, PLC0415  loaded here for all that are forked
     import rospy  # noqa: F401, PLC0415
 
-    from tutorial_check import box, session  # noqa: PLC0415
+    from tutorial_check import box, session, trial  # noqa: PLC0415
     from tutorial_check.exercises import catalogue  # noqa: PLC0415
 
-    uid = (
-        LOWEST_UID + os.getppid() % 1_000_000 + int(orders["number"])
-        if os.geteuid() == 0 and not orders["mapped"]
-        else None
-    )
+    uid = limits.user(orders["number"], _uid_map()) if os.geteuid() == 0 else None
     session.prepare(scratch, uid)
     scratch.chmod(0o755)
     one = session.Session(
@@ -88,6 +84,7 @@ def examine(orders, tell, told):
         make_box=lambda environment: box.Box(environment, uid, orders["apart"], told),
         can_have_devices=granted,
     )
+    trial.must_be_possible(one.box, scratch, [*orders["kept"], Path(__file__)])
     run = Run(catalogue(), one, one.second_look, one.box.patience.hopeless)
     shown = (f"{scratch}/ws/", "") if layout.is_workspace else (f"{scratch}/ws/src/", "")
 
@@ -110,6 +107,13 @@ def examine(orders, tell, told):
         one.box.clear()  # a build, too, is ended; where no namespace is, nothing else does that
     if "TUTORIAL_CHECK_TIMES" in os.environ:
         print({**times, **run.seconds}, file=sys.stderr)
+
+
+def _uid_map():
+    try:
+        return Path("/proc/self/uid_map").read_text()
+    except FileNotFoundError:  # a kernel that maps no ids
+        return ""
 
 
 def _hand_in(given, scratch):

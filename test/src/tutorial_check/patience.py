@@ -8,7 +8,8 @@ done nothing for a while, although it could have, need not be waited for any lon
 import contextlib
 import os
 import time
-from pathlib import Path
+
+from tutorial_check.running import fields_of
 
 SLOWEST = 0.05  # of real time: a deadline is at most twenty times as long
 LOOKING = 0.05  # of the time at most goes into looking
@@ -41,7 +42,7 @@ def times(proc="/proc"):
 def is_ready(process, thread):
     """Whether it would work if it had a processor, or waits for the disk."""
     try:
-        return Path(f"/proc/{process}/task/{thread}/stat").read_text().rsplit(")", 1)[1][1] in "RD"
+        return fields_of(f"/proc/{process}/task/{thread}/stat")[0] in (b"R", b"D")
     except (OSError, IndexError):
         return False  # ended meanwhile
 

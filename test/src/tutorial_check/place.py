@@ -148,6 +148,12 @@ def end_with_parent():
     ctypes.CDLL(None).prctl(pr_set_pdeathsig, sigkill)
 
 
+def adopt_orphans():
+    """Have what is started below this process, and left by its parent, be a child of this one."""
+    pr_set_child_subreaper = 36
+    ctypes.CDLL(None).prctl(pr_set_child_subreaper, 1, 0, 0, 0)
+
+
 @contextlib.contextmanager
 def removed(scratch, apart):
     """Remove the folder for what is written at the end: who made it may have been killed.

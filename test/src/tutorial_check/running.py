@@ -3,10 +3,15 @@
 import contextlib
 import os
 import time
-from pathlib import Path
 
 KEPT_FIRST, KEPT_LAST = 200_000, 50_000  # bytes of a program's output
 SPINNING_S = 6.0  # of a processor's time; to start, a ROS program needs less than one
+
+
+def fields_of(stat):
+    """A /proc/*/stat from its third field on; the second is a name, of any bytes. Raises OSError."""
+    with open(stat, "rb") as file:
+        return file.read().rsplit(b")", 1)[1].split()
 
 
 class Program:
@@ -28,7 +33,7 @@ class Program:
     def note_work(self):
         """Look how long it has worked. To be called before it is ended: later nobody can tell."""
         with contextlib.suppress(OSError):
-            fields = Path(f"/proc/{self.process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+            fields = fields_of(f"/proc/{self.process.pid}/stat")
             self._worked_s = sum(map(int, fields[11:13])) / os.sysconf("SC_CLK_TCK")
 
     @property

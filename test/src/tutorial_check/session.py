@@ -3,7 +3,6 @@
 import contextlib
 import os
 import re
-import subprocess
 from pathlib import Path
 
 from tutorial_check import python_facts
@@ -89,23 +88,17 @@ class Session:
         return True
 
     def _sourced(self, setup):
-        """The environment after sourcing a setup.bash, too."""
-        done = subprocess.run(
-            ["bash", "-c", '. "$1" >/dev/null && env -0', "bash", str(setup)],
-            env=self.floor_environment,
-            capture_output=True,
-            check=False,
-            timeout=SLOW_S,
+        """The environment after sourcing a setup.bash, too: a program of the student's, as its hooks are."""
+        # What is printed before the first \\0 is no variable.
+        program = self.box.start(
+            ["bash", "-c", '. "$1" >/dev/null && printf "\\0" && env -0', "bash", str(setup)]
         )
-        if done.returncode != 0:
-            raise CannotCheck(
-                f"{setup} cannot be sourced: {done.stderr.decode(errors='replace')[-200:]}"
-            )
-        found = dict(
-            word.split("=", 1)
-            for word in done.stdout.decode(errors="replace").split("\0")
-            if "=" in word
-        )
+        self.box.wait(lambda: program.ended, SLOW_S)
+        self.box.end(program)
+        said, *variables = program.output.split("\0")
+        if program.process.returncode != 0 or not variables:
+            raise CannotCheck(f"{setup} cannot be sourced: {' '.join(said[-200:].split())}")
+        found = dict(word.split("=", 1) for word in variables if "=" in word)
         for name in ("_", "SHLVL", "PWD", "OLDPWD"):
             found.pop(name, None)
         return found

@@ -8,9 +8,9 @@ import pytest
 
 from tutorial_check.box import Box
 from tutorial_check.forked import Helper
-from tutorial_check.limits import MOST_THREADS
+from tutorial_check.limits import MOST_THREADS, user
 
-NOBODYS = 1_999_999  # a user who has no processes yet
+NOBODYS = 2_000_000 + os.getpid()  # a user who has no processes yet, whatever runs beside this
 
 
 class BusyUser:
@@ -34,18 +34,18 @@ class BusyUser:
 
 
 @pytest.fixture
-def user():
+def busy():
     helper = Helper(BusyUser, {})
     yield helper
     helper.end()
 
 
-def test_a_program_of_one_with_many_threads_may_have_threads(user):
+def test_a_program_of_one_with_many_threads_may_have_threads(busy):
     text = "import threading; threading.Thread(target=print, args=['here']).start()"
-    assert user.call("run", text) == "here\n"
+    assert busy.call("run", text) == "here\n"
 
 
-def test_and_not_without_end(user):
+def test_and_not_without_end(busy):
     text = (
         "import threading\n"
         "threading.stack_size(1 << 16)\n"  # so that memory is no limit
@@ -56,4 +56,25 @@ def test_and_not_without_end(user):
         "        break\n"
         "print(count)\n"
     )
-    assert MOST_THREADS <= int(user.call("run", text)) < 4 * MOST_THREADS
+    assert MOST_THREADS <= int(busy.call("run", text)) < 4 * MOST_THREADS
+
+
+@pytest.mark.parametrize(
+    ("uid_map", "lowest", "highest"),
+    [
+        ("         0          0 4294967295\n", 1_000_000, 1_999_999),  # a machine, or plain docker
+        ("", 1_000_000, 1_999_999),  # a kernel that maps no ids
+        ("0 1000 1\n1 100000 65536\n", 32_768, 65_533),  # podman of somebody who is not root
+        ("0 231072 65536\n", 32_768, 65_533),  # docker's userns-remap
+    ],
+)
+def test_a_user_of_nobodys_is_one_that_exists(uid_map, lowest, highest):
+    users = [user(number, uid_map) for number in (*range(20), 7_919, 65_537, 419_430_400)]
+    assert lowest <= min(users) and max(users) <= highest
+    assert len(set(users)) > 20
+
+
+@pytest.mark.parametrize("uid_map", ["0 1000 1\n", "0 1000 1\n1000 1000 1\n"])
+def test_where_only_root_is_mapped_there_is_none(uid_map):
+    """As in a place apart of somebody who is not root."""
+    assert user(1, uid_map) is None

@@ -1,0 +1,30 @@
+"""Where the system grants no namespaces, as most containers: the same verdicts, or none and why."""
+
+import os
+
+import pytest
+from test_awkward import check
+from test_endings import path_without_namespaces
+
+
+@pytest.fixture(autouse=True)
+def bare(tmp_path, monkeypatch):
+    """No namespaces."""
+    monkeypatch.setenv("PATH", path_without_namespaces(tmp_path))
+
+
+def test_right_is_right(literal, floor):
+    code, out, error = check(floor, "--in", literal.parent, "3", "5")
+    assert code == 0, out + error
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root can run programs as another user")
+def test_where_the_programs_may_not_enter_nobody_is_blamed(literal, floor, tmp_path):
+    closed = tmp_path / "closed"
+    closed.mkdir(mode=0o700)
+    tmp_path.chmod(0o755)
+    (closed / "setup.bash").write_text(f". {floor}\n")
+    code, out, error = check(closed / "setup.bash", "--in", literal.parent, "5")
+    assert code == 2, out + error
+    assert out == ""
+    assert "closed to others" in error and "TUTORIAL_WORKSPACE" in error

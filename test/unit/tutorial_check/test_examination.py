@@ -1,0 +1,64 @@
+"""An examination that comes to no end: what it found until then is told all the same."""
+
+from types import SimpleNamespace
+
+import pytest
+
+from tutorial_check import examination, place
+from tutorial_check.model import CannotCheck
+
+RESULT = '{"exercise": "2", "result": {"id": "C1", "status": "ok", "title": "one"}}'
+DONE = '{"exercise": "2", "done": 1.0, "trouble": ""}'
+BEGUN = '{"exercise": "3", "result": {"id": "C5", "status": "wrong", "title": "two"}}'
+
+
+@pytest.fixture
+def examine(tmp_path, monkeypatch):
+    """examine(lines, ending, tell): with a script in place of the examination."""
+    (tmp_path / "setup.bash").touch()
+
+    def examined(lines, ending="", tell=lambda outcome, result: None):
+        script = "\n".join(["cat >/dev/null", *(f"echo '{line}'" for line in lines), ending])
+        monkeypatch.setattr(place, "wrapper", lambda: ["sh", "-c", script])
+        return examination.examine(tmp_path, tmp_path / "setup.bash", ["2", "3", "5"], tell)
+
+    return examined
+
+
+def told(outcomes):
+    """{exercise: (ids of its results, trouble)}."""
+    return {one.id: ([result.id for result in one.results], one.trouble) for one in outcomes}
+
+
+@pytest.mark.parametrize(
+    ("ending", "why"),
+    [
+        ("echo no room >&2", "the examination ended without a result: no room"),
+        ("""echo '{"cannot": "no room"}'""", "no room"),
+    ],
+)
+def test_what_was_found_before_it_ended(examine, ending, why):
+    outcomes = examine([RESULT, DONE, BEGUN], ending)
+    assert told(outcomes) == {"2": (["C1"], ""), "3": (["C5"], why), "5": ([], why)}
+    assert [one.passed for one in outcomes] == [True, False, False]
+
+
+def test_what_was_found_before_the_time_was_over(examine, monkeypatch):
+    clock = SimpleNamespace(monotonic=lambda: 0.0)
+    monkeypatch.setattr(examination, "time", clock)
+
+    def let_it_be_over(outcome, _):
+        if outcome.id == "3":
+            clock.monotonic = lambda: examination.LONGEST_S + 1
+
+    outcomes = told(examine([RESULT, DONE, BEGUN], "exec sleep 3600", let_it_be_over))
+    assert outcomes["2"] == (["C1"], "")
+    assert outcomes["3"][0] == ["C5"] and "took longer than 900 s" in outcomes["3"][1]
+
+
+@pytest.mark.parametrize("lines", [[], [RESULT]])
+def test_no_verdict_if_nothing_was_found_or_nobody_wants_it(examine, monkeypatch, lines):
+    if lines:
+        monkeypatch.setattr(examination._no_more, "is_set", lambda: True)
+    with pytest.raises(CannotCheck, match="ended without a result"):
+        examine(lines)

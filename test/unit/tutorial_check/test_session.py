@@ -1,0 +1,56 @@
+"""A student's setup.bash is a program of the student's: it runs, and is waited for, as one."""
+
+import os
+import tempfile
+from pathlib import Path
+
+import pytest
+
+from tutorial_check import session
+from tutorial_check.box import Box
+from tutorial_check.model import CannotCheck
+
+# A user who is nobody else, whatever runs beside this
+NOBODYS = 2_000_000 + os.getpid() if os.geteuid() == 0 else None
+
+
+@pytest.fixture
+def sourced():
+    """sourced(text): what variables there are after a setup.bash with this text."""
+    with tempfile.TemporaryDirectory() as folder:
+        Path(folder).chmod(0o755)
+        session.prepare(folder, NOBODYS)
+        one = session.Session(
+            folder,
+            None,
+            [],
+            {"PATH": "/usr/bin:/bin"},
+            floor=None,
+            make_box=lambda environment: Box(environment, NOBODYS),
+            can_have_devices=False,
+        )
+
+        def source(text):
+            setup = Path(folder) / "setup.bash"
+            setup.write_text(text)
+            return one._sourced(setup)
+
+        yield source
+        one.box.clear()
+
+
+def test_who_sources_it_is_who_runs_the_programs(sourced):
+    found = sourced("echo hello; echo a=b >&2; export WHO=$(id -u) TWO_LINES=$'1\n2'\n")
+    assert found["WHO"] == str(NOBODYS or os.geteuid())
+    assert found["TWO_LINES"] == "1\n2"
+    assert "hello" not in "".join(found) and "a" not in found
+
+
+def test_what_it_leaves_in_the_background_is_not_waited_for(sourced):
+    assert sourced("sleep 3600 & export THERE=yes\n")["THERE"] == "yes"
+
+
+@pytest.mark.parametrize("end", ["exit 3", "exit", "false"])
+def test_it_is_told_if_it_cannot_be_sourced(sourced, end):
+    with pytest.raises(CannotCheck, match=r"cannot be sourced: no such thing: moon$"):
+        sourced(f"printf 'no such thing:\\nmoon\\n' >&2; {end}\n")
