@@ -83,8 +83,9 @@ def examine(orders, tell, told):
         floor=orders["floor"],
         make_box=lambda environment: box.Box(environment, uid, orders["apart"], told),
         can_have_devices=granted,
+        needed=[*orders["kept"], Path(__file__)],
     )
-    trial.must_be_possible(one.box, scratch, [*orders["kept"], Path(__file__)])
+    trial.must_be_possible(one.box, scratch)
     run = Run(catalogue(), one, one.second_look, one.box.patience.hopeless)
     shown = (f"{scratch}/ws/", "") if layout.is_workspace else (f"{scratch}/ws/src/", "")
 

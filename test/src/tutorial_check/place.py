@@ -85,6 +85,10 @@ def _hide(home, kept, side):
     home = Path(home).resolve()
     if home.is_dir() and str(home) != "/":
         sizes.setdefault(home, "size=1m,mode=755")
+    # The same for another's folder above what is kept, which only he and root may enter.
+    for folder in {above for path in names.values() for above in path.parents}:
+        if not folder.stat().st_mode & 0o001:
+            sizes.setdefault(folder, "size=1m,mode=755")
     # The one goes with the other where it lies below it.
     hidden = {
         each: side / f"new_{each.name}" for each in sizes if not set(each.parents) & set(sizes)

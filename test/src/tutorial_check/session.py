@@ -5,7 +5,7 @@ import os
 import re
 from pathlib import Path
 
-from tutorial_check import python_facts
+from tutorial_check import python_facts, trial
 from tutorial_check.exercises.manifests import must_be_startable
 from tutorial_check.model import CannotCheck, Wrong, master_gone
 from tutorial_check.stage import Stage
@@ -53,10 +53,20 @@ class Session:
     """One workspace, copied to folder/ws, and the box in which its programs run."""
 
     def __init__(
-        self, folder, layout, exercises, environment, *, floor, make_box, can_have_devices
+        self,
+        folder,
+        layout,
+        exercises,
+        environment,
+        *,
+        floor,
+        make_box,
+        can_have_devices,
+        needed=(),
     ):
         """floor: its setup.bash; environment: of a shell that sourced it; make_box(environment): a Box.
 
+        needed: files and folders of the suite's that the student's launch files lead to.
         floor_environment: the latter in folders of this session's own, without the student's packages.
         """
         self.folder = Path(folder)
@@ -65,6 +75,7 @@ class Session:
         self.source = self.folder / "ws" / "src"
         self.floor = floor
         self.can_have_devices = can_have_devices
+        self._needed = needed
         self._memory, self._runs, self._siblings, self._has_played = {}, {}, 0, False
         self.floor_environment = self._own(environment)
         self.box = make_box(self.floor_environment)
@@ -89,7 +100,7 @@ class Session:
 
     def _sourced(self, setup):
         """The environment after sourcing a setup.bash, too: a program of the student's, as its hooks are."""
-        # What is printed before the first \\0 is no variable.
+        # What is printed before the first \0 is no variable.
         program = self.box.start(
             ["bash", "-c", '. "$1" >/dev/null && printf "\\0" && env -0', "bash", str(setup)]
         )
@@ -179,7 +190,13 @@ class Session:
         )
         ended = self.box.wait(lambda: program.ended, 120.0)
         self.box.end(program)
+        if program.process.returncode != 0:
+            self.must_reach_floor()
         return (program.process.returncode if ended else None), program.output
+
+    def must_reach_floor(self):
+        """The student's programs can read what is the suite's. Raises CannotCheck."""
+        self.memo("floor", lambda: trial.must_be_possible(self.box, self.folder, self._needed))
 
     def _needs_build(self):
         cmake = [each.folder / "CMakeLists.txt" for each in self.packages]

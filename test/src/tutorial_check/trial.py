@@ -9,7 +9,7 @@ SLOW_S = 60  # [s] for what needs a hundredth of one
 SCRIPT = '#!/bin/sh\nfor folder do [ -x "$folder" ] || { echo "$folder"; exit; }; done\n'
 
 
-def must_be_possible(box, scratch, needed):
+def must_be_possible(box, scratch, needed=()):
     """Start a program of the box's in the folder for what is written. Raises CannotCheck.
 
     needed: files and folders that it has to reach.

@@ -1,5 +1,6 @@
 """What is hidden, and what is not: in namespaces, which the system has to grant."""
 
+import os
 import subprocess
 import sys
 import tempfile
@@ -80,6 +81,32 @@ HIDDEN = [
 @pytest.mark.parametrize("folder", ["scratch", "home/tmp/scratch", "home/course/ws/tmp/scratch"])
 def test_home_is_hidden_but_for_what_is_needed(home, folder):
     assert furnish(home, home.parent / folder) == HIDDEN
+
+
+OPENED = """
+import os, sys
+from pathlib import Path
+from tutorial_check import place
+
+home, scratch, suite = map(Path, sys.argv[1:])
+scratch.mkdir()
+assert place.limit(scratch) and place.furnish(scratch, str(home), [suite])
+print((suite / "file").exists(), (suite.parent / "secret").exists())
+os.setuid(2_000_000)
+print((suite / "file").exists())
+"""
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root can run programs as another user")
+def test_what_is_needed_from_another_ones_home_can_be_reached():
+    with tempfile.TemporaryDirectory(dir="/var/tmp") as folder:
+        home, prof = Path(folder) / "home", Path(folder) / "prof"
+        home.mkdir()
+        prof.mkdir(0o700)
+        (prof / "suite").mkdir()
+        (prof / "suite" / "file").touch()
+        (prof / "secret").touch()
+        assert run(OPENED, home, home / "scratch", prof / "suite") == ["True False", "True"]
 
 
 @pytest.mark.parametrize("folder", ["scratch", "home/tmp/scratch"])

@@ -65,6 +65,7 @@ def facts(session, name):
 
 def _read(session):
     must_be_launchable(session)
+    session.must_reach_floor()
     folder = session.package(PACKAGE).folder
     paths = {}
     for name in ALL:
