@@ -20,7 +20,7 @@ def pytest_addoption(parser):
     """The rows are many, and each builds a workspace."""
     add = parser.addoption
     add("--every", type=int, default=1, metavar="N", help="only every Nth row of data")
-    add("--students", type=int, default=6, metavar="N", help="how many in the test of --all")
+    add("--students", type=int, default=4, metavar="N", help="how many in the test of --all")
     add(
         "--everything",
         action="store_true",

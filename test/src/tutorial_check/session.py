@@ -76,7 +76,8 @@ class Session:
         self.floor = floor
         self.can_have_devices = can_have_devices
         self._needed = needed
-        self._memory, self._runs, self._siblings, self._has_played = {}, {}, 0, False
+        self._memory, self._runs, self._siblings = {}, {}, 0
+        self.has_launched = False  # a launch file, whose nodes meet in any order
         self.floor_environment = self._own(environment)
         self.box = make_box(self.floor_environment)
 
@@ -91,9 +92,9 @@ class Session:
     def second_look(self, explained):
         """Whether what programs were seen to do is forgotten, as it is worth to look again.
 
-        It is if the machine was busy, or if programs have run and nothing explains what they did.
+        It is if the machine was busy, or if nothing explains what the nodes of a launch file did.
         """
-        if not self.box.patience.strained() and (explained or not self._has_played):
+        if not self.box.patience.strained() and (explained or not self.has_launched):
             return False
         self._runs.clear()
         return True
@@ -255,7 +256,6 @@ class Session:
         """A ROS master of its own, and a driver; all that was started on it ends with it."""
         must_be_startable(self)
         self.box.patience.begin()
-        self._has_played = True
         stage = Stage(self)
         try:
             yield stage
