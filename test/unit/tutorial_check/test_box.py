@@ -11,17 +11,15 @@ from tutorial_check import place
 from tutorial_check.box import Box, _processes
 from tutorial_check.forked import Helper
 
-# A user who is nobody else, whatever runs beside this
-NOBODYS = 2_000_000 + os.getpid() if os.geteuid() == 0 else None
 ENVIRONMENT = {"HOME": "/", "PATH": "/usr/bin:/bin"}
 
 
 class Keeper:
     """A box in a process of its own, whose children are seen by themselves."""
 
-    def __init__(self):
+    def __init__(self, uid):
         place.adopt_orphans()
-        self._box = Box(ENVIRONMENT, NOBODYS)
+        self._box = Box(ENVIRONMENT, uid)
 
     def children(self):
         """(name, state) of each child of this process."""
@@ -46,8 +44,8 @@ class Keeper:
         ("setsid sleep 3600", b"S", True),  # as the nodes of a roslaunch of ours
     ],
 )
-def test_of_orphans_none_is_left(what):
-    helper = Helper(Keeper, {})
+def test_of_orphans_none_is_left(stranger, what):
+    helper = Helper(lambda: Keeper(stranger), {})
     try:
         assert helper.call("left", *what) == []
     finally:

@@ -4,7 +4,6 @@ import pytest
 
 from tutorial_check.exercises.driving import PACKAGE
 from tutorial_check.exercises.files import cause_of
-from tutorial_check.session import Session
 from tutorial_check.tracebacks import first_traceback
 
 TRACEBACK = """Traceback (most recent call last):
@@ -26,14 +25,12 @@ TRACEBACK = """Traceback (most recent call last):
         ("catkin_package()", 1, False),
     ],
 )
-def test_an_import_may_want_what_is_not_built(tmp_path, error, cmake, exit_code, is_said):
-    folder = tmp_path / "ws/src" / PACKAGE
-    (folder / "scripts").mkdir(parents=True)
-    (folder / "package.xml").write_text(f"<package><name>{PACKAGE}</name></package>")
+def test_an_import_may_want_what_is_not_built(make_session, error, cmake, exit_code, is_said):
+    session = make_session(PACKAGE, "4.3")
+    folder = session.package(PACKAGE).folder
+    (folder / "scripts").mkdir()
     (folder / "CMakeLists.txt").write_text(cmake)
     (folder / "scripts/joy2twist.py").write_text("#!/usr/bin/python3\nimport axes\n")
-    nothing = {"floor": "", "make_box": lambda environment: None, "can_have_devices": False}
-    session = Session(tmp_path, None, ["4.3"], {"PATH": ""}, **nothing)
     session.memo("built", lambda: (exit_code, ""))
     trace = first_traceback(TRACEBACK.format(folder, error), str(folder))
     place, hint = cause_of(session, PACKAGE, "joy2twist.py", trace)

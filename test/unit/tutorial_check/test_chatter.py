@@ -8,7 +8,6 @@ import pytest
 from tutorial_check.exercises import chatter
 from tutorial_check.exercises.talking import PACKAGE
 from tutorial_check.model import Wrong
-from tutorial_check.session import Session
 
 TALKER = """#!/usr/bin/env python3
 rospy.init_node('talker', anonymous={})
@@ -40,22 +39,12 @@ class Stage:
 
 
 @pytest.fixture
-def session(tmp_path):
+def session(make_session):
     """A session with a talker and a listener."""
-    folder = tmp_path / "ws/src" / PACKAGE
-    folder.mkdir(parents=True)
-    (folder / "package.xml").write_text(f"<package><name>{PACKAGE}</name></package>")
+    session = make_session(PACKAGE, "3")
     for name in ("talker.py", "listener.py"):
-        (folder / name).write_text(TALKER.format(True))
-    return Session(
-        tmp_path,
-        None,
-        ["3"],
-        {"PATH": ""},
-        floor="",
-        make_box=lambda environment: None,
-        can_have_devices=False,
-    )
+        (session.package(PACKAGE).folder / name).write_text(TALKER.format(True))
+    return session
 
 
 @pytest.mark.parametrize("check", [chatter.anonymous, chatter.ctrl_c])

@@ -5,7 +5,6 @@ import pytest
 from tutorial_check.exercises import classes
 from tutorial_check.exercises.driving import PACKAGE
 from tutorial_check.model import Wrong
-from tutorial_check.session import Session
 
 CLASS = """#!/usr/bin/python3
 import rospy
@@ -51,16 +50,14 @@ def write(folder, path, text, mode=0o755):
 
 
 @pytest.fixture
-def folder(tmp_path):
-    """That of the student's package."""
-    write(tmp_path, f"ws/src/{PACKAGE}/package.xml", f"<package><name>{PACKAGE}</name></package>")
-    return tmp_path / "ws/src" / PACKAGE
+def session(make_session):
+    return make_session(PACKAGE, "6.2")
 
 
 @pytest.fixture
-def session(tmp_path, folder):
-    nothing = {"floor": "", "make_box": lambda environment: None, "can_have_devices": False}
-    return Session(tmp_path, None, ["6.2"], {"PATH": ""}, **nothing)
+def folder(session):
+    """That of the student's package."""
+    return session.package(PACKAGE).folder
 
 
 @pytest.mark.parametrize(

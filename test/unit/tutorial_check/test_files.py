@@ -5,27 +5,17 @@ import pytest
 from tutorial_check.exercises.files import check_file
 from tutorial_check.exercises.joy2twist import check_manifest
 from tutorial_check.model import Wrong
-from tutorial_check.session import Session
 
 FIRST = "#!/usr/bin/env python3\n"
 PACKAGE, SCRIPT = "joy2twist", "scripts/a.py"
 
 
 @pytest.fixture
-def session(tmp_path):
+def session(make_session):
     """A session with a package, which has nothing to be built."""
-    folder = tmp_path / "ws/src" / PACKAGE
-    (folder / "scripts").mkdir(parents=True)
-    (folder / "package.xml").write_text(f"<package><name>{PACKAGE}</name></package>")
-    return Session(
-        tmp_path,
-        None,
-        ["4.3"],
-        {"PATH": ""},
-        floor="",
-        make_box=lambda environment: None,
-        can_have_devices=False,
-    )
+    session = make_session(PACKAGE, "4.3")
+    (session.package(PACKAGE).folder / "scripts").mkdir()
+    return session
 
 
 def write(session, text, mode=0o755):

@@ -10,23 +10,20 @@ from tutorial_check import session
 from tutorial_check.box import Box
 from tutorial_check.model import CannotCheck
 
-# A user who is nobody else, whatever runs beside this
-NOBODYS = 2_000_000 + os.getpid() if os.geteuid() == 0 else None
-
 
 @pytest.fixture
-def sourced():
+def sourced(stranger):
     """sourced(text): what variables there are after a setup.bash with this text."""
     with tempfile.TemporaryDirectory() as folder:
         Path(folder).chmod(0o755)
-        session.prepare(folder, NOBODYS)
+        session.prepare(folder, stranger)
         one = session.Session(
             folder,
             None,
             [],
             {"PATH": "/usr/bin:/bin"},
             floor=None,
-            make_box=lambda environment: Box(environment, NOBODYS),
+            make_box=lambda environment: Box(environment, stranger),
             can_have_devices=False,
         )
 
@@ -39,9 +36,9 @@ def sourced():
         one.box.clear()
 
 
-def test_who_sources_it_is_who_runs_the_programs(sourced):
+def test_who_sources_it_is_who_runs_the_programs(sourced, stranger):
     found = sourced("echo hello; echo a=b >&2; export WHO=$(id -u) TWO_LINES=$'1\n2'\n")
-    assert found["WHO"] == str(NOBODYS or os.geteuid())
+    assert found["WHO"] == str(stranger or os.geteuid())
     assert found["TWO_LINES"] == "1\n2"
     assert "hello" not in "".join(found) and "a" not in found
 

@@ -1,5 +1,6 @@
 """Where no program of a student's could work, the folder is to blame, and no student."""
 
+import functools
 import os
 import subprocess
 import sys
@@ -13,7 +14,6 @@ from tutorial_check.box import Box
 from tutorial_check.model import CannotCheck
 from tutorial_check.trial import must_be_possible
 
-NOBODYS = 2_000_000 + os.getpid()  # nobody else, whatever runs beside this
 as_root = pytest.mark.skipif(os.geteuid() != 0, reason="only root can run programs as another user")
 
 
@@ -30,27 +30,28 @@ def home():
         yield home
 
 
-def attempt(home, scratch, needed):
-    """With programs that run as somebody else."""
-    must_be_possible(Box({"HOME": str(home)}, NOBODYS), scratch, needed)
+@pytest.fixture
+def attempt(home, stranger):
+    """must_be_possible, with programs that run as somebody else."""
+    return functools.partial(must_be_possible, Box({"HOME": str(home)}, stranger))
 
 
 @as_root
-def test_what_others_may_enter_is_well(home):
-    attempt(home, home / "open", [home / "open", home / "open" / "setup.bash"])
+def test_what_others_may_enter_is_well(home, attempt):
+    attempt(home / "open", [home / "open", home / "open" / "setup.bash"])
 
 
 @as_root
 @pytest.mark.parametrize(("needed", "how"), [("closed/suite", r"o\+x"), ("closed", r"-R o\+rX")])
-def test_what_is_closed_is_named(home, needed, how):
+def test_what_is_closed_is_named(home, attempt, needed, how):
     with pytest.raises(CannotCheck, match=rf"^{home}/closed is .*: chmod {how} {home}/closed,"):
-        attempt(home, home / "open", [home / "open" / "setup.bash", home / needed])
+        attempt(home / "open", [home / "open" / "setup.bash", home / needed])
 
 
 @as_root
-def test_a_closed_folder_for_what_is_written_is_named(home):
+def test_a_closed_folder_for_what_is_written_is_named(home, attempt):
     with pytest.raises(CannotCheck, match=rf"can be started in {home}/closed .*TMPDIR"):
-        attempt(home, home / "closed" / "suite", [])
+        attempt(home / "closed" / "suite", [])
 
 
 NOEXEC = """

@@ -1,0 +1,27 @@
+"""What the tests of check share: a session of a package, and a user for its programs."""
+
+import os
+
+import pytest
+
+from tutorial_check.session import Session
+
+
+@pytest.fixture
+def make_session(tmp_path):
+    """make_session(package, exercise): a Session of a workspace with that package, still empty."""
+
+    def make(package, exercise):
+        folder = tmp_path / "ws/src" / package
+        folder.mkdir(parents=True)
+        (folder / "package.xml").write_text(f"<package><name>{package}</name></package>")
+        nothing = {"floor": "", "make_box": lambda environment: None, "can_have_devices": False}
+        return Session(tmp_path, None, [exercise], {"PATH": ""}, **nothing)
+
+    return make
+
+
+@pytest.fixture(scope="session")
+def stranger():
+    """A user's number that nobody else has, whatever runs beside this; None if not root."""
+    return 2_000_000 + os.getpid() if os.geteuid() == 0 else None
