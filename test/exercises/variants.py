@@ -45,7 +45,7 @@ def part(name):
 
 ROWS = [
     ("shebang /usr/bin/python3", [put(JOY2TWIST, "/usr/bin/env python", "/usr/bin/python3"), put(TALKER, "/usr/bin/env python", "/usr/bin/env python3")], ["3", "4.3"]),
-    ("installed by catkin_install_python, without chmod", [chmod(JOY2TWIST, 0o644), chmod(CLASS, 0o644), put(f"{J}/CMakeLists.txt", "catkin_package()", "catkin_package()\ncatkin_install_python(PROGRAMS scripts/joy2twist.py scripts/new_joy2twist.py DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})")], ["4.3", "5", "6.2"]),
+    ("installed by catkin_install_python, without chmod", [chmod(JOY2TWIST, 0o644), chmod(CLASS, 0o644), put(f"{J}/CMakeLists.txt", "catkin_package()", "catkin_package()\ncatkin_install_python(PROGRAMS scripts/joy2twist.py scripts/new_joy2twist.py DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})")], ["4.3", "6.2"]),
     ("scripts in src", [move(JOY2TWIST, f"{J}/src/joy2twist.py"), move(TALKER, f"{B}/src/talker.py")], ["3", "4.3"]),
     ("scripts in nodes", [move(JOY2TWIST, f"{J}/nodes/joy2twist.py"), move(CLASS, f"{J}/nodes/NewJoy2Twist.py")], ["4.3", "6.2"]),
     ("scripts in the package's root", [move(JOY2TWIST, f"{J}/joy2twist.py"), move(LISTENER, f"{B}/listener.py")], ["3", "4.3"]),

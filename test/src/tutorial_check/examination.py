@@ -96,6 +96,8 @@ def _environment(floor):
     if done.returncode != 0:
         raise CannotCheck(f"{floor} cannot be sourced: {done.stderr[-200:]}")
     found = dict(word.split("=", 1) for word in done.stdout.split("\0") if "=" in word)
+    if "ROS_ETC_DIR" in os.environ:  # with the suite's roscore.xml each roslaunch starts sooner
+        found["ROS_ETC_DIR"] = os.environ["ROS_ETC_DIR"]
     return {name: found[name] for name in found if name not in ("_", "SHLVL", "PWD", "OLDPWD")}
 
 

@@ -1,7 +1,6 @@
 """What launch files would start, read as roslaunch reads them and nothing started.
 
-A program of its own, run with the student's rights: what a launch file names is read.
-python3 -m tutorial_check.launch_facts FILE ... prints one JSON object a file.
+In a process of its own, with the student's rights: what a launch file names is read.
 """
 
 import contextlib
@@ -9,7 +8,6 @@ import functools
 import io
 import json
 import re
-import sys
 import xml.dom.minidom
 from pathlib import Path
 
@@ -87,6 +85,7 @@ def facts_of(path):
     return facts
 
 
-if __name__ == "__main__":
-    for name in sys.argv[1:]:
-        print(MARK + json.dumps(facts_of(str(Path(name)))), flush=True)
+def tell(paths):
+    """Print one JSON object for each of these launch files."""
+    for path in paths:
+        print(MARK + json.dumps(facts_of(path)), flush=True)

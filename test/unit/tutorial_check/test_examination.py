@@ -62,3 +62,10 @@ def test_no_verdict_if_nothing_was_found_or_nobody_wants_it(examine, monkeypatch
         monkeypatch.setattr(examination._no_more, "is_set", lambda: True)
     with pytest.raises(CannotCheck, match="ended without a result"):
         examine(lines)
+
+
+def test_the_suites_roscore_xml_is_read_whatever_that_of_the_system(examine, tmp_path, monkeypatch):
+    (tmp_path / "setup.bash").write_text("export ROS_ETC_DIR=/etc/ros\n")
+    monkeypatch.setenv("ROS_ETC_DIR", "/suite/etc/ros")
+    outcomes = examine([RESULT], """printf '{"cannot": "%s"}\\n' "$ROS_ETC_DIR" """)
+    assert told(outcomes)["3"] == ([], "/suite/etc/ros")

@@ -46,9 +46,7 @@ class Endings:
         must_be_launchable(session)
         with session.stage() as stage:
             self._stage = stage
-            robot = stage.launch(
-                ["rosrun", "fake_turtlebot_sim", "fake_turtlebot.py"], trusted=True
-            )
+            robot = stage.start_ours("fake_turtlebot_sim", "fake_turtlebot.py")
             stage.call("advertise", JOY, "Joy")
             stage.call("listen", CMD_VEL, "Twist")
             stage.call("listen", ODOM, "Odometry")

@@ -6,13 +6,13 @@ import os
 import re
 from pathlib import Path
 
+from tutorial_check import launch_facts, preloaded
 from tutorial_check.exercises.driving import PACKAGE
 from tutorial_check.exercises.files import find_script, is_runnable
 from tutorial_check.exercises.joy2twist import NAME
 from tutorial_check.exercises.launch_text import attribute, parse_error, place_of, read, space_hint
 from tutorial_check.exercises.launch_xml import unclosed_node
 from tutorial_check.exercises.manifests import must_be_launchable
-from tutorial_check.launch_facts import MARK
 from tutorial_check.model import CannotCheck, Wrong
 from tutorial_check.tracebacks import last_lines
 
@@ -73,11 +73,10 @@ def _read(session):
             paths[name] = str(path)
     if not paths:
         return {}
-    source = Path(__file__).resolve().parents[2]
-    environment = dict(session.environment)
-    environment["PYTHONPATH"] = f"{source}:{environment.get('PYTHONPATH', '')}"
-    program = session.box.start(
-        ["/usr/bin/python3", "-m", "tutorial_check.launch_facts", *paths.values()], environment
+    program = session.box.fork(
+        lambda: preloaded.end_with(lambda: launch_facts.tell(paths.values())),
+        session.environment,
+        "launch_facts",
     )
     ended = session.box.wait(lambda: program.ended, 15.0)
     session.box.end(program)
@@ -89,8 +88,8 @@ def _read(session):
         )
     found = {}
     for line in program.output.splitlines():
-        if line.startswith(MARK):
-            one = json.loads(line[len(MARK) :])
+        if line.startswith(launch_facts.MARK):
+            one = json.loads(line[len(launch_facts.MARK) :])
             found[Path(one["path"]).name] = one
     if set(found) != set(paths):
         raise CannotCheck(f"launch files cannot be read: {last_lines(program.output)}")

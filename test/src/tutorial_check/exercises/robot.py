@@ -126,7 +126,7 @@ def simulated(session):
         for topic, kind in ((CMD_VEL, "Twist"), (ODOM, "Odometry")):
             stage.call("listen", topic, kind)
         stage.call("advertise", JOY, "Joy")
-        robot = stage.launch(["rosrun", "fake_turtlebot_sim", "fake_turtlebot.py"], trusted=True)
+        robot = stage.start_ours("fake_turtlebot_sim", "fake_turtlebot.py")
         program = stage.start(PACKAGE, script)
         ready = stage.wait(
             lambda: program.ended or (stage.call("listeners", JOY) and stage.call("count", ODOM)),
@@ -205,9 +205,7 @@ def joystick(session):
         stage.call("listen", JOY, "Joy")
         stage.call("listen", CMD_VEL, "Twist")
         pad, path = plug_in(session, stage)
-        node = stage.launch(
-            ["rosrun", "gamepad", "joy_node", f"_dev:={path}", "_autorepeat_rate:=20"], trusted=True
-        )
+        node = stage.start_ours("gamepad", "joy_node", f"_dev:={path}", "_autorepeat_rate:=20")
         program = stage.start(PACKAGE, script)
 
         def drives():
