@@ -178,11 +178,7 @@ class Run:
         try:
             found = self._call(check)
         except Wrong as wrong:
-            same = [
-                one
-                for one in self._done.values()
-                if one.status == WRONG and _is_one_cause(one, wrong)
-            ]
+            same = self._told_of(wrong)
             if same:  # one cause is told once, at the first check that it keeps from holding
                 return self._unreached(check, same)
             what = {
@@ -201,13 +197,20 @@ class Run:
             return Result(status=NOTE, seen=found.seen, where=found.where, hint=found.hint, **about)
         return Result(status=OK, seen=found or "", **about)
 
+    def _told_of(self, wrong):
+        """The wrong results that tell of the same cause."""
+        return [
+            one for one in self._done.values() if one.status == WRONG and _is_one_cause(one, wrong)
+        ]
+
     def _call(self, check):
         function = self._catalogue.functions[check.id]
         try:
             return function(self._session)
         except (Wrong, CannotCheck) as error:
-            explained = bool(LINE.search(getattr(error, "where", "")))
-            if getattr(error, "sure", False) or not self._second_look(explained):
+            if isinstance(error, Wrong) and (error.sure or self._told_of(error)):
+                raise
+            if not self._second_look(bool(LINE.search(getattr(error, "where", "")))):
                 raise
         try:
             return function(self._session)

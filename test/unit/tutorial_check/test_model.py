@@ -158,6 +158,18 @@ def test_what_is_wrong_on_a_busy_machine_is_looked_at_twice(sure, busy, calls):
     assert len(made) == calls
 
 
+def test_a_cause_that_was_told_is_not_looked_for_again():
+    """Else the second look may tell of it in other words, as if there were two."""
+    looks = iter(["f:1", "f:1", "f:1", "f"])
+
+    def second(session):
+        raise Wrong("good", "bad", next(looks))
+
+    checks = (Check("A", "1", "a", "1"), Check("B", "1", "b", "1"))
+    one = Run(Catalogue(checks, {"A": second, "B": second}), None, lambda explained: True)
+    assert statuses(one.exercise("1")) == [("A", WRONG), ("B", UNREACHED)]
+
+
 def test_on_a_machine_far_too_busy_there_is_no_verdict():
     catalogue = Catalogue([Check("C1", "2", "first", "2.1")], {"C1": wrong()})
     one = Run(catalogue, None, lambda explained: True, lambda: True)
