@@ -34,7 +34,7 @@ def manifest(format_, depends):
 
 ROWS = [
     ("2", "package beside src", [move(B, f"../{B}")], "C2", "beside src"),
-    ("2", "no package", [move(B, "../../gone")], "C2", "none; found"),
+    ("2", "no package", [move(B, "../../gone")], "C2", ("none; found", "has one of OURS")),
     ("2", "upper case in the name", [put(PUT_XML, f"<name>{B}<", "<name>Beginner_Tutorials<")], "C2", "exactly"),
     ("2", "hyphen in the name", [put(PUT_XML, f"<name>{B}<", "<name>beginner-tutorials<")], "C2", "exactly"),
     ("2", "misspelt name", [put(PUT_XML, f"<name>{B}<", "<name>beginer_tutorials<")], "C2", "exactly"),
@@ -116,6 +116,7 @@ ROWS = [
     ("4.3", "broken package.xml of the other package", [put(PUT_XML, "</description>", "</describtion>")], "C14", ("beginner_tutorials/package.xml:5", "no node of the workspace starts")),
     ("4.3", "broken package.xml in a hidden folder", [write(".old/package.xml", "<package>")], "C14", (".old/package.xml:1", "no node of the workspace starts")),
     ("5", "broken package.xml beside the launch files", [put(PUT_XML, "</description>", "</describtion>")], "C21", ("beginner_tutorials/package.xml:5", "no node of the workspace starts")),
+    ("4.3", "a dependency that there is not", [put(f"{J}/CMakeLists.txt", "geometry_msgs", "geometry_msgs joystick")], "C12", (f"{J}/CMakeLists.txt:4", "joystick")),
     ("4.3", "no package joy2twist", [put(PUT_JOY_XML, "<name>joy2twist<", "<name>joy-2-twist<")], "C12", "exactly"),
     ("4.3", "misspelt program", [move(JOY2TWIST, f"{J}/scripts/Joy2Twist.py")], "C13", "Joy2Twist.py"),
     ("4.3", "chmod forgotten", [chmod(JOY2TWIST, 0o644)], "C13", "chmod"),

@@ -45,7 +45,7 @@ def test_right_is_exit_code_0_with_all_its_files(literal, floor, tmp_path):
     ]
     code, out, _ = check(floor, "--in", literal.parent, "2", *files)
     assert code == 0, out
-    assert out.endswith("1 of 1 exercises done\n")
+    assert out.endswith(f"1 of 1 exercises done in {literal.parent}\n")
     told = json.loads((tmp_path / "json").read_text())
     assert told["exercises"][0]["id"] == "2"
     assert [one["id"] for one in told["exercises"][0]["checks"]] == ["C1", "C2", "C3", "C4"]

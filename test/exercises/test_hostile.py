@@ -2,7 +2,9 @@
 
 import contextlib
 import os
+import shutil
 import tempfile
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -11,6 +13,17 @@ from edits import JOY2TWIST, LISTENER, TALKER, apply, put, write
 from tutorial_check.examination import examine
 from tutorial_check.report import lines_of
 
+FIRST = "#!/usr/bin/env python3\nimport os\n"
+FORK_BOMB = f"{FIRST}while True:\n    try:\n        os.fork()\n    except OSError:\n        pass\n"
+KILLS_ALL = f"{FIRST}os.kill(-1, 9)\n"
+PRINTS_WITHOUT_END = f"{FIRST}while True:\n    print('x' * 1000000)\n"
+FILLS_THE_DISK = (
+    f"{FIRST}file = open('filled', 'wb')\nwhile file.write(b'x' * 1000000):\n    pass\n"
+)
+ENDS_THE_MASTER = (
+    f"{FIRST}import xmlrpc.client\n"
+    "xmlrpc.client.ServerProxy(os.environ['ROS_MASTER_URI']).shutdown('/me', 'no more')\n"
+)
 AFTER_INIT = "    rospy.init_node('listener', anonymous=True)\n"
 
 
@@ -57,10 +70,7 @@ def test_one_that_ignores_ctrl_c(literal, floor, scratch):
 
 def test_a_fork_bomb(literal, floor, scratch):
     """It does not spoil what comes after it, either."""
-    write(
-        TALKER,
-        "#!/usr/bin/env python3\nimport os\nwhile True:\n    try:\n        os.fork()\n    except OSError:\n        pass\n",
-    )(literal)
+    write(TALKER, FORK_BOMB)(literal)
     bombed, after = examine(literal.parent, floor, ["3", "4.3"])
     check, told = first_wrong(bombed)
     assert check == "C6", told
@@ -158,6 +168,18 @@ def test_one_that_prints_a_verdict(literal, floor):
     assert check == "C14"
 
 
-def test_the_next_one_is_unharmed(literal, floor):
-    assert os.listdir(literal)
-    assert wrong_of(literal, floor, "3") == (None, "")
+def test_those_beside_them_are_unharmed(literal, floor, tmp_path):
+    """Two at a time, as check --all has it: before and after each hostile one comes a right one."""
+    programs = [FORK_BOMB, KILLS_ALL, PRINTS_WITHOUT_END, FILLS_THE_DISK, ENDS_THE_MASTER]
+    students = [tmp_path / "right_0"]
+    shutil.copytree(literal.parent, students[0])
+    for number, program in enumerate(programs, 1):
+        students += [tmp_path / f"hostile_{number}", tmp_path / f"right_{number}"]
+        for student in students[-2:]:
+            shutil.copytree(literal.parent, student)
+        write(TALKER, program)(students[-2] / "src")
+    with ThreadPoolExecutor(2) as pool:
+        found = list(pool.map(lambda student: examine(student, floor, ["3"]), students))
+    wrong = [first_wrong(*outcomes) for outcomes in found]
+    assert wrong[::2] == [(None, "")] * (len(programs) + 1)
+    assert [check for check, _ in wrong[1::2]] == ["C6"] * len(programs), wrong

@@ -173,7 +173,7 @@ class Driver:
         try:
             publishers, subscribers, _ = self._master.getSystemState()
         except (OSError, rosgraph.MasterException):
-            return {}, {}  # the master has gone; see alive()
+            return {}, {}  # the master has gone; see Stage.master_lives
         return tuple(
             {
                 topic: [node for node in nodes if not node.startswith(f"/{NAME}")]
@@ -189,10 +189,6 @@ class Driver:
             return dict(self._master.getTopicTypes())
         except (OSError, rosgraph.MasterException):
             return {}
-
-    def alive(self):
-        """Whether the master answers."""
-        return rosgraph.is_master_online()
 
     def node_process(self, node):
         """The id of a node's process, or None if it does not answer."""

@@ -21,6 +21,9 @@ from tutorial_check.model import CannotCheck, Result, passed
 # machine stretches. Ten times as long is enough: where programs have less than a seventh of the time,
 # there is no verdict anyway (patience.HOPELESS), and a student waits for an answer.
 LONGEST_S = 900.0
+# Of a shell of the suite: its roscore.xml, with which each roslaunch starts sooner, and what CMake 4
+# needs to read catkin's files.
+OF_SUITE = ("ROS_ETC_DIR", "CMAKE_POLICY_VERSION_MINIMUM")
 END_S = 10.0  # an examination that nobody listens to has this long to end what it started
 _no_more = threading.Event()
 NUMBERS = itertools.count(os.getpid() * 100)
@@ -96,8 +99,7 @@ def _environment(floor):
     if done.returncode != 0:
         raise CannotCheck(f"{floor} cannot be sourced: {done.stderr[-200:]}")
     found = dict(word.split("=", 1) for word in done.stdout.split("\0") if "=" in word)
-    if "ROS_ETC_DIR" in os.environ:  # with the suite's roscore.xml each roslaunch starts sooner
-        found["ROS_ETC_DIR"] = os.environ["ROS_ETC_DIR"]
+    found.update({name: os.environ[name] for name in OF_SUITE if name in os.environ})
     return {name: found[name] for name in found if name not in ("_", "SHLVL", "PWD", "OLDPWD")}
 
 

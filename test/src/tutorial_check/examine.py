@@ -52,7 +52,9 @@ def examine(orders, tell, told):
     if orders["apart"]:
         place.loopback_up()
     layout = _hand_in(orders["workspace"], scratch)
-    kept = [*orders["kept"], orders["workspace"], Path(__file__).parents[3]]
+    suite = Path(__file__).parents[3]
+    workspace.must_be_ones_own(layout, suite)
+    kept = [*orders["kept"], orders["workspace"], suite]
     # Links of one's own workspace lead where they lead; those of others, not into the home folder
     # of who checks them. No program of theirs runs before that is hidden.
     if orders["own"]:

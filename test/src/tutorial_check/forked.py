@@ -34,6 +34,9 @@ def _receive(descriptor):
     return pickle.loads(exactly(struct.unpack("!I", exactly(4))[0]))
 
 
+ASK_AGAIN_S = 1.0  # whether an answer may still come
+
+
 class Helper:
     """An object in a forked process; its methods are called through a pipe that only we have."""
 
@@ -54,13 +57,24 @@ class Helper:
         self._question, self._answer = question_in, answer_out
         self._hangs = ""
 
-    def call(self, method, *arguments, deadline_s=60.0):
-        """What the method returns. Raises CannotCheck if the helper fails or hangs, or did so once."""
+    @property
+    def ended(self):
+        """Whether its process has ended."""
+        return bool(os.waitid(os.P_PID, self.pid, os.WEXITED | os.WNOHANG | os.WNOWAIT))
+
+    def call(self, method, *arguments, deadline_s=60.0, in_vain=lambda: False):
+        """What the method returns. Raises CannotCheck if the helper fails or hangs, or did so once.
+
+        in_vain(): asked when it has not answered for a while; whether it never will.
+        """
         if self._hangs:  # what it answers late would be taken for the answer to this
             raise CannotCheck(self._hangs)
         try:
             _send(self._question, (method, arguments))
-            if not select.select([self._answer], [], [], deadline_s)[0]:
+            end = time.monotonic() + deadline_s
+            while not select.select([self._answer], [], [], min(deadline_s, ASK_AGAIN_S))[0]:
+                if time.monotonic() < end and not in_vain():
+                    continue
                 self._hangs = f"the checker's own helper hangs in {method}"
                 raise CannotCheck(self._hangs)
             worked, value = _receive(self._answer)

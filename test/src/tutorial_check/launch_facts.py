@@ -7,7 +7,7 @@ import contextlib
 import functools
 import io
 import json
-import re
+import shlex
 import xml.dom.minidom
 from pathlib import Path
 
@@ -27,9 +27,13 @@ def can_be_found(package, kind):
 
 def device_of(node, params):
     """The device that a node is told to read, as joy_node is; or empty."""
-    in_args = re.search(r"(?:^|\s)_dev:=(\S+)", node.args or "")
+    try:
+        words = shlex.split(node.args or "")
+    except ValueError:  # as a quote without its second; see launch_nodes.words_of
+        words = []
+    in_args = [word[len("_dev:=") :] for word in words if word.startswith("_dev:=")]
     in_file = params.get(f"{node.namespace}{node.name}/dev")
-    return in_args[1] if in_args else str(in_file.value) if in_file else ""
+    return in_args[0] if in_args else str(in_file.value) if in_file else ""
 
 
 def facts_of(path):

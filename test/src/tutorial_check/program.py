@@ -137,7 +137,7 @@ def check_one(options):
     terminal.busy("copying and preparing")
     outcomes = examine(options.workspace, options.floor, options.exercises, terminal.tell)
     terminal.done()
-    print(summary(outcomes))
+    print(f"{summary(outcomes)} in {os.path.abspath(options.workspace)}")
     write_files(files, without_hints(outcomes) if options.no_hints else outcomes)
     troubles = [outcome for outcome in outcomes if outcome.trouble]
     for one in troubles:

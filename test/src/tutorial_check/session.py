@@ -260,7 +260,7 @@ class Session:
         try:
             yield stage
         except (CannotCheck, Wrong, LookupError) as error:
-            if stage.call("alive"):
+            if stage.master_lives:
                 raise
             raise master_gone() from error
         finally:

@@ -82,8 +82,13 @@ class Stage:
             ) from None
 
     def call(self, method, *arguments):
-        """Of the driver."""
-        return self._driver.call(method, *arguments)
+        """Of the driver. Without a master rospy tries for ever: nobody waits for that."""
+        return self._driver.call(method, *arguments, in_vain=lambda: not self.master_lives)
+
+    @property
+    def master_lives(self):
+        """Whether nobody has ended the master."""
+        return not self._master.ended
 
     def wait(self, condition, deadline_s):
         """See Box.wait."""

@@ -1,5 +1,6 @@
 """The student's workspace: found, unpacked, copied. Needs no ROS but catkin_pkg."""
 
+import contextlib
 import os
 import re
 import shutil
@@ -98,6 +99,19 @@ def find_layout(folder):
     except PermissionError as error:
         raise CannotCheck(f"{error.filename}: may not be read") from None
     return Layout(folder, folder / "src", True)
+
+
+def must_be_ones_own(layout, suite):
+    """Raises CannotCheck if a package, or what it is a link to, is one of the suite's solutions."""
+    solutions = {
+        os.path.realpath(Path(suite, name)) for name in ("beginner_tutorials", "joy2twist")
+    }
+    inside = []
+    with contextlib.suppress(OSError):  # copy() tells of it
+        inside = sorted(layout.source.iterdir())
+    for each in (layout.source, *inside):
+        if os.path.realpath(each) in solutions:
+            raise CannotCheck(f"{each} is this suite's solution, not yours: name YOUR workspace")
 
 
 def _only_child(folder):

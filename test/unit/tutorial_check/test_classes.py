@@ -65,8 +65,8 @@ def folder(session):
     [
         ("scripts/joy2twist.py", NO_SHUTDOWN, 0o755),
         ("scripts/joy2twist.py", CLASS, 0o755),
-        ("old/new_joy2twist.py", CLASS, 0o755),
-        ("backup_1/new_joy2twist.py", CLASS, 0o755),
+        ("old/new_joy2twist.py", CLASS, 0o644),
+        ("backup_1/new_joy2twist.py", CLASS, 0o644),
         ("scripts/class_joy2twist.py", CLASS, 0o644),
         (".history/scripts/joy2twist_2.py", CLASS, 0o755),
         (".history/scripts/a.py", CLASS, 0o755),
@@ -76,6 +76,22 @@ def test_the_class_of_several_that_is_the_last_step(folder, session, other, text
     write(folder, other, text, mode)
     write(folder, "scripts/new_joy2twist.py", CLASS)
     assert classes.program(session)[0] == "scripts/new_joy2twist.py"
+
+
+def test_a_backup_of_the_same_name_that_rosrun_would_find_as_well(folder, form):
+    write(folder, "old/new_joy2twist.py", CLASS)
+    with pytest.raises(Wrong, match=r"several: old/new_joy2twist\.py, scripts/new_joy2"):
+        form(CLASS)
+
+
+PUBLISHER = "        self.cmd_vel = rospy.Publisher('/cmd_vel', Twist)\n"
+
+
+@pytest.mark.parametrize(("before", "where"), [("on_shutdown", ""), ("Subscriber", ":8")])
+def test_an_early_ctrl_c_finds_no_publisher(form, before, where):
+    line = f"        rospy.{before}"
+    said = form(CLASS.replace(line, PUBLISHER + line))
+    assert getattr(said, "where", "") == (where and f"scripts/new_joy2twist.py{where}")
 
 
 def test_a_hidden_folder_has_no_class(folder, session):

@@ -64,8 +64,9 @@ def test_no_verdict_if_nothing_was_found_or_nobody_wants_it(examine, monkeypatch
         examine(lines)
 
 
-def test_the_suites_roscore_xml_is_read_whatever_that_of_the_system(examine, tmp_path, monkeypatch):
-    (tmp_path / "setup.bash").write_text("export ROS_ETC_DIR=/etc/ros\n")
-    monkeypatch.setenv("ROS_ETC_DIR", "/suite/etc/ros")
-    outcomes = examine([RESULT], """printf '{"cannot": "%s"}\\n' "$ROS_ETC_DIR" """)
-    assert told(outcomes)["3"] == ([], "/suite/etc/ros")
+@pytest.mark.parametrize("name", ["ROS_ETC_DIR", "CMAKE_POLICY_VERSION_MINIMUM"])
+def test_what_holds_in_a_shell_of_the_suite(examine, tmp_path, monkeypatch, name):
+    (tmp_path / "setup.bash").write_text(f"export {name}=of_the_system\n")
+    monkeypatch.setenv(name, "of_the_suite")
+    outcomes = examine([RESULT], f"""printf '{{"cannot": "%s"}}\\n' "${name}" """)
+    assert told(outcomes)["3"] == ([], "of_the_suite")

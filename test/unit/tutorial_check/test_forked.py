@@ -2,6 +2,7 @@
 
 import os
 import select
+import signal
 
 import pytest
 
@@ -39,3 +40,18 @@ def test_one_that_was_too_late_is_asked_no_more(tmp_path):
             helper.call("alive")
     finally:
         helper.end()
+
+
+def test_what_is_asked_in_vain_is_not_waited_for(tmp_path):
+    """As a master that was ended, of which rospy never stops asking."""
+    gate = tmp_path / "gate"
+    os.mkfifo(gate)
+    helper, other = Helper(lambda: Waiter(gate), {}), Helper(lambda: Waiter(gate), {})
+    try:
+        assert not other.ended
+        os.kill(other.pid, signal.SIGKILL)
+        with pytest.raises(CannotCheck, match="hangs in wait"):
+            helper.call("wait", deadline_s=3600.0, in_vain=lambda: other.ended)
+    finally:
+        helper.end()
+        other.end()

@@ -4,7 +4,9 @@ from types import SimpleNamespace
 
 import pytest
 
+from tutorial_check.exercises import packages
 from tutorial_check.exercises.packages import _build_error as build_error
+from tutorial_check.model import Wrong
 
 BEFORE = """-- ==> add_subdirectory(joy2twist)
 CMake Deprecation Warning at joy2twist/CMakeLists.txt:1 (cmake_minimum_required):
@@ -72,3 +74,41 @@ def test_an_error_of_cmakes(error, seen, where, hint):
 @pytest.mark.parametrize("output", ["", "all is well", BEFORE])
 def test_no_error_of_cmakes(output):
     assert build_error(SimpleNamespace(packages=[]), output).where == ""
+
+
+@pytest.fixture
+def joy2twist(make_session, monkeypatch):
+    """C12 of a package with this CMakeLists.txt, all of whose dependencies are declared."""
+    session = make_session("joy2twist", "4.3")
+    folder = session.package("joy2twist").folder
+    monkeypatch.setattr(packages, "_dependencies", lambda *_: session.package("joy2twist"))
+    (session.folder / "share/rospy/cmake").mkdir(parents=True)
+    (session.folder / "share/rospy/cmake/rospyConfig.cmake").touch()
+    session.floor_environment["CMAKE_PREFIX_PATH"] = str(session.folder)
+
+    def check(text):
+        (folder / "CMakeLists.txt").write_text(text)
+        return packages.joy2twist(session)
+
+    return check
+
+
+@pytest.mark.parametrize("words", ["rospy", "rospy joy2twist", "rospy # joystick", "${NEEDED}"])
+def test_components_that_can_be_found(joy2twist, words):
+    assert joy2twist(f"find_package(catkin REQUIRED COMPONENTS\n  {words}\n)\n") == "src/joy2twist"
+    assert joy2twist("find_package(catkin REQUIRED)") == "src/joy2twist"
+
+
+def test_a_component_that_cannot_be_found(joy2twist):
+    with pytest.raises(Wrong, match="catkin cannot find joystick") as raised:
+        joy2twist(
+            "project(joy2twist)\nfind_package(catkin REQUIRED COMPONENTS\n  rospy joystick)\n"
+        )
+    assert raised.value.where == "joy2twist/CMakeLists.txt:3"
+
+
+def test_no_cmake_file(make_session, monkeypatch):
+    session = make_session("joy2twist", "4.3")
+    monkeypatch.setattr(packages, "_dependencies", lambda *_: session.package("joy2twist"))
+    with pytest.raises(Wrong, match=r"CMakeLists\.txt is missing"):
+        packages.joy2twist(session)

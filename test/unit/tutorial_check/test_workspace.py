@@ -32,6 +32,18 @@ def test_a_workspace_is_found(tmp_path, place):
     assert [each.name for each in workspace.packages_below(copied)] == ["joy2twist"]
 
 
+@pytest.mark.parametrize("given", ["suite", "suite/joy2twist", "ws", "ws/src"])
+def test_the_suites_own_solutions_are_nobodys(tmp_path, given):
+    """Linked into a workspace as well, as those are that the suite builds for itself."""
+    package(tmp_path / "suite/joy2twist")
+    package(tmp_path / "ws/src/mine")
+    (tmp_path / "ws/src/joy2twist").symlink_to(tmp_path / "suite/joy2twist")
+    layout = workspace.find_layout(tmp_path / given)
+    with pytest.raises(CannotCheck, match=r"/joy2twist is this suite's solution, not yours"):
+        workspace.must_be_ones_own(layout, tmp_path / "suite")
+    workspace.must_be_ones_own(layout, tmp_path / "another_copy")
+
+
 @pytest.mark.parametrize("hidden", [".git", ".github", ".vscode"])
 def test_a_workspace_in_a_repository_is_found(tmp_path, hidden):
     package(tmp_path / "catkin_ws/src/joy2twist")

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from tutorial_check.exercises import conversation
 from tutorial_check.exercises.driving import PACKAGE, drive
-from tutorial_check.exercises.files import check_file
+from tutorial_check.exercises.files import check_file, must_be_one
 from tutorial_check.exercises.joy2twist import NAME, check_manifest
 from tutorial_check.model import Note, Wrong
 
@@ -67,6 +67,7 @@ def program(session):
 def is_class(session):
     """C29."""
     script, path, one = program(session)
+    must_be_one(session.package(PACKAGE).folder, Path(script).name)
     check_file(session, PACKAGE, script)
     check_manifest(session, script)
     facts = session.scripts(PACKAGE)[path]
@@ -109,6 +110,16 @@ def is_class(session):
         return Note(
             "a class needs no `global`: self. keeps what its methods share",
             f"{path}:{facts.globals[0]}",
+        )
+    early = facts.first("on_shutdown")
+    if early and early.line < min(
+        (call.line for call in facts.calls.get("Publisher", [])), default=0
+    ):
+        return Note(
+            "on_shutdown comes before the publisher: a Ctrl-C in between finds none to stop the robot with"
+            " (the handout has it so)",
+            f"{path}:{early.line}",
+            "first the Publisher, then rospy.on_shutdown",
         )
     return f"{one.name} in {path}"
 

@@ -44,11 +44,11 @@ class Drive:
             if self.connected:
                 self._converse(stage, wants_twist)
             self.ended_early = self.program.ended
-            publishers, _ = stage.call("state") if stage.call("alive") else ({}, {})
+            publishers, _ = stage.call("state") if stage.master_lives else ({}, {})
             self.publishers = {**self.publishers, **publishers}
             self.types, self.warnings = stage.call("types"), stage.call("warnings")
             self.output = self.program.output
-            self.master_alive = stage.call("alive")
+            self.master_alive = stage.master_lives
             session.box.end(self.program, 0.5)
 
     # ------------------------------------------------------------------------------ driving

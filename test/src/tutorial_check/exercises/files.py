@@ -26,14 +26,7 @@ def find_script(session, package, name):
     found = [path for path in folder.rglob("*") if path.name in (name, name[:-3])]
     # One without .py counts where there is none with it.
     found = sorted(filter(Path.is_file, found), key=lambda path: (path.name != name, path))
-    runnable = [path for path in found if path.stat().st_mode & 0o100 and path.name == name]
-    if len(runnable) > 1:
-        raise Wrong(
-            f"one program {name}",
-            "several: " + ", ".join(str(path.relative_to(folder)) for path in runnable),
-            where=str(runnable[1].relative_to(folder)),
-            hint=f"rosrun asks which one ('You have chosen a non-unique executable'): remove all but one {name}",
-        )
+    runnable = must_be_one(folder, name)
     if found:
         return str((runnable or found)[0].relative_to(folder))
     others = {
@@ -58,6 +51,20 @@ def find_script(session, package, name):
         "",
         f"create scripts/{name} in YOUR package; ./tutorial shell without --in has one of OURS",
     )
+
+
+def must_be_one(folder, name):
+    """The programs of that name that rosrun would find in a package: one, or none. Raises Wrong."""
+    found = sorted(path for path in folder.rglob(name) if path.is_file())
+    runnable = [path for path in found if path.stat().st_mode & 0o100]
+    if len(runnable) > 1:
+        raise Wrong(
+            f"one program {name}",
+            "several: " + ", ".join(str(path.relative_to(folder)) for path in runnable),
+            where=str(runnable[1].relative_to(folder)),
+            hint=f"rosrun asks which one ('You have chosen a non-unique executable'): remove all but one {name}",
+        )
+    return runnable
 
 
 def check_file(session, package, script):

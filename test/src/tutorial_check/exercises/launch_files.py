@@ -107,6 +107,13 @@ def check_file(session, name):
     where = relative(session, path)
     one = facts(session, name)
     text = read(path)
+    if one.get("root", "launch") != "launch":
+        raise Wrong(
+            "<launch> around all",
+            f"<{one['root']}>",
+            where=place_of(where, text, f"<{one['root']}"),
+            hint="roslaunch knows <launch> alone, in lower case",
+        )
     if one["error"]:
         raise parse_error(one["error"], where, path.read_text(errors="replace"))
     said = one["said"] + " ".join(one.get("errors", []))

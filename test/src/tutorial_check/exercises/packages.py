@@ -3,6 +3,7 @@
 import difflib
 import os
 import re
+from pathlib import Path
 
 from tutorial_check.exercises.launch_text import place_of, read
 from tutorial_check.exercises.manifests import unreadable
@@ -150,19 +151,45 @@ def beginner_dependencies(session):
 
 def joy2twist(session):
     """C12."""
-    return f"src/{_dependencies(session, 'joy2twist').inside}"
+    package = _dependencies(session, "joy2twist")
+    text = _cmake(package)
+    found = re.search(r"find_package\s*\(\s*catkin\b[^)]*\bCOMPONENTS\b([^)]*)\)", text)
+    for name in found[1].split() if found else ():
+        if not _can_be_found(session, name):
+            raise Wrong("packages that catkin can find", *_not_found(session, name))
+    return f"src/{package.inside}"
+
+
+def _can_be_found(session, name):
+    """Whether find_package finds a package; where the name is a variable, nobody can tell."""
+    prefixes = session.floor_environment.get("CMAKE_PREFIX_PATH", "").split(":")
+    return (
+        "$" in name
+        or any(each.name == name for each in session.packages)
+        or any(
+            Path(prefix, "share", name, "cmake", f"{name}Config.cmake").is_file()
+            for prefix in (*prefixes, "/usr")
+        )
+    )
+
+
+def _cmake(package):
+    """The text of a package's CMakeLists.txt without comments. Raises Wrong."""
+    path = package.folder / "CMakeLists.txt"
+    if not path.is_file():
+        raise Wrong(
+            "a package as catkin_create_pkg makes it",
+            "the file CMakeLists.txt is missing",
+            where=package.inside,
+            hint="take it from a new package of the same name",
+        )
+    return re.sub(r"#.*", "", path.read_text(errors="replace"))
 
 
 def build(session):
     """C4: catkin_make in a fresh copy."""
     for each in session.packages:
-        if not (each.folder / "CMakeLists.txt").is_file():
-            raise Wrong(
-                "catkin_make without an error",
-                "the file CMakeLists.txt is missing",
-                where=each.inside,
-                hint="catkin_create_pkg makes it; take it from a new package of the same name",
-            )
+        _cmake(each)
     code, output = session.built()
     if code is None:
         raise Wrong(
@@ -205,17 +232,20 @@ def _build_error(session, output):
         "read the first error of catkin_make: it names file and line",
     )
     if missing:
-        words = f"catkin cannot find {missing[1]}"
-        hint = (
-            f"is {missing[1]} spelt right in find_package of CMakeLists.txt, and without a comma?"
-        )
-        place, text = _place_in_cmake(session, missing[1])
-        absent = {name for names in WANTED.values() for name in names if name not in text}
-        near = difflib.get_close_matches(missing[1], absent, 1, 0.65)
-        if near and "," not in missing[1]:
-            hint = f"correct {missing[1]} to {near[0]} in CMakeLists.txt"
+        words, place, hint = _not_found(session, missing[1])
         where = place or where
     return Wrong("catkin_make without an error", words[:300], where=where, hint=hint)
+
+
+def _not_found(session, name):
+    """(what is seen, where, what to do) for a package that CMakeLists.txt names and catkin does not find."""
+    place, text = _place_in_cmake(session, name)
+    absent = {each for names in WANTED.values() for each in names if each not in text}
+    near = difflib.get_close_matches(name, absent, 1, 0.65)
+    hint = f"is {name} spelt right in find_package of CMakeLists.txt, and without a comma?"
+    if near and "," not in name:
+        hint = f"correct {name} to {near[0]} in CMakeLists.txt"
+    return f"catkin cannot find {name}", place, hint
 
 
 def _cmake_error(output):

@@ -44,7 +44,7 @@ class Talk:
                 )
             self.heard = self._heard(stage)
             self.talker_ended, self.listener_ended = self.talkers[0].ended, self.listener.ended
-            self.master_alive = stage.call("alive")
+            self.master_alive = stage.master_lives
             self.first_ended, self.both, self.taken = False, False, {}
             if self.talker_ended or self.listener_ended or not self.heard:
                 return

@@ -40,14 +40,18 @@ def remapped(session):
         good, bad = moving(TELEOP), moving(CMD_VEL)
         publishers, subscribers = stage.call("state")
         output, has_died = launch.program.output, launch_runs.has_died(launch)
-    remaps = [
-        remap
-        for node in launch_nodes.nodes_of(session, TURTLEBOT)
-        if launch_nodes.is_own(node)
-        for remap in node["remaps"]
-    ]
+    own = [node for node in launch_nodes.nodes_of(session, TURTLEBOT) if launch_nodes.is_own(node)]
+    remaps = [remap for node in own for remap in node["remaps"]]
     line = place_of(where, text, "<remap", "joy2twist.py")
     if good and not bad and CMD_VEL not in publishers:
+        by_file = remaps or any(":=" in node["args"] for node in own) or "param" in text
+        if not by_file:
+            raise Wrong(
+                "the program as it was, whose topic the launch file renames",
+                f"{own[0]['type']} publishes on {TELEOP} by itself",
+                where=place_of(where, text, own[0]["type"]),
+                hint=f'type="joy2twist.py", and in it {REMAP}',
+            )
         return None
     if "Traceback" in output or has_died:
         from tutorial_check.causes import explain  # noqa: PLC0415
