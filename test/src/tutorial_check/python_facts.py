@@ -39,6 +39,7 @@ class PythonFacts:
     attributes: dict = field(default_factory=dict)  # "self.pub" -> (first line, what it is set to)
     loose: dict = field(default_factory=dict)  # line beside functions, not in one -> the one above
     functions: dict = field(default_factory=dict)  # of those the functions and methods
+    called_back: dict = field(default_factory=dict)  # what callbacks call, also by others -> lines
     loops: list = field(default_factory=list)  # lines of `while`
     bare_names: list = field(default_factory=list)  # (line, text) of statements that do nothing
 
@@ -172,6 +173,7 @@ def read_python(text):
     facts.functions = {
         node.name: node.lineno for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)
     }
+    facts.called_back = _called_back(tree, facts.calls.get("Subscriber", []))
     facts.odd_main = _odd_main(tree, text, facts.names)
     for calls in facts.calls.values():
         calls.sort(key=lambda call: call.line)
@@ -225,6 +227,19 @@ def _loose(tree):
             elif above and not _is_main(node):
                 found.update(dict.fromkeys(range(node.lineno, node.end_lineno + 1), above))
     return found
+
+
+def _called_back(tree, subscribers):
+    """{name: [lines]} of calls in the functions that Subscribers are given, and in those they call."""
+    functions = {node.name: node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)}
+    given = [(call.words[2:3] or [call.names.get("callback", "")])[0] for call in subscribers]
+    waiting, lines = [name.rsplit(".", 1)[-1] for name in given], {}
+    while waiting:
+        for node in ast.walk(functions.pop(waiting.pop(), ast.Module([], []))):
+            if isinstance(node, ast.Call):
+                lines.setdefault(last_name(node), set()).add(node.lineno)
+                waiting.append(last_name(node))
+    return {name: sorted(found) for name, found in lines.items()}
 
 
 def _is_main(node):
