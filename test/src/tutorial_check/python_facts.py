@@ -40,6 +40,7 @@ class PythonFacts:
     loose: dict = field(default_factory=dict)  # line beside functions, not in one -> the one above
     functions: dict = field(default_factory=dict)  # of those the functions and methods
     called_back: dict = field(default_factory=dict)  # what callbacks call, also by others -> lines
+    odd_node: tuple = ()  # (line, name) of an init_node of whose name ROS warns
     loops: list = field(default_factory=list)  # lines of `while`
     bare_names: list = field(default_factory=list)  # (line, text) of statements that do nothing
 
@@ -175,6 +176,7 @@ def read_python(text):
     }
     facts.called_back = _called_back(tree, facts.calls.get("Subscriber", []))
     facts.odd_main = _odd_main(tree, text, facts.names)
+    facts.odd_node = _odd_node(tree)
     for calls in facts.calls.values():
         calls.sort(key=lambda call: call.line)
     facts.classes = [
@@ -265,6 +267,17 @@ def _odd_main(tree, text, names):
             continue
         if (left, right) != ("__name__", "__main__"):
             return node.lineno, python_lines(text)[node.lineno - 1].strip()
+    return ()
+
+
+def _odd_node(tree):
+    """(line, name) of rospy.init_node('joy2twist.py') and its like; empty if there is none."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call) and last_name(node) == "init_node" and node.args:
+            name = getattr(node.args[0], "value", None)
+            # With a / it comes to no warning: rospy refuses it.
+            if isinstance(name, str) and not re.fullmatch(r"[A-Za-z]\w*|.*/.*|", name):
+                return node.lineno, name
     return ()
 
 

@@ -170,6 +170,14 @@ def check_topics(session, seen):
             raise Wrong(expected, f"/cmd_vel carries {kind}", where=where, hint=TWIST_LINE)
         if len(set(seen.publishers[CMD_VEL])) > 1:
             raise Wrong(expected, f"several do: {', '.join(seen.publishers[CMD_VEL])}", where=where)
+        made = facts.called_back.get("Publisher")
+        if made:
+            return Note(
+                "the Publisher is made in the callback: what it sends before anybody has"
+                " connected is lost",
+                f"{seen.script}:{made[0]}",
+                "make it once, before the Subscriber",
+            )
         return "/joy -> /cmd_vel"
     if seen.trouble and call:
         raise crash_of(session, seen, expected)
