@@ -19,7 +19,7 @@ RATED = frozenset(["4.3", "6.2"])  # the exercises that look at the rate
 SOON_S = 0.05  # from Joy to Twist
 ANSWER_S = 1.0  # for one Twist, before it counts as missing
 SETTLE_S = 0.15  # after it, in which more of them may come
-QUIET_S = 0.3  # without a Joy: a clock of 10 Hz and more makes itself heard
+QUIET_S = 0.25  # without a Joy: a clock of 10 Hz and more makes itself heard
 NAP_S = 0.3  # for one Twist: none takes so long of whom nothing is wrong
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e-?\d+)?")
 COLOUR = re.compile(r"\x1b\[[0-9;]*m")
@@ -91,6 +91,7 @@ class Drive:
     def _ask_again(self, stage, joys):
         """The same with time: it has a clock of its own, publishes several, or is only slow."""
         first, self.samples, self.missing = self.samples, [], 0
+        stage.wait(lambda: self.program.ended, SETTLE_S)  # late ones belong to the first pass
         begun = stage.call("count", CMD_VEL)
         self._one_by_one(stage, joys, SETTLE_S)
         self.twists = [twist for _, _, twist in stage.call("heard", CMD_VEL, begun)]
