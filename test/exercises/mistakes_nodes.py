@@ -78,6 +78,8 @@ ROWS = [
     node("sleep in the callback", PUBLISH, f"{PUBLISH}\n    rospy.sleep(0.1)", "C17", "sleep"),
     node("Rate in the callback", PUBLISH, f"{PUBLISH}\n    rospy.Rate(10).sleep()", "C17", "sleep"),
     node("only every second", PUBLISH, "callback.n = getattr(callback, 'n', 0) + 1\n    if callback.n % 2:\n        pub.publish(msg)", "C16", "Twists"),
+    node("published twice", X, f"{X}\n    {PUBLISH}", "C16", ("joy2twist.py:14", "2 Twists for each Joy, and they differ", "at the end of the callback")),
+    node("sleep before it publishes", "def callback(data):\n", "def callback(data):\n    rospy.sleep(0.5)\n", "C16", ("joy2twist.py:9", "the callback sleeps", "no sleep in the callback")),
     cls("def init", "def __init__(self)", "def init(self)", "C29", "`def init`"),
     cls("def _init_", "def __init__(self)", "def _init_(self)", "C29", "__init__"),
     cls("never made", "        NewJoy2Twist()\n", "        NewJoy2Twist\n", "C29", "never made"),

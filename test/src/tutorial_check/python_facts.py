@@ -39,6 +39,8 @@ class PythonFacts:
     attributes: dict = field(default_factory=dict)  # "self.pub" -> (first line, what it is set to)
     loose: dict = field(default_factory=dict)  # line beside functions, not in one -> the one above
     functions: dict = field(default_factory=dict)  # of those the functions and methods
+    called_back: dict = field(default_factory=dict)  # what callbacks call, also by others -> lines
+    odd_node: tuple = ()  # (line, name) of an init_node of whose name ROS warns
     loops: list = field(default_factory=list)  # lines of `while`
     bare_names: list = field(default_factory=list)  # (line, text) of statements that do nothing
 
@@ -172,7 +174,9 @@ def read_python(text):
     facts.functions = {
         node.name: node.lineno for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)
     }
+    facts.called_back = _called_back(tree, facts.calls.get("Subscriber", []))
     facts.odd_main = _odd_main(tree, text, facts.names)
+    facts.odd_node = _odd_node(tree)
     for calls in facts.calls.values():
         calls.sort(key=lambda call: call.line)
     facts.classes = [
@@ -227,6 +231,19 @@ def _loose(tree):
     return found
 
 
+def _called_back(tree, subscribers):
+    """{name: [lines]} of calls in the functions that Subscribers are given, and in those they call."""
+    functions = {node.name: node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)}
+    given = [(call.words[2:3] or [call.names.get("callback", "")])[0] for call in subscribers]
+    waiting, lines = [name.rsplit(".", 1)[-1] for name in given], {}
+    while waiting:
+        for node in ast.walk(functions.pop(waiting.pop(), ast.Module([], []))):
+            if isinstance(node, ast.Call):
+                lines.setdefault(last_name(node), set()).add(node.lineno)
+                waiting.append(last_name(node))
+    return {name: sorted(found) for name, found in lines.items()}
+
+
 def _is_main(node):
     return isinstance(node, ast.If) and "__name__" in ast.dump(node.test)
 
@@ -250,6 +267,17 @@ def _odd_main(tree, text, names):
             continue
         if (left, right) != ("__name__", "__main__"):
             return node.lineno, python_lines(text)[node.lineno - 1].strip()
+    return ()
+
+
+def _odd_node(tree):
+    """(line, name) of rospy.init_node('joy2twist.py') and its like; empty if there is none."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call) and last_name(node) == "init_node" and node.args:
+            name = getattr(node.args[0], "value", None)
+            # With a / it comes to no warning: rospy refuses it.
+            if isinstance(name, str) and not re.fullmatch(r"[A-Za-z]\w*|.*/.*|", name):
+                return node.lineno, name
     return ()
 
 

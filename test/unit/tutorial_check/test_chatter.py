@@ -8,6 +8,7 @@ import pytest
 from tutorial_check.exercises import chatter
 from tutorial_check.exercises.talking import PACKAGE
 from tutorial_check.model import Wrong
+from tutorial_check.python_facts import read_python
 
 TALKER = """#!/usr/bin/env python3
 rospy.init_node('talker', anonymous={})
@@ -81,3 +82,22 @@ def test_a_line_of_main_within_the_function(session, check):
         check(session)
     assert caught.value.where == f"{name}.py:3"
     assert f"within {name}()" in caught.value.hint
+
+
+SUBSCRIBER = 'Subscriber("chatter", String, callback)\n'
+CALLBACK = "def callback(data):\n    loginfo(data)\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "shown", "seen"),
+    [
+        (CALLBACK + SUBSCRIBER, 1, None),
+        (CALLBACK + "    print(data)\n" + SUBSCRIBER, 2, ("displayed 2 times", "listener.py:3")),
+        (CALLBACK + 2 * SUBSCRIBER, 2, ("displayed 2 times", "listener.py:4")),
+    ],
+)
+def test_a_text_that_is_displayed_twice(text, shown, seen):
+    output = shown * "I heard A\nI heard B\n" + "I heard A\n"
+    talk = SimpleNamespace(strings=["A", "B"], listener=SimpleNamespace(output=output))
+    note = chatter._repeated(talk, read_python(text), "listener.py")
+    assert (note and (note.seen[-17:], note.where)) == seen

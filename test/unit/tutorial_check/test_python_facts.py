@@ -105,3 +105,18 @@ def test_the_first_byte_that_is_not_of_the_files_coding(tmp_path, data, line):
 def test_a_warning_is_no_error_and_not_shown(recwarn):
     assert not read_python("x = 1 is 1\ny = '\\d'\n").error
     assert not recwarn
+
+
+@pytest.mark.parametrize(
+    "name, odd",
+    [
+        ("'joy2twist.py'", (1, "joy2twist.py")),
+        ("'joy-node'", (1, "joy-node")),
+        ("'joy2twist'", ()),
+        ("'a/b'", ()),  # an error
+        ("self.name", ()),
+        ("f'node.{number}'", ()),
+    ],
+)
+def test_a_name_of_which_ros_warns(name, odd):
+    assert read_python(f"rospy.init_node({name}, anonymous=True)").odd_node == odd

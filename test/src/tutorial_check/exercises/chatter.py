@@ -3,7 +3,7 @@
 import statistics
 
 from tutorial_check.changed_programs import flipped_anonymous
-from tutorial_check.exercises.files import check_file, crash, find_script
+from tutorial_check.exercises.files import check_file, crash, find_script, odd_node
 from tutorial_check.exercises.silent_end import sunken_main
 from tutorial_check.exercises.talking import LISTEN_S, PACKAGE, TOPIC, scripts, talk_of
 from tutorial_check.model import Note, Wrong, master_gone
@@ -16,7 +16,8 @@ def files(session):
     """C5."""
     for script in scripts(session):
         check_file(session, PACKAGE, script)
-    return ", ".join(scripts(session))
+    notes = [odd_node(session, PACKAGE, script) for script in scripts(session)]
+    return next(filter(None, notes), ", ".join(scripts(session)))
 
 
 def _facts(session, script):
@@ -131,7 +132,7 @@ def listener(session):
     # Coloured or not, with or without a separator: the text itself is looked for.
     found = [text for text in talk.strings if text in program.output]
     if len(found) == len(talk.strings):
-        return None
+        return _repeated(talk, facts, script)
     if "Traceback" in program.output or program.spins:
         raise crash(session, PACKAGE, program, expected)
     call = facts.first("Subscriber")
@@ -165,6 +166,24 @@ def listener(session):
         f"{len(found)} of {len(talk.strings)} displayed",
         where=where,
         hint="does callback(data) display data.data, with rospy.loginfo?",
+    )
+
+
+def _repeated(talk, facts, script):
+    """A Note if every text is displayed several times; else None."""
+    lines = talk.listener.output.splitlines()
+    times = min(sum(text in line for line in lines) for text in talk.strings)
+    if times < 2:
+        return None
+    shown = sorted(
+        line for name in ("print", "loginfo") for line in facts.called_back.get(name, [])
+    )
+    subscribers = [call.line for call in facts.calls.get("Subscriber", [])]
+    line = next((each[1] for each in (subscribers, shown) if len(each) > 1), 0)
+    return Note(
+        f"each text is displayed {times} times",
+        f"{script}:{line}" if line else script,
+        "one Subscriber, and one rospy.loginfo in its callback, are enough",
     )
 
 

@@ -4,6 +4,7 @@ import contextlib
 import re
 
 from tutorial_check.changed_programs import unmasked
+from tutorial_check.exercises.answers import check_awake, check_once
 from tutorial_check.exercises.driving import (
     CMD_VEL,
     COUNT,
@@ -121,6 +122,7 @@ def check_displays(session, script, seen, few_are_enough=False):
                 return Note(f"displayed by {first}, no more by {script}")
     if seen.shown:
         return Note(f"{seen.shown} of {COUNT} were displayed")
+    check_awake(seen)
     facts = session.scripts(PACKAGE)[script]
     has_words = any(name in facts.calls for name in ("loginfo", "print", "logdebug", "logwarn"))
     values = [f"{abs(axis):.2f}" for axis in seen.joys[3][0]]
@@ -168,6 +170,14 @@ def check_topics(session, seen):
             raise Wrong(expected, f"/cmd_vel carries {kind}", where=where, hint=TWIST_LINE)
         if len(set(seen.publishers[CMD_VEL])) > 1:
             raise Wrong(expected, f"several do: {', '.join(seen.publishers[CMD_VEL])}", where=where)
+        made = facts.called_back.get("Publisher")
+        if made:
+            return Note(
+                "the Publisher is made in the callback: what it sends before anybody has"
+                " connected is lost",
+                f"{seen.script}:{made[0]}",
+                "make it once, before the Subscriber",
+            )
         return "/joy -> /cmd_vel"
     if seen.trouble and call:
         raise crash_of(session, seen, expected)
@@ -193,6 +203,8 @@ def check_mapping(session, seen):
     expected = "for each Joy one Twist: linear.x = axes[1], angular.z = axes[0], all else 0"
     publish = facts.first("publish")
     where = f"{seen.script}:{publish.line}" if publish else seen.script
+    if not seen.trouble:
+        check_awake(seen)
     if len(seen.samples) < COUNT * 0.9:
         if seen.trouble:
             raise crash_of(session, seen, expected)
@@ -214,6 +226,7 @@ def check_mapping(session, seen):
             where=where,
             hint="publish in the callback, for every message",
         )
+    repeated = check_once(seen, facts)
     complaint, remark = judge(seen.samples)
     if complaint:
         raise Wrong(
@@ -226,8 +239,8 @@ def check_mapping(session, seen):
     if seen.trouble:
         wrong = crash_of(session, seen, expected)
         return Note(f"right, but also: {wrong.seen}", wrong.where, wrong.hint)
-    if remark:
-        return Note(remark)
+    if repeated or remark:
+        return repeated or Note(remark)
     if any(
         "latch" in call.names and call.names["latch"] == "True"
         for call in facts.calls.get("Publisher", [])
@@ -251,7 +264,7 @@ def check_rate(session, seen):
     """50 Joys a second are answered, each soon."""
     expected = "at 50 Joys a second as many Twists, each within 50 ms"
     facts = session.scripts(PACKAGE)[seen.script]
-    sleeps = facts.first("sleep")
+    sleeps = seen.sleep_lines or [call.line for call in facts.calls.get("sleep", [])]
     if seen.is_prompt:
         return f"{seen.answered} for {seen.sent}" + (
             f", {1000 * seen.delay_s:.1f} ms" if seen.delay_s is not None else ""
@@ -266,7 +279,7 @@ def check_rate(session, seen):
     raise Wrong(
         expected,
         told,
-        where=f"{seen.script}:{sleeps.line}" if sleeps else seen.script,
+        where=f"{seen.script}:{sleeps[0]}" if sleeps else seen.script,
         hint="no sleep and no Rate in the callback: it is called for each message"
         if sleeps
         else "what in the callback takes so long?",

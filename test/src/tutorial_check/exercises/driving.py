@@ -18,6 +18,9 @@ NEUTRAL = ((0.0,) * 6, (0,) * 12)
 RATED = frozenset(["4.3", "6.2"])  # the exercises that look at the rate
 SOON_S = 0.05  # from Joy to Twist
 ANSWER_S = 1.0  # for one Twist, before it counts as missing
+SETTLE_S = 0.15  # after it, in which more of them may come
+QUIET_S = 0.25  # without a Joy: a clock of 10 Hz and more makes itself heard
+NAP_S = 0.3  # for one Twist: none takes so long of whom nothing is wrong
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e-?\d+)?")
 COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 
@@ -29,6 +32,10 @@ class Drive:
         self.session, self.script = session, script
         self.samples, self.missing, self.unasked, self.shown, self.asked = [], 0, 0, 0, 0
         self.delays, self.sent, self.answered = [], 0, 0
+        self.waits = []  # [s] from a Joy to the next Twist, one at a time
+        self.twists, self.has_clock = [], False  # all of the second pass; whether more come unasked
+        facts = session.scripts(PACKAGE).get(script)
+        self.sleep_lines = facts.called_back.get("sleep", []) if facts else []
         self.possible = self.unavoidable_s = None  # what our own Echo answered beside it
         with session.stage() as stage:
             stage.call("advertise", JOY, "Joy")
@@ -60,12 +67,9 @@ class Drive:
         if wants_twist:
             stage.wait(lambda: stage.call("count", CMD_VEL), 0.5)
             self._one_by_one(stage, joys, 0.0)
-            if self.unasked > 2 or (self.samples and judge(self._plain())[0]):
-                # It publishes by a clock of its own; or is it only slow? With time, the same again.
-                first, self.samples, self.missing = self.samples, [], 0
-                self._one_by_one(stage, joys, 0.15)
-                if len(self.samples) < len(first):
-                    self.samples = first
+            doubtful = self.unasked > 2 or (self.samples and judge(self._plain())[0])
+            if doubtful and not self.naps:
+                self._ask_again(stage, joys)
         else:
             for joy in joys:
                 stage.call("send", JOY, joy)
@@ -84,11 +88,24 @@ class Drive:
                 )
                 self._stream(stage, beside=ECHO)
 
+    def _ask_again(self, stage, joys):
+        """The same with time: it has a clock of its own, publishes several, or is only slow."""
+        first, self.samples, self.missing = self.samples, [], 0
+        stage.wait(lambda: self.program.ended, SETTLE_S)  # late ones belong to the first pass
+        begun = stage.call("count", CMD_VEL)
+        self._one_by_one(stage, joys, SETTLE_S)
+        self.twists = [twist for _, _, twist in stage.call("heard", CMD_VEL, begun)]
+        if len(self.samples) < len(first):
+            self.samples = first
+        if len(self.twists) > 1.5 * len(joys):
+            before = stage.call("count", CMD_VEL)
+            self.has_clock = stage.wait(lambda: stage.call("count", CMD_VEL) > before + 1, QUIET_S)
+
     def _one_by_one(self, stage, joys, settle_s):
-        unanswered = 0
+        begun, answered, unanswered = stage.call("count", CMD_VEL), len(self.samples), 0
         for joy in joys:
             before = stage.call("count", CMD_VEL)
-            stage.call("send", JOY, joy)
+            sent_s = stage.call("send", JOY, joy)
             self.asked += 1
             stage.wait(
                 lambda before=before: stage.call("count", CMD_VEL) > before or self.program.ended,
@@ -97,14 +114,17 @@ class Drive:
             if settle_s:
                 stage.wait(lambda: self.program.ended, settle_s)
             heard = stage.call("heard", CMD_VEL, before)
+            self.waits.append(heard[0][0] - sent_s if heard else ANSWER_S)
             if heard:
                 self.samples.append((joy[0], heard[-1][2] if settle_s else heard[0][2]))
-                self.unasked += len(heard) - 1
             else:
                 self.missing += 1
                 unanswered += 1
-                if unanswered == 3 or self.program.ended:
-                    return
+            if unanswered == 3 or self.program.ended or self.naps:
+                break
+        # Also those that came between an answer and the next Joy.
+        twists = stage.call("count", CMD_VEL) - begun
+        self.unasked += twists - (len(self.samples) - answered)
 
     def _stream(self, stage, beside=None):
         count = int(RATE * STREAM_S)
@@ -146,6 +166,12 @@ class Drive:
         if self.answered < 0.95 * min(self.sent, self.possible or self.sent):
             return False
         return self.delay_s is None or self.delay_s < SOON_S + (self.unavoidable_s or 0.0)
+
+    @property
+    def naps(self):
+        """Whether its callback sleeps, and so long that each Joy waits for the one before."""
+        is_slow = len(self.waits) > 2 and statistics.median(self.waits[:5]) > NAP_S
+        return bool(self.sleep_lines) and is_slow
 
     @property
     def all_shown(self):

@@ -6,7 +6,7 @@ import shutil
 from pathlib import Path
 
 from tutorial_check.causes import explain, syntax_hint, traced
-from tutorial_check.model import Wrong
+from tutorial_check.model import Note, Wrong
 from tutorial_check.python_facts import read_python, unreadable
 from tutorial_check.tracebacks import first_traceback, last_lines
 
@@ -155,6 +155,19 @@ def is_runnable(session, package, path):
     """Whether rosrun takes a program: it may be run, or catkin has made one of it in devel."""
     may_be_run = path.stat().st_mode & 0o100
     return bool(may_be_run) or session.command(package, path) != [str(path)]
+
+
+def odd_node(session, package, script):
+    """A Note on the name of a node of which ROS warns; None if there is none."""
+    facts = session.scripts(package).get(script)
+    if not facts or not facts.odd_node:
+        return None
+    line, name = facts.odd_node
+    return Note(
+        f"the node is called {name!r}, of which ROS warns: not a legal ROS base name",
+        f"{script}:{line}",
+        "letters, digits and _ only: " + repr(re.sub(r"\W", "_", re.sub(r"\.py$", "", name))),
+    )
 
 
 def _check_gaps(facts, script):

@@ -132,6 +132,38 @@ def odd_name(session, name):
     return None
 
 
+def check_one_driver(session, name):
+    """No two programs of the student's send velocities to the same place, or Wrong."""
+    drivers = [node for node in nodes_of(session, name) if is_own(node) and _drives(session, node)]
+    if drivers:
+        drivers = [node for node in drivers if node["namespace"] == drivers[0]["namespace"]]
+    if len(drivers) > 1:
+        path = find_launch(session, name)
+        raise Wrong(
+            "one joy2twist",
+            f"{len(drivers)}, {' and '.join(node['type'] for node in drivers)}: both would drive",
+            where=place_of(
+                relative(session, path), read(path), *attribute("name", drivers[1]["name"])
+            ),
+            hint="keep one of these nodes: /cmd_vel has one publisher",
+        )
+
+
+def _drives(session, node):
+    """Whether a program publishes Twist, and not on a topic of another name."""
+    is_renamed = any(source.strip("/") == "cmd_vel" for source, _ in node["remaps"])
+    return (
+        not is_renamed
+        and "cmd_vel:=" not in node["args"]
+        and any(
+            Path(script).name == node["type"]
+            and "Twist" in " ".join([*call.words, *call.names.values()])
+            for script, facts in session.scripts(PACKAGE).items()
+            for call in facts.calls.get("Publisher", [])
+        )
+    )
+
+
 def bag_of(session):
     """The recording that launch_bag plays: its path."""
     node = demand(session, BAG, "rosbag play", is_player, BAG_HINT)
@@ -170,7 +202,15 @@ def bag_nodes(session):
     note = check_viewer(session, BAG) or odd_name(session, BAG)
     demand(session, BAG, "the simulated robot", is_simulator, ROBOT_HINT)
     demand(session, BAG, "joy2twist", is_own, OWN_HINT)
+    check_one_driver(session, BAG)
     bag, where = bag_of(session)
+    if any(is_joystick(node) for node in nodes_of(session, BAG)):
+        raise Wrong(
+            "a recording only",
+            "it starts a joystick, too: both would drive",
+            where=f"launch/{BAG}",
+            hint=f"take the joy_node out: {STICK} has it",
+        )
     if not bag.startswith(str(session.source)):
         if (
             not os.path.isfile(bag)
@@ -190,6 +230,7 @@ def stick_nodes(session):
     note = check_viewer(session, STICK) or odd_name(session, STICK)
     demand(session, STICK, "the simulated robot", is_simulator, ROBOT_HINT)
     demand(session, STICK, "joy2twist", is_own, OWN_HINT)
+    check_one_driver(session, STICK)
     demand(session, STICK, "joy_node", is_joystick, JOY_HINT)
     if any(is_player(node) for node in nodes_of(session, STICK)):
         raise Wrong(

@@ -1,0 +1,56 @@
+"""That a program answers each Joy at once, and with one Twist; whatever is in it."""
+
+import collections
+import statistics
+
+from tutorial_check.model import Note, Wrong
+
+
+def check_awake(seen):
+    """Raises Wrong for a callback that sleeps, and so keeps the next Joy waiting."""
+    if seen.naps:
+        raise Wrong(
+            "each Joy is answered at once",
+            f"{statistics.median(seen.waits):.1f} s from one Twist to the next: the callback sleeps",
+            where=f"{seen.script}:{seen.sleep_lines[0]}",
+            hint="no sleep in the callback: it is called once for every message",
+        )
+
+
+def check_once(seen, facts):
+    """A Note on several Twists for each Joy, or None. Raises Wrong if they differ."""
+    if seen.has_clock or not seen.samples:
+        return None
+    count, differ = repetition([twist for _, twist in seen.samples], seen.twists)
+    if count < 2:
+        return None
+    line = _second_line(facts)
+    where = f"{seen.script}:{line}" if line else seen.script
+    if not differ:
+        return Note(f"{count} Twists for each Joy", where, "one is enough: publish once")
+    raise Wrong(
+        "one Twist for each Joy",
+        f"{count} Twists for each Joy, and they differ: the robot jerks",
+        where=where,
+        hint="publish once, at the end of the callback",
+    )
+
+
+def _second_line(facts):
+    """Where a second Twist may come from: a second publish in a callback, or a second Subscriber."""
+    publishes = facts.called_back.get("publish", [])
+    subscribers = [call.line for call in facts.calls.get("Subscriber", [])]
+    return next((lines[1] for lines in (publishes, subscribers) if len(lines) > 1), 0)
+
+
+def repetition(answers, twists):
+    """(how many Twists came for each Joy, whether they differ); (1, False) if no such number is clear.
+
+    answers: one Twist for each Joy; twists: all that came meanwhile. Which of them belong to one Joy
+    is not looked at, as one may come late: it is counted how often an answer came.
+    """
+    count = round(len(twists) / len(answers))
+    if count < 2 or abs(len(twists) - count * len(answers)) > 0.1 * len(answers):
+        return 1, False
+    often = collections.Counter(twists)
+    return count, sum(often[answer] < count for answer in answers) > 0.8 * len(answers)

@@ -1,0 +1,77 @@
+"""Who drives, of what a launch file starts."""
+
+import pytest
+
+from tutorial_check.exercises import launch_nodes
+from tutorial_check.exercises.driving import PACKAGE
+from tutorial_check.exercises.launch_files import BAG
+from tutorial_check.model import Wrong
+
+LISTENS = 'rospy.Subscriber("/joy", Joy, callback)\n'
+DRIVES = f"{LISTENS}rospy.Publisher('/cmd_vel', Twist)\n"
+SHOWS = f"{LISTENS}rospy.Publisher('/shown', String)\n"
+
+
+def node(kind, name="second", **more):
+    """One of the student's package, as launch_facts has it."""
+    about = {"package": PACKAGE, "type": kind, "name": name, "namespace": "/", "args": ""}
+    return {**about, "remaps": [], **more}
+
+
+FIRST = node("joy2twist.py", "first")
+VIEWER = {**node("rviz"), "package": "rviz"}
+ROBOT = {**node("fake_turtlebot.py"), "package": "fake_turtlebot_sim"}
+
+
+@pytest.fixture
+def session(make_session):
+    """One with three programs, and a launch file."""
+    session = make_session(PACKAGE, "5")
+    texts = {"joy2twist.py": DRIVES, "class.py": DRIVES, "first.py": LISTENS, "shows.py": SHOWS}
+    for name, text in texts.items():
+        (session.package(PACKAGE).folder / name).write_text(text)
+    text = '<launch>\n<node name="first"/>\n<node name="second"/>\n</launch>'
+    (session.package(PACKAGE).folder / BAG).write_text(text)
+    return session
+
+
+def given(monkeypatch, *nodes):
+    """Let the launch file start these."""
+    monkeypatch.setattr(launch_nodes, "nodes_of", lambda session, name: nodes)
+
+
+@pytest.mark.parametrize("kind", ["class.py", "joy2twist.py"])
+def test_two_drive(session, monkeypatch, kind):
+    given(monkeypatch, FIRST, node(kind))
+    with pytest.raises(Wrong, match=f"2, joy2twist.py and {kind}: both would drive") as caught:
+        launch_nodes.check_one_driver(session, BAG)
+    assert caught.value.where == f"{BAG}:3"
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        node("first.py"),  # the handout's first version
+        node("shows.py"),
+        node("class.py", remaps=[["/cmd_vel", "/elsewhere"]]),
+        node("class.py", args="cmd_vel:=/elsewhere"),
+        node("class.py", namespace="/robot2/"),
+        node("made_of.cpp"),
+    ],
+)
+def test_one_drives(session, monkeypatch, other):
+    given(monkeypatch, FIRST, other)
+    launch_nodes.check_one_driver(session, BAG)
+
+
+def test_a_joystick_beside_the_recording(session, monkeypatch):
+    recording = {**node("play"), "package": "rosbag", "args": f"{session.source}/joy.bag"}
+    joystick = {**node("joy_node"), "package": "joy"}
+    monkeypatch.setattr(launch_nodes, "check_recording", lambda *about: None)
+    (session.source).mkdir(parents=True, exist_ok=True)
+    (session.source / "joy.bag").write_text("")
+    given(monkeypatch, VIEWER, ROBOT, FIRST, recording)
+    launch_nodes.bag_nodes(session)
+    given(monkeypatch, VIEWER, ROBOT, FIRST, recording, joystick)
+    with pytest.raises(Wrong, match="it starts a joystick, too"):
+        launch_nodes.bag_nodes(session)
