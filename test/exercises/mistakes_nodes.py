@@ -1,6 +1,6 @@
 """Mistakes in joy2twist and in the class, each a row: (exercise, what, edits, check, word or words)."""
 
-from edits import CLASS, JOY2TWIST, J, chmod, latin1, move, put, remove, write
+from edits import CLASS, JOY2TWIST, J, chmod, copy, latin1, lines, move, put, remove, write
 
 SHOW = 'rospy.loginfo(rospy.get_name() + ": axes [%.2f, %.2f, %.2f, %.2f, %.2f, %.2f]" % data.axes)'
 X, Z = "msg.linear.x = data.axes[1]", "msg.angular.z = data.axes[0]"
@@ -116,4 +116,6 @@ ROWS = [
     ("6.2", "chmod forgotten", [chmod(CLASS, 0o644)], "C29", "chmod"),
     ("6.2", "no class", [lambda src: (src / CLASS).unlink()], "C29", "no class"),
     node("v1 under two names", PUBLISH, "pub.publish(Twist())", "C16", "zero"),
+    node("a loop of zeros beside the callback", "    rospy.spin()", "    rate = rospy.Rate(10)\n    while not rospy.is_shutdown():\n        pub.publish(Twist())\n        rate.sleep()", "C16", ("joy2twist.py:23", "zeros come between")),
+    ("4.3", "imports lost, beside an old copy", [copy(JOY2TWIST, f"{J}/scripts/joy2twist_copy.py"), lines(JOY2TWIST, 4, 5, 10, 11, 12, 13, 20)], "C14", ("joy2twist.py:", "Joy")),
 ]  # fmt: skip

@@ -97,6 +97,10 @@ CAUSES = (
         "publish the Twist message itself: pub.publish(msg)",
     ),
     (
+        r"(?:not all arguments converted|not enough arguments for).*\n.*%\s*\w+\.axes\[",
+        "% data.axes, all of it: leave [ ] out",
+    ),
+    (
         r"(?:not all arguments converted|not enough arguments for).*\n.*axes",
         "as many %.2f as there are axes: 6 with the switch at D, 8 at X",
     ),
@@ -210,6 +214,11 @@ SYNTAX = (
         "that is Python 2: print(...) has parentheses",
     ),
     (NOWHERE, "[‘’“”]", "curly quotes came from the PDF: type \" or ' instead"),
+    (
+        r"invalid character '(?P<m>[□₽])'",
+        NOWHERE,
+        "{m} is a mark of the editor in the PDF: delete it",
+    ),
     (
         r"invalid character '(?P<m>.)'",
         NOWHERE,

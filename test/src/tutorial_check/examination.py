@@ -59,7 +59,9 @@ def examine(
         if not Path(floor).is_file():
             raise CannotCheck(f"{floor}: no such file; ./tutorial setup builds it")
         if not Path(workspace).exists():
-            raise CannotCheck(f"{workspace}: no such folder")
+            raise CannotCheck(
+                f"{workspace}: no such folder; ./tutorial shell --in {workspace} makes it"
+            )
     except PermissionError as error:
         raise CannotCheck(f"{error.filename}: may not be read") from None
     folder = tempfile.mkdtemp(prefix="tutorial_check_")

@@ -38,7 +38,7 @@ def parse(arguments):
         epilog="exercises: " + ", ".join(f"{name} ({what})" for name, what in EXERCISES.items()),
     )
     of_shell = os.environ.get(WORKSPACE) or None
-    where = parser.add_mutually_exclusive_group(required=not of_shell)
+    where = parser.add_mutually_exclusive_group()
     where.add_argument(
         "--in",
         dest="workspace",
@@ -80,6 +80,9 @@ def parse(arguments):
         help="setup.bash of what the exercises stand on",
     )
     options = parser.parse_args(arguments)
+    if not options.workspace and not options.all:
+        words = " ".join(options.exercises)
+        parser.error(f"which workspace? For example: --in ~/ros/hydro/catkin_ws {words}".rstrip())
     options.exercises = [name for each in options.exercises for name in meant(each)]
     unknown = [each for each in options.exercises if each not in EXERCISES]
     if unknown:

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from tutorial_check.exercises.answers import check_awake, check_once, repetition
+from tutorial_check.exercises.answers import check_awake, check_once, check_strays, repetition
 from tutorial_check.model import Wrong
 from tutorial_check.python_facts import read_python
 
@@ -85,3 +85,39 @@ def test_what_callbacks_call():
     }
     bound = 'rospy.Subscriber("/joy", Joy, callback=self.heard)\ndef heard(self, data): sleep(1)\n'
     assert read_python(bound).called_back == {"sleep": [2]}
+
+
+LOOP = """
+def callback(data):
+    pub.publish(msg)
+rospy.Subscriber("/joy", Joy, callback)
+pub.publish(Twist())
+while not rospy.is_shutdown():
+    pub.publish(Twist())
+"""
+
+
+@pytest.mark.parametrize(
+    ("twists", "more", "complaint"),
+    [
+        (each(), {"strays": 3}, ""),
+        (each(ZERO), {"strays": 0, "has_clock": True}, "every Twist is zero"),
+    ],
+)
+def test_zeros_between_the_answers(twists, more, complaint):
+    with pytest.raises(Wrong, match="zeros come between") as caught:
+        check_strays(seen(twists, **more), read_python(LOOP), complaint)
+    assert caught.value.where == "joy2twist.py:7"
+
+
+@pytest.mark.parametrize(
+    ("twists", "more", "complaint"),
+    [
+        (each(), {"strays": 2}, ""),  # of a machine that stuttered
+        (each(ZERO), {"strays": 0, "has_clock": True}, ""),  # nothing is odd: before the first Joy
+        (each(ZERO), {"strays": 0, "has_clock": False}, "the sign is wrong"),
+        ([ZERO], {"strays": 0, "has_clock": True}, "every Twist is zero"),
+    ],
+)
+def test_no_zeros_between(twists, more, complaint):
+    check_strays(seen(twists, **more), read_python(LOOP), complaint)

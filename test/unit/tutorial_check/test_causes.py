@@ -50,6 +50,7 @@ def test_causes(error, word):
     ("line", "word"),
     [
         ('rospy.loginfo("%.2f %.2f" % data.axes)', "as many %.2f as there are axes"),
+        ('rospy.loginfo("%.2f %.2f" % data.axes[0])', "leave [ ] out"),
         ('rospy.loginfo("I heard", data.data)', "one % for each value"),
     ],
 )
@@ -74,6 +75,7 @@ def test_an_unknown_error_is_not_explained():
         ("invalid syntax", "from std msgs.msg import String", "underscores"),
         ("Missing parentheses in call to 'print'", "print data", "Python 2"),
         ("invalid character", "x = “a”", "curly"),
+        ("invalid character '□' (U+25A1)", "□def talker():", "delete it"),
         ("expected ':'", "def f()", "ends with :"),
         ("'(' was never closed", "f(", "bracket"),
         ("unexpected indent", "  x = 1", "indent"),

@@ -75,3 +75,33 @@ def test_a_joystick_beside_the_recording(session, monkeypatch):
     given(monkeypatch, VIEWER, ROBOT, FIRST, recording, joystick)
     with pytest.raises(Wrong, match="it starts a joystick, too"):
         launch_nodes.bag_nodes(session)
+
+
+@pytest.mark.parametrize("word", ["-loop", "\u2013loop", "\u2014clock"])
+def test_an_option_with_one_dash(session, monkeypatch, word):
+    (session.package(PACKAGE).folder / BAG).write_text(
+        f'<launch>\n<node args="{word}"/>\n</launch>'
+    )
+    given(monkeypatch, {**node("play"), "package": "rosbag", "args": f"{word} /a.bag"})
+    with pytest.raises(Wrong, match=f"{word}, which it does not") as caught:
+        launch_nodes.bag_of(session)
+    assert caught.value.where == f"{BAG}:2"
+    assert caught.value.hint.endswith(f"--{word[1:]}")
+
+
+@pytest.mark.parametrize(
+    ("to", "own", "is_right"),
+    [
+        ("/joystick", [], False),
+        ("/joystick", [["/joy", "/joystick"]], True),
+        ("joy", [], True),
+    ],
+)
+def test_where_the_joys_go(session, monkeypatch, to, own, is_right):
+    joystick = {**node("joy_node", remaps=[["/joy", to]]), "package": "joy"}
+    given(monkeypatch, node("joy2twist.py", remaps=own), joystick)
+    if is_right:
+        launch_nodes.check_joy(session, BAG, joystick)
+    else:
+        with pytest.raises(Wrong, match="joy_node sends them on /joystick"):
+            launch_nodes.check_joy(session, BAG, joystick)

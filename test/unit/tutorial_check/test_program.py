@@ -39,6 +39,12 @@ def test_in_a_shell_of_a_workspace_that_is_meant(monkeypatch):
     assert parse([*floor, "--all", "/class"]).all == "/class"
 
 
+def test_no_workspace(capsys):
+    with pytest.raises(SystemExit, match="2"):
+        parse(["--floor", "/setup.bash", "3"])
+    assert "which workspace? For example: --in ~/ros/hydro/catkin_ws 3\n" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("word", ["7", "", ".", "4.9"])
 def test_no_such_exercise(word, capsys):
     with pytest.raises(SystemExit):

@@ -5,6 +5,8 @@ import statistics
 
 from tutorial_check.model import Note, Wrong
 
+STRAYS = 2  # zeros in a row of Joys that may be
+
 
 def check_awake(seen):
     """Raises Wrong for a callback that sleeps, and so keeps the next Joy waiting."""
@@ -15,6 +17,25 @@ def check_awake(seen):
             where=f"{seen.script}:{seen.sleep_lines[0]}",
             hint="no sleep in the callback: it is called once for every message",
         )
+
+
+def check_strays(seen, facts, complaint):
+    """Raises Wrong for zeros between the answers, as of a loop that publishes an empty Twist.
+
+    complaint: what is odd about the answers themselves, if anything; they may be such zeros.
+    """
+    has_both = len({any(twist) for twist in seen.twists}) == 2
+    if seen.strays <= STRAYS and not (complaint and seen.has_clock and has_both):
+        return
+    inside = facts.called_back.get("publish", [])
+    outside = [call.line for call in facts.calls.get("publish", []) if call.line not in inside]
+    line = next((line for line in outside if any(loop <= line for loop in facts.loops)), 0)
+    raise Wrong(
+        "one Twist for each Joy, and none between",
+        "zeros come between the answers: the robot jerks",
+        where=f"{seen.script}:{line}" if line else seen.script,
+        hint="publish in the callback alone; the program ends with rospy.spin(), which waits for Joys",
+    )
 
 
 def check_once(seen, facts):

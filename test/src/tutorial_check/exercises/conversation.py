@@ -4,7 +4,7 @@ import contextlib
 import re
 
 from tutorial_check.changed_programs import unmasked
-from tutorial_check.exercises.answers import check_awake, check_once
+from tutorial_check.exercises.answers import check_awake, check_once, check_strays
 from tutorial_check.exercises.driving import (
     CMD_VEL,
     COUNT,
@@ -183,17 +183,19 @@ def check_topics(session, seen):
         raise crash_of(session, seen, expected)
     others = sorted(set(seen.publishers) - {"/rosout", JOY})
     if others:
-        raise Wrong(
-            expected,
-            f"it publishes on {others[0]}",
-            where=where,
-            hint="the topic is called /cmd_vel",
-        )
+        hint = "the topic is called /cmd_vel"
+        if "mux" in others[0]:
+            hint += "; that of the TurtleBot stands in the launch file alone, in a <remap>"
+        raise Wrong(expected, f"it publishes on {others[0]}", where=where, hint=hint)
+    hint = f"{TWIST_LINE}, and publish(msg) in the callback"
+    beside = [path for path, each in session.scripts(PACKAGE).items() if "Publisher" in each.calls]
+    if beside and not call:
+        hint += f"; {beside[0]} has that: was the other file edited?"
     raise Wrong(
         expected,
         "it publishes nothing" + ("" if call else ": there is no rospy.Publisher in it"),
         where=where,
-        hint=f"{TWIST_LINE}, and publish(msg) in the callback",
+        hint=hint,
     )
 
 
@@ -226,8 +228,9 @@ def check_mapping(session, seen):
             where=where,
             hint="publish in the callback, for every message",
         )
-    repeated = check_once(seen, facts)
     complaint, remark = judge(seen.samples)
+    check_strays(seen, facts, complaint)
+    repeated = check_once(seen, facts)
     if complaint:
         raise Wrong(
             expected,

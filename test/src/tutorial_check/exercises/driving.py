@@ -31,7 +31,7 @@ class Drive:
     def __init__(self, session, script, wants_twist=True):
         self.session, self.script = session, script
         self.samples, self.missing, self.unasked, self.shown, self.asked = [], 0, 0, 0, 0
-        self.delays, self.sent, self.answered = [], 0, 0
+        self.delays, self.sent, self.answered, self.strays = [], 0, 0, 0
         self.waits = []  # [s] from a Joy to the next Twist, one at a time
         self.twists, self.has_clock = [], False  # all of the second pass; whether more come unasked
         facts = session.scripts(PACKAGE).get(script)
@@ -145,6 +145,9 @@ class Drive:
             [t[0] / a[1] for a, t in self.samples if abs(a[1]) > 0.1] or [1.0]
         )
         self.delays = _delays(sent, heard, factor)
+        moving = [any(twist) for _, _, twist in heard]
+        # All of these Joys move the robot, once the first does.
+        self.strays = moving[moving.index(True) :].count(False) if any(moving) else 0
         if beside:
             echoed = stage.call("heard", beside)
             self.possible = len(echoed)

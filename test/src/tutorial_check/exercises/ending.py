@@ -216,6 +216,6 @@ def nothing_after(session):
         return Note(
             f"{most} moving Twists followed the zero: the callback goes on during shutdown (the handout's does, too)",
             program(session)[1],
-            "unregister the subscriber first: self.sub.unregister(); then publish the zero",
+            "self.sub = rospy.Subscriber(...) in __init__; in shutdown self.sub.unregister() first, then the zero",
         )
     return None

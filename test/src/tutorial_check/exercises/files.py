@@ -178,7 +178,7 @@ def _check_gaps(facts, script):
             "if __name__ == '__main__':",
             text,
             where=f"{script}:{line}",
-            hint="two underscores on either side of name and of main: the PDF shows them as gaps",
+            hint="two underscores on either side of name and of main, and no blanks: the PDF shows gaps",
         )
     for call in [
         each

@@ -18,7 +18,8 @@ def main_script(session):
     if facts is None:
         return script  # no Python, as C13 says
     is_first = "Subscriber" in facts.calls and not {"Publisher", "publish"} & set(facts.calls)
-    if is_first and "geometry_msgs.msg.Twist" not in facts.imports:
+    is_whole = any(name.startswith("sensor_msgs.msg") for name in facts.imports)
+    if is_first and is_whole and "geometry_msgs.msg.Twist" not in facts.imports:
         for other, facts in scripts.items():
             if (
                 "Publisher" in facts.calls

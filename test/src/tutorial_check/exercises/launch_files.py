@@ -11,7 +11,7 @@ from tutorial_check.exercises.driving import PACKAGE
 from tutorial_check.exercises.files import find_script, is_runnable
 from tutorial_check.exercises.joy2twist import NAME
 from tutorial_check.exercises.launch_text import attribute, parse_error, place_of, read, space_hint
-from tutorial_check.exercises.launch_xml import unclosed_node
+from tutorial_check.exercises.launch_xml import line_of, unclosed_node
 from tutorial_check.exercises.manifests import must_be_launchable
 from tutorial_check.model import CannotCheck, Wrong
 from tutorial_check.tracebacks import last_lines
@@ -102,7 +102,15 @@ def relative(session, path):
 
 
 def check_file(session, name):
-    """It exists, parses, and every $(find) leads somewhere that may be. Raises Wrong."""
+    """It exists, parses, and every $(find) leads somewhere that may be; its path. Raises Wrong."""
+    try:
+        return _check_file(session, name)
+    except Wrong as wrong:
+        wrong.look = wrong.look or f"roslaunch --nodes {PACKAGE} {name}"
+        raise
+
+
+def _check_file(session, name):
     path = find_launch(session, name)
     where = relative(session, path)
     one = facts(session, name)
@@ -123,13 +131,16 @@ def check_file(session, name):
     odd = [tag for tag in one["tags"] if tag not in _TAGS]
     if odd or unknown:
         word = odd[0] if odd else next(each for each in unknown[0] if each)
+        near = difflib.get_close_matches(word, _ATTRIBUTES, 1, 0.7)
+        hint = f"is {near[0]}= meant?" if near and not odd else "look at its spelling"
+        if odd and word.lower() in _TAGS:
+            hint = f"lower case: <{word.lower()}>"
+        written = re.search(rf"<{word}\b" if odd else rf"\s{word}\s*=", text)
         raise Wrong(
             "tags and attributes that roslaunch knows",
             f"{word}: ignored by roslaunch",
-            where=place_of(where, text, f"<{word}" if odd else word),
-            hint=f"lower case: <{word.lower()}>"
-            if word.lower() in _TAGS
-            else "look at its spelling",
+            where=f"{where}:{line_of(text, written.end())}" if written else where,
+            hint=hint,
         )
     inside = re.search(r"unrecognized '(\w+)' child tag", said)
     line = unclosed_node(text, inside[1]) if inside else None
@@ -149,6 +160,11 @@ def check_file(session, name):
     return path
 
 
+_ATTRIBUTES = (
+    *("pkg", "type", "name", "args", "output", "required", "respawn", "respawn_delay", "ns", "cwd"),
+    *("launch-prefix", "machine", "clear_params", "file", "from", "to", "value", "default", "if"),
+    *("unless", "command", "textfile", "binfile", "param", "pass_all_args", "doc"),
+)
 _TAGS = {
     "launch",
     "node",
@@ -229,11 +245,11 @@ def _check_finds(session, path, where, text):
     for number, line in enumerate(text.splitlines(), 1):
         for rest in re.findall(rf"\$\(find\s+{PACKAGE}\)([^\s\"'<>$]*)", line):
             if rest.strip("/") and not (folder / rest.strip("/")).exists():
-                note = (
-                    COPY_BAG
-                    if rest.endswith(".bag")
-                    else f"write {Path(rest).name} in YOUR package"
-                )
+                name = Path(rest).name
+                note = COPY_BAG if rest.endswith(".bag") else f"write {name} in YOUR package"
+                there = sorted(each.relative_to(folder) for each in folder.rglob(name))
+                if there:
+                    note = f"it lies elsewhere: $(find {PACKAGE})/{there[0]}"
                 raise Wrong(
                     f"$(find {PACKAGE}){rest} in your package",
                     "no such file there",

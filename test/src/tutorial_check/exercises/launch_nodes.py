@@ -1,6 +1,7 @@
 """C22 and C25: which nodes the launch files of section 5 start."""
 
 import os
+import re
 import shlex
 from pathlib import Path
 
@@ -23,6 +24,10 @@ BAG_HINT = (
     '<node pkg="rosbag" type="play" name="rosbag" args="--loop $(find joy2twist)/bag/joy.bag"/>'
 )
 JOY_HINT = '<node pkg="joy" type="joy_node" name="joy_node"/>'
+
+
+# Of rosbag play; as letters after one hyphen none of these words makes sense.
+LONG_OPTIONS = "loop|clock|rate|quiet|delay|start|pause|immediate|queue|hz|keep-alive|topics"
 
 
 def nodes_of(session, name):
@@ -164,12 +169,35 @@ def _drives(session, node):
     )
 
 
+def check_joy(session, name, sender):
+    """What sends the Joys sends them where joy2twist listens, or Wrong. sender: its node."""
+    renamed = [to for source, to in sender["remaps"] if source.strip("/") == "joy"]
+    own = [node for node in nodes_of(session, name) if is_own(node)]
+    listens = [to.strip("/") for node in own for source, to in node["remaps"]]
+    if renamed and renamed[0].strip("/") not in ("joy", *listens):
+        path = find_launch(session, name)
+        raise Wrong(
+            "the Joys go to joy2twist, on /joy",
+            f"{sender['type']} sends them on {renamed[0]}",
+            where=place_of(relative(session, path), read(path), f'"{renamed[0].strip("/")}"'),
+            hint=f"leave that <remap> out of the node {sender['name']}",
+        )
+
+
 def bag_of(session):
     """The recording that launch_bag plays: its path."""
     node = demand(session, BAG, "rosbag play", is_player, BAG_HINT)
     path = find_launch(session, BAG)
     where = place_of(relative(session, path), read(path), *attribute("type", "play"))
     words = [word for word in words_of(session, BAG, node) if not word.startswith("_")]
+    dashed = [word for word in words if re.fullmatch(rf"[-–—]({LONG_OPTIONS})", word)]
+    if dashed:
+        raise Wrong(
+            "options that rosbag play knows",
+            f"{dashed[0]}, which it does not",
+            where=place_of(where, read(path), dashed[0]),
+            hint=f"two plain hyphens: --{dashed[0][1:]}",
+        )
     bags = [word for word in words if word.endswith(".bag")]
     if not bags:
         raise Wrong(
@@ -231,7 +259,7 @@ def stick_nodes(session):
     demand(session, STICK, "the simulated robot", is_simulator, ROBOT_HINT)
     demand(session, STICK, "joy2twist", is_own, OWN_HINT)
     check_one_driver(session, STICK)
-    demand(session, STICK, "joy_node", is_joystick, JOY_HINT)
+    check_joy(session, STICK, demand(session, STICK, "joy_node", is_joystick, JOY_HINT))
     if any(is_player(node) for node in nodes_of(session, STICK)):
         raise Wrong(
             "a joystick only",

@@ -261,6 +261,6 @@ def joystick(session):
         return Note(
             "with the switch at X (eight axes) it fails; the handout's does, too",
             script,
-            "join all axes, however many",
+            'as many as there are: ", ".join("%.2f" % axis for axis in data.axes)',
         )
     return "switch at D and at X"
