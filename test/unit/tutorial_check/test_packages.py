@@ -85,6 +85,7 @@ def joy2twist(make_session, monkeypatch):
     (session.folder / "share/rospy/cmake").mkdir(parents=True)
     (session.folder / "share/rospy/cmake/rospyConfig.cmake").touch()
     session.floor_environment["CMAKE_PREFIX_PATH"] = str(session.folder)
+    session.memo("built", lambda: (1, 'Could not find a package "joystick"\n'))
 
     def check(text):
         (folder / "CMakeLists.txt").write_text(text)
@@ -93,7 +94,9 @@ def joy2twist(make_session, monkeypatch):
     return check
 
 
-@pytest.mark.parametrize("words", ["rospy", "rospy joy2twist", "rospy # joystick", "${NEEDED}"])
+@pytest.mark.parametrize(
+    "words", ["rospy", "rospy joy2twist", "rospy # joystick", "${NEEDED}", "rospy roscpp"]
+)
 def test_components_that_can_be_found(joy2twist, words):
     assert joy2twist(f"find_package(catkin REQUIRED COMPONENTS\n  {words}\n)\n") == "src/joy2twist"
     assert joy2twist("find_package(catkin REQUIRED)") == "src/joy2twist"

@@ -155,21 +155,17 @@ def joy2twist(session):
     text = _cmake(package)
     found = re.search(r"find_package\s*\(\s*catkin\b[^)]*\bCOMPONENTS\b([^)]*)\)", text)
     for name in found[1].split() if found else ():
-        if not _can_be_found(session, name):
+        if not _is_known(session, name) and name in _missing_in(session.built()[1]):
             raise Wrong("packages that catkin can find", *_not_found(session, name))
     return f"src/{package.inside}"
 
 
-def _can_be_found(session, name):
-    """Whether find_package finds a package; where the name is a variable, nobody can tell."""
+def _is_known(session, name):
+    """Whether find_package surely finds a package. If not, a build tells, which takes its time."""
     prefixes = session.floor_environment.get("CMAKE_PREFIX_PATH", "").split(":")
-    return (
-        "$" in name
-        or any(each.name == name for each in session.packages)
-        or any(
-            Path(prefix, "share", name, "cmake", f"{name}Config.cmake").is_file()
-            for prefix in (*prefixes, "/usr")
-        )
+    return any(each.name == name for each in session.packages) or any(
+        Path(prefix, "share", name, "cmake", f"{name}Config.cmake").is_file()
+        for prefix in (*prefixes, "/usr")
     )
 
 
@@ -220,10 +216,7 @@ def _build_error(session, output):
         ),
         lines[-1] if lines else "",
     )
-    missing = re.search(
-        r"[Cc]ould not find .*?(?:package configuration file provided by |component )?\"([^\"]+)\"",
-        output,
-    )
+    missing = _missing_in(output)
     message, where = _cmake_error(output)
     if words.startswith("CMake Error") and message:
         words = f"CMake: {message}"
@@ -232,9 +225,17 @@ def _build_error(session, output):
         "read the first error of catkin_make: it names file and line",
     )
     if missing:
-        words, place, hint = _not_found(session, missing[1])
+        words, place, hint = _not_found(session, missing[0])
         where = place or where
     return Wrong("catkin_make without an error", words[:300], where=where, hint=hint)
+
+
+def _missing_in(output):
+    """The packages that catkin_make said it could not find."""
+    return re.findall(
+        r"[Cc]ould not find .*?(?:package configuration file provided by |component )?\"([^\"]+)\"",
+        output,
+    )
 
 
 def _not_found(session, name):
