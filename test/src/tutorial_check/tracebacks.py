@@ -16,7 +16,8 @@ class Traceback:
 FRAME = re.compile(r'^\s*File "(?P<file>[^"]+)", line (?P<line>\d+)')
 ERROR = re.compile(r"^(?:[A-Za-z_][\w.]*(?:Error|Exception|NotFound|Interrupt|Exit)\b.*)$")
 # Said of a node that is just being ended: rospy closes topics shortly before it says so. No mistake.
-CLOSED = "publish() to a closed topic"
+CLOSED = re.compile(r"publish\(\) to a closed topic|topic was closed during publish\(\)")
+ABOVE = "During handling of the above exception"
 
 
 def first_traceback(output, folder):
@@ -25,10 +26,15 @@ def first_traceback(output, folder):
     folder: the package's; its files count as the student's.
     """
     blocks = output.split("Traceback (most recent call last)")[1:]
-    # One that was cut off behind this line tells nothing.
-    found = [_traceback(block, folder) for block in blocks[:50] if block.strip(": \n")]
-    found = [trace for trace in found if CLOSED not in trace.error]
-    return next((trace for trace in found if trace.where), found[0] if found else None)
+    found, is_closed = [], False
+    for block in reversed(blocks[:50]):
+        if not block.strip(": \n"):  # cut off behind this line, it tells nothing
+            continue
+        trace = _traceback(block, folder)
+        # What led to such an end, which rospy tells before it, is none, either.
+        is_closed = bool(CLOSED.search(trace.error)) or (is_closed and ABOVE in block)
+        found += [] if is_closed else [trace]
+    return next((trace for trace in found[::-1] if trace.where), found[-1] if found else None)
 
 
 def _traceback(block, folder):
