@@ -77,6 +77,12 @@ def test_it_cannot_work(tmp_path, floor, floor_there):
     assert "no verdict" in error
 
 
+def test_the_suites_own_solutions(floor):
+    code, _, error = check(floor, "--in", SOURCE.parents[1], "2")
+    assert code == 2
+    assert "this suite's solution, not yours" in error
+
+
 def test_an_empty_workspace(tmp_path, floor):
     code, out, _ = check(floor, "--in", tmp_path, "2")
     assert code == 1

@@ -40,8 +40,11 @@ def test_a_broken_package_xml_is_named_before_everything_fails_over_it(tutorial,
     assert f"wrong    floor     {package}: mismatched tag: line 2" in told
 
 
-def test_only_words_that_open_a_shell_know_in(tutorial):
-    done = subprocess.run(
-        [tutorial, "demo", "--in", "/tmp"], capture_output=True, text=True, check=False
-    )
-    assert (done.returncode, "demo: knows no --in" in done.stderr) == (1, True)
+@pytest.mark.parametrize(
+    ("word", "told"),
+    [("demo", "demo: knows no --in"), ("chek", '"chek" is not a word of this command')],
+)
+def test_what_knows_no_in(tutorial, word, told):
+    command = [tutorial, word, "--in", "/tmp"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (done.returncode, told in done.stderr) == (1, True)

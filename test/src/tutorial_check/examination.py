@@ -60,7 +60,7 @@ def examine(
             raise CannotCheck(f"{floor}: no such file; ./tutorial setup builds it")
         if not Path(workspace).exists():
             raise CannotCheck(
-                f"{workspace}: no such folder; ./tutorial shell --in {workspace} makes it"
+                f"{workspace}: no such folder or zip; ./tutorial shell --in FOLDER makes a workspace"
             )
     except PermissionError as error:
         raise CannotCheck(f"{error.filename}: may not be read") from None

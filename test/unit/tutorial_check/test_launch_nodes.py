@@ -43,7 +43,7 @@ def given(monkeypatch, *nodes):
 @pytest.mark.parametrize("kind", ["class.py", "joy2twist.py"])
 def test_two_drive(session, monkeypatch, kind):
     given(monkeypatch, FIRST, node(kind))
-    with pytest.raises(Wrong, match=f"2, joy2twist.py and {kind}: both would drive") as caught:
+    with pytest.raises(Wrong, match=f"2, joy2twist.py and {kind}: all would drive") as caught:
         launch_nodes.check_one_driver(session, BAG)
     assert caught.value.where == f"{BAG}:3"
 
@@ -102,6 +102,9 @@ def test_where_the_joys_go(session, monkeypatch, to, own, is_right):
     given(monkeypatch, node("joy2twist.py", remaps=own), joystick)
     if is_right:
         launch_nodes.check_joy(session, BAG, joystick)
-    else:
-        with pytest.raises(Wrong, match="joy_node sends them on /joystick"):
-            launch_nodes.check_joy(session, BAG, joystick)
+        return
+    text = "<launch>\n<remap from='joy' to='/joystick'/>"
+    (session.package(PACKAGE).folder / BAG).write_text(text)
+    with pytest.raises(Wrong, match="joy_node sends them on /joystick") as caught:
+        launch_nodes.check_joy(session, BAG, joystick)
+    assert caught.value.where == f"{BAG}:2"

@@ -146,7 +146,7 @@ def check_one_driver(session, name):
         path = find_launch(session, name)
         raise Wrong(
             "one joy2twist",
-            f"{len(drivers)}, {' and '.join(node['type'] for node in drivers)}: both would drive",
+            f"{len(drivers)}, {' and '.join(node['type'] for node in drivers)}: all would drive",
             where=place_of(
                 relative(session, path), read(path), *attribute("name", drivers[1]["name"])
             ),
@@ -179,7 +179,7 @@ def check_joy(session, name, sender):
         raise Wrong(
             "the Joys go to joy2twist, on /joy",
             f"{sender['type']} sends them on {renamed[0]}",
-            where=place_of(relative(session, path), read(path), f'"{renamed[0].strip("/")}"'),
+            where=place_of(relative(session, path), read(path), *attribute("to", renamed[0])),
             hint=f"leave that <remap> out of the node {sender['name']}",
         )
 

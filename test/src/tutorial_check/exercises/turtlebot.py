@@ -44,7 +44,11 @@ def remapped(session):
     remaps = [remap for node in own for remap in node["remaps"]]
     line = place_of(where, text, "<remap", "joy2twist.py")
     if good and not bad and CMD_VEL not in publishers:
-        by_file = remaps or any(":=" in node["args"] for node in own) or "param" in text
+        by_file = (
+            remaps
+            or any(":=" in node["args"] for node in own)
+            or re.search(r"<(ros)?param\b", text)
+        )
         if not by_file:
             raise Wrong(
                 "the program as it was, whose topic the launch file renames",
