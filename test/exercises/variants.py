@@ -38,6 +38,14 @@ def c(what, *changes):
     return (what, [put(CLASS, old, new) for old, new in changes], ["6.2"])
 
 
+# Of which a note is looked for, too.
+TELLS = c(
+    "an except that tells",
+    ("    except:\n", "    except Exception as error:\n"),
+    ('"The node has ended."', 'f"Error: {error}"'),
+)
+
+
 def part(name):
     """A package of a name of the suite's, in which its programs are missing."""
     return write(f"{name}/package.xml", f"<package><name>{name}</name></package>", 0o644)
@@ -100,7 +108,6 @@ ROWS = [
     c("object, ROSInterruptException", ("NewJoy2Twist()", "NewJoy2Twist(object)"), ("        NewJoy2Twist(object)\n", "        NewJoy2Twist()\n"), ("    except:\n", "    except rospy.ROSInterruptException:\n")),
     c("spin outside of __init__", ("        rospy.spin()\n", ""), ("        NewJoy2Twist()\n", "        NewJoy2Twist()\n        rospy.spin()\n")),
     c("unregisters, no sleep, zeros", ("        rospy.Subscriber(", "        self.sub = rospy.Subscriber("), ("        self.cmd_vel.publish(Twist())\n        rospy.sleep(1)", "        self.sub.unregister()\n        for _ in range(5):\n            self.cmd_vel.publish(Twist())\n            rospy.sleep(0.05)")),
-    c("an except that tells", ("    except:\n", "    except Exception as error:\n"), ('"The node has ended."', 'f"Error: {error}"')),
     c("a Timer in the class, no sleep at its end", ("        self.cmd_vel.publish(msg)\n", "        self.msg = msg\n"), ("        rospy.spin()\n", "        self.msg = Twist()\n        rospy.Timer(rospy.Duration(0.02), lambda event: self.cmd_vel.publish(self.msg))\n        rospy.spin()\n"), ("        rospy.sleep(1)\n", "")),
     c("anonymous", ("anonymous=False", "anonymous=True")),
     c("throttled", ("rospy.loginfo(rospy.get_name()", "rospy.loginfo_throttle(1.0, rospy.get_name()")),

@@ -1,5 +1,6 @@
 """Starts examine in a place apart and reads what it tells. Knows no ROS."""
 
+import compileall
 import functools
 import itertools
 import json
@@ -102,7 +103,15 @@ def _environment(floor):
         raise CannotCheck(f"{floor} cannot be sourced: {done.stderr[-200:]}")
     found = dict(word.split("=", 1) for word in done.stdout.split("\0") if "=" in word)
     found.update({name: os.environ[name] for name in OF_SUITE if name in os.environ})
+    # rospy loads numpy, which starts a thread for each processor; none is needed here.
+    found["OPENBLAS_NUM_THREADS"] = "1"
     return {name: found[name] for name in found if name not in ("_", "SHLVL", "PWD", "OLDPWD")}
+
+
+@functools.lru_cache(maxsize=None)
+def _compiled():
+    """Compile our modules once: an examination, which writes nothing, would compile them each time."""
+    compileall.compile_dir(Path(__file__).parent, quiet=2)
 
 
 def _kept(floor):
@@ -121,6 +130,7 @@ def _kept(floor):
 
 
 def _examine(workspace, floor, exercises, folder, *, tell, only_first, own):
+    _compiled()
     wrapper = place.wrapper()
     orders = {
         "workspace": workspace,

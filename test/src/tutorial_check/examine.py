@@ -63,13 +63,11 @@ def examine(orders, tell, told):
     granted = granted and place.furnish(scratch, orders["home"], kept)
     if not orders["own"]:
         workspace.copy(layout, scratch / "ws")
-    # ROS, only now: it reads the environment as it loads.
+    # Before ROS, which reads the environment as it loads.
     home = scratch / "ours"
     home.mkdir(exist_ok=True)
     os.environ.update(HOME=str(home), ROS_HOME=str(home), ROS_LOG_DIR=str(home), ROS_IP="127.0.0.1")
     os.environ.pop("ROS_HOSTNAME", None)
-    import rosmaster.master  # noqa: F401, PLC0415  loaded here for all that are forked
-    import rospy  # noqa: F401, PLC0415
 
     from tutorial_check import box, session, trial  # noqa: PLC0415
     from tutorial_check.exercises import catalogue  # noqa: PLC0415

@@ -29,6 +29,11 @@ def _check_master(talk):
         raise master_gone()
 
 
+def _is_meant(call, topic):
+    """Whether the first topic of that kind in the program is this one; call may be None."""
+    return call is not None and call.words[:1] in ([topic], [topic.lstrip("/")])
+
+
 def talker(session):
     """C6."""
     talk = talk_of(session)
@@ -63,6 +68,7 @@ def talker(session):
                 f"/chatter carries {talk.types.get(TOPIC)}",
                 where=f"{script}:{made.line if made else 1}",
                 hint="rospy.Publisher('chatter', String, queue_size=10)",
+                sure=TOPIC in talk.publishers,
             )
         if topics:
             raise Wrong(
@@ -70,6 +76,7 @@ def talker(session):
                 f"it publishes on {topics[0]}",
                 where=f"{script}:{made.line if made else 1}",
                 hint="the topic is called chatter",
+                sure=_is_meant(made, topics[0]),
             )
         raise Wrong(
             expected,
@@ -146,6 +153,7 @@ def listener(session):
             hint="the topic is called chatter"
             if others
             else f"{SUBSCRIBER_LINE}, before rospy.spin()",
+            sure=bool(others) and _is_meant(call, others[0]),
         )
     if facts.deaf and not found:
         raise Wrong(
@@ -153,6 +161,7 @@ def listener(session):
             "its Subscriber has no callback",
             where=f"{script}:{facts.deaf.line}",
             hint=SUBSCRIBER_LINE,
+            sure=True,
         )
     if any("datatype" in line and "chatter" in line for line in talk.warnings):
         raise Wrong(

@@ -62,7 +62,9 @@ def check_connected(session, seen):
         )
     if facts.deaf and not (seen.samples or seen.shown):
         place = f"{seen.script}:{facts.deaf.line}"
-        raise Wrong(expected, "its Subscriber has no callback", where=place, hint=JOY_LINE)
+        raise Wrong(
+            expected, "its Subscriber has no callback", where=place, hint=JOY_LINE, sure=True
+        )
     if seen.connected and not (seen.ended_early and not seen.samples and not seen.shown):
         return
     if seen.program.spins:

@@ -5,7 +5,6 @@ import math
 import re
 import statistics
 
-from tutorial_check.driver import ECHO, Echo
 from tutorial_check.mapping import judge, numbered_joys
 from tutorial_check.model import master_gone
 from tutorial_check.stage import START_S
@@ -80,13 +79,13 @@ class Drive:
         if goes and RATED & self.session.exercises and not self.program.ended:
             self._stream(stage)
             if not self.is_prompt and not self.program.ended:
-                stage.call("listen", ECHO, "Twist")
                 before = stage.call("listeners", JOY)
-                echo = stage.help(Echo)
+                echo, answers = stage.echo()
+                stage.call("listen", answers, "Twist")
                 stage.wait(
                     lambda: echo.call("ready") and stage.call("listeners", JOY) > before, START_S
                 )
-                self._stream(stage, beside=ECHO)
+                self._stream(stage, beside=answers)
 
     def _ask_again(self, stage, joys):
         """The same with time: it has a clock of its own, publishes several, or is only slow."""

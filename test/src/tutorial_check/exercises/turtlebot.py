@@ -27,7 +27,11 @@ def remapped(session):
         launch.wait(
             lambda: (
                 stage.call("listeners", JOY) > 1  # one is ours
-                and (stage.call("speakers", TELEOP) or stage.call("speakers", CMD_VEL))
+                and (
+                    stage.call("speakers", TELEOP)
+                    or stage.call("speakers", CMD_VEL)
+                    or _other_topics(stage.call("state")[0])
+                )
             )
         )
         rest(stage, TELEOP, CMD_VEL)
@@ -74,6 +78,7 @@ def remapped(session):
             "Twists on /cmd_vel: a <param> renames nothing",
             where=place_of(where, text, "<param"),
             hint=REMAP,
+            sure=True,
         )
     if bad and not remaps and "<remap" in text:
         raise Wrong(
@@ -82,6 +87,7 @@ def remapped(session):
             where=line,
             hint="a <remap> holds for the node around it, and for those below it: put it between"
             " <node ...> and </node>",
+            sure=True,
         )
     if bad and any(to.strip("/") == "cmd_vel" for _, to in remaps):
         raise Wrong(
@@ -89,19 +95,17 @@ def remapped(session):
             "Twists on /cmd_vel: from and to are swapped",
             where=line,
             hint=f"from is the name in the program: {REMAP}",
+            sure=True,
         )
-    others = sorted(
-        topic
-        for topic in publishers
-        if re.search("vel|teleop|mux", topic) and topic not in (TELEOP, CMD_VEL)
-    )
+    others = _other_topics(publishers)
     if others:
-        raise Wrong(expected, f"it publishes on {others[0]}", where=line, hint=REMAP)
+        is_meant = others[0] in [to for _, to in remaps]
+        raise Wrong(expected, f"it publishes on {others[0]}", line, REMAP, sure=bad or is_meant)
     if bad:
         seen = "Twists on /cmd_vel" + ("" if remaps else ": nothing is remapped")
         if remaps:
             seen += f": the remap from {remaps[0][0]} fits no topic of the program"
-        raise Wrong(expected, seen, where=line, hint=REMAP)
+        raise Wrong(expected, seen, where=line, hint=REMAP, sure=True)
     if JOY not in subscribers:
         raise Wrong(
             expected,
@@ -110,6 +114,14 @@ def remapped(session):
             hint="does the node start, and is /joy left as it is?",
         )
     raise Wrong(expected, "no Twist at all", where=where, hint=REMAP)
+
+
+def _other_topics(publishers):
+    return sorted(
+        topic
+        for topic in publishers
+        if re.search("vel|teleop|mux", topic) and topic not in (TELEOP, CMD_VEL)
+    )
 
 
 def real_robot(session):
