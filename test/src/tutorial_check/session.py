@@ -77,7 +77,6 @@ class Session:
         self.can_have_devices = can_have_devices
         self._needed = needed
         self._memory, self._runs, self._siblings = {}, {}, 0
-        self.has_launched = False  # a launch file, whose nodes meet in any order
         self.floor_environment = self._own(environment)
         self.box = make_box(self.floor_environment)
 
@@ -92,9 +91,11 @@ class Session:
     def second_look(self, explained):
         """Whether what programs were seen to do is forgotten, as it is worth to look again.
 
-        It is if the machine was busy, or if nothing explains what the nodes of a launch file did.
+        It is if the machine was busy, or if no line explains it: nodes of a launch file meet in any
+        order, and one Ctrl-C in some hundreds, if it meets rospy in the middle of a publish of the
+        main thread, waits for ever for a lock of that thread's own.
         """
-        if not self.box.patience.strained() and (explained or not self.has_launched):
+        if explained and not self.box.patience.strained():
             return False
         self._runs.clear()
         return True

@@ -1,8 +1,10 @@
 """A student's setup.bash is a program of the student's: it runs, and is waited for, as one."""
 
+import itertools
 import os
 import tempfile
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -51,3 +53,17 @@ def test_what_it_leaves_in_the_background_is_not_waited_for(sourced):
 def test_it_is_told_if_it_cannot_be_sourced(sourced, end):
     with pytest.raises(CannotCheck, match=r"cannot be sourced: no such thing: moon$"):
         sourced(f"printf 'no such thing:\\nmoon\\n' >&2; {end}\n")
+
+
+@pytest.mark.parametrize(
+    ("strained", "explained", "is_worth_it"),
+    [(False, True, False), (False, False, True), (True, True, True), (True, False, True)],
+)
+def test_a_second_look(make_session, strained, explained, is_worth_it):
+    """It forgets what was seen, and nothing of what is."""
+    one, count = make_session("a", "2"), itertools.count()
+    one.box = SimpleNamespace(patience=SimpleNamespace(strained=lambda: strained))
+    assert [one.run("k", lambda: next(count)), one.memo("k", lambda: next(count))] == [0, 1]
+    assert one.second_look(explained) == is_worth_it
+    again = [one.run("k", lambda: next(count)), one.memo("k", lambda: next(count))]
+    assert again == [2 if is_worth_it else 0, 1]

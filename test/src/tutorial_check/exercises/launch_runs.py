@@ -37,7 +37,6 @@ class Launch:
         for topic, kind in ((JOY, "Joy"), (twists, "Twist"), (ODOM, "Odometry")):
             stage.call("listen", topic, kind)
         self.program = stage.launch(["roslaunch", str(find_launch(session, name))])
-        session.has_launched = True
 
     def wait(self, condition):
         """condition(), as soon as it is true, the launch is over, or its nodes have had their time."""
