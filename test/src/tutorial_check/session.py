@@ -92,8 +92,8 @@ class Session:
         """Whether what programs were seen to do is forgotten, as it is worth to look again.
 
         It is if the machine was busy, or if no line explains it: nodes of a launch file meet in any
-        order, and one Ctrl-C in some hundreds, if it meets rospy in the middle of a publish of the
-        main thread, waits for ever for a lock of that thread's own.
+        order; and a Ctrl-C that meets rospy in the middle of a publish of the main thread may wait
+        for ever, for a lock of that thread's own.
         """
         if explained and not self.box.patience.strained():
             return False

@@ -101,3 +101,19 @@ def test_a_text_that_is_displayed_twice(text, shown, seen):
     talk = SimpleNamespace(strings=["A", "B"], listener=SimpleNamespace(output=output))
     note = chatter._repeated(talk, read_python(text), "listener.py")
     assert (note and (note.seen[-17:], note.where)) == seen
+
+
+@pytest.mark.parametrize(("text", "sure"), [("'chater', String", True), ("topic, String", False)])
+def test_what_text_and_graph_agree_on_is_sure(session, text, sure):
+    """Whatever comes late on a busy machine, it would not come on another topic."""
+    line = f"\npub = rospy.Publisher({text})\n"
+    (session.package(PACKAGE).folder / "talker.py").write_text(TALKER.format(True) + line)
+    program = SimpleNamespace(output="", spins=False)
+    seen = {"publishers": {"/chater": ["/talker"]}, "types": {}, "warnings": [], "heard": []}
+    talk = SimpleNamespace(
+        talkers=[program], talker_ended=False, master_alive=True, both=False, **seen
+    )
+    session.run = lambda key, make: talk
+    with pytest.raises(Wrong, match="it publishes on /chater") as caught:
+        chatter.talker(session)
+    assert caught.value.sure == sure

@@ -28,7 +28,7 @@ def test_the_subscriber_comes_first(under_load):
     assert not was_started
 
 
-@pytest.mark.parametrize("lines", [(PUBLISHER, SUBSCRIBER), (SUBSCRIBER,), ()])
+@pytest.mark.parametrize("lines", [(PUBLISHER, SUBSCRIBER), (SUBSCRIBER,), (PUBLISHER,), ()])
 def test_the_text_leaves_it_open(under_load, lines):
     assert under_load(*lines) == (None, True)
 

@@ -1,4 +1,4 @@
-"""A student's setup.bash is a program of the student's: it runs, and is waited for, as one."""
+"""A student's setup.bash runs, and is waited for, as a program of the student's; a second look."""
 
 import itertools
 import os

@@ -164,12 +164,8 @@ def listener(session):
             sure=True,
         )
     if any("datatype" in line and "chatter" in line for line in talk.warnings):
-        raise Wrong(
-            expected,
-            "it wants another type of message on /chatter",
-            where=where,
-            hint=SUBSCRIBER_LINE,
-        )
+        seen = "it wants another type of message on /chatter"
+        raise Wrong(expected, seen, where=where, hint=SUBSCRIBER_LINE)
     raise Wrong(
         expected,
         f"{len(found)} of {len(talk.strings)} displayed",
