@@ -1,4 +1,4 @@
-"""Which changes no test can notice, and why: explained.yaml, held against what was found."""
+"""Which changes no test can notice, and why: explained.yaml."""
 
 from pathlib import Path
 
@@ -22,22 +22,3 @@ def reasons():
                 raise ValueError(f"explained twice: {change}")
             found[change] = entry["reason"]
     return found
-
-
-def unexplained(results):
-    """The survivors without a reason."""
-    known = reasons()
-    return [
-        key_of(module, survivor)
-        for module, found in results.items()
-        for survivor in found["survivors"]
-        if key_of(module, survivor) not in known
-    ]
-
-
-def stale(results):
-    """The reasons for changes that are noticed now, or not made any more."""
-    survived = {
-        key_of(module, one) for module, found in results.items() for one in found["survivors"]
-    }
-    return [change for change in reasons() if change not in survived]
