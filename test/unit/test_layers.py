@@ -25,8 +25,8 @@ LIBRARIES = {
 # Each module may import those that stand before it. The rules know neither ROS nor a clock.
 RULES = """
 node_kit.arguments node_kit.parameters node_kit.throttle node_kit.newest_only
-node_kit.questions node_kit.names node_kit.page node_kit.states node_kit.resumption
-gamepad.js_event gamepad.gamepads
+node_kit.questions node_kit.names node_kit.page node_kit.states node_kit.resumption node_kit.arming
+gamepad.js_event gamepad.gamepads gamepad.trembling
 gamepad.driver.device_choice gamepad.driver.parameters gamepad.driver.schedule
 gamepad.driver.state gamepad.driver.driver gamepad.driver.report gamepad.virtual.controls
 gamepad.virtual.keyboard gamepad.virtual.moves

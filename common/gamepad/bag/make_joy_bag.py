@@ -89,9 +89,12 @@ def sticks():
         yield from rest(0.7, held=False)
 
 
-def axis(value):
-    """What joy_node publishes for a stick position: one of the steps of the Linux device."""
-    return round(value * JS_FULL) / JS_FULL
+def axis(value, count):
+    """What joy_node publishes for a stick position: one of the steps of the Linux device.
+
+    Messages are rounded down and up in turn: a hand that holds a stick trembles.
+    """
+    return math.floor(value * JS_FULL + count % 2) / JS_FULL if value else 0.0
 
 
 def write_bag(path):
@@ -112,7 +115,7 @@ def write_bag(path):
             stamp_ns = START_S * 10**9 + count * 10**9 // RATE_HZ
             stamp = make["builtin_interfaces/msg/Time"](*divmod(stamp_ns, 10**9))
             axes = np.zeros(AXES, np.float32)
-            axes[1], axes[0] = axis(forward), axis(turn)
+            axes[1], axes[0] = axis(forward, count), axis(turn, count)
             buttons = np.zeros(BUTTONS, np.int32)
             buttons[LB] = held
             header = make["std_msgs/msg/Header"](seq=count, stamp=stamp, frame_id=FRAME_ID)

@@ -27,7 +27,9 @@ class Mapping:
         self._enable = parameters.enable_button
         self._free = not parameters.require_enable_button
         self._needed_axes = 1 + max((a.index for a in parameters.axes), default=-1)
-        self._needed_buttons = 1 + max(self._enable, self._turbo)
+        self._stop, self._reset = parameters.stop_button, parameters.stop_reset_button
+        self._needed_buttons = 1 + max(self._enable, self._turbo, self._stop, self._reset)
+        self._curve = parameters.axis_curve
         self._inverted_reverse = parameters.inverted_reverse
         self._max_linear = parameters.max_linear_speed or math.inf
         self._max_angular = parameters.max_angular_speed or math.inf
@@ -48,21 +50,37 @@ class Mapping:
             return None
         velocity = [0.0] * 6
         for component, index, scale, turbo_scale in self._axes:
-            velocity[component] = axes[index] * (turbo_scale if turbo else scale)
+            value = axes[index]
+            if self._curve != 1.0:
+                value = math.copysign(abs(value) ** self._curve, value)
+            velocity[component] = value * (turbo_scale if turbo else scale)
         if self._inverted_reverse and velocity[0] < 0:
             velocity[5] = -velocity[5]
         return limit_speed(tuple(velocity), self._max_linear, self._max_angular)
 
-    def is_neutral(self, axes):
-        """Whether every axis that drives the robot is released."""
-        return all(abs(axes[index]) <= NEUTRAL for _, index, _, _ in self._axes)
+    def rests(self, axes, velocity):
+        """Whether a good message has all released: the sticks and, if one is needed, the dead-man.
+
+        velocity: what velocity() made of it.
+        """
+        return (velocity is None or self._free) and all(
+            abs(axes[index]) <= NEUTRAL for _, index, _, _ in self._axes
+        )
+
+    def stops(self, buttons):
+        """Whether the stop button is pressed, in a good message or a bad one."""
+        return 0 <= self._stop < len(buttons) and buttons[self._stop] != 0
+
+    def resets(self, buttons):
+        """Whether a good message has the reset button pressed, and not the stop button."""
+        return buttons[self._reset] != 0 and not self.stops(buttons)
 
     def _what_is_missing(self, axes, buttons):
         for component, index, _, _ in self._axes:
             if index >= len(axes):
                 return f"no axis {index} (-> {COMPONENTS[component]}): it has {len(axes)} axes"
         button = self._needed_buttons - 1
-        return f"no button {button} (enable or turbo): it has {len(buttons)} buttons"
+        return f"no button {button} (enable, turbo, stop or reset): it has {len(buttons)} buttons"
 
     @property
     def deadman(self):

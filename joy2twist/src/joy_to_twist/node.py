@@ -40,7 +40,8 @@ class Joy2Twist:
         axis_linear: 1, axis_angular: 0, scale_linear: 1.0, scale_linear_turbo: 1.0,
         scale_angular: 1.0, scale_angular_turbo: scale_angular,
         enable_button: -1, enable_turbo_button: -1, require_enable_button: with enable_button,
-        inverted_reverse: false, joy_timeout: 0.5 s, max_joy_age: 0.0 s, arm_on_neutral: false,
+        inverted_reverse: false, axis_curve: 1.0, stop_button: -1, stop_reset_button: -1,
+        joy_timeout: 0.5 s, max_joy_age: 0.0 s, arm_on_neutral: false, vigilance_timeout: 0.0 s,
         stop_messages: 5, output_rate: 20.0 Hz,
         max_linear_speed: 0.0 m/s, max_angular_speed: 0.0 rad/s,
         max_linear_acceleration: 0.0 m/s2, max_angular_acceleration: 0.0 rad/s2,
@@ -71,6 +72,7 @@ class Joy2Twist:
         self.diagnostics.setHardwareID("none")
         self.diagnostics.add("joystick", self.diagnose)
         self.may_diagnose = Throttle(1.0 / parameters.diagnostic_period)
+        self.diagnosed = None  # the state on /diagnostics
         self.joy = rospy.Subscriber(
             "joy",
             LeanJoy,
@@ -88,10 +90,7 @@ class Joy2Twist:
         with self.lock:
             self.notice_suspension(now)
             sender = connection_of(joy)
-            velocity = self.teleoperation.joy(joy.axes, joy.buttons, now, age_ns, sender)
-            if self.cmd_vel.holds and self.teleoperation.released:
-                self.cmd_vel.free()
-            self.publish(velocity)
+            self.publish(self.teleoperation.joy(joy.axes, joy.buttons, now, age_ns, sender))
         self.console.display(joy.axes, now)
 
     def notice_suspension(self, now):
@@ -99,9 +98,9 @@ class Joy2Twist:
         self.publish(self.teleoperation.suspended(self.suspensions.number(), now))
 
     def publish(self, velocity):
-        """Publish a velocity, if there is one, until the node is stopped."""
-        if velocity is not None and not self.stopped.is_set():
-            self.cmd_vel.publish(velocity, self.hold_new)
+        """Publish a velocity, or None, until the node is stopped."""
+        if not self.stopped.is_set():
+            self.cmd_vel.publish(velocity, self.teleoperation.released, self.hold_new)
 
     def watch(self):
         """Stop the robot when the joystick falls silent or leaves, and repeat what is to repeat.
@@ -126,7 +125,9 @@ class Joy2Twist:
             self.teleoperation.listeners(self.cmd_vel.listeners, self.cmd_vel.name, now)
             self.timer.clear()
             due = min(self.teleoperation.due, now + LOOK_ROUND_S)
-        if self.may_diagnose.ready(now) and self.diagnostics.publisher.get_num_connections():
+            wanted = self.teleoperation.state != self.diagnosed
+        wanted = self.may_diagnose.ready(now) or wanted
+        if wanted and self.diagnostics.publisher.get_num_connections():
             self.diagnostics.force_update()
         return max(0.0, due - monotonic())
 
@@ -134,6 +135,7 @@ class Joy2Twist:
         """Fill in the diagnostic status, a DiagnosticStatusWrapper."""
         with self.lock:
             well, state, details = self.teleoperation.summary(monotonic())
+        self.diagnosed = state
         status.summary(DiagnosticStatus.OK if well else DiagnosticStatus.WARN, state)
         for name, value in details.items():
             status.add(name, value)

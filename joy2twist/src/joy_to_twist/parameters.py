@@ -63,6 +63,10 @@ class Parameters:
     joy_timeout: float = parameter(0.5, _TIMEOUT)
     max_joy_age: float = parameter(0.0, _TIMEOUT)
     arm_on_neutral: bool = parameter(False, switch)
+    vigilance_timeout: float = parameter(0.0, _TIMEOUT)
+    stop_button: int = parameter(-1, _BUTTON)
+    stop_reset_button: int = parameter(-1, _BUTTON)
+    axis_curve: float = parameter(1.0, number(1, 5, "(1: straight)"))
     stop_messages: int = parameter(5, whole_number(1, 100, "a whole number from 1 to 100"))
     output_rate: float = parameter(20.0, number(1, 1000, "Hz"))
     max_linear_speed: float = parameter(0.0, _SPEED)
@@ -96,17 +100,31 @@ def load(given: Dict[str, Any]) -> Parameters:
     enable, turbo = values["enable_button"], values["enable_turbo_button"]
     if values["require_enable_button"] is _FROM_OTHERS:
         values["require_enable_button"] = enable != -1
-    if enable == turbo != -1:
-        raise ValueError(
-            f"~enable_turbo_button: {turbo}: must be a button other than ~enable_button"
-        )
+    _check_buttons(values)
     if values["require_enable_button"] and max(enable, turbo) < 0:
         raise ValueError(
             "~require_enable_button: True: must be false without ~enable_button"
             " and ~enable_turbo_button"
         )
+    if values["vigilance_timeout"] and not values["arm_on_neutral"]:
+        raise ValueError(
+            f"~vigilance_timeout: {values['vigilance_timeout']:g}: needs ~arm_on_neutral: true"
+        )
     axes = _axes(given, "linear", LINEAR, 0) + _axes(given, "angular", ANGULAR, len(LINEAR))
     return Parameters(axes=tuple(axes), **values)
+
+
+def _check_buttons(values):
+    names = ("enable_button", "enable_turbo_button", "stop_button", "stop_reset_button")
+    for k, name in enumerate(names):
+        for other in names[:k]:
+            if values[name] == values[other] != -1:
+                raise ValueError(f"~{name}: {values[name]}: must be a button other than ~{other}")
+    if (values["stop_button"] < 0) != (values["stop_reset_button"] < 0):
+        raise ValueError(
+            f"~stop_reset_button: {values['stop_reset_button']}: must be set if, and only if, "
+            "~stop_button is"
+        )
 
 
 def _axes(given, kind, names, first_component):

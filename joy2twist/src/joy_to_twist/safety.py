@@ -1,18 +1,19 @@
 """When to send a velocity, when to send zero and when to stay silent (pure).
 
-Every method is given the time `now` [s] of one clock that never jumps; nothing here reads a clock.
-A method returns the velocity to send at once (six floats, see limits), or None to send nothing.
+Every method takes the time `now` [s] of one clock that never jumps. A method returns the velocity
+to send at once (six floats, see limits), or None to send nothing.
 
-The rule of arming, for every loss: of the joystick (silence, leaving, a suspension of this node,
-another sender) and of the robot (who tells it what is released: see `released`). After each, where
-arm_on_neutral is on, nothing moves before all was seen released by one sender, the one that drives
-then. Without it, only: no velocity later than joy_timeout after the last message, unless a stop was
+A loss is: silence on joy, a joystick node that leaves, another sender, a suspension of this node,
+and a joystick that does not change while the robot moves. Where arm_on_neutral is on, nothing moves
+after a loss before everything was seen released by the sender that drives then (node_kit.arming).
+Where it is off, only: no velocity later than joy_timeout after the last message, unless a stop was
 sent between them.
 """
 
 import math
 
 from joy_to_twist.limits import ZERO, approach
+from node_kit.arming import Arming
 from node_kit.states import DRIVING
 
 WAITING = "waiting for the joystick"
@@ -20,122 +21,172 @@ NOT_ARMED = "stopped: not armed, release the sticks and the dead-man button once
 ANOTHER = "another joystick node sends, whose sticks and dead-man button were not seen released"
 BAD_MESSAGE = "stopped: bad joystick message"
 ARMED = "armed: hold the dead-man button to drive"
+# A joystick that does not change is warned of so long before the stop [s].
+WARNS_BEFORE_S = 0.5
 
 
 class Safety:
-    """Turns what the user asks for into what the robot is told.
+    """Turns the velocity that the user asks for into the velocity that the robot gets.
 
     With a dead-man button, its release gives zero a few times and then silence, so that a
     multiplexer of velocities can fall back to another source. Without one, every joystick message
-    is answered by one velocity. Zero comes at once for a released dead-man, a bad message and
-    silence (hard stop); a released stick slows down within the acceleration limits (soft stop).
+    is answered by one velocity. Zero comes at once for a released dead-man, a bad message and a
+    loss (hard stop); a released stick slows down within the acceleration limits (soft stop).
     """
 
-    def __init__(self, parameters, wake):
-        """parameters: parameters.Parameters. wake: called when due has become sooner."""
+    def __init__(self, parameters, wake, warn=lambda line: None):
+        """parameters: parameters.Parameters. wake: called when due has become sooner. warn: called
+        with one line for the user.
+        """
         p = self._parameters = parameters
-        self._wake = wake
+        self._wake, self._warn = wake, warn
         self._period = 1.0 / p.output_rate
         self._gradual = p.max_linear_acceleration > 0 or p.max_angular_acceleration > 0
         self._changes = (  # of the velocity in one period, at most
             (p.max_linear_acceleration or math.inf) * self._period,
             (p.max_angular_acceleration or math.inf) * self._period,
         )
-        self._heard = None  # when the last good message came; None: none since the last silence
+        self._silence_s = p.joy_timeout or math.inf
+        self._stillness_s = p.vigilance_timeout or math.inf
+        self._hears = False  # a good message came since the last loss
+        self._silent_at = math.inf  # when the joystick counts as silent
+        self._still_at = math.inf  # when it has been unchanged for too long
+        self._is_warned = False  # of that
+        self._watches_stillness = p.vigilance_timeout > 0
         self._sent = ZERO  # the last velocity sent
         self._target = ZERO  # where the acceleration limits lead to
         self._stopping = False  # zeros are being repeated, or have been
         self._repeats = 0  # zeros still to come
-        self._next_output = None  # when a zero or a step of the acceleration is due
+        self._next_output = math.inf  # when a zero or a step of the acceleration is due
         self._sender = None  # of the last good message
-        self.armed = not p.arm_on_neutral  # for that sender
-        self._released = True  # that message had everything released
+        self.arming = Arming(not p.arm_on_neutral)  # of that sender
+        self._unarmed = NOT_ARMED  # the state until it is armed
+        self.latched = False  # the stop button was pressed
         self.state = WAITING
 
     @property
     def due(self):
         """When tick() must be called next [s]; infinity if nothing will happen by itself."""
-        output = math.inf if self._next_output is None else self._next_output
-        return min(output, self._silent_at)
-
-    @property
-    def _silent_at(self):
-        if self._heard is None or self._parameters.joy_timeout == 0:
-            return math.inf
-        return self._heard + self._parameters.joy_timeout
+        still_at = self._still_at - (0.0 if self._is_warned else WARNS_BEFORE_S)
+        due = min(self._next_output, self._silent_at)
+        return due if self._sent == ZERO else min(due, still_at)
 
     @property
     def released(self):
         """Whether a robot that was lost may be driven again: all is released, or, where arming is
-        off, it was told to stop.
+        off, the last velocity was zero.
         """
-        return self._released if self._parameters.arm_on_neutral else self._sent == ZERO
+        return self.arming.rests if self._parameters.arm_on_neutral else self._sent == ZERO
 
-    def drive(self, velocity, neutral, now, sender=None):
+    def drive(self, velocity, rests, now, sender=None, changed=True):
         """A good message asks for this velocity; None: its dead-man button is released.
 
-        neutral: whether its sticks are released. sender: an object, which tells one from another.
+        rests: whether all is released. sender: an object, which tells one from another. changed:
+        whether any axis or button differs from the message before.
         """
-        stop = None
-        if now >= self._silent_at:  # and tick() was not called in time
-            stop = self.lost(self._silence, now)
+        if changed:
+            self._still_at = now + self._stillness_s
+            if self._is_warned:
+                self._is_warned = False
+                self._wake()  # for the next warning
+        why = None
+        if now >= self._still_at and velocity not in (None, ZERO):
+            why, rests = self._stillness, False
+        elif now >= self._silent_at:  # and tick() was not called in time
+            why = self._silence
         elif sender is not self._sender and self._parameters.arm_on_neutral:
-            stop = self.lost(ANOTHER, now)
+            why = ANOTHER
+        stop = self.lost(why, now) if why else None
         if stop is not None and not self._parameters.arm_on_neutral:
             return stop  # the next message is in time again
         self._sender = sender
-        answer = self._obey(velocity, neutral, now)
+        answer = self._obey(velocity, rests, now)
         return stop if answer is None else answer
 
-    def _obey(self, velocity, neutral, now):
-        was_silent, self._heard = self._heard is None, now
-        if was_silent:
+    def _obey(self, velocity, rests, now):
+        self._silent_at = now + self._silence_s
+        if not self._hears:
+            self._hears = True
             self._wake()  # the watch over the silence begins
-        self._released = neutral and (
-            velocity is None or not self._parameters.require_enable_button
-        )
-        if not self.armed:
-            self.armed = self._released
-            if not self.armed:
-                return self._refuse(NOT_ARMED, now)
+        if not self.arming.hear(rests, now):
+            return self._refuse(self._unarmed, now)
         if velocity is None:
             return self._refuse(ARMED, now)
 
-        self.state = DRIVING
+        if not self._is_warned:
+            self.state = DRIVING
         if self._stopping:
-            self._stopping, self._next_output = False, None
+            self._stopping, self._next_output = False, math.inf
         if not self._gradual:
             return self._send(velocity)
         self._target = velocity
         # While the velocity changes, tick() sends it at a steady rate.
-        return self._step(now) if self._next_output is None else None
+        return self._step(now) if self._next_output == math.inf else None
 
     def reject(self, now):
         """A bad message came: stop. It is no sign of life."""
-        self._released = False
+        self.arming.rests = False
         return self._refuse(BAD_MESSAGE, now)
+
+    def latch(self, now):
+        """The stop button is pressed: send zeros until reset(), and so hold a multiplexer, too."""
+        if self.latched:
+            return None
+        button = self._parameters.stop_reset_button
+        what = f"the stop button was pressed; to go on, press button {button}, then release all"
+        self._warn(f"Stopped: {what}.")
+        self._forget(f"stopped: {what}")
+        self.arming.lose()
+        self.latched = self._stopping = True
+        self._repeats = math.inf
+        return self._repeat(now)
+
+    def reset(self):
+        """The reset button is pressed: the robot moves again after all was seen released."""
+        self.latched, self._repeats = False, 1
+        self.state = self._unarmed = NOT_ARMED
 
     @property
     def _silence(self):
-        return f"no message for {self._parameters.joy_timeout:g} s"
+        return f"no message for {self._silence_s:g} s"
+
+    @property
+    def _stillness(self):
+        return (
+            f"the joystick has not changed for {self._stillness_s:g} s, it may be out of reach; "
+            "release the sticks and the dead-man button once"
+        )
 
     def lost(self, why, now):
-        """The joystick cannot be relied upon any more: stop, and arm anew if so configured."""
-        if self._heard is None:
+        """The joystick cannot be relied upon any more: stop, and disarm if so configured."""
+        if not self._hears:
             return None
-        self._heard = None
-        self._released = False
-        self.armed = not self._parameters.arm_on_neutral
-        self.state = f"stopped: {why}"
+        self._forget(f"stopped: {why}")
+        self._unarmed = self.state if why == self._stillness else NOT_ARMED
+        if self._parameters.arm_on_neutral:
+            self.arming.lose()
         # A robot that stands needs no zero, and its multiplexer no claim to drive it.
-        stands = self._sent == ZERO and self._next_output is None
+        stands = self._sent == ZERO and self._next_output == math.inf
         return None if stands else self._stop(now)
+
+    def _forget(self, state):
+        self.state = state
+        self._hears, self._silent_at = False, math.inf
+        self.arming.rests = False
 
     def tick(self, now):
         """Time has passed: send what is due."""
         if now >= self._silent_at:
             return self.lost(self._silence, now)
-        if self._next_output is None or now < self._next_output:
+        if self._sent != ZERO and now >= self._still_at - WARNS_BEFORE_S:
+            if now >= self._still_at:
+                return self.lost(self._stillness, now)
+            if not self._is_warned:
+                self._is_warned = True
+                what = f"the joystick does not change: the robot stops in {WARNS_BEFORE_S:g} s"
+                self.state = f"{DRIVING}: {what}, move a stick"
+                self._warn(f"{what[0].upper()}{what[1:]}. Move a stick, or go nearer.")
+        if now < self._next_output:
             return None
         return self._repeat(now) if self._stopping else self._step(now)
 
@@ -143,7 +194,7 @@ class Safety:
         self.state = why
         if self._parameters.require_enable_button:
             return self._stop(now)
-        self._next_output = None
+        self._next_output = math.inf
         return self._send(ZERO)
 
     def _stop(self, now):
@@ -155,19 +206,21 @@ class Safety:
 
     def _repeat(self, now):
         self._repeats -= 1
-        self._schedule(now if self._repeats else None)
+        self._schedule(now + self._period if self._repeats else math.inf)
         return self._send(ZERO)
 
     def _step(self, now):
         velocity = approach(self._sent, self._target, *self._changes)
         rests = velocity == self._target == ZERO
-        self._schedule(None if rests else now)
+        self._schedule(math.inf if rests else now + self._period)
         return self._send(velocity)
 
-    def _schedule(self, now):
-        self._next_output = None if now is None else now + self._period
+    def _schedule(self, next_output):
+        self._next_output = next_output
         self._wake()
 
     def _send(self, velocity):
-        self._sent = velocity
+        before, self._sent = self._sent, velocity
+        if self._watches_stillness and before == ZERO != velocity:
+            self._wake()
         return velocity

@@ -27,7 +27,7 @@ class Teleoperation:
         self._parameters = parameters
         self._warn = warn
         self._mapping = Mapping(parameters)
-        self._safety = Safety(parameters, wake)
+        self._safety = Safety(parameters, wake, warn)
         self._hints = GamepadHints(parameters)
         self._knows_gamepad = False
         self._may_warn = Throttle(1.0 / WARNING_PERIOD_S)
@@ -36,6 +36,7 @@ class Teleoperation:
         self._resumption = Resumption()
         self._messages = 0
         self._last_message = None
+        self._last = None  # axes and buttons of the last good message
         self._last_summary = (0, None)  # the messages until then, and when
 
     def joy(self, axes, buttons, now, age_ns=0, sender=None):
@@ -44,6 +45,8 @@ class Teleoperation:
         age_ns: [ns] since its stamp; ignored unless max_joy_age is set. sender: an object, which
         tells one joystick node from another.
         """
+        if self._mapping.stops(buttons):
+            return self._safety.latch(now)
         if self._resumption.is_old(now):
             return None
         self._messages += 1
@@ -55,16 +58,20 @@ class Teleoperation:
         except BadJoyError as error:
             if self._may_warn.ready(now):
                 self._warn(f"Stopping: a joystick message is unusable, {error}.")
-            return self._safety.reject(now)
+            return None if self._safety.latched else self._safety.reject(now)
+        if self._safety.latched:
+            if self._mapping.resets(buttons):
+                self._safety.reset()
+            return None
         if not self._knows_gamepad:
             self._look_at_gamepad(axes)
-        # Only what arms, or frees a robot that was lost, is looked at this closely.
-        p = self._parameters
-        matters = p.arm_on_neutral and (
-            velocity is None or not p.require_enable_button or not self._safety.armed
-        )
-        neutral = matters and self._mapping.is_neutral(axes)
-        return self._safety.drive(velocity, neutral, now, sender)
+        matters = self._parameters.arm_on_neutral or not self._safety.arming.armed
+        rests = matters and self._mapping.rests(axes, velocity)
+        changed = False
+        if self._parameters.vigilance_timeout:
+            last, self._last = self._last, (axes, buttons)
+            changed = last != self._last
+        return self._safety.drive(velocity, rests, now, sender, changed)
 
     def suspended(self, number, now):
         """This node was suspended so many times so far. Returns the velocity to send at once."""
@@ -107,6 +114,11 @@ class Teleoperation:
         return self._safety.tick(now)
 
     @property
+    def state(self):
+        """What it does, in words for /diagnostics."""
+        return self._safety.state
+
+    @property
     def due(self):
         """When tick() must be called next [s]."""
         return self._safety.due
@@ -117,7 +129,7 @@ class Teleoperation:
 
     def summary(self, now):
         """For diagnostics: whether all is well, the state, and details by name."""
-        state = self._safety.state
+        state = self.state
         messages, since = self._last_summary
         self._last_summary = (self._messages, now)
         rate = (self._messages - messages) / (now - since) if since not in (None, now) else 0.0

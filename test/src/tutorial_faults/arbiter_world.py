@@ -1,6 +1,6 @@
-"""Every state of the multiplexer's rules (Arbiter, LateGuard, Resumption), judged by (c) to (f).
+"""Every state of the multiplexer's rules (Arbiter, Arming, Resumption), judged by (c) to (f).
 
-Clocks: when each input falls silent, one for each guard, the end of a suspension's settling.
+Clocks: when each input falls silent, one for each sender, the end of a suspension's settling.
 Thresholds: timeouts of 0.5 s and 0.25 s, REARM_S 0.5 s, SETTLING_S 0.25 s. What the node adds, the
 order in which it asks them, is done here as there.
 """
@@ -8,13 +8,14 @@ order in which it asks them, is done here as there.
 import math
 from typing import NamedTuple, Tuple
 
-from fake_turtlebot_sim.mux.arbitration import Arbiter, Input, LateGuard, Verdict
+from fake_turtlebot_sim.mux.arbitration import REARM_S, Arbiter, Input, Verdict
+from node_kit.arming import Arming
 from node_kit.resumption import SETTLING_S, Resumption
 from tutorial_faults.events import Command, Through, Violation
 from tutorial_faults.explore import Moment, copy_of, key_of, until
 from tutorial_faults.invariants import REST_S, HighestSpeaks, NeverLate, WithinLimits, moves
 
-HORIZON_S = REST_S + 1e-6  # the guards ask for more than REST_S
+HORIZON_S = REST_S + 1e-6  # the silence that counts is more than REST_S
 ZERO, FORWARD = (0.0,) * 6, (0.5,) + (0.0,) * 5
 NOT_FINITE = (math.nan,) + (0.0,) * 5
 PASS, LOOK, SUSPENDED = "time passes", "look", "suspended"
@@ -79,7 +80,7 @@ class ArbiterWorld:
         new = copy_of(self)
         new._arbiter = arbiter = copy_of(self._arbiter)
         arbiter._expiry_s = dict(arbiter._expiry_s)
-        arbiter._guards = {key: copy_of(guard) for key, guard in arbiter._guards.items()}
+        arbiter._senders = {key: copy_of(one) for key, one in arbiter._senders.items()}
         new._resumption = copy_of(self._resumption)
         new._late = {key: copy_of(one) for key, one in self._late.items()}
         new._speaks = copy_of(self._speaks)
@@ -88,14 +89,20 @@ class ArbiterWorld:
 
     def key(self):
         """All that decides what comes. spoke_s: the same clocks as _expiry_s, if all is well."""
-        now, arbiter, guards = self._now, self._arbiter, self._arbiter._guards
-        parts = {"_inputs", "_expiry_s", "_guards"}
+        now, arbiter, known = self._now, self._arbiter, self._arbiter._senders
+        parts = {"_inputs", "_expiry_s", "_senders"}
         # Of two senders on one input it does not matter which is which.
-        new = LateGuard()
+        new = Arming(rest_s=REARM_S)
         senders = [
             (
                 name,
-                key_of(guards.get((name, sender), new), now, HORIZON_S, past={"_since_s"}),
+                key_of(
+                    known.get((name, sender), new),
+                    now,
+                    HORIZON_S,
+                    past={"since"},
+                    without={"_rest_s"},
+                ),
                 key_of(one, now, HORIZON_S, past={"last_s", "rests_since_s"}, without={"_rest_s"}),
             )
             for (name, sender), one in self._late.items()
@@ -126,7 +133,7 @@ class ArbiterWorld:
         if event == SUSPENDED:
             assert self._resumption.notice(self._resumption._seen + 1, self._now)
             self._sent, self._settled_s = ZERO, self._now + SETTLING_S
-            self._arbiter.lost(self._now)
+            self._arbiter.lost()
             for one in self._late.values():
                 one.lost(self._now)
             return []

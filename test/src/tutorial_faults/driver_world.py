@@ -45,6 +45,7 @@ BYTES = {
 # What is fixed, what is only for the user, and the parts that have keys of their own.
 NOT_IN_KEY = {
     "_parameters", "_state", "_schedule", "_decoder", "_triggers", "events", "unknown_events",
+    "heard_at",
 }  # fmt: skip
 PASS, TICK, LOST = "time passes", "tick", "lost"
 OPEN = {"open: of the kernel": True, "open: a virtual one": False}

@@ -23,7 +23,7 @@ from typing import Any, Dict, List, NamedTuple, Tuple
 from tutorial_faults.events import Violation
 
 LONG_AGO, OVER = "long ago", "over"
-SHOWN_EVENTS = 12  # of the way to a violation, at most, in the text
+SHOWN_EVENTS = 30  # of the way to a violation, at most, in the text
 
 
 class Moment(int):

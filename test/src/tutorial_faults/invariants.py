@@ -34,28 +34,49 @@ def judged(events: Iterable, *invariants) -> List[Violation]:
 
 
 class HeldDeadMan:
-    """(a) Nothing moves without a dead-man held in a message younger than joy_timeout."""
+    """(a) Nothing moves without a dead-man held in a message younger than joy_timeout, of a
+    joystick that has changed within vigilance_timeout.
+    """
 
-    def __init__(self, joy_timeout_s: float, holds: Callable[[Joy], bool], slack_s: float = 0.0):
-        """joy_timeout_s: [s], 0 for none. holds: whether a Joy is good and holds the dead-man."""
+    def __init__(
+        self,
+        joy_timeout_s: float,
+        holds: Callable[[Joy], bool],
+        slack_s: float = 0.0,
+        vigilance_s: float = 0.0,
+        is_good: Callable[[Joy], bool] = lambda joy: True,
+    ):
+        """joy_timeout_s, vigilance_s: [s], 0 for none. holds: whether a Joy is good and holds the
+        dead-man. is_good: whether it is good.
+        """
         self._lasts_s = joy_timeout_s or math.inf
-        self._holds = holds
+        self._vigilance_s = vigilance_s or math.inf
+        self._holds, self._is_good = holds, is_good
         self._slack_s = slack_s
-        self.until_s = -math.inf  # the robot may move before this time
+        self.held_s = -math.inf  # the robot may move before this time, if the joystick changes
+        self.still_s = -math.inf  # and before this one
+        self.shown = None  # axes and buttons of the newest good message
         self.settled_s = -math.inf  # what comes before is old
+
+    @property
+    def until_s(self):
+        """The robot may move before this time."""
+        return min(self.held_s, self.still_s)
 
     def take(self, event) -> Optional[Violation]:
         """Take a Joy, a Twist or a Loss; after one that settles nothing counts that came before."""
         if isinstance(event, Loss) and event.settles_s:
-            self.until_s = min(self.until_s, event.at_s + self._slack_s)
+            self.held_s = min(self.held_s, event.at_s + self._slack_s)
             self.settled_s = max(self.settled_s, event.at_s + event.settles_s)
-        elif isinstance(event, Joy):
-            if event.at_s < self.settled_s:
-                pass
-            elif self._holds(event):
-                self.until_s = event.at_s + self._lasts_s + self._slack_s
+        elif isinstance(event, Joy) and event.at_s >= self.settled_s:
+            if self._is_good(event):
+                shown, self.shown = self.shown, (event.axes, event.buttons)
+                if shown != self.shown:
+                    self.still_s = event.at_s + self._vigilance_s + self._slack_s
+            if self._holds(event):
+                self.held_s = event.at_s + self._lasts_s + self._slack_s
             else:
-                self.until_s = min(self.until_s, event.at_s + self._slack_s)
+                self.held_s = min(self.held_s, event.at_s + self._slack_s)
         elif isinstance(event, Twist) and moves(event.velocity) and event.at_s >= self.until_s:
             return Violation("a", event.at_s, f"{event.velocity} without a dead-man held")
         return None
@@ -202,7 +223,7 @@ class NeverLate:
         if self.moving and now - self.last_s > self._rest_s:
             self.held = True
         if moves(velocity):
-            self.held = self.held and not now - self.rests_since_s > self._rest_s
+            self.held = self.held and now - self.rests_since_s < self._rest_s
             self.rests_since_s = math.inf
         elif self.moving:
             self.rests_since_s = now

@@ -9,21 +9,24 @@ LARGEST = 1e6  # a length of all axes beyond this is noise
 class Meaning:
     """Whether a Joy is good, holds the dead-man, has all released."""
 
-    def __init__(self, axes, enable=-1, turbo=-1, needs_dead_man=True, max_age_s=0.0):
-        """axes: numbers of those that drive. enable, turbo: buttons, -1 for none.
+    def __init__(
+        self, axes, enable=-1, turbo=-1, needs_dead_man=True, *, max_age_s=0.0, stop=-1, reset=-1
+    ):
+        """axes: numbers of those that drive. enable, turbo, stop, reset: buttons, -1 for none.
 
         needs_dead_man: else every good message may move the robot. max_age_s: [s], 0 for any.
         """
         self._axes = axes
         self._dead_men = [button for button in (enable, turbo) if button >= 0]
         self._needs_dead_man = needs_dead_man
+        self._stop, self._reset = stop, reset
         self._max_age_s = max_age_s or math.inf
 
     def is_good(self, joy) -> bool:
         """Whether it has all that is needed, only usable numbers, and is not too old."""
         return (
             len(joy.axes) > max(self._axes)
-            and len(joy.buttons) > max(self._dead_men, default=-1)
+            and len(joy.buttons) > max([*self._dead_men, self._stop, self._reset])
             and all(map(math.isfinite, joy.axes))
             and math.hypot(*joy.axes) <= LARGEST
             and joy.age_s <= self._max_age_s
@@ -37,6 +40,14 @@ class Meaning:
         """Whether it is good and has the sticks and, where there is one, the dead-man released."""
         sticks = self.is_good(joy) and all(abs(joy.axes[axis]) <= RELEASED for axis in self._axes)
         return sticks and not (self._needs_dead_man and self._presses(joy))
+
+    def stops(self, joy) -> bool:
+        """Whether the stop button is pressed, in whatever message."""
+        return any(joy.buttons[self._stop : self._stop + 1]) if self._stop >= 0 else False
+
+    def resets(self, joy) -> bool:
+        """Whether it is good and has the reset button pressed, and not the stop button."""
+        return self.is_good(joy) and not self.stops(joy) and bool(joy.buttons[self._reset])
 
     def _presses(self, joy):
         return any(joy.buttons[button] for button in self._dead_men)

@@ -1,7 +1,8 @@
 """Every state of Teleoperation (Mapping, Safety, arming), judged by (a), (b), (c) and (d).
 
-Clocks: the last good message, the next output, the end of a suspension's settling; the invariants
-have the same. Thresholds: joy_timeout 0.5 s, the period of the output 0.25 s, SETTLING_S 0.25 s.
+Clocks: the last good message, the next output, the end of a suspension's settling, and with a
+vigilance_timeout the last change of the joystick; the invariants have the same. Thresholds:
+joy_timeout 0.5 s, the period of the output 0.25 s, SETTLING_S 0.25 s, vigilance_timeout 0.75 s.
 """
 
 import math
@@ -16,7 +17,7 @@ from tutorial_faults.explore import Moment, copy_of, key_of, until
 from tutorial_faults.invariants import HeldDeadMan, SeenReleased, WithinLimits, moves
 from tutorial_faults.meaning import Meaning
 
-STEP_S = 0.0625  # 0.25 s for three clocks
+STEP_S, VIGILANT_STEP_S = 0.0625, 0.05  # 0.25 s for three clocks, and for four
 OLD_S = 0.4  # more than max_joy_age
 BASE = {
     "enable_button": 0, "enable_turbo_button": 1, "scale_linear": 0.5, "joy_timeout": 0.5,
@@ -26,6 +27,7 @@ BASE = {
 ARMING = {**BASE, "arm_on_neutral": True}
 NO_DEAD_MAN = {"enable_button": -1, "enable_turbo_button": -1}
 TURBO_ALONE = {"enable_button": -1, "enable_turbo_button": 0, "require_enable_button": True}
+STOP_BUTTON = {"stop_button": 2, "stop_reset_button": 3}
 RAMP = {"max_linear_acceleration": 1.0, "max_angular_acceleration": 2.0}
 # What decides which way a message takes.
 CONFIGURATIONS = {
@@ -36,6 +38,10 @@ CONFIGURATIONS = {
     "no turbo": {**BASE, "enable_turbo_button": -1},
     "turbo alone, arming": {**ARMING, **TURBO_ALONE},
     "no timeout, arming": {**ARMING, "joy_timeout": 0},
+    "vigilance, arming": {**ARMING, "vigilance_timeout": 0.75},
+    "vigilance, no dead-man": {**ARMING, **NO_DEAD_MAN, "vigilance_timeout": 0.75},
+    "stop button": {**BASE, **NO_DEAD_MAN, **STOP_BUTTON},
+    "stop button, arming": {**ARMING, **STOP_BUTTON},
     "ramp, arming": {**ARMING, **RAMP},
     "ramp, no dead-man": {**BASE, **NO_DEAD_MAN, **RAMP},
 }
@@ -51,6 +57,7 @@ class Message(NamedTuple):
 
 
 STICK, BACK, WORN = (0.0, 1.0), (0.5, -1.0), (0.05, 0.0)
+TREMBLING = (0.0, 1.0 - 2.0**-15)  # by one step of 65,536
 MESSAGES = {
     "neutral": Message("ada", (0.0, 0.0), (0, 0)),
     "LB": Message("ada", (0.0, 0.0), (1, 0)),
@@ -67,12 +74,23 @@ MESSAGES = {
     "another's LB": Message("bob", (0.0, 0.0), (1, 0)),
     "another's LB and stick": Message("bob", STICK, (1, 0)),
 }
+TREMBLES = {"LB and stick, trembling": Message("ada", TREMBLING, (1, 0))}
+STOPS = {
+    "stop": Message("ada", (0.0, 0.0), (0, 0, 1, 0)),
+    "stop in a bad message": Message("ada", (math.nan,), (1, 0, 1)),
+    "reset": Message("ada", (0.0, 0.0), (0, 0, 0, 1)),
+    "reset with LB and stick": Message("ada", STICK, (1, 0, 0, 1)),
+    "stop and reset": Message("ada", (0.0, 0.0), (0, 0, 1, 1)),
+}
 # What is fixed, what is only for the user, and the parts that have keys of their own.
 NOT_IN_KEY = {
     "_parameters", "_warn", "_mapping", "_safety", "_hints", "_knows_gamepad", "_may_warn",
     "_max_age_ns", "_unheard_since", "_resumption", "_messages", "_last_message", "_last_summary",
 }  # fmt: skip
-FIXED_IN_SAFETY = {"_parameters", "_wake", "_period", "_gradual", "_changes", "state"}
+FIXED_IN_SAFETY = {
+    "_parameters", "_wake", "_warn", "_period", "_gradual", "_changes", "_silence_s",
+    "_stillness_s", "_watches_stillness", "_unarmed", "state", "arming",
+}  # fmt: skip
 FIXED_IN_RELEASED = {"_is_good", "_is_released", "disarmed_s", "settled_s"}  # Resumption's
 PASS, TICK, LEFT, SUSPENDED = "time passes", "tick", "left", "suspended"
 EVENTS = {**{name: name for name in (PASS, TICK, LEFT, SUSPENDED)}, **MESSAGES}
@@ -81,10 +99,23 @@ WITHOUT_RAMP = (
     "stick", "turbo and stick", "LB and infinity", "too few axes", "too few buttons",
     "LB and stick, old", "another's neutral, worn", "another's LB",
 )  # fmt: skip
+# With one clock more there are many times more states, too. Suspensions beside it are left to the
+# stateful machines.
+VIGILANT = (PASS, TICK, LEFT, "neutral", "LB and stick", "LB and NaN", "another's neutral, worn")
 
 
 def events_of(name):
     """The events for one of the CONFIGURATIONS."""
+    if name.startswith("vigilance"):
+        return {**{event: EVENTS[event] for event in VIGILANT}, **TREMBLES}
+    if name.startswith("stop button"):
+        padded = {
+            event: what._replace(buttons=(*what.buttons, 0, 0))
+            if what in MESSAGES.values()
+            else what
+            for event, what in EVENTS.items()
+        }
+        return {**padded, **STOPS}
     return {
         event: what
         for event, what in EVENTS.items()
@@ -107,9 +138,15 @@ class TeleoperationWorld:
         self._has_moved = False
         self._all_released = True  # by the last message, if no loss came after it
         meaning = self._meaning = Meaning(
-            (0, 1), p.enable_button, p.enable_turbo_button, p.require_enable_button, p.max_joy_age
+            (0, 1), p.enable_button, p.enable_turbo_button, p.require_enable_button,
+            max_age_s=p.max_joy_age, stop=p.stop_button, reset=p.stop_reset_button,
+        )  # fmt: skip
+        self._held = HeldDeadMan(
+            p.joy_timeout, meaning.holds, 0.0, p.vigilance_timeout, meaning.is_good
         )
-        self._held = HeldDeadMan(p.joy_timeout, meaning.holds)
+        self._step_s = VIGILANT_STEP_S if p.vigilance_timeout else STEP_S
+        self._latched = False  # the stop button was pressed, and not yet the reset button
+        self._is_reset = True  # since then all was seen released after the reset button, too
         self._armed = SeenReleased(p.joy_timeout, meaning.is_good, meaning.is_released)
         self._limits = WithinLimits(p.max_linear_speed or math.inf, p.max_angular_speed or math.inf)
 
@@ -117,7 +154,8 @@ class TeleoperationWorld:
         """A World of its own, with what does not change shared."""
         new = copy_of(self)
         new._machine = machine = copy_of(self._machine)
-        machine._safety = copy_of(machine._safety)
+        machine._safety = safety = copy_of(machine._safety)
+        safety.arming = copy_of(safety.arming)
         machine._resumption = copy_of(machine._resumption)
         new._held, new._armed = copy_of(self._held), copy_of(self._armed)
         return new
@@ -128,11 +166,14 @@ class TeleoperationWorld:
         return (
             key_of(machine, now, without=NOT_IN_KEY),
             key_of(
-                machine._safety, now, timeout_s, past={"_heard"}, future={"_next_output"},
+                machine._safety, now, future={"_next_output", "_silent_at", "_still_at"},
                 without=FIXED_IN_SAFETY,
             ),
+            (machine._safety.arming.armed, machine._safety.arming.rests),
             until(now, machine._resumption._settled_at),
-            until(now, self._held.until_s),
+            (until(now, self._held.held_s), until(now, self._held.still_s)),
+            (self._latched, self._is_reset),
+            self._held.shown if self._parameters.vigilance_timeout else None,
             key_of(self._armed, now, timeout_s, past={"heard_s"}, without=FIXED_IN_RELEASED),
             (self._sent, self._zeros, self._has_moved, self._all_released),
         )  # fmt: skip
@@ -140,12 +181,14 @@ class TeleoperationWorld:
     def take(self, event):
         """Let one thing happen (a number: seconds pass); what is wrong with what comes of it."""
         if event == PASS or isinstance(event, float):
-            self._now += STEP_S if event == PASS else event
+            self._now += self._step_s if event == PASS else event
             return []
         self._woken.clear()
         due, sent, was_late = self._machine.due, self._sent, self._is_silent
         if event == TICK:
             self._all_released = self._all_released and not was_late
+            if moves(sent) and self._now >= self._held.still_s:
+                self._lose(Loss(self._now, "joystick that does not change"))
             answer = self._machine.tick(self._now)
         elif event == LEFT:
             self._lose(Loss(self._now, "joystick node"))
@@ -190,6 +233,15 @@ class TeleoperationWorld:
             self._all_released = self._meaning.is_released(joy)
         self._held.take(joy)
         self._armed.take(joy)
+        wants = self._meaning.holds(joy) and moves(joy.axes[:2])
+        if wants and joy.at_s >= max(self._held.still_s, self._armed.settled_s):
+            self._lose(Loss(self._now, "joystick that does not change"))
+        if self._meaning.stops(joy) or self._latched:
+            self._is_reset = False
+            self._latched = joy.at_s < self._armed.settled_s or not self._meaning.resets(joy)
+            self._lose(Loss(self._now, "stop button"))
+        elif self._all_released:
+            self._is_reset = True
         return self._machine.joy(
             joy.axes, joy.buttons, self._now, round(joy.age_s * 1e9), joy.sender
         )
@@ -217,6 +269,8 @@ class TeleoperationWorld:
                 yield "d", "no stop, though all must be seen released first"
             if event in (LEFT, SUSPENDED):
                 yield "d", f"no stop, though: {event}"
+            if not self._is_reset:
+                yield "d", "no stop, though the stop button was pressed"
             if self._machine.due > self._held.until_s:
                 yield "d", "silence will be noticed too late"
         if self._machine.released and self._has_moved:
@@ -229,6 +283,8 @@ class TeleoperationWorld:
         """Whether the node is called in time, and stops are repeated."""
         if self._machine.due < due and not self._woken:
             yield "d", "something is due sooner, and the node sleeps on"
+        if self._latched and self._machine.due > self._now + 1.0 / self._parameters.output_rate:
+            yield "e", "a robot that was stopped for good is left to others"
         if event == TICK and self._never_sleeps():
             yield "d", "the node is never let sleep"
         p = self._parameters
@@ -250,6 +306,7 @@ class TeleoperationWorld:
         if not isinstance(event, Message) or self._ramps or self._now < self._armed.settled_s:
             return
         may = self._meaning.holds(Joy(self._now, *event)) and (self._armed.armed or not self._arms)
+        may = may and self._now < self._held.still_s and self._is_reset
         wants = moves(event.axes[:2])
         if may and wants and not was_late and not moves(answer or ZERO):
             yield "h", "the dead-man is held, and the robot is not driven"

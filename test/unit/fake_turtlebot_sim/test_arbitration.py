@@ -13,9 +13,10 @@ from fake_turtlebot_sim.mux.arbitration import (
     ZERO,
     Arbiter,
     Input,
-    LateGuard,
     Verdict,
+    admits,
 )
+from node_kit.arming import Arming
 
 SAFETY = Input("safety", "input/safety", 0.2, 10)
 TELEOP = Input("teleop", "input/teleop", 1.0, 7)
@@ -220,22 +221,22 @@ LATE_STORIES = {
 
 @pytest.mark.parametrize("story", LATE_STORIES.values(), ids=LATE_STORIES)
 def test_late_commands(story):
-    guard = LateGuard()
+    sender = Arming(rest_s=REARM_S)
     for now, speed, moves in story:
-        assert guard.admits((speed, 0.0), now) is moves, now
+        assert admits(sender, (speed, 0.0), now) is moves, now
 
 
 @given(st.lists(st.tuples(st.floats(0.0, 1.0), SPEEDS)))
 def test_after_silence_in_a_motion_only_a_rest_sets_free(events):
-    guard, now, held = LateGuard(), 0.0, False
+    sender, now, held = Arming(rest_s=REARM_S), 0.0, False
     heard_s, speed_before, rest_s = -inf, 0.0, -inf  # rest_s: since when nothing but zero came
     for pause_s, speed in events:
         now += pause_s
         if speed_before and now - heard_s > REARM_S:
             held = True
-        if speed and not speed_before and now - rest_s > REARM_S:
+        if speed and not speed_before and now - rest_s >= REARM_S:
             held = False
-        assert guard.admits((speed,), now) is not (held and speed != 0.0)
+        assert admits(sender, (speed,), now) is not (held and speed != 0.0)
         if speed == 0.0 and speed_before:
             rest_s = now
         heard_s, speed_before = now, speed
@@ -246,10 +247,10 @@ def test_after_silence_in_a_motion_only_a_rest_sets_free(events):
 )
 def test_not_one_command_of_a_late_burst_moves(silence_s, burst):
     """Whatever is in the burst and however it is spread over half a second."""
-    guard = LateGuard()
-    guard.admits((0.2,), 0.0)
+    sender = Arming(rest_s=REARM_S)
+    admits(sender, (0.2,), 0.0)
     late = [(silence_s + after_s, speed) for after_s, speed in sorted(burst)]
-    assert not any(guard.admits((speed,), now) and speed for now, speed in late)
+    assert not any(admits(sender, (speed,), now) and speed for now, speed in late)
 
 
 def test_only_inputs_that_ask_for_it_must_rearm():
@@ -286,7 +287,7 @@ def test_after_the_robot_was_lost_a_sender_moves_it_only_after_a_rest(rested_bef
     arbiter = Arbiter([Input("teleop", "input/teleop", 1.0, 7, rearm_on_zero=True), NAVI])
     for name in ("teleop", "navi"):
         arbiter.command(name, (0.0 if rested_before else 0.2,), 0.0)
-    arbiter.lost(0.3)
+    arbiter.lost()
     assert arbiter.command("teleop", (0.2,), 0.4) is Verdict.LATE
     assert arbiter.command("teleop", (0.2,), 5.0) is Verdict.LATE  # silence is no rest
     assert arbiter.command("teleop", (0.0,), 5.1) is THROUGH

@@ -47,6 +47,16 @@ def test_rosbag_takes_it():
         assert done.stdout.strip() in ("Bag file does not need any migrations.", "2760")
 
 
+def test_a_held_stick_never_rests_for_long(messages):
+    """So no ~vigilance_timeout stops a robot that it drives."""
+    still = longest = 0
+    for (_, before), (_, joy) in zip(messages, messages[1:]):
+        same = (joy.axes == before.axes).all() and (joy.buttons == before.buttons).all()
+        still = still + 1 if same and joy.axes.any() else 0
+        longest = max(longest, still)
+    assert longest * PERIOD_S < 0.1
+
+
 def test_it_is_an_f710_in_d_mode_at_50_hz(messages):
     assert {(len(joy.axes), len(joy.buttons)) for _, joy in messages} == {(6, 12)}
     times = [time_ns for time_ns, _ in messages]

@@ -1,10 +1,12 @@
 """The virtual gamepad: which one it is, and the FIFO that it serves."""
 
 import os
+import struct
 
 import pytest
 
 from gamepad.gamepads import F710, F710_D, F710_X, mode_hint, trigger_axes
+from gamepad.trembling import Trembling
 from gamepad.virtual.controls import Controls, positions
 from gamepad.virtual.pads import PadError, StreamPad
 
@@ -56,3 +58,22 @@ def test_a_fifo_is_served_by_one_gamepad_only(tmp_path):
         assert os.path.exists(path)
         os.close(reader)
     assert not os.path.exists(path)
+
+
+@pytest.mark.parametrize("pad", F710.values(), ids=F710)
+def test_a_held_stick_trembles_by_one_step_and_nothing_else_does(pad):
+    held = [
+        axis.raw(position) for axis, position in zip(pad.axes, (1.0, -0.5, 1.0, 0.0, -1, 1, 1, 1))
+    ]
+    steps = [new - old for new, old in zip(pad.trembled(held), held)]
+    assert steps == ([1, -1, 1, 0, 0, 0] if pad is F710_D else [1, -1, 0, 0, -1, 0, 0, 0])
+
+
+def test_one_of_many_equal_messages_trembles_by_the_last_bit():
+    trembling, held = Trembling(), (1.0, -0.5, 0.0)
+    shown = [struct.pack("<3f", *trembling.shown(held)) for _ in range(20)]
+    told = [k for k, data in enumerate(shown) if data != struct.pack("<3f", *held)]
+    assert told == [7, 15]
+    assert struct.unpack("<3f", shown[7]) == pytest.approx(held, rel=2e-7)
+    assert struct.unpack("<3f", shown[7])[2] == 0.0
+    assert trembling.shown((0.5, 0.0, 0.0)) == (0.5, 0.0, 0.0)

@@ -125,7 +125,7 @@ def test_speed_limits_hold_for_the_length_of_the_vector():
         ({}, (0.5,), (), "no axis 1 (-> linear.x): it has 1 axes"),
         ({}, (), (), "no axis"),
         ({"axis_linear": 9}, AXES, (), "no axis 9 (-> linear.x): it has 6 axes"),
-        (PAD, AXES, (1,), "no button 1 (enable or turbo): it has 1 buttons"),
+        (PAD, AXES, (1,), "no button 1 (enable, turbo, stop or reset): it has 1 buttons"),
         ({}, (0.0, float("nan")), (), "nan"),
         ({}, (0.0, 0.1, float("nan")), (), "nan"),
         ({}, (float("inf"), float("-inf")), (), "inf"),
@@ -145,11 +145,36 @@ def test_the_largest_value_that_is_no_noise():
         mapping.velocity((0.0, 1e6 + 0.5), ())
 
 
-def test_neutral_looks_only_at_the_axes_in_use():
+def test_a_rest_looks_only_at_the_axes_in_use():
     mapping = Mapping(load({}))
-    assert mapping.is_neutral((0.05, -0.1, 1.0, -1.0))  # triggers rest at the end
-    assert not mapping.is_neutral((0.0, 0.11, 0.0, 0.0))
-    assert not mapping.is_neutral((-0.2, 0.0, 0.0, 0.0))
+    assert mapping.rests((0.05, -0.1, 1.0, -1.0), (0,) * 6)  # triggers rest at the end
+    assert not mapping.rests((0.0, 0.11, 0.0, 0.0), (0,) * 6)
+    assert not mapping.rests((-0.2, 0.0, 0.0, 0.0), (0,) * 6)
+
+
+def test_a_rest_needs_a_released_dead_man():
+    mapping = Mapping(load({"enable_button": 0}))
+    assert mapping.rests((0.0, 0.0), mapping.velocity((0.0, 0.0), (0,)))
+    assert not mapping.rests((0.0, 0.0), mapping.velocity((0.0, 0.0), (1,)))
+
+
+@pytest.mark.parametrize(
+    ("curve", "axis", "speed"),
+    [(1, 0.5, 0.5), (2, 0.5, 0.25), (2, -0.5, -0.25), (3, 0.5, 0.125), (3, 1.0, 1.0), (2, 0, 0)],
+)
+def test_a_curve_is_gentle_near_the_middle_and_keeps_the_ends(curve, axis, speed):
+    mapping = Mapping(load({"axis_curve": curve}))
+    assert mapping.velocity((-axis, axis), ()) == (speed, 0, 0, 0, 0, -speed)
+
+
+def test_the_stop_button_counts_in_a_message_that_is_cut_and_wins_over_reset():
+    mapping = Mapping(load({"stop_button": 1, "stop_reset_button": 2}))
+    assert mapping.stops((0, 1))
+    assert not mapping.stops((0,))
+    assert not mapping.stops((0, 0, 1))
+    assert mapping.resets((0, 0, 1))
+    assert not mapping.resets((0, 1, 1))
+    assert not Mapping(load({})).stops((1, 1, 1))
 
 
 def test_the_mapping_in_words():

@@ -149,6 +149,54 @@ def test_who_leaves_stops_the_robot():
     assert machine.summary(0.3)[1] == "stopped: the joystick node has left"
 
 
+HELD, RELEASED = ((0.0, 1.0), (1, 0, 0)), ((0.0, 0.0), (0, 0, 0))
+
+
+@pytest.mark.parametrize("step", [0.0, 2.0**-15])
+def test_a_stick_held_for_eight_seconds_is_stopped_unless_it_trembles(step):
+    """step: of 65,536 in the whole way of an axis, one."""
+    machine, warnings = teleoperation(arm_on_neutral=True, enable_button=0, vigilance_timeout=3.0)
+    machine.joy(*RELEASED, 0.0)
+    sent = []
+    for i in range(1, 161):
+        now = i * 0.05
+        sent += [machine.tick(now), machine.joy((0.0, 1.0 - step * (i % 2)), (1, 0, 0), now)]
+    stopped = (0,) * 6 in sent[20:]
+    assert stopped is (step == 0)
+    assert len(warnings) == stopped
+
+
+@pytest.mark.parametrize("arms", [True, False])
+def test_the_stop_button_stops_until_it_is_reset_and_all_is_released(arms):
+    machine, warnings = teleoperation(
+        enable_button=0, stop_button=1, stop_reset_button=2, arm_on_neutral=arms
+    )
+    machine.joy(*RELEASED, 0.0)
+    assert machine.joy(*HELD, 0.1)[0] == 1.0
+    assert machine.joy((NAN,), (1, 1), 0.2) == (0,) * 6  # in whatever message
+    assert "stop button" in warnings[0]
+    assert machine.joy(*HELD, 0.3) is None
+    assert machine.joy((NAN, 1.0), (1, 0, 1), 0.4) is None  # a bad message resets nothing
+    machine.joy(*RELEASED, 0.5)
+    assert machine.joy(*HELD, 0.6) is None
+    assert machine.tick(0.7) == (0,) * 6
+    machine.joy((0.0, 0.0), (0, 1, 1), 0.8)  # both buttons: no reset
+    assert machine.joy(*HELD, 0.9) is None
+    machine.joy((0.0, 1.0), (1, 0, 1), 1.0)
+    machine.tick(1.05)
+    assert machine.joy(*HELD, 1.1) is None  # reset, but not released
+    machine.joy(*RELEASED, 1.2)
+    assert machine.joy(*HELD, 1.3)[0] == 1.0
+
+
+def test_a_stop_that_was_pressed_during_a_suspension_counts():
+    machine, _ = teleoperation(enable_button=0, stop_button=1, stop_reset_button=2)
+    machine.joy(*HELD, 0.0)
+    machine.suspended(1, 0.1)
+    machine.joy((0.0, 0.0), (0, 1, 0), 0.11)
+    assert "stop button" in machine.summary(0.2)[1]
+
+
 def test_with_arming_all_is_released_first_with_a_dead_man_and_without():
     machine, _ = teleoperation(arm_on_neutral=True, enable_button=0)
     assert machine.joy((0.0, 1.0), (1,), 0.0) == (0,) * 6

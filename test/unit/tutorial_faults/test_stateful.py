@@ -55,12 +55,17 @@ def parameters(draw):
         "enable_turbo_button": turbo,
         "require_enable_button": max(enable, turbo) >= 0 and draw(st.booleans()),
         "arm_on_neutral": draw(st.booleans()),
+        "axis_curve": draw(st.sampled_from([1, 1, 2])),
         "inverted_reverse": draw(st.booleans()),
         "joy_timeout": draw(st.sampled_from([0, 0.02, 0.5, 3.0])),
         "max_joy_age": draw(st.sampled_from([0, 0.3])),
         "stop_messages": draw(st.integers(1, 7)),
         "output_rate": draw(st.floats(1, 1000)),
     }
+    if given["arm_on_neutral"]:
+        given["vigilance_timeout"] = draw(st.sampled_from([0, 0.3, 2.0]))
+    if draw(st.booleans()):
+        given.update(stop_button=2, stop_reset_button=3)
     for name in ("scale_linear", "scale_angular", "scale_linear_turbo"):
         given[name] = draw(st.floats(0.01, 100)) * draw(st.sampled_from([1, -1]))
     for name in ("max_linear_speed", "max_angular_speed"):
@@ -80,7 +85,7 @@ class Teleoperation(World):
     @rule(
         sender=st.sampled_from(["ada", "ada", "ada", "bob"]),
         axes=st.lists(sticks, min_size=2, max_size=4),
-        buttons=st.lists(st.sampled_from([0, 1]), min_size=2, max_size=3),
+        buttons=st.lists(st.sampled_from([0, 0, 1]), min_size=2, max_size=4),
         age=st.sampled_from([0.0, 0.0, 0.0, 0.2, 0.4, -1.0]),
     )
     def joy(self, sender, axes, buttons, age):
@@ -88,7 +93,7 @@ class Teleoperation(World):
 
     @rule(sender=st.sampled_from(["ada", "bob"]))
     def release(self, sender):
-        self.show(Message(sender, (0.0, 0.0), (0, 0)))
+        self.show(Message(sender, (0.0, 0.0), (0, 0, 0, 0)))
 
     @rule(axes=st.lists(any_number, max_size=4), buttons=st.lists(st.sampled_from([0, 1, -1, 7])))
     def noise(self, axes, buttons):

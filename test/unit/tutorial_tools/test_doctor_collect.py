@@ -5,12 +5,13 @@ import io
 import os
 
 import pytest
-from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from geometry_msgs.msg import TransformStamped
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
+from gamepad.driver.report import SILENT_FOR
 from tutorial_tools.doctor import collect
 from tutorial_tools.doctor.facts import Answer, Joystick, MuxInput, Offset
 
@@ -80,6 +81,12 @@ def test_the_state_is_that_of_the_node():
         ("/bob/joy2twist", (False, "waiting"))
     ]
     assert list(collect.states("/ada/joy2twist", [(ARRIVED_S, b"nonsense")])) == []
+
+
+@pytest.mark.parametrize(("told", "silent"), [("12.3", [12.3]), ("not open", [])])
+def test_how_long_a_gamepad_has_been_silent(told, silent):
+    status = DiagnosticStatus(values=[KeyValue(SILENT_FOR, told), KeyValue("topic", "/joy")])
+    assert list(collect.silences([(ARRIVED_S, wire(DiagnosticArray(status=[status])))])) == silent
 
 
 def test_devices(tmp_path):

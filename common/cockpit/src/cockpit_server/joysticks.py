@@ -4,6 +4,7 @@ import rospy
 from sensor_msgs.msg import Joy
 
 from cockpit_server.robots import topic_of
+from gamepad.trembling import Trembling
 from node_kit.prompt_publisher import PromptPublisher
 
 FRAME = "cockpit"
@@ -15,12 +16,14 @@ class Joysticks:
     def __init__(self):
         """Nothing is advertised yet."""
         self._publishers = {}
+        self._trembling = {}  # by robot
         self._message = Joy()
         self._message.header.frame_id = FRAME
 
     def advertise(self, robot):
         """Make the publisher; it may wait for the master."""
         if robot not in self._publishers:
+            self._trembling[robot] = Trembling()
             self._publishers[robot] = PromptPublisher(topic_of(robot, "joy"), Joy)
 
     def send(self, robot, axes, buttons):
@@ -29,5 +32,6 @@ class Joysticks:
         if publisher is None:
             return
         self._message.header.stamp = rospy.Time.now()
-        self._message.axes, self._message.buttons = axes, buttons
+        self._message.axes = self._trembling[robot].shown(axes)
+        self._message.buttons = buttons
         publisher.publish(self._message)

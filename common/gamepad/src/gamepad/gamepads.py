@@ -65,6 +65,15 @@ class Gamepad:
         """The numbers of the axes that are triggers: at rest they are at +1."""
         return trigger_axes([axis.code for axis in self.axes])
 
+    def trembled(self, raws):
+        """The raw values of all axes, those of held sticks one step nearer to the middle."""
+        middles = [int(axis.raw(0.0)) for axis in self.axes]
+        sticks = [i not in self.triggers and a.high - a.low > 2 for i, a in enumerate(self.axes)]
+        return [
+            raw - (raw > middle) + (raw < middle) if is_stick else raw
+            for raw, middle, is_stick in zip(raws, middles, sticks)
+        ]
+
     @property
     def untouched(self):
         """The raw values of all axes when nobody touches the gamepad."""

@@ -95,7 +95,7 @@ UNTIL_RELEASED = (
 class VelocityPublisher(PromptPublisher):
     """Publishes geometry_msgs/Twist; a robot that was lost is not driven on when it is back.
 
-    A subscriber whose network was cut gets no velocity before free() is called; neither does one
+    A subscriber whose network was cut gets no velocity before all is released; neither does one
     that appears in the middle of a motion of a stick that is held, such as a robot started anew.
     """
 
@@ -107,26 +107,25 @@ class VelocityPublisher(PromptPublisher):
         self._holds_new = False  # the last velocity was a motion that nobody new takes part in
         super().__init__(name, Twist)
 
-    @property
-    def holds(self):
-        """Whether a subscriber waits for free()."""
-        return any([peer.held for peer in self._peers.values()])
-
-    def free(self):
-        """All was seen released: drive those again that can be reached."""
-        for connection, peer in self._peers.items():
-            try:
-                peer.free()
-            except OSError:
-                connection.close()
-
-    def publish(self, velocity, hold_new=False):
+    def publish(self, velocity, released=False, hold_new=False):
         """Send a velocity: linear x, y, z [m/s] and angular x, y, z [rad/s], frame of the base.
 
-        hold_new: who subscribes from now on is held, if this is a motion.
+        None sends nothing. released: all was seen released, so lost subscribers are driven again.
+        hold_new: subscribers that connect from now on are held, if this is a motion.
         """
-        self._holds_new = hold_new and velocity != _ZERO
-        self.send(_TWIST.pack(_TWIST_BYTES, *velocity))
+        if released:
+            self._free()
+        if velocity is not None:
+            self._holds_new = hold_new and velocity != _ZERO
+            self.send(_TWIST.pack(_TWIST_BYTES, *velocity))
+
+    def _free(self):
+        for connection, peer in self._peers.items():
+            if peer.held:
+                try:
+                    peer.free()
+                except OSError:
+                    connection.close()
 
     def _peer(self, connection):
         name = connection.endpoint_id

@@ -9,10 +9,12 @@ from dataclasses import dataclass
 from enum import Enum
 from math import inf, isfinite
 
+from node_kit.arming import Arming
+
 IDLE = "idle"  # what is active when no input is
 ZERO = (0.0,) * 6  # linear x, y, z [m/s], angular x, y, z [rad/s]
-# Who was silent for longer in the middle of a motion must rest as long before moving the robot
-# again. The commands of an outage come within milliseconds of each other, far less than this.
+# After a longer silence in the middle of a motion a sender must rest for as long. The commands of
+# an outage arrive within milliseconds of each other.
 REARM_S = 0.5
 
 
@@ -47,7 +49,7 @@ class Arbiter:
         """Take the Inputs, whose names and priorities differ."""
         self._inputs = {i.name: i for i in sorted(inputs, key=lambda i: i.priority, reverse=True)}
         self._expiry_s = dict.fromkeys(self._inputs, -inf)
-        self._guards = {}
+        self._senders = {}  # (input, sender) -> its Arming
         self._drives = False  # whether the last command that went through was not zero
 
     def command(self, name, velocity, now, sender=""):
@@ -58,8 +60,8 @@ class Arbiter:
         if not all(map(isfinite, velocity)):
             return Verdict.REJECTED  # and the timeout runs on
         if self._inputs[name].rearm_on_zero:
-            guard = self._guards.setdefault((name, sender), LateGuard())
-            if not guard.admits(velocity, now):
+            speaks = self._senders.setdefault((name, sender), Arming(rest_s=REARM_S))
+            if not admits(speaks, velocity, now):
                 return Verdict.LATE  # and the timeout runs on
         self._expiry_s[name] = now + self._inputs[name].timeout
         if self.active(now) != name:
@@ -71,13 +73,10 @@ class Arbiter:
         """Tell whether an input must rest after an outage before it moves the robot again."""
         return self._inputs[name].rearm_on_zero
 
-    def lost(self, now):
-        """This node was suspended: no stick that is held moves the robot on.
-
-        Whoever speaks on an input with rearm_on_zero must rest first, as after an outage.
-        """
-        for guard in self._guards.values():
-            guard.hold(now)
+    def lost(self):
+        """Disarm all senders on inputs with rearm_on_zero: this node was suspended."""
+        for sender in self._senders.values():
+            sender.lose()
 
     def active(self, now):
         """Return the name of the active input at the time now [s], or IDLE."""
@@ -103,30 +102,17 @@ class Arbiter:
         return min(expiry_s - now, *(i.timeout for i in self._inputs.values()))
 
 
-class LateGuard:
-    """Keeps the commands of one sender from moving the robot late.
+def admits(sender: Arming, velocity, now) -> bool:
+    """Return whether a sender's velocity that came now [s] may go through; a zero always may.
 
     When a network cable is pulled, TCP keeps what is sent meanwhile and delivers all of it once the
     cable is back. A Twist has no stamp; what gives such commands away is the silence before them.
-    A zero among them must not set the rest free, hence the time of nothing but zero.
+    A zero among them must not set the rest free, hence a rest of REARM_S.
     """
-
-    def __init__(self):
-        """Begin with a sender that rests."""
-        self._is_held = self._is_moving = False
-        self._since_s = -inf  # last command of a motion, first zero of a rest
-
-    def hold(self, now):
-        """Hold the sender from the time now [s] on, as if it had fallen silent while it drove."""
-        self._is_held = self._is_moving = True
-        self._since_s = now
-
-    def admits(self, velocity, now):
-        """Tell whether the velocity that came now [s] may go through; a zero always may."""
-        elapsed_s, was_moving = now - self._since_s, self._is_moving
-        self._is_moving = any(velocity)
-        if was_moving or self._is_moving:
-            self._since_s = now
-        if elapsed_s > REARM_S:
-            self._is_held = was_moving
-        return not (self._is_held and self._is_moving)
+    if not sender.rests and now - sender.since > REARM_S:
+        sender.lose()
+    is_zero = not any(velocity)
+    may_move = sender.hear(is_zero, now)
+    if not is_zero:
+        sender.since = now
+    return may_move or is_zero

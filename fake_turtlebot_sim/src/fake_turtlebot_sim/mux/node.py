@@ -72,9 +72,7 @@ class CmdVelMux:
                 # A stick that is held does not move a robot that was lost or is new; a program
                 # that drives does.
                 is_stick = self._arbiter.rearms(name)
-                if self._output.holds and (velocity == ZERO or not is_stick):
-                    self._output.free()
-                self._output.publish(velocity, hold_new=is_stick)
+                self._output.publish(velocity, velocity == ZERO or not is_stick, is_stick)
             self._tell(self._arbiter.active(now))
         if verdict in (Verdict.REJECTED, Verdict.LATE):
             line = f"{name}: {verdict.value}"
@@ -85,7 +83,7 @@ class CmdVelMux:
         """Stop the robot if this process was suspended: what is in its sockets is old."""
         if self._resumption.notice(self._suspensions.number(), now):
             self._output.publish(ZERO)
-            self._arbiter.lost(now)
+            self._arbiter.lost()
             self._log.warn("This node was suspended. Who drives must release the sticks once.")
 
     def _look(self):

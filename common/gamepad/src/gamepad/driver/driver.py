@@ -31,6 +31,12 @@ class Driver:
         self.opens_at = -math.inf  # not to be opened before this time
         self.unknown_events = 0  # of a type that linux/joystick.h does not have
         self.events = 0
+        self.heard_at = -math.inf  # when the gamepad gave bytes last
+
+    @property
+    def lives(self):
+        """Whether the source of an open gamepad gives signs of life."""
+        return self._state is not None and self._lifeless_at < math.inf
 
     @property
     def due(self):
@@ -59,6 +65,7 @@ class Driver:
     def read(self, data, now):
         """Take bytes that came from the gamepad; return the messages to publish, oldest first."""
         messages = []
+        self.heard_at = now
         for event in self._decoder.feed(data):
             self.events += 1
             initial = event.type & INIT

@@ -15,6 +15,7 @@ from gamepad.driver.parameters import load
 from gamepad.driver.report import DriverReport
 from gamepad.driver.wake import AppearanceWatch, Wake
 from gamepad.gamepads import mode_hint
+from gamepad.trembling import Trembling
 from node_kit.log import Log
 from node_kit.start import run
 from node_kit.suspension import Suspensions
@@ -46,6 +47,7 @@ class JoyNode:
         self.has_ended = threading.Event()  # the last message is out
         rospy.on_shutdown(self.end)
         self.driver = Driver(parameters)
+        self.trembling = Trembling()
         self.finder = Finder(parameters.dev, parameters.dev_name)
         self.joy = rospy.Publisher("joy", Joy, queue_size=QUEUE_SIZE, tcp_nodelay=True)
         self.message = Joy()
@@ -135,7 +137,8 @@ class JoyNode:
         """Publish pairs of axes and buttons."""
         for axes, buttons in messages:
             self.message.header.stamp = rospy.Time.now()
-            self.message.axes, self.message.buttons = axes, buttons
+            shown = self.trembling.shown(axes) if self.driver.lives else axes
+            self.message.axes, self.message.buttons = shown, buttons
             self.joy.publish(self.message)
             self.report.published += 1
 
@@ -149,7 +152,7 @@ class JoyNode:
         well, summary = self.report.summary()
         status.summary(DiagnosticStatus.OK if well else DiagnosticStatus.ERROR, summary)
         subscribers = self.joy.get_num_connections()
-        for name, value in self.report.details(self.driver.events, subscribers, monotonic()):
+        for name, value in self.report.details(self.driver, subscribers, monotonic()):
             status.add(name, value)
         return status
 

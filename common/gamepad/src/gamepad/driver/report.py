@@ -1,5 +1,7 @@
 """What the driver tells on /diagnostics, with the keys of ROS Noetic's joy_node (pure)."""
 
+SILENT_FOR = "joystick silent for (s)"  # beyond upstream's: since the device gave its last event
+
 
 class DriverReport:
     """Counts, and tells once in a period. All times in seconds, of one clock that never jumps."""
@@ -44,8 +46,9 @@ class DriverReport:
         """(all is well, in a few words)."""
         return (True, "OK") if self._open else (False, "Joystick not open.")
 
-    def details(self, events, subscribers, now):
-        """Pairs of name and value. events: number of joystick events so far."""
+    def details(self, driver, subscribers, now):
+        """Pairs of name and value. driver: driver.Driver."""
+        events = driver.events
         began, events_then, published_then = self._before or (now, events, self.published)
         seconds = (now - began) or 1.0
         self._before = (now, events, self.published)
@@ -59,6 +62,7 @@ class DriverReport:
             ("coalesce interval (s)", p.coalesce_interval),
             ("recent joystick event rate (Hz)", (events - events_then) / seconds),
             ("recent publication rate (Hz)", (self.published - published_then) / seconds),
+            (SILENT_FOR, f"{now - driver.heard_at:.1f}" if self._open else "not open"),
             ("subscribers", subscribers),
             ("default trig val", p.default_trig_val),
             ("sticky buttons", p.sticky_buttons),

@@ -15,6 +15,7 @@ BUS_USB = 3  # linux/input.h
 EV_KEY, EV_ABS = 1, 3  # linux/input-event-codes.h
 # How often a FIFO repeats the state at opening: so its reader knows that this program lives [s].
 SIGN_OF_LIFE_S = 0.15
+TREMBLE_S = 0.4  # how often a held stick of a kernel device trembles, for the same reason
 LOOK_S = 0.05  # how often a FIFO without a reader is looked at
 
 
@@ -35,6 +36,7 @@ class UinputPad:
         self._gamepad = gamepad
         self._device = None
         self._raw = {}  # (type, code) -> value sent last
+        self._position, self._bent = None, False  # shown last; whether its sticks are one step off
         self._plug_in()
 
     def __enter__(self):
@@ -62,7 +64,10 @@ class UinputPad:
             ) from None
 
     def show(self, position):
-        """Move to (axes, buttons) as on /joy; None: unplugged."""
+        """Move to (axes, buttons) as on /joy; None: unplugged.
+
+        The same position once more: held sticks tremble, as a hand does.
+        """
         if position is None:
             if self._device:
                 self._device.close()
@@ -72,7 +77,11 @@ class UinputPad:
             self._plug_in()
         axes, buttons = position
         pad = self._gamepad
-        raw = {(EV_ABS, axis.code): axis.raw(value) for axis, value in zip(pad.axes, axes)}
+        raws = [axis.raw(value) for axis, value in zip(pad.axes, axes)]
+        self._bent = position == self._position and not self._bent
+        raws = pad.trembled(raws) if self._bent else raws
+        self._position = position
+        raw = {(EV_ABS, axis.code): value for axis, value in zip(pad.axes, raws)}
         raw.update({(EV_KEY, code): value for code, value in zip(pad.button_codes, buttons)})
         changes = raw.items() - self._raw.items()
         for (kind, code), value in sorted(changes):
@@ -85,7 +94,7 @@ class UinputPad:
 
     def watch(self, poll):
         """Nothing to be watched; returns the longest time to wait [s]."""
-        return math.inf
+        return TREMBLE_S
 
 
 class StreamPad:

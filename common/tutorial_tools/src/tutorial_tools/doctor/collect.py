@@ -13,6 +13,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from genpy import DeserializationError
 from std_msgs.msg import String
 
+from gamepad.driver.report import SILENT_FOR
 from node_kit.manifests import broken_manifests
 from tutorial_tools.doctor.facts import JOY, Answer, Facts, Joystick, Mux, MuxInput, Node, Offset
 from tutorial_tools.doctor.network import (
@@ -194,6 +195,8 @@ def heard(uri, facts):
             hosts.setdefault(node.host, stamped(facts, node.host))
     jobs = {("mux", name): (f"{name}/active", 1) for name in muxes}
     jobs.update({("state", name): ("/diagnostics", 1) for name in facts.converters()})
+    drivers = {name for joy in facts.topics(JOY) for name in facts.senders(joy)}
+    jobs.update({("state", name): ("/diagnostics", 1) for name in drivers})
     jobs["clock", ""] = ("/clock", 1)
     for host, names in hosts.items():
         jobs.update({("stamp", (host, topic)): (topic, STAMPED_MESSAGES) for topic in names})
@@ -226,6 +229,9 @@ def heard(uri, facts):
         "states": dict(
             said for name in facts.converters() for said in states(name, came.get(("state", name)))
         ),
+        "silent_s": {
+            name: seconds for name in drivers for seconds in silences(came.get(("state", name)))
+        },
     }
 
 
@@ -274,6 +280,15 @@ def states(node, messages):
         for status in (decode(DiagnosticArray, data) or DiagnosticArray()).status:
             if status.name == f"{node.strip('/')}: joystick":
                 yield node, (status.level == DiagnosticStatus.OK, status.message)
+
+
+def silences(messages):
+    """For how long the gamepad of a joy_node has been silent [s], from its /diagnostics."""
+    for _, data in messages or []:
+        for status in (decode(DiagnosticArray, data) or DiagnosticArray()).status:
+            for pair in status.values:
+                if pair.key == SILENT_FOR and pair.value.replace(".", "", 1).isdigit():
+                    yield float(pair.value)
 
 
 def decode(kind, data):

@@ -106,6 +106,7 @@ class Facts:
     clocks: Dict[str, Optional[Offset]] = field(default_factory=dict)  # of the other hosts
     muxes: Dict[str, Mux] = field(default_factory=dict)  # by the name of the node
     states: Dict[str, Tuple[bool, str]] = field(default_factory=dict)  # of joy2twist: well, text
+    silent_s: Dict[str, float] = field(default_factory=dict)  # since a joy_node's gamepad moved
 
     def topics(self, kind):
         """The names of all topics of a type that are in use; the master forgets no type."""

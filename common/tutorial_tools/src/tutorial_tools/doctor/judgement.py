@@ -12,6 +12,7 @@ OK, WRONG, UNKNOWN = "ok", "wrong", "unknown"
 # Clocks may differ by this much [s]: a tenth of a second of old transforms, or of a joystick
 # message that is refused for its age, goes unnoticed.
 CLOCK_TOLERANCE_S = 0.1
+SILENT_S = 2.0  # a gamepad in the hand is not still for so long
 IDLE = ("", "idle")  # what a multiplexer says when nobody drives
 START_ANEW = "and start its nodes anew"
 
@@ -268,11 +269,15 @@ def rivals(facts):
 def states(facts):
     """What joy2twist itself says on /diagnostics."""
     for node, (well, text) in sorted(facts.states.items()):
-        silent = not well and "no message" in text
-        what_to_do = "move the joystick, or start it: rostopic hz joy shows its messages"
-        yield Finding(
-            OK if well else WRONG, "state", f"{node} says: {text}", what_to_do if silent else ""
-        )
+        todo = "move the joystick, or start it: rostopic hz joy shows its messages"
+        todo = todo if not well and "no message" in text else ""
+        yield Finding(OK if well else WRONG, "state", f"{node} says: {text}", todo)
+    still = any("has not changed" in text for _, text in facts.states.values())
+    for node, seconds in sorted(facts.silent_s.items()):
+        if still and seconds > SILENT_S:
+            seen = f"the gamepad of {node} has been silent for {seconds:.0f} s"
+            todo = "look at its battery and its distance, then move a stick"
+            yield Finding(WRONG, "joystick", seen, todo)
 
 
 def joysticks(facts):

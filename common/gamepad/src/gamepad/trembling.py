@@ -1,0 +1,28 @@
+"""The sign of life of a source that knows that it lives: held sticks tremble by one bit (pure).
+
+joy2twist stops a robot whose joystick does not change (its ~vigilance_timeout), as a radio gamepad
+out of reach does not. A key or a thumb on glass does not change either, but its program can answer
+for it.
+"""
+
+from typing import Tuple
+
+EVERY = 8  # of so many equal messages, one trembles: 0.4 s at 20 Hz
+LAST_BIT = 2.0**-23  # of a float32, as a part of its value: axes are such in sensor_msgs/Joy
+
+
+class Trembling:
+    """Changes the axes of one message among equal ones by their last bit."""
+
+    def __init__(self) -> None:
+        """No message came yet."""
+        self._last: Tuple[float, ...] = ()
+        self._equal = 0  # messages in a row
+
+    def shown(self, axes: Tuple[float, ...]) -> Tuple[float, ...]:
+        """Return the axes to publish; an axis at 0 stays there."""
+        self._equal = self._equal + 1 if axes == self._last else 0
+        self._last = axes
+        if self._equal % EVERY != EVERY - 1:
+            return axes
+        return tuple([axis * (1.0 - LAST_BIT) for axis in axes])
