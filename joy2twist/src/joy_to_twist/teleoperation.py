@@ -36,6 +36,7 @@ class Teleoperation:
         self._resumption = Resumption()
         self._messages = 0
         self._last_message = None
+        self._watches_stillness = parameters.vigilance_timeout > 0
         self._last = None  # axes and buttons of the last good message
         self._last_summary = (0, None)  # the messages until then, and when
 
@@ -59,6 +60,7 @@ class Teleoperation:
             if self._may_warn.ready(now):
                 self._warn(f"Stopping: a joystick message is unusable, {error}.")
             return None if self._safety.latched else self._safety.reject(now)
+        changed = self._watches_stillness and self._has_changed(axes, buttons)
         if self._safety.latched:
             if self._mapping.resets(buttons):
                 self._safety.reset()
@@ -67,10 +69,6 @@ class Teleoperation:
             self._look_at_gamepad(axes)
         matters = self._parameters.arm_on_neutral or not self._safety.arming.armed
         rests = matters and self._mapping.rests(axes, velocity)
-        changed = False
-        if self._parameters.vigilance_timeout:
-            last, self._last = self._last, (axes, buttons)
-            changed = last != self._last
         return self._safety.drive(velocity, rests, now, sender, changed)
 
     def suspended(self, number, now):
@@ -84,6 +82,10 @@ class Teleoperation:
     def released(self):
         """Whether a robot that was lost may be driven again; see Safety."""
         return self._safety.released
+
+    def _has_changed(self, axes, buttons):
+        last, self._last = self._last, (axes, buttons)
+        return last != self._last
 
     def _look_at_gamepad(self, axes):
         hint = self._hints.hint(axes)

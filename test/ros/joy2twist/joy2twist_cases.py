@@ -9,8 +9,10 @@ A case begins with `node: NAMESPACE` of the node (default: the root). A step is 
   sends: {linear.x: v}  the next velocity is this, all else 0; with times: and within_s: since the
                         end of the step before
   reaches: {linear.x: v}  as many velocities as it takes until one is this; from each to the next
-                        linear.x changes by at most `step`, and by less than all in one step
+                        linear.x changes by at most `step`, if that is given, and by less than all
+                        in one step
   silent_for_s: t       nothing is sent for so long
+  rests: true           zeros are sent, until none has come for a while
   leave: true           the publisher of joy leaves; the next joy step brings another one
   clock_s: t            publish the simulated time
   state: text           /diagnostics, which come once a second, report a state that begins so; with
@@ -37,7 +39,7 @@ from tutorial_testing.nodes import init_node
 from tutorial_testing.waiting import wait_for
 
 COMPONENTS = [f"{kind}.{axis}" for kind in ("linear", "angular") for axis in "xyz"]
-STEPS = {"joy", "sends", "reaches", "silent_for_s", "leave", "clock_s", "state"}
+STEPS = {"joy", "sends", "reaches", "silent_for_s", "rests", "leave", "clock_s", "state"}
 QUIET_S = 1.0  # longer than any repetition of zero and any watchdog in the cases
 
 
@@ -66,12 +68,14 @@ class Node:
         values = [getattr(getattr(twist, c[:-2]), c[-1]) for c in COMPONENTS]
         self._received.append((time.monotonic(), dict(zip(COMPONENTS, values))))
 
-    def _wait_until_quiet(self):
+    def _wait_until_quiet(self, only=None):
         def quiet():
-            last = self._received[-1][0] if self._received else 0.0
+            last = self._received[-1][0] if self._received else self._last_step
             return time.monotonic() - last > QUIET_S
 
         wait_for(quiet, "silence")
+        if only is not None and not all(same(velocity, only) for _, velocity in self._received):
+            raise AssertionError(f"not only zeros: {list(self._received)}")
         self._received.clear()
 
     def play(self, steps):
@@ -104,13 +108,15 @@ class Node:
         if within_s is not None and arrival > self._last_step + within_s:
             raise AssertionError(f"sent {arrival - self._last_step:.3f} s later")
 
-    def _reaches(self, reaches, step):
+    def _reaches(self, reaches, step=None):
         speeds = [self._last_x]
         velocity = None
         while velocity is None or not same(velocity, reaches):
             _, velocity = self._next(reaches)
             speeds.append(velocity["linear.x"])
         changes = [abs(after - before) for before, after in zip(speeds, speeds[1:])]
+        if step is None:
+            return
         if max(changes) > step + 1e-6 or abs(speeds[-1] - speeds[0]) <= max(changes):
             raise AssertionError(f"linear.x went {speeds}")
 
@@ -128,8 +134,12 @@ class Node:
                 raise AssertionError(f"sent {self._received[0][1]} instead of nothing")
             time.sleep(0.01)
 
+    def _rests(self, rests):
+        self._wait_until_quiet(only={})
+
     def _leave(self, leave):
-        self._joystick.unregister()
+        if self._joystick:
+            self._joystick.unregister()
         self._joystick = None
 
     def _clock_s(self, clock_s):

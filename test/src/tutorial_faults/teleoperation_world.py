@@ -86,6 +86,7 @@ STOPS = {
 NOT_IN_KEY = {
     "_parameters", "_warn", "_mapping", "_safety", "_hints", "_knows_gamepad", "_may_warn",
     "_max_age_ns", "_unheard_since", "_resumption", "_messages", "_last_message", "_last_summary",
+    "_watches_stillness",
 }  # fmt: skip
 FIXED_IN_SAFETY = {
     "_parameters", "_wake", "_warn", "_period", "_gradual", "_changes", "_silence_s",

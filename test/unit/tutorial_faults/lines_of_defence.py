@@ -38,7 +38,7 @@ LINES = [
      "why = self._stillness", "vigilance, no dead-man"),
     ("a change of the joystick is noticed", SAFETY, "self._still_at = now + self._stillness_s",
      "pass", VIGILANCE),
-    ("only a change counts", TELEOPERATION, "changed = last != self._last", "changed = True",
+    ("only a change counts", TELEOPERATION, "return last != self._last", "return True",
      VIGILANCE),
     ("the watch is woken for stillness", SAFETY,
      "if self._watches_stillness and before == ZERO != velocity:", "if False:", VIGILANCE),

@@ -1,0 +1,116 @@
+#!/usr/bin/python3
+"""launch_joy_node.launch with a gamepad that falls silent, trembles, or is a recording."""
+
+import sys
+import time
+import unittest
+
+import rospkg
+import rospy
+import rostest
+from nav_msgs.msg import Odometry
+
+from tutorial_testing.joystick_stream import AXIS, BUTTON, JoyLog, Stream
+from tutorial_testing.nodes import init_node
+from tutorial_testing.processes import Program
+from tutorial_testing.waiting import wait_for
+
+VIGILANCE_S = 3.0  # of the launch file
+LIMIT_S = VIGILANCE_S + 0.6 + 0.02  # the base's own timeout, and one period of its odometry
+TREMBLING_S, STEP_S = 8.0, 0.1
+FULL, LB, FORWARD = 32767, 4, 1
+BAG = rospkg.RosPack().get_path("joy2twist") + "/bag/joy.bag"
+SPIN = ("-s", "31", "-u", "12")  # [s] of joy.bag: a release, then a turn on the spot, held for 6 s
+
+
+def hand(held, forward):
+    """The events of a hand on the gamepad."""
+    return (BUTTON, LB, int(held)), (AXIS, FORWARD, -forward)
+
+
+class RadioSilenceTest(unittest.TestCase):
+    def setUp(self):
+        self.stream, self.odometry = Stream(), []
+        self.addCleanup(self.stream.remove)
+        self.addCleanup(rospy.Subscriber("odom", Odometry, self.odometry.append).unregister)
+        self.log = JoyLog()
+        self.addCleanup(self.log.stop)
+        self.launch = Program(
+            "roslaunch", "joy2twist", "launch_joy_node.launch", f"joy_dev:={self.stream.path}",
+            "rviz:=false", "cockpit:=false",
+        )  # fmt: skip
+        self.addCleanup(self.launch.__exit__)
+        wait_for(lambda: self.odometry, "robot")
+
+    def moves(self):
+        twist = self.odometry[-1].twist.twist
+        return twist.linear.x != 0 or twist.angular.z != 0
+
+    def show(self, held, forward):
+        """Move the hand, and wait until joy_node has published it; when it was moved [s]."""
+        seen, now = len(self.log.messages), time.time()
+        self.stream.send(*hand(held, forward))
+        wait_for(lambda: len(self.log.messages) > seen + 1, "messages of joy_node")
+        return now
+
+    def drive(self):
+        """Release everything, then hold LB and the stick until the robot moves."""
+
+        def once():
+            self.show(False, 0)
+            moved = self.show(True, FULL)
+            end = time.monotonic() + 2.0
+            while time.monotonic() < end and not self.moves():
+                time.sleep(0.01)
+            return self.moves() and moved
+
+        return wait_for(once, "moving robot")
+
+    def silence_s(self):
+        """Drive, then fall silent: how long after the last event the robot moved [s]."""
+        moved = self.drive()
+        wait_for(lambda: not self.moves(), "robot at rest")
+        return max(m.header.stamp.to_sec() for m in self.odometry if m.twist.twist.linear.x) - moved
+
+    def test_out_of_reach_it_stops_and_back_in_reach_it_waits_for_the_release(self):
+        self.stream.plug_in()
+        delays_s = []
+        while len(delays_s) < 3 and min(delays_s, default=LIMIT_S) >= LIMIT_S:
+            delays_s.append(self.silence_s())  # again on a machine that was late
+        self.assertLess(min(delays_s), LIMIT_S)
+        self.assertGreater(min(delays_s), VIGILANCE_S - 0.5)
+        wait_for(lambda: "stops in 0.5 s" in self.launch.output, "warning")
+
+        stood = len(self.odometry)
+        for forward in (FULL, FULL // 2, FULL):  # back in reach, LB and the stick still held
+            self.show(True, forward)
+        wait_for(lambda: len(self.odometry) > stood + 50, "odometry")
+        self.assertFalse(any(m.twist.twist.linear.x for m in self.odometry[stood:]))
+        self.drive()
+
+    def test_a_stick_that_trembles_by_one_step_is_not_stopped(self):
+        self.stream.plug_in()
+        self.drive()
+        begin = len(self.odometry)
+        end = time.monotonic() + TREMBLING_S
+        while time.monotonic() < end:
+            self.stream.send((AXIS, FORWARD, -FULL + round(time.monotonic() / STEP_S) % 2))
+            time.sleep(STEP_S)
+        speeds = [m.twist.twist.linear.x for m in self.odometry[begin:]]
+        self.assertGreater(len(speeds), TREMBLING_S * 25)
+        self.assertGreater(min(speeds), 0.34)
+
+    def test_rosbag_play_of_our_recording_is_not_stopped(self):
+        with Program("rosbag", "play", "--wait-for-subscribers", *SPIN, BAG) as player:
+            self.assertEqual(player.wait(), 0)
+        turning = [m for m in self.odometry if m.twist.twist.angular.z > 0]
+        stamps = [m.header.stamp.to_sec() for m in turning]
+        longest_s = max(after - before for before, after in zip(stamps, stamps[1:]))
+        self.assertGreater(stamps[-1] - stamps[0], 8.0)
+        self.assertLess(longest_s, 0.5)  # it turned without a break
+        self.assertNotIn("does not change", self.launch.output)
+
+
+if __name__ == "__main__":
+    init_node("radio_silence_test")
+    rostest.rosrun("ros1_tutorial_test", "radio_silence", RadioSilenceTest, sys.argv)
