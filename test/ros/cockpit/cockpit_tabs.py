@@ -15,6 +15,7 @@ from tutorial_testing.socket_page import SocketPage
 from tutorial_testing.waiting import wait_for
 
 FIELD = "/odom/pose/pose/position/x"
+HELD_S = 8.0  # well above the vigilance_timeout of robot.launch.xml
 NEAR_M = 0.05  # at 0.35 m/s within a tenth of a second
 
 
@@ -41,6 +42,13 @@ class Tabs(WithCockpit):
         self.assertAlmostEqual(seen["covered"], at.x, delta=NEAR_M)
         self.assertEqual(self.page.of("pad")[-1]["axes"], [0.0] * 6)
         self.page.wait_for("teleop", lambda told: told["state"] == "stopped" and told["level"] == 1)
+
+    def test_a_hand_that_is_still_drives_for_as_long_as_it_is_held(self):
+        """A real gamepad that is as still as that is taken to be out of reach."""
+        self.rig.drive(self.page)
+        begin, end = len(self.rig.speeds), time.monotonic() + HELD_S
+        wait_for(lambda: time.monotonic() > end, "end of the time")
+        self.assertGreater(min(speed for _, speed in self.rig.speeds[begin:]), 0.34)
 
     def test_the_graph_and_what_a_click_brings(self):
         self.page.watch(graph=True, topic="/odom", node="/fake_turtlebot")

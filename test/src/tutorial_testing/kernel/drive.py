@@ -27,6 +27,7 @@ from tutorial_testing.waiting import wait_for
 DEVICE = Path("/dev/input/js0")
 DEADLINE_S = 90.0  # of the guest's time: an emulated processor is some ten times slower
 PROMPT_S = 0.1  # how soon a released dead-man or a lost gamepad must have its effect
+VIGILANCE_S = 3.0  # of launch_joy_node.launch
 DEADZONE = 0.05
 METRES_PER_S, RADIANS_PER_S = 0.35, 1.2  # at full deflection: config/f710_d.yaml
 STICKS = (  # some in the deadzone, some at the ends
@@ -171,6 +172,23 @@ def check_released(pad, robot):
     check_stands(robot, since, "LB released")
 
 
+def check_radio_silence(pad, launch, robot):
+    """A gamepad out of reach: the kernel keeps its last state, and no event comes any more."""
+    since = time.time()
+    pad.show(positions(F710_D, Controls(left_stick=(0.0, 0.9), held=LB)))
+    wait_for(lambda: not robot.stands, "moving robot", DEADLINE_S)
+    wait_for(lambda: robot.stands, "standing robot", DEADLINE_S)
+    moved = [m.header.stamp.to_sec() for m in robot.odometry if m.twist.twist != Twist()]
+    tell(f"radio silence: the robot stands after {moved[-1] - since:.2f} s")
+    assert VIGILANCE_S - PROMPT_S < moved[-1] - since < VIGILANCE_S + 0.6 + PROMPT_S
+    assert "does not change" in launch.output
+    seen = len(robot.odometry)
+    pad.show(positions(F710_D, Controls(left_stick=(0.0, 1.0), held=LB)))  # back in reach
+    wait_for(lambda: len(robot.odometry) > seen + 50, "odometry", DEADLINE_S)
+    assert all(m.twist.twist == Twist() for m in robot.odometry[seen:])
+    pad.show(positions(F710_D, Controls()))
+
+
 def check_unplugged(pad, raw, launch, robot):
     """Neutral at once, no other gamepad, and no motion before neutral was seen again."""
     pushed = positions(F710_D, Controls(left_stick=(0.0, 1.0), held=LB))
@@ -216,6 +234,8 @@ def check_all(pad, raw, launch):
         check_drive(pad, robot, stick)
     check_drive(pad, robot, (0.0, 1.0))
     check_released(pad, robot)
+    check_drive(pad, robot, (0.0, 1.0))
+    check_radio_silence(pad, launch, robot)
     check_drive(pad, robot, (0.0, 1.0))
     check_unplugged(pad, raw, launch, robot)
     check_drive(pad, robot, (0.0, 1.0))
