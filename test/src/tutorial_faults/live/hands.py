@@ -28,7 +28,7 @@ class HandsOnPad:
     def __init__(self, path):
         """path: of the FIFO; it is made."""
         self.path = path
-        self._shown, self._plugged, self._frozen = RELEASED, True, False
+        self._shown, self._plugged, self._frozen, self._is_radio = RELEASED, True, False, False
         self._wake, self._done = threading.Event(), threading.Event()
         self._lock = threading.Lock()
         self._changes = [(time.time(), RELEASED)]
@@ -67,6 +67,10 @@ class HandsOnPad:
         self._frozen = frozen
         self._wake.set()
 
+    def be_radio(self, is_radio):
+        """Be a radio gamepad, whose receiver gives no sign of life; joy_node opens it anew."""
+        self._is_radio = is_radio
+
     def _move(self):
         with StreamPad(F710_D, self.path) as pad:
             nudge = 0.0
@@ -75,6 +79,7 @@ class HandsOnPad:
                 self._wake.clear()
                 if self._frozen:
                     continue
+                pad.gives_signs = not self._is_radio
                 nudge = NUDGE - nudge
                 left, forward, held = SHOWN[self._shown]
                 forward += nudge if forward else 0.0

@@ -190,6 +190,7 @@ _HOW = {
     "end": _end,
     "unplug": _unplug,
     "frozen_pad": _frozen_pad,
+    "radio_silence": _frozen_pad,
     "second_joystick": _say,
     "nan_joy": _say,
     "broken_joy": _say,

@@ -12,6 +12,9 @@ LINK, MOUNT, SIMULATED = "network namespaces", "mounting", "simulated time"
 # A sender that fell silent for longer must rest before it moves the robot again (the mux's
 # REARM_S): so late may a packet come that TCP sends once more, and still count.
 RESENT_S = 0.5
+VIGILANCE_S = (
+    1.0  # joy2twist's ~vigilance_timeout here: shorter than in launch files, for more trials
+)
 
 
 @dataclass(frozen=True)
@@ -50,6 +53,8 @@ def _kinds():
         yield Kind(f"end:{node}", (0.05, 0.7), loses=True)
     yield Kind("unplug", (0.02, 1.2), loses=True)
     yield Kind("frozen_pad", (0.7, 1.5), loses=True)
+    # Out of reach: the receiver keeps the last state, and only joy2twist can notice.
+    yield Kind("radio_silence", (0.1, 2.5), loses=True, late_s=VIGILANCE_S)
     yield Kind("second_joystick", (0.1, 1.0))
     # A bad message stops until the next good one, as joy2twist's README has it: no loss.
     yield Kind("nan_joy", (0.1, 1.0), rearms=False)

@@ -62,6 +62,11 @@ class Plan:
             ends.append(fault.end_s + (UP_S if anew else 0.0))
         return max(ends) + WATCHED_S
 
+    @property
+    def is_radio(self):
+        """Whether the gamepad is one that may be out of reach."""
+        return any(fault.kind == "radio_silence" for fault in self.faults)
+
     def without(self, number):
         """The same without one of its faults."""
         return replace(self, faults=self.faults[:number] + self.faults[number + 1 :])
@@ -103,6 +108,8 @@ def _same_part(one, other):
         in (
             {"kill_master", "hang_master"},
             {"unplug", "frozen_pad"},
+            {"unplug", "radio_silence"},
+            {"frozen_pad", "radio_silence"},
             {"stopped_viewer", "slow_viewer"},
         )
     )

@@ -43,6 +43,7 @@ def was_late(record):
 def _act(world, plan):
     """Do what the plan says; the judge.Record."""
     try:
+        world.hands.be_radio(plan.is_radio)
         world.drive()
     except AssertionError as error:
         record = world.record

@@ -14,7 +14,7 @@ from tutorial_faults.invariants import unended
 from tutorial_faults.live.beat import beat
 from tutorial_faults.live.hands import HandsOnPad
 from tutorial_faults.live.judge import Injury, Record
-from tutorial_faults.live.kinds import BASE, DRIVER, JOY2TWIST, LINK, MUX, NODES
+from tutorial_faults.live.kinds import BASE, DRIVER, JOY2TWIST, LINK, MUX, NODES, VIGILANCE_S
 from tutorial_faults.live.master import Master
 from tutorial_faults.live.plan import DRIVE, RELEASED
 from tutorial_faults.live.talker import PYTHON, Talker
@@ -106,6 +106,7 @@ class World:
         elif node == JOY2TWIST:
             preset = _read(find("joy2twist"), "config", "f710_d.yaml")
             given = {**preset, "arm_on_neutral": True, "log_rate": 0}
+            given["vigilance_timeout"] = VIGILANCE_S
             script, remaps = "joy2twist/joy2twist.py", {"cmd_vel": "cmd_vel_mux/input/teleop"}
             if self._node:
                 # The preset is that of teleop_twist_joy, too; arming is ours.

@@ -106,6 +106,7 @@ class StreamPad:
         Raises PadError.
         """
         self._gamepad, self._path, self._clock = gamepad, path, clock
+        self.gives_signs = True  # of life; the receiver of a radio gamepad gives none
         self._fd = None
         self._told = {}  # (type, number) -> value, as the reader knows them
         self._signed_at = -math.inf  # when the last sign of life was given
@@ -141,7 +142,8 @@ class StreamPad:
         for i, (axis, value) in enumerate(zip(self._gamepad.axes, axes)):
             values[AXIS, i] = axis.js_value(axis.raw(value))
         self._tell({key: value for key, value in values.items() if self._told.get(key) != value})
-        if self._told and self._clock() >= self._signed_at + SIGN_OF_LIFE_S:
+        is_due = self._clock() >= self._signed_at + SIGN_OF_LIFE_S
+        if self._told and is_due and self.gives_signs:
             self._signed_at = self._clock()
             self._tell(dict(self._told), INIT, SIGN_OF_LIFE_MS)
 
