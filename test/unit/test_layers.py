@@ -66,7 +66,7 @@ cockpit_server.program
 ALL = RULES + OUTER
 ALLOWED_IN_RULES = set(
     """
-    argparse bisect dataclasses difflib enum errno hmac html ipaddress json math numpy os random re
+    argparse bisect dataclasses difflib enum errno hmac html ipaddress itertools json math numpy os random re
     struct sys typing
     """.split()
 )

@@ -12,14 +12,14 @@ _FRAME_LENGTH_AT = 12
 
 
 class LeanJoy(Joy):
-    """A Joy to subscribe with, whose header is read only if somebody asks for it.
+    """A Joy to subscribe with, of which axes, buttons and stamp_ns are read, and nothing else.
 
     rospy lets the message class read its own bytes. After an idle pause, when the caches of the
     processor are cold, the general way (a Header, a Time, a decoded frame_id) takes most of the
     time that passes between a message and its velocity.
     """
 
-    __slots__ = ("_data", "_header")
+    __slots__ = ("_data",)
 
     def __init__(self):
         """Leave everything to deserialize(), the only source of these messages."""
@@ -27,7 +27,6 @@ class LeanJoy(Joy):
     def deserialize(self, data):
         """Read axes (tuple of floats) and buttons (tuple of ints); struct.error if cut."""
         self._data = data
-        self._header = None
         at = _FRAME_LENGTH_AT
         at += 4 + _COUNT.unpack_from(data, at)[0]
         axes = _COUNT.unpack_from(data, at)[0]
@@ -42,24 +41,3 @@ class LeanJoy(Joy):
         """The time of the reading [ns], on the clock of the joystick node."""
         secs, nsecs = _STAMP.unpack_from(self._data)
         return secs * 1_000_000_000 + nsecs
-
-    @property
-    def header(self):
-        """The std_msgs/Header, as any Joy has it."""
-        if self._header is None:
-            self._header = Joy().deserialize(self._data).header
-        return self._header
-
-    @header.setter
-    def header(self, header):
-        self._header = header
-
-    def __eq__(self, other):
-        """Whether all fields are the same, also those of a plain Joy."""
-        return Joy(self.header, self.axes, self.buttons) == other
-
-    __hash__ = None
-
-
-# By this list of fields a message is printed, compared and copied; Python has read ours already.
-LeanJoy.__slots__ = Joy.__slots__

@@ -92,14 +92,10 @@ class Mapping:
     def describe(self):
         """One line for every axis that drives the robot, in words."""
         p = self._parameters
-        turbo_text = f"{p.enable_turbo_button} for turbo"
-        if not p.require_enable_button:
-            hold = "no dead-man button" if self._turbo < 0 else f"hold button {turbo_text}"
-        elif self._enable < 0:
-            hold = f"hold button {turbo_text}, the only dead-man"
-        else:
-            hold = f"hold button {p.enable_button}"
-            hold += f", or {turbo_text}" if self._turbo >= 0 else ""
+        held = [(p.enable_button, "")] if p.require_enable_button else []
+        held = [(b, what) for b, what in (*held, (self._turbo, " for turbo")) if b >= 0]
+        hold = ", or ".join([f"{button}{what}" for button, what in held])
+        hold = f"hold button {hold}" if held else "no dead-man button"
         lines = []
         for axis in p.axes:
             unit = "m/s" if COMPONENTS[axis.component].startswith("linear") else "rad/s"

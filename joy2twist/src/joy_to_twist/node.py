@@ -56,7 +56,8 @@ class Joy2Twist:
         tell_of_bad_messages(self.console.warn)
         self.timer = threading.Event()  # set to have the time looked at now
         self.teleoperation = Teleoperation(parameters, self.console.warn, self.timer.set)
-        for line in self.teleoperation.describe():
+        self.safety = self.teleoperation.safety
+        for line in self.teleoperation.mapping.describe():
             self.console.info(line)
         self.uses_age = parameters.max_joy_age > 0
         # ROS time [ns]; without simulated time read the short way, as it is for every message.
@@ -100,7 +101,7 @@ class Joy2Twist:
     def publish(self, velocity):
         """Publish a velocity, or None, until the node is stopped."""
         if not self.stopped.is_set():
-            self.cmd_vel.publish(velocity, self.teleoperation.released, self.hold_new)
+            self.cmd_vel.publish(velocity, self.safety.released, self.hold_new)
 
     def watch(self):
         """Stop the robot when the joystick falls silent or leaves, and repeat what is to repeat.
@@ -121,11 +122,11 @@ class Joy2Twist:
             self.notice_suspension(now)
             if self.joy.get_num_connections() == 0:
                 self.publish(self.teleoperation.left(now))
-            self.publish(self.teleoperation.tick(now))
+            self.publish(self.safety.tick(now))
             self.teleoperation.listeners(self.cmd_vel.listeners, self.cmd_vel.name, now)
             self.timer.clear()
-            due = min(self.teleoperation.due, now + LOOK_ROUND_S)
-            wanted = self.teleoperation.state != self.diagnosed
+            due = min(self.safety.due, now + LOOK_ROUND_S)
+            wanted = self.safety.state != self.diagnosed
         wanted = self.may_diagnose.ready(now) or wanted
         if wanted and self.diagnostics.publisher.get_num_connections():
             self.diagnostics.force_update()

@@ -6,6 +6,7 @@ unchanged. Two defaults differ, so that the bare node is the tutorial's: every s
 enable_button is -1 (no dead-man) where the C++ node has button 0.
 """
 
+import itertools
 from dataclasses import dataclass
 from typing import Any, Dict, Tuple
 
@@ -116,14 +117,12 @@ def load(given: Dict[str, Any]) -> Parameters:
 
 def _check_buttons(values):
     names = ("enable_button", "enable_turbo_button", "stop_button", "stop_reset_button")
-    for k, name in enumerate(names):
-        for other in names[:k]:
-            if values[name] == values[other] != -1:
-                raise ValueError(f"~{name}: {values[name]}: must be a button other than ~{other}")
+    for one, other in itertools.combinations(names, 2):
+        if values[one] == values[other] != -1:
+            raise ValueError(f"~{other}: {values[other]}: must be a button other than ~{one}")
     if (values["stop_button"] < 0) != (values["stop_reset_button"] < 0):
         raise ValueError(
-            f"~stop_reset_button: {values['stop_reset_button']}: must be set if, and only if, "
-            "~stop_button is"
+            f"~stop_reset_button: {values['stop_reset_button']}: must be set with ~stop_button only"
         )
 
 

@@ -48,6 +48,11 @@ class Safety:
         )
         self._silence_s = p.joy_timeout or math.inf
         self._stillness_s = p.vigilance_timeout or math.inf
+        self._silence = f"no message for {p.joy_timeout:g} s"
+        self._stillness = (
+            f"the joystick has not changed for {p.vigilance_timeout:g} s, it may be out of reach; "
+            "release the sticks and the dead-man button once"
+        )
         self._hears = False  # a good message came since the last loss
         self._silent_at = math.inf  # when the joystick counts as silent
         self._still_at = math.inf  # when it has been unchanged for too long
@@ -145,17 +150,6 @@ class Safety:
         """The reset button is pressed: the robot moves again after all was seen released."""
         self.latched, self._repeats = False, 1
         self.state = self._unarmed = NOT_ARMED
-
-    @property
-    def _silence(self):
-        return f"no message for {self._silence_s:g} s"
-
-    @property
-    def _stillness(self):
-        return (
-            f"the joystick has not changed for {self._stillness_s:g} s, it may be out of reach; "
-            "release the sticks and the dead-man button once"
-        )
 
     def lost(self, why, now):
         """The joystick cannot be relied upon any more: stop, and disarm if so configured."""

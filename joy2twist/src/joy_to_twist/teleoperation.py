@@ -16,18 +16,15 @@ class Teleoperation:
     """Joins the mapping, the safety rules and the hints. Not thread-safe.
 
     Times are in seconds of a clock that never jumps. A velocity is a tuple of six floats (see
-    limits); None means that nothing is to be sent.
+    limits); None means that nothing is to be sent. What is due without a message: see safety.
     """
 
     def __init__(self, parameters, warn, wake):
-        """parameters: parameters.Parameters. warn: called with one line for the user.
-
-        wake: called when tick() must be called sooner than due said before.
-        """
+        """parameters, wake, warn: see Safety."""
         self._parameters = parameters
         self._warn = warn
-        self._mapping = Mapping(parameters)
-        self._safety = Safety(parameters, wake, warn)
+        self.mapping = Mapping(parameters)
+        self.safety = Safety(parameters, wake, warn)
         self._hints = GamepadHints(parameters)
         self._knows_gamepad = False
         self._may_warn = Throttle(1.0 / WARNING_PERIOD_S)
@@ -46,42 +43,37 @@ class Teleoperation:
         age_ns: [ns] since its stamp; ignored unless max_joy_age is set. sender: an object, which
         tells one joystick node from another.
         """
-        if self._mapping.stops(buttons):
-            return self._safety.latch(now)
+        if self.mapping.stops(buttons):
+            return self.safety.latch(now)
         if self._resumption.is_old(now):
             return None
         self._messages += 1
         self._last_message = now
         try:
-            velocity = self._mapping.velocity(axes, buttons)
+            velocity = self.mapping.velocity(axes, buttons)
             if self._max_age_ns and age_ns > self._max_age_ns:
                 raise BadJoyError(f"it is {age_ns / 1e9:.1f} s old")
         except BadJoyError as error:
             if self._may_warn.ready(now):
                 self._warn(f"Stopping: a joystick message is unusable, {error}.")
-            return None if self._safety.latched else self._safety.reject(now)
+            return None if self.safety.latched else self.safety.reject(now)
         changed = self._watches_stillness and self._has_changed(axes, buttons)
-        if self._safety.latched:
-            if self._mapping.resets(buttons):
-                self._safety.reset()
+        if self.safety.latched:
+            if self.mapping.resets(buttons):
+                self.safety.reset()
             return None
         if not self._knows_gamepad:
             self._look_at_gamepad(axes)
-        matters = self._parameters.arm_on_neutral or not self._safety.arming.armed
-        rests = matters and self._mapping.rests(axes, velocity)
-        return self._safety.drive(velocity, rests, now, sender, changed)
+        matters = self._parameters.arm_on_neutral or not self.safety.arming.armed
+        rests = matters and self.mapping.rests(axes, velocity)
+        return self.safety.drive(velocity, rests, now, sender, changed)
 
     def suspended(self, number, now):
         """This node was suspended so many times so far. Returns the velocity to send at once."""
         if not self._resumption.notice(number, now):
             return None
         self._warn("This node was suspended. What came meanwhile is not driven.")
-        return self._safety.lost("this node was suspended", now)
-
-    @property
-    def released(self):
-        """Whether a robot that was lost may be driven again; see Safety."""
-        return self._safety.released
+        return self.safety.lost("this node was suspended", now)
 
     def _has_changed(self, axes, buttons):
         last, self._last = self._last, (axes, buttons)
@@ -96,14 +88,14 @@ class Teleoperation:
     def left(self, now):
         """Nobody publishes joystick messages any more. Returns the velocity to send at once."""
         self._knows_gamepad = False  # the next one may be another
-        return self._safety.lost("the joystick node has left", now)
+        return self.safety.lost("the joystick node has left", now)
 
     def listeners(self, count, topic, now):
         """How many listen to the topic of the velocities. Warns, once, when driving reaches nobody.
 
         Driving a robot that is not there, as under a wrong name, looks like driving.
         """
-        if count or self._safety.state != DRIVING:
+        if count or self.safety.state != DRIVING:
             self._unheard_since = None
         elif self._unheard_since is None:
             self._unheard_since = now
@@ -111,27 +103,9 @@ class Teleoperation:
             self._unheard_since = math.inf
             self._warn(f"Nobody listens to {topic}: start the robot, or check its name.")
 
-    def tick(self, now):
-        """Time has passed. Returns the velocity to send at once."""
-        return self._safety.tick(now)
-
-    @property
-    def state(self):
-        """What it does, in words for /diagnostics."""
-        return self._safety.state
-
-    @property
-    def due(self):
-        """When tick() must be called next [s]."""
-        return self._safety.due
-
-    def describe(self):
-        """Lines that say in words what moves the robot."""
-        return self._mapping.describe()
-
     def summary(self, now):
         """For diagnostics: whether all is well, the state, and details by name."""
-        state = self.state
+        state = self.safety.state
         messages, since = self._last_summary
         self._last_summary = (self._messages, now)
         rate = (self._messages - messages) / (now - since) if since not in (None, now) else 0.0
@@ -139,6 +113,6 @@ class Teleoperation:
         details = {
             "Joy rate [Hz]": f"{rate:.1f}",
             "Age of the last Joy [s]": age,
-            "Dead-man button": self._mapping.deadman,
+            "Dead-man button": self.mapping.deadman,
         }
         return state in (ARMED, DRIVING), state, details

@@ -84,13 +84,13 @@ STOPS = {
 }
 # What is fixed, what is only for the user, and the parts that have keys of their own.
 NOT_IN_KEY = {
-    "_parameters", "_warn", "_mapping", "_safety", "_hints", "_knows_gamepad", "_may_warn",
+    "_parameters", "_warn", "mapping", "safety", "_hints", "_knows_gamepad", "_may_warn",
     "_max_age_ns", "_unheard_since", "_resumption", "_messages", "_last_message", "_last_summary",
     "_watches_stillness",
 }  # fmt: skip
 FIXED_IN_SAFETY = {
     "_parameters", "_wake", "_warn", "_period", "_gradual", "_changes", "_silence_s",
-    "_stillness_s", "_watches_stillness", "_unarmed", "state", "arming",
+    "_stillness_s", "_silence", "_stillness", "_watches_stillness", "_unarmed", "state", "arming",
 }  # fmt: skip
 FIXED_IN_RELEASED = {"_is_good", "_is_released", "disarmed_s", "settled_s"}  # Resumption's
 PASS, TICK, LEFT, SUSPENDED = "time passes", "tick", "left", "suspended"
@@ -155,7 +155,7 @@ class TeleoperationWorld:
         """A World of its own, with what does not change shared."""
         new = copy_of(self)
         new._machine = machine = copy_of(self._machine)
-        machine._safety = safety = copy_of(machine._safety)
+        machine.safety = safety = copy_of(machine.safety)
         safety.arming = copy_of(safety.arming)
         machine._resumption = copy_of(machine._resumption)
         new._held, new._armed = copy_of(self._held), copy_of(self._armed)
@@ -167,10 +167,10 @@ class TeleoperationWorld:
         return (
             key_of(machine, now, without=NOT_IN_KEY),
             key_of(
-                machine._safety, now, future={"_next_output", "_silent_at", "_still_at"},
+                machine.safety, now, future={"_next_output", "_silent_at", "_still_at"},
                 without=FIXED_IN_SAFETY,
             ),
-            (machine._safety.arming.armed, machine._safety.arming.rests),
+            (machine.safety.arming.armed, machine.safety.arming.rests),
             until(now, machine._resumption._settled_at),
             (until(now, self._held.held_s), until(now, self._held.still_s)),
             (self._latched, self._is_reset),
@@ -185,12 +185,12 @@ class TeleoperationWorld:
             self._now += self._step_s if event == PASS else event
             return []
         self._woken.clear()
-        due, sent, was_late = self._machine.due, self._sent, self._is_silent
+        due, sent, was_late = self._machine.safety.due, self._sent, self._is_silent
         if event == TICK:
             self._all_released = self._all_released and not was_late
             if moves(sent) and self._now >= self._held.still_s:
                 self._lose(Loss(self._now, "joystick that does not change"))
-            answer = self._machine.tick(self._now)
+            answer = self._machine.safety.tick(self._now)
         elif event == LEFT:
             self._lose(Loss(self._now, "joystick node"))
             answer = self._machine.left(self._now)
@@ -272,9 +272,9 @@ class TeleoperationWorld:
                 yield "d", f"no stop, though: {event}"
             if not self._is_reset:
                 yield "d", "no stop, though the stop button was pressed"
-            if self._machine.due > self._held.until_s:
+            if self._machine.safety.due > self._held.until_s:
                 yield "d", "silence will be noticed too late"
-        if self._machine.released and self._has_moved:
+        if self._machine.safety.released and self._has_moved:
             if self._arms and not self._all_released:
                 yield "b", "a robot that was lost is driven on, and nothing was released"
             if not self._arms and moves(self._sent):
@@ -282,25 +282,28 @@ class TeleoperationWorld:
 
     def _must_watch(self, event, due, answer):
         """Whether the node is called in time, and stops are repeated."""
-        if self._machine.due < due and not self._woken:
+        if self._machine.safety.due < due and not self._woken:
             yield "d", "something is due sooner, and the node sleeps on"
-        if self._latched and self._machine.due > self._now + 1.0 / self._parameters.output_rate:
+        if (
+            self._latched
+            and self._machine.safety.due > self._now + 1.0 / self._parameters.output_rate
+        ):
             yield "e", "a robot that was stopped for good is left to others"
         if event == TICK and self._never_sleeps():
             yield "d", "the node is never let sleep"
         p = self._parameters
         is_over = self._now >= self._held.until_s and p.require_enable_button
-        is_last = self._machine.due > self._now + 1.0 / p.output_rate
+        is_last = self._machine.safety.due > self._now + 1.0 / p.output_rate
         if answer is not None and is_over and self._zeros < p.stop_messages and is_last:
             yield "d", "a stop is not repeated"
 
     def _never_sleeps(self):
         machine = self.copy()._machine
         for _ in range(self._parameters.stop_messages):
-            if machine.due > self._now:
+            if machine.safety.due > self._now:
                 return False
-            machine.tick(self._now)
-        return machine.due <= self._now
+            machine.safety.tick(self._now)
+        return machine.safety.due <= self._now
 
     def _must_go_on(self, event, answer, was_late):
         """Who holds the dead-man, in time and armed, drives."""

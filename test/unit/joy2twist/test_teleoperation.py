@@ -24,7 +24,7 @@ def teleoperation(**given):
 def test_a_message_becomes_a_velocity():
     machine, warnings = teleoperation()
     assert machine.joy((0.5, 0.7, 0, 0, 0, 0), (), 0.0) == pytest.approx((0.7, 0, 0, 0, 0, 0.5))
-    assert machine.due == 0.5  # the end of joy_timeout
+    assert machine.safety.due == 0.5  # the end of joy_timeout
     assert warnings == []
 
 
@@ -160,7 +160,7 @@ def test_a_stick_held_for_eight_seconds_is_stopped_unless_it_trembles(step):
     sent = []
     for i in range(1, 161):
         now = i * 0.05
-        sent += [machine.tick(now), machine.joy((0.0, 1.0 - step * (i % 2)), (1, 0, 0), now)]
+        sent += [machine.safety.tick(now), machine.joy((0.0, 1.0 - step * (i % 2)), (1, 0, 0), now)]
     stopped = (0,) * 6 in sent[20:]
     assert stopped is (step == 0)
     assert len(warnings) == stopped
@@ -179,11 +179,11 @@ def test_the_stop_button_stops_until_it_is_reset_and_all_is_released(arms):
     assert machine.joy((NAN, 1.0), (1, 0, 1), 0.4) is None  # a bad message resets nothing
     machine.joy(*RELEASED, 0.5)
     assert machine.joy(*HELD, 0.6) is None
-    assert machine.tick(0.7) == (0,) * 6
+    assert machine.safety.tick(0.7) == (0,) * 6
     machine.joy((0.0, 0.0), (0, 1, 1), 0.8)  # both buttons: no reset
     assert machine.joy(*HELD, 0.9) is None
     machine.joy((0.0, 1.0), (1, 0, 1), 1.0)
-    machine.tick(1.05)
+    machine.safety.tick(1.05)
     assert machine.joy(*HELD, 1.1) is None  # reset, but not released
     machine.joy(*RELEASED, 1.2)
     assert machine.joy(*HELD, 1.3)[0] == 1.0
@@ -202,22 +202,22 @@ def test_with_arming_all_is_released_first_with_a_dead_man_and_without():
     assert machine.joy((0.0, 1.0), (1,), 0.0) == (0,) * 6
     assert machine.joy((0.0, 1.0), (0,), 0.1) is None  # the stick is not
     assert machine.joy((0.0, 1.0), (1,), 0.2) is None
-    assert not machine.released
+    assert not machine.safety.released
     machine.joy((0.0, 0.05), (0,), 0.3)
-    assert machine.released
+    assert machine.safety.released
     assert machine.joy((0.0, 1.0), (1,), 0.4)[0] == 1.0
-    assert not machine.released
+    assert not machine.safety.released
     machine.joy((0.0, 0.0), (0,), 0.5)  # armed, too
-    assert machine.released
+    assert machine.safety.released
 
     machine, _ = teleoperation(arm_on_neutral=True)
     assert machine.joy((0.0, 1.0), (), 0.0) == (0,) * 6
     machine.joy((0.0, 0.0), (), 0.1)
-    assert machine.released
+    assert machine.safety.released
     assert machine.joy((0.0, 1.0), (), 0.2)[0] == 1.0
-    assert not machine.released
+    assert not machine.safety.released
     machine.joy((0.0, 0.0), (), 0.3)
-    assert machine.released
+    assert machine.safety.released
 
 
 @pytest.mark.parametrize(
@@ -252,7 +252,7 @@ def test_diagnostics():
     _, state, details = machine.summary(3.0)
     assert state.startswith("armed")
     assert details["Joy rate [Hz]"] == "1.5"
-    machine.tick(5.0)
+    machine.safety.tick(5.0)
     well, state, details = machine.summary(5.5)
     assert (well, state) == (False, "stopped: no message for 0.5 s")
     assert details["Age of the last Joy [s]"] == "4.000"
@@ -301,9 +301,9 @@ def test_100_000_random_messages_give_only_finite_velocities_within_the_limits(g
         axes, buttons, pause, age_ns = random_joy(random)
         sent = []
         end = now + pause
-        while machine.due <= end:
-            now = machine.due
-            sent.append(machine.tick(now))
+        while machine.safety.due <= end:
+            now = machine.safety.due
+            sent.append(machine.safety.tick(now))
         now = end
         sent.append(machine.joy(axes, buttons, now, age_ns))
         for velocity in filter(None, sent):
