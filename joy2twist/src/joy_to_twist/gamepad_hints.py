@@ -27,23 +27,20 @@ class GamepadHints:
         """One line that says what to do, or None."""
         if len(axes) != self._count:
             self._count = len(axes)
-            self._look_for_swap = self._count == D_MODE_AXES and not (
-                set(SWAPPED_STICK) & set(self._used)
-            )
+            swaps = not set(SWAPPED_STICK) & set(self._used)
+            self._look_for_swap = self._count == D_MODE_AXES and swaps
             if self._expected not in (-1, self._count):
                 return (
                     f"The gamepad has {self._count} axes and not {self._expected}: "
                     "check the D/X switch of a Logitech F710, or choose another joy_config."
                 )
-        if self._look_for_swap:
-            return self._swap_hint(axes)
-        return None
-
-    def _swap_hint(self, axes):
-        if any(abs(axes[index]) > NEUTRAL for index in self._used if index < len(axes)):
+        moved = [i for i, axis in enumerate(axes) if abs(axis) > NEUTRAL]
+        if not self._look_for_swap or not moved:
+            return None
+        if set(moved) & set(self._used):
             self._look_for_swap = False  # the stick is where it should be
         # A D-pad moves these axes too, and the swapped stick gives no more than it: -1, 0 and 1.
-        elif any(abs(axes[index]) > NEUTRAL for index in SWAPPED_STICK):
+        elif set(moved) & set(SWAPPED_STICK):
             self._look_for_swap = False
             return (
                 "Only axes 4 and 5 move: if that was the left stick of a Logitech F710, "
