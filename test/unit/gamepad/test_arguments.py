@@ -1,14 +1,19 @@
 """The arguments that roslaunch itself does not check."""
 
+from pathlib import Path
+
 import pytest
 
-from gamepad.arguments import RULES, check
+from gamepad.arguments import INDEX, RULES, check
+
+
+WHOLE = (Path(__file__).parents[3] / "common" / "gamepad" / "bag" / "joy.bag").read_bytes()
 
 
 @pytest.fixture
 def bag(tmp_path):
     path = tmp_path / "joy.bag"
-    path.write_bytes(b"#ROSBAG V2.0\n")
+    path.write_bytes(WHOLE)
     return str(path)
 
 
@@ -55,6 +60,19 @@ def test_a_recording(bag, tmp_path):
     assert refused("bag", str(tmp_path)) == "cannot be read: Is a directory"
     (tmp_path / "joy.bag").write_text("#!/bin/sh")
     assert refused("bag", bag) == "is no recording of rosbag"
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        *(WHOLE[:size] for size in (13, 30, 5000, 400_000)),
+        INDEX.sub(b"index_pos=" + bytes(8), WHOLE, 1),  # as rosbag record leaves it when killed
+    ],
+    ids=len,
+)
+def test_a_recording_that_is_cut_short(bag, content):
+    Path(bag).write_bytes(content)
+    assert refused("bag", bag) == f"is cut short; mend it with: rosbag reindex {bag}"
 
 
 @pytest.mark.parametrize(
