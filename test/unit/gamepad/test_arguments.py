@@ -6,7 +6,6 @@ import pytest
 
 from gamepad.arguments import INDEX, RULES, check
 
-
 WHOLE = (Path(__file__).parents[3] / "common" / "gamepad" / "bag" / "joy.bag").read_bytes()
 
 
@@ -26,7 +25,7 @@ def refused(name, value):
     return line[len(f"{name}:={value}: ") :]
 
 
-@pytest.mark.parametrize("name", ["virtual", "loop", "rviz"])
+@pytest.mark.parametrize("name", ["virtual", "lan", "loop", "rviz"])
 def test_true_or_false(name):
     """What roslaunch itself takes for one of the two."""
     for value in ("true", "false", "True", "False", "1", "0"):
@@ -101,7 +100,8 @@ def test_a_robot():
 
 def test_only_arguments_with_a_rule_are_asked_for():
     assert set(RULES) == {
-        "bag", "cockpit", "cockpit_port", "joy_pkg", "joystick", "loop", "name", "rviz", "virtual",
+        "bag", "cockpit", "cockpit_port", "joy_pkg", "joystick", "lan", "loop", "name", "rviz",
+        "virtual",
     }  # fmt: skip
 
 

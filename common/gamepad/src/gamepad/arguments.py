@@ -83,6 +83,7 @@ RULES = {
     "cockpit_port": port,
     "joy_pkg": driver,
     "joystick": joystick,
+    "lan": true_or_false,
     "loop": true_or_false,
     "name": robot,
     "rviz": true_or_false,

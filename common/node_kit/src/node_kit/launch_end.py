@@ -2,7 +2,7 @@
 
     <node ... required="true" launch-prefix="$(find node_kit)/ends_launch"/>
 
-required="true" alone reports every end as a process that has died. Here it does so only for a failure.
+required="true" alone reports every end as a process that has died; with this only a failure.
 """
 
 import os
@@ -23,7 +23,7 @@ def name_of(command: "list[str]") -> str:
 
 
 def main() -> None:
-    """Run the node of the command line; at its normal end interrupt roslaunch, and wait for that."""
+    """Run the node of the command line; at its normal end interrupt roslaunch, and wait."""
     command, ended = sys.argv[1:], []
     for number in ENDING:  # both go to the node, too, which has its own handlers
         signal.signal(number, lambda *_: ended.append(True))
