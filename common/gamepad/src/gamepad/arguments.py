@@ -99,12 +99,21 @@ def check(name, value):
         raise ValueError(f"{name}:={value}: {error}") from None
 
 
+def assignment(argument: str) -> "tuple[str, str]":
+    """Return name and value of NAME:=VALUE; raise ValueError with one line if it is not that."""
+    name, assigned, value = argument.partition(":=")
+    if not assigned:
+        near = argument.replace("=", ":=", 1)
+        meant = f"; did you mean {near}?" if "=" in argument else ""
+        raise ValueError(f"{argument}: not NAME:=VALUE, := is missing{meant}")
+    return name, value
+
+
 def main():
     """check_arguments NAME:=VALUE ...: exit code 1, with a line, at the first that will not do."""
     try:
         for argument in sys.argv[1:]:
-            name, _, value = argument.partition(":=")
-            check(name, value)
+            check(*assignment(argument))
     except ValueError as error:
         sys.exit(f"roslaunch: {error}")
     print("true")  # roslaunch makes a parameter of it
