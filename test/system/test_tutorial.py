@@ -113,6 +113,7 @@ def test_shell_and_run_see_the_workspace_and_no_shell_file_is_touched(tutorial, 
         input="pwd; alias mine; roscd joy2twist/launch; pwd; echo $CMAKE_POLICY_VERSION_MINIMUM\n"
         # As Tab does after: rosrun joy2twist joy2
         "COMP_WORDS=(rosrun joy2twist joy2) COMP_CWORD=2; _roscomplete_exe; echo ${COMPREPLY[0]}\n"
+        "wget http://127.0.0.1:9/talker.py 2>&1 | tail -n 1\n"  # installed or not
         "exit 3\n",
         env={
             "HOME": str(home),
@@ -128,6 +129,8 @@ def test_shell_and_run_see_the_workspace_and_no_shell_file_is_touched(tutorial, 
         f"{workspace}/src/joy2twist/launch",
         "3.5",
         "joy2twist.py",
+        "nothing was downloaded: type talker.py and listener.py as the handout lists them at the "
+        "end of section 3",
     ]
     assert [path.name for path in home.iterdir() if path.name != ".bash_history"] == [".bashrc"]
     assert (home / ".bashrc").read_text() == "alias mine=true\n"
