@@ -3,11 +3,14 @@
 import re
 import socket
 import subprocess
+from pathlib import Path
 
 import pytest
 
 from tutorial_testing.processes import Program, refuse
 from tutorial_testing.waiting import DEADLINE_S, wait_for
+
+TROUBLE = Path(__file__).resolve().parents[2] / "common" / "doc" / "TROUBLE.md"
 
 
 @pytest.mark.parametrize(
@@ -98,6 +101,14 @@ def test_what_is_kept_of_the_environment_is_what_setup_bash_sets(tutorial):
     )
     kept, set_anew = done.stdout.splitlines()
     assert kept == set_anew
+
+
+def test_what_rospack_says_beside_its_answer_is_explained(tutorial):
+    command = [tutorial, "run", "rospack", "depends1", "beginner_tutorials"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert done.stdout == "std_msgs\nrospy\nroscpp\n"
+    trouble = TROUBLE.read_text(encoding="utf-8")
+    assert [line for line in done.stderr.splitlines() if f"| `{line}` |" not in trouble] == []
 
 
 def test_shell_and_run_see_the_workspace_and_no_shell_file_is_touched(tutorial, tmp_path):
