@@ -18,7 +18,7 @@ DEFAULT_MASTER = "http://localhost:11311"
 ONLY_READS = re.compile(r"--(nodes|files|args|find-node|ros-args|dump-params)\b")
 
 
-def reader():
+def reader() -> "list[str]":
     """Return the command line of the parent: of the program that reads the launch file."""
     return Path(f"/proc/{os.getppid()}/cmdline").read_bytes().decode(errors="replace").split("\0")
 

@@ -9,6 +9,7 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 
 from node_kit.launch_check import reader, will_start
 
@@ -24,12 +25,12 @@ def name_of(command: "list[str]") -> str:
 
 def main() -> None:
     """Run the node of the command line; at its normal end interrupt roslaunch, and wait."""
-    command, ended = sys.argv[1:], []
+    command, ended = sys.argv[1:], threading.Event()
     for number in ENDING:  # both go to the node, too, which has its own handlers
-        signal.signal(number, lambda *_: ended.append(True))
+        signal.signal(number, lambda *_: ended.set())
     code = subprocess.call(command)
     signal.pthread_sigmask(signal.SIG_BLOCK, ENDING)
-    if ended or code != 0 or not will_start(reader()):
+    if ended.is_set() or code != 0 or not will_start(reader()):
         sys.exit(code if code >= 0 else 128 - code)
     print(f"roslaunch: {name_of(command)} has finished, which ends this launch", file=sys.stderr)
     os.kill(os.getppid(), signal.SIGINT)
