@@ -47,7 +47,7 @@ TALK = [
     ("roscore", "roscore", "started core service"),
     ("2", "rosrun beginner_tutorials talker.py", r"\[INFO\]"),
     ("3", "rosrun beginner_tutorials listener.py", r"\[INFO\].*heard|\[INFO\]"),
-    ("1", "cd /tmp && rqt_graph", "wrote rosgraph.png"),
+    ("1", "cd /tmp && rqt_graph", "wrote /tmp/rosgraph.png"),
     ("1", "rosnode list", "/talker_"),
 ]
 JOY = [

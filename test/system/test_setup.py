@@ -5,7 +5,7 @@ import shutil
 
 import pytest
 
-from tutorial_testing.processes import Program
+from tutorial_testing.processes import Program, refuse
 from tutorial_testing.waiting import wait_for
 
 # A system on which nothing is installed yet. LACKING: what its archive has not; SLOW: download or
@@ -29,6 +29,7 @@ FAKES = {
         if [ -n "$BROKEN" ]; then echo 'Err:1 no network' ; [[ $* == *" update" ]]; exit; fi
         case $* in
         *" update") ;;
+        *--print-uris*) printf "'http://a/b.deb' b.deb %s MD5Sum:0\\n" 200300000 44500000 ;;
         'install -s'*) for name in $LACKING; do [[ " $* " != *" $name "* ]] || exit 100; done ;;
         *--download-only*)
             echo dlstatus:1:50.0:words >&3
@@ -64,7 +65,7 @@ def bare_system(tmp_path, monkeypatch, own_workspace):
 def test_set_up_by_sudo_shows_how_far_it_is(tutorial):
     with Program(tutorial, "setup", "system") as setup:
         assert setup.wait() == 0, setup.output
-        assert "tutorial:    download 50 %\ntutorial:    install 50 %\n" in setup.output
+        assert "tutorial:    download 50 % of 245 MB\ntutorial:    install 50 %\n" in setup.output
 
 
 def test_what_the_archive_lacks_is_said_once_and_done_without(tutorial, bare_system, monkeypatch):
@@ -89,6 +90,27 @@ def test_an_archive_without_what_drives_is_named(tutorial, bare_system, monkeypa
         assert "lacks python3-rospy, without which nothing drives" in demo.output
         assert "network" not in demo.output
     assert not (bare_system / "installed").read_text()
+
+
+def test_the_doctor_installs_nothing(tutorial, bare_system):
+    line = refuse(tutorial, "doctor")
+    missing = (
+        r"doctor: nothing can drive: \d\d Debian packages are missing, such as python3-roslaunch"
+    )
+    assert re.search(rf"^tutorial: {missing}; \./tutorial setup installs them$", line)
+    assert not (bare_system / "calls").exists()  # of apt-get
+
+
+def test_the_doctor_does_without_what_only_shows(tutorial, bare_system):
+    with Program(tutorial, "setup", "system") as setup:
+        assert setup.wait() == 0
+    installed = bare_system / "installed"
+    installed.write_text(installed.read_text().replace("rviz\n", ""))
+    (bare_system / "calls").unlink()
+    with Program(tutorial, "doctor", ROS_MASTER_URI="http://localhost:9") as doctor:
+        assert doctor.wait() == 1
+        assert "wrong    master" in doctor.output
+    assert not (bare_system / "calls").exists()
 
 
 @pytest.mark.usefixtures("bare_system")
@@ -126,7 +148,7 @@ def test_ctrl_c_ends_a_download_quietly(tutorial, bare_system, monkeypatch):
         wait_for((bare_system / "slow_download").exists, "download")
         demo.interrupt()
         assert demo.wait() == 130
-        assert demo.output.splitlines()[1:] == ["tutorial:    download 50 %", INTERRUPTED]
+        assert demo.output.splitlines()[1:] == ["tutorial:    download 50 % of 245 MB", INTERRUPTED]
         wait_for(lambda: not demo.left_behind(), "end of apt-get")
 
 
@@ -170,6 +192,29 @@ def test_after_a_build_that_failed_nothing_counts_as_built(clone, own_workspace,
         assert setup.wait() == 1
         assert "tutorial: catkin_make failed" in setup.output
     assert not (own_workspace / "built").exists()
+
+
+@pytest.mark.usefixtures("clean_environment")
+def test_a_workspace_that_sudo_makes_and_one_of_a_moved_clone_are_reported(clone, tmp_path):
+    first, second = tmp_path / "first", tmp_path / "second"
+    shutil.copytree(clone, first, symlinks=True)
+    environment = {"HOME": str(tmp_path), "XDG_CACHE_HOME": "", "SUDO_USER": "ada"}
+
+    def set_up(folder):
+        with Program(str(folder / "tutorial"), "demo", "--help", **environment) as demo:
+            assert demo.wait() == 0, demo.output
+            return demo.output
+
+    said = set_up(first)
+    by_sudo = "ada's own calls do not use: call ./tutorial without sudo, it asks for it itself"
+    assert by_sudo in said
+    assert "clone that was moved" not in said
+    (old,) = (tmp_path / ".cache" / "ros1_tutorial").iterdir()
+    first.rename(second)
+    environment["SUDO_USER"] = ""
+    said = set_up(second)
+    assert f"a clone that was moved or removed are still there: rm -r {old}\n" in said
+    assert "without sudo" not in said
 
 
 def test_why_a_workspace_is_not_built_is_said_in_catkins_words(tutorial, tmp_path):

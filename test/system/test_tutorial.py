@@ -3,11 +3,14 @@
 import re
 import socket
 import subprocess
+from pathlib import Path
 
 import pytest
 
 from tutorial_testing.processes import Program, refuse
 from tutorial_testing.waiting import DEADLINE_S, wait_for
+
+TROUBLE = Path(__file__).resolve().parents[2] / "common" / "doc" / "TROUBLE.md"
 
 
 @pytest.mark.parametrize(
@@ -100,6 +103,14 @@ def test_what_is_kept_of_the_environment_is_what_setup_bash_sets(tutorial):
     assert kept == set_anew
 
 
+def test_what_rospack_says_beside_its_answer_is_explained(tutorial):
+    command = [tutorial, "run", "rospack", "depends1", "beginner_tutorials"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert done.stdout == "std_msgs\nrospy\nroscpp\n"
+    trouble = TROUBLE.read_text(encoding="utf-8")
+    assert [line for line in done.stderr.splitlines() if f"| `{line}` |" not in trouble] == []
+
+
 def test_shell_and_run_see_the_workspace_and_no_shell_file_is_touched(tutorial, tmp_path):
     home = tmp_path / "home"
     home.mkdir()
@@ -113,6 +124,7 @@ def test_shell_and_run_see_the_workspace_and_no_shell_file_is_touched(tutorial, 
         input="pwd; alias mine; roscd joy2twist/launch; pwd; echo $CMAKE_POLICY_VERSION_MINIMUM\n"
         # As Tab does after: rosrun joy2twist joy2
         "COMP_WORDS=(rosrun joy2twist joy2) COMP_CWORD=2; _roscomplete_exe; echo ${COMPREPLY[0]}\n"
+        "wget http://127.0.0.1:9/talker.py 2>&1 | tail -n 1\n"  # installed or not
         "exit 3\n",
         env={
             "HOME": str(home),
@@ -128,6 +140,8 @@ def test_shell_and_run_see_the_workspace_and_no_shell_file_is_touched(tutorial, 
         f"{workspace}/src/joy2twist/launch",
         "3.5",
         "joy2twist.py",
+        "nothing was downloaded: type talker.py and listener.py as the handout lists them at the "
+        "end of section 3",
     ]
     assert [path.name for path in home.iterdir() if path.name != ".bash_history"] == [".bashrc"]
     assert (home / ".bashrc").read_text() == "alias mine=true\n"

@@ -5,7 +5,7 @@ import pytest
 from tutorial_testing.two_hosts.scene import REPOSITORY, ROBOT, WORKSTATION
 from tutorial_testing.waiting import wait_for
 
-TURTLEBOT = "roslaunch joy2twist joy2twist_turtlebot.launch"
+TURTLEBOT = "roslaunch joy2twist joy2twist_turtlebot.launch log_rate:=50"
 TIMEOUT_S = 0.6  # of the base
 LATENESS_S = 0.3  # of programs on a busy machine
 # mux.yaml of a real TurtleBot knows no rearm_on_zero; then the late commands reach the base within

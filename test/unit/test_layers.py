@@ -43,8 +43,8 @@ cockpit_server.motion cockpit_server.fields cockpit_server.graph cockpit_server.
 cockpit_server.guard
 """.split()
 OUTER = """
-node_kit.launch_check node_kit.manifests node_kit.suspension node_kit.careful_connections
-node_kit.ending node_kit.log node_kit.prompt_publisher node_kit.start
+node_kit.launch_check node_kit.launch_end node_kit.manifests node_kit.suspension
+node_kit.careful_connections node_kit.ending node_kit.log node_kit.prompt_publisher node_kit.start
 gamepad.driver.wake gamepad.driver.device gamepad.driver.node gamepad.virtual.terminal
 gamepad.virtual.pads gamepad.virtual.program fake_turtlebot_sim.simulator.ros_messages
 fake_turtlebot_sim.simulator.ros_clock fake_turtlebot_sim.simulator.robot_topics

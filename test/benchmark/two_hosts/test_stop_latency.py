@@ -12,7 +12,7 @@ LONGEST_S = 0.060  # for 99 of 100; 20 ms of it may pass until the next odometry
 def test_stop_latency():
     with Scene() as scene:
         scene.launch_robot()
-        scene.launch_workstation("roslaunch joy2twist joy2twist_turtlebot.launch")
+        scene.launch_workstation("roslaunch joy2twist joy2twist_turtlebot.launch log_rate:=50")
         scene.launch_pilot()
         scene.tell("neutral")
         wait_for(lambda: "Get from Joy" in scene.workstation.output, "joystick heard")

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""A browser is the joystick of launch_joy_node.launch; a second cockpit finds the port taken."""
+"""A browser is the joystick of launch_joy_node.launch; a second cockpit leads to the first."""
 
+import socket
 import time
 import unittest
 from urllib.parse import urlsplit
@@ -42,12 +43,23 @@ class BrowserJoystick(unittest.TestCase):
             rig.drive(page)
             page.close()
             rig.rest_after(time.time())
-            command = (node_path("cockpit", "cockpit.py"), "--port", str(rig.port))
-            with Program(*command, "__name:=another") as second:
-                self.assertEqual(second.wait(), 1)
-                self.assertRegex(second.output, rf"^cockpit: port {rig.port} is taken[^\n]*\n$")
+            at = f"http://127.0.0.1:{rig.port}/"
+            why = f"cockpit: one runs already: open {at} on this machine"
+            self.second_says(rig.port, 0, f"{why}\n")
+            why = f"cockpit: one runs already at {at}; for other machines end it first[^\n]*"
+            self.second_says(rig.port, 1, f"{why} or take --port {rig.port + 1}\n", "--lan")
+            with socket.create_server(("127.0.0.1", 0)) as taken:  # by another program
+                port = taken.getsockname()[1]
+                self.second_says(port, 1, f"cockpit: port {port} is taken[^\n]*\n")
             with rig.page() as again:
                 rig.drive(again)
+
+    def second_says(self, port, code, line, *options):
+        """Another cockpit ends at once, with an exit code and one line."""
+        command = (node_path("cockpit", "cockpit.py"), "--port", str(port), *options)
+        with Program(*command, "__name:=another") as second:
+            self.assertEqual(second.wait(), code)
+            self.assertRegex(second.output, f"^{line}$")
 
     def test_rqt_commands_lead_to_the_page(self):
         page = wait_for(lambda: address(rosgraph.get_master_uri()), "address of the page")

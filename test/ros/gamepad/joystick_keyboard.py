@@ -55,6 +55,7 @@ class KeyboardTest(unittest.TestCase):
         wait_for(self.rig.stands, "standing robot after unplugging")
         wait_for(lambda: "unplugged" in terminal.screen, "word on the screen")
         self.end_with("q")
+        self.assertNotIn("died", self.terminal.history)  # a normal end does not look like a crash
 
     def test_a_key_that_is_held_drives_for_as_long_as_it_is_held(self):
         """A real gamepad that is as still as that is taken to be out of reach."""

@@ -13,10 +13,13 @@ import rostest
 import yaml
 from sensor_msgs.msg import Joy
 
+from node_kit.page import address
 from tutorial_testing.nodes import init_node
+from tutorial_testing.ports import free_port
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
+SIM = "fake_turtlebot_sim"
 BAGS = Path(rospkg.RosPack().get_path("joy2twist")) / "bag"
 
 
@@ -30,10 +33,10 @@ def known():
 
 
 class ArgumentsTest(unittest.TestCase):
-    def refused(self, line, *arguments):
+    def refused(self, line, *arguments, package="joy2twist"):
         """A launch says a line, ends, and has started nothing."""
         before = known()
-        with roslaunch(*arguments) as launch:
+        with roslaunch(*arguments, package=package) as launch:
             self.assertNotEqual(launch.wait(), 0, launch.output)
             self.assertIn(f"roslaunch: {line}", launch.output.splitlines())
             self.assertNotIn("process[", launch.output)
@@ -100,6 +103,24 @@ class ArgumentsTest(unittest.TestCase):
             self.assertFalse(master.hasParam("/myjoystick2twist/enable_button"))
             launch.interrupt()
             launch.wait()
+
+    def test_a_classroom_without_a_screen_and_a_student_beside_it_share_one_page(self):
+        port = f"cockpit_port:={free_port()}"
+        self.refused("lan:=yes: must be true or false", "classroom.launch", "lan:=yes", package=SIM)
+        student = ("student.launch", "name:=robot_1", "joystick:=browser", "rviz:=false", port)
+        with roslaunch("classroom.launch", "lan:=true", port, package=SIM) as classroom:
+            wait_for(lambda: address(rosgraph.get_master_uri()), "page of the classroom")
+            for line in ("cockpit: to look:  http://", "cockpit: to drive: http://"):
+                self.assertIn(line, classroom.output)
+            with roslaunch(*student) as launch:
+                wait_for(lambda: "finished cleanly" in launch.output, "end of its cockpit")
+                page = address(rosgraph.get_master_uri())
+                self.assertIn(f"cockpit: one runs already: open {page} on", launch.output)
+                self.assertNotIn("died", launch.output)
+                launch.interrupt()
+                launch.wait()
+            classroom.interrupt()
+            classroom.wait()
 
 
 if __name__ == "__main__":

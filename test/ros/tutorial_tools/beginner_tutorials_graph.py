@@ -54,6 +54,12 @@ class GraphTest(unittest.TestCase):
         self.assertIn('"node /talker" -> "topic /rosout"', everything)
         self.assertNotIn("draw_graph", everything)
 
+    def test_a_picture_is_named_with_its_folder(self):
+        draw = f"cd '{self.folder}' && exec {node_path('tutorial_tools', 'draw_graph.py')}"
+        with Program("sh", "-c", draw) as program:
+            self.assertEqual(program.wait(), 0)
+            self.assertEqual(program.output, f"draw_graph: wrote {self.folder}/graph.png\n")
+
     def test_a_picture(self):
         data = self.drawn("graph.png")
         self.assertEqual(data[:8], b"\x89PNG\r\n\x1a\n")

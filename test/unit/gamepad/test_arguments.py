@@ -1,14 +1,18 @@
 """The arguments that roslaunch itself does not check."""
 
+from pathlib import Path
+
 import pytest
 
-from gamepad.arguments import RULES, check
+from gamepad.arguments import INDEX, RULES, check
+
+WHOLE = (Path(__file__).parents[3] / "common" / "gamepad" / "bag" / "joy.bag").read_bytes()
 
 
 @pytest.fixture
 def bag(tmp_path):
     path = tmp_path / "joy.bag"
-    path.write_bytes(b"#ROSBAG V2.0\n")
+    path.write_bytes(WHOLE)
     return str(path)
 
 
@@ -21,7 +25,7 @@ def refused(name, value):
     return line[len(f"{name}:={value}: ") :]
 
 
-@pytest.mark.parametrize("name", ["virtual", "loop", "rviz"])
+@pytest.mark.parametrize("name", ["virtual", "lan", "loop", "rviz"])
 def test_true_or_false(name):
     """What roslaunch itself takes for one of the two."""
     for value in ("true", "false", "True", "False", "1", "0"):
@@ -58,6 +62,19 @@ def test_a_recording(bag, tmp_path):
 
 
 @pytest.mark.parametrize(
+    "content",
+    [
+        *(WHOLE[:size] for size in (13, 30, 5000, 400_000)),
+        INDEX.sub(b"index_pos=" + bytes(8), WHOLE, 1),  # as rosbag record leaves it when killed
+    ],
+    ids=len,
+)
+def test_a_recording_that_is_cut_short(bag, content):
+    Path(bag).write_bytes(content)
+    assert refused("bag", bag) == f"is cut short; mend it with: rosbag reindex {bag}"
+
+
+@pytest.mark.parametrize(
     ("name", "near"),
     [
         ("robot-7", "robot_7"),
@@ -83,7 +100,8 @@ def test_a_robot():
 
 def test_only_arguments_with_a_rule_are_asked_for():
     assert set(RULES) == {
-        "bag", "cockpit", "cockpit_port", "joy_pkg", "joystick", "loop", "name", "rviz", "virtual",
+        "bag", "cockpit", "cockpit_port", "joy_pkg", "joystick", "lan", "loop", "name", "rviz",
+        "virtual",
     }  # fmt: skip
 
 

@@ -29,7 +29,12 @@ def test_a_folder_is_no_bag():
 
 @pytest.mark.parametrize(
     ("argument", "line"),
-    [("rviz", "rviz: not an argument"), ("rviz:=perhaps", "rviz:=perhaps: must be true or false")],
+    [
+        ("rviz", "rviz: not NAME:=VALUE, := is missing$"),
+        ("rviz=true", "rviz=true: not NAME:=VALUE, := is missing; did you mean rviz:=true.$"),
+        ("colour:=red", "colour:=red: not an argument of launch_bag.launch, which has bag:="),
+        ("rviz:=perhaps", "rviz:=perhaps: must be true or false"),
+    ],
 )
 def test_a_wrong_argument_is_named(argument, line):
     with pytest.raises(DemoError, match=f"^{line}"):

@@ -46,3 +46,9 @@ def test_which_robots_there_are(monkeypatch):
         check_robot("http://10.0.0.1:11311", "robot_7")
     with pytest.raises(JoinError, match="driven already, by /robot_2/myjoystick2twist"):
         check_robot("http://10.0.0.1:11311", "robot_2")
+
+
+def test_an_argument_without_its_sign(monkeypatch):
+    monkeypatch.setattr("sys.argv", ["join", "10.0.0.1", "robot_7", "virtual=true"])
+    with pytest.raises(SystemExit, match=r"^join: virtual=true: .* did you mean virtual:=true\?$"):
+        program.main()

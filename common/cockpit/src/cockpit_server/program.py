@@ -9,12 +9,13 @@ import socket
 import subprocess
 import sys
 import time
+from urllib.parse import urlsplit
 
 import rosgraph
 import rospy
 
 from cockpit_server.access import Access
-from node_kit.page import PARAMETER
+from node_kit.page import PARAMETER, address
 from node_kit.questions import Answer, call
 from node_kit.start import run
 
@@ -54,10 +55,22 @@ def listening(port, lan):
         return [_listening(host, port) for host in hosts]
     except OSError as error:
         if error.errno == errno.EADDRINUSE:
-            fail(
-                f"port {port} is taken, maybe by another cockpit: end it, or take --port {port + 1}"
-            )
+            leave_to_other(port, lan)
         fail(f"cannot listen on port {port}: {error.strerror}; take another: --port 8080")
+
+
+def leave_to_other(port, lan):
+    """Exit: with 0 if a cockpit of the same master has the port, and may as well be used."""
+    page = address(rosgraph.get_master_uri())
+    if not page or urlsplit(page).port != port:
+        fail(f"port {port} is taken, maybe by another cockpit: end it, or take --port {port + 1}")
+    if lan:
+        fail(
+            f"one runs already at {page}; for other machines end it first (a launch file starts "
+            f"none with cockpit:=false), or take --port {port + 1}"
+        )
+    print(f"cockpit: one runs already: open {page} on this machine", flush=True)
+    sys.exit()
 
 
 def _listening(host, port):
@@ -106,15 +119,15 @@ def main():
 
     def spin(_parameters):
         tell(options.port, access)
-        address = f"http://127.0.0.1:{options.port}/"
-        rospy.set_param(PARAMETER, address)
+        page = f"http://127.0.0.1:{options.port}/"
+        rospy.set_param(PARAMETER, page)
         cockpit = Cockpit(sockets, access)
         try:
             cockpit.run()
         finally:
             uri = rosgraph.get_master_uri()
             # Another cockpit, under a name of its own, may have put its own there.
-            if call(uri, "getParam", PARAMETER) == (Answer.WELL, address):
+            if call(uri, "getParam", PARAMETER) == (Answer.WELL, page):
                 call(uri, "deleteParam", PARAMETER)
         if cockpit.has_lost_master:
             begin_anew(access)
@@ -149,10 +162,10 @@ def tell(port, access):
     if access.driver_token is None:
         print(f"cockpit: open http://127.0.0.1:{port}/ on this machine", flush=True)
         return
-    address = f"http://{own_address()}:{port}/?token="
-    print(f"cockpit: to look:  {address}{access.viewer_token}")
-    print(f"cockpit: to drive: {address}{access.driver_token}", flush=True)
-    show_code(f"{address}{access.driver_token}")
+    page = f"http://{own_address()}:{port}/?token="
+    print(f"cockpit: to look:  {page}{access.viewer_token}")
+    print(f"cockpit: to drive: {page}{access.driver_token}", flush=True)
+    show_code(f"{page}{access.driver_token}")
 
 
 def show_code(text):

@@ -11,6 +11,9 @@ a robot's name that is none shows when nothing drives.
 import re
 import sys
 
+LONGEST_BAG_HEADER = 4096  # bytes; http://wiki.ros.org/Bags/Format/2.0
+INDEX = re.compile(rb"index_pos=(.{8})", re.DOTALL)
+
 
 def true_or_false(value):
     if value.lower() not in ("true", "false", "1", "0"):
@@ -25,11 +28,17 @@ def recording(value):
         raise ValueError("must be a whole path, as $PWD is not set")
     try:
         with open(value, "rb") as file:
-            is_bag = file.read(9) == b"#ROSBAG V"
+            begin = file.read(LONGEST_BAG_HEADER)
+            size = file.seek(0, 2)
     except OSError as error:
         raise ValueError(f"cannot be read: {error.strerror}") from None
-    if not is_bag:
+    if not begin.startswith(b"#ROSBAG V"):
         raise ValueError("is no recording of rosbag")
+    index = INDEX.search(begin)  # rosbag record writes where it is at the very end
+    if begin.startswith(b"#ROSBAG V2") and not (
+        index and 0 < int.from_bytes(index[1], "little") < size
+    ):
+        raise ValueError(f"is cut short; mend it with: rosbag reindex {value}")
 
 
 def driver(value):
@@ -74,6 +83,7 @@ RULES = {
     "cockpit_port": port,
     "joy_pkg": driver,
     "joystick": joystick,
+    "lan": true_or_false,
     "loop": true_or_false,
     "name": robot,
     "rviz": true_or_false,
@@ -89,12 +99,21 @@ def check(name, value):
         raise ValueError(f"{name}:={value}: {error}") from None
 
 
+def assignment(argument: str) -> "tuple[str, str]":
+    """Return name and value of NAME:=VALUE; raise ValueError with one line if it is not that."""
+    name, assigned, value = argument.partition(":=")
+    if not assigned:
+        near = argument.replace("=", ":=", 1)
+        meant = f"; did you mean {near}?" if "=" in argument else ""
+        raise ValueError(f"{argument}: not NAME:=VALUE, := is missing{meant}")
+    return name, value
+
+
 def main():
     """check_arguments NAME:=VALUE ...: exit code 1, with a line, at the first that will not do."""
     try:
         for argument in sys.argv[1:]:
-            name, _, value = argument.partition(":=")
-            check(name, value)
+            check(*assignment(argument))
     except ValueError as error:
         sys.exit(f"roslaunch: {error}")
     print("true")  # roslaunch makes a parameter of it

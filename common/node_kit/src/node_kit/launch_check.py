@@ -18,6 +18,11 @@ DEFAULT_MASTER = "http://localhost:11311"
 ONLY_READS = re.compile(r"--(nodes|files|args|find-node|ros-args|dump-params)\b")
 
 
+def reader() -> "list[str]":
+    """Return the command line of the parent: of the program that reads the launch file."""
+    return Path(f"/proc/{os.getppid()}/cmdline").read_bytes().decode(errors="replace").split("\0")
+
+
 def will_start(command):
     """Whether the program that reads the launch file starts its nodes on the master of all.
 
@@ -42,10 +47,8 @@ def complaint(names, master_uri):
 
 def main():
     """Check the names of the command line; the output becomes the value of the parameter."""
-    # rosrun has become this program, so the parent is whoever reads the launch file.
-    reader = Path(f"/proc/{os.getppid()}/cmdline").read_bytes().decode(errors="replace").split("\0")
     uri = os.environ.get("ROS_MASTER_URI") or DEFAULT_MASTER
-    line = complaint(sys.argv[1:], uri) if will_start(reader) else None
+    line = complaint(sys.argv[1:], uri) if will_start(reader()) else None
     if line:
         sys.exit(f"roslaunch: {line}")
     print("true")

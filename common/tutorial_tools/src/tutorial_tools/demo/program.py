@@ -21,7 +21,7 @@ import roslaunch
 import roslaunch.arg_dump
 import rospkg
 
-from gamepad.arguments import check
+from gamepad.arguments import assignment, check
 from node_kit.arguments import above_zero
 from node_kit.names import holder
 from node_kit.page import address
@@ -60,13 +60,14 @@ def launch_arguments(launch_file, arguments):
     """
     known = roslaunch.arg_dump.get_args([launch_file])
     values = {name: default for name, (_, default) in known.items()}
-    for argument in arguments:
-        name, assigned, value = argument.partition(":=")
-        if not assigned or name not in known:
-            names = ", ".join(f"{name}:=" for name in sorted(known))
-            raise DemoError(f"{argument}: not an argument of launch_bag.launch, which has {names}")
-        values[name] = value
     try:
+        for argument in arguments:
+            name, value = assignment(argument)
+            if name not in known:
+                names = ", ".join(f"{name}:=" for name in sorted(known))
+                there = f"not an argument of launch_bag.launch, which has {names}"
+                raise ValueError(f"{argument}: {there}")
+            values[name] = value
         for name in ("rviz", "cockpit", "cockpit_port"):
             check(name, values[name])
     except ValueError as error:

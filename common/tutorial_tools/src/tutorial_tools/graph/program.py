@@ -170,4 +170,4 @@ def main(arguments=None):
         fail(error)
     except OSError as error:
         fail(f"cannot write {file}: {os.strerror(error.errno)}")
-    print(f"draw_graph: wrote {file}")
+    print(f"draw_graph: wrote {file.absolute()}")

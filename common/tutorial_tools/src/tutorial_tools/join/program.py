@@ -8,6 +8,7 @@ import os
 import re
 import sys
 
+from gamepad.arguments import assignment
 from node_kit.questions import Answer
 from tutorial_tools.doctor.facts import some
 from tutorial_tools.doctor.network import addresses, call, is_called_back, is_here, way_out
@@ -76,10 +77,12 @@ def main():
     """Check, then become roslaunch."""
     options = parse(sys.argv[1:])
     try:
+        for argument in options.arguments:
+            assignment(argument)
         uri, own = check_host(options.host)
         check_master(uri, own)
         check_robot(uri, options.name)
-    except JoinError as error:
+    except (JoinError, ValueError) as error:
         sys.exit(f"join: {error}")
     environment = {name: value for name, value in os.environ.items() if name != "ROS_HOSTNAME"}
     environment.update(ROS_MASTER_URI=uri, ROS_IP=own)
