@@ -1,8 +1,8 @@
 """draw_graph.py over two hosts and for a launch file: the pictures of the READMEs.
 
 The pictures themselves:
-    TUTORIAL_PICTURE=$PWD/joy2twist/doc/two_machines.png ./tutorial test system -k two_machines
-    TUTORIAL_PICTURE=$PWD/joy2twist/doc/launch_bag.png ./tutorial test system -k graph_of_launch_bag
+    TUTORIAL_PICTURE=$PWD/common/doc/two_machines.png ./tutorial test system -k two_machines
+    TUTORIAL_PICTURE=$PWD/common/doc/launch_bag.png ./tutorial test system -k graph_of_launch_bag
 """
 
 import os
