@@ -172,6 +172,15 @@ def check_released(pad, robot):
     check_stands(robot, since, "LB released")
 
 
+def release(pad, robot):
+    """Let go of everything, and wait until that was published."""
+    pad.show(positions(F710_D, Controls()))
+    wait_for(
+        lambda: not any((*robot.joy[-1].buttons, *robot.joy[-1].axes)), "released gamepad",
+        DEADLINE_S,
+    )  # fmt: skip
+
+
 def check_radio_silence(pad, launch, robot):
     """A gamepad out of reach: the kernel keeps its last state, and no event comes any more."""
     since = time.time()
@@ -186,7 +195,8 @@ def check_radio_silence(pad, launch, robot):
     pad.show(positions(F710_D, Controls(left_stick=(0.0, 1.0), held=LB)))  # back in reach
     wait_for(lambda: len(robot.odometry) > seen + 50, "odometry", DEADLINE_S)
     assert all(m.twist.twist == Twist() for m in robot.odometry[seen:])
-    pad.show(positions(F710_D, Controls()))
+    tell("back in reach with LB held: nothing moves")
+    release(pad, robot)
 
 
 def check_unplugged(pad, raw, launch, robot):
@@ -217,8 +227,7 @@ def check_unplugged(pad, raw, launch, robot):
     assert robot.joy[-1].axes[1] > 0 and robot.joy[-1].buttons[4]
     assert robot.stands and all(m.twist.twist.linear.x == 0 for m in robot.odometry[-20:])
     tell("plugged in with LB held and the stick pushed: nothing moves")
-    pad.show(positions(F710_D, Controls()))
-    wait_for(lambda: not any(robot.joy[-1].buttons), "released gamepad", DEADLINE_S)
+    release(pad, robot)
 
 
 def check_all(pad, raw, launch):
