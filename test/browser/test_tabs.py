@@ -90,6 +90,31 @@ def test_plot_shows_the_newest_value(world, page):
     wait_for(lambda: page.all("#plot-chart canvas"), "chart", LONG_S)
 
 
+LABELS = "[...document.querySelectorAll('#plot-chart .dygraph-axis-label-x')].map((e) => +e.textContent)"
+
+
+def axis(page):
+    """The times [s] at the marks of the plot's time axis."""
+    return sorted(page.ask(LABELS)) or [0.0]
+
+
+def test_the_plot_moves_on_until_a_person_zooms_and_again_afterwards(world, page):
+    choose(page, POSITION)
+    page.one("#plot-window").send_keys("10 s")
+    wait_for(lambda: axis(page)[-1] >= 3, "time axis that goes on", LONG_S)
+    wait_for(lambda: axis(page)[0] >= 2, "time axis that leaves its beginning", LONG_S)
+    box = page.one("#plot-chart").rect
+    xs, y = [box["x"] + box["width"] * share for share in (0.4, 0.6)], box["y"] + 60
+    for kind, x in (("mousePressed", xs[0]), ("mouseMoved", xs[1]), ("mouseReleased", xs[1])):
+        page.send("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1)
+    chosen = wait_for(lambda: axis(page)[-1] - axis(page)[0] < 5 and axis(page), "zoom", LONG_S)
+    count = len(world.odometry)
+    wait_for(lambda: len(world.odometry) > count + 100, "odometry", LONG_S)
+    assert axis(page) == chosen
+    page.click("Whole range")
+    wait_for(lambda: axis(page)[-1] > chosen[-1] + 1, "time axis that goes on again", LONG_S)
+
+
 def test_plot_saves_what_it_shows(page, tmp_path):
     page.send("Browser.setDownloadBehavior", behavior="allow", downloadPath=str(tmp_path))
     choose(page, POSITION)
