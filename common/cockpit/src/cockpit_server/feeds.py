@@ -4,6 +4,7 @@ A node of rospy has one subscription for a topic, whatever it wants it for: here
 messages, and whoever wants them reads as far as needed.
 """
 
+import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
 
@@ -47,6 +48,7 @@ class Feeds:
         self._listeners = {}  # topic -> functions to call
         self._wanted = frozenset()  # (topic, whether every message is wanted)
         self._subscribers = {}
+        self._is_due = threading.Event()  # an adjustment waits for its turn
 
     def want(self, owner, hears, every):
         """Have hear(message, topic) called for these topics, {topic: hear}, and for no others that
@@ -62,9 +64,12 @@ class Feeds:
             complete |= set(wanted) if wants_all else set()
         self._listeners = listeners
         self._wanted = frozenset((topic, topic in complete) for topic in listeners)
-        later(self._adjust)
+        if not self._is_due.is_set():  # however often pages change their minds
+            self._is_due.set()
+            later(self._adjust)
 
     def _adjust(self):
+        self._is_due.clear()
         wanted = self._wanted
         # One that rospy refuses must not keep the others away, by which a rival is noticed, too.
         for key in set(self._subscribers) - wanted:

@@ -10,17 +10,21 @@ FRAME = "cockpit"
 
 
 class Joysticks:
-    """Publishers of sensor_msgs/Joy, each advertised once, when it is first needed."""
+    """The publisher of sensor_msgs/Joy for the robot that is driven; for others there is none."""
 
     def __init__(self):
         """Nothing is advertised yet."""
-        self._publishers = {}
+        self._publishers = {}  # robot -> PromptPublisher; at most one
         self._message = Joy()
         self._message.header.frame_id = FRAME
 
-    def advertise(self, robot):
-        """Make the publisher; it may wait for the master."""
-        if robot not in self._publishers:
+    def keep(self, robot):
+        """Advertise the topic of this robot, and of no other (None: of none); may wait for the
+        master. Who is registered without driving would stand beside the joystick that drives.
+        """
+        for other in set(self._publishers) - {robot}:
+            self._publishers.pop(other).end()
+        if robot is not None and robot not in self._publishers:
             self._publishers[robot] = PromptPublisher(topic_of(robot, "joy"), Joy)
 
     def send(self, robot, axes, buttons):

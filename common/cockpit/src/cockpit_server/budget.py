@@ -1,0 +1,25 @@
+"""What pages may cost: seconds of the one thread that serves them all, and the robot first (pure)."""
+
+SHARE = 0.3  # of that thread, for all pages together but the one that drives
+BURST_S = 0.05  # that one page may use at once, as for opening
+ALL_BURST_S = 0.01  # that the messages of all may use at once: the driver waits no longer for them
+MESSAGE_S = 0.0002  # of receiving a message, whatever it asks for
+
+
+class Budget:
+    """Refills at a rate, up to a burst. What something costs is known afterwards: it may be in debt."""
+
+    def __init__(self, burst_s: float) -> None:
+        """burst_s: [s] of the thread's time, there from the beginning."""
+        self._burst_s = self._left_s = burst_s
+        self._at = -float("inf")
+
+    def wait_s(self, now: float, rate: float) -> float:
+        """Return how long to wait [s] until there is something left. rate: [s/s]."""
+        gained = max(0.0, now - self._at) * rate
+        self._left_s, self._at = min(self._burst_s, self._left_s + gained), now
+        return max(0.0, -self._left_s / rate)
+
+    def spend(self, seconds: float) -> None:
+        """Use up some of it."""
+        self._left_s -= seconds
