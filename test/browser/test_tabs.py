@@ -2,8 +2,12 @@
 
 import re
 
+import pytest
+
 from tutorial_testing.cockpit.chromium import LONG_S
 from tutorial_testing.cockpit.hands import Keys
+from tutorial_testing.nodes import node_path
+from tutorial_testing.ports import free_port
 from tutorial_testing.waiting import wait_for
 
 POSITION = "/odom/pose/pose/position/x"
@@ -74,6 +78,35 @@ def bag():
     return f"{rospkg.RosPack().get_path('gamepad')}/bag/joy.bag"
 
 
+def test_the_only_recording_is_opened_by_itself(page):
+    page.tab("Bag")
+    page.wait_for_text("#bag-about", "joy.bag")
+    wait_for(lambda: page.all("#bag-chart canvas"), "chart", LONG_S)
+
+
+@pytest.fixture
+def look_only(world):
+    """The address for viewers of a second cockpit."""
+    port = str(free_port())
+    name, script = "__name:=cockpit_for_viewers", node_path("cockpit", "cockpit.py")
+    program = world.run(script, "--port", port, "--lan", name)
+    found = wait_for(lambda: re.search(r"to look: .*(\?token=\S+)", program.output), "address", LONG_S)
+    yield f"http://127.0.0.1:{port}/{found[1]}"
+    program.__exit__()
+
+
+def test_a_page_that_may_only_look_says_why_its_buttons_are_grey(look_only, shared_browser):
+    shared_browser.open(look_only)
+    shared_browser.wait_for_text("#ready", "it may look, not drive")
+    assert not shared_browser.by_role("button", "Drive from this page").is_enabled()
+    assert not shared_browser.one("#how").is_displayed()
+    shared_browser.tab("Bag")
+    shared_browser.wait_for_text("#bag-about", "joy.bag")
+    shared_browser.wait_for_text("#bag-state", "This page may look, not publish")
+    assert not shared_browser.by_role("button", "Publish").is_enabled()
+    shared_browser.driver.get("about:blank")
+
+
 def choose(page, field):
     page.tab("Plot")
     page.one("#plot-search").send_keys(field)
@@ -137,11 +170,33 @@ def test_log_shows_what_nodes_say_by_level_and_filter(world, page, ros):
     page.wait_for_text("#log-lines [data-level=WARN]", "look here")
     page.one("#log-filter").send_keys("no such words")
     wait_for(lambda: page.text("#log-lines") == "", "nothing that passes the filter")
+    page.wait_for_text("#log-empty", "passes the filter")
     page.one("#log-filter").clear()
     page.one("#log-filter").send_keys("look")
     page.wait_for_text("#log-lines", "/probe")
     page.one("#log-level").send_keys("ERROR")
     wait_for(lambda: page.text("#log-lines") == "", "nothing that is an error")
+
+
+def test_an_empty_log_says_why(own_world, browser):
+    browser.open(own_world.address)  # of a cockpit that was started after all nodes had spoken
+    browser.tab("Log")
+    browser.wait_for_text("#log-empty", "since the cockpit was started")
+    assert browser.one("#log-empty").is_displayed()
+
+
+@pytest.mark.parametrize("width", [360, 640, 1280])
+def test_nothing_of_the_log_is_drawn_over_its_filter(page, width):
+    metrics = {"width": width, "height": 640, "deviceScaleFactor": 1, "mobile": False}
+    page.send("Emulation.setDeviceMetricsOverride", **metrics)
+    try:
+        page.tab("Log")
+        filters, count = page.one("#log-filter").rect, page.one("#log-count").rect
+    finally:
+        page.send("Emulation.setDeviceMetricsOverride", **{**metrics, "width": 1280, "height": 800})
+    beside = filters["x"] + filters["width"] <= count["x"]
+    assert beside or filters["y"] + filters["height"] <= count["y"]
+    assert filters["width"] >= 100
 
 
 def test_doctor_shows_its_lines(page, ros):

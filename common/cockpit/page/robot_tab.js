@@ -60,12 +60,8 @@ export class RobotTab {
     on("zoom-out", () => floor.zoom(0.8));
     on("show-all", () => floor.showAll());
     on("clear-trail", () => floor.clearTrails());
-    const follow = (yes) => {
-      floor.follow = yes;
-      byId("follow").setAttribute("aria-pressed", String(yes));
-    };
-    floor.onUnfollow = () => follow(false);
-    on("follow", () => follow(!floor.follow));
+    floor.onUnfollow = () => this.#follow(false);
+    on("follow", () => this.#follow(!floor.follow));
     on("take", () => link.send("drive", { robot: this.look, mode: byId("mode").value }));
     on("leave", () => this.#leave());
     on("reset", () => {
@@ -77,6 +73,11 @@ export class RobotTab {
     addEventListener("keydown", (event) => {
       if (event.key === "Escape" && this.driver.isDriving) this.#leave();
     });
+  }
+
+  #follow(yes) {
+    this.floor.follow = yes;
+    byId("follow").setAttribute("aria-pressed", String(yes));
   }
 
   #leave() {
@@ -125,7 +126,7 @@ export class RobotTab {
     this.floor.show(robots);
     const names = Object.keys(robots);
     const isNew = names.length && JSON.stringify(names) !== this.#onFloor;
-    if (isNew && names.length > 1) this.floor.showAll();
+    if (isNew && names.length > 1 && !this.#seat.yours) this.floor.showAll();
     if (isNew) this.#onFloor = JSON.stringify(names);
     const robot = robots[this.look] ?? {};
     const degrees = (robot.yaw * 180) / Math.PI;
@@ -173,6 +174,7 @@ export class RobotTab {
   }
 
   #showSeat(seat) {
+    if (seat.yours && !this.#seat.yours) this.#follow(true); // who drives sees what is driven
     this.#seat = seat;
     if (seat.yours && seat.robot !== this.#look) this.#lookAt(seat.robot); // it was handed over
     if (seat.yours) this.driver.mode = byId("mode").value;
