@@ -149,6 +149,12 @@ class Tabs(WithCockpit):
         finally:
             rival.unregister()
 
+        def drives():
+            self.page.say("drive", robot="", mode="D")
+            return any(seat["yours"] for seat in self.page.of("seat"))
+
+        wait_for(drives, "seat, once the other one has ended")
+
     def test_who_drives_no_longer_publishes_no_longer(self):
         self.rig.drive(self.page)
         self.assertEqual(publishers("/joy"), ["/cockpit"])
