@@ -136,7 +136,7 @@ def recording():
 def test_a_recording_beside_the_page_is_called_what_drives(own_world, browser):
     browser.open(own_world.address)
     browser.wait_for_text("#seat", "Nobody drives.")
-    with own_world.run("rosbag", "play", "--loop", recording(), "__name:=player") as player:
+    with own_world.run("rosbag", "play", "--loop", recording(), "__name:=player"):
         browser.wait_for_text("#teleop", "driving")
         browser.wait_for_text("#seat", "/player drives the robot.")
         browser.click("Drive from this page")

@@ -88,17 +88,23 @@ def test_a_phone_has_all_of_it(world, held):
 # place on the page [pixel], how much of the square has it, and what lies there on top.
 DRAWN = """(() => {
   const canvas = document.getElementById("floor"), box = canvas.getBoundingClientRect(), side = 24;
-  const {width, height, data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+  const {width, height} = canvas;
+  const {data} = canvas.getContext("2d").getImageData(0, 0, width, height);
   const pen = document.createElement("canvas").getContext("2d");
   pen.fillStyle = getComputedStyle(canvas).getPropertyValue("--accent").trim();
   pen.fillRect(0, 0, 1, 1);
   const [red, green, blue] = pen.getImageData(0, 0, 1, 1).data;
-  const has = (x, y, i = 4 * (y * width + x)) => data[i] === red && data[i + 1] === green && data[i + 2] === blue;
+  const has = (x, y, i = 4 * (y * width + x)) =>
+    data[i] === red && data[i + 1] === green && data[i + 2] === blue;
   let best = [0, 0, 0];
-  for (let top = 0; top < height - side; top += 3) for (let left = 0; left < width - side; left += 3) {
-    let count = 0;
-    for (let i = 0; i < side * side; i += 5) count += has(left + (i % side), top + Math.floor(i / side));
-    if (count > best[0]) best = [count, left, top];
+  for (let top = 0; top < height - side; top += 3) {
+    for (let left = 0; left < width - side; left += 3) {
+      let count = 0;
+      for (let i = 0; i < side ** 2; i += 5) {
+        count += has(left + (i % side), top + Math.floor(i / side));
+      }
+      if (count > best[0]) best = [count, left, top];
+    }
   }
   const [x, y] = [box.left + best[1] + side / 2, box.top + best[2] + side / 2];
   return [x, y, (5 * best[0]) / side ** 2, document.elementFromPoint(x, y)?.id ?? "", box.height];

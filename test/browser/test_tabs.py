@@ -90,8 +90,8 @@ def look_only(world):
     port = str(free_port())
     name, script = "__name:=cockpit_for_viewers", node_path("cockpit", "cockpit.py")
     program = world.run(script, "--port", port, "--lan", name)
-    found = wait_for(lambda: re.search(r"to look: .*(\?token=\S+)", program.output), "address", LONG_S)
-    yield f"http://127.0.0.1:{port}/{found[1]}"
+    told = lambda: re.search(r"to look: .*(\?token=\S+)", program.output)  # noqa: E731  short
+    yield f"http://127.0.0.1:{port}/{wait_for(told, 'address', LONG_S)[1]}"
     program.__exit__()
 
 
@@ -123,7 +123,8 @@ def test_plot_shows_the_newest_value(world, page):
     wait_for(lambda: page.all("#plot-chart canvas"), "chart", LONG_S)
 
 
-LABELS = "[...document.querySelectorAll('#plot-chart .dygraph-axis-label-x')].map((e) => +e.textContent)"
+LABELS = """[...document.querySelectorAll('#plot-chart .dygraph-axis-label-x')]
+    .map((e) => +e.textContent)"""
 
 
 def axis(page):

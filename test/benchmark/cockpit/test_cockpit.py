@@ -48,7 +48,7 @@ def free_port():
 
 
 def start_cockpit(stack, *options):
-    """(process, port, tokens) of a cockpit that serves its page: with --lan to look and to drive."""
+    """(process, port, tokens) of a cockpit that serves its page; with --lan: to look, to drive."""
     port = free_port()
     script = f"{rospkg.RosPack().get_path('cockpit')}/scripts/cockpit.py"
     command = [sys.executable, script, "--port", str(port), *options]

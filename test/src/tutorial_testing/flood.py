@@ -84,7 +84,8 @@ class Flood:
         readers = [asyncio.ensure_future(task) for task in tasks]
         print("ready", flush=True)
         end = time.monotonic() + seconds
-        await asyncio.gather(*[self.send(one, random.Random(i), end) for i, one in enumerate(sockets)])
+        senders = [self.send(one, random.Random(i), end) for i, one in enumerate(sockets)]
+        await asyncio.gather(*senders)
         for reader in readers:
             reader.cancel()
         print(json.dumps(self.counts), flush=True)

@@ -83,7 +83,7 @@ def test_a_page_that_may_only_look_says_why():
 
 
 def test_how_to_drive_names_the_button_that_is_needed_and_no_other():
-    assert how_to(SEAT, ANNA, True).startswith("Hold LB (a thumb, a gamepad's button, the key Shift")
+    assert how_to(SEAT, ANNA, True).startswith("Hold LB (a thumb, a gamepad's button, the key S")
     assert "Hold" not in how_to(SEAT._replace(said=FREE), ANNA, True)
     assert how_to(SEAT._replace(how=BAG), ANNA, True) == ""
     other = SEAT._replace(said={"state": "armed", "deadman": "77"})

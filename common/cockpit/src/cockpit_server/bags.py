@@ -89,7 +89,7 @@ class Bags(Source):
         try:
             path = recordings(client.drives).get(name)
             if path is None:
-                raise RecordingError(f"{name!r} is not among the recordings that may be opened here")
+                raise RecordingError(f"{name!r} is none of the recordings that may be opened here")
             recording, message = self._shelf.take(path)
         except Exception as error:  # whatever is in the file: who asked for it is told
             known = isinstance(error, RecordingError)

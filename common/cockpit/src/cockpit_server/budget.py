@@ -1,13 +1,13 @@
-"""What pages may cost: seconds of the one thread that serves them all, and the robot first (pure)."""
+"""What pages may cost: seconds of the one thread that serves them all (pure)."""
 
 SHARE = 0.3  # of that thread, for all pages together but the one that drives
 BURST_S = 0.05  # that one page may use at once, as for opening
-ALL_BURST_S = 0.01  # that the messages of all may use at once: the driver waits no longer for them
+ALL_BURST_S = 0.01  # that the messages of all may use at once, while the driver waits
 MESSAGE_S = 0.0002  # of receiving a message, whatever it asks for
 
 
 class Budget:
-    """Refills at a rate, up to a burst. What something costs is known afterwards: it may be in debt."""
+    """Refills at a rate, up to a burst. Costs are known afterwards: it may be in debt."""
 
     def __init__(self, burst_s: float) -> None:
         """burst_s: [s] of the thread's time, there from the beginning."""

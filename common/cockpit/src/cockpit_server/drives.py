@@ -1,4 +1,4 @@
-"""Who drives a robot, why it stands and what to do: the one place that puts it into words (pure)."""
+"""Who drives a robot, why it stands, and what to do: put into words here alone (pure)."""
 
 from typing import Any, Dict, NamedTuple, Optional, Tuple
 

@@ -79,7 +79,7 @@ class Hub:
         self._change(lambda: self.seat.gone(client.number))
 
     def wait_s(self, client):
-        """How long [s] what a page has sent is to wait: pages pay with time for the time they cost."""
+        """How long [s] the next message of a page has to wait, for what the page has cost."""
         if client.number == self.seat.driver:
             return 0.0
         now = time.monotonic()

@@ -43,18 +43,18 @@ class Cockpit:
         """sockets: that listen. access: access.Access."""
         self._sockets = sockets
         name = rospy.get_name()
-        self._graphs = GraphWatch(name)
+        graphs = self._graphs = GraphWatch(name)
         log = Log()
         feeds = Feeds(log.warn)
-        graphs = self._graphs
         pads = Pads(feeds, graphs, name)
         hub = self._hub = Hub(self._soon, graphs, Joysticks(), pads, log.warn)
         bags, robots, teleop = Bags(hub), Robots(feeds, graphs), Teleop(feeds)
         sources = (
             robots, pads, teleop, Drives(hub, graphs, teleop, robots), Resets(hub, graphs),
-            GraphView(graphs), Topics(feeds, graphs), Plots(feeds, graphs), Logs(feeds, graphs), Doctor(), bags,
+            GraphView(graphs), Topics(feeds, graphs), Plots(feeds, graphs), Logs(feeds, graphs),
+            Doctor(), bags,
         )  # fmt: skip
-        self._hub.add(sources, player=bags)
+        hub.add(sources, player=bags)
         self._server = server(self._hub, access)
         self._loop = None
         self.has_lost_master = False

@@ -13,9 +13,9 @@ MOST_KEPT = 20  # recordings
 
 
 def recordings(may_drive):
-    """{name: path} of those that may be opened: ours, and for who may drive those of this folder."""
+    """{name: path} of those that may be opened: ours, and to drivers those of this folder."""
     ours = Path(rospkg.RosPack().get_path("gamepad")) / "bag" / "joy.bag"
-    here = sorted(one for one in Path.cwd().glob("*.bag") if one.is_file()) if may_drive else []
+    here = sorted(filter(Path.is_file, Path.cwd().glob("*.bag"))) if may_drive else []
     return {path.name: path for path in [ours, *here[:MOST_NAMES]]}
 
 
