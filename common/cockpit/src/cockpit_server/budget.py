@@ -1,5 +1,7 @@
 """What pages may cost: seconds of the one thread that serves them all (pure)."""
 
+from typing import Optional
+
 SHARE = 0.3  # of that thread, for all pages together but the one that drives
 BURST_S = 0.05  # that one page may use at once, as for opening
 ALL_BURST_S = 0.01  # that the messages of all may use at once, while the driver waits
@@ -12,11 +14,11 @@ class Budget:
     def __init__(self, burst_s: float) -> None:
         """burst_s: [s] of the thread's time, there from the beginning."""
         self._burst_s = self._left_s = burst_s
-        self._at = -float("inf")
+        self._at: Optional[float] = None
 
     def wait_s(self, now: float, rate: float) -> float:
         """Return how long to wait [s] until there is something left. rate: [s/s]."""
-        gained = max(0.0, now - self._at) * rate
+        gained = 0.0 if self._at is None else max(0.0, now - self._at) * rate
         self._left_s, self._at = min(self._burst_s, self._left_s + gained), now
         return max(0.0, -self._left_s / rate)
 
