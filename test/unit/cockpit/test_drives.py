@@ -37,7 +37,7 @@ WHO = {
     "a recording of rosbag": (About(said=MOVING, senders=PLAYS), "/rosbag_play drives ada."),
     "a joystick that has left": (About(said=MOVING), "A joystick drives ada."),
     "a joystick at rest": (
-        About(said=ARMED, senders=PLAYS), "Nobody drives. /rosbag_play sends, but moves nothing."),
+        About(said=ARMED, senders=PLAYS), "Nobody drives. Registered as its joystick: /rosbag_play."),
     "without diagnostics": (About(senders=PLAYS, moves=True), "/rosbag_play drives ada."),
     "no joystick": (About(moves=True),
         "No joystick drives ada, but it moves: the tab Graph shows what sends to it."),
@@ -85,7 +85,8 @@ def test_a_page_that_may_only_look_says_why():
 def test_how_to_drive_names_the_button_that_is_needed_and_no_other():
     assert how_to(SEAT, ANNA, True).startswith("Hold LB (a thumb, a gamepad's button, the key S")
     assert "Hold" not in how_to(SEAT._replace(said=FREE), ANNA, True)
-    assert how_to(SEAT._replace(how=BAG), ANNA, True) == ""
+    for other in (SEAT._replace(how=BAG), SEAT._replace(driver=BOB), About(said=MOVING)):
+        assert how_to(other, ANNA, True) == ""
     other = SEAT._replace(said={"state": "armed", "deadman": "77"})
     assert "Hold button 77 " in how_to(other, ANNA, True)
     assert again(SEAT._replace(said=FREE)) == "Release the stick, then move it again."

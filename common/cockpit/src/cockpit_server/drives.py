@@ -57,7 +57,9 @@ def who(about: About, robot: str, page: int) -> str:
         return f"{some or 'A joystick'} drives {its}."
     if about.moves and not about.said:
         return f"No joystick drives {its}, but it moves: the tab Graph shows what sends to it."
-    return f"Nobody drives. {some} sends, but moves nothing." if some else "Nobody drives."
+    if not some:
+        return "Nobody drives."
+    return f"Nobody drives. Registered as its joystick: {some}."
 
 
 def again(about: About) -> str:
@@ -87,8 +89,9 @@ def ready(about: About, page: int, may_drive: bool) -> str:
 
 
 def how_to(about: About, page: int, may_drive: bool) -> str:
-    """Return how a page drives this robot; "" where that is not to be done."""
-    if not may_drive or (about.driver == page and about.how == BAG):
+    """Return how a page drives this robot; "" where a hand can do nothing now."""
+    is_others = about.driver not in (None, page) or about.is_driven_by_node
+    if not may_drive or is_others or about.how == BAG:
         return ""
     button = held(about)
     if button is None:

@@ -29,6 +29,25 @@ def later(action, *arguments):
     _worker.submit(do)
 
 
+class OnceLater:
+    """An action for later(), which waits there once however often it is asked for."""
+
+    def __init__(self, action):
+        """action: called without arguments; what was asked before it begins is done with it."""
+        self._action = action
+        self._waits = threading.Event()
+
+    def __call__(self):
+        """Ask for it."""
+        if not self._waits.is_set():
+            self._waits.set()
+            later(self._do)
+
+    def _do(self):
+        self._waits.clear()
+        self._action()
+
+
 class Raw(rospy.AnyMsg):
     """A message of any type that is not read before somebody needs it. data: its bytes."""
 
@@ -48,7 +67,7 @@ class Feeds:
         self._listeners = {}  # topic -> functions to call
         self._wanted = frozenset()  # (topic, whether every message is wanted)
         self._subscribers = {}
-        self._is_due = threading.Event()  # an adjustment waits for its turn
+        self._adjust_later = OnceLater(self._adjust)
 
     def want(self, owner, hears, every):
         """Have hear(message, topic) called for these topics, {topic: hear}, and for no others that
@@ -64,12 +83,9 @@ class Feeds:
             complete |= set(wanted) if wants_all else set()
         self._listeners = listeners
         self._wanted = frozenset((topic, topic in complete) for topic in listeners)
-        if not self._is_due.is_set():  # however often pages change their minds
-            self._is_due.set()
-            later(self._adjust)
+        self._adjust_later()
 
     def _adjust(self):
-        self._is_due.clear()
         wanted = self._wanted
         # One that rospy refuses must not keep the others away, by which a rival is noticed, too.
         for key in set(self._subscribers) - wanted:

@@ -6,7 +6,7 @@ from collections import deque
 from cockpit_server.budget import ALL_BURST_S, MESSAGE_S, SHARE, Budget
 from cockpit_server.clients import Watch
 from cockpit_server.drives import lost_text
-from cockpit_server.feeds import later
+from cockpit_server.feeds import OnceLater
 from cockpit_server.guard import Guard
 from cockpit_server.schema import MODES, check_lengths, check_message
 from cockpit_server.seat import PAGE, Input, RefusedError, Seat
@@ -40,6 +40,8 @@ class Hub:
         self._may_beat = Throttle(1 / BEAT_S, burst=1.5)  # even, though the ticks are not
         self._modes = ()  # of the gamepad that may drive
         self._seat_version = 0
+        self._advertised = None  # the robot for which a joystick is to be advertised
+        self._advertise = OnceLater(lambda: joysticks.keep(self._advertised))
         self._sat_at = 0.0
         self.seat = Seat(joysticks.send, self._on_lost)
 
@@ -173,11 +175,12 @@ class Hub:
 
     def _change(self, action):
         """Do something with the seat, of which all pages are told if it changes."""
-        before, robot = self.seat.state, self.driven
+        before = self.seat.state
         action()
         self._seat_version += self.seat.state != before
-        if self.driven != robot:
-            later(self._joysticks.keep, self.driven)
+        if self.driven != self._advertised:
+            self._advertised = self.driven
+            self._advertise()
 
     @property
     def driven(self):
