@@ -37,7 +37,8 @@ WHO = {
     "a recording of rosbag": (About(said=MOVING, senders=PLAYS), "/rosbag_play drives ada."),
     "a joystick that has left": (About(said=MOVING), "A joystick drives ada."),
     "a joystick at rest": (
-        About(said=ARMED, senders=PLAYS), "Nobody drives. Registered as its joystick: /rosbag_play."),
+        About(said=ARMED, senders=PLAYS),
+        "Nobody drives. Registered as its joystick: /rosbag_play."),
     "without diagnostics": (About(senders=PLAYS, moves=True), "/rosbag_play drives ada."),
     "no joystick": (About(moves=True),
         "No joystick drives ada, but it moves: the tab Graph shows what sends to it."),
