@@ -158,6 +158,11 @@ class _Socket(WebSocketHandler):
         await asyncio.sleep(wait_s)
         self.settings["hub"].hear(self.client, message)
 
+    def on_pong(self, data):
+        # Nobody asked for most of them, if they are many; a message costs as much.
+        wait_s = self.settings["hub"].wait_s(self.client)
+        return asyncio.sleep(wait_s) if wait_s else None
+
     def on_ping(self, data):
         # Tornado has answered already. A page's script can send no ping, and whoever sends many may
         # leave the answers unread: they would pile up here.
