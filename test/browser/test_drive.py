@@ -125,3 +125,51 @@ def test_reset_puts_the_robot_to_its_start(world, page):
     world.wait_for_rest()
     page.click("Reset robot")
     wait_for(lambda: abs(world.now.x) < 1e-9, "robot at x = 0")
+
+
+def recording():
+    import rospkg  # noqa: PLC0415  of the workspace, which is there once the tests run
+
+    return f"{rospkg.RosPack().get_path('gamepad')}/bag/joy.bag"
+
+
+def test_a_recording_beside_the_page_is_called_what_drives(own_world, browser):
+    browser.open(own_world.address)
+    browser.wait_for_text("#seat", "Nobody drives.")
+    with own_world.run("rosbag", "play", "--loop", recording(), "__name:=player"):
+        browser.wait_for_text("#teleop", "driving")
+        browser.wait_for_text("#seat", "/player drives the robot.")
+        browser.click("Drive from this page")
+        browser.wait_for_text("#notice", "drive: /player sends on the joystick topic")
+        with Chromium() as second:
+            second.open(own_world.address)
+            second.wait_for_text("#seat", "/player drives the robot.")
+            assert second.text("#ready") == ""  # what stopped nothing is no last stop
+    browser.wait_for_text("#seat", "Nobody drives.")
+    wait_for(lambda: browser.text("#teleop") != "driving", "joy2twist that drives no longer")
+    assert browser.text("#ready") == ""
+    assert browser.errors() == []
+
+
+def test_no_button_is_asked_for_where_a_recording_is_played(world, page):
+    page.tab("Bag")
+    page.wait_for_text("#bag-about", "joy.bag")
+    page.click("Publish")
+    page.tab("Robot")
+    page.wait_for_text("#seat", "You play a recording to the robot.")
+    wait_for(lambda: "LB" not in page.one("#drive").text, "hint that is gone")
+    page.click("Stop driving")
+    page.wait_for_text("#seat", "Nobody drives.")
+    page.wait_for_text("#how", "Hold LB")
+    world.wait_for_rest()
+
+
+def test_the_reason_of_a_stop_is_told_once_the_robot_was_stopped(world, page):
+    hands = Keys(page)
+    hands.drive(world)
+    page.driver.execute_script("dispatchEvent(new Event('blur'))")
+    page.wait_for_text("#ready", "Stopped: blur. Release LB and the stick, then hold LB again.")
+    hands.release()
+    page.click("Stop driving")
+    page.wait_for_text("#seat", "Nobody drives.")
+    world.wait_for_rest()

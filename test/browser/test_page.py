@@ -5,7 +5,9 @@ from urllib.parse import urlsplit
 
 import pytest
 
-from tutorial_testing.cockpit.chromium import Chromium
+from tutorial_testing.cockpit import world as worlds
+from tutorial_testing.cockpit.chromium import LONG_S, Chromium
+from tutorial_testing.cockpit.hands import Thumbs
 from tutorial_testing.waiting import wait_for
 
 TABS = ("Robot", "Graph", "Bag", "Plot", "Log", "Doctor")
@@ -80,6 +82,53 @@ def test_a_phone_has_all_of_it(world, held):
             "[...document.body.querySelectorAll('*')].map((e) => getComputedStyle(e).touchAction)"
         )
         assert "auto" not in phone.ask(actions)
+
+
+# Where the robot that is looked at is drawn: the middle of the square with most of its colour, as a
+# place on the page [pixel], how much of the square has it, and what lies there on top.
+DRAWN = """(() => {
+  const canvas = document.getElementById("floor"), box = canvas.getBoundingClientRect(), side = 24;
+  const {width, height} = canvas;
+  const {data} = canvas.getContext("2d").getImageData(0, 0, width, height);
+  const pen = document.createElement("canvas").getContext("2d");
+  pen.fillStyle = getComputedStyle(canvas).getPropertyValue("--accent").trim();
+  pen.fillRect(0, 0, 1, 1);
+  const [red, green, blue] = pen.getImageData(0, 0, 1, 1).data;
+  const has = (x, y, i = 4 * (y * width + x)) =>
+    data[i] === red && data[i + 1] === green && data[i + 2] === blue;
+  let best = [0, 0, 0];
+  for (let top = 0; top < height - side; top += 3) {
+    for (let left = 0; left < width - side; left += 3) {
+      let count = 0;
+      for (let i = 0; i < side ** 2; i += 5) {
+        count += has(left + (i % side), top + Math.floor(i / side));
+      }
+      if (count > best[0]) best = [count, left, top];
+    }
+  }
+  const [x, y] = [box.left + best[1] + side / 2, box.top + best[2] + side / 2];
+  return [x, y, (5 * best[0]) / side ** 2, document.elementFromPoint(x, y)?.id ?? "", box.height];
+})()"""
+
+
+@pytest.mark.parametrize("held", PHONES)
+def test_the_driven_one_of_two_robots_is_seen_beside_the_buttons(held):
+    width, height = PHONES[held]
+    two = str(worlds.HERE / "two_robots.launch")
+    with worlds.World(two) as world, Chromium(width, height, touch=True) as phone:
+        phone.open(world.address)
+        wait_for(lambda: len(phone.all("#robots tr")) == 2, "two robots", LONG_S)
+        hands = Thumbs(phone)
+        hands.drive(world, until=lambda: world.now.x > 1.0)  # where the other one is far away
+        hands.release()
+        world.wait_for_rest()
+        x, y, share, on_top, floor_height = phone.ask(DRAWN)
+        assert share > 0.4
+        assert on_top == "floor"
+        assert 0 <= x <= width and 0 <= y <= height
+        assert floor_height >= 250
+        stop = phone.by_role("button", "Stop driving").rect
+        assert 0 <= stop["y"] <= height - stop["height"]
 
 
 # A page of its own, which a server of the test speaks to: hear(); sent is what it was asked for.

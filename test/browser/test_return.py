@@ -19,7 +19,8 @@ def test_an_open_recording_is_opened_anew_and_nothing_is_published(page):
     script = """const tab = new tabs.BagTab(link, watch, () => "");
     hear("hello", {});
     const before = sent.length;
-    hear("bag", {path: "joy.bag", start: 0, end: 2, topics: [], curves: {}});
+    hear("bag", {path: "joy.bag", start: 0, end: 2, curves: {},
+                    topics: [{name: "/joy", type: "sensor_msgs/Joy", count: 1}]});
     hear("bag_at", {position: 1, playing: true, topic: "/joy"});
     const playing = text("bag-state");
     hear("hello", {});

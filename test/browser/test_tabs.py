@@ -2,8 +2,12 @@
 
 import re
 
+import pytest
+
 from tutorial_testing.cockpit.chromium import LONG_S
 from tutorial_testing.cockpit.hands import Keys
+from tutorial_testing.nodes import node_path
+from tutorial_testing.ports import free_port
 from tutorial_testing.waiting import wait_for
 
 POSITION = "/odom/pose/pose/position/x"
@@ -74,6 +78,35 @@ def bag():
     return f"{rospkg.RosPack().get_path('gamepad')}/bag/joy.bag"
 
 
+def test_the_only_recording_is_opened_by_itself(page):
+    page.tab("Bag")
+    page.wait_for_text("#bag-about", "joy.bag")
+    wait_for(lambda: page.all("#bag-chart canvas"), "chart", LONG_S)
+
+
+@pytest.fixture
+def look_only(world):
+    """The address for viewers of a second cockpit."""
+    port = str(free_port())
+    name, script = "__name:=cockpit_for_viewers", node_path("cockpit", "cockpit.py")
+    program = world.run(script, "--port", port, "--lan", name)
+    told = lambda: re.search(r"to look: .*(\?token=\S+)", program.output)  # noqa: E731  short
+    yield f"http://127.0.0.1:{port}/{wait_for(told, 'address', LONG_S)[1]}"
+    program.__exit__()
+
+
+def test_a_page_that_may_only_look_says_why_its_buttons_are_grey(look_only, shared_browser):
+    shared_browser.open(look_only)
+    shared_browser.wait_for_text("#ready", "it may look, not drive")
+    assert not shared_browser.by_role("button", "Drive from this page").is_enabled()
+    assert not shared_browser.one("#how").is_displayed()
+    shared_browser.tab("Bag")
+    shared_browser.wait_for_text("#bag-about", "joy.bag")
+    shared_browser.wait_for_text("#bag-state", "This page may look, not publish")
+    assert not shared_browser.by_role("button", "Publish").is_enabled()
+    shared_browser.driver.get("about:blank")
+
+
 def choose(page, field):
     page.tab("Plot")
     page.one("#plot-search").send_keys(field)
@@ -88,6 +121,32 @@ def test_plot_shows_the_newest_value(world, page):
     wait_for(lambda: re.search(r"\d", page.text(value)), "value", LONG_S)
     assert abs(shown(page, value) - world.now.x) < 1e-3
     wait_for(lambda: page.all("#plot-chart canvas"), "chart", LONG_S)
+
+
+LABELS = """[...document.querySelectorAll('#plot-chart .dygraph-axis-label-x')]
+    .map((e) => +e.textContent)"""
+
+
+def axis(page):
+    """The times [s] at the marks of the plot's time axis."""
+    return sorted(page.ask(LABELS)) or [0.0]
+
+
+def test_the_plot_moves_on_until_a_person_zooms_and_again_afterwards(world, page):
+    choose(page, POSITION)
+    page.one("#plot-window").send_keys("10 s")
+    wait_for(lambda: axis(page)[-1] >= 3, "time axis that goes on", LONG_S)
+    wait_for(lambda: axis(page)[0] >= 2, "time axis that leaves its beginning", LONG_S)
+    box = page.one("#plot-chart").rect
+    xs, y = [box["x"] + box["width"] * share for share in (0.4, 0.6)], box["y"] + 60
+    for kind, x in (("mousePressed", xs[0]), ("mouseMoved", xs[1]), ("mouseReleased", xs[1])):
+        page.send("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1)
+    chosen = wait_for(lambda: axis(page)[-1] - axis(page)[0] < 5 and axis(page), "zoom", LONG_S)
+    count = len(world.odometry)
+    wait_for(lambda: len(world.odometry) > count + 100, "odometry", LONG_S)
+    assert axis(page) == chosen
+    page.click("Whole range")
+    wait_for(lambda: axis(page)[-1] > chosen[-1] + 1, "time axis that goes on again", LONG_S)
 
 
 def test_plot_saves_what_it_shows(page, tmp_path):
@@ -112,11 +171,33 @@ def test_log_shows_what_nodes_say_by_level_and_filter(world, page, ros):
     page.wait_for_text("#log-lines [data-level=WARN]", "look here")
     page.one("#log-filter").send_keys("no such words")
     wait_for(lambda: page.text("#log-lines") == "", "nothing that passes the filter")
+    page.wait_for_text("#log-empty", "passes the filter")
     page.one("#log-filter").clear()
     page.one("#log-filter").send_keys("look")
     page.wait_for_text("#log-lines", "/probe")
     page.one("#log-level").send_keys("ERROR")
     wait_for(lambda: page.text("#log-lines") == "", "nothing that is an error")
+
+
+def test_an_empty_log_says_why(own_world, browser):
+    browser.open(own_world.address)  # of a cockpit that was started after all nodes had spoken
+    browser.tab("Log")
+    browser.wait_for_text("#log-empty", "since the cockpit was started")
+    assert browser.one("#log-empty").is_displayed()
+
+
+@pytest.mark.parametrize("width", [360, 640, 1280])
+def test_nothing_of_the_log_is_drawn_over_its_filter(page, width):
+    metrics = {"width": width, "height": 640, "deviceScaleFactor": 1, "mobile": False}
+    page.send("Emulation.setDeviceMetricsOverride", **metrics)
+    try:
+        page.tab("Log")
+        filters, count = page.one("#log-filter").rect, page.one("#log-count").rect
+    finally:
+        page.send("Emulation.setDeviceMetricsOverride", **{**metrics, "width": 1280, "height": 800})
+    beside = filters["x"] + filters["width"] <= count["x"]
+    assert beside or filters["y"] + filters["height"] <= count["y"]
+    assert filters["width"] >= 100
 
 
 def test_doctor_shows_its_lines(page, ros):

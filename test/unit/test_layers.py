@@ -39,8 +39,8 @@ tutorial_tools.bag.picture tutorial_tools.demo.drive_report tutorial_tools.docto
 tutorial_tools.doctor.judgement joy_to_twist.parameters joy_to_twist.limits joy_to_twist.mapping
 joy_to_twist.gamepad_hints joy_to_twist.safety joy_to_twist.teleoperation
 cockpit_server.access cockpit_server.schema cockpit_server.seat cockpit_server.player
-cockpit_server.motion cockpit_server.fields cockpit_server.graph cockpit_server.clients
-cockpit_server.guard
+cockpit_server.motion cockpit_server.fields cockpit_server.graph cockpit_server.admission
+cockpit_server.budget cockpit_server.clients cockpit_server.drives cockpit_server.guard
 """.split()
 OUTER = """
 node_kit.launch_check node_kit.launch_end node_kit.manifests node_kit.suspension
@@ -60,14 +60,14 @@ joy_to_twist.console joy_to_twist.node
 cockpit_server.feeds cockpit_server.graph_watch cockpit_server.robots cockpit_server.joysticks
 cockpit_server.teleop cockpit_server.resets cockpit_server.graph_view cockpit_server.plots
 cockpit_server.topics cockpit_server.logs cockpit_server.doctor cockpit_server.recording
-cockpit_server.bags cockpit_server.hub cockpit_server.web cockpit_server.node
+cockpit_server.shelf cockpit_server.bags cockpit_server.hub cockpit_server.web cockpit_server.node
 cockpit_server.program
 """.split()
 ALL = RULES + OUTER
 ALLOWED_IN_RULES = set(
     """
-    argparse bisect dataclasses difflib enum errno hmac html ipaddress itertools json math numpy os
-    random re struct sys typing
+    argparse bisect collections dataclasses difflib enum errno hmac html ipaddress itertools json math
+    numpy os random re struct sys typing
     """.split()
 )
 # What speaks to the other side of a socket, and waits for it, is handed the socket or the address.

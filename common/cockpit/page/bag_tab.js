@@ -5,6 +5,7 @@ import { byId, element, offer, row, say } from "./dom.js";
 
 export class BagTab {
   #bag = null; // as the server described it
+  #looksOnly = false; // this page may not publish
   #yours = false; // whether this page is the one that plays
   #scrubbed = 0; // when the slider was last moved by hand
   #hidden = new Set(); // curves that are not to be seen
@@ -13,10 +14,14 @@ export class BagTab {
   constructor(link, watch, robot) {
     Object.assign(this, { link, watch, robot });
     this.chart = new Chart(byId("bag-chart"));
-    link.on("bags", ({ names }) => offer(byId("bag-name"), names.map((name) => [name, name])));
+    link.on("bags", ({ names }) => {
+      offer(byId("bag-name"), names.map((name) => [name, name]));
+      if (names.length === 1 && !this.#bag) this.#ask(); // there is nothing to choose
+    });
     link.on("bag", (bag) => this.#open(bag));
     link.on("bag_at", (at) => this.#moveTo(at));
-    link.on("hello", () => {
+    link.on("hello", ({ role }) => {
+      this.#looksOnly = role === "viewer";
       this.#tell(false);
       if (this.#bag) link.send("bag_open", { name: this.#bag.path }); // the server knows this page no more
     });
@@ -32,8 +37,7 @@ export class BagTab {
   }
 
   #listen() {
-    byId("bag-open").addEventListener("click", () =>
-      this.link.send("bag_open", { name: byId("bag-name").value }));
+    byId("bag-open").addEventListener("click", () => this.#ask());
     byId("bag-play").addEventListener("click", () => this.#play());
     byId("bag-pause").addEventListener("click", () => this.link.send("bag_pause"));
     byId("bag-position").addEventListener("input", () => {
@@ -45,6 +49,10 @@ export class BagTab {
       byId(id).addEventListener("change", () => this.#yours && this.#play());
     }
     byId("bag-chart").addEventListener("dblclick", () => this.chart.wholeRange());
+  }
+
+  #ask() {
+    this.link.send("bag_open", { name: byId("bag-name").value });
   }
 
   #play() {
@@ -77,7 +85,8 @@ export class BagTab {
       row(name, type, String(count))));
     const playable = bag.topics.filter(({ type }) => type === "sensor_msgs/Joy");
     offer(byId("bag-topic"), playable.map(({ name }) => [name, name]));
-    byId("bag-play").disabled = playable.length === 0;
+    byId("bag-play").disabled = this.#looksOnly || playable.length === 0;
+    this.#tell(false);
     this.#draw();
   }
 
@@ -105,7 +114,9 @@ export class BagTab {
 
   #tell(playing, topic) {
     byId("bag-pause").disabled = !playing;
-    say(byId("bag-state"), playing ? `Publishing ${topic}. Pause stops the robot.` : "");
+    const looks = this.#looksOnly ? "This page may look, not publish: it was opened with the viewers' address." : "";
+    const none = this.#bag && !byId("bag-topic").options.length ? "It has no joystick's topic to publish." : "";
+    say(byId("bag-state"), playing ? `Publishing ${topic}. Pause stops the robot.` : looks || none);
     byId("bag").dataset.playing = playing;
   }
 }

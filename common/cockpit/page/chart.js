@@ -31,6 +31,7 @@ export class Chart {
   #wanted = null; // what is to be shown once the library is there
   #labels = [];
   #cursor = null;
+  #window = null; // [from, to], as the page itself has set it last
 
   /** root: the element. options: of dygraphs, beside those below. */
   constructor(root, options = {}) {
@@ -54,8 +55,10 @@ export class Chart {
     return made;
   }
 
+  /** Whether a person chose what is shown. dygraphs calls it zoomed, too, when the page has set the window. */
   get isZoomed() {
-    return this.#graph?.isZoomed("x") ?? false;
+    const [from, to] = this.#graph?.xAxisRange() ?? [];
+    return Boolean(this.#graph?.isZoomed("x")) && !(from === this.#window?.[0] && to === this.#window?.[1]);
   }
 
   wholeRange() {
@@ -79,6 +82,7 @@ export class Chart {
     }
     const same = JSON.stringify(labels) === JSON.stringify(this.#labels);
     const range = window && !this.isZoomed ? { dateWindow: window } : {};
+    if (range.dateWindow) this.#window = [...window];
     if (this.#graph && same) {
       this.#graph.updateOptions({ file: rows, ...range });
       return;

@@ -13,8 +13,9 @@ export class Floor {
   #robots = {};
   #pointers = new Map();
   #due = false;
+  #free = { left: 0, top: 0, right: 0, bottom: 0 }; // the part of the canvas on which nothing lies [pixel]
 
-  /** above(): the elements that lie on the canvas, under which nothing is written. */
+  /** above(): the elements that lie on the canvas: robots are shown beside them, and nothing is written under them. */
   constructor(canvas, above) {
     this.canvas = canvas;
     this.above = above;
@@ -48,7 +49,7 @@ export class Floor {
     this.#drawSoon();
   }
 
-  zoom(factor, [px, py] = [this.canvas.clientWidth / 2, this.canvas.clientHeight / 2]) {
+  zoom(factor, [px, py] = this.#middle()) {
     const before = this.#toFloor(px, py);
     this.#scale = Math.min(SCALE.most, Math.max(SCALE.least, this.#scale * factor));
     const after = this.#toFloor(px, py);
@@ -71,8 +72,8 @@ export class Floor {
     const range = (i) => points.reduce(
       ([low, high], p) => [Math.min(low, p[i]), Math.max(high, p[i])], [Infinity, -Infinity]);
     const [[west, east], [south, north]] = [range(0), range(1)];
-    const { clientWidth, clientHeight } = this.canvas;
-    const scale = Math.min(clientWidth / (east - west + 1), clientHeight / (north - south + 1));
+    const { left, top, right, bottom } = this.#findFree();
+    const scale = Math.min((right - left) / (east - west + 1), (bottom - top) / (north - south + 1));
     this.#scale = Math.min(SCALE.start * 2, Math.max(SCALE.least, scale));
     this.follow = false;
     this.onUnfollow();
@@ -80,16 +81,40 @@ export class Floor {
     this.#drawSoon();
   }
 
+  /** Of each element that lies on the canvas, the strip beside it is left that is larger than the other ones. */
+  #findFree() {
+    const corner = this.canvas.getBoundingClientRect();
+    const free = { left: 0, top: 0, right: corner.width, bottom: corner.height };
+    for (const one of this.above()) {
+      const box = one.getBoundingClientRect();
+      const [left, right, top, bottom] = [
+        box.left - corner.left, box.right - corner.left, box.top - corner.top, box.bottom - corner.top];
+      if (!box.width || right <= free.left || left >= free.right || bottom <= free.top || top >= free.bottom) continue;
+      const cuts = [{ left: right }, { right: left }, { top: bottom }, { bottom: top }];
+      const area = (cut) => {
+        const rest = { ...free, ...cut };
+        return Math.max(0, rest.right - rest.left) * Math.max(0, rest.bottom - rest.top);
+      };
+      Object.assign(free, cuts.reduce((best, cut) => (area(cut) > area(best) ? cut : best)));
+    }
+    return (this.#free = free);
+  }
+
+  #middle() {
+    const { left, top, right, bottom } = this.#free;
+    return [(left + right) / 2, (top + bottom) / 2];
+  }
+
   #toFloor(px, py) {
-    const { clientWidth, clientHeight } = this.canvas;
+    const [mx, my] = this.#middle();
     const [cx, cy] = this.#centre;
-    return [cx + (px - clientWidth / 2) / this.#scale, cy - (py - clientHeight / 2) / this.#scale];
+    return [cx + (px - mx) / this.#scale, cy - (py - my) / this.#scale];
   }
 
   #toPixels([x, y]) {
-    const { clientWidth, clientHeight } = this.canvas;
+    const [mx, my] = this.#middle();
     const [cx, cy] = this.#centre;
-    return [clientWidth / 2 + (x - cx) * this.#scale, clientHeight / 2 - (y - cy) * this.#scale];
+    return [mx + (x - cx) * this.#scale, my - (y - cy) * this.#scale];
   }
 
   #listen() {
@@ -147,6 +172,7 @@ export class Floor {
       canvas.width = Math.round(width * ratio);
       canvas.height = Math.round(height * ratio);
     }
+    this.#findFree();
     const followed = this.#robots[this.look];
     if (this.follow && followed) this.#centre = [followed.x, followed.y];
     const colours = getComputedStyle(canvas);

@@ -4,6 +4,8 @@ import { byId, element, say } from "./dom.js";
 
 const LEVELS = ["DEBUG", "INFO", "WARN", "ERROR", "FATAL"];
 const MOST = 1000; // lines that are kept
+const NOTHING = `No node has logged anything since the cockpit was started. What is logged by rospy.loginfo() and
+ the like comes here; what is printed stays in its terminal, and what was logged before is in ~/.ros/log.`;
 
 export class LogTab {
   #entries = [];
@@ -59,6 +61,9 @@ export class LogTab {
     }));
     while (this.lines.childElementCount > MOST) this.lines.firstChild.remove();
     if (atEnd) scroll.scrollTop = scroll.scrollHeight;
-    say(byId("log-count"), `${this.lines.childElementCount} of ${this.#entries.length}`);
+    const [seen, all] = [this.lines.childElementCount, this.#entries.length];
+    say(byId("log-count"), `${seen} of ${all}`);
+    byId("log-empty").hidden = seen > 0;
+    say(byId("log-empty"), all ? `None of ${all} lines passes the filter and the level.` : NOTHING);
   }
 }

@@ -28,8 +28,9 @@ const link = new Link((state) => {
 });
 
 function watch(fields) {
+  const before = JSON.stringify(watched);
   Object.assign(watched, fields);
-  link.send("watch", watched);
+  if (JSON.stringify(watched) !== before) link.send("watch", watched);
 }
 
 /** Show a line for a while, or none (""). */

@@ -7,14 +7,13 @@ import { GamepadPicture } from "./gamepad_picture.js";
 
 const STALE_S = 1; // after which what is shown is not news
 
-const shown = (name) => name || "the robot";
 const number = (value, digits = 2) =>
   Number.isFinite(value) ? value.toFixed(digits).replace(/^-(0\.?0*)$/, "$1") : "–"; // no -0.00
 
 export class RobotTab {
   #hello = null;
   #seat = { driver: null, yours: false };
-  #deadman = null; // whether joy2twist of the robot that is looked at wants a button held; null: not told
+  #drives = { drivers: {}, again: "" }; // in words, by the server: who drives, and what to do
   #teleop = new Map(); // robot -> what its joy2twist says
   #names = []; // of the robots
   #look = null; // the name of the one that is looked at, once there is one
@@ -28,14 +27,15 @@ export class RobotTab {
     this.floor = new Floor(byId("floor"), () => [...byId("robot").querySelectorAll(onFloor)]);
     this.picture = new GamepadPicture(byId("pad"));
     this.driver = new Driver(link, byId("glass"));
-    this.driver.onLost = (why) => notice(`You let go (${why}). Release LB and the stick, then hold LB again.`);
+    this.driver.onLost = (why) => notice(`You let go (${why}). ${this.#drives.again}`);
     link.on("hello", (hello) => this.#meet(hello));
     link.on("names", ({ names }) => this.#showNames(names));
     link.on("robots", ({ robots }) => this.#showRobots(robots));
     link.on("pad", (pad) => this.#showPad(pad));
     link.on("teleop", (teleop) => this.#showTeleop(teleop));
     link.on("seat", (seat) => this.#showSeat(seat));
-    link.on("lost", ({ why }) => notice(`Stopped: ${why}. Release LB and the stick, then hold LB again.`));
+    link.on("drives", (drives) => this.#showDrives(drives));
+    link.on("lost", ({ text, again }) => notice(again ? `${text} ${this.#drives.again}` : text));
     this.#listen();
   }
 
@@ -47,7 +47,10 @@ export class RobotTab {
   connect(isOpen) {
     byId("robot").classList.toggle("stale", !isOpen);
     if (isOpen) this.#showButtons();
-    else this.#showSeat({ driver: null, yours: false, why: "the connection was lost" });
+    else {
+      this.#showSeat({ driver: null, yours: false });
+      this.#showDrives({ drivers: {}, who: "Not connected: who drives is not known.", ready: "", how: "", again: "" });
+    }
   }
 
   #listen() {
@@ -57,12 +60,8 @@ export class RobotTab {
     on("zoom-out", () => floor.zoom(0.8));
     on("show-all", () => floor.showAll());
     on("clear-trail", () => floor.clearTrails());
-    const follow = (yes) => {
-      floor.follow = yes;
-      byId("follow").setAttribute("aria-pressed", String(yes));
-    };
-    floor.onUnfollow = () => follow(false);
-    on("follow", () => follow(!floor.follow));
+    floor.onUnfollow = () => this.#follow(false);
+    on("follow", () => this.#follow(!floor.follow));
     on("take", () => link.send("drive", { robot: this.look, mode: byId("mode").value }));
     on("leave", () => this.#leave());
     on("reset", () => {
@@ -74,6 +73,11 @@ export class RobotTab {
     addEventListener("keydown", (event) => {
       if (event.key === "Escape" && this.driver.isDriving) this.#leave();
     });
+  }
+
+  #follow(yes) {
+    this.floor.follow = yes;
+    byId("follow").setAttribute("aria-pressed", String(yes));
   }
 
   #leave() {
@@ -122,7 +126,7 @@ export class RobotTab {
     this.floor.show(robots);
     const names = Object.keys(robots);
     const isNew = names.length && JSON.stringify(names) !== this.#onFloor;
-    if (isNew && names.length > 1) this.floor.showAll();
+    if (isNew && names.length > 1 && !this.#seat.yours) this.floor.showAll();
     if (isNew) this.#onFloor = JSON.stringify(names);
     const robot = robots[this.look] ?? {};
     const degrees = (robot.yaw * 180) / Math.PI;
@@ -139,16 +143,15 @@ export class RobotTab {
     const line = row(name, "", "", "");
     line.dataset.robot = name;
     // Who drives sees what is driven.
-    line.addEventListener("click", () => this.#seat.yours || this.#lookAt(name));
+    line.addEventListener("click", () => this.#seat.yours || name === this.#look || this.#lookAt(name));
     return line;
   }
 
   #showClass(robots) {
     for (const [name, line] of this.#rows) {
       const { x, y, age } = robots[name] ?? {};
-      const drives = this.#seat.driver !== null && this.#seat.robot === name;
       const why = this.#teleop.get(name)?.why;
-      const texts = [name, `${number(x)}, ${number(y)}`, drives ? this.#seat.name : "–", why ?? "–"];
+      const texts = [name, `${number(x)}, ${number(y)}`, this.#drives.drivers[name] || "–", why ?? "–"];
       texts.forEach((text, i) => say(line.cells[i], text));
       line.classList.toggle("stale", !(age < STALE_S));
       line.classList.toggle("chosen", name === this.look);
@@ -163,38 +166,33 @@ export class RobotTab {
     byId("pad").classList.toggle("stale", age > STALE_S);
   }
 
-  #showTeleop({ robot, state, why, deadman = null }) {
-    if (state) this.#teleop.set(robot, { robot, state, why, deadman });
+  #showTeleop({ robot, state, why }) {
+    if (state) this.#teleop.set(robot, { robot, state, why });
     if (robot !== this.look) return;
-    this.#deadman = deadman;
-    this.#showReady();
     byId("teleop").dataset.state = state ?? "unknown";
     say(byId("teleop"), why || state || "It has said nothing yet.");
   }
 
   #showSeat(seat) {
+    if (seat.yours && !this.#seat.yours) this.#follow(true); // who drives sees what is driven
     this.#seat = seat;
     if (seat.yours && seat.robot !== this.#look) this.#lookAt(seat.robot); // it was handed over
     if (seat.yours) this.driver.mode = byId("mode").value;
     if (seat.yours && seat.how !== "bag") this.driver.start();
     else this.driver.stop();
-    const what = seat.how === "bag" ? "plays a recording to" : "drives";
-    const who = seat.yours ? (seat.how === "bag" ? "You play a recording to" : "You drive") : `${seat.name} ${what}`;
-    const why = seat.why ? ` Last stop: ${seat.why}.` : "";
-    say(byId("seat"), seat.driver === null ? `Nobody drives.${why}` : `${who} ${shown(seat.robot)}.${why}`);
     byId("seat").dataset.armed = Boolean(seat.yours && seat.armed);
     if (seat.yours && seat.armed) this.notice(""); // it may go on
-    this.#showReady();
     byId("seat").dataset.state = seat.driver === null ? "free" : seat.yours ? "yours" : "taken";
     byId("hand-over").hidden = !seat.yours || seat.how === "bag";
     this.#showButtons();
   }
 
-  #showReady() {
-    const { yours, how, armed } = this.#seat;
-    const held = this.#deadman === false ? "Move the stick: this robot needs no button held."
-      : "Hold LB, then move the stick.";
-    say(byId("ready"), !yours || how === "bag" ? "" : armed ? held : "Release LB and the stick first.");
+  #showDrives(drives) {
+    this.#drives = drives;
+    say(byId("seat"), drives.who);
+    say(byId("ready"), drives.ready);
+    say(byId("how-to"), drives.how);
+    byId("how").hidden = !drives.how;
   }
 
   #showButtons() {
@@ -206,7 +204,6 @@ export class RobotTab {
     byId("leave").hidden = !yours;
     if (held) byId(yours ? "leave" : "take").focus(); // the keyboard stays where it was
     byId("take").disabled = !mayDrive || (driver !== null && !yours);
-    byId("take").title = isViewer ? "This address may look, not drive" : "";
     byId("reset").disabled = !mayDrive;
     byId("glass").hidden = !yours || this.#seat.how === "bag";
     byId("look").disabled = yours;

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 """Times inputs of a page until their /cmd_vel comes, beside messages that are sent back.
 
-probe.py COCKPIT_PORT ECHO_PORT COUNT -> JSON: {"input": [s, ...], "echo": [s, ...]}
+probe.py COCKPIT_PORT ECHO_PORT COUNT [TOKEN] -> JSON: {"input": [s, ...], "echo": [s, ...],
+"losses": how often the operator was lost}
 """
 
 import asyncio
@@ -18,7 +19,7 @@ from tornado.websocket import websocket_connect
 STEP = 2.0**-12  # of the stick, from each input to the next: exact as float32
 SCALE = 0.35  # m/s for a whole stick, as config/f710_d.yaml has it
 PERIOD_S = 0.02  # a fast gamepad's; each input beside one message that is sent back
-sent_s, latency_s = {}, {"input": [], "echo": []}
+sent_s, latency_s = {}, {"input": [], "echo": [], "losses": 0}
 
 
 def on_twist(twist):
@@ -54,9 +55,10 @@ class Page:
                 self.armed = message["yours"] and message["armed"]
 
 
-async def connect(port):
+async def connect(port, query=""):
     headers = {"Origin": f"http://127.0.0.1:{port}"}
-    socket = await websocket_connect(HTTPRequest(f"ws://127.0.0.1:{port}/ws", headers=headers))
+    address = f"ws://127.0.0.1:{port}/ws{query}"
+    socket = await websocket_connect(HTTPRequest(address, headers=headers))
     socket.protocol.set_nodelay(True)
     return socket
 
@@ -73,8 +75,8 @@ async def release(page):
         await asyncio.sleep(PERIOD_S)
 
 
-async def main(cockpit_port, echo_port, count):
-    page, echo = Page(await connect(cockpit_port)), await connect(echo_port)
+async def main(cockpit_port, echo_port, count, token=""):
+    page, echo = Page(await connect(cockpit_port, f"?token={token}")), await connect(echo_port)
     tasks = [asyncio.ensure_future(page.read()), asyncio.ensure_future(read_echo(echo))]
     page.say("drive", robot="", mode="D")
     await release(page)
@@ -83,6 +85,7 @@ async def main(cockpit_port, echo_port, count):
         await asyncio.sleep(PERIOD_S)
     for number in range(1, count + 1):
         if not page.armed:  # a busy machine lost us
+            latency_s["losses"] += 1
             await release(page)
         stick = number % 2000 + 500
         sent_s[stick] = time.monotonic()
@@ -98,5 +101,5 @@ async def main(cockpit_port, echo_port, count):
 rospy.init_node("probe", disable_signals=True)
 subscriber = rospy.Subscriber("/cmd_vel", Twist, on_twist, tcp_nodelay=True)
 gc.freeze()
-asyncio.run(main(*map(int, sys.argv[1:])))
+asyncio.run(main(*map(int, sys.argv[1:4]), *sys.argv[4:]))
 print(json.dumps(latency_s))

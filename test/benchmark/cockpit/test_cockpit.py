@@ -17,6 +17,7 @@ from live import FAKE_TURTLEBOT, PERIOD_NS, lost_periods, master, processor_time
 from live import HERE as LIVE
 
 from tutorial_faults.live.samples import complaints, growth, sample
+from tutorial_testing import flood as flood_program
 from tutorial_testing.nodes import node_path
 
 HERE = Path(__file__).parent
@@ -28,6 +29,9 @@ MOST_PROCESSOR = 0.2
 SAMPLE_S = 5
 WATCHED = ("/robot_1/odom", f"/robot_{ROBOTS}/odom")
 FEW_LOST = 5  # by chance
+FLOOD = flood_program.__file__
+FLOODERS, FLOOD_S, INPUTS_PER_S = 30, 60, 50
+MOST_FLOODED_S, MOST_MORE_KB = 0.05, 20_000
 LEAST_FRAMES = 15  # in a second, of 20, on a busy machine
 
 
@@ -43,14 +47,15 @@ def free_port():
         return probe.getsockname()[1]
 
 
-def start_cockpit(stack):
-    """(process, port) of a cockpit that serves its page."""
+def start_cockpit(stack, *options):
+    """(process, port, tokens) of a cockpit that serves its page; with --lan: to look, to drive."""
     port = free_port()
     script = f"{rospkg.RosPack().get_path('cockpit')}/scripts/cockpit.py"
-    command = [sys.executable, script, "--port", str(port)]
+    command = [sys.executable, script, "--port", str(port), *options]
     process = stack.enter_context(running(command, stdout=subprocess.PIPE, text=True))
-    assert re.match("cockpit: open", process.stdout.readline())
-    return process, port
+    lines = [process.stdout.readline() for _ in range(2 if "--lan" in options else 1)]
+    assert re.match("cockpit: (open|to look)", lines[0])
+    return process, port, [line.partition("token=")[2].strip() for line in lines]
 
 
 def milliseconds(seconds):
@@ -61,19 +66,31 @@ def percentile(values, share):
     return sorted(values)[min(len(values) - 1, int(share * len(values)))]
 
 
-def test_an_input_until_the_velocity(figure):
+def start_drive(stack):
+    """The port of an echo, once joy2twist listens."""
     config = f"{rospkg.RosPack().get_path('joy2twist')}/config/f710_d.yaml"
+    subprocess.run(["rosparam", "load", config, "/NewJoy2Twist"], check=True)
+    joy2twist = ["rosrun", "joy2twist", "joy2twist.py", "_arm_on_neutral:=true", "_log_rate:=0"]
+    stack.enter_context(running(joy2twist))
+    echo_port = free_port()
+    stack.enter_context(running([sys.executable, str(HERE / "echo.py"), str(echo_port)]))
+    wait_for_joystick_listener()
+    return echo_port
+
+
+def drive(port, echo_port, count, *token):
+    """What probe.py has heard of so many inputs."""
+    probe = [sys.executable, str(HERE / "probe.py"), str(port), str(echo_port), str(count), *token]
+    done = subprocess.run(probe, stdout=subprocess.PIPE, text=True, check=True, timeout=300)
+    return json.loads(done.stdout)
+
+
+def test_an_input_until_the_velocity(figure):
     with ExitStack() as stack:
-        subprocess.run(["rosparam", "load", config, "/NewJoy2Twist"], check=True)
-        joy2twist = ["rosrun", "joy2twist", "joy2twist.py", "_arm_on_neutral:=true", "_log_rate:=0"]
-        stack.enter_context(running(joy2twist))
-        echo_port = free_port()
-        stack.enter_context(running([sys.executable, str(HERE / "echo.py"), str(echo_port)]))
-        wait_for_joystick_listener()
-        _, port = start_cockpit(stack)
-        probe = [sys.executable, str(HERE / "probe.py"), str(port), str(echo_port), str(INPUTS)]
-        done = subprocess.run(probe, stdout=subprocess.PIPE, text=True, check=True, timeout=300)
-    heard = json.loads(done.stdout)
+        echo_port = start_drive(stack)
+        _, port, _ = start_cockpit(stack)
+        heard = drive(port, echo_port, INPUTS)
+    del heard["losses"]
     medians = {name: statistics.median(values) for name, values in heard.items()}
     worst = {name: percentile(values, 0.99) for name, values in heard.items()}
     for name, times, most in (
@@ -93,6 +110,54 @@ def test_an_input_until_the_velocity(figure):
     assert worst["input"] - worst["echo"] <= WORST_MORE_S
 
 
+def test_a_flood_of_viewers(figure):
+    """All that the schema allows, as fast as the server takes it; the driver goes on."""
+    with ExitStack() as stack:
+        echo_port = start_drive(stack)
+        stack.enter_context(running([*FAKE_TURTLEBOT]))
+        process, port, (to_look, to_drive) = start_cockpit(stack, "--lan")
+        alone = drive(port, echo_port, INPUTS, to_drive)
+        before_kb = sample(0.0, "server", process.pid).memory_kb
+        command = [sys.executable, FLOOD, str(port), to_look, str(FLOODERS), str(FLOOD_S)]
+        flood = stack.enter_context(running(command, stdout=subprocess.PIPE, text=True))
+        assert flood.stdout.readline() == "ready\n"
+        began_s, used_s = time.monotonic(), processor_time(process.pid)
+        heard = drive(port, echo_port, FLOOD_S * INPUTS_PER_S, to_drive)
+        share = (processor_time(process.pid) - used_s) / (time.monotonic() - began_s)
+        peak_kb = sample(0.0, "server", process.pid).memory_kb
+        counts = json.loads(flood.stdout.readline())
+        flood.wait()
+        end_s = time.monotonic() + START_S
+        more_kb = MOST_MORE_KB + 1
+        while more_kb > MOST_MORE_KB and time.monotonic() < end_s:
+            time.sleep(0.5)
+            more_kb = sample(0.0, "server", process.pid).memory_kb - before_kb
+    worst = percentile(heard["input"], 0.99)
+    share_driven = len(heard["input"]) / (FLOOD_S * INPUTS_PER_S)
+    figure(
+        f"an input until /cmd_vel beside {FLOODERS} viewers that flood for {FLOOD_S} s, 99 of 100",
+        f"{milliseconds(worst)} ({milliseconds(percentile(alone['input'], 0.99))} without them;"
+        f" echo {milliseconds(percentile(heard['echo'], 0.99))})",
+        f"≤ {milliseconds(MOST_FLOODED_S)}",
+    )
+    figure(
+        "velocities for inputs meanwhile; the operator lost",
+        f"{share_driven:.1%}; {heard['losses']} times", "all; never",
+    )  # fmt: skip
+    figure(
+        "messages taken; processor time of the server",
+        f"{counts['sent'] / FLOOD_S:.0f}/s; {share:.0%}", "",
+    )  # fmt: skip
+    figure(
+        "memory of the server: during the flood; afterwards",
+        f"{(peak_kb - before_kb) / 1000:+.1f} MB; {more_kb / 1000:+.1f} MB",
+        f"≤ {MOST_MORE_KB / 1000:.0f} MB afterwards",
+    )
+    assert worst <= MOST_FLOODED_S
+    assert share_driven > 0.95
+    assert more_kb <= MOST_MORE_KB
+
+
 def wait_for_joystick_listener():
     end = time.monotonic() + START_S
     while time.monotonic() < end:
@@ -107,7 +172,7 @@ def wait_for_joystick_listener():
 def test_thirty_robots_on_five_pages(figure):
     with ExitStack() as stack:
         stack.enter_context(running([*FAKE_TURTLEBOT, f"_robots:={ROBOTS}"]))
-        process, port = start_cockpit(stack)
+        process, port, _ = start_cockpit(stack)
         shares, frames, longest = measure_viewers(stack, process, port)
         stalled = [sys.executable, str(HERE / "viewer.py"), str(port), "stalled"]
         idle = stack.enter_context(running(stalled, stdout=subprocess.PIPE, text=True))
@@ -145,7 +210,7 @@ def test_nothing_grows(figure, request, monkeypatch):
     seconds = 3600 * request.config.getoption("--hours")
     with ExitStack() as stack:
         robots, observer = simulate(stack, seconds)
-        process, port = start_cockpit(stack)
+        process, port, _ = start_cockpit(stack)
         with monkeypatch.context() as other:
             other.setenv("ROS_MASTER_URI", "")  # which master() sets, and this puts back
             stack.enter_context(master())

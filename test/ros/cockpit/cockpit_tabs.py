@@ -4,6 +4,7 @@
 import json
 import time
 
+import rosgraph
 import rospy
 import rostest
 from nav_msgs.msg import Odometry
@@ -17,6 +18,12 @@ from tutorial_testing.waiting import wait_for
 FIELD = "/odom/pose/pose/position/x"
 HELD_S = 8.0  # well above the vigilance_timeout of robot.launch.xml
 NEAR_M = 0.05  # at 0.35 m/s within a tenth of a second
+
+
+def publishers(topic):
+    """The names of the nodes that are registered for it."""
+    state = rosgraph.Master(rospy.get_name()).getSystemState()
+    return sorted(node for name, nodes in state[0] if name == topic for node in nodes)
 
 
 class Tabs(WithCockpit):
@@ -135,6 +142,39 @@ class Tabs(WithCockpit):
         finally:
             rival.unregister()
         self.assertIn(rospy.get_name(), self.page.of("lost")[0]["why"])
+        wait_for(lambda: "/cockpit" not in publishers("/joy"), "cockpit that publishes no longer")
+
+    def test_a_refused_click_leaves_no_publisher(self):
+        rival = rospy.Publisher("/joy", Joy, queue_size=1)
+        self.page.watch(robots=True, look="")
+        try:
+            wait_for(lambda: rival.publish(Joy()) or self.page.of("pad"), "joystick on the page")
+            rival.publish(Joy())
+            self.page.say("drive", robot="", mode="D")
+            why = self.page.wait_for("refused")["why"]
+            self.assertIn(f"{rospy.get_name()} sends on the joystick topic", why)
+            self.assertEqual(publishers("/joy"), [rospy.get_name()])
+        finally:
+            rival.unregister()
+
+        def drives():
+            self.page.say("drive", robot="", mode="D")
+            return any(seat["yours"] for seat in self.page.of("seat"))
+
+        wait_for(drives, "seat, once the other one has ended")
+
+    def test_who_drives_no_longer_publishes_no_longer(self):
+        self.rig.drive(self.page)
+        self.assertEqual(publishers("/joy"), ["/cockpit"])
+        self.page.say("leave")
+        wait_for(lambda: publishers("/joy") == [], "no publisher")
+
+    def test_who_does_not_drive_a_robot_does_not_reset_it(self):
+        self.rig.drive(self.page)
+        with SocketPage(self.rig.port) as other:
+            other.say("reset", robot="")
+            self.assertIn("another page drives", other.wait_for("refused")["why"])
+        self.assertTrue(self.rig.moves)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 """Recordings on pages: what is opened is what is shown and played."""
 
 import json
+import os
 import queue
 from math import inf, nan
 from types import SimpleNamespace
@@ -10,11 +11,11 @@ import rosbag
 import rospy
 from sensor_msgs.msg import Joy
 
-from cockpit_server import bags
+from cockpit_server import bags, shelf
 from cockpit_server.access import DRIVER
 from cockpit_server.clients import Client
-from cockpit_server.recording import curves
-from cockpit_server.seat import BAG
+from cockpit_server.recording import RecordingError, curves, read
+from cockpit_server.seat import BAG, RefusedError
 
 
 class Hub:
@@ -48,7 +49,13 @@ class Page:
     def open(self, name):
         """Ask for a recording; what is done once it is read."""
         self.say("bag_open", name=name)
-        return self.hub.wait(timeout=60)
+        done = self.hub.wait(timeout=60)
+
+        def show():
+            done()
+            self.bags.give(self.client, 0.0)
+
+        return show
 
     def play(self):
         self.say("bag_play", topic="/joy", rate=1.0, loop=False, robot="")
@@ -62,7 +69,7 @@ def page(monkeypatch, tmp_path):
             for second in range(1, 4):
                 values = axes if second == 2 else [0.25, 0.5]
                 bag.write("/joy", Joy(axes=values, buttons=[1]), rospy.Time(second))
-    monkeypatch.setattr(bags, "bags_here", lambda: {one.name: one for one in tmp_path.glob("*")})
+    monkeypatch.setattr(bags, "recordings", lambda _: {one.name: one for one in tmp_path.glob("*")})
     return Page()
 
 
@@ -80,7 +87,7 @@ def test_what_is_not_finite_is_left_out_of_curves(page):
 @pytest.mark.parametrize("broken", ["read", "encoded"])
 def test_what_cannot_be_shown_is_refused_and_not_opened(page, monkeypatch, broken):
     page.open("good.bag")()
-    monkeypatch.setattr(bags, broken, lambda *_, **__: [].pop())
+    monkeypatch.setattr(shelf, broken, lambda *_, **__: [].pop())
     page.open("odd.bag")()
     assert page.sent[-1]["kind"] == "refused"
     assert page.sent[-1]["why"].startswith("odd.bag: IndexError")
@@ -95,3 +102,45 @@ def test_what_plays_when_another_is_shown_is_ended(page):
     show()
     assert page.hub.seat.driver is None
     assert page.sent[-1]["path"] == "odd.bag"
+
+
+def test_a_page_opens_one_recording_at_a_time(page):
+    page.say("bag_open", name="good.bag")
+    with pytest.raises(RefusedError, match="is being opened"):
+        page.say("bag_open", name="odd.bag")
+    page.hub.wait(timeout=60)()
+    page.open("odd.bag")()
+    assert page.sent[-1]["path"] == "odd.bag"
+
+
+def test_a_recording_is_read_once_for_all_pages(page, monkeypatch):
+    read_so_far = []
+    monkeypatch.setattr(shelf, "read", lambda path: read_so_far.append(path.name) or read(path))
+    for _ in range(3):
+        for name in ("good.bag", "odd.bag"):
+            page.open(name)()
+    assert read_so_far == ["good.bag", "odd.bag"]
+
+
+def test_all_recordings_together_are_bounded(page, monkeypatch):
+    monkeypatch.setattr(shelf, "MOST_MESSAGES", 5)  # of 3 messages each there is room for one
+    page.open("good.bag")()
+    page.bags.prepare([page.client], 0.0)
+    page.open("odd.bag")()
+    assert page.sent[-1]["why"] == "other pages have long recordings open: close one of them"
+    assert page.bags._opened[7].name == "good.bag"
+    page.bags.prepare([], 0.0)  # the page is gone
+    page.open("odd.bag")()
+    assert page.bags._opened[7].name == "odd.bag"
+
+
+def test_what_is_no_file_is_refused_at_once_and_no_folder_is_named(tmp_path, monkeypatch):
+    os.mkfifo(tmp_path / "pipe.bag")
+    (tmp_path / "text.bag").write_text("no bag")
+    for name in ("pipe.bag", "text.bag", "none.bag"):
+        with pytest.raises(RecordingError) as error:
+            read(tmp_path / name)
+        assert str(error.value).startswith(f"{name}: ") and str(tmp_path) not in str(error.value)
+    monkeypatch.chdir(tmp_path)
+    assert set(shelf.recordings(may_drive=True)) == {"joy.bag", "text.bag"}
+    assert set(shelf.recordings(may_drive=False)) == {"joy.bag"}  # nothing of this folder

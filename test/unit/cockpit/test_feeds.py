@@ -28,3 +28,17 @@ def test_a_topic_that_is_refused_keeps_no_other_away(monkeypatch):
         assert set(all_feeds._subscribers) == held
     assert len(told) == len(topics)  # of each once: two are refused, the others do not end well
     assert sum("ValueError" in line for line in told) == 2
+
+
+def test_however_often_pages_change_their_minds_one_adjustment_waits(monkeypatch):
+    waiting = []
+    monkeypatch.setattr(feeds.rospy, "Subscriber", Subscriber)
+    monkeypatch.setattr(feeds, "later", waiting.append)
+    all_feeds = feeds.Feeds(print)
+    for number in range(1000):
+        all_feeds.want("page", {f"/t{number}": print}, every=True)
+    assert len(waiting) == 1
+    waiting.pop()()
+    assert set(all_feeds._subscribers) == {("/t999", True)}
+    all_feeds.want("page", {"/t1": print}, every=True)
+    assert len(waiting) == 1

@@ -2,16 +2,19 @@
 
 import json
 from io import BytesIO
+from time import monotonic
 from types import SimpleNamespace
 
 from rosgraph_msgs.msg import Log
 
+from cockpit_server import hub as hub_module
 from cockpit_server.access import DRIVER
 from cockpit_server.clients import Client, Source
 from cockpit_server.graph import Graph
 from cockpit_server.guard import MOST_TOLD, Guard
 from cockpit_server.hub import Hub
 from cockpit_server.logs import Logs
+from cockpit_server.seat import PAGE
 
 
 class Broken(Source):
@@ -38,7 +41,8 @@ def made(*sources, player=None):
     """(Hub, what it tells)."""
     told = []
     graphs = SimpleNamespace(graph=Graph(subscribers={}))
-    pads, joysticks = SimpleNamespace(driven=None), SimpleNamespace(send=None)
+    pads = SimpleNamespace(driven=None, rival=lambda *_: None)
+    joysticks = SimpleNamespace(send=None, keep=lambda robot: None)
     hub = Hub(None, graphs, joysticks, pads, told.append)
     hub.add(sources, player or SimpleNamespace(play=lambda now: None))
     return hub, told
@@ -69,6 +73,70 @@ def test_a_page_that_cannot_be_written_to_holds_up_no_other():
     hub.tick()
     assert not any("well" in text for text in first)
     assert any("well" in text for text in second)
+
+
+def test_a_page_in_debt_waits_and_the_one_that_drives_does_not():
+    hub, _ = made(Well())
+    guest, other, driver = join(hub), join(hub), join(hub)
+    hub.seat.take(3, "ada", PAGE, monotonic())
+    for one in hub.clients.values():
+        one.budget.spend(10.0)
+    assert hub.wait_s(hub.clients[1]) > 1.0
+    assert hub.wait_s(hub.clients[3]) == 0.0
+    hub.clients[2].budget.spend(-20.0)
+    hub.tick()
+    assert not any("well" in text for text in guest)  # it gets the newest once that is paid
+    assert any("well" in text for text in other)
+    assert driver
+
+
+def test_what_a_page_asks_for_is_on_its_account(monkeypatch):
+    time = SimpleNamespace(monotonic=lambda: 100.0, thread_time=iter(range(9)).__next__)
+    monkeypatch.setattr(hub_module, "time", time)  # each message takes a second
+    hub, _ = made()
+    join(hub)
+    join(hub)
+    assert hub.wait_s(hub.clients[1]) == 0.0
+    hub.hear(hub.clients[1], "no message")
+    assert hub.wait_s(hub.clients[1]) > 1.0
+    assert hub.clients[2].budget.wait_s(100.0, 1.0) == 0.0
+
+
+def test_pages_whose_turn_does_not_come_in_a_tick_get_theirs_in_the_next(monkeypatch):
+    class Slow(Source):
+        def give(self, client, now):
+            clock[0] += 1.1 * hub_module.GIVE_S
+            given.append(client.number)
+
+    clock, given = [0.0], []
+    time = SimpleNamespace(monotonic=lambda: clock[0], thread_time=lambda: clock[0])
+    monkeypatch.setattr(hub_module, "time", time)
+    hub, _ = made(Slow())
+    for _ in range(3):
+        join(hub)
+    for tick in (1, 2, 3):
+        hub.tick()
+        assert given == [1, 2, 3][:tick]
+
+
+def test_who_is_gone_is_not_heard():
+    hub, _ = made()
+    sent = join(hub)
+    one = hub.clients[1]
+    hub.leave(one)
+    sent.clear()
+    hub.hear(one, "no message")
+    assert sent == []
+
+
+def test_a_robot_that_another_joystick_drives_is_not_taken():
+    hub, _ = made()
+    sent = join(hub)
+    hub._graphs.graph = Graph(subscribers={"/joy": {"/j"}}, types={"/joy": "sensor_msgs/Joy"})
+    hub._pads.rival = lambda robot, since: "/joy_node"
+    hub.hear(hub.clients[1], '{"kind":"drive","robot":"","mode":"D"}')
+    assert "/joy_node sends on the joystick topic of this robot" in sent[-1]
+    assert hub.driven is None
 
 
 def test_a_failure_is_told_once_of_each_thing():

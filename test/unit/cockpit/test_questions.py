@@ -62,7 +62,10 @@ def test_a_doctor_that_cannot_run_says_so_and_may_be_called_again(monkeypatch):
     said = {}
     one = doctor.Doctor()
     client = SimpleNamespace(
-        lacks=lambda about, version: True, send=lambda kind, **fields: said.update(fields)
+        drives=True,
+        seen={},
+        lacks=lambda about, version: True,
+        send=lambda kind, **fields: said.update(fields),
     )
 
     def has_ended():
@@ -75,3 +78,9 @@ def test_a_doctor_that_cannot_run_says_so_and_may_be_called_again(monkeypatch):
         wait_for(has_ended, "end of the doctor")
         assert [(line["level"], line["subject"]) for line in said["lines"]] == [("wrong", "doctor")]
         said.clear()
+    client.drives, found = False, one._version
+    one.handlers["doctor"](client, one._ended_at + 1.0)  # who only looks gets what is known
+    assert one._version == found and has_ended()
+    one.handlers["doctor"](client, one._ended_at + doctor.FRESH_S + 1.0)
+    assert one._version > found
+    wait_for(has_ended, "end of the doctor")

@@ -87,7 +87,7 @@ def test_a_joystick_message_is_read_once_for_all_pages(monkeypatch):
     monkeypatch.setattr(robots_module, "joy_shown", lambda data: read.append(data) or {"axes": []})
     monkeypatch.setattr(robots_module, "sender_of", lambda message: "/other")
     feeds = Feeds()
-    pads = Pads(feeds, "/cockpit")
+    pads = Pads(feeds, SimpleNamespace(graph=graph("robot_1")), "/cockpit")
     pages = [page(look="robot_1") for _ in range(3)]
 
     def tick():
@@ -103,6 +103,9 @@ def test_a_joystick_message_is_read_once_for_all_pages(monkeypatch):
         tick()
     assert read == [b"1", b"2"]
     assert [len(sent) for _, sent in pages] == [2, 2, 2]
+    pages.append(page(look="no/such/robot"))
+    tick()
+    assert set(feeds.hears) == {"/robot_1/joy"}
 
 
 def test_the_text_of_a_long_message_is_not_made():

@@ -45,14 +45,39 @@ def test_what_all_pages_are_told(room):
     assert room.seat.state == (ANNA, "ada", PAGE, False, "")
     room.say(REST)
     assert room.seat.state == (ANNA, "ada", PAGE, True, "")
+    room.say(DRIVE)
     room.seat.release(ANNA, "hidden")
     assert room.seat.state == (ANNA, "ada", PAGE, False, "hidden")
-    room.seat.gone(ANNA)
+    assert room.seat.stopped == "ada"
+    room.seat.gone(ANNA)  # the robot stands for the first reason
+    assert room.seat.state == (None, "", PAGE, False, "hidden")
     why = "the page was closed, or the network is down"
-    assert room.seat.state == (None, "", PAGE, False, why)
     assert room.lost == [(ANNA, "hidden"), (ANNA, why)]
     room.seat.take(BOB, "bob", BAG, room.now)
     assert room.seat.state == (BOB, "bob", BAG, True, "")
+    assert room.seat.stopped is None
+
+
+@pytest.mark.parametrize("lost", [lambda seat: seat.free("a rival"), lambda seat: seat.lose("x")])
+def test_what_stopped_nothing_is_not_why_a_robot_stands(room, lost):
+    room.seat.take(ANNA, "ada", PAGE, room.now)
+    lost(room.seat)
+    assert (room.seat.why, room.seat.stopped) == ("", None)
+    room.seat.take(ANNA, "ada", PAGE, room.now)
+    room.beat()
+    room.say(REST)
+    assert room.seat.armed
+    lost(room.seat)
+    assert (room.seat.why, room.seat.stopped) == ("", None)
+
+
+def test_why_a_robot_stands_is_old_once_anything_moves_it(room):
+    room.drive()
+    room.seat.free("the network is down")
+    room.seat.moves_on("bob")
+    assert (room.seat.why, room.seat.stopped) == ("the network is down", "ada")
+    room.seat.moves_on("ada")
+    assert (room.seat.why, room.seat.stopped) == ("", None)
 
 
 def test_a_page_counts_its_inputs_from_one(room):
@@ -146,7 +171,8 @@ def test_five_seconds_without_input_free_the_seat(room):
     room.seat.tick(5.0)
     assert room.seat.driver == ANNA
     room.seat.tick(5.001)
-    assert room.seat.state == (None, "", PAGE, False, "the page was away for too long")
+    assert room.seat.state == (None, "", PAGE, False, "")  # it stood before
+    assert room.lost[-1] == (ANNA, "the page was away for too long")
 
 
 def ticking(room, ticks, pad=0.0):

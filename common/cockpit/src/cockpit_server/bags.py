@@ -1,37 +1,30 @@
 """Recordings on pages: opened, looked at, and played, which takes the place of the driver."""
 
-import threading
 import time
-from pathlib import Path
+from concurrent.futures import ThreadPoolExecutor
 
-import rospkg
-
-from cockpit_server.clients import Source, encoded
+from cockpit_server.clients import Source
 from cockpit_server.player import Player
-from cockpit_server.recording import JOY, RecordingError, curves, read
+from cockpit_server.recording import JOY, RecordingError
 from cockpit_server.seat import BAG, RefusedError
+from cockpit_server.shelf import Shelf, recordings
 
 TICKS = 2  # how often pages are told the position: each other time that they are looked after
-MOST_NAMES = 100
-
-
-def bags_here():
-    """{name: path} of the recordings that may be opened: ours, and those of this folder."""
-    ours = Path(rospkg.RosPack().get_path("gamepad")) / "bag" / "joy.bag"
-    here = sorted(Path.cwd().glob("*.bag"))[:MOST_NAMES]
-    return {path.name: path for path in [ours, *here]}
+LOOK_S = 2.0  # how often the folder is looked at for recordings, while a page shows them
 
 
 class Opened:
-    """What one page has opened."""
+    """What one page has opened. message: what it has not been sent yet."""
 
-    def __init__(self, name, recording):
-        self.name, self.recording = name, recording
+    def __init__(self, name, recording, message):
+        self.name, self.recording, self.message = name, recording, message
         self.position, self.rate, self.loop, self.topic = 0.0, 1.0, False, ""
 
 
 class Bags(Source):
-    """One recording for each page, and at most one that plays."""
+    """One recording for each page, and at most one that plays. Files are read in one other thread,
+    one after the other, and for each page one at a time.
+    """
 
     def __init__(self, hub):
         """hub: has the seat."""
@@ -40,6 +33,10 @@ class Bags(Source):
             "bag_open": self._on_open, "bag_play": self._on_play,
             "bag_pause": self._on_pause, "bag_seek": self._on_seek,
         }  # fmt: skip
+        self._reader = ThreadPoolExecutor(1, thread_name_prefix="recordings")
+        self._shelf = Shelf()
+        self._reading = set()  # numbers of the clients for whom one is read
+        self._names, self._next_look = {}, 0.0  # whether it may drive -> names; when [s]
         self._opened = {}  # client's number -> Opened
         self._player, self._owner = None, None
         self._ticks = 0
@@ -47,16 +44,27 @@ class Bags(Source):
     # ---------------------------------------------------------------- what pages are sent
 
     def prepare(self, clients, now):
-        """Forget the pages that are gone."""
+        """Forget the pages that are gone, and look which recordings there are."""
         self._ticks += 1
         numbers = {client.number for client in clients}
         self._opened = {n: opened for n, opened in self._opened.items() if n in numbers}
+        self._shelf.in_use = tuple(opened.recording for opened in self._opened.values())
+        if now >= self._next_look and any(client.watch.bag for client in clients):
+            self._next_look = now + LOOK_S
+            self._reader.submit(self._look)
+
+    def _look(self):
+        self._names = {may_drive: sorted(recordings(may_drive)) for may_drive in (False, True)}
 
     def give(self, client, now):
-        """Send what may be opened, and where the recording is."""
-        if client.watch.bag and client.lacks("bags", True):
-            client.send("bags", names=sorted(bags_here()))
+        """Send what may be opened, what was opened, and where it is."""
+        names = self._names.get(client.drives)
+        if client.watch.bag and names and client.lacks("bags", names):
+            client.send("bags", names=names)
         opened = self._opened.get(client.number)
+        if opened and opened.message:
+            client.write(opened.message)
+            opened.message = ""
         if not client.watch.bag or opened is None or self._ticks % TICKS:
             return
         playing = self._plays(client.number)
@@ -70,39 +78,36 @@ class Bags(Source):
     # -------------------------------------------------------------------------- what they say
 
     def _on_open(self, client, _now, name):
-        path = bags_here().get(name)
-        if path is None:
-            raise RefusedError(f"{name!r} is not among the recordings that may be opened here")
+        if client.number in self._reading:
+            raise RefusedError("a recording is being opened for this page: wait for it")
         if self._plays(client.number):
             self._hub.stand_up(client)
-        threading.Thread(target=self._read, args=(client, name, path), daemon=True).start()
+        self._reading.add(client.number)
+        self._reader.submit(self._read, client, name)
 
-    def _read(self, client, name, path):
+    def _read(self, client, name):
         try:
-            recording = read(path)
-            topics = [
-                {"name": topic, "type": kind, "count": count}
-                for topic, (kind, count) in sorted(recording.topics.items())
-            ]
-            # Before anything changes: what cannot be shown is not opened.
-            text = encoded(
-                "bag", path=name, start=recording.start, end=recording.end, topics=topics,
-                curves=curves(recording.joys),
-            )  # fmt: skip
+            path = recordings(client.drives).get(name)
+            if path is None:
+                raise RecordingError(f"{name!r} is none of the recordings that may be opened here")
+            recording, message = self._shelf.take(path)
         except Exception as error:  # whatever is in the file: who asked for it is told
             known = isinstance(error, RecordingError)
             why = str(error) if known else f"{name}: {type(error).__name__}: {error}"
-            self._hub.soon(lambda: client.refuse("bag_open", why, time.monotonic()))
+            self._hub.soon(lambda: self._refuse(client, why))
             return
+        self._hub.soon(lambda: self._show(client, Opened(name, recording, message)))
 
-        def show():
-            if self._plays(client.number):
-                self._hub.stand_up(client)  # it was begun meanwhile, and is not what is shown
-            self._opened[client.number] = Opened(name, recording)
-            client.seen.pop("bag_at", None)
-            client.write(text)
+    def _refuse(self, client, why):
+        self._reading.discard(client.number)
+        client.refuse("bag_open", why, time.monotonic())
 
-        self._hub.soon(show)
+    def _show(self, client, opened):
+        self._reading.discard(client.number)
+        if self._plays(client.number):
+            self._hub.stand_up(client)  # it was begun meanwhile, and is not what is shown
+        self._opened[client.number] = opened
+        client.seen.pop("bag_at", None)
 
     def _on_play(self, client, now, *, topic, rate, loop, robot):
         opened = self._must_be_open(client)

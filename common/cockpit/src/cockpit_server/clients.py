@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from typing import ClassVar, Optional, Tuple
 
 from cockpit_server.access import DRIVER
+from cockpit_server.budget import BURST_S, Budget
 from cockpit_server.seat import RefusedError
 from node_kit.throttle import Throttle
 
@@ -38,7 +39,8 @@ class Watch:
 class Client:
     """write: called with a text to send. is_behind: whether the last one has not gone out yet.
 
-    is_cut: whether the network to it seems to be down. close: called to end it.
+    is_cut: whether the network to it seems to be down. close: called to end it. address: of its
+    machine.
     """
 
     number: int
@@ -48,9 +50,11 @@ class Client:
     is_behind: callable
     is_cut: callable
     close: callable
+    address: str = ""
     watch: Watch = Watch()
     seen: dict = field(default_factory=dict)  # by what it is about: the newest that was sent
     flood: int = 0
+    budget: Budget = field(default_factory=lambda: Budget(BURST_S))
     may_send: Throttle = field(default_factory=lambda: Throttle(MESSAGES_RATE, MESSAGES_BURST))
     may_hear_no: Throttle = field(default_factory=lambda: Throttle(REFUSALS_RATE, REFUSALS_BURST))
 

@@ -1,8 +1,10 @@
 """The doctor's lines, as pages get them while it runs."""
 
+import math
 import subprocess
 import sys
 import threading
+import time
 from pathlib import Path
 
 import rospkg
@@ -11,6 +13,7 @@ from cockpit_server.clients import Source
 
 LEVELS = {"ok": "ok", "wrong": "wrong"}  # what else it says is a note
 LONGEST_RUN_S = 60.0
+FRESH_S = 10.0  # who only looks gets what was found within that, and causes no new run
 
 
 def shown(line):
@@ -28,14 +31,18 @@ class Doctor(Source):
         """It has not run yet."""
         self.handlers = {"doctor": self._start}
         self._lines, self._running, self._version = [], False, 0
+        self._ended_at = -math.inf  # of the last run [s]
 
     def give(self, client, _now):
         """Send the lines so far, if there are new ones."""
         if self._version and client.lacks("doctor", self._version):
             client.send("doctor", lines=self._lines, running=self._running)
 
-    def _start(self, _client, _now):
-        if not self._running:
+    def _start(self, client, now):
+        may = client.drives or now - self._ended_at > FRESH_S
+        if not may:
+            client.seen.pop("doctor", None)
+        if may and not self._running:
             self._running, self._lines = True, []
             self._version += 1
             threading.Thread(target=self._run, daemon=True).start()
@@ -46,13 +53,13 @@ class Doctor(Source):
         except Exception as error:  # whatever keeps it from running; the next run may go well
             self._lines = [*self._lines, shown(f"wrong doctor {type(error).__name__}: {error}")]
         finally:
-            self._running = False
+            self._running, self._ended_at = False, time.monotonic()
             self._version += 1
 
     def _listen(self):
         script = Path(rospkg.RosPack().get_path("tutorial_tools")) / "scripts" / "doctor.py"
         with subprocess.Popen(
-            [sys.executable, str(script)], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+            ["nice", sys.executable, str(script)], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT, text=True, errors="replace",
         ) as program:  # fmt: skip
             too_late = threading.Timer(LONGEST_RUN_S, program.kill)

@@ -4,6 +4,7 @@ A node of rospy has one subscription for a topic, whatever it wants it for: here
 messages, and whoever wants them reads as far as needed.
 """
 
+import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
 
@@ -28,6 +29,25 @@ def later(action, *arguments):
     _worker.submit(do)
 
 
+class OnceLater:
+    """An action for later(), which waits there once however often it is asked for."""
+
+    def __init__(self, action):
+        """action: called without arguments; what was asked before it begins is done with it."""
+        self._action = action
+        self._waits = threading.Event()
+
+    def __call__(self):
+        """Ask for it."""
+        if not self._waits.is_set():
+            self._waits.set()
+            later(self._do)
+
+    def _do(self):
+        self._waits.clear()
+        self._action()
+
+
 class Raw(rospy.AnyMsg):
     """A message of any type that is not read before somebody needs it. data: its bytes."""
 
@@ -47,6 +67,7 @@ class Feeds:
         self._listeners = {}  # topic -> functions to call
         self._wanted = frozenset()  # (topic, whether every message is wanted)
         self._subscribers = {}
+        self._adjust_later = OnceLater(self._adjust)
 
     def want(self, owner, hears, every):
         """Have hear(message, topic) called for these topics, {topic: hear}, and for no others that
@@ -62,7 +83,7 @@ class Feeds:
             complete |= set(wanted) if wants_all else set()
         self._listeners = listeners
         self._wanted = frozenset((topic, topic in complete) for topic in listeners)
-        later(self._adjust)
+        self._adjust_later()
 
     def _adjust(self):
         wanted = self._wanted

@@ -24,6 +24,11 @@ class GraphWatch:
         self._pid = None  # of the master, once it has told
         self.look()
 
+    def joysticks(self, robot):
+        """The names of the other nodes that publish a robot's joystick."""
+        topic = f"/{robot}/joy" if robot else "/joy"
+        return tuple(sorted(self.graph.publishers.get(topic, frozenset()) - {self._own_name}))
+
     def start(self, lost):
         """Look again and again, in a thread of its own. lost: called when the master has gone."""
         threading.Thread(target=self._run, args=(lost,), daemon=True).start()

@@ -1,9 +1,12 @@
 """Joins the pages with what they look at and what they drive. All of it runs in one thread."""
 
 import time
+from collections import deque
 
+from cockpit_server.budget import ALL_BURST_S, MESSAGE_S, SHARE, Budget
 from cockpit_server.clients import Watch
-from cockpit_server.feeds import later
+from cockpit_server.drives import lost_text
+from cockpit_server.feeds import OnceLater
 from cockpit_server.guard import Guard
 from cockpit_server.schema import MODES, check_lengths, check_message
 from cockpit_server.seat import PAGE, Input, RefusedError, Seat
@@ -12,6 +15,8 @@ from node_kit.throttle import Throttle
 
 BEAT_S = 0.05  # of the server to who drives, and of the robots to all
 TICK_S = 0.01  # how often the seat and a recording that plays look at the time
+GIVE_S = 0.005  # of a tick for what pages are sent; the others' turn comes in the next
+RIVAL_S = 1.0  # another joystick that was heard within that has the first say
 
 
 class Hub:
@@ -23,16 +28,20 @@ class Hub:
         """
         self._guard = Guard(tell)
         self.soon, self._graphs, self._joysticks, self._pads = soon, graph_watch, joysticks, pads
-        self._sources, self._player = [], None
+        self._named, self._player = [], None  # the sources with their names
         self._handlers = {
             "watch": self._on_watch, "drive": self._on_drive, "leave": self._on_leave,
             "hand_over": self._on_hand_over, "input": self._on_input, "release": self._on_release,
         }  # fmt: skip
         self.clients = {}
         self._next_number, self._beats = 1, 0
+        self._messages = Budget(ALL_BURST_S)  # of all pages but the one that drives
+        self._due = deque()  # pages whose turn it is to be sent something
         self._may_beat = Throttle(1 / BEAT_S, burst=1.5)  # even, though the ticks are not
         self._modes = ()  # of the gamepad that may drive
         self._seat_version = 0
+        self._advertised = None  # the robot for which a joystick is to be advertised
+        self._advertise = OnceLater(lambda: joysticks.keep(self._advertised))
         self._sat_at = 0.0
         self.seat = Seat(joysticks.send, self._on_lost)
 
@@ -40,9 +49,10 @@ class Hub:
         """sources: of what pages see, with prepare(), give() and handlers, by kind of message.
         player: the one that plays recordings.
         """
-        self._sources, self._player = list(sources), player
-        for source in self._sources:
+        self._player = player
+        for source in sources:
             self._handlers.update(source.handlers)
+        self._named = [(type(one).__name__, one) for one in sources]
 
     # ------------------------------------------------------------------ pages come and go
 
@@ -70,9 +80,34 @@ class Hub:
         self.clients.pop(client.number, None)
         self._change(lambda: self.seat.gone(client.number))
 
+    def wait_s(self, client):
+        """How long [s] the next message of a page has to wait, for what the page has cost."""
+        if client.number == self.seat.driver:
+            return 0.0
+        now = time.monotonic()
+        own = client.budget.wait_s(now, self._rate)
+        wait_s = max(own, self._messages.wait_s(now, SHARE))
+        client.budget.spend(MESSAGE_S)
+        self._messages.spend(MESSAGE_S)
+        return wait_s
+
+    @property
+    def _rate(self):
+        """The share of each page [s/s]."""
+        return SHARE / max(1, len(self.clients))
+
     def hear(self, client, data):
         """A page has sent something."""
-        now = time.monotonic()
+        if client.number not in self.clients:
+            return  # it waited, and is gone
+        began_s = time.thread_time()
+        self._hear(client, data, time.monotonic())
+        cost_s = time.thread_time() - began_s
+        client.budget.spend(cost_s)
+        if client.number != self.seat.driver:
+            self._messages.spend(cost_s)
+
+    def _hear(self, client, data, now):
         if not client.allows(now):
             client.refuse("messages", "too many in a second: some were dropped", now)
             return
@@ -86,7 +121,7 @@ class Hub:
     # ------------------------------------------------------------------------ what they say
 
     def _on_watch(self, client, _now, **fields):
-        # All is told anew, but for the log, which the page has and which would stand there twice.
+        # Resend everything but log lines, which the page has already.
         goes_on = client.watch.log and fields["log"] and "log" in client.seen
         client.seen = {"log": client.seen["log"]} if goes_on else {}
         client.watch = Watch(**fields)
@@ -124,9 +159,11 @@ class Hub:
         client.must_drive()
         if robot not in self._graphs.graph.robots():
             raise RefusedError(f"there is no robot {robot!r}")
+        rival = self._pads.rival(robot, now - RIVAL_S)
+        if rival and self.seat.driver != client.number:
+            raise RefusedError(f"{rival} sends on the joystick topic of this robot: end it first")
         self._change(lambda: self.seat.take(client.number, robot, how, now))
         self._sat_at = now
-        later(self._joysticks.advertise, robot)
 
     def stand_up(self, client):
         """The client drives no longer."""
@@ -141,10 +178,20 @@ class Hub:
         before = self.seat.state
         action()
         self._seat_version += self.seat.state != before
+        if self.driven != self._advertised:
+            self._advertised = self.driven
+            self._advertise()
+
+    @property
+    def driven(self):
+        """The robot that is driven from a page, or None."""
+        return self.seat.robot if self.seat.driver is not None else None
 
     def _on_lost(self, number, why):
         if number in self.clients:
-            self.clients[number].send("lost", why=why)
+            keeps = number == self.seat.driver
+            again = keeps and self.seat.how == PAGE
+            self.clients[number].send("lost", why=why, text=lost_text(why, keeps), again=again)
 
     def _give_seat(self, client):
         if client.lacks("seat", self._seat_version):
@@ -152,7 +199,7 @@ class Hub:
             driver = self.clients.get(seat.driver)
             client.send(
                 "seat", driver=seat.driver, name=driver.name if driver else "", robot=seat.robot,
-                how=seat.how, yours=seat.driver == client.number, armed=seat.armed, why=seat.why,
+                how=seat.how, yours=seat.driver == client.number, armed=seat.armed,
             )  # fmt: skip
 
     # ------------------------------------------------------------------------------- time
@@ -162,22 +209,33 @@ class Hub:
         now = time.monotonic()
         self._change(lambda: self.seat.tick(now))
         self._guard("the player of recordings", self._player.play, now)
-        if not self._may_beat.ready(now):
-            return
-        self._beat(now)
-        clients = list(self.clients.values())
-        guard, named = self._guard, [(type(one).__name__, one) for one in self._sources]
-        for name, source in named:
-            guard(name, source.prepare, clients, now)
-        for client in clients:
-            if client.is_behind():
-                continue  # it gets the newest once it has read
-            guard("the seat", self._give_seat, client)
-            for name, source in named:
-                guard(name, source.give, client, now)
+        if self._may_beat.ready(now):
+            self._beat(now)
+            clients = list(self.clients.values())
+            for name, source in self._named:
+                self._guard(name, source.prepare, clients, now)
+            waiting = set(self._due)
+            self._due.extend(number for number in self.clients if number not in waiting)
+        self._give(now)
+
+    def _give(self, now):
+        """Send what pages lack, one after the other, for a while."""
+        end_s = time.thread_time() + GIVE_S
+        began_s = time.thread_time()
+        while self._due and began_s < end_s:
+            client = self.clients.get(self._due.popleft())
+            # One that is behind gets the newest once it has read, one in debt when that is paid.
+            if client is None or client.is_behind() or client.budget.wait_s(now, self._rate):
+                continue
+            self._guard("the seat", self._give_seat, client)
+            for name, source in self._named:
+                self._guard(name, source.give, client, now)
+            ended_s = time.thread_time()
+            client.budget.spend(ended_s - began_s)
+            began_s = ended_s
 
     def _beat(self, now):
-        self._pads.driven = self.seat.robot if self.seat.driver is not None else None
+        self._pads.driven = self.driven
         if self.seat.driver is None:
             return
         rival = self._pads.rival(self.seat.robot, self._sat_at)

@@ -11,19 +11,22 @@ FRAME = "cockpit"
 
 
 class Joysticks:
-    """Publishers of sensor_msgs/Joy, each advertised once, when it is first needed."""
+    """The publisher of sensor_msgs/Joy for the robot that is driven; for others there is none."""
 
     def __init__(self):
         """Nothing is advertised yet."""
-        self._publishers = {}
-        self._trembling = {}  # by robot
+        self._publishers = {}  # robot -> PromptPublisher; at most one
+        self._trembling = Trembling()
         self._message = Joy()
         self._message.header.frame_id = FRAME
 
-    def advertise(self, robot):
-        """Make the publisher; it may wait for the master."""
-        if robot not in self._publishers:
-            self._trembling[robot] = Trembling()
+    def keep(self, robot):
+        """Advertise the topic of this robot, and of no other (None: of none); may wait for the
+        master. Who is registered without driving would stand beside the joystick that drives.
+        """
+        for other in set(self._publishers) - {robot}:
+            self._publishers.pop(other).end()
+        if robot is not None and robot not in self._publishers:
             self._publishers[robot] = PromptPublisher(topic_of(robot, "joy"), Joy)
 
     def send(self, robot, axes, buttons):
@@ -32,6 +35,6 @@ class Joysticks:
         if publisher is None:
             return
         self._message.header.stamp = rospy.Time.now()
-        self._message.axes = self._trembling[robot].shown(axes)
+        self._message.axes = self._trembling.shown(axes)
         self._message.buttons = buttons
         publisher.publish(self._message)

@@ -2,6 +2,7 @@
 
 import itertools
 from collections import deque
+from functools import lru_cache
 
 from genpy import DeserializationError
 from rosgraph_msgs.msg import Log
@@ -9,6 +10,7 @@ from rosgraph_msgs.msg import Log
 from cockpit_server.clients import Source
 
 KEPT = 500  # lines
+AT_ONCE = 50  # lines in a message to a page: many long ones would hold up who drives
 LONGEST_LINE = 2000  # characters
 LEVELS = {
     Log.DEBUG: "DEBUG", Log.INFO: "INFO", Log.WARN: "WARN", Log.ERROR: "ERROR", Log.FATAL: "FATAL",
@@ -16,6 +18,7 @@ LEVELS = {
 TICKS = 2  # a message to pages each other time that they are looked after
 
 
+@lru_cache(maxsize=KEPT)
 def shown(data):
     """A line as pages get it, from the bytes of a rosgraph_msgs/Log; None if they are none."""
     try:
@@ -52,7 +55,7 @@ class Logs(Source):
         if not client.watch.log or self._ticks % TICKS:
             return
         known = client.seen.get("log", 0)
-        lines = [line for line in list(self._lines) if line[0] > known]
+        lines = [line for line in list(self._lines) if line[0] > known][:AT_ONCE]
         if lines or known == 0:
             client.seen["log"] = lines[-1][0] if lines else -1
             entries = [entry for entry in (shown(data) for _, data in lines) if entry]

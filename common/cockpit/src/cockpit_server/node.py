@@ -9,6 +9,7 @@ from tornado.ioloop import PeriodicCallback
 
 from cockpit_server.bags import Bags
 from cockpit_server.doctor import Doctor
+from cockpit_server.drives import Drives
 from cockpit_server.feeds import Feeds
 from cockpit_server.graph_view import GraphView
 from cockpit_server.graph_watch import GraphWatch
@@ -42,17 +43,18 @@ class Cockpit:
         """sockets: that listen. access: access.Access."""
         self._sockets = sockets
         name = rospy.get_name()
-        self._graphs = GraphWatch(name)
+        graphs = self._graphs = GraphWatch(name)
         log = Log()
         feeds = Feeds(log.warn)
-        pads = Pads(feeds, name)
-        self._hub = Hub(self._soon, self._graphs, Joysticks(), pads, log.warn)
-        bags, graphs = Bags(self._hub), self._graphs
+        pads = Pads(feeds, graphs, name)
+        hub = self._hub = Hub(self._soon, graphs, Joysticks(), pads, log.warn)
+        bags, robots, teleop = Bags(hub), Robots(feeds, graphs), Teleop(feeds)
         sources = (
-            Robots(feeds, graphs), pads, Teleop(feeds), Resets(graphs), GraphView(graphs),
-            Topics(feeds, graphs), Plots(feeds, graphs), Logs(feeds, graphs), Doctor(), bags,
+            robots, pads, teleop, Drives(hub, graphs, teleop, robots), Resets(hub, graphs),
+            GraphView(graphs), Topics(feeds, graphs), Plots(feeds, graphs), Logs(feeds, graphs),
+            Doctor(), bags,
         )  # fmt: skip
-        self._hub.add(sources, player=bags)
+        hub.add(sources, player=bags)
         self._server = server(self._hub, access)
         self._loop = None
         self.has_lost_master = False

@@ -3,6 +3,7 @@
 import threading
 from collections import deque
 from functools import lru_cache
+from itertools import takewhile
 from math import isfinite
 
 import roslib.message
@@ -37,6 +38,12 @@ def is_seldom_drawn(field):
     return "header/" in field or "covariance" in field
 
 
+def newer(samples, known):
+    """The [t, value] of samples whose number is larger, in their order; the newest stand last."""
+    last = takewhile(lambda sample: sample[0] > known, reversed(samples))
+    return [[t, value] for _, t, value in last][::-1]
+
+
 class Plots(Source):
     """Subscribes to what is drawn and keeps the newest samples."""
 
@@ -56,9 +63,10 @@ class Plots(Source):
         self._ticks += 1
         fields = {field for client in clients for field in client.watch.fields}
         graph, wanted = self._graphs.graph, {}
+        published = graph.published
         for field in fields:
             try:
-                topic, rest = split(field, graph.published)
+                topic, rest = split(field, published)
                 wanted.setdefault(topic, {})[field] = parts_of(rest)
             except ValueError:
                 continue  # not now; a topic may come later
@@ -86,8 +94,9 @@ class Plots(Source):
         with self._lock:
             client.seen["plot"] = self._number
             new = {
-                field: [[t, value] for number, t, value in self._samples[field] if number > known]
+                field: newer(self._samples[field], known)
                 for field in client.watch.fields
+                if field in self._samples
             }
         new = {field: samples for field, samples in new.items() if samples}
         if new:

@@ -1,5 +1,6 @@
 """Reads a recording: what is in it, and the joystick messages of each topic."""
 
+import stat
 from math import isfinite
 from pathlib import Path
 from typing import Dict, List, NamedTuple, Tuple
@@ -31,32 +32,42 @@ class Recording(NamedTuple):
         """[s]."""
         return self.end - self.start
 
+    @property
+    def messages(self):
+        """How many are kept here."""
+        return sum(map(len, self.joys.values()))
+
 
 def read(path):
-    """The Recording of a file. Raises RecordingError."""
+    """The Recording of a file. Raises RecordingError; it names the file, and no folder."""
+    name = Path(path).name
     try:
-        if Path(path).stat().st_size > LARGEST:
-            raise RecordingError(f"{path}: larger than {LARGEST // 1_000_000} MB: use rosbag play")
+        about = Path(path).stat()
+        if not stat.S_ISREG(about.st_mode):
+            raise RecordingError(f"{name}: not a file")  # nothing ever comes from some of these
+        if about.st_size > LARGEST:
+            raise RecordingError(f"{name}: larger than {LARGEST // 1_000_000} MB: use rosbag play")
         with rosbag.Bag(str(path)) as bag:
-            return _read(bag)
+            return _read(bag, name)
     except OSError as error:
-        raise RecordingError(f"{path}: cannot be read: {error.strerror}") from None
+        raise RecordingError(f"{name}: cannot be read: {error.strerror}") from None
     except rosbag.ROSBagUnindexedException:
-        raise RecordingError(f"{path}: cut short; mend it with: rosbag reindex {path}") from None
+        raise RecordingError(f"{name}: cut short; mend it with: rosbag reindex {name}") from None
     except RecordingError:
         raise
     except Exception as error:  # rosbag lets struct.error and more through from a damaged file
-        raise RecordingError(f"{path}: not a bag that can be read: {error}") from None
+        why = str(error).replace(str(path), name)
+        raise RecordingError(f"{name}: not a bag that can be read: {why}") from None
 
 
-def _read(bag):
+def _read(bag, name):
     info = bag.get_type_and_topic_info().topics
     topics = {name: (one.msg_type, one.message_count) for name, one in info.items()}
     if not topics:
-        raise RecordingError(f"{bag.filename}: is empty")
+        raise RecordingError(f"{name}: is empty")
     joys = {name: [] for name, (kind, _) in sorted(topics.items()) if kind == JOY}
     if sum(topics[name][1] for name in joys) > MOST_MESSAGES:
-        raise RecordingError(f"{bag.filename}: too long: use rosbag play")
+        raise RecordingError(f"{name}: too long: use rosbag play")
     start = bag.get_start_time()
     for topic, joy, stamp in bag.read_messages(topics=list(joys)) if joys else ():
         joys[topic].append((stamp.to_sec() - start, joy.axes, joy.buttons))

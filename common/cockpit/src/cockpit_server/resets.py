@@ -24,22 +24,29 @@ def reset_service(graph, robot):
 
 
 class Resets(Source):
-    """Calls the service of a robot when who may drive asks for it."""
+    """Calls the service of a robot when who may drive asks for it, and no other page drives it."""
 
-    def __init__(self, graph_watch):
-        """graph_watch: knows the services."""
-        self._graphs = graph_watch
+    def __init__(self, hub, graph_watch):
+        """hub: has the seat. graph_watch: knows the services."""
+        self._hub, self._graphs = hub, graph_watch
         self.handlers = {"reset": self._reset}
+        self._asked = set()  # names of services that have not answered yet
 
     def _reset(self, client, _now, robot):
         client.must_drive()
+        if robot == self._hub.driven and client.number != self._hub.seat.driver:
+            raise RefusedError("another page drives this robot, and may reset it")
         name = reset_service(self._graphs.graph, robot)
+        if name in self._asked:
+            raise RefusedError(f"{name} was called before, and has not answered yet")
+        self._asked.add(name)
         # A thread of its own: a robot that hangs does not answer, and others are to be driven.
-        threading.Thread(target=_call, args=(name,), daemon=True).start()
+        threading.Thread(target=self._call, args=(name,), daemon=True).start()
 
-
-def _call(name):
-    try:
-        rospy.ServiceProxy(name, Empty)()
-    except rospy.ServiceException as error:
-        rospy.logwarn("cockpit: %s: %s", name, error)
+    def _call(self, name):
+        try:
+            rospy.ServiceProxy(name, Empty)()
+        except rospy.ServiceException as error:
+            rospy.logwarn("cockpit: %s: %s", name, error)
+        finally:
+            self._asked.discard(name)

@@ -15,6 +15,7 @@ DIGITS = 4  # of metres: a tenth of a millimetre
 # [byte]; a gamepad's message has some 100. The thread that reads them, and sends each to all pages,
 # also watches over who drives, and a huge one would hold it up.
 LONGEST_JOY = 4000
+FRESH_S, LEAST_SPEED = 1.0, 0.01  # of odometry that says that a robot moves [m/s, rad/s]
 
 
 def topic_of(robot, name):
@@ -55,6 +56,12 @@ class Robots(Source):
             client.send("names", names=names)
         client.write(self._text)
 
+    def moves(self, robot, now):
+        """Whether the newest odometry of a robot says so; it is known while a page looks."""
+        state, came, _ = self._states.get(robot, (None, 0.0, 0.0))
+        fresh = state is not None and now - came < FRESH_S
+        return fresh and max(abs(state.v), abs(state.w)) > LEAST_SPEED
+
     def _hear(self, message, topic):
         self._newest[topic] = (message.data, time.monotonic())
 
@@ -94,9 +101,9 @@ def joy_shown(data):
 class Pads(Source):
     """The newest joystick message of each robot that somebody looks at or drives."""
 
-    def __init__(self, feeds, own_name):
+    def __init__(self, feeds, graph_watch, own_name):
         """own_name: of this node. Others that send on the same topic are told by rival()."""
-        self._feeds, self._own_name = feeds, own_name
+        self._feeds, self._graphs, self._own_name = feeds, graph_watch, own_name
         self.driven = None  # the robot that is driven from a page
         self._newest = {}  # topic -> (bytes, when they came [s])
         self._shown = {}  # topic -> (when it came [s], what pages get of it or None)
@@ -104,7 +111,8 @@ class Pads(Source):
 
     def prepare(self, clients, _now):
         """Subscribe to what is looked at now, and read what is new, once for all pages."""
-        robots = ({client.watch.look for client in clients} | {self.driven}) - {None}
+        looked_at = {client.watch.look for client in clients} & self._graphs.graph.robots()
+        robots = (looked_at | {self.driven}) - {None}
         hears = {topic_of(robot, "joy"): self._hear for robot in robots}
         self._feeds.want(self, hears, every=False)
         self._newest = {topic: self._newest[topic] for topic in hears if topic in self._newest}

@@ -68,7 +68,7 @@ class Seat:
         self._has_ended = False
         self._beats = {}  # number -> when it was sent
         self.driver = None
-        self.why = ""  # why the last one was lost
+        self.why, self.stopped = "", None  # why a loss has stopped a robot, and which, at the last
         self._clear()
 
     def _clear(self):
@@ -84,7 +84,7 @@ class Seat:
 
     @property
     def state(self):
-        """What is told to all pages."""
+        """What all pages are sent."""
         return self.driver, self.robot, self.how, self.armed, self.why
 
     def take(self, client, robot, how, now):
@@ -94,7 +94,8 @@ class Seat:
         if self.driver not in (None, client):
             raise RefusedError("somebody else drives; who drives may hand over")
         self.leave(client)
-        self.driver, self.robot, self.how, self.why = client, robot, how, ""
+        self.driver, self.robot, self.how = client, robot, how
+        self.why, self.stopped = "", None
         self.armed = how == BAG  # a recording begins as it begins
         self._fresh_at = now
         self._beats.clear()
@@ -131,7 +132,7 @@ class Seat:
             self.armed = True
         if self.armed:
             if not neutral:
-                self.why = ""  # of the last loss; until somebody moves again it is worth reading
+                self.moves_on(self.robot)
             self._publish(message.axes, message.buttons)
 
     def _is_fresh(self, message, now):
@@ -172,8 +173,9 @@ class Seat:
         """The operator is lost; the seat stays with the client, who may still be there."""
         if self.driver is None or not self.armed:
             return
+        self._keep(why)
         self._rest()
-        self.armed, self.why = False, why
+        self.armed = False
         self._tell_lost(self.driver, why)
         if self.how == BAG:
             self._clear()
@@ -183,10 +185,20 @@ class Seat:
         driver = self.driver
         if driver is None:
             return
+        self._keep(why)
         self._rest()
         self._clear()
-        self.why = why
         self._tell_lost(driver, why)
+
+    def _keep(self, why):
+        """Keep why a robot stands, if it was moved until now."""
+        if self.armed and self._last is not None and not is_neutral(*self._last):
+            self.why, self.stopped = why, self.robot
+
+    def moves_on(self, robot):
+        """A robot is moved again, by whatever: why it stood is worth reading no longer."""
+        if robot == self.stopped:
+            self.why, self.stopped = "", None
 
     def release(self, client, why):
         """A page says that its operator is lost."""

@@ -7,10 +7,12 @@ from genpy import DeserializationError
 
 from cockpit_server.clients import Source
 from cockpit_server.graph import robot_of
+from node_kit.states import DRIVING
 
 MARK = ": joystick"  # the end of the name of joy2twist's status; before it stands its node's
 SILENT_S = 4.0  # it speaks once a second
 SILENT = {"state": "silent", "why": "joy2twist says nothing any more", "level": 2, "deadman": None}
+UNKNOWN = "it reports once a second"  # what is shown meanwhile
 DEADMAN = "Dead-man button"  # the name of the value that tells which one it is, or "none"
 
 
@@ -27,8 +29,8 @@ def said(data):
 
 
 def told(status):
-    """A DiagnosticStatus as pages get it: state is its first word, deadman whether a button has to
-    be held (None: an older joy2twist does not tell).
+    """A DiagnosticStatus as pages get it: state is its first word, deadman the number of the button
+    that has to be held, or "none" (None: an older joy2twist does not report it).
     """
     state = status.message.partition(":")[0].partition(" ")[0]
     button = {pair.key: pair.value for pair in status.values}.get(DEADMAN)
@@ -36,7 +38,7 @@ def told(status):
         "state": state,
         "why": status.message,
         "level": int(status.level),
-        "deadman": None if button is None else button != "none",
+        "deadman": button,
     }
 
 
@@ -54,6 +56,16 @@ class Teleop(Source):
         for robot, heard in list(self._heard.items()):
             if now - heard > SILENT_S:
                 self._states[robot] = SILENT
+
+    def newest(self, robot):
+        """What was told of a robot last; None if nothing was."""
+        return self._states.get(robot)
+
+    def outdate(self, robot):
+        """The driver of a robot has left: what joy2twist reported of driving is no longer true."""
+        state = self._states.get(robot)
+        if state and state["state"] == DRIVING:
+            self._states[robot] = {**state, "state": "unknown", "why": UNKNOWN, "level": 1}
 
     def give(self, client, _now):
         """Send what has changed of the robots that the client looks at."""

@@ -1,5 +1,6 @@
 """The topic that a page looks at: who speaks, how often, and what was said last."""
 
+import math
 import time
 
 from cockpit_server.clients import Source
@@ -55,19 +56,17 @@ class Topics(Source):
     def __init__(self, feeds, graph_watch):
         """graph_watch: knows the topics and their types."""
         self._feeds, self._graphs = feeds, graph_watch
-        self._topics, self._shown = {}, {}
-        self._next = 0.0
+        self._topics = {}
+        self._shown = {}  # name -> (since when [s], what pages are sent of it)
 
     def prepare(self, clients, now):
-        """Twice a second, put together what is shown."""
+        """Subscribe to what is looked at, and is there."""
         graph = self._graphs.graph
         looked_at = {client.watch.topic for client in clients} - {None}
         self._topics = {name: self._topics.get(name) or Topic() for name in looked_at}
-        self._feeds.want(self, {n: topic.hear for n, topic in self._topics.items()}, every=True)
-        if now < self._next:
-            return
-        self._next = now + PERIOD_S
-        self._shown = {name: self._about(graph, name, now) for name in looked_at}
+        there = {n: one.hear for n, one in self._topics.items() if n in graph.types}
+        self._feeds.want(self, there, every=True)
+        self._shown = {n: about for n, about in self._shown.items() if n in looked_at}
 
     def _about(self, graph, name, now):
         topic = self._topics[name]
@@ -81,9 +80,16 @@ class Topics(Source):
             "last": topic.text(type_name),
         }
 
-    def give(self, client, _now):
-        """Send what is shown of the topic that the client looks at."""
+    def give(self, client, now):
+        """Send what is shown of the topic that the client looks at; it is put together twice a
+        second, when the first page lacks it, which so pays for it.
+        """
         name = client.watch.topic
-        about = self._shown.get(name)
-        if about and client.lacks("topic", (name, self._next)):
+        if name not in self._topics:
+            return
+        since, about = self._shown.get(name, (-math.inf, None))
+        if now - since >= PERIOD_S:
+            since, about = now, self._about(self._graphs.graph, name, now)
+            self._shown[name] = since, about
+        if client.lacks("topic", (name, since)):
             client.send("topic", **about)

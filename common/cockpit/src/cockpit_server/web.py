@@ -1,5 +1,6 @@
 """HTTP and WebSocket: who may have what, and how much of it."""
 
+import asyncio
 import logging
 import socket
 from pathlib import Path
@@ -11,6 +12,7 @@ from tornado.web import Application, RequestHandler, StaticFileHandler
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
 from cockpit_server.access import without_token
+from cockpit_server.admission import connection_to_close, page_to_close
 from cockpit_server.clients import Client, name_of
 from cockpit_server.schema import LONGEST_MESSAGE
 from node_kit.newest_only import CUT_AFTER_RESENDS, resends
@@ -20,6 +22,7 @@ MOST_CLIENTS = 64  # a class, each with a page and a phone
 MOST_CONNECTIONS = 256  # each takes a file descriptor, of which a process may have 1024
 LONGEST_IDLE_S = 20.0  # a connection on which nothing is asked
 PING_S = 1.0  # a page that does not answer three of them is closed
+MOST_PINGS = 100  # of a page
 LONGEST_HEADER = 16384  # bytes
 LONGEST_BODY = 1024  # bytes; nothing is uploaded
 # What waits in the kernel for a page that does not read [bytes]; the kernel doubles it.
@@ -88,6 +91,7 @@ class _Socket(WebSocketHandler):
     """The way between a page and the Hub."""
 
     client = None
+    pings = 0
 
     async def get(self, *_, **__):
         access, hub = self.settings["access"], self.settings["hub"]
@@ -97,10 +101,21 @@ class _Socket(WebSocketHandler):
             self.refuse(403, "only this cockpit's own page may connect")
         elif self.role is None:
             self.refuse(403, "open the address that the cockpit printed, with its token")
-        elif len(hub.clients) >= MOST_CLIENTS:
+        elif not self.has_room(list(hub.clients.values())):
             self.refuse(503, f"{MOST_CLIENTS} pages are open: close one")
         else:
             await super().get()
+
+    def has_room(self, clients):
+        """Whether one more page may be opened; a viewer of another may have to go for it."""
+        if len(clients) < MOST_CLIENTS:
+            return True
+        pages = [(one, one.role, one.address) for one in clients]
+        guest = page_to_close(pages, self.role, self.request.remote_ip)
+        if guest is not None:
+            self.settings["hub"].leave(guest)
+            guest.close()
+        return guest is not None
 
     def refuse(self, status, why):
         self.set_status(status)
@@ -113,11 +128,13 @@ class _Socket(WebSocketHandler):
         self.set_nodelay(True)
         self.stream = self.ws_connection.stream
         self.stream.socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SEND_BUFFER)
-        hub = self.settings["hub"]
-        name = name_of(self.request.headers.get("User-Agent", ""), self.request.remote_ip)
+        self.settings["pages"].add(self.stream)
+        hub, address = self.settings["hub"], self.request.remote_ip
+        name = name_of(self.request.headers.get("User-Agent", ""), address)
         self.client = Client(
-            hub.number(), self.role, name, self.send, self.stream.writing, self.is_cut, self.close
-        )
+            hub.number(), self.role, name, self.send, self.stream.writing, self.is_cut,
+            self.stream.close, address,
+        )  # fmt: skip
         hub.join(self.client)
 
     def send(self, text):
@@ -130,26 +147,54 @@ class _Socket(WebSocketHandler):
         return not self.stream.closed() and resends(self.stream.socket) >= CUT_AFTER_RESENDS
 
     def on_message(self, message):
+        hub = self.settings["hub"]
+        wait_s = hub.wait_s(self.client)
+        if not wait_s:
+            return hub.hear(self.client, message)
+        return self.hear_later(wait_s, message)
+
+    async def hear_later(self, wait_s, message):
+        # Meanwhile tornado reads nothing more of this page: TCP holds the sender up.
+        await asyncio.sleep(wait_s)
         self.settings["hub"].hear(self.client, message)
 
+    def on_pong(self, data):
+        # Nobody asked for most of them, if they are many; a message costs as much.
+        wait_s = self.settings["hub"].wait_s(self.client)
+        return asyncio.sleep(wait_s) if wait_s else None
+
+    def on_ping(self, data):
+        # Tornado has answered already. A page's script can send no ping, and whoever sends many may
+        # leave the answers unread: they would pile up here.
+        self.pings += 1
+        if self.pings > MOST_PINGS:
+            self.stream.close()
+
     def on_close(self):
+        self.settings["pages"].discard(self.stream)
         if self.client:
             self.settings["hub"].leave(self.client)
 
 
 class _Server(HTTPServer):
-    """Takes no more connections than there is room for."""
+    """Takes no more connections than there is room for; for a new one, one that waits has to go."""
 
-    def initialize(self, *arguments, **more):
-        super().initialize(*arguments, **more)
-        self._streams = set()
+    def initialize(self, application, **more):
+        super().initialize(application, **more)
+        self._pages = application.settings["pages"]
+        self._streams = {}  # stream -> its address, the oldest first
 
     def handle_stream(self, stream, address):
-        self._streams = {one for one in self._streams if not one.closed()}
+        self._streams = {one: its for one, its in self._streams.items() if not one.closed()}
         if len(self._streams) >= MOST_CONNECTIONS:
-            stream.close()
-            return
-        self._streams.add(stream)
+            unused = [pair for pair in self._streams.items() if pair[0] not in self._pages]
+            oldest = connection_to_close(unused)
+            if oldest is None:
+                stream.close()
+                return
+            oldest.close()
+            del self._streams[oldest]
+        self._streams[stream] = address[0]
         super().handle_stream(stream, address)
 
 
@@ -170,6 +215,7 @@ def server(hub, access):
         access=access,
         hub=hub,
         page=page,
+        pages=set(),  # streams that are a page's
         websocket_max_message_size=LONGEST_MESSAGE,
         websocket_ping_interval=PING_S,
         websocket_ping_timeout=3 * PING_S,

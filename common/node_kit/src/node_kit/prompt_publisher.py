@@ -57,6 +57,10 @@ class PromptPublisher(rospy.SubscribeListener):
             except OSError:
                 connection.close()  # rospy takes it off its list and calls peer_unsubscribe()
 
+    def end(self):
+        """Close all connections, and register no longer."""
+        self._publisher.unregister()
+
     def peer_subscribe(self, topic_name, topic_publish, peer_publish):
         """Called by rospy when a subscriber has connected."""
         self._update_peers()

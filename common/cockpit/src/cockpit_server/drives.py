@@ -1,0 +1,169 @@
+"""Who drives a robot, why it stands, and what to do: put into words here alone (pure)."""
+
+from typing import Any, Dict, NamedTuple, Optional, Tuple
+
+from cockpit_server.clients import Source
+from cockpit_server.seat import BAG
+from gamepad.gamepads import F710
+from node_kit.states import DRIVING
+
+LOOKS_ONLY = "This page was opened with the address for viewers: it may look, not drive."
+NO_ROBOT = "No robot is running yet. Start one, for example: ./tutorial demo"
+
+
+class About(NamedTuple):
+    """What is known of one robot.
+
+    driver: number of the page that drives it, or None; name: of that page. how: PAGE or BAG. armed:
+    whether all was seen released. why: the last stop by a loss of the driver, "" if there was none.
+    said: what joy2twist reports (see teleop.told), None if nothing. senders: other nodes that
+    publish its joystick's topic. moves: whether its odometry says so.
+    """
+
+    driver: Optional[int] = None
+    name: str = ""
+    how: str = ""
+    armed: bool = False
+    why: str = ""
+    said: Optional[Dict[str, Any]] = None
+    senders: Tuple[str, ...] = ()
+    moves: bool = False
+
+    @property
+    def is_driven_by_node(self) -> bool:
+        """Whether something else than a page drives it."""
+        if self.driver is not None:
+            return False
+        return self.said["state"] == DRIVING if self.said else self.moves and bool(self.senders)
+
+
+def driver(about: About) -> str:
+    """Return the name of what drives, for a table; "" if nothing does."""
+    if about.driver is not None:
+        return about.name
+    return (", ".join(about.senders) or "a joystick") if about.is_driven_by_node else ""
+
+
+def who(about: About, robot: str, page: int) -> str:
+    """Return a sentence that says to a page what drives the robot."""
+    its = robot or "the robot"
+    if about.driver is not None:
+        i = about.driver == page
+        if about.how == BAG:
+            return f"{'You play' if i else f'{about.name} plays'} a recording to {its}."
+        return f"You drive {its}." if i else f"{about.name} drives {its}."
+    some = " and ".join(about.senders)
+    if about.is_driven_by_node:
+        return f"{some or 'A joystick'} drives {its}."
+    if about.moves and not about.said:
+        return f"No joystick drives {its}, but it moves: the tab Graph shows what sends to it."
+    if not some:
+        return "Nobody drives."
+    return f"Nobody drives. Registered as its joystick: {some}."
+
+
+def again(about: About) -> str:
+    """Return what to do after a stop, before the robot may be driven again."""
+    button = held(about)
+    if button is None:
+        return "Release the stick, then move it again."
+    return f"Release {button} and the stick, then hold {button} again."
+
+
+def ready(about: About, page: int, may_drive: bool) -> str:
+    """Return why the robot stands, and what the person at a page is to do now."""
+    stopped = f"Stopped: {about.why}." if about.why else ""
+    button = held(about)
+    if about.driver != page:
+        todo = "" if may_drive else LOOKS_ONLY
+    elif about.how == BAG:
+        todo = ""
+    elif not about.armed:
+        some = f"{button} and the stick" if button else "the stick"
+        todo = again(about) if stopped else f"Release {some} first."
+    elif button is None:
+        todo = "Move the stick: this robot needs no button held."
+    else:
+        todo = f"Hold {button}, then move the stick."
+    return f"{stopped} {todo}".strip()
+
+
+def how_to(about: About, page: int, may_drive: bool) -> str:
+    """Return how a page drives this robot; "" where a hand can do nothing now."""
+    is_others = about.driver not in (None, page) or about.is_driven_by_node
+    if not may_drive or is_others or about.how == BAG:
+        return ""
+    button = held(about)
+    if button is None:
+        return "Move the stick (a thumb, a gamepad, the arrow keys). Esc: stop."
+    by = "a thumb, a gamepad's button, the key Shift" if button == "LB" else "a gamepad's button"
+    return f"Hold {button} ({by}), then move the stick (or arrow keys). Esc: stop."
+
+
+def held(about: About) -> Optional[str]:
+    """Return the name of the dead-man button, None if joy2twist needs none."""
+    number = (about.said or {}).get("deadman")
+    if number is None:
+        return "LB"  # as the suite's presets have it
+    names = F710["D"].buttons
+    if number.isdigit():
+        return names[int(number)] if int(number) < len(names) else f"button {number}"
+    return None
+
+
+def lost_text(why: str, keeps_seat: bool) -> str:
+    """Return what a page is sent that has lost its robot."""
+    return f"Stopped: {why}." if keeps_seat else f"This page drives no longer: {why}."
+
+
+class Drives(Source):
+    """Sends each page who drives the robot that it looks at, and the drivers of all robots."""
+
+    def __init__(self, hub, graph_watch, teleop, robots):
+        """hub: has the seat. graph_watch, teleop, robots: know the rest."""
+        self._hub, self._graphs, self._teleop, self._robots = hub, graph_watch, teleop, robots
+        self._abouts, self._drivers = {}, {}
+        self._driven = None  # from a page, the last time
+
+    def prepare(self, clients, now):
+        """Look at every robot once for all pages."""
+        seat, driven = self._hub.seat, self._hub.driven
+        if self._driven not in (None, driven):
+            self._teleop.outdate(self._driven)  # that robot's driver has left since it spoke
+        self._driven = driven
+        self._abouts = {robot: self._about(robot, now) for robot in self._graphs.graph.robots()}
+        for robot, about in self._abouts.items():
+            if about.is_driven_by_node:
+                seat.moves_on(robot)
+        self._drivers = {robot: driver(about) for robot, about in self._abouts.items()}
+
+    def _about(self, robot, now):
+        seat = self._hub.seat
+        page = self._hub.clients.get(seat.driver) if robot == self._hub.driven else None
+        return About(
+            driver=seat.driver if page else None,
+            name=page.name if page else "",
+            how=seat.how if page else "",
+            armed=bool(page) and seat.armed,
+            why=seat.why if robot == seat.stopped else "",
+            said=self._teleop.newest(robot),
+            senders=self._graphs.joysticks(robot),
+            moves=self._robots.moves(robot, now),
+        )
+
+    def give(self, client, _now):
+        """Send what has changed."""
+        robot = client.watch.look
+        about = self._abouts.get(robot, About())
+        words = {
+            "robot": robot,
+            "who": who(about, robot or "", client.number),
+            "ready": ready(about, client.number, client.drives),
+            "how": how_to(about, client.number, client.drives),
+            "again": again(about),
+            "drivers": self._drivers,
+        }
+        if not self._abouts:
+            words["ready"] = " ".join(filter(None, (NO_ROBOT, words["ready"])))
+        if client.lacks("drives", words):
+            client.send("drives", **words)

@@ -1,0 +1,96 @@
+#!/usr/bin/python3
+"""Viewers that send what the schema allows, as fast as the server takes it.
+
+flood.py PORT TOKEN VIEWERS SECONDS -> JSON, one line when all are connected and one at the end:
+messages sent and received, and how many connections the server has closed.
+"""
+
+import asyncio
+import json
+import random
+import sys
+import time
+
+from tornado.httpclient import HTTPRequest
+from tornado.websocket import WebSocketClosedError, websocket_connect
+
+TOPICS = ["/odom", "/joy", "/tf", "/diagnostics", "/rosout", "/no/such/topic"]
+FIELDS = [f"/odom/pose/covariance[{i}]" for i in range(12)] + ["/odom/x", "/nothing/y"]
+READERS = 5  # of six viewers; the sixth reads nothing
+WORST = [  # what costs most, each as often as all others together
+    {"kind": "bag_open", "name": "joy.bag"},
+    {"kind": "bag_open", "name": "no.bag"},
+    {"kind": "doctor"},
+    None,  # a watch of everything
+]
+
+
+def watch(dice):
+    """Look at other things each time."""
+    return {
+        "kind": "watch", "robots": dice.random() < 0.8, "look": dice.choice(["", None, "x" * 200]),
+        "graph": dice.random() < 0.5, "topic": dice.choice(TOPICS), "node": "/fake_turtlebot",
+        "fields": dice.sample(FIELDS, 12), "field_list": dice.random() < 0.5,
+        "log": dice.random() < 0.5, "bag": dice.random() < 0.5,
+    }  # fmt: skip
+
+
+def others(dice):
+    """Each other kind of message."""
+    return [
+        {"kind": "drive", "robot": "", "mode": "D"},
+        {"kind": "leave"},
+        {"kind": "hand_over", "to": dice.randrange(40)},
+        {"kind": "input", "n": 2**52, "t": 1e9, "beat": 1, "axes": [1.0] * 6,
+         "buttons": [1] * 12, "pad": None, "source": "pad"},
+        {"kind": "release", "why": "x" * 200},
+        {"kind": "reset", "robot": ""},
+        {"kind": "bag_play", "topic": "/joy", "rate": 10, "loop": True, "robot": ""},
+        {"kind": "bag_pause"},
+        {"kind": "bag_seek", "position": dice.random()},
+    ]  # fmt: skip
+
+
+class Flood:
+    """All viewers in one thread."""
+
+    def __init__(self, port, token):
+        self.address = f"127.0.0.1:{port}"
+        self.query = f"?token={token}"
+        self.counts = {"sent": 0, "received": 0, "closed": 0}
+
+    async def connect(self):
+        headers = {"Origin": f"http://{self.address}"}
+        request = HTTPRequest(f"ws://{self.address}/ws{self.query}", headers=headers)
+        return await websocket_connect(request)
+
+    async def read(self, socket):
+        while await socket.read_message() is not None:
+            self.counts["received"] += 1
+        self.counts["closed"] += 1
+
+    async def send(self, socket, dice, end):
+        while time.monotonic() < end:
+            message = dice.choice([*WORST, dice.choice(others(dice))]) or watch(dice)
+            try:
+                await asyncio.wait_for(socket.write_message(json.dumps(message)), 5)
+                self.counts["sent"] += 1
+            except (WebSocketClosedError, asyncio.TimeoutError):
+                await asyncio.sleep(0.01)
+
+    async def run(self, viewers, seconds):
+        sockets = [await self.connect() for _ in range(viewers)]
+        tasks = [self.read(one) for i, one in enumerate(sockets) if i % (READERS + 1) != READERS]
+        readers = [asyncio.ensure_future(task) for task in tasks]
+        print("ready", flush=True)
+        end = time.monotonic() + seconds
+        senders = [self.send(one, random.Random(i), end) for i, one in enumerate(sockets)]
+        await asyncio.gather(*senders)
+        for reader in readers:
+            reader.cancel()
+        print(json.dumps(self.counts), flush=True)
+
+
+if __name__ == "__main__":
+    given_port, given_token, count, length_s = sys.argv[1:]
+    asyncio.run(Flood(given_port, given_token).run(int(count), float(length_s)))

@@ -1,0 +1,149 @@
+"""One truth about who drives and why a robot stands: what pages say in each situation."""
+
+import json
+from types import SimpleNamespace
+
+import pytest
+
+from cockpit_server.access import DRIVER, VIEWER
+from cockpit_server.clients import Client, Watch
+from cockpit_server.drives import (
+    LOOKS_ONLY,
+    NO_ROBOT,
+    About,
+    Drives,
+    again,
+    driver,
+    how_to,
+    lost_text,
+    ready,
+    who,
+)
+from cockpit_server.seat import BAG, PAGE, Seat
+
+ANNA, BOB = 1, 2
+MOVING, ARMED, FREE = ({"state": s, "deadman": d} for s, d in
+                       (("driving", "4"), ("armed", "4"), ("armed", "none")))  # fmt: skip
+PLAYS = ("/rosbag_play",)
+SEAT = About(driver=ANNA, name="Firefox", how=PAGE, armed=True, said=ARMED)
+
+WHO = {
+    "nobody": (About(said=ARMED), "Nobody drives."),
+    "this page": (SEAT, "You drive ada."),
+    "another page": (SEAT._replace(driver=BOB), "Firefox drives ada."),
+    "a recording of this page": (SEAT._replace(how=BAG), "You play a recording to ada."),
+    "a recording of another": (
+        SEAT._replace(how=BAG, driver=BOB), "Firefox plays a recording to ada."),
+    "a recording of rosbag": (About(said=MOVING, senders=PLAYS), "/rosbag_play drives ada."),
+    "a joystick that has left": (About(said=MOVING), "A joystick drives ada."),
+    "a joystick at rest": (
+        About(said=ARMED, senders=PLAYS),
+        "Nobody drives. Registered as its joystick: /rosbag_play."),
+    "without diagnostics": (About(senders=PLAYS, moves=True), "/rosbag_play drives ada."),
+    "no joystick": (About(moves=True),
+        "No joystick drives ada, but it moves: the tab Graph shows what sends to it."),
+    "it rolls out": (About(said=ARMED, moves=True), "Nobody drives."),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", WHO)
+def test_who_drives(case):
+    about, said = WHO[case]
+    assert who(about, "ada", ANNA) == said
+    assert who(about, "", ANNA) == said.replace("ada", "the robot")
+    assert (driver(about) == "") == said.startswith(("Nobody", "No joystick"))
+
+
+READY = {
+    "drives": (SEAT, "Hold LB, then move the stick."),
+    "sits down": (SEAT._replace(armed=False), "Release LB and the stick first."),
+    "was stopped": (SEAT._replace(armed=False, why="hidden"),
+        "Stopped: hidden. Release LB and the stick, then hold LB again."),
+    "no button": (SEAT._replace(said=FREE), "Move the stick: this robot needs no button held."),
+    "no button, sits down": (SEAT._replace(said=FREE, armed=False), "Release the stick first."),
+    "no button, was stopped": (SEAT._replace(said=FREE, armed=False, why="hidden"),
+        "Stopped: hidden. Release the stick, then move it again."),
+    "RB": (SEAT._replace(said={"state": "armed", "deadman": "5"}), "Hold RB, then move the stick."),
+    "plays": (SEAT._replace(how=BAG, why=""), ""),
+    "looks on": (About(said=ARMED), ""),
+    "it stopped": (About(said=ARMED, why="the network is down"), "Stopped: the network is down."),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", READY)
+def test_why_it_stands_and_what_to_do(case):
+    about, said = READY[case]
+    assert ready(about, ANNA, may_drive=True) == said
+
+
+def test_a_page_that_may_only_look_says_why():
+    assert ready(About(), ANNA, may_drive=False) == LOOKS_ONLY
+    assert how_to(About(), ANNA, may_drive=False) == ""
+    stopped = ready(About(why="hidden"), ANNA, may_drive=False)
+    assert stopped == f"Stopped: hidden. {LOOKS_ONLY}"
+
+
+def test_how_to_drive_names_the_button_that_is_needed_and_no_other():
+    assert how_to(SEAT, ANNA, True).startswith("Hold LB (a thumb, a gamepad's button, the key S")
+    assert "Hold" not in how_to(SEAT._replace(said=FREE), ANNA, True)
+    for other in (SEAT._replace(how=BAG), SEAT._replace(driver=BOB), About(said=MOVING)):
+        assert how_to(other, ANNA, True) == ""
+    other = SEAT._replace(said={"state": "armed", "deadman": "77"})
+    assert "Hold button 77 " in how_to(other, ANNA, True)
+    assert again(SEAT._replace(said=FREE)) == "Release the stick, then move it again."
+
+
+def test_a_refusal_is_not_called_a_stop():
+    assert lost_text("hidden", keeps_seat=True) == "Stopped: hidden."
+    assert lost_text("it ended", keeps_seat=False) == "This page drives no longer: it ended."
+
+
+class Room:
+    """A seat, a joy2twist that reports, a graph, and a page that looks at the robot ada."""
+
+    def __init__(self, role=DRIVER, robots=("ada",)):
+        self.sent, self.outdated, self.report, self.senders = [], [], ARMED, ()
+        hear, no = (lambda text: self.sent.append(json.loads(text))), (lambda: False)
+        self.client = Client(ANNA, role, "Firefox", hear, no, no, no)
+        self.client.watch = Watch(look="ada")
+        self.seat = Seat(lambda *_: None, lambda *_: None)
+        graphs = SimpleNamespace(
+            graph=SimpleNamespace(robots=lambda: robots), joysticks=lambda _: self.senders
+        )
+        teleop = SimpleNamespace(newest=lambda _: self.report, outdate=self.outdated.append)
+        self.drives = Drives(self, graphs, teleop, SimpleNamespace(moves=lambda *_: False))
+
+    clients = property(lambda self: {ANNA: self.client})
+    driven = property(lambda self: self.seat.robot if self.seat.driver is not None else None)
+
+    def look(self):
+        """What the page is sent now, or the last time if nothing has changed."""
+        self.drives.prepare([self.client], 0.0)
+        self.drives.give(self.client, 0.0)
+        return self.sent[-1]
+
+
+def test_a_page_is_sent_the_words_when_they_change():
+    room = Room()
+    assert room.look()["who"] == "Nobody drives." and room.look() and len(room.sent) == 1
+    room.seat.take(ANNA, "ada", PAGE, 0.0)
+    assert room.look()["who"] == "You drive ada." and room.sent[-1]["drivers"] == {"ada": "Firefox"}
+    assert room.outdated == []
+    room.seat.leave(ANNA)
+    assert room.look()["who"] == "Nobody drives." and room.sent[-1]["drivers"] == {"ada": ""}
+    assert room.outdated == ["ada"]  # that joy2twist was driving is no longer true
+
+
+def test_a_stop_is_old_once_a_recording_drives():
+    room = Room()
+    room.seat.why, room.seat.stopped = "the network is down", "ada"
+    assert room.look()["ready"] == "Stopped: the network is down."
+    room.report, room.senders = MOVING, PLAYS
+    assert room.look()["who"] == "/rosbag_play drives ada."
+    room.report, room.senders = ARMED, ()
+    assert (room.look()["who"], room.look()["ready"]) == ("Nobody drives.", "")
+
+
+def test_without_a_robot_a_page_says_so():
+    assert Room(robots=()).look()["ready"] == NO_ROBOT
+    assert Room(VIEWER, robots=()).look()["ready"] == f"{NO_ROBOT} {LOOKS_ONLY}"
