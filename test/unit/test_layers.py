@@ -66,8 +66,8 @@ cockpit_server.program
 ALL = RULES + OUTER
 ALLOWED_IN_RULES = set(
     """
-    argparse bisect collections dataclasses difflib enum errno hmac html ipaddress itertools json math
-    numpy os random re struct sys typing
+    argparse bisect collections dataclasses difflib enum errno hmac html ipaddress itertools json
+    math numpy os random re struct sys typing
     """.split()
 )
 # What speaks to the other side of a socket, and waits for it, is handed the socket or the address.
