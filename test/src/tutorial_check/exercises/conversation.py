@@ -4,7 +4,7 @@ import contextlib
 import re
 
 from tutorial_check.changed_programs import unmasked
-from tutorial_check.exercises.answers import check_awake, check_once, check_strays
+from tutorial_check.exercises.answers import check_awake, check_clock, check_once, check_strays
 from tutorial_check.exercises.driving import (
     CMD_VEL,
     COUNT,
@@ -15,7 +15,7 @@ from tutorial_check.exercises.driving import (
 )
 from tutorial_check.exercises.files import check_file, crash
 from tutorial_check.exercises.silent_end import silent_end
-from tutorial_check.mapping import judge
+from tutorial_check.mapping import judge, judge_probes, silence
 from tutorial_check.model import Note, Wrong
 from tutorial_check.python_facts import python_lines
 
@@ -231,8 +231,17 @@ def check_mapping(session, seen):
             hint="publish in the callback, for every message",
         )
     complaint, remark = judge(seen.samples)
+    if not complaint:
+        complaint, hint = judge_probes(seen.samples, seen.answers)
+        remark = hint or remark
     check_strays(seen, facts, complaint)
+    check_clock(seen, facts)
     repeated = check_once(seen, facts)
+    if seen.unanswered and not complaint:
+        if seen.trouble:
+            raise crash_of(session, seen, expected)
+        told, hint = silence(*seen.unanswered)
+        raise Wrong(expected, told, where=where, hint=hint)
     if complaint:
         raise Wrong(
             expected,
@@ -274,11 +283,8 @@ def check_rate(session, seen):
         return f"{seen.answered} for {seen.sent}" + (
             f", {1000 * seen.delay_s:.1f} ms" if seen.delay_s is not None else ""
         )
-    by_clock = seen.unasked > 2 or "Timer" in facts.calls or "Rate" in facts.calls
     delay = f", {1000 * seen.delay_s:.0f} ms late" if seen.delay_s is not None else ""
     told = f"{seen.answered} Twists for {seen.sent} Joys{delay}"
-    if by_clock and seen.answered >= 10 * 2 and (seen.delay_s is None or seen.delay_s < 0.2):
-        return Note(f"{told}: by a clock of its own; the handout publishes for every message")
     if seen.trouble:
         raise crash_of(session, seen, expected)
     raise Wrong(
