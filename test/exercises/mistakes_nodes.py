@@ -80,6 +80,8 @@ ROWS = [
     node("only every second", PUBLISH, "callback.n = getattr(callback, 'n', 0) + 1\n    if callback.n % 2:\n        pub.publish(msg)", "C16", "Twists"),
     node("published twice", X, f"{X}\n    {PUBLISH}", "C16", ("joy2twist.py:14", "2 Twists for each Joy, and they differ", "at the end of the callback")),
     node("sleep before it publishes", "def callback(data):\n", "def callback(data):\n    rospy.sleep(0.5)\n", "C16", ("joy2twist.py:9", "the callback sleeps", "no sleep in the callback")),
+    node("a loop without end in place of spin", "rospy.spin()", "while True:\n        pass", "C34", ("joy2twist.py:21", "had to be killed", "rospy.spin()")),
+    node("a loop that sleeps in place of spin", "rospy.spin()", "import time\n    while True:\n        time.sleep(1)", "C34", ("joy2twist.py:22", "rospy.spin()")),
     cls("def init", "def __init__(self)", "def init(self)", "C29", "`def init`"),
     cls("def _init_", "def __init__(self)", "def _init_(self)", "C29", "__init__"),
     cls("never made", "        NewJoy2Twist()\n", "        NewJoy2Twist\n", "C29", "never made"),

@@ -260,3 +260,32 @@ def crash(session, package, program, what, default_hint=""):
     return Wrong(
         what, f"{ended}; it said: {said}" if said else f"{ended}, without a word", hint=default_hint
     )
+
+
+def check_end(session, package, script, taken_s, output):
+    """A Note on how a program ended after Ctrl-C, or None; taken_s: how long that took, None: it had to be killed."""
+    name = Path(script).name
+    if taken_s is None:
+        facts = session.scripts(package)[script]
+        endless = facts.loops if "is_shutdown" not in facts.calls else []
+        raise Wrong(
+            f"{name} ends within 3 s of Ctrl-C",
+            "it had to be killed",
+            where=f"{script}:{endless[0]}" if endless else script,
+            hint="rospy.spin(), or while not rospy.is_shutdown(): and no `except` that swallows the end",
+        )
+    trace = first_traceback(output, str(session.package(package).folder))
+    if trace and "ROSInterrupt" in trace.error:
+        return Note(
+            f"{name} ends with a traceback, ROSInterruptException",
+            trace.where,
+            "except rospy.ROSInterruptException: pass",
+        )
+    if trace:
+        raise Wrong(
+            f"{name} ends without a traceback",
+            trace.error,
+            where=trace.where,
+            hint="try: ... except rospy.ROSInterruptException: pass",
+        )
+    return None
