@@ -109,6 +109,8 @@ ROWS = [
     c("anonymous", ("anonymous=False", "anonymous=True")),
     c("throttled", ("rospy.loginfo(rospy.get_name()", "rospy.loginfo_throttle(1.0, rospy.get_name()")),
     c("a class named Joy2Twist, with main()", ("NewJoy2Twist", "Joy2Twist"), ("if __name__ == '__main__':\n    try:\n        Joy2Twist()\n" + END_OF_CLASS, "def main():\n    Joy2Twist()\n\n\nif __name__ == '__main__':\n    main()\n")),
+    ("a node below a base class that calls rospy", [put(CLASS, "class NewJoy2Twist():", "class Node():"), put(CLASS, "\n\nif __name__", "\n\nclass NewJoy2Twist(Node):\n    speed = 1.0\n\n\nif __name__")], ["6.2"]),
+    ("env -S and an argument", [put(JOY2TWIST, "env python", "env -S python3 -u"), put(CLASS, "env python", "env -S python3 -u")], ["4.3", "6.2"]),
     ("the class in joy2twist.py", [move(CLASS, JOY2TWIST)], ["4.3", "6.2"]),
     ("two nodes of one class name, a helper class", [put(CLASS, "class NewJoy2Twist", "class Config():\n    speed = 1.0\n\n\nclass NewJoy2Twist")], ["6.2"]),
     ("a part of the suite in src, which hides nothing from the checker", [part("fake_turtlebot_sim"), part("gamepad")], ["4.4", "4.5"]),

@@ -2,7 +2,8 @@
 
 import ast
 
-from tutorial_check.python_facts import last_name, python_lines, text_of
+from tutorial_check.coding import python_lines
+from tutorial_check.python_facts import last_name, text_of
 
 
 def unmasked(text):

@@ -83,6 +83,7 @@ class Check:
     section: str  # of the handout
     needs: tuple = ()  # ids of the checks without which this one says nothing
     look: str = ""
+    timeless: bool = False  # it reads files alone: no machine is too busy for that
 
 
 class Catalogue:
@@ -208,7 +209,8 @@ class Run:
         try:
             return function(self._session)
         except (Wrong, CannotCheck) as error:
-            if isinstance(error, Wrong) and (error.sure or self._told_of(error)):
+            sure = isinstance(error, Wrong) and (error.sure or check.timeless)
+            if sure or (isinstance(error, Wrong) and self._told_of(error)):
                 raise
             if not self._second_look(bool(LINE.search(getattr(error, "where", "")))):
                 raise

@@ -1,13 +1,11 @@
 """What a Python file says of itself, read as Python reads it and never run. Pure."""
 
 import ast
-import io
 import re
 import warnings
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
-# In which a file is written, from a comment in the first or second line (PEP 263).
-CODING = re.compile(rb"(?:[ \t\f]*(?:#[^\n]*)?\n)??[ \t\f]*#[^\n]*?coding[:=][ \t]*([-\w.]+)")
+from tutorial_check.coding import python_lines
 
 
 @dataclass
@@ -61,6 +59,12 @@ class PythonFacts:
         )
 
     @property
+    def keeps_newest(self):
+        """Whether a Publisher or Subscriber has a queue of one message."""
+        made = self.calls.get("Publisher", []) + self.calls.get("Subscriber", [])
+        return any(call.names.get("queue_size") == "1" for call in made)
+
+    @property
     def is_class_program(self):
         """Whether it has a class that deals with ROS, or is meant to."""
         return any(one.is_node for one in self.classes)
@@ -98,26 +102,6 @@ def text_of(node):
 def last_name(node):
     """The last part of the name of what is called."""
     return text_of(node.func).rsplit(".", 1)[-1]
-
-
-def unreadable(data):
-    """(line, what is there) of the first thing in a file that is not of its coding; None if all is."""
-    declared = CODING.match(data)
-    coding = declared[1].decode() if declared else "utf-8"
-    try:
-        data.decode(coding)
-    except UnicodeError as error:
-        start = getattr(error, "start", 0)
-        what = f"the byte 0x{data[start]:02x}, which is not {coding.upper()}"
-        return data.count(b"\n", 0, start) + 1, what
-    except LookupError:
-        return data.count(b"\n", 0, declared.end()) + 1, f"a coding that is none, {coding}"
-    return None
-
-
-def python_lines(text):
-    """The lines of a program as Python counts them; for splitlines() one also ends at a form feed or U+2028."""
-    return [line.rstrip("\r\n") for line in io.StringIO(text, newline="")]
 
 
 def read_python(text):
@@ -297,6 +281,29 @@ def _class_facts(node, called):
         attributes=_stored(node),
         bases=bases - {"object"},
     )
+
+
+def with_bases(classes):
+    """The ClassFacts, each with what the bases among them give it."""
+    by_name = {one.name: one for one in classes}
+
+    def whole(one, below=()):
+        for base in sorted(one.bases):
+            parent = by_name.get(base.rpartition(".")[2])
+            if parent is None or parent.name in (one.name, *below):
+                continue
+            parent = whole(parent, (one.name, *below))
+            one = replace(
+                one,
+                methods=[*one.methods, *parent.methods],
+                is_node=one.is_node or parent.is_node,
+                attributes_called=one.attributes_called | parent.attributes_called,
+                attributes=one.attributes | parent.attributes,
+                bases=(one.bases - {base}) | parent.bases,
+            )
+        return one
+
+    return [whole(one) for one in classes]
 
 
 def _stored(node):

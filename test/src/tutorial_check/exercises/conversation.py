@@ -4,6 +4,7 @@ import contextlib
 import re
 
 from tutorial_check.changed_programs import unmasked
+from tutorial_check.coding import python_lines
 from tutorial_check.exercises.answers import check_awake, check_clock, check_once, check_strays
 from tutorial_check.exercises.driving import (
     CMD_VEL,
@@ -17,7 +18,6 @@ from tutorial_check.exercises.files import check_file, crash
 from tutorial_check.exercises.silent_end import silent_end
 from tutorial_check.mapping import judge, judge_probes, silence
 from tutorial_check.model import Note, Wrong
-from tutorial_check.python_facts import python_lines
 
 JOY_LINE = "rospy.Subscriber('/joy', Joy, callback)"
 TWIST_LINE = "rospy.Publisher('/cmd_vel', Twist, queue_size=10)"
@@ -277,8 +277,7 @@ def _line_of(session, script, complaint):
 def check_rate(session, seen):
     """50 Joys a second are answered, each soon."""
     expected = "at 50 Joys a second as many Twists, each within 50 ms"
-    facts = session.scripts(PACKAGE)[seen.script]
-    sleeps = seen.sleep_lines or [call.line for call in facts.calls.get("sleep", [])]
+    sleeps = seen.sleep_lines
     if seen.is_prompt:
         return f"{seen.answered} for {seen.sent}" + (
             f", {1000 * seen.delay_s:.1f} ms" if seen.delay_s is not None else ""

@@ -6,11 +6,14 @@ import shutil
 from pathlib import Path
 
 from tutorial_check.causes import explain, syntax_hint, traced
+from tutorial_check.coding import unreadable
 from tutorial_check.model import Note, Wrong
-from tutorial_check.python_facts import read_python, unreadable
+from tutorial_check.python_facts import read_python
 from tutorial_check.tracebacks import first_traceback, last_lines
 
-INTERPRETER = re.compile(rb"#!\s*(\S+)(?:\s+(\S+))?")
+INTERPRETER = re.compile(
+    rb"#!\s*(\S+)(?:\s+(?:-S\s*)?(?:\w+=\S*\s+)*(\S+))?"
+)  # env -S takes arguments
 
 
 def _wrong(look, *about):
