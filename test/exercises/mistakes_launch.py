@@ -87,6 +87,8 @@ ROWS = [
     joy("/joy remapped away", 'type="joy_node">', 'type="joy_node">\n  <remap from="joy" to="joystick"/>', "C25", ("launch_joy_node.launch:8", "sends them on joystick")),
     ("6.1", "no joy2twist_turtlebot.launch", [remove(TURTLEBOT)], "C27", "no such file"),
     mux("remap swapped", REMAP, '<remap from="/cmd_vel_mux/input/teleop" to="/cmd_vel"/>', "C27", "swapped"),
+    mux("a blank at the end of to", 'teleop"', 'teleop "', "C27", ("turtlebot.launch:3", "blank")),
+    mux("a blank before from", 'from="', 'from=" ', "C27", ("turtlebot.launch:3", "blank")),
     mux("no remap", f"    {REMAP}\n", "", "C27", "remap"),
     mux("<param> for <remap>", REMAP, '<param name="/cmd_vel" value="/cmd_vel_mux/input/teleop"/>', "C27", "param"),
     mux("remap of another name", 'from="/cmd_vel"', 'from="/cmdvel"', "C27", "/cmdvel"),

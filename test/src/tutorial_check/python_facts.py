@@ -3,9 +3,10 @@
 import ast
 import re
 import warnings
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
-from tutorial_check.coding import python_lines
+from tutorial_check.class_facts import class_facts
+from tutorial_check.python_text import last_name, python_lines, text_of
 
 
 @dataclass
@@ -38,6 +39,7 @@ class PythonFacts:
     loose: dict = field(default_factory=dict)  # line beside functions, not in one -> the one above
     functions: dict = field(default_factory=dict)  # of those the functions and methods
     called_back: dict = field(default_factory=dict)  # what callbacks call, also by others -> lines
+    at_end: dict = field(default_factory=dict)  # the same of what on_shutdown is given
     odd_node: tuple = ()  # (line, name) of an init_node of whose name ROS warns
     loops: list = field(default_factory=list)  # lines of `while`
     bare_names: list = field(default_factory=list)  # (line, text) of statements that do nothing
@@ -68,40 +70,6 @@ class PythonFacts:
     def is_class_program(self):
         """Whether it has a class that deals with ROS, or is meant to."""
         return any(one.is_node for one in self.classes)
-
-
-@dataclass
-class ClassFacts:
-    """A class of the file."""
-
-    name: str
-    line: int
-    methods: list
-    instantiated: bool
-    is_node: bool
-    attributes_called: set
-    attributes: set  # that an object has, besides methods
-    bases: set  # but object
-
-
-def text_of(node):
-    """A short text of an expression; for what has none, its kind."""
-    if isinstance(node, ast.Constant):
-        return str(node.value)
-    if isinstance(node, ast.Name):
-        return node.id
-    if isinstance(node, ast.Attribute):
-        return f"{text_of(node.value)}.{node.attr}"
-    if isinstance(node, ast.Call):
-        return f"{text_of(node.func)}()"
-    if isinstance(node, ast.Lambda):
-        return "lambda"
-    return type(node).__name__
-
-
-def last_name(node):
-    """The last part of the name of what is called."""
-    return text_of(node.func).rsplit(".", 1)[-1]
 
 
 def read_python(text):
@@ -158,13 +126,19 @@ def read_python(text):
     facts.functions = {
         node.name: node.lineno for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)
     }
-    facts.called_back = _called_back(tree, facts.calls.get("Subscriber", []))
+    given = [
+        (call.words[2:3] or [call.names.get("callback", "")])[0]
+        for call in facts.calls.get("Subscriber", [])
+    ]
+    facts.called_back = _called_by(tree, given)
+    given = [word for call in facts.calls.get("on_shutdown", []) for word in call.words[:1]]
+    facts.at_end = _called_by(tree, given)
     facts.odd_main = _odd_main(tree, text, facts.names)
     facts.odd_node = _odd_node(tree)
     for calls in facts.calls.values():
         calls.sort(key=lambda call: call.line)
     facts.classes = [
-        _class_facts(node, called) for node in ast.walk(tree) if isinstance(node, ast.ClassDef)
+        class_facts(node, called) for node in ast.walk(tree) if isinstance(node, ast.ClassDef)
     ]
     return facts
 
@@ -215,10 +189,9 @@ def _loose(tree):
     return found
 
 
-def _called_back(tree, subscribers):
-    """{name: [lines]} of calls in the functions that Subscribers are given, and in those they call."""
+def _called_by(tree, given):
+    """{name: [lines]} of calls in functions that are given to ROS by name, and in those they call."""
     functions = {node.name: node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)}
-    given = [(call.words[2:3] or [call.names.get("callback", "")])[0] for call in subscribers]
     waiting, lines = [name.rsplit(".", 1)[-1] for name in given], {}
     while waiting:
         for node in ast.walk(functions.pop(waiting.pop(), ast.Module([], []))):
@@ -263,50 +236,3 @@ def _odd_node(tree):
             if isinstance(name, str) and not re.fullmatch(r"[A-Za-z]\w*|.*/.*|", name):
                 return node.lineno, name
     return ()
-
-
-def _class_facts(node, called):
-    inside = {text_of(part.func) for part in ast.walk(node) if isinstance(part, ast.Call)}
-    words = {name.rsplit(".", 1)[-1] for name in inside}
-    bases = {text_of(base) for base in node.bases}
-    return ClassFacts(
-        name=node.name,
-        line=node.lineno,
-        methods=[part.name for part in node.body if isinstance(part, ast.FunctionDef)],
-        instantiated=node.name in called,
-        # A message or an exception of its own is no node.
-        is_node=bool(words & {"Subscriber", "Publisher", "init_node", "publish"})
-        and not any(base.endswith(("Exception", "Error")) for base in bases),
-        attributes_called={name for name in inside if name.startswith("self.")},
-        attributes=_stored(node),
-        bases=bases - {"object"},
-    )
-
-
-def with_bases(classes):
-    """The ClassFacts, each with what the bases among them give it."""
-    by_name = {one.name: one for one in classes}
-
-    def whole(one, below=()):
-        for base in sorted(one.bases):
-            parent = by_name.get(base.rpartition(".")[2])
-            if parent is None or parent.name in (one.name, *below):
-                continue
-            parent = whole(parent, (one.name, *below))
-            one = replace(
-                one,
-                methods=[*one.methods, *parent.methods],
-                is_node=one.is_node or parent.is_node,
-                attributes_called=one.attributes_called | parent.attributes_called,
-                attributes=one.attributes | parent.attributes,
-                bases=(one.bases - {base}) | parent.bases,
-            )
-        return one
-
-    return [whole(one) for one in classes]
-
-
-def _stored(node):
-    """What is assigned in a class: names as well as attributes."""
-    stored = [part for part in ast.walk(node) if isinstance(getattr(part, "ctx", None), ast.Store)]
-    return {getattr(part, "attr", getattr(part, "id", "")) for part in stored}

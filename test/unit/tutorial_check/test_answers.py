@@ -11,6 +11,7 @@ from tutorial_check.exercises.answers import (
     check_strays,
     repetition,
 )
+from tutorial_check.exercises.ending import _late_zero as late_zero
 from tutorial_check.model import Wrong
 from tutorial_check.python_facts import read_python
 
@@ -135,3 +136,10 @@ def test_a_clock_that_goes_on_with_the_last_velocity():
         check_clock(seen(each(), repeats=True), read_python(loop))
     assert caught.value.where == "joy2twist.py:7"
     check_clock(seen(each(), repeats=False), read_python(loop))
+
+
+@pytest.mark.parametrize(("first", "line"), [("sleep(2)", 4), ("self.pub.publish(Twist())", 0)])
+def test_the_sleep_before_the_zero(first, line):
+    then = "self.pub.publish(Twist())" if line else "sleep(2)"
+    text = f"rospy.on_shutdown(self.stop)\n\ndef stop(self):\n    {first}\n    {then}\n"
+    assert late_zero(read_python(text)) == line

@@ -5,8 +5,8 @@ import sys
 
 import pytest
 
-from tutorial_check.coding import unreadable
 from tutorial_check.python_facts import read_python
+from tutorial_check.python_text import unreadable
 
 PROGRAM = """
 import rospy

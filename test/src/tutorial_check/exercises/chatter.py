@@ -162,8 +162,10 @@ def listener(session):
             hint=SUBSCRIBER_LINE,
             sure=True,
         )
-    if any("datatype" in line and "chatter" in line for line in talk.warnings):
-        seen = "it wants another type of message on /chatter"
+    kind = call.words[1].rpartition(".")[2] if call and len(call.words) > 1 else "String"
+    refused = any("datatype" in line and "chatter" in line for line in talk.warnings)
+    if kind != "String" or refused:
+        seen = f"it wants {kind if kind != 'String' else 'another type of message'} on /chatter"
         raise Wrong(expected, seen, where=where, hint=SUBSCRIBER_LINE)
     raise Wrong(
         expected,

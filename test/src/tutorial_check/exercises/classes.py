@@ -3,12 +3,12 @@
 import re
 from pathlib import Path
 
+from tutorial_check.class_facts import with_bases
 from tutorial_check.exercises import conversation
 from tutorial_check.exercises.driving import PACKAGE, drive
 from tutorial_check.exercises.files import check_file, must_be_one
 from tutorial_check.exercises.joy2twist import NAME, check_manifest
 from tutorial_check.model import Note, Wrong
-from tutorial_check.python_facts import with_bases
 
 
 def _class_files(session):

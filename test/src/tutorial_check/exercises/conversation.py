@@ -4,7 +4,6 @@ import contextlib
 import re
 
 from tutorial_check.changed_programs import unmasked
-from tutorial_check.coding import python_lines
 from tutorial_check.exercises.answers import check_awake, check_clock, check_once, check_strays
 from tutorial_check.exercises.driving import (
     CMD_VEL,
@@ -18,6 +17,7 @@ from tutorial_check.exercises.files import check_file, crash
 from tutorial_check.exercises.silent_end import silent_end
 from tutorial_check.mapping import judge, judge_probes, silence
 from tutorial_check.model import Note, Wrong
+from tutorial_check.python_text import python_lines
 
 JOY_LINE = "rospy.Subscriber('/joy', Joy, callback)"
 TWIST_LINE = "rospy.Publisher('/cmd_vel', Twist, queue_size=10)"
@@ -243,11 +243,12 @@ def check_mapping(session, seen):
         told, hint = silence(*seen.unanswered)
         raise Wrong(expected, told, where=where, hint=hint)
     if complaint:
+        line, hint = _line_of(session, seen.script, complaint)
         raise Wrong(
             expected,
             complaint,
-            where=_line_of(session, seen.script, complaint) or where,
-            hint=remark,
+            where=line or where,
+            hint=hint or remark,
             sure=not seen.missing and not seen.unasked,
         )
     if seen.trouble:
@@ -266,12 +267,15 @@ def check_mapping(session, seen):
 
 
 def _line_of(session, script, complaint):
-    """Where the field is set that the complaint names."""
+    """(where the field is set that the complaint names, what to do if the line itself says that)."""
     field = re.search(r"(linear|angular)\.[xyz]", complaint)
+    name = re.escape(field[0]) if field else r"(?:linear\.x|angular\.z)"
     for number, line in enumerate(python_lines(session.text(PACKAGE, script)), 1):
-        if field and re.search(re.escape(field[0]) + r"\s*=", line):
-            return f"{script}:{number}"
-    return ""
+        if re.search(name + r"\s*=.*\bbuttons\b(?!.*\baxes\b)", line):
+            return f"{script}:{number}", "the stick is data.axes, not data.buttons"
+        if field and re.search(name + r"\s*[-+*/]?=", line):
+            return f"{script}:{number}", ""
+    return "", ""
 
 
 def check_rate(session, seen):

@@ -5,10 +5,10 @@ import re
 import shutil
 from pathlib import Path
 
-from tutorial_check.causes import explain, syntax_hint, traced
-from tutorial_check.coding import unreadable
+from tutorial_check.causes import explain, hider, syntax_hint, traced
 from tutorial_check.model import Note, Wrong
 from tutorial_check.python_facts import read_python
+from tutorial_check.python_text import unreadable
 from tutorial_check.tracebacks import first_traceback, last_lines
 
 INTERPRETER = re.compile(
@@ -234,6 +234,9 @@ def cause_of(session, package, name, trace):
         line = facts.names.get(function[1], 0)
     line, hint = traced(trace.error, line, facts)
     hint = hint or explain(trace.error, trace.text)
+    file, hides = hider(trace.error, script, session.scripts(package))
+    if hides:
+        return file or f"{script}:{line}", hides
     if re.match("ImportError|ModuleNotFoundError", trace.error) and session.lacks_build:
         fails = "catkin_make, which may have to make it, fails: exercise 2 says why"
         hint = f"{hint}; {fails}" if hint else fails

@@ -118,16 +118,23 @@ def _dependencies(session, name):
             hint="between the dependencies stand spaces only, no commas: mend package.xml and CMakeLists.txt",
         )
     missing = [each for each in WANTED[name] if each not in package.depends]
+    others = package.depends - set(WANTED[name])
+    # One kind of dependency may name it rightly.
+    for each in sorted(others):
+        meant = difflib.get_close_matches(each, WANTED[name], 1, 0.8)
+        if not missing and meant and not _is_known(session, each):
+            missing = meant
     if missing:
-        others = package.depends - set(WANTED[name])
         near = {each: difflib.get_close_matches(each, others, 1, 0.65) for each in missing}
         seen, where = f"no {', '.join(missing)}", f"{package.inside}/package.xml"
+        if missing[0] in package.depends:
+            seen = f"{near[missing[0]][0]}, which is no package"
         text = read(package.folder / "package.xml")
         place = place_of(where, text, "exec_depend>", "run_depend>", "depend>", "</package>")
-        hint = f"add <depend>{missing[0]}</depend>"
+        hint = "add " + " and ".join(f"<depend>{each}</depend>" for each in missing)
         for each, found in near.items():
             if found:
-                seen += f" (but {found[0]})"
+                seen += f" (but {found[0]})" if each not in package.depends else ""
                 place = place_of(where, text, f">{found[0]}<", found[0])
                 hint = f"correct {found[0]} to {each}, in each line that has it"
         raise Wrong(

@@ -1,5 +1,6 @@
-"""From the bytes of a Python file to its lines. Pure."""
+"""The text of a Python file: its coding, its lines, an expression in short. Pure."""
 
+import ast
 import io
 import re
 
@@ -25,3 +26,23 @@ def unreadable(data):
 def python_lines(text):
     """The lines of a program as Python counts them; for splitlines() one also ends at a form feed or U+2028."""
     return [line.rstrip("\r\n") for line in io.StringIO(text, newline="")]
+
+
+def text_of(node):
+    """A short text of an expression; for what has none, its kind."""
+    if isinstance(node, ast.Constant):
+        return str(node.value)
+    if isinstance(node, ast.Name):
+        return node.id
+    if isinstance(node, ast.Attribute):
+        return f"{text_of(node.value)}.{node.attr}"
+    if isinstance(node, ast.Call):
+        return f"{text_of(node.func)}()"
+    if isinstance(node, ast.Lambda):
+        return "lambda"
+    return type(node).__name__
+
+
+def last_name(node):
+    """The last part of the name of what is called."""
+    return text_of(node.func).rsplit(".", 1)[-1]
