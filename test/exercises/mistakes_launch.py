@@ -109,7 +109,7 @@ ROWS = [
     bag("a gap in $(find)", "$(find rbx1_nav)", "$(find rbx1 nav)", "C21", ("launch_bag.launch:2", "$(find rbx1_nav)")),
     bag("type with its folder", 'type="joy2twist.py"', 'type="$(find joy2twist)/scripts/joy2twist.py"', "C21", ("launch_bag.launch:5", 'type="joy2twist.py"')),
     bag("a quote that is not closed", '"-d $(find', '"-d \'$(find', "C22", ("launch_bag.launch:2", "second quote")),
-    ("5", "joy2twist.py misnamed, and the launch files right", [move(JOY2TWIST, f"{J}/scripts/Joy2Twist.py")], "C21", "mv Joy2Twist.py joy2twist.py"),
+    ("5", "joy2twist.py misnamed, and the launch files right", [move(JOY2TWIST, f"{J}/scripts/Joy2Twist.py")], "C21", ("mv /", "/Joy2Twist.py /", "scripts/joy2twist.py: capitals")),
     ("5", "two launch files of one name", [copy(LAUNCH_BAG, f"{J}/backup/launch_bag.launch")], "C21", "multiple files named"),
     ("5", "a folder in place of a launch file", [remove(LAUNCH_BAG), write(f"{LAUNCH_BAG}/x", "")], "C21", "no such file"),
     ("5", "a recording that cannot be played", [write(f"{J}/bag/joy.bag", "none")], "C22", ("joy2twist/bag/joy.bag", "copy it anew")),
@@ -121,6 +121,6 @@ ROWS = [
     ("6.1", "the include misspelt", [put(REAL, "joy2twist_turtlebot", "joy2twist_turtelbot")], "C28", ("realTurtlebot.launch:3", "no such file: src/joy2twist", "is joy2twist_turtlebot.launch meant")),
     mux("remap after the node", f"    {REMAP}\n  </node>\n", f"  </node>\n  {REMAP}\n", "C27", ("turtlebot.launch:4", "between")),
     ("5", "the line of --loop", [put(LAUNCH_BAG, "--loop ", "")], "C24", "launch_bag.launch:7"),
-    ("5", "no recording", [remove(f"{J}/bag/joy.bag")], "C21", "cp \"$(rospack find gamepad)/bag/joy.bag\" bag"),
+    ("5", "no recording", [remove(f"{J}/bag/joy.bag")], "C21", ("cp \"$(rospack find gamepad)/bag/joy.bag\" /", f"src/{J}/bag")),
     ("4.2", "a recording that is none", [write(f"{J}/bag/joy.bag", "none")], "C11", "rospack find gamepad"),
 ]  # fmt: skip

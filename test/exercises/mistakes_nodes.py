@@ -23,7 +23,7 @@ ROWS = [
     ("4.3", "no joy2twist.py", [remove(JOY2TWIST)], "C13", "create scripts/joy2twist.py"),
     ("4.3", "a file joy2twist that is no program", [move(JOY2TWIST, JOY2TWIST[:-3]), put(JOY2TWIST[:-3], "#!/usr/bin/env python", "")], "C13", "first line"),
     ("4.3", "Latin-1", [latin1(JOY2TWIST, "import rospy\n", "# von Jörg, für alle")], "C13", ("joy2twist.py:", "save the file as UTF-8")),
-    ("4.3", "joy2twist.py without chmod beside a file joy2twist", [chmod(JOY2TWIST, 0o644), write(f"{J}/joy2twist", "notes")], "C13", "chmod +x scripts/joy2twist.py"),
+    ("4.3", "joy2twist.py without chmod beside a file joy2twist", [chmod(JOY2TWIST, 0o644), write(f"{J}/joy2twist", "notes")], "C13", ("chmod +x /", "src/joy2twist/scripts/joy2twist.py")),
     node("nothing displayed", SHOW, "pass", "C14", "not one value"),
     node("five of six values", SHOW, 'rospy.loginfo("[%.2f, %.2f, %.2f, %.2f, %.2f]" % data.axes)', "C14", "as many %.2f"),
     node("% data", "% data.axes", "% data", "C14", "data.axes"),

@@ -196,10 +196,7 @@ NOT_MEANT = re.compile(
 
 
 def hider(error, script, others):
-    """(file, what to do) if a file beside the program hides a package; ("", "") if none does.
-
-    script: the program's path; others: the paths of the package's programs.
-    """
+    """(file, what to do) if one of the others, beside the script, hides a package; or ("", "")."""
     found = NOT_MEANT.search(error)
     name = next(filter(None, found.groups()), "") if found else ""
     beside = f"{script.rpartition('/')[0]}/{name}.py".lstrip("/")

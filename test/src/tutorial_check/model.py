@@ -23,6 +23,7 @@ class Result:
     hint: str = ""
     section: str = ""
     look: str = ""  # a command with which to see it oneself
+    empty: bool = False  # a note that there was nothing to be checked
 
     def as_dict(self):
         """The result as --json has it."""
@@ -36,6 +37,7 @@ class Note:
     seen: str
     where: str = ""
     hint: str = ""
+    empty: bool = False  # there was nothing to be checked
 
 
 class Wrong(Exception):
@@ -195,7 +197,7 @@ class Run:
                 traceback.print_exc()
             return self._not_checked(about, fault(error))
         if isinstance(found, Note):
-            return Result(status=NOTE, seen=found.seen, where=found.where, hint=found.hint, **about)
+            return Result(status=NOTE, **vars(found), **about)
         return Result(status=OK, seen=found or "", **about)
 
     def _told_of(self, wrong):

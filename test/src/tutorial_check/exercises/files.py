@@ -45,10 +45,11 @@ def find_script(session, package, name):
             f"a program {name}",
             f"a file {near[0]}",
             where=str(others[near[0]].relative_to(folder)),
-            hint=f"mv {near[0]} {name}: capitals, underscores and the ending count",
+            hint=f"mv {session.whole(others[near[0]], package)}"
+            f" {session.whole(others[near[0]].with_name(name), package)}: capitals, underscores and the ending count",
         )
     raise _wrong(
-        f"ls {package}/scripts",
+        f"ls {session.whole('scripts', package)}",
         f"a program {name} in the package {package}",
         "no such file anywhere in it",
         "",
@@ -80,7 +81,7 @@ def check_file(session, package, script):
 
 
 def _check_text(session, package, script):
-    path = session.package(package).folder / script
+    path, whole = session.package(package).folder / script, session.whole(script, package)
     name = path.name
     data = path.read_bytes()
     if not data.strip():
@@ -102,17 +103,17 @@ def _check_text(session, package, script):
     first = data.split(b"\n", 1)[0]
     if first.endswith(b"\r"):  # further down they do no harm
         raise _wrong(
-            f"head -1 {script} | cat -A",
+            f"head -1 {whole} | cat -A",
             "Unix line ends",
             "the file has Windows line ends (python3\\r: No such file)",
             f"{script}:1",
-            f"sed -i 's/\\r$//' {script}",
+            f"sed -i 's/\\r$//' {whole}",
         )
     facts = session.scripts(package).get(script)
     odd = unreadable(data) if facts else None
     if odd:
         raise _wrong(
-            f"python3 -m py_compile {script}",
+            f"python3 -m py_compile {whole}",
             "a file in UTF-8, or in the coding that its first lines name",
             odd[1],
             f"{script}:{odd[0]}",
@@ -120,7 +121,7 @@ def _check_text(session, package, script):
         )
     if facts and facts.error:
         raise _wrong(
-            f"python3 -m py_compile {script}",
+            f"python3 -m py_compile {whole}",
             "Python that can be read",
             f"{facts.error}: {facts.error_text}",
             f"{script}:{facts.error_line}",
@@ -129,7 +130,7 @@ def _check_text(session, package, script):
     if not first.startswith(b"#!"):
         later = b"\n#!" in data
         raise _wrong(
-            f"head -3 {script}",
+            f"head -3 {whole}",
             "#!/usr/bin/env python3 as the first line",
             "it stands further down"
             if later
@@ -140,15 +141,15 @@ def _check_text(session, package, script):
     try:
         _check_interpreter(first, script)
     except Wrong as wrong:
-        wrong.look = f"head -1 {script}"
+        wrong.look = f"head -1 {whole}"
         raise
     if not is_runnable(session, package, path):
         raise _wrong(
-            f"ls -l {script}",
+            f"ls -l {whole}",
             "a program that may be run",
             f"{name} is not executable (rosrun: Couldn't find executable)",
             script,
-            f"chmod +x {script}",
+            f"chmod +x {whole}",
         )
     if facts:
         _check_gaps(facts, script)

@@ -8,7 +8,7 @@ from pathlib import Path
 from tutorial_check.exercises.launch_text import place_of, read
 from tutorial_check.exercises.manifests import unreadable
 from tutorial_check.model import Wrong
-from tutorial_check.workspace import packages_below
+from tutorial_check.workspace import packages_beside
 
 NAMES = ("beginner_tutorials", "joy2twist")
 WANTED = {
@@ -67,17 +67,13 @@ def _package(session, name):
                 hint="move it up: packages stand side by side in src",
             )
         return named[0]
-    beside = [
-        each
-        for each in (packages_below(session.layout.root) if session.layout.is_workspace else [])
-        if each.name == name and session.layout.source not in each.folder.parents
-    ]
+    beside = [each for each in packages_beside(session.layout) if each.name == name]
     if beside:
         raise Wrong(
             expected,
             f"it lies beside src: {beside[0].inside}",
             where=beside[0].inside,
-            hint=f"mv {beside[0].inside} src/",
+            hint=f"mv {session.whole(beside[0].inside)} {session.whole('src')}",
         )
     link = session.layout.source / name
     if link.is_symlink() and not link.exists():
