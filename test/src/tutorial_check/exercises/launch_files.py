@@ -85,6 +85,10 @@ def _read(session):
     )
     ended = session.box.wait(lambda: program.ended, 15.0)
     session.box.end(program)
+    if not ended and session.box.patience.strained():
+        raise CannotCheck(
+            "launch files cannot be read in time: the machine has too much else to do"
+        )
     if not ended:
         raise Wrong(
             "launch files that roslaunch can read",
