@@ -81,6 +81,9 @@ def judge_probes(samples, answers):
 
     samples: as of judge(), of the numbered Joys; answers: [((axes, buttons), six values)].
     """
+    odd = _no_number(answers)
+    if odd:
+        return odd
     known = {(axes, 1): twist for axes, twist in samples}
     before = samples[-1][1]
     for (axes, buttons), twist in answers:
@@ -163,13 +166,9 @@ def judge(samples):
 
     A complaint without a hint does not occur; a hint without a complaint is a remark.
     """
-    for _, twist in samples:
-        for name, value in zip(FIELDS, twist):
-            if not math.isfinite(value):
-                return (
-                    f"{name} is {value}, which is no number",
-                    "look at what it is calculated from",
-                )
+    odd = _no_number(samples)
+    if odd:
+        return odd
     rules = {field: rule_of(field, samples) for field in range(6)}
     moving = [field for field in range(6) if any(abs(twist[field]) > SMALL for _, twist in samples)]
     if not moving:
@@ -239,6 +238,18 @@ def _steps(values):
     if len(set(between)) > 0.6 * len(between) or not limited + len(between) > 2 + len(set(between)):
         return ""
     return ", ".join(f"{value:.2f}" for value in sorted({*between, round(limit, 6)})[:3])
+
+
+def _no_number(samples):
+    """The complaint about a value that is infinite or no number, or None."""
+    for _, twist in samples:
+        for name, value in zip(FIELDS, twist):
+            if not math.isfinite(value):
+                return (
+                    f"{name} is {value}, which is no number",
+                    "look at what it is calculated from",
+                )
+    return None
 
 
 def _explain_odd(field, axis, samples):

@@ -148,6 +148,7 @@ def test_right_whatever_came_before(convert):
         (lambda my, a, b: (my.x + a[1], a[0]), "linear.x"),
         (lambda my, a, b: (a[1], a[0]) if b[4] else (my.x, my.z), "and LB released"),
         (lambda my, a, b: (a[1], a[0]) if a[1] else (0.0, 0.0), "axes[0] alone"),
+        (lambda my, a, b: (a[1] if any(a) else float("nan"), a[0]), "linear.x is nan"),
         (lambda my, a, b: (a[1] * (1 + (my.x > 0.69)), a[0]), "the same Joy gives linear.x"),
     ],
 )
