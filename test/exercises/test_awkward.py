@@ -57,7 +57,8 @@ def test_wrong_is_exit_code_1(literal, floor):
     chmod(TALKER, 0o644)(literal)
     code, out, _ = check(floor, "--in", literal.parent, "3")
     assert code == 1
-    assert "hint:     chmod +x scripts/talker.py" in out
+    assert f"hint:     chmod +x {literal}/{TALKER}\n" in out
+    assert f"yourself: ls -l {literal}/{TALKER}\n" in out
     assert "hint" not in check(floor, "--in", literal.parent, "3", "--no-hints")[1]
 
 
@@ -89,11 +90,22 @@ def test_an_empty_workspace(tmp_path, floor):
     assert "a folder src in the workspace" in out
 
 
+def test_a_home_folder_with_a_package_of_somebody_deep_below(literal, tmp_path, floor):
+    (tmp_path / "home" / "Documents").mkdir(parents=True)
+    (tmp_path / "home" / "course").mkdir()
+    literal.parent.rename(tmp_path / "home" / "course" / "anna")
+    code, out, _ = check(floor, "--in", ".", "2", "4.2", cwd=tmp_path / "home")
+    assert code == 1
+    assert "is this your workspace? --in" in out
+    assert "anna" not in out and "mv " not in out
+    assert "0 of 2 exercises done (4.2: nothing to check)" in out
+
+
 def test_packages_outside_of_src(literal, floor):
     move(B, f"../{B}")(literal)
     code, out, _ = check(floor, "--in", literal.parent, "2")
     assert code == 1
-    assert f"hint:     mv {B} src/" in out
+    assert f"hint:     mv {literal.parent}/{B} {literal}\n" in out
 
 
 def test_two_packages_of_one_name(literal, floor):

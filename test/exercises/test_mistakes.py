@@ -1,5 +1,6 @@
 """Every mistake is found, at the right check, with its cause. One row, one test."""
 
+import grammar
 import mistakes_launch
 import mistakes_nodes
 import mistakes_packages
@@ -11,7 +12,7 @@ from tutorial_check.exercises import EXERCISES
 from tutorial_check.model import CannotCheck
 from tutorial_check.report import lines_of
 
-ROWS = mistakes_packages.ROWS + mistakes_nodes.ROWS + mistakes_launch.ROWS
+ROWS = mistakes_packages.ROWS + mistakes_nodes.ROWS + mistakes_launch.ROWS + grammar.WRONG
 
 
 def is_told(result, words):
@@ -70,4 +71,5 @@ def test_in_all_exercises(row, literal, floor, record_property):
 
 def test_there_are_enough():
     """A row that is twice there counts once."""
-    assert len({(row[0], row[1]) for row in ROWS}) == len(ROWS) >= 80
+    assert len({(row[0], row[1]) for row in ROWS}) == len(ROWS) >= 140
+    assert len(grammar.WRONG) == len(grammar.RIGHT) == 60

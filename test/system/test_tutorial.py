@@ -78,6 +78,18 @@ def test_a_check_that_cannot_be_set_up_blames_no_student(tutorial, tmp_path, mon
     assert done.returncode == 2
 
 
+def test_a_check_of_no_workspace_installs_nothing(tutorial, tmp_path, monkeypatch):
+    """With a place for the suite's workspaces at which a set-up would fail."""
+    monkeypatch.setenv("TUTORIAL_WORKSPACE", str(tmp_path / "with space"))
+    monkeypatch.delenv("TUTORIAL_IN", raising=False)
+    done = subprocess.run(
+        [tutorial, "check", "4.3"], capture_output=True, text=True, check=False, timeout=DEADLINE_S
+    )
+    assert done.returncode == 2
+    (line,) = done.stderr.splitlines()
+    assert "which workspace? For example: ./tutorial check --in" in line and "4.3" in line
+
+
 @pytest.mark.parametrize("started_by", ["roscore", "roslaunch"])
 def test_a_master_has_what_rospy_would_ask_for_with_every_line(tutorial, master_uri, started_by):
     port = master_uri.rsplit(":", 1)[1]

@@ -113,6 +113,10 @@ CAUSES = (
         "% needs the numbers: % data.axes, with one %.2f for each",
     ),
     (
+        r"field data must be of type bytes or an ascii string",
+        'a String carries text: pub.publish("hello %s" % value)',
+    ),
+    (
         r"'(?P<m>Joy|Twist|String|_?Vector3)' object has no attribute '(?P<n>[^']+)'",
         "a {m} has no field {n}: rosmsg show lists its fields",
     ),
@@ -182,6 +186,26 @@ def traced(error, line, facts):
     if f"self.{name}" in facts.attributes:
         return line, f"within a class it is self.{name}"
     return line, misspelt(error, facts.names)
+
+
+# What is said of a name that is another module than was meant.
+NOT_MEANT = re.compile(
+    r"module '(\w+)[\w.]*' has no attribute|from (?:partially initialized module )?'(\w+)[\w.]*'"
+    r"|'(\w+)' is not a package"
+)
+
+
+def hider(error, script, others):
+    """(file, what to do) if one of the others, beside the script, hides a package; or ("", "")."""
+    found = NOT_MEANT.search(error)
+    name = next(filter(None, found.groups()), "") if found else ""
+    beside = f"{script.rpartition('/')[0]}/{name}.py".lstrip("/")
+    if not name or beside not in others:
+        return "", ""
+    hint = f"{beside} hides the package {name}: Python looks beside the program first; "
+    if beside == script:
+        return "", f"{hint}give the library in src another name than the program"
+    return beside, f"{hint}rename it"
 
 
 def misspelt(error, names):

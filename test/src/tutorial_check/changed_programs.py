@@ -2,7 +2,7 @@
 
 import ast
 
-from tutorial_check.python_facts import last_name, python_lines, text_of
+from tutorial_check.python_text import last_name, python_lines, text_of
 
 
 def unmasked(text):

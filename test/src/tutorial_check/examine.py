@@ -8,6 +8,7 @@ seconds, "trouble": why it could not be checked as a whole, or ""}, and at the e
 
 import json
 import os
+import shlex
 import signal
 import sys
 import time
@@ -87,11 +88,19 @@ def examine(orders, tell, told):
     )
     trial.must_be_possible(one.box, scratch)
     run = Run(catalogue(), one, one.second_look, one.box.patience.hopeless)
-    shown = (f"{scratch}/ws/", "") if layout.is_workspace else (f"{scratch}/ws/src/", "")
+    copied = f"{scratch}/ws/" if layout.is_workspace else f"{scratch}/ws/src/"
+    is_unpacked = scratch in layout.root.parents
+    # Commands work in any folder, where the workspace is known.
+    root = "" if is_unpacked or not orders["own"] else f"{shlex.quote(str(layout.root))}/"
 
     def as_told(result):
         """The result with the paths of the copy as the student knows them."""
-        return {name: words.replace(*shown) for name, words in result.as_dict().items()}
+        return {
+            name: words.replace(copied, root if name in ("hint", "look") else "")
+            if isinstance(words, str)
+            else words
+            for name, words in result.as_dict().items()
+        }
 
     times = {"prepare": round(time.monotonic() - began_s, 2)}
     try:

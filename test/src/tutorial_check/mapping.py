@@ -5,8 +5,10 @@ from dataclasses import dataclass
 
 FIELDS = ("linear.x", "linear.y", "linear.z", "angular.x", "angular.y", "angular.z")
 LINEAR, ANGULAR = 0, 5  # the two fields that a robot in the plane obeys
+RIGHT = {LINEAR: 1, ANGULAR: 0}  # the axis that each of them follows
 SMALL = 1e-4
 AXES = 6
+LB = 4  # the dead-man button of the handout's memo
 
 
 @dataclass(frozen=True)
@@ -28,8 +30,94 @@ def numbered_joys(count, buttons=12):
         left = (0.25 + 0.017 * k) * (1 if k % 4 < 2 else -1)
         # In an order of their own, so that none of them is by chance in proportion to these two.
         rest = [0.03 + 0.05 * (index - 2) + 0.002 * (7 * k % 20) for index in range(2, AXES)]
-        joys.append(((left, forwards, *rest), tuple(int(index == 4) for index in range(buttons))))
+        joys.append(((left, forwards, *rest), _pressed(LB, buttons)))
     return joys
+
+
+def _pressed(button=None, buttons=12):
+    return tuple(int(index == button) for index in range(buttons))
+
+
+def probes(joys):
+    """The Joys after the numbered ones: rest, the same twice, one axis alone, another order, LB released."""
+    released = (0.0,) * AXES
+    slow, fast = (0.36, 0.40, *released[2:]), (0.6, 0.7, *released[2:])
+    back = tuple(-axis for axis in fast)
+    alone = [
+        (*(axis if index == alone else 0.0 for index, axis in enumerate(axes)),)
+        for axes in (fast, back)
+        for alone in RIGHT.values()
+    ]
+    axes = [fast, released, released, *alone, slow, fast, fast, slow]
+    return [
+        *((each, _pressed(LB)) for each in axes),
+        *(joys[index] for index in (7, 2)),
+        *((each, _pressed()) for each in (fast, back, released)),
+        (fast, _pressed(LB)),
+    ]
+
+
+def silence(joy, before):
+    """(what is seen, what to do) for a Joy after another one that no Twist answers."""
+    (axes, buttons), always = joy, "publish for every Joy, with no `if` around it"
+    if joy == before:
+        return "no Twist for the same Joy again", f"{always}: not only for a new one"
+    if not buttons[LB]:
+        return (
+            f"no Twist for a Joy with LB released (buttons[{LB}] = 0): the robot drives on",
+            "silence stops no robot: with LB released publish Twist(), all zero",
+        )
+    if not any(axes):
+        return (
+            "no Twist for a Joy at rest, all axes 0: the robot drives on",
+            f"{always}: zero is what stops the robot",
+        )
+    still = next((f" with axes[{axis}] = 0" for axis in RIGHT.values() if not axes[axis]), "")
+    return f"no Twist for a Joy{still or ' of another size'}", always
+
+
+def judge_probes(samples, answers):
+    """(complaint, hint) about the answers to probes() that a right start does not show, or ("", "").
+
+    samples: as of judge(), of the numbered Joys; answers: [((axes, buttons), six values)].
+    """
+    odd = _no_number(answers)
+    if odd:
+        return odd
+    known = {(axes, 1): twist for axes, twist in samples}
+    before = samples[-1][1]
+    for (axes, buttons), twist in answers:
+        again = known.setdefault((axes, buttons[LB]), twist)
+        for field, axis in RIGHT.items():
+            name, value, given = FIELDS[field], twist[field], axes[axis]
+            keeps = abs(value - before[field]) <= SMALL < abs(value)
+            if abs(value) > SMALL and value * given <= 0:
+                when = f"axes[{axis}] is {given:.2f}" + ("" if buttons[LB] else " and LB released")
+                return (
+                    f"{name} {'stays' if keeps else 'is'} {value:.2f} when {when}: the robot drives on",
+                    f"{name} comes from this Joy alone, zero as well: a new Twist() in the callback,"
+                    " no += and no `if` around the line",
+                )
+            if not _is_near(value, again[field]):
+                return (
+                    f"the same Joy gives {name} = {again[field]:.2f} and {value:.2f}: it goes by those before",
+                    f"{name} comes from this Joy alone: no +=, no mean, nothing kept",
+                )
+        before = twist
+    held = [(joy[0], twist) for joy, twist in answers if joy[1][LB]]
+    for axes, twist in held:
+        for field, axis in RIGHT.items():
+            if not axes[1 - axis] and axes[axis] and not any(twist):
+                return (
+                    f"{FIELDS[field]} is 0 when axes[{axis}] alone is moved",
+                    f"{FIELDS[field]} = axes[{axis}], whatever the other axis is",
+                )
+    complaint, hint = judge([*samples, *held])
+    return (complaint, hint) if complaint else ("", "")
+
+
+def _is_near(one, other):
+    return abs(one - other) <= SMALL + 0.01 * abs(other)
 
 
 def factor_of(values, inputs):
@@ -78,14 +166,9 @@ def judge(samples):
 
     A complaint without a hint does not occur; a hint without a complaint is a remark.
     """
-    for _, twist in samples:
-        for name, value in zip(FIELDS, twist):
-            if not math.isfinite(value):
-                return (
-                    f"{name} is {value}, which is no number",
-                    "look at what it is calculated from",
-                )
-    right = {LINEAR: 1, ANGULAR: 0}
+    odd = _no_number(samples)
+    if odd:
+        return odd
     rules = {field: rule_of(field, samples) for field in range(6)}
     moving = [field for field in range(6) if any(abs(twist[field]) > SMALL for _, twist in samples)]
     if not moving:
@@ -93,7 +176,7 @@ def judge(samples):
             "every Twist is zero",
             "are linear.x and angular.z of the message that is published set from data.axes?",
         )
-    for field, axis in right.items():
+    for field, axis in RIGHT.items():
         rule = rules[field]
         other = ANGULAR if field == LINEAR else LINEAR
         if rule and rule.axis == axis and rule.factor > 0:
@@ -104,7 +187,7 @@ def judge(samples):
                 f"{FIELDS[field]} = {rule.factor:.2f} * axes[{axis}]: the sign is wrong",
                 f"pushed {'forwards' if field == LINEAR else 'left'}, the robot goes {way}: leave the minus out",
             )
-        if rule and rules[other] and rule.axis == right[other] and rules[other].axis == axis:
+        if rule and rules[other] and rule.axis == RIGHT[other] and rules[other].axis == axis:
             return (
                 "angular.z follows axes[1] and linear.x axes[0]: they are swapped",
                 "linear.x = axes[1] (forwards), angular.z = axes[0] (left)",
@@ -115,7 +198,7 @@ def judge(samples):
                 f"{FIELDS[field]} = axes[{axis}]",
             )
         misplaced = next(
-            (f for f in moving if f not in right and rules[f] and rules[f].axis == axis), None
+            (f for f in moving if f not in RIGHT and rules[f] and rules[f].axis == axis), None
         )
         if field not in moving and misplaced is not None:
             return (
@@ -127,7 +210,7 @@ def judge(samples):
         complaint = _explain_odd(field, axis, samples)
         if complaint:
             return complaint
-    extra = [field for field in moving if field not in right]
+    extra = [field for field in moving if field not in RIGHT]
     if extra:
         rule = rules[extra[0]]
         what = (
@@ -136,15 +219,37 @@ def judge(samples):
             else f"{FIELDS[extra[0]]} is not 0"
         )
         return what, "only linear.x and angular.z move a robot in the plane; leave the others 0"
-    curves = [FIELDS[field] for field in right if rules[field] is None]
+    curves = [FIELDS[field] for field in RIGHT if rules[field] is None]
     if curves:
         return "", f"{' and '.join(curves)} is a curve of its axis, not a constant times it"
     scaled = [
         f"{FIELDS[field]} = {rules[field].factor:.2f} * axes[{axis}]"
-        for field, axis in right.items()
+        for field, axis in RIGHT.items()
         if abs(rules[field].factor - 1) > 0.02
     ]
     return "", f"{', '.join(scaled)}; the handout's has no factor" if scaled else ""
+
+
+def _steps(values):
+    """The values as text if there are few of them for many positions; zero and a limit may be many."""
+    limit = max(map(abs, values))
+    between = [round(abs(value), 6) for value in values if SMALL < abs(value) < limit - SMALL]
+    limited = sum(abs(value) >= limit - SMALL for value in values)
+    if len(set(between)) > 0.6 * len(between) or not limited + len(between) > 2 + len(set(between)):
+        return ""
+    return ", ".join(f"{value:.2f}" for value in sorted({*between, round(limit, 6)})[:3])
+
+
+def _no_number(samples):
+    """The complaint about a value that is infinite or no number, or None."""
+    for _, twist in samples:
+        for name, value in zip(FIELDS, twist):
+            if not math.isfinite(value):
+                return (
+                    f"{name} is {value}, which is no number",
+                    "look at what it is calculated from",
+                )
+    return None
 
 
 def _explain_odd(field, axis, samples):
@@ -172,10 +277,16 @@ def _explain_odd(field, axis, samples):
             f"{name} = axes[{axis}] + {offsets[0]:.2f}: released, the robot still moves",
             f"{name} = axes[{axis}]",
         )
-    if is_monotone(field, axis, samples) and any(value != round(value) for value in values):
-        return None
     if all(value == round(value) for value in values):
         return f"{name} has whole numbers only", f"{name} = axes[{axis}], without int() or round()"
     if len({round(value, 6) for value in values}) == 1:
         return f"{name} is always {values[0]:.2f}", f"{name} = axes[{axis}]"
+    steps = _steps(values)
+    if steps:
+        return (
+            f"{name} has steps, as {steps}: it does not follow axes[{axis}] between them",
+            f"{name} = axes[{axis}], without round(), and not one speed for many positions",
+        )
+    if is_monotone(field, axis, samples):
+        return None
     return f"{name} is no constant times axes[{axis}]", f"{name} = axes[{axis}]"

@@ -1,13 +1,12 @@
 """What a Python file says of itself, read as Python reads it and never run. Pure."""
 
 import ast
-import io
 import re
 import warnings
 from dataclasses import dataclass, field
 
-# In which a file is written, from a comment in the first or second line (PEP 263).
-CODING = re.compile(rb"(?:[ \t\f]*(?:#[^\n]*)?\n)??[ \t\f]*#[^\n]*?coding[:=][ \t]*([-\w.]+)")
+from tutorial_check.class_facts import class_facts
+from tutorial_check.python_text import last_name, python_lines, text_of
 
 
 @dataclass
@@ -40,6 +39,7 @@ class PythonFacts:
     loose: dict = field(default_factory=dict)  # line beside functions, not in one -> the one above
     functions: dict = field(default_factory=dict)  # of those the functions and methods
     called_back: dict = field(default_factory=dict)  # what callbacks call, also by others -> lines
+    at_end: dict = field(default_factory=dict)  # the same of what on_shutdown is given
     odd_node: tuple = ()  # (line, name) of an init_node of whose name ROS warns
     loops: list = field(default_factory=list)  # lines of `while`
     bare_names: list = field(default_factory=list)  # (line, text) of statements that do nothing
@@ -61,63 +61,15 @@ class PythonFacts:
         )
 
     @property
+    def keeps_newest(self):
+        """Whether a Publisher or Subscriber has a queue of one message."""
+        made = self.calls.get("Publisher", []) + self.calls.get("Subscriber", [])
+        return any(call.names.get("queue_size") == "1" for call in made)
+
+    @property
     def is_class_program(self):
         """Whether it has a class that deals with ROS, or is meant to."""
         return any(one.is_node for one in self.classes)
-
-
-@dataclass
-class ClassFacts:
-    """A class of the file."""
-
-    name: str
-    line: int
-    methods: list
-    instantiated: bool
-    is_node: bool
-    attributes_called: set
-    attributes: set  # that an object has, besides methods
-    bases: set  # but object
-
-
-def text_of(node):
-    """A short text of an expression; for what has none, its kind."""
-    if isinstance(node, ast.Constant):
-        return str(node.value)
-    if isinstance(node, ast.Name):
-        return node.id
-    if isinstance(node, ast.Attribute):
-        return f"{text_of(node.value)}.{node.attr}"
-    if isinstance(node, ast.Call):
-        return f"{text_of(node.func)}()"
-    if isinstance(node, ast.Lambda):
-        return "lambda"
-    return type(node).__name__
-
-
-def last_name(node):
-    """The last part of the name of what is called."""
-    return text_of(node.func).rsplit(".", 1)[-1]
-
-
-def unreadable(data):
-    """(line, what is there) of the first thing in a file that is not of its coding; None if all is."""
-    declared = CODING.match(data)
-    coding = declared[1].decode() if declared else "utf-8"
-    try:
-        data.decode(coding)
-    except UnicodeError as error:
-        start = getattr(error, "start", 0)
-        what = f"the byte 0x{data[start]:02x}, which is not {coding.upper()}"
-        return data.count(b"\n", 0, start) + 1, what
-    except LookupError:
-        return data.count(b"\n", 0, declared.end()) + 1, f"a coding that is none, {coding}"
-    return None
-
-
-def python_lines(text):
-    """The lines of a program as Python counts them; for splitlines() one also ends at a form feed or U+2028."""
-    return [line.rstrip("\r\n") for line in io.StringIO(text, newline="")]
 
 
 def read_python(text):
@@ -174,13 +126,19 @@ def read_python(text):
     facts.functions = {
         node.name: node.lineno for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)
     }
-    facts.called_back = _called_back(tree, facts.calls.get("Subscriber", []))
+    given = [
+        (call.words[2:3] or [call.names.get("callback", "")])[0]
+        for call in facts.calls.get("Subscriber", [])
+    ]
+    facts.called_back = _called_by(tree, given)
+    given = [word for call in facts.calls.get("on_shutdown", []) for word in call.words[:1]]
+    facts.at_end = _called_by(tree, given)
     facts.odd_main = _odd_main(tree, text, facts.names)
     facts.odd_node = _odd_node(tree)
     for calls in facts.calls.values():
         calls.sort(key=lambda call: call.line)
     facts.classes = [
-        _class_facts(node, called) for node in ast.walk(tree) if isinstance(node, ast.ClassDef)
+        class_facts(node, called) for node in ast.walk(tree) if isinstance(node, ast.ClassDef)
     ]
     return facts
 
@@ -231,10 +189,9 @@ def _loose(tree):
     return found
 
 
-def _called_back(tree, subscribers):
-    """{name: [lines]} of calls in the functions that Subscribers are given, and in those they call."""
+def _called_by(tree, given):
+    """{name: [lines]} of calls in functions that are given to ROS by name, and in those they call."""
     functions = {node.name: node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)}
-    given = [(call.words[2:3] or [call.names.get("callback", "")])[0] for call in subscribers]
     waiting, lines = [name.rsplit(".", 1)[-1] for name in given], {}
     while waiting:
         for node in ast.walk(functions.pop(waiting.pop(), ast.Module([], []))):
@@ -279,27 +236,3 @@ def _odd_node(tree):
             if isinstance(name, str) and not re.fullmatch(r"[A-Za-z]\w*|.*/.*|", name):
                 return node.lineno, name
     return ()
-
-
-def _class_facts(node, called):
-    inside = {text_of(part.func) for part in ast.walk(node) if isinstance(part, ast.Call)}
-    words = {name.rsplit(".", 1)[-1] for name in inside}
-    bases = {text_of(base) for base in node.bases}
-    return ClassFacts(
-        name=node.name,
-        line=node.lineno,
-        methods=[part.name for part in node.body if isinstance(part, ast.FunctionDef)],
-        instantiated=node.name in called,
-        # A message or an exception of its own is no node.
-        is_node=bool(words & {"Subscriber", "Publisher", "init_node", "publish"})
-        and not any(base.endswith(("Exception", "Error")) for base in bases),
-        attributes_called={name for name in inside if name.startswith("self.")},
-        attributes=_stored(node),
-        bases=bases - {"object"},
-    )
-
-
-def _stored(node):
-    """What is assigned in a class: names as well as attributes."""
-    stored = [part for part in ast.walk(node) if isinstance(getattr(part, "ctx", None), ast.Store)]
-    return {getattr(part, "attr", getattr(part, "id", "")) for part in stored}

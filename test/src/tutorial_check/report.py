@@ -39,8 +39,10 @@ def heading(outcome):
 
 def summary(outcomes):
     """The last line."""
-    done = sum(outcome.passed for outcome in outcomes)
-    return f"{done} of {len(outcomes)} exercises done"
+    passed = [outcome for outcome in outcomes if outcome.passed]
+    empty = [one.id for one in passed if one.results and all(each.empty for each in one.results)]
+    rest = f" ({', '.join(empty)}: nothing to check)" if empty else ""
+    return f"{len(passed) - len(empty)} of {len(outcomes)} exercises done{rest}"
 
 
 def text_of(outcomes):

@@ -3,6 +3,7 @@
 import contextlib
 import os
 import re
+import shlex
 from pathlib import Path
 
 from tutorial_check import python_facts, trial
@@ -167,6 +168,14 @@ class Session:
     def text(self, package, script):
         """The text of a script, its line ends as they are."""
         return (self.package(package).folder / script).read_bytes().decode(errors="replace")
+
+    def whole(self, path, package=""):
+        """A path of the workspace, or within a package, for a command of a shell in any folder.
+
+        That of the copy, in whose place examine puts the student's own, where it knows that.
+        """
+        own = self.package(package).folder if package else self.source.parent
+        return shlex.quote(str(own / path))
 
     def sibling(self, package, script, text):
         """A changed copy of a script, beside it so that its imports work; its path there."""

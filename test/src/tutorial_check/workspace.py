@@ -192,6 +192,16 @@ def packages_below(folder):
     return found
 
 
+def packages_beside(layout):
+    """The packages in a workspace beside its src; what lies deeper may be anybody's."""
+    beside = sorted(layout.root.iterdir()) if layout.is_workspace else []
+    return [
+        read_package(each, layout.root)
+        for each in beside
+        if each != layout.source and os.path.isfile(each / "package.xml")
+    ]
+
+
 def read_package(place, root):
     """The Package in a folder."""
     package = Package(place, os.path.relpath(place, root))

@@ -4,7 +4,14 @@ from types import SimpleNamespace
 
 import pytest
 
-from tutorial_check.exercises.answers import check_awake, check_once, check_strays, repetition
+from tutorial_check.exercises.answers import (
+    check_awake,
+    check_clock,
+    check_once,
+    check_strays,
+    repetition,
+)
+from tutorial_check.exercises.ending import _late_zero as late_zero
 from tutorial_check.model import Wrong
 from tutorial_check.python_facts import read_python
 
@@ -121,3 +128,18 @@ def test_zeros_between_the_answers(twists, more, complaint):
 )
 def test_no_zeros_between(twists, more, complaint):
     check_strays(seen(twists, **more), read_python(LOOP), complaint)
+
+
+def test_a_clock_that_goes_on_with_the_last_velocity():
+    loop = LOOP.replace("publish(Twist())", "publish(msg)")
+    with pytest.raises(Wrong, match="by a clock of its own") as caught:
+        check_clock(seen(each(), repeats=True), read_python(loop))
+    assert caught.value.where == "joy2twist.py:7"
+    check_clock(seen(each(), repeats=False), read_python(loop))
+
+
+@pytest.mark.parametrize(("first", "line"), [("sleep(2)", 4), ("self.pub.publish(Twist())", 0)])
+def test_the_sleep_before_the_zero(first, line):
+    then = "self.pub.publish(Twist())" if line else "sleep(2)"
+    text = f"rospy.on_shutdown(self.stop)\n\ndef stop(self):\n    {first}\n    {then}\n"
+    assert late_zero(read_python(text)) == line

@@ -2,7 +2,7 @@
 
 import pytest
 
-from tutorial_check.causes import explain, misspelt, syntax_hint, traced
+from tutorial_check.causes import explain, hider, misspelt, syntax_hint, traced
 from tutorial_check.python_facts import read_python
 
 
@@ -40,10 +40,32 @@ from tutorial_check.python_facts import read_python
             "Twist is not imported: from geometry_msgs.msg import Twist",
         ),
         ("rospkg.common.ResourceNotFound: joy2twst", "joy2twst"),
+        ("field data must be of type bytes or an ascii string", "a String carries text"),
     ],
 )
 def test_causes(error, word):
     assert word in explain(error)
+
+
+BESIDE = ("scripts/a.py", "scripts/rospy.py", "scripts/joy2twist.py", "src/std_msgs.py")
+
+
+@pytest.mark.parametrize(
+    ("error", "script", "file", "word"),
+    [
+        ("module 'rospy' has no attribute 'spin'", "scripts/a.py", "scripts/rospy.py", "rename"),
+        ("partially initialized module 'rospy' has no attribute 'spin'", BESIDE[0], BESIDE[1], ""),
+        ("cannot import name 'Rate' from 'rospy' (/x/rospy.py)", BESIDE[0], BESIDE[1], "hides"),
+        ("No module named 'joy2twist.a'; 'joy2twist' is not a package", BESIDE[2], "", "another"),
+        ("module 'rospy' has no attribute 'spin'", "a.py", "", ""),
+        ("module 'std_msgs' has no attribute 'msg'", "scripts/a.py", "", ""),
+        ("name 'rospy' is not defined", "scripts/a.py", "", ""),
+    ],
+)
+def test_a_file_that_hides_a_package(error, script, file, word):
+    found = hider(error, script, BESIDE)
+    assert found[0] == file
+    assert word in found[1]
 
 
 @pytest.mark.parametrize(

@@ -145,3 +145,30 @@ def test_what_is_no_method(form, text, seen, hint):
 )
 def test_what_may_be_right(form, text):
     assert form(text) == "NewJoy2Twist in scripts/new_joy2twist.py"
+
+
+BASE = CLASS.replace("NewJoy2Twist", "Node").split("\n\nif __name__")[0]
+BELOW = """class NewJoy2Twist(Node):
+    def callback(self, data):
+        self.publish(data)
+
+
+if __name__ == "__main__":
+    NewJoy2Twist()
+"""
+
+
+def test_a_node_below_a_base_class_that_calls_rospy(form):
+    assert form(f"{BASE}\n\n{BELOW}") == "NewJoy2Twist in scripts/new_joy2twist.py"
+
+
+def test_a_base_class_in_a_file_of_its_own(folder, form):
+    write(folder, "scripts/node.py", BASE)
+    assert form(f"#!/usr/bin/python3\nfrom node import Node\n\n\n{BELOW}").startswith(
+        "NewJoy2Twist in"
+    )
+
+
+def test_of_a_base_class_alone_no_node_is_made(form):
+    with pytest.raises(Wrong, match="NewJoy2Twist is never made"):
+        form(f"{BASE}\n\n{BELOW}".replace("    NewJoy2Twist()", "    pass"))

@@ -5,7 +5,8 @@ from types import SimpleNamespace
 import pytest
 
 from tutorial_check.exercises import chatter, conversation, joy2twist, talking
-from tutorial_check.exercises.driving import CMD_VEL, JOY, PACKAGE
+from tutorial_check.exercises.driving import CMD_VEL, JOY, PACKAGE, Drive
+from tutorial_check.model import Wrong
 
 SCRIPT = "joy2twist.py"
 IN_CALLBACK = """#!/usr/bin/env python3
@@ -60,3 +61,18 @@ def test_a_node_called_like_its_file(make_session, package, names, check, last):
     write(session, package, **{name: NODE.format(name) for name in names})
     note = check(session)
     assert (note.where, f"'{last}'" in note.hint) == (f"{last}.py:2", True)
+
+
+@pytest.mark.parametrize(("sleeps", "where"), [([], SCRIPT), ([7], f"{SCRIPT}:7")])
+def test_a_sleep_is_blamed_only_in_the_callback(sleeps, where):
+    late = {"is_prompt": False, "delay_s": None, "trouble": False, "answered": 50, "sent": 125}
+    seen = SimpleNamespace(script=SCRIPT, sleep_lines=sleeps, **late)
+    with pytest.raises(Wrong) as raised:
+        conversation.check_rate(None, seen)
+    assert (raised.value.where, "no sleep" in raised.value.hint) == (where, bool(sleeps))
+
+
+@pytest.mark.parametrize(("enough", "is_prompt"), [(0.95, False), (0.5, True)])
+def test_of_a_queue_of_one_the_newest_counts(enough, is_prompt):
+    seen = {"answered": 90, "sent": 125, "possible": 120, "delay_s": 0.01, "unavoidable_s": 0.0}
+    assert Drive.is_prompt.fget(SimpleNamespace(enough=enough, **seen)) == is_prompt

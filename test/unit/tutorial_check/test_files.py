@@ -46,3 +46,24 @@ def test_what_catkin_installs_need_not_be_executable(session, tmp_path):
 def test_load_manifest_of_a_variable_is_not_judged(session):
     write(session, f"{FIRST}PKG = 'joy2twist'\nroslib.load_manifest(PKG)\n")
     check_manifest(session, SCRIPT)
+
+
+@pytest.mark.parametrize(
+    "first",
+    [
+        "/usr/bin/env -S python3 -u",
+        "/usr/bin/env -S PYTHONUNBUFFERED=1 python3",
+        "/usr/bin/env python",
+        "/usr/bin/python3 -u",
+    ],
+)
+def test_interpreters(session, first):
+    write(session, f"#!{first}\n")
+    check_file(session, PACKAGE, SCRIPT)
+
+
+@pytest.mark.parametrize("first", ["/usr/bin/env -S pythn3 -u", "/usr/bin/env -S", "/bin/sh"])
+def test_no_interpreters(session, first):
+    write(session, f"#!{first}\n")
+    with pytest.raises(Wrong, match="an interpreter that exists"):
+        check_file(session, PACKAGE, SCRIPT)

@@ -61,7 +61,7 @@ def test_not_whole(session, tmp_path, gone):
         workspace(session)
     assert "not whole" in wrong.value.seen
     assert gone in wrong.value.seen
-    assert wrong.value.hint == "rm -r build devel, then catkin_make"
+    assert wrong.value.hint == "in the workspace: rm -r build devel, then catkin_make"
 
 
 def test_never_built(session):

@@ -121,6 +121,12 @@ def test_an_exercise_that_was_cut_off_is_not_done():
     assert summary([GOOD, CUT_OFF]) == "1 of 2 exercises done"
 
 
+def test_an_exercise_with_nothing_to_check_is_not_done():
+    note = Result("C11", "note", "a recording", seen="no bag", empty=True)
+    empty = Outcome("4.2", [note], done=True)
+    assert summary([GOOD, empty]) == "1 of 2 exercises done (4.2: nothing to check)"
+
+
 def test_text():
     text = text_of([BAD])
     for word in (

@@ -57,6 +57,8 @@ def test_a_comment_is_no_place():
             '<remap from="',
         ),
         ("<node", "<include/><node", "'file'", "an include has file="),
+        ("-d", "/cmd_vel ", "remap to [/cmd_vel ] is not a valid ROS name", '"/cmd_vel"'),
+        ("-d", "/cmd.vel", "remap to [/cmd.vel] is not a valid ROS name", "letters, digits"),
     ],
 )
 def test_what_roslaunch_cannot_read(old, new, error, word):

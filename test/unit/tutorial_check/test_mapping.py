@@ -3,7 +3,7 @@
 import pytest
 
 from tutorial_check.exercises.driving import _delays as delays
-from tutorial_check.mapping import judge, numbered_joys
+from tutorial_check.mapping import judge, judge_probes, numbered_joys, probes, silence
 
 AXES = [axes for axes, _ in numbered_joys(20)]
 
@@ -71,6 +71,9 @@ def test_slower_backwards_is_a_remark():
         (lambda a: float(int(3 * a[1])), lambda a: a[0], "whole numbers"),
         (lambda a: a[1] + 0.1, lambda a: a[0], "+ 0.10"),
         (lambda a: a[1] + a[0], lambda a: a[0], "no constant"),
+        (lambda a: round(a[1], 1), lambda a: a[0], "linear.x has steps, as 0.30, 0.40, 0.50"),
+        (lambda a: a[1], lambda a: int(10 * a[0]) / 10, "angular.z has steps, as 0.20"),
+        (lambda a: 0.7 if a[1] > 0 else -0.7, lambda a: a[0], "linear.x has steps, as 0.70"),
     ],
 )
 def test_wrong(linear, angular, word):
@@ -91,6 +94,76 @@ def test_what_is_no_number_answers_no_joy():
     heard = [(1.0, "", (float(value), 0.0)) for value in ("nan", "inf")]
     heard.append((1.5, "", (0.3, 0.0)))
     assert delays([1.0, 1.1], heard, 1.0) == [0.5]
+
+
+def test_an_answer_is_not_older_than_its_joy():
+    """Of a value that by chance belongs to a Joy yet to come."""
+    assert delays([1.0, 3.0], [(1.1, "", (0.305, 0.0))], 1.0) == []
+
+
+def test_where_each_joy_is_answered_no_factor_is_needed():
+    assert delays([1.0, 2.0], [(1.5, "", (0.01,)), (2.25, "", (0.02,))], None) == [0.5, 0.25]
+
+
+class Converter:
+    """A program that keeps its last Twist; axes and buttons to (linear.x, angular.z)."""
+
+    def __init__(self, convert):
+        self.x = self.z = 0.0
+        self._convert = convert
+
+    def __call__(self, joy):
+        self.x, self.z = self._convert(self, *joy)
+        return (self.x, 0.0, 0.0, 0.0, 0.0, self.z)
+
+
+def complaint_of(convert):
+    """What judge and judge_probes say of all that a check sends."""
+    program, joys = Converter(convert), numbered_joys(20)
+    numbered = [(axes, program((axes, buttons))) for axes, buttons in joys]
+    assert not judge(numbered)[0]
+    return judge_probes(numbered, [(joy, program(joy)) for joy in probes(joys)])[0]
+
+
+@pytest.mark.parametrize(
+    "convert",
+    [
+        lambda my, a, b: (a[1], a[0]),
+        lambda my, a, b: (a[1] if abs(a[1]) > 0.35 else 0.0, 0.5 * a[0]),
+        lambda my, a, b: (max(-0.5, min(0.5, a[1])), a[0]),
+        lambda my, a, b: (a[1] ** 3, a[0]),
+        lambda my, a, b: (b[4] * a[1], b[4] * a[0]),
+        lambda my, a, b: ((1.0 if b[4] else 0.5) * a[1], a[0]),
+    ],
+)
+def test_right_whatever_came_before(convert):
+    assert complaint_of(convert) == ""
+
+
+@pytest.mark.parametrize(
+    ("convert", "words"),
+    [
+        (lambda my, a, b: (a[1] or my.x, a[0]), "linear.x stays 0.70 when axes[1] is 0.00"),
+        (lambda my, a, b: (a[1], a[0] if abs(a[0]) > 0.1 else my.z), "angular.z stays 0.60"),
+        (lambda my, a, b: (my.x + a[1], a[0]), "linear.x"),
+        (lambda my, a, b: (a[1], a[0]) if b[4] else (my.x, my.z), "and LB released"),
+        (lambda my, a, b: (a[1], a[0]) if a[1] else (0.0, 0.0), "axes[0] alone"),
+        (lambda my, a, b: (a[1] if any(a) else float("nan"), a[0]), "linear.x is nan"),
+        (lambda my, a, b: (a[1] * (1 + (my.x > 0.69)), a[0]), "the same Joy gives linear.x"),
+    ],
+)
+def test_wrong_by_what_came_before(convert, words):
+    assert words in complaint_of(convert)
+
+
+def test_silence_is_named():
+    joys = numbered_joys(20)
+    rest = ((0.0,) * 6, joys[0][1])
+    released = (joys[0][0], (0,) * 12)
+    assert "at rest" in silence(rest, joys[0])[0]
+    assert "the same Joy again" in silence(joys[0], joys[0])[0]
+    assert "LB released" in silence(released, joys[0])[0]
+    assert "with axes[1] = 0" in silence(((0.5, *rest[0][1:]), joys[0][1]), joys[0])[0]
 
 
 def test_the_wrong_field():

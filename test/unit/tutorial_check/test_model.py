@@ -2,6 +2,7 @@
 
 import pytest
 
+from tutorial_check.exercises import CHECKS as HANDOUT
 from tutorial_check.model import (
     NOTE,
     OK,
@@ -175,6 +176,13 @@ def test_on_a_machine_far_too_busy_there_is_no_verdict():
     one = Run(catalogue, None, lambda explained: True, lambda: True)
     assert one.result("C1").status == UNREACHED
     assert "the machine has too much else to do" in one.trouble("2")
+
+
+def test_no_machine_is_too_busy_for_what_is_read():
+    check = Check("C1", "2", "first", "2.1", timeless=True)
+    one = Run(Catalogue([check], {"C1": wrong()}), None, lambda explained: True, lambda: True)
+    assert one.result("C1").status == WRONG
+    assert {"C5", "C13", "C21", "C29"} <= {each.id for each in HANDOUT if each.timeless}
 
 
 def test_the_second_look_counts():

@@ -115,3 +115,29 @@ def test_no_cmake_file(make_session, monkeypatch):
     monkeypatch.setattr(packages, "_dependencies", lambda *_: session.package("joy2twist"))
     with pytest.raises(Wrong, match=r"CMakeLists\.txt is missing"):
         packages.joy2twist(session)
+
+
+def dependencies(session, *lines):
+    """What is wrong with the dependencies of beginner_tutorials, std_msgs and these."""
+    folder = session.package("beginner_tutorials").folder
+    about = "<name>beginner_tutorials</name><version>0.0.0</version><description>x</description>"
+    about += "<maintainer email='s@u.example'>s</maintainer><license>x</license>"
+    depends = "\n".join(f"<{line}" for line in lines)
+    (folder / "package.xml").write_text(f"<package format='2'>{about}\n{depends}\n</package>")
+    session._memory.clear()
+    with pytest.raises(Wrong) as raised:
+        packages.beginner_dependencies(session)
+    return raised.value
+
+
+def test_all_dependencies_that_are_missing_are_named(make_session):
+    wrong = dependencies(make_session("beginner_tutorials", "2"), "depend>std_msgs</depend>")
+    assert wrong.hint == "add <depend>rospy</depend> and <depend>roscpp</depend>"
+
+
+def test_a_dependency_that_is_misspelt_in_one_of_its_kinds(make_session):
+    lines = [f"depend>{each}</depend>" for each in ("rospy", "roscpp")]
+    lines += ["build_depend>std_msg</build_depend>", "exec_depend>std_msgs</exec_depend>"]
+    wrong = dependencies(make_session("beginner_tutorials", "2"), *lines)
+    assert wrong.seen == "std_msg, which is no package"
+    assert wrong.where.endswith("package.xml:4")

@@ -5,7 +5,8 @@ import sys
 
 import pytest
 
-from tutorial_check.python_facts import read_python, unreadable
+from tutorial_check.python_facts import read_python
+from tutorial_check.python_text import unreadable
 
 PROGRAM = """
 import rospy
@@ -120,3 +121,16 @@ def test_a_warning_is_no_error_and_not_shown(recwarn):
 )
 def test_a_name_of_which_ros_warns(name, odd):
     assert read_python(f"rospy.init_node({name}, anonymous=True)").odd_node == odd
+
+
+@pytest.mark.parametrize(
+    ("text", "keeps"),
+    [
+        ("rospy.Publisher('/cmd_vel', Twist, queue_size=1)", True),
+        ("rospy.Subscriber('/joy', Joy, callback, queue_size=1)", True),
+        ("rospy.Publisher('/cmd_vel', Twist, queue_size=10)", False),
+        ("rospy.Publisher('/cmd_vel', Twist)", False),
+    ],
+)
+def test_a_queue_of_one_keeps_the_newest(text, keeps):
+    assert read_python(text).keeps_newest == keeps

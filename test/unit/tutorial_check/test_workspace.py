@@ -224,3 +224,15 @@ def test_displayed(shape):
     )
     assert displayed(joys, lines) == joys[3:9]
     assert displayed(joys, lines.replace(",", "\n").replace(" ", "\n")) == []
+
+
+def test_only_what_lies_right_beside_src_is_beside_it(tmp_path):
+    for folder in ("ws/src/a", "ws/b", "ws/course/anna/c"):
+        (tmp_path / folder).mkdir(parents=True)
+        (tmp_path / folder / "package.xml").write_text(
+            f"<package><name>{folder[-1]}</name></package>"
+        )
+    root = tmp_path / "ws"
+    layout = workspace.Layout(root, root / "src", True)
+    assert [each.inside for each in workspace.packages_beside(layout)] == ["b"]
+    assert workspace.packages_beside(workspace.Layout(root, root, False)) == []

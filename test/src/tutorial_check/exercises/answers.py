@@ -27,15 +27,34 @@ def check_strays(seen, facts, complaint):
     has_both = len({any(twist) for twist in seen.twists}) == 2
     if seen.strays <= STRAYS and not (complaint and seen.has_clock and has_both):
         return
-    inside = facts.called_back.get("publish", [])
-    outside = [call.line for call in facts.calls.get("publish", []) if call.line not in inside]
-    line = next((line for line in outside if any(loop <= line for loop in facts.loops)), 0)
+    line = next(iter(_outside(facts)), 0)
     raise Wrong(
         "one Twist for each Joy, and none between",
         "zeros come between the answers: the robot jerks",
         where=f"{seen.script}:{line}" if line else seen.script,
         hint="publish in the callback alone; the program ends with rospy.spin(), which waits for Joys",
     )
+
+
+def check_clock(seen, facts):
+    """Raises Wrong for Twists that go on moving the robot while no Joy comes, as of a Timer or a Rate loop."""
+    if not seen.repeats:
+        return
+    timers = [call.line for name in ("Timer", "Rate") for call in facts.calls.get(name, [])]
+    line = next(iter(_outside(facts) or timers), 0)
+    raise Wrong(
+        "one Twist for each Joy, and none without one",
+        "Twists come by a clock of its own: without a joystick the robot drives on",
+        where=f"{seen.script}:{line}" if line else seen.script,
+        hint="publish in the callback, once for every Joy; the program ends with rospy.spin()",
+    )
+
+
+def _outside(facts):
+    """The lines that publish within a loop, and not in a callback."""
+    inside = facts.called_back.get("publish", [])
+    outside = [call.line for call in facts.calls.get("publish", []) if call.line not in inside]
+    return [line for line in outside if any(loop <= line for loop in facts.loops)]
 
 
 def check_once(seen, facts):

@@ -3,11 +3,10 @@
 import statistics
 
 from tutorial_check.changed_programs import flipped_anonymous
-from tutorial_check.exercises.files import check_file, crash, find_script, odd_node
+from tutorial_check.exercises.files import check_end, check_file, crash, find_script, odd_node
 from tutorial_check.exercises.silent_end import sunken_main
 from tutorial_check.exercises.talking import LISTEN_S, PACKAGE, TOPIC, scripts, talk_of
 from tutorial_check.model import Note, Wrong, master_gone
-from tutorial_check.tracebacks import first_traceback
 
 SUBSCRIBER_LINE = "rospy.Subscriber('chatter', String, callback)"
 
@@ -163,8 +162,10 @@ def listener(session):
             hint=SUBSCRIBER_LINE,
             sure=True,
         )
-    if any("datatype" in line and "chatter" in line for line in talk.warnings):
-        seen = "it wants another type of message on /chatter"
+    kind = call.words[1].rpartition(".")[2] if call and len(call.words) > 1 else "String"
+    refused = any("datatype" in line and "chatter" in line for line in talk.warnings)
+    if kind != "String" or refused:
+        seen = f"it wants {kind if kind != 'String' else 'another type of message'} on /chatter"
         raise Wrong(expected, seen, where=where, hint=SUBSCRIBER_LINE)
     raise Wrong(
         expected,
@@ -274,25 +275,7 @@ def ctrl_c(session):
     talk = _whole_talk(session)
     for name, program in (("talker.py", talk.talkers[-1]), ("listener.py", talk.listener)):
         script = find_script(session, PACKAGE, name)
-        if talk.taken[name] is None:
-            raise Wrong(
-                f"{name} ends within 3 s of Ctrl-C",
-                "it had to be killed",
-                where=script,
-                hint="while not rospy.is_shutdown(): and no `except` that swallows the end",
-            )
-        trace = first_traceback(program.output, str(session.package(PACKAGE).folder))
-        if trace and "ROSInterrupt" in trace.error:
-            return Note(
-                f"{name} ends with a traceback, ROSInterruptException",
-                trace.where,
-                "except rospy.ROSInterruptException: pass",
-            )
-        if trace:
-            raise Wrong(
-                f"{name} ends without a traceback",
-                trace.error,
-                where=trace.where,
-                hint="try: ... except rospy.ROSInterruptException: pass",
-            )
+        note = check_end(session, PACKAGE, script, talk.taken[name], program.output)
+        if note:
+            return note
     return ", ".join(f"{name} {taken:.1f} s" for name, taken in talk.taken.items())

@@ -3,6 +3,7 @@
 import re
 from pathlib import Path
 
+from tutorial_check.class_facts import with_bases
 from tutorial_check.exercises import conversation
 from tutorial_check.exercises.driving import PACKAGE, drive
 from tutorial_check.exercises.files import check_file, must_be_one
@@ -13,16 +14,19 @@ from tutorial_check.model import Note, Wrong
 def _class_files(session):
     """{path: ClassFacts} of the classes that deal with ROS; of several the likeliest first."""
     scripts = session.scripts(PACKAGE)
-    found = {
-        path: next(one for one in facts.classes if one.is_node)
-        for path, facts in scripts.items()
-        if facts.is_class_program and "checked_" not in path
-    }
+    owned = [(path, one) for path, facts in scripts.items() for one in facts.classes]
+    bases = {base.rpartition(".")[2] for _, one in owned for base in one.bases}
+    found = {}
+    for (path, _), one in zip(owned, with_bases([one for _, one in owned])):
+        better = path not in found or (found[path].name in bases and one.name not in bases)
+        if one.is_node and better and "checked_" not in path:
+            found[path] = one
     folder = session.package(PACKAGE).folder
 
     def unlikely(path):
         """The step before, under joy2twist.py, may be a class already; and there are old copies."""
         return (
+            found[path].name in bases,
             not _fits(found[path].name + path),
             bool(re.search(r"(^|/)(old|backup|copy)[^/]*/", path, re.IGNORECASE)),
             "on_shutdown" not in scripts[path].calls,
@@ -73,8 +77,8 @@ def is_class(session):
     facts = session.scripts(PACKAGE)[path]
     where = f"{path}:{one.line}"
     expected = "a class with __init__, its callback bound to self, made under __main__"
-    if "__init__" not in one.methods:
-        odd = next((each for each in one.methods if re.fullmatch(r"_*init_*", each)), None)
+    odd = next((each for each in one.methods if re.fullmatch(r"_*init_*", each)), None)
+    if "__init__" not in one.methods and (odd or not one.bases):
         seen = f"`def {odd}`: Python calls `__init__`" if odd else f"{one.name} has no __init__"
         raise Wrong(
             expected,

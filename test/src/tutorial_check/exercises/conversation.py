@@ -4,7 +4,7 @@ import contextlib
 import re
 
 from tutorial_check.changed_programs import unmasked
-from tutorial_check.exercises.answers import check_awake, check_once, check_strays
+from tutorial_check.exercises.answers import check_awake, check_clock, check_once, check_strays
 from tutorial_check.exercises.driving import (
     CMD_VEL,
     COUNT,
@@ -15,9 +15,9 @@ from tutorial_check.exercises.driving import (
 )
 from tutorial_check.exercises.files import check_file, crash
 from tutorial_check.exercises.silent_end import silent_end
-from tutorial_check.mapping import judge
+from tutorial_check.mapping import judge, judge_probes, silence
 from tutorial_check.model import Note, Wrong
-from tutorial_check.python_facts import python_lines
+from tutorial_check.python_text import python_lines
 
 JOY_LINE = "rospy.Subscriber('/joy', Joy, callback)"
 TWIST_LINE = "rospy.Publisher('/cmd_vel', Twist, queue_size=10)"
@@ -231,14 +231,24 @@ def check_mapping(session, seen):
             hint="publish in the callback, for every message",
         )
     complaint, remark = judge(seen.samples)
+    if not complaint:
+        complaint, hint = judge_probes(seen.samples, seen.answers)
+        remark = hint or remark
     check_strays(seen, facts, complaint)
+    check_clock(seen, facts)
     repeated = check_once(seen, facts)
+    if seen.unanswered and not complaint:
+        if seen.trouble:
+            raise crash_of(session, seen, expected)
+        told, hint = silence(*seen.unanswered)
+        raise Wrong(expected, told, where=where, hint=hint)
     if complaint:
+        line, hint = _line_of(session, seen.script, complaint)
         raise Wrong(
             expected,
             complaint,
-            where=_line_of(session, seen.script, complaint) or where,
-            hint=remark,
+            where=line or where,
+            hint=hint or remark,
             sure=not seen.missing and not seen.unasked,
         )
     if seen.trouble:
@@ -257,28 +267,27 @@ def check_mapping(session, seen):
 
 
 def _line_of(session, script, complaint):
-    """Where the field is set that the complaint names."""
+    """(where the field is set that the complaint names, what to do if the line itself says that)."""
     field = re.search(r"(linear|angular)\.[xyz]", complaint)
+    name = re.escape(field[0]) if field else r"(?:linear\.x|angular\.z)"
     for number, line in enumerate(python_lines(session.text(PACKAGE, script)), 1):
-        if field and re.search(re.escape(field[0]) + r"\s*=", line):
-            return f"{script}:{number}"
-    return ""
+        if re.search(name + r"\s*=.*\bbuttons\b(?!.*\baxes\b)", line):
+            return f"{script}:{number}", "the stick is data.axes, not data.buttons"
+        if field and re.search(name + r"\s*[-+*/]?=", line):
+            return f"{script}:{number}", ""
+    return "", ""
 
 
 def check_rate(session, seen):
     """50 Joys a second are answered, each soon."""
     expected = "at 50 Joys a second as many Twists, each within 50 ms"
-    facts = session.scripts(PACKAGE)[seen.script]
-    sleeps = seen.sleep_lines or [call.line for call in facts.calls.get("sleep", [])]
+    sleeps = seen.sleep_lines
     if seen.is_prompt:
         return f"{seen.answered} for {seen.sent}" + (
             f", {1000 * seen.delay_s:.1f} ms" if seen.delay_s is not None else ""
         )
-    by_clock = seen.unasked > 2 or "Timer" in facts.calls or "Rate" in facts.calls
     delay = f", {1000 * seen.delay_s:.0f} ms late" if seen.delay_s is not None else ""
     told = f"{seen.answered} Twists for {seen.sent} Joys{delay}"
-    if by_clock and seen.answered >= 10 * 2 and (seen.delay_s is None or seen.delay_s < 0.2):
-        return Note(f"{told}: by a clock of its own; the handout publishes for every message")
     if seen.trouble:
         raise crash_of(session, seen, expected)
     raise Wrong(

@@ -4,8 +4,10 @@ import collections
 import math
 import re
 import statistics
+import time
 
-from tutorial_check.mapping import judge, numbered_joys
+from tutorial_check.box import GRACE_S
+from tutorial_check.mapping import LINEAR, judge, judge_probes, numbered_joys, probes, rule_of
 from tutorial_check.model import master_gone
 from tutorial_check.stage import START_S
 
@@ -18,7 +20,8 @@ RATED = frozenset(["4.3", "6.2"])  # the exercises that look at the rate
 SOON_S = 0.05  # from Joy to Twist
 ANSWER_S = 1.0  # for one Twist, before it counts as missing
 SETTLE_S = 0.15  # after it, in which more of them may come
-QUIET_S = 0.25  # without a Joy: a clock of 10 Hz and more makes itself heard
+QUIET_S = 0.25  # without a Joy, or longer for a slow one: a clock of its own makes itself heard
+SAME_S = 0.06  # in which several Twists answer one Joy
 NAP_S = 0.3  # for one Twist: none takes so long of whom nothing is wrong
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e-?\d+)?")
 COLOUR = re.compile(r"\x1b\[[0-9;]*m")
@@ -33,8 +36,13 @@ class Drive:
         self.delays, self.sent, self.answered, self.strays = [], 0, 0, 0
         self.waits = []  # [s] from a Joy to the next Twist, one at a time
         self.twists, self.has_clock = [], False  # all of the second pass; whether more come unasked
+        self.repeats = False  # whether those move the robot, though no Joy came
+        self.answers, self.unanswered = [], None  # of the probes; (Joy, one before) without a Twist
         facts = session.scripts(PACKAGE).get(script)
         self.sleep_lines = facts.called_back.get("sleep", []) if facts else []
+        # A queue of one drops what it has no time for, and the newest value is not late.
+        drops = facts and facts.keeps_newest and not self.sleep_lines
+        self.enough = 0.5 if drops else 0.95  # of the Joys of a stream answered
         self.possible = self.unavoidable_s = None  # what our own Echo answered beside it
         with session.stage() as stage:
             stage.call("advertise", JOY, "Joy")
@@ -55,7 +63,10 @@ class Drive:
             self.types, self.warnings = stage.call("types"), stage.call("warnings")
             self.output = self.program.output
             self.master_alive = stage.master_lives
-            session.box.end(self.program, 0.5)
+            # Only where its end is asked for it is waited for.
+            grace_s = GRACE_S if "4.3" in session.exercises else 0.5
+            self.taken_s = session.box.end(self.program, grace_s)
+            self.last_words = self.program.output[len(self.output) :]
 
     # ------------------------------------------------------------------------------ driving
 
@@ -66,16 +77,23 @@ class Drive:
         if wants_twist:
             stage.wait(lambda: stage.call("count", CMD_VEL), 0.5)
             self._one_by_one(stage, joys, 0.0)
-            doubtful = self.unasked > 2 or (self.samples and judge(self._plain())[0])
+            doubtful = self.unasked > 2 or (self.samples and judge(self.samples)[0])
             if doubtful and not self.naps:
                 self._ask_again(stage, joys)
+            if len(self.samples) > COUNT / 2 and not self.naps:
+                self._keep_quiet(stage)
+                if self.has_clock and not self.repeats and not self.twists:
+                    self._ask_again(stage, joys)  # zeros by a watchdog, or between all answers
+                if not self.repeats and not judge(self.samples)[0]:
+                    self._probe(stage, joys)
         else:
             for joy in joys:
                 stage.call("send", JOY, joy)
             self.asked = COUNT
         stage.wait(lambda: self._displayed() >= min(5, self.asked) or self.program.ended, 0.7)
         self.shown = self._displayed()
-        goes = wants_twist and len(self.samples) > COUNT / 2 and not judge(self._plain())[0]
+        goes = self.answers and not self.unanswered
+        goes = goes and not judge_probes(self.samples, self.answers)[0]
         if goes and RATED & self.session.exercises and not self.program.ended:
             self._stream(stage)
             if not self.is_prompt and not self.program.ended:
@@ -96,23 +114,48 @@ class Drive:
         self.twists = [twist for _, _, twist in stage.call("heard", CMD_VEL, begun)]
         if len(self.samples) < len(first):
             self.samples = first
-        if len(self.twists) > 1.5 * len(joys):
-            before = stage.call("count", CMD_VEL)
-            self.has_clock = stage.wait(lambda: stage.call("count", CMD_VEL) > before + 1, QUIET_S)
+
+    def _keep_quiet(self, stage):
+        """See whether Twists come without a Joy. The last one moves the robot."""
+        begun_s, before = time.monotonic(), stage.call("count", CMD_VEL)
+        quiet_s = max(QUIET_S, 2.5 * min(ANSWER_S, statistics.median(self.waits)))
+        stage.wait(lambda: self.program.ended, quiet_s)
+        unasked = stage.call("heard", CMD_VEL, before)
+        self.has_clock = len(unasked) > 1
+        late = [twist for when, _, twist in unasked if when > begun_s + SAME_S]
+        self.repeats = self.has_clock and any(map(any, late))
+
+    def _probe(self, stage, joys):
+        """The other Joys, each until it is answered; the first that is not, also when asked again, ends it."""
+        before, settle_s = joys[-1], SETTLE_S if self.twists else 0.0
+        for joy in probes(joys):
+            _, heard = self._ask(stage, joy, settle_s)
+            if not heard and not self.program.ended:
+                self._ask(stage, before, settle_s)
+                _, heard = self._ask(stage, joy, settle_s)
+            if not heard:
+                self.unanswered = joy, before
+                return
+            self.answers.append((joy, heard[-1 if settle_s else 0][2]))
+            before = joy
+
+    def _ask(self, stage, joy, settle_s):
+        """(when a Joy was sent, what was heard from then on)."""
+        before = stage.call("count", CMD_VEL)
+        sent_s = stage.call("send", JOY, joy)
+        stage.wait(
+            lambda: stage.call("count", CMD_VEL) > before or self.program.ended,
+            ANSWER_S,
+        )
+        if settle_s:
+            stage.wait(lambda: self.program.ended, settle_s)
+        return sent_s, stage.call("heard", CMD_VEL, before)
 
     def _one_by_one(self, stage, joys, settle_s):
         begun, answered, unanswered = stage.call("count", CMD_VEL), len(self.samples), 0
         for joy in joys:
-            before = stage.call("count", CMD_VEL)
-            sent_s = stage.call("send", JOY, joy)
+            sent_s, heard = self._ask(stage, joy, settle_s)
             self.asked += 1
-            stage.wait(
-                lambda before=before: stage.call("count", CMD_VEL) > before or self.program.ended,
-                ANSWER_S,
-            )
-            if settle_s:
-                stage.wait(lambda: self.program.ended, settle_s)
-            heard = stage.call("heard", CMD_VEL, before)
             self.waits.append(heard[0][0] - sent_s if heard else ANSWER_S)
             if heard:
                 self.samples.append((joy[0], heard[-1][2] if settle_s else heard[0][2]))
@@ -140,10 +183,8 @@ class Drive:
         stage.wait(lambda: stage.call("count", CMD_VEL) - before >= count, 0.3)
         sent, heard = stage.call("sent", JOY), stage.call("heard", CMD_VEL, before)
         self.sent, self.answered = len(sent), len(heard)
-        factor = statistics.median(
-            [t[0] / a[1] for a, t in self.samples if abs(a[1]) > 0.1] or [1.0]
-        )
-        self.delays = _delays(sent, heard, factor)
+        rule = rule_of(LINEAR, self.samples)
+        self.delays = _delays(sent, heard, rule and rule.factor)
         moving = [any(twist) for _, _, twist in heard]
         # All of these Joys move the robot, once the first does.
         self.strays = moving[moving.index(True) :].count(False) if any(moving) else 0
@@ -154,9 +195,6 @@ class Drive:
 
     # ------------------------------------------------------------------------------- looking
 
-    def _plain(self):
-        return [(axes, twist) for axes, twist in self.samples]
-
     @property
     def delay_s(self):
         """The median delay from Joy to Twist, or None."""
@@ -164,8 +202,8 @@ class Drive:
 
     @property
     def is_prompt(self):
-        """Whether (nearly) every Joy was answered, and soon, as far as the machine allows."""
-        if self.answered < 0.95 * min(self.sent, self.possible or self.sent):
+        """Whether so many Joys as is enough were answered, and soon, as far as the machine allows."""
+        if self.answered < self.enough * min(self.sent, self.possible or self.sent):
             return False
         return self.delay_s is None or self.delay_s < SOON_S + (self.unavoidable_s or 0.0)
 
@@ -191,15 +229,18 @@ class Drive:
 
 
 def _delays(sent, heard, factor):
-    """[s] from each Joy to its Twist. Which Joy it answers is told by its value, by a known factor."""
-    delays = []
+    """[s] from each Joy to its Twist: the next one, if none is missing; else its value, by a known factor, says."""
     heard = [each for each in heard if math.isfinite(each[2][0])]
+    if len(heard) == len(sent):
+        return [when - asked for (when, _, _), asked in zip(heard, sent)]
+    delays = []
     often = collections.Counter(round(twist[0], 6) for _, _, twist in heard)
     for when, _, twist in heard:
         if often[round(twist[0], 6)] > 1:
             continue  # at a limit, or repeated: it does not tell which
         k = round((twist[0] / factor - 0.3) / 0.005) if factor else -1
-        if 0 <= k < len(sent):
+        # No answer is older than its Joy: then the value tells of another one.
+        if 0 <= k < len(sent) and when > sent[k] - SAME_S:
             delays.append(when - sent[k])
     return delays
 

@@ -173,6 +173,9 @@ def stops(session):
         seen, hint = _complaint(end, bool(call))
         if not seen:
             continue
+        late = _late_zero(session.scripts(PACKAGE)[path])
+        if late and (end.zero_after_s is None or not end.in_time):
+            where, hint = f"{path}:{late}", "in shutdown first the zero, then the sleep"
         # One that has gone, and whose text knows no shutdown, will not send a zero another time.
         sure = end.zero_after_s is None and end.took_s is not None and not call
         trace = first_traceback(end.output, str(session.package(PACKAGE).folder))
@@ -192,6 +195,12 @@ def stops(session):
         f"{way}: zero after {1000 * end.zero_after_s:.0f} ms, gone after {end.took_s:.1f} s"
         for way, end in endings.ends.items()
     )
+
+
+def _late_zero(facts):
+    """The line of a sleep before the first publish at the end, or 0."""
+    sleep, publish = (min(facts.at_end.get(name, [0])) for name in ("sleep", "publish"))
+    return sleep if sleep < publish else 0
 
 
 def _complaint(end, is_registered):

@@ -5,12 +5,15 @@ import re
 import shutil
 from pathlib import Path
 
-from tutorial_check.causes import explain, syntax_hint, traced
+from tutorial_check.causes import explain, hider, syntax_hint, traced
 from tutorial_check.model import Note, Wrong
-from tutorial_check.python_facts import read_python, unreadable
+from tutorial_check.python_facts import read_python
+from tutorial_check.python_text import unreadable
 from tutorial_check.tracebacks import first_traceback, last_lines
 
-INTERPRETER = re.compile(rb"#!\s*(\S+)(?:\s+(\S+))?")
+INTERPRETER = re.compile(
+    rb"#!\s*(\S+)(?:\s+(?:-S\s*)?(?:\w+=\S*\s+)*(\S+))?"
+)  # env -S takes arguments
 
 
 def _wrong(look, *about):
@@ -42,10 +45,11 @@ def find_script(session, package, name):
             f"a program {name}",
             f"a file {near[0]}",
             where=str(others[near[0]].relative_to(folder)),
-            hint=f"mv {near[0]} {name}: capitals, underscores and the ending count",
+            hint=f"mv {session.whole(others[near[0]], package)}"
+            f" {session.whole(others[near[0]].with_name(name), package)}: capitals, underscores and the ending count",
         )
     raise _wrong(
-        f"ls {package}/scripts",
+        f"ls {session.whole('scripts', package)}",
         f"a program {name} in the package {package}",
         "no such file anywhere in it",
         "",
@@ -77,7 +81,7 @@ def check_file(session, package, script):
 
 
 def _check_text(session, package, script):
-    path = session.package(package).folder / script
+    path, whole = session.package(package).folder / script, session.whole(script, package)
     name = path.name
     data = path.read_bytes()
     if not data.strip():
@@ -99,17 +103,17 @@ def _check_text(session, package, script):
     first = data.split(b"\n", 1)[0]
     if first.endswith(b"\r"):  # further down they do no harm
         raise _wrong(
-            f"head -1 {script} | cat -A",
+            f"head -1 {whole} | cat -A",
             "Unix line ends",
             "the file has Windows line ends (python3\\r: No such file)",
             f"{script}:1",
-            f"sed -i 's/\\r$//' {script}",
+            f"sed -i 's/\\r$//' {whole}",
         )
     facts = session.scripts(package).get(script)
     odd = unreadable(data) if facts else None
     if odd:
         raise _wrong(
-            f"python3 -m py_compile {script}",
+            f"python3 -m py_compile {whole}",
             "a file in UTF-8, or in the coding that its first lines name",
             odd[1],
             f"{script}:{odd[0]}",
@@ -117,7 +121,7 @@ def _check_text(session, package, script):
         )
     if facts and facts.error:
         raise _wrong(
-            f"python3 -m py_compile {script}",
+            f"python3 -m py_compile {whole}",
             "Python that can be read",
             f"{facts.error}: {facts.error_text}",
             f"{script}:{facts.error_line}",
@@ -126,7 +130,7 @@ def _check_text(session, package, script):
     if not first.startswith(b"#!"):
         later = b"\n#!" in data
         raise _wrong(
-            f"head -3 {script}",
+            f"head -3 {whole}",
             "#!/usr/bin/env python3 as the first line",
             "it stands further down"
             if later
@@ -137,15 +141,15 @@ def _check_text(session, package, script):
     try:
         _check_interpreter(first, script)
     except Wrong as wrong:
-        wrong.look = f"head -1 {script}"
+        wrong.look = f"head -1 {whole}"
         raise
     if not is_runnable(session, package, path):
         raise _wrong(
-            f"ls -l {script}",
+            f"ls -l {whole}",
             "a program that may be run",
             f"{name} is not executable (rosrun: Couldn't find executable)",
             script,
-            f"chmod +x {script}",
+            f"chmod +x {whole}",
         )
     if facts:
         _check_gaps(facts, script)
@@ -231,6 +235,9 @@ def cause_of(session, package, name, trace):
         line = facts.names.get(function[1], 0)
     line, hint = traced(trace.error, line, facts)
     hint = hint or explain(trace.error, trace.text)
+    file, hides = hider(trace.error, script, session.scripts(package))
+    if hides:
+        return file or f"{script}:{line}", hides
     if re.match("ImportError|ModuleNotFoundError", trace.error) and session.lacks_build:
         fails = "catkin_make, which may have to make it, fails: exercise 2 says why"
         hint = f"{hint}; {fails}" if hint else fails
@@ -260,3 +267,32 @@ def crash(session, package, program, what, default_hint=""):
     return Wrong(
         what, f"{ended}; it said: {said}" if said else f"{ended}, without a word", hint=default_hint
     )
+
+
+def check_end(session, package, script, taken_s, output):
+    """A Note on how a program ended after Ctrl-C, or None; taken_s: how long that took, None: it had to be killed."""
+    name = Path(script).name
+    if taken_s is None:
+        facts = session.scripts(package)[script]
+        endless = facts.loops if "is_shutdown" not in facts.calls else []
+        raise Wrong(
+            f"{name} ends within 3 s of Ctrl-C",
+            "it had to be killed",
+            where=f"{script}:{endless[0]}" if endless else script,
+            hint="rospy.spin(), or while not rospy.is_shutdown(): and no `except` that swallows the end",
+        )
+    trace = first_traceback(output, str(session.package(package).folder))
+    if trace and "ROSInterrupt" in trace.error:
+        return Note(
+            f"{name} ends with a traceback, ROSInterruptException",
+            trace.where,
+            "except rospy.ROSInterruptException: pass",
+        )
+    if trace:
+        raise Wrong(
+            f"{name} ends without a traceback",
+            trace.error,
+            where=trace.where,
+            hint="try: ... except rospy.ROSInterruptException: pass",
+        )
+    return None

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from tutorial_check.exercises.packages import WANTED
 from tutorial_check.model import Note, Wrong
-from tutorial_check.workspace import packages_below, underlays
+from tutorial_check.workspace import underlays
 
 SUITE = ("node_kit", "fake_turtlebot_sim")  # packages of the lower floor
 # Of the suite's own these are stand-ins: the real ones may well lie in a student's src.
@@ -16,11 +16,10 @@ def workspace(session):
     """C1: there is a src, and what was built was built over the suite."""
     layout = session.layout
     if not layout.source.is_dir():
-        where = "a package lies beside it" if packages_below(layout.root) else "no package anywhere"
         raise Wrong(
             "a folder src in the workspace",
-            f"none in {layout.root}; {where}",
-            hint="mkdir src in the workspace, packages belong into it",
+            f"none in {layout.root}, and no package",
+            hint="is this your workspace? --in ~/ros/hydro/catkin_ws; a new one begins with a folder src",
         )
     _check_names(session)
     if not layout.is_workspace:
@@ -34,7 +33,7 @@ def workspace(session):
             "a devel folder as catkin_make makes it",
             f"it is not whole: {gone} is missing or empty",
             where="devel",
-            hint="rm -r build devel, then catkin_make",
+            hint="in the workspace: rm -r build devel, then catkin_make",
         )
     if found is None:
         if (layout.source / "build").is_dir() or (layout.source / "devel").is_dir():
@@ -65,7 +64,7 @@ def _check_below(session, below):
             expected,
             f"devel was built over another copy of the suite, {other}; this one is {floor}",
             where="devel",
-            hint="rm -r build devel, then catkin_make in the ./tutorial shell of this copy; or check"
+            hint="in the workspace: rm -r build devel, then catkin_make in the ./tutorial shell of this copy; or check"
             " with the ./tutorial (and TUTORIAL_WORKSPACE) of the other",
         )
     raise Wrong(

@@ -2,7 +2,7 @@
 
 from tutorial_check.exercises import conversation
 from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL, PACKAGE, drive
-from tutorial_check.exercises.files import check_file, find_script, odd_node
+from tutorial_check.exercises.files import check_end, check_file, find_script, odd_node
 from tutorial_check.model import Note, Wrong
 from tutorial_check.stage import START_S
 
@@ -85,6 +85,15 @@ def mapping(session):
 def rate(session):
     """C17."""
     return conversation.check_rate(session, drive(session, main_script(session)))
+
+
+def ctrl_c(session):
+    """C34."""
+    script = main_script(session)
+    seen = drive(session, script)
+    return check_end(session, PACKAGE, script, seen.taken_s, seen.last_words) or (
+        f"{seen.taken_s:.1f} s"
+    )
 
 
 def under_load(session):

@@ -19,7 +19,12 @@ from tutorial_check.tracebacks import last_lines
 BAG, STICK = "launch_bag.launch", "launch_joy_node.launch"
 TURTLEBOT, REAL = "joy2twist_turtlebot.launch", "launch_joy_node_realTurtlebot.launch"
 ALL = (BAG, STICK, TURTLEBOT, REAL)
-COPY_BAG = 'in your package: mkdir -p bag; cp "$(rospack find gamepad)/bag/joy.bag" bag'
+
+
+def copy_bag(session):
+    """The commands that put the suite's recording into the student's package."""
+    folder = session.whole("bag", PACKAGE)
+    return f'mkdir -p {folder}; cp "$(rospack find gamepad)/bag/joy.bag" {folder}'
 
 
 def find_launch(session, name):
@@ -80,6 +85,10 @@ def _read(session):
     )
     ended = session.box.wait(lambda: program.ended, 15.0)
     session.box.end(program)
+    if not ended and session.box.patience.strained():
+        raise CannotCheck(
+            "launch files cannot be read in time: the machine has too much else to do"
+        )
     if not ended:
         raise Wrong(
             "launch files that roslaunch can read",
@@ -222,7 +231,10 @@ def _check_node(session, node, where, text):
             )
         if not any(is_runnable(session, PACKAGE, path) for path in found):
             raise Wrong(
-                f"{kind} may be run", "it is not executable", where=place, hint=f"chmod +x {kind}"
+                f"{kind} may be run",
+                "it is not executable",
+                where=place,
+                hint=f"chmod +x {session.whole(found[0], PACKAGE)}",
             )
         return
     if not node["found"] and (package, kind) != ("rviz", "rviz"):
@@ -246,7 +258,9 @@ def _check_finds(session, path, where, text):
         for rest in re.findall(rf"\$\(find\s+{PACKAGE}\)([^\s\"'<>$]*)", line):
             if rest.strip("/") and not (folder / rest.strip("/")).exists():
                 name = Path(rest).name
-                note = COPY_BAG if rest.endswith(".bag") else f"write {name} in YOUR package"
+                note = (
+                    copy_bag(session) if rest.endswith(".bag") else f"write {name} in YOUR package"
+                )
                 there = sorted(each.relative_to(folder) for each in folder.rglob(name))
                 if there:
                     note = f"it lies elsewhere: $(find {PACKAGE})/{there[0]}"

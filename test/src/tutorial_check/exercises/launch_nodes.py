@@ -8,8 +8,8 @@ from pathlib import Path
 from tutorial_check.exercises.driving import PACKAGE
 from tutorial_check.exercises.launch_files import (
     BAG,
-    COPY_BAG,
     STICK,
+    copy_bag,
     facts,
     find_launch,
     relative,
@@ -218,7 +218,7 @@ def bag_of(session):
             "a recording that exists",
             f"no file {bags[0]} on this machine",
             where=where,
-            hint=COPY_BAG,
+            hint=copy_bag(session),
         )
     if bags[0].startswith(f"{session.source}/"):
         check_recording(bags[0], os.path.relpath(bags[0], session.source))

@@ -101,6 +101,12 @@ def _place_and_hint(error, where, text):
             place_of(where, text, f'name="{arg[1]}"', f"$(arg {arg[1]})", "<include"),
             f'give it a value: <arg name="{arg[1]}" default="..."/>, or value="..." in the <include>',
         )
+    name = re.search(r"\[([^\]]*)\] is not a valid ROS name", error)
+    if name:
+        hint = "a name has letters, digits, _ and / only"
+        if name[1] != name[1].strip():
+            hint = f'a blank stands between the quotes: "{name[1].strip()}"'
+        return place_of(where, text, f'"{name[1]}"', f"'{name[1]}'", name[1]), hint
     command = re.search(r"Unknown substitution command \[(\S+)([^\]]*)\]", error)
     if command:
         hint = f"there is no $({command[1]} ...): look at its spelling, as in $(find PACKAGE)"

@@ -8,7 +8,7 @@ from pathlib import Path
 from tutorial_check.exercises.launch_text import place_of, read
 from tutorial_check.exercises.manifests import unreadable
 from tutorial_check.model import Wrong
-from tutorial_check.workspace import packages_below
+from tutorial_check.workspace import packages_beside
 
 NAMES = ("beginner_tutorials", "joy2twist")
 WANTED = {
@@ -67,17 +67,13 @@ def _package(session, name):
                 hint="move it up: packages stand side by side in src",
             )
         return named[0]
-    beside = [
-        each
-        for each in (packages_below(session.layout.root) if session.layout.is_workspace else [])
-        if each.name == name and session.layout.source not in each.folder.parents
-    ]
+    beside = [each for each in packages_beside(session.layout) if each.name == name]
     if beside:
         raise Wrong(
             expected,
             f"it lies beside src: {beside[0].inside}",
             where=beside[0].inside,
-            hint=f"mv {beside[0].inside} src/",
+            hint=f"mv {session.whole(beside[0].inside)} {session.whole('src')}",
         )
     link = session.layout.source / name
     if link.is_symlink() and not link.exists():
@@ -118,16 +114,23 @@ def _dependencies(session, name):
             hint="between the dependencies stand spaces only, no commas: mend package.xml and CMakeLists.txt",
         )
     missing = [each for each in WANTED[name] if each not in package.depends]
+    others = package.depends - set(WANTED[name])
+    # One kind of dependency may name it rightly.
+    for each in sorted(others):
+        meant = difflib.get_close_matches(each, WANTED[name], 1, 0.8)
+        if not missing and meant and not _is_known(session, each):
+            missing = meant
     if missing:
-        others = package.depends - set(WANTED[name])
         near = {each: difflib.get_close_matches(each, others, 1, 0.65) for each in missing}
         seen, where = f"no {', '.join(missing)}", f"{package.inside}/package.xml"
+        if missing[0] in package.depends:
+            seen = f"{near[missing[0]][0]}, which is no package"
         text = read(package.folder / "package.xml")
         place = place_of(where, text, "exec_depend>", "run_depend>", "depend>", "</package>")
-        hint = f"add <depend>{missing[0]}</depend>"
+        hint = "add " + " and ".join(f"<depend>{each}</depend>" for each in missing)
         for each, found in near.items():
             if found:
-                seen += f" (but {found[0]})"
+                seen += f" (but {found[0]})" if each not in package.depends else ""
                 place = place_of(where, text, f">{found[0]}<", found[0])
                 hint = f"correct {found[0]} to {each}, in each line that has it"
         raise Wrong(

@@ -2,6 +2,7 @@
 
 import math
 import os
+import shlex
 from pathlib import Path
 
 from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL, PACKAGE
@@ -47,6 +48,7 @@ def recording(session):
         return Note(
             "no bag in the workspace; look at /joy with rosbag play and rostopic echo /joy",
             hint=f"the recording: {COPY_BAG}",
+            empty=True,
         )
     spoilt, others = [], []
     for bag in bags:
@@ -58,7 +60,7 @@ def recording(session):
             (spoilt if meant and not isinstance(wrong, NoJoy) else others).append(wrong)
     if spoilt:
         raise spoilt[0]
-    return Note(f"no recording of /joy; {others[0].seen}", others[0].where, others[0].hint)
+    return Note(f"no recording of /joy; {others[0].seen}", others[0].where, others[0].hint, True)
 
 
 def check_recording(bag, name):
@@ -77,7 +79,7 @@ def check_recording(bag, name):
             "a recording that rosbag can read",
             str(error) or type(error).__name__,
             where=name,
-            hint=f"copy it anew: {COPY_BAG}",
+            hint=f"copy it anew: {COPY_BAG[:-1]}{shlex.quote(str(bag))}",
         ) from None
     if not joys:
         raise NoJoy(
