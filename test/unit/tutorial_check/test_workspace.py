@@ -6,7 +6,7 @@ import zipfile
 import pytest
 
 from tutorial_check import workspace
-from tutorial_check.examine import _hand_in as hand_in
+from tutorial_check.workspace import hand_in
 from tutorial_check.exercises.driving import displayed
 from tutorial_check.mapping import numbered_joys
 from tutorial_check.model import CannotCheck
@@ -64,7 +64,8 @@ def test_a_zip_alone_or_in_a_folder_is_handed_in(tmp_path, name):
     if archive.parent != tmp_path:
         (archive.parent / "remark.txt").touch()
         given = archive.parent
-    layout = hand_in(given, tmp_path / "scratch")
+    layout, inside = hand_in(given, tmp_path / "scratch")
+    assert inside == tmp_path / "scratch/unpacked"
     assert layout.source == tmp_path / "scratch/unpacked/ws/src"
 
 
@@ -76,14 +77,14 @@ def test_a_zip_beside_something_else_is_not_unpacked(tmp_path, beside):
     else:
         (folder / beside).parent.mkdir(parents=True, exist_ok=True)
         (folder / beside).write_text(XML.format("joy2twist"))
-    assert hand_in(folder, tmp_path / "scratch").root == folder
+    assert hand_in(folder, tmp_path / "scratch")[0].root == folder
     assert not (tmp_path / "scratch").exists()
 
 
 def test_a_link_to_a_zip_is_not_unpacked(tmp_path):
     (tmp_path / "ada").mkdir()
     (tmp_path / "ada" / "ws.zip").symlink_to(zipped(tmp_path / "another.zip"))
-    assert hand_in(tmp_path / "ada", tmp_path / "scratch").root == tmp_path / "ada"
+    assert hand_in(tmp_path / "ada", tmp_path / "scratch")[0].root == tmp_path / "ada"
 
 
 def test_the_package_itself(tmp_path):
