@@ -141,11 +141,7 @@ def _hand_in(workspace, folder, own):
         shown += [layout.source, *workspaces.named_outside(copied)]
     # A home folder is no workspace, though one may lie in it.
     home = Path(os.path.expanduser("~")).resolve()
-    return layout, [
-        each
-        for each in shown
-        if Path(each).resolve() not in (home, *home.parents)
-    ]
+    return layout, [each for each in shown if Path(each).resolve() not in (home, *home.parents)]
 
 
 def _examine(workspace, floor, exercises, folder, *, tell, only_first, own):

@@ -66,7 +66,9 @@ must_be_possible(Box({"HOME": "/"}), Path(sys.argv[1]) / "scratch", [])
 
 
 APART = ["unshare", "--mount", *([] if os.geteuid() == 0 else ["--user", "--map-root-user"])]
-may_mount = not subprocess.run([*APART, "mount", "-t", "tmpfs", "none", "/mnt"], check=False).returncode
+may_mount = not subprocess.run(
+    [*APART, "mount", "-t", "tmpfs", "none", "/mnt"], check=False
+).returncode
 
 
 @pytest.mark.skipif(not may_mount, reason="no namespaces here, in which to mount")
