@@ -258,12 +258,13 @@ class Box:
     def _strays(self):
         """Ids of what is left: of the user's, or in a session that is not trusted."""
         strays = []
-        for pid, state, _, session in _processes():
+        for pid, state, parent, session in _processes():
             if state in ENDED or pid in (1, os.getpid()):
                 continue
             with contextlib.suppress(OSError):  # ended meanwhile, or another user's
+                is_of_here = self._alone or parent == os.getpid() or self._is_marked(pid)
                 if os.stat(f"/proc/{pid}").st_uid == self._uid or (
-                    session not in self._trusted and (self._alone or self._is_marked(pid))
+                    session not in self._trusted and is_of_here
                 ):
                     strays.append(pid)
         return strays
