@@ -21,6 +21,11 @@ def connect(family, address):
         return probe.connect_ex(address) == 0
 
 
+def read(path):
+    """What a file holds."""
+    return pathlib.Path(path).read_text()
+
+
 def write(path):
     """Make a file; true."""
     pathlib.Path(path).write_text("x")
@@ -65,15 +70,15 @@ def processes():
 
 def rights():
     """Whether it has some, or may gain them from another program."""
-    status = dict(line.split(":") for line in open("/proc/self/status"))
+    status = dict(line.split(":") for line in read("/proc/self/status").splitlines())
     return int(status["CapEff"], 16) or not int(status["NoNewPrivs"])
 
 
 ATTACKS = {
-    "read a private file of yours": lambda: open(f"{aims['home']}/secret").read(),
+    "read a private file of yours": lambda: read(f"{aims['home']}/secret"),
     "write into your home folder": lambda: write(f"{aims['home']}/new"),
-    "read another student's files": lambda: open(aims["other"]).read(),
-    "read this suite's solutions": lambda: open(aims["solution"]).read(),
+    "read another student's files": lambda: read(aims["other"]),
+    "read this suite's solutions": lambda: read(aims["solution"]),
     "reach your network and your roscore": lambda: connect(
         socket.AF_INET, ("127.0.0.1", aims["port"])
     ),

@@ -70,7 +70,9 @@ def folder():
 @pytest.fixture
 def bare_floor(folder):
     """As much of the lower floor as can be read by everybody: for a build, and no node."""
-    packages = [each.parent for each in REPOSITORY.glob("*/*/src")] + [REPOSITORY / "fake_turtlebot_sim"]
+    packages = [each.parent for each in REPOSITORY.glob("*/*/src")] + [
+        REPOSITORY / "fake_turtlebot_sim"
+    ]
     paths = ":".join(str(each / "src") for each in packages)
     for name in ("devel", "src"):
         (folder / "floor" / name).mkdir(parents=True)

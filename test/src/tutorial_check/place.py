@@ -13,7 +13,12 @@ import subprocess
 from pathlib import Path
 
 SCRATCH_MB = 600  # for the copy, its build, logs and what the programs write
-SYSTEM = ("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32", "/etc", "/opt/ros")
+# Of /etc not all: root, as whom the checker may read what a program left it a link to, may read more.
+ETC = "alternatives catkin group host.conf hosts ld.so.cache localtime nsswitch.conf passwd python3 ros"
+SYSTEM = (
+    *("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32", "/opt/ros"),
+    *(f"/etc/{name}" for name in ETC.split()),
+)
 SHARED_PAGES = 1 << 16  # of System V shared memory: 256 MB
 NAMESPACES = ("--unshare-ipc", "--unshare-net", "--unshare-pid", "--unshare-uts")
 # What the checker needs as root: to run programs as another user, and to end them.
@@ -93,7 +98,7 @@ def command(folder, shown, hidden):
     for path in SYSTEM:
         if os.path.islink(path):
             mounts[path] = ["--symlink", os.readlink(path), path]
-        elif os.path.isdir(path):
+        elif os.path.exists(path):
             mounts[path] = ["--ro-bind", path, path]
     shown = {str(path) for path in shown if os.path.exists(path)}
     real = set(map(os.path.realpath, shown))

@@ -69,7 +69,10 @@ def _has_results(path, out):
         (path / name).is_file() for name in ("table.csv", "table.html")
     ):
         return False
-    return all(each.is_file() and each.suffix in RESULTS for each in path.iterdir())
+    is_left_out = all(each.is_file() and each.suffix in RESULTS for each in path.iterdir())
+    if is_left_out:
+        print(f"{path.name}: left out: the results of an earlier check")
+    return is_left_out
 
 
 def check_all(options):

@@ -87,6 +87,7 @@ def test_nothing_of_the_system_is_left_to_write_to_or_to_speak_to(home):
         "/usr/new": READ_ONLY,
         "/etc/new": READ_ONLY,
         "/dev/new": READ_ONLY,
+        "/etc/shadow": MISSING,
         "/run/user": MISSING,
         "/run/lock": MISSING,
         "/sys": MISSING,

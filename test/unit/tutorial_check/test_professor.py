@@ -121,11 +121,13 @@ def test_what_is_no_folder_and_no_zip_has_a_row_all_the_same(room):
     assert names == ["ADA", "bob.tar.gz", "carl.7z", "dora.ZIP", "dora.zip", "emma", "loop"]
 
 
-def test_the_results_of_an_earlier_check_are_no_student(room, tmp_path):
+def test_the_results_of_an_earlier_check_are_no_student(room, tmp_path, capsys):
     (room / "ada").mkdir()
     check_all(room)
+    assert "left out" not in capsys.readouterr().out
     assert [row[0] for row in check_all(room, tmp_path / "elsewhere")[1]] == ["ada"]
     assert "check" not in (tmp_path / "elsewhere" / "table.csv").read_text()
+    assert "check: left out: the results of an earlier check\n" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("more", ["src", "joy2twist.zip", "package.xml"])
