@@ -152,7 +152,7 @@ def _examine(workspace, floor, exercises, folder, *, tell, only_first, own):
         place.keep_to_itself()  # and the end of the pipe
     above = os.open(os.path.dirname(folder), os.O_PATH | os.O_DIRECTORY)
     orders = {
-        "layout": layout.as_dict(),
+        "layout": [layout.root, layout.source, layout.is_workspace],
         "above": above,
         "floor": floor,
         "exercises": list(exercises),
@@ -191,7 +191,7 @@ def _examine(workspace, floor, exercises, folder, *, tell, only_first, own):
     os.close(above)
     outcomes = {exercise: Outcome(exercise) for exercise in exercises}
     try:
-        process.stdin.write(json.dumps(orders))
+        process.stdin.write(json.dumps(orders, default=str))
         process.stdin.close()
         ending = _listen(process, outcomes, tell)
     finally:

@@ -54,7 +54,8 @@ def examine(orders, tell, told):
     """orders: layout, folder, floor, exercises, apart, only_first ...; told: see Box."""
     began_s = time.monotonic()
     scratch = Path(orders["folder"])
-    layout = workspace.Layout(**orders["layout"])
+    root, source, is_workspace = orders["layout"]
+    layout = workspace.Layout(Path(root), Path(source), is_workspace)
     shutil.copytree(scratch / workspace.COPY, scratch / "ws" / "src", symlinks=True)
     # Before ROS, which reads the environment as it loads.
     home = scratch / "ours"

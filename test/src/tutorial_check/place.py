@@ -5,10 +5,12 @@ the system and what students use of this suite, read-only; an empty /tmp, /var/t
 limited size; no /run. Nothing there has a capability but the checker itself, where it is root.
 """
 
+import contextlib
 import ctypes
 import functools
 import os
 import shutil
+import signal
 import subprocess
 from pathlib import Path
 
@@ -115,31 +117,32 @@ def command(folder, shown, hidden):
     return [*options, *words, "--"]
 
 
+def _set(option, value):
+    ctypes.CDLL(None).prctl(option, value, 0, 0, 0)
+
+
 def keep_to_itself():
     """Let no process of this user look into this one, or into its open files."""
-    ctypes.CDLL(None).prctl(PR_SET_DUMPABLE, 0, 0, 0, 0)
+    _set(PR_SET_DUMPABLE, 0)
 
 
 def give_up_rights():
-    """Have this process, and what it starts, gain no rights by any program, as sudo; the opposite of the above."""
-    ctypes.CDLL(None).prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0)
-    ctypes.CDLL(None).prctl(PR_SET_DUMPABLE, 1, 0, 0, 0)
-
-
-def limit_shared_memory():
-    """Limit what System V's shared memory is of this place; not every kernel lets it."""
-    try:
-        Path("/proc/sys/kernel/shmall").write_text(str(SHARED_PAGES))
-    except OSError:
-        pass
+    """Have this process, and what it starts, gain no rights by any program, as sudo. Its user may look in."""
+    _set(PR_SET_NO_NEW_PRIVS, 1)
+    _set(PR_SET_DUMPABLE, 1)
 
 
 def end_with_parent():
     """Have the kernel end this process when the one that started it ends."""
-    sigkill = 9
-    ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, sigkill)
+    _set(PR_SET_PDEATHSIG, signal.SIGKILL)
 
 
 def adopt_orphans():
     """Have what is started below this process, and left by its parent, be a child of this one."""
-    ctypes.CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
+    _set(PR_SET_CHILD_SUBREAPER, 1)
+
+
+def limit_shared_memory():
+    """Limit System V's shared memory of these namespaces, where the kernel lets this process."""
+    with contextlib.suppress(OSError):
+        Path("/proc/sys/kernel/shmall").write_text(str(SHARED_PAGES))

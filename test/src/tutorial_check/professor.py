@@ -65,9 +65,8 @@ def _has_results(path, out):
     """Whether it is the folder of the results, or that of an earlier check, in which is nothing else."""
     if os.path.realpath(path) == os.path.realpath(out):
         return True
-    if path.is_symlink() or not all(
-        (path / name).is_file() for name in ("table.csv", "table.html")
-    ):
+    tables = [os.path.isfile(path / name) for name in ("table.csv", "table.html")]
+    if path.is_symlink() or not all(tables) or not os.access(path, os.R_OK):
         return False
     is_left_out = all(each.is_file() and each.suffix in RESULTS for each in path.iterdir())
     if is_left_out:

@@ -43,17 +43,6 @@ class Layout:
     source: Path  # its src folder, or the folder of packages itself
     is_workspace: bool  # there is a src
 
-    def __post_init__(self):
-        self.root, self.source = Path(self.root), Path(self.source)
-
-    def as_dict(self):
-        """For JSON."""
-        return {
-            "root": str(self.root),
-            "source": str(self.source),
-            "is_workspace": self.is_workspace,
-        }
-
 
 def hand_in(given, folder):
     """(Layout, the folder that it lies in) of a workspace, or of a zip, which is unpacked in a folder.

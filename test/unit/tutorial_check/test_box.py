@@ -42,6 +42,7 @@ class Keeper:
         ("env true .", b"Z", False),
         ("setsid sleep 3600", b"S", False),
         ("setsid sleep 3600", b"S", True),  # as the nodes of a roslaunch of ours
+        ("env -i setsid sleep 3600", b"S", True),  # with no variable that it was started with
     ],
 )
 def test_of_orphans_none_is_left(stranger, what):
