@@ -44,9 +44,9 @@ def scratch():
 
 
 def path_without_namespaces(folder):
-    """A PATH on which unshare is refused."""
+    """A PATH on which bubblewrap is refused."""
     (folder / "bin").mkdir()
-    (folder / "bin" / "unshare").symlink_to("/bin/false")
+    (folder / "bin" / "bwrap").symlink_to("/bin/false")
     return f"{folder}/bin:{os.environ['PATH']}"
 
 
@@ -56,7 +56,7 @@ def environment(request, tmp_path, scratch):
     path = os.environ["PATH"]
     if request.param == "bare":
         path = path_without_namespaces(tmp_path)
-    elif not place.wrapper():
+    elif not place.granted()[0]:
         pytest.skip("no namespaces here")
     return {"PYTHONPATH": str(SOURCE), "PATH": path, "TMPDIR": scratch}
 

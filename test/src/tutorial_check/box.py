@@ -12,10 +12,8 @@ import signal
 import subprocess
 import sys
 import time
-import uuid
-from pathlib import Path
 
-from tutorial_check import limits
+from tutorial_check import limits, place
 from tutorial_check.model import Wrong
 from tutorial_check.patience import Patience
 from tutorial_check.running import Forked, Program, fields_of
@@ -24,7 +22,6 @@ GRACE_S = 3.0  # after Ctrl-C a program has this long to end by itself
 IDLE_S = 2.0  # who has done nothing for so long waits for what does not come; a talker may for 1 s
 MOST_PROCESSES = 100  # a launch file's are a dozen
 ENDED = (b"Z", b"X")  # states of processes that are no more than a number
-MARK = "TUTORIAL_CHECK_MARK"  # by which programs are known where they cannot be by user or session
 
 
 class Box:
@@ -40,7 +37,6 @@ class Box:
         self._uid = uid
         self._alone = alone
         self._limits = limits.of_programs(uid)
-        self._mark = str(uuid.uuid4())
         self._open = []
         self._trusted = {os.getsid(0), os.getpid()}
         self.patience = Patience(self._trusted)
@@ -60,7 +56,7 @@ class Box:
                 stdout=write,
                 stderr=write,
                 cwd=cwd or self.environment["HOME"],
-                env={**self.environment, **(environment or {}), MARK: self._mark},
+                env={**self.environment, **(environment or {})},
                 start_new_session=True,  # with a group that Ctrl-C reaches, as in a terminal
                 preexec_fn=None if trusted else self._restrict,  # noqa: PLW1509  one thread here
             )
@@ -85,7 +81,7 @@ class Box:
                     os.dup2(write, stream)
                 os.closerange(3, resource.getrlimit(resource.RLIMIT_NOFILE)[0])
                 os.environ.clear()
-                os.environ.update({**self.environment, **environment, MARK: self._mark})
+                os.environ.update({**self.environment, **environment})
                 self._restrict()
                 os.chdir(self.environment["HOME"])
                 run()
@@ -112,6 +108,7 @@ class Box:
             os.setgroups([])
             os.setgid(self._uid)
             os.setuid(self._uid)
+        place.give_up_rights()
 
     def trust(self, pid):
         """Leave alone a process that we forked, which leads a session of its own."""
@@ -255,20 +252,17 @@ class Box:
         os.waitpid(pid, 0)
 
     def _strays(self):
-        """Ids of what is left: of the user's, or in a session that is not trusted."""
-        strays = []
-        for pid, state, _, session in _processes():
-            if state in ENDED or pid in (1, os.getpid()):
-                continue
-            with contextlib.suppress(OSError):  # ended meanwhile, or another user's
-                if os.stat(f"/proc/{pid}").st_uid == self._uid or (
-                    session not in self._trusted and (self._alone or self._is_marked(pid))
-                ):
-                    strays.append(pid)
-        return strays
-
-    def _is_marked(self, pid):
-        return f"{MARK}={self._mark}".encode() in Path(f"/proc/{pid}/environ").read_bytes()
+        """Ids of what is left: orphans come to this process, see place.adopt_orphans."""
+        found, here = list(_processes()), {os.getpid()}
+        more = here
+        while more:
+            more = {pid for pid, _, parent, _ in found if parent in here} - here
+            here |= more
+        return [
+            pid
+            for pid, state, _, session in found
+            if pid in here - {os.getpid()} and state not in ENDED and session not in self._trusted
+        ]
 
 
 def _processes():

@@ -16,6 +16,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from tutorial_check import place
+from tutorial_check import workspace as workspaces
 from tutorial_check.model import CannotCheck, Result, passed
 
 # All exercises take 90 s on two quiet processors, and each check has deadlines of its own, which a busy
@@ -26,6 +27,7 @@ LONGEST_S = 900.0
 # needs to read catkin's files.
 OF_SUITE = ("ROS_ETC_DIR", "CMAKE_POLICY_VERSION_MINIMUM")
 END_S = 10.0  # an examination that nobody listens to has this long to end what it started
+SUITE = Path(__file__).resolve().parents[3]
 _no_more = threading.Event()
 NUMBERS = itertools.count(os.getpid() * 100)
 
@@ -115,9 +117,9 @@ def _compiled():
 
 
 def _kept(floor):
-    """Folders that the programs need though they may lie in the home folder: the floor, its sources."""
+    """Folders that the programs need: the floor, and its sources."""
     devel = Path(floor).parent
-    kept = [devel.parent, Path(sys.prefix) if sys.prefix != "/usr" else devel]
+    kept = [devel.parent]
     with_sources = devel / ".catkin"
     if with_sources.is_file():
         for source in with_sources.read_text().split(";"):
@@ -129,17 +131,33 @@ def _kept(floor):
     return [str(each) for each in kept]
 
 
+def _hand_in(workspace, folder, own):
+    """(Layout, files and folders to show) of a workspace or zip, of which a copy is made. Raises CannotCheck."""
+    layout, inside = workspaces.hand_in(workspace, folder)
+    workspaces.must_be_ones_own(layout, SUITE)
+    copied = workspaces.copy(layout, folder / workspaces.COPY, None if own else inside)
+    shown = [inside, folder / workspaces.COPY]
+    if own:
+        shown += [layout.source, *workspaces.named_outside(copied)]
+    # A home folder is no workspace, though one may lie in it.
+    home = Path(os.path.expanduser("~")).resolve()
+    return layout, [each for each in shown if Path(each).resolve() not in (home, *home.parents)]
+
+
 def _examine(workspace, floor, exercises, folder, *, tell, only_first, own):
     _compiled()
-    wrapper = place.wrapper()
+    layout, shown = _hand_in(workspace, Path(folder), own)
+    wrapper = place.command(folder, [*shown, *_kept(floor), Path(__file__).parent], SUITE)
+    if not wrapper:
+        place.keep_to_itself()  # and the end of the pipe
+    above = os.open(os.path.dirname(folder), os.O_PATH | os.O_DIRECTORY)
     orders = {
-        "workspace": workspace,
-        "own": own,
+        "layout": [layout.root, layout.source, layout.is_workspace],
+        "above": above,
         "floor": floor,
         "exercises": list(exercises),
         "folder": folder,
         "apart": bool(wrapper),
-        "home": os.path.expanduser("~"),
         "kept": _kept(floor),
         "number": next(NUMBERS),
         "only_first": only_first,
@@ -159,7 +177,7 @@ def _examine(workspace, floor, exercises, folder, *, tell, only_first, own):
     }
     log = tempfile.TemporaryFile("w+")  # noqa: SIM115  read below
     process = subprocess.Popen(
-        # -s: without what pip put into the home folder, which is hidden soon
+        # -s: without what pip put into the home folder, which may be shown nowhere
         [*wrapper, "/usr/bin/python3", "-s", "-m", "tutorial_check.examine"],
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
@@ -168,10 +186,12 @@ def _examine(workspace, floor, exercises, folder, *, tell, only_first, own):
         start_new_session=True,
         cwd="/",
         text=True,
+        pass_fds=(above,),
     )
+    os.close(above)
     outcomes = {exercise: Outcome(exercise) for exercise in exercises}
     try:
-        process.stdin.write(json.dumps(orders))
+        process.stdin.write(json.dumps(orders, default=str))
         process.stdin.close()
         ending = _listen(process, outcomes, tell)
     finally:

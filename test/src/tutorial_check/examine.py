@@ -9,6 +9,7 @@ seconds, "trouble": why it could not be checked as a whole, or ""}, and at the e
 import json
 import os
 import shlex
+import shutil
 import signal
 import sys
 import time
@@ -22,9 +23,12 @@ from tutorial_check.model import CannotCheck, Run, fault
 def main():
     """Read the orders, examine, tell."""
     os.umask(0o022)  # what we write is read by programs that run as somebody else
+    place.keep_to_itself()
     orders = json.load(sys.stdin)
+    os.set_inheritable(orders["above"], False)
     if orders["apart"]:
-        place.end_with_parent()  # which is unshare
+        place.end_with_parent()  # which is bwrap
+        place.limit_shared_memory()
     else:  # its box notices that the one who reads has ended, and ends what was started
         signal.signal(signal.SIGTERM, signal.SIG_IGN)
         place.adopt_orphans()  # in a container nobody else may reap them
@@ -36,34 +40,24 @@ def main():
         told.write(json.dumps(what) + "\n")
 
     try:
-        with place.removed(orders["folder"], orders["apart"]):
-            examine(orders, tell, told.fileno())
-            tell(end=True)
+        examine(orders, tell, told.fileno())
+        tell(end=True)
     except Exception as error:  # whatever it is, it is no fault of the student's
         if not isinstance(error, CannotCheck):
             traceback.print_exc()
         tell(cannot=fault(error))
+    finally:  # who made the folder may have been killed; here something else may lie over it
+        name = os.path.basename(orders["folder"])
+        shutil.rmtree(f"/proc/self/fd/{orders['above']}/{name}", ignore_errors=True)
 
 
 def examine(orders, tell, told):
-    """orders: workspace, own, folder, floor, exercises, apart, only_first ...; told: see Box."""
+    """orders: layout, folder, floor, exercises, apart, only_first ...; told: see Box."""
     began_s = time.monotonic()
     scratch = Path(orders["folder"])
-    granted = orders["apart"] and place.limit(scratch)
-    if orders["apart"]:
-        place.loopback_up()
-    layout = _hand_in(orders["workspace"], scratch)
-    suite = Path(__file__).parents[3]
-    workspace.must_be_ones_own(layout, suite)
-    kept = [*orders["kept"], orders["workspace"], suite]
-    # Links of one's own workspace lead where they lead; those of others, not into the home folder
-    # of who checks them. No program of theirs runs before that is hidden.
-    if orders["own"]:
-        copied = workspace.copy(layout, scratch / "ws")
-        kept += [layout.source, *workspace.named_outside(copied)]
-    granted = granted and place.furnish(scratch, orders["home"], kept)
-    if not orders["own"]:
-        workspace.copy(layout, scratch / "ws")
+    root, source, is_workspace = orders["layout"]
+    layout = workspace.Layout(Path(root), Path(source), is_workspace)
+    shutil.copytree(scratch / workspace.COPY, scratch / "ws" / "src", symlinks=True)
     # Before ROS, which reads the environment as it loads.
     home = scratch / "ours"
     home.mkdir(exist_ok=True)
@@ -83,7 +77,7 @@ def examine(orders, tell, told):
         orders["environment"],
         floor=orders["floor"],
         make_box=lambda environment: box.Box(environment, uid, orders["apart"], told),
-        can_have_devices=granted,
+        can_have_devices=orders["apart"],
         needed=[*orders["kept"], Path(__file__)],
     )
     trial.must_be_possible(one.box, scratch)
@@ -124,19 +118,6 @@ def _uid_map():
         return Path("/proc/self/uid_map").read_text()
     except FileNotFoundError:  # a kernel that maps no ids
         return ""
-
-
-def _hand_in(given, scratch):
-    """The Layout of a workspace, or of a zip, or of a folder with nothing but a zip, unpacked in scratch."""
-    given = Path(given)
-    archive = given
-    if not given.is_file():
-        layout = workspace.find_layout(given)
-        archive = None if layout.source.is_dir() else workspace.only_zip(given)
-        if not archive:
-            return layout
-    workspace.unpack(archive, scratch / "unpacked")
-    return workspace.find_layout(scratch / "unpacked")
 
 
 if __name__ == "__main__":

@@ -1,180 +1,148 @@
-"""A place apart: namespaces of its own where the system grants them.
+"""Isolation: bubblewrap shows a student's program its own copy and no other file of anybody.
 
-Network: loopback only, so that two checks cannot meet and no program speaks to the outside. PIDs:
-whatever is left ends with the check. Mounts: the home folder is hidden, /tmp is empty at first, the
-student's workspace is read-only, /dev has no devices but those every program needs, and what is
-written counts against a limit.
+Network: loopback only. Processes, System V shared memory: its own, which end with the check. Files:
+the system and what students use of this suite, read-only; an empty /tmp, /var/tmp and /dev/shm of
+limited size; no /run. Nothing there has a capability but the checker itself, where it is root.
 """
 
 import contextlib
 import ctypes
-import fcntl
+import functools
 import os
 import shutil
-import socket
-import struct
+import signal
 import subprocess
 from pathlib import Path
 
 SCRATCH_MB = 600  # for the copy, its build, logs and what the programs write
-INSIDE = "TUTORIAL_CHECK_INSIDE"
-DEVICES = ("null", "zero", "full", "random", "urandom", "tty")
-SIOCGIFFLAGS, SIOCSIFFLAGS, IFF_UP = 0x8913, 0x8914, 1
+# Of /etc not all: root, as whom the checker may read what a program left it a link to, may read more.
+ETC = "alternatives catkin group host.conf hosts ld.so.cache localtime nsswitch.conf passwd python3 ros"
+SYSTEM = (
+    *("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32", "/opt/ros"),
+    *(f"/etc/{name}" for name in ETC.split()),
+)
+SHARED_PAGES = 1 << 16  # of System V shared memory: 256 MB
+NAMESPACES = ("--unshare-ipc", "--unshare-net", "--unshare-pid", "--unshare-uts")
+# What the checker needs as root: to run programs as another user, and to end them.
+RIGHTS = ("CHOWN", "DAC_OVERRIDE", "FOWNER", "KILL", "SETGID", "SETUID")
+PR_SET_PDEATHSIG, PR_SET_DUMPABLE, PR_SET_CHILD_SUBREAPER, PR_SET_NO_NEW_PRIVS = 1, 4, 36, 38
 
 
-def wrapper():
-    """The command that starts another one in such a place; empty if the system grants none."""
-    command = ["unshare", "--net", "--pid", "--mount", "--fork", "--kill-child", "--mount-proc"]
-    if os.geteuid() != 0:
-        command += ["--user", "--map-root-user"]
+@functools.lru_cache(maxsize=None)
+def granted():
+    """(options of bwrap, whether it limits sizes, why it does not work); no options without isolation."""
+    bwrap = shutil.which("bwrap")
+    if not bwrap:
+        return (), False, "bubblewrap is not installed"
+    options = [bwrap, *NAMESPACES, "--as-pid-1"]
+    if os.geteuid() == 0:
+        options += ["--cap-drop", "ALL"]
+        options += [word for right in RIGHTS for word in ("--cap-add", f"CAP_{right}")]
+    else:
+        options += ["--unshare-user"]
+    # Before 0.8 there is no --disable-userns, and before 0.7 no --size. Root maps no users.
+    no_more = [] if os.geteuid() == 0 else ["--disable-userns"]
+    for more, limits in ((no_more, True), ([], True), ([], False)):
+        command = [*options, *more, "--ro-bind", "/", "/", "--proc", "/proc", "--dev", "/dev"]
+        why = _fault([*command, *_tmpfs("/tmp", 1, limits), "true"])
+        if not why:
+            return (*options, *more), limits, ""
+    return (), False, why
+
+
+def _fault(command):
+    """Why a command fails; empty if it does not."""
     try:
         tried = subprocess.run(
-            [*command, "true"],
-            stdin=subprocess.DEVNULL,
-            capture_output=True,
-            check=False,
-            timeout=60,
+            command, stdin=subprocess.DEVNULL, capture_output=True, check=False, timeout=60
         )
-    except (OSError, subprocess.TimeoutExpired):
+    except (OSError, subprocess.TimeoutExpired) as error:
+        return str(error)
+    said = tried.stderr.decode(errors="replace").split()
+    return " ".join(said) or f"{command[0]} fails" if tried.returncode else ""
+
+
+def lacking():
+    """What this system does not provide, a line for each thing; to be told before a verdict."""
+    options, limits, why = granted()
+    if options:
+        return [] if limits else ["this bubblewrap is too old (0.7) to limit what programs write"]
+    if os.geteuid() == 0:
+        rights = "runs as another user, but can read what everybody may, use the network"
+    else:
+        rights = "has your rights: it can read, change and remove your files, use the network"
+    return [f"no isolation here ({why}): a program {rights}, and leave files in /var/tmp"]
+
+
+def _tmpfs(path, megabytes, limits, mode="0755"):
+    return [*(("--size", str(megabytes << 20)) if limits else ()), "--perms", mode, "--tmpfs", path]
+
+
+def command(folder, shown, hidden):
+    """The command that starts another one apart; empty if the system grants no isolation.
+
+    folder: where the programs write, empty at first; shown: files and folders to see, read-only;
+    hidden: a folder that is not shown, though it may lie in one that is.
+    """
+    options, limits, _ = granted()
+    if not options:
         return []
-    return command if tried.returncode == 0 else []
-
-
-def is_inside():
-    """Whether this process was started by that command."""
-    return INSIDE in os.environ
-
-
-def limit(scratch):
-    """Have what is written in a folder count against the limit; whether that was granted."""
-    try:
-        _mount("-t", "tmpfs", "-o", f"size={SCRATCH_MB}m,mode=755", "none", scratch)
-    except (OSError, subprocess.SubprocessError):
-        return False
-    return True
-
-
-def furnish(scratch, home, kept):
-    """Make the other mounts; whether all was granted. What is refused hides nothing.
-
-    scratch: the folder for what is written; home: the folder to hide; kept: folders and files below
-    it (or elsewhere) that are needed still, read-only.
-    """
-    try:
-        side = Path(scratch) / "mounts"
-        side.mkdir()
-        _hide(home, kept, side)
-        _devices(side)
-    except (OSError, subprocess.SubprocessError):
-        return False
-    return True
-
-
-def _mount(*words):
-    subprocess.run(["mount", *map(str, words)], check=True, capture_output=True, timeout=60)
-
-
-def _hide(home, kept, side):
-    """Empty folders in place of home and /tmp; in them and elsewhere the kept ones, read-only.
-
-    Each is made aside and put there in one step, so that nothing is ever hidden without what is
-    kept; and with the folder for what is written, where that lies below it.
-    """
-    names = {Path(each): Path(each).resolve() for each in kept if Path(each).exists()}
-    scratch, sizes = side.parent.resolve(), {Path("/tmp").resolve(): "size=64m,mode=1777"}
-    home = Path(home).resolve()
-    if home.is_dir() and str(home) != "/":
-        sizes.setdefault(home, "size=1m,mode=755")
-    # The same for another's folder above what is kept, which only he and root may enter.
-    for folder in {above for path in names.values() for above in path.parents}:
-        if not folder.stat().st_mode & 0o001:
-            sizes.setdefault(folder, "size=1m,mode=755")
-    # The one goes with the other where it lies below it.
-    hidden = {
-        each: side / f"new_{each.name}" for each in sizes if not set(each.parents) & set(sizes)
+    mounts = {
+        "/proc": ["--proc", "/proc"],
+        "/dev": ["--dev", "/dev"],
+        "/dev/shm": _tmpfs("/dev/shm", 64, limits, "1777"),
+        "/dev/input": _tmpfs("/dev/input", 1, limits),  # for a joystick
+        "/tmp": _tmpfs("/tmp", 64, limits, "1777"),
+        "/var/tmp": _tmpfs("/var/tmp", 64, limits, "1777"),
+        str(hidden): _tmpfs(str(hidden), 1, limits),
+        str(folder): _tmpfs(str(folder), SCRATCH_MB, limits),
     }
-    for folder, new in hidden.items():
-        new.mkdir()
-        _mount("-t", "tmpfs", "-o", sizes[folder], "none", new)
-
-    def bind(path):
-        over = next((each for each in hidden if each in (path, *path.parents)), None)
-        there = hidden[over] / path.relative_to(over) if over else path
-        if path.is_dir():
-            there.mkdir(parents=True, exist_ok=True)
-        elif not there.exists():
-            there.parent.mkdir(parents=True, exist_ok=True)
-            there.touch()
-        _mount("--rbind", path, there)
-        return there
-
-    for path in dict.fromkeys(names.values()):
-        _mount("-o", "remount,bind,ro", bind(path))
-    if set(scratch.parents) & set(hidden):
-        bind(scratch)  # with what is made aside
-    for folder, new in hidden.items():
-        _mount("--rbind", new, folder)
-    for name, path in names.items():
-        # By a link that was hidden with the home folder: catkin may have written that name down.
-        if not os.path.lexists(name):
-            name.parent.mkdir(parents=True, exist_ok=True)
-            name.symlink_to(path)
+    for path in SYSTEM:
+        if os.path.islink(path):
+            mounts[path] = ["--symlink", os.readlink(path), path]
+        elif os.path.exists(path):
+            mounts[path] = ["--ro-bind", path, path]
+    shown = {str(path) for path in shown if os.path.exists(path)}
+    real = set(map(os.path.realpath, shown))
+    mounts.update({path: ["--ro-bind", path, path] for path in real})
+    for path in shown - real:  # catkin may have written down the name of a link
+        if not real & set(map(str, Path(path).parents)):
+            mounts[path] = ["--ro-bind", path, path]
+    for above in {above for path in mounts for above in Path(path).parents}:  # bwrap closes its own
+        mounts.setdefault(str(above), ["--perms", "0755", "--dir", str(above)])
+    outer_first = sorted(mounts, key=lambda path: len(Path(path).parts))
+    words = [word for path in outer_first for word in mounts[path]]
+    for path in ("/dev", str(hidden), "/"):
+        words += ["--remount-ro", path]
+    return [*options, *words, "--"]
 
 
-def _devices(side):
-    """A /dev of its own, in which a joystick can be put."""
-    new = side / "dev"
-    new.mkdir()
-    _mount("-t", "tmpfs", "-o", "size=64m,mode=755", "none", new)
-    for name in DEVICES:
-        (new / name).touch()
-        _mount("--bind", f"/dev/{name}", new / name)
-    (new / "shm").mkdir(mode=0o1777)
-    os.chmod(new / "shm", 0o1777)
-    (new / "fd").symlink_to("/proc/self/fd")
-    for number, name in enumerate(("stdin", "stdout", "stderr")):
-        (new / name).symlink_to(f"/proc/self/fd/{number}")
-    (new / "input").mkdir()
-    _mount("--rbind", new, "/dev")
+def _set(option, value):
+    ctypes.CDLL(None).prctl(option, value, 0, 0, 0)
 
 
-def loopback_up():
-    """Have this machine speak to itself, which in a network of its own nothing else does."""
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-        request = struct.pack("16sH14s", b"lo", 0, b"")
-        flags = struct.unpack("16sH14s", fcntl.ioctl(probe, SIOCGIFFLAGS, request))[1]
-        fcntl.ioctl(probe, SIOCSIFFLAGS, struct.pack("16sH14s", b"lo", flags | IFF_UP, b""))
+def keep_to_itself():
+    """Let no process of this user look into this one, or into its open files."""
+    _set(PR_SET_DUMPABLE, 0)
+
+
+def give_up_rights():
+    """Have this process, and what it starts, gain no rights by any program, as sudo. Its user may look in."""
+    _set(PR_SET_NO_NEW_PRIVS, 1)
+    _set(PR_SET_DUMPABLE, 1)
 
 
 def end_with_parent():
     """Have the kernel end this process when the one that started it ends."""
-    pr_set_pdeathsig, sigkill = 1, 9
-    ctypes.CDLL(None).prctl(pr_set_pdeathsig, sigkill)
+    _set(PR_SET_PDEATHSIG, signal.SIGKILL)
 
 
 def adopt_orphans():
     """Have what is started below this process, and left by its parent, be a child of this one."""
-    pr_set_child_subreaper = 36
-    ctypes.CDLL(None).prctl(pr_set_child_subreaper, 1, 0, 0, 0)
+    _set(PR_SET_CHILD_SUBREAPER, 1)
 
 
-@contextlib.contextmanager
-def removed(scratch, apart):
-    """Remove the folder for what is written at the end: who made it may have been killed.
-
-    apart: whether this is such a place, in which the folder is a mount, and others in it lead to
-    what is not ours to remove.
-    """
-    scratch, mnt_detach = Path(scratch), 2
-    # By this it is found also where something was mounted over it.
-    parent = os.open(scratch.parent, os.O_PATH | os.O_DIRECTORY)
-    try:
-        yield
-    finally:
-        if apart:
-            mount = f"/proc/self/fd/{parent}/{scratch.name}"
-            ctypes.CDLL(None).umount2(mount.encode(), mnt_detach)
-            with contextlib.suppress(OSError):
-                os.rmdir(scratch.name, dir_fd=parent)
-        else:
-            shutil.rmtree(scratch, ignore_errors=True)
+def limit_shared_memory():
+    """Limit System V's shared memory of these namespaces, where the kernel lets this process."""
+    with contextlib.suppress(OSError):
+        Path("/proc/sys/kernel/shmall").write_text(str(SHARED_PAGES))

@@ -5,6 +5,7 @@ import csv
 import html
 import io
 import os
+import re
 import time
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor, as_completed
@@ -19,6 +20,9 @@ from tutorial_check.model import WRONG, CannotCheck, fault
 from tutorial_check.report import lines_of, summary, text_of
 
 ARCHIVES = (".zip", ".tar", ".tgz", ".gz", ".bz2", ".xz", ".7z", ".rar")
+RESULTS = (".csv", ".html", ".txt", ".json")
+# Where a spreadsheet begins a cell, whatever it takes for what separates two; and then a formula.
+FORMULA = re.compile(r"(^|[;,|\t\r\n])(?=\s*[=+\-@])")
 
 
 @dataclass
@@ -58,9 +62,16 @@ def find_students(folder, out):
 
 
 def _has_results(path, out):
-    """Whether it is the folder of the results, or that of an earlier check."""
+    """Whether it is the folder of the results, or that of an earlier check, in which is nothing else."""
+    if os.path.realpath(path) == os.path.realpath(out):
+        return True
     tables = [os.path.isfile(path / name) for name in ("table.csv", "table.html")]
-    return os.path.realpath(path) == os.path.realpath(out) or all(tables)
+    if path.is_symlink() or not all(tables) or not os.access(path, os.R_OK):
+        return False
+    is_left_out = all(each.is_file() and each.suffix in RESULTS for each in path.iterdir())
+    if is_left_out:
+        print(f"{path.name}: left out: the results of an earlier check")
+    return is_left_out
 
 
 def check_all(options):
@@ -160,10 +171,14 @@ def table_csv(students, exercises):
     table.writerow(["student", *exercises, "done", "seconds", "remark"])
     for student in students:
         cells = [_cell(student, exercise)[0] for exercise in exercises]
-        # A name may begin like a formula of a spreadsheet.
-        name = f"'{student.name}" if student.name[:1] in "=+-@" else student.name
-        table.writerow([name, *cells, cells.count("ok"), f"{student.seconds:.1f}", student.trouble])
+        name, remark = _no_formula(student.name), _no_formula(student.trouble)
+        table.writerow([name, *cells, cells.count("ok"), f"{student.seconds:.1f}", remark])
     return lines.getvalue()
+
+
+def _no_formula(text):
+    """A text in which no spreadsheet finds a formula; a name may begin like one."""
+    return FORMULA.sub(r"\1'", text)
 
 
 def table_html(students, exercises):

@@ -5,6 +5,7 @@ import os
 import signal
 import sys
 
+from tutorial_check import place
 from tutorial_check.examination import examine
 from tutorial_check.exercises import EXERCISES
 from tutorial_check.formats import FORMATS, clear, without_hints, write
@@ -157,6 +158,8 @@ def main():
     for number in (signal.SIGTERM, signal.SIGHUP):  # as Ctrl-C: what was started ends, too
         if signal.getsignal(number) != signal.SIG_IGN:  # as nohup has it
             signal.signal(number, signal.default_int_handler)
+    for line in place.lacking():
+        print(f"check: {line}", file=sys.stderr, flush=True)
     try:
         if options.all:
             from tutorial_check.professor import check_all  # noqa: PLC0415

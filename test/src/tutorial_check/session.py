@@ -15,7 +15,7 @@ from tutorial_check.workspace import packages_below
 SLOW_S = 120  # [s] for what needs a second, when the machine is very busy
 # What of CMakeLists.txt makes a build necessary before anything can run.
 NEEDS_BUILD = re.compile(
-    r"^\s*(catkin_python_setup|add_message_files|add_service_files|generate_messages"
+    r"^[ \t]*(catkin_python_setup|add_message_files|add_service_files|generate_messages"
     r"|add_executable|catkin_install_python)\s*\(",
     re.MULTILINE,
 )

@@ -16,8 +16,9 @@ from tutorial_check.model import CannotCheck
 
 MOST_BYTES = 300 << 20  # of a workspace's sources; bags included
 MOST_FILES = 20_000
-# A whole path in a launch file to what a node of the exercises reads.
-WHOLE_PATH = re.compile(r"(?<=[\s\"'=])/[^\s\"'<>$]+\.(?:bag|rviz)\b")
+COPY = "handed_in"  # folder of the copy of what was handed in
+# The words of a launch file, and in one of them what a node of the exercises reads.
+BETWEEN_WORDS, WHOLE_PATH = re.compile(r"[\s\"'<>$]+"), re.compile(r"/.+\.(?:bag|rviz)\b")
 LEFT_OUT = {".git", "build", "devel", "install", "__pycache__", ".catkin_tools", "logs"}
 
 
@@ -43,6 +44,21 @@ class Layout:
     is_workspace: bool  # there is a src
 
 
+def hand_in(given, folder):
+    """(Layout, the folder that it lies in) of a workspace, or of a zip, which is unpacked in a folder.
+
+    A folder with nothing but a zip is that zip. Raises CannotCheck.
+    """
+    given = archive = Path(given)
+    if not given.is_file():
+        layout = find_layout(given)
+        archive = None if layout.source.is_dir() else only_zip(given)
+        if not archive:
+            return layout, given
+    unpack(archive, folder / "unpacked")
+    return find_layout(folder / "unpacked"), folder / "unpacked"
+
+
 def unpack(archive, folder):
     """Unpack a zip into a folder. Raises CannotCheck, also for one with a path outside."""
     try:
@@ -66,7 +82,9 @@ def unpack(archive, folder):
                 if target.is_file():
                     # One made on Windows knows no rights; then chmod +x cannot be judged.
                     target.chmod((mode or 0o755) | 0o600)
-    except (zipfile.BadZipFile, OSError, RuntimeError, NotImplementedError) as error:
+    except CannotCheck:
+        raise
+    except Exception as error:  # each way to pack has errors of its own for bytes that are none
         raise CannotCheck(f"{archive}: cannot be unpacked: {error}") from None
 
 
@@ -128,45 +146,76 @@ def _only_child(folder):
         yield folder
 
 
-def copy(layout, target):
-    """Copy the sources to target/src. Raises CannotCheck for what cannot be read or is too large."""
-    target = Path(target) / "src"
+def copy(layout, target, inside=None):
+    """Copy the sources to a folder, which is returned. Raises CannotCheck for what cannot be read or is too large.
+
+    inside: of links only those are followed that lead to something in this folder; None: all.
+    """
+    target = Path(target)
+    inside = inside and os.path.realpath(inside)
+    so_far = [0, 0, os.path.realpath(target)]
     target.mkdir(parents=True)
-    if not layout.source.is_dir():
-        return target
     if (layout.source / "package.xml").exists():
-        _copy(layout.source, target / layout.source.name, [0, 0, os.path.realpath(target)], set())
-    else:
-        _copy(layout.source, target, [0, 0, os.path.realpath(target)], set())
+        _copy(layout.source, target / layout.source.name, so_far, inside, set())
+    elif layout.source.is_dir():
+        _copy(layout.source, target, so_far, inside, set())
     return target
 
 
-def _copy(source, target, so_far, seen):
-    real = os.path.realpath(source)
-    if real in seen or real == so_far[2]:
-        return  # a link to a folder above, or the copy itself
-    target.mkdir(exist_ok=True)
+def _open(path, inside):
+    """The descriptor of a file or folder; None if it is something else, or lies outside.
+
+    What lies at the path may change meanwhile: so it is first held, then looked at, then opened.
+    """
     try:
-        entries = sorted(os.scandir(source), key=lambda entry: entry.name)
+        held = os.open(path, os.O_PATH | os.O_CLOEXEC)
+    except PermissionError:
+        raise
+    except OSError:  # a link to nowhere, or to itself
+        return None
+    try:
+        mode = os.fstat(held).st_mode
+        is_inside = inside is None or f"{_path_of(held)}/".startswith(f"{inside}/")
+        if not is_inside or not (stat.S_ISDIR(mode) or stat.S_ISREG(mode)):
+            return None
+        return os.open(f"/proc/self/fd/{held}", os.O_RDONLY | os.O_CLOEXEC)
+    finally:
+        os.close(held)
+
+
+def _path_of(descriptor):
+    return os.readlink(f"/proc/self/fd/{descriptor}")
+
+
+def _copy(source, target, so_far, inside, seen):
+    try:
+        descriptor = _open(source, inside)
     except PermissionError:
         raise CannotCheck(f"{source}: may not be read; chmod -R u+rX would help") from None
-    for entry in entries:
-        if entry.name in LEFT_OUT:
-            continue
-        try:
-            # Of os.path, to which a link to itself is neither; an entry raises OSError.
-            if os.path.isdir(entry.path):
-                _copy(Path(entry.path), target / entry.name, so_far, seen | {real})
-            elif os.path.isfile(entry.path):
-                so_far[0] += entry.stat().st_size
-                so_far[1] += 1
-                if so_far[0] > MOST_BYTES or so_far[1] > MOST_FILES:
-                    raise CannotCheck(
-                        f"{source}: more than {MOST_BYTES >> 20} MB or {MOST_FILES} files"
-                    )
-                shutil.copy2(entry.path, target / entry.name)
-        except PermissionError:
-            raise CannotCheck(f"{entry.path}: may not be read; chmod -R u+rX would help") from None
+    if descriptor is None:
+        return
+    try:
+        about = os.fstat(descriptor)
+        if stat.S_ISDIR(about.st_mode):
+            real = _path_of(descriptor)
+            if real in seen or real == so_far[2]:
+                return  # a link to a folder above, or the copy itself
+            target.mkdir(exist_ok=True)
+            for name in sorted(set(os.listdir(descriptor)) - LEFT_OUT):
+                _copy(source / name, target / name, so_far, inside, seen | {real})
+            return
+        so_far[0] += about.st_size
+        so_far[1] += 1
+        if so_far[0] > MOST_BYTES or so_far[1] > MOST_FILES:
+            raise CannotCheck(
+                f"{source.parent}: more than {MOST_BYTES >> 20} MB or {MOST_FILES} files"
+            )
+        with open(descriptor, "rb", closefd=False) as file, target.open("wb") as copied:
+            shutil.copyfileobj(file, copied)
+        target.chmod(about.st_mode & 0o777)
+        os.utime(target, ns=(about.st_atime_ns, about.st_mtime_ns))
+    finally:
+        os.close(descriptor)
 
 
 def named_outside(source):
@@ -174,8 +223,11 @@ def named_outside(source):
     texts = [
         each.read_text(errors="replace") for each in source.rglob("*.launch") if each.is_file()
     ]
-    named = {path for text in texts for path in WHOLE_PATH.findall(text)}
-    return sorted(each for each in named if os.path.isfile(each))
+    words = {word for text in texts for word in BETWEEN_WORDS.split(text)}
+    named = {
+        WHOLE_PATH.match(word, 0 if word[:1] == "/" else word.find("=/") + 1) for word in words
+    }
+    return sorted(each[0] for each in named if each and os.path.isfile(each[0]))
 
 
 def packages_below(folder):
@@ -187,7 +239,7 @@ def packages_below(folder):
         )
         if "CATKIN_IGNORE" in files:
             folders.clear()
-        elif "package.xml" in files:
+        elif "package.xml" in files and os.path.isfile(f"{place}/package.xml"):
             found.append(read_package(Path(place), folder))
     return found
 
@@ -233,11 +285,10 @@ def _name_in(manifest):
 
 def underlays(devel):
     """(folder for which a devel space was made, CMAKE_PREFIX_PATH it was laid over), or None."""
-    try:
-        text = (Path(devel) / "_setup_util.py").read_text(errors="replace")
-        setup = (Path(devel) / "setup.sh").read_text(errors="replace")
-    except OSError:
+    files = [Path(devel) / name for name in ("_setup_util.py", "setup.sh")]
+    if not all(each.is_file() for each in files):  # a pipe would never be read to its end
         return None
+    text, setup = (each.read_text(errors="replace") for each in files)
     # The first of its assignments, written by catkin: CMAKE_PREFIX_PATH = r'/a;/b'.split(';')
     found = re.search(r"^\s*CMAKE_PREFIX_PATH = r?(['\"])(.*)\1\.split\(", text, re.MULTILINE)
     below = found[2].split(";") if found else []

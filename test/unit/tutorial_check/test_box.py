@@ -42,6 +42,7 @@ class Keeper:
         ("env true .", b"Z", False),
         ("setsid sleep 3600", b"S", False),
         ("setsid sleep 3600", b"S", True),  # as the nodes of a roslaunch of ours
+        ("env -i setsid sleep 3600", b"S", True),  # with no variable that it was started with
     ],
 )
 def test_of_orphans_none_is_left(stranger, what):
@@ -70,11 +71,12 @@ one.clear()
 """
 
 
-@pytest.mark.skipif(not place.wrapper(), reason="no namespaces here: no crowd can be counted")
+@pytest.mark.skipif(not place.granted()[0], reason="no isolation here: no crowd can be counted")
 @pytest.mark.parametrize(("program", "seen"), [("true", "few"), ("sleep 3600", "it starts itself")])
 def test_only_the_living_are_a_crowd(program, seen):
+    all_of_it = ["--bind", "/", "/", "--proc", "/proc", "--dev", "/dev"]
     done = subprocess.run(
-        [*place.wrapper(), sys.executable, "-c", CROWD, program],
+        [*place.granted()[0], *all_of_it, sys.executable, "-c", CROWD, program],
         capture_output=True,
         text=True,
         check=False,

@@ -19,7 +19,7 @@ def examine(tmp_path, monkeypatch):
 
     def examined(lines, ending="", tell=lambda outcome, result: None):
         script = "\n".join(["cat >/dev/null", *(f"echo '{line}'" for line in lines), ending])
-        monkeypatch.setattr(place, "wrapper", lambda: ["sh", "-c", script])
+        monkeypatch.setattr(place, "command", lambda *_: ["sh", "-c", script])
         return examination.examine(tmp_path, tmp_path / "setup.bash", ["2", "3", "5"], tell)
 
     return examined

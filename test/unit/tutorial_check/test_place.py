@@ -1,6 +1,8 @@
-"""What is hidden, and what is not: in namespaces, which the system has to grant."""
+"""What a program sees and may do apart, which the system has to grant."""
 
+import ctypes
 import os
+import socket
 import subprocess
 import sys
 import tempfile
@@ -9,48 +11,47 @@ from pathlib import Path
 import pytest
 
 from tutorial_check import place
+from tutorial_check.box import Box
+from tutorial_check.forked import Helper
 
-pytestmark = pytest.mark.skipif(not place.wrapper(), reason="no namespaces here: nothing is hidden")
-FURNISH = """
-import os, subprocess, sys
-from pathlib import Path
-from tutorial_check import place
-
-home, scratch = map(Path, sys.argv[1:3])
-{before}
-with place.removed(scratch, True):
-    limited = place.limit(scratch)
-    print(limited, place.furnish(scratch, str(home), [str(home / "link"), home / "bags/joy.bag"]))
-    (scratch / "written").touch()
-    for path in ("secret", "bags/secret", "bags/joy.bag", "link/file", "course/ws/file"):
-        print(path, (home / path).exists())
-    for path in ("bags/joy.bag", "course/ws/file"):
-        try:
-            (home / path).write_text("changed")
-            print("written")
-        except OSError:
-            print("read-only")
+isolated = pytest.mark.skipif(not place.granted()[0], reason="no isolation is granted here")
+LOOK = """
+import os, sys
+for path in sys.argv[1:]:
+    try:
+        open(path, "x" if path.endswith("new") else "r+").close()
+        print("written")
+    except IsADirectoryError:
+        print(*sorted(os.listdir(path)))
+    except OSError as error:
+        print(error.strerror)
 """
+MISSING, READ_ONLY = "No such file or directory", "Read-only file system"
 
 
-@pytest.fixture(params=["/tmp", "/var/tmp"])  # the one is hidden as well
+@pytest.fixture(params=["/tmp", "/var/tmp"])  # both are empty there
 def home(request):
-    """A home folder with a workspace, a link to it, and a file that is nobody's business."""
+    """A home folder with a workspace, a link to it, the suite, and a file that nobody needs."""
     with tempfile.TemporaryDirectory(dir=request.param) as folder:
         home = Path(folder) / "home"
-        (home / "course" / "ws").mkdir(parents=True)
-        (home / "course" / "ws" / "file").touch()
-        (home / "bags").mkdir()
-        for path in ("secret", "bags/secret", "bags/joy.bag"):
+        for path in ("course/ws/file", "suite/common/file", "suite/joy2twist/file", "scratch/file"):
+            (home / path).parent.mkdir(parents=True)
+            (home / path).touch()
+        for path in ("secret", "joy.bag"):
             (home / path).touch()
         (home / "link").symlink_to(home / "course" / "ws")
+        home.chmod(0o700)
         yield home
 
 
-def run(text, *words):
-    """The lines that a Python program prints in a place of its own."""
+SHOWN = ("link", "joy.bag", "suite/common")
+
+
+def run(home, text, *words, shown=SHOWN):
+    """The lines that a Python program prints apart."""
+    command = place.command(home / "scratch", [home / each for each in shown], home / "suite")
     done = subprocess.run(
-        [*place.wrapper(), sys.executable, "-c", text, *words],
+        [*command, "/usr/bin/python3", "-c", text, *map(str, words)],
         capture_output=True,
         text=True,
         check=False,
@@ -60,95 +61,136 @@ def run(text, *words):
     return done.stdout.splitlines()
 
 
-def furnish(home, scratch, before=""):
-    """What is seen in a furnished place: each line is a fact."""
-    scratch.mkdir(parents=True)
-    return run(FURNISH.format(before=before), home, scratch)
+@isolated
+@pytest.mark.parametrize("workspace", ["link", "."])
+def test_nothing_is_seen_but_what_is_shown(home, workspace):
+    """Of the suite not its solutions, also where it lies in a folder that is shown."""
+    expected = {
+        "secret": READ_ONLY if workspace == "." else MISSING,
+        "joy.bag": READ_ONLY,
+        f"{workspace}": "course joy.bag link scratch secret suite" if workspace == "." else "file",
+        "course/ws/file": READ_ONLY,
+        "suite": "common",
+        "suite/common/file": READ_ONLY,
+        "suite/new": READ_ONLY,
+        "scratch": "",
+        "scratch/new": "written",
+    }
+    seen = run(home, LOOK, *(home / path for path in expected), shown=[workspace, *SHOWN])
+    assert dict(zip(expected, seen)) == expected
 
 
-HIDDEN = [
-    "True True",
-    "secret False",
-    "bags/secret False",
-    "bags/joy.bag True",
-    "link/file True",
-    "course/ws/file True",
-    "read-only",
-    "read-only",
-]
+@isolated
+def test_nothing_of_the_system_is_left_to_write_to_or_to_speak_to(home):
+    expected = {
+        "/new": READ_ONLY,
+        "/usr/new": READ_ONLY,
+        "/etc/new": READ_ONLY,
+        "/dev/new": READ_ONLY,
+        "/etc/shadow": MISSING,
+        "/run/user": MISSING,
+        "/run/lock": MISSING,
+        "/sys": MISSING,
+        "/tmp/new": "written",
+        "/var/tmp/new": "written",
+        "/dev/shm": "",
+    }
+    assert dict(zip(expected, run(home, LOOK, *expected))) == expected
+    assert not Path("/tmp/new").exists() and not Path("/var/tmp/new").exists()
 
 
-@pytest.mark.parametrize("folder", ["scratch", "home/tmp/scratch", "home/course/ws/tmp/scratch"])
-def test_home_is_hidden_but_for_what_is_needed(home, folder):
-    assert furnish(home, home.parent / folder) == HIDDEN
+@isolated
+@pytest.mark.parametrize("folder", ["/tmp", "/var/tmp", "/dev/shm", "scratch"])
+def test_what_is_written_is_limited(home, folder, monkeypatch):
+    if not place.granted()[1]:
+        pytest.skip("this bubblewrap is too old to limit it")
+    monkeypatch.setattr(place, "SCRATCH_MB", 64)
+    text = "import os, sys; os.posix_fallocate(os.open(sys.argv[1], os.O_CREAT | 1), 0, 65 << 20)"
+    with pytest.raises(AssertionError, match="No space left on device"):
+        run(home, text, home / folder / "new")
 
 
-OPENED = """
-import os, sys
-from pathlib import Path
-from tutorial_check import place
-
-home, scratch, suite = map(Path, sys.argv[1:])
-scratch.mkdir()
-assert place.limit(scratch) and place.furnish(scratch, str(home), [suite])
-print((suite / "file").exists(), (suite.parent / "secret").exists())
-os.setuid(2_000_000)
-print((suite / "file").exists())
-"""
-
-
-@pytest.mark.skipif(os.geteuid() != 0, reason="only root can run programs as another user")
-def test_what_is_needed_from_another_ones_home_can_be_reached():
-    with tempfile.TemporaryDirectory(dir="/var/tmp") as folder:
-        home, prof = Path(folder) / "home", Path(folder) / "prof"
-        home.mkdir()
-        prof.mkdir(0o700)
-        (prof / "suite").mkdir()
-        (prof / "suite" / "file").touch()
-        (prof / "secret").touch()
-        assert run(OPENED, home, home / "scratch", prof / "suite") == ["True False", "True"]
+@isolated
+def test_it_has_a_network_and_shared_memory_of_its_own(home):
+    text = (
+        "import ctypes, socket, sys\n"
+        "libc = ctypes.CDLL(None)\n"
+        "print(libc.shmget(int(sys.argv[1]), 1, 0))\n"
+        "with socket.create_server(('127.0.0.1', 0)) as own:\n"
+        "    socket.create_connection(own.getsockname()).close()\n"
+        "print(socket.socket().connect_ex(('127.0.0.1', int(sys.argv[2]))))\n"
+    )
+    libc, key, create, remove = ctypes.CDLL(None), 0x5EED0000 + os.getpid() % 65536, 0o1600, 0
+    shared = libc.shmget(key, 4096, create)
+    try:
+        with socket.create_server(("127.0.0.1", 0)) as server:
+            assert shared >= 0
+            assert run(home, text, key, server.getsockname()[1]) == ["-1", "111"]
+    finally:
+        libc.shmctl(shared, remove, None)
 
 
-@pytest.mark.parametrize("folder", ["scratch", "home/tmp/scratch"])
-def test_at_the_end_the_folder_is_removed_and_no_other(home, folder):
-    furnish(home, home.parent / folder)
-    assert not (home.parent / folder).exists()
-    assert (home / "course" / "ws" / "file").exists()
+@isolated
+def test_what_is_needed_from_another_ones_home_can_be_reached(home):
+    """By the user as whom the programs run, too."""
+    text = (
+        "import os, sys; os.geteuid() or os.setuid(2_000_000); print(os.path.exists(sys.argv[1]))"
+    )
+    assert run(home, text, home / "suite/common/file") == ["True"]
 
 
-REFUSED = """
-def mount(*words, mount=place._mount):
-    if {words!r} <= set(map(str, words)):
-        raise subprocess.SubprocessError("refused")
-    mount(*words)
+class Starter:
+    """A box, and what a program in it prints."""
+
+    def __init__(self, uid):
+        place.keep_to_itself()
+        self._box = Box({"HOME": "/"}, uid)
+
+    def run(self, *words):
+        """What it prints."""
+        program = self._box.start(words)
+        self._box.wait(lambda: program.ended, 60.0)
+        self._box.end(program)
+        return program.output
 
 
-place._mount = mount
-"""
+def test_a_program_neither_reaches_the_result_nor_gains_rights(stranger):
+    """Of any mode: it has no more than its user."""
+    text = (
+        "import os, sys\n"
+        "status = dict(line.split(':') for line in open('/proc/self/status'))\n"
+        "print(status['NoNewPrivs'], status['CapEff'])\n"
+        "try:\n"
+        "    os.listdir(f'/proc/{os.getppid()}/fd')\n"
+        "except PermissionError:\n"
+        "    print('closed')\n"
+    )
+    helper = Helper(lambda: Starter(stranger), {})
+    try:
+        assert helper.call("run", sys.executable, "-c", text).split() == ["1", "0" * 16, "closed"]
+    finally:
+        helper.end()
 
 
-@pytest.mark.parametrize("words", [{"remount,bind,ro"}, {"--rbind"}, {"size=64m,mode=1777"}])
-def test_where_something_is_refused_nothing_is_hidden(home, words):
-    seen = furnish(home, home.parent / "scratch", REFUSED.format(words=words))
-    assert seen[:2] == ["True False", "secret True"]
-    assert "False" not in "".join(seen[1:6])
+@pytest.mark.parametrize(
+    ("granted", "told"),
+    [
+        (((), False, "bwrap: refused"), "no isolation here (bwrap: refused): a program "),
+        ((("bwrap",), False, ""), "too old (0.7) to limit"),
+        ((("bwrap",), True, ""), ""),
+    ],
+)
+def test_what_the_system_does_not_provide_is_told(monkeypatch, granted, told):
+    monkeypatch.setattr(place, "granted", lambda: granted)
+    assert told in "".join(place.lacking())
+    assert bool(place.lacking()) == bool(told)
 
 
-NO_LIMIT = """
-import socket
-from tutorial_check import examine, place
-
-def speak(*_):
-    with socket.create_server(("127.0.0.1", 0)) as server:
-        socket.create_connection(server.getsockname()).close()
-    print("heard")
-    raise SystemExit
-
-place.limit = lambda scratch: False
-examine._hand_in = speak
-examine.examine({"folder": "/nowhere", "apart": True, "workspace": "/nowhere"}, None, None)
-"""
-
-
-def test_programs_hear_each_other_also_where_nothing_is_hidden():
-    assert run(NO_LIMIT) == ["heard"]
+@pytest.mark.parametrize("script", ["echo bwrap: No permissions >&2; exit 1", None])
+def test_where_it_does_not_work_it_says_why(monkeypatch, tmp_path, script):
+    if script:
+        (tmp_path / "bwrap").write_text(f"#!/bin/sh\n{script}\n")
+        (tmp_path / "bwrap").chmod(0o755)
+    monkeypatch.setenv("PATH", str(tmp_path) if not script else f"{tmp_path}:/bin")
+    why = "bwrap: No permissions" if script else "bubblewrap is not installed"
+    assert place.granted.__wrapped__() == ((), False, why)

@@ -2,6 +2,7 @@
 
 import csv
 import os
+import re
 from types import SimpleNamespace
 
 import pytest
@@ -120,8 +121,33 @@ def test_what_is_no_folder_and_no_zip_has_a_row_all_the_same(room):
     assert names == ["ADA", "bob.tar.gz", "carl.7z", "dora.ZIP", "dora.zip", "emma", "loop"]
 
 
-def test_the_results_of_an_earlier_check_are_no_student(room, tmp_path):
+def test_the_results_of_an_earlier_check_are_no_student(room, tmp_path, capsys):
     (room / "ada").mkdir()
     check_all(room)
+    assert "left out" not in capsys.readouterr().out
     assert [row[0] for row in check_all(room, tmp_path / "elsewhere")[1]] == ["ada"]
     assert "check" not in (tmp_path / "elsewhere" / "table.csv").read_text()
+    assert "check: left out: the results of an earlier check\n" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("more", ["src", "joy2twist.zip", "package.xml"])
+def test_a_student_who_calls_his_files_like_results_is_in_the_table(room, more):
+    for name in ("table.csv", "table.html", more):
+        (room / "ada" / name).parent.mkdir(exist_ok=True)
+        (room / "ada" / name).touch() if more != "src" else (room / "ada" / name).mkdir()
+    assert [row[0] for row in check_all(room)[1]] == ["ada"]
+
+
+@pytest.mark.parametrize("cell", ["=1", "\t=1", "\r=1", "x;=1", "x,\n+1", " -1", "a|@b"])
+def test_no_cell_is_a_formula(cell):
+    """Of whatever a spreadsheet takes for the end of a cell."""
+    student = professor.Student(cell, None, trouble=f"{cell}: no zip")
+    table = professor.table_csv([student], ["2"])
+    for written in re.split(r"[;,|\t\r\n]", table):
+        assert written.strip(' "')[:1] not in tuple("=+-@"), table
+
+
+def test_a_usual_name_and_remark_are_as_they_were():
+    names = ["Anna-Lena (2)", "a = b - c", "o'neill_7@uni.example", "a=b"]
+    table = professor.table_csv([professor.Student(name, None) for name in names], ["2"])
+    assert [row[0] for row in csv.reader(table.splitlines())][1:] == names

@@ -1,15 +1,18 @@
 """Finding, unpacking and copying what a student hands in."""
 
+import os
 import re
+import subprocess
+import sys
 import zipfile
 
 import pytest
 
 from tutorial_check import workspace
-from tutorial_check.examine import _hand_in as hand_in
 from tutorial_check.exercises.driving import displayed
 from tutorial_check.mapping import numbered_joys
 from tutorial_check.model import CannotCheck
+from tutorial_check.workspace import hand_in
 
 XML = """<package format="2"><name>{}</name><version>0.0.0</version><description>x</description>
 <maintainer email="a@b.example">a</maintainer><license>x</license>
@@ -64,7 +67,8 @@ def test_a_zip_alone_or_in_a_folder_is_handed_in(tmp_path, name):
     if archive.parent != tmp_path:
         (archive.parent / "remark.txt").touch()
         given = archive.parent
-    layout = hand_in(given, tmp_path / "scratch")
+    layout, inside = hand_in(given, tmp_path / "scratch")
+    assert inside == tmp_path / "scratch/unpacked"
     assert layout.source == tmp_path / "scratch/unpacked/ws/src"
 
 
@@ -76,14 +80,14 @@ def test_a_zip_beside_something_else_is_not_unpacked(tmp_path, beside):
     else:
         (folder / beside).parent.mkdir(parents=True, exist_ok=True)
         (folder / beside).write_text(XML.format("joy2twist"))
-    assert hand_in(folder, tmp_path / "scratch").root == folder
+    assert hand_in(folder, tmp_path / "scratch")[0].root == folder
     assert not (tmp_path / "scratch").exists()
 
 
 def test_a_link_to_a_zip_is_not_unpacked(tmp_path):
     (tmp_path / "ada").mkdir()
     (tmp_path / "ada" / "ws.zip").symlink_to(zipped(tmp_path / "another.zip"))
-    assert hand_in(tmp_path / "ada", tmp_path / "scratch").root == tmp_path / "ada"
+    assert hand_in(tmp_path / "ada", tmp_path / "scratch")[0].root == tmp_path / "ada"
 
 
 def test_the_package_itself(tmp_path):
@@ -236,3 +240,105 @@ def test_only_what_lies_right_beside_src_is_beside_it(tmp_path):
     layout = workspace.Layout(root, root / "src", True)
     assert [each.inside for each in workspace.packages_beside(layout)] == ["b"]
     assert workspace.packages_beside(workspace.Layout(root, root, False)) == []
+
+
+LINKS = {
+    # a link in src/joy2twist, and what it leads to; "sub": the folder above is a link
+    "file": "../../../secret",
+    "absolute": "{0}/secret",
+    "system": "/etc/passwd",
+    "another student": "{0}/bob/src/joy2twist",
+    "beside": "{0}/ada_too/secret",
+    "to itself": "link",
+}
+
+
+@pytest.mark.parametrize("target", LINKS.values(), ids=LINKS)
+def test_of_others_no_link_leads_out_of_what_they_handed_in(tmp_path, target):
+    """Whatever the rights of the one who checks them."""
+    package(tmp_path / "bob/src/joy2twist")
+    for name in ("secret", "ada_too/secret"):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text("secret")
+    own = package(tmp_path / "ada/src/joy2twist")
+    (own / "link").symlink_to(target.format(tmp_path))
+    (own / "inside").symlink_to("../../src/joy2twist/package.xml")
+    layout, inside = hand_in(tmp_path / "ada", tmp_path / "scratch")
+    copied = workspace.copy(layout, tmp_path / "copy", inside)
+    assert sorted(path.name for path in (copied / "joy2twist").iterdir()) == [
+        "inside",
+        "package.xml",
+    ]
+    assert not (copied / "joy2twist/inside").is_symlink()
+
+
+@pytest.mark.parametrize("link", ["src", "src/joy2twist", "src/joy2twist/scripts"])
+def test_nor_does_a_folder_that_is_a_link(tmp_path, link):
+    (package(tmp_path / "bob/src/joy2twist") / "scripts").mkdir()
+    (tmp_path / "bob/src/joy2twist/scripts/joy2twist.py").touch()
+    (tmp_path / "ada" / link).parent.mkdir(parents=True)
+    (tmp_path / "ada" / link).symlink_to(tmp_path / "bob" / link)
+    layout, inside = hand_in(tmp_path / "ada", tmp_path / "scratch")
+    copied = workspace.copy(layout, tmp_path / "copy", inside)
+    assert not [path for path in copied.rglob("*") if path.is_file()]
+    of_ones_own = workspace.copy(layout, tmp_path / "another")
+    assert list(of_ones_own.rglob("joy2twist.py"))
+
+
+@pytest.mark.parametrize("file", ["package.xml", "scripts/joy2twist.py"])
+def test_what_is_no_file_and_never_ends_is_left_out(tmp_path, file):
+    own = package(tmp_path / "ada/src/joy2twist")
+    (own / "scripts").mkdir()
+    (own / file).unlink(missing_ok=True)
+    os.mkfifo(own / file)
+    layout, inside = hand_in(tmp_path / "ada", tmp_path / "scratch")
+    copied = workspace.copy(layout, tmp_path / "copy", inside)
+    assert not (copied / "joy2twist" / file).exists()
+    assert len(workspace.packages_below(layout.root)) == (file != "package.xml")
+
+
+@pytest.mark.parametrize("file", ["_setup_util.py", "setup.sh"])
+def test_a_devel_folder_with_a_pipe_is_none(tmp_path, file):
+    for name in ("_setup_util.py", "setup.sh"):
+        os.mkfifo(tmp_path / name) if name == file else (tmp_path / name).touch()
+    assert workspace.underlays(tmp_path) is None
+
+
+def test_rights_of_more_than_its_owner_are_not_copied(tmp_path):
+    """A program of root's that everybody may run as root would be one after the copy, too."""
+    file = package(tmp_path / "src" / "joy2twist") / "tool"
+    file.touch()
+    file.chmod(0o4755)
+    copied = workspace.copy(workspace.find_layout(tmp_path), tmp_path / "copy")
+    assert (copied / "joy2twist/tool").stat().st_mode & 0o7777 == 0o755
+
+
+@pytest.mark.parametrize(
+    "pack", [zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED, zipfile.ZIP_LZMA, zipfile.ZIP_BZIP2]
+)
+def test_a_zip_with_broken_bytes(tmp_path, pack):
+    archive = tmp_path / "a.zip"
+    with zipfile.ZipFile(archive, "w", pack) as opened:
+        opened.writestr("package.xml", XML * 20)
+    data = bytearray(archive.read_bytes())
+    data[60:100] = b"\xff" * 40
+    archive.write_bytes(data)
+    with pytest.raises(CannotCheck, match=r"a\.zip: cannot be unpacked: "):
+        workspace.unpack(archive, tmp_path / "out")
+
+
+READ = """
+import sys
+from pathlib import Path
+from tutorial_check import session, workspace
+print(workspace.named_outside(Path(sys.argv[1])), session.NEEDS_BUILD.search(sys.stdin.read()))
+"""
+
+
+@pytest.mark.parametrize("text", ["=/", "/a", ".bag/", "\n"])
+def test_a_launch_file_or_cmakelists_of_any_text_is_read_at_once(tmp_path, text):
+    """Not in the square of its length, which takes minutes."""
+    text *= 99_999
+    (tmp_path / "a.launch").write_text(text)
+    read = [sys.executable, "-c", READ, str(tmp_path)]
+    assert subprocess.check_output(read, input=text, text=True, timeout=30) == "[] None\n"

@@ -4,7 +4,13 @@ import pytest
 
 from node_kit.questions import Answer
 from tutorial_tools.join import program
-from tutorial_tools.join.program import JoinError, check_host, check_master, check_robot
+from tutorial_tools.join.program import (
+    JoinError,
+    check_host,
+    check_master,
+    check_robot,
+    check_run_id,
+)
 
 
 def test_a_host_that_is_none():
@@ -52,3 +58,44 @@ def test_an_argument_without_its_sign(monkeypatch):
     monkeypatch.setattr("sys.argv", ["join", "10.0.0.1", "robot_7", "virtual=true"])
     with pytest.raises(SystemExit, match=r"^join: virtual=true: .* did you mean virtual:=true\?$"):
         program.main()
+
+
+@pytest.mark.parametrize(
+    "state",
+    [
+        5,
+        "no",
+        [],
+        [[], []],
+        [[], [], [], []],
+        [5, [], []],
+        [[5], [], []],
+        [[["/a"]], [], []],
+        [[], [[5, ["/a"]]], []],
+        [[], [["/robot_1/cmd_vel", 5]], []],
+        [[["/robot_1/cmd_vel", [5]]], [["/robot_1/cmd_vel", []]], []],
+        [[["/robot_1/cmd_vel", ["\x1b[2J"]]], [["/robot_1/cmd_vel", []]], []],
+        [[[["/a"], []]], [], []],
+        {},
+    ],
+)
+def test_a_master_that_talks_nonsense(monkeypatch, state):
+    monkeypatch.setattr(program, "call", lambda *_: (Answer.WELL, state))
+    with pytest.raises(JoinError, match="does not answer as one of ROS"):
+        check_robot("http://10.0.0.1:11311", "robot_1")
+
+
+@pytest.mark.parametrize("run_id", ["../../tmp", "a/b", "", "..", 5, ["a"], "a\x1b[2J", "\n"])
+def test_a_folder_for_logs_somewhere_else(monkeypatch, run_id):
+    monkeypatch.setattr(program, "call", lambda *_: (Answer.WELL, run_id))
+    with pytest.raises(JoinError, match="/run_id that is no name") as error:
+        check_run_id("http://10.0.0.1:11311")
+    assert str(error.value).isprintable()
+
+
+@pytest.mark.parametrize(
+    "answer", [(Answer.WELL, "6a5f-01"), (Answer.WELL, "classroom"), (Answer.STRANGE, None)]
+)
+def test_a_run_id_or_none(monkeypatch, answer):
+    monkeypatch.setattr(program, "call", lambda *_: answer)
+    check_run_id("http://10.0.0.1:11311")

@@ -60,10 +60,30 @@ def check_master(uri, own):
         )
 
 
+def check_run_id(uri):
+    """Raise JoinError if the master names a folder for logs that lies somewhere else."""
+    answer, value = call(uri, "getParam", "/run_id")
+    if answer is Answer.WELL and not (isinstance(value, str) and re.fullmatch(r"[\w-]+", value)):
+        raise JoinError(f"the master {uri} has a /run_id that is no name: {ascii(value)[:60]}")
+
+
+def _topics(part):
+    """{topic: its nodes} of what a master answers. Raises ValueError, TypeError for nonsense."""
+    found = {}
+    for topic, nodes in part:
+        if not all(isinstance(name, str) and name.isprintable() for name in (topic, *nodes)):
+            raise ValueError
+        found[topic] = nodes
+    return found
+
+
 def check_robot(uri, name):
     """Raise JoinError unless a robot of that name waits for a driver."""
     _, state = call(uri, "getSystemState")
-    publishers, subscribers = (dict(part) for part in (state[:2] if state else ([], [])))
+    try:
+        publishers, subscribers, _ = map(_topics, state) if state is not None else ({}, {}, {})
+    except (TypeError, ValueError):
+        raise JoinError(f"the master {uri} does not answer as one of ROS") from None
     robots = [topic.split("/")[1] for topic in subscribers if re.fullmatch(r"/\w+/cmd_vel", topic)]
     if name not in robots:
         there = f"there are {some(robots)}" if robots else "there is no robot of a classroom"
@@ -81,6 +101,7 @@ def main():
             assignment(argument)
         uri, own = check_host(options.host)
         check_master(uri, own)
+        check_run_id(uri)
         check_robot(uri, options.name)
     except (JoinError, ValueError) as error:
         sys.exit(f"join: {error}")

@@ -1,0 +1,113 @@
+"""What a hostile program tries; it prints what it has reached. For test_isolation.py."""
+
+import ctypes
+import glob
+import json
+import os
+import pathlib
+import socket
+import subprocess
+
+HERE = pathlib.Path(__file__).parent
+FORGED = '\n{"exercise": "2", "result": {"id": "FORGED", "status": "ok", "title": "x"}}\n'
+LEAVE = ("/tmp", "/var/tmp", "/dev/shm", "/run/lock")
+aims = {}
+
+
+def connect(family, address):
+    """Whether somebody answers there."""
+    with socket.socket(family) as probe:
+        probe.settimeout(5.0)
+        return probe.connect_ex(address) == 0
+
+
+def read(path):
+    """What a file holds."""
+    return pathlib.Path(path).read_text()
+
+
+def write(path):
+    """Make a file; true."""
+    pathlib.Path(path).write_text("x")
+    return True
+
+
+def forge():
+    """Write a verdict into every pipe of the checker's; whether it was read shows later."""
+    own = {os.readlink(f"/proc/self/fd/{number}") for number in (0, 1, 2)}
+    for path in glob.glob("/proc/[0-9]*/fd/*"):
+        try:
+            is_checker = (
+                b"tutorial_check" in (pathlib.Path(path).parents[1] / "cmdline").read_bytes()
+            )
+            pipe = os.readlink(path)
+            if is_checker and pipe.startswith("pipe:") and pipe not in own:
+                os.write(os.open(path, os.O_WRONLY | os.O_NONBLOCK), FORGED.encode())
+        except OSError:
+            pass
+
+
+def leave():
+    """Leave files, shared memory and a process; whether they are left shows later."""
+    for folder in LEAVE:
+        try:
+            write(f"{folder}/{aims['name']}")
+        except OSError:
+            pass
+    ctypes.CDLL(None).shmget(aims["number"], 4096, 0o1666)
+    if os.fork() == 0:
+        os.setsid()
+        nothing = subprocess.DEVNULL
+        command = ["/bin/sleep", str(aims["number"])]
+        subprocess.Popen(command, env={}, stdin=nothing, stdout=nothing, stderr=nothing)
+        os._exit(0)
+
+
+def processes():
+    """The command lines of all that run."""
+    for path in glob.glob("/proc/[0-9]*/cmdline"):
+        try:
+            yield pathlib.Path(path).read_bytes()
+        except OSError:
+            pass
+
+
+def rights():
+    """Whether it has some, or may gain them from another program."""
+    status = dict(line.split(":") for line in read("/proc/self/status").splitlines())
+    return int(status["CapEff"], 16) or not int(status["NoNewPrivs"])
+
+
+ATTACKS = {
+    "read a private file of yours": lambda: read(f"{aims['home']}/secret"),
+    "write into your home folder": lambda: write(f"{aims['home']}/new"),
+    "read another student's files": lambda: read(aims["other"]),
+    "read this suite's solutions": lambda: read(aims["solution"]),
+    "reach your network and your roscore": lambda: connect(
+        socket.AF_INET, ("127.0.0.1", aims["port"])
+    ),
+    "reach the sockets of your desktop": lambda: (
+        os.listdir("/run") or connect(socket.AF_UNIX, f"\0{aims['name']}")
+    ),
+    "see your processes": lambda: any(aims["name"].encode() in each for each in processes()),
+    "gain rights, as by sudo": rights,
+}
+
+
+def main():
+    """Try all."""
+    aims.update(json.loads((HERE / "aims.json").read_text()))
+    reached = []
+    for what, attack in ATTACKS.items():
+        try:
+            if attack():
+                reached.append(what)
+        except OSError:
+            pass
+    forge()
+    leave()
+    print("reached:", ", ".join(reached) or "nothing")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,157 @@
+"""What a hostile program reaches in each mode: the table in EXERCISES.md."""
+
+import ctypes
+import json
+import os
+import shutil
+import socket
+import subprocess
+import tempfile
+from pathlib import Path
+
+import pytest
+from attack import ATTACKS, LEAVE
+from edits import B
+from test_awkward import SOURCE
+from test_endings import path_without_namespaces
+from test_hostile import processes_like
+
+from tutorial_check import place
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+MODES = ("root", "a user", "root, not isolated", "a user, not isolated")
+STRANGER = 65533  # an ordinary user
+FORGES, FILES, SHARED, PROCESS = (
+    "write a verdict of its own",
+    "leave files in /tmp, /var/tmp, /dev/shm",
+    "leave System V shared memory",
+    "leave a process",
+)
+BUILD = """
+execute_process(COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/attack.py
+  OUTPUT_VARIABLE said ERROR_VARIABLE said)
+message(FATAL_ERROR "${said}")
+"""
+
+
+def promised():
+    """{mode: what a program can do} by EXERCISES.md."""
+    lines = (REPOSITORY / "test" / "EXERCISES.md").read_text().splitlines()
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines if "|" in line]
+    begin = next(at for at, row in enumerate(rows) if row[1:] == list(MODES))
+    table = [row for row in rows[begin + 2 :] if len(row) == 1 + len(MODES)]
+    assert {row[0] for row in table} == {*ATTACKS, FORGES, FILES, SHARED, PROCESS}
+    assert {cell for row in table for cell in row[1:]} == {"no", "yes"}
+    return {
+        mode: {row[0] for row in table if row[column] == "yes"}
+        for column, mode in enumerate(MODES, 1)
+    }
+
+
+@pytest.fixture(params=MODES)
+def mode(request):
+    """One that can be tried by who runs this."""
+    is_root = os.geteuid() == 0
+    if request.param.startswith("root") and not is_root:
+        pytest.skip("only root can try what holds for root")
+    if request.param in MODES[:2] and not place.granted()[0]:
+        pytest.skip(f"no isolation here: {place.granted()[2]}")
+    return request.param
+
+
+@pytest.fixture
+def folder():
+    """A folder that everybody may enter."""
+    with tempfile.TemporaryDirectory() as made:
+        Path(made).chmod(0o755)
+        yield Path(made)
+
+
+@pytest.fixture
+def bare_floor(folder):
+    """As much of the lower floor as can be read by everybody: for a build, and no node."""
+    packages = [each.parent for each in REPOSITORY.glob("*/*/src")] + [
+        REPOSITORY / "fake_turtlebot_sim"
+    ]
+    paths = ":".join(str(each / "src") for each in packages)
+    for name in ("devel", "src"):
+        (folder / "floor" / name).mkdir(parents=True)
+    for each in packages:
+        (folder / "floor" / "src" / each.name).symlink_to(each)
+    (folder / "floor" / "devel" / ".catkin").write_text(str(folder / "floor" / "src"))
+    setup = folder / "floor" / "devel" / "setup.bash"
+    setup.write_text(f"export PATH=/usr/bin:/bin PYTHONPATH={paths}\n")
+    return setup
+
+
+@pytest.fixture
+def words(mode, folder):
+    """The words before a command with which it runs in a mode."""
+    if not mode.startswith("a user") or os.geteuid() != 0:
+        return []
+    found = ["setpriv", f"--reuid={STRANGER}", f"--regid={STRANGER}", "--clear-groups"]
+    if subprocess.call([*found, "test", "-r", SOURCE / "tutorial_check" / "place.py"]):
+        pytest.skip(f"{SOURCE} is closed to other users")
+    return found
+
+
+def test_what_a_hostile_program_reaches(literal, mode, folder, bare_floor, words):
+    name, number = f"attack_{os.getpid()}", 0x60000000 + os.getpid()
+    home, room = folder / "home", folder / "room"
+    (room / "bob").mkdir(parents=True)
+    (room / "bob" / "secret").write_text("x")
+    shutil.move(literal.parent, room / "ada")
+    shutil.rmtree(room / "ada" / "src" / "joy2twist")
+    package = room / "ada" / "src" / B
+    shutil.copy(Path(__file__).with_name("attack.py"), package)
+    with (package / "CMakeLists.txt").open("a") as file:
+        file.write(BUILD)
+    home.mkdir(0o700)
+    (home / "secret").write_text("x")
+    (home / "secret").chmod(0o600)
+    environment = {**os.environ, "PYTHONPATH": str(SOURCE), "HOME": str(home)}
+    if mode.endswith("not isolated"):
+        environment["PATH"] = path_without_namespaces(folder)
+    libc, remove = ctypes.CDLL(None), 0
+    left = [Path(place_of) / name for place_of in LEAVE]
+    with socket.create_server(("127.0.0.1", 0)) as server, socket.socket(socket.AF_UNIX) as desktop:
+        desktop.bind(f"\0{name}")
+        desktop.listen()
+        aims = {"home": home, "other": room / "bob" / "secret", "name": name, "number": number}
+        aims.update(solution=REPOSITORY / "joy2twist" / "CMakeLists.txt")
+        aims = {key: value if key == "number" else str(value) for key, value in aims.items()}
+        (package / "aims.json").write_text(json.dumps({**aims, "port": server.getsockname()[1]}))
+        if words:
+            subprocess.run(["chown", "-R", str(STRANGER), home, room], check=True)
+        command = [*words, "/usr/bin/python3", "-m", "tutorial_check", "--floor", str(bare_floor)]
+        subject = subprocess.Popen(["sh", "-c", "read line", name], stdin=subprocess.PIPE)
+        try:
+            done = subprocess.run(
+                [*command, "--all", str(room), "2"],
+                capture_output=True,
+                text=True,
+                check=False,
+                timeout=600,
+                env=environment,
+            )
+            report = (room / "check" / "ada.txt").read_text()
+            reached = {what for what in ATTACKS if what in report}
+            assert "reached: " in report, report + done.stderr
+            # Told before the first verdict.
+            assert ("no isolation here" in done.stderr) == mode.endswith("not isolated")
+            shared = libc.shmget(number, 1, 0)
+            sleeping = processes_like(f"sleep\0{number}\0")
+            seen = {
+                FORGES: "FORGED" in report,
+                FILES: any(path.exists() for path in left),
+                SHARED: shared >= 0,
+                PROCESS: bool(sleeping),
+            }
+            assert reached | {what for what, is_so in seen.items() if is_so} == promised()[mode]
+        finally:
+            subject.communicate()
+            libc.shmctl(libc.shmget(number, 1, 0), remove, None)
+            for path in left:
+                path.unlink(missing_ok=True)
+            for pid in processes_like(f"sleep\0{number}\0"):
+                os.kill(int(pid), 9)
