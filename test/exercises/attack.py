@@ -1,5 +1,6 @@
 """What a hostile program tries; it prints what it has reached. For test_isolation.py."""
 
+import contextlib
 import ctypes
 import glob
 import json
@@ -32,19 +33,25 @@ def write(path):
     return True
 
 
+def above():
+    """The processes of the checker that this one comes from, each a folder of /proc."""
+    process = pathlib.Path("/proc/self")
+    while process.name != "0":
+        if b"tutorial_check" in (process / "cmdline").read_bytes():
+            yield process
+        parent = read(process / "stat").rsplit(")", 1)[1].split()[1]
+        process = pathlib.Path("/proc", parent)
+
+
 def forge():
-    """Write a verdict into every pipe of the checker's; whether it was read shows later."""
+    """Write a verdict into every pipe of the checker; whether it was read shows later."""
     own = {os.readlink(f"/proc/self/fd/{number}") for number in (0, 1, 2)}
-    for path in glob.glob("/proc/[0-9]*/fd/*"):
-        try:
-            is_checker = (
-                b"tutorial_check" in (pathlib.Path(path).parents[1] / "cmdline").read_bytes()
-            )
-            pipe = os.readlink(path)
-            if is_checker and pipe.startswith("pipe:") and pipe not in own:
-                os.write(os.open(path, os.O_WRONLY | os.O_NONBLOCK), FORGED.encode())
-        except OSError:
-            pass
+    for process in above():
+        for path in glob.glob(f"{process}/fd/*"):
+            with contextlib.suppress(OSError):
+                pipe = os.readlink(path)
+                if pipe.startswith("pipe:") and pipe not in own:
+                    os.write(os.open(path, os.O_WRONLY | os.O_NONBLOCK), FORGED.encode())
 
 
 def leave():
