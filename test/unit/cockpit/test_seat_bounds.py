@@ -71,6 +71,16 @@ def test_what_stopped_nothing_is_not_why_a_robot_stands(room, lost):
     assert (room.seat.why, room.seat.stopped) == ("", None)
 
 
+def test_nobody_drives_before_those_who_hear_it_saw_that_all_is_released(room):
+    room.seat.take(ANNA, "ada", PAGE, room.now)
+    for n, (position, may_arm) in enumerate([(REST, False), (STICK, True), (REST, True)], 1):
+        room.beat()
+        said = Input(n, 1000 * room.now, room.beats, *position)
+        assert room.sent == [] and not room.seat.armed
+        room.seat.input(ANNA, said, room.now, may_arm)
+    assert room.seat.armed and room.sent == [("ada", *REST)]
+
+
 def test_why_a_robot_stands_is_old_once_anything_moves_it(room):
     room.drive()
     room.seat.free("the network is down")
