@@ -129,6 +129,18 @@ def test_who_is_gone_is_not_heard():
     assert sent == []
 
 
+def test_a_page_drives_once_all_that_are_registered_hear_it():
+    hub, _ = made()
+    heard = set()
+    hub._graphs.joystick_listeners = lambda robot: {"/joy2twist"}
+    hub._joysticks.listeners = lambda robot: heard
+    assert not hub._is_heard(0.0)
+    heard.add("/joy2twist")
+    assert hub._is_heard(0.0)
+    heard.clear()
+    assert hub._is_heard(hub_module.CONNECT_S + 0.1)  # it does not answer, and holds up nobody
+
+
 def test_a_robot_that_another_joystick_drives_is_not_taken():
     hub, _ = made()
     sent = join(hub)

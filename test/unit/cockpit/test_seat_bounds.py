@@ -58,28 +58,6 @@ def test_what_all_pages_are_told(room):
     assert room.seat.stopped is None
 
 
-@pytest.mark.parametrize("lost", [lambda seat: seat.free("a rival"), lambda seat: seat.lose("x")])
-def test_what_stopped_nothing_is_not_why_a_robot_stands(room, lost):
-    room.seat.take(ANNA, "ada", PAGE, room.now)
-    lost(room.seat)
-    assert (room.seat.why, room.seat.stopped) == ("", None)
-    room.seat.take(ANNA, "ada", PAGE, room.now)
-    room.beat()
-    room.say(REST)
-    assert room.seat.armed
-    lost(room.seat)
-    assert (room.seat.why, room.seat.stopped) == ("", None)
-
-
-def test_why_a_robot_stands_is_old_once_anything_moves_it(room):
-    room.drive()
-    room.seat.free("the network is down")
-    room.seat.moves_on("bob")
-    assert (room.seat.why, room.seat.stopped) == ("the network is down", "ada")
-    room.seat.moves_on("ada")
-    assert (room.seat.why, room.seat.stopped) == ("", None)
-
-
 def test_a_page_counts_its_inputs_from_one(room):
     sit(room)
     hand(room, 0, 0.0)
@@ -299,15 +277,6 @@ def test_what_is_lost_is_told_once(room):
     assert room.lost == [(ANNA, "hidden")]
     assert room.seat.why == "hidden"
     assert room.sent == [("ada", *REST)]
-
-
-def test_why_it_was_lost_is_worth_reading_until_it_moves_again(room):
-    room.drive()
-    room.seat.lose("hidden")
-    room.say(REST)
-    assert (room.seat.armed, room.seat.why) == (True, "hidden")
-    room.say(DRIVE)
-    assert room.seat.why == ""
 
 
 def test_a_seat_that_is_taken_again_is_released_first(room):

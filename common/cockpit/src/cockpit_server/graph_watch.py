@@ -26,8 +26,15 @@ class GraphWatch:
 
     def joysticks(self, robot):
         """The names of the other nodes that publish a robot's joystick."""
+        return tuple(sorted(self._others(self.graph.publishers, robot)))
+
+    def joystick_listeners(self, robot):
+        """The names of the other nodes that are registered to hear a robot's joystick."""
+        return self._others(self.graph.subscribers, robot)
+
+    def _others(self, column, robot):
         topic = f"/{robot}/joy" if robot else "/joy"
-        return tuple(sorted(self.graph.publishers.get(topic, frozenset()) - {self._own_name}))
+        return column.get(topic, frozenset()) - {self._own_name}
 
     def start(self, lost):
         """Look again and again, in a thread of its own. lost: called when the master has gone."""

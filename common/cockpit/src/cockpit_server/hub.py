@@ -16,6 +16,7 @@ from node_kit.throttle import Throttle
 BEAT_S = 0.05  # of the server to who drives, and of the robots to all
 TICK_S = 0.01  # how often the seat and a recording that plays look at the time
 GIVE_S = 0.005  # of a tick for what pages are sent; the others' turn comes in the next
+CONNECT_S = 2.0  # after which a node that is registered is not waited for any longer
 RIVAL_S = 1.0  # another joystick that was heard within that has the first say
 
 
@@ -147,7 +148,14 @@ class Hub:
             return  # it was on its way when the seat was lost
         check_lengths(self._modes, axes, buttons)
         said = Input(axes=axes, buttons=buttons, **more)
-        self._change(lambda: self.seat.input(client.number, said, now))
+        may_arm = self.seat.armed or self._is_heard(now)
+        self._change(lambda: self.seat.input(client.number, said, now, may_arm))
+
+    def _is_heard(self, now):
+        """Whether all that are registered for this joystick hear it; not all of them may answer."""
+        listeners = self._graphs.joystick_listeners(self.seat.robot)
+        connected = listeners <= self._joysticks.listeners(self.seat.robot)
+        return connected or now - self._sat_at > CONNECT_S
 
     def _on_release(self, client, _now, why):
         self._change(lambda: self.seat.release(client.number, why))

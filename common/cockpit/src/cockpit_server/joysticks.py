@@ -29,6 +29,11 @@ class Joysticks:
         if robot is not None and robot not in self._publishers:
             self._publishers[robot] = PromptPublisher(topic_of(robot, "joy"), Joy)
 
+    def listeners(self, robot):
+        """The names of the nodes that hear the joystick of a robot by now."""
+        publisher = self._publishers.get(robot)
+        return publisher.names if publisher else set()
+
     def send(self, robot, axes, buttons):
         """Publish at once, if it is advertised already; one thread at a time."""
         publisher = self._publishers.get(robot)

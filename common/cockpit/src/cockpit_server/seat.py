@@ -119,8 +119,10 @@ class Seat:
         self._beats[number] = now
         self._beats.pop(number - KEPT_BEATS, None)
 
-    def input(self, client, message, now):
-        """An Input came from a client; one that is old or not the driver's is dropped."""
+    def input(self, client, message, now, may_arm=True):
+        """An Input came from a client; one that is old or not the driver's is dropped. may_arm:
+        whether all that hear this joystick will see that everything is released.
+        """
         self.tick(now)  # a silence that was not yet noticed
         if client != self.driver or self.how != PAGE or not self._is_fresh(message, now):
             return
@@ -128,7 +130,7 @@ class Seat:
         neutral = is_neutral(message.axes, message.buttons)
         if self._is_frozen(message, now) and not neutral:
             self.lose("the gamepad stands still: it is frozen or out of reach")
-        if neutral:
+        if neutral and may_arm:
             self.armed = True
         if self.armed:
             if not neutral:

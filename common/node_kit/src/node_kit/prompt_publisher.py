@@ -40,6 +40,11 @@ class PromptPublisher(rospy.SubscribeListener):
         """How many subscribers are connected."""
         return len(self._peers)
 
+    @property
+    def names(self):
+        """The names of the nodes that are connected."""
+        return {connection.endpoint_id for connection in self._peers}
+
     def publish(self, message):
         """Send a message; one thread at a time."""
         self._sequence += 1
