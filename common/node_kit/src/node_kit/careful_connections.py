@@ -50,10 +50,7 @@ def connect_once():
 
 
 def tell_of_bad_messages(warn):
-    """warn: called with a line when a message cannot be read, once a second for a topic at most.
-
-    It must not wait.
-    """
+    """warn: called with a line, at most once a second for a topic; it must not wait."""
     global _warn  # noqa: PLW0603  rospy makes the connections, and nobody can hand them anything
     _warn = warn
 

@@ -1,6 +1,5 @@
 """Questions to a master or a node that always end in time (rospy's own may wait for ever)."""
 
-import http.client
 import os
 import socket
 import threading
@@ -58,7 +57,7 @@ def _call(uri, method, arguments, caller, timeout_s):
         return Answer.REFUSED, None
     except socket.gaierror:
         return Answer.UNKNOWN_NAME, None
-    except (http.client.HTTPException, xmlrpc.client.Error, ConnectionError):
+    except ConnectionError:
         return Answer.STRANGE, None
     except OSError:  # a timeout, or no way to that host
         return Answer.SILENT, None
