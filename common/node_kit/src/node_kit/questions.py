@@ -32,10 +32,7 @@ class _Transport(xmlrpc.client.Transport):
 
 
 def call(uri, method, *arguments, caller=None, timeout_s=TIMEOUT_S):
-    """Call a master's or a node's method; (Answer, its value or None).
-
-    caller: the name to give; without one, one that is nobody's.
-    """
+    """Call a method of a master or node; (Answer, value or None). caller: by default, no node."""
     answer = [(Answer.SILENT, None)]
 
     def ask():
