@@ -75,9 +75,7 @@ class Safety:
 
     @property
     def released(self):
-        """Whether a robot that was lost may be driven again: all is released, or, where arming is
-        off, the last velocity was zero.
-        """
+        """Whether a lost robot may be driven again: all released or, without arming, zero sent."""
         return self.arming.rests if self._parameters.arm_on_neutral else self._sent == ZERO
 
     def drive(self, velocity, rests, now, sender=None, changed=True):
