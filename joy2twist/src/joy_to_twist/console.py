@@ -31,7 +31,7 @@ class Console(Log):
     def goodbye(self, line):
         """Show a last line at once, without a question to the master.
 
-        It would take that for this node's return, and end a newer node that has taken over.
+        The master would take that for this node's return, and end one that has taken over.
         """
         with contextlib.suppress(OSError):
             _write([line])

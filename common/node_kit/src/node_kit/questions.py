@@ -32,7 +32,7 @@ class _Transport(xmlrpc.client.Transport):
 
 
 def call(uri, method, *arguments, caller=None, timeout_s=TIMEOUT_S):
-    """Call a method of a master or node; (Answer, value or None). caller: by default, no node."""
+    """Ask a master or a node, as `caller` or as nobody; return (Answer, value or None)."""
     answer = [(Answer.SILENT, None)]
 
     def ask():
