@@ -31,8 +31,7 @@ class Console(Log):
     def goodbye(self, line):
         """Show a last line at once, without a question to the master.
 
-        When a newer node of the same name has taken over, the master would take the question for
-        the older one's return, and end the newer one.
+        The master would take that for this node's return, and end one that has taken over.
         """
         with contextlib.suppress(OSError):
             _write([line])

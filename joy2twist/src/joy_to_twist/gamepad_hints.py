@@ -5,7 +5,7 @@ from joy_to_twist.mapping import NEUTRAL
 # The Logitech F710 in D mode has 6 axes; with its MODE LED on, the left stick and the D-pad swap,
 # so that the stick moves axes 4 and 5. Source: the tutorial's "Gamepad F710 Setup Memo".
 D_MODE_AXES = 6
-SWAPPED_STICK = (4, 5)
+SWAPPED_STICK = {4, 5}
 
 
 class GamepadHints:
@@ -14,7 +14,7 @@ class GamepadHints:
     def __init__(self, parameters):
         """Take the axes in use and the expected number of axes of a parameters.Parameters."""
         self._expected = parameters.gamepad_axes
-        self._used = [axis.index for axis in parameters.axes]
+        self._used = {axis.index for axis in parameters.axes}
         self._count = None  # the number of axes that was looked at last
         self._look_for_swap = False
 
@@ -27,23 +27,20 @@ class GamepadHints:
         """One line that says what to do, or None."""
         if len(axes) != self._count:
             self._count = len(axes)
-            swaps = not set(SWAPPED_STICK) & set(self._used)
-            self._look_for_swap = self._count == D_MODE_AXES and swaps
+            self._look_for_swap = self._count == D_MODE_AXES and not SWAPPED_STICK & self._used
             if self._expected not in (-1, self._count):
                 return (
                     f"The gamepad has {self._count} axes and not {self._expected}: "
                     "check the D/X switch of a Logitech F710, or choose another joy_config."
                 )
-        moved = [i for i, axis in enumerate(axes) if abs(axis) > NEUTRAL]
-        if not self._look_for_swap or not moved:
+        moved = {i for i, axis in enumerate(axes) if abs(axis) > NEUTRAL}
+        if not self._look_for_swap or not moved & (self._used | SWAPPED_STICK):
             return None
-        if set(moved) & set(self._used):
-            self._look_for_swap = False  # the stick is where it should be
+        self._look_for_swap = False
+        if moved & self._used:
+            return None  # the stick is where it should be
         # A D-pad moves these axes too, and the swapped stick gives no more than it: -1, 0 and 1.
-        elif set(moved) & set(SWAPPED_STICK):
-            self._look_for_swap = False
-            return (
-                "Only axes 4 and 5 move: if that was the left stick of a Logitech F710, "
-                "press MODE so that its LED goes off."
-            )
-        return None
+        return (
+            "Only axes 4 and 5 move: if that was the left stick of a Logitech F710, "
+            "press MODE so that its LED goes off."
+        )

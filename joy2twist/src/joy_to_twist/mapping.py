@@ -59,10 +59,7 @@ class Mapping:
         return limit_speed(tuple(velocity), self._max_linear, self._max_angular)
 
     def rests(self, axes, velocity):
-        """Whether a good message has all released: the sticks and, if one is needed, the dead-man.
-
-        velocity: what velocity() made of it.
-        """
+        """Whether all is released in a good message, of which velocity() made this velocity."""
         return (velocity is None or self._free) and all(
             abs(axes[index]) <= NEUTRAL for _, index, _, _ in self._axes
         )
@@ -92,10 +89,9 @@ class Mapping:
     def describe(self):
         """One line for every axis that drives the robot, in words."""
         p = self._parameters
-        held = [(p.enable_button, "")] if p.require_enable_button else []
-        held = [(b, what) for b, what in (*held, (self._turbo, " for turbo")) if b >= 0]
-        hold = ", or ".join([f"{button}{what}" for button, what in held])
-        hold = f"hold button {hold}" if held else "no dead-man button"
+        held = [f"{p.enable_button}"] if p.require_enable_button and p.enable_button >= 0 else []
+        held += [f"{self._turbo} for turbo"] if self._turbo >= 0 else []
+        hold = f"hold button {', or '.join(held)}" if held else "no dead-man button"
         lines = []
         for axis in p.axes:
             unit = "m/s" if COMPONENTS[axis.component].startswith("linear") else "rad/s"

@@ -20,14 +20,10 @@ from node_kit.suspension import Suspensions
 from node_kit.throttle import Throttle
 
 NODE_NAME = "NewJoy2Twist"
-# How soon it is noticed that the joystick node has left [s].
-LOOK_ROUND_S = 0.25
-# A zero reaches every subscriber that reads well within this time [s]; exiting at once may lose it.
-DELIVERY_TIME_S = 0.1
-# Joy messages read at once, at most: all of a burst, but never a long backlog.
-LONGEST_BURST = 100
-# Room for some tens of them. Python makes that room anew for every message.
-READ_BYTES = 4096
+LOOK_ROUND_S = 0.25  # how soon it is noticed that the joystick node has left
+DELIVERY_TIME_S = 0.1  # for the last zero, which an exit at once may lose
+BURST = 100  # Joy messages read at once, at most: all of a burst, but never a long backlog
+READ_BYTES = 4096  # room for some tens of them, which Python makes anew for every message
 
 
 class Joy2Twist:
@@ -49,9 +45,7 @@ class Joy2Twist:
     """
 
     def __init__(self, parameters):
-        """parameters: parameters.Parameters. The node is initialised, and not anonymous: a second
-        one of its name shuts down the first, so that only one drives.
-        """
+        """Take parameters.Parameters. The node is initialised, not anonymous: only one drives."""
         self.console = Console(parameters.log_rate)
         tell_of_bad_messages(self.console.warn)
         self.timer = threading.Event()  # set to have the time looked at now
@@ -75,12 +69,7 @@ class Joy2Twist:
         self.may_diagnose = Throttle(1.0 / parameters.diagnostic_period)
         self.diagnosed = None  # the state on /diagnostics
         self.joy = rospy.Subscriber(
-            "joy",
-            LeanJoy,
-            self.callback,
-            queue_size=LONGEST_BURST,
-            buff_size=READ_BYTES,
-            tcp_nodelay=True,
+            "joy", LeanJoy, self.callback, queue_size=BURST, buff_size=READ_BYTES, tcp_nodelay=True
         )
         threading.Thread(target=self.watch, daemon=True).start()
 

@@ -1,9 +1,7 @@
 """The private parameters of the node: from a dict to a checked, frozen Parameters (pure, no ROS).
 
-The names and meanings of axis_*, scale_*, enable_* are those of the C++ node teleop_twist_joy, and
-require_enable_button and inverted_reverse those of its ROS 2 version, so that its YAML files load
-unchanged. Two defaults differ, so that the bare node is the tutorial's: every scale is 1, and
-enable_button is -1 (no dead-man) where the C++ node has button 0.
+The YAML files of teleop_twist_joy, a C++ node, load unchanged. Two defaults differ, so that the
+bare node is the tutorial's: every scale is 1, and enable_button is -1 (no dead-man), not 0.
 """
 
 import itertools
@@ -12,7 +10,6 @@ from typing import Any, Dict, Tuple
 
 from node_kit.parameters import (
     checked,
-    checked_value,
     is_number,
     is_whole,
     number,
@@ -27,23 +24,17 @@ COMPONENTS = ("linear.x", "linear.y", "linear.z", "angular.x", "angular.y", "ang
 
 # Far beyond any robot on wheels; what is larger is a slip of the keys. [m/s or rad/s]
 LARGEST_SCALE = 100
-
-# Stands for "not given": the default then depends on another parameter.
-_FROM_OTHERS = None
+_FROM_OTHERS = None  # the default depends on another parameter
 
 
 @dataclass(frozen=True)
 class Axis:
-    """One joystick axis that drives one component of the velocity.
+    """One joystick axis that drives one component of the velocity."""
 
-    component: index into COMPONENTS. index: of the axis in the Joy message.
-    scale, turbo_scale: velocity at full deflection [m/s or rad/s].
-    """
-
-    component: int
-    index: int
-    scale: float
-    turbo_scale: float
+    component: int  # index into COMPONENTS
+    index: int  # of the axis in the Joy message
+    scale: float  # velocity at full deflection [m/s or rad/s]
+    turbo_scale: float  # the same with the turbo button
 
 
 _BUTTON = whole_number(-1, allowed="a button number, or -1 for none")
@@ -133,33 +124,25 @@ def _axes(given, kind, names, first_component):
     component, and with axis_linear as a number scale_linear_turbo is 1 unless given. Any other
     turbo scale that is not given is that without turbo (in the C++ node it may become 0).
     """
-    name = f"axis_{kind}"
-    indices = given.get(name, AXIS_DEFAULTS[name])
-    _check_each(name, indices, names, _is_index, "an axis number, -1 for none")
+    indices = _value(given, f"axis_{kind}", names, _is_index, "an axis number, -1 for none")
     by_name = isinstance(indices, dict)
     if not by_name:
         indices = {"x" if kind == "linear" else "yaw": indices}
     used = [name for name in names if indices.get(name, -1) >= 0]
-
-    normal = _scales(given, f"scale_{kind}", names, used)
+    normal = turbo = _scales(given, f"scale_{kind}", names, used, {})
     name = f"scale_{kind}_turbo"
-    if name not in given and (by_name or AXIS_DEFAULTS[name] is _FROM_OTHERS):
-        turbo = normal
-    else:
-        turbo = _scales(given, name, names, used, otherwise=normal)
+    if name in given or not (by_name or AXIS_DEFAULTS[name] is _FROM_OTHERS):
+        turbo = _scales(given, name, names, used, normal)
     return [
         Axis(first_component + names.index(name), indices[name], normal[name], turbo[name])
         for name in used
     ]
 
 
-def _scales(given, name, names, used, otherwise=None):
+def _scales(given, name, names, used, otherwise):
     """The scale of every used component, by its name."""
-    value = given.get(name, AXIS_DEFAULTS[name])
-    _check_each(name, value, names, _is_scale, f"from -{LARGEST_SCALE} to {LARGEST_SCALE}")
-    if not isinstance(value, dict):
-        value = dict.fromkeys(names, value)
-    scales = {**(otherwise or {}), **value}
+    value = _value(given, name, names, _is_scale, f"from -{LARGEST_SCALE} to {LARGEST_SCALE}")
+    scales = {**otherwise, **(value if isinstance(value, dict) else dict.fromkeys(names, value))}
     missing = [one for one in used if one not in scales]
     if missing:
         raise ValueError(f"~{name}: {value!r}: must be a map that has {', '.join(missing)} too")
@@ -174,14 +157,11 @@ def _is_scale(value):
     return is_number(value) and abs(value) <= LARGEST_SCALE
 
 
-def _check_each(name, value, names, valid, allowed):
-    """Check one value, or each value of a map from component name to value."""
-
-    def check(value):
-        each = value.items() if isinstance(value, dict) else [(names[0], value)]
-        if not each or not all(component in names and valid(one) for component, one in each):
-            raise ValueError(
-                f"must be a number ({allowed}), or a map from {', '.join(names)} to such"
-            )
-
-    checked_value(f"~{name}", value, check)
+def _value(given, name, names, valid, allowed):
+    """The value of a parameter: one that is valid, or a map from component names to such."""
+    value = given.get(name, AXIS_DEFAULTS[name])
+    each = value if isinstance(value, dict) else {names[0]: value}
+    if not each or not all(component in names and valid(one) for component, one in each.items()):
+        allowed = f"a number ({allowed}), or a map from {', '.join(names)} to such"
+        raise ValueError(f"~{name}: {value!r}: must be {allowed}")
+    return value

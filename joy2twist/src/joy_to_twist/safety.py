@@ -21,8 +21,7 @@ NOT_ARMED = "stopped: not armed, release the sticks and the dead-man button once
 ANOTHER = "another joystick node sends, whose sticks and dead-man button were not seen released"
 BAD_MESSAGE = "stopped: bad joystick message"
 ARMED = "armed: hold the dead-man button to drive"
-# A joystick that does not change is warned of so long before the stop [s].
-WARNS_BEFORE_S = 0.5
+WARNS_BEFORE_S = 0.5  # before the stop, when a joystick does not change
 
 
 class Safety:
@@ -35,9 +34,7 @@ class Safety:
     """
 
     def __init__(self, parameters, wake, warn=lambda line: None):
-        """parameters: parameters.Parameters. wake: called when due has become sooner. warn: called
-        with one line for the user.
-        """
+        """wake: called when due has become sooner. warn: called with one line for the user."""
         p = self._parameters = parameters
         self._wake, self._warn = wake, warn
         self._period = 1.0 / p.output_rate
@@ -78,9 +75,7 @@ class Safety:
 
     @property
     def released(self):
-        """Whether a robot that was lost may be driven again: all is released, or, where arming is
-        off, the last velocity was zero.
-        """
+        """Whether a lost robot may be driven again: all released or, without arming, zero sent."""
         return self.arming.rests if self._parameters.arm_on_neutral else self._sent == ZERO
 
     def drive(self, velocity, rests, now, sender=None, changed=True):

@@ -91,10 +91,7 @@ class Teleoperation:
         return self.safety.lost("the joystick node has left", now)
 
     def listeners(self, count, topic, now):
-        """How many listen to the topic of the velocities. Warns, once, when driving reaches nobody.
-
-        Driving a robot that is not there, as under a wrong name, looks like driving.
-        """
+        """Warn, once, when driving reaches nobody, as under a wrong name. count: of subscribers."""
         if count or self.safety.state != DRIVING:
             self._unheard_since = None
         elif self._unheard_since is None:

@@ -8,7 +8,8 @@ order in which it asks them, is done here as there.
 import math
 from typing import NamedTuple, Tuple
 
-from fake_turtlebot_sim.mux.arbitration import REARM_S, Arbiter, Input, Verdict
+from fake_turtlebot_sim.mux.arbitration import REARM_S, Arbiter, Verdict
+from fake_turtlebot_sim.mux.parameters import Input
 from node_kit.arming import Arming
 from node_kit.resumption import SETTLING_S, Resumption
 from tutorial_faults.events import Command, Through, Violation

@@ -7,15 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fake_turtlebot_sim.mux.arbitration import (
-    IDLE,
-    REARM_S,
-    ZERO,
-    Arbiter,
-    Input,
-    Verdict,
-    admits,
-)
+from fake_turtlebot_sim.mux.arbitration import IDLE, REARM_S, ZERO, Arbiter, Verdict, admits
+from fake_turtlebot_sim.mux.parameters import Input
 from node_kit.arming import Arming
 
 SAFETY = Input("safety", "input/safety", 0.2, 10)

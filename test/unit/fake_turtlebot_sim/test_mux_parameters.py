@@ -9,8 +9,7 @@ import pytest
 import yaml
 
 import fake_turtlebot_sim
-from fake_turtlebot_sim.mux.arbitration import Input
-from fake_turtlebot_sim.mux.parameters import MuxParameters, parse_mux_parameters
+from fake_turtlebot_sim.mux.parameters import Input, MuxParameters, parse_mux_parameters
 
 PACKAGE = Path(fake_turtlebot_sim.__file__).parents[2]
 TELEOP = {"name": "teleop", "topic": "input/teleop", "timeout": 1.0, "priority": 7}

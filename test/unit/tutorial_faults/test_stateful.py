@@ -7,7 +7,7 @@ from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, rule
 
-from fake_turtlebot_sim.mux.arbitration import Input
+from fake_turtlebot_sim.mux.parameters import Input
 from gamepad.js_event import AXIS, BUTTON, INIT, SIGN_OF_LIFE_MS
 from tutorial_faults import arbiter_world, driver_world, teleoperation_world
 from tutorial_faults.arbiter_world import ArbiterWorld, Configuration

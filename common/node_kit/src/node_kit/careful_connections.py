@@ -23,8 +23,7 @@ from rospy.msg import deserialize_messages
 from node_kit.throttle import ThrottleEach
 
 GREETING_S = 2.0  # for a peer to say what it wants; on one network it takes milliseconds
-# A message of which so much time after its first bytes others have come, but not its end, claims to
-# be longer than it is [s]. All that the nodes here subscribe to is short.
+# After this time from its first bytes a message claims to be longer than it is: all here are short.
 LONGEST_ARRIVAL_S = 0.5
 WARNING_PERIOD_S = 1.0  # a sender may go on so a hundred times a second
 _LENGTH = struct.Struct("<I")
@@ -50,10 +49,7 @@ def connect_once():
 
 
 def tell_of_bad_messages(warn):
-    """warn: called with a line when a message cannot be read, once a second for a topic at most.
-
-    It must not wait.
-    """
+    """warn: called with a line, at most once a second for a topic; it must not wait."""
     global _warn  # noqa: PLW0603  rospy makes the connections, and nobody can hand them anything
     _warn = warn
 

@@ -5,8 +5,7 @@ from urllib.parse import urlsplit
 
 from node_kit.questions import Answer, call
 
-# A node that hangs or waits for a busy processor still holds its name. [s]
-PATIENCE_S = 3.0
+PATIENCE_S = 3.0  # a node that hangs or waits for a busy processor still holds its name
 
 
 def holder(master_uri, name):

@@ -13,6 +13,7 @@ one line of the same form: `~rate: 0: must be a number from 5 to 1000 Hz`.
 
 import difflib
 from dataclasses import MISSING, field, fields
+from math import inf
 from sys import float_info
 
 
@@ -86,14 +87,12 @@ def number(least, most, unit=""):
     return check
 
 
-def whole_number(least=None, most=None, allowed=None):
+def whole_number(least=-inf, most=inf, allowed="a whole number"):
     """A whole number, within bounds where they are given. allowed: the words for them."""
 
     def check(value):
-        too_small = is_whole(value) and least is not None and value < least
-        too_large = is_whole(value) and most is not None and value > most
-        if not is_whole(value) or too_small or too_large:
-            raise ValueError(f"must be {allowed or 'a whole number'}")
+        if not is_whole(value) or not least <= value <= most:
+            raise ValueError(f"must be {allowed}")
         return value
 
     return check

@@ -109,9 +109,7 @@ class VelocityPublisher(PromptPublisher):
     """
 
     def __init__(self, name, warn):
-        """name: of the topic. warn: called with a line when a subscriber is held or free again; it
-        must not wait.
-        """
+        """warn: called with a line when a subscriber is held or free again; it must not wait."""
         self._warn = warn
         self._holds_new = False  # the last velocity was a motion that nobody new takes part in
         super().__init__(name, Twist)

@@ -1,6 +1,5 @@
 """Questions to a master or a node that always end in time (rospy's own may wait for ever)."""
 
-import http.client
 import os
 import socket
 import threading
@@ -33,10 +32,7 @@ class _Transport(xmlrpc.client.Transport):
 
 
 def call(uri, method, *arguments, caller=None, timeout_s=TIMEOUT_S):
-    """Call a master's or a node's method; (Answer, its value or None).
-
-    caller: the name to give; without one, one that is nobody's.
-    """
+    """Ask a master or a node, as `caller` or as nobody; return (Answer, value or None)."""
     answer = [(Answer.SILENT, None)]
 
     def ask():
@@ -58,7 +54,7 @@ def _call(uri, method, arguments, caller, timeout_s):
         return Answer.REFUSED, None
     except socket.gaierror:
         return Answer.UNKNOWN_NAME, None
-    except (http.client.HTTPException, xmlrpc.client.Error, ConnectionError):
+    except ConnectionError:
         return Answer.STRANGE, None
     except OSError:  # a timeout, or no way to that host
         return Answer.SILENT, None

@@ -1,12 +1,10 @@
 """What to make of the messages that come after a suspension (pure)."""
 
-# What was sent to a suspended process is there at once when it goes on; after this time it is read.
-# [s]
-SETTLING_S = 0.25
+SETTLING_S = 0.25  # by then a process that goes on has read what was sent to it meanwhile
 
 
 class Resumption:
-    """What one receiver makes of suspensions . Times in seconds of any clock that goes on.
+    """What one receiver makes of suspensions. Times in seconds of any clock that goes on.
 
     After a suspension it takes nothing for SETTLING_S, and then, where a stop is asked for, nothing
     before one.

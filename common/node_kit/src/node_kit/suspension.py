@@ -8,11 +8,8 @@ import threading
 import time
 
 _BEAT_S = 0.1  # how often a thread of our own looks at the clock
-# A clock that has jumped further than this from one look to the next was not looked at by a busy
-# machine, but by a process that did not run. [s]
-_LONGEST_GAP_S = 0.5
-# The clock and the signal tell of one suspension within this time. [s]
-_SAME_S = 0.1
+_LONGEST_GAP_S = 0.5  # between two looks, even on a busy machine: after more it was suspended
+_SAME_S = 0.1  # the clock and the signal notice one suspension within this time
 
 
 class Suspensions:

@@ -5,7 +5,6 @@ timeout the one with the highest priority is active, and its commands alone go t
 goes through at once or never; none is kept for later.
 """
 
-from dataclasses import dataclass
 from enum import Enum
 from math import inf, isfinite
 
@@ -30,23 +29,11 @@ class Verdict(Enum):
     )
 
 
-@dataclass(frozen=True)
-class Input:
-    """A source of commands, with the keys of yocs_cmd_vel_mux and one of ours, rearm_on_zero."""
-
-    name: str
-    topic: str
-    timeout: float  # [s] after the last command the input is active no more
-    priority: int  # the higher wins
-    short_desc: str = ""
-    rearm_on_zero: bool = False
-
-
 class Arbiter:
     """Decides about every command of every input."""
 
     def __init__(self, inputs):
-        """Take the Inputs, whose names and priorities differ."""
+        """Take parameters.Inputs, whose names and priorities differ."""
         self._inputs = {i.name: i for i in sorted(inputs, key=lambda i: i.priority, reverse=True)}
         self._expiry_s = dict.fromkeys(self._inputs, -inf)
         self._senders = {}  # (input, sender) -> its Arming
@@ -85,9 +72,8 @@ class Arbiter:
     def must_stop(self, now):
         """Tell, once, that all inputs have fallen silent and the last command was not zero.
 
-        A zero is due then. yocs_cmd_vel_mux sends none and leaves the stop to the base (yujin_ocs
-        issue 16), but not every base has a timeout, and for ours 0.6 s are long after an input
-        with one of 0.2 s. It is sent only once, so that it never contends with a later command.
+        A zero is due then, once, so that it never contends with a later command. yocs_cmd_vel_mux
+        leaves the stop to the base (yujin_ocs issue 16), but not every base has a timeout.
         """
         must_stop = self._drives and self.active(now) == IDLE
         self._drives = self._drives and not must_stop

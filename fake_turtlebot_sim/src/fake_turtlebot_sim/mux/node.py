@@ -114,9 +114,4 @@ def _in_own_namespace(topic):
 
 def main():
     """Run the node until it is shut down; return its exit code."""
-    return run(
-        NODE_NAME,
-        parse_mux_parameters,
-        lambda parameters: CmdVelMux(parameters).spin(),
-        keeps_name=True,
-    )
+    return run(NODE_NAME, parse_mux_parameters, lambda p: CmdVelMux(p).spin(), keeps_name=True)

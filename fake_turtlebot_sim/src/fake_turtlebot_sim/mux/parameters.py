@@ -7,7 +7,7 @@ import re
 from dataclasses import dataclass
 from typing import Tuple
 
-from fake_turtlebot_sim.mux.arbitration import IDLE, Input
+from fake_turtlebot_sim.mux.arbitration import IDLE
 from node_kit.parameters import MISSING, checked, number, parameter, switch, text, whole_number
 
 EXAMPLE = "as in subscribers: [{name: teleop, topic: input/teleop, timeout: 1.0, priority: 7}]"
@@ -15,19 +15,17 @@ _TOPIC = text(
     "the name of a topic, such as input/teleop",
     lambda value: re.fullmatch(r"/?[A-Za-z]\w*(/\w+)*", value, re.ASCII),
 )
+_NAME = text(
+    f"a name, and not {IDLE}, which means that none is active",
+    lambda value: value.strip() and value != IDLE,
+)
 
 
 @dataclass(frozen=True)
-class _Entry:
-    """One entry of ~subscribers: the fields of an Input, and what each may be."""
+class Input:
+    """A source of commands: one entry of ~subscribers. rearm_on_zero is a key of ours."""
 
-    name: str = parameter(
-        MISSING,
-        text(
-            f"a name, and not {IDLE}, which means that none is active",
-            lambda value: value.strip() and value != IDLE,
-        ),
-    )
+    name: str = parameter(MISSING, _NAME)
     topic: str = parameter(MISSING, _TOPIC)
     timeout: float = parameter(MISSING, number(0.02, 60.0, "s"))
     priority: int = parameter(MISSING, whole_number(0, allowed="a whole number, 0 for the lowest"))
@@ -51,7 +49,7 @@ def _input(position, entry):
     where = f"entry {position}: "
     if not isinstance(entry, dict):
         raise ValueError(f"{where}{entry!r}: must be {EXAMPLE}")
-    return Input(**checked(_Entry, entry, where, example=EXAMPLE))
+    return Input(**checked(Input, entry, where, example=EXAMPLE))
 
 
 @dataclass(frozen=True)
