@@ -69,12 +69,18 @@ class Tabs(WithCockpit):
     def test_a_gamepad_out_of_reach_is_shown_before_the_robot_stops(self):
         self.page.watch(robots=True, look="")
         gamepad = rospy.Publisher("/joy", Joy, queue_size=1)
-        self.addCleanup(gamepad.unregister)
         rest, held = (Joy(axes=axes, buttons=buttons) for axes, buttons in (REST, DRIVE))
         wait_for(lambda: gamepad.publish(rest) or self.says("armed"), "armed joy2twist")
         begin = len(self.page.messages)
         wait_for(lambda: gamepad.publish(held) or self.says("has not changed", begin), "stop")
         self.assertTrue(self.says("driving: the joystick does not change", begin))
+        gamepad.unregister()
+
+        def sits():
+            self.page.say("drive", robot="", mode="D")
+            return any(seat["yours"] for seat in self.page.of("seat"))
+
+        wait_for(sits, "seat, once the gamepad has left")
 
     def says(self, words, begin=0):
         """Whether the page was sent a state of joy2twist with these words since then."""
