@@ -85,7 +85,9 @@ class Joy2Twist:
 
     def notice_suspension(self, now):
         """Stop if this process was suspended: what is in its sockets is old."""
-        self.publish(self.teleoperation.suspended(self.suspensions.number(), now))
+        stop = self.teleoperation.suspended(self.suspensions.number(), now)
+        if stop is not None:
+            self.publish(stop)
 
     def publish(self, velocity):
         """Publish a velocity, or None, until the node is stopped."""
