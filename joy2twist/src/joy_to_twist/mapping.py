@@ -76,8 +76,9 @@ class Mapping:
         for component, index, _, _ in self._axes:
             if index >= len(axes):
                 return f"no axis {index} (-> {COMPONENTS[component]}): it has {len(axes)} axes"
-        button = self._needed_buttons - 1
-        return f"no button {button} (enable, turbo, stop or reset): it has {len(buttons)} buttons"
+        names = ("enable_button", "enable_turbo_button", "stop_button", "stop_reset_button")
+        name = max(names, key=lambda name: getattr(self._parameters, name))
+        return f"no button {self._needed_buttons - 1} (~{name}): it has {len(buttons)} buttons"
 
     @property
     def deadman(self):
@@ -100,4 +101,9 @@ class Mapping:
                 f"axis {axis.index} -> {COMPONENTS[axis.component]} "
                 f"at {axis.scale:g} {unit}{turbo}; {hold}"
             )
-        return lines or ["no axis drives the robot: ~axis_linear and ~axis_angular are -1"]
+        lines = lines or ["no axis drives the robot: ~axis_linear and ~axis_angular are -1"]
+        if p.stop_button >= 0:
+            lines.append(f"button {p.stop_button} stops, until button {p.stop_reset_button}")
+        if p.vigilance_timeout:
+            lines.append(f"no change of the joystick for {p.vigilance_timeout:g} s stops the robot")
+        return lines

@@ -67,6 +67,7 @@ class Joy2Twist:
         self.diagnostics.setHardwareID("none")
         self.diagnostics.add("joystick", self.diagnose)
         self.may_diagnose = Throttle(1.0 / parameters.diagnostic_period)
+        self.may_diagnose_new = Throttle(1.0 / LOOK_ROUND_S)
         self.diagnosed = None  # the state on /diagnostics
         self.joy = rospy.Subscriber(
             "joy", LeanJoy, self.callback, queue_size=BURST, buff_size=READ_BYTES, tcp_nodelay=True
@@ -117,8 +118,8 @@ class Joy2Twist:
             self.teleoperation.listeners(self.cmd_vel.listeners, self.cmd_vel.name, now)
             self.timer.clear()
             due = min(self.safety.due, now + LOOK_ROUND_S)
-            wanted = self.safety.state != self.diagnosed
-        wanted = self.may_diagnose.ready(now) or wanted
+            is_new = self.safety.state != self.diagnosed
+        wanted = self.may_diagnose.ready(now) or (is_new and self.may_diagnose_new.ready(now))
         if wanted and self.diagnostics.publisher.get_num_connections():
             self.diagnostics.force_update()
         return max(0.0, due - monotonic())

@@ -55,10 +55,10 @@ class Parameters:
     joy_timeout: float = parameter(0.5, _TIMEOUT)
     max_joy_age: float = parameter(0.0, _TIMEOUT)
     arm_on_neutral: bool = parameter(False, switch)
-    vigilance_timeout: float = parameter(0.0, _TIMEOUT)
+    vigilance_timeout: float = parameter(0.0, number(1, 60, "s, or 0 for off", off=0))
     stop_button: int = parameter(-1, _BUTTON)
     stop_reset_button: int = parameter(-1, _BUTTON)
-    axis_curve: float = parameter(1.0, number(1, 5, "(1: straight)"))
+    axis_curve: float = parameter(1.0, number(1, 5, "(1: linear)"))
     stop_messages: int = parameter(5, whole_number(1, 100, "a whole number from 1 to 100"))
     output_rate: float = parameter(20.0, number(1, 1000, "Hz"))
     max_linear_speed: float = parameter(0.0, _SPEED)
@@ -111,10 +111,9 @@ def _check_buttons(values):
     for one, other in itertools.combinations(names, 2):
         if values[one] == values[other] != -1:
             raise ValueError(f"~{other}: {values[other]}: must be a button other than ~{one}")
-    if (values["stop_button"] < 0) != (values["stop_reset_button"] < 0):
-        raise ValueError(
-            f"~stop_reset_button: {values['stop_reset_button']}: must be set with ~stop_button only"
-        )
+    for one, other in (("stop_button", "stop_reset_button"), ("stop_reset_button", "stop_button")):
+        if values[one] >= 0 > values[other]:
+            raise ValueError(f"~{one}: {values[one]}: needs ~{other}")
 
 
 def _axes(given, kind, names, first_component):

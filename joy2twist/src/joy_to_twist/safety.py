@@ -15,6 +15,7 @@ import math
 from joy_to_twist.limits import ZERO, approach
 from node_kit.arming import Arming
 from node_kit.states import DRIVING
+from node_kit.throttle import Throttle
 
 WAITING = "waiting for the joystick"
 NOT_ARMED = "stopped: not armed, release the sticks and the dead-man button once"
@@ -22,6 +23,8 @@ ANOTHER = "another joystick node sends, whose sticks and dead-man button were no
 BAD_MESSAGE = "stopped: bad joystick message"
 ARMED = "armed: hold the dead-man button to drive"
 WARNS_BEFORE_S = 0.5  # before the stop, when a joystick does not change
+IN_TURN_S = 1.0  # two joystick nodes that send within this time of each other send in turn
+WARNING_PERIOD_S = 5.0  # of that
 
 
 class Safety:
@@ -47,8 +50,8 @@ class Safety:
         self._stillness_s = p.vigilance_timeout or math.inf
         self._silence = f"no message for {p.joy_timeout:g} s"
         self._stillness = (
-            f"the joystick has not changed for {p.vigilance_timeout:g} s, it may be out of reach; "
-            "release the sticks and the dead-man button once"
+            f"the joystick has not changed for {p.vigilance_timeout:g} s, it may be out of range; "
+            "to go on, release the sticks and the dead-man button once"
         )
         self._hears = False  # a good message came since the last loss
         self._silent_at = math.inf  # when the joystick counts as silent
@@ -61,6 +64,8 @@ class Safety:
         self._repeats = 0  # zeros still to come
         self._next_output = math.inf  # when a zero or a step of the acceleration is due
         self._sender = None  # of the last good message
+        self._switched_at = -math.inf  # when that was another one than before
+        self._may_warn = Throttle(1.0 / WARNING_PERIOD_S)
         self.arming = Arming(not p.arm_on_neutral)  # of that sender
         self._unarmed = NOT_ARMED  # the state until it is armed
         self.latched = False  # the stop button was pressed
@@ -90,12 +95,17 @@ class Safety:
                 self._is_warned = False
                 self._wake()  # for the next warning
         why = None
-        if now >= self._still_at and velocity not in (None, ZERO):
-            why, rests = self._stillness, False
+        is_still = now >= self._still_at and velocity not in (None, ZERO)
+        rests = rests and not is_still
+        if is_still and self.arming.armed:
+            why = self._stillness
         elif now >= self._silent_at:  # and tick() was not called in time
             why = self._silence
         elif sender is not self._sender and self._parameters.arm_on_neutral:
             why = ANOTHER
+            if now - self._switched_at < IN_TURN_S and self._may_warn.ready(now):
+                self._warn("Two joystick nodes send in turn: the robot stands until one has ended.")
+            self._switched_at = now
         stop = self.lost(why, now) if why else None
         if stop is not None and not self._parameters.arm_on_neutral:
             return stop  # the next message is in time again
@@ -133,7 +143,7 @@ class Safety:
         if self.latched:
             return None
         button = self._parameters.stop_reset_button
-        what = f"the stop button was pressed; to go on, press button {button}, then release all"
+        what = f"the stop button was pressed; to go on, press button {button}, then let go"
         self._warn(f"Stopped: {what}.")
         self._forget(f"stopped: {what}")
         self.arming.lose()
@@ -151,7 +161,10 @@ class Safety:
         if not self._hears:
             return None
         self._forget(f"stopped: {why}")
-        self._unarmed = self.state if why == self._stillness else NOT_ARMED
+        self._unarmed = NOT_ARMED
+        if why == self._stillness:
+            self._unarmed = self.state
+            self._warn(f"Stopped: {why}.")
         if self._parameters.arm_on_neutral:
             self.arming.lose()
         # A robot that stands needs no zero, and its multiplexer no claim to drive it.
@@ -173,8 +186,8 @@ class Safety:
             if not self._is_warned:
                 self._is_warned = True
                 what = f"the joystick does not change: the robot stops in {WARNS_BEFORE_S:g} s"
-                self.state = f"{DRIVING}: {what}, move a stick"
-                self._warn(f"{what[0].upper()}{what[1:]}. Move a stick, or go nearer.")
+                self.state = f"{DRIVING}: {what}; move a stick"
+                self._warn(f"{what[0].upper()}{what[1:]}. Move a stick, or come back into range.")
         if now < self._next_output:
             return None
         return self._repeat(now) if self._stopping else self._step(now)

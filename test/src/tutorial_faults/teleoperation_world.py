@@ -2,7 +2,7 @@
 
 Clocks: the last good message, the next output, the end of a suspension's settling, and with a
 vigilance_timeout the last change of the joystick; the invariants have the same. Thresholds:
-joy_timeout 0.5 s, the period of the output 0.25 s, SETTLING_S 0.25 s, vigilance_timeout 0.75 s.
+joy_timeout 0.5 s, the period of the output 0.25 s, SETTLING_S 0.25 s, vigilance_timeout 1 s.
 """
 
 import math
@@ -38,8 +38,8 @@ CONFIGURATIONS = {
     "no turbo": {**BASE, "enable_turbo_button": -1},
     "turbo alone, arming": {**ARMING, **TURBO_ALONE},
     "no timeout, arming": {**ARMING, "joy_timeout": 0},
-    "vigilance, arming": {**ARMING, "vigilance_timeout": 0.75},
-    "vigilance, no dead-man": {**ARMING, **NO_DEAD_MAN, "vigilance_timeout": 0.75},
+    "vigilance, arming": {**ARMING, "vigilance_timeout": 1.0},
+    "vigilance, no dead-man": {**ARMING, **NO_DEAD_MAN, "vigilance_timeout": 1.0},
     "stop button": {**BASE, **NO_DEAD_MAN, **STOP_BUTTON},
     "stop button, arming": {**ARMING, **STOP_BUTTON},
     "ramp, arming": {**ARMING, **RAMP},
@@ -91,6 +91,7 @@ NOT_IN_KEY = {
 FIXED_IN_SAFETY = {
     "_parameters", "_wake", "_warn", "_period", "_gradual", "_changes", "_silence_s",
     "_stillness_s", "_silence", "_stillness", "_watches_stillness", "_unarmed", "state", "arming",
+    "_switched_at", "_may_warn",
 }  # fmt: skip
 FIXED_IN_RELEASED = {"_is_good", "_is_released", "disarmed_s", "settled_s"}  # Resumption's
 PASS, TICK, LEFT, SUSPENDED = "time passes", "tick", "left", "suspended"

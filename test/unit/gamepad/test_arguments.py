@@ -101,8 +101,17 @@ def test_a_robot():
 def test_only_arguments_with_a_rule_are_asked_for():
     assert set(RULES) == {
         "bag", "cockpit", "cockpit_port", "joy_pkg", "joystick", "lan", "loop", "name", "rviz",
-        "virtual",
+        "vigilance_timeout", "virtual",
     }  # fmt: skip
+
+
+def test_what_joy2twist_would_refuse_later():
+    for value in ("0", "0.0", "1", "3.0", "60"):
+        check("vigilance_timeout", value)
+    for value in ("-1", "0.3", "61", "soon", ""):
+        assert "must be a number from 1 to 60 s, or 0 for off" in refused(
+            "vigilance_timeout", value
+        )
 
 
 def test_the_package_of_the_driver():

@@ -125,7 +125,7 @@ def test_speed_limits_hold_for_the_length_of_the_vector():
         ({}, (0.5,), (), "no axis 1 (-> linear.x): it has 1 axes"),
         ({}, (), (), "no axis"),
         ({"axis_linear": 9}, AXES, (), "no axis 9 (-> linear.x): it has 6 axes"),
-        (PAD, AXES, (1,), "no button 1 (enable, turbo, stop or reset): it has 1 buttons"),
+        (PAD, AXES, (1,), "no button 1 (~enable_turbo_button): it has 1 buttons"),
         ({}, (0.0, float("nan")), (), "nan"),
         ({}, (0.0, 0.1, float("nan")), (), "nan"),
         ({}, (float("inf"), float("-inf")), (), "inf"),

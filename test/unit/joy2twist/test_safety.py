@@ -186,6 +186,14 @@ class TestArming:
         assert machine.drive(FORWARD, False, 0.2, "ada") is None
         assert machine.state == NOT_ARMED
 
+    def test_two_that_send_in_turn_are_named_now_and_then(self):
+        warnings = []
+        machine = Safety(load({**DEAD_MAN, "arm_on_neutral": True}), lambda: None, warnings.append)
+        for i in range(200):
+            machine.drive(None, True, i * 0.02, "ada" if i % 2 else "bob")
+        assert len(warnings) == 1
+        assert "Two joystick nodes" in warnings[0]
+
     def test_two_senders_that_look_alike_are_two(self):
         machine = safety(**DEAD_MAN, arm_on_neutral=True)
         ada, bob = ["joystick"], ["joystick"]
@@ -289,7 +297,7 @@ class TestVigilance:
         machine = self.driven(warnings)
         assert self.repeat(machine, 1.05, 12.0) == [(4.0, ZERO), (4.05, ZERO)]
         assert "has not changed for 3 s" in machine.state
-        assert len(warnings) == 1
+        assert [w.split(":")[0] for w in warnings] == ["The joystick does not change", "Stopped"]
         assert machine.drive(BACKWARD, False, 12.0) is None  # back in reach: not yet released
         assert machine.drive(None, True, 12.1) is None
         assert machine.drive(FORWARD, False, 12.2) == FORWARD
@@ -327,6 +335,12 @@ class TestVigilance:
             machine.drive(FORWARD, False, 1.05 + i * 0.05, changed=False)
         assert machine.drive(FORWARD, False, 4.05, changed=False) == ZERO
         assert machine.drive(FORWARD, False, 4.1, changed=False) is None
+
+    def test_a_robot_that_was_never_armed_is_not_said_to_have_stopped_for_it(self):
+        machine = Safety(load(STILL), lambda: None)
+        for i in range(100):
+            machine.drive(FORWARD, False, i * 0.05, changed=i == 0)
+        assert machine.state == NOT_ARMED
 
     def test_without_a_dead_man_it_stops_too(self):
         machine = self.driven([], enable_button=-1)

@@ -63,7 +63,7 @@ def parameters(draw):
         "output_rate": draw(st.floats(1, 1000)),
     }
     if given["arm_on_neutral"]:
-        given["vigilance_timeout"] = draw(st.sampled_from([0, 0.3, 2.0]))
+        given["vigilance_timeout"] = draw(st.sampled_from([0, 1.0, 2.0]))
     if draw(st.booleans()):
         given.update(stop_button=2, stop_reset_button=3)
     for name in ("scale_linear", "scale_angular", "scale_linear_turbo"):

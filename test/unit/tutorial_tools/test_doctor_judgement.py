@@ -365,7 +365,7 @@ def test_names_in_a_line(names, shown):
 def test_a_gamepad_out_of_reach_is_told_from_one_that_nobody_touches():
     facts = replace(WELL, silent_s={"/joy_node": 12.3})
     assert lines(facts, "wrong") == []
-    still = "stopped: the joystick has not changed for 3 s, it may be out of reach; release"
+    still = "stopped: the joystick has not changed for 3 s, it may be out of range; release"
     facts = replace(facts, states={"/joy2twist": (False, still)})
     seen = "the gamepad of /joy_node has been silent for 12 s: look at its battery"
     assert seen in lines(facts, "wrong")[-1]

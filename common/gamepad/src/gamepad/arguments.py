@@ -77,6 +77,14 @@ def port(value):
         raise ValueError("must be a port, a number from 1 to 65535")
 
 
+def seconds_or_off(value):
+    """What joy2twist takes as its ~vigilance_timeout."""
+    if not re.fullmatch(r"\d+(\.\d*)?", value) or not (
+        float(value) == 0 or 1 <= float(value) <= 60
+    ):
+        raise ValueError("must be a number from 1 to 60 s, or 0 for off")
+
+
 RULES = {
     "bag": recording,
     "cockpit": true_false_or_auto,
@@ -87,6 +95,7 @@ RULES = {
     "loop": true_or_false,
     "name": robot,
     "rviz": true_or_false,
+    "vigilance_timeout": seconds_or_off,
     "virtual": true_or_false,
 }
 

@@ -76,11 +76,11 @@ def is_number(value):
     return (isinstance(value, float) or is_whole(value)) and abs(value) <= float_info.max
 
 
-def number(least, most, unit=""):
-    """A number from least to most, both included; what follows it in the text is its unit."""
+def number(least, most, unit="", off=None):
+    """A number from least to most, both included, or off. unit: what follows in the text."""
 
     def check(value):
-        if not is_number(value) or not least <= value <= most:
+        if not is_number(value) or not (least <= value <= most or value == off):
             raise ValueError(f"must be a number from {least:g} to {most:g} {unit}".rstrip())
         return float(value)
 
