@@ -153,6 +153,7 @@ def _examine(workspace, floor, exercises, folder, *, tell, only_first, own):
     above = os.open(os.path.dirname(folder), os.O_PATH | os.O_DIRECTORY)
     orders = {
         "layout": [layout.root, layout.source, layout.is_workspace],
+        "own": own,
         "above": above,
         "floor": floor,
         "exercises": list(exercises),
