@@ -78,7 +78,7 @@ def examine(orders, tell, told):
         floor=orders["floor"],
         make_box=lambda environment: box.Box(environment, uid, orders["apart"], told),
         can_have_devices=orders["apart"],
-        needed=orders["kept"],
+        needed=[*orders["kept"], Path(__file__)],
     )
     trial.must_be_possible(one.box, scratch)
     run = Run(catalogue(), one, one.second_look, one.box.patience.hopeless)
