@@ -4,8 +4,6 @@ from setuptools import setup
 setup(
     **generate_distutils_setup(
         packages=[
-            "tutorial_check",
-            "tutorial_check.exercises",
             "tutorial_faults",
             "tutorial_faults.live",
             "tutorial_testing",

@@ -19,7 +19,7 @@ from tutorial_check.exercises import EXERCISES
 from tutorial_testing.processes import Program, command_line, descendants, lives
 from tutorial_testing.waiting import wait_for
 
-SOURCE = Path(__file__).resolve().parents[1] / "src"
+SOURCE = Path(__file__).resolve().parents[2] / "common" / "tutorial_check" / "src"
 
 
 def check(floor, *words, **options):
@@ -79,7 +79,7 @@ def test_it_cannot_work(tmp_path, floor, floor_there):
 
 
 def test_the_suites_own_solutions(floor):
-    code, _, error = check(floor, "--in", SOURCE.parents[1], "2")
+    code, _, error = check(floor, "--in", SOURCE.parents[2], "2")
     assert code == 2
     assert "this suite's solution, not yours" in error
 

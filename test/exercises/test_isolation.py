@@ -1,4 +1,4 @@
-"""What a hostile program reaches in each mode: the table in EXERCISES.md."""
+"""What a hostile program reaches in each mode: the table in the README."""
 
 import ctypes
 import json
@@ -35,8 +35,8 @@ message(FATAL_ERROR "${said}")
 
 
 def promised():
-    """{mode: what a program can do} by EXERCISES.md."""
-    lines = (REPOSITORY / "test" / "EXERCISES.md").read_text().splitlines()
+    """{mode: what a program can do} by the README."""
+    lines = (SOURCE.with_name("README.md")).read_text().splitlines()
     rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines if "|" in line]
     begin = next(at for at, row in enumerate(rows) if row[1:] == list(MODES))
     table = [row for row in rows[begin + 2 :] if len(row) == 1 + len(MODES)]

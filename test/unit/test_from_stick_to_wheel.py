@@ -1,4 +1,4 @@
-"""common/FROM_STICK_TO_WHEEL.md names the rooms that a Joy passes: all of them, in their order."""
+"""common/doc/FROM_STICK_TO_WHEEL.md names the rooms that a Joy passes: all, in their order."""
 
 import re
 from pathlib import Path
@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from test_layers import ALL, imported, path_of
 
-PAGE = Path(__file__).resolve().parents[2] / "common/FROM_STICK_TO_WHEEL.md"
+PAGE = Path(__file__).resolve().parents[2] / "common/doc/FROM_STICK_TO_WHEEL.md"
 # The legs of the way, in their order; each ends with its node.
 LEGS = ("gamepad.", "joy_to_twist.", "fake_turtlebot_sim.mux.", "fake_turtlebot_sim.simulator.")
 NOT_ON_THE_WAY = ("gamepad.virtual.", "gamepad.arguments")

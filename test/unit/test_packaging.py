@@ -14,6 +14,7 @@ LOWER_FLOOR = (
     "common/cockpit",
     "common/gamepad",
     "common/node_kit",
+    "common/tutorial_check",
     "common/tutorial_tools",
     "fake_turtlebot_sim",
 )

@@ -27,7 +27,7 @@ LONGEST_S = 900.0
 # needs to read catkin's files.
 OF_SUITE = ("ROS_ETC_DIR", "CMAKE_POLICY_VERSION_MINIMUM")
 END_S = 10.0  # an examination that nobody listens to has this long to end what it started
-SUITE = Path(__file__).resolve().parents[3]
+SUITE = Path(__file__).resolve().parents[4]
 _no_more = threading.Event()
 NUMBERS = itertools.count(os.getpid() * 100)
 
@@ -117,7 +117,7 @@ def _compiled():
 
 
 def _kept(floor):
-    """Folders that the programs need: the floor, and its sources."""
+    """Folders that the programs need: the floor, and its sources, this package among them."""
     devel = Path(floor).parent
     kept = [devel.parent]
     with_sources = devel / ".catkin"
@@ -147,12 +147,13 @@ def _hand_in(workspace, folder, own):
 def _examine(workspace, floor, exercises, folder, *, tell, only_first, own):
     _compiled()
     layout, shown = _hand_in(workspace, Path(folder), own)
-    wrapper = place.command(folder, [*shown, *_kept(floor), Path(__file__).parent], SUITE)
+    wrapper = place.command(folder, [*shown, *_kept(floor)], SUITE)
     if not wrapper:
         place.keep_to_itself()  # and the end of the pipe
     above = os.open(os.path.dirname(folder), os.O_PATH | os.O_DIRECTORY)
     orders = {
         "layout": [layout.root, layout.source, layout.is_workspace],
+        "own": own,
         "above": above,
         "floor": floor,
         "exercises": list(exercises),
@@ -163,7 +164,6 @@ def _examine(workspace, floor, exercises, folder, *, tell, only_first, own):
         "only_first": only_first,
         "environment": _environment(floor),
     }
-    source = str(Path(__file__).resolve().parents[1])
     environment = {
         **_environment(floor),
         **{
@@ -172,7 +172,6 @@ def _examine(workspace, floor, exercises, folder, *, tell, only_first, own):
             if name in os.environ
         },
         "PATH": "/usr/bin:/bin:/usr/sbin:/sbin",
-        "PYTHONPATH": f"{source}:{_environment(floor).get('PYTHONPATH', '')}",
         "PYTHONDONTWRITEBYTECODE": "1",
     }
     log = tempfile.TemporaryFile("w+")  # noqa: SIM115  read below
