@@ -20,6 +20,8 @@ VIEWERS, FLOOD_S = 30, 8  # the whole minute, and the latency, are in test/bench
 MOST_MORE_KB = 20_000
 PINGS = 100_000
 PING = b"\x89\x80" + bytes(4)
+# A text message whose end never comes: its begin, and pieces of 0 bytes.
+BEGIN, PIECES = b"\x01\x80" + bytes(4), 1000 * (b"\x00\x80" + bytes(4))
 PONGS, PONG_BYTES = 1000 * (b"\x8a\x80" + bytes(4)), 30_000_000
 HALF_OPEN, MOST_PAGES = 300, 64
 ELSEWHERE = "127.0.0.2"  # another address of this machine
@@ -90,6 +92,14 @@ class Flood(WithCockpit):
         with self.assertRaises(OSError):  # they are read as slowly as messages are
             for _ in range(PONG_BYTES // len(PONGS)):
                 made.sendall(PONGS)
+
+    def test_a_message_without_end(self):
+        made, answer = self.upgraded(self.rig.token("look"))
+        self.assertIn("101", answer)
+        made.sendall(BEGIN)
+        with self.assertRaises(OSError):  # it is closed
+            while True:
+                made.sendall(PIECES)
 
     def test_connections_that_ask_for_nothing(self):
         with contextlib.ExitStack() as stack:

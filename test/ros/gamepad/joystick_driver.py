@@ -5,6 +5,7 @@ import sys
 import time
 import unittest
 
+import rosnode
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray
@@ -133,6 +134,7 @@ class DriverTest(unittest.TestCase):
             waiting.interrupt()
             self.assertEqual(waiting.wait(), 0)
             self.assertNotIn("Traceback", waiting.output + program.output)
+            self.assertNotIn("/joy_node", rosnode.get_node_names())  # not registered as if it ran
 
     def refuse(self, program, line):
         with program:

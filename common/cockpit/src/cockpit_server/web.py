@@ -23,6 +23,7 @@ MOST_CONNECTIONS = 256  # each takes a file descriptor, of which a process may h
 LONGEST_IDLE_S = 20.0  # a connection on which nothing is asked
 PING_S = 1.0  # a page that does not answer three of them is closed
 MOST_PINGS = 100  # of a page
+MOST_FRAGMENTS = 64  # of a message: browsers send one of our size in one piece
 LONGEST_HEADER = 16384  # bytes
 LONGEST_BODY = 1024  # bytes; nothing is uploaded
 # What waits in the kernel for a page that does not read [bytes]; the kernel doubles it.
@@ -91,7 +92,7 @@ class _Socket(WebSocketHandler):
     """The way between a page and the Hub."""
 
     client = None
-    pings = 0
+    pings = fragments = 0
 
     async def get(self, *_, **__):
         access, hub = self.settings["access"], self.settings["hub"]
@@ -129,6 +130,7 @@ class _Socket(WebSocketHandler):
         self.stream = self.ws_connection.stream
         self.stream.socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SEND_BUFFER)
         self.settings["pages"].add(self.stream)
+        self.limit_fragments(self.ws_connection)
         hub, address = self.settings["hub"], self.request.remote_ip
         name = name_of(self.request.headers.get("User-Agent", ""), address)
         self.client = Client(
@@ -136,6 +138,19 @@ class _Socket(WebSocketHandler):
             self.stream.close, address,
         )  # fmt: skip
         hub.join(self.client)
+
+    def limit_fragments(self, connection):
+        """Close a page whose message never ends: tornado reports only whole ones."""
+        receive = connection._receive_frame
+
+        async def receive_frame():
+            await receive()
+            is_whole = getattr(connection, "_fragmented_message_buffer", None) is None
+            self.fragments = 0 if is_whole else self.fragments + 1
+            if self.fragments > MOST_FRAGMENTS:
+                self.stream.close()
+
+        connection._receive_frame = receive_frame
 
     def send(self, text):
         try:

@@ -86,6 +86,12 @@ def _exit_soon():
     timer.start()
 
 
+def wait_for_goodbye():
+    """Wait until the shutdown is complete: a node that exits sooner stays registered."""
+    if rospy.core._shutdown_lock.acquire(timeout=LONGEST_GOODBYE_S):  # held until then
+        rospy.core._shutdown_lock.release()
+
+
 def is_ending():
     """Whether the end was asked for; rospy.is_shutdown() says so only after the topics close."""
     return rospy.core.is_shutdown_requested()

@@ -7,7 +7,13 @@ import rospy
 from rospy.client import load_command_line_node_params
 
 from node_kit.careful_connections import be_careful
-from node_kit.ending import end_in_time, end_on_signals, end_only_if_replaced, is_ending
+from node_kit.ending import (
+    end_in_time,
+    end_on_signals,
+    end_only_if_replaced,
+    is_ending,
+    wait_for_goodbye,
+)
 from node_kit.names import holder
 from node_kit.parameters import checked_value, switch
 from node_kit.questions import Answer, call
@@ -52,6 +58,8 @@ def run(name, load, main, keeps_name=False):
         # A shutdown in the middle of the start, or one that closes a topic while it is published.
         if not is_ending():
             raise
+    if is_ending():
+        wait_for_goodbye()
     return 0
 
 
