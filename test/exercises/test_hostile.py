@@ -24,6 +24,25 @@ ENDS_THE_MASTER = (
     f"{FIRST}import xmlrpc.client\n"
     "xmlrpc.client.ServerProxy(os.environ['ROS_MASTER_URI']).shutdown('/me', 'no more')\n"
 )
+# It works as it should, and leaves links where the checker writes a changed copy of it (C9); the one
+# to a descriptor of the checker's is to have its own text, by then a verdict, written there.
+PLANTS_LINKS = """
+import os
+here = os.path.dirname(os.path.abspath(__file__))
+for number in range(1, 9):
+    link = os.path.join(here, "checked_%d_talker.py" % number)
+    if not os.path.lexists(link):
+        os.symlink({aim!r}, link)
+def forge():
+    with open(os.path.join(here, "talker.py"), "w") as file:
+        file.write({text!r})
+rospy.on_shutdown(forge)
+"""
+FORGED = (
+    '{"exercise": "3", "result": {"id": "FORGED", "status": "ok", "title": "x"}}\n'
+    '{"exercise": "3", "done": 1, "trouble": ""}\n'
+    "rospy.init_node('talker', anonymous=True)"
+)
 AFTER_INIT = "    rospy.init_node('listener', anonymous=True)\n"
 
 
@@ -166,6 +185,16 @@ def test_one_that_prints_a_verdict(literal, floor):
     )
     check, _ = wrong_of(literal, floor, "4.3")
     assert check == "C14"
+
+
+@pytest.mark.parametrize("aim", ["/proc/self/fd/4/planted", "/proc/self/fd/3", "{scratch}/planted"])
+def test_one_that_plants_links_where_the_checker_writes(literal, floor, scratch, aim):
+    plant = PLANTS_LINKS.format(aim=aim.format(scratch=scratch), text=FORGED)
+    apply([put(TALKER, "import rospy\n", f"import rospy\n{plant}", 1)], literal)
+    seen = []
+    examine(literal.parent, floor, ["3"], lambda _, result: seen.append(result.id))
+    assert "C8" in seen and "FORGED" not in seen
+    assert not os.path.lexists(f"{scratch}/planted")
 
 
 def test_those_beside_them_are_unharmed(literal, floor, tmp_path):

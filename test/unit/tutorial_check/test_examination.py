@@ -70,3 +70,21 @@ def test_what_holds_in_a_shell_of_the_suite(examine, tmp_path, monkeypatch, name
     monkeypatch.setenv(name, "of_the_suite")
     outcomes = examine([RESULT], f"""printf '{{"cannot": "%s"}}\\n' "${name}" """)
     assert told(outcomes)["3"] == ([], "of_the_suite")
+
+
+def test_a_result_that_nobody_asked_for_or_that_comes_twice_is_none(examine):
+    stray = RESULT.replace('"2"', '"4.3"')
+    late = RESULT.replace("C1", "C2")
+    seen = []
+    outcomes = examine(
+        [stray, DONE.replace('"2"', '"4.3"'), RESULT, RESULT.replace("ok", "wrong"), DONE, late],
+        """echo '{"end": true}'""",
+        lambda outcome, result: seen.append((outcome.id, result.id, result.status)),
+    )
+    assert seen == [("2", "C1", "ok")]
+    assert told(outcomes)["2"] == (["C1"], "")
+
+
+def test_the_way_of_the_verdicts_cannot_be_opened_by_a_path(examine):
+    script = """echo '{"cannot": "opened"}' >/proc/self/fd/1 && exit; echo shut >&2"""
+    assert told(examine([RESULT], script))["3"][1].endswith("shut")

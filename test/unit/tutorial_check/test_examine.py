@@ -19,16 +19,13 @@ examine.main()
 
 
 def test_others_may_read_what_it_writes_whatever_the_users_umask(tmp_path):
-    above = os.open(tmp_path, os.O_PATH)
     done = subprocess.run(
         [sys.executable, "-c", MAKE_A_FOLDER],
-        input=json.dumps({"apart": False, "folder": str(tmp_path / "scratch"), "above": above}),
+        input=json.dumps({"apart": False, "folder": str(tmp_path / "scratch")}),
         capture_output=True,
         text=True,
         check=False,
         preexec_fn=lambda: os.umask(0o077),
-        pass_fds=[above],
     )
-    os.close(above)
     assert json.loads(done.stdout.splitlines()[0]) == {"mode": 0o755}, done.stderr
     assert not (tmp_path / "scratch").exists()

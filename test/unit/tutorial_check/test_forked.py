@@ -35,7 +35,7 @@ def test_one_that_was_too_late_is_asked_no_more(tmp_path):
         with pytest.raises(CannotCheck, match="hangs in wait"):
             helper.call("wait", deadline_s=0)
         with open(gate, "w"):
-            select.select([helper._answer], [], [])  # now it has answered
+            select.select([helper._line], [], [])  # now it has answered
         with pytest.raises(CannotCheck, match="hangs in wait"):
             helper.call("alive")
     finally:

@@ -8,7 +8,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from tutorial_check import session
+from tutorial_check import place, session
 from tutorial_check.box import Box
 from tutorial_check.model import CannotCheck
 
@@ -67,3 +67,56 @@ def test_a_second_look(make_session, strained, explained, is_worth_it):
     assert one.second_look(explained) == is_worth_it
     again = [one.run("k", lambda: next(count)), one.memo("k", lambda: next(count))]
     assert again == [2 if is_worth_it else 0, 1]
+
+
+def test_a_planted_link_is_not_written_through(make_session, tmp_path):
+    one = make_session("a", "2")
+    other = tmp_path / "other"
+    other.write_text("kept")
+    folder = one.package("a").folder
+    (folder / "checked_1_talker.py").symlink_to(other)
+    assert one.sibling("a", "talker.py", "changed") == "checked_1_talker.py"
+    assert other.read_text() == "kept"
+    assert (folder / "checked_1_talker.py").read_text() == "changed"
+    assert not (folder / "checked_1_talker.py").is_symlink()
+
+
+@pytest.mark.parametrize("planted", ["scripts/talker.py", "scripts"])
+def test_a_planted_link_is_not_read_through(make_session, tmp_path, planted):
+    one = make_session("a", "2")
+    (tmp_path / "outside").mkdir()
+    (tmp_path / "outside" / "talker.py").write_text("secret")
+    link = one.package("a").folder / planted
+    link.parent.mkdir(exist_ok=True)
+    link.symlink_to(tmp_path / "outside" / ("talker.py" if planted.endswith(".py") else ""))
+    with pytest.raises(CannotCheck, match="is not as it was: a program changed it"):
+        one.text("a", "scripts/talker.py")
+    with pytest.raises(CannotCheck, match="is not as it was"):
+        one.sibling("a", "scripts/talker.py", "x") if planted == "scripts" else one.text(
+            "a", "scripts/talker.py"
+        )
+
+
+def test_a_pipe_in_place_of_a_script_is_not_waited_for(make_session):
+    one = make_session("a", "2")
+    os.mkfifo(one.package("a").folder / "talker.py")
+    with pytest.raises(CannotCheck, match="no regular file"):
+        one.text("a", "talker.py")
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root can read as another user")
+def test_root_opens_files_with_the_rights_of_the_programs_user(tmp_path, stranger):
+    secret = tmp_path / "secret"
+    secret.write_text("x")
+    secret.chmod(0o600)
+    place.touch_files_as(stranger, stranger)
+    try:
+        with pytest.raises(PermissionError):
+            secret.read_text()
+        with place.own_rights():
+            assert secret.read_text() == "x"
+        with pytest.raises(PermissionError):
+            secret.read_text()
+    finally:
+        place.touch_files_as(os.geteuid(), os.getegid())
+    assert secret.read_text() == "x"

@@ -7,6 +7,7 @@ import json
 import os
 import selectors
 import shutil
+import socket
 import subprocess
 import sys
 import tempfile
@@ -68,6 +69,12 @@ def examine(
     except PermissionError as error:
         raise CannotCheck(f"{error.filename}: may not be read") from None
     folder = tempfile.mkdtemp(prefix="tutorial_check_")
+    # If this process is killed; isolated, an examination does not reach the folder itself.
+    cleaner = subprocess.Popen(
+        ["sh", "-c", 'read -r _; rm -rf -- "$1"', "sh", folder],
+        stdin=subprocess.PIPE,
+        start_new_session=True,
+    )
     try:
         return _examine(
             os.path.abspath(workspace),
@@ -80,6 +87,7 @@ def examine(
         )
     finally:
         shutil.rmtree(folder, ignore_errors=True)
+        cleaner.communicate()
 
 
 def end_all():
@@ -150,11 +158,9 @@ def _examine(workspace, floor, exercises, folder, *, tell, only_first, own):
     wrapper = place.command(folder, [*shown, *_kept(floor)], SUITE)
     if not wrapper:
         place.keep_to_itself()  # and the end of the pipe
-    above = os.open(os.path.dirname(folder), os.O_PATH | os.O_DIRECTORY)
     orders = {
         "layout": [layout.root, layout.source, layout.is_workspace],
         "own": own,
-        "above": above,
         "floor": floor,
         "exercises": list(exercises),
         "folder": folder,
@@ -175,26 +181,27 @@ def _examine(workspace, floor, exercises, folder, *, tell, only_first, own):
         "PYTHONDONTWRITEBYTECODE": "1",
     }
     log = tempfile.TemporaryFile("w+")  # noqa: SIM115  read below
+    # No pipe, which a path in /proc would open: a program could plant a link to that.
+    ours, theirs = socket.socketpair()
     process = subprocess.Popen(
         # -s: without what pip put into the home folder, which may be shown nowhere
         [*wrapper, "/usr/bin/python3", "-s", "-m", "tutorial_check.examine"],
         stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
+        stdout=theirs,
         stderr=log,
         env=environment,
         start_new_session=True,
         cwd="/",
         text=True,
-        pass_fds=(above,),
     )
-    os.close(above)
+    theirs.close()
     outcomes = {exercise: Outcome(exercise) for exercise in exercises}
     try:
         process.stdin.write(json.dumps(orders, default=str))
         process.stdin.close()
-        ending = _listen(process, outcomes, tell)
+        ending = _listen(ours, outcomes, tell)
     finally:
-        process.stdout.close()  # by which it knows
+        ours.close()  # by which it knows
         try:
             if not wrapper:
                 process.wait(END_S)
@@ -224,19 +231,18 @@ def _concluded(outcomes, trouble):
     return outcomes
 
 
-def _listen(process, outcomes, tell):
+def _listen(line_in, outcomes, tell):
     """The last word of the examination, or None if it ends without one."""
     end = time.monotonic() + LONGEST_S
     buffer = ""
-    descriptor = process.stdout.fileno()
     with selectors.DefaultSelector() as selector:
-        selector.register(descriptor, selectors.EVENT_READ)
+        selector.register(line_in, selectors.EVENT_READ)
         while time.monotonic() < end:
             if _no_more.is_set():
                 return None
             if not selector.select(0.2):
                 continue
-            data = os.read(descriptor, 65536).decode(errors="replace")
+            data = line_in.recv(65536).decode(errors="replace")
             if not data:
                 return None
             *lines, buffer = (buffer + data).split("\n")
@@ -244,10 +250,14 @@ def _listen(process, outcomes, tell):
                 word = json.loads(line)
                 if "exercise" not in word:
                     return word
-                outcome = outcomes[word["exercise"]]
+                outcome = outcomes.get(word["exercise"])
+                if outcome is None or outcome.done:
+                    continue  # nobody asked, or it was told already
                 if "result" in word:
-                    outcome.results.append(Result(**word["result"]))
-                    tell(outcome, outcome.results[-1])
+                    result = Result(**word["result"])
+                    if result.id not in [each.id for each in outcome.results]:
+                        outcome.results.append(result)
+                        tell(outcome, result)
                 else:
                     outcome.seconds, outcome.done = word["done"], True
                     outcome.trouble = word["trouble"]

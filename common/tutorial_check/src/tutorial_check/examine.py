@@ -1,7 +1,7 @@
 """The examination itself, in its place apart: python3 -m tutorial_check.examine.
 
-Its orders come as JSON on standard input; what it finds goes out as JSON lines through a pipe that
-no program of the student's ever has: {"exercise": id, "result": {...}}, {"exercise": id, "done":
+Its orders come as JSON on standard input; what it finds goes out as JSON lines through a socket that
+no program of the student's ever has: unlike a pipe, no path in /proc opens it: {"exercise": id, "result": {...}}, {"exercise": id, "done":
 seconds, "trouble": why it could not be checked as a whole, or ""}, and at the end {"end": true} or
 {"cannot": "why"}.
 """
@@ -25,7 +25,6 @@ def main():
     os.umask(0o022)  # what we write is read by programs that run as somebody else
     place.keep_to_itself()
     orders = json.load(sys.stdin)
-    os.set_inheritable(orders["above"], False)
     if orders["apart"]:
         place.end_with_parent()  # which is bwrap
         place.limit_shared_memory()
@@ -46,9 +45,9 @@ def main():
         if not isinstance(error, CannotCheck):
             traceback.print_exc()
         tell(cannot=fault(error))
-    finally:  # who made the folder may have been killed; here something else may lie over it
-        name = os.path.basename(orders["folder"])
-        shutil.rmtree(f"/proc/self/fd/{orders['above']}/{name}", ignore_errors=True)
+    finally:  # who made the folder may have been killed
+        place.touch_files_as(os.geteuid(), os.getegid())
+        shutil.rmtree(orders["folder"], ignore_errors=True)
 
 
 def examine(orders, tell, told):
@@ -81,6 +80,9 @@ def examine(orders, tell, told):
         needed=[*orders["kept"], Path(__file__)],
     )
     trial.must_be_possible(one.box, scratch)
+    if uid is not None:
+        os.setgroups([])
+        place.touch_files_as(uid, uid)
     run = Run(catalogue(), one, one.second_look, one.box.patience.hopeless)
     copied = f"{scratch}/ws/" if layout.is_workspace else f"{scratch}/ws/src/"
     is_unpacked = scratch in layout.root.parents

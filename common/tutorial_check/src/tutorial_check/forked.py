@@ -5,11 +5,13 @@ import os
 import pickle
 import select
 import signal
+import socket
 import struct
 import sys
 import threading
 import time
 
+from tutorial_check import place
 from tutorial_check.model import CannotCheck
 
 
@@ -38,23 +40,24 @@ ASK_AGAIN_S = 1.0  # whether an answer may still come
 
 
 class Helper:
-    """An object in a forked process; its methods are called through a pipe that only we have."""
+    """An object in a forked process; its methods are called through a socket that only we have.
+
+    Unlike a pipe, none can be opened by a path in /proc, to which a student's program may plant a link.
+    """
 
     def __init__(self, make, environment):
         """make(): the object, called in the new process, whose environment is given."""
-        question_out, question_in = os.pipe()
-        answer_out, answer_in = os.pipe()
+        ours, theirs = socket.socketpair()
         self.pid = os.fork()
         if self.pid == 0:
             try:
-                os.close(question_in)
-                os.close(answer_out)
-                _serve(make, environment, question_out, answer_in)
+                ours.close()
+                place.touch_files_as(os.geteuid(), os.getegid())
+                _serve(make, environment, theirs.fileno())
             finally:
                 os._exit(0)
-        os.close(question_out)
-        os.close(answer_in)
-        self._question, self._answer = question_in, answer_out
+        theirs.close()
+        self._line = ours
         self._hangs = ""
 
     @property
@@ -70,14 +73,14 @@ class Helper:
         if self._hangs:  # what it answers late would be taken for the answer to this
             raise CannotCheck(self._hangs)
         try:
-            _send(self._question, (method, arguments))
+            _send(self._line.fileno(), (method, arguments))
             end = time.monotonic() + deadline_s
-            while not select.select([self._answer], [], [], min(deadline_s, ASK_AGAIN_S))[0]:
+            while not select.select([self._line], [], [], min(deadline_s, ASK_AGAIN_S))[0]:
                 if time.monotonic() < end and not in_vain():
                     continue
                 self._hangs = f"the checker's own helper hangs in {method}"
                 raise CannotCheck(self._hangs)
-            worked, value = _receive(self._answer)
+            worked, value = _receive(self._line.fileno())
         except (EOFError, OSError) as error:
             raise CannotCheck(f"the checker's own helper has ended in {method}: {error}") from None
         if not worked:
@@ -89,11 +92,10 @@ class Helper:
         with contextlib.suppress(ProcessLookupError):
             os.kill(self.pid, signal.SIGKILL)
         os.waitpid(self.pid, 0)
-        os.close(self._question)
-        os.close(self._answer)
+        self._line.close()
 
 
-def _serve(make, environment, question, answer):
+def _serve(make, environment, line):
     os.setsid()
     nothing = os.open(os.devnull, os.O_RDWR)
     for stream in (0, 1, 2):
@@ -107,15 +109,15 @@ def _serve(make, environment, question, answer):
     thing = None
     while True:
         try:
-            method, arguments = _receive(question)
+            method, arguments = _receive(line)
         except EOFError:
             return
         try:
             if thing is None:
                 thing = make()
-            _send(answer, (True, getattr(thing, method)(*arguments)))
+            _send(line, (True, getattr(thing, method)(*arguments)))
         except Exception as error:
-            _send(answer, (False, f"{type(error).__name__}: {error}"))
+            _send(line, (False, f"{type(error).__name__}: {error}"))
 
 
 class MasterProcess:

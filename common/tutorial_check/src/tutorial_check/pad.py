@@ -1,5 +1,7 @@
 """A virtual F710 in our hand, in the process of a forked.Helper: the device is a FIFO."""
 
+import contextlib
+import os
 import threading
 import time
 
@@ -13,7 +15,11 @@ class Pad:
     """Stick and LB are where they were last put."""
 
     def __init__(self, path, mode):
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        with contextlib.suppress(FileNotFoundError):
+            os.unlink(path)
         self._pad = StreamPad(F710[mode], path)
+        os.chmod(path, 0o666)
         self._buttons = len(F710[mode].buttons)
         self._axes = len(F710[mode].axes)
         self._position = self._at(0.0, 0.0, 0)

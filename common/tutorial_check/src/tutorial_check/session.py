@@ -6,7 +6,7 @@ import re
 import shlex
 from pathlib import Path
 
-from tutorial_check import python_facts, trial
+from tutorial_check import python_facts, student_files, trial
 from tutorial_check.exercises.manifests import must_be_startable
 from tutorial_check.model import CannotCheck, Wrong, master_gone
 from tutorial_check.stage import Stage
@@ -161,13 +161,14 @@ class Session:
                 with path.open("rb") as file:
                     is_python = file.read(2) == b"#!" and b"python" in file.readline()
             if is_python and path.name not in ("setup.py", "__init__.py"):
-                text = path.read_bytes().decode(errors="replace")
+                text = student_files.read(self.folder, path).decode(errors="replace")
                 found[str(inside)] = python_facts.read_python(text)
         return found
 
     def text(self, package, script):
         """The text of a script, its line ends as they are."""
-        return (self.package(package).folder / script).read_bytes().decode(errors="replace")
+        path = self.package(package).folder / script
+        return student_files.read(self.folder, path).decode(errors="replace")
 
     def whole(self, path, package=""):
         """A path of the workspace, or within a package, for a command of a shell in any folder.
@@ -183,8 +184,7 @@ class Session:
         self._siblings += 1
         name = f"checked_{self._siblings}_{original.name}"
         changed = original.with_name(name)
-        changed.write_text(text)
-        changed.chmod(0o755)
+        student_files.put(self.folder, changed, text, 0o755)
         return str(Path(script).with_name(name))
 
     # ------------------------------------------------------------------------- environment
@@ -227,30 +227,16 @@ class Session:
         return self.memo("environment", self._environment)
 
     def _environment(self):
-        view = self.folder / "view"  # with RViz for who asks ROS where it is
-        for folder in (view / "lib" / "rviz", view / "src" / "rviz"):
-            folder.mkdir(parents=True)
-        (view / ".catkin").write_text(str(view / "src"))
-        (view / "src" / "rviz" / "package.xml").write_text(
-            '<package format="2"><name>rviz</name><version>1.0.0</version><description>x</description>'
-            '<maintainer email="a@b.example">x</maintainer><license>x</license></package>'
-        )
-        stub = view / "lib" / "rviz" / "rviz"
-        stub.write_text(NO_VIEW)
-        stub.chmod(0o755)
         if self._needs_build() and self.built()[0] == 0:
             found = self._sourced(self.folder / "ws" / "devel" / "setup.bash")
         else:
-            # What a build makes of packages that have nothing to be built.
             devel = self.folder / "devel"
-            devel.mkdir()
-            (devel / ".catkin").write_text(str(self.source))
             found = dict(self.floor_environment)
             found["CMAKE_PREFIX_PATH"] = f"{devel}:{found.get('CMAKE_PREFIX_PATH', '')}".rstrip(":")
             found["ROS_PACKAGE_PATH"] = f"{self.source}:{found.get('ROS_PACKAGE_PATH', '')}".rstrip(
                 ":"
             )
-        found["CMAKE_PREFIX_PATH"] = f"{view}:{found['CMAKE_PREFIX_PATH']}"
+        found["CMAKE_PREFIX_PATH"] = f"{self.folder / 'view'}:{found['CMAKE_PREFIX_PATH']}"
         return found
 
     def command(self, package, script):
@@ -288,6 +274,7 @@ def prepare(folder, uid):
         path = folder / "bin" / name
         path.write_text(text)
         path.chmod(0o755)
+    _prepare_packages(folder)
     if uid is not None:
         for place, _, files in os.walk(folder / "ws"):
             os.chown(place, uid, uid)
@@ -295,3 +282,17 @@ def prepare(folder, uid):
                 os.chown(os.path.join(place, name), uid, uid, follow_symlinks=False)
         for name in ("home", "tmp"):
             os.chown(folder / name, uid, uid)
+
+
+def _prepare_packages(folder):
+    """RViz for who asks ROS where it is, and what a build makes where there is nothing to be built."""
+    view, devel = folder / "view", folder / "devel"
+    for each in (view / "lib" / "rviz", view / "src" / "rviz", devel):
+        each.mkdir(parents=True, exist_ok=True)
+    (view / ".catkin").write_text(str(view / "src"))
+    (view / "src" / "rviz" / "package.xml").write_text(
+        '<package format="2"><name>rviz</name><version>1.0.0</version><description>x</description>'
+        '<maintainer email="a@b.example">x</maintainer><license>x</license></package>'
+    )
+    (view / "lib" / "rviz" / "rviz").symlink_to(folder / "bin" / "rviz")
+    (devel / ".catkin").write_text(str(folder / "ws" / "src"))

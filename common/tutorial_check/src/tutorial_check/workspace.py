@@ -12,6 +12,7 @@ from xml.etree import ElementTree
 
 from catkin_pkg.package import InvalidPackage, parse_package
 
+from tutorial_check import place
 from tutorial_check.model import CannotCheck
 
 MOST_BYTES = 300 << 20  # of a workspace's sources; bags included
@@ -212,7 +213,7 @@ def _copy(source, target, so_far, inside, seen):
             )
         with open(descriptor, "rb", closefd=False) as file, target.open("wb") as copied:
             shutil.copyfileobj(file, copied)
-        target.chmod(about.st_mode & 0o777)
+        target.chmod((about.st_mode & 0o777) | 0o400)
         os.utime(target, ns=(about.st_atime_ns, about.st_mtime_ns))
     finally:
         os.close(descriptor)
@@ -244,6 +245,7 @@ def packages_below(folder):
     return found
 
 
+@place.own_rights()
 def packages_beside(layout):
     """The packages in a workspace beside its src; what lies deeper may be anybody's."""
     beside = sorted(layout.root.iterdir()) if layout.is_workspace else []
@@ -283,6 +285,7 @@ def _name_in(manifest):
         return None
 
 
+@place.own_rights()
 def underlays(devel):
     """(folder for which a devel space was made, CMAKE_PREFIX_PATH it was laid over), or None."""
     files = [Path(devel) / name for name in ("_setup_util.py", "setup.sh")]

@@ -4,6 +4,7 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
+from tutorial_check import student_files
 from tutorial_check.exercises.classes import program
 from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL, PACKAGE
 from tutorial_check.exercises.files import cause_of, crash
@@ -62,7 +63,8 @@ class Endings:
             return self._stage.start(PACKAGE, self._script, f"__name:={name}")
         file = self._session.folder / "tmp" / "ended.launch"
         program_name = Path(self._script).name
-        file.write_text(LAUNCH_FILE.format(package=PACKAGE, program=program_name, name=name))
+        text = LAUNCH_FILE.format(package=PACKAGE, program=program_name, name=name)
+        student_files.put(self._session.folder, file, text)
         return self._stage.launch(["roslaunch", str(file)])
 
     def _twists(self, since=0):

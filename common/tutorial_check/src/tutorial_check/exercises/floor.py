@@ -3,6 +3,7 @@
 import os
 from pathlib import Path
 
+from tutorial_check import place
 from tutorial_check.exercises.packages import WANTED
 from tutorial_check.model import Note, Wrong
 from tutorial_check.workspace import underlays
@@ -15,7 +16,14 @@ STAND_INS = ("joy", "rbx1_", "turtlebot_")
 def workspace(session):
     """C1: there is a src, and what was built was built over the suite."""
     layout = session.layout
-    if not layout.source.is_dir():
+    with place.own_rights():  # no program writes here
+        has_source = layout.source.is_dir()
+        is_built_within = has_source and any(
+            (layout.source / name).is_dir() for name in ("build", "devel")
+        )
+        setup = layout.root / "devel" / "setup.bash"
+        setup_size = setup.stat().st_size if setup.is_file() else None
+    if not has_source:
         raise Wrong(
             "a folder src in the workspace",
             f"none in {layout.root}, and no package",
@@ -25,9 +33,8 @@ def workspace(session):
     if not layout.is_workspace:
         return Note("handed in as packages, without their workspace: built afresh here")
     devel = layout.root / "devel"
-    setup = devel / "setup.bash"
     found = underlays(devel)
-    if setup.is_file() and (found is None or not setup.stat().st_size):
+    if setup_size is not None and (found is None or not setup_size):
         gone = setup.name if found else "_setup_util.py or setup.sh"
         raise Wrong(
             "a devel folder as catkin_make makes it",
@@ -36,7 +43,7 @@ def workspace(session):
             hint="in the workspace: rm -r build devel, then catkin_make",
         )
     if found is None:
-        if (layout.source / "build").is_dir() or (layout.source / "devel").is_dir():
+        if is_built_within:
             raise Wrong(
                 "build and devel beside src",
                 "they are within src",

@@ -5,6 +5,7 @@ import os
 import re
 from pathlib import Path
 
+from tutorial_check import student_files
 from tutorial_check.causes import explain
 from tutorial_check.exercises.driving import CMD_VEL, JOY, PACKAGE
 from tutorial_check.exercises.launch_files import BAG, STICK, find_launch
@@ -93,7 +94,8 @@ class Launch:
         """What nodes without output="screen" wrote."""
         folder = Path(self.stage.environment["ROS_LOG_DIR"])
         for path in sorted(folder.rglob("*-stdout.log")):
-            yield path.read_text(errors="replace")[-3000:]
+            text = student_files.read(self.session.folder, path).decode(errors="replace")
+            yield text[-3000:]
 
 
 def _silence_hint(silent, twists):

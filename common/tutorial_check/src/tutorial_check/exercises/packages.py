@@ -8,6 +8,7 @@ from pathlib import Path
 from tutorial_check.exercises.launch_text import place_of, read
 from tutorial_check.exercises.manifests import unreadable
 from tutorial_check.model import Wrong
+from tutorial_check.place import own_rights
 from tutorial_check.workspace import packages_beside
 
 NAMES = ("beginner_tutorials", "joy2twist")
@@ -76,10 +77,12 @@ def _package(session, name):
             hint=f"mv {session.whole(beside[0].inside)} {session.whole('src')}",
         )
     link = session.layout.source / name
-    if link.is_symlink() and not link.exists():
+    with own_rights():
+        leads_to = os.readlink(link) if link.is_symlink() and not link.exists() else ""
+    if leads_to:
         raise Wrong(
             expected,
-            f"src/{name} is a link to {os.readlink(link)}, and leads nowhere here",
+            f"src/{name} is a link to {leads_to}, and leads nowhere here",
             where=f"src/{name}",
             hint="put the folder itself into src in place of the link",
         )

@@ -191,12 +191,8 @@ def simulated(session):
 def plug_in(session, stage, device="/dev/input/js0", mode="D"):
     """A virtual F710 behind a device, or a FIFO where that cannot be; (Pad, path)."""
     path = Path(device) if session.can_have_devices else session.folder / "js0"
-    path.parent.mkdir(parents=True, exist_ok=True)
-    if path.exists():
-        path.unlink()
     pad = stage.help(lambda: Pad(str(path), mode))
     pad.call("connected")
-    os.chmod(path, 0o666)
     return pad, path
 
 

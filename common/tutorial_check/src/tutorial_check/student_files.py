@@ -1,0 +1,50 @@
+"""Files where a student's programs may write: no link that one of them planted is followed."""
+
+import contextlib
+import os
+import stat
+from pathlib import Path
+
+from tutorial_check.model import CannotCheck
+
+
+def put(base: Path, path: Path, text: str, mode: int = 0o644) -> None:
+    """Make a file below a folder anew; what lies there is removed. Raises CannotCheck."""
+    with _folder_of(base, path) as (folder, name):
+        with contextlib.suppress(FileNotFoundError):
+            os.unlink(name, dir_fd=folder)
+        flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW
+        with open(os.open(name, flags, mode, dir_fd=folder), "w", encoding="utf-8") as file:
+            os.fchmod(file.fileno(), mode)
+            file.write(text)
+
+
+def read(base: Path, path: Path) -> bytes:
+    """What a file below a folder holds. Raises CannotCheck, also for a pipe or a device."""
+    with _folder_of(base, path) as (folder, name):
+        flags = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK
+        with open(os.open(name, flags, dir_fd=folder), "rb") as file:
+            if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
+                raise OSError("no regular file")
+            return file.read()
+
+
+@contextlib.contextmanager
+def _folder_of(base, path):
+    """(descriptor of the folder that a file is in, its name there)."""
+    *between, name = Path(path).relative_to(base).parts
+    flags = os.O_RDONLY | os.O_DIRECTORY
+    folder = None
+    try:
+        folder = os.open(base, flags)
+        for part in between:
+            below = os.open(part, flags | os.O_NOFOLLOW, dir_fd=folder)
+            os.close(folder)
+            folder = below
+        yield folder, name
+    except OSError as error:
+        why = error.strerror or error
+        raise CannotCheck(f"{path} is not as it was: a program changed it: {why}") from None
+    finally:
+        if folder is not None:
+            os.close(folder)
