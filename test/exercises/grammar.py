@@ -1,4 +1,4 @@
-"""Programs for 4.3 from a grammar: 60 with a mistake that hardly shows, 60 that are right in other ways."""
+"""Programs for 4.3 from a grammar: with a mistake that hardly shows, and right in other ways."""
 
 from edits import JOY2TWIST, write
 
@@ -162,6 +162,12 @@ MISTAKES = [
     ("memory: forwards, backwards, and nothing else", f"if data.axes[1] > 0:\n    my.msg.linear.x = data.axes[1]\nelif data.axes[1] < 0:\n    my.msg.linear.x = data.axes[1]\nmy.msg.angular.z = data.axes[0]\n{TWICE}", KEPT, "", "linear.x stays"),
     ("memory: the fastest so far", f"my.x = max(my.x, abs(data.axes[1]))\n{values('my.x if data.axes[1] > 0 else -my.x')}", "my.x = 0.0", "", "linear.x"),
     ("memory: half of the one before", f"my.x = 0.5 * my.x + 0.5 * data.axes[1]\n{values('my.x')}", "my.x = 0.0", "", "linear.x"),
+    ("memory: a small value is skipped", f"if abs(data.axes[1]) > 0.1 or data.axes[1] == 0:\n    my.x = data.axes[1]\n{values('my.x')}", "my.x = 0.0", "", "linear.x stays 0.70 when axes[1] is 0.06: the robot drives on"),
+    ("memory: a small change is skipped", f"if abs(data.axes[1] - my.x) > 0.1:\n    my.x = data.axes[1]\n{values('my.x')}", "my.x = 0.0", "", "it goes by those before"),
+    # buttons
+    ("button: a cruise control", f"if data.buttons[0]:\n    my.x = data.axes[1]\n{values('my.x or data.axes[1]')}", "my.x = 0.0", "", "the robot drives on"),
+    ("button: stops by silence", f"if data.buttons[1]:\n    return\n{PLAIN}{PUBLISH}", "", "", "buttons[1] pressed"),
+    ("button: faster with each Joy", f"if data.buttons[5]:\n    my.k *= 1.1\n{values('my.k * data.axes[1]')}", "my.k = 0.5", "", "once buttons[5] was pressed"),
     # accumulators
     ("accumulator: +=", f"my.msg.linear.x += data.axes[1]\nmy.msg.angular.z = data.axes[0]\n{TWICE}", KEPT, "", "linear.x"),
     ("accumulator: a tenth of it", f"my.msg.linear.x += 0.1 * data.axes[1]\nmy.msg.angular.z = data.axes[0]\n{TWICE}", KEPT, "", "linear.x"),
@@ -199,6 +205,8 @@ STYLES = [
     ("without LB zero", f"{PLAIN}if not {HELD}:\n    msg = Twist()\n{PUBLISH}", ""),
     ("without LB zero, and return", f"if not {HELD}:\n    my.pub.publish(Twist())\n    return\n{PLAIN}{PUBLISH}", ""),
     ("LB times the axes", values(f"{HELD} * data.axes[1]", f"{HELD} * data.axes[0]"), ""),
+    ("faster while RB is held", values("(2.0 if data.buttons[5] else 1.0) * data.axes[1]"), ""),
+    ("button 1 stops", f"msg = Twist()\nif not data.buttons[1]:\n    {X}\n    {Z}\n{PUBLISH}", ""),
     ("a curve", values("data.axes[1] ** 3", "data.axes[0] * abs(data.axes[0])"), ""),
     ("backwards at half the speed", values("data.axes[1] * (1.0 if data.axes[1] > 0 else 0.5)"), ""),
     ("a watchdog publishes zero", f"my.when = time.time()\n{PLAIN}{PUBLISH}", WATCHDOG),

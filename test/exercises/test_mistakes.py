@@ -72,4 +72,4 @@ def test_in_all_exercises(row, literal, floor, record_property):
 def test_there_are_enough():
     """A row that is twice there counts once."""
     assert len({(row[0], row[1]) for row in ROWS}) == len(ROWS) >= 140
-    assert len(grammar.WRONG) == len(grammar.RIGHT) == 60
+    assert min(len(grammar.WRONG), len(grammar.RIGHT)) >= 60

@@ -3,7 +3,14 @@
 import pytest
 
 from tutorial_check.exercises.driving import _delays as delays
-from tutorial_check.mapping import judge, judge_probes, numbered_joys, probes, silence
+from tutorial_check.mapping import judge
+from tutorial_check.probing import (
+    judge_probes,
+    numbered_joys,
+    probes,
+    silence,
+    small_and_button_probes,
+)
 
 AXES = [axes for axes, _ in numbered_joys(20)]
 
@@ -117,12 +124,36 @@ class Converter:
         return (self.x, 0.0, 0.0, 0.0, 0.0, self.z)
 
 
+def cruise(button, lets_go=False):
+    """Keep the speed of when a button was pressed; lets_go: until it is pressed at rest."""
+    kept = [0.0]
+
+    def convert(_, axes, buttons):
+        if buttons[button]:
+            kept[0] = axes[1] if axes[1] or lets_go else kept[0]
+        return kept[0] or axes[1], axes[0]
+
+    return convert
+
+
+def faster(button):
+    """A factor that grows with each Joy for which a button is pressed."""
+    scale = [1.0]
+
+    def convert(_, axes, buttons):
+        scale[0] *= 1.1 if buttons[button] else 1.0
+        return scale[0] * axes[1], axes[0]
+
+    return convert
+
+
 def complaint_of(convert):
     """What judge and judge_probes say of all that a check sends."""
     program, joys = Converter(convert), numbered_joys(20)
     numbered = [(axes, program((axes, buttons))) for axes, buttons in joys]
     assert not judge(numbered)[0]
-    return judge_probes(numbered, [(joy, program(joy)) for joy in probes(joys)])[0]
+    sent = [*probes(joys), *small_and_button_probes()]
+    return judge_probes(numbered, [(joy, program(joy)) for joy in sent])[0]
 
 
 @pytest.mark.parametrize(
@@ -134,6 +165,10 @@ def complaint_of(convert):
         lambda my, a, b: (a[1] ** 3, a[0]),
         lambda my, a, b: (b[4] * a[1], b[4] * a[0]),
         lambda my, a, b: ((1.0 if b[4] else 0.5) * a[1], a[0]),
+        lambda my, a, b: ((2.0 if b[5] else 0.3 if b[7] else 1.0) * a[1], a[0]),
+        lambda my, a, b: (0.0, 0.0) if b[1] else (a[1], a[0]),
+        lambda my, a, b: (a[1] if abs(a[1]) > 0.02 else 0.0, a[0] if abs(a[0]) > 0.1 else 0.0),
+        lambda my, a, b: (round(0.5 * a[1], 2), round(0.5 * a[0], 2)),
     ],
 )
 def test_right_whatever_came_before(convert):
@@ -150,6 +185,18 @@ def test_right_whatever_came_before(convert):
         (lambda my, a, b: (a[1], a[0]) if a[1] else (0.0, 0.0), "axes[0] alone"),
         (lambda my, a, b: (a[1] if any(a) else float("nan"), a[0]), "linear.x is nan"),
         (lambda my, a, b: (a[1] * (1 + (my.x > 0.69)), a[0]), "the same Joy gives linear.x"),
+        (
+            lambda my, a, b: (a[1] if abs(a[1]) > 0.1 or a[1] == 0 else my.x, a[0]),
+            "linear.x stays 0.70 when axes[1] is 0.06",
+        ),
+        (
+            lambda my, a, b: (a[1] if abs(a[1] - my.x) > 0.05 else my.x, a[0]),
+            "linear.x stays 0.06 when axes[1] is 0.03",
+        ),
+        (lambda my, a, b: (a[1] if abs(a[1] - my.x) > 0.2 else my.x, a[0]), "it goes by those"),
+        (cruise(0), "linear.x stays 0.70 when axes[1] is 0.00 and buttons[0] pressed"),
+        (cruise(5, lets_go=True), "linear.x stays -0.70 when axes[1] is 0.00"),
+        (faster(5), "the same Joy gives linear.x = 0.70 and, once buttons[5] was pressed, 0.93"),
     ],
 )
 def test_wrong_by_what_came_before(convert, words):
@@ -162,6 +209,8 @@ def test_silence_is_named():
     released = (joys[0][0], (0,) * 12)
     assert "at rest" in silence(rest, joys[0])[0]
     assert "the same Joy again" in silence(joys[0], joys[0])[0]
+    stop = (joys[0][0], (0, 1, 0, 0, 1, *(0,) * 7))
+    assert "buttons[1] pressed: the robot drives on" in silence(stop, joys[0])[0]
     assert "LB released" in silence(released, joys[0])[0]
     assert "with axes[1] = 0" in silence(((0.5, *rest[0][1:]), joys[0][1]), joys[0])[0]
 

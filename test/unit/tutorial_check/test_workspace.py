@@ -10,8 +10,8 @@ import pytest
 
 from tutorial_check import workspace
 from tutorial_check.exercises.driving import displayed
-from tutorial_check.mapping import numbered_joys
 from tutorial_check.model import CannotCheck
+from tutorial_check.probing import numbered_joys
 from tutorial_check.workspace import hand_in
 
 XML = """<package format="2"><name>{}</name><version>0.0.0</version><description>x</description>

@@ -8,7 +8,6 @@ LINEAR, ANGULAR = 0, 5  # the two fields that a robot in the plane obeys
 RIGHT = {LINEAR: 1, ANGULAR: 0}  # the axis that each of them follows
 SMALL = 1e-4
 AXES = 6
-LB = 4  # the dead-man button of the handout's memo
 
 
 @dataclass(frozen=True)
@@ -17,107 +16,6 @@ class Rule:
 
     axis: int
     factor: float
-
-
-def numbered_joys(count, buttons=12):
-    """Joys of which no two are alike, nor any two axes: [(axes, buttons)], with LB held.
-
-    Signs change, so that a rule which is right only forwards or to the left is found out.
-    """
-    joys = []
-    for k in range(count):
-        forwards = (0.30 + 0.021 * k) * (1 if k % 2 == 0 else -1)
-        left = (0.25 + 0.017 * k) * (1 if k % 4 < 2 else -1)
-        # In an order of their own, so that none of them is by chance in proportion to these two.
-        rest = [0.03 + 0.05 * (index - 2) + 0.002 * (7 * k % 20) for index in range(2, AXES)]
-        joys.append(((left, forwards, *rest), _pressed(LB, buttons)))
-    return joys
-
-
-def _pressed(button=None, buttons=12):
-    return tuple(int(index == button) for index in range(buttons))
-
-
-def probes(joys):
-    """The Joys after the numbered ones: rest, the same twice, one axis alone, another order, LB released."""
-    released = (0.0,) * AXES
-    slow, fast = (0.36, 0.40, *released[2:]), (0.6, 0.7, *released[2:])
-    back = tuple(-axis for axis in fast)
-    alone = [
-        (*(axis if index == alone else 0.0 for index, axis in enumerate(axes)),)
-        for axes in (fast, back)
-        for alone in RIGHT.values()
-    ]
-    axes = [fast, released, released, *alone, slow, fast, fast, slow]
-    return [
-        *((each, _pressed(LB)) for each in axes),
-        *(joys[index] for index in (7, 2)),
-        *((each, _pressed()) for each in (fast, back, released)),
-        (fast, _pressed(LB)),
-    ]
-
-
-def silence(joy, before):
-    """(what is seen, what to do) for a Joy after another one that no Twist answers."""
-    (axes, buttons), always = joy, "publish for every Joy, with no `if` around it"
-    if joy == before:
-        return "no Twist for the same Joy again", f"{always}: not only for a new one"
-    if not buttons[LB]:
-        return (
-            f"no Twist for a Joy with LB released (buttons[{LB}] = 0): the robot drives on",
-            "silence stops no robot: with LB released publish Twist(), all zero",
-        )
-    if not any(axes):
-        return (
-            "no Twist for a Joy at rest, all axes 0: the robot drives on",
-            f"{always}: zero is what stops the robot",
-        )
-    still = next((f" with axes[{axis}] = 0" for axis in RIGHT.values() if not axes[axis]), "")
-    return f"no Twist for a Joy{still or ' of another size'}", always
-
-
-def judge_probes(samples, answers):
-    """(complaint, hint) about the answers to probes() that a right start does not show, or ("", "").
-
-    samples: as of judge(), of the numbered Joys; answers: [((axes, buttons), six values)].
-    """
-    odd = _no_number(answers)
-    if odd:
-        return odd
-    known = {(axes, 1): twist for axes, twist in samples}
-    before = samples[-1][1]
-    for (axes, buttons), twist in answers:
-        again = known.setdefault((axes, buttons[LB]), twist)
-        for field, axis in RIGHT.items():
-            name, value, given = FIELDS[field], twist[field], axes[axis]
-            keeps = abs(value - before[field]) <= SMALL < abs(value)
-            if abs(value) > SMALL and value * given <= 0:
-                when = f"axes[{axis}] is {given:.2f}" + ("" if buttons[LB] else " and LB released")
-                return (
-                    f"{name} {'stays' if keeps else 'is'} {value:.2f} when {when}: the robot drives on",
-                    f"{name} comes from this Joy alone, zero as well: a new Twist() in the callback,"
-                    " no += and no `if` around the line",
-                )
-            if not _is_near(value, again[field]):
-                return (
-                    f"the same Joy gives {name} = {again[field]:.2f} and {value:.2f}: it goes by those before",
-                    f"{name} comes from this Joy alone: no +=, no mean, nothing kept",
-                )
-        before = twist
-    held = [(joy[0], twist) for joy, twist in answers if joy[1][LB]]
-    for axes, twist in held:
-        for field, axis in RIGHT.items():
-            if not axes[1 - axis] and axes[axis] and not any(twist):
-                return (
-                    f"{FIELDS[field]} is 0 when axes[{axis}] alone is moved",
-                    f"{FIELDS[field]} = axes[{axis}], whatever the other axis is",
-                )
-    complaint, hint = judge([*samples, *held])
-    return (complaint, hint) if complaint else ("", "")
-
-
-def _is_near(one, other):
-    return abs(one - other) <= SMALL + 0.01 * abs(other)
 
 
 def factor_of(values, inputs):
@@ -166,7 +64,7 @@ def judge(samples):
 
     A complaint without a hint does not occur; a hint without a complaint is a remark.
     """
-    odd = _no_number(samples)
+    odd = no_number(samples)
     if odd:
         return odd
     rules = {field: rule_of(field, samples) for field in range(6)}
@@ -240,7 +138,7 @@ def _steps(values):
     return ", ".join(f"{value:.2f}" for value in sorted({*between, round(limit, 6)})[:3])
 
 
-def _no_number(samples):
+def no_number(samples):
     """The complaint about a value that is infinite or no number, or None."""
     for _, twist in samples:
         for name, value in zip(FIELDS, twist):

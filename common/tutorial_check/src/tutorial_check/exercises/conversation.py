@@ -15,8 +15,9 @@ from tutorial_check.exercises.driving import (
 )
 from tutorial_check.exercises.files import check_file, crash
 from tutorial_check.exercises.silent_end import silent_end
-from tutorial_check.mapping import judge, judge_probes, silence
+from tutorial_check.mapping import judge
 from tutorial_check.model import Note, Wrong
+from tutorial_check.probing import judge_probes, silence
 from tutorial_check.python_text import python_lines
 
 JOY_LINE = "rospy.Subscriber('/joy', Joy, callback)"

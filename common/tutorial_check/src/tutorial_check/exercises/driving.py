@@ -7,8 +7,9 @@ import statistics
 import time
 
 from tutorial_check.box import GRACE_S
-from tutorial_check.mapping import LINEAR, judge, judge_probes, numbered_joys, probes, rule_of
+from tutorial_check.mapping import LINEAR, judge, rule_of
 from tutorial_check.model import master_gone
+from tutorial_check.probing import judge_probes, numbered_joys, probes, small_and_button_probes
 from tutorial_check.stage import START_S
 
 PACKAGE = "joy2twist"
@@ -128,24 +129,28 @@ class Drive:
     def _probe(self, stage, joys):
         """The other Joys, each until it is answered; the first that is not, also when asked again, ends it."""
         before, settle_s = joys[-1], SETTLE_S if self.twists else 0.0
-        for joy in probes(joys):
-            _, heard = self._ask(stage, joy, settle_s)
+        # By now it is known how many Twists one Joy gets: no time is needed to wait for more.
+        often = max(1, round(len(self.twists) / COUNT))
+        plan = [(joy, settle_s, 1) for joy in probes(joys)]
+        plan += [(joy, 0.0, often) for joy in small_and_button_probes()]
+        for joy, *patience in plan:
+            _, heard = self._ask(stage, joy, *patience)
             if not heard and not self.program.ended:
-                self._ask(stage, before, settle_s)
-                _, heard = self._ask(stage, joy, settle_s)
+                self._ask(stage, before, *patience)
+                _, heard = self._ask(stage, joy, *patience)
             if not heard:
                 self.unanswered = joy, before
                 return
             self.answers.append((joy, heard[-1 if settle_s else 0][2]))
             before = joy
 
-    def _ask(self, stage, joy, settle_s):
-        """(when a Joy was sent, what was heard from then on)."""
+    def _ask(self, stage, joy, settle_s, often=1):
+        """(when a Joy was sent, what was heard from then on). often: how many Twists are waited for."""
         before = stage.call("count", CMD_VEL)
         sent_s = stage.call("send", JOY, joy)
         stage.wait(
-            lambda: stage.call("count", CMD_VEL) > before or self.program.ended,
-            ANSWER_S,
+            lambda: stage.call("count", CMD_VEL) - before >= often or self.program.ended,
+            ANSWER_S if often == 1 else SETTLE_S,
         )
         if settle_s:
             stage.wait(lambda: self.program.ended, settle_s)
