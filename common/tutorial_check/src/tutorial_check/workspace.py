@@ -234,14 +234,14 @@ def named_outside(source):
 def packages_below(folder):
     """Every package in a folder, with what is wrong with it, in the order of their paths."""
     found = []
-    for place, folders, files in os.walk(folder):
+    for here, folders, files in os.walk(folder):
         folders[:] = sorted(
             each for each in folders if each not in LEFT_OUT and not each.startswith(".")
         )
         if "CATKIN_IGNORE" in files:
             folders.clear()
-        elif "package.xml" in files and os.path.isfile(f"{place}/package.xml"):
-            found.append(read_package(Path(place), folder))
+        elif "package.xml" in files and os.path.isfile(f"{here}/package.xml"):
+            found.append(read_package(Path(here), folder))
     return found
 
 
