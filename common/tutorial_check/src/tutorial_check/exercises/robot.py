@@ -1,7 +1,6 @@
 """C11, C19, C20: a recording, the simulated robot, the joystick."""
 
 import math
-import os
 import shlex
 from pathlib import Path
 
