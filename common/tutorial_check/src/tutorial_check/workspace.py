@@ -12,8 +12,8 @@ from xml.etree import ElementTree
 
 from catkin_pkg.package import InvalidPackage, parse_package
 
-from tutorial_check import place
 from tutorial_check.model import CannotCheck
+from tutorial_check.place import own_rights
 
 MOST_BYTES = 300 << 20  # of a workspace's sources; bags included
 MOST_FILES = 20_000
@@ -245,7 +245,7 @@ def packages_below(folder):
     return found
 
 
-@place.own_rights()
+@own_rights()
 def packages_beside(layout):
     """The packages in a workspace beside its src; what lies deeper may be anybody's."""
     beside = sorted(layout.root.iterdir()) if layout.is_workspace else []
@@ -285,7 +285,7 @@ def _name_in(manifest):
         return None
 
 
-@place.own_rights()
+@own_rights()
 def underlays(devel):
     """(folder for which a devel space was made, CMAKE_PREFIX_PATH it was laid over), or None."""
     files = [Path(devel) / name for name in ("_setup_util.py", "setup.sh")]
