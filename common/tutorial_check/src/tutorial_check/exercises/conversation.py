@@ -5,14 +5,7 @@ import re
 
 from tutorial_check.changed_programs import unmasked
 from tutorial_check.exercises.answers import check_awake, check_clock, check_once, check_strays
-from tutorial_check.exercises.driving import (
-    CMD_VEL,
-    COUNT,
-    JOY,
-    PACKAGE,
-    check_master,
-    drive,
-)
+from tutorial_check.exercises.driving import CMD_VEL, COUNT, JOY, PACKAGE, check_master, drive
 from tutorial_check.exercises.files import check_file, crash
 from tutorial_check.exercises.silent_end import silent_end
 from tutorial_check.mapping import judge
