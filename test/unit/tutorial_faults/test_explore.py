@@ -8,7 +8,12 @@ from pathlib import Path
 
 import pytest
 
-from tutorial_faults import arbiter_world, driver_world, teleoperation_world
+from tutorial_faults import (
+    arbiter_world,
+    driver_world,
+    teleoperation_alphabet,
+    teleoperation_world,
+)
 from tutorial_faults.broken import broken
 from tutorial_faults.explore import Moment, explore, key_of
 
@@ -22,11 +27,11 @@ LINES = lines_of_defence.LINES
 
 def worlds():
     """From the name of an exploration to how it begins (made anew each time), and its events."""
-    for name, given in teleoperation_world.CONFIGURATIONS.items():
+    for name, given in teleoperation_alphabet.CONFIGURATIONS.items():
         yield (
             name,
             lambda given=given: teleoperation_world.TeleoperationWorld(**given),
-            teleoperation_world.events_of(name),
+            teleoperation_alphabet.events_of(name),
         )
     for name, inputs in arbiter_world.CONFIGURATIONS.items():
         yield name, lambda inputs=inputs: arbiter_world.ArbiterWorld(inputs), inputs.events()

@@ -9,11 +9,12 @@ from hypothesis.stateful import RuleBasedStateMachine, initialize, rule
 
 from fake_turtlebot_sim.mux.parameters import Input
 from gamepad.js_event import AXIS, BUTTON, INIT, SIGN_OF_LIFE_MS
-from tutorial_faults import arbiter_world, driver_world, teleoperation_world
+from tutorial_faults import arbiter_world, driver_world
 from tutorial_faults.arbiter_world import ArbiterWorld, Configuration
 from tutorial_faults.driver_world import DriverWorld
 from tutorial_faults.events import Command
-from tutorial_faults.teleoperation_world import Message, TeleoperationWorld
+from tutorial_faults.teleoperation_alphabet import TICK, Message
+from tutorial_faults.teleoperation_world import TeleoperationWorld
 
 SETTINGS = settings(
     max_examples=40,
@@ -99,7 +100,7 @@ class Teleoperation(World):
     def noise(self, axes, buttons):
         self.show(Message("ada", tuple(axes), tuple(buttons)))
 
-    @rule(what=st.sampled_from([teleoperation_world.TICK] * 4 + ["left", "suspended"]))
+    @rule(what=st.sampled_from([TICK] * 4 + ["left", "suspended"]))
     def other(self, what):
         self.show(what)
 
