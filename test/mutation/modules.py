@@ -29,7 +29,7 @@ ALSO = {
     "fake_turtlebot_sim.mux.parameters": ["test_mux_parameters"],
     "gamepad.js_event": ["test_js_event", "test_driver", "test_device"],
     "gamepad.driver.state": ["test_state", "test_driver"],
-    "node_kit.resumption": ["test_suspension"],
+    "node_kit.arming": ["test_suspension"],
 }
 # Longer than all others together; what they find, others must find too.
 NOT_RUN = "not 100_000 and not whatever_the_rate and not million"

@@ -6,7 +6,7 @@ What it does, the module, the line, what stands there instead, and in which expl
 SAFETY, MAPPING = "joy_to_twist.safety", "joy_to_twist.mapping"
 TELEOPERATION, ARBITRATION = "joy_to_twist.teleoperation", "fake_turtlebot_sim.mux.arbitration"
 DRIVER, SCHEDULE = "gamepad.driver.driver", "gamepad.driver.schedule"
-RESUMPTION, ARMING_RULE = "node_kit.resumption", "node_kit.arming"
+RESUMPTION = ARMING_RULE = "node_kit.arming"
 VIGILANCE, STOP = "vigilance, arming", "stop button"
 ARMING, PLAIN, FREE, RAMP = "dead-man, arming", "dead-man", "no dead-man", "ramp, arming"
 MUX, PROGRAMS, PAD = "a stick and a program", "three programs", "driver"
