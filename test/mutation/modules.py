@@ -7,7 +7,7 @@ REPOSITORY = Path(__file__).resolve().parents[2]
 MODULES = {
     "joy_to_twist": (
         "joy2twist",
-        "safety mapping limits teleoperation parameters gamepad_hints lean_joy",
+        "safety mapping teleoperation parameters gamepad_hints",
     ),
     "fake_turtlebot_sim": (
         "fake_turtlebot_sim",
@@ -20,7 +20,7 @@ MODULES = {
         "js_event driver.driver driver.state driver.schedule virtual.controls virtual.keyboard"
         " virtual.moves virtual.sources",
     ),
-    "node_kit": ("common/node_kit", "parameters throttle newest_only resumption"),
+    "node_kit": ("common/node_kit", "parameters throttle newest_only arming"),
     "cockpit_server": ("common/cockpit", "seat access schema"),
 }
 # Tests whose names differ from that of the module; those of the own name come first anyway.
