@@ -1,1 +1,1 @@
-"""What cannot happen to a robot, as invariants; and what looks for a way to break them."""
+"""What must never happen to a robot, as invariants; and the searches for a way to break them."""

@@ -1,8 +1,8 @@
 """Every state of the multiplexer's rules (Arbiter, Arming, Resumption), judged by (c) to (f).
 
 Clocks: when each input falls silent, one for each sender, the end of a suspension's settling.
-Thresholds: timeouts of 0.5 s and 0.25 s, REARM_S 0.5 s, SETTLING_S 0.25 s. What the node adds, the
-order in which it asks them, is done here as there.
+Thresholds: timeouts of 0.5 s and 0.25 s, REARM_S 0.5 s, SETTLING_S 0.25 s. They are asked in the
+order of the node.
 """
 
 import math
@@ -23,7 +23,7 @@ PASS, LOOK, SUSPENDED = "time passes", "look", "suspended"
 
 
 class Configuration(NamedTuple):
-    """Inputs of a multiplexer, and who speaks on them."""
+    """Inputs of a multiplexer, and the senders on them."""
 
     inputs: Tuple[Input, ...]
     speakers: Tuple[Tuple[str, str], ...]  # (input, sender)
@@ -31,7 +31,7 @@ class Configuration(NamedTuple):
     is_suspended: bool = True  # now and then
 
     def events(self):
-        """What can happen, by name."""
+        """Return the events, by name."""
         commands = {
             f"{sender} on {name}: {what}": Command(0.0, name, velocity, sender)
             for name, sender in self.speakers
@@ -59,7 +59,7 @@ CONFIGURATIONS = {
 
 
 class ArbiterWorld:
-    """The real Arbiter, asked as the node asks it, and what it must hold to."""
+    """The real Arbiter, and the invariants that it must keep."""
 
     def __init__(self, configuration):
         """Take a Configuration."""
@@ -77,7 +77,7 @@ class ArbiterWorld:
         self._limits = WithinLimits()
 
     def copy(self):
-        """A World of its own, with what does not change shared."""
+        """Return a copy that shares what does not change."""
         new = copy_of(self)
         new._arbiter = arbiter = copy_of(self._arbiter)
         arbiter._expiry_s = dict(arbiter._expiry_s)
@@ -89,34 +89,25 @@ class ArbiterWorld:
         return new
 
     def key(self):
-        """All that decides what comes. spoke_s: the same clocks as _expiry_s, if all is well."""
+        """Return all that decides what follows."""
         now, arbiter, known = self._now, self._arbiter, self._arbiter._senders
         parts = {"_inputs", "_expiry_s", "_senders"}
         # Of two senders on one input it does not matter which is which.
         new = Arming(rest_s=REARM_S)
+        past = {"since", "last_s", "rests_since_s"}
+
+        def sender_key(one):
+            return key_of(one, now, HORIZON_S, past=past, without={"_rest_s"})
+
         senders = [
-            (
-                name,
-                key_of(
-                    known.get((name, sender), new),
-                    now,
-                    HORIZON_S,
-                    past={"since"},
-                    without={"_rest_s"},
-                ),
-                key_of(one, now, HORIZON_S, past={"last_s", "rests_since_s"}, without={"_rest_s"}),
-            )
-            for (name, sender), one in self._late.items()
+            (key[0], sender_key(known.get(key, new)), sender_key(one))
+            for key, one in self._late.items()
         ]
+        spoke_s = self._speaks.spoke_s.items()
         return (
             key_of(arbiter, now, without=parts),
-            tuple([until(now, time) for time in arbiter._expiry_s.values()]),
-            tuple(
-                [
-                    until(now, time + self._inputs[name].timeout)
-                    for name, time in self._speaks.spoke_s.items()
-                ]
-            ),
+            *[until(now, time) for time in arbiter._expiry_s.values()],
+            *[until(now, time + self._inputs[name].timeout) for name, time in spoke_s],
             tuple(sorted(senders, key=repr)),
             until(now, self._resumption._settled_at),
             until(now, self._settled_s),
@@ -125,7 +116,7 @@ class ArbiterWorld:
         )
 
     def take(self, event):
-        """Let one thing happen (a number: seconds pass); what is wrong with what comes of it."""
+        """Let an event happen (a number: seconds pass); return the Violations."""
         if event == PASS or isinstance(event, float):
             self._now += self._step_s if event == PASS else event
             return []

@@ -1,8 +1,8 @@
 """Every state of the joystick driver's rules (Driver and its parts), judged by (a) to (d).
 
-The driver cannot move a robot by itself; its part is that nobody who listens is deceived: it never
-says "released" of a gamepad that it does not know to be, tells of a loss before it is silent, and
-is silent for longer than joy2twist waits before it speaks of another gamepad.
+The driver must not deceive its subscribers: it never publishes "released" for a gamepad in an
+unknown state, publishes a loss before it is silent, and then is silent for longer than joy2twist
+waits.
 
 Clocks: the next message and the sign of life; without a gamepad the end of the silence after it.
 Thresholds: LONGEST_LIFELESS_S 0.45 s, SHORTEST_SILENCE_S 0.6 s, autorepeat 0.3 s,
@@ -26,7 +26,7 @@ GIVEN = {"coalesce_interval": COALESCE_S, "autorepeat_rate": 1.0 / REPEAT_S}
 
 
 def event(kind, value, number=0, time_ms=0):
-    """The bytes of an event of linux/joystick.h."""
+    """Return the bytes of an event of linux/joystick.h."""
     return struct.pack("=IhBB", time_ms, value, kind, number)
 
 
@@ -42,7 +42,7 @@ BYTES = {
     "sign of life": event(BUTTON | INIT, 0, time_ms=SIGN_OF_LIFE_MS),
     "unknown type": event(8, 1),
 }
-# What is fixed, what is only for the user, and the parts that have keys of their own.
+# Constants, what is only for the user, and parts that have keys of their own.
 NOT_IN_KEY = {
     "_parameters", "_state", "_schedule", "_decoder", "_triggers", "events", "unknown_events",
     "heard_at",
@@ -53,17 +53,17 @@ EVENTS = {**{name: name for name in (PASS, TICK, LOST, *OPEN)}, **BYTES}
 
 
 class Gamepad:
-    """What a reader of the bytes knows of the gamepad that is open."""
+    """What the bytes say about the open gamepad."""
 
     def __init__(self, is_of_kernel):
         """It was opened just now."""
         self.is_of_kernel = is_of_kernel
         self.rest = b""
         self.changed = False
-        self.pressed = None  # button 0; None: not told
+        self.pressed = None  # button 0; None: unknown
 
     def feed(self, data):
-        """(what changed, whether a sign of life was among it, whether noise was).
+        """Return (changes, whether a sign of life was among them, whether noise was).
 
         A change is (kind, value); kind: BUTTON, AXIS, or 0 for the state at opening.
         """
@@ -72,7 +72,7 @@ class Gamepad:
             time_ms, value, kind, _ = struct.unpack_from("=IhBB", data, at)
             is_sign = bool(kind & INIT) and time_ms == SIGN_OF_LIFE_MS and not self.is_of_kernel
             signed = signed or is_sign
-            is_told_anew = bool(kind & INIT) and not (self.is_of_kernel and self.changed)
+            is_state = bool(kind & INIT) and not (self.is_of_kernel and self.changed)
             self.changed = self.changed or not kind & INIT
             kind &= ~INIT
             if is_sign and self.pressed is not None:
@@ -80,7 +80,7 @@ class Gamepad:
             if kind == BUTTON:
                 self.pressed = int(value != 0)
             if kind in (BUTTON, AXIS):
-                changes.append((0 if is_told_anew else kind, value))
+                changes.append((0 if is_state else kind, value))
             else:
                 noisy = True
         self.rest = data[len(data) - len(data) % 8 :]
@@ -88,20 +88,20 @@ class Gamepad:
 
 
 class DriverWorld:
-    """The real Driver, called as the node calls it, and what it must hold to."""
+    """The real Driver, and the invariants that it must keep."""
 
     def __init__(self):
         """Nothing was opened yet."""
         self._driver = Driver(load(GIVEN))
         self._now = Moment(0)
         self._pad = None  # the open Gamepad
-        self._is_mute = self._has_told = False
+        self._is_mute = self._has_published = False
         self._since_s = math.inf  # the first change that was not published
         self._published_s = math.inf  # the last message of this gamepad
         self._sign_due_s = math.inf  # when a sign of life must have come
 
     def copy(self):
-        """A World of its own, with what does not change shared."""
+        """Return a copy that shares what does not change."""
         new = copy_of(self)
         new._driver = driver = copy_of(self._driver)
         if driver._state is not None:
@@ -113,9 +113,9 @@ class DriverWorld:
         return new
 
     def key(self):
-        """All that decides what comes."""
+        """Return all that decides what follows."""
         now, driver = self._now, self._driver
-        key = (self._is_mute, self._has_told, until(now, driver.opens_at))
+        key = (self._is_mute, self._has_published, until(now, driver.opens_at))
         if driver._state is None:
             return (*key, driver._told, driver._mute)
         return (
@@ -133,7 +133,7 @@ class DriverWorld:
         )
 
     def take(self, event):
-        """Let one thing happen (a number: seconds pass); what is wrong with what comes of it."""
+        """Let an event happen (a number: seconds pass); return the Violations."""
         is_open = self._pad is not None
         wrong = []
         if event == PASS or isinstance(event, float):
@@ -152,17 +152,17 @@ class DriverWorld:
 
     def _lose(self):
         messages = self._driver.lost(self._now)
-        if self._has_told and not messages:
-            yield "d", "nobody is told that the gamepad is lost"
-        if messages and not self._has_told:
-            yield "b", "tells of a gamepad of which nobody was told"
+        if self._has_published and not messages:
+            yield "d", "the loss of the gamepad is not published"
+        if messages and not self._has_published:
+            yield "b", "the loss of a gamepad that was not published before is published"
         if any(any((*axes, *buttons)) for axes, buttons in messages):
-            yield "d", f"what is lost is not told as released: {messages}"
+            yield "d", f"a lost gamepad is not published as released: {messages}"
         if self._driver.opens_at - self._now <= JOY_TIMEOUT_S:
             yield "b", "the next gamepad is opened before joy2twist can notice the loss"
         if self._driver.due != math.inf:
-            yield "d", "something is due of a gamepad that is lost"
-        self._pad, self._is_mute, self._has_told = None, True, False
+            yield "d", "something is due for a gamepad that is lost"
+        self._pad, self._is_mute, self._has_published = None, True, False
 
     def _read(self, data):
         changes, signed, noisy = self._pad.feed(data)
@@ -178,28 +178,28 @@ class DriverWorld:
         told = [bool(buttons and buttons[0]) for _, buttons in messages]
         presses = [bool(value) for kind, value in changes if kind == BUTTON]
         if presses and told[-len(presses) :] != presses:
-            yield "d", f"pressed and released: {presses}, and told was {told}"
+            yield "d", f"pressed and released: {presses}, and published was {told}"
 
     def _judge(self, messages):
         for axes, _ in messages:
             if self._pad is None or self._is_mute:
-                yield "b", "tells of a gamepad that nobody has touched since it is back"
+                yield "b", "publishes a gamepad that was not touched since it is back"
             if not all(abs(value) <= LARGEST for value in axes):
                 yield "c", f"axes beyond their ends: {axes}"
         if messages and self._pad:
             if bool(self._pad.pressed) != any(messages[-1][1]):
-                yield "a", f"the button is {self._pad.pressed}, and told is {messages[-1]}"
-            self._has_told = True
+                yield "a", f"the button is {self._pad.pressed}, and published is {messages[-1]}"
+            self._has_published = True
             self._since_s, self._published_s = math.inf, self._now
 
     def _must_be_called(self, has_ticked=False):
-        """Whether the node is called in time to tell what is new, what is old, and what is lost."""
+        """Yield what is wrong with the time of the next call."""
         driver, now = self._driver, self._now
         if self._pad is None:
             return
         if not self._is_mute:
             latest = min(self._since_s + COALESCE_S, self._published_s + REPEAT_S)
             if driver.due > latest or (has_ticked and latest <= now):
-                yield "d", "a change or the repetition will be told too late"
+                yield "d", "a change or the repetition will be published too late"
         if driver.due > self._sign_due_s or driver.is_lifeless(now) != (now >= self._sign_due_s):
             yield "d", "a gamepad without a sign of life is not noticed"

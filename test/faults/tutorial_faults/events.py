@@ -1,4 +1,4 @@
-"""What is recorded of a robot and those who drive it. Times [s] are of one clock that never jumps.
+"""Records of a robot and of what drives it. Times [s] are of one clock that never jumps.
 
 A velocity is a tuple: linear x, y, z [m/s] and angular x, y, z [rad/s], in the frame of the base.
 """
@@ -9,10 +9,10 @@ Velocity = Tuple[float, ...]
 
 
 class Joy(NamedTuple):
-    """A joystick message, as whoever drives by it has it."""
+    """A joystick message, as the node that drives by it received it."""
 
     at_s: float
-    sender: Hashable  # tells one joystick node from another
+    sender: Hashable  # the joystick node
     axes: Tuple[float, ...]
     buttons: Tuple[int, ...]
     age_s: float = 0.0  # since its stamp
@@ -26,16 +26,16 @@ class Twist(NamedTuple):
 
 
 class Command(NamedTuple):
-    """A velocity that came at an input of the multiplexer."""
+    """A velocity at an input of the multiplexer."""
 
     at_s: float
     input: str
     velocity: Velocity
-    sender: Hashable = None  # tells apart those who speak on one input
+    sender: Hashable = None  # one of several on the same input
 
 
 class Through(NamedTuple):
-    """A command of this input went through the multiplexer."""
+    """A command of this input that passed the multiplexer."""
 
     at_s: float
     input: str
@@ -43,20 +43,19 @@ class Through(NamedTuple):
 
 
 class Wheels(NamedTuple):
-    """What the wheels do, by the truth of the simulator."""
+    """The motion of the wheels, by the truth of the simulator."""
 
     at_s: float
     v: float  # [m/s]
     w: float  # [rad/s]
-    robot: str = ""
 
 
 class Loss(NamedTuple):
-    """A part was lost: killed, stopped, cut off, started anew."""
+    """A part was lost: killed, suspended, cut off, restarted."""
 
     at_s: float
     part: str
-    settles_s: float = 0.0  # messages that come within this time were sent before
+    settles_s: float = 0.0  # messages that arrive within this time were sent before
 
 
 class Violation(NamedTuple):

@@ -1,24 +1,24 @@
 """Goes through every state that a machine can reach (pure): breadth first, over the real objects.
 
-A World holds real objects of the suite and the invariants that watch them. It can be copied, be
-shown an event, and has a key: two Worlds with the same key behave alike for ever. When no event
-leads to a new key, every reachable state was seen, and each transition was judged.
+A World holds real objects of the suite and the invariants that watch them. It can be copied, takes
+an event, and has a key: two Worlds with the same key behave alike from then on. When no event leads
+to a new key, every reachable state was seen, and each transition was judged.
 
 What makes the states finite:
 
 - Velocities, axes, buttons: those of a finite alphabet.
 - Times: the rules only add them and compare their differences, so a key has the time since or
   until, and not the time. What lies further back than every threshold is "long ago", and what is
-  due is "over". Time passes in one step
-  at a time, short enough: with thresholds that are multiples of g and with n clocks running at
-  once, in steps of g / (n + 1). Every order in which clocks can lie between, at and beyond their
-  thresholds then occurs on this grid (the regions of a timed automaton); longer pauses are several
-  steps.
-- Texts, counts for the user, and what only decides whether one is warned, are left out of a key.
+  due is "over". Time passes in one step at a time: with thresholds that are multiples of g and with
+  n clocks running at once, in steps of g / (n + 1). Every order in which clocks can lie between, at
+  and beyond their thresholds then occurs on this grid (the regions of a timed automaton).
+- Texts, counts for the user, and what only decides whether to warn, are left out of a key.
 """
 
+from __future__ import annotations
+
 import math
-from typing import Any, Dict, List, NamedTuple, Tuple
+from typing import Any, Collection, NamedTuple
 
 from tutorial_faults.events import Violation
 
@@ -31,14 +31,14 @@ class Moment(int):
 
     __slots__ = ()
 
-    def __add__(self, seconds):
-        """The Moment so many seconds later; never is infinity."""
+    def __add__(self, seconds: Any) -> Any:
+        """Return the Moment so many seconds later, or infinity."""
         return seconds if math.isinf(seconds) else Moment(int(self) + round(seconds * 1e6))
 
     __radd__ = __add__
 
-    def __sub__(self, other):
-        """The seconds since another Moment, or the Moment so many seconds before."""
+    def __sub__(self, other: Any) -> Any:
+        """Return the seconds since another Moment, or the Moment so many seconds before."""
         if isinstance(other, Moment):
             return (int(self) - int(other)) / 1e6
         return self + -other
@@ -47,32 +47,40 @@ class Moment(int):
 PLAIN = (bool, int, float, str, tuple, type(None), Moment)
 
 
-def copy_of(one):
-    """A copy of an object, whose attributes are the same objects."""
+def copy_of(one: Any) -> Any:
+    """Return a copy of an object, whose attributes are the same objects."""
     new = object.__new__(type(one))
     new.__dict__.update(one.__dict__)
     return new
 
 
-def since(now, then, horizon_s):
-    """What a key has of a time of the past: the seconds since."""
+def since(now: Any, then: Any, horizon_s: float) -> Any:
+    """Return what a key has of a time of the past: the seconds since."""
     if then is None:
         return None
     elapsed_s = now - then
     return elapsed_s if elapsed_s < horizon_s else LONG_AGO
 
 
-def until(now, then):
-    """What a key has of a time from which on something is due: the seconds until."""
+def until(now: Any, then: Any) -> Any:
+    """Return what a key has of a time at which something is due: the seconds until."""
     return then if then in (None, math.inf) else then - now if then > now else OVER
 
 
-def key_of(one, now, horizon_s=0.0, *, past=(), future=(), without=()) -> Tuple:
-    """The attributes of an object for a key.
+def key_of(
+    one: Any,
+    now: Any,
+    horizon_s: float = 0.0,
+    *,
+    past: Collection[str] = (),
+    future: Collection[str] = (),
+    without: Collection[str] = (),
+) -> tuple[Any, ...]:
+    """Return the attributes of an object for a key.
 
     past, future: names of those that are times. horizon_s: at least all that a time of the past is
-    compared with [s]. Raises TypeError for an attribute that is neither plain nor left out: it
-    would be shared by all copies.
+    compared with [s]. Raises TypeError for an attribute that is neither plain nor left out: all
+    copies would share it.
     """
     values = []
     for name, value in vars(one).items():
@@ -95,10 +103,10 @@ class Explored(NamedTuple):
     states: int
     transitions: int
     depth: int  # the longest of all shortest ways to a state, in events
-    violations: List[Tuple[Violation, Tuple[str, ...]]]  # each with the events that lead to it
+    violations: list[tuple[Violation, tuple[str, ...]]]  # each with the events that lead to it
 
-    def __str__(self):
-        """For the reader of a test."""
+    def __str__(self) -> str:
+        """Return the figures, and each violation with the way to it."""
         counts = f"{self.states} states, {self.transitions} transitions, depth {self.depth}"
         return f"{counts}, {len(self.violations)} violations" + "".join(
             f"\n  ({violation.invariant}) {violation.what}, after {', '.join(way[-SHOWN_EVENTS:])}"
@@ -106,16 +114,15 @@ class Explored(NamedTuple):
         )
 
 
-def explore(start, events: Dict[str, Any], most_states=1_000_000, most_violations=1) -> Explored:
-    """Show every event to every reachable state; ends when there is no new one.
+def explore(start: Any, events: dict[str, Any], most_states: int = 1_000_000) -> Explored:
+    """Take every event in every reachable state, until there is no new one or a violation.
 
     start: a World with copy(), key() and take(event), which returns a list of Violations. events:
-    from a name to what take() is given. Raises RuntimeError when the states do not come to an end.
+    from a name to the argument of take(). Raises RuntimeError when the states do not end.
     """
     frontier = [(start, start.key())]
-    came_from = {frontier[0][1]: None}  # key -> (key before, name of the event)
+    came_from: dict[Any, Any] = {frontier[0][1]: None}  # key -> (key before, name of the event)
     transitions = depth = 0
-    violations = []
     while frontier:
         found = []
         for world, key in frontier:
@@ -124,29 +131,28 @@ def explore(start, events: Dict[str, Any], most_states=1_000_000, most_violation
                 new = world.copy()
                 wrong = _judged(new, event)
                 if wrong:
-                    violations += [(one, (*_way(came_from, key), name)) for one in wrong]
-                    if len(violations) >= most_violations:
-                        return Explored(len(came_from), transitions, depth, violations)
-                    continue  # what follows from a violation is none of its own
+                    way = (*_way(came_from, key), name)
+                    violations = [(one, way) for one in wrong]
+                    return Explored(len(came_from), transitions, depth, violations)
                 new_key = new.key()
                 if new_key not in came_from:
                     came_from[new_key] = (key, name)
                     found.append((new, new_key))
         if len(came_from) > most_states:
-            raise RuntimeError(f"more than {most_states} states: one of their parts grows for ever")
+            raise RuntimeError(f"more than {most_states} states: one of their parts grows forever")
         frontier, depth = found, depth + bool(found)
-    return Explored(len(came_from), transitions, depth, violations)
+    return Explored(len(came_from), transitions, depth, [])
 
 
-def _judged(world, event):
+def _judged(world: Any, event: Any) -> Any:
     try:
         return world.take(event)
-    except Exception as error:  # whatever it is: the node would not go on
+    except Exception as error:  # any of them would end the node
         return [Violation("an exception", 0, repr(error))]
 
 
-def _way(came_from, key):
-    """The names of the events that led to a key."""
+def _way(came_from: dict[Any, Any], key: Any) -> list[str]:
+    """Return the names of the events that led to a key."""
     names = []
     while came_from[key]:
         key, name = came_from[key]

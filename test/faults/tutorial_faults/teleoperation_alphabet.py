@@ -1,4 +1,4 @@
-"""What the exploration of the teleoperation shows it: parameters, messages, events."""
+"""The parameters, messages and events of the exploration of the teleoperation."""
 
 import math
 from typing import NamedTuple
@@ -33,7 +33,7 @@ CONFIGURATIONS = {
 
 
 class Message(NamedTuple):
-    """What a joystick node sends."""
+    """A message of a joystick node."""
 
     sender: str
     axes: tuple
@@ -69,18 +69,17 @@ STOPS = {
 }
 PASS, TICK, LEFT, SUSPENDED = "time passes", "tick", "left", "suspended"
 EVENTS = {**{name: name for name in (PASS, TICK, LEFT, SUSPENDED)}, **MESSAGES}
-# With a ramp there are many times more states; what is no velocity goes the same way as without.
+# A ramp multiplies the states; what is no velocity takes the same way as without one.
 WITHOUT_RAMP = (
     "stick", "turbo and stick", "LB and infinity", "too few axes", "too few buttons",
     "LB and stick, old", "another's neutral, worn", "another's LB",
 )  # fmt: skip
-# With one clock more there are many times more states, too. Suspensions beside it are left to the
-# stateful machines.
+# So does one more clock. The stateful machines add suspensions to it.
 VIGILANT = (PASS, TICK, LEFT, "neutral", "LB and stick", "LB and NaN", "another's neutral, worn")
 
 
 def events_of(name):
-    """The events for one of the CONFIGURATIONS."""
+    """Return the events for one of the CONFIGURATIONS."""
     if name.startswith("vigilance"):
         return {**{event: EVENTS[event] for event in VIGILANT}, **TREMBLES}
     if name.startswith("stop button"):

@@ -29,11 +29,11 @@ FIXED_IN_SAFETY = {
     "_stillness_s", "_silence", "_stillness", "_watches_stillness", "_unarmed", "state", "arming",
     "_switched_at", "_may_warn",
 }  # fmt: skip
-FIXED_IN_RELEASED = {"_is_good", "_is_released", "disarmed_s", "settled_s"}  # Resumption's
+FIXED_IN_RELEASED = {"_is_good", "_is_released", "settled_s"}  # Resumption's
 
 
 class TeleoperationWorld:
-    """The real Teleoperation, and what it must hold to."""
+    """The real Teleoperation, and the invariants that it must keep."""
 
     def __init__(self, **given):
         """given: private parameters of joy2twist."""
@@ -50,9 +50,7 @@ class TeleoperationWorld:
             (0, 1), p.enable_button, p.enable_turbo_button, p.require_enable_button,
             max_age_s=p.max_joy_age, stop=p.stop_button, reset=p.stop_reset_button,
         )  # fmt: skip
-        self._held = HeldDeadMan(
-            p.joy_timeout, meaning.holds, 0.0, p.vigilance_timeout, meaning.is_good
-        )
+        self._held = HeldDeadMan(p.joy_timeout, meaning.holds, p.vigilance_timeout, meaning.is_good)
         self._step_s = VIGILANT_STEP_S if p.vigilance_timeout else STEP_S
         self._latched = False  # the stop button was pressed, and not yet the reset button
         self._is_reset = True  # since then all was seen released after the reset button, too
@@ -60,7 +58,7 @@ class TeleoperationWorld:
         self._limits = WithinLimits(p.max_linear_speed or math.inf, p.max_angular_speed or math.inf)
 
     def copy(self):
-        """A World of its own, with what does not change shared."""
+        """Return a copy that shares what does not change."""
         new = copy_of(self)
         new._machine = machine = copy_of(self._machine)
         machine.safety = safety = copy_of(machine.safety)
@@ -70,7 +68,7 @@ class TeleoperationWorld:
         return new
 
     def key(self):
-        """All that decides what comes. _seen counts suspensions, and is compared with the next."""
+        """Return all that decides what follows; Resumption's _seen only counts suspensions."""
         now, machine, timeout_s = self._now, self._machine, self._parameters.joy_timeout
         return (
             key_of(machine, now, without=NOT_IN_KEY),
@@ -88,7 +86,7 @@ class TeleoperationWorld:
         )  # fmt: skip
 
     def take(self, event):
-        """Let one thing happen (a number: seconds pass); what is wrong with what comes of it."""
+        """Let an event happen (a number: seconds pass); return the Violations."""
         if event == PASS or isinstance(event, float):
             self._now += self._step_s if event == PASS else event
             return []
@@ -111,7 +109,9 @@ class TeleoperationWorld:
         if answer is not None:
             found += self._judge_velocity(answer, sent)
             self._sent = answer
-            self._zeros = 0 if moves(answer) else min(self._zeros + 1, self._stop_messages)
+            self._zeros = (
+                0 if moves(answer) else min(self._zeros + 1, self._parameters.stop_messages)
+            )
             self._has_moved = self._has_moved or moves(answer)
         is_rearmed = self._arms and self._armed.armed  # by this message, as silence disarms
         is_late = was_late and not is_rearmed and moves(sent) and moves(answer or ZERO)
@@ -122,10 +122,6 @@ class TeleoperationWorld:
             *self._must_go_on(event, answer, was_late),
         )
         return found + [Violation(letter, self._now, what) for letter, what in wrong]
-
-    @property
-    def _stop_messages(self):
-        return self._parameters.stop_messages
 
     @property
     def _is_silent(self):
@@ -170,10 +166,10 @@ class TeleoperationWorld:
         return self._parameters.arm_on_neutral
 
     def _must_stand(self, event):
-        """What the robot does until it hears something else is as important as what it hears."""
+        """Yield what is wrong with the velocity that the robot keeps until the next one."""
         if moves(self._sent):
             if self._now >= self._held.until_s:
-                yield "d", "no stop, though no dead-man is held any more"
+                yield "d", "no stop, though no dead-man button is held"
             if self._arms and not self._armed.armed:
                 yield "d", "no stop, though all must be seen released first"
             if event in (LEFT, SUSPENDED):
@@ -189,19 +185,16 @@ class TeleoperationWorld:
                 yield "b", "a robot that was lost is driven on without a stop"
 
     def _must_watch(self, event, due, answer):
-        """Whether the node is called in time, and stops are repeated."""
+        """Yield what is wrong with the time of the next call, and with repeated stops."""
         if self._machine.safety.due < due and not self._woken:
-            yield "d", "something is due sooner, and the node sleeps on"
-        if (
-            self._latched
-            and self._machine.safety.due > self._now + 1.0 / self._parameters.output_rate
-        ):
-            yield "e", "a robot that was stopped for good is left to others"
+            yield "d", "something is due sooner, and the node is not woken"
+        p = self._parameters
+        is_last = self._machine.safety.due > self._now + 1.0 / p.output_rate
+        if self._latched and is_last:
+            yield "e", "a robot that was stopped by its button is left to other inputs"
         if event == TICK and self._never_sleeps():
             yield "d", "the node is never let sleep"
-        p = self._parameters
         is_over = self._now >= self._held.until_s and p.require_enable_button
-        is_last = self._machine.safety.due > self._now + 1.0 / p.output_rate
         if answer is not None and is_over and self._zeros < p.stop_messages and is_last:
             yield "d", "a stop is not repeated"
 
@@ -214,7 +207,7 @@ class TeleoperationWorld:
         return machine.safety.due <= self._now
 
     def _must_go_on(self, event, answer, was_late):
-        """Who holds the dead-man, in time and armed, drives."""
+        """Yield (h): a dead-man button that is held, in time and armed, drives."""
         if not isinstance(event, Message) or self._ramps or self._now < self._armed.settled_s:
             return
         may = self._meaning.holds(Joy(self._now, *event)) and (self._armed.armed or not self._arms)

@@ -2,8 +2,8 @@
 
     relay.py SEED NAME_OF_THE_FIRST NAME_OF_THE_SECOND
 
-Told by lines `down|loss|delay|duplication|reordering|throttle VALUE`, each from 0 (nothing) on.
-This kernel may have no netem; a TUN device is found everywhere.
+It reads lines `link_down|loss|delay|duplication|reordering|throttle VALUE`; 0: nothing of it. A
+kernel may have no netem; a TUN device is found everywhere.
 """
 
 import fcntl
@@ -20,31 +20,29 @@ _IFF_TUN, _IFF_NO_PI = 0x0001, 0x1000
 _LARGEST_PACKET = 65536
 # What a slow radio link keeps for later, at most [bytes]; what comes then is lost.
 LONGEST_QUEUE = 3000
+ILLS = ("link_down", "loss", "delay", "duplication", "reordering", "throttle")
 
 
 def open_tun(name):
-    """The file of a new network device, packets without a header."""
+    """Return the file of a new network device, packets without a header."""
     fd = os.open("/dev/net/tun", os.O_RDWR | os.O_NONBLOCK)
     fcntl.ioctl(fd, _TUNSETIFF, struct.pack("16sH22x", name.encode(), _IFF_TUN | _IFF_NO_PI))
     return fd
 
 
 class Cable:
-    """What becomes of packets on their way (pure: time and chance enter from outside)."""
+    """Decides what becomes of packets (pure: time and chance enter from outside)."""
 
     def __init__(self, chance):
         """chance: a random.Random."""
         self._chance = chance
         self._free_s = {}  # from an end to when its slow link has sent all it has
-        self._number = 0
-        self.ills = dict.fromkeys(
-            ("down", "loss", "delay", "duplication", "reordering", "throttle"), 0.0
-        )
+        self.ills = dict.fromkeys(ILLS, 0.0)
 
     def sends(self, end, size, now):
-        """When a packet of so many bytes, which came from an end at a time [s], arrives: [time]."""
+        """Return when a packet, which left an end at a time [s], arrives: [time], [] or twice."""
         ills, chance = self.ills, self._chance.random
-        if ills["down"] or chance() < ills["loss"]:
+        if ills["link_down"] or chance() < ills["loss"]:
             return []
         at_s = now + ills["delay"]
         if ills["throttle"]:  # [bytes/s]
@@ -73,7 +71,7 @@ def main():
                 return
             for ill, value in map(str.split, line.splitlines()):
                 cable.ills[ill] = float(value)
-            if cable.ills["down"]:
+            if cable.ills["link_down"]:
                 queue = []  # what was on its way is lost
         for end in [end for end in ends if end in readable]:
             packet = os.read(end, _LARGEST_PACKET)

@@ -1,9 +1,11 @@
 """What the processes of a soak need, over time, and whether it grows; sample() reads /proc."""
 
+from __future__ import annotations
+
 import os
 import re
 from pathlib import Path
-from typing import NamedTuple
+from typing import NamedTuple, Sequence
 
 SETTLES_S = 60.0  # after which nothing new is opened
 MOST_GROWTH_KB = 2048
@@ -19,25 +21,25 @@ class Sample(NamedTuple):
     files: int
 
 
-def sample(at_s, node, pid):
-    """The Sample of a process, or None if it has ended."""
+def sample(at_s: float, node: str, pid: int) -> Sample | None:
+    """Return the Sample of a process, or None if it has exited."""
     try:
         status = Path(f"/proc/{pid}/status").read_text()
         files = len(os.listdir(f"/proc/{pid}/fd"))
     except OSError:
         return None
     memory, threads = (
-        int(re.search(rf"^{name}:\s+(\d+)", status, re.M)[1]) for name in ("VmRSS", "Threads")
+        int(re.findall(rf"^{name}:\s+(\d+)", status, re.M)[0]) for name in ("VmRSS", "Threads")
     )
     return Sample(at_s, node, memory, threads, files)
 
 
-def growth(samples, node):
-    """(memory [kB], threads, files) by which a node has grown after it settled; None: unknown.
+def growth(samples: Sequence[Sample], node: str) -> tuple[int, int, int] | None:
+    """Return (memory [kB], threads, files) by which a node has grown after it settled.
 
-    The smallest of the last tenth of the time, as what comes and goes is no growth, such as the
-    thread that answers one question. Of memory beyond the smallest of the first tenth; of threads
-    and files beyond the largest of the first minute.
+    The smallest of the last tenth of the time, as a thread that answers one question is no growth;
+    of memory beyond the smallest of the first tenth, of threads and files beyond the largest of the
+    first minute. None: unknown.
     """
     its = [one for one in samples if one.node == node]
     before = [one for one in its if one.at_s <= SETTLES_S]
@@ -54,8 +56,8 @@ def growth(samples, node):
     return memory, threads, files
 
 
-def complaints(samples):
-    """Lines about the nodes that have grown."""
+def complaints(samples: Sequence[Sample]) -> list[str]:
+    """Return lines about the nodes that have grown."""
     lines = []
     for node in sorted({one.node for one in samples}):
         grown = growth(samples, node)

@@ -1,70 +1,60 @@
 """The live system: gamepad, driver, joy2twist, mux and simulator, started once and repaired."""
 
 import contextlib
-import json
 import os
 import signal
 import time
 
 import rospkg
-import yaml
 
+from node_kit.questions import call
 from tutorial_faults.events import Twist, Violation, Wheels
-from tutorial_faults.invariants import unended
-from tutorial_faults.live.beat import beat
-from tutorial_faults.live.hands import HandsOnPad
+from tutorial_faults.live.helpers import PYTHON, Helper, beat
 from tutorial_faults.live.judge import Injury, Record
-from tutorial_faults.live.kinds import BASE, DRIVER, JOY2TWIST, LINK, MUX, NODES, VIGILANCE_S
-from tutorial_faults.live.master import Master
-from tutorial_faults.live.plan import DRIVE, RELEASED
-from tutorial_faults.live.talker import PYTHON, Talker
+from tutorial_faults.live.kinds import BASE, DRIVER, JOY2TWIST, MUX, NODES, VIGILANCE_S
+from tutorial_testing import rig
+from tutorial_testing.hands import DRIVE, RELEASED, Hands
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import BUSY_S, wait_for
 
-NAMES = {
-    DRIVER: "/joy_node",
-    JOY2TWIST: "/NewJoy2Twist",
-    MUX: "/cmd_vel_mux",
-    BASE: "/fake_turtlebot",
-}
-ENDS_S = 1.5 + BUSY_S  # for a node to end, when told to
-RESTS_S = 0.6  # for which a multiplexer wants to see a sender rest
+NAMES = {DRIVER: rig.JOYSTICK, JOY2TWIST: rig.DRIVER, MUX: rig.MUX, BASE: rig.BASE}
+ENDS_S = 1.5 + BUSY_S  # for a node to exit, when asked to
 STARTS_S = 4.0  # to release all and drive again, at least
 DRIVES_S = 90.0  # after which a system that does not drive is deaf
+MASTER_S = 120.0  # for its first answer, on a machine that is busy with something else
 
 
 class World:
     """All processes of the system and those beside it. A context manager that ends them all."""
 
-    def __init__(self, hosts, folder, node=(), simulated=False):
+    def __init__(self, hosts, folder, node=()):
         """hosts: hosts.Hosts. folder: for the FIFO. node: a command in place of joy2twist's."""
-        self.hosts, self.simulated = hosts, simulated
-        self._folder, self._node = folder, node
+        self.hosts, self._node = hosts, node
         self._stack = contextlib.ExitStack()
         self._packages = rospkg.RosPack()  # which looks through all folders once
-        self.programs = {}
-        self.record = Record()
+        self.programs, self.record = {}, Record()
         self._newest = None  # events.Wheels
-        self.master = Master(hosts.robot_environment)
-        beat(lambda *late: self.record.late.append(late))
+        self._device = os.path.join(folder, "js0")
+        self.is_used_up = False  # it cannot be repaired for the next trial
 
     def __enter__(self):
         enter = self._stack.enter_context
         try:
-            self.master.start(self.simulated)
-            self._stack.push(self.master)
-            if self.simulated:
-                self.clock = enter(self._talker("clock"))
-                self.clock.wait_ready()
-            self.hands = enter(HandsOnPad(os.path.join(self._folder, "js0")))
+            self._stack.callback(beat(lambda *late: self.record.late.append(late)))
+            self.master = enter(self._start_master())
+            self.hands = enter(Hands(self._device))
             self._stack.callback(self._end_nodes)
             for node in reversed(NODES):
                 self.start(node)
-            self.observer = enter(self._talker("observer", hear=self._hear))
-            self.viewer = enter(self._talker("stranger", "--listens"))
-            self.stranger = enter(self._talker("stranger"))
-            for one in (self.observer, self.viewer, self.stranger):
+            environment = {**os.environ, **self.hosts.robot_environment}
+            helpers = [
+                enter(Helper("observer", environment=environment, hear=self._hear)),
+                enter(Helper("stranger", "--listens", environment=environment)),
+                enter(Helper("stranger", environment=environment)),
+            ]
+            for one in helpers:
                 one.wait_ready()
+            _, self.viewer, self.stranger = helpers
             wait_for(lambda: self._newest, "odometry", DRIVES_S)
         except BaseException:
             self.__exit__(None, None, None)
@@ -74,9 +64,15 @@ class World:
     def __exit__(self, *error):
         self._stack.__exit__(*error)
 
-    def _talker(self, *words, hear=None):
-        environment = {**os.environ, **self.hosts.robot_environment}
-        return Talker(*words, environment=environment, hear=hear)
+    def _start_master(self):
+        environment = self.hosts.robot_environment
+        uri = environment["ROS_MASTER_URI"]
+        port = uri.rsplit(":", 1)[1]
+        master = Program("rosmaster", "--core", "-p", port, **environment)
+        wait_for(lambda: call(uri, "getPid")[1], "master", MASTER_S)
+        # Or every line of a node's log asks the master first.
+        call(uri, "setParam", "/rosout_disable_topics_generation", False)
+        return master
 
     def _end_nodes(self):
         for program in self.programs.values():
@@ -85,40 +81,28 @@ class World:
     # ------------------------------------------------------------------------------- the nodes
 
     def start(self, node):
-        """Start a node, or start it anew."""
-        command, parameters, remaps = self._command(node)
-        arguments = [f"_{name}:={json.dumps(value)}" for name, value in parameters.items()]
-        arguments += [f"{name}:={to}" for name, to in remaps.items()]
+        """Start a node, or restart it."""
         at_station = node in (DRIVER, JOY2TWIST)
         prefix = self.hosts.workstation_prefix if at_station else ()
         environment = (
             self.hosts.workstation_environment if at_station else self.hosts.robot_environment
         )
         old = self.programs.get(node)
-        self.programs[node] = Program(*prefix, *command, *arguments, **environment)
+        self.programs[node] = Program(*prefix, *self._command(node), **environment)
         if old:
             old.__exit__()
 
     def _command(self, node):
-        find = self._packages.get_path
-        if node == DRIVER:
-            script, given, remaps = "gamepad/joy_node", {"dev": self.hands.path}, {}
-        elif node == JOY2TWIST:
-            preset = _read(find("joy2twist"), "config", "f710_d.yaml")
-            given = {**preset, "arm_on_neutral": True, "log_rate": 0}
-            given["vigilance_timeout"] = VIGILANCE_S
-            script, remaps = "joy2twist/joy2twist.py", {"cmd_vel": "cmd_vel_mux/input/teleop"}
-            if self._node:
-                # The preset is that of teleop_twist_joy, too; arming is ours.
-                return self._node, preset, {**remaps, "/cmd_vel": "/cmd_vel_mux/input/teleop"}
-        elif node == MUX:
-            script = "fake_turtlebot_sim/cmd_vel_mux.py"
-            given = _read(find("fake_turtlebot_sim"), "config", "cmd_vel_mux.yaml")
-            remaps = {"cmd_vel_mux/output": "cmd_vel"}
-        else:
-            script, given, remaps = "fake_turtlebot_sim/fake_turtlebot.py", {}, {}
-        package, name = script.split("/")
-        return (PYTHON, os.path.join(find(package), "scripts", name)), given, remaps
+        given = rig.given_to(NAMES[node], self._device, vigilance_timeout=VIGILANCE_S)
+        package, name, parameters, remaps = given
+        if node == JOY2TWIST and self._node:
+            # The preset is that of teleop_twist_joy, too; arming and vigilance are ours.
+            ours = ("arm_on_neutral", "log_rate", "vigilance_timeout")
+            parameters = {key: one for key, one in parameters.items() if key not in ours}
+            remaps = {**remaps, "/cmd_vel": "/cmd_vel_mux/input/teleop"}
+            return [*self._node, *rig.arguments(parameters, remaps)]
+        script = os.path.join(self._packages.get_path(package), "scripts", name)
+        return [PYTHON, script, *rig.arguments(parameters, remaps)]
 
     def signal(self, node, number):
         """Send a signal to a node, as far as it lives."""
@@ -126,19 +110,27 @@ class World:
             if not self.programs[node].ended:
                 os.kill(self.programs[node].pid, number)
 
+    def await_end(self, node, asked_s):
+        """Wait until a node that was asked to exit at a time [s] does; record it if it does not."""
+        program = self.programs[node]
+        try:
+            program.wait(ENDS_S)
+        except AssertionError:
+            self.signal(node, signal.SIGKILL)
+            self.report("g", f"{node} did not exit within {ENDS_S} s", asked_s)
+        if program.left_behind():
+            self.report("g", f"{node} left a process behind", asked_s)
+
     def end(self):
-        """Press Ctrl-C at all nodes, from the gamepad to the base; the Violations of (g)."""
-        asked_s, ended_s, wrong = time.time(), {}, []
+        """Press Ctrl-C at all nodes, from the gamepad to the base; return the Violations of (g)."""
         self.repair()
+        self.begin_record()
+        asked_s = time.time()
         for node in NODES:
             self.signal(node, signal.SIGINT)
         for node in NODES:
-            with contextlib.suppress(AssertionError):
-                self.programs[node].wait(ENDS_S)
-                ended_s[node] = time.time()
-                if self.programs[node].left_behind():
-                    wrong.append(Violation("g", asked_s, f"{node} left a process behind"))
-        return wrong + unended(asked_s, {node: ended_s.get(node) for node in NODES}, ENDS_S)
+            self.await_end(node, asked_s)
+        return self.record.reported
 
     # ------------------------------------------------------------------------------ the record
 
@@ -148,21 +140,25 @@ class World:
         if kind == "wheels":
             self._newest = Wheels(at_s, x, z)
             self.record.wheels.append(self._newest)
-        elif kind in ("command", "asked"):
-            into = self.record.commands if kind == "command" else self.record.asked
-            into.append(Twist(at_s, (x, y, 0.0, 0.0, 0.0, z)))
         elif kind == "late":
             self.record.late.append((at_s, x))
+        else:
+            into = self.record.commands if kind == "command" else self.record.asked
+            into.append(Twist(at_s, (x, y, 0.0, 0.0, 0.0, z)))
 
     def begin_record(self):
         """Begin a new record."""
         self.record = Record(hands=self.hands.new_record())
 
     def injure(self, kind):
-        """Write down that a fault of this kind begins now: its judge.Injury."""
+        """Record that a fault of this kind begins now; return its judge.Injury."""
         injury = Injury(kind, time.time())
         self.record.injuries.append(injury)
         return injury
+
+    def report(self, letter, what, at_s=None):
+        """Record a Violation that the judge cannot see."""
+        self.record.reported.append(Violation(letter, at_s or time.time(), what))
 
     @property
     def moves(self):
@@ -172,7 +168,7 @@ class World:
     # ------------------------------------------------------------------------- between trials
 
     def repair(self):
-        """Start again what has ended."""
+        """Start again what has exited."""
         for node in NODES:
             if self.programs[node].ended:
                 self.start(node)
@@ -187,8 +183,8 @@ class World:
             self.repair()
             self.hands.show(RELEASED)
             began = time.time()
-            wait_for(lambda: self._stands_since(began), "robot at rest")
-            time.sleep(RESTS_S)
+            wait_for(lambda: self._newest.at_s > began and not self.moves, "robot at rest")
+            time.sleep(rig.REST_S)
             self.begin_record()
             self.hands.show(DRIVE)
             end = time.monotonic() + STARTS_S
@@ -198,19 +194,10 @@ class World:
 
         wait_for(once, "robot that drives", DRIVES_S)
 
-    def _stands_since(self, began):
-        return self._newest.at_s > began and not self.moves
-
-    @property
-    def linked(self):
-        """Whether there is a cable between two hosts."""
-        return LINK in self.hosts.granted
-
     def last_words(self):
-        """From each node to the end of its output."""
-        return {node: program.output[-2000:] for node, program in self.programs.items()}
-
-
-def _read(*path):
-    with open(os.path.join(*path), encoding="utf-8") as file:
-        return yaml.safe_load(file)
+        """Return the last lines of each node's output."""
+        return [
+            f"  {node}: {line}"
+            for node, program in self.programs.items()
+            for line in program.output.splitlines()[-3:]
+        ]
