@@ -1,11 +1,12 @@
 """Makes small changes to the rules, one at a time, and counts those that no unit test notices.
 
 cosmic-ray (PyPI) makes the changes in a copy of the repository and runs the tests of the package,
-those of the module first. The rules: modules without ROS that have a test file of their name.
+those of the module first. The rules: modules that import neither ROS nor the operating system.
 """
 
 import argparse
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -17,6 +18,9 @@ REPOSITORY = Path(__file__).resolve().parents[2]
 MOST_SURVIVORS = 10  # %; a module with more fails
 # Longer than all others together; what they find, others must find too.
 NOT_RUN = "not 100_000 and not whatever_the_rate and not million"
+IMPURE = re.compile(
+    r"^(import|from) (os|pathlib|rospy|socket|subprocess|threading|time|\w+_msgs)\b", re.M
+)
 PYTEST = "-m pytest -x -q -p no:cacheprovider -p no:xdist -p no:benchmark --hypothesis-seed=0"
 # Bits of a float and the identity of numbers say nothing about the rules.
 CONFIG = """
@@ -37,14 +41,14 @@ exclude-operators = [
 def modules():
     """Return {name of a module: (its file, its tests)}, relative to the repository."""
     found = {}
-    for test in sorted(REPOSITORY.glob("test/unit/*/test_*.py")):
-        name = f"{test.stem[len('test_') :]}.py"
-        for package in (REPOSITORY, REPOSITORY / "common"):
-            for file in package.glob(f"{test.parent.name}/src/**/{name}"):
-                if "import rospy" not in file.read_text():
-                    source, tests = file.relative_to(REPOSITORY), test.relative_to(REPOSITORY)
-                    module = ".".join(source.with_suffix("").parts).split(".src.")[1]
-                    found[module] = (str(source), f"{tests} {tests.parent}")
+    for folder in sorted(REPOSITORY.glob("test/unit/*/")):
+        tests = {test: test.read_text() for test in sorted(folder.glob("test_*.py"))}
+        for source in sorted(REPOSITORY.glob(f"**/{folder.name}/src/**/*.py")):
+            name = ".".join(source.with_suffix("").parts).rpartition(".src.")[2]
+            using = [test for test, text in tests.items() if f"from {name} import" in text]
+            if using and not IMPURE.search(source.read_text()):
+                tried = [str(path.relative_to(REPOSITORY)) for path in (*using, folder)]
+                found[name] = (str(source.relative_to(REPOSITORY)), " ".join(tried))
     return found
 
 
