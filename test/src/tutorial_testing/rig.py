@@ -104,9 +104,9 @@ class Rig:
 
         return wait_for(ask, f"process of {node}")
 
-    def kill(self, node, number=signal.SIGKILL):
-        """Send a signal to a node; return how long it took to exit [s]."""
-        pid = self.pid(node)
+    def kill(self, node, number=signal.SIGKILL, pid=None):
+        """Send a signal to a node; return how long it took to exit [s]. pid: if it is known."""
+        pid = pid or self.pid(node)
         began = time.monotonic()
         os.kill(pid, number)
         self.programs[node].wait()
