@@ -45,7 +45,6 @@ def test_no_file_needs_more_than_python_3_8():
 @pytest.mark.parametrize(
     "newer",
     [
-        "Names = list[str]",
         "print('a'.removeprefix('a'))",
         "match 1:\n    case 1: pass",
         "with (open('a') as a, open('b') as b): pass",

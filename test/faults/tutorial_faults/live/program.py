@@ -6,7 +6,6 @@ import csv
 import os
 import shlex
 import signal
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
@@ -18,9 +17,8 @@ from tutorial_faults.live.kinds import KINDS, chosen
 from tutorial_faults.live.report import by_kind, last_line
 from tutorial_faults.live.soak import soak
 
-TEST = Path(__file__).resolve().parents[3]
 # The handout's own class, as printed there, by the name under which --node knows it.
-HANDOUT, LITERAL = "handout", TEST / "exercises/literal/joy2twist/scripts/new_joy2twist.py"
+HANDOUT, LITERAL = "handout", "exercises/literal/joy2twist/scripts/new_joy2twist.py"
 FIRST_SEED = 1
 CANNOT = 2  # exit code
 
@@ -74,7 +72,6 @@ def parse(arguments):
     what.add_argument("--for", type=above_zero, metavar="SECONDS", dest="seconds", help="(60)")
     what.add_argument("--trials", type=count, metavar="N", help="so many trials")
     what.add_argument("--soak", type=above_zero, metavar="HOURS", help="without faults: what grows")
-    what.add_argument("--rostests", type=count, metavar="N", help="test/ros/faults, N times each")
     add("--seed", type=int, help=f"of the first trial ({FIRST_SEED})")
     add("--kinds", type=kind, nargs="+", default=[], metavar="KIND", help="these faults alone")
     add("--shrink", action="store_true", help="look for the fewest faults that do it")
@@ -83,20 +80,13 @@ def parse(arguments):
     return parser.parse_args(arguments)
 
 
-def rostests(times):
-    """Run the rostests of faults so often while all cores are busy; return the exit code."""
-    tests = sorted(map(str, (TEST / "ros/faults").glob("*.test"))) * times
-    with tempfile.TemporaryDirectory() as folder:
-        at_once = str(4 * (os.cpu_count() or 1))
-        return subprocess.call([str(TEST / "run_rostests"), at_once, f"{folder}/results", *tests])
-
-
 def hunt(options):
     """Run the trials; return the exit code."""
     command = ()
     if options.node:
         is_handout = options.node == HANDOUT
-        command = (str(LITERAL),) if is_handout else ("rosrun", *options.node.split("/"))
+        literal = Path(__file__).resolve().parents[3] / LITERAL
+        command = (str(literal),) if is_handout else ("rosrun", *options.node.split("/"))
     with contextlib.ExitStack() as stack:
         folder = stack.enter_context(tempfile.TemporaryDirectory())
         home = os.path.join(folder, "home")
@@ -138,8 +128,6 @@ def main(arguments=None):
     """Run until done; return 1 if an invariant was violated, 2 if this cannot work."""
     arguments = sys.argv[1:] if arguments is None else arguments
     options = parse(arguments)
-    if options.rostests:
-        return rostests(options.rostests)
     hosts.move_in(arguments)
     # As the first process of a namespace this receives only signals with a handler.
     signal.signal(signal.SIGTERM, signal.default_int_handler)
