@@ -10,15 +10,12 @@ from xml.etree import ElementTree
 import pytest
 
 REPOSITORY = Path(__file__).resolve().parents[2]
-LOWER_FLOOR = (
-    "common/cockpit",
-    "common/gamepad",
-    "common/node_kit",
-    "common/tutorial_check",
-    "common/tutorial_tools",
-    "fake_turtlebot_sim",
+PACKAGES = sorted(
+    str(path.parent.relative_to(REPOSITORY))
+    for pattern in ("*/package.xml", "common/*/package.xml")
+    for path in REPOSITORY.glob(pattern)
+    if path.parent.name != "test"
 )
-PACKAGES = ("beginner_tutorials", *LOWER_FLOOR, "joy2twist")
 
 
 @pytest.mark.skipif(not shutil.which("catkin_lint"), reason="catkin_lint missing: ./tutorial setup")

@@ -14,14 +14,12 @@ from gamepad.virtual.pads import UinputPad
 from tutorial_testing.cockpit.chromium import Chromium
 from tutorial_testing.cockpit.hands import SIT_DOWN, Hands
 from tutorial_testing.cockpit.world import World
-from tutorial_testing.kernel.drive import DEADLINE_S, METRES_PER_S, tell
+from tutorial_testing.kernel.drive import DEADLINE_S, FORWARD, HELD, METRES_PER_S, tell
 from tutorial_testing.waiting import wait_for
 
 # What is demanded of the cockpit: half a second, and a period of the odometry.
 LIMIT_S = 0.5 + 0.02
 FAR_M = 0.5  # longer than a second: the gamepad's own time stands still where the stick does
-FORWARD = Controls(left_stick=(0.0, 1.0))
-HELD = Controls(left_stick=(0.0, 1.0), held=frozenset(["LB"]))
 SEEN = """navigator.getGamepads().filter((pad) => pad?.connected).map(
   (pad) => ({id: pad.id, mapping: pad.mapping, axes: pad.axes.length}))"""
 
@@ -43,19 +41,19 @@ class KernelGamepad(Hands):
         self.show(Controls())
 
     def wait_until_seen(self):
-        """What the page sees of the only gamepad."""
+        """Wait for the only gamepad in the page; return what it sees of it."""
         return wait_for(lambda: self.browser.ask(SEEN), "gamepad in the page", DEADLINE_S)[0]
 
 
 def judge(world, since, what):
-    """The robot stands soon after a time [s]."""
+    """Check that the robot stands soon after a time [s]."""
     took_s = world.wait_for_rest() - since
     tell(f"{what}: the robot stands after {1e3 * took_s:.0f} ms")
     assert took_s < LIMIT_S
 
 
 def check_mode(browser, world, mode):
-    """What the page makes of an F710 in a mode, from the first button to its end."""
+    """Check what the page makes of an F710 in a mode, from the first button to its end."""
     with UinputPad(F710[mode]) as pad:
         hands = KernelGamepad(browser, pad, mode)
         # A page gets to know a gamepad by a button that is pressed.
@@ -72,7 +70,7 @@ def check_mode(browser, world, mode):
 
 
 def check_drive(world, hands):
-    """Nothing moves without the dead-man; with it the robot drives, and stands when released."""
+    """Check that the robot drives with LB held only, and stands when it is released."""
     world.wait_for_rest()
     hands.show(FORWARD)
     assert world.stays_at_rest()
@@ -87,7 +85,7 @@ def check_drive(world, hands):
 
 
 def check_held_when_it_comes(browser, world, mode):
-    """A gamepad that is held when Chromium first reads it moves nothing until it was released."""
+    """Check that a gamepad held when Chromium first reads it moves nothing until released."""
     with UinputPad(F710[mode]) as pad:
         hands = KernelGamepad(browser, pad, mode)
         hands.hold()
@@ -102,7 +100,7 @@ def check_held_when_it_comes(browser, world, mode):
 
 
 def sits_down(browser):
-    """Whether this page drives; if not, it asks to."""
+    """Return whether this page drives; if not, it asks to."""
     browser.ask(SIT_DOWN)
     return "You drive" in browser.text("#seat")
 
