@@ -10,8 +10,7 @@ from typing import NamedTuple, Tuple
 
 from fake_turtlebot_sim.mux.arbitration import REARM_S, Arbiter, Verdict
 from fake_turtlebot_sim.mux.parameters import Input
-from node_kit.arming import Arming
-from node_kit.resumption import SETTLING_S, Resumption
+from node_kit.arming import SETTLING_S, Arming, Resumption
 from tutorial_faults.events import Command, Through, Violation
 from tutorial_faults.explore import Moment, copy_of, key_of, until
 from tutorial_faults.invariants import REST_S, HighestSpeaks, NeverLate, WithinLimits, moves

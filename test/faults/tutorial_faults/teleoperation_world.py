@@ -7,10 +7,9 @@ joy_timeout 0.5 s, the period of the output 0.25 s, SETTLING_S 0.25 s, vigilance
 
 import math
 
-from joy_to_twist.limits import ZERO
 from joy_to_twist.parameters import load
 from joy_to_twist.teleoperation import Teleoperation
-from node_kit.resumption import SETTLING_S
+from node_kit.arming import SETTLING_S, ZERO
 from tutorial_faults.events import Joy, Loss, Twist, Violation
 from tutorial_faults.explore import Moment, copy_of, key_of, until
 from tutorial_faults.invariants import HeldDeadMan, SeenReleased, WithinLimits, moves

@@ -15,7 +15,7 @@ import rospy
 import rostest
 from geometry_msgs.msg import Twist
 
-from node_kit.names import holder
+from node_kit.questions import holder
 from tutorial_testing.joystick_stream import AXIS, BUTTON, Stream
 from tutorial_testing.nodes import init_node
 from tutorial_testing.processes import Program

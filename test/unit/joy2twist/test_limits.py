@@ -6,7 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from joy_to_twist.limits import ZERO, approach, limit_speed
+from joy_to_twist.mapping import approach, limit_speed
+from node_kit.arming import ZERO
 
 speeds = st.floats(-1e9, 1e9)
 velocities = st.tuples(*[speeds] * 6)

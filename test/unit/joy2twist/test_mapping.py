@@ -2,9 +2,9 @@
 
 import pytest
 
-from joy_to_twist.limits import ZERO
 from joy_to_twist.mapping import BadJoyError, Mapping
 from joy_to_twist.parameters import load
+from node_kit.arming import ZERO
 
 AXES = (0.3, 0.4, 0.5, 0.6, 0.7, 0.8)
 PAD = {"enable_button": 0, "enable_turbo_button": 1}

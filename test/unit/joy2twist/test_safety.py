@@ -2,9 +2,9 @@
 
 import pytest
 
-from joy_to_twist.limits import ZERO
 from joy_to_twist.parameters import load
 from joy_to_twist.safety import ARMED, BAD_MESSAGE, DRIVING, NOT_ARMED, WAITING, Safety
+from node_kit.arming import ZERO
 from tutorial_testing.over_time import over_time
 
 FORWARD = (0.5, 0.0, 0.0, 0.0, 0.0, 0.0)

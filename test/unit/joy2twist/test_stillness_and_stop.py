@@ -1,8 +1,8 @@
 """A joystick that does not change, and the stop button. Times in seconds, as they would pass."""
 
-from joy_to_twist.limits import ZERO
 from joy_to_twist.parameters import load
 from joy_to_twist.safety import DRIVING, NOT_ARMED, Safety
+from node_kit.arming import ZERO
 from tutorial_testing.over_time import over_time
 
 FORWARD = (0.5, 0.0, 0.0, 0.0, 0.0, 0.0)

@@ -2,8 +2,8 @@
 
 import pytest
 
-from node_kit import launch_check
-from node_kit.launch_check import complaint, will_start
+from node_kit import launch
+from node_kit.launch import complaint, will_start
 
 PYTHON = "/usr/bin/python3"
 
@@ -28,7 +28,7 @@ def test_only_roslaunch_starts_nodes(command, starts):
 
 def test_the_first_name_that_is_held_is_told_with_what_to_do(monkeypatch):
     held = {"/robot_7/joy_node": ("http://here:1", "at http://here:1, process 5")}
-    monkeypatch.setattr(launch_check, "holder", lambda _, name: held.get(name))
+    monkeypatch.setattr(launch, "holder", lambda _, name: held.get(name))
     line = complaint(["/rosbag", "/robot_7//joy_node"], "http://localhost:11311")
     assert line.startswith("/robot_7/joy_node runs already, at http://here:1, process 5: end it")
     assert "rosnode kill /robot_7/joy_node" in line

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from node_kit.launch_end import name_of
+from node_kit.launch import name_of
 
 KIT = Path(__file__).resolve().parents[3] / "common" / "node_kit"
 

@@ -6,7 +6,7 @@ import time
 import pytest
 
 from node_kit import suspension
-from node_kit.resumption import SETTLING_S, Resumption
+from node_kit.arming import SETTLING_S, Resumption
 from node_kit.suspension import Suspensions
 
 

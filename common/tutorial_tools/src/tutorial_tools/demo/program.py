@@ -23,9 +23,7 @@ import rospkg
 
 from gamepad.arguments import assignment, check
 from node_kit.arguments import above_zero
-from node_kit.names import holder
-from node_kit.page import address
-from node_kit.questions import Answer, call
+from node_kit.questions import Answer, address, call, holder
 from tutorial_tools.demo.in_the_way import in_the_way, refusal
 from tutorial_tools.demo.launch import ENDING, TOPICS, DemoError, Launch
 

@@ -4,7 +4,7 @@ import errno
 from dataclasses import dataclass
 
 from gamepad.driver.device_choice import explain
-from node_kit.states import DRIVING
+from node_kit.arming import DRIVING
 from tutorial_tools.doctor.facts import DEAD, JOY, TWIST, Answer, some
 
 OK, WRONG, UNKNOWN = "ok", "wrong", "unknown"
