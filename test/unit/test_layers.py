@@ -36,7 +36,8 @@ fake_turtlebot_sim.simulator.clock fake_turtlebot_sim.simulator.simulated_robot
 fake_turtlebot_sim.simulator.parameters fake_turtlebot_sim.mux.arbitration
 fake_turtlebot_sim.mux.parameters gamepad.arguments
 tutorial_tools.bag.picture tutorial_tools.demo.drive_report tutorial_tools.doctor.facts
-tutorial_tools.doctor.judgement joy_to_twist.parameters joy_to_twist.limits joy_to_twist.mapping
+tutorial_tools.doctor.way tutorial_tools.doctor.judgement
+joy_to_twist.parameters joy_to_twist.limits joy_to_twist.mapping
 joy_to_twist.gamepad_hints joy_to_twist.safety joy_to_twist.teleoperation
 cockpit_server.access cockpit_server.schema cockpit_server.seat cockpit_server.player
 cockpit_server.motion cockpit_server.fields cockpit_server.graph cockpit_server.admission
@@ -45,13 +46,15 @@ cockpit_server.budget cockpit_server.clients cockpit_server.drives cockpit_serve
 OUTER = """
 node_kit.launch_check node_kit.launch_end node_kit.manifests node_kit.suspension
 node_kit.careful_connections node_kit.ending node_kit.log node_kit.prompt_publisher node_kit.start
-gamepad.driver.wake gamepad.driver.device gamepad.driver.node gamepad.virtual.terminal
+gamepad.driver.container gamepad.driver.wake gamepad.driver.device gamepad.driver.node
+gamepad.virtual.terminal
 gamepad.virtual.pads gamepad.virtual.program fake_turtlebot_sim.simulator.ros_messages
 fake_turtlebot_sim.simulator.ros_clock fake_turtlebot_sim.simulator.robot_topics
 fake_turtlebot_sim.simulator.diagnostics fake_turtlebot_sim.simulator.node
 fake_turtlebot_sim.mux.node fake_turtlebot_sim.classroom_view.bodies
 fake_turtlebot_sim.classroom_view.node fake_turtlebot_sim.replay.bag_replay
-fake_turtlebot_sim.replay.command tutorial_tools.demo.in_the_way tutorial_tools.demo.launch
+fake_turtlebot_sim.replay.command tutorial_tools.launch_arguments
+tutorial_tools.demo.in_the_way tutorial_tools.demo.launch
 tutorial_tools.demo.program tutorial_tools.doctor.network tutorial_tools.doctor.collect
 tutorial_tools.doctor.program tutorial_tools.graph.program tutorial_tools.bag.program
 tutorial_tools.join.program

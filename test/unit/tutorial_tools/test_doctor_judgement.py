@@ -212,6 +212,26 @@ def test_an_empty_graph():
     assert "neither a joystick nor joy2twist: roslaunch joy2twist launch_joy_node.launch" in line
 
 
+def test_a_classroom():
+    """The advice has the namespace of the robot, and another joystick than a gamepad."""
+    velocities = {f"/robot_{number}/cmd_vel": ["/classroom"] for number in (2, 10)}
+    types = dict.fromkeys(velocities, TWIST)
+    classroom = replace(Facts(), subscribers=velocities, types=types)
+    wrong(classroom, "roslaunch joy2twist student.launch name:=robot_2", "joystick:=browser")
+    joy, velocity = "/robot_2/joy", "/robot_2/cmd_vel"
+    types = {**types, joy: JOY}
+    subscribers = {**velocities, joy: ["/robot_2/joy2twist"]}
+    publishers = {velocity: ["/robot_2/joy2twist"]}
+    states = {"/robot_2/joy2twist": (False, "waiting for the joystick")}
+    listening = Facts(subscribers=subscribers, publishers=publishers, types=types, states=states)
+    silent, state = lines(listening, "wrong")
+    for word in ("joy_node __ns:=/robot_2", "FILE /joy:=/robot_2/joy", "joystick:=browser"):
+        assert word in silent
+    assert "rostopic hz /robot_2/joy" in state and "joystick:=browser" in state
+    sending = replace(Facts(), subscribers=velocities, publishers={joy: ["/pad"]}, types=types)
+    wrong(sending, "rosrun joy2twist joy2twist.py __ns:=/robot_2")
+
+
 def test_a_robot_with_a_mux_alone():
     facts = replace(WELL, publishers={}, subscribers={TELEOP: ["/cmd_vel_mux"]})
     wrong(facts, "neither a joystick nor joy2twist", "launch_joy_node_realTurtlebot.launch")
@@ -229,7 +249,7 @@ def test_a_mux_that_waits_for_neutral_after_a_cut():
 
 def test_nobody_sends_joy():
     facts = replace(WELL, publishers={TELEOP: ["/joy2twist"]}, joysticks=[])
-    wrong(facts, "nobody sends /joy", "start joy_node")
+    wrong(facts, "nobody sends /joy", "rosrun joy joy_node, or: rosbag play FILE;")
     (line,) = lines(facts, "unknown")
     assert "No joystick at /dev/input/js0: plug it in" in line
 
