@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Run tests: ./tutorial test [KIND] [ARGUMENT ...] in the environment of the suite's workspace.
 
-Results are in $TUTORIAL_RESULTS. The file `failed` there has the kinds that failed, for `test again`;
-it is removed at the start, so that after an interruption nothing is known to have failed.
+The file `failed` in $TUTORIAL_RESULTS has the kinds that failed, for `test again`. It is removed at
+the start, so that after an interruption nothing is known to have failed.
 """
 
 import argparse
@@ -29,10 +29,22 @@ def say(line):
     print(f"tutorial: {line}", file=sys.stderr, flush=True)
 
 
+def interrupt(number, _):
+    """Handle a signal of ENDING."""
+    raise KeyboardInterrupt(number)
+
+
 def run(command, **variables):
     """Run a command in the repository; return its exit code. Ctrl-C reaches it, too."""
     environment = {**os.environ, **variables}
-    return subprocess.call(list(map(str, command)), cwd=REPOSITORY, env=environment)
+    process = subprocess.Popen(list(map(str, command)), cwd=REPOSITORY, env=environment)
+    try:
+        return process.wait()
+    except KeyboardInterrupt as error:
+        if error.args == (signal.SIGTERM,):  # which comes to this process alone
+            process.send_signal(signal.SIGINT)
+        process.wait()
+        raise
 
 
 def start(command, log):
@@ -103,8 +115,7 @@ def system(arguments):
     several = ["-p", "no:benchmark", "-n", str(JOBS), "--dist", "loadfile", kernel_test]
     status = run([*PYTEST, *several, *arguments], TUTORIAL_FAILED=str(noted))
     if status not in PYTEST_SUMMED_UP:
-        for test in names_in(noted):
-            print(f"FAILED {test}", flush=True)
+        print("", *(f"FAILED {test}" for test in names_in(noted)), sep="\n", flush=True)
         status = 128 - status if status < 0 else status
         say(f"pytest itself ended early (exit code {status}), so other tests may not have run")
         noted.write_text("test/system\n")
@@ -178,9 +189,8 @@ def run_all():
     failed = ["unit"] if unit([]) else []
     logs = [RESULTS / f"test_{kind}.log" for kind in TOGETHER]
     processes = [start([__file__, kind], log) for kind, log in zip(TOGETHER, logs)]
-    say(
-        f"tests: ros, system and launch at once, for some minutes; till then see {RESULTS}/test_*.log"
-    )
+    say("tests: ros, system and launch at once, for some minutes; till then see")
+    say(f"   {RESULTS}/test_*.log")
     for kind, log, process in zip(TOGETHER, logs, processes):
         failed += [kind] if process.wait() else []
         say(f"tests: {kind}")
@@ -192,7 +202,7 @@ def run_all():
 def main():
     """Run one kind, or all; exit code 1 if a test failed."""
     for number in ENDING:
-        signal.signal(number, signal.default_int_handler)
+        signal.signal(number, interrupt)
     folders = [str(REPOSITORY / "test" / name) for name in ("src", "faults")]
     os.environ["PYTHONPATH"] = ":".join([*folders, os.environ.get("PYTHONPATH", "")])
     kind, *arguments = sys.argv[1:] or [""]

@@ -50,7 +50,7 @@ def stamp() -> str:
             for path in sorted(REPOSITORY.glob(f"{depth}/{name}")):
                 found.update(path.read_bytes())
     for path in sorted(REPOSITORY.glob("test/ros/*/*.test")):
-        found.update(str(path).encode())
+        found.update(str(path.relative_to(REPOSITORY)).encode())
     return found.hexdigest()
 
 
@@ -178,9 +178,9 @@ def warn_of_caches(workspace: Path) -> None:
     if os.environ.get("SUDO_USER"):
         own = f"{os.environ['SUDO_USER']}'s own calls do not use"
         say(f"   which {own}: call ./tutorial without sudo, it asks for it itself")
-    for package in workspace.parent.glob("*/src/test"):
+    for old in workspace.parent.glob("*"):
+        package = old / "src" / "test"
         if package.is_symlink() and not package.exists():
-            old = package.parent.parent
             say(f"   those of a clone that was moved or removed are still there: rm -r {old}")
 
 
@@ -249,9 +249,8 @@ def build_new(workspace: Path, student: Path) -> None:
         lines = log.read_text(errors="replace").splitlines()
         for line in [line for line in lines if WRONG.search(line)][:5] or lines[-1:]:
             print(f"   {line}", file=sys.stderr)
-        say(
-            f"{student} does not build: mend what is said above, then catkin_make in it ({log} has all)"
-        )
+        todo = f"mend what is said above, then catkin_make in it ({log} has all)"
+        say(f"{student} does not build: {todo}")
 
 
 def install_from_pypi(workspace: Path, name: str, requirements: str) -> None:

@@ -56,10 +56,10 @@ KINDS = {  # of tests
 }
 IN_WORDS = ("shell", "run", "doctor", "check")  # which know --in
 EPILOG = """\
---in WORKSPACE: your own catkin workspace in place of our beginner_tutorials and joy2twist, which are
-then not found at all. It is made and built if it does not exist.
-Every word first sets up what it needs. The suite's own catkin workspaces are outside this folder, in
-$TUTORIAL_WORKSPACE or else below ~/.cache; remove them, and they are built again.
+--in WORKSPACE: your own catkin workspace in place of our beginner_tutorials and joy2twist, which
+are then not found at all. It is made and built if it does not exist.
+Every word first sets up what it needs. The suite's own catkin workspaces are outside this folder,
+in $TUTORIAL_WORKSPACE or else below ~/.cache; remove them, and they are built again.
 README.md leads through the tutorial, section by section."""
 CHOICE = re.compile(r"argument \S+: invalid choice: '(.*)' \(choose from (.*)\)")
 
