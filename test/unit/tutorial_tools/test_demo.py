@@ -5,7 +5,8 @@ from pathlib import Path
 import pytest
 
 from tutorial_tools.demo.launch import DemoError
-from tutorial_tools.demo.program import check_bag, launch_arguments, parse
+from tutorial_tools.demo.program import check_bag, parse
+from tutorial_tools.launch_arguments import launch_arguments
 
 JOY2TWIST = Path(__file__).resolve().parents[3] / "joy2twist"
 LAUNCH_FILE = str(JOY2TWIST / "launch" / "launch_bag.launch")
@@ -32,12 +33,14 @@ def test_a_folder_is_no_bag():
     [
         ("rviz", "rviz: not NAME:=VALUE, := is missing$"),
         ("rviz=true", "rviz=true: not NAME:=VALUE, := is missing; did you mean rviz:=true.$"),
+        ("virtual=true", "virtual=true: not an argument of launch_bag.launch, which has bag:="),
+        ("rvz:=1", "rvz:=1: not an argument of launch_bag.launch, .*; did you mean rviz:=.$"),
         ("colour:=red", "colour:=red: not an argument of launch_bag.launch, which has bag:="),
         ("rviz:=perhaps", "rviz:=perhaps: must be true or false"),
     ],
 )
 def test_a_wrong_argument_is_named(argument, line):
-    with pytest.raises(DemoError, match=f"^{line}"):
+    with pytest.raises(ValueError, match=f"^{line}"):
         launch_arguments(LAUNCH_FILE, [argument])
 
 

@@ -13,19 +13,16 @@ import signal
 import socket
 import sys
 import time
-from pathlib import Path
 
 import rosbag
 import rosgraph
-import roslaunch
-import roslaunch.arg_dump
 import rospkg
 
-from gamepad.arguments import assignment, check
 from node_kit.arguments import above_zero
 from node_kit.questions import Answer, address, call, holder
 from tutorial_tools.demo.in_the_way import in_the_way, refusal
 from tutorial_tools.demo.launch import ENDING, TOPICS, DemoError, Launch
+from tutorial_tools.launch_arguments import launch_arguments
 
 # What launch_bag.launch starts. Not by loading that file here: it looks itself for what runs.
 NODES = ("/fake_turtlebot", "/myjoystick2twist", "/robot_state_publisher", "/rosbag")
@@ -49,28 +46,6 @@ def parse(argv):
     )  # fmt: skip
     parser.add_argument("arguments", nargs="*", metavar="NAME:=VALUE", help="for launch_bag.launch")
     return parser.parse_args(argv)
-
-
-def launch_arguments(launch_file, arguments):
-    """Return the launch arguments as a dict, the defaults included.
-
-    Raises DemoError for one that is not NAME:=VALUE, is unknown, or has a value that does not do.
-    """
-    known = roslaunch.arg_dump.get_args([launch_file])
-    values = {name: default for name, (_, default) in known.items()}
-    try:
-        for argument in arguments:
-            name, value = assignment(argument)
-            if name not in known:
-                names = ", ".join(f"{name}:=" for name in sorted(known))
-                there = f"not an argument of launch_bag.launch, which has {names}"
-                raise ValueError(f"{argument}: {there}")
-            values[name] = value
-        for name in ("rviz", "cockpit", "cockpit_port"):
-            check(name, values[name])
-    except ValueError as error:
-        raise DemoError(error) from error
-    return values
 
 
 def check_bag(path):
@@ -184,9 +159,8 @@ def main():
     try:
         launch_file = f"{rospkg.RosPack().get_path('joy2twist')}/launch/launch_bag.launch"
         values = launch_arguments(launch_file, options.arguments)
-        bag = Path(values["bag"]).expanduser().absolute()
-        check_bag(bag)
-        arguments = [*options.arguments, f"bag:={bag}"]
+        check_bag(values["bag"])
+        arguments = [*options.arguments, f"bag:={values['bag']}"]
         with_rviz = values["rviz"].lower() in ("true", "1")
         nodes = [*NODES, RVIZ_NODE] if with_rviz else NODES
         check_master()
@@ -198,7 +172,7 @@ def main():
             if not with_rviz and not any(map(RVIZ.match, options.arguments)):
                 print(f"demo: {WITHOUT_SCREEN}{where_to_look(values)}", flush=True)
             launch.watch(math.inf if options.duration_s is None else options.duration_s)
-    except DemoError as error:
+    except (DemoError, ValueError) as error:
         sys.exit(f"demo: {error}")
     except KeyboardInterrupt:
         interrupted = True

@@ -5,7 +5,8 @@ import signal
 import sys
 
 from tutorial_tools.doctor.collect import collect
-from tutorial_tools.doctor.judgement import OK, UNKNOWN, WRONG, judge
+from tutorial_tools.doctor.facts import OK, UNKNOWN, WRONG
+from tutorial_tools.doctor.judgement import judge
 
 
 def main():

@@ -8,10 +8,13 @@ import os
 import re
 import sys
 
-from gamepad.arguments import assignment
+import rospkg
+
+from gamepad.arguments import check
 from node_kit.questions import Answer
 from tutorial_tools.doctor.facts import some
 from tutorial_tools.doctor.network import addresses, call, is_called_back, is_here, way_out
+from tutorial_tools.launch_arguments import launch_arguments
 
 DEFAULT_PORT = 11311
 
@@ -97,8 +100,11 @@ def main():
     """Check, then become roslaunch."""
     options = parse(sys.argv[1:])
     try:
-        for argument in options.arguments:
-            assignment(argument)
+        file = f"{rospkg.RosPack().get_path('joy2twist')}/launch/student.launch"
+        values = launch_arguments(file, [f"name:={options.name}", *options.arguments])
+        if values["name"] != options.name:
+            raise JoinError(f"name:={values['name']}: the name is {options.name} already")
+        check("bag", values["bag"])
         uri, own = check_host(options.host)
         check_master(uri, own)
         check_run_id(uri)
@@ -109,4 +115,4 @@ def main():
     environment.update(ROS_MASTER_URI=uri, ROS_IP=own)
     print(f"join: ROS_MASTER_URI={uri} ROS_IP={own}", flush=True)
     launch = ["roslaunch", "joy2twist", "student.launch", f"name:={options.name}"]
-    os.execvpe(launch[0], [*launch, *options.arguments], environment)
+    os.execvpe(launch[0], [*launch, *options.arguments, f"bag:={values['bag']}"], environment)
