@@ -50,6 +50,7 @@ def seen(twists, **more):
         ([*each(), ZERO], (1, False)),  # a late one of before
         (each(ZERO), (2, True)),
         (each(ZERO, ZERO), (3, True)),
+        ([twist for answer in ANSWERS for twist in (answer, ZERO)], (2, True)),
         (sorted(2 * ANSWERS), (2, False)),
         (sorted(2 * ANSWERS)[1:], (2, False)),  # each of the second ones late
         (sorted(3 * ANSWERS), (3, False)),

@@ -23,6 +23,12 @@ def _imports(message, home):
     )
 
 
+def with_import(line, message, facts):
+    """Return what to write, with the import of the message where the program lacks that."""
+    lacks = message not in facts.names
+    return f"{line}, and at the top: from {HOMES[message]}.msg import {message}" if lacks else line
+
+
 UNDEFINED = r"name '(\w+)' is not defined"
 NO_VECTOR = r"'(?:float|int)' object has no attribute '[xyz]'"  # where one should be
 # What an error most often means here: (pattern, what to do). The first that fits counts. It is looked

@@ -2,12 +2,14 @@
 
 import statistics
 
+from tutorial_check.causes import with_import
 from tutorial_check.changed_programs import flipped_anonymous
 from tutorial_check.exercises.files import check_end, check_file, crash, find_script, odd_node
 from tutorial_check.exercises.silent_end import sunken_main
 from tutorial_check.exercises.talking import LISTEN_S, PACKAGE, TOPIC, scripts, talk_of
 from tutorial_check.model import Note, Wrong, master_gone
 
+PUBLISHER_LINE = "rospy.Publisher('chatter', String, queue_size=10)"
 SUBSCRIBER_LINE = "rospy.Subscriber('chatter', String, callback)"
 
 
@@ -66,7 +68,7 @@ def talker(session):
                 expected,
                 f"/chatter carries {talk.types.get(TOPIC)}",
                 where=f"{script}:{made.line if made else 1}",
-                hint="rospy.Publisher('chatter', String, queue_size=10)",
+                hint=with_import(PUBLISHER_LINE, "String", facts),
                 sure=TOPIC in talk.publishers,
             )
         if topics:
@@ -166,7 +168,7 @@ def listener(session):
     refused = any("datatype" in line and "chatter" in line for line in talk.warnings)
     if kind != "String" or refused:
         seen = f"it wants {kind if kind != 'String' else 'another type of message'} on /chatter"
-        raise Wrong(expected, seen, where=where, hint=SUBSCRIBER_LINE)
+        raise Wrong(expected, seen, where=where, hint=with_import(SUBSCRIBER_LINE, "String", facts))
     raise Wrong(
         expected,
         f"{len(found)} of {len(talk.strings)} displayed",

@@ -3,6 +3,7 @@
 import contextlib
 import re
 
+from tutorial_check.causes import with_import
 from tutorial_check.changed_programs import unmasked
 from tutorial_check.exercises.answers import check_awake, check_clock, check_once, check_strays
 from tutorial_check.exercises.driving import CMD_VEL, COUNT, JOY, PACKAGE, check_master, drive
@@ -10,7 +11,7 @@ from tutorial_check.exercises.files import check_file, crash
 from tutorial_check.exercises.silent_end import silent_end
 from tutorial_check.mapping import judge
 from tutorial_check.model import Note, Wrong
-from tutorial_check.probing import judge_probes, silence
+from tutorial_check.probing import judge_probes
 from tutorial_check.python_text import python_lines
 
 JOY_LINE = "rospy.Subscriber('/joy', Joy, callback)"
@@ -34,9 +35,20 @@ def crash_of(session, seen, expected, hint=""):
             if shown.trouble:
                 wrong = crash(session, PACKAGE, shown.program, expected, hint)
                 wrong.where = wrong.where.replace(shown.script, seen.script)
-                wrong.seen += f" (hidden by the except in line {facts.broad_excepts[0]})"
+                failed = int(wrong.where.rpartition(":")[2] or 0)
+                line = min(facts.broad_excepts, key=lambda each: (each < failed, each))
+                text = python_lines(session.text(PACKAGE, seen.script))[line - 1].strip()
+                wrong.seen += f" (hidden by `{text}` in line {line})"
                 return wrong
     return crash(session, PACKAGE, program, expected, hint)
+
+
+def _raise_hidden(session, seen, expected):
+    """Raise the Wrong for an error that an except hides, if that explains it."""
+    if session.scripts(PACKAGE)[seen.script].broad_excepts:
+        wrong = crash_of(session, seen, expected)
+        if wrong.where:
+            raise wrong
 
 
 def check_connected(session, seen):
@@ -52,7 +64,7 @@ def check_connected(session, seen):
             expected,
             f"it wants {words} on /joy",
             where=where,
-            hint=JOY_LINE,
+            hint=with_import(JOY_LINE, "Joy", facts),
         )
     if facts.deaf and not (seen.samples or seen.shown):
         place = f"{seen.script}:{facts.deaf.line}"
@@ -120,6 +132,16 @@ def check_displays(session, script, seen, few_are_enough=False):
         return Note(f"{seen.shown} of {COUNT} were displayed")
     check_awake(seen)
     facts = session.scripts(PACKAGE)[script]
+    throttled = next(
+        (calls[0] for name, calls in facts.calls.items() if name.endswith("_throttle")), None
+    )
+    if throttled and seen.shows_numbers:
+        return Note(
+            "it displays a Joy now and then; the handout's displays every one",
+            f"{script}:{throttled.line}",
+            "rospy.loginfo in place of rospy.loginfo_throttle",
+        )
+    _raise_hidden(session, seen, expected)
     has_words = any(name in facts.calls for name in ("loginfo", "print", "logdebug", "logwarn"))
     values = [f"{abs(axis):.2f}" for axis in seen.joys[3][0]]
     found = sum(value in seen.output for value in values)
@@ -163,7 +185,12 @@ def check_topics(session, seen):
         if kind != "geometry_msgs/Twist" or any(
             "datatype" in line and CMD_VEL in line for line in seen.warnings
         ):
-            raise Wrong(expected, f"/cmd_vel carries {kind}", where=where, hint=TWIST_LINE)
+            raise Wrong(
+                expected,
+                f"/cmd_vel carries {kind}",
+                where=where,
+                hint=with_import(TWIST_LINE, "Twist", facts),
+            )
         if len(set(seen.publishers[CMD_VEL])) > 1:
             raise Wrong(expected, f"several do: {', '.join(seen.publishers[CMD_VEL])}", where=where)
         made = facts.called_back.get("Publisher")
@@ -211,7 +238,8 @@ def check_mapping(session, seen):
             place, hint = silent_end(facts, seen.script)
             wrong.where, wrong.hint = wrong.where or place, wrong.hint or hint
             raise wrong
-        if not seen.samples:
+        _raise_hidden(session, seen, expected)
+        if not seen.samples and not seen.came:
             hint = (
                 "is pub.publish(msg) called in the callback?"
                 if not publish
@@ -220,11 +248,11 @@ def check_mapping(session, seen):
             raise Wrong(expected, "no Twist came for any Joy", where=where, hint=hint)
         raise Wrong(
             expected,
-            f"{len(seen.samples)} Twists for {COUNT} Joys",
+            f"{max(seen.came, len(seen.samples))} Twists for {COUNT} Joys",
             where=where,
             hint="publish in the callback, for every message",
         )
-    complaint, remark = judge(seen.samples)
+    complaint, remark = judge(seen.evidence)
     if not complaint:
         complaint, hint = judge_probes(seen.samples, seen.answers)
         remark = hint or remark
@@ -234,7 +262,7 @@ def check_mapping(session, seen):
     if seen.unanswered and not complaint:
         if seen.trouble:
             raise crash_of(session, seen, expected)
-        told, hint = silence(*seen.unanswered)
+        told, hint = seen.silence
         raise Wrong(expected, told, where=where, hint=hint)
     if complaint:
         line, hint = _line_of(session, seen.script, complaint)
