@@ -7,6 +7,7 @@ from tutorial_check.mapping import Evidence
 from tutorial_check.mapping import judge as judge_evidence
 from tutorial_check.probing import (
     judge_probes,
+    low_joys,
     numbered_joys,
     probes,
     silence,
@@ -47,6 +48,12 @@ def test_no_two_joys_are_alike_and_lb_is_held():
 )
 def test_right(linear, angular):
     assert judge(samples(linear, angular)) == ("", "")
+
+
+@pytest.mark.parametrize("limit", [0.12, 0.22, 0.3])
+def test_a_low_limit_is_right(limit):
+    axes = [*AXES, *(axes for axes, _ in low_joys())]
+    assert judge([(a, (max(-limit, min(limit, a[1])), 0, 0, 0, 0, a[0])) for a in axes]) == ("", "")
 
 
 def test_a_factor_is_a_remark():
@@ -271,6 +278,11 @@ def test_the_wrong_field():
 def test_a_field_too_many():
     complaint, _ = judge(samples(lambda a: a[1], lambda a: a[0], lambda a: a[0]))
     assert complaint == "linear.y follows axes[0]"
+
+
+@pytest.mark.parametrize("count", [1, 2, 3])
+def test_few_samples_are_judged(count):
+    assert judge(samples(lambda a: a[1] + a[0], lambda a: a[0])[:count])[0]
 
 
 def test_one_message_late():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import Iterable, List, Optional, Sequence, Tuple
+from typing import Iterable, Sequence, Tuple
 
 from tutorial_check.rows import Row, first
 
@@ -30,30 +30,33 @@ def is_near(one: float, other: float) -> bool:
     return abs(one - other) <= SMALL + 0.01 * abs(other)
 
 
-def factor_of(values: Sequence[float], inputs: Sequence[float]) -> Optional[float]:
+def factor_of(values: Sequence[float], inputs: Sequence[float]) -> float | None:
     """Return the constant of proportion, or None. Zeros (dead zone) and a limit may be among the values."""
     pairs = [(value, given) for value, given in zip(values, inputs) if abs(given) > SMALL]
     moving = [(value, given) for value, given in pairs if abs(value) > SMALL]
-    ratios = sorted(value / given for value, given in moving)
+    ratios = sorted((value / given for value, given in moving), key=abs)
     if len(ratios) < max(2, 0.5 * len(pairs)):
         return None
-    factor = ratios[len(ratios) // 2]
     limit = max(abs(value) for value, _ in pairs)
     dead_zone = min(abs(given) for _, given in moving)
-    fits = limited = 0
-    for value, given in pairs:
-        if abs(value - factor * given) <= 0.02 * abs(factor * given) + SMALL:
-            fits += 1
-        elif (abs(value) <= SMALL and abs(given) < dead_zone) or (
-            abs(abs(value) - limit) < SMALL
-            and value * factor * given > 0
-            and limit < abs(factor * given)
-        ):
-            limited += 1
-    return factor if fits + limited == len(pairs) and fits >= 0.5 * len(pairs) else None
+    # Beyond a limit the ratio is less than the factor.
+    for factor, enough in ((sorted(ratios)[len(ratios) // 2], 0.5 * len(pairs)), (ratios[-1], 3)):
+        fits = limited = 0
+        for value, given in pairs:
+            wanted = factor * given
+            if abs(value - wanted) <= 0.02 * abs(wanted) + SMALL:
+                fits += 1
+            elif abs(value) <= SMALL:
+                limited += abs(given) < dead_zone
+            else:
+                at_limit = abs(abs(value) - limit) < SMALL and limit < abs(wanted)
+                limited += at_limit and value * wanted > 0
+        if fits + limited == len(pairs) and fits >= enough:
+            return factor
+    return None
 
 
-def rule_of(index: int, samples: Iterable[Sample]) -> Optional[Rule]:
+def rule_of(index: int, samples: Iterable[Sample]) -> Rule | None:
     """Return the Rule that a field follows, or None."""
     samples = list(samples)
     values = [twist[index] for _, twist in samples]
@@ -68,9 +71,9 @@ def rule_of(index: int, samples: Iterable[Sample]) -> Optional[Rule]:
 class Evidence:
     """What a program answered; `again` to the same Joys sent earlier, `at_rest` to one with all axes 0."""
 
-    samples: List[Sample]
-    again: List[Sample] = field(default_factory=list)
-    at_rest: Optional[Sequence[float]] = None
+    samples: list[Sample]
+    again: list[Sample] = field(default_factory=list)
+    at_rest: Sequence[float] | None = None
 
     def __post_init__(self) -> None:
         """Find the rules."""
@@ -132,7 +135,7 @@ class Field:
         )
 
     @property
-    def sides(self) -> Tuple[str, str]:
+    def sides(self) -> tuple[str, str]:
         """Return where the stick is pushed, and where a wrong sign takes the robot."""
         return ("forwards", "backwards") if self.axis == 1 else ("left", "right")
 
@@ -156,6 +159,8 @@ class Field:
     @property
     def adds_up(self) -> bool:
         """Return whether each Joy adds to the value before."""
+        if len(self.values) < 4:
+            return False
         steps = [after - before for before, after in zip(self.values, self.values[1:])]
         factor = steps[-1] / self.given[-1] if self.given[-1] else 0.0
         # Values that only change sign are nearly twice as much as those before.
@@ -177,7 +182,7 @@ class Field:
         return ""
 
     @property
-    def offset(self) -> Optional[str]:
+    def offset(self) -> str | None:
         """Return what is added to the axis."""
         offsets = [value - each for value, each in zip(self.values, self.given)]
         return f"{offsets[0]:.2f}" if max(offsets) - min(offsets) < 0.02 else None
@@ -311,7 +316,7 @@ AFTER = (
 )
 
 
-def judge(evidence: Evidence) -> Tuple[str, str]:
+def judge(evidence: Evidence) -> tuple[str, str]:
     """Return (complaint, hint), each empty if there is none; a hint without a complaint is a remark."""
     found = (
         first(BEFORE, evidence)

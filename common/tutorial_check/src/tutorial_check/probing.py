@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Iterable, List, Sequence, Tuple
+from typing import Iterable, Sequence, Tuple
 
 from tutorial_check.mapping import (
     AXES,
@@ -30,14 +30,14 @@ BACK = tuple(-axis for axis in FAST)
 SLOWEST = 0.25  # an axis below this may be in a dead zone, and is no measure of a factor
 
 
-def _pressed(*pressed: int, buttons: int = BUTTONS) -> Tuple[int, ...]:
+def _pressed(*pressed: int, buttons: int = BUTTONS) -> tuple[int, ...]:
     return tuple(int(index in pressed) for index in range(buttons))
 
 
 AT_REST: Joy = (REST, _pressed(LB))
 
 
-def numbered_joys(count: int, buttons: int = BUTTONS) -> List[Joy]:
+def numbered_joys(count: int, buttons: int = BUTTONS) -> list[Joy]:
     """Return Joys of which no two are alike, nor any two axes, with LB held.
 
     Signs change, so that a rule which is right only forwards or to the left is found out. In the
@@ -53,7 +53,13 @@ def numbered_joys(count: int, buttons: int = BUTTONS) -> List[Joy]:
     return joys
 
 
-def probes(joys: Sequence[Joy]) -> List[Joy]:
+def low_joys() -> list[Joy]:
+    """Return Joys below most limits, for a program that the numbered ones do not show to be right."""
+    pairs = ((0.05, 0.06), (-0.08, 0.09), (0.11, -0.12), (-0.14, -0.15), (0.17, 0.18))
+    return [((*pair, *REST[2:]), _pressed(LB)) for pair in pairs]
+
+
+def probes(joys: Sequence[Joy]) -> list[Joy]:
     """Return the Joys after the numbered ones: rest, the same twice, one axis alone, LB released."""
     slow = (0.36, 0.40, *REST[2:])
     alone = [
@@ -70,7 +76,7 @@ def probes(joys: Sequence[Joy]) -> List[Joy]:
     ]
 
 
-def small_and_button_probes() -> List[Joy]:
+def small_and_button_probes() -> list[Joy]:
     """Return the Joys after those: small values, and each button pressed and released."""
     smalls = [(0.05, 0.06, *REST[2:]), (0.02, 0.03, *REST[2:]), (0.01, 0.01, *REST[2:])]
     from_rest = [axes for small in smalls for axes in (REST, small)]
@@ -139,7 +145,7 @@ SILENCES = (
 )
 
 
-def silence(joy: Joy, before: Joy, last: Sequence[float] = (1.0,)) -> Tuple[str, str]:
+def silence(joy: Joy, before: Joy, last: Sequence[float] = (1.0,)) -> tuple[str, str]:
     """Return (what is seen, what to do) for a Joy after another one that no Twist answers."""
     wrong = first(SILENCES, Silence(joy, before, last))
     assert wrong  # the last row always applies
@@ -212,7 +218,7 @@ REPLIES = (
 )
 
 
-def judge_probes(samples: Sequence[Sample], answers: Iterable[Answer]) -> Tuple[str, str]:
+def judge_probes(samples: Sequence[Sample], answers: Iterable[Answer]) -> tuple[str, str]:
     """Return (complaint, hint), as judge() does, about the answers to the probes.
 
     samples: the numbered Joys, whose rule is right as far as they show.

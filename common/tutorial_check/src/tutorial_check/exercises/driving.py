@@ -12,6 +12,7 @@ from tutorial_check.model import master_gone
 from tutorial_check.probing import (
     AT_REST,
     judge_probes,
+    low_joys,
     numbered_joys,
     probes,
     silence,
@@ -121,10 +122,11 @@ class Drive:
     def _ask_again(self, stage, joys):
         """The same with time: it has a clock of its own, publishes several, or is only slow."""
         is_plain = self.unasked <= 2
+        low = [] if self.missing else low_joys()
         first, self.samples, self.missing = self.samples, [], 0
         stage.wait(lambda: self.program.ended, SETTLE_S)  # late ones belong to the first pass
         begun = stage.call("count", CMD_VEL)
-        self._one_by_one(stage, joys, SETTLE_S)
+        self._one_by_one(stage, [*joys, *low], SETTLE_S)
         self.twists = [twist for _, _, twist in stage.call("heard", CMD_VEL, begun)]
         if len(self.samples) < len(first):
             first, self.samples = self.samples, first
@@ -148,7 +150,7 @@ class Drive:
         """The other Joys, each until it is answered; the first that is not, also when asked again, ends it."""
         before, settle_s = joys[-1], SETTLE_S if self.twists else 0.0
         # By now it is known how many Twists one Joy gets: no time is needed to wait for more.
-        often = max(1, round(len(self.twists) / COUNT))
+        often = max(1, round(len(self.twists) / len(self.samples)))
         plan = [(joy, settle_s, 1) for joy in probes(joys)]
         plan += [(joy, 0.0, often) for joy in small_and_button_probes()]
         for joy, *patience in plan:
@@ -187,11 +189,12 @@ class Drive:
                 unanswered += 1
             if unanswered == 3 or self.program.ended or self.naps:
                 break
+        # Also those that came between an answer and the next Joy.
+        twists = stage.call("count", CMD_VEL) - begun
+        self.unasked += twists - (len(self.samples) - answered)
         if unanswered == 3 and not self.program.ended and not self.naps:
             self._hurry(stage, joys[len(self.samples) - answered + unanswered :])
-        # Also those that came between an answer and the next Joy.
-        self.came = twists = stage.call("count", CMD_VEL) - begun
-        self.unasked += twists - (len(self.samples) - answered)
+        self.came = stage.call("count", CMD_VEL) - begun
 
     def _hurry(self, stage, joys):
         """Send the rest of the Joys without much patience, to see how many of all are answered."""
