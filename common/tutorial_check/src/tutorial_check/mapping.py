@@ -94,11 +94,6 @@ class Evidence:
         rule = self.rules[index]
         return f"{FIELDS[index]} follows axes[{rule.axis}]" if rule else f"{FIELDS[index]} is not 0"
 
-    @property
-    def not_finite(self) -> str:
-        """Return what is said of a value that is infinite or no number; empty if all are numbers."""
-        return no_number(self.samples)
-
 
 class Field:
     """One field of the Twists, beside the axis that it should follow."""
@@ -224,96 +219,54 @@ def no_number(samples: Iterable[Sample]) -> str:
 JUST = "{f.name} = axes[{f.axis}]"
 ONLY_THIS = "{f.name} comes from this Joy alone: no +=, no mean, nothing kept"
 BEFORE = (
-    Row(lambda e: e.not_finite, "{found}", "look at what it is calculated from"),
-    Row(
-        lambda e: not e.moving,
-        "every Twist is zero",
-        "are linear.x and angular.z of the message that is published set from data.axes?",
-    ),
-)
+    Row(lambda e: no_number(e.samples), "{found}", "look at what it is calculated from"),
+    Row(lambda e: not e.moving, "every Twist is zero",
+        "are linear.x and angular.z of the message that is published set from data.axes?"),
+)  # fmt: skip
 # Of a field that does not follow its axis by a constant. The first row that applies counts.
 OF_A_FIELD = (
-    Row(
-        lambda f: f.rule and f.rule.axis == f.axis,
+    Row(lambda f: f.rule and f.rule.axis == f.axis,
         "{f.name} = {f.rule.factor:.2f} * axes[{f.axis}]: the sign is wrong",
-        "pushed {f.sides[0]}, the robot goes {f.sides[1]}: leave the minus out",
-    ),
-    Row(
-        lambda f: f.is_swapped,
-        "angular.z follows axes[1] and linear.x axes[0]: they are swapped",
-        "linear.x = axes[1] (forwards), angular.z = axes[0] (left)",
-    ),
+        "pushed {f.sides[0]}, the robot goes {f.sides[1]}: leave the minus out"),
+    Row(lambda f: f.is_swapped, "angular.z follows axes[1] and linear.x axes[0]: they are swapped",
+        "linear.x = axes[1] (forwards), angular.z = axes[0] (left)"),
     Row(lambda f: f.rule, "{f.name} follows axes[{found.axis}]", JUST),
-    Row(
-        lambda f: f.is_still and f.misplaced,
+    Row(lambda f: f.is_still and f.misplaced,
         "{found} follows axes[{f.axis}], {f.name} stays 0",
-        "a robot in the plane drives along x and turns about z: linear.x and angular.z",
-    ),
+        "a robot in the plane drives along x and turns about z: linear.x and angular.z"),
     Row(lambda f: f.is_still, "{f.name} is always 0", JUST),
-    Row(
-        lambda f: factor_of(f.values[1:], f.given[:-1]),
+    Row(lambda f: factor_of(f.values[1:], f.given[:-1]),
         "{f.name} follows the Joy before: each Twist is one message late",
-        "first put the values into the message, then publish it",
-    ),
-    Row(
-        lambda f: f.adds_up,
-        "{f.name} depends on earlier Joys: it grows while the stick is held",
-        ONLY_THIS,
-    ),
-    Row(
-        lambda f: f.other_answer,
+        "first put the values into the message, then publish it"),
+    Row(lambda f: f.adds_up,
+        "{f.name} depends on earlier Joys: it grows while the stick is held", ONLY_THIS),
+    Row(lambda f: f.other_answer,
         "{f.name} depends on earlier Joys: the same Joy gives {found[0]:.2f} and {found[1]:.2f}",
-        ONLY_THIS,
-    ),
-    Row(
-        lambda f: f.has_lost_its_sign,
-        "{f.name} has lost the sign of axes[{f.axis}]",
-        JUST + ", without abs or a square",
-    ),
-    Row(
-        lambda f: f.follows(g if a >= 0 else -g for g, a in zip(f.given, f.across)),
+        ONLY_THIS),
+    Row(lambda f: f.has_lost_its_sign, "{f.name} has lost the sign of axes[{f.axis}]",
+        JUST + ", without abs or a square"),
+    Row(lambda f: f.follows(g if a >= 0 else -g for g, a in zip(f.given, f.across)),
         "{f.name} changes sign when axes[{f.across_axis}] is negative",
-        JUST + ", whatever the other axis is",
-    ),
-    Row(
-        lambda f: len({round(value, 6) for value in f.values}) == 1,
-        "{f.name} is always {f.values[0]:.2f}",
-        JUST,
-    ),
-    Row(
-        lambda f: all(value == round(value) for value in f.values),
-        "{f.name} has whole numbers only",
-        JUST + ", without int() or round()",
-    ),
-    Row(
-        lambda f: f.side_left_out,
-        "{f.name} is 0 wherever axes[{f.axis}] is {found} 0",
-        JUST + ", of either sign",
-    ),
-    Row(
-        lambda f: f.offset,
-        "{f.name} = axes[{f.axis}] + {found}: released, the robot still moves",
-        JUST,
-    ),
-    Row(
-        lambda f: abs(f.at_rest) > SMALL,
-        "{f.name} is {f.at_rest:.2f} at rest, all axes 0: the robot never stands still",
-        JUST,
-    ),
-    Row(
-        lambda f: f.steps,
+        JUST + ", whatever the other axis is"),
+    Row(lambda f: len({round(value, 6) for value in f.values}) == 1,
+        "{f.name} is always {f.values[0]:.2f}", JUST),
+    Row(lambda f: all(value == round(value) for value in f.values),
+        "{f.name} has whole numbers only", JUST + ", without int() or round()"),
+    Row(lambda f: f.side_left_out, "{f.name} is 0 wherever axes[{f.axis}] is {found} 0",
+        JUST + ", of either sign"),
+    Row(lambda f: f.offset,
+        "{f.name} = axes[{f.axis}] + {found}: released, the robot still moves", JUST),
+    Row(lambda f: abs(f.at_rest) > SMALL,
+        "{f.name} is {f.at_rest:.2f} at rest, all axes 0: the robot never stands still", JUST),
+    Row(lambda f: f.steps,
         "{f.name} has steps, as {found}: it does not follow axes[{f.axis}] between them",
-        JUST + ", without round(), and not one speed for many positions",
-    ),
+        JUST + ", without round(), and not one speed for many positions"),
     Row(lambda f: not f.is_curve, "{f.name} is no constant times axes[{f.axis}]", JUST),
-)
+)  # fmt: skip
 AFTER = (
-    Row(
-        lambda e: e.extra,
-        "{found}",
-        "only linear.x and angular.z move a robot in the plane; leave the others 0",
-    ),
-)
+    Row(lambda e: e.extra, "{found}",
+        "only linear.x and angular.z move a robot in the plane; leave the others 0"),
+)  # fmt: skip
 
 
 def judge(evidence: Evidence) -> tuple[str, str]:

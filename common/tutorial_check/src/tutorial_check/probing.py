@@ -115,34 +115,21 @@ class Silence:
 
 ALWAYS = "publish for every Joy, with no `if` around it"
 SILENCES = (
-    Row(
-        lambda s: s.has_stopped,
-        "only one zero after LB is released, and then silence",
-        "without LB publish Twist(), all zero, for every Joy, not only for the first",
-    ),
-    Row(
-        lambda s: s.joy == s.before,
-        "no Twist for the same Joy again",
-        f"{ALWAYS}: not only for a new one",
-    ),
-    Row(
-        lambda s: _other_button(s.joy[1]),
+    Row(lambda s: s.has_stopped, "only one zero after LB is released, and then silence",
+        "without LB publish Twist(), all zero, for every Joy, not only for the first"),
+    Row(lambda s: s.joy == s.before, "no Twist for the same Joy again",
+        ALWAYS + ": not only for a new one"),
+    Row(lambda s: _other_button(s.joy[1]),
         "no Twist for a Joy with {found} pressed: the robot drives on",
-        "silence stops no robot: to stop it publish Twist(), all zero, before return",
-    ),
-    Row(
-        lambda s: not s.joy[1][LB],
+        "silence stops no robot: to stop it publish Twist(), all zero, before return"),
+    Row(lambda s: not s.joy[1][LB],
         f"no Twist for a Joy with LB released (buttons[{LB}] = 0): the robot drives on",
-        "silence stops no robot: with LB released publish Twist(), all zero",
-    ),
-    Row(
-        lambda s: not any(s.joy[0]),
-        "no Twist for a Joy at rest, all axes 0: the robot drives on",
-        f"{ALWAYS}: zero is what stops the robot",
-    ),
+        "silence stops no robot: with LB released publish Twist(), all zero"),
+    Row(lambda s: not any(s.joy[0]), "no Twist for a Joy at rest, all axes 0: the robot drives on",
+        ALWAYS + ": zero is what stops the robot"),
     Row(lambda s: s.still_axis, "no Twist for a Joy with {found} = 0", ALWAYS),
     Row(lambda s: True, "no Twist for a Joy of another size", ALWAYS),
-)
+)  # fmt: skip
 
 
 def silence(joy: Joy, before: Joy, last: Sequence[float] = (1.0,)) -> tuple[str, str]:
@@ -199,23 +186,16 @@ class Reply:
 
 
 REPLIES = (
-    Row(
-        lambda r: r.drives_on,
-        "{f.name} {found} {f.value:.2f} when {f.when}: the robot drives on",
+    Row(lambda r: r.drives_on, "{f.name} {found} {f.value:.2f} when {f.when}: the robot drives on",
         "{f.name} comes from this Joy alone, zero as well: a new Twist() in the callback,"
-        " no += and no `if` around the line",
-    ),
-    Row(
-        lambda r: r.differs and not r.other and r.last_button,
+        " no += and no `if` around the line"),
+    Row(lambda r: r.differs and not r.other and r.last_button,
         "the same Joy gives {f.name} = {f.again:.2f} and, once {found} was pressed, {f.value:.2f}",
-        "a button changes the speed only while it is held: set the factor anew in the callback",
-    ),
-    Row(
-        lambda r: r.differs,
+        "a button changes the speed only while it is held: set the factor anew in the callback"),
+    Row(lambda r: r.differs,
         "{f.name} depends on earlier Joys: the same Joy gives {f.again:.2f} and {f.value:.2f}",
-        ONLY_THIS,
-    ),
-)
+        ONLY_THIS),
+)  # fmt: skip
 
 
 def judge_probes(samples: Sequence[Sample], answers: Iterable[Answer]) -> tuple[str, str]:
