@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass, field
 from typing import Iterable, Sequence, Tuple
 
-from tutorial_check.rows import Row, first
+from tutorial_check.rows import Row, find
 
 Sample = Tuple[Sequence[float], Sequence[float]]  # (axes, six values of the Twist)
 
@@ -272,11 +272,11 @@ AFTER = (
 def judge(evidence: Evidence) -> tuple[str, str]:
     """Return (complaint, hint), each empty if there is none; a hint without a complaint is a remark."""
     found = (
-        first(BEFORE, evidence)
+        find(BEFORE, evidence)
         or next(
-            filter(None, (first(OF_A_FIELD, f) for f in evidence.fields if not f.is_right)), None
+            filter(None, (find(OF_A_FIELD, f) for f in evidence.fields if not f.is_right)), None
         )
-        or first(AFTER, evidence)
+        or find(AFTER, evidence)
     )
     return (found.seen, found.hint) if found else ("", _remark(evidence))
 

@@ -17,7 +17,7 @@ from tutorial_check.mapping import (
     judge,
     no_number,
 )
-from tutorial_check.rows import Row, first
+from tutorial_check.rows import Row, find
 
 Joy = Tuple[Tuple[float, ...], Tuple[int, ...]]  # (axes, buttons)
 Answer = Tuple[Joy, Sequence[float]]  # and the six values of its Twist
@@ -134,7 +134,7 @@ SILENCES = (
 
 def silence(joy: Joy, before: Joy, last: Sequence[float] = (1.0,)) -> tuple[str, str]:
     """Return (what is seen, what to do) for a Joy after another one that no Twist answers."""
-    wrong = first(SILENCES, Silence(joy, before, last))
+    wrong = find(SILENCES, Silence(joy, before, last))
     assert wrong  # the last row always applies
     return wrong.seen, wrong.hint
 
@@ -214,7 +214,7 @@ def judge_probes(samples: Sequence[Sample], answers: Iterable[Answer]) -> tuple[
         last_button = _other_button(joy[1]) or last_button
         for field, axis in RIGHT.items():
             values = twist[field], before[field], again[field]
-            wrong = first(REPLIES, Reply(FIELDS[field], axis, joy, *values, last_button))
+            wrong = find(REPLIES, Reply(FIELDS[field], axis, joy, *values, last_button))
             if wrong:
                 return wrong.seen, wrong.hint
         before = twist

@@ -155,7 +155,7 @@ def behaves(session):
     script, _, _ = program(session)
     seen = drive(session, script)
     notes = [
-        conversation.check_displays(session, script, seen, few_are_enough=True),
+        conversation.check_displays(session, seen, few_are_enough=True),
         conversation.check_topics(session, seen),
         conversation.check_mapping(session, seen),
         conversation.check_rate(session, seen),

@@ -8,7 +8,6 @@ import time
 
 from tutorial_check.box import GRACE_S
 from tutorial_check.mapping import LINEAR, Evidence, judge, rule_of
-from tutorial_check.model import master_gone
 from tutorial_check.probing import (
     AT_REST,
     judge_probes,
@@ -254,6 +253,12 @@ class Drive:
         return statistics.median(self.delays) if self.delays else None
 
     @property
+    def rate(self):
+        """How many Joys of the stream were answered, and how soon."""
+        late = f", {1000 * self.delay_s:.1f} ms late" if self.delay_s is not None else ""
+        return f"{self.answered} Twists for {self.sent} Joys{late}"
+
+    @property
     def is_prompt(self):
         """Whether so many Joys as is enough were answered, and soon, as far as the machine allows."""
         if self.answered < self.enough * min(self.sent, self.possible or self.sent):
@@ -320,9 +325,3 @@ def displayed(joys, output):
 def drive(session, script, wants_twist=True):
     """The Drive of a script; made once."""
     return session.run(("drive", script, wants_twist), lambda: Drive(session, script, wants_twist))
-
-
-def check_master(seen):
-    """Raises Wrong if the master has gone."""
-    if not seen.master_alive:
-        raise master_gone(seen.script)

@@ -66,9 +66,7 @@ def check_manifest(session, script):
 
 def displays(session):
     """C14."""
-    script = main_script(session)
-    seen = drive(session, script)
-    return conversation.check_displays(session, script, seen)
+    return conversation.check_displays(session, drive(session, main_script(session)))
 
 
 def topics(session):
