@@ -7,6 +7,7 @@ import re
 from pathlib import Path
 
 from tutorial_check import launch_facts, preloaded
+from tutorial_check.exercises import check
 from tutorial_check.exercises.driving import PACKAGE
 from tutorial_check.exercises.files import find_script, is_runnable
 from tutorial_check.exercises.joy2twist import NAME
@@ -272,6 +273,14 @@ def _check_finds(session, path, where, text):
                 )
 
 
+@check(
+    "C21",
+    "the two launch files can be read",
+    "5.1",
+    "C12",
+    look="roslaunch --nodes joy2twist launch_bag.launch",
+    timeless=True,
+)
 def files(session):
-    """C21: the two launch files of section 5."""
+    """The two launch files of section 5."""
     return ", ".join(relative(session, check_file(session, name)) for name in (BAG, STICK))

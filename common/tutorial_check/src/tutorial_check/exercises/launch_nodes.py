@@ -5,15 +5,9 @@ import re
 import shlex
 from pathlib import Path
 
+from tutorial_check.exercises import check
 from tutorial_check.exercises.driving import PACKAGE
-from tutorial_check.exercises.launch_files import (
-    BAG,
-    STICK,
-    copy_bag,
-    facts,
-    find_launch,
-    relative,
-)
+from tutorial_check.exercises.launch_files import BAG, STICK, copy_bag, facts, find_launch, relative
 from tutorial_check.exercises.launch_text import attribute, place_of, read
 from tutorial_check.exercises.robot import check_recording
 from tutorial_check.model import Note, Wrong
@@ -225,8 +219,16 @@ def bag_of(session):
     return bags[0], where
 
 
+@check(
+    "C22",
+    "launch_bag starts the four items",
+    "5.1",
+    "C21",
+    look="roslaunch --nodes joy2twist launch_bag.launch",
+    timeless=True,
+)
 def bag_nodes(session):
-    """C22."""
+    """Launch_bag starts the four items."""
     note = check_viewer(session, BAG) or odd_name(session, BAG)
     demand(session, BAG, "the simulated robot", is_simulator, ROBOT_HINT)
     demand(session, BAG, "joy2twist", is_own, OWN_HINT)
@@ -253,8 +255,16 @@ def bag_nodes(session):
     return note
 
 
+@check(
+    "C25",
+    "launch_joy_node starts the four items",
+    "5.1",
+    "C21",
+    look="roslaunch --nodes joy2twist launch_joy_node.launch",
+    timeless=True,
+)
 def stick_nodes(session):
-    """C25."""
+    """Launch_joy_node starts the four items."""
     note = check_viewer(session, STICK) or odd_name(session, STICK)
     demand(session, STICK, "the simulated robot", is_simulator, ROBOT_HINT)
     demand(session, STICK, "joy2twist", is_own, OWN_HINT)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from tutorial_check import student_files
 from tutorial_check.causes import explain
+from tutorial_check.exercises import check
 from tutorial_check.exercises.driving import CMD_VEL, JOY, PACKAGE
 from tutorial_check.exercises.launch_files import BAG, STICK, find_launch
 from tutorial_check.exercises.launch_nodes import (
@@ -149,8 +150,7 @@ def _bag_run(session):
             begun = stage.call("heard", JOY)[0][0]
             loops = bool(
                 stage.wait(
-                    lambda: stage.call("heard", JOY)[-1][0] - begun > BAG_S + 0.5,
-                    BAG_S + 2.5,
+                    lambda: stage.call("heard", JOY)[-1][0] - begun > BAG_S + 0.5, BAG_S + 2.5
                 )
             )
         return wrong, loops
@@ -164,15 +164,23 @@ def has_died(launch):
     )
 
 
+@check(
+    "C23",
+    "launch_bag drives the robot",
+    "5.1",
+    "C22 C16",
+    look="roslaunch joy2twist launch_bag.launch",
+)
 def bag_drives(session):
-    """C23."""
+    """Launch_bag drives the robot."""
     wrong, _ = session.run("bag run", lambda: _bag_run(session))
     if wrong:
         raise wrong
 
 
+@check("C24", "the recording begins again at its end", "5.1", "C23", look="rostopic hz /joy")
 def bag_loops(session):
-    """C24."""
+    """The recording begins again at its end."""
     _, loops = session.run("bag run", lambda: _bag_run(session))
     if not loops:
         raise Wrong(
@@ -183,8 +191,15 @@ def bag_loops(session):
         )
 
 
+@check(
+    "C26",
+    "launch_joy_node drives the robot",
+    "5.1",
+    "C25 C16",
+    look="roslaunch joy2twist launch_joy_node.launch",
+)
 def stick_drives(session):
-    """C26."""
+    """Launch_joy_node drives the robot."""
     check_stick(session, STICK)
 
 

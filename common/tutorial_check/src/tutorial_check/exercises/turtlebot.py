@@ -2,7 +2,7 @@
 
 import re
 
-from tutorial_check.exercises import launch_files, launch_nodes, launch_runs
+from tutorial_check.exercises import check, launch_files, launch_nodes, launch_runs
 from tutorial_check.exercises.driving import CMD_VEL, JOY, PACKAGE
 from tutorial_check.exercises.launch_files import REAL, TURTLEBOT
 from tutorial_check.exercises.launch_text import place_of, read
@@ -13,8 +13,15 @@ TELEOP, ACTIVE = "/cmd_vel_mux/input/teleop", "/cmd_vel_mux/active"
 REMAP = '<remap from="/cmd_vel" to="/cmd_vel_mux/input/teleop"/>'
 
 
+@check(
+    "C27",
+    "joy2twist_turtlebot sends to the multiplexer",
+    "6.1",
+    "C16",
+    look="rostopic echo /cmd_vel_mux/input/teleop",
+)
 def remapped(session):
-    """C27."""
+    """Joy2twist_turtlebot sends to the multiplexer."""
     path = launch_files.check_file(session, TURTLEBOT)
     text = read(path)
     where = f"launch/{TURTLEBOT}"
@@ -124,8 +131,15 @@ def _other_topics(publishers):
     )
 
 
+@check(
+    "C28",
+    "launch_joy_node_realTurtlebot drives the TurtleBot",
+    "6.1",
+    "C27",
+    look="rostopic echo /cmd_vel_mux/active",
+)
 def real_robot(session):
-    """C28."""
+    """Launch_joy_node_realTurtlebot drives the TurtleBot."""
     path = launch_files.check_file(session, REAL)
     text = read(path)
     where = f"launch/{REAL}"
