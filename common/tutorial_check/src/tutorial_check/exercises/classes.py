@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 from tutorial_check.class_facts import with_bases
-from tutorial_check.exercises import conversation
+from tutorial_check.exercises import check, conversation
 from tutorial_check.exercises.driving import PACKAGE, drive
 from tutorial_check.exercises.files import check_file, must_be_one
 from tutorial_check.exercises.joy2twist import NAME, check_manifest
@@ -68,8 +68,11 @@ def program(session):
     return path, path, one
 
 
+@check(
+    "C29", "the program is a class", "6.2", "C12", look="rosrun joy2twist THE_CLASS", timeless=True
+)
 def is_class(session):
-    """C29."""
+    """The program is a class."""
     script, path, one = program(session)
     must_be_one(session.package(PACKAGE).folder, Path(script).name)
     check_file(session, PACKAGE, script)
@@ -150,12 +153,13 @@ def _check_method(facts, one, word, taker, where):
     raise Wrong(f"{taker} gets a method that exists", seen, where=where, hint=hint)
 
 
+@check("C30", "the class does what the functions did", "6.2", "C29", look="rostopic echo /cmd_vel")
 def behaves(session):
-    """C30: as C14 to C17."""
+    """As C14 to C17."""
     script, _, _ = program(session)
     seen = drive(session, script)
     notes = [
-        conversation.check_displays(session, script, seen, few_are_enough=True),
+        conversation.check_displays(session, seen, few_are_enough=True),
         conversation.check_topics(session, seen),
         conversation.check_mapping(session, seen),
         conversation.check_rate(session, seen),

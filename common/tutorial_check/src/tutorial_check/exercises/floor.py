@@ -4,6 +4,7 @@ import os
 from pathlib import Path
 
 from tutorial_check import place
+from tutorial_check.exercises import check
 from tutorial_check.exercises.packages import WANTED
 from tutorial_check.model import Note, Wrong
 from tutorial_check.workspace import underlays
@@ -13,8 +14,9 @@ SUITE = ("node_kit", "fake_turtlebot_sim")  # packages of the lower floor
 STAND_INS = ("joy", "rbx1_", "turtlebot_")
 
 
+@check("C1", "the workspace", "2.1", look="ls src devel", timeless=True)
 def workspace(session):
-    """C1: there is a src, and what was built was built over the suite."""
+    """There is a src, and what was built was built over the suite."""
     layout = session.layout
     with place.own_rights():  # no program writes here
         has_source = layout.source.is_dir()

@@ -5,6 +5,7 @@ import os
 import re
 from pathlib import Path
 
+from tutorial_check.exercises import check
 from tutorial_check.exercises.launch_text import place_of, read
 from tutorial_check.exercises.manifests import unreadable
 from tutorial_check.model import Wrong
@@ -136,27 +137,35 @@ def _dependencies(session, name):
                 seen += f" (but {found[0]})" if each not in package.depends else ""
                 place = place_of(where, text, f">{found[0]}<", found[0])
                 hint = f"correct {found[0]} to {each}, in each line that has it"
-        raise Wrong(
-            f"dependencies on {', '.join(WANTED[name])}",
-            seen,
-            where=place,
-            hint=hint,
-        )
+        raise Wrong(f"dependencies on {', '.join(WANTED[name])}", seen, where=place, hint=hint)
     return package
 
 
+@check(
+    "C2", "package beginner_tutorials", "2.1", look="rospack find beginner_tutorials", timeless=True
+)
 def beginner(session):
-    """C2."""
+    """Package beginner_tutorials."""
     return f"src/{_package(session, 'beginner_tutorials').inside}"
 
 
+@check(
+    "C3", "its dependencies", "2.1", "C2", look="rospack depends1 beginner_tutorials", timeless=True
+)
 def beginner_dependencies(session):
-    """C3."""
+    """Its dependencies."""
     _dependencies(session, "beginner_tutorials")
 
 
+@check(
+    "C12",
+    "package joy2twist and its dependencies",
+    "4.3",
+    look="rospack find joy2twist",
+    timeless=True,
+)
 def joy2twist(session):
-    """C12."""
+    """Package joy2twist and its dependencies."""
     package = _dependencies(session, "joy2twist")
     text = _cmake(package)
     found = re.search(r"find_package\s*\(\s*catkin\b[^)]*\bCOMPONENTS\b([^)]*)\)", text)
@@ -188,8 +197,9 @@ def _cmake(package):
     return re.sub(r"#.*", "", path.read_text(errors="replace"))
 
 
+@check("C4", "catkin_make builds", "2.1", "C2", look="catkin_make")
 def build(session):
-    """C4: catkin_make in a fresh copy."""
+    """Catkin_make in a fresh copy."""
     for each in session.packages:
         _cmake(each)
     code, output = session.built()

@@ -4,6 +4,7 @@ import math
 import shlex
 from pathlib import Path
 
+from tutorial_check.exercises import check
 from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL, PACKAGE
 from tutorial_check.exercises.files import crash
 from tutorial_check.exercises.joy2twist import main_script
@@ -38,8 +39,9 @@ class NoJoy(Wrong):
     """For a recording of something else."""
 
 
+@check("C11", "a recording of /joy", "4.2", look="rosbag info joy.bag")
 def recording(session):
-    """C11: the first of the recordings that can be played to joy2twist counts; there may be others."""
+    """The first of the recordings that can be played to joy2twist counts; there may be others."""
     ours = session.package(PACKAGE)
     bags = session.source.rglob("*.bag") if ours or session.package("beginner_tutorials") else []
     bags = sorted(bags, key=lambda each: (each.name != "joy.bag", each))
@@ -120,8 +122,15 @@ def _agree(measured, told):
     return told > 0 and abs(measured - told) <= 0.1 * told
 
 
+@check(
+    "C19",
+    "the simulated robot follows",
+    "4.4",
+    "C16",
+    look="rostopic echo /odom/pose/pose/position",
+)
 def simulated(session):
-    """C19."""
+    """The simulated robot follows."""
     script = main_script(session)
     with session.stage() as stage:
         for topic, kind in ((CMD_VEL, "Twist"), (ODOM, "Odometry")):
@@ -195,8 +204,9 @@ def plug_in(session, stage, device="/dev/input/js0", mode="D"):
     return pad, path
 
 
+@check("C20", "a joystick drives it", "4.5", "C16", look="rostopic echo /joy/axes[1]")
 def joystick(session):
-    """C20."""
+    """A joystick drives it."""
     script = main_script(session)
     with session.stage() as stage:
         stage.call("listen", JOY, "Joy")
