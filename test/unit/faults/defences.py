@@ -6,7 +6,6 @@ it. A defence is a method or a function, so that no edit of its lines changes a 
 
 import math
 
-from node_kit.resumption import Resumption
 
 from fake_turtlebot_sim.mux import arbitration
 from fake_turtlebot_sim.mux.arbitration import IDLE, Arbiter
@@ -18,7 +17,7 @@ from joy_to_twist import mapping, safety
 from joy_to_twist.mapping import Mapping
 from joy_to_twist.safety import Safety
 from joy_to_twist.teleoperation import Teleoperation
-from node_kit.arming import Arming
+from node_kit.arming import Arming, Resumption
 
 PLAIN, ARMING, FREE = "dead-man", "dead-man, arming", "no dead-man"
 STOP, STOP_ARMING, VIGILANCE, RAMP = (

@@ -196,6 +196,7 @@ def _examine(workspace, floor, exercises, folder, *, tell, only_first, own):
         stderr=log,
         env=environment,
         start_new_session=True,
+        pass_fds=place.granted().descriptors if wrapper else (),
         cwd="/",
         text=True,
     )

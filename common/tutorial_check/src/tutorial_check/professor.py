@@ -132,8 +132,8 @@ def _forget(out, student):
 def _check(student, options):
     began_s = time.monotonic()
     try:
-        if student.path.is_symlink() and student.path.is_file():
-            raise CannotCheck("a link to an archive is not followed: put the archive itself here")
+        if student.path.is_symlink():  # it may lead to the files of somebody else
+            raise CannotCheck("a link is not followed: put the folder or the archive itself here")
         outcomes = examine(student.path, options.floor, options.exercises, own=False)
         student.outcomes = without_hints(outcomes) if options.no_hints else outcomes
     except Exception as error:  # whatever it is, it must not spoil the others

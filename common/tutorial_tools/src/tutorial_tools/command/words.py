@@ -155,6 +155,15 @@ def plan_of_test(kind: str | None, rest: list[str]) -> dict[str, list[str]]:
     return {"sections": sections, "programs": programs, "builds": builds, "command": command}
 
 
+def plan_of_tool(word: str, rest: list[str]) -> dict[str, list[str]]:
+    """Return the plan of lint or docs: test/lint, test/docs with what they need from PyPI."""
+    requirements = f"test/requirements-{word}.txt"
+    made = plan_of_test(None, [])
+    if (REPOSITORY / requirements).exists():
+        made["builds"] = [*made["builds"], f"pypi={word}:{requirements}"]
+    return {**made, "command": [str(REPOSITORY / "test" / word), *rest]}
+
+
 def plan(word: str, arguments: list[str]) -> dict[str, list[str]]:
     """Return the lists of the plan: sections of packages, programs, builds and the command."""
     if word == "check":
@@ -181,9 +190,7 @@ def plan(word: str, arguments: list[str]) -> dict[str, list[str]]:
             fail(f'bench: "{options.rest[0]}" has no folder in test/benchmark')
         made = plan_of_test("bench", options.rest)
     elif word in ("lint", "docs"):
-        made = {**plan_of_test(None, []), "command": [str(REPOSITORY / "test" / word), *options.rest]}
-        if word == "lint":
-            made["builds"] = [*made["builds"], "pypi=lint:test/requirements-lint.txt"]
+        made = plan_of_tool(word, options.rest)
     else:
         rc = str(REPOSITORY / "common/tutorial_tools/etc/shellrc")
         command = ["bash", "--rcfile", rc, "-i"]
