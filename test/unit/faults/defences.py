@@ -6,7 +6,6 @@ it. A defence is a method or a function, so that no edit of its lines changes a 
 
 import math
 
-
 from fake_turtlebot_sim.mux import arbitration
 from fake_turtlebot_sim.mux.arbitration import IDLE, Arbiter
 from gamepad.driver import driver
