@@ -53,7 +53,8 @@ fake_turtlebot_sim.simulator.ros_clock fake_turtlebot_sim.simulator.robot_topics
 fake_turtlebot_sim.simulator.diagnostics fake_turtlebot_sim.simulator.node
 fake_turtlebot_sim.mux.node fake_turtlebot_sim.classroom_view.bodies
 fake_turtlebot_sim.classroom_view.node fake_turtlebot_sim.replay.bag_replay
-fake_turtlebot_sim.replay.command tutorial_tools.launch_arguments
+fake_turtlebot_sim.replay.command tutorial_tools.launch_arguments tutorial_tools.command.completion
+tutorial_tools.command.build tutorial_tools.command.set_up tutorial_tools.command.words
 tutorial_tools.demo.in_the_way tutorial_tools.demo.launch
 tutorial_tools.demo.program tutorial_tools.doctor.network tutorial_tools.doctor.collect
 tutorial_tools.doctor.program tutorial_tools.graph.program tutorial_tools.bag.program

@@ -15,10 +15,10 @@ import sys
 from pathlib import Path
 
 from node_kit.arguments import above_zero
-from tutorial_tools.command.build import is_done
+from tutorial_tools.command.build import REPOSITORY
 from tutorial_tools.command.completion import SCRIPT, candidates
+from tutorial_tools.command.set_up import is_done
 
-REPOSITORY = Path(__file__).resolve().parents[5]
 SCRIPTS = REPOSITORY / "common" / "tutorial_tools" / "scripts"
 COCKPIT = REPOSITORY / "common" / "cockpit" / "scripts" / "cockpit.py"
 PYTHON = "/usr/bin/python3"
@@ -99,8 +99,10 @@ def parser_of(word: str) -> Parser:
         parser.epilog = f"kinds:\n{kinds}\nMore arguments go to pytest, such as -k EXPRESSION."
         add("kind", nargs="?", choices=KINDS, metavar="KIND", help="all of the first four if none")
         add("rest", nargs=argparse.REMAINDER, metavar="ARGUMENT")
-    elif word in ("run", "bench", "lint", "docs"):
-        add("rest", nargs=argparse.REMAINDER, metavar=arguments.split()[-2].strip("[]"))
+    elif word == "run":
+        add("rest", nargs=argparse.REMAINDER, metavar="COMMAND")
+    else:
+        parser.usage = f"./tutorial {word} {arguments}"
     return parser
 
 
@@ -167,7 +169,10 @@ def plan(word: str, arguments: list[str]) -> dict[str, list[str]]:
     if word == "cockpit":
         command = [str(COCKPIT), *arguments]
         return {"sections": ["demo", "more"], "builds": ["workspace"], "command": command}
-    options = parser_of(word).parse_args(arguments)
+    if word in ("bench", "lint", "docs"):
+        options, rest = parser_of(word).parse_known_args(arguments)
+    else:
+        options = parser_of(word).parse_args(arguments)
     if word in ("demo", "join", "doctor"):
         made = {"sections": ["doctor"] if word == "doctor" else ["demo", "more"]}
         made.update(builds=["workspace"], command=[str(SCRIPTS / f"{word}.py"), *arguments])
@@ -177,11 +182,11 @@ def plan(word: str, arguments: list[str]) -> dict[str, list[str]]:
     elif word == "test":
         made = plan_of_test(options.kind, options.rest)
     elif word == "bench":
-        if options.rest and not (REPOSITORY / "test/benchmark" / options.rest[0]).is_dir():
-            fail(f'bench: "{options.rest[0]}" has no folder in test/benchmark')
-        made = plan_of_test("bench", options.rest)
+        if rest and not (REPOSITORY / "test/benchmark" / rest[0]).is_dir():
+            fail(f'bench: "{rest[0]}" has no folder in test/benchmark')
+        made = plan_of_test("bench", rest)
     elif word in ("lint", "docs"):
-        command = [str(REPOSITORY / "test" / word), *options.rest]
+        command = [str(REPOSITORY / "test" / word), *rest]
         made = {**plan_of_test(None, []), "command": command}
     else:
         rc = str(REPOSITORY / "common/tutorial_tools/etc/shellrc")
