@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from tutorial_tools.demo.launch import DemoError
-from tutorial_tools.demo.program import check_bag, parse
+from tutorial_tools.demo.program import check_bag
 from tutorial_tools.launch_arguments import launch_arguments
 
 JOY2TWIST = Path(__file__).resolve().parents[3] / "joy2twist"
@@ -42,10 +42,3 @@ def test_a_folder_is_no_bag():
 def test_a_wrong_argument_is_named(argument, line):
     with pytest.raises(ValueError, match=f"^{line}"):
         launch_arguments(LAUNCH_FILE, [argument])
-
-
-@pytest.mark.parametrize("time", ["ever", "-1", "0", "nan", "inf"])
-def test_a_wrong_time_is_named(capsys, time):
-    with pytest.raises(SystemExit):
-        parse(["--for", time])
-    assert f"{time}: not a number above 0" in capsys.readouterr().err

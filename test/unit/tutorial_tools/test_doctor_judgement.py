@@ -167,7 +167,7 @@ def test_all_is_well():
     findings = judge(WELL)
     assert {finding.level for finding in findings} == {"ok"}
     assert [finding.about for finding in findings] == [
-        "floor", "master", "address", "nodes", "clocks", "topics", "mux", "state", "joystick",
+        "overlay", "master", "address", "nodes", "clocks", "topics", "mux", "state", "joystick",
     ]  # fmt: skip
     assert f"/joy_node -> /joy -> /joy2twist -> {TELEOP} -> /cmd_vel_mux" in findings[5].line()
 
@@ -233,20 +233,25 @@ def test_what_is_unknown(facts, words):
 )
 def test_which_joy2twist_would_run(workspace, path, level, words):
     findings = judge(Facts(workspace=workspace, joy2twist=path))
-    assert (findings[0].level, findings[0].about) == (level, "floor")
+    assert (findings[0].level, findings[0].about) == (level, "overlay")
     assert words in findings[0].line()
 
 
 def test_broken_package_xml_are_named():
     broken = [("/ws/src/a/package.xml", "mismatched tag: line 5"), ("/ws/src/b/package.xml", "x")]
     findings = judge(Facts(workspace="/ws", joy2twist="", broken_manifests=broken))
-    found = [finding.line() for finding in findings if finding.about == "floor"]
+    found = [finding.line() for finding in findings if finding.about == "overlay"]
     assert [f"{path}: {why}" in line for line, (path, why) in zip(found, broken)] == [True, True]
 
 
 def test_of_a_graph_that_was_not_seen_nothing_is_said():
     facts = well(master=Answer.REFUSED, called_back=None)
-    assert {finding.about for finding in judge(facts)} == {"floor", "master", "address", "joystick"}
+    assert {finding.about for finding in judge(facts)} == {
+        "overlay",
+        "master",
+        "address",
+        "joystick",
+    }
     (line, *_) = lines(Facts(master=Answer.REFUSED, called_back=None), "wrong")
     assert ": start roscore; or" in line  # a master of this machine is to be started here
 

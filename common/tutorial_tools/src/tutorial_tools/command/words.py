@@ -15,10 +15,10 @@ import sys
 from pathlib import Path
 
 from node_kit.arguments import above_zero
-from tutorial_tools.command.build import is_done
+from tutorial_tools.command.build import REPOSITORY
 from tutorial_tools.command.completion import SCRIPT, candidates
+from tutorial_tools.command.set_up import is_done
 
-REPOSITORY = Path(__file__).resolve().parents[5]
 SCRIPTS = REPOSITORY / "common" / "tutorial_tools" / "scripts"
 COCKPIT = REPOSITORY / "common" / "cockpit" / "scripts" / "cockpit.py"
 PYTHON = "/usr/bin/python3"
@@ -99,8 +99,10 @@ def parser_of(word: str) -> Parser:
         parser.epilog = f"kinds:\n{kinds}\nMore arguments go to pytest, such as -k EXPRESSION."
         add("kind", nargs="?", choices=KINDS, metavar="KIND", help="all of the first four if none")
         add("rest", nargs=argparse.REMAINDER, metavar="ARGUMENT")
-    elif word in ("run", "bench", "lint", "docs"):
-        add("rest", nargs=argparse.REMAINDER, metavar=arguments.split()[-2].strip("[]"))
+    elif word == "run":
+        add("rest", nargs=argparse.REMAINDER, metavar="COMMAND")
+    else:
+        parser.usage = f"./tutorial {word} {arguments}"
     return parser
 
 
@@ -155,8 +157,13 @@ def plan_of_test(kind: str | None, rest: list[str]) -> dict[str, list[str]]:
     return {"sections": sections, "programs": programs, "builds": builds, "command": command}
 
 
-def plan_of_tool(word: str, rest: list[str]) -> dict[str, list[str]]:
-    """Return the plan of lint or docs: test/lint, test/docs with what they need from PyPI."""
+def plan_of_tool(word: str, arguments: list[str]) -> dict[str, list[str]]:
+    """Return the plan of bench, or of lint or docs: test/WORD with what it needs from PyPI."""
+    _, rest = parser_of(word).parse_known_args(arguments)
+    if word == "bench":
+        if rest and not (REPOSITORY / "test/benchmark" / rest[0]).is_dir():
+            fail(f'bench: "{rest[0]}" has no folder in test/benchmark')
+        return plan_of_test("bench", rest)
     requirements = f"test/requirements-{word}.txt"
     made = plan_of_test(None, [])
     if (REPOSITORY / requirements).exists():
@@ -176,6 +183,8 @@ def plan(word: str, arguments: list[str]) -> dict[str, list[str]]:
     if word == "cockpit":
         command = [str(COCKPIT), *arguments]
         return {"sections": ["demo", "more"], "builds": ["workspace"], "command": command}
+    if word in ("bench", "lint", "docs"):
+        return plan_of_tool(word, arguments)
     options = parser_of(word).parse_args(arguments)
     if word in ("demo", "join", "doctor"):
         made = {"sections": ["doctor"] if word == "doctor" else ["demo", "more"]}
@@ -185,12 +194,6 @@ def plan(word: str, arguments: list[str]) -> dict[str, list[str]]:
         made["sections"] = [] if options.part == "workspace" else made["sections"]
     elif word == "test":
         made = plan_of_test(options.kind, options.rest)
-    elif word == "bench":
-        if options.rest and not (REPOSITORY / "test/benchmark" / options.rest[0]).is_dir():
-            fail(f'bench: "{options.rest[0]}" has no folder in test/benchmark')
-        made = plan_of_test("bench", options.rest)
-    elif word in ("lint", "docs"):
-        made = plan_of_tool(word, options.rest)
     else:
         rc = str(REPOSITORY / "common/tutorial_tools/etc/shellrc")
         command = ["bash", "--rcfile", rc, "-i"]

@@ -1,11 +1,9 @@
-"""The command: checks, then starts launch_bag.launch, and tells what was driven.
+"""The command demo: checks, then starts launch_bag.launch, and reports what was driven.
 
-A look beforehand finds what roslaunch would report badly or not at all: an argument that does not
-exist, a bag that cannot be played, a port taken by another program, or nodes that run already: of
-those the launch would end some and be disturbed by others.
+The checks find what roslaunch reports badly or not at all: unknown arguments, a bag that cannot be
+played, a port taken by another program, and nodes that run already.
 """
 
-import argparse
 import math
 import os
 import re
@@ -18,8 +16,8 @@ import rosbag
 import rosgraph
 import rospkg
 
-from node_kit.arguments import above_zero
 from node_kit.questions import Answer, address, call, holder
+from tutorial_tools.command.words import parser_of
 from tutorial_tools.demo.in_the_way import in_the_way, refusal
 from tutorial_tools.demo.launch import ENDING, TOPICS, DemoError, Launch
 from tutorial_tools.launch_arguments import launch_arguments
@@ -33,19 +31,6 @@ RVIZ = re.compile("rviz:=")  # who says whether RViz opens, need not be told
 WITHOUT_SCREEN = "there is no screen (DISPLAY is not set), so RViz is left out; to see it drive, "
 IN_TERMINAL = "in another terminal: ./tutorial run rostopic echo /odom/pose/pose/position"
 IN_BROWSER = "open {page} in a browser; from another machine: ssh -L {port}:127.0.0.1:{port} {host}"
-
-
-def parse(argv):
-    """The command line: how long to drive (None: until stopped) and NAME:=VALUE arguments."""
-    parser = argparse.ArgumentParser(
-        prog="demo", description="Drives the simulated TurtleBot with the recorded joystick."
-    )
-    parser.add_argument(
-        "--for", dest="duration_s", type=above_zero, metavar="SECONDS",
-        help="end by itself, with one line that tells the drive; exit code 0 if the robot moved",
-    )  # fmt: skip
-    parser.add_argument("arguments", nargs="*", metavar="NAME:=VALUE", help="for launch_bag.launch")
-    return parser.parse_args(argv)
 
 
 def check_bag(path):
@@ -154,7 +139,7 @@ def main():
     """Check, then launch; exit code 0 if it ran and, with --for, if the robot moved."""
     for number in ENDING:
         signal.signal(number, signal.default_int_handler)
-    options = parse(sys.argv[1:])
+    options = parser_of("demo").parse_args()
     launch, interrupted = None, False
     try:
         launch_file = f"{rospkg.RosPack().get_path('joy2twist')}/launch/launch_bag.launch"

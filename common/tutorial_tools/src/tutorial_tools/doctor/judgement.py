@@ -14,34 +14,34 @@ START_ANEW = "and start its nodes anew"
 
 def judge(facts):
     """All findings, in the order in which one would look for a cause."""
-    findings = [*floor(facts), *master(facts), *address(facts)]
+    findings = [*overlay(facts), *master(facts), *address(facts)]
     if facts.master is Answer.WELL:
         for check in (nodes, clocks, sim_time, topics, muxes, rivals, states):
             findings += check(facts)
     return [*findings, *joysticks(facts)]
 
 
-def floor(facts):
+def overlay(facts):
     """Whose joy2twist would run."""
     path, workspace = facts.joy2twist, facts.workspace
     for broken, why in facts.broken_manifests:
         todo = "mend that line or the one before; until then no ROS program starts"
-        yield Finding(WRONG, "floor", f"{broken}: {why}", todo)
+        yield Finding(WRONG, "overlay", f"{broken}: {why}", todo)
     if facts.broken_manifests:
         pass
     elif not workspace and path:
-        yield Finding(OK, "floor", f"joy2twist is the suite's: {path}")
+        yield Finding(OK, "overlay", f"joy2twist is the suite's: {path}")
     elif not workspace:
         todo = "call this through ./tutorial, or source devel/setup.bash of a workspace that has it"
-        yield Finding(UNKNOWN, "floor", "no joy2twist is found here", todo)
+        yield Finding(UNKNOWN, "overlay", "no joy2twist is found here", todo)
     elif not path:
         todo = f"make it in {workspace}/src, then catkin_make in {workspace}"
-        yield Finding(UNKNOWN, "floor", "your workspace has no joy2twist yet", todo)
+        yield Finding(UNKNOWN, "overlay", "your workspace has no joy2twist yet", todo)
     elif path.startswith(f"{workspace}/src/"):
-        yield Finding(OK, "floor", f"joy2twist is yours: {path}")
+        yield Finding(OK, "overlay", f"joy2twist is yours: {path}")
     else:
         todo = f"mv it into {workspace}/src, then catkin_make"
-        yield Finding(WRONG, "floor", f"joy2twist is not in your workspace: {path}", todo)
+        yield Finding(WRONG, "overlay", f"joy2twist is not in your workspace: {path}", todo)
 
 
 def master(facts):

@@ -1,9 +1,5 @@
-"""The command join HOST NAME: checks the way to the teacher's machine, and starts student.launch.
+"""The command join: checks the way to the teacher's machine, then starts student.launch."""
 
-What it finds wrong it tells with the means of the doctor, and starts nothing.
-"""
-
-import argparse
 import os
 import re
 import sys
@@ -12,6 +8,7 @@ import rospkg
 
 from gamepad.arguments import check
 from node_kit.questions import Answer
+from tutorial_tools.command.words import parser_of
 from tutorial_tools.doctor.facts import some
 from tutorial_tools.doctor.network import addresses, call, is_called_back, is_here, way_out
 from tutorial_tools.launch_arguments import launch_arguments
@@ -21,18 +18,6 @@ DEFAULT_PORT = 11311
 
 class JoinError(Exception):
     """Why nothing can be started, in one line for the user."""
-
-
-def parse(argv):
-    """The command line."""
-    parser = argparse.ArgumentParser(
-        prog="join", description="Drives a robot of the classroom that runs on another machine."
-    )
-    parser.add_argument("host", metavar="HOST", help="the teacher's machine, or HOST:PORT")
-    parser.add_argument("name", metavar="NAME", help="of the robot, such as robot_7")
-    more = "for student.launch, such as virtual:=true or joystick:=browser"
-    parser.add_argument("arguments", nargs="*", default=[], metavar="NAME:=VALUE", help=more)
-    return parser.parse_args(argv)
 
 
 def check_host(host):
@@ -98,7 +83,7 @@ def check_robot(uri, name):
 
 def main():
     """Check, then become roslaunch."""
-    options = parse(sys.argv[1:])
+    options = parser_of("join").parse_args()
     try:
         file = f"{rospkg.RosPack().get_path('joy2twist')}/launch/student.launch"
         values = launch_arguments(file, [f"name:={options.name}", *options.arguments])
