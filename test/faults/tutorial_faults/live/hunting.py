@@ -8,7 +8,7 @@ import time
 
 from tutorial_faults.live.judge import judge
 from tutorial_faults.live.kinds import BASE, KINDS, chosen, inflicted
-from tutorial_faults.live.plan import draw, shrink
+from tutorial_faults.live.plan import draw
 from tutorial_faults.live.report import Result, timeline
 from tutorial_faults.live.world import World
 from tutorial_testing.hands import RELEASED
@@ -144,13 +144,4 @@ class Hunt:
         lines += [f"  ({v.invariant}) {v.what}" for v in judgement.violations]
         lines += [f"  {line}" for line in timeline(record, judgement.violations)]
         again = f"./tutorial test faults --seed {plan.seed} --trials 1{node}{kinds}"
-        lines += [f"  again: {again}", *self._last_words]
-        if options.shrink:
-            lines.append(f"  fewest faults that still do it: {shrink(plan, self._breaks)}")
-        return lines
-
-    def _breaks(self, plan):
-        try:
-            return bool(self._attempt(plan)[0].violations)
-        except FAILURES:
-            return False
+        return [*lines, f"  again: {again}", *self._last_words]

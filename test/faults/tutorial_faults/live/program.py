@@ -74,7 +74,6 @@ def parse(arguments):
     what.add_argument("--soak", type=above_zero, metavar="HOURS", help="without faults: what grows")
     add("--seed", type=int, help=f"of the first trial ({FIRST_SEED})")
     add("--kinds", type=kind, nargs="+", default=[], metavar="KIND", help="these faults alone")
-    add("--shrink", action="store_true", help="look for the fewest faults that do it")
     add("--node", type=node, metavar="PACKAGE/TYPE", help=f"in place of joy2twist; or {HANDOUT}")
     add("--table", type=writable, metavar="FILE", help="write each trial to FILE; print a table")
     return parser.parse_args(arguments)
