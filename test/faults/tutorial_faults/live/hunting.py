@@ -109,8 +109,8 @@ class Hunt:
                 return
             yield options.seed + number
 
-    def run(self, report):
-        """Try all; report: called with each Result and the lines about it."""
+    def run(self):
+        """Try all; yield each Result and the lines about it."""
         for seed in self._seeds():
             plan = draw(seed, self._names)
             try:
@@ -124,7 +124,7 @@ class Hunt:
             letters = tuple(sorted({v.invariant for v in judgement.violations}))
             kinds = tuple(fault.kind for fault in plan.faults)
             self.results.append(Result(seed, kinds, judgement.rest_s, letters))
-            report(self.results[-1], self._lines(plan, judgement, record) if letters else [])
+            yield self.results[-1], self._lines(plan, judgement, record) if letters else []
 
     def _attempt(self, plan):
         if not self._world:
