@@ -117,7 +117,7 @@ class DriverWorld:
         now, driver = self._now, self._driver
         key = (self._is_mute, self._has_published, until(now, driver.opens_at))
         if driver._state is None:
-            return (*key, driver._told, driver._mute)
+            return (*key, driver._published, driver._mute)
         return (
             *key,
             key_of(driver, now, future={"opens_at", "_lifeless_at"}, without=NOT_IN_KEY),
@@ -175,10 +175,10 @@ class DriverWorld:
         if changes and self._since_s == math.inf:
             self._since_s = self._now
         yield from self._judge(messages)
-        told = [bool(buttons and buttons[0]) for _, buttons in messages]
+        published = [bool(buttons and buttons[0]) for _, buttons in messages]
         presses = [bool(value) for kind, value in changes if kind == BUTTON]
-        if presses and told[-len(presses) :] != presses:
-            yield "d", f"pressed and released: {presses}, and published was {told}"
+        if presses and published[-len(presses) :] != presses:
+            yield "d", f"pressed and released: {presses}, and published was {published}"
 
     def _judge(self, messages):
         for axes, _ in messages:

@@ -8,7 +8,7 @@ import time
 
 from tutorial_faults.live.judge import judge
 from tutorial_faults.live.kinds import BASE, KINDS, chosen, inflicted
-from tutorial_faults.live.plan import draw, shrink
+from tutorial_faults.live.plan import draw
 from tutorial_faults.live.report import Result, timeline
 from tutorial_faults.live.world import World
 from tutorial_testing.hands import RELEASED
@@ -109,8 +109,8 @@ class Hunt:
                 return
             yield options.seed + number
 
-    def run(self, report):
-        """Try all; report: called with each Result and the lines about it."""
+    def run(self):
+        """Try all; yield each Result and the lines about it."""
         for seed in self._seeds():
             plan = draw(seed, self._names)
             try:
@@ -124,7 +124,7 @@ class Hunt:
             letters = tuple(sorted({v.invariant for v in judgement.violations}))
             kinds = tuple(fault.kind for fault in plan.faults)
             self.results.append(Result(seed, kinds, judgement.rest_s, letters))
-            report(self.results[-1], self._lines(plan, judgement, record) if letters else [])
+            yield self.results[-1], self._lines(plan, judgement, record) if letters else []
 
     def _attempt(self, plan):
         if not self._world:
@@ -144,13 +144,4 @@ class Hunt:
         lines += [f"  ({v.invariant}) {v.what}" for v in judgement.violations]
         lines += [f"  {line}" for line in timeline(record, judgement.violations)]
         again = f"./tutorial test faults --seed {plan.seed} --trials 1{node}{kinds}"
-        lines += [f"  again: {again}", *self._last_words]
-        if options.shrink:
-            lines.append(f"  fewest faults that still do it: {shrink(plan, self._breaks)}")
-        return lines
-
-    def _breaks(self, plan):
-        try:
-            return bool(self._attempt(plan)[0].violations)
-        except FAILURES:
-            return False
+        return [*lines, f"  again: {again}", *self._last_words]

@@ -5,9 +5,9 @@ Times [s] count from the moment at which the robot, driven by the hands, has beg
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from random import Random
-from typing import Callable, Sequence
+from typing import Sequence
 
 from tutorial_faults.live.kinds import KINDS
 from tutorial_testing.hands import DRIVE, RELEASED, STICK, TURBO, TURN
@@ -15,7 +15,6 @@ from tutorial_testing.hands import DRIVE, RELEASED, STICK, TURBO, TURN
 HELD = (DRIVE, TURN, TURBO)  # shown with LB held
 WATCHED_S = 0.8  # after the last fault
 UP_S = 1.0  # and so much more for a node that is restarted
-TRIES = 3  # of a smaller plan: what is random in the nodes and the machine may spare it once
 # Of two such faults one would spoil the other.
 SAME_PART = (
     {"kill_master", "hang_master"},
@@ -104,17 +103,3 @@ def _hands(random: Random) -> tuple[Hand, ...]:
             hands.append(Hand(at_s + random.uniform(0.3, 0.7), RELEASED))
             hands.append(Hand(hands[-1].at_s + random.uniform(0.3, 0.7), DRIVE))
     return tuple(hands)
-
-
-def shrink(plan: Plan, breaks: Callable[[Plan], bool]) -> Plan:
-    """Return the smallest Plan found for which breaks() is true, without faults or motions."""
-    smaller = [
-        replace(plan, faults=plan.faults[:number] + plan.faults[number + 1 :])
-        for number in range(len(plan.faults))
-    ]
-    if len(plan.hands) > 1:
-        smaller.append(replace(plan, hands=(Hand(0.0, DRIVE),)))
-    for candidate in smaller:
-        if any(breaks(candidate) for _ in range(TRIES)):
-            return shrink(candidate, breaks)
-    return plan

@@ -74,7 +74,6 @@ def parse(arguments):
     what.add_argument("--soak", type=above_zero, metavar="HOURS", help="without faults: what grows")
     add("--seed", type=int, help=f"of the first trial ({FIRST_SEED})")
     add("--kinds", type=kind, nargs="+", default=[], metavar="KIND", help="these faults alone")
-    add("--shrink", action="store_true", help="look for the fewest faults that do it")
     add("--node", type=node, metavar="PACKAGE/TYPE", help=f"in place of joy2twist; or {HANDOUT}")
     add("--table", type=writable, metavar="FILE", help="write each trial to FILE; print a table")
     return parser.parse_args(arguments)
@@ -96,32 +95,23 @@ def hunt(options):
         for need, why in the_hosts.refused.items():
             kinds = ", ".join(kind.name for kind in KINDS.values() if kind.needs == need)
             print(f"faults: without {kinds}: {why}", flush=True)
-        table = stack.enter_context(open(options.table or os.devnull, "w", 1))
-        results = run(Hunt(the_hosts, folder, options, command), csv.writer(table))
+        table = csv.writer(stack.enter_context(open(options.table or os.devnull, "w", 1)))
+        table.writerow(("seed", "kinds", "rest_s", "violations"))
+        the_hunt = stack.enter_context(Hunt(the_hosts, folder, options, command))
+        with contextlib.suppress(KeyboardInterrupt):
+            for result, lines in the_hunt.run():
+                table.writerow(result.row())
+                print(*lines, sep="\n", end="\n" if lines else "", flush=True)
+                if sys.stderr.isatty():
+                    print(f"\rseed {result.seed} ", end="", file=sys.stderr, flush=True)
+            the_hunt.end()
+    results = the_hunt.results
+    if the_hunt.not_judged:
+        print(f"{the_hunt.not_judged} trials not judged: this machine was too late or failed")
     if options.table:
         print("\n".join(by_kind(results)))
     print(last_line(results))
     return int(any(result.violations for result in results)) if results else CANNOT
-
-
-def run(the_hunt, table):
-    """Run a hunting.Hunt until its end or Ctrl-C; return its results. table: a csv.writer."""
-    table.writerow(("seed", "kinds", "rest_s", "violations"))
-
-    def report(result, lines):
-        for line in lines:
-            print(line, flush=True)
-        table.writerow(result.row())
-        if sys.stderr.isatty():
-            progress = f"\r{len(the_hunt.results)} trials, seed {result.seed} "
-            print(progress, end="", file=sys.stderr, flush=True)
-
-    with the_hunt, contextlib.suppress(KeyboardInterrupt):
-        the_hunt.run(report)
-        the_hunt.end()
-    if the_hunt.not_judged:
-        print(f"{the_hunt.not_judged} trials not judged: this machine was too late or failed")
-    return the_hunt.results
 
 
 def main(arguments=None):

@@ -38,12 +38,8 @@ class Raw:
         buff.write(self._data)
 
 
-class RawJoy(Raw, Joy):
-    """A Joy of any bytes."""
-
-
-class RawTwist(Raw, Twist):
-    """A Twist of any bytes."""
+RawJoy = type("RawJoy", (Raw, Joy), {})
+RawTwist = type("RawTwist", (Raw, Twist), {})
 
 
 def odd_joy(random):
@@ -62,16 +58,10 @@ def broken_joy(random):
     odd_joy(random).serialize(buff)
     whole = buff.getvalue()
     lie = struct.pack("<I", random.randrange(10**6, 2**32))
-    return RawJoy(
-        random.choice(
-            (
-                whole[: random.randrange(len(whole))],
-                whole[:TEXT_AT] + lie + whole[TEXT_AT + 4 :],
-                bytes(random.randrange(256) for _ in range(random.randrange(200))),
-                whole + bytes(100_000),
-            )
-        )
-    )
+    cut = whole[: random.randrange(len(whole))]
+    noise = random.getrandbits(800).to_bytes(100, "little")
+    lying, oversized = whole[:TEXT_AT] + lie + whole[TEXT_AT + 4 :], whole + bytes(100_000)
+    return RawJoy(random.choice((cut, noise, lying, oversized)))
 
 
 def twist(x=0.0, y=0.0, z=0.0):

@@ -35,7 +35,7 @@ FORWARD = Controls(left_stick=(0.0, 1.0))
 HELD = Controls(left_stick=(0.0, 1.0), held=frozenset(["LB"]))
 
 
-def tell(text):
+def report(text):
     print(f"drive: {text}", flush=True)
 
 
@@ -95,7 +95,7 @@ class Robot:
         wait(lambda: self.speed == 0.0, "standing robot")
         moving = [m for m in self.odometry if m.twist.twist.linear.x]
         took_s = moving[-1].header.stamp.to_sec() - since
-        tell(f"{what}: the robot stands after {1e3 * took_s:.0f} ms")
+        report(f"{what}: the robot stands after {1e3 * took_s:.0f} ms")
         assert took_s < PROMPT_S
 
 
@@ -111,7 +111,9 @@ def check_positions(pad, raw, robot):
             values = [axis.js_value(axis.raw(p)) for axis, p in zip(F710_D.axes, axes)]
             wait(lambda values=values: raw.values() == values, f"events with {values}")
             wait(lambda: raw.is_as_on(robot.joy[-1]), "same state on /joy")
-    tell(f"{2 * len(STICKS)} positions of 6 axes and 12 buttons are on /joy as the kernel has them")
+    report(
+        f"{2 * len(STICKS)} positions of 6 axes and 12 buttons are on /joy as the kernel has them"
+    )
 
 
 def drive(pad, robot):
@@ -130,7 +132,7 @@ def check_unplugged(pad, raw, launch, robot):
     robot.check_stands(since, "unplugged while driving")
     neutral = next(joy for joy in robot.joy[seen:] if not any(joy.axes) and not any(joy.buttons))
     delay_s = neutral.header.stamp.to_sec() - since
-    tell(f"neutral message after {1e3 * delay_s:.0f} ms")
+    report(f"neutral message after {1e3 * delay_s:.0f} ms")
     assert delay_s < PROMPT_S and robot.joy[-1] is neutral
 
     with UinputPad(F710_X) as other:
@@ -139,7 +141,7 @@ def check_unplugged(pad, raw, launch, robot):
         wait(lambda: "is now" in launch.output, "refusal of the other gamepad")
         assert robot.joy[-1] is neutral and robot.speed == 0.0
     wait(lambda: not DEVICE.exists(), "end of the other gamepad")
-    tell("another gamepad in its place was not opened")
+    report("another gamepad in its place was not opened")
 
     pad.show(positions(F710_D, HELD))  # while it is plugged in
     wait(lambda: launch.output.count("Opened joystick") == 2, "reconnection")
@@ -148,7 +150,7 @@ def check_unplugged(pad, raw, launch, robot):
     wait(lambda: len(robot.joy) > count + 20, "messages")
     assert robot.joy[-1].axes[1] > 0 and robot.joy[-1].buttons[4]
     assert all(m.twist.twist.linear.x == 0 for m in robot.odometry[-20:])
-    tell("plugged in with LB held and the stick pushed: nothing moves")
+    report("plugged in with LB held and the stick pushed: nothing moves")
 
 
 def check_all(pad, raw, launch):
@@ -166,7 +168,7 @@ def check_all(pad, raw, launch):
     drive(pad, robot)
     check_unplugged(pad, raw, launch, robot)
     drive(pad, robot)
-    tell("released and held again: it drives")
+    report("released and held again: it drives")
     rospy.signal_shutdown("done")
     launch.interrupt()
     assert launch.wait(DEADLINE_S) == 0
@@ -175,7 +177,7 @@ def check_all(pad, raw, launch):
 
 def main():
     """Run all checks."""
-    tell(f"Linux {platform.release()}, {platform.machine()}")
+    report(f"Linux {platform.release()}, {platform.machine()}")
     with UinputPad(F710_D) as pad:
         # udev grants the right to read it a little later.
         wait(lambda: os.access(DEVICE, os.R_OK), f"{DEVICE} to be read")
@@ -186,7 +188,7 @@ def main():
             except BaseException:
                 print(launch.output)
                 raise
-    tell("passed")
+    report("passed")
 
 
 if __name__ == "__main__":
