@@ -10,8 +10,8 @@ from tutorial_check.model import Note, Wrong
 from tutorial_check.workspace import underlays
 
 SUITE = ("node_kit", "fake_turtlebot_sim")  # packages of the underlay
-# Of the suite's own these are stand-ins: the real ones may well lie in a student's src.
 AGAIN = "in the workspace: rm -r build devel, then catkin_make"
+# Of the suite's own these are stand-ins: the real ones may well lie in a student's src.
 STAND_INS = ("joy", "rbx1_", "turtlebot_")
 
 
