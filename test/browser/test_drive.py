@@ -22,6 +22,8 @@ def test_held_it_moves_and_released_it_stops(world, kind):
         x = world.now.x
         hands.drive(world, until=lambda: world.now.x > x + 0.2)
         assert 0.0 < max(moment.v for moment in world.odometry) <= FULL + 1e-6
+        drawn = "document.querySelector('#lb').classList.contains('held')"
+        hands.drive(world, until=lambda: browser.ask(drawn))  # whichever hand holds it
         held = "document.querySelector('#pad svg').dataset.held"
         hands.drive(world, until=lambda: browser.ask(held) == "LB")
         hands.drive(world, until=lambda: browser.text("#teleop") == "driving")
@@ -140,7 +142,7 @@ def test_a_recording_beside_the_page_is_called_what_drives(own_world, browser):
         browser.wait_for_text("#teleop", "driving")
         browser.wait_for_text("#seat", "/player drives the robot.")
         browser.click("Drive from this page")
-        browser.wait_for_text("#notice", "drive: /player sends on the joystick topic")
+        browser.wait_for_text("#notice", "drive: /player publishes the joystick topic")
         with Chromium() as second:
             second.open(own_world.address)
             second.wait_for_text("#seat", "/player drives the robot.")

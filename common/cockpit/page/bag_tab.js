@@ -114,8 +114,8 @@ export class BagTab {
 
   #tell(playing, topic) {
     byId("bag-pause").disabled = !playing;
-    const looks = this.#looksOnly ? "This page may look, not publish: it was opened with the viewers' address." : "";
-    const none = this.#bag && !byId("bag-topic").options.length ? "It has no joystick's topic to publish." : "";
+    const looks = this.#looksOnly ? "This page was opened with the address for viewers: it may look, not publish." : "";
+    const none = this.#bag && !byId("bag-topic").options.length ? "This recording has no joystick topic to publish." : "";
     say(byId("bag-state"), playing ? `Publishing ${topic}. Pause stops the robot.` : looks || none);
     byId("bag").dataset.playing = playing;
   }

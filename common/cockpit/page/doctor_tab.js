@@ -27,13 +27,13 @@ export class DoctorTab {
   #ask() {
     this.#asked = this.link.send("doctor");
     if (!this.#asked) return;
-    say(byId("doctor-state"), "Looking …");
+    say(byId("doctor-state"), "Checking …");
   }
 
   #show({ lines, running }) {
     const wrong = lines.filter(({ level }) => level === "wrong").length;
-    const looking = lines.length ? "Looking for more …" : "Looking …";
-    say(byId("doctor-state"), running ? looking : wrong ? `${wrong} wrong` : "Nothing wrong");
+    const looking = lines.length ? "Checking …" : "Checking …";
+    say(byId("doctor-state"), running ? looking : wrong ? `${wrong} wrong` : "No problem found");
     byId("doctor-run").disabled = running;
     byId("doctor-lines").replaceChildren(...lines.map(({ level, subject, text }) =>
       element("li", { className: level, "data-level": level },

@@ -11,7 +11,9 @@ import { RobotTab } from "./robot_tab.js";
 import { makeTabs } from "./tabs.js";
 
 const NOTICE_MS = 8000;
-const WORDS = { open: "Connected", lost: "Connection lost – trying again" };
+const WORDS = { open: "Connected", lost: "Connection lost – trying again", gone: "No cockpit – trying again" };
+const GONE = `The cockpit has exited, or the network to it is down. Start it again, with the launch file or with
+ ./tutorial cockpit: this page then reconnects. With --lan, open the new address that it prints.`;
 
 // What the server is asked to send. The robots' places are always watched: they tell that it is there.
 const watched = {
@@ -24,6 +26,8 @@ const link = new Link((state) => {
   byId("connection").dataset.state = state;
   say(byId("connection"), WORDS[state]);
   robot.connect(state === "open");
+  if (state === "gone") notice(GONE, Infinity);
+  else if (byId("notice").textContent === GONE) notice("");
   if (state === "open") link.send("watch", watched); // with it all is told anew, who drives, too
 });
 
@@ -33,12 +37,12 @@ function watch(fields) {
   if (JSON.stringify(watched) !== before) link.send("watch", watched);
 }
 
-/** Show a line for a while, or none (""). */
-function notice(text) {
+/** Show a line for a while [ms] or without end (Infinity), or none (""). */
+function notice(text, duration = NOTICE_MS) {
   byId("notice").hidden = !text;
   say(byId("notice"), text);
   clearTimeout(noticeEnd);
-  noticeEnd = setTimeout(() => (byId("notice").hidden = true), NOTICE_MS);
+  if (duration < Infinity) noticeEnd = setTimeout(() => (byId("notice").hidden = true), duration);
 }
 
 const robot = new RobotTab(link, watch, notice);

@@ -5,7 +5,7 @@ import { byId, element, save, say } from "./dom.js";
 
 const MOST = 20; // fields at a time, as the server has it
 const LISTED = 200; // of the fields that are found
-const KEEP_S = 600; // longest window
+const KEEP_S = 600; // longest window, which index.html offers, too
 const DRAW_MS = 100;
 const SET_BACK_S = 1; // by so much and more
 
@@ -41,7 +41,8 @@ export class PlotTab {
     link.on("plot", ({ samples }) => this.#take(samples));
     byId("plot-search").addEventListener("input", () => this.#list());
     byId("plot-pause").addEventListener("click", () => this.#pause(!this.#paused));
-    byId("plot-zoom").addEventListener("click", () => this.chart.wholeRange());
+    byId("plot-window").addEventListener("change", () => this.#showLast(byId("plot-window").value));
+    byId("plot-zoom").addEventListener("click", () => this.#showLast(KEEP_S));
     byId("plot-clear").addEventListener("click", () => this.#clear());
     byId("plot-csv").addEventListener("click", () => this.#saveCsv());
     byId("plot-png").addEventListener("click", () =>
@@ -118,10 +119,17 @@ export class PlotTab {
     }
   }
 
+  /** Show the last seconds, however the chart was zoomed. */
+  #showLast(seconds) {
+    byId("plot-window").value = seconds;
+    this.chart.wholeRange();
+    this.#fresh = true;
+  }
+
   #pause(on) {
     this.#paused = on;
     byId("plot-pause").setAttribute("aria-pressed", String(on));
-    say(byId("plot-pause"), on ? "Go on" : "Pause");
+    say(byId("plot-pause"), on ? "Resume" : "Pause");
     this.#fresh = true;
   }
 

@@ -27,7 +27,7 @@ export class RobotTab {
     this.floor = new Floor(byId("floor"), () => [...byId("robot").querySelectorAll(onFloor)]);
     this.picture = new GamepadPicture(byId("pad"));
     this.driver = new Driver(link, byId("glass"));
-    this.driver.onLost = (why) => notice(`You let go (${why}). ${this.#drives.again}`);
+    this.driver.onLost = (why) => notice(`Stopped: ${why}. ${this.#drives.again}`);
     link.on("hello", (hello) => this.#meet(hello));
     link.on("names", ({ names }) => this.#showNames(names));
     link.on("robots", ({ robots }) => this.#showRobots(robots));
@@ -49,7 +49,7 @@ export class RobotTab {
     if (isOpen) this.#showButtons();
     else {
       this.#showSeat({ driver: null, yours: false });
-      this.#showDrives({ drivers: {}, who: "Not connected: who drives is not known.", ready: "", how: "", again: "" });
+      this.#showDrives({ drivers: {}, who: "Not connected: the driver is unknown.", ready: "", how: "", again: "" });
     }
   }
 
@@ -117,7 +117,7 @@ export class RobotTab {
     this.#offerRobots();
     this.floor.look = name;
     this.picture.show({ D: [], X: [] }, [], []);
-    say(byId("pad-age"), "nothing yet");
+    say(byId("pad-age"), "no message yet");
     this.#showTeleop(this.#teleop.get(name) ?? { robot: name });
     this.watch({ look: name });
   }
@@ -170,7 +170,7 @@ export class RobotTab {
     if (state) this.#teleop.set(robot, { robot, state, why });
     if (robot !== this.look) return;
     byId("teleop").dataset.state = state ?? "unknown";
-    say(byId("teleop"), why || state || "It has said nothing yet.");
+    say(byId("teleop"), why || state || "No report from joy2twist yet.");
   }
 
   #showSeat(seat) {

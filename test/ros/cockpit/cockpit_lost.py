@@ -115,7 +115,7 @@ class OperatorLost(WithCockpit):
             self.rig.drive(first)
             second.say("drive", robot="", mode="D")
             second.hand = DRIVE
-            self.assertIn("somebody else drives", second.wait_for("refused")["why"])
+            self.assertIn("another page drives", second.wait_for("refused")["why"])
             seat = second.wait_for("seat", lambda seat: seat["driver"] is not None)
             self.assertFalse(seat["yours"])
             self.assertTrue(self.rig.moves)

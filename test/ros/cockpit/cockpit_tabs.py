@@ -146,7 +146,7 @@ class Tabs(WithCockpit):
         self.page.wait_for("seat", lambda seat: seat["how"] == "bag" and seat["yours"])
         with SocketPage(self.rig.port) as other:
             other.say("drive", robot="", mode="D")
-            other.wait_for("refused", lambda no: "somebody else drives" in no["why"])
+            other.wait_for("refused", lambda no: "another page drives" in no["why"])
         wait_for(lambda: self.rig.moves, "robot that follows the recording")
         when = time.time()
         self.page.say("bag_pause")
@@ -182,7 +182,7 @@ class Tabs(WithCockpit):
             rival.publish(Joy())
             self.page.say("drive", robot="", mode="D")
             why = self.page.wait_for("refused")["why"]
-            self.assertIn(f"{rospy.get_name()} sends on the joystick topic", why)
+            self.assertIn(f"{rospy.get_name()} publishes the joystick topic", why)
             self.assertEqual(publishers("/joy"), [rospy.get_name()])
         finally:
             rival.unregister()

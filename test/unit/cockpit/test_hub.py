@@ -102,6 +102,14 @@ def test_what_a_page_asks_for_is_on_its_account(monkeypatch):
     assert hub.clients[2].budget.wait_s(100.0, 1.0) == 0.0
 
 
+def test_requests_of_one_address_wait_and_of_another_do_not():
+    hub, _ = made()
+    waits = [hub.request_wait_s("10.0.0.1") for _ in range(1000)]
+    assert waits[25] == 0.0  # a page loads as many files
+    assert waits[-1] > 10.0
+    assert hub.request_wait_s("10.0.0.2") == 0.0
+
+
 def test_pages_whose_turn_does_not_come_in_a_tick_get_theirs_in_the_next(monkeypatch):
     class Slow(Source):
         def give(self, client, now):
@@ -147,7 +155,7 @@ def test_a_robot_that_another_joystick_drives_is_not_taken():
     hub._graphs.graph = Graph(subscribers={"/joy": {"/j"}}, types={"/joy": "sensor_msgs/Joy"})
     hub._pads.rival = lambda robot, since: "/joy_node"
     hub.hear(hub.clients[1], '{"kind":"drive","robot":"","mode":"D"}')
-    assert "/joy_node sends on the joystick topic of this robot" in sent[-1]
+    assert "/joy_node publishes the joystick topic of this robot" in sent[-1]
     assert hub.driven is None
 
 
@@ -167,14 +175,17 @@ def test_a_failure_is_told_once_of_each_thing():
 
 def test_who_watches_the_log_gets_each_line_once():
     hub, _ = made()
-    logs = Logs(SimpleNamespace(want=lambda *_, **__: None), SimpleNamespace(graph=Graph()))
+    wanted = []
+    logs = Logs(SimpleNamespace(want=lambda _, hears, every: wanted.extend(hears)))
+    assert wanted == ["/rosout"]  # whose publishers keep the line that was logged before
     sent = join(hub)
     one = hub.clients[1]
 
     def lines(text, **watch):
         data = BytesIO()
         Log(msg=text).serialize(data)
-        logs._hear(SimpleNamespace(data=data.getvalue()), "/rosout")
+        for _ in range(2):  # a latched line comes again with a new connection
+            logs._hear(SimpleNamespace(data=data.getvalue()), "/rosout")
         nothing = dict.fromkeys(("robots", "graph", "field_list", "bag"), False)
         nothing.update(look=None, topic=None, node=None, fields=[], **watch)
         hub.hear(one, json.dumps({"kind": "watch", **nothing}))

@@ -52,7 +52,7 @@ def test_silence_is_a_loss(room):
     room.pass_time(SILENCE_S - 0.01)
     assert room.sent == []
     room.pass_time(0.03)
-    assert room.lost == [(ANNA, "nothing came from the page for 0.2 s")]
+    assert room.lost == [(ANNA, "no input from the page for 0.2 s")]
     assert_stopped_until_released(room)
 
 
@@ -159,7 +159,7 @@ def test_a_pad_that_stands_still_is_a_loss(room):
     room.sent.clear()
     for _ in range(int(FROZEN_S / PERIOD_S) + 2):
         room.say(DRIVE, pad=1009.0)
-    assert room.lost == [(ANNA, "the gamepad stands still: it is frozen or out of reach")]
+    assert room.lost == [(ANNA, "the gamepad sends nothing new: it is frozen or out of reach")]
     assert room.sent[-1] == ("ada", *REST)
 
 
@@ -197,7 +197,7 @@ def test_a_pad_that_nobody_touches_may_stand_still(room):
 
 def test_a_second_driver_is_refused_and_the_first_goes_on(room):
     room.drive()
-    with pytest.raises(RefusedError, match="somebody else drives"):
+    with pytest.raises(RefusedError, match="another page drives"):
         room.seat.take(BOB, "ada", PAGE, room.now)
     room.say(DRIVE, client=BOB)
     assert room.sent == []

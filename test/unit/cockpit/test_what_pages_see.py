@@ -9,6 +9,7 @@ import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from geometry_msgs.msg import Quaternion
 from nav_msgs.msg import Odometry
+from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import Joy
 
 from cockpit_server.access import DRIVER, VIEWER
@@ -16,6 +17,8 @@ from cockpit_server.clients import LONGEST_FLOOD, Client, encoded, name_of
 from cockpit_server.doctor import shown
 from cockpit_server.fields import numeric_fields, parts_of, split, value_at
 from cockpit_server.graph import Graph, without
+from cockpit_server.logs import shown as log_shown
+from cockpit_server.logs import without_folders
 from cockpit_server.motion import Motion, covered, motion
 from cockpit_server.plots import class_of, fields_of
 from cockpit_server.recording import RecordingError, corners, curves, read
@@ -192,6 +195,22 @@ def test_a_recording_that_is_none(tmp_path):
     for name in ("x.bag", "nothing.bag"):
         with pytest.raises(RecordingError, match=name):
             read(tmp_path / name)
+
+
+@pytest.mark.parametrize(
+    ("text", "shown_text"),
+    [("in /home/ada/ws/x.bag", "in ./x.bag"), ("/home/ada/.ros/log", "~/.ros/log"),
+     ("/home/ada", "~"), ("/home/ada2/x /home/ada/ws-2", "/home/ada2/x ~/ws-2")],
+)  # fmt: skip
+def test_folders_of_the_server_are_not_shown(text, shown_text):
+    assert without_folders(text, "/home/ada", "/home/ada/ws") == shown_text
+
+
+def test_lines_that_pages_get_are_without_folders(monkeypatch):
+    monkeypatch.setenv("HOME", "/home/ada")
+    assert shown("wrong  disk  /home/ada/.ros is full")["text"] == "~/.ros is full"
+    line = serialised(Log(msg="read /home/ada/x.yaml"))
+    assert log_shown(line)["text"] == "read ~/x.yaml"
 
 
 def test_names_of_pages():

@@ -51,6 +51,7 @@ class Client:
     is_cut: callable
     close: callable
     address: str = ""
+    spoke_at: float = 0.0  # when it was opened or sent a message last [s]
     watch: Watch = Watch()
     seen: dict = field(default_factory=dict)  # by what it is about: the newest that was sent
     flood: int = 0

@@ -10,6 +10,7 @@ from pathlib import Path
 import rospkg
 
 from cockpit_server.clients import Source
+from cockpit_server.logs import without_folders
 
 LEVELS = {"ok": "ok", "wrong": "wrong"}  # what else it says is a note
 LONGEST_RUN_S = 60.0
@@ -21,7 +22,8 @@ def shown(line):
     level, subject, text = [*line.split(maxsplit=2), "", "", ""][:3]
     if level not in ("ok", "wrong", "unknown"):
         subject, text = "", line
-    return {"level": LEVELS.get(level, "note"), "subject": subject, "text": text.strip()}
+    text = without_folders(text.strip())
+    return {"level": LEVELS.get(level, "note"), "subject": subject, "text": text}
 
 
 class Doctor(Source):

@@ -93,6 +93,11 @@ def users_of(column, node):
     return sorted(name for name, nodes in column.items() if node in nodes)
 
 
+def topic_of(robot, name):
+    """Return the name of a robot's topic; the robot "" has no namespace."""
+    return f"/{robot}/{name}" if robot else f"/{name}"
+
+
 def robot_of(topic):
     """The robot that a topic belongs to: its namespace."""
     return topic.rsplit("/", 1)[0].strip("/")

@@ -6,7 +6,7 @@ from urllib.parse import urlsplit
 
 import rosgraph
 
-from cockpit_server.graph import JOY, Graph, without
+from cockpit_server.graph import JOY, Graph, topic_of, without
 from node_kit.questions import Answer, call
 
 PERIOD_S = 1.0
@@ -33,8 +33,7 @@ class GraphWatch:
         return self._others(self.graph.subscribers, robot)
 
     def _others(self, column, robot):
-        topic = f"/{robot}/joy" if robot else "/joy"
-        return column.get(topic, frozenset()) - {self._own_name}
+        return column.get(topic_of(robot, "joy"), frozenset()) - {self._own_name}
 
     def start(self, lost):
         """Look again and again, in a thread of its own. lost: called when the master has gone."""

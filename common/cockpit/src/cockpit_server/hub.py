@@ -3,7 +3,14 @@
 import time
 from collections import deque
 
-from cockpit_server.budget import ALL_BURST_S, MESSAGE_S, SHARE, Budget
+from cockpit_server.budget import (
+    ALL_BURST_S,
+    MESSAGE_S,
+    REQUEST_S,
+    REQUESTS_BURST_S,
+    SHARE,
+    Budget,
+)
 from cockpit_server.clients import Watch
 from cockpit_server.drives import lost_text
 from cockpit_server.feeds import OnceLater
@@ -37,6 +44,7 @@ class Hub:
         self.clients = {}
         self._next_number, self._beats = 1, 0
         self._messages = Budget(ALL_BURST_S)  # of all pages but the one that drives
+        self._requests = {}  # address -> Budget of its HTTP requests
         self._due = deque()  # pages whose turn it is to be sent something
         self._may_beat = Throttle(1 / BEAT_S, burst=1.5)  # even, though the ticks are not
         self._modes = ()  # of the gamepad that may drive
@@ -65,6 +73,7 @@ class Hub:
     def join(self, client):
         """A page was opened."""
         self.clients[client.number] = client
+        client.spoke_at = time.monotonic()
         client.send(
             "hello",
             id=client.number,
@@ -92,6 +101,18 @@ class Hub:
         self._messages.spend(MESSAGE_S)
         return wait_s
 
+    def request_wait_s(self, address):
+        """Return how long [s] an HTTP request has to wait, for what its address has cost."""
+        now, rate = time.monotonic(), SHARE / max(2, len(self._requests))
+        if address not in self._requests:
+            paid = [one for one, budget in self._requests.items() if not budget.wait_s(now, rate)]
+            for one in paid:
+                del self._requests[one]
+        budget = self._requests.setdefault(address, Budget(REQUESTS_BURST_S))
+        wait_s = budget.wait_s(now, rate)
+        budget.spend(REQUEST_S)
+        return wait_s
+
     @property
     def _rate(self):
         """The share of each page [s/s]."""
@@ -101,8 +122,9 @@ class Hub:
         """A page has sent something."""
         if client.number not in self.clients:
             return  # it waited, and is gone
-        began_s = time.thread_time()
-        self._hear(client, data, time.monotonic())
+        began_s, now = time.thread_time(), time.monotonic()
+        client.spoke_at = now
+        self._hear(client, data, now)
         cost_s = time.thread_time() - began_s
         client.budget.spend(cost_s)
         if client.number != self.seat.driver:
@@ -110,7 +132,7 @@ class Hub:
 
     def _hear(self, client, data, now):
         if not client.allows(now):
-            client.refuse("messages", "too many in a second: some were dropped", now)
+            client.refuse("messages", "too many messages in a second: some were dropped", now)
             return
         kind = "message"
         try:
@@ -137,7 +159,7 @@ class Hub:
     def _on_hand_over(self, client, now, to):
         other = self.clients.get(to)
         if other is None or not other.drives:
-            raise RefusedError("that page is not there, or may not drive")
+            raise RefusedError("that page is closed, or may not drive")
         self._change(lambda: self.seat.hand_over(client.number, to, now))
         self._modes = MODES  # the other hand may hold another gamepad
         self._sat_at = now
@@ -169,7 +191,7 @@ class Hub:
             raise RefusedError(f"there is no robot {robot!r}")
         rival = self._pads.rival(robot, now - RIVAL_S)
         if rival and self.seat.driver != client.number:
-            raise RefusedError(f"{rival} sends on the joystick topic of this robot: end it first")
+            raise RefusedError(f"{rival} publishes the joystick topic of this robot: end it first")
         self._change(lambda: self.seat.take(client.number, robot, how, now))
         self._sat_at = now
 
@@ -248,7 +270,7 @@ class Hub:
             return
         rival = self._pads.rival(self.seat.robot, self._sat_at)
         if rival:
-            self._change(lambda: self.seat.free(f"{rival} drives this robot, too: end it first"))
+            self._change(lambda: self.seat.free(f"{rival} also drives this robot: end it first"))
             return
         driver = self.clients[self.seat.driver]
         self._beats += 1

@@ -3,7 +3,7 @@
 import rospy
 from sensor_msgs.msg import Joy
 
-from cockpit_server.robots import topic_of
+from cockpit_server.graph import topic_of
 from gamepad.trembling import Trembling
 from node_kit.prompt_publisher import PromptPublisher
 

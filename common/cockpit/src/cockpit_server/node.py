@@ -34,7 +34,7 @@ class Cockpit:
     """Shows the robots of a master to browsers, and lets one of them drive.
 
     Subscribes: what pages look at: odom (nav_msgs/Odometry), joy (sensor_msgs/Joy) of the robots,
-        any topic; /diagnostics (diagnostic_msgs/DiagnosticArray), /rosout_agg (rosgraph_msgs/Log)
+        any topic; /diagnostics (diagnostic_msgs/DiagnosticArray), /rosout (rosgraph_msgs/Log)
     Publishes: joy (sensor_msgs/Joy) of a robot that is driven
     Calls: mobile services of type std_srvs/Empty that end in /reset
     """
@@ -49,9 +49,10 @@ class Cockpit:
         pads = Pads(feeds, graphs, name)
         hub = self._hub = Hub(self._soon, graphs, Joysticks(), pads, log.warn)
         bags, robots, teleop = Bags(hub), Robots(feeds, graphs), Teleop(feeds)
+        drives = Drives(hub, graphs, teleop, robots)
         sources = (
-            robots, pads, teleop, Drives(hub, graphs, teleop, robots), Resets(hub, graphs),
-            GraphView(graphs), Topics(feeds, graphs), Plots(feeds, graphs), Logs(feeds, graphs),
+            robots, pads, teleop, drives, Resets(hub, graphs, drives),
+            GraphView(graphs), Topics(feeds, graphs), Plots(feeds, graphs), Logs(feeds),
             Doctor(), bags,
         )  # fmt: skip
         hub.add(sources, player=bags)

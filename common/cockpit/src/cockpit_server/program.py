@@ -66,10 +66,10 @@ def leave_to_other(port, lan):
         fail(f"port {port} is taken, maybe by another cockpit: end it, or take --port {port + 1}")
     if lan:
         fail(
-            f"one runs already at {page}; for other machines end it first (a launch file starts "
-            f"none with cockpit:=false), or take --port {port + 1}"
+            f"a cockpit is already running at {page}; for other machines end it first (a launch "
+            f"file starts none with cockpit:=false), or take --port {port + 1}"
         )
-    print(f"cockpit: one runs already: open {page} on this machine", flush=True)
+    print(f"cockpit: a cockpit is already running: open {page} on this machine", flush=True)
     sys.exit()
 
 

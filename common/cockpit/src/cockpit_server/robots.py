@@ -8,6 +8,7 @@ from genpy import DeserializationError
 from sensor_msgs.msg import Joy
 
 from cockpit_server.clients import Source, encoded
+from cockpit_server.graph import topic_of
 from cockpit_server.motion import covered, is_somewhere, motion
 from node_kit.careful_connections import sender_of
 
@@ -16,11 +17,6 @@ DIGITS = 4  # of metres: a tenth of a millimetre
 # also watches over who drives, and a huge one would hold it up.
 LONGEST_JOY = 4000
 FRESH_S, LEAST_SPEED = 1.0, 0.01  # of odometry that says that a robot moves [m/s, rad/s]
-
-
-def topic_of(robot, name):
-    """The topic of a robot, "" is the one without a name."""
-    return f"/{robot}/{name}" if robot else f"/{name}"
 
 
 class Robots(Source):

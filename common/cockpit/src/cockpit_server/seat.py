@@ -92,7 +92,7 @@ class Seat:
         if self._has_ended:
             raise RefusedError("the cockpit is being shut down")
         if self.driver not in (None, client):
-            raise RefusedError("somebody else drives; who drives may hand over")
+            raise RefusedError("another page drives; its driver may hand over")
         self.leave(client)
         self.driver, self.robot, self.how = client, robot, how
         self.why, self.stopped = "", None
@@ -109,7 +109,7 @@ class Seat:
     def hand_over(self, client, to, now):
         """Let another client sit down. Raises RefusedError if it is not client's to give."""
         if client != self.driver or self.how != PAGE:
-            raise RefusedError("only who drives may hand over")
+            raise RefusedError("only the page that drives may hand over")
         robot = self.robot
         self.leave(client)
         self.take(to, robot, PAGE, now)
@@ -129,7 +129,7 @@ class Seat:
         self.newest, self._fresh_at = message.n, now
         neutral = is_neutral(message.axes, message.buttons)
         if self._is_frozen(message, now) and not neutral:
-            self.lose("the gamepad stands still: it is frozen or out of reach")
+            self.lose("the gamepad sends nothing new: it is frozen or out of reach")
         if neutral and may_arm:
             self.armed = True
         if self.armed:
@@ -167,9 +167,9 @@ class Seat:
             return
         silent_s = now - self._fresh_at
         if self.armed and silent_s > SILENCE_S:
-            self.lose(f"nothing came from the page for {SILENCE_S:g} s")
+            self.lose(f"no input from the page for {SILENCE_S:g} s")
         if silent_s > AWAY_S:
-            self.free("the page was away for too long")
+            self.free("no input from the page for 5 s")
 
     def lose(self, why):
         """The operator is lost; the seat stays with the client, who may still be there."""

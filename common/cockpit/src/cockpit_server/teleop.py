@@ -11,7 +11,7 @@ from node_kit.states import DRIVING
 
 MARK = ": joystick"  # the end of the name of joy2twist's status; before it stands its node's
 SILENT_S = 4.0  # it speaks once a second
-SILENT = {"state": "silent", "why": "joy2twist says nothing any more", "level": 2, "deadman": None}
+SILENT = {"state": "silent", "why": "no report from joy2twist for 4 s", "level": 2, "deadman": None}
 UNKNOWN = "it reports once a second"  # what is shown meanwhile
 DEADMAN = "Dead-man button"  # the name of the value that tells which one it is, or "none"
 

@@ -3,6 +3,7 @@
 import asyncio
 import logging
 import socket
+import time
 from pathlib import Path
 
 import rospkg
@@ -12,7 +13,7 @@ from tornado.web import Application, RequestHandler, StaticFileHandler
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
 from cockpit_server.access import without_token
-from cockpit_server.admission import connection_to_close, page_to_close
+from cockpit_server.admission import Page, connection_to_close, page_to_close
 from cockpit_server.clients import Client, name_of
 from cockpit_server.schema import LONGEST_MESSAGE
 from node_kit.newest_only import CUT_AFTER_RESENDS, resends
@@ -52,10 +53,11 @@ class _Guarded(RequestHandler):
         for name, value in HEADERS.items():
             self.set_header(name, value)
 
-    def prepare(self):
+    async def prepare(self):
+        await _wait_for_turn(self)
         host = self.request.host
         if not self.settings["access"].may_request(host, self.request.headers.get("Origin")):
-            self.refuse(403, "this address is not the cockpit's: open the one that it printed")
+            self.refuse(403, "not an address of the cockpit: open the one that it printed")
             return
         self.set_header("Content-Security-Policy", POLICY.format(host=host))
 
@@ -67,6 +69,13 @@ class _Guarded(RequestHandler):
     def write_error(self, status_code, **_):
         self.set_header("Content-Type", "text/plain; charset=utf-8")
         self.finish(f"{status_code}: nothing here\n")
+
+
+async def _wait_for_turn(handler):
+    """Delay a request by what its address, and all pages together, have cost."""
+    wait_s = handler.settings["hub"].request_wait_s(handler.request.remote_ip)
+    if wait_s:
+        await asyncio.sleep(wait_s)
 
 
 class _Page(_Guarded):
@@ -94,6 +103,9 @@ class _Socket(WebSocketHandler):
     client = None
     pings = fragments = 0
 
+    async def prepare(self):
+        await _wait_for_turn(self)
+
     async def get(self, *_, **__):
         access, hub = self.settings["access"], self.settings["hub"]
         origin = self.request.headers.get("Origin")
@@ -103,7 +115,7 @@ class _Socket(WebSocketHandler):
         elif self.role is None:
             self.refuse(403, "open the address that the cockpit printed, with its token")
         elif not self.has_room(list(hub.clients.values())):
-            self.refuse(503, f"{MOST_CLIENTS} pages are open: close one")
+            self.refuse(503, f"{MOST_CLIENTS} pages are open: close one, or try again later")
         else:
             await super().get()
 
@@ -111,12 +123,14 @@ class _Socket(WebSocketHandler):
         """Whether one more page may be opened; a viewer of another may have to go for it."""
         if len(clients) < MOST_CLIENTS:
             return True
-        pages = [(one, one.role, one.address) for one in clients]
-        guest = page_to_close(pages, self.role, self.request.remote_ip)
-        if guest is not None:
-            self.settings["hub"].leave(guest)
-            guest.close()
-        return guest is not None
+        now = time.monotonic()
+        pages = [Page(one.number, one.role, one.address, now - one.spoke_at) for one in clients]
+        page = page_to_close(pages, self.role, self.request.remote_ip)
+        if page is not None:
+            closed = self.settings["hub"].clients[page.number]
+            self.settings["hub"].leave(closed)
+            closed.close()
+        return page is not None
 
     def refuse(self, status, why):
         self.set_status(status)
@@ -254,7 +268,7 @@ def _hide_token(record):
 class _Nothing(_Guarded):
     """Whatever else is asked for."""
 
-    def prepare(self):
-        super().prepare()
+    async def prepare(self):
+        await super().prepare()
         if not self._finished:
             self.refuse(404, "nothing here")
