@@ -170,7 +170,7 @@ def test_the_reason_of_a_stop_is_told_once_the_robot_was_stopped(world, page):
     hands = Keys(page)
     hands.drive(world)
     page.driver.execute_script("dispatchEvent(new Event('blur'))")
-    page.wait_for_text("#ready", "Stopped: blur. Release LB and the stick, then hold LB again.")
+    page.wait_for_text("#ready", "Stopped: the window lost the focus. Release LB and the stick, then hold LB again.")
     hands.release()
     page.click("Stop driving")
     page.wait_for_text("#seat", "Nobody drives.")

@@ -145,7 +145,8 @@ const take = document.getElementById("take").cloneNode();
 document.getElementById("take").replaceWith(take);
 document.getElementById("robots").replaceChildren();
 import('/page/robot_tab.js').then(({RobotTab}) => {
-  const tab = new RobotTab(link, (fields) => sent.push(["watch", fields]), () => {});
+  const tab = new RobotTab(link, (fields) => sent.push(["watch", fields]),
+                           {notice: () => {}});
   take.disabled = false;
   %s
 })"""

@@ -4,11 +4,22 @@ import { byId, element, say } from "./dom.js";
 
 const SIGNS = { ok: "✓", note: "i", unknown: "?", wrong: "✗" };
 
+const PANEL = `
+  <div class="card row">
+    <button id="doctor-run" class="primary">Run again</button>
+    <span id="doctor-state" role="status" aria-live="polite"></span>
+  </div>
+  <ul id="doctor-lines" class="card"></ul>`;
+
 export class DoctorTab {
+  static title = "Doctor";
+  static panel = PANEL;
+  static watches = {};
+
   #asked = false;
   #shown = false;
 
-  constructor(link) {
+  constructor(link, _watch) {
     this.link = link;
     link.on("hello", () => {
       this.#asked = false; // and the one that ran may have ended with its server

@@ -15,7 +15,18 @@ function svg(tag, attributes = {}, ...children) {
   return made;
 }
 
+const PANEL = `
+  <label class="hint"><input type="checkbox" id="graph-all"> Show all: also /rosout, and topics without a publisher</label>
+  <div class="wide" id="graph-picture" tabindex="0" aria-label="Nodes and topics"></div>
+  <div class="panel">
+    <div class="card" id="graph-details" aria-live="polite"><p class="hint">Choose a node or a topic.</p></div>
+  </div>`;
+
 export class GraphTab {
+  static title = "Graph";
+  static panel = PANEL;
+  static watches = { graph: false, topic: null, node: null };
+
   #chosen = null; // "node /a" or "topic /b"
   #drawn = "";
   #graph = { nodes: [], topics: [], edges: [] };

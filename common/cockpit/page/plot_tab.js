@@ -19,7 +19,32 @@ function setBack(points, last) {
   return first;
 }
 
+const PANEL = `
+  <div class="wide">
+    <div class="card row">
+      <button id="plot-pause" aria-pressed="false">Pause</button>
+      <button id="plot-zoom">Whole range</button>
+      <button id="plot-clear">Clear</button>
+      <label>Last <select id="plot-window"><option value="10">10 s</option><option value="30" selected>30 s</option>
+        <option value="120">2 min</option><option value="600">10 min</option></select></label>
+      <button id="plot-csv">Save CSV</button>
+      <button id="plot-png">Save PNG</button>
+    </div>
+    <div class="card chart"><div id="plot-chart"></div></div>
+    <p class="hint">Drag across the chart to zoom.</p>
+    <div class="legend" id="plot-values" role="group" aria-label="Newest values"></div>
+  </div>
+  <div class="panel">
+    <div class="card"><h2><label for="plot-search">Fields</label></h2>
+      <input type="search" id="plot-search" placeholder="Search, e.g. odom linear" autocomplete="off">
+      <ul id="plot-fields"></ul></div>
+  </div>`;
+
 export class PlotTab {
+  static title = "Plot";
+  static panel = PANEL;
+  static watches = { fields: [], field_list: false };
+
   #samples = {}; // field -> [[t, value], ...], t since #zero
   #zero = null; // time of the first sample [s]
   #all = [];

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import pytest
 
 from cockpit_server.access import DRIVER, VIEWER
-from cockpit_server.clients import Client, Watch
+from cockpit_server.clients import Client
 from cockpit_server.drives import (
     LOOKS_ONLY,
     NO_ROBOT,
@@ -116,7 +116,7 @@ class Room:
         self.sent, self.outdated, self.report, self.senders = [], [], ARMED, ()
         hear, no = (lambda text: self.sent.append(json.loads(text))), (lambda: False)
         self.client = Client(ANNA, role, "Firefox", hear, no, no, no)
-        self.client.watch = Watch(look="ada")
+        self.client.watch = SimpleNamespace(look="ada")
         self.seat = Seat(lambda *_: None, lambda *_: None)
         self.listeners = {"/joy2twist"}
         graphs = SimpleNamespace(
@@ -170,10 +170,10 @@ def test_a_robot_is_not_reset_while_a_node_drives_it():
     room.report, room.senders = MOVING, PLAYS
     room.look()
     with pytest.raises(RefusedError, match="/rosbag_play drives this robot: stop it"):
-        resets.handlers["reset"](room.client, 0.0, "ada")
+        resets.on_reset(room.client, 0.0, "ada")
     room.seat.take(BOB, "ada", PAGE, 0.0)
     with pytest.raises(RefusedError, match="another page drives this robot"):
-        resets.handlers["reset"](room.client, 0.0, "ada")
+        resets.on_reset(room.client, 0.0, "ada")
 
 
 def test_without_a_robot_a_page_says_so():

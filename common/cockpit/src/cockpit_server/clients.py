@@ -2,7 +2,7 @@
 
 import json
 from dataclasses import dataclass, field
-from typing import ClassVar, Optional, Tuple
+from typing import Any, Callable, ClassVar, Mapping, Tuple
 
 from cockpit_server.access import DRIVER
 from cockpit_server.budget import BURST_S, Budget
@@ -18,21 +18,6 @@ SYSTEMS = (
     ("Android", "Android"), ("iPhone", "iPhone"), ("iPad", "iPad"), ("Windows", "Windows"),
     ("Mac OS", "Mac"), ("CrOS", "ChromeOS"), ("Linux", "Linux"),
 )  # fmt: skip
-
-
-@dataclass(frozen=True)
-class Watch:
-    """What a page wants to see; see schema.MESSAGES."""
-
-    robots: bool = False
-    look: Optional[str] = None
-    graph: bool = False
-    topic: Optional[str] = None
-    node: Optional[str] = None
-    fields: Tuple[str, ...] = ()
-    field_list: bool = False
-    log: bool = False
-    bag: bool = False
 
 
 @dataclass(eq=False)
@@ -52,7 +37,7 @@ class Client:
     close: callable
     address: str = ""
     spoke_at: float = 0.0  # when it was opened or sent a message last [s]
-    watch: Watch = Watch()
+    watch: Any = None  # what it wants to see, by the names in the sources' watches
     seen: dict = field(default_factory=dict)  # by what it is about: the newest that was sent
     flood: int = 0
     budget: Budget = field(default_factory=lambda: Budget(BURST_S))
@@ -96,11 +81,14 @@ class Client:
 
 
 class Source:
-    """Something that pages see. handlers: what is called for a kind of message that a page sends,
-    with the client, the time [s] and the fields.
+    """Something that pages see, and the messages that they may send about it.
+
+    watches: name -> (check of schema, value for a page that does not ask for it).
+    messages: kind -> {field: check}; each calls on_KIND(client, now [s], **fields).
     """
 
-    handlers: ClassVar[dict] = {}
+    watches: ClassVar[Mapping[str, Tuple[Callable[[Any], Any], Any]]] = {}
+    messages: ClassVar[Mapping[str, Mapping[str, Callable[[Any], Any]]]] = {}
 
     def prepare(self, clients, now):
         """Gather what these clients want to see; twenty times a second."""

@@ -6,6 +6,7 @@ import sys
 import threading
 import time
 from pathlib import Path
+from typing import ClassVar
 
 import rospkg
 
@@ -27,11 +28,12 @@ def shown(line):
 
 
 class Doctor(Source):
-    """Runs the doctor when a page asks for it, once at a time, and tells all pages."""
+    """Runs the doctor when a page asks for it, once at a time, and sends its lines to all pages."""
+
+    messages: ClassVar = {"doctor": {}}
 
     def __init__(self):
         """It has not run yet."""
-        self.handlers = {"doctor": self._start}
         self._lines, self._running, self._version = [], False, 0
         self._ended_at = -math.inf  # of the last run [s]
 
@@ -40,7 +42,7 @@ class Doctor(Source):
         if self._version and client.lacks("doctor", self._version):
             client.send("doctor", lines=self._lines, running=self._running)
 
-    def _start(self, client, now):
+    def on_doctor(self, client, now):
         may = client.drives or now - self._ended_at > FRESH_S
         if not may:
             client.seen.pop("doctor", None)

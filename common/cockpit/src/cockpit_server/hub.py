@@ -2,6 +2,7 @@
 
 import time
 from collections import deque
+from typing import ClassVar
 
 from cockpit_server.budget import (
     ALL_BURST_S,
@@ -11,11 +12,19 @@ from cockpit_server.budget import (
     SHARE,
     Budget,
 )
-from cockpit_server.clients import Watch
 from cockpit_server.drives import lost_text
 from cockpit_server.feeds import OnceLater
 from cockpit_server.guard import Guard
-from cockpit_server.schema import MODES, check_lengths, check_message
+from cockpit_server.schema import (
+    INPUT,
+    MODES,
+    WATCH,
+    Schema,
+    check_lengths,
+    one_of,
+    text,
+    whole,
+)  # fmt: skip
 from cockpit_server.seat import PAGE, Input, RefusedError, Seat
 from gamepad.gamepads import F710
 from node_kit.throttle import Throttle
@@ -28,7 +37,16 @@ RIVAL_S = 1.0  # another joystick that was heard within that has the first say
 
 
 class Hub:
-    """The pages that are open, who of them drives, and what each is sent."""
+    """The pages that are open, which of them drives, and what each is sent."""
+
+    watches: ClassVar = {}
+    messages: ClassVar = {
+        "drive": {"robot": text, "mode": one_of(*MODES)},
+        "leave": {},
+        "hand_over": {"to": whole},
+        "input": INPUT,
+        "release": {"why": text},
+    }
 
     def __init__(self, soon, graph_watch, joysticks, pads, tell):
         """soon: called in any thread with what is to be called in this one. pads: knows who else
@@ -37,10 +55,6 @@ class Hub:
         self._guard = Guard(tell)
         self.soon, self._graphs, self._joysticks, self._pads = soon, graph_watch, joysticks, pads
         self._named, self._player = [], None  # the sources with their names
-        self._handlers = {
-            "watch": self._on_watch, "drive": self._on_drive, "leave": self._on_leave,
-            "hand_over": self._on_hand_over, "input": self._on_input, "release": self._on_release,
-        }  # fmt: skip
         self.clients = {}
         self._next_number, self._beats = 1, 0
         self._messages = Budget(ALL_BURST_S)  # of all pages but the one that drives
@@ -55,12 +69,12 @@ class Hub:
         self.seat = Seat(joysticks.send, self._on_lost)
 
     def add(self, sources, player):
-        """sources: of what pages see, with prepare(), give() and handlers, by kind of message.
-        player: the one that plays recordings.
-        """
+        """sources: clients.Source. player: the one that plays recordings."""
         self._player = player
-        for source in sources:
-            self._handlers.update(source.handlers)
+        self._schema = Schema([self, *sources])
+        self._handlers = {WATCH: self.on_watch}
+        for one in (self, *sources):
+            self._handlers.update({kind: getattr(one, f"on_{kind}") for kind in one.messages})
         self._named = [(type(one).__name__, one) for one in sources]
 
     # ------------------------------------------------------------------ pages come and go
@@ -74,6 +88,7 @@ class Hub:
         """A page was opened."""
         self.clients[client.number] = client
         client.spoke_at = time.monotonic()
+        client.watch = self._schema.watch()
         client.send(
             "hello",
             id=client.number,
@@ -136,27 +151,28 @@ class Hub:
             return
         kind = "message"
         try:
-            kind, fields = check_message(data)
+            kind, fields = self._schema.check(data)
             self._handlers[kind](client, now, **fields)
         except (ValueError, RefusedError) as error:
             client.refuse(kind, str(error), now)
 
     # ------------------------------------------------------------------------ what they say
 
-    def _on_watch(self, client, _now, **fields):
+    def on_watch(self, client, _now, **fields):
         # Resend everything but log lines, which the page has already.
-        goes_on = client.watch.log and fields["log"] and "log" in client.seen
+        watch = self._schema.watch(**fields)
+        goes_on = client.watch.log and watch.log and "log" in client.seen
         client.seen = {"log": client.seen["log"]} if goes_on else {}
-        client.watch = Watch(**fields)
+        client.watch = watch
 
-    def _on_drive(self, client, now, robot, mode):
+    def on_drive(self, client, now, robot, mode):
         self.sit_down(client, robot, PAGE, now)
         self._modes = (mode,)
 
-    def _on_leave(self, client, _now):
+    def on_leave(self, client, _now):
         self.stand_up(client)
 
-    def _on_hand_over(self, client, now, to):
+    def on_hand_over(self, client, now, to):
         other = self.clients.get(to)
         if other is None or not other.drives:
             raise RefusedError("that page is closed, or may not drive")
@@ -164,7 +180,7 @@ class Hub:
         self._modes = MODES  # the other hand may hold another gamepad
         self._sat_at = now
 
-    def _on_input(self, client, now, *, axes, buttons, source, **more):
+    def on_input(self, client, now, *, axes, buttons, source, **more):
         client.must_drive()
         if client.number != self.seat.driver:
             return  # it was on its way when the seat was lost
@@ -179,7 +195,7 @@ class Hub:
         connected = listeners <= self._joysticks.listeners(self.seat.robot)
         return connected or now - self._sat_at > CONNECT_S
 
-    def _on_release(self, client, _now, why):
+    def on_release(self, client, _now, why):
         self._change(lambda: self.seat.release(client.number, why))
 
     # ----------------------------------------------------------------------------- the seat

@@ -5,11 +5,13 @@ import re
 from collections import deque
 from functools import lru_cache
 from pathlib import Path
+from typing import ClassVar
 
 from genpy import DeserializationError
 from rosgraph_msgs.msg import Log
 
 from cockpit_server.clients import Source
+from cockpit_server.schema import switch
 
 KEPT = 500  # lines
 AT_ONCE = 50  # lines in a message to a page: many long ones would hold up who drives
@@ -46,6 +48,8 @@ def shown(data):
 
 class Logs(Source):
     """Keeps lines as they came, and reads them when a page wants to see them."""
+
+    watches: ClassVar = {"log": (switch, False)}
 
     def __init__(self, feeds):
         """Subscribe for as long as the node runs: to /rosout, where each node's last line is

@@ -11,7 +11,7 @@ from cockpit_server.bags import Bags
 from cockpit_server.doctor import Doctor
 from cockpit_server.drives import Drives
 from cockpit_server.feeds import Feeds
-from cockpit_server.graph_view import GraphView
+from cockpit_server.graph_view import GraphView, Topics
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.hub import TICK_S, Hub
 from cockpit_server.joysticks import Joysticks
@@ -20,7 +20,6 @@ from cockpit_server.plots import Plots
 from cockpit_server.resets import Resets
 from cockpit_server.robots import Pads, Robots
 from cockpit_server.teleop import Teleop
-from cockpit_server.topics import Topics
 from cockpit_server.web import server
 from node_kit.log import Log
 

@@ -5,12 +5,14 @@ from collections import deque
 from functools import lru_cache
 from itertools import takewhile
 from math import isfinite
+from typing import ClassVar
 
 import roslib.message
 import rospy
 
 from cockpit_server.clients import Source
 from cockpit_server.fields import numeric_fields, parts_of, split, value_at
+from cockpit_server.schema import MOST_FIELDS, list_of, switch, text
 
 NEAR_S = 1.0  # of a stamp and this clock; curves of two clocks would not be seen side by side
 KEPT = 2000  # samples of a field for a page that is behind
@@ -46,6 +48,8 @@ def newer(samples, known):
 
 class Plots(Source):
     """Subscribes to what is drawn and keeps the newest samples."""
+
+    watches: ClassVar = {"fields": (list_of(text, MOST_FIELDS), ()), "field_list": (switch, False)}
 
     def __init__(self, feeds, graph_watch):
         """graph_watch: knows the topics and their types."""

@@ -1,12 +1,14 @@
 """Puts a robot back to where it started, by its service."""
 
 import threading
+from typing import ClassVar
 
 import rospy
 from std_srvs.srv import Empty
 
 from cockpit_server.clients import Source
 from cockpit_server.graph import topic_of
+from cockpit_server.schema import text
 from cockpit_server.seat import RefusedError
 
 
@@ -24,15 +26,16 @@ def reset_service(graph, robot):
 
 
 class Resets(Source):
-    """Calls the service of a robot when who may drive asks for it, and no other page drives it."""
+    """Resets a robot that nothing else drives, when a page asks for it."""
+
+    messages: ClassVar = {"reset": {"robot": text}}
 
     def __init__(self, hub, graph_watch, drives):
         """hub: has the seat. graph_watch: knows the services. drives: knows what drives."""
         self._hub, self._graphs, self._drives = hub, graph_watch, drives
-        self.handlers = {"reset": self._reset}
         self._asked = set()  # names of services that have not answered yet
 
-    def _reset(self, client, _now, robot):
+    def on_reset(self, client, _now, robot):
         client.must_drive()
         if robot == self._hub.driven and client.number != self._hub.seat.driver:
             raise RefusedError("another page drives this robot: only that page may reset it")

@@ -3,6 +3,7 @@
 import struct
 import time
 from math import isfinite
+from typing import ClassVar
 
 from genpy import DeserializationError
 from sensor_msgs.msg import Joy
@@ -10,6 +11,7 @@ from sensor_msgs.msg import Joy
 from cockpit_server.clients import Source, encoded
 from cockpit_server.graph import topic_of
 from cockpit_server.motion import covered, is_somewhere, motion
+from cockpit_server.schema import or_null, switch, text
 from node_kit.careful_connections import sender_of
 
 DIGITS = 4  # of metres: a tenth of a millimetre
@@ -21,6 +23,8 @@ FRESH_S, LEAST_SPEED = 1.0, 0.01  # of odometry that says that a robot moves [m/
 
 class Robots(Source):
     """The robots' names, and the newest odometry of each, for all pages that show them."""
+
+    watches: ClassVar = {"robots": (switch, False)}
 
     def __init__(self, feeds, graph_watch):
         """graph_watch: knows the robots. Nothing is subscribed to before somebody looks."""
@@ -95,7 +99,9 @@ def joy_shown(data):
 
 
 class Pads(Source):
-    """The newest joystick message of each robot that somebody looks at or drives."""
+    """The newest joystick message of each robot that a page shows or drives."""
+
+    watches: ClassVar = {"look": (or_null(text), None)}
 
     def __init__(self, feeds, graph_watch, own_name):
         """own_name: of this node. Others that send on the same topic are told by rival()."""
