@@ -16,7 +16,7 @@ LOOK_S = 2.0  # how often the folder is looked at for recordings, while a page s
 
 
 class Opened:
-    """What one page has opened. message: what it has not been sent yet."""
+    """What one page has opened. message: not sent yet."""
 
     def __init__(self, name, recording, message):
         self.name, self.recording, self.message = name, recording, message
@@ -37,7 +37,6 @@ class Bags(Source):
     }
 
     def __init__(self, hub):
-        """hub: has the seat."""
         self._hub = hub
         self._reader = ThreadPoolExecutor(1, thread_name_prefix="recordings")
         self._shelf = Shelf()
@@ -47,10 +46,7 @@ class Bags(Source):
         self._player, self._owner = None, None
         self._ticks = 0
 
-    # ---------------------------------------------------------------- what pages are sent
-
     def prepare(self, clients, now):
-        """Forget the pages that are gone, and look which recordings there are."""
         self._ticks += 1
         numbers = {client.number for client in clients}
         self._opened = {n: opened for n, opened in self._opened.items() if n in numbers}
@@ -63,7 +59,6 @@ class Bags(Source):
         self._names = {may_drive: sorted(recordings(may_drive)) for may_drive in (False, True)}
 
     def give(self, client, now):
-        """Send what may be opened, what was opened, and where it is."""
         names = self._names.get(client.drives)
         if client.watch.bag and names and client.lacks("bags", names):
             client.send("bags", names=names)
@@ -80,8 +75,6 @@ class Bags(Source):
         if client.lacks("bag_at", at):
             names = ("position", "playing", "rate", "loop", "topic")
             client.send("bag_at", **dict(zip(names, at)))
-
-    # -------------------------------------------------------------------------- what they say
 
     def on_bag_open(self, client, _now, name):
         if client.number in self._reading:
@@ -146,14 +139,12 @@ class Bags(Source):
             raise RefusedError("open a recording first")
         return opened
 
-    # ------------------------------------------------------------------------------- playing
-
     def _plays(self, number):
         seat = self._hub.seat
         return self._player is not None and number == self._owner == seat.driver and seat.how == BAG
 
     def play(self, now):
-        """Publish what is due."""
+        """Publish the messages that are due."""
         if self._player is None:
             return
         if not self._plays(self._owner):

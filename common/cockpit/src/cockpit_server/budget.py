@@ -11,10 +11,9 @@ MESSAGE_S = 0.0002  # of receiving a message, whatever it asks for
 
 
 class Budget:
-    """Refills at a rate, up to a burst. Costs are known afterwards: it may be in debt."""
+    """Refills at a rate, up to burst_s. A cost is known afterwards: there may be debt."""
 
     def __init__(self, burst_s: float) -> None:
-        """burst_s: [s] of the thread's time, there from the beginning."""
         self._burst_s = self._left_s = burst_s
         self._at: Optional[float] = None
 
@@ -25,5 +24,4 @@ class Budget:
         return max(0.0, -self._left_s / rate)
 
     def spend(self, seconds: float) -> None:
-        """Use up some of it."""
         self._left_s -= seconds

@@ -46,32 +46,29 @@ class Client:
 
     @property
     def drives(self):
-        """Whether it may."""
         return self.role == DRIVER
 
     def must_drive(self):
-        """Raise RefusedError if it may not."""
         if not self.drives:
             raise RefusedError("this page was opened with the viewers' token: it may only look")
 
     def send(self, kind, **fields):
-        """Send a message."""
         self.write(encoded(kind, **fields))
 
     def refuse(self, what, why, now):
-        """Tell what was not done, and why, though not without end."""
+        """Report what was not done and why, at a bounded rate."""
         if self.may_hear_no.ready(now):
             self.send("refused", what=what, why=why)
 
     def lacks(self, about, version):
-        """Whether the client has not got this version; from now on it has."""
+        """Return whether the client lacks this version; from now on it has it."""
         if self.seen.get(about) == version:
             return False
         self.seen[about] = version
         return True
 
     def allows(self, now):
-        """Whether one more message may be read; a flood closes the connection."""
+        """Return whether one more message may be read; close the connection after a flood."""
         if self.may_send.ready(now):
             return True
         self.flood += 1
@@ -98,12 +95,12 @@ class Source:
 
 
 def encoded(kind, **fields):
-    """A message as it is sent: JSON, which knows no infinity."""
+    """Return a message as JSON; infinity is a ValueError."""
     return json.dumps({"kind": kind, **fields}, allow_nan=False, separators=(",", ":"))
 
 
 def name_of(user_agent, address):
-    """A page's name for people, such as "Chromium on Linux, 192.168.1.5"."""
+    """Return a name of a page for people, such as "Chromium on Linux, 192.168.1.5"."""
     browser = next((name for mark, name in BROWSERS if mark in user_agent), "a program")
     system = next((f" on {name}" for mark, name in SYSTEMS if mark in user_agent), "")
     return f"{browser}{system}, {address}"

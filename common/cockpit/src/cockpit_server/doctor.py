@@ -19,7 +19,7 @@ FRESH_S = 10.0  # who only looks gets what was found within that, and causes no 
 
 
 def shown(line):
-    """A line of the doctor as pages get it: subject is what it is about."""
+    """Return a line of the doctor as pages get it."""
     level, subject, text = [*line.split(maxsplit=2), "", "", ""][:3]
     if level not in ("ok", "wrong", "unknown"):
         subject, text = "", line
@@ -33,12 +33,10 @@ class Doctor(Source):
     messages: ClassVar = {"doctor": {}}
 
     def __init__(self):
-        """It has not run yet."""
         self._lines, self._running, self._version = [], False, 0
         self._ended_at = -math.inf  # of the last run [s]
 
     def give(self, client, _now):
-        """Send the lines so far, if there are new ones."""
         if self._version and client.lacks("doctor", self._version):
             client.send("doctor", lines=self._lines, running=self._running)
 

@@ -34,7 +34,6 @@ class About(NamedTuple):
 
     @property
     def is_driven_by_node(self) -> bool:
-        """Whether something else than a page drives it."""
         if self.driver is not None:
             return False
         return self.said["state"] == DRIVING if self.said else self.moves and bool(self.senders)
@@ -74,7 +73,6 @@ def again(about: About) -> str:
 
 
 def unheard(robot: str) -> str:
-    """Return why a robot does not move that has no joy2twist, and what to do."""
     topic, where = topic_of(robot, "joy"), f" for {robot}" if robot else ""
     return f"No node subscribes to {topic}: nothing moves before you start joy2twist{where}."
 
@@ -123,21 +121,18 @@ def held(about: About) -> Optional[str]:
 
 
 def lost_text(why: str, keeps_seat: bool) -> str:
-    """Return what a page is sent that has lost its robot."""
     return f"Stopped: {why}." if keeps_seat else f"This page no longer drives: {why}."
 
 
 class Drives(Source):
-    """Sends each page who drives the robot that it looks at, and the drivers of all robots."""
+    """Sends each page what drives the robot that it shows, and the drivers of all robots."""
 
     def __init__(self, hub, graph_watch, teleop, robots):
-        """hub: has the seat. graph_watch, teleop, robots: know the rest."""
         self._hub, self._graphs, self._teleop, self._robots = hub, graph_watch, teleop, robots
         self._abouts, self._drivers = {}, {}
         self._driven = None  # from a page, the last time
 
     def prepare(self, clients, now):
-        """Look at every robot once for all pages."""
         seat, driven = self._hub.seat, self._hub.driven
         if self._driven not in (None, driven):
             self._teleop.outdate(self._driven)  # that robot's driver has left since it spoke
@@ -169,7 +164,6 @@ class Drives(Source):
         return driver(about) if about.is_driven_by_node else ""
 
     def give(self, client, _now):
-        """Send what has changed."""
         robot = client.watch.look
         about = self._abouts.get(robot, About())
         words = {

@@ -24,13 +24,11 @@ class GraphView(Source):
     watches: ClassVar = {"graph": (switch, False), "node": (or_null(full_name), None)}
 
     def __init__(self, graph_watch):
-        """graph_watch: knows the graph."""
         self._graphs = graph_watch
         self._written, self._text = None, ""  # a version, and its message
         self._pids, self._pids_of = {}, None  # node -> process, in a version of the graph
 
     def prepare(self, clients, _now):
-        """Write it down if somebody looks and it has changed."""
         watched = any(client.watch.graph for client in clients)
         if watched and self._written != self._graphs.version:
             # The version first: what changes meanwhile is written down again.
@@ -44,7 +42,6 @@ class GraphView(Source):
                 later(self._ask_pid, node)
 
     def give(self, client, _now):
-        """Send what has changed."""
         if client.watch.graph and self._text and client.lacks("graph", self._written):
             client.write(self._text)
         node = client.watch.node
@@ -62,20 +59,18 @@ class GraphView(Source):
 
 
 class Topic:
-    """What has come on one topic."""
+    """The messages of one topic."""
 
     def __init__(self):
-        """Nothing yet."""
         self.count, self.newest = 0, None
         self._marks = [(time.monotonic(), 0)]  # (when, count until then)
 
     def hear(self, message, _topic):
-        """One more message."""
         self.newest = message.data
         self.count += 1
 
     def rate(self, now):
-        """Messages in a second [Hz]; call about once a PERIOD_S."""
+        """Return messages per second [Hz]; call about once a PERIOD_S."""
         self._marks.append((now, self.count))
         while len(self._marks) > 2 and self._marks[1][0] <= now - WINDOW_S:
             self._marks.pop(0)
@@ -83,7 +78,7 @@ class Topic:
         return (self.count - before) / (now - since) if now > since else 0.0
 
     def text(self, type_name):
-        """The newest message as text."""
+        """Return the newest message as text."""
         data = self.newest
         if data is None:
             return ""
@@ -105,13 +100,11 @@ class Topics(Source):
     watches: ClassVar = {"topic": (or_null(full_name), None)}
 
     def __init__(self, feeds, graph_watch):
-        """graph_watch: knows the topics and their types."""
         self._feeds, self._graphs = feeds, graph_watch
         self._topics = {}
         self._shown = {}  # name -> (since when [s], what pages are sent of it)
 
     def prepare(self, clients, now):
-        """Subscribe to what is looked at, and is there."""
         graph = self._graphs.graph
         looked_at = {client.watch.topic for client in clients} - {None}
         self._topics = {name: self._topics.get(name) or Topic() for name in looked_at}
@@ -132,9 +125,6 @@ class Topics(Source):
         }
 
     def give(self, client, now):
-        """Send what is shown of the topic that the client looks at; it is put together twice a
-        second, when the first page lacks it, which so pays for it.
-        """
         name = client.watch.topic
         if name not in self._topics:
             return

@@ -49,9 +49,7 @@ class Hub:
     }
 
     def __init__(self, soon, graph_watch, joysticks, pads, tell):
-        """soon: called in any thread with what is to be called in this one. pads: knows who else
-        moves a robot. tell: called with a line about what has failed; it must not wait.
-        """
+        """soon: runs an action in this thread. tell: reports a failure at once."""
         self._guard = Guard(tell)
         self.soon, self._graphs, self._joysticks, self._pads = soon, graph_watch, joysticks, pads
         self._named, self._player = [], None  # the sources with their names
@@ -77,15 +75,11 @@ class Hub:
             self._handlers.update({kind: getattr(one, f"on_{kind}") for kind in one.messages})
         self._named = [(type(one).__name__, one) for one in sources]
 
-    # ------------------------------------------------------------------ pages come and go
-
     def number(self):
-        """A number for a new page."""
         self._next_number += 1
         return self._next_number - 1
 
     def join(self, client):
-        """A page was opened."""
         self.clients[client.number] = client
         client.spoke_at = time.monotonic()
         client.watch = self._schema.watch()
@@ -101,12 +95,11 @@ class Hub:
         )
 
     def leave(self, client):
-        """A page was closed."""
         self.clients.pop(client.number, None)
         self._change(lambda: self.seat.gone(client.number))
 
     def wait_s(self, client):
-        """How long [s] the next message of a page has to wait, for what the page has cost."""
+        """Return how long [s] the next message of a page waits, for what the page has cost."""
         if client.number == self.seat.driver:
             return 0.0
         now = time.monotonic()
@@ -134,7 +127,6 @@ class Hub:
         return SHARE / max(1, len(self.clients))
 
     def hear(self, client, data):
-        """A page has sent something."""
         if client.number not in self.clients:
             return  # it waited, and is gone
         began_s, now = time.thread_time(), time.monotonic()
@@ -155,8 +147,6 @@ class Hub:
             self._handlers[kind](client, now, **fields)
         except (ValueError, RefusedError) as error:
             client.refuse(kind, str(error), now)
-
-    # ------------------------------------------------------------------------ what they say
 
     def on_watch(self, client, _now, **fields):
         # Resend everything but log lines, which the page has already.
@@ -190,15 +180,13 @@ class Hub:
         self._change(lambda: self.seat.input(client.number, said, now, may_arm))
 
     def _is_heard(self, now):
-        """Whether all that are registered for this joystick hear it; not all of them may answer."""
+        """Return whether all subscribers of this joystick hear it; some may never answer."""
         listeners = self._graphs.joystick_listeners(self.seat.robot)
         connected = listeners <= self._joysticks.listeners(self.seat.robot)
         return connected or now - self._sat_at > CONNECT_S
 
     def on_release(self, client, _now, why):
         self._change(lambda: self.seat.release(client.number, why))
-
-    # ----------------------------------------------------------------------------- the seat
 
     def sit_down(self, client, robot, how, now):
         """Let a client drive a robot. Raises RefusedError."""
@@ -212,15 +200,13 @@ class Hub:
         self._sat_at = now
 
     def stand_up(self, client):
-        """The client drives no longer."""
         self._change(lambda: self.seat.leave(client.number))
 
     def lose(self, why):
-        """Who drives is lost."""
         self._change(lambda: self.seat.lose(why))
 
     def _change(self, action):
-        """Do something with the seat, of which all pages are told if it changes."""
+        """Change the seat, and note the change for all pages."""
         before = self.seat.state
         action()
         self._seat_version += self.seat.state != before
@@ -248,10 +234,7 @@ class Hub:
                 how=seat.how, yours=seat.driver == client.number, armed=seat.armed,
             )  # fmt: skip
 
-    # ------------------------------------------------------------------------------- time
-
     def tick(self):
-        """Time has passed."""
         now = time.monotonic()
         self._change(lambda: self.seat.tick(now))
         self._guard("the player of recordings", self._player.play, now)
@@ -265,7 +248,7 @@ class Hub:
         self._give(now)
 
     def _give(self, now):
-        """Send what pages lack, one after the other, for a while."""
+        """Send what pages lack, one page after the other, for a while."""
         end_s = time.thread_time() + GIVE_S
         began_s = time.thread_time()
         while self._due and began_s < end_s:
@@ -295,5 +278,4 @@ class Hub:
             driver.send("beat", n=self._beats, time=round(time.time(), 3), input=self.seat.newest)
 
     def end(self):
-        """The robot at rest, then nothing."""
         self.seat.end()

@@ -33,7 +33,7 @@ def without_folders(text, home=None, here=None):
 
 @lru_cache(maxsize=KEPT)
 def shown(data):
-    """A line as pages get it, from the bytes of a rosgraph_msgs/Log; None if they are none."""
+    """Return a line as pages get it, or None if the bytes are no Log."""
     try:
         log = Log().deserialize(data)
     except DeserializationError:
@@ -47,7 +47,7 @@ def shown(data):
 
 
 class Logs(Source):
-    """Keeps lines as they came, and reads them when a page wants to see them."""
+    """Keeps lines as bytes, and decodes them when a page shows the log."""
 
     watches: ClassVar = {"log": (switch, False)}
 
@@ -61,11 +61,9 @@ class Logs(Source):
         feeds.want(self, {"/rosout": self._hear}, every=True)
 
     def prepare(self, clients, now):
-        """Count the ticks."""
         self._ticks += 1
 
     def give(self, client, _now):
-        """Send the lines that the client has not got."""
         if not client.watch.log or self._ticks % TICKS:
             return
         known = client.seen.get("log", 0)

@@ -39,7 +39,6 @@ class Cockpit:
     """
 
     def __init__(self, sockets, access):
-        """sockets: that listen. access: access.Access."""
         self._sockets = sockets
         name = rospy.get_name()
         graphs = self._graphs = GraphWatch(name)
@@ -62,7 +61,6 @@ class Cockpit:
         self._ended = None
 
     def run(self):
-        """Serve until shut down."""
         sys.setswitchinterval(SWITCH_S)
         asyncio.run(self._serve())
 

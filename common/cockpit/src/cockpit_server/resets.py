@@ -13,7 +13,7 @@ from cockpit_server.seat import RefusedError
 
 
 def reset_service(graph, robot):
-    """The name of the service that resets a robot and no other. Raises RefusedError."""
+    """Return the service that resets this robot and no other. Raises RefusedError."""
     own = topic_of(robot, "reset")
     if own in graph.services:
         return own
@@ -31,7 +31,6 @@ class Resets(Source):
     messages: ClassVar = {"reset": {"robot": text}}
 
     def __init__(self, hub, graph_watch, drives):
-        """hub: has the seat. graph_watch: knows the services. drives: knows what drives."""
         self._hub, self._graphs, self._drives = hub, graph_watch, drives
         self._asked = set()  # names of services that have not answered yet
 

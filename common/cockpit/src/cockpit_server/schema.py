@@ -102,7 +102,6 @@ class Schema:
     """All messages that some sources declare, and the message watch."""
 
     def __init__(self, sources: Sequence[Any]) -> None:
-        """sources: clients.Source, or classes of them."""
         watches = {name: of for one in sources for name, of in one.watches.items()}
         self._nothing = {name: value for name, (_, value) in watches.items()}
         self.messages: dict[str, Mapping[str, Check]] = {

@@ -47,7 +47,7 @@ POLICY = (
 
 
 class _Guarded(RequestHandler):
-    """Answers only who names this machine, and is not sent by another page."""
+    """Answers requests that name this machine and come from no other page."""
 
     def set_default_headers(self):
         for name, value in HEADERS.items():
@@ -72,14 +72,14 @@ class _Guarded(RequestHandler):
 
 
 async def _wait_for_turn(handler):
-    """Delay a request by what its address, and all pages together, have cost."""
+    """Delay a request by what its address has cost."""
     wait_s = handler.settings["hub"].request_wait_s(handler.request.remote_ip)
     if wait_s:
         await asyncio.sleep(wait_s)
 
 
 class _Page(_Guarded):
-    """The page itself, for who has a token if one is needed."""
+    """The page, for a valid token if one is needed."""
 
     def get(self):
         role = self.settings["access"].role(self.get_query_argument("token", None))
@@ -91,14 +91,12 @@ class _Page(_Guarded):
 
 
 class _Files(_Guarded, StaticFileHandler):
-    """The page's scripts and styles, and the charts' ones."""
-
     def set_extra_headers(self, path):
         self.set_header("Cache-Control", "no-cache")
 
 
 class _Socket(WebSocketHandler):
-    """The way between a page and the Hub."""
+    """The connection between a page and the Hub."""
 
     client = None
     pings = fragments = 0
@@ -120,7 +118,7 @@ class _Socket(WebSocketHandler):
             await super().get()
 
     def has_room(self, clients):
-        """Whether one more page may be opened; a viewer of another may have to go for it."""
+        """Return whether one more page may be opened, for which a viewer may be closed."""
         if len(clients) < MOST_CLIENTS:
             return True
         now = time.monotonic()
@@ -206,7 +204,7 @@ class _Socket(WebSocketHandler):
 
 
 class _Server(HTTPServer):
-    """Takes no more connections than there is room for; for a new one, one that waits has to go."""
+    """Bounds the connections; closes one that is not used for a new one."""
 
     def initialize(self, application, **more):
         super().initialize(application, **more)
@@ -228,7 +226,7 @@ class _Server(HTTPServer):
 
 
 def server(hub, access):
-    """The HTTP server; it does not listen yet."""
+    """Return the HTTP server; it does not listen yet."""
     for name in ("tornado.access", "tornado.general"):
         logging.getLogger(name).setLevel(logging.CRITICAL)  # whatever strangers send is no news
     logging.getLogger("tornado.application").addFilter(_hide_token)
@@ -266,8 +264,6 @@ def _hide_token(record):
 
 
 class _Nothing(_Guarded):
-    """Whatever else is asked for."""
-
     async def prepare(self):
         await super().prepare()
         if not self._finished:
