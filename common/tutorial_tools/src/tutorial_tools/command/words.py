@@ -35,7 +35,7 @@ WORDS = {  # word: (arguments as the help shows them, what it does)
     "doctor": ("[--in WORKSPACE]", "what to check when nothing moves"),
     "bench": ("[PACKAGE] [--hours HOURS]", "run the benchmarks: all, or those of one package"),
     "lint": ("[--fix]", "check the sources: types, style, layers, packages, shell scripts"),
-    "docs": ("[ARGUMENT ...]", "build the documentation site"),
+    "docs": ("[FOLDER]", "build the documentation site from the pages"),
     "setup": ("[system|workspace]", "install and build what is missing: all, or one part"),
     "shell": ("[--in WORKSPACE]", "a shell in which all of this is found"),
     "run": ("[--in WORKSPACE] COMMAND ...", "one command in such a shell"),
