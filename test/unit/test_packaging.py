@@ -13,15 +13,12 @@ from xml.etree import ElementTree
 import pytest
 
 REPOSITORY = Path(__file__).resolve().parents[2]
-UNDERLAY = (
-    "common/cockpit",
-    "common/gamepad",
-    "common/node_kit",
-    "common/tutorial_check",
-    "common/tutorial_tools",
-    "fake_turtlebot_sim",
+PACKAGES = sorted(
+    str(path.parent.relative_to(REPOSITORY))
+    for pattern in ("*/package.xml", "common/*/package.xml")
+    for path in REPOSITORY.glob(pattern)
+    if path.parent.name != "test"
 )
-PACKAGES = ("beginner_tutorials", *UNDERLAY, "joy2twist")
 
 
 @pytest.mark.parametrize("package", PACKAGES)

@@ -115,7 +115,9 @@ class ArgumentsTest(unittest.TestCase):
             with roslaunch(*student) as launch:
                 wait_for(lambda: "finished cleanly" in launch.output, "end of its cockpit")
                 page = address(rosgraph.get_master_uri())
-                self.assertIn(f"cockpit: one runs already: open {page} on", launch.output)
+                self.assertIn(
+                    f"cockpit: a cockpit is already running: open {page} on", launch.output
+                )
                 self.assertNotIn("died", launch.output)
                 launch.interrupt()
                 launch.wait()

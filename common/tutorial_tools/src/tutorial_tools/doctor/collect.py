@@ -13,6 +13,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from genpy import DeserializationError
 from std_msgs.msg import String
 
+from gamepad.driver.container import in_container
 from gamepad.driver.report import SILENT_FOR
 from node_kit.manifests import broken_manifests
 from tutorial_tools.doctor.facts import JOY, Answer, Facts, Joystick, Mux, MuxInput, Node, Offset
@@ -63,12 +64,12 @@ def collect():
     if not facts["master_here"]:
         facts["way_out"] = way_out(found[0])
     facts["master"], _ = call(uri, "getPid")
-    facts["called_back"] = None
+    called_back = None
     if facts["master"] is Answer.WELL:
         if facts["own_is_here"]:
-            facts["called_back"] = is_called_back(uri, facts["own_name"])
+            called_back = is_called_back(uri, facts["own_name"])
         facts.update(graph(uri, facts["joysticks"]))
-    return Facts(**facts)
+    return Facts(**facts, called_back=called_back)
 
 
 def this_machine():
@@ -86,7 +87,7 @@ def this_machine():
         "workspace": os.environ.get("TUTORIAL_IN", ""),
         "broken_manifests": broken_in_own_folders(),
         "joy2twist": folder_of("joy2twist"),
-        "container": any(map(os.path.exists, ("/.dockerenv", "/run/.containerenv"))),
+        "container": in_container(),
         "wsl": "microsoft" in os.uname().release.lower(),
     }
 
@@ -133,7 +134,9 @@ def graph(uri, joysticks):
     for name in names - set(seen):
         facts["nodes"][name] = Node("?", "?", Answer.SILENT, None)
     known = Facts(**facts)
-    devices = [parameter(uri, f"{node}/dev") for node in known.nodes if is_driver(known, node)]
+    senders = {name for joy in known.topics(JOY) for name in known.publishers.get(joy, [])}
+    here = [name for name, node in known.nodes.items() if name in senders and node.here]
+    devices = [parameter(uri, f"{node}/dev") for node in here]
     paths = {device for device in devices if isinstance(device, str)}
     there = {joystick.path for joystick in joysticks}
     joysticks += [joystick(path) for path in sorted(paths - there)]
@@ -169,12 +172,6 @@ def look_at(uri, name):
 def connection(link):
     """(topic, whether it comes in) of an entry of getBusInfo: id, peer, direction, way, topic."""
     return link[4], link[2] == "i"
-
-
-def is_driver(facts, node):
-    """Whether a node of this machine sends joystick messages."""
-    sends = any(node in facts.publishers.get(joy, []) for joy in facts.topics(JOY))
-    return sends and facts.nodes[node].here
 
 
 def parameter(uri, name):

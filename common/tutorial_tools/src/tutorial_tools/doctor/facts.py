@@ -1,5 +1,5 @@
-"""What the doctor has seen: plain data (pure). How it is seen is in collect.py, what it means in
-judgement.py.
+"""What the doctor has seen, and a finding: plain data (pure). collect.py sees; judgement.py and
+way.py judge.
 """
 
 import re
@@ -24,7 +24,23 @@ def some(names, between=", "):
     return between.join(shown) + (f" and {more[0]}" if more else "")
 
 
+OK, WRONG, UNKNOWN = "ok", "wrong", "unknown"
 DEAD = (Answer.REFUSED, Answer.STRANGE)  # of a node: nobody is there, or somebody else
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One line for the user. level: OK, WRONG or UNKNOWN. about: one word. todo: what to do."""
+
+    level: str
+    about: str
+    seen: str
+    todo: str = ""
+
+    def line(self):
+        """The finding as it is shown."""
+        todo = f": {self.todo}" if self.todo else ""
+        return f"{self.level:7}  {self.about:8}  {self.seen}{todo}"
 
 
 @dataclass(frozen=True)

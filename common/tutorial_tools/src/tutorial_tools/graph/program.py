@@ -1,13 +1,4 @@
-"""Draws the running nodes and their topics, as rqt_graph does.
-
-draw_graph.py [FILE] [--all]     FILE ends in .png, .svg, .pdf or .dot; graph.png unless told
-
-An ellipse is a node, a box is a topic; arrows go from publishers to the topic, and from there to
-its subscribers. Where the nodes run on several machines, each machine has a frame, labelled with
-the address that its nodes gave to the master: a topic outside the frames crosses the network.
-
-This program only asks the master, and is no node itself.
-"""
+"""Draws the running nodes and their topics, as rqt_graph does."""
 
 import argparse
 import json
