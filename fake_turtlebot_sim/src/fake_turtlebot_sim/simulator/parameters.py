@@ -1,10 +1,13 @@
 """Private parameters of the node: a mapping in, a checked and frozen Parameters out."""
 
+from __future__ import annotations
+
 import re
 from dataclasses import dataclass
 from math import inf, pi
-from typing import Dict, Tuple
+from typing import Any, Mapping
 
+from fake_turtlebot_sim.simulator.differential_drive import Pose
 from fake_turtlebot_sim.simulator.odometry_errors import ErrorModel
 from fake_turtlebot_sim.simulator.simulated_robot import RobotModel
 from fake_turtlebot_sim.simulator.velocity_command import VelocityLimits
@@ -29,7 +32,7 @@ _ACCELERATION = number(0.0, 1000.0, "m/s2 (0: no limit)")
 _ANGULAR_ACCELERATION = number(0.0, 1000.0, "rad/s2 (0: no limit)")
 
 
-def _robots(value):
+def _robots(value: Any) -> dict[str, Pose]:
     """Check {name: [x, y, yaw]}; names or a number of robots are lined up."""
     if isinstance(value, dict):
         return {_robot_name(robot): _robot_pose(robot, pose) for robot, pose in value.items()}
@@ -47,19 +50,20 @@ def _robots(value):
     )
 
 
-def _robot_name(robot):
+def _robot_name(robot: Any) -> str:
     if not isinstance(robot, str) or not re.fullmatch(r"[A-Za-z]\w*", robot, re.ASCII):
         raise ValueError(f"{robot!r}: must be a letter followed by letters, digits and underscores")
     return robot
 
 
-def _robot_pose(robot, pose):
+def _robot_pose(robot: str, pose: Any) -> Pose:
     if not isinstance(pose, (list, tuple)) or len(pose) != 3 or not all(map(is_number, pose)):
         raise ValueError(f"{robot}: {pose!r}: must be [x in m, y in m, yaw in rad]")
-    return tuple(map(float, pose))
+    x, y, yaw = map(float, pose)
+    return x, y, yaw
 
 
-def line_up(names):
+def line_up(names: list[str]) -> dict[str, Pose]:
     """Return {name: pose}, the first at the origin, rows of ten, 1 m apart."""
     return {name: (float(-(k // 10)), float(-(k % 10)), 0.0) for k, name in enumerate(names)}
 
@@ -88,18 +92,18 @@ class Parameters:
     wheel_radius_ratio: float = parameter(1.0, number(0.5, 2.0, "(right / left)"))
     track_ratio: float = parameter(1.0, number(0.5, 2.0, "(actual / nominal)"))
     seed: int = parameter(0, whole_number())
-    robots: Dict[str, Tuple[float, float, float]] = parameter({}, _robots)
+    robots: dict[str, tuple[float, float, float]] = parameter({}, _robots)
     world_frame: str = parameter("world", _FRAME)
 
-    def period_ns(self):
+    def period_ns(self) -> int:
         """Return the time between two messages [ns]."""
         return round(1e9 / self.rate)
 
-    def start_poses(self):
+    def start_poses(self) -> dict[str, Pose]:
         """Return {name: (x, y, yaw)}; the only robot of a node without ~robots has no name."""
         return self.robots or {"": (self.initial_x, self.initial_y, self.initial_yaw)}
 
-    def robot_model(self, name):
+    def robot_model(self, name: str) -> RobotModel:
         """Return the RobotModel; each name draws odometry noise of its own, in company or alone."""
         limits = VelocityLimits(
             self.max_linear_speed,
@@ -115,7 +119,7 @@ class Parameters:
         )
 
 
-def parse_parameters(given):
+def parse_parameters(given: Mapping[str, Any]) -> Parameters:
     """Return Parameters from a mapping of names to values; names not given keep their default.
 
     Raises ValueError with one line: the parameter, its value and what is allowed.

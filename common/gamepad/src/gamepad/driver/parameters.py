@@ -4,7 +4,10 @@ Names, meanings and defaults are those of ROS Noetic's package joy, but for auto
 is 0 there: a node that stops the robot on silence needs a held stick to be repeated.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
+from typing import Any, Mapping
 
 from node_kit.parameters import checked, number, parameter, switch, text
 
@@ -26,7 +29,7 @@ class DriverParameters:
     diagnostic_period: float = parameter(1.0, number(0.1, 60, "s"))
 
 
-def load(given):
+def load(given: Mapping[str, Any]) -> DriverParameters:
     """Check the given private parameters and fill in the defaults.
 
     Raises ValueError, one line that names the parameter, its value and what is allowed.
