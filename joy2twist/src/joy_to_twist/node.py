@@ -27,7 +27,7 @@ NODE_NAME = "NewJoy2Twist"
 LOOK_ROUND_S = 0.25  # how soon it is noticed that the joystick node has left
 DELIVERY_TIME_S = 0.1  # for the last zero, which an exit at once may lose
 BURST = 100  # Joy messages read at once, at most: all of a burst, but never a long backlog
-READ_BYTES = 4096  # room for some tens of them, which Python makes anew for every message
+READ_BYTES = 4096  # some tens of them; Python allocates this for every message
 
 
 # Layout of a serialised Joy, little-endian: seq, secs, nsecs (uint32 each), the length of frame_id
@@ -132,7 +132,7 @@ class Joy2Twist:
     def watch(self) -> None:
         """Stop the robot when the joystick falls silent or leaves, and repeat what is to repeat.
 
-        A thread of its own with a clock of its own: rospy's timers follow the simulated time, which
+        A thread and a clock apart from rospy's: its timers follow the simulated time, which
         may stand still or jump. If this thread fails, the node ends: nothing drives unwatched.
         """
         try:

@@ -110,7 +110,7 @@ class Teleoperation:
             self._unheard_since = now
         elif now - self._unheard_since > UNHEARD_S:
             self._unheard_since = math.inf
-            self._warn(f"Nobody listens to {topic}: start the robot, or check its name.")
+            self._warn(f"No node subscribes to {topic}: start the robot, or check its name.")
 
     def summary(self, now: float) -> tuple[bool, str, dict[str, str]]:
         """Return for diagnostics whether all is well, the state, and details by name."""

@@ -43,6 +43,6 @@ def test_preset(name):
     assert joy([dead_man]) == pytest.approx((0.35, 0, 0, 0, 0, 0.6))
     assert joy([turbo]) == pytest.approx((0.7, 0, 0, 0, 0, 1.0))
     assert joy([]) == ZERO
-    # What no stick says: the robot is told no more than the fastest of the preset.
+    # Beyond any stick: no faster than the fastest of the preset.
     assert joy([dead_man], -465.0) == pytest.approx((-0.7, 0, 0, 0, 0, -2.0))
     assert warnings == []  # the number of axes is as expected

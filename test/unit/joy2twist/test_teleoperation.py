@@ -47,7 +47,7 @@ def test_driving_that_reaches_no_subscriber_is_reported_once_until_there_is_one(
     ):  # fmt: skip
         machine.listeners(count, "/carl/cmd_vel", now)
         assert len(warnings) == reported, now
-    assert "Nobody listens to /carl/cmd_vel" in warnings[0]
+    assert "No node subscribes to /carl/cmd_vel" in warnings[0]
 
 
 def test_what_came_while_this_node_was_suspended_is_not_driven():

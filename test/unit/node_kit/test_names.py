@@ -1,4 +1,4 @@
-"""Who holds a name, asked of a master and of nodes that this test plays."""
+"""Which node holds a name, asked of a master and of nodes that this test plays."""
 
 import socket
 import threading

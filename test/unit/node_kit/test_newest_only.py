@@ -193,7 +193,7 @@ class Near:
 
 @pytest.fixture
 def real():
-    """One end of a connection, with room for more."""
+    """One end of a connection, which takes more."""
     near, far = socket.socketpair()
     with near, far:
         yield near

@@ -68,7 +68,7 @@ def connection_of(message: Any) -> object:
 
 
 def _greet_in_time(self: Any, sock: socket.socket, client_addr: Any) -> None:
-    """In place of TCPROSServer's: greet a peer in a thread of its own, which ends in time."""
+    """In place of TCPROSServer's: greet each peer in another thread, which ends in time."""
 
     def greet() -> None:
         # Not the socket's own timeout, which would begin anew with every byte, and stay set.

@@ -105,8 +105,8 @@ UNTIL_RELEASED = (
 class VelocityPublisher(PromptPublisher):
     """Publishes geometry_msgs/Twist; a robot that was lost is not driven on when it is back.
 
-    A subscriber whose network was cut gets no velocity before all is released; neither does one
-    that appears in the middle of a motion of a stick that is held, such as a robot started anew.
+    A subscriber whose network was cut gets no velocity before all is released; nor does one
+    that connects in the middle of a motion, such as a robot that was restarted.
     """
 
     def __init__(self, name: str, warn: Callable[[str], object]) -> None:

@@ -1,4 +1,4 @@
-"""Questions to a master or a node that end in time, unlike rospy's own: who is where on the graph.
+"""Questions to a master or a node that end in time, unlike rospy's own: which node is where.
 
 Also: which node holds a name, and where the cockpit's page is.
 """
