@@ -33,7 +33,7 @@ class Graph:
         }
 
     def robots(self):
-        """Return the names of all robots: an odometry, or a subscriber of /joy. "" has no namespace."""
+        """Return the robots, by odometry or a subscriber of /joy; "" has no namespace."""
         driven = {
             robot_of(topic)
             for topic, nodes in self.subscribers.items()
