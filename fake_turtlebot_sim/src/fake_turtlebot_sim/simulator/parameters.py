@@ -72,28 +72,46 @@ def line_up(names: list[str]) -> dict[str, Pose]:
 class Parameters:
     """What can be set, with the defaults; README.md and config/fake_turtlebot.yaml explain each."""
 
-    rate: float = parameter(50.0, number(5.0, 1000.0, "Hz"))
-    cmd_vel_timeout: float = parameter(0.6, number(0.02, 60.0, "s"))
-    publish_tf: bool = parameter(True, switch)
-    wheel_separation: float = parameter(0.230, number(0.01, 10.0, "m"))
+    rate: float = parameter(50.0, number(5, 1000, "Hz"), "of odometry, transform and wheels")
+    cmd_vel_timeout: float = parameter(
+        0.6, number(0.02, 60.0, "s"), "after which a command counts no more"
+    )
+    publish_tf: bool = parameter(
+        True, switch, "false leaves the transform to another node, such as a filter"
+    )
+    wheel_separation: float = parameter(0.23, number(0.01, 10.0, "m"))
     wheel_radius: float = parameter(0.035, number(0.001, 5.0, "m"))
     max_linear_speed: float = parameter(0.7, number(0.01, 100.0, "m/s"))
-    max_angular_speed: float = parameter(pi, number(0.01, 100.0, "rad/s"))
-    max_linear_acceleration: float = parameter(0.0, _ACCELERATION)
+    max_angular_speed: float = parameter(pi, number(0.01, 100.0, "rad/s"), "180 deg/s", "pi")
+    max_linear_acceleration: float = parameter(
+        0.0, _ACCELERATION, "with a limit the robot also needs time to stop"
+    )
     max_angular_acceleration: float = parameter(0.0, _ANGULAR_ACCELERATION)
-    initial_x: float = parameter(0.0, _LENGTH)
+    initial_x: float = parameter(0.0, _LENGTH, "start pose in the odometry frame")
     initial_y: float = parameter(0.0, _LENGTH)
     initial_yaw: float = parameter(0.0, number(-2 * pi, 2 * pi, "rad"))
     odom_frame: str = parameter("odom", _FRAME)
     base_frame: str = parameter("base_footprint", _FRAME)
     left_wheel_joint: str = parameter("wheel_left_joint", _FRAME)
     right_wheel_joint: str = parameter("wheel_right_joint", _FRAME)
-    wheel_noise: float = parameter(0.0, number(0.0, 1.0, "m (standard deviation after 1 m)"))
-    wheel_radius_ratio: float = parameter(1.0, number(0.5, 2.0, "(right / left)"))
-    track_ratio: float = parameter(1.0, number(0.5, 2.0, "(actual / nominal)"))
-    seed: int = parameter(0, whole_number())
-    robots: dict[str, tuple[float, float, float]] = parameter({}, _robots)
-    world_frame: str = parameter("world", _FRAME)
+    wheel_noise: float = parameter(
+        0.0,
+        number(0.0, 1.0, "m (standard deviation after 1 m)"),
+        "of a wheel's measured travel; it grows with the root of the way",
+    )
+    wheel_radius_ratio: float = parameter(
+        1.0, number(0.5, 2.0, "(right / left)"), "of the actual wheels, UMBmark's E_d"
+    )
+    track_ratio: float = parameter(
+        1.0, number(0.5, 2.0, "(actual / nominal)"), "of the wheel separation, UMBmark's E_b"
+    )
+    seed: int = parameter(0, whole_number(), "the same seed (and name) gives the same noise")
+    robots: dict[str, Pose] = parameter(
+        {}, _robots, "several: how many, `[ada, bob]`, or `{ada: [x, y, yaw], ...}` [m, m, rad]"
+    )
+    world_frame: str = parameter(
+        "world", _FRAME, "in which the odometry frames of several robots lie"
+    )
 
     def period_ns(self) -> int:
         """Return the time between two messages [ns]."""
