@@ -49,8 +49,6 @@ class TabClosed(Way):
 
 
 class Hidden(Way):
-    """Another tab is chosen."""
-
     def lose(self):
         send = self.browser.send
         self.other = send("Target.createTarget", url="about:blank", background=True)["targetId"]

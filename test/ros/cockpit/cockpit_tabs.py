@@ -21,14 +21,11 @@ NEAR_M = 0.05  # at 0.35 m/s within a tenth of a second
 
 
 def publishers(topic):
-    """The names of the nodes that are registered for it."""
     state = rosgraph.Master(rospy.get_name()).getSystemState()
     return sorted(node for name, nodes in state[0] if name == topic for node in nodes)
 
 
 class Tabs(WithCockpit):
-    """One page for each test, and a robot."""
-
     def setUp(self):
         self.page = self.rig.page()
         self.page.__enter__()

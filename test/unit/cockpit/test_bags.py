@@ -19,8 +19,6 @@ from cockpit_server.seat import BAG, RefusedError
 
 
 class Hub:
-    """The seat, and what is to be done soon."""
-
     def __init__(self):
         self.soon = queue.Queue().put
         self.wait = self.soon.__self__.get
@@ -34,8 +32,6 @@ class Hub:
 
 
 class Page:
-    """One page, and the Bags that it speaks to."""
-
     def __init__(self):
         self.hub, self.sent = Hub(), []
         self.bags = bags.Bags(self.hub)
@@ -48,7 +44,6 @@ class Page:
         getattr(self.bags, f"on_{kind}")(self.client, 0.0, **fields)
 
     def open(self, name):
-        """Ask for a recording; what is done once it is read."""
         self.say("bag_open", name=name)
         done = self.hub.wait(timeout=60)
 

@@ -17,14 +17,11 @@ from cockpit_server.robots import LONGEST_JOY, Pads, Robots, joy_shown
 
 
 class Feeds:
-    """Keeps what is wanted, in the place of subscriptions."""
-
     def want(self, _owner, hears, every):
         self.hears = hears
 
 
 def page(**watch):
-    """(Client that watches, what it is sent)."""
     sent = []
     no, close = lambda: False, lambda: None
     one = Client(7, DRIVER, "x", lambda text: sent.append(json.loads(text)), no, no, close)

@@ -120,7 +120,6 @@ def test_an_input_may_be_a_tenth_of_a_second_later_than_the_fastest_one(room):
 
 
 def inputs_of_a_page_whose_clock_is_slow_by(share, room):
-    """How many inputs are taken in 400 s, one every 4 s."""
     sit(room)
     for n in range(1, 101):
         room.seat.beat(n, 4.0 * n)
