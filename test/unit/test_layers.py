@@ -60,13 +60,14 @@ joy_to_twist.console joy_to_twist.node
 cockpit_server.feeds cockpit_server.graph_watch cockpit_server.robots cockpit_server.joysticks
 cockpit_server.teleop cockpit_server.resets cockpit_server.plots cockpit_server.graph_view
 cockpit_server.logs cockpit_server.doctor cockpit_server.recording
-cockpit_server.shelf cockpit_server.bags cockpit_server.hub cockpit_server.web cockpit_server.node
+cockpit_server.bags cockpit_server.hub cockpit_server.web cockpit_server.node
 cockpit_server.program
 """.split()
 ALL = RULES + OUTER
 ALLOWED_IN_RULES = set(
     """
-    __future__ argparse bisect collections dataclasses difflib enum errno hmac html ipaddress itertools json
+    __future__ argparse bisect collections dataclasses difflib enum errno hmac html ipaddress
+    itertools json
     math numpy os random re struct sys types typing
     """.split()
 )

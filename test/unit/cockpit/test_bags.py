@@ -11,7 +11,7 @@ import rosbag
 import rospy
 from sensor_msgs.msg import Joy
 
-from cockpit_server import bags, shelf
+from cockpit_server import bags, recording
 from cockpit_server.access import DRIVER
 from cockpit_server.clients import Client
 from cockpit_server.recording import RecordingError, curves, read
@@ -83,7 +83,7 @@ def test_what_is_not_finite_is_left_out_of_curves(page):
 @pytest.mark.parametrize("broken", ["read", "encoded"])
 def test_what_cannot_be_shown_is_refused_and_not_opened(page, monkeypatch, broken):
     page.open("good.bag")()
-    monkeypatch.setattr(shelf, broken, lambda *_, **__: [].pop())
+    monkeypatch.setattr(recording, broken, lambda *_, **__: [].pop())
     page.open("odd.bag")()
     assert page.sent[-1]["kind"] == "refused"
     assert page.sent[-1]["why"].startswith("odd.bag: IndexError")
@@ -111,7 +111,7 @@ def test_a_page_opens_one_recording_at_a_time(page):
 
 def test_a_recording_is_read_once_for_all_pages(page, monkeypatch):
     read_so_far = []
-    monkeypatch.setattr(shelf, "read", lambda path: read_so_far.append(path.name) or read(path))
+    monkeypatch.setattr(recording, "read", lambda path: read_so_far.append(path.name) or read(path))
     for _ in range(3):
         for name in ("good.bag", "odd.bag"):
             page.open(name)()
@@ -119,7 +119,7 @@ def test_a_recording_is_read_once_for_all_pages(page, monkeypatch):
 
 
 def test_all_recordings_together_are_bounded(page, monkeypatch):
-    monkeypatch.setattr(shelf, "MOST_MESSAGES", 5)  # of 3 messages each there is room for one
+    monkeypatch.setattr(recording, "MOST_MESSAGES", 5)  # of 3 messages each there is room for one
     page.open("good.bag")()
     page.bags.prepare([page.client], 0.0)
     page.open("odd.bag")()
@@ -138,5 +138,5 @@ def test_what_is_no_file_is_refused_at_once_and_no_folder_is_named(tmp_path, mon
             read(tmp_path / name)
         assert str(error.value).startswith(f"{name}: ") and str(tmp_path) not in str(error.value)
     monkeypatch.chdir(tmp_path)
-    assert set(shelf.recordings(may_drive=True)) == {"joy.bag", "text.bag"}
-    assert set(shelf.recordings(may_drive=False)) == {"joy.bag"}  # nothing of this folder
+    assert set(recording.recordings(may_drive=True)) == {"joy.bag", "text.bag"}
+    assert set(recording.recordings(may_drive=False)) == {"joy.bag"}  # nothing of this folder
