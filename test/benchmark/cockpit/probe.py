@@ -2,7 +2,8 @@
 """Times inputs of a page until their /cmd_vel comes, beside messages that are sent back.
 
 probe.py COCKPIT_PORT ECHO_PORT COUNT [TOKEN] -> JSON: {"input": [s, ...], "echo": [s, ...],
-"losses": how often the operator was lost, "stalls": how often this program itself was held up}
+"losses": how often the operator was lost, "stalls": how often the machine held up this program or
+the echo, as it may hold up the cockpit}
 """
 
 import asyncio
@@ -68,8 +69,9 @@ async def connect(port, query=""):
 
 async def read_echo(socket):
     while True:
-        began = float(await socket.read_message())
-        heard["echo"].append(time.monotonic() - began)
+        took_s = time.monotonic() - float(await socket.read_message())
+        heard["echo"].append(took_s)
+        heard["stalls"] += took_s > STALL_S
 
 
 async def pause(seconds):

@@ -132,7 +132,7 @@ def test_a_flood_of_viewers(figure):
         f"≤ {milliseconds(MOST_FLOODED_S)}",
     )
     figure(
-        "velocities for inputs meanwhile; the operator lost; the driver's own program held up",
+        "velocities for inputs meanwhile; the operator lost; driver or echo held up",
         f"{share_driven:.1%}; {heard['losses']} times; {heard['stalls']} times",
         "all; never, unless held up",
     )  # fmt: skip

@@ -33,8 +33,15 @@ class Tabs(WithCockpit):
 
     def test_the_robot_is_where_its_odometry_says(self):
         self.page.watch(robots=True, look="")
+        self.page.say("reset", robot="")
+
+        def x():
+            self.page.wait_for("robots", lambda message: "" in message["robots"])
+            return self.page.of("robots")[-1]["robots"][""]["x"]
+
+        wait_for(lambda: x() == 0.0, "robot at its start")
         self.rig.drive(self.page)
-        wait_for(lambda: self.page.of("robots")[-1]["robots"][""]["x"] > 0.3, "way driven")
+        wait_for(lambda: x() > 0.3, "way driven")
         self.page.say("leave")
         self.rig.rest_after(time.time())
         at = rospy.wait_for_message("/odom", Odometry).pose.pose.position
