@@ -1,6 +1,5 @@
 """Recordings on pages: what is opened is what is shown and played."""
 
-import json
 import os
 import queue
 from math import inf, nan
@@ -12,10 +11,9 @@ import rospy
 from sensor_msgs.msg import Joy
 
 from cockpit_server import bags, recording
-from cockpit_server.access import DRIVER
-from cockpit_server.clients import Client
 from cockpit_server.recording import RecordingError, curves, read
 from cockpit_server.seat import BAG, RefusedError
+from tutorial_testing.seat_room import page as new_page
 
 
 class Hub:
@@ -33,12 +31,9 @@ class Hub:
 
 class Page:
     def __init__(self):
-        self.hub, self.sent = Hub(), []
+        self.hub = Hub()
         self.bags = bags.Bags(self.hub)
-        hear = lambda text: self.sent.append(json.loads(text))  # noqa: E731  short
-        no = lambda: False  # noqa: E731
-        self.client = Client(7, DRIVER, "x", hear, no, no, lambda: None)
-        self.client.watch = SimpleNamespace(bag=False)
+        self.client, self.sent = new_page()
 
     def say(self, kind, **fields):
         getattr(self.bags, f"on_{kind}")(self.client, 0.0, **fields)
