@@ -20,7 +20,8 @@ from tutorial_tools.command.completion import SCRIPT, candidates
 from tutorial_tools.command.set_up import is_done
 
 SCRIPTS = REPOSITORY / "common" / "tutorial_tools" / "scripts"
-COCKPIT = REPOSITORY / "common" / "cockpit" / "scripts" / "cockpit.py"
+PROGRAMS = {word: SCRIPTS / f"{word}.py" for word in ("demo", "join", "doctor")}
+PROGRAMS["cockpit"] = REPOSITORY / "common" / "cockpit" / "scripts" / "cockpit.py"
 PYTHON = "/usr/bin/python3"
 PYPI = "pypi=python:test/requirements.txt"
 WORDS = {  # word: (arguments as the help shows them, what it does)
@@ -153,29 +154,44 @@ def plan_of_test(kind: str | None, rest: list[str]) -> dict[str, list[str]]:
         sections, programs = [*sections, "browser"], ["chromium", "chromedriver"]
     if kind == "mutation" and (REPOSITORY / "test/mutation/requirements.txt").exists():
         builds = [*builds, "pypi=mutation:test/mutation/requirements.txt"]
-    command = [str(REPOSITORY / "test" / "run.py"), *([kind] if kind else []), *rest]
+    command = [str(REPOSITORY / "test" / "run.py"), *filter(None, [kind]), *rest]
     return {"sections": sections, "programs": programs, "builds": builds, "command": command}
+
+
+def plan_of_check(arguments: list[str]) -> dict[str, list[str]]:
+    """Return the plan of the checker, which reads its options itself."""
+    options = {argument.split("=")[0] for argument in arguments}
+    if not os.environ.get("TUTORIAL_IN") and not options & {"--in", "--all", "-h", "--help"}:
+        words = " ".join(["./tutorial check --in ~/ros/hydro/catkin_ws", *arguments])
+        fail(f"check: which workspace? For example: {words}", 2)
+    command = [PYTHON, "-m", "tutorial_check", *arguments]
+    return {"sections": ["demo", "more"], "builds": ["workspace"], "command": command}
+
+
+def plan_of_shell(word: str, command: list[str]) -> dict[str, list[str]]:
+    """Return the plan of a shell, or of one command in it."""
+    if word == "shell":
+        rc = REPOSITORY / "common/tutorial_tools/etc/shellrc"
+        command = ["bash", "--rcfile", str(rc), "-i"]
+    builds = ["workspace", PYPI.replace("pypi", "maybe", 1)]
+    return {"sections": ["demo", "more"], "builds": builds, "command": command}
 
 
 def plan(word: str, arguments: list[str]) -> dict[str, list[str]]:
     """Return the lists of the plan: sections of packages, programs, builds and the command."""
     if word == "check":
-        options = {argument.split("=")[0] for argument in arguments}
-        if not os.environ.get("TUTORIAL_IN") and not options & {"--in", "--all", "-h", "--help"}:
-            words = " ".join(["./tutorial check --in ~/ros/hydro/catkin_ws", *arguments])
-            fail(f"check: which workspace? For example: {words}", 2)
-        command = [PYTHON, "-m", "tutorial_check", *arguments]
+        return plan_of_check(arguments)
+    if word == "cockpit":  # which reads its options itself
+        command = [str(PROGRAMS[word]), *arguments]
         return {"sections": ["demo", "more"], "builds": ["workspace"], "command": command}
-    if word == "cockpit":
-        command = [str(COCKPIT), *arguments]
-        return {"sections": ["demo", "more"], "builds": ["workspace"], "command": command}
-    if word in ("bench", "lint", "docs"):
-        options, rest = parser_of(word).parse_known_args(arguments)
-    else:
-        options = parser_of(word).parse_args(arguments)
-    if word in ("demo", "join", "doctor"):
-        made = {"sections": ["doctor"] if word == "doctor" else ["demo", "more"]}
-        made.update(builds=["workspace"], command=[str(SCRIPTS / f"{word}.py"), *arguments])
+    options, rest = parser_of(word).parse_known_args(arguments)
+    if rest and word not in ("bench", "lint", "docs"):
+        parser_of(word).error(f"unrecognized arguments: {' '.join(rest)}")
+    student = student_of(word, getattr(options, "student", None))
+    if word in PROGRAMS:
+        sections = ["doctor"] if word == "doctor" else ["demo", "more"]
+        command = [str(PROGRAMS[word]), *([] if word == "doctor" else arguments)]
+        made = {"sections": sections, "builds": ["workspace"], "command": command}
     elif word == "setup":
         made = {**plan_of_test(None, []), "command": []}
         made["sections"] = [] if options.part == "workspace" else made["sections"]
@@ -186,19 +202,11 @@ def plan(word: str, arguments: list[str]) -> dict[str, list[str]]:
             fail(f'bench: "{rest[0]}" has no folder in test/benchmark')
         made = plan_of_test("bench", rest)
     elif word in ("lint", "docs"):
-        command = [str(REPOSITORY / "test" / word), *rest]
-        made = {**plan_of_test(None, []), "command": command}
+        made = {**plan_of_test(None, []), "command": [str(REPOSITORY / "test" / word), *rest]}
     else:
-        rc = str(REPOSITORY / "common/tutorial_tools/etc/shellrc")
-        command = ["bash", "--rcfile", rc, "-i"]
-        command = command if word == "shell" else command_of_run(options.rest)
-        builds = ["workspace", PYPI.replace("pypi", "maybe", 1)]
-        made = {"sections": ["demo", "more"], "builds": builds, "command": command}
-    student = student_of(word, getattr(options, "student", None))
-    if word == "doctor":
-        made["command"] = made["command"][:1]
+        made = plan_of_shell(word, command_of_run(options.rest) if word == "run" else [])
     if student:
-        made = {**made, "student": [student], "builds": [*made["builds"], f"student={student}"]}
+        made.update(student=[student], builds=[*made["builds"], f"student={student}"])
     return made
 
 
