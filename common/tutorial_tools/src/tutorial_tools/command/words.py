@@ -85,7 +85,7 @@ def parser_of(word: str) -> Parser:
         add("--in", dest="student", metavar="WORKSPACE", help="your own catkin workspace")
     if word == "demo":
         told = "end after this time, with a line on the drive; exit code 0 if the robot moved"
-        add("--for", type=above_zero, metavar="SECONDS", help=told)
+        add("--for", dest="duration_s", type=above_zero, metavar="SECONDS", help=told)
         add("arguments", nargs="*", metavar="NAME:=VALUE", help="for launch_bag.launch")
     elif word == "join":
         add("host", metavar="HOST", help="the teacher's machine, or HOST:PORT")
