@@ -250,15 +250,3 @@ def test_a_cut_network_and_its_return(request):
         world.network = network
         stack.enter_context(network["phone"].inside())
         lose_and_come_back(request, CUT, world)
-
-
-def test_a_second_driver_changes_nothing(world):
-    with driving(world, AltTab) as (_, hands), Chromium() as second:
-        second.open(world.address)
-        hands.drive(world)
-        # Its button is off; one who asks all the same is refused.
-        script = "const b = document.getElementById('take'); b.disabled = false; b.click()"
-        second.driver.execute_script(script)
-        second.wait_for_text("#notice", "drive:")
-        assert "drives the robot" in second.text("#seat")
-        hands.drive(world)

@@ -16,7 +16,7 @@ def run(page, script, module):
 
 
 def test_an_open_recording_is_opened_anew_and_nothing_is_published(page):
-    script = """const tab = new tabs.BagTab(link, watch, () => "");
+    script = """const tab = new tabs.BagTab(link, watch, {look: () => ""});
     hear("hello", {});
     const before = sent.length;
     hear("bag", {path: "joy.bag", start: 0, end: 2, curves: {},

@@ -14,10 +14,6 @@ from tutorial_testing.waiting import wait_for
 PERIOD_S = 0.05
 REST = ([0.0] * 6, [0] * 12)
 DRIVE = ([0.0, 1.0, 0.0, 0.0, 0.0, 0.0], [0, 0, 0, 0, 1] + [0] * 7)
-LOOK = {
-    "robots": False, "look": None, "graph": False, "topic": None, "node": None, "fields": [],
-    "field_list": False, "log": False, "bag": False,
-}  # fmt: skip
 
 
 class SocketPage:
@@ -107,7 +103,7 @@ class SocketPage:
 
     def watch(self, **fields):
         """Look at something."""
-        self.say("watch", **{**LOOK, **fields})
+        self.say("watch", **fields)
 
     def close(self):
         """As a tab that is closed."""

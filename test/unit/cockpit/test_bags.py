@@ -42,9 +42,10 @@ class Page:
         hear = lambda text: self.sent.append(json.loads(text))  # noqa: E731  short
         no = lambda: False  # noqa: E731
         self.client = Client(7, DRIVER, "x", hear, no, no, lambda: None)
+        self.client.watch = SimpleNamespace(bag=False)
 
     def say(self, kind, **fields):
-        self.bags.handlers[kind](self.client, 0.0, **fields)
+        getattr(self.bags, f"on_{kind}")(self.client, 0.0, **fields)
 
     def open(self, name):
         """Ask for a recording; what is done once it is read."""

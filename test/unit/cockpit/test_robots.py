@@ -10,10 +10,10 @@ from std_msgs.msg import String
 
 from cockpit_server import robots as robots_module
 from cockpit_server.access import DRIVER
-from cockpit_server.clients import Client, Watch
+from cockpit_server.clients import Client
 from cockpit_server.graph import JOY, ODOMETRY, Graph
+from cockpit_server.graph_view import LONGEST_MESSAGE, Topic
 from cockpit_server.robots import LONGEST_JOY, Pads, Robots, joy_shown
-from cockpit_server.topics import LONGEST_MESSAGE, Topic
 
 
 class Feeds:
@@ -28,7 +28,7 @@ def page(**watch):
     sent = []
     no, close = lambda: False, lambda: None
     one = Client(7, DRIVER, "x", lambda text: sent.append(json.loads(text)), no, no, close)
-    one.watch = Watch(**watch)
+    one.watch = SimpleNamespace(**{"robots": False, "look": None, **watch})
     return one, sent
 
 

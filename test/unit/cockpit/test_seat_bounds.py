@@ -2,12 +2,12 @@
 
 import pytest
 
-from cockpit_server.seat import BAG, PAGE, Input, RefusedError, is_neutral
+from cockpit_server.seat import BAG, PAGE, Input, RefusedError
 from tutorial_testing.seat_room import ANNA, BOB, DRIVE, REST, Room
 
 LOWER = 0  # a client that came before the others
-SILENT = (ANNA, "nothing came from the page for 0.2 s")
-FROZEN = (ANNA, "the gamepad stands still: it is frozen or out of reach")
+SILENT = (ANNA, "no input from the page for 0.2 s")
+FROZEN = (ANNA, "the gamepad sends nothing new: it is frozen or out of reach")
 STICK = ((0.0, 0.5, 0.0, 0.0, 0.0, 0.0), DRIVE[1])
 
 
@@ -65,12 +65,6 @@ def test_a_page_counts_its_inputs_from_one(room):
     hand(room, 1, 0.0)
     hand(room, 7, 0.0)  # others were lost on the way
     assert room.seat.newest == 7 and room.sent == 2 * [("ada", *REST)]
-
-
-def test_a_tenth_of_a_stick_is_released_and_no_more():
-    assert is_neutral((0.1, -0.1, 0.0, 0.0, 0.0, 0.0), REST[1])
-    assert not is_neutral((0.1001, 0.0, 0.0, 0.0, 0.0, 0.0), REST[1])
-    assert not is_neutral((-0.1001, 0.0, 0.0, 0.0, 0.0, 0.0), REST[1])
 
 
 def test_after_a_fifth_of_a_second_without_input_the_operator_is_lost(room):
@@ -150,7 +144,7 @@ def test_five_seconds_without_input_free_the_seat(room):
     assert room.seat.driver == ANNA
     room.seat.tick(5.001)
     assert room.seat.state == (None, "", PAGE, False, "")  # it stood before
-    assert room.lost[-1] == (ANNA, "the page was away for too long")
+    assert room.lost[-1] == (ANNA, "no input from the page for 5 s")
 
 
 def ticking(room, ticks, pad=0.0):
@@ -238,9 +232,9 @@ def test_who_does_not_sit_there_has_no_say(room, other):
     room.seat.release(other, "hidden")
     room.seat.gone(other)
     room.say(DRIVE, client=other)
-    with pytest.raises(RefusedError, match="only who drives may hand over"):
+    with pytest.raises(RefusedError, match="only the page that drives may hand over"):
         room.seat.hand_over(other, other, room.now)
-    with pytest.raises(RefusedError, match="somebody else drives; who drives may hand over"):
+    with pytest.raises(RefusedError, match="another page drives; its driver may hand over"):
         room.seat.take(other, "ada", PAGE, room.now)
     assert (room.sent, room.lost) == ([], [])
     assert room.seat.state == (ANNA, "ada", PAGE, True, "")
@@ -248,15 +242,9 @@ def test_who_does_not_sit_there_has_no_say(room, other):
 
 def test_a_recording_is_not_handed_over(room):
     room.seat.take(ANNA, "ada", BAG, room.now)
-    with pytest.raises(RefusedError, match="only who drives may hand over"):
+    with pytest.raises(RefusedError, match="only the page that drives may hand over"):
         room.seat.hand_over(ANNA, BOB, room.now)
     assert room.seat.driver == ANNA
-
-
-def test_a_recording_does_not_play_where_a_hand_drives(room):
-    room.drive()
-    room.seat.play(*STICK)
-    assert room.sent == []
 
 
 def test_a_recording_that_ends_before_its_first_message_sends_nothing(room):

@@ -11,14 +11,15 @@ from geometry_msgs.msg import Quaternion
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Joy
 
-from cockpit_server.access import DRIVER, VIEWER
-from cockpit_server.clients import LONGEST_FLOOD, Client, encoded, name_of
+from cockpit_server.access import DRIVER
+from cockpit_server.clients import LONGEST_FLOOD, Client, encoded
 from cockpit_server.doctor import shown
 from cockpit_server.fields import numeric_fields, parts_of, split, value_at
 from cockpit_server.graph import Graph, without
+from cockpit_server.logs import without_folders
 from cockpit_server.motion import Motion, covered, motion
 from cockpit_server.plots import class_of, fields_of
-from cockpit_server.recording import RecordingError, corners, curves, read
+from cockpit_server.recording import corners, curves
 from cockpit_server.resets import reset_service
 from cockpit_server.robots import shown as robot_shown
 from cockpit_server.seat import RefusedError
@@ -95,12 +96,6 @@ def test_the_motion_of_an_odometry():
 def test_the_way_covered(x, yaw, way):
     last = Motion(1.0 if x else 0.2, 0.0, yaw, 0.5, 0.0)
     assert covered(last, Motion(x, 0.0, yaw, 0.5, 0.0), 7.0) == pytest.approx(way)
-
-
-def test_the_way_covered_goes_on_after_nowhere():
-    nowhere, here = Motion(nan, 0.0, 0.5, 0.5, 0.0), Motion(1.0, 0.0, 0.5, 0.5, 0.0)
-    assert covered(nowhere, here, 7.0) == 7.0
-    assert covered(here, here._replace(x=1.5), 7.0) == 7.5  # LONGEST_STEP_M
 
 
 def test_a_place_that_is_none_is_left_out():
@@ -187,34 +182,19 @@ def test_curves_keep_their_corners():
     assert set(curves(joys)) == {"/joy/axes[0]", "/joy/axes[1]", "/joy/buttons[0]"}
 
 
-def test_a_recording_that_is_none(tmp_path):
-    (tmp_path / "x.bag").write_text("no bag")
-    for name in ("x.bag", "nothing.bag"):
-        with pytest.raises(RecordingError, match=name):
-            read(tmp_path / name)
-
-
-def test_names_of_pages():
-    agent = "Mozilla/5.0 (Linux; Android 14) AppleWebKit/537 Chrome/120 Safari/537"
-    assert name_of(agent, "10.0.0.5") == "Chromium on Android, 10.0.0.5"
-    assert name_of("", "::1") == "a program, ::1"
+@pytest.mark.parametrize(
+    ("text", "shown_text"),
+    [("in /home/ada/ws/x.bag", "in ./x.bag"), ("/home/ada/.ros/log", "~/.ros/log"),
+     ("/home/ada", "~"), ("/home/ada2/x /home/ada/ws-2", "/home/ada2/x ~/ws-2")],
+)  # fmt: skip
+def test_folders_of_the_server_are_not_shown(text, shown_text):
+    assert without_folders(text, "/home/ada", "/home/ada/ws") == shown_text
 
 
 def test_a_message_is_json_without_infinity():
     assert json.loads(encoded("x", y=1)) == {"kind": "x", "y": 1}
     with pytest.raises(ValueError):
         encoded("x", y=float("inf"))
-
-
-def test_a_client_gets_each_version_once():
-    _, one = client()
-    assert one.lacks("seat", 1) and not one.lacks("seat", 1) and one.lacks("seat", 2)
-
-
-def test_a_viewer_may_not_drive():
-    client(DRIVER)[1].must_drive()
-    with pytest.raises(RefusedError, match="only look"):
-        client(VIEWER)[1].must_drive()
 
 
 def test_a_flood_is_dropped_and_then_closed():

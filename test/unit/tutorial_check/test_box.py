@@ -71,16 +71,17 @@ one.clear()
 """
 
 
-@pytest.mark.skipif(not place.granted()[0], reason="no isolation here: no crowd can be counted")
+@pytest.mark.skipif(not place.granted().options, reason="no isolation: no crowd can be counted")
 @pytest.mark.parametrize(("program", "seen"), [("true", "few"), ("sleep 3600", "it starts itself")])
 def test_only_the_living_are_a_crowd(program, seen):
     all_of_it = ["--bind", "/", "/", "--proc", "/proc", "--dev", "/dev"]
     done = subprocess.run(
-        [*place.granted()[0], *all_of_it, sys.executable, "-c", CROWD, program],
+        [*place.granted().options, *all_of_it, sys.executable, "-c", CROWD, program],
         capture_output=True,
         text=True,
         check=False,
         timeout=120,
+        pass_fds=place.granted().descriptors,
     )
     assert done.stdout.startswith(seen), done
 

@@ -2,6 +2,7 @@
 
 import json
 import xml.etree.ElementTree as ET
+from pathlib import Path
 
 import pytest
 
@@ -15,6 +16,7 @@ from tutorial_check.formats import (
     without_hints,
 )
 from tutorial_check.model import NOTE, OK, UNREACHED, WRONG, Result
+from tutorial_check.professor import Student, table_csv, table_html
 from tutorial_check.report import summary, text_of
 
 GOOD = Outcome("2", [Result("C1", OK, "one"), Result("C2", NOTE, "two", seen="odd")], 1.0, True)
@@ -125,6 +127,14 @@ def test_an_exercise_with_nothing_to_check_is_not_done():
     note = Result("C11", "note", "a recording", seen="no bag", empty=True)
     empty = Outcome("4.2", [note], done=True)
     assert summary([GOOD, empty]) == "1 of 2 exercises done (4.2: nothing to check)"
+    told = json.loads(as_json([GOOD, empty]))
+    assert (told["passed"], told["total"]) == (1, 2)
+    words = [(each["passed"], each["nothing_to_check"]) for each in told["exercises"]]
+    assert words == [(True, False), (False, True)]
+    students = [Student("ann", Path("ann"), [GOOD, empty])]
+    cells = table_csv(students, [GOOD.id, "4.2"]).splitlines()[1].split(",")
+    assert cells[1:4] == ["ok", "not done", "1"]
+    assert ">not done<" in table_html(students, [GOOD.id, "4.2"])
 
 
 def test_text():

@@ -14,7 +14,7 @@ from tutorial_check import place
 from tutorial_check.box import Box
 from tutorial_check.forked import Helper
 
-isolated = pytest.mark.skipif(not place.granted()[0], reason="no isolation is granted here")
+isolated = pytest.mark.skipif(not place.granted().options, reason="no isolation is granted here")
 LOOK = """
 import os, sys
 for path in sys.argv[1:]:
@@ -56,6 +56,7 @@ def run(home, text, *words, shown=SHOWN):
         text=True,
         check=False,
         timeout=60,
+        pass_fds=place.granted().descriptors,
     )
     assert done.returncode == 0, done.stderr
     return done.stdout.splitlines()
@@ -102,12 +103,24 @@ def test_nothing_of_the_system_is_left_to_write_to_or_to_speak_to(home):
 @isolated
 @pytest.mark.parametrize("folder", ["/tmp", "/var/tmp", "/dev/shm", "scratch"])
 def test_what_is_written_is_limited(home, folder, monkeypatch):
-    if not place.granted()[1]:
+    if not place.granted().is_limited:
         pytest.skip("this bubblewrap is too old to limit it")
     monkeypatch.setattr(place, "SCRATCH_MB", 64)
     text = "import os, sys; os.posix_fallocate(os.open(sys.argv[1], os.O_CREAT | 1), 0, 65 << 20)"
     with pytest.raises(AssertionError, match="No space left on device"):
         run(home, text, home / folder / "new")
+
+
+@isolated
+def test_no_program_makes_user_namespaces_in_which_nothing_is_limited(home):
+    if not place.granted().is_limited:
+        pytest.skip("this bubblewrap is too old, or the kernel forbids, to limit it")
+    text = (
+        "import ctypes, os, sys\n"
+        "os.geteuid() or os.setuid(2_000_000)\n"
+        "print(ctypes.CDLL(None).unshare(0x10000000))\n"
+    )
+    assert run(home, text) == ["-1"]
 
 
 @isolated
@@ -175,9 +188,9 @@ def test_a_program_neither_reaches_the_result_nor_gains_rights(stranger):
 @pytest.mark.parametrize(
     ("granted", "told"),
     [
-        (((), False, "bwrap: refused"), "no isolation here (bwrap: refused): a program "),
-        ((("bwrap",), False, ""), "too old (0.7) to limit"),
-        ((("bwrap",), True, ""), ""),
+        (place.Isolation(why="bwrap: refused"), "no isolation here (bwrap: refused): a program "),
+        (place.Isolation(("bwrap",), is_limited=False), "is not limited"),
+        (place.Isolation(("bwrap",)), ""),
     ],
 )
 def test_what_the_system_does_not_provide_is_told(monkeypatch, granted, told):
@@ -193,4 +206,4 @@ def test_where_it_does_not_work_it_says_why(monkeypatch, tmp_path, script):
         (tmp_path / "bwrap").chmod(0o755)
     monkeypatch.setenv("PATH", str(tmp_path) if not script else f"{tmp_path}:/bin")
     why = "bwrap: No permissions" if script else "bubblewrap is not installed"
-    assert place.granted.__wrapped__() == ((), False, why)
+    assert place.granted.__wrapped__() == place.Isolation(why=why)

@@ -3,6 +3,7 @@
 import csv
 import os
 import re
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -121,11 +122,15 @@ def test_what_is_no_folder_and_no_zip_has_a_row_all_the_same(room):
     assert names == ["ADA", "bob.tar.gz", "carl.7z", "dora.ZIP", "dora.zip", "emma", "loop"]
 
 
-def test_a_link_to_a_zip_is_not_followed(room, tmp_path):
+@pytest.mark.parametrize("name", ["ada.zip", "ada"])
+def test_a_link_is_not_followed(room, tmp_path, name):
+    (tmp_path / "outside" / "src").mkdir(parents=True)
     (tmp_path / "outside.zip").touch()
-    (room / "ada.zip").symlink_to(tmp_path / "outside.zip")
+    (room / name).symlink_to(tmp_path / f"outside{Path(name).suffix}")
     check_all(room)
-    assert "could not be checked: a link to an archive" in (room / "check" / "ada.txt").read_text()
+    assert (
+        "could not be checked: a link is not followed" in (room / "check" / "ada.txt").read_text()
+    )
 
 
 def test_the_results_of_an_earlier_check_are_no_student(room, tmp_path, capsys):

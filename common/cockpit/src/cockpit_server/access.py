@@ -16,16 +16,14 @@ DRIVER, VIEWER = "driver", "viewer"
 
 @dataclass(frozen=True)
 class Access:
-    """names: of this machine. Without tokens whoever reaches the server may drive: only this
-    machine does.
-    """
+    """names: of this machine. Without tokens, every client may drive: all are on this machine."""
 
     names: Tuple[str, ...] = ("localhost",)
     driver_token: Optional[str] = None
     viewer_token: Optional[str] = None
 
     def is_ours(self, host):
-        """Whether a Host header, NAME or NAME:PORT, means this machine."""
+        """Return whether a Host header, NAME or NAME:PORT, means this machine."""
         found = re.fullmatch(r"(\[[0-9a-fA-F:.]+\]|[^:\[\]]+)(:\d{1,5})?", host or "")
         if not found:
             return False
@@ -37,15 +35,15 @@ class Access:
         return self.driver_token is not None or address.is_loopback
 
     def may_request(self, host, origin):
-        """Whether a request may be answered. origin: the header, None if there is none."""
+        """Return whether a request may be answered. origin: the header, or None."""
         return self.is_ours(host) and origin in (None, f"http://{host}")
 
     def may_connect(self, host, origin):
-        """Whether a WebSocket may be opened; every browser gives its Origin."""
+        """Return whether a WebSocket may be opened; every browser sends its Origin."""
         return origin is not None and self.may_request(host, origin)
 
     def role(self, token):
-        """DRIVER, VIEWER, or None if the token (None: there is none) is wrong."""
+        """Return DRIVER, VIEWER, or None if the token is wrong or missing."""
         if self.driver_token is None:
             return DRIVER
         given = (token or "").encode()
@@ -56,5 +54,5 @@ class Access:
 
 
 def without_token(uri):
-    """A request's path and query as it may be logged."""
+    """Return a request's path and query as it may be logged."""
     return re.sub(r"(?i)(tok[^=&?]*=)[^&\s]*", r"\1...", uri)

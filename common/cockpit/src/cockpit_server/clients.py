@@ -2,7 +2,7 @@
 
 import json
 from dataclasses import dataclass, field
-from typing import ClassVar, Optional, Tuple
+from typing import Any, Callable, ClassVar, Mapping, Tuple
 
 from cockpit_server.access import DRIVER
 from cockpit_server.budget import BURST_S, Budget
@@ -18,21 +18,6 @@ SYSTEMS = (
     ("Android", "Android"), ("iPhone", "iPhone"), ("iPad", "iPad"), ("Windows", "Windows"),
     ("Mac OS", "Mac"), ("CrOS", "ChromeOS"), ("Linux", "Linux"),
 )  # fmt: skip
-
-
-@dataclass(frozen=True)
-class Watch:
-    """What a page wants to see; see schema.MESSAGES."""
-
-    robots: bool = False
-    look: Optional[str] = None
-    graph: bool = False
-    topic: Optional[str] = None
-    node: Optional[str] = None
-    fields: Tuple[str, ...] = ()
-    field_list: bool = False
-    log: bool = False
-    bag: bool = False
 
 
 @dataclass(eq=False)
@@ -51,7 +36,8 @@ class Client:
     is_cut: callable
     close: callable
     address: str = ""
-    watch: Watch = Watch()
+    spoke_at: float = 0.0  # when it was opened or sent a message last [s]
+    watch: Any = None  # what it wants to see, by the names in the sources' watches
     seen: dict = field(default_factory=dict)  # by what it is about: the newest that was sent
     flood: int = 0
     budget: Budget = field(default_factory=lambda: Budget(BURST_S))
@@ -60,32 +46,29 @@ class Client:
 
     @property
     def drives(self):
-        """Whether it may."""
         return self.role == DRIVER
 
     def must_drive(self):
-        """Raise RefusedError if it may not."""
         if not self.drives:
             raise RefusedError("this page was opened with the viewers' token: it may only look")
 
     def send(self, kind, **fields):
-        """Send a message."""
         self.write(encoded(kind, **fields))
 
     def refuse(self, what, why, now):
-        """Tell what was not done, and why, though not without end."""
+        """Report what was not done and why, at a bounded rate."""
         if self.may_hear_no.ready(now):
             self.send("refused", what=what, why=why)
 
     def lacks(self, about, version):
-        """Whether the client has not got this version; from now on it has."""
+        """Return whether the client lacks this version; from now on it has it."""
         if self.seen.get(about) == version:
             return False
         self.seen[about] = version
         return True
 
     def allows(self, now):
-        """Whether one more message may be read; a flood closes the connection."""
+        """Return whether one more message may be read; close the connection after a flood."""
         if self.may_send.ready(now):
             return True
         self.flood += 1
@@ -95,11 +78,14 @@ class Client:
 
 
 class Source:
-    """Something that pages see. handlers: what is called for a kind of message that a page sends,
-    with the client, the time [s] and the fields.
+    """Something that pages see, and the messages that they may send about it.
+
+    watches: name -> (check of schema, value for a page that does not ask for it).
+    messages: kind -> {field: check}; each calls on_KIND(client, now [s], **fields).
     """
 
-    handlers: ClassVar[dict] = {}
+    watches: ClassVar[Mapping[str, Tuple[Callable[[Any], Any], Any]]] = {}
+    messages: ClassVar[Mapping[str, Mapping[str, Callable[[Any], Any]]]] = {}
 
     def prepare(self, clients, now):
         """Gather what these clients want to see; twenty times a second."""
@@ -109,12 +95,12 @@ class Source:
 
 
 def encoded(kind, **fields):
-    """A message as it is sent: JSON, which knows no infinity."""
+    """Return a message as JSON; infinity is a ValueError."""
     return json.dumps({"kind": kind, **fields}, allow_nan=False, separators=(",", ":"))
 
 
 def name_of(user_agent, address):
-    """A page's name for people, such as "Chromium on Linux, 192.168.1.5"."""
+    """Return a name of a page for people, such as "Chromium on Linux, 192.168.1.5"."""
     browser = next((name for mark, name in BROWSERS if mark in user_agent), "a program")
     system = next((f" on {name}" for mark, name in SYSTEMS if mark in user_agent), "")
     return f"{browser}{system}, {address}"

@@ -15,9 +15,7 @@ _PART = re.compile(r"([A-Za-z]\w*)(?:\[(\d{1,6})\])?")
 
 
 def numeric_fields(kind, class_of, depth=DEEPEST):
-    """The names of the numbers in messages of a class. class_of: gives the class of a type's name,
-    or None.
-    """
+    """Yield the names of a class's numbers. class_of: type name -> class or None."""
     if depth == 0:
         return
     for name, slot_type in zip(kind.__slots__, kind._slot_types):
@@ -38,7 +36,7 @@ def numeric_fields(kind, class_of, depth=DEEPEST):
 
 
 def parts_of(field):
-    """[(name, index or None)] of a field's name. Raises ValueError."""
+    """Return [(name, index or None)] of a field's name. Raises ValueError."""
     parts = [_PART.fullmatch(part) for part in field.split("/")]
     if not all(parts) or len(parts) > DEEPEST:
         raise ValueError(f"{field!r} is no field: write it as pose/position/x or axes[0]")
@@ -46,7 +44,7 @@ def parts_of(field):
 
 
 def value_at(message, parts):
-    """The number at parts_of(...) as a float, or None if the message has none there."""
+    """Return the number at parts_of(...) as a float, or None."""
     for name, index in parts:
         if name not in getattr(message, "__slots__", ()):
             return None
@@ -61,7 +59,7 @@ def value_at(message, parts):
 
 
 def split(field, topics):
-    """(topic, the rest) of a field of one of the topics. Raises ValueError."""
+    """Return (topic, rest) of a field of one of the topics. Raises ValueError."""
     fitting = [topic for topic in topics if field.startswith(f"{topic}/")]
     if not fitting:
         raise ValueError(f"{field!r} belongs to no topic that is published")

@@ -8,9 +8,7 @@ ODOMETRY, JOY = "nav_msgs/Odometry", "sensor_msgs/Joy"
 
 @dataclass(frozen=True)
 class Graph:
-    """publishers, subscribers: topic -> names of nodes; services: name -> names of nodes; types:
-    topic -> type; machines: node -> the machine that it runs on.
-    """
+    """By name: nodes of publishers, subscribers, services; types; machines of nodes."""
 
     publishers: Dict[str, FrozenSet[str]] = field(default_factory=dict)
     subscribers: Dict[str, FrozenSet[str]] = field(default_factory=dict)
@@ -20,17 +18,14 @@ class Graph:
 
     @property
     def nodes(self):
-        """The names of all nodes."""
         columns = (self.publishers, self.subscribers, self.services)
         return {node for column in columns for nodes in column.values() for node in nodes}
 
     @property
     def published(self):
-        """The topics that somebody publishes, in alphabetical order."""
         return sorted(topic for topic, nodes in self.publishers.items() if nodes)
 
     def robots_with_odometry(self):
-        """The names of all robots that say where they are."""
         return {
             robot_of(topic)
             for topic in self.published
@@ -38,7 +33,7 @@ class Graph:
         }
 
     def robots(self):
-        """The names of all robots, "" is the one without: they have an odometry, or hear a /joy."""
+        """Return the names of all robots: an odometry, or a subscriber of /joy. "" has no namespace."""
         driven = {
             robot_of(topic)
             for topic, nodes in self.subscribers.items()
@@ -47,7 +42,7 @@ class Graph:
         return self.robots_with_odometry() | driven
 
     def parts(self):
-        """nodes, topics and edges as pages get them."""
+        """Return nodes, topics and edges as pages get them."""
         edges = [
             edge
             for topic in sorted(set(self.publishers) | set(self.subscribers))
@@ -73,7 +68,7 @@ class Graph:
             yield {"from": this, "to": f"node {node}"}
 
     def about_node(self, name):
-        """What a node does, as pages get it."""
+        """Return what a node does, as pages get it."""
         publishes = users_of(self.publishers, name)
         subscribes = users_of(self.subscribers, name)
         others = {n for topic in publishes for n in self.subscribers.get(topic, ())}
@@ -89,19 +84,21 @@ class Graph:
 
 
 def users_of(column, node):
-    """The names under which a node stands in a column of the graph."""
     return sorted(name for name, nodes in column.items() if node in nodes)
 
 
+def topic_of(robot, name):
+    """Return the name of a robot's topic; the robot "" has no namespace."""
+    return f"/{robot}/{name}" if robot else f"/{name}"
+
+
 def robot_of(topic):
-    """The robot that a topic belongs to: its namespace."""
+    """Return the robot that a topic belongs to: its namespace."""
     return topic.rsplit("/", 1)[0].strip("/")
 
 
 def without(name, column, shown_in=()):
-    """A column of getSystemState() as {name: nodes}, without one node, but where it is to be shown:
-    the cockpit only looks at robots, and is a part of the graph where it moves them.
-    """
+    """Return a column of getSystemState() as {entry: nodes}, with a node in shown_in only."""
     users = {
         entry: frozenset(nodes) - ({name} if entry not in shown_in else set())
         for entry, nodes in column

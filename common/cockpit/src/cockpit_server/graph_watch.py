@@ -6,17 +6,16 @@ from urllib.parse import urlsplit
 
 import rosgraph
 
-from cockpit_server.graph import JOY, Graph, without
+from cockpit_server.graph import JOY, Graph, topic_of, without
 from node_kit.questions import Answer, call
 
 PERIOD_S = 1.0
 
 
 class GraphWatch:
-    """The newest Graph, and a number that grows with each change of it."""
+    """The newest Graph, without this node except as a joystick; version grows with each change."""
 
     def __init__(self, own_name):
-        """own_name: of this node, which is left out, but as a joystick."""
         self._own_name = own_name
         self._uri = rosgraph.get_master_uri()
         self.graph, self.version = Graph(), 0
@@ -25,19 +24,18 @@ class GraphWatch:
         self.look()
 
     def joysticks(self, robot):
-        """The names of the other nodes that publish a robot's joystick."""
+        """Return the names of the other nodes that publish a robot's joystick."""
         return tuple(sorted(self._others(self.graph.publishers, robot)))
 
     def joystick_listeners(self, robot):
-        """The names of the other nodes that are registered to hear a robot's joystick."""
+        """Return the names of the other nodes that subscribe to a robot's joystick."""
         return self._others(self.graph.subscribers, robot)
 
     def _others(self, column, robot):
-        topic = f"/{robot}/joy" if robot else "/joy"
-        return column.get(topic, frozenset()) - {self._own_name}
+        return column.get(topic_of(robot, "joy"), frozenset()) - {self._own_name}
 
     def start(self, lost):
-        """Look again and again, in a thread of its own. lost: called when the master has gone."""
+        """Look once a second, in a thread. lost: called when the master has gone."""
         threading.Thread(target=self._run, args=(lost,), daemon=True).start()
 
     def _run(self, lost):
@@ -47,7 +45,6 @@ class GraphWatch:
         lost()
 
     def look(self):
-        """Ask once."""
         answer, state = call(self._uri, "getSystemState", caller=self._own_name)
         if answer is Answer.SILENT:
             return

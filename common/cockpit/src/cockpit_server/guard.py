@@ -4,14 +4,13 @@ MOST_TOLD = 100  # things; a page may ask for any number of topics that are none
 
 
 class Guard:
-    """Calls what may fail; of each thing that does it tells once."""
+    """Calls what may fail, and reports the first failure of each thing."""
 
     def __init__(self, tell):
-        """tell: called with a line; it must not wait."""
         self._tell, self._told = tell, set()
 
     def __call__(self, about, action, *arguments):
-        """Do something. about: what a failure is told of, such as the name of a tab's source."""
+        """Do something. about: what fails, such as the name of a source."""
         try:
             action(*arguments)
         except Exception as error:  # whatever it is, it is a fault of that thing alone

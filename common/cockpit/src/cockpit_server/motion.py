@@ -26,7 +26,7 @@ class Motion(NamedTuple):
 
 
 def motion(data):
-    """The Motion; struct.error if the bytes are none. Of thirty robots nobody reads covariances."""
+    """Return the Motion, without the covariances; struct.error if the bytes are too short."""
     at = _HEADER_BYTES
     at += 4 + _LENGTH.unpack_from(data, at)[0]
     at += 4 + _LENGTH.unpack_from(data, at)[0]
@@ -36,13 +36,12 @@ def motion(data):
 
 
 def is_somewhere(state):
-    """Whether a Motion has a place that can be shown."""
     finite = isfinite(state.x) and isfinite(state.y) and isfinite(state.yaw)
     return finite and max(abs(state.x), abs(state.y)) <= FARTHEST_M
 
 
 def covered(last, new, so_far):
-    """The way [m] since the robot was put where it began; so_far: until the last Motion."""
+    """Return the distance [m] since the last reset; so_far: until the last Motion."""
     if new.x == new.y == new.yaw == 0.0:  # as a reset has it, and no drive by chance
         return 0.0
     step = hypot(new.x - last.x, new.y - last.y)

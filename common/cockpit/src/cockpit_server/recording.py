@@ -14,7 +14,7 @@ MOST_POINTS = 3000  # of a curve
 
 
 class RecordingError(Exception):
-    """It cannot be read; the text says in one line why."""
+    """It cannot be read; the text says why in one line."""
 
 
 class Recording(NamedTuple):
@@ -29,17 +29,15 @@ class Recording(NamedTuple):
 
     @property
     def duration(self):
-        """[s]."""
         return self.end - self.start
 
     @property
     def messages(self):
-        """How many are kept here."""
         return sum(map(len, self.joys.values()))
 
 
 def read(path):
-    """The Recording of a file. Raises RecordingError; it names the file, and no folder."""
+    """Return the Recording of a file. Raises RecordingError, which names no folder."""
     name = Path(path).name
     try:
         about = Path(path).stat()
@@ -75,9 +73,7 @@ def _read(bag, name):
 
 
 def curves(joys):
-    """{"/joy/axes[0]": [[time since the start [s], value], ...]} of all axes and buttons,
-    without what is no number that can be drawn.
-    """
+    """Return {"/joy/axes[0]": [[time [s], value], ...], ...}, finite values only."""
     found = {}
     for topic, messages in joys.items():
         step = len(messages) // MOST_POINTS + 1
@@ -94,7 +90,7 @@ def curves(joys):
 
 
 def corners(points):
-    """The points without those in the middle of a horizontal line."""
+    """Return the points without those inside a horizontal line."""
     inner = [
         point
         for before, point, after in zip(points, points[1:], points[2:])

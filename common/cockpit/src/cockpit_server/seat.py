@@ -26,7 +26,7 @@ PAGE, BAG = "page", "bag"
 
 
 class RefusedError(Exception):
-    """Something cannot be done; the text says in one line why."""
+    """Something cannot be done; the text says why in one line."""
 
 
 class Input(NamedTuple):
@@ -46,13 +46,12 @@ class Input(NamedTuple):
 
 
 def neutral_of(axes, buttons):
-    """(axes, buttons) of the same gamepad when nobody touches it."""
+    """Return (axes, buttons) of the same gamepad when it is released."""
     triggers = triggers_by_count(len(axes))
     return tuple([1.0 if i in triggers else 0.0 for i in range(len(axes))]), (0,) * len(buttons)
 
 
 def is_neutral(axes, buttons):
-    """Whether all buttons and sticks are released."""
     rest, _ = neutral_of(axes, buttons)
     return not any(buttons) and all(abs(a - r) <= NEUTRAL for a, r in zip(axes, rest))
 
@@ -84,7 +83,6 @@ class Seat:
 
     @property
     def state(self):
-        """What all pages are sent."""
         return self.driver, self.robot, self.how, self.armed, self.why
 
     def take(self, client, robot, how, now):
@@ -92,7 +90,7 @@ class Seat:
         if self._has_ended:
             raise RefusedError("the cockpit is being shut down")
         if self.driver not in (None, client):
-            raise RefusedError("somebody else drives; who drives may hand over")
+            raise RefusedError("another page drives; its driver may hand over")
         self.leave(client)
         self.driver, self.robot, self.how = client, robot, how
         self.why, self.stopped = "", None
@@ -101,21 +99,19 @@ class Seat:
         self._beats.clear()
 
     def leave(self, client):
-        """Stand up, with the robot at rest."""
         if client == self.driver:
             self._rest()
             self._clear()
 
     def hand_over(self, client, to, now):
-        """Let another client sit down. Raises RefusedError if it is not client's to give."""
+        """Let another client sit down. Raises RefusedError."""
         if client != self.driver or self.how != PAGE:
-            raise RefusedError("only who drives may hand over")
+            raise RefusedError("only the page that drives may hand over")
         robot = self.robot
         self.leave(client)
         self.take(to, robot, PAGE, now)
 
     def beat(self, number, now):
-        """A beat of the server was sent."""
         self._beats[number] = now
         self._beats.pop(number - KEPT_BEATS, None)
 
@@ -129,7 +125,7 @@ class Seat:
         self.newest, self._fresh_at = message.n, now
         neutral = is_neutral(message.axes, message.buttons)
         if self._is_frozen(message, now) and not neutral:
-            self.lose("the gamepad stands still: it is frozen or out of reach")
+            self.lose("the gamepad sends nothing new: it is frozen or out of reach")
         if neutral and may_arm:
             self.armed = True
         if self.armed:
@@ -157,22 +153,20 @@ class Seat:
         return now - self._pad_at > FROZEN_S
 
     def play(self, axes, buttons):
-        """Publish a recorded message, for the client that sits here for that."""
         if self.how == BAG and self.driver is not None:
             self._publish(axes, buttons)
 
     def tick(self, now):
-        """Time has passed."""
         if self.driver is None or self.how == BAG:
             return
         silent_s = now - self._fresh_at
         if self.armed and silent_s > SILENCE_S:
-            self.lose(f"nothing came from the page for {SILENCE_S:g} s")
+            self.lose(f"no input from the page for {SILENCE_S:g} s")
         if silent_s > AWAY_S:
-            self.free("the page was away for too long")
+            self.free("no input from the page for 5 s")
 
     def lose(self, why):
-        """The operator is lost; the seat stays with the client, who may still be there."""
+        """Stop the robot; the client keeps the seat, as it may still be there."""
         if self.driver is None or not self.armed:
             return
         self._keep(why)
@@ -183,7 +177,7 @@ class Seat:
             self._clear()
 
     def free(self, why):
-        """The operator is lost, and so is the seat."""
+        """Stop the robot and free the seat."""
         driver = self.driver
         if driver is None:
             return
@@ -193,27 +187,24 @@ class Seat:
         self._tell_lost(driver, why)
 
     def _keep(self, why):
-        """Keep why a robot stands, if it was moved until now."""
+        """Keep the reason of a stop, if the robot moved until now."""
         if self.armed and self._last is not None and not is_neutral(*self._last):
             self.why, self.stopped = why, self.robot
 
     def moves_on(self, robot):
-        """A robot is moved again, by whatever: why it stood is worth reading no longer."""
+        """Forget why a robot stood: it moves again."""
         if robot == self.stopped:
             self.why, self.stopped = "", None
 
     def release(self, client, why):
-        """A page says that its operator is lost."""
         if client == self.driver:
             self.lose(why)
 
     def gone(self, client):
-        """A client has left."""
         if client == self.driver:
             self.free("the page was closed, or the network is down")
 
     def end(self):
-        """The server stops: the robot at rest, and nothing ever after."""
         self.free("the cockpit was shut down")
         self._has_ended = True
 

@@ -13,22 +13,21 @@ MOST_KEPT = 20  # recordings
 
 
 def recordings(may_drive):
-    """{name: path} of those that may be opened: ours, and to drivers those of this folder."""
+    """Return {name: path} of the suite's recording and, for drivers, those of this folder."""
     ours = Path(rospkg.RosPack().get_path("gamepad")) / "bag" / "joy.bag"
     here = sorted(filter(Path.is_file, Path.cwd().glob("*.bag"))) if may_drive else []
     return {path.name: path for path in [ours, *here[:MOST_NAMES]]}
 
 
 class Shelf:
-    """Used by one thread, but for in_use."""
+    """The recordings that were read. Used by one thread, except in_use."""
 
     def __init__(self):
-        """Nothing was read yet."""
         self._read = OrderedDict()  # what the file is -> (Recording, message of it to pages)
         self.in_use = ()  # Recordings that pages have open; set anew, never changed
 
     def take(self, path):
-        """(Recording, message) of a file. Raises RecordingError."""
+        """Return (Recording, message) of a file. Raises RecordingError."""
         try:
             about = path.stat()
         except OSError as error:

@@ -3,6 +3,7 @@
 import asyncio
 import logging
 import socket
+import time
 from pathlib import Path
 
 import rospkg
@@ -12,7 +13,7 @@ from tornado.web import Application, RequestHandler, StaticFileHandler
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
 from cockpit_server.access import without_token
-from cockpit_server.admission import connection_to_close, page_to_close
+from cockpit_server.admission import Page, connection_to_close, page_to_close
 from cockpit_server.clients import Client, name_of
 from cockpit_server.schema import LONGEST_MESSAGE
 from node_kit.newest_only import CUT_AFTER_RESENDS, resends
@@ -46,16 +47,17 @@ POLICY = (
 
 
 class _Guarded(RequestHandler):
-    """Answers only who names this machine, and is not sent by another page."""
+    """Answers requests that name this machine and come from no other page."""
 
     def set_default_headers(self):
         for name, value in HEADERS.items():
             self.set_header(name, value)
 
-    def prepare(self):
+    async def prepare(self):
+        await _wait_for_turn(self)
         host = self.request.host
         if not self.settings["access"].may_request(host, self.request.headers.get("Origin")):
-            self.refuse(403, "this address is not the cockpit's: open the one that it printed")
+            self.refuse(403, "not an address of the cockpit: open the one that it printed")
             return
         self.set_header("Content-Security-Policy", POLICY.format(host=host))
 
@@ -69,8 +71,15 @@ class _Guarded(RequestHandler):
         self.finish(f"{status_code}: nothing here\n")
 
 
+async def _wait_for_turn(handler):
+    """Delay a request by what its address has cost."""
+    wait_s = handler.settings["hub"].request_wait_s(handler.request.remote_ip)
+    if wait_s:
+        await asyncio.sleep(wait_s)
+
+
 class _Page(_Guarded):
-    """The page itself, for who has a token if one is needed."""
+    """The page, for a valid token if one is needed."""
 
     def get(self):
         role = self.settings["access"].role(self.get_query_argument("token", None))
@@ -82,17 +91,18 @@ class _Page(_Guarded):
 
 
 class _Files(_Guarded, StaticFileHandler):
-    """The page's scripts and styles, and the charts' ones."""
-
     def set_extra_headers(self, path):
         self.set_header("Cache-Control", "no-cache")
 
 
 class _Socket(WebSocketHandler):
-    """The way between a page and the Hub."""
+    """The connection between a page and the Hub."""
 
     client = None
     pings = fragments = 0
+
+    async def prepare(self):
+        await _wait_for_turn(self)
 
     async def get(self, *_, **__):
         access, hub = self.settings["access"], self.settings["hub"]
@@ -103,20 +113,22 @@ class _Socket(WebSocketHandler):
         elif self.role is None:
             self.refuse(403, "open the address that the cockpit printed, with its token")
         elif not self.has_room(list(hub.clients.values())):
-            self.refuse(503, f"{MOST_CLIENTS} pages are open: close one")
+            self.refuse(503, f"{MOST_CLIENTS} pages are open: close one, or try again later")
         else:
             await super().get()
 
     def has_room(self, clients):
-        """Whether one more page may be opened; a viewer of another may have to go for it."""
+        """Return whether one more page may be opened, for which a viewer may be closed."""
         if len(clients) < MOST_CLIENTS:
             return True
-        pages = [(one, one.role, one.address) for one in clients]
-        guest = page_to_close(pages, self.role, self.request.remote_ip)
-        if guest is not None:
-            self.settings["hub"].leave(guest)
-            guest.close()
-        return guest is not None
+        now = time.monotonic()
+        pages = [Page(one.number, one.role, one.address, now - one.spoke_at) for one in clients]
+        page = page_to_close(pages, self.role, self.request.remote_ip)
+        if page is not None:
+            closed = self.settings["hub"].clients[page.number]
+            self.settings["hub"].leave(closed)
+            closed.close()
+        return page is not None
 
     def refuse(self, status, why):
         self.set_status(status)
@@ -192,7 +204,7 @@ class _Socket(WebSocketHandler):
 
 
 class _Server(HTTPServer):
-    """Takes no more connections than there is room for; for a new one, one that waits has to go."""
+    """Bounds the connections; closes one that is not used for a new one."""
 
     def initialize(self, application, **more):
         super().initialize(application, **more)
@@ -214,7 +226,7 @@ class _Server(HTTPServer):
 
 
 def server(hub, access):
-    """The HTTP server; it does not listen yet."""
+    """Return the HTTP server; it does not listen yet."""
     for name in ("tornado.access", "tornado.general"):
         logging.getLogger(name).setLevel(logging.CRITICAL)  # whatever strangers send is no news
     logging.getLogger("tornado.application").addFilter(_hide_token)
@@ -252,9 +264,7 @@ def _hide_token(record):
 
 
 class _Nothing(_Guarded):
-    """Whatever else is asked for."""
-
-    def prepare(self):
-        super().prepare()
+    async def prepare(self):
+        await super().prepare()
         if not self._finished:
             self.refuse(404, "nothing here")

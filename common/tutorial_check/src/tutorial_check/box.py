@@ -58,7 +58,7 @@ class Box:
                 cwd=cwd or self.environment["HOME"],
                 env={**self.environment, **(environment or {})},
                 start_new_session=True,  # with a group that Ctrl-C reaches, as in a terminal
-                preexec_fn=None if trusted else self._restrict,  # noqa: PLW1509  one thread here
+                preexec_fn=place.restore_rights if trusted else self._restrict,  # noqa: PLW1509  one thread
             )
         except BaseException:
             os.close(read)

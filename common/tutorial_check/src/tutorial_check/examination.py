@@ -48,6 +48,11 @@ class Outcome:
         """Whether it is done, and nothing in it wrong."""
         return self.done and passed(self.results)
 
+    @property
+    def empty(self):
+        """Whether there was nothing to check: nothing is wrong, and nothing done."""
+        return self.passed and bool(self.results) and all(each.empty for each in self.results)
+
 
 def examine(
     workspace, floor, exercises, tell=lambda outcome, result: None, *, only_first=False, own=True
@@ -191,6 +196,7 @@ def _examine(workspace, floor, exercises, folder, *, tell, only_first, own):
         stderr=log,
         env=environment,
         start_new_session=True,
+        pass_fds=place.granted().descriptors if wrapper else (),
         cwd="/",
         text=True,
     )

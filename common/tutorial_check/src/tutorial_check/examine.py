@@ -6,6 +6,8 @@ seconds, "trouble": why it could not be checked as a whole, or ""}, and at the e
 {"cannot": "why"}.
 """
 
+import functools
+import importlib
 import json
 import os
 import shlex
@@ -46,7 +48,7 @@ def main():
             traceback.print_exc()
         tell(cannot=fault(error))
     finally:  # who made the folder may have been killed
-        place.touch_files_as(os.geteuid(), os.getegid())
+        place.restore_rights()
         shutil.rmtree(orders["folder"], ignore_errors=True)
 
 
@@ -80,25 +82,15 @@ def examine(orders, tell, told):
         needed=[*orders["kept"], Path(__file__)],
     )
     trial.must_be_possible(one.box, scratch)
-    # Without isolation the suite itself may lie where that user cannot read.
-    if uid is not None and orders["apart"]:
+    checks = catalogue()
+    if uid is not None:
+        if not orders["apart"]:  # then the suite may lie where that user cannot read
+            importlib.import_module("rosbag")
+            importlib.import_module("tutorial_check.driver")
         os.setgroups([])
         place.touch_files_as(uid, uid)
-    run = Run(catalogue(), one, one.second_look, one.box.patience.hopeless)
-    copied = f"{scratch}/ws/" if layout.is_workspace else f"{scratch}/ws/src/"
-    is_unpacked = scratch in layout.root.parents
-    # Commands work in any folder, where the workspace is known.
-    root = "" if is_unpacked or not orders["own"] else f"{shlex.quote(str(layout.root))}/"
-
-    def as_told(result):
-        """The result with the paths of the copy as the student knows them."""
-        return {
-            name: words.replace(copied, root if name in ("hint", "look") else "")
-            if isinstance(words, str)
-            else words
-            for name, words in result.as_dict().items()
-        }
-
+    run = Run(checks, one, one.second_look, one.box.patience.hopeless)
+    as_told = functools.partial(in_the_students_words, scratch, layout, orders["own"])
     times = {"prepare": round(time.monotonic() - began_s, 2)}
     try:
         for exercise in orders["exercises"]:
@@ -114,6 +106,22 @@ def examine(orders, tell, told):
         one.box.clear()  # a build, too, is ended; where no namespace is, nothing else does that
     if "TUTORIAL_CHECK_TIMES" in os.environ:
         print({**times, **run.seconds}, file=sys.stderr)
+
+
+def in_the_students_words(scratch, layout, own, result):
+    """Return a Result as a dict, with the paths of the copy as the student knows them.
+
+    own: whether it is the caller's own workspace, so that commands can name whole paths.
+    """
+    copied = f"{scratch}/ws/" if layout.is_workspace else f"{scratch}/ws/src/"
+    is_unpacked = scratch in layout.root.parents
+    root = f"{shlex.quote(str(layout.root))}/" if own and not is_unpacked else ""
+    return {
+        name: words.replace(copied, root if name in ("hint", "look") else "")
+        if isinstance(words, str)
+        else words
+        for name, words in result.as_dict().items()
+    }
 
 
 def _uid_map():

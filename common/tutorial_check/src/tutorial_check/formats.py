@@ -39,7 +39,8 @@ def as_json(outcomes):
             "exercises": [
                 {
                     "id": outcome.id,
-                    "passed": outcome.passed,
+                    "passed": outcome.passed and not outcome.empty,
+                    "nothing_to_check": outcome.empty,
                     "trouble": outcome.trouble,
                     "checks": [
                         {name: getattr(result, name) for name in FIELDS}
@@ -48,7 +49,7 @@ def as_json(outcomes):
                 }
                 for outcome in outcomes
             ],
-            "passed": sum(outcome.passed for outcome in outcomes),
+            "passed": sum(outcome.passed and not outcome.empty for outcome in outcomes),
             "total": len(outcomes),
         },
         indent=1,

@@ -11,7 +11,9 @@ import functools
 import os
 import shutil
 import signal
+import socket
 import subprocess
+from dataclasses import dataclass
 from pathlib import Path
 
 SCRATCH_MB = 600  # for the copy, its build, logs and what the programs write
@@ -25,36 +27,93 @@ SHARED_PAGES = 1 << 16  # of System V shared memory: 256 MB
 NAMESPACES = ("--unshare-ipc", "--unshare-net", "--unshare-pid", "--unshare-uts")
 # What the checker needs as root: to run programs as another user, and to end them.
 RIGHTS = ("CHOWN", "DAC_OVERRIDE", "FOWNER", "KILL", "SETGID", "SETUID")
+CLONE_NEWUSER = 0x10000000
 PR_SET_PDEATHSIG, PR_SET_DUMPABLE, PR_SET_CHILD_SUBREAPER, PR_SET_NO_NEW_PRIVS = 1, 4, 36, 38
 
 
+@dataclass(frozen=True)
+class Isolation:
+    """How bubblewrap isolates on this system."""
+
+    options: tuple = ()  # words of its command; none without isolation
+    is_limited: bool = True  # whether sizes are, and no program makes user namespaces of its own
+    has_sizes: bool = True  # whether it knows --size
+    why: str = ""  # it does not work
+    descriptors: tuple = ()  # that it inherits
+
+
 @functools.lru_cache(maxsize=None)
-def granted():
-    """(options of bwrap, whether it limits sizes, why it does not work); no options without isolation."""
+def granted() -> Isolation:
+    """Return what this system grants; without options where it grants no isolation."""
     bwrap = shutil.which("bwrap")
     if not bwrap:
-        return (), False, "bubblewrap is not installed"
+        return Isolation(why="bubblewrap is not installed")
     options = [bwrap, *NAMESPACES, "--as-pid-1"]
+    # Before bubblewrap 0.8 there is no --disable-userns, which root is refused, and before 0.7 no --size.
+    users, descriptors = ["--unshare-user"], ()
+    closed_users = [*users, "--disable-userns"]
     if os.geteuid() == 0:
-        options += ["--cap-drop", "ALL"]
-        options += [word for right in RIGHTS for word in ("--cap-add", f"CAP_{right}")]
-    else:
-        options += ["--unshare-user"]
-    # Before 0.8 there is no --disable-userns, and before 0.7 no --size. Root maps no users.
-    no_more = [] if os.geteuid() == 0 else ["--disable-userns"]
-    for more, limits in ((no_more, True), ([], True), ([], False)):
+        users = ["--cap-drop", "ALL"]
+        users += [word for right in RIGHTS for word in ("--cap-add", f"CAP_{right}")]
+        closed_users = users
+        with contextlib.suppress(OSError):
+            descriptors = (_closed_user_namespace(),)
+            closed_users = ["--userns", str(descriptors[0]), *users]
+    is_closed = closed_users != users
+    variants = ((closed_users, True), (users, True), (users, False))
+    for more, has_sizes in variants if is_closed else variants[1:]:
         command = [*options, *more, "--ro-bind", "/", "/", "--proc", "/proc", "--dev", "/dev"]
-        why = _fault([*command, *_tmpfs("/tmp", 1, limits), "true"])
+        why = _fault([*command, *_tmpfs("/tmp", 1, has_sizes), "true"], descriptors)
         if not why:
-            return (*options, *more), limits, ""
-    return (), False, why
+            is_limited = has_sizes and more is closed_users
+            return Isolation((*options, *more), is_limited, has_sizes, "", descriptors)
+    return Isolation(why=why)
 
 
-def _fault(command):
-    """Why a command fails; empty if it does not."""
+def _closed_user_namespace() -> int:
+    """Return a descriptor of a user namespace with root's users, in which nobody can make another one.
+
+    A program in a user namespace of its own could mount a tmpfs of any size. Raises OSError.
+    """
+    ours, theirs = socket.socketpair()
+    child = os.fork()
+    if child == 0:
+        with contextlib.suppress(BaseException):
+            if ctypes.CDLL(None).unshare(CLONE_NEWUSER) == 0:
+                theirs.send(b"made")
+                ours.close()
+                theirs.recv(1)
+                Path("/proc/sys/user/max_user_namespaces").write_text("0")
+                theirs.send(b"closed")
+                theirs.recv(1)
+        os._exit(0)
+    theirs.close()
+    try:
+        if not ours.recv(9):
+            raise OSError("no user namespace can be made")
+        for name in ("uid_map", "gid_map"):
+            ranges = [line.split() for line in Path("/proc/self", name).read_text().splitlines()]
+            lines = [f"{first} {first} {count}\n" for first, _, count in ranges]
+            Path(f"/proc/{child}", name).write_text("".join(lines))
+        ours.send(b"x")
+        if not ours.recv(9):
+            raise OSError("the user namespace cannot be closed")
+        return os.open(f"/proc/{child}/ns/user", os.O_RDONLY)
+    finally:
+        ours.close()
+        os.waitpid(child, 0)
+
+
+def _fault(command, descriptors):
+    """Return why a command fails; empty if it does not."""
     try:
         tried = subprocess.run(
-            command, stdin=subprocess.DEVNULL, capture_output=True, check=False, timeout=60
+            command,
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            check=False,
+            timeout=60,
+            pass_fds=descriptors,
         )
     except (OSError, subprocess.TimeoutExpired) as error:
         return str(error)
@@ -62,15 +121,17 @@ def _fault(command):
     return " ".join(said) or f"{command[0]} fails" if tried.returncode else ""
 
 
-def lacking():
-    """What this system does not provide, a line for each thing; to be told before a verdict."""
-    options, limits, why = granted()
-    if options:
-        return [] if limits else ["this bubblewrap is too old (0.7) to limit what programs write"]
+def lacking() -> list:
+    """Return what this system does not provide, a line for each thing, to be printed before a verdict."""
+    isolation = granted()
+    if isolation.options:
+        line = "with this bubblewrap or kernel the memory that a program fills with files is not limited"
+        return [] if isolation.is_limited else [line]
     if os.geteuid() == 0:
         rights = "runs as another user, but can read what everybody may, use the network"
     else:
         rights = "has your rights: it can read, change and remove your files, use the network"
+    why = isolation.why
     return [f"no isolation here ({why}): a program {rights}, and leave files in /var/tmp"]
 
 
@@ -84,9 +145,10 @@ def command(folder, shown, hidden):
     folder: where the programs write, empty at first; shown: files and folders to see, read-only;
     hidden: a folder that is not shown, though it may lie in one that is.
     """
-    options, limits, _ = granted()
-    if not options:
+    isolation = granted()
+    if not isolation.options:
         return []
+    limits = isolation.has_sizes
     mounts = {
         "/proc": ["--proc", "/proc"],
         "/dev": ["--dev", "/dev"],
@@ -114,7 +176,7 @@ def command(folder, shown, hidden):
     words = [word for path in outer_first for word in mounts[path]]
     for path in ("/dev", str(hidden), "/"):
         words += ["--remount-ro", path]
-    return [*options, *words, "--"]
+    return [*isolation.options, *words, "--"]
 
 
 def _set(option, value):
@@ -156,6 +218,11 @@ def own_rights():
         yield
     finally:
         touch_files_as(user, group)
+
+
+def restore_rights():
+    """Have this process open files as itself again."""
+    touch_files_as(os.geteuid(), os.getegid())
 
 
 def end_with_parent():

@@ -132,8 +132,8 @@ def _forget(out, student):
 def _check(student, options):
     began_s = time.monotonic()
     try:
-        if student.path.is_symlink() and student.path.is_file():
-            raise CannotCheck("a link to an archive is not followed: put the archive itself here")
+        if student.path.is_symlink():  # it may lead to the files of somebody else
+            raise CannotCheck("a link is not followed: put the folder or the archive itself here")
         outcomes = examine(student.path, options.floor, options.exercises, own=False)
         student.outcomes = without_hints(outcomes) if options.no_hints else outcomes
     except Exception as error:  # whatever it is, it must not spoil the others
@@ -158,6 +158,8 @@ def _cell(student, exercise):
     if not student.outcomes:
         return "?", student.trouble
     outcome = next(each for each in student.outcomes if each.id == exercise)
+    if outcome.empty:
+        return "not done", "nothing to check"
     if outcome.passed:
         return "ok", ""
     wrong = [result for result in outcome.results if result.status == WRONG]
@@ -190,12 +192,12 @@ def table_html(students, exercises):
         cells = []
         for exercise in exercises:
             word, details = _cell(student, exercise)
-            kind = {"ok": "ok", "-": "no", "?": "no"}.get(word, "wrong")
+            kind = {"ok": "ok", "-": "no", "?": "no", "not done": "no"}.get(word, "wrong")
             cells.append(
                 f'<td class="{kind}" title="{html.escape(details, quote=True)}">{html.escape(word)}</td>'
             )
         link = quote(f"{student.name}.txt", errors="surrogateescape")  # a name may be no UTF-8
-        done = sum(outcome.passed for outcome in student.outcomes)
+        done = sum(outcome.passed and not outcome.empty for outcome in student.outcomes)
         rows.append(
             f'<tr><td><a href="{link}">{html.escape(student.name)}</a></td>{"".join(cells)}<td>{done}</td><td>{student.seconds:.0f} s</td></tr>'
         )

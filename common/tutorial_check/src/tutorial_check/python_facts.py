@@ -61,6 +61,13 @@ class PythonFacts:
         )
 
     @property
+    def publishing_loops(self):
+        """The lines that publish within a loop, and not in a callback."""
+        inside = self.called_back.get("publish", [])
+        outside = (call.line for call in self.calls.get("publish", []) if call.line not in inside)
+        return [line for line in outside if any(loop <= line for loop in self.loops)]
+
+    @property
     def keeps_newest(self):
         """Whether a Publisher or Subscriber has a queue of one message."""
         made = self.calls.get("Publisher", []) + self.calls.get("Subscriber", [])

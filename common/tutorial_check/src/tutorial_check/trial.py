@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from tutorial_check.model import CannotCheck
+from tutorial_check.place import own_rights
 
 SLOW_S = 60  # [s] for what needs a hundredth of one
 # Prints the first folder that may not be entered.
@@ -20,7 +21,8 @@ def must_be_possible(box, scratch, needed=()):
         script.chmod(0o755)
     needed = [Path(each) for each in needed]
     above = (folder for each in needed for folder in (*reversed(each.parents), each))
-    folders = [str(each) for each in dict.fromkeys(above) if each.is_dir()]
+    with own_rights():
+        folders = [str(each) for each in dict.fromkeys(above) if each.is_dir()]
     try:
         program = box.start([str(script), *folders])
     except OSError as error:

@@ -12,7 +12,7 @@ from fake_turtlebot_sim.simulator.parameters import parse_parameters
 from fake_turtlebot_sim.simulator.robot_topics import RobotTopics
 from fake_turtlebot_sim.simulator.ros_clock import Motion, ros_clock
 from fake_turtlebot_sim.simulator.ros_messages import static_transform
-from node_kit.careful_connections import tell_of_bad_messages
+from node_kit.careful_connections import report_bad_messages
 from node_kit.log import Log
 from node_kit.prompt_publisher import PromptPublisher
 from node_kit.start import run
@@ -42,7 +42,7 @@ class FakeTurtlebot:
     def __init__(self, parameters):
         """Put the robots at their start poses; nothing is published before spin()."""
         log = Log()
-        tell_of_bad_messages(log.warn)
+        report_bad_messages(log.warn)
         self._clock = ros_clock()
         self._motion = Motion(self._clock)
         self._period_ns = parameters.period_ns()

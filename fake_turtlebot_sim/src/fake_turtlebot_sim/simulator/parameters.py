@@ -88,7 +88,7 @@ class Parameters:
     wheel_radius_ratio: float = parameter(1.0, number(0.5, 2.0, "(right / left)"))
     track_ratio: float = parameter(1.0, number(0.5, 2.0, "(actual / nominal)"))
     seed: int = parameter(0, whole_number())
-    robots: Dict[str, Tuple[float, float, float]] = parameter({}, _robots)  # noqa: RUF009
+    robots: Dict[str, Tuple[float, float, float]] = parameter({}, _robots)
     world_frame: str = parameter("world", _FRAME)
 
     def period_ns(self):

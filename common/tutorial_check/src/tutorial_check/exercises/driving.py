@@ -7,9 +7,16 @@ import statistics
 import time
 
 from tutorial_check.box import GRACE_S
-from tutorial_check.mapping import LINEAR, judge, rule_of
-from tutorial_check.model import master_gone
-from tutorial_check.probing import judge_probes, numbered_joys, probes, small_and_button_probes
+from tutorial_check.mapping import LINEAR, Evidence, judge, rule_of
+from tutorial_check.probing import (
+    AT_REST,
+    judge_probes,
+    low_joys,
+    numbered_joys,
+    probes,
+    silence,
+    small_and_button_probes,
+)
 from tutorial_check.stage import START_S
 
 PACKAGE = "joy2twist"
@@ -35,6 +42,11 @@ class Drive:
         self.session, self.script = session, script
         self.samples, self.missing, self.unasked, self.shown, self.asked = [], 0, 0, 0, 0
         self.delays, self.sent, self.answered, self.strays = [], 0, 0, 0
+        self.came = 0  # Twists for the numbered Joys
+        self.first_samples, self.at_rest = (
+            [],
+            None,
+        )  # of an earlier pass; the answer to a Joy at rest
         self.waits = []  # [s] from a Joy to the next Twist, one at a time
         self.twists, self.has_clock = [], False  # all of the second pass; whether more come unasked
         self.repeats = False  # whether those move the robot, though no Joy came
@@ -78,14 +90,14 @@ class Drive:
         if wants_twist:
             stage.wait(lambda: stage.call("count", CMD_VEL), 0.5)
             self._one_by_one(stage, joys, 0.0)
-            doubtful = self.unasked > 2 or (self.samples and judge(self.samples)[0])
+            doubtful = self.unasked > 2 or (self.samples and self.complaint)
             if doubtful and not self.naps:
                 self._ask_again(stage, joys)
             if len(self.samples) > COUNT / 2 and not self.naps:
                 self._keep_quiet(stage)
                 if self.has_clock and not self.repeats and not self.twists:
                     self._ask_again(stage, joys)  # zeros by a watchdog, or between all answers
-                if not self.repeats and not judge(self.samples)[0]:
+                if not self.repeats and not self.complaint:
                     self._probe(stage, joys)
         else:
             for joy in joys:
@@ -108,13 +120,20 @@ class Drive:
 
     def _ask_again(self, stage, joys):
         """The same with time: it has a clock of its own, publishes several, or is only slow."""
+        is_plain = self.unasked <= 2
+        low = [] if self.missing else low_joys()
         first, self.samples, self.missing = self.samples, [], 0
         stage.wait(lambda: self.program.ended, SETTLE_S)  # late ones belong to the first pass
         begun = stage.call("count", CMD_VEL)
-        self._one_by_one(stage, joys, SETTLE_S)
+        self._one_by_one(stage, [*joys, *low], SETTLE_S)
         self.twists = [twist for _, _, twist in stage.call("heard", CMD_VEL, begun)]
         if len(self.samples) < len(first):
-            self.samples = first
+            first, self.samples = self.samples, first
+        # Of several Twists for one Joy it is not known which of them answers it.
+        self.first_samples = first if is_plain else []
+        heard = self._ask(stage, AT_REST, SETTLE_S)[1]
+        self.at_rest = heard[-1][2] if heard else None
+        self._ask(stage, joys[-1], SETTLE_S)  # the last one moves the robot
 
     def _keep_quiet(self, stage):
         """See whether Twists come without a Joy. The last one moves the robot."""
@@ -130,7 +149,7 @@ class Drive:
         """The other Joys, each until it is answered; the first that is not, also when asked again, ends it."""
         before, settle_s = joys[-1], SETTLE_S if self.twists else 0.0
         # By now it is known how many Twists one Joy gets: no time is needed to wait for more.
-        often = max(1, round(len(self.twists) / COUNT))
+        often = max(1, round(len(self.twists) / len(self.samples)))
         plan = [(joy, settle_s, 1) for joy in probes(joys)]
         plan += [(joy, 0.0, often) for joy in small_and_button_probes()]
         for joy, *patience in plan:
@@ -172,6 +191,19 @@ class Drive:
         # Also those that came between an answer and the next Joy.
         twists = stage.call("count", CMD_VEL) - begun
         self.unasked += twists - (len(self.samples) - answered)
+        if unanswered == 3 and not self.program.ended and not self.naps:
+            self._hurry(stage, joys[len(self.samples) - answered + unanswered :])
+        self.came = stage.call("count", CMD_VEL) - begun
+
+    def _hurry(self, stage, joys):
+        """Send the rest of the Joys without much patience, to see how many of all are answered."""
+        for joy in joys:
+            before = stage.call("count", CMD_VEL)
+            stage.call("send", JOY, joy)
+            stage.wait(
+                lambda before=before: stage.call("count", CMD_VEL) > before or self.program.ended,
+                SAME_S,
+            )
 
     def _stream(self, stage, beside=None):
         count = int(RATE * STREAM_S)
@@ -201,9 +233,30 @@ class Drive:
     # ------------------------------------------------------------------------------- looking
 
     @property
+    def evidence(self):
+        """What the numbered Joys were answered."""
+        return Evidence(self.samples, self.first_samples, self.at_rest)
+
+    @property
+    def complaint(self):
+        """What is odd about those answers; empty if nothing is."""
+        return judge(self.evidence)[0]
+
+    @property
+    def silence(self):
+        """(what is seen, what to do) for the first probe that was not answered."""
+        return silence(*self.unanswered, self.answers[-1][1] if self.answers else (1.0,))
+
+    @property
     def delay_s(self):
         """The median delay from Joy to Twist, or None."""
         return statistics.median(self.delays) if self.delays else None
+
+    @property
+    def rate(self):
+        """How many Joys of the stream were answered, and how soon."""
+        late = f", {1000 * self.delay_s:.1f} ms late" if self.delay_s is not None else ""
+        return f"{self.answered} Twists for {self.sent} Joys{late}"
 
     @property
     def is_prompt(self):
@@ -222,6 +275,11 @@ class Drive:
     def all_shown(self):
         """Whether as many Joys were displayed as can be asked for."""
         return self.shown >= min(5, max(1, self.asked))
+
+    @property
+    def shows_numbers(self):
+        """Whether it prints lines with as many numbers as a Joy has axes."""
+        return any(len(NUMBER.findall(line)) >= 6 for line in self.output.splitlines())
 
     @property
     def trouble(self):
@@ -267,9 +325,3 @@ def displayed(joys, output):
 def drive(session, script, wants_twist=True):
     """The Drive of a script; made once."""
     return session.run(("drive", script, wants_twist), lambda: Drive(session, script, wants_twist))
-
-
-def check_master(seen):
-    """Raises Wrong if the master has gone."""
-    if not seen.master_alive:
-        raise master_gone(seen.script)

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tutorial_check import student_files
+from tutorial_check.exercises import check
 from tutorial_check.exercises.classes import program
 from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL, PACKAGE
 from tutorial_check.exercises.files import cause_of, crash
@@ -164,8 +165,15 @@ def _endings(session):
     return session.run("endings", lambda: Endings(session, program(session)[0]))
 
 
+@check(
+    "C31",
+    "ended, it stops the robot",
+    "6.2",
+    "C30",
+    look="rostopic echo /cmd_vel; Ctrl-C in the node's terminal",
+)
 def stops(session):
-    """C31."""
+    """Ended, it stops the robot."""
     _, path, _ = program(session)
     endings = _endings(session)
     call = session.scripts(PACKAGE)[path].first("on_shutdown")
@@ -220,8 +228,9 @@ def _complaint(end, is_registered):
     return "", ""
 
 
+@check("C32", "nothing follows the zero", "6.2", "C31", look="rostopic echo /cmd_vel")
 def nothing_after(session):
-    """C32. Never a failure: the handout's listing does it."""
+    """Never a failure: the handout's listing does it."""
     most = max(end.after_zero for end in _endings(session).ends.values())
     if most:
         return Note(

@@ -3,6 +3,7 @@
 import re
 
 from tutorial_check.changed_programs import without_name
+from tutorial_check.exercises import check
 from tutorial_check.exercises.classes import program
 from tutorial_check.exercises.driving import JOY, PACKAGE
 from tutorial_check.model import Note, Wrong
@@ -13,8 +14,15 @@ NAMES_IT = re.compile(r"not defined|NameError")  # what the lack of the import l
 TELLS = re.compile(r"Traceback|Error\b|Exception|not defined|exceeded|\[(?:ERROR|FATAL|WARN)\]")
 
 
+@check(
+    "C33",
+    "its errors are seen",
+    "6.2",
+    "C30",
+    look="rosrun joy2twist THE_CLASS, without a joystick",
+)
 def errors_are_seen(session):
-    """C33: started without a joystick; and a copy that lacks the import of Joy."""
+    """Started without a joystick; and a copy that lacks the import of Joy."""
     script, path, _ = program(session)
     broken_text = without_name(session.text(PACKAGE, script), "Joy")
     with session.stage() as stage:

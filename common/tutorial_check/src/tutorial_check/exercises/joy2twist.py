@@ -1,6 +1,6 @@
 """C13 to C18: the program joy2twist.py, first and second version."""
 
-from tutorial_check.exercises import conversation
+from tutorial_check.exercises import check, conversation
 from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL, PACKAGE, drive
 from tutorial_check.exercises.files import check_end, check_file, find_script, odd_node
 from tutorial_check.model import Note, Wrong
@@ -33,8 +33,16 @@ def main_script(session):
     return script
 
 
+@check(
+    "C13",
+    "joy2twist.py can be run",
+    "4.3",
+    "C12",
+    look="rosrun joy2twist joy2twist.py",
+    timeless=True,
+)
 def file(session):
-    """C13."""
+    """Joy2twist.py can be run."""
     script = find_script(session, PACKAGE, NAME)
     check_file(session, PACKAGE, script)  # before its text is relied on
     check_manifest(session, script)
@@ -64,31 +72,40 @@ def check_manifest(session, script):
         )
 
 
+@check(
+    "C14",
+    "it displays every Joy",
+    "4.3",
+    "C13",
+    look="rosrun joy2twist joy2twist.py; rostopic echo /joy",
+)
 def displays(session):
-    """C14."""
-    script = main_script(session)
-    seen = drive(session, script)
-    return conversation.check_displays(session, script, seen)
+    """It displays every Joy."""
+    return conversation.check_displays(session, drive(session, main_script(session)))
 
 
+@check("C15", "/joy in, /cmd_vel out", "4.3", "C13", look="rosnode info NODE")
 def topics(session):
-    """C15."""
+    """/joy in, /cmd_vel out."""
     seen = drive(session, main_script(session))
     return conversation.check_topics(session, seen)
 
 
+@check("C16", "axis 1 drives forwards, axis 0 turns", "4.3", "C15", look="rostopic echo /cmd_vel")
 def mapping(session):
-    """C16."""
+    """Axis 1 drives forwards, axis 0 turns."""
     return conversation.check_mapping(session, drive(session, main_script(session)))
 
 
+@check("C17", "it keeps up with the joystick", "4.3", "C16", look="rostopic hz /cmd_vel")
 def rate(session):
-    """C17."""
+    """It keeps up with the joystick."""
     return conversation.check_rate(session, drive(session, main_script(session)))
 
 
+@check("C34", "Ctrl-C ends it", "4.3", "C16", look="Ctrl-C in its terminal")
 def ctrl_c(session):
-    """C34."""
+    """Ctrl-C ends it."""
     script = main_script(session)
     seen = drive(session, script)
     return check_end(session, PACKAGE, script, seen.taken_s, seen.last_words) or (
@@ -96,8 +113,15 @@ def ctrl_c(session):
     )
 
 
+@check(
+    "C18",
+    "it starts while the joystick speaks",
+    "4.3",
+    "C16",
+    look="rosbag play --loop joy.bag; rosrun joy2twist joy2twist.py",
+)
 def under_load(session):
-    """C18: started while 200 Joys a second come. Never a failure."""
+    """Started while 200 Joys a second come. Never a failure."""
     script = main_script(session)
     facts = session.scripts(PACKAGE)[script]
     lines = [call.line if call else 0 for call in map(facts.first, ("Subscriber", "Publisher"))]

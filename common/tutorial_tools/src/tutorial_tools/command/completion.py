@@ -23,7 +23,7 @@ def candidates(
         found = list(words)
     else:
         parser = words.get(before[0])
-        actions = parser._actions if parser else []  # argparse offers no other way
+        actions = parser._actions if parser else []  # noqa: SLF001 (argparse offers no other way)
         found = [option for action in actions for option in action.option_strings]
         found += OPTIONS.get(before[0], ())
         if len(before) == 1:

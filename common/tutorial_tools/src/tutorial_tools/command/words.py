@@ -35,8 +35,8 @@ WORDS = {  # word: (arguments as the help shows them, what it does)
     ),
     "doctor": ("[--in WORKSPACE]", "what to check when nothing moves"),
     "bench": ("[PACKAGE] [--hours HOURS]", "run the benchmarks: all, or those of one package"),
-    "lint": ("[ARGUMENT ...]", "check the sources: types, style, packages, shell scripts"),
-    "docs": ("[ARGUMENT ...]", "build the documentation site"),
+    "lint": ("[--fix]", "check the sources: types, style, layers, packages, shell scripts"),
+    "docs": ("[FOLDER]", "build the documentation site from the pages"),
     "setup": ("[system|workspace]", "install and build what is missing: all, or one part"),
     "shell": ("[--in WORKSPACE]", "a shell in which all of this is found"),
     "run": ("[--in WORKSPACE] COMMAND ...", "one command in such a shell"),
@@ -177,6 +177,20 @@ def plan_of_shell(word: str, command: list[str]) -> dict[str, list[str]]:
     return {"sections": ["demo", "more"], "builds": builds, "command": command}
 
 
+def plan_of_tool(word: str, arguments: list[str]) -> dict[str, list[str]]:
+    """Return the plan of bench, or of lint or docs: test/WORD with what it needs from PyPI."""
+    _, rest = parser_of(word).parse_known_args(arguments)
+    if word == "bench":
+        if rest and not (REPOSITORY / "test/benchmark" / rest[0]).is_dir():
+            fail(f'bench: "{rest[0]}" has no folder in test/benchmark')
+        return plan_of_test("bench", rest)
+    requirements = f"test/requirements-{word}.txt"
+    made = plan_of_test(None, [])
+    if (REPOSITORY / requirements).exists():
+        made["builds"] = [*made["builds"], f"pypi={word}:{requirements}"]
+    return {**made, "command": [str(REPOSITORY / "test" / word), *rest]}
+
+
 def plan(word: str, arguments: list[str]) -> dict[str, list[str]]:
     """Return the lists of the plan: sections of packages, programs, builds and the command."""
     if word == "check":
@@ -184,9 +198,9 @@ def plan(word: str, arguments: list[str]) -> dict[str, list[str]]:
     if word == "cockpit":  # which reads its options itself
         command = [str(PROGRAMS[word]), *arguments]
         return {"sections": ["demo", "more"], "builds": ["workspace"], "command": command}
-    options, rest = parser_of(word).parse_known_args(arguments)
-    if rest and word not in ("bench", "lint", "docs"):
-        parser_of(word).error(f"unrecognized arguments: {' '.join(rest)}")
+    if word in ("bench", "lint", "docs"):
+        return plan_of_tool(word, arguments)
+    options = parser_of(word).parse_args(arguments)
     student = student_of(word, getattr(options, "student", None))
     if word in PROGRAMS:
         sections = ["doctor"] if word == "doctor" else ["demo", "more"]
@@ -197,12 +211,6 @@ def plan(word: str, arguments: list[str]) -> dict[str, list[str]]:
         made["sections"] = [] if options.part == "workspace" else made["sections"]
     elif word == "test":
         made = plan_of_test(options.kind, options.rest)
-    elif word == "bench":
-        if rest and not (REPOSITORY / "test/benchmark" / rest[0]).is_dir():
-            fail(f'bench: "{rest[0]}" has no folder in test/benchmark')
-        made = plan_of_test("bench", rest)
-    elif word in ("lint", "docs"):
-        made = {**plan_of_test(None, []), "command": [str(REPOSITORY / "test" / word), *rest]}
     else:
         made = plan_of_shell(word, command_of_run(options.rest) if word == "run" else [])
     if student:

@@ -16,9 +16,7 @@ import rosbag
 import rosgraph
 import rospkg
 
-from node_kit.names import holder
-from node_kit.page import address
-from node_kit.questions import Answer, call
+from node_kit.questions import Answer, address, call, holder
 from tutorial_tools.command.words import parser_of
 from tutorial_tools.demo.in_the_way import in_the_way, refusal
 from tutorial_tools.demo.launch import ENDING, TOPICS, DemoError, Launch

@@ -2,7 +2,7 @@
 
 import re
 
-from node_kit.states import DRIVING
+from node_kit.arming import DRIVING
 from tutorial_tools.doctor.facts import JOY, OK, TWIST, UNKNOWN, WRONG, Answer, Finding, some
 
 SILENT_S = 2.0  # a gamepad in the hand is not still for so long

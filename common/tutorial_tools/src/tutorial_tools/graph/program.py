@@ -12,7 +12,7 @@ from urllib.parse import urlsplit
 
 import rosgraph
 
-from node_kit.page import address
+from node_kit.questions import address
 
 ENDINGS = (".png", ".svg", ".pdf", ".dot")
 TIMEOUT_S = 5.0  # for each answer of the master; on one network it takes milliseconds
