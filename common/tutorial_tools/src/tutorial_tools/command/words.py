@@ -20,7 +20,8 @@ from tutorial_tools.command.completion import SCRIPT, candidates
 from tutorial_tools.command.set_up import is_done
 
 SCRIPTS = REPOSITORY / "common" / "tutorial_tools" / "scripts"
-COCKPIT = REPOSITORY / "common" / "cockpit" / "scripts" / "cockpit.py"
+PROGRAMS = {word: SCRIPTS / f"{word}.py" for word in ("demo", "join", "doctor")}
+PROGRAMS["cockpit"] = REPOSITORY / "common" / "cockpit" / "scripts" / "cockpit.py"
 PYTHON = "/usr/bin/python3"
 PYPI = "pypi=python:test/requirements.txt"
 WORDS = {  # word: (arguments as the help shows them, what it does)
@@ -84,7 +85,7 @@ def parser_of(word: str) -> Parser:
         add("--in", dest="student", metavar="WORKSPACE", help="your own catkin workspace")
     if word == "demo":
         told = "end after this time, with a line on the drive; exit code 0 if the robot moved"
-        add("--for", type=above_zero, metavar="SECONDS", help=told)
+        add("--for", dest="duration_s", type=above_zero, metavar="SECONDS", help=told)
         add("arguments", nargs="*", metavar="NAME:=VALUE", help="for launch_bag.launch")
     elif word == "join":
         add("host", metavar="HOST", help="the teacher's machine, or HOST:PORT")
@@ -153,8 +154,27 @@ def plan_of_test(kind: str | None, rest: list[str]) -> dict[str, list[str]]:
         sections, programs = [*sections, "browser"], ["chromium", "chromedriver"]
     if kind == "mutation" and (REPOSITORY / "test/mutation/requirements.txt").exists():
         builds = [*builds, "pypi=mutation:test/mutation/requirements.txt"]
-    command = [str(REPOSITORY / "test" / "run.py"), *([kind] if kind else []), *rest]
+    command = [str(REPOSITORY / "test" / "run.py"), *filter(None, [kind]), *rest]
     return {"sections": sections, "programs": programs, "builds": builds, "command": command}
+
+
+def plan_of_check(arguments: list[str]) -> dict[str, list[str]]:
+    """Return the plan of the checker, which reads its options itself."""
+    options = {argument.split("=")[0] for argument in arguments}
+    if not os.environ.get("TUTORIAL_IN") and not options & {"--in", "--all", "-h", "--help"}:
+        words = " ".join(["./tutorial check --in ~/ros/hydro/catkin_ws", *arguments])
+        fail(f"check: which workspace? For example: {words}", 2)
+    command = [PYTHON, "-m", "tutorial_check", *arguments]
+    return {"sections": ["demo", "more"], "builds": ["workspace"], "command": command}
+
+
+def plan_of_shell(word: str, command: list[str]) -> dict[str, list[str]]:
+    """Return the plan of a shell, or of one command in it."""
+    if word == "shell":
+        rc = REPOSITORY / "common/tutorial_tools/etc/shellrc"
+        command = ["bash", "--rcfile", str(rc), "-i"]
+    builds = ["workspace", PYPI.replace("pypi", "maybe", 1)]
+    return {"sections": ["demo", "more"], "builds": builds, "command": command}
 
 
 def plan_of_tool(word: str, arguments: list[str]) -> dict[str, list[str]]:
@@ -174,37 +194,27 @@ def plan_of_tool(word: str, arguments: list[str]) -> dict[str, list[str]]:
 def plan(word: str, arguments: list[str]) -> dict[str, list[str]]:
     """Return the lists of the plan: sections of packages, programs, builds and the command."""
     if word == "check":
-        options = {argument.split("=")[0] for argument in arguments}
-        if not os.environ.get("TUTORIAL_IN") and not options & {"--in", "--all", "-h", "--help"}:
-            words = " ".join(["./tutorial check --in ~/ros/hydro/catkin_ws", *arguments])
-            fail(f"check: which workspace? For example: {words}", 2)
-        command = [PYTHON, "-m", "tutorial_check", *arguments]
-        return {"sections": ["demo", "more"], "builds": ["workspace"], "command": command}
-    if word == "cockpit":
-        command = [str(COCKPIT), *arguments]
+        return plan_of_check(arguments)
+    if word == "cockpit":  # which reads its options itself
+        command = [str(PROGRAMS[word]), *arguments]
         return {"sections": ["demo", "more"], "builds": ["workspace"], "command": command}
     if word in ("bench", "lint", "docs"):
         return plan_of_tool(word, arguments)
     options = parser_of(word).parse_args(arguments)
-    if word in ("demo", "join", "doctor"):
-        made = {"sections": ["doctor"] if word == "doctor" else ["demo", "more"]}
-        made.update(builds=["workspace"], command=[str(SCRIPTS / f"{word}.py"), *arguments])
+    student = student_of(word, getattr(options, "student", None))
+    if word in PROGRAMS:
+        sections = ["doctor"] if word == "doctor" else ["demo", "more"]
+        command = [str(PROGRAMS[word]), *([] if word == "doctor" else arguments)]
+        made = {"sections": sections, "builds": ["workspace"], "command": command}
     elif word == "setup":
         made = {**plan_of_test(None, []), "command": []}
         made["sections"] = [] if options.part == "workspace" else made["sections"]
     elif word == "test":
         made = plan_of_test(options.kind, options.rest)
     else:
-        rc = str(REPOSITORY / "common/tutorial_tools/etc/shellrc")
-        command = ["bash", "--rcfile", rc, "-i"]
-        command = command if word == "shell" else command_of_run(options.rest)
-        builds = ["workspace", PYPI.replace("pypi", "maybe", 1)]
-        made = {"sections": ["demo", "more"], "builds": builds, "command": command}
-    student = student_of(word, getattr(options, "student", None))
-    if word == "doctor":
-        made["command"] = made["command"][:1]
+        made = plan_of_shell(word, command_of_run(options.rest) if word == "run" else [])
     if student:
-        made = {**made, "student": [student], "builds": [*made["builds"], f"student={student}"]}
+        made.update(student=[student], builds=[*made["builds"], f"student={student}"])
     return made
 
 
