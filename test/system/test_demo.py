@@ -43,11 +43,11 @@ def test_a_truncated_bag_gets_one_clear_line(tutorial, tmp_path):
 def check_demo(program, seconds):
     """The demonstration ran for a time: its line, its counts, its exit code."""
     assert program.wait(seconds + DEADLINE_S) == 0, program.output
-    told = LINE.search(program.output)
-    assert told, program.output
+    said = LINE.search(program.output)
+    assert said, program.output
     for topic in ("joy", "cmd_vel", "odom"):
-        assert int(told[topic]) == pytest.approx(50 * seconds, rel=0.2)
-    assert float(told["driven"]) > 0.3
+        assert int(said[topic]) == pytest.approx(50 * seconds, rel=0.2)
+    assert float(said["driven"]) > 0.3
     assert "Traceback" not in program.output
     wait_for(lambda: not program.left_behind(), "end of every process")
 
@@ -65,9 +65,9 @@ def test_demo_shows_odometry_soon(tutorial):
     while len(needed) < 5 and not any(seconds < SOON_S for seconds in needed):
         with Program(tutorial, "demo", "--for", "0.5", "rviz:=false") as demo:
             demo.wait()
-            told = re.search(r"^demo: first /odom after ([\d.]+) s$", demo.output, re.MULTILINE)
-            assert told, demo.output
-            needed.append(float(told[1]))
+            said = re.search(r"^demo: first /odom after ([\d.]+) s$", demo.output, re.MULTILINE)
+            assert said, demo.output
+            needed.append(float(said[1]))
     assert min(needed) < SOON_S
 
 
@@ -103,7 +103,7 @@ def test_demo_ends_cleanly_on_ctrl_c(tutorial, sign):
         demo.interrupt()
         assert demo.wait() == 130
         wait_for(lambda: not demo.left_behind(), "end of every process")
-        # Python has a traceback for whoever interrupts it in its very first milliseconds.
+        # Python prints a traceback if it is interrupted in its very first milliseconds.
         assert sign != "first /odom" or "Traceback" not in demo.output
 
 
@@ -117,8 +117,8 @@ def test_demo_tells_the_drive_when_ctrl_c_ends_it(tutorial):
         demo.interrupt()
         took_s = time.monotonic() - began_s
         assert demo.wait() == 0, demo.output
-        told = LINE.findall(demo.output)
-        assert len(told) == 1, demo.output
+        said = LINE.findall(demo.output)
+        assert len(said) == 1, demo.output
         assert demo.output.endswith(f"{LINE.search(demo.output)[0]}\n")
         assert float(LINE.search(demo.output)["seconds"]) == pytest.approx(took_s, abs=BUSY_S)
         assert float(LINE.search(demo.output)["driven"]) > 0.0
@@ -134,7 +134,7 @@ IN_TERMINAL = "in another terminal: ./tutorial run rostopic echo /odom/pose/pose
     [
         (["cockpit_port:={port}"], "to see it drive, open http://127.0.0.1:{port}/ in a browser"),
         (["cockpit:=false"], f"to see it drive, {IN_TERMINAL}"),
-        ([*BARE], None),  # who said so need not be told
+        ([*BARE], None),  # given by the user
     ],
 )
 def test_demo_says_where_to_look_without_a_screen(tutorial, arguments, look):

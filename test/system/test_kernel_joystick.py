@@ -88,15 +88,15 @@ def run(name, command, here, tmp_path, capsys, *, shift=SHIFT):
             status = wait_while_it_speaks(program)
         finally:
             output = program.output
-            told = re.findall(r"^drive: .*?(?=\r?$)", output, re.MULTILINE)
+            said = re.findall(r"^drive: .*?(?=\r?$)", output, re.MULTILINE)
             with capsys.disabled():
-                print(f"\n{name}, {where}:", *told, sep="\n  ")
+                print(f"\n{name}, {where}:", *said, sep="\n  ")
             print(output)  # which pytest shows if this fails
     if not here:  # the exit code was that of QEMU
         ended = re.search(f"{EXIT} (\\d+)", output)
         status = int(ended[1]) if ended else None
     assert status == 0
-    assert told[-1] == "drive: passed"
+    assert said[-1] == "drive: passed"
 
 
 @pytest.mark.usefixtures("master_uri")

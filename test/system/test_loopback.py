@@ -1,7 +1,7 @@
-"""Who can reach what ./tutorial runs: nobody else, until the user names an address.
+"""What ./tutorial runs can be reached from this machine only, until the user names an address.
 
 ROS's own limit, which stays: a C++ node (rosout, robot_state_publisher, rosbag) answers XML-RPC on
-every address. Whoever finds that port may end the node, or tell it of another publisher; the
+every address. Who finds that port can end the node, or name another publisher to it; the
 master, the Python nodes and every topic are out of reach.
 """
 

@@ -158,9 +158,9 @@ def test_graphviz_reads_back_every_name(dot_text):
     )
     assert done.stderr == ""
     graph = json.loads(done.stdout)
-    told = {part["name"] for part in graph["objects"]}
+    said = {part["name"] for part in graph["objects"]}
     clusters = {'cluster desk "1"', "cluster {robot}"}
-    assert told == {f"topic {name}" for name in names} | {"node /a", "node /b"} | clusters
+    assert said == {f"topic {name}" for name in names} | {"node /a", "node /b"} | clusters
     assert len(graph["edges"]) == 2 * len(names)
 
 

@@ -1,4 +1,4 @@
-"""What a demonstration drive came to: messages counted, way driven, final pose. No ROS here."""
+"""The result of a demonstration drive: messages counted, way driven, final pose. No ROS here."""
 
 import math
 
@@ -9,7 +9,7 @@ class DriveReport:
     MOVED_M = 0.001  # less than this is a robot that stood
 
     def __init__(self, topics):
-        """topics: the names whose messages are counted, in the order in which they are told."""
+        """topics: the names whose messages are counted, in the order of the report."""
         self.counts = {topic: 0 for topic in topics}
         self.distance_m = 0.0
         self.pose = None

@@ -25,7 +25,7 @@ def some(names, between=", "):
 
 
 OK, WRONG, UNKNOWN = "ok", "wrong", "unknown"
-DEAD = (Answer.REFUSED, Answer.STRANGE)  # of a node: nobody is there, or somebody else
+DEAD = (Answer.REFUSED, Answer.STRANGE)  # of a node: nothing listens, or another program
 
 
 @dataclass(frozen=True)

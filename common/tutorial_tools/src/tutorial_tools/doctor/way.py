@@ -96,7 +96,7 @@ def mux_finding(facts, name, mux, topic):
     """Whether a multiplexer lets one of our topics through."""
     if mux.active is None:
         todo = f"rostopic echo {name}/active"
-        return Finding(UNKNOWN, "mux", f"{name} does not say who is active", todo)
+        return Finding(UNKNOWN, "mux", f"{name} does not say what is active", todo)
     if mux.active in IDLE:
         senders = facts.publishers.get(topic, [])
         if any(facts.states.get(sender) == (True, DRIVING) for sender in senders):
