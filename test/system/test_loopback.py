@@ -108,15 +108,3 @@ def test_loopback_unless_the_user_names_an_address(tutorial, monkeypatch, variab
     command = [tutorial, "run", "sh", "-c", 'echo "$ROS_IP"']
     done = subprocess.run(command, check=True, capture_output=True, text=True, timeout=DEADLINE_S)
     assert done.stdout.strip() == expected
-
-
-def test_the_doctor_tells_who_sets_only_the_master(scene):
-    """In the shell, where ROS_IP is still ours."""
-    scene.launch_robot()
-    master = f"http://{scene.address(ROBOT)}:{MASTER_PORT}"
-    script = f"export ROS_MASTER_URI={master}; '{REPOSITORY}/tutorial' doctor"
-    host = scene.network[WORKSTATION]
-    with host.start(str(REPOSITORY / "tutorial"), "run", "bash", "-c", script) as doctor:
-        assert doctor.wait() == 1, doctor.output
-        assert "ROS_IP=127.0.0.1 is seen by this machine only" in doctor.output
-        assert f"export ROS_IP={scene.address(WORKSTATION)}" in doctor.output
