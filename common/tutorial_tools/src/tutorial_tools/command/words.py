@@ -13,6 +13,7 @@ import re
 import shlex
 import sys
 from pathlib import Path
+from typing import NoReturn, TextIO
 
 from node_kit.arguments import above_zero
 from tutorial_tools.command.build import REPOSITORY
@@ -68,7 +69,7 @@ CHOICE = re.compile(r"argument \S+: invalid choice: '(.*)' \(choose from (.*)\)"
 class Parser(argparse.ArgumentParser):
     """Reports a mistake in one line."""
 
-    def error(self, message):
+    def error(self, message: str) -> NoReturn:
         word = self.prog.split()[-1]
         wrong = CHOICE.fullmatch(message)
         if wrong:
@@ -107,7 +108,7 @@ def parser_of(word: str) -> Parser:
     return parser
 
 
-def show_help(file) -> None:
+def show_help(file: TextIO) -> None:
     """Print the list of words."""
     print("usage: ./tutorial WORD ...\n", file=file)
     for word, (arguments, text) in WORDS.items():
@@ -118,7 +119,7 @@ def show_help(file) -> None:
     print(f"\n{EPILOG}", file=file)
 
 
-def fail(line: str, code: int = 1):
+def fail(line: str, code: int = 1) -> NoReturn:
     """Report a mistake in one line, and exit."""
     print(f"tutorial: {line}", file=sys.stderr)
     sys.exit(code)
