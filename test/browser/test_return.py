@@ -11,7 +11,6 @@ import('/page/%s').then((tabs) => { %s });"""
 
 
 def run(page, script, module):
-    """What a script gives to done()."""
     return page.driver.execute_async_script(TAB % (module, script))
 
 

@@ -14,7 +14,6 @@ POSITION = "/odom/pose/pose/position/x"
 
 
 def shown(page, css):
-    """The number that an element shows."""
     return float(re.search(r"-?[\d.]+", page.text(css))[0])
 
 
@@ -86,7 +85,6 @@ def test_the_only_recording_is_opened_by_itself(page):
 
 @pytest.fixture
 def look_only(world):
-    """The address for viewers of a second cockpit."""
     port = str(free_port())
     name, script = "__name:=cockpit_for_viewers", node_path("cockpit", "cockpit.py")
     program = world.run(script, "--port", port, "--lan", name)

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from edits import JOY2TWIST, LISTENER, TALKER, apply, put, write
 
-from tutorial_check import place
+from tutorial_check import bubblewrap
 from tutorial_check.examination import examine
 from tutorial_check.report import lines_of
 
@@ -180,7 +180,7 @@ def test_one_that_prints_a_verdict(literal, floor):
 
 def test_one_that_plants_links_where_the_checker_writes(literal, floor, scratch, monkeypatch):
     """Without isolation, where the link leads somewhere."""
-    monkeypatch.setattr(place, "granted", place.Isolation)
+    monkeypatch.setattr(bubblewrap, "granted", bubblewrap.Isolation)
     plant = PLANTS_LINKS.format(aim=f"{scratch}/planted")
     apply([put(TALKER, "import rospy\n", f"import rospy\n{plant}", 1)], literal)
     (outcome,) = examine(literal.parent, floor, ["3"])

@@ -17,7 +17,7 @@ from test_awkward import SOURCE
 from test_endings import path_without_namespaces
 from test_hostile import processes_like
 
-from tutorial_check import place
+from tutorial_check import bubblewrap
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 MODES = ("root", "a user", "root, not isolated", "a user, not isolated")
@@ -66,8 +66,8 @@ def mode(request):
     is_root = os.geteuid() == 0
     if request.param.startswith("root") and not is_root:
         pytest.skip("only root can try what holds for root")
-    if request.param in MODES[:2] and not place.granted().options:
-        pytest.skip(f"no isolation here: {place.granted().why}")
+    if request.param in MODES[:2] and not bubblewrap.granted().options:
+        pytest.skip(f"no isolation here: {bubblewrap.granted().why}")
     return request.param
 
 

@@ -117,7 +117,7 @@ class DriverWorld:
         now, driver = self._now, self._driver
         key = (self._is_mute, self._has_published, until(now, driver.opens_at))
         if driver._state is None:
-            return (*key, driver._published, driver._mute)
+            return (*key, driver._told, driver._mute)
         return (
             *key,
             key_of(driver, now, future={"opens_at", "_lifeless_at"}, without=NOT_IN_KEY),

@@ -30,12 +30,9 @@ ELSEWHERE = "127.0.0.2"  # another address of this machine
 
 
 class Flood(WithCockpit):
-    """A cockpit for other machines, and a robot."""
-
     options = ("--lan",)
 
     def memory_kb(self):
-        """Of the cockpit."""
         pids = self.rig.program.left_behind()
         return max(sample(0.0, "cockpit", pid).memory_kb for pid in pids)
 

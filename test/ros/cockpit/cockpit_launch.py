@@ -18,10 +18,7 @@ from tutorial_testing.waiting import wait_for
 
 
 class Launched(CockpitRig):
-    """The cockpit that the launch file has started."""
-
     def start(self):
-        """Wait for it."""
         page = wait_for(lambda: address(rosgraph.get_master_uri()), "address of the page")
         self.port = urlsplit(page).port
         self.program = Program("true")
@@ -29,14 +26,11 @@ class Launched(CockpitRig):
         wait_for(self.listens, "page of the cockpit")
 
     def listens(self):
-        """Whether the robot is known there."""
         with self.page() as page:
             return self.robot in page.wait_for("hello")["robots"]
 
 
 class BrowserJoystick(unittest.TestCase):
-    """What the launch file has started."""
-
     def test_the_page_drives(self):
         with Launched() as rig, rig.page() as page:
             self.assertNotIn("/joy_node", rosnode.get_node_names())

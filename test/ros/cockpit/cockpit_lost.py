@@ -18,8 +18,6 @@ ROUNDS = 3  # of each way; on a busy machine one may be late
 
 
 class OperatorLost(WithCockpit):
-    """Each test loses the operator of a robot that drives."""
-
     def assert_stops(self, lose, regain):
         """lose(page) and regain(page): the operator is gone, and is there again, still holding.
 

@@ -44,7 +44,6 @@ class Refused(WithCockpit):
             self.assertEqual(output.count(token), 1, output)  # where it was told in the beginning
 
     def get(self, path, **headers):
-        """(status, words) of a request."""
         connection = http.client.HTTPConnection("127.0.0.1", self.rig.port, timeout=20)
         try:
             connection.request("GET", path, headers=headers)

@@ -21,14 +21,11 @@ NEAR_M = 0.05  # at 0.35 m/s within a tenth of a second
 
 
 def publishers(topic):
-    """The names of the nodes that are registered for it."""
     state = rosgraph.Master(rospy.get_name()).getSystemState()
     return sorted(node for name, nodes in state[0] if name == topic for node in nodes)
 
 
 class Tabs(WithCockpit):
-    """One page for each test, and a robot."""
-
     def setUp(self):
         self.page = self.rig.page()
         self.page.__enter__()
@@ -36,8 +33,15 @@ class Tabs(WithCockpit):
 
     def test_the_robot_is_where_its_odometry_says(self):
         self.page.watch(robots=True, look="")
+        self.page.say("reset", robot="")
+
+        def x():
+            self.page.wait_for("robots", lambda message: "" in message["robots"])
+            return self.page.of("robots")[-1]["robots"][""]["x"]
+
+        wait_for(lambda: x() == 0.0, "robot at its start")
         self.rig.drive(self.page)
-        wait_for(lambda: self.page.of("robots")[-1]["robots"][""]["x"] > 0.3, "way driven")
+        wait_for(lambda: x() > 0.3, "way driven")
         self.page.say("leave")
         self.rig.rest_after(time.time())
         at = rospy.wait_for_message("/odom", Odometry).pose.pose.position

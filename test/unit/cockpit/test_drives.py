@@ -1,12 +1,10 @@
 """One truth about who drives and why a robot stands: what pages say in each situation."""
 
-import json
 from types import SimpleNamespace
 
 import pytest
 
 from cockpit_server.access import DRIVER, VIEWER
-from cockpit_server.clients import Client
 from cockpit_server.drives import (
     LOOKS_ONLY,
     NO_ROBOT,
@@ -22,6 +20,7 @@ from cockpit_server.drives import (
 from cockpit_server.graph import Graph
 from cockpit_server.resets import Resets
 from cockpit_server.seat import BAG, PAGE, RefusedError, Seat
+from tutorial_testing.seat_room import page
 
 ANNA, BOB = 1, 2
 MOVING, ARMED, FREE = ({"state": s, "deadman": d} for s, d in
@@ -113,10 +112,8 @@ class Room:
     """A seat, a joy2twist that reports, a graph, and a page that looks at the robot ada."""
 
     def __init__(self, role=DRIVER, robots=("ada",)):
-        self.sent, self.outdated, self.report, self.senders = [], [], ARMED, ()
-        hear, no = (lambda text: self.sent.append(json.loads(text))), (lambda: False)
-        self.client = Client(ANNA, role, "Firefox", hear, no, no, no)
-        self.client.watch = SimpleNamespace(look="ada")
+        self.outdated, self.report, self.senders = [], ARMED, ()
+        self.client, self.sent = page(role, ANNA, look="ada")
         self.seat = Seat(lambda *_: None, lambda *_: None)
         self.listeners = {"/joy2twist"}
         graphs = SimpleNamespace(

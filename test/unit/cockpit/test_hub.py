@@ -18,8 +18,6 @@ from cockpit_server.seat import PAGE
 
 
 class Broken(Source):
-    """Fails in whatever it is asked for."""
-
     def prepare(self, clients, now):
         raise KeyError("prepare")
 
@@ -31,14 +29,11 @@ class Broken(Source):
 
 
 class Well(Source):
-    """Says one word."""
-
     def give(self, client, now):
         client.send("well")
 
 
 def made(*sources, player=None):
-    """(Hub, what it tells)."""
     told = []
     graphs = SimpleNamespace(graph=Graph(subscribers={}))
     pads = SimpleNamespace(driven=None, rival=lambda *_: None)
@@ -49,7 +44,6 @@ def made(*sources, player=None):
 
 
 def join(hub):
-    """What a new page of the hub is sent, as texts."""
     sent = []
     no = lambda: False  # noqa: E731  short
     hub.join(Client(hub.number(), DRIVER, "x", sent.append, no, no, lambda: None))

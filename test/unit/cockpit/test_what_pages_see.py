@@ -2,7 +2,6 @@
 
 import json
 import struct
-from io import BytesIO
 from math import inf, nan, pi
 
 import pytest
@@ -11,8 +10,7 @@ from geometry_msgs.msg import Quaternion
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Joy
 
-from cockpit_server.access import DRIVER
-from cockpit_server.clients import LONGEST_FLOOD, Client, encoded
+from cockpit_server.clients import LONGEST_FLOOD, encoded
 from cockpit_server.doctor import shown
 from cockpit_server.fields import numeric_fields, parts_of, split, value_at
 from cockpit_server.graph import Graph, without
@@ -24,18 +22,7 @@ from cockpit_server.resets import reset_service
 from cockpit_server.robots import shown as robot_shown
 from cockpit_server.seat import RefusedError
 from cockpit_server.teleop import said
-
-
-def serialised(message):
-    buffer = BytesIO()
-    message.serialize(buffer)
-    return buffer.getvalue()
-
-
-def client(role=DRIVER):
-    sent = []
-    no, close = lambda: False, lambda: sent.append("closed")
-    return sent, Client(7, role, "x", sent.append, is_behind=no, is_cut=no, close=close)
+from tutorial_testing.seat_room import page, serialised
 
 
 def test_numbers_in_messages():
@@ -198,7 +185,7 @@ def test_a_message_is_json_without_infinity():
 
 
 def test_a_flood_is_dropped_and_then_closed():
-    sent, one = client()
+    one, sent = page()
     taken = sum(one.allows(100.0) for _ in range(LONGEST_FLOOD))
     assert taken < 300 and sent == []
     while not sent:
@@ -207,7 +194,7 @@ def test_a_flood_is_dropped_and_then_closed():
 
 
 def test_refusals_are_told_but_not_without_end():
-    sent, one = client()
+    one, sent = page()
     for _ in range(1000):
         one.refuse("drive", "no", 100.0)
     assert 0 < len(sent) <= 10

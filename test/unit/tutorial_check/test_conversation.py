@@ -68,7 +68,7 @@ JOY_NEEDED = "callback), and at the top: from sensor_msgs.msg import Joy"
 
 
 @pytest.mark.parametrize(
-    ("rows", "text", "recorded", "seen", "where", "hint"),
+    "row",
     [
         ("CONNECTED", PROGRAM, {"master_alive": False}, "has ended it", "", ""),
         ("CONNECTED", PROGRAM.replace("Joy,", "Twist,"), {"connected": False}, "wants Twist",
@@ -122,7 +122,8 @@ JOY_NEEDED = "callback), and at the top: from sensor_msgs.msg import Joy"
         ("RATE", "rospy.sleep(1)", {}, "50 for 125", "", "takes so long"),
     ],
 )  # fmt: skip
-def test_diagnosis(rows, text, recorded, seen, where, hint):
+def test_diagnosis(row):
+    rows, text, recorded, seen, where, hint = row
     wrong = find(getattr(c, rows), conversation(text, **recorded), "")
     assert seen in wrong.seen
     assert hint in wrong.hint

@@ -2,10 +2,10 @@
 
 import pytest
 
-from tutorial_check.exercises.driving import _delays as delays
 from tutorial_check.mapping import Evidence
 from tutorial_check.mapping import judge as judge_evidence
 from tutorial_check.probing import (
+    delays,
     judge_probes,
     low_joys,
     numbered_joys,

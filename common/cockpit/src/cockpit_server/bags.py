@@ -6,10 +6,9 @@ from typing import ClassVar
 
 from cockpit_server.clients import Source
 from cockpit_server.player import Player
-from cockpit_server.recording import JOY, RecordingError
+from cockpit_server.recording import JOY, RecordingError, Shelf, recordings
 from cockpit_server.schema import number, switch, text
 from cockpit_server.seat import BAG, RefusedError
-from cockpit_server.shelf import Shelf, recordings
 
 TICKS = 2  # how often pages are told the position: each other time that they are looked after
 LOOK_S = 2.0  # how often the folder is looked at for recordings, while a page shows them

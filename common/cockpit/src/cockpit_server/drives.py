@@ -1,8 +1,8 @@
 """Who drives a robot, why it stands, and what to do: put into words here alone (pure)."""
 
-from typing import Any, Dict, NamedTuple, Optional, Tuple
+from typing import Any, Dict, NamedTuple, Optional, Sequence, Tuple
 
-from cockpit_server.clients import Source
+from cockpit_server.clients import Client, Source
 from cockpit_server.graph import topic_of
 from cockpit_server.seat import BAG
 from gamepad.gamepads import F710
@@ -127,12 +127,13 @@ def lost_text(why: str, keeps_seat: bool) -> str:
 class Drives(Source):
     """Sends each page what drives the robot that it shows, and the drivers of all robots."""
 
-    def __init__(self, hub, graph_watch, teleop, robots):
+    def __init__(self, hub: Any, graph_watch: Any, teleop: Any, robots: Any) -> None:
         self._hub, self._graphs, self._teleop, self._robots = hub, graph_watch, teleop, robots
-        self._abouts, self._drivers = {}, {}
+        self._abouts: Dict[str, About] = {}
+        self._drivers: Dict[str, str] = {}
         self._driven = None  # from a page, the last time
 
-    def prepare(self, clients, now):
+    def prepare(self, clients: Sequence[Client], now: float) -> None:
         seat, driven = self._hub.seat, self._hub.driven
         if self._driven not in (None, driven):
             self._teleop.outdate(self._driven)  # that robot's driver has left since it spoke
@@ -143,7 +144,7 @@ class Drives(Source):
                 seat.moves_on(robot)
         self._drivers = {robot: driver(about) for robot, about in self._abouts.items()}
 
-    def _about(self, robot, now):
+    def _about(self, robot: str, now: float) -> About:
         seat = self._hub.seat
         page = self._hub.clients.get(seat.driver) if robot == self._hub.driven else None
         return About(
@@ -158,12 +159,12 @@ class Drives(Source):
             is_heard=bool(self._graphs.joystick_listeners(robot)),
         )
 
-    def node_that_drives(self, robot):
+    def node_that_drives(self, robot: str) -> str:
         """Return the name of the node, other than a page, that drives a robot, or ""."""
         about = self._abouts.get(robot, About())
         return driver(about) if about.is_driven_by_node else ""
 
-    def give(self, client, _now):
+    def give(self, client: Client, now: float) -> None:
         robot = client.watch.look
         about = self._abouts.get(robot, About())
         words = {

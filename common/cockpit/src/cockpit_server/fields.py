@@ -3,7 +3,10 @@
 A message class is one that genpy made: __slots__ and _slot_types say what is in it.
 """
 
+from __future__ import annotations
+
 import re
+from typing import Any, Callable, Iterable, Iterator, Sequence
 
 NUMBERS = {
     "bool", "byte", "char", "float32", "float64", "int16", "int32", "int64", "int8", "uint16",
@@ -14,7 +17,9 @@ DEEPEST = 8
 _PART = re.compile(r"([A-Za-z]\w*)(?:\[(\d{1,6})\])?")
 
 
-def numeric_fields(kind, class_of, depth=DEEPEST):
+def numeric_fields(
+    kind: Any, class_of: Callable[[str], Any], depth: int = DEEPEST
+) -> Iterator[str]:
     """Yield the names of a class's numbers. class_of: type name -> class or None."""
     if depth == 0:
         return
@@ -35,15 +40,16 @@ def numeric_fields(kind, class_of, depth=DEEPEST):
                     yield from (f"{one}/{inside}" for one in names)
 
 
-def parts_of(field):
+def parts_of(field: str) -> list[tuple[str, int | None]]:
     """Return [(name, index or None)] of a field's name. Raises ValueError."""
-    parts = [_PART.fullmatch(part) for part in field.split("/")]
-    if not all(parts) or len(parts) > DEEPEST:
+    words = field.split("/")
+    parts = [part for part in map(_PART.fullmatch, words) if part]
+    if len(parts) < len(words) or len(parts) > DEEPEST:
         raise ValueError(f"{field!r} is no field: write it as pose/position/x or axes[0]")
     return [(part[1], None if part[2] is None else int(part[2])) for part in parts]
 
 
-def value_at(message, parts):
+def value_at(message: Any, parts: Sequence[tuple[str, int | None]]) -> float | None:
     """Return the number at parts_of(...) as a float, or None."""
     for name, index in parts:
         if name not in getattr(message, "__slots__", ()):
@@ -54,11 +60,11 @@ def value_at(message, parts):
                 return None
             message = message[index]
     if hasattr(message, "to_sec"):
-        return message.to_sec()
+        return float(message.to_sec())
     return float(message) if isinstance(message, (int, float)) else None
 
 
-def split(field, topics):
+def split(field: str, topics: Iterable[str]) -> tuple[str, str]:
     """Return (topic, rest) of a field of one of the topics. Raises ValueError."""
     fitting = [topic for topic in topics if field.startswith(f"{topic}/")]
     if not fitting:

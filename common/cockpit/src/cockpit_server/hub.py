@@ -4,27 +4,11 @@ import time
 from collections import deque
 from typing import ClassVar
 
-from cockpit_server.budget import (
-    ALL_BURST_S,
-    MESSAGE_S,
-    REQUEST_S,
-    REQUESTS_BURST_S,
-    SHARE,
-    Budget,
-)
+from cockpit_server import budget, schema
+from cockpit_server.budget import SHARE, Budget
 from cockpit_server.drives import lost_text
 from cockpit_server.feeds import OnceLater
 from cockpit_server.guard import Guard
-from cockpit_server.schema import (
-    INPUT,
-    MODES,
-    WATCH,
-    Schema,
-    check_lengths,
-    one_of,
-    text,
-    whole,
-)  # fmt: skip
 from cockpit_server.seat import PAGE, Input, RefusedError, Seat
 from gamepad.gamepads import F710
 from node_kit.throttle import Throttle
@@ -41,11 +25,11 @@ class Hub:
 
     watches: ClassVar = {}
     messages: ClassVar = {
-        "drive": {"robot": text, "mode": one_of(*MODES)},
+        "drive": {"robot": schema.text, "mode": schema.one_of(*schema.MODES)},
         "leave": {},
-        "hand_over": {"to": whole},
-        "input": INPUT,
-        "release": {"why": text},
+        "hand_over": {"to": schema.whole},
+        "input": schema.INPUT,
+        "release": {"why": schema.text},
     }
 
     def __init__(self, soon, graph_watch, joysticks, pads, tell):
@@ -55,7 +39,7 @@ class Hub:
         self._named, self._player = [], None  # the sources with their names
         self.clients = {}
         self._next_number, self._beats = 1, 0
-        self._messages = Budget(ALL_BURST_S)  # of all pages but the one that drives
+        self._messages = Budget(budget.ALL_BURST_S)  # of all pages but the one that drives
         self._requests = {}  # address -> Budget of its HTTP requests
         self._due = deque()  # pages whose turn it is to be sent something
         self._may_beat = Throttle(1 / BEAT_S, burst=1.5)  # even, though the ticks are not
@@ -69,8 +53,8 @@ class Hub:
     def add(self, sources, player):
         """sources: clients.Source. player: the one that plays recordings."""
         self._player = player
-        self._schema = Schema([self, *sources])
-        self._handlers = {WATCH: self.on_watch}
+        self._schema = schema.Schema([self, *sources])
+        self._handlers = {schema.WATCH: self.on_watch}
         for one in (self, *sources):
             self._handlers.update({kind: getattr(one, f"on_{kind}") for kind in one.messages})
         self._named = [(type(one).__name__, one) for one in sources]
@@ -83,16 +67,11 @@ class Hub:
         self.clients[client.number] = client
         client.spoke_at = time.monotonic()
         client.watch = self._schema.watch()
+        pads = {m: {"axes": len(pad.axes), "buttons": pad.buttons} for m, pad in F710.items()}
         client.send(
-            "hello",
-            id=client.number,
-            role=client.role,
+            "hello", id=client.number, role=client.role, beat_ms=round(1000 * BEAT_S), pad=pads,
             robots=sorted(self._graphs.graph.robots()),
-            beat_ms=round(1000 * BEAT_S),
-            pad={
-                mode: {"axes": len(pad.axes), "buttons": pad.buttons} for mode, pad in F710.items()
-            },
-        )
+        )  # fmt: skip
 
     def leave(self, client):
         self.clients.pop(client.number, None)
@@ -105,20 +84,19 @@ class Hub:
         now = time.monotonic()
         own = client.budget.wait_s(now, self._rate)
         wait_s = max(own, self._messages.wait_s(now, SHARE))
-        client.budget.spend(MESSAGE_S)
-        self._messages.spend(MESSAGE_S)
+        client.budget.spend(budget.MESSAGE_S)
+        self._messages.spend(budget.MESSAGE_S)
         return wait_s
 
     def request_wait_s(self, address):
         """Return how long [s] an HTTP request has to wait, for what its address has cost."""
         now, rate = time.monotonic(), SHARE / max(2, len(self._requests))
         if address not in self._requests:
-            paid = [one for one, budget in self._requests.items() if not budget.wait_s(now, rate)]
-            for one in paid:
-                del self._requests[one]
-        budget = self._requests.setdefault(address, Budget(REQUESTS_BURST_S))
-        wait_s = budget.wait_s(now, rate)
-        budget.spend(REQUEST_S)
+            debts = self._requests.items()
+            self._requests = {one: debt for one, debt in debts if debt.wait_s(now, rate)}
+        own = self._requests.setdefault(address, Budget(budget.REQUESTS_BURST_S))
+        wait_s = own.wait_s(now, rate)
+        own.spend(budget.REQUEST_S)
         return wait_s
 
     @property
@@ -167,14 +145,14 @@ class Hub:
         if other is None or not other.drives:
             raise RefusedError("that page is closed, or may not drive")
         self._change(lambda: self.seat.hand_over(client.number, to, now))
-        self._modes = MODES  # the other hand may hold another gamepad
+        self._modes = schema.MODES  # the other hand may hold another gamepad
         self._sat_at = now
 
     def on_input(self, client, now, *, axes, buttons, source, **more):
         client.must_drive()
         if client.number != self.seat.driver:
             return  # it was on its way when the seat was lost
-        check_lengths(self._modes, axes, buttons)
+        schema.check_lengths(self._modes, axes, buttons)
         said = Input(axes=axes, buttons=buttons, **more)
         may_arm = self.seat.armed or self._is_heard(now)
         self._change(lambda: self.seat.input(client.number, said, now, may_arm))

@@ -46,15 +46,23 @@ def fail(line):
     sys.exit(f"cockpit: {line}")
 
 
+def report(line):
+    print(f"cockpit: {line}", flush=True)
+
+
 def listening(port, lan):
     """Return sockets that listen, or exit with a line if the port is taken."""
-    hosts = [""] if lan else ["127.0.0.1"]
+    one = socket.socket()
+    one.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    one.setblocking(False)
     try:
-        return [_listening(host, port) for host in hosts]
+        one.bind(("" if lan else "127.0.0.1", port))
+        one.listen(128)
     except OSError as error:
         if error.errno == errno.EADDRINUSE:
             leave_to_other(port, lan)
         fail(f"cannot listen on port {port}: {error.strerror}; take another: --port 8080")
+    return [one]
 
 
 def leave_to_other(port, lan):
@@ -67,28 +75,17 @@ def leave_to_other(port, lan):
             f"a cockpit is already running at {page}; for other machines end it first (a launch "
             f"file starts none with cockpit:=false), or take --port {port + 1}"
         )
-    print(f"cockpit: a cockpit is already running: open {page} on this machine", flush=True)
+    report(f"a cockpit is already running: open {page} on this machine")
     sys.exit()
 
 
-def _listening(host, port):
-    one = socket.socket()
-    one.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-    one.setblocking(False)
-    one.bind((host, port))
-    one.listen(128)
-    return one
-
-
 def wait_for_master():
-    uri = rosgraph.get_master_uri()
-    if call(uri, "getPid")[0] is Answer.REFUSED:
-        print(
-            f"cockpit: waiting for a ROS master at {uri}: start roscore, or a launch file",
-            flush=True,
-        )
-        while call(uri, "getPid")[0] is Answer.REFUSED:
-            time.sleep(LOOK_S)
+    uri, is_reported = rosgraph.get_master_uri(), False
+    while call(uri, "getPid")[0] is Answer.REFUSED:
+        if not is_reported:
+            report(f"waiting for a ROS master at {uri}: start roscore, or a launch file")
+            is_reported = True
+        time.sleep(LOOK_S)
 
 
 def own_address():
@@ -133,7 +130,7 @@ def main():
 
 def begin_anew(access):
     """Replace this process, with the same tokens: rospy knows one master."""
-    print("cockpit: the ROS master has gone", flush=True)
+    report("the ROS master has gone")
     if access.driver_token:
         os.environ[TOKENS] = f"{access.driver_token} {access.viewer_token}"
     os.execv(sys.executable, [sys.executable, *sys.argv])
@@ -155,21 +152,20 @@ def no_parameters(given):
 def tell(port, access):
     """Print the page's address; a token is shown nowhere else."""
     if access.driver_token is None:
-        print(f"cockpit: open http://127.0.0.1:{port}/ on this machine", flush=True)
+        report(f"open http://127.0.0.1:{port}/ on this machine")
         return
     page = f"http://{own_address()}:{port}/?token="
     print(f"cockpit: to look:  {page}{access.viewer_token}")
-    print(f"cockpit: to drive: {page}{access.driver_token}", flush=True)
+    report(f"to drive: {page}{access.driver_token}")
     show_code(f"{page}{access.driver_token}")
 
 
 def show_code(text):
     """Print the address as a QR code. Not by an argument, which all users see."""
     if not shutil.which("qrencode"):
-        print("cockpit: (for a QR code: apt install qrencode)", flush=True)
+        report("(for a QR code: apt install qrencode)")
         return
     done = subprocess.run(
         ["qrencode", "-t", "UTF8", "-m", "1"], input=text.encode(), capture_output=True, check=False
     )
-    sys.stdout.write(done.stdout.decode(errors="replace"))
-    sys.stdout.flush()
+    print(done.stdout.decode(errors="replace"), end="", flush=True)

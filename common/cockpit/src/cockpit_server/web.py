@@ -39,6 +39,7 @@ HEADERS = {
     "Cache-Control": "no-store",
     "Server": "cockpit",
 }
+NO_TOKEN = "open the address that the cockpit printed, with its token"
 # connect-src: older browsers do not take a WebSocket for 'self'.
 POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "
@@ -46,20 +47,17 @@ POLICY = (
 )
 
 
-class _Guarded(RequestHandler):
-    """Answers requests that name this machine and come from no other page."""
-
-    def set_default_headers(self):
-        for name, value in HEADERS.items():
-            self.set_header(name, value)
+class _Limited(RequestHandler):
+    """Delays a request by what its address has cost."""
 
     async def prepare(self):
-        await _wait_for_turn(self)
-        host = self.request.host
-        if not self.settings["access"].may_request(host, self.request.headers.get("Origin")):
-            self.refuse(403, "not an address of the cockpit: open the one that it printed")
-            return
-        self.set_header("Content-Security-Policy", POLICY.format(host=host))
+        wait_s = self.settings["hub"].request_wait_s(self.request.remote_ip)
+        if wait_s:
+            await asyncio.sleep(wait_s)
+
+    @property
+    def role(self):
+        return self.settings["access"].role(self.get_query_argument("token", None))
 
     def refuse(self, status, why):
         self.set_status(status)
@@ -67,27 +65,41 @@ class _Guarded(RequestHandler):
         self.finish(f"{why}\n")
 
     def write_error(self, status_code, **_):
-        self.set_header("Content-Type", "text/plain; charset=utf-8")
-        self.finish(f"{status_code}: nothing here\n")
+        self.refuse(status_code, f"{status_code}: nothing here")
 
 
-async def _wait_for_turn(handler):
-    """Delay a request by what its address has cost."""
-    wait_s = handler.settings["hub"].request_wait_s(handler.request.remote_ip)
-    if wait_s:
-        await asyncio.sleep(wait_s)
+class _Guarded(_Limited):
+    """Answers requests that name this machine and come from no other page."""
+
+    def set_default_headers(self):
+        for name, value in HEADERS.items():
+            self.set_header(name, value)
+
+    async def prepare(self):
+        await super().prepare()
+        host = self.request.host
+        if not self.settings["access"].may_request(host, self.request.headers.get("Origin")):
+            self.refuse(403, "not an address of the cockpit: open the one that it printed")
+            return
+        self.set_header("Content-Security-Policy", POLICY.format(host=host))
 
 
 class _Page(_Guarded):
     """The page, for a valid token if one is needed."""
 
     def get(self):
-        role = self.settings["access"].role(self.get_query_argument("token", None))
-        if role is None:
-            self.refuse(403, "open the address that the cockpit printed, with its token")
+        if self.role is None:
+            self.refuse(403, NO_TOKEN)
             return
         self.set_header("Content-Type", "text/html; charset=utf-8")
         self.finish((self.settings["page"] / "index.html").read_bytes())
+
+
+class _Nothing(_Guarded):
+    async def prepare(self):
+        await super().prepare()
+        if not self._finished:
+            self.refuse(404, "nothing here")
 
 
 class _Files(_Guarded, StaticFileHandler):
@@ -95,44 +107,36 @@ class _Files(_Guarded, StaticFileHandler):
         self.set_header("Cache-Control", "no-cache")
 
 
-class _Socket(WebSocketHandler):
+class _Socket(_Limited, WebSocketHandler):
     """The connection between a page and the Hub."""
 
     client = None
     pings = fragments = 0
 
-    async def prepare(self):
-        await _wait_for_turn(self)
-
     async def get(self, *_, **__):
-        access, hub = self.settings["access"], self.settings["hub"]
         origin = self.request.headers.get("Origin")
-        self.role = access.role(self.get_query_argument("token", None))
-        if not access.may_connect(self.request.host, origin):
+        if not self.settings["access"].may_connect(self.request.host, origin):
             self.refuse(403, "only this cockpit's own page may connect")
         elif self.role is None:
-            self.refuse(403, "open the address that the cockpit printed, with its token")
-        elif not self.has_room(list(hub.clients.values())):
+            self.refuse(403, NO_TOKEN)
+        elif not self.has_room(self.settings["hub"]):
             self.refuse(503, f"{MOST_CLIENTS} pages are open: close one, or try again later")
         else:
             await super().get()
 
-    def has_room(self, clients):
+    def has_room(self, hub):
         """Return whether one more page may be opened, for which a viewer may be closed."""
+        clients, now = list(hub.clients.values()), time.monotonic()
         if len(clients) < MOST_CLIENTS:
             return True
-        now = time.monotonic()
         pages = [Page(one.number, one.role, one.address, now - one.spoke_at) for one in clients]
         page = page_to_close(pages, self.role, self.request.remote_ip)
-        if page is not None:
-            closed = self.settings["hub"].clients[page.number]
-            self.settings["hub"].leave(closed)
-            closed.close()
-        return page is not None
-
-    def refuse(self, status, why):
-        self.set_status(status)
-        self.finish(f"{why}\n")
+        if page is None:
+            return False
+        closed = hub.clients[page.number]
+        hub.leave(closed)
+        closed.close()
+        return True
 
     def check_origin(self, origin):
         return True  # get() has looked at it
@@ -261,10 +265,3 @@ def server(hub, access):
 def _hide_token(record):
     record.msg, record.args = without_token(record.getMessage()), None
     return True
-
-
-class _Nothing(_Guarded):
-    async def prepare(self):
-        await super().prepare()
-        if not self._finished:
-            self.refuse(404, "nothing here")

@@ -36,6 +36,21 @@ def device_of(node, params):
     return in_args[0] if in_args else str(in_file.value) if in_file else ""
 
 
+def _node(node, params):
+    """A dict about one node."""
+    return {
+        "package": node.package,
+        "type": node.type,
+        "name": node.name,
+        "namespace": node.namespace,
+        "args": node.args or "",
+        "remaps": [list(each) for each in node.remap_args],
+        "respawn": bool(node.respawn),
+        "device": device_of(node, params),
+        "found": can_be_found(node.package, node.type),
+    }
+
+
 def facts_of(path):
     """A dict about one launch file."""
     import roslaunch.config  # noqa: PLC0415
@@ -51,12 +66,9 @@ def facts_of(path):
 
     roslaunch.loader.Loader.param_value = without_command
     said = io.StringIO()
-    facts = {"path": path, "error": "", "nodes": [], "files": [], "said": "", "includes": []}
+    facts = {"path": path, "error": "", "nodes": [], "files": [], "said": ""}
     try:
         document = xml.dom.minidom.parse(path)
-        facts["includes"] = [
-            each.getAttribute("file") for each in document.getElementsByTagName("include")
-        ]
         facts["root"] = document.documentElement.tagName
         facts["tags"] = [each.tagName for each in document.getElementsByTagName("*")]
     except Exception as error:
@@ -66,22 +78,7 @@ def facts_of(path):
         with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
             config = roslaunch.config.load_config_default([path], 11311, verbose=False)
         facts["errors"] = [str(each) for each in config.config_errors]
-        facts["nodes"] = [
-            {
-                "package": node.package,
-                "type": node.type,
-                "name": node.name,
-                "namespace": node.namespace,
-                "args": node.args or "",
-                "remaps": [list(each) for each in node.remap_args],
-                "file": str(node.filename or ""),
-                "respawn": bool(node.respawn),
-                "output": node.output or "",
-                "device": device_of(node, config.params),
-                "found": can_be_found(node.package, node.type),
-            }
-            for node in config.nodes
-        ]
+        facts["nodes"] = [_node(node, config.params) for node in config.nodes]
         facts["files"] = sorted({str(Path(each).resolve()) for each in config.roslaunch_files})
     except (Exception, SystemExit) as error:
         facts["error"] = " ".join(str(error).split())

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import collections
+import math
+import re
 from dataclasses import dataclass
 from typing import Iterable, Sequence, Tuple
 
@@ -34,6 +37,9 @@ def _pressed(*pressed: int, buttons: int = BUTTONS) -> tuple[int, ...]:
     return tuple(int(index in pressed) for index in range(buttons))
 
 
+NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e-?\d+)?")
+SLOW, STEP = 0.3, 0.005  # of rising_joys()
+EARLY_S = 0.06  # by which a Twist may seem to come before its Joy
 AT_REST: Joy = (REST, _pressed(LB))
 
 
@@ -51,6 +57,11 @@ def numbered_joys(count: int, buttons: int = BUTTONS) -> list[Joy]:
         rest = [0.03 + 0.05 * (index - 2) + 0.002 * (7 * k % 20) for index in range(2, AXES)]
         joys.append(((left, forwards, *rest), _pressed(LB, buttons=buttons)))
     return joys
+
+
+def rising_joys(count: int) -> list[Joy]:
+    """Return Joys that come one after another at once; each drives, a little faster than before."""
+    return [((0.2 + 0.002 * k, SLOW + STEP * k, *REST[2:]), _pressed(LB)) for k in range(count)]
 
 
 def low_joys() -> list[Joy]:
@@ -232,3 +243,39 @@ def judge_probes(samples: Sequence[Sample], answers: Iterable[Answer]) -> tuple[
                 )
     complaint, hint = judge(Evidence([*samples, *held]))
     return (complaint, hint) if complaint else ("", "")
+
+
+def delays(
+    sent: Sequence[float], heard: Sequence[tuple[float, str, Sequence[float]]], factor: float | None
+) -> list[float]:
+    """Return [s] from each Joy to its Twist: the next one, or if some are missing that of its value.
+
+    sent: when each of rising_joys() was; heard: [(when, who, six values)]; factor: of linear.x, or None.
+    """
+    heard = [each for each in heard if math.isfinite(each[2][0])]
+    if len(heard) == len(sent):
+        return [when - asked for (when, _, _), asked in zip(heard, sent)]
+    found = []
+    often = collections.Counter(round(twist[0], 6) for _, _, twist in heard)
+    for when, _, twist in heard:
+        if often[round(twist[0], 6)] > 1:
+            continue  # at a limit, or repeated: it does not tell which
+        k = round((twist[0] / factor - SLOW) / STEP) if factor else -1
+        # No answer is older than its Joy: then the value tells of another one.
+        if 0 <= k < len(sent) and when > sent[k] - EARLY_S:
+            found.append(when - sent[k])
+    return found
+
+
+def displayed(joys: Iterable[Joy], output: str) -> list[Joy]:
+    """Return the Joys of which a line has all axes, with two decimals or more."""
+    lines = [[float(word) for word in NUMBER.findall(line)] for line in output.splitlines()]
+    lines = [line for line in lines if len(line) >= 6]
+    return [
+        joy
+        for joy in joys
+        if any(
+            all(any(abs(axis - seen) < 0.0056 for seen in line) for axis in joy[0])
+            for line in lines
+        )
+    ]

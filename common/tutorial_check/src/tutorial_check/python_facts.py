@@ -94,49 +94,17 @@ def read_python(text):
         if 0 < facts.error_line <= len(lines):
             facts.error_text = lines[facts.error_line - 1].strip(" \t")
         return facts
-    called = set()
     for node in ast.walk(tree):
-        if isinstance(node, ast.Call):
-            called.add(last_name(node))
-            facts.calls.setdefault(last_name(node), []).append(
-                Call(
-                    node.lineno,
-                    [text_of(word) for word in node.args],
-                    {word.arg: text_of(word.value) for word in node.keywords if word.arg},
-                )
-            )
-        elif isinstance(node, ast.Global):
-            facts.globals.append(node.lineno)
-        elif isinstance(node, ast.ExceptHandler):
-            if node.type is None or text_of(node.type) in ("Exception", "BaseException"):
-                facts.broad_excepts.append(node.lineno)
-        elif isinstance(node, ast.Import):
-            facts.imports.update(alias.name for alias in node.names)
-        elif isinstance(node, ast.ImportFrom):
-            facts.imports.update(f"{node.module}.{alias.name}" for alias in node.names)
-        elif isinstance(node, ast.While):
-            facts.loops.append(node.lineno)
-        elif _is_main(node):
-            facts.has_main = True
-        elif isinstance(node, ast.Expr) and isinstance(node.value, (ast.Attribute, ast.Name)):
-            facts.bare_names.append((node.lineno, text_of(node.value)))
+        _note(facts, node)
     facts.names = _names(tree)
-    facts.inner_names = {
-        name
-        for function in ast.walk(tree)
-        if isinstance(function, ast.FunctionDef)
-        for _, name in _made(function)
-    }
+    functions = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)]
+    facts.inner_names = {name for function in functions for _, name in _made(function)}
     facts.attributes = _attributes(tree)
     facts.loose = _loose(tree)
     facts.sunken_main = _sunken_main(tree)
-    facts.functions = {
-        node.name: node.lineno for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)
-    }
-    given = [
-        (call.words[2:3] or [call.names.get("callback", "")])[0]
-        for call in facts.calls.get("Subscriber", [])
-    ]
+    facts.functions = {node.name: node.lineno for node in functions}
+    subscribers = facts.calls.get("Subscriber", [])
+    given = [(one.words[2:3] or [one.names.get("callback", "")])[0] for one in subscribers]
     facts.called_back = _called_by(tree, given)
     given = [word for call in facts.calls.get("on_shutdown", []) for word in call.words[:1]]
     facts.at_end = _called_by(tree, given)
@@ -144,10 +112,32 @@ def read_python(text):
     facts.odd_node = _odd_node(tree)
     for calls in facts.calls.values():
         calls.sort(key=lambda call: call.line)
-    facts.classes = [
-        class_facts(node, called) for node in ast.walk(tree) if isinstance(node, ast.ClassDef)
-    ]
+    classes = [node for node in ast.walk(tree) if isinstance(node, ast.ClassDef)]
+    facts.classes = [class_facts(node, set(facts.calls)) for node in classes]
     return facts
+
+
+def _note(facts, node):
+    """Add what a node of the tree says by itself."""
+    if isinstance(node, ast.Call):
+        words = [text_of(word) for word in node.args]
+        names = {word.arg: text_of(word.value) for word in node.keywords if word.arg}
+        facts.calls.setdefault(last_name(node), []).append(Call(node.lineno, words, names))
+    elif isinstance(node, ast.Global):
+        facts.globals.append(node.lineno)
+    elif isinstance(node, ast.ExceptHandler):
+        if node.type is None or text_of(node.type) in ("Exception", "BaseException"):
+            facts.broad_excepts.append(node.lineno)
+    elif isinstance(node, ast.Import):
+        facts.imports.update(alias.name for alias in node.names)
+    elif isinstance(node, ast.ImportFrom):
+        facts.imports.update(f"{node.module}.{alias.name}" for alias in node.names)
+    elif isinstance(node, ast.While):
+        facts.loops.append(node.lineno)
+    elif _is_main(node):
+        facts.has_main = True
+    elif isinstance(node, ast.Expr) and isinstance(node.value, (ast.Attribute, ast.Name)):
+        facts.bare_names.append((node.lineno, text_of(node.value)))
 
 
 def _names(tree):

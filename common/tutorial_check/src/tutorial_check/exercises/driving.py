@@ -1,7 +1,5 @@
 """One program that turns Joy into Twist, driven over its topics; what was seen, without a verdict."""
 
-import collections
-import math
 import re
 import statistics
 import time
@@ -10,10 +8,14 @@ from tutorial_check.box import GRACE_S
 from tutorial_check.mapping import LINEAR, Evidence, judge, rule_of
 from tutorial_check.probing import (
     AT_REST,
+    NUMBER,
+    delays,
+    displayed,
     judge_probes,
     low_joys,
     numbered_joys,
     probes,
+    rising_joys,
     silence,
     small_and_button_probes,
 )
@@ -31,7 +33,6 @@ SETTLE_S = 0.15  # after it, in which more of them may come
 QUIET_S = 0.25  # without a Joy, or longer for a slow one: a clock of its own makes itself heard
 SAME_S = 0.06  # in which several Twists answer one Joy
 NAP_S = 0.3  # for one Twist: none takes so long of whom nothing is wrong
-NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e-?\d+)?")
 COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 
 
@@ -43,10 +44,8 @@ class Drive:
         self.samples, self.missing, self.unasked, self.shown, self.asked = [], 0, 0, 0, 0
         self.delays, self.sent, self.answered, self.strays = [], 0, 0, 0
         self.came = 0  # Twists for the numbered Joys
-        self.first_samples, self.at_rest = (
-            [],
-            None,
-        )  # of an earlier pass; the answer to a Joy at rest
+        self.first_samples = []  # of an earlier pass
+        self.at_rest = None  # the answer to a Joy at rest
         self.waits = []  # [s] from a Joy to the next Twist, one at a time
         self.twists, self.has_clock = [], False  # all of the second pass; whether more come unasked
         self.repeats = False  # whether those move the robot, though no Joy came
@@ -207,13 +206,7 @@ class Drive:
 
     def _stream(self, stage, beside=None):
         count = int(RATE * STREAM_S)
-        joys = [
-            (
-                (0.2 + 0.002 * k, 0.3 + 0.005 * k, 0.0, 0.0, 0.0, 0.0),
-                (*NEUTRAL[1][:4], 1, *NEUTRAL[1][5:]),
-            )
-            for k in range(count)
-        ]
+        joys = rising_joys(count)
         before = stage.call("count", CMD_VEL)
         stage.call("stream", JOY, joys, RATE, False)
         stage.wait(lambda: len(stage.call("sent", JOY)) >= count, STREAM_S + 3)
@@ -221,14 +214,14 @@ class Drive:
         sent, heard = stage.call("sent", JOY), stage.call("heard", CMD_VEL, before)
         self.sent, self.answered = len(sent), len(heard)
         rule = rule_of(LINEAR, self.samples)
-        self.delays = _delays(sent, heard, rule and rule.factor)
+        self.delays = delays(sent, heard, rule and rule.factor)
         moving = [any(twist) for _, _, twist in heard]
         # All of these Joys move the robot, once the first does.
         self.strays = moving[moving.index(True) :].count(False) if any(moving) else 0
         if beside:
             echoed = stage.call("heard", beside)
             self.possible = len(echoed)
-            self.unavoidable_s = statistics.median(_delays(sent, echoed, 1.0) or [0.0])
+            self.unavoidable_s = statistics.median(delays(sent, echoed, 1.0) or [0.0])
 
     # ------------------------------------------------------------------------------- looking
 
@@ -289,37 +282,6 @@ class Drive:
     def _displayed(self):
         """How many of the Joys were displayed, all six axes in a line."""
         return len(displayed(self.joys, COLOUR.sub("", self.program.output)))
-
-
-def _delays(sent, heard, factor):
-    """[s] from each Joy to its Twist: the next one, if none is missing; else its value, by a known factor, says."""
-    heard = [each for each in heard if math.isfinite(each[2][0])]
-    if len(heard) == len(sent):
-        return [when - asked for (when, _, _), asked in zip(heard, sent)]
-    delays = []
-    often = collections.Counter(round(twist[0], 6) for _, _, twist in heard)
-    for when, _, twist in heard:
-        if often[round(twist[0], 6)] > 1:
-            continue  # at a limit, or repeated: it does not tell which
-        k = round((twist[0] / factor - 0.3) / 0.005) if factor else -1
-        # No answer is older than its Joy: then the value tells of another one.
-        if 0 <= k < len(sent) and when > sent[k] - SAME_S:
-            delays.append(when - sent[k])
-    return delays
-
-
-def displayed(joys, output):
-    """The Joys of which a line has all axes, with two decimals or more. Pure."""
-    lines = [[float(word) for word in NUMBER.findall(line)] for line in output.splitlines()]
-    lines = [line for line in lines if len(line) >= 6]
-    return [
-        joy
-        for joy in joys
-        if any(
-            all(any(abs(axis - seen) < 0.0056 for seen in line) for axis in joy[0])
-            for line in lines
-        )
-    ]
 
 
 def drive(session, script, wants_twist=True):
