@@ -1,11 +1,13 @@
 """A program's text with one thing changed, to see what it does then. Pure."""
 
+from __future__ import annotations
+
 import ast
 
 from tutorial_check.python_text import last_name, python_lines, text_of
 
 
-def unmasked(text):
+def unmasked(text: str) -> str | None:
     """The program with every except: that hides all made to catch nothing; None if there is none.
 
     Every line keeps its number, and its margin of blanks or tabs.
@@ -31,7 +33,7 @@ def unmasked(text):
     return "\n".join(lines) + "\n"
 
 
-def without_name(text, name):
+def without_name(text: str, name: str) -> str | None:
     """The program without something that it imports; None if it does not import it by name."""
     try:
         tree = ast.parse(text)
@@ -44,12 +46,12 @@ def without_name(text, name):
         }:
             line = lines[node.lineno - 1]
             margin = line[: len(line) - len(line.lstrip())]
-            lines.insert(node.end_lineno, f"{margin}del {name}")
+            lines.insert(node.end_lineno or node.lineno, f"{margin}del {name}")
             return "\n".join(lines) + "\n"
     return None
 
 
-def flipped_anonymous(text, wanted):
+def flipped_anonymous(text: str, wanted: bool) -> str | None:
     """The program with anonymous=wanted in its init_node; None if it has none that is plain."""
     try:
         tree = ast.parse(text)
@@ -71,14 +73,14 @@ def flipped_anonymous(text, wanted):
     return None
 
 
-def _replaced(lines, node, new):
+def _replaced(lines: list[str], node: ast.expr, new: str) -> str | None:
     if node.lineno != node.end_lineno:
         return None
     _put(lines, node, node.end_col_offset, new)
     return "\n".join(lines) + "\n"
 
 
-def _put(lines, node, end, new):
+def _put(lines: list[str], node: ast.expr | ast.ExceptHandler, end: int | None, new: str) -> None:
     """Put a text in the place of a node, up to a column of its first line, in bytes as ast counts."""
     line = lines[node.lineno - 1].encode()
     lines[node.lineno - 1] = (line[: node.col_offset] + new.encode() + line[end:]).decode()
