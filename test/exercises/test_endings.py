@@ -10,7 +10,7 @@ from edits import TALKER, B, write
 from test_awkward import SOURCE
 from test_hostile import processes_like
 
-from tutorial_check import place
+from tutorial_check import bubblewrap
 from tutorial_testing.processes import Program, command_line, descendants, lives
 from tutorial_testing.waiting import wait_for
 
@@ -56,7 +56,7 @@ def environment(request, tmp_path, scratch):
     path = os.environ["PATH"]
     if request.param == "bare":
         path = path_without_namespaces(tmp_path)
-    elif not place.granted()[0]:
+    elif not bubblewrap.granted().options:
         pytest.skip("no namespaces here")
     return {"PYTHONPATH": str(SOURCE), "PATH": path, "TMPDIR": scratch}
 

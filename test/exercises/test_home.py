@@ -9,11 +9,11 @@ import pytest
 from edits import LAUNCH_BAG, TALKER, B, J, put
 from test_awkward import check
 
-from tutorial_check import place
+from tutorial_check import bubblewrap
 from tutorial_check.examination import examine
 
 pytestmark = pytest.mark.skipif(
-    not place.granted()[0], reason="no isolation here: nothing is hidden"
+    not bubblewrap.granted().options, reason="no isolation here: nothing is hidden"
 )
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from edits import JOY2TWIST, LISTENER, TALKER, apply, put, write
 
+from tutorial_check import bubblewrap
 from tutorial_check.examination import examine
 from tutorial_check.report import lines_of
 
@@ -24,8 +25,7 @@ ENDS_THE_MASTER = (
     f"{FIRST}import xmlrpc.client\n"
     "xmlrpc.client.ServerProxy(os.environ['ROS_MASTER_URI']).shutdown('/me', 'no more')\n"
 )
-# It works as it should, and leaves links where the checker writes a changed copy of it (C9); the one
-# to a descriptor of the checker's is to have its own text, by then a verdict, written there.
+# It works as it should, and leaves links where the checker writes a changed copy of it (C9).
 PLANTS_LINKS = """
 import os
 here = os.path.dirname(os.path.abspath(__file__))
@@ -33,16 +33,7 @@ for number in range(1, 9):
     link = os.path.join(here, "checked_%d_talker.py" % number)
     if not os.path.lexists(link):
         os.symlink({aim!r}, link)
-def forge():
-    with open(os.path.join(here, "talker.py"), "w") as file:
-        file.write({text!r})
-rospy.on_shutdown(forge)
 """
-FORGED = (
-    '{"exercise": "3", "result": {"id": "FORGED", "status": "ok", "title": "x"}}\n'
-    '{"exercise": "3", "done": 1, "trouble": ""}\n'
-    "rospy.init_node('talker', anonymous=True)"
-)
 AFTER_INIT = "    rospy.init_node('listener', anonymous=True)\n"
 
 
@@ -187,13 +178,13 @@ def test_one_that_prints_a_verdict(literal, floor):
     assert check == "C14"
 
 
-@pytest.mark.parametrize("aim", ["/proc/self/fd/4/planted", "/proc/self/fd/3", "{scratch}/planted"])
-def test_one_that_plants_links_where_the_checker_writes(literal, floor, scratch, aim):
-    plant = PLANTS_LINKS.format(aim=aim.format(scratch=scratch), text=FORGED)
+def test_one_that_plants_links_where_the_checker_writes(literal, floor, scratch, monkeypatch):
+    """Without isolation, where the link leads somewhere."""
+    monkeypatch.setattr(bubblewrap, "granted", bubblewrap.Isolation)
+    plant = PLANTS_LINKS.format(aim=f"{scratch}/planted")
     apply([put(TALKER, "import rospy\n", f"import rospy\n{plant}", 1)], literal)
-    seen = []
-    examine(literal.parent, floor, ["3"], lambda _, result: seen.append(result.id))
-    assert "C8" in seen and "FORGED" not in seen
+    (outcome,) = examine(literal.parent, floor, ["3"])
+    assert "C9" in [result.id for result in outcome.results]
     assert not os.path.lexists(f"{scratch}/planted")
 
 

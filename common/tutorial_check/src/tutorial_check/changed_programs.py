@@ -8,7 +8,7 @@ from tutorial_check.python_text import last_name, python_lines, text_of
 
 
 def unmasked(text: str) -> str | None:
-    """The program with every except: that hides all made to catch nothing; None if there is none.
+    """Return the program with every except: that hides all made to catch nothing; None if there is none.
 
     Every line keeps its number, and its margin of blanks or tabs.
     """
@@ -27,14 +27,14 @@ def unmasked(text: str) -> str | None:
         return None
     for handler in hidden:
         if handler.type:
-            _put(lines, handler.type, handler.type.end_col_offset, "()")
+            _put(lines, handler.type, handler.type.end_col_offset or 0, "()")
         else:
             _put(lines, handler, handler.col_offset + len("except"), "except ()")
     return "\n".join(lines) + "\n"
 
 
 def without_name(text: str, name: str) -> str | None:
-    """The program without something that it imports; None if it does not import it by name."""
+    """Return the program without something that it imports; None if it does not import it by name."""
     try:
         tree = ast.parse(text)
     except (SyntaxError, ValueError):
@@ -52,7 +52,7 @@ def without_name(text: str, name: str) -> str | None:
 
 
 def flipped_anonymous(text: str, wanted: bool) -> str | None:
-    """The program with anonymous=wanted in its init_node; None if it has none that is plain."""
+    """Return the program with anonymous=wanted in its init_node; None if it has none that is plain."""
     try:
         tree = ast.parse(text)
     except (SyntaxError, ValueError):
@@ -76,11 +76,11 @@ def flipped_anonymous(text: str, wanted: bool) -> str | None:
 def _replaced(lines: list[str], node: ast.expr, new: str) -> str | None:
     if node.lineno != node.end_lineno:
         return None
-    _put(lines, node, node.end_col_offset, new)
+    _put(lines, node, node.end_col_offset or 0, new)
     return "\n".join(lines) + "\n"
 
 
-def _put(lines: list[str], node: ast.expr | ast.ExceptHandler, end: int | None, new: str) -> None:
+def _put(lines: list[str], node: ast.expr | ast.ExceptHandler, end: int, new: str) -> None:
     """Put a text in the place of a node, up to a column of its first line, in bytes as ast counts."""
     line = lines[node.lineno - 1].encode()
     lines[node.lineno - 1] = (line[: node.col_offset] + new.encode() + line[end:]).decode()

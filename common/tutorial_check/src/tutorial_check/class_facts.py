@@ -23,7 +23,7 @@ class ClassFacts:
 
 
 def class_facts(node: ast.ClassDef, called: set[str]) -> ClassFacts:
-    """The ClassFacts of a ClassDef. called: the names of all that the file calls."""
+    """Return the ClassFacts of a ClassDef. called: the names of all that the file calls."""
     inside = {text_of(part.func) for part in ast.walk(node) if isinstance(part, ast.Call)}
     words = {name.rsplit(".", 1)[-1] for name in inside}
     bases = {text_of(base) for base in node.bases}
@@ -42,7 +42,7 @@ def class_facts(node: ast.ClassDef, called: set[str]) -> ClassFacts:
 
 
 def with_bases(classes: list[ClassFacts]) -> list[ClassFacts]:
-    """The ClassFacts, each with what the bases among them give it."""
+    """Return the ClassFacts, each with what the bases among them give it."""
     by_name = {one.name: one for one in classes}
 
     def whole(one: ClassFacts, below: tuple[str, ...] = ()) -> ClassFacts:
@@ -65,6 +65,6 @@ def with_bases(classes: list[ClassFacts]) -> list[ClassFacts]:
 
 
 def _stored(node: ast.ClassDef) -> set[str]:
-    """What is assigned in a class: names as well as attributes."""
+    """Return what is assigned in a class: names as well as attributes."""
     stored = [part for part in ast.walk(node) if isinstance(getattr(part, "ctx", None), ast.Store)]
     return {getattr(part, "attr", getattr(part, "id", "")) for part in stored}

@@ -11,9 +11,9 @@ CODING = re.compile(rb"(?:[ \t\f]*(?:#[^\n]*)?\n)??[ \t\f]*#[^\n]*?coding[:=][ \
 
 
 def unreadable(data: bytes) -> tuple[int, str] | None:
-    """(line, what is there) of the first thing in a file that is not of its coding; None if all is."""
+    """Return (line, what is there) of the first thing in a file that is not of its coding; None if all is."""
     declared = CODING.match(data)
-    coding, end = (declared[1].decode(), declared.end()) if declared else ("utf-8", 0)
+    coding = declared[1].decode() if declared else "utf-8"
     try:
         data.decode(coding)
     except UnicodeError as error:
@@ -21,17 +21,18 @@ def unreadable(data: bytes) -> tuple[int, str] | None:
         what = f"the byte 0x{data[start]:02x}, which is not {coding.upper()}"
         return data.count(b"\n", 0, start) + 1, what
     except LookupError:
+        end = declared.end() if declared else 0
         return data.count(b"\n", 0, end) + 1, f"a coding that is none, {coding}"
     return None
 
 
 def python_lines(text: str) -> list[str]:
-    """The lines of a program as Python counts them; for splitlines() one also ends at a form feed or U+2028."""
+    """Return the lines as Python counts them; splitlines() also splits at a form feed or U+2028."""
     return [line.rstrip("\r\n") for line in io.StringIO(text, newline="")]
 
 
 def text_of(node: ast.AST) -> str:
-    """A short text of an expression; for what has none, its kind."""
+    """Return a short text of an expression; for what has none, its kind."""
     if isinstance(node, ast.Constant):
         return str(node.value)
     if isinstance(node, ast.Name):
@@ -46,5 +47,5 @@ def text_of(node: ast.AST) -> str:
 
 
 def last_name(node: ast.Call) -> str:
-    """The last part of the name of what is called."""
+    """Return the last part of the name of what is called."""
     return text_of(node.func).rsplit(".", 1)[-1]

@@ -23,7 +23,7 @@ ABOVE = "During handling of the above exception"
 
 
 def first_traceback(output: str, folder: str) -> Traceback | None:
-    """The first Traceback in the output, or None: what follows is often its consequence.
+    """Return the first Traceback in the output, or None: what follows is often its consequence.
 
     folder: the package's; its files count as the student's.
     """
@@ -56,7 +56,7 @@ def _traceback(block: str, folder: str) -> Traceback:
 
 
 def last_lines(output: str, count: int = 3) -> str:
-    """The end of an output, in one line, without colours."""
+    """Return the end of an output, in one line, without colours."""
     plain = re.sub(r"\x1b\[[0-9;]*m", "", output)
     lines = [line.strip() for line in plain.splitlines() if line.strip()]
     return " / ".join(line[:200] for line in lines[-count:])

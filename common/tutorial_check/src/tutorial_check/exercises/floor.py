@@ -78,7 +78,8 @@ def _check_names(session):
     """No package has the name of one that the exercises stand on, or Wrong."""
     share = Path(session.floor).parent / "share"
     for each in session.packages:
-        is_suite = (share / each.name).is_dir() and not each.name.startswith(STAND_INS)
+        with place.own_rights():
+            is_suite = (share / each.name).is_dir() and not each.name.startswith(STAND_INS)
         if is_suite or any(each.name in names for names in WANTED.values()):
             seen = f"a package {each.name}: it hides {'the suite' if is_suite else 'ROS'}'s own"
             hint = "remove it from src. If catkin_create_pkg made it: its first word is the name"

@@ -149,10 +149,13 @@ def joy2twist(session):
 def _is_known(session, name):
     """Whether find_package surely finds a package. If not, a build tells, which takes its time."""
     prefixes = session.floor_environment.get("CMAKE_PREFIX_PATH", "").split(":")
-    return any(each.name == name for each in session.packages) or any(
-        Path(prefix, "share", name, "cmake", f"{name}Config.cmake").is_file()
-        for prefix in (*prefixes, "/usr")
-    )
+    if any(each.name == name for each in session.packages):
+        return True
+    with own_rights():
+        return any(
+            Path(prefix, "share", name, "cmake", f"{name}Config.cmake").is_file()
+            for prefix in (*prefixes, "/usr")
+        )
 
 
 def _cmake(package):
