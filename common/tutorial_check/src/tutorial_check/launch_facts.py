@@ -12,11 +12,7 @@ import json
 import shlex
 import xml.dom.minidom
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Dict
-
-if TYPE_CHECKING:
-    from tutorial_check.launch_facts import Node
-
+from typing import Any, Dict
 
 MARK = "launch facts: "
 Node = Dict[str, Any]  # about a node: package, type, name, args ...
@@ -33,7 +29,7 @@ def can_be_found(package: str, kind: str) -> bool:
         return False
 
 
-def device_of(node: Node, params: Any) -> Any:
+def device_of(node: Any, params: Any) -> Any:
     """The device that a node is told to read, as joy_node is; or empty."""
     try:
         words = shlex.split(node.args or "")
@@ -44,7 +40,7 @@ def device_of(node: Node, params: Any) -> Any:
     return in_args[0] if in_args else str(in_file.value) if in_file else ""
 
 
-def _node(node: Node, params: Any) -> Any:
+def _node(node: Any, params: Any) -> Node:
     """A dict about one node."""
     return {
         "package": node.package,
@@ -59,7 +55,7 @@ def _node(node: Node, params: Any) -> Any:
     }
 
 
-def facts_of(path: Path) -> Any:
+def facts_of(path: str) -> Any:
     """A dict about one launch file."""
     import roslaunch.config  # noqa: PLC0415
     import roslaunch.loader  # noqa: PLC0415

@@ -25,14 +25,14 @@ def _class_files(session: Session) -> Any:
     scripts = session.scripts(PACKAGE)
     owned = [(path, one) for path, facts in scripts.items() for one in facts.classes]
     bases = {base.rpartition(".")[2] for _, one in owned for base in one.bases}
-    found = {}
+    found: dict[str, ClassFacts] = {}
     for (path, _), one in zip(owned, with_bases([one for _, one in owned])):
         better = path not in found or (found[path].name in bases and one.name not in bases)
         if one.is_node and better and "checked_" not in path:
             found[path] = one
     folder = session.package(PACKAGE).folder
 
-    def unlikely(path: Path) -> Any:
+    def unlikely(path: str) -> Any:
         """The step before, under joy2twist.py, may be a class already; and there are old copies."""
         return (
             found[path].name in bases,
@@ -74,7 +74,7 @@ def program(session: Session) -> Any:
 class Form:
     """A class beside its program: the facts of the rows below."""
 
-    def __init__(self, session: Session, script: str, path: Path, one: ClassFacts) -> None:
+    def __init__(self, session: Session, script: str, path: str, one: ClassFacts) -> None:
         self.path, self.one = path, one
         self.facts = session.scripts(PACKAGE)[path]
         self.where = f"{path}:{one.line}"

@@ -151,7 +151,9 @@ def check_connected(session: Session, seen: Drive) -> Any:
     return one
 
 
-def check_displays(session: Session, seen: Drive, few_are_enough: bool = False) -> Any:
+def check_displays(
+    session: Session, seen: Drive, few_are_enough: bool = False
+) -> Note | str | None:
     """Joys appear in the output with all six axes, or Wrong."""
     one = check_connected(session, seen)
     if seen.all_shown or (seen.shown and few_are_enough):
@@ -162,7 +164,7 @@ def check_displays(session: Session, seen: Drive, few_are_enough: bool = False) 
     return demand(NOT_DISPLAYED, one, DISPLAYS)
 
 
-def check_topics(session: Session, seen: Drive) -> Any:
+def check_topics(session: Session, seen: Drive) -> Note | str | None:
     """/joy in, /cmd_vel out, with their types, or Wrong."""
     one = check_connected(session, seen)
     note = demand(TOPICS, one, PUBLISHES)
@@ -171,7 +173,7 @@ def check_topics(session: Session, seen: Drive) -> Any:
     return note or "/joy -> /cmd_vel"
 
 
-def check_mapping(session: Session, seen: Drive) -> Any:
+def check_mapping(session: Session, seen: Drive) -> Note | str | None:
     """linear.x follows axis 1, angular.z axis 0; or Wrong names the rule that was found."""
     one = Conversation(session, seen)
     if not seen.trouble:
@@ -186,7 +188,7 @@ def check_mapping(session: Session, seen: Drive) -> Any:
     return demand(RIGHT_RULE, one, MAPS)
 
 
-def check_rate(session: Session, seen: Drive) -> Any:
+def check_rate(session: Session, seen: Drive) -> Note | str | None:
     """50 Joys a second are answered, each soon."""
     if seen.is_prompt:
         return seen.rate

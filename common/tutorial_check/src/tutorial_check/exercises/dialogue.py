@@ -6,7 +6,7 @@ import collections
 import contextlib
 import functools
 import re
-from typing import TYPE_CHECKING, Any, Iterable
+from typing import TYPE_CHECKING, Any, Dict, Iterable
 
 from tutorial_check.causes import with_import
 from tutorial_check.changed_programs import unmasked
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 STRAYS = 2  # zeros in a row of Joys that may be
 
 
-class Places(dict):
+class Places(Dict[str, str]):
     """{name of a function: where its first call stands}."""
 
     def __init__(self, script: str, facts: PythonFacts) -> None:
@@ -208,7 +208,7 @@ class Conversation:
         return "", ""
 
 
-def repetition(answers: Any, twists: str) -> Any:
+def repetition(answers: Any, twists: Any) -> Any:
     """(how many Twists came for each Joy, whether they differ); (1, False) if no such number is clear.
 
     answers: one Twist for each Joy; twists: all that came meanwhile. Which of them belong to one Joy

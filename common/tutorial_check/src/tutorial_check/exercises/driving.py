@@ -50,21 +50,26 @@ class Drive:
 
     def __init__(self, session: Session, script: str, wants_twist: bool = True) -> None:
         self.session, self.script = session, script
-        self.samples, self.missing, self.unasked, self.shown, self.asked = [], 0, 0, 0, 0
-        self.delays, self.sent, self.answered, self.strays = [], 0, 0, 0
+        self.samples: list[Any] = []
+        self.missing = self.unasked = self.shown = self.asked = 0
+        self.delays: list[float] = []
+        self.sent = self.answered = self.strays = 0
         self.came = 0  # Twists for the numbered Joys
-        self.first_samples = []  # of an earlier pass
-        self.at_rest = None  # the answer to a Joy at rest
-        self.waits = []  # [s] from a Joy to the next Twist, one at a time
-        self.twists, self.has_clock = [], False  # all of the second pass; whether more come unasked
+        self.first_samples: list[Any] = []  # of an earlier pass
+        self.at_rest: Any = None  # the answer to a Joy at rest
+        self.waits: list[float] = []  # [s] from a Joy to the next Twist, one at a time
+        self.twists: list[Any] = []  # all of the second pass
+        self.has_clock = False  # whether more come unasked
         self.repeats = False  # whether those move the robot, though no Joy came
-        self.answers, self.unanswered = [], None  # of the probes; (Joy, one before) without a Twist
+        self.answers: list[Any] = []  # of the probes
+        self.unanswered: Any = None  # (Joy, one before) without a Twist
         facts = session.scripts(PACKAGE).get(script)
         self.sleep_lines = facts.called_back.get("sleep", []) if facts else []
         # A queue of one drops what it has no time for, and the newest value is not late.
         drops = facts and facts.keeps_newest and not self.sleep_lines
         self.enough = 0.5 if drops else 0.95  # of the Joys of a stream answered
-        self.possible = self.unavoidable_s = None  # what our own Echo answered beside it
+        self.possible: int | None = None
+        self.unavoidable_s: float | None = None  # what our own Echo answered beside it
         with session.stage() as stage:
             stage.call("advertise", JOY, "Joy")
             stage.call("listen", CMD_VEL, "Twist")
@@ -88,8 +93,6 @@ class Drive:
             grace_s = GRACE_S if "4.3" in session.exercises else 0.5
             self.taken_s = session.box.end(self.program, grace_s)
             self.last_words = self.program.output[len(self.output) :]
-
-    # ------------------------------------------------------------------------------ driving
 
     def _converse(self, stage: Stage, wants_twist: bool) -> None:
         stage.call("send", JOY, NEUTRAL)
@@ -157,14 +160,14 @@ class Drive:
         """The other Joys, each until it is answered; the first that is not, also when asked again, ends it."""
         before, settle_s = joys[-1], SETTLE_S if self.twists else 0.0
         # By now it is known how many Twists one Joy gets: no time is needed to wait for more.
-        often = max(1, round(len(self.twists) / len(self.samples)))
+        times = max(1, round(len(self.twists) / len(self.samples)))
         plan = [(joy, settle_s, 1) for joy in probes(joys)]
-        plan += [(joy, 0.0, often) for joy in small_and_button_probes()]
-        for joy, *patience in plan:
-            _, heard = self._ask(stage, joy, *patience)
+        plan += [(joy, 0.0, times) for joy in small_and_button_probes()]
+        for joy, wait_s, often in plan:
+            _, heard = self._ask(stage, joy, wait_s, often)
             if not heard and not self.program.ended:
-                self._ask(stage, before, *patience)
-                _, heard = self._ask(stage, joy, *patience)
+                self._ask(stage, before, wait_s, often)
+                _, heard = self._ask(stage, joy, wait_s, often)
             if not heard:
                 self.unanswered = joy, before
                 return
@@ -223,7 +226,7 @@ class Drive:
         sent, heard = stage.call("sent", JOY), stage.call("heard", CMD_VEL, before)
         self.sent, self.answered = len(sent), len(heard)
         rule = rule_of(LINEAR, self.samples)
-        self.delays = delays(sent, heard, rule and rule.factor)
+        self.delays = delays(sent, heard, rule.factor if rule else None)
         moving = [any(twist) for _, _, twist in heard]
         # All of these Joys move the robot, once the first does.
         self.strays = moving[moving.index(True) :].count(False) if any(moving) else 0
@@ -231,8 +234,6 @@ class Drive:
             echoed = stage.call("heard", beside)
             self.possible = len(echoed)
             self.unavoidable_s = statistics.median(delays(sent, echoed, 1.0) or [0.0])
-
-    # ------------------------------------------------------------------------------- looking
 
     @property
     def evidence(self) -> Any:

@@ -41,9 +41,9 @@ ARGUMENTS_HINT = (
 class End:
     """What came of ending it in one way."""
 
-    zero_after_s: float  # None: it never came
+    zero_after_s: float | None  # None: it never came
     in_time: bool  # within STOP_S, if it came
-    took_s: float  # None: it had to be killed
+    took_s: float | None  # None: it had to be killed
     after_zero: int  # Twists that moved the robot again
     output: str
 

@@ -175,7 +175,7 @@ def check_file(session: Session, package: str, script: str) -> None:
     text = Text(session, package, script)
     for expected, look, row in OF_A_TEXT:
         wrong = find([row], text, expected)
-        if wrong:
+        if isinstance(wrong, Wrong):
             wrong.look = look.format(whole=text.whole) or f"rosrun {package} {text.name}"
             raise wrong
 
@@ -183,10 +183,10 @@ def check_file(session: Session, package: str, script: str) -> None:
 def is_runnable(session: Session, package: str, path: Path) -> Any:
     """Whether rosrun takes a program: it may be run, or catkin has made one of it in devel."""
     may_be_run = path.stat().st_mode & 0o100
-    return bool(may_be_run) or session.command(package, path) != [str(path)]
+    return bool(may_be_run) or session.command(package, str(path)) != [str(path)]
 
 
-def odd_node(session: Session, package: str, script: str) -> Any:
+def odd_node(session: Session, package: str, script: str) -> Note | None:
     """A Note on the name of a node of which ROS warns; None if there is none."""
     facts = session.scripts(package).get(script)
     if not facts or not facts.odd_node:
@@ -247,7 +247,7 @@ def crash(session: Session, package: str, program: Any, expected: str, hint: str
 
 def check_end(
     session: Session, package: str, script: str, taken_s: float | None, output: str
-) -> Any:
+) -> Note | None:
     """A Note on how a program ended after Ctrl-C, or None. taken_s: None if it had to be killed."""
     name = Path(script).name
     if taken_s is None:

@@ -56,7 +56,7 @@ def is_own(node: Node) -> Any:
     return node["package"] == PACKAGE
 
 
-def check_viewer(file: LaunchFile) -> Any:
+def check_viewer(file: LaunchFile) -> Note | None:
     """RViz with a configuration that exists."""
     node = file.demand("RViz", is_viewer, VIEWER_HINT)
     words = file.words_of(node)
@@ -72,7 +72,7 @@ def check_viewer(file: LaunchFile) -> Any:
     return None
 
 
-def odd_name(file: LaunchFile) -> Any:
+def odd_name(file: LaunchFile) -> Note | None:
     """A Note about a node whose name has a space; None if there is none."""
     for name in (node["name"] for node in file.nodes if " " in node["name"]):
         hint = f'the PDF shows _ as a gap: name="{name.replace(" ", "_")}"'
@@ -141,7 +141,7 @@ def bag_of(session: Session) -> Any:
     return bags[0], where
 
 
-def _check_items(file: LaunchFile) -> Any:
+def _check_items(file: LaunchFile) -> Note | None:
     """What both files start; a Note about it, or None."""
     note = check_viewer(file) or odd_name(file)
     file.demand("the simulated robot", is_simulator, ROBOT_HINT)

@@ -25,7 +25,6 @@ from tutorial_check.model import CannotCheck, Wrong
 from tutorial_check.tracebacks import first_traceback
 
 if TYPE_CHECKING:
-    from tutorial_check.model import Note
     from tutorial_check.session import Session
     from tutorial_check.stage import Stage
 
@@ -168,7 +167,7 @@ def _bag_run(session: Session) -> Any:
 
 @check("C23", "launch_bag drives the robot", "5.1", "C22 C16",
        look="roslaunch joy2twist launch_bag.launch")  # fmt: skip
-def bag_drives(session: Session) -> Note | str | None:
+def bag_drives(session: Session) -> None:
     """Start launch_bag, with a recording of the checker's own."""
     wrong, _ = session.run("bag run", lambda: _bag_run(session))
     if wrong:
@@ -176,7 +175,7 @@ def bag_drives(session: Session) -> Note | str | None:
 
 
 @check("C24", "the recording begins again at its end", "5.1", "C23", look="rostopic hz /joy")
-def bag_loops(session: Session) -> Note | str | None:
+def bag_loops(session: Session) -> None:
     """Look at /joy after the end of that recording."""
     _, loops = session.run("bag run", lambda: _bag_run(session))
     if not loops:
@@ -187,7 +186,7 @@ def bag_loops(session: Session) -> Note | str | None:
 
 @check("C26", "launch_joy_node drives the robot", "5.1", "C25 C16",
        look="roslaunch joy2twist launch_joy_node.launch")  # fmt: skip
-def stick_drives(session: Session) -> Note | str | None:
+def stick_drives(session: Session) -> None:
     """Start launch_joy_node, push the stick and release it."""
     file = LaunchFile(session, STICK)
     with session.stage() as stage:

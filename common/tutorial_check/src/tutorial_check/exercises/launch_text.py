@@ -147,8 +147,8 @@ def _tag_without(where: str, text: str, tag: str, attributes: Any) -> Any:
     return place_of(where, text, f"<{tag}")
 
 
-def _no_file(expected: str, path: Path, where: str, text: str) -> Any:
-    path = Path(path)
+def _no_file(expected: str, name: str, where: str, text: str) -> Any:
+    path = Path(name)
     seen, place = f"no such file: {path}", place_of(where, text, path.name)
     if not path.is_absolute():
         hint = 'an include needs the whole path: file="$(find PACKAGE)/launch/FILE"'

@@ -29,7 +29,7 @@ WANTS = (
 )
 
 
-def unreadable(package: str) -> Any:
+def unreadable(package: Package) -> Any:
     """The Wrong for a package.xml that is no XML, or not what catkin makes of it."""
     where = f"{package.inside}/package.xml"
     if package.malformed:
@@ -65,7 +65,7 @@ def must_be_startable(session: Session) -> None:
 def must_be_launchable(session: Session) -> None:
     """catkin reads them as well, and roslaunch asks catkin. Raises Wrong."""
     must_be_startable(session)
-    places = {}
+    places: dict[str, list[str]] = {}
     for package in session.packages:
         if package.error:
             raise unreadable(package)

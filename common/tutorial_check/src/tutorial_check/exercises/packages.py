@@ -13,7 +13,7 @@ from tutorial_check.exercises.launch_text import place_of, read
 from tutorial_check.exercises.manifests import unreadable
 from tutorial_check.model import Wrong
 from tutorial_check.place import own_rights
-from tutorial_check.workspace import packages_beside
+from tutorial_check.workspace import Package, packages_beside
 
 if TYPE_CHECKING:
     from tutorial_check.model import Note
@@ -131,7 +131,7 @@ def beginner(session: Session) -> Note | str | None:
 @check(
     "C3", "its dependencies", "2.1", "C2", look="rospack depends1 beginner_tutorials", timeless=True
 )
-def beginner_dependencies(session: Session) -> Note | str | None:
+def beginner_dependencies(session: Session) -> None:
     """Its dependencies."""
     _dependencies(session, "beginner_tutorials")
 
@@ -166,7 +166,7 @@ def _is_known(session: Session, name: str) -> bool:
         )
 
 
-def _cmake(package: str) -> Any:
+def _cmake(package: Package) -> Any:
     """The text of a package's CMakeLists.txt without comments. Raises Wrong."""
     path = package.folder / "CMakeLists.txt"
     if not path.is_file():
@@ -176,7 +176,7 @@ def _cmake(package: str) -> Any:
 
 
 @check("C4", "catkin_make builds", "2.1", "C2", look="catkin_make")
-def build(session: Session) -> Note | str | None:
+def build(session: Session) -> None:
     """Call catkin_make in a fresh copy."""
     for each in session.packages:
         _cmake(each)

@@ -61,7 +61,8 @@ def recording(session: Session) -> Note | str | None:
             hint=f"the recording: {COPY_BAG}",
             empty=True,
         )
-    spoilt, others = [], []
+    spoilt: list[Wrong] = []
+    others: list[Wrong] = []
     for bag in bags:
         name = str(bag.relative_to(session.source))
         try:

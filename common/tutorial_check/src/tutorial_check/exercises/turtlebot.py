@@ -15,7 +15,6 @@ from tutorial_check.tracebacks import last_lines
 
 if TYPE_CHECKING:
     from tutorial_check.exercises.launch_files import LaunchFile
-    from tutorial_check.model import Note
     from tutorial_check.session import Session
     from tutorial_check.stage import Stage
 
@@ -113,7 +112,7 @@ BY_ITSELF = (
 
 @check("C27", "joy2twist_turtlebot sends to the multiplexer", "6.1", "C16",
        look="rostopic echo /cmd_vel_mux/input/teleop")  # fmt: skip
-def remapped(session: Session) -> Note | str | None:
+def remapped(session: Session) -> None:
     """Start joy2twist_turtlebot and look at both topics."""
     file = check_file(session, TURTLEBOT)
     file.demand("joy2twist", launch_nodes.is_own, launch_nodes.OWN_HINT)
@@ -126,7 +125,7 @@ def remapped(session: Session) -> Note | str | None:
 
 @check("C28", "launch_joy_node_realTurtlebot drives the TurtleBot", "6.1", "C27",
        look="rostopic echo /cmd_vel_mux/active")  # fmt: skip
-def real_robot(session: Session) -> Note | str | None:
+def real_robot(session: Session) -> None:
     """Start it beside a simulated TurtleBot, and push the stick."""
     file = check_file(session, REAL)
     _check_items(file)
