@@ -10,7 +10,6 @@ from cockpit_server.recording import JOY, RecordingError, Shelf, recordings
 from cockpit_server.schema import number, switch, text
 from cockpit_server.seat import BAG, RefusedError
 
-TICKS = 2  # the position is sent to pages every second time
 LOOK_S = 2.0  # how often the folder is looked at for recordings, while a page shows them
 
 
@@ -43,10 +42,8 @@ class Bags(Source):
         self._names, self._next_look = {}, 0.0  # whether it may drive -> names; when [s]
         self._opened = {}  # client's number -> Opened
         self._player, self._owner = None, None
-        self._ticks = 0
 
     def prepare(self, clients, now):
-        self._ticks += 1
         numbers = {client.number for client in clients}
         self._opened = {n: opened for n, opened in self._opened.items() if n in numbers}
         self._shelf.in_use = tuple(opened.recording for opened in self._opened.values())
@@ -65,7 +62,7 @@ class Bags(Source):
         if opened and opened.message:
             client.write(opened.message)
             opened.message = ""
-        if not client.watch.bag or opened is None or self._ticks % TICKS:
+        if not client.watch.bag or opened is None:
             return
         playing = self._plays(client.number)
         if playing:

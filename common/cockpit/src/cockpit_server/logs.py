@@ -19,7 +19,6 @@ LONGEST_LINE = 2000  # characters
 LEVELS = {
     Log.DEBUG: "DEBUG", Log.INFO: "INFO", Log.WARN: "WARN", Log.ERROR: "ERROR", Log.FATAL: "FATAL",
 }  # fmt: skip
-TICKS = 2  # a message to pages each other time that they are looked after
 
 
 def without_folders(text, home=None, here=None):
@@ -57,14 +56,10 @@ class Logs(Source):
         """
         self._lines = deque(maxlen=KEPT)  # (number, bytes)
         self._numbers = itertools.count(1)
-        self._ticks = 0
         feeds.want(self, {"/rosout": self._hear}, every=True)
 
-    def prepare(self, clients, now):
-        self._ticks += 1
-
     def give(self, client, _now):
-        if not client.watch.log or self._ticks % TICKS:
+        if not client.watch.log:
             return
         known = client.seen.get("log", 0)
         lines = [line for line in list(self._lines) if line[0] > known][:AT_ONCE]
