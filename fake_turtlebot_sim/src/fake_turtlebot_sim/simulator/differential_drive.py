@@ -73,30 +73,3 @@ def wheel_rates(velocity, wheel_separation, wheel_radius):
     v, w = velocity
     swing = 0.5 * w * wheel_separation
     return (v - swing) / wheel_radius, (v + swing) / wheel_radius
-
-
-def arcs(poses, velocities, dt):
-    """Drive n robots at once: arc() on arrays, poses (3, n) and velocities (2, n), float64.
-
-    The poses are overwritten with the new ones. It stands beside arc() because numpy on single
-    numbers is many times slower than plain floats.
-    """
-    x, y, yaw = poses
-    v, w = velocities
-    half_turn = w * (0.5 * dt)
-    chord = np.sin(half_turn)
-    # At exactly zero the quotient is 0 / 0; its limit is 1.
-    np.divide(chord, half_turn, out=chord, where=half_turn != 0.0)
-    chord[half_turn == 0.0] = 1.0
-    chord *= v
-    chord *= dt
-    yaw += half_turn
-    x += chord * np.cos(yaw)
-    y += chord * np.sin(yaw)
-    yaw += half_turn
-    turned = np.abs(yaw) >= pi
-    if turned.any():
-        wrapped = yaw[turned]
-        wrapped -= tau * np.rint(wrapped / tau)
-        # Half a turn is pi, also where rounding after many turns leaves a digit more.
-        yaw[turned] = np.where(np.abs(wrapped) < pi, wrapped, pi)
