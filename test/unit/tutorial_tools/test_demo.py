@@ -11,7 +11,7 @@ JOY2TWIST = Path(__file__).resolve().parents[3] / "joy2twist"
 LAUNCH_FILE = str(JOY2TWIST / "launch" / "launch_bag.launch")
 
 
-@pytest.mark.parametrize("size", [0, 12, 30, 4096, 5000, 200_000, -4000, -1])
+@pytest.mark.parametrize("size", [0, 12, 30, 4096, 5000, 20_000, -4000, -1])
 def test_a_truncated_bag_gets_one_clear_line(tmp_path, capfd, size):
     bag = tmp_path / "truncated.bag"
     bag.write_bytes((JOY2TWIST / "bag" / "joy.bag").read_bytes()[:size])
