@@ -248,7 +248,8 @@ class Drive:
     @property
     def silence(self) -> Any:
         """(what is seen, what to do) for the first probe that was not answered."""
-        return silence(*self.unanswered, self.answers[-1][1] if self.answers else (1.0,))
+        joy, before = self.unanswered
+        return silence(joy, before, self.answers[-1][1] if self.answers else (1.0,))
 
     @property
     def delay_s(self) -> Any:
