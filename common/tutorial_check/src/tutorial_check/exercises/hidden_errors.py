@@ -42,9 +42,8 @@ def errors_are_seen(session: Session) -> Note | str | None:
             broken = stage.start_quickly(PACKAGE, copy, "__name:=broken")
         stage.wait_for_start(lambda: alone.ended or JOY in stage.call("state")[1])
         stage.wait(lambda: alone.ended, ALONE_S)
-        if broken:
-            stage.wait_for_start(lambda program=broken: program.ended)
-        has_ended, broken_ended = alone.ended, bool(broken) and broken.ended
+        stage.wait_for_start(lambda: broken is None or broken.ended)
+        has_ended, broken_ended = alone.ended, broken is not None and broken.ended
     excepts = session.scripts(PACKAGE)[path].broad_excepts
     where = f"{path}:{excepts[0]}" if excepts else path
     if has_ended and not TELLS.search(alone.output):
