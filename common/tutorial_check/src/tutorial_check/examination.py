@@ -53,7 +53,7 @@ class Outcome:
         return self.done and passed(self.results)
 
     @property
-    def empty(self):
+    def empty(self) -> bool:
         """Whether there was nothing to check: nothing is wrong, and nothing done."""
         return self.passed and bool(self.results) and all(each.empty for each in self.results)
 

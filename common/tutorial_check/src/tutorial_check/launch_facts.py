@@ -63,17 +63,17 @@ def facts_of(path: str) -> Any:
     # What <param command=...> prints is not wanted here, only what would be started.
     value_of = roslaunch.loader.Loader.param_value
 
-    def without_command(self, *about: Any) -> Any:
+    def without_command(self: Any, *about: Any) -> Any:
         *start, value, textfile, binfile, command = about
         value = "" if command is not None else value
         return value_of(self, *start, value, textfile, binfile, None)
 
     roslaunch.loader.Loader.param_value = without_command
     said = io.StringIO()
-    facts = {"path": path, "error": "", "nodes": [], "files": [], "said": ""}
+    facts: dict[str, Any] = {"path": path, "error": "", "nodes": [], "files": [], "said": ""}
     try:
         document = xml.dom.minidom.parse(path)
-        facts["root"] = document.documentElement.tagName
+        facts["root"] = getattr(document.documentElement, "tagName", "")
         facts["tags"] = [each.tagName for each in document.getElementsByTagName("*")]
     except Exception as error:
         facts["error"] = f"{error}"

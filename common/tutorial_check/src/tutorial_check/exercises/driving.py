@@ -53,14 +53,12 @@ class Drive:
         self.samples: list[Any] = []
         self.missing = self.unasked = self.shown = self.asked = 0
         self.delays: list[float] = []
-        self.sent = self.answered = self.strays = 0
-        self.came = 0  # Twists for the numbered Joys
+        self.sent = self.answered = self.strays = self.came = 0  # came: for the numbered Joys
         self.first_samples: list[Any] = []  # of an earlier pass
         self.at_rest: Any = None  # the answer to a Joy at rest
         self.waits: list[float] = []  # [s] from a Joy to the next Twist, one at a time
         self.twists: list[Any] = []  # all of the second pass
-        self.has_clock = False  # whether more come unasked
-        self.repeats = False  # whether those move the robot, though no Joy came
+        self.has_clock = self.repeats = False  # whether more come unasked; and move the robot
         self.answers: list[Any] = []  # of the probes
         self.unanswered: Any = None  # (Joy, one before) without a Twist
         facts = session.scripts(PACKAGE).get(script)
@@ -208,13 +206,15 @@ class Drive:
 
     def _hurry(self, stage: Stage, joys: Sequence[Joy]) -> None:
         """Send the rest of the Joys without much patience, to see how many of all are answered."""
+        before = 0
+
+        def is_answered() -> bool:
+            return self.program.ended or stage.call("count", CMD_VEL) > before
+
         for joy in joys:
             before = stage.call("count", CMD_VEL)
             stage.call("send", JOY, joy)
-            stage.wait(
-                lambda before=before: stage.call("count", CMD_VEL) > before or self.program.ended,
-                SAME_S,
-            )
+            stage.wait(is_answered, SAME_S)
 
     def _stream(self, stage: Stage, beside: str | None = None) -> None:
         count = int(RATE * STREAM_S)
@@ -248,7 +248,8 @@ class Drive:
     @property
     def silence(self) -> Any:
         """(what is seen, what to do) for the first probe that was not answered."""
-        return silence(*self.unanswered, self.answers[-1][1] if self.answers else (1.0,))
+        joy, before = self.unanswered
+        return silence(joy, before, self.answers[-1][1] if self.answers else (1.0,))
 
     @property
     def delay_s(self) -> Any:

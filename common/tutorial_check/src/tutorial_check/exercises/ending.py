@@ -78,7 +78,7 @@ class Endings:
 
     def _twists(self, since: int = 0) -> Any:
         """{way: [(when, six values)]} that they have sent."""
-        sent = {name: [] for name in NODES.values()}
+        sent: dict[str, list[Any]] = {name: [] for name in NODES.values()}
         for when, caller, value in self._stage.call("heard", CMD_VEL, since):
             if caller in sent:
                 sent[caller].append((when, value))

@@ -100,9 +100,10 @@ class Text:
     def interpreter(self) -> Any:
         """The program that #! names, if there is one of that name and it is Python; else empty."""
         found = INTERPRETER.match(self.first)
-        program = found[1].decode(errors="replace") if found else ""
-        if program.endswith("/env") and found[2]:
-            program = found[2].decode(errors="replace")
+        words = [word.decode(errors="replace") for word in found.groups() if word] if found else []
+        program = words[0] if words else ""
+        if program.endswith("/env") and len(words) > 1:
+            program = words[1]
         known = program in ("python", "python3") or (program and shutil.which(program))
         return program if known and "python" in program else ""
 

@@ -111,9 +111,9 @@ def find_launch(session: Session, name: str) -> Any:
     near = near or difflib.get_close_matches(name, strange, 1, 0.85)
     expected = f"{PACKAGE}/launch/{name}"
     if near:
-        inside = os.path.relpath(others[near[0]], session.source)
+        other = os.path.relpath(others[near[0]], session.source)
         hint = f"its name must be {name}, and its place {PACKAGE}/launch"
-        raise Wrong(expected, f"a file {inside}", inside, hint)
+        raise Wrong(expected, f"a file {other}", other, hint)
     hint = f"write it: launch/{name} in YOUR package. ./tutorial shell without --in has one of OURS"
     raise Wrong(expected, "no such file in your package", f"{PACKAGE}/launch", hint)
 
@@ -174,11 +174,12 @@ def _check_text(file: LaunchFile) -> None:
     said = one["said"] + " ".join(one.get("errors", []))
     _check_words(file, said)
     inside = re.search(r"unrecognized '(\w+)' child tag", said)
-    line = unclosed_node(file.text, inside[1]) if inside else None
+    tag = inside[1] if inside else ""
+    line = unclosed_node(file.text, tag) if tag else None
     if line:
         expected = "no tag in a <node> but remap, param, rosparam and env"
         hint = "the <node> of this line goes on to its </node>: close it first, with /> or </node>"
-        seen = f"<{inside[1]}> in it: ignored by roslaunch"
+        seen = f"<{tag}> in it: ignored by roslaunch"
         raise Wrong(expected, seen, f"{file.where}:{line}", hint)
     gap, hint = space_hint(file.text)
     if gap:
@@ -190,9 +191,9 @@ def _check_words(file: LaunchFile, said: str) -> None:
     pattern = r"unrecognized tag (\S+)|[Uu]nknown (?:<\w+> )?attribute '?([^\s']+)"
     odd = next((tag for tag in file.facts["tags"] if tag not in TAGS), "")
     unknown = re.search(pattern, said)
-    if not odd and not unknown:
+    word = odd or (unknown and (unknown[1] or unknown[2]))
+    if not word:
         return
-    word = odd or unknown[1] or unknown[2]
     near = difflib.get_close_matches(word, ATTRIBUTES, 1, 0.7)
     hint = f"is {near[0]}= meant?" if near and not odd else "look at its spelling"
     if odd and word.lower() in TAGS:

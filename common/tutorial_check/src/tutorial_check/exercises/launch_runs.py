@@ -232,10 +232,15 @@ def push_when_ready(stage: Stage, pad: Any, launch: Launch, *signs: str) -> bool
 
     launch.wait(ready)
     # LB alone, touched and let go: a joy_node with autorepeat_rate 0 is silent while nothing moves.
+    before = 0
+
+    def is_heard() -> bool:
+        return bool(launch.is_over() or stage.call("count", JOY) > before)
+
     for lb in (("push", 0.0, 0.0), ("release",)):
         before = stage.call("count", JOY)
         pad.call(*lb)
-        stage.wait(lambda before=before: stage.call("count", JOY) > before or launch.is_over(), 1.0)
+        stage.wait(is_heard, 1.0)
     # A robot that has only just come obeys once it was told to rest for a while; so do we.
     stage.wait(launch.is_over, 0.6)
     pad.call("push", 0.0, 1.0)

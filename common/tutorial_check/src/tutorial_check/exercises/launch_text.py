@@ -118,8 +118,8 @@ def _place_and_hint(error: str, where: str, text: str) -> Any:
         return place_of(where, text, f"$({command[1]}"), hint
     twice = re.search(r"multiple nodes named \[(?:.*/)?([^/\]]+)\]", error)
     if twice:
-        name = re.escape(twice[1])
-        found = list(re.finditer(rf"<node\b[^<>]*\bname\s*=\s*[\"']{name}[\"']", text))
+        called = re.escape(twice[1])
+        found = list(re.finditer(rf"<node\b[^<>]*\bname\s*=\s*[\"']{called}[\"']", text))
         place = f"{where}:{line_of(text, found[:2][-1].end())}" if found else where
         return place, "each node has a name of its own, those of included files as well"
     about = error.split(" xml is ", maxsplit=1)[

@@ -71,8 +71,8 @@ class Remapped:
     @property
     def by_itself(self) -> Any:
         """The program that knows the other topic by itself; empty if the launch file names it."""
-        is_named = self.remaps or any(":=" in node["args"] for node in self.file.own)
-        is_named = is_named or re.search(r"<(ros)?param\b", self.file.text)
+        is_named = bool(self.remaps or re.search(r"<(ros)?param\b", self.file.text))
+        is_named = is_named or any(":=" in node["args"] for node in self.file.own)
         return "" if is_named else self.file.own[0]["type"]
 
     def failed(self) -> Any:
