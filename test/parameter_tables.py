@@ -10,25 +10,32 @@ import sys
 from pathlib import Path
 
 REPOSITORY = Path(__file__).resolve().parents[1]
-TABLES = {"joy2twist/README.md": ("joy2twist/src", "joy_to_twist.parameters", "Parameters")}
-TABLE = re.compile(r"^\| parameter \| default \|.*\n(\|.*\n)+", re.MULTILINE)
+SOURCES = ["common/node_kit/src", "common/gamepad/src", "fake_turtlebot_sim/src", "joy2twist/src"]
+TABLES = [  # README, module, dataclass
+    ("joy2twist/README.md", "joy_to_twist.parameters", "Parameters"),
+    ("fake_turtlebot_sim/README.md", "fake_turtlebot_sim.simulator.parameters", "Parameters"),
+    ("common/gamepad/README.md", "gamepad.driver.parameters", "DriverParameters"),
+]
 
 
 def main() -> int:
     """Compare or write each table; return the exit code."""
-    sys.path.insert(0, str(REPOSITORY / "common/node_kit/src"))
+    sys.path[:0] = [str(REPOSITORY / folder) for folder in SOURCES]
+    table = importlib.import_module("node_kit.parameters").table
     old = []
-    for name, (folder, module, kind) in TABLES.items():
-        sys.path.insert(0, str(REPOSITORY / folder))
+    for name, module, kind in TABLES:
+        new = table(getattr(importlib.import_module(module), kind))
+        first = re.escape(new.splitlines()[2].split(" | ")[0])
         readme = REPOSITORY / name
-        table = importlib.import_module("node_kit.parameters").table
-        declared = table(getattr(importlib.import_module(module), kind))
-        text, count = TABLE.subn(lambda _, new=declared: new, readme.read_text())
+        before = readme.read_text()
+        after, count = re.subn(
+            rf"(?m)^\|.*\n\|[-|]+\n{first} .*\n(\|.*\n)*", lambda _, new=new: new, before
+        )
         assert count == 1, name
-        if text != readme.read_text():
+        if after != before:
             old.append(name)
             if "--check" not in sys.argv:
-                readme.write_text(text)
+                readme.write_text(after)
     if "--check" not in sys.argv or not old:
         return 0
     print("tables of parameters that are old, which test/lint --fix mends:", *old)

@@ -96,14 +96,15 @@ def table(kind: type) -> str:
     """Return the Markdown table of the parameters that a dataclass declares."""
     rows = ["| parameter | default | allowed | |", "|---|---|---|---|"]
     for name, one in declared(kind).items():
-        default = one.metadata["default"] or _as_yaml(one.default)
+        value = one.default if one.default_factory is MISSING else one.default_factory()
+        default = one.metadata["default"] or _as_yaml(value)
         allowed = getattr(one.metadata["check"], "allowed", "")
         rows.append(f"| `~{name}` | {default} | {allowed} | {one.metadata['meaning']} |")
     return "\n".join(rows) + "\n"
 
 
 def _as_yaml(value: Any) -> str:
-    return str(value).lower() if isinstance(value, bool) else str(value)
+    return str(value).lower() if isinstance(value, bool) else str(value) or '""'
 
 
 def is_whole(value: object) -> bool:

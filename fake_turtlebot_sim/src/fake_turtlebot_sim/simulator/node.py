@@ -30,13 +30,7 @@ class FakeTurtlebot:
         base_pose_ground_truth (nav_msgs/Odometry; only if the odometry has errors),
         /tf and /tf_static (tf2_msgs/TFMessage), /diagnostics (diagnostic_msgs/DiagnosticArray)
     Services: ~reset (std_srvs/Empty), and of several robots each one's own, reset
-    Parameters: ~rate 50.0, ~cmd_vel_timeout 0.6, ~publish_tf true, ~wheel_separation 0.23,
-        ~wheel_radius 0.035, ~max_linear_speed 0.7, ~max_angular_speed pi,
-        ~max_linear_acceleration 0.0, ~max_angular_acceleration 0.0, ~initial_x 0.0,
-        ~initial_y 0.0, ~initial_yaw 0.0, ~odom_frame odom, ~base_frame base_footprint,
-        ~left_wheel_joint wheel_left_joint, ~right_wheel_joint wheel_right_joint,
-        ~wheel_noise 0.0, ~wheel_radius_ratio 1.0, ~track_ratio 1.0, ~seed 0, ~robots {},
-        ~world_frame world; README.md gives units and meanings
+    Parameters: parameters.Parameters, as a table in README.md
     """
 
     def __init__(self, parameters):
