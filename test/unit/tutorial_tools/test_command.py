@@ -7,7 +7,7 @@ import pytest
 
 from tutorial_tools.command import build
 from tutorial_tools.command.completion import candidates
-from tutorial_tools.command.words import KINDS, REPOSITORY, WORDS, main, parser_of, plan
+from tutorial_tools.command.words import KINDS, WORDS, main, parser_of, plan
 
 SECTIONS = {"demo": ["demo", "more"], "test": ["demo", "more", "test"], "doctor": ["doctor"]}
 SECTIONS["browser"] = [*SECTIONS["test"], "browser"]
@@ -113,11 +113,12 @@ def test_completion(typed, found):
         ("a b", "without spaces"),
         ("package", "this is a package"),
         ("ws/src", "this is the src folder"),
-        (REPOSITORY / "joy2twist" / "ws", "the suite's own"),
+        ("suite/joy2twist/ws", "the suite's own"),
         ("/proc/ws", "cannot be made"),
     ],
 )
-def test_what_cannot_be_a_students_workspace(tmp_path, folder, why):
+def test_what_cannot_be_a_students_workspace(tmp_path, monkeypatch, folder, why):
+    monkeypatch.setattr(build, "REPOSITORY", tmp_path / "suite")
     (tmp_path / "package").mkdir()
     (tmp_path / "package" / "package.xml").touch()
     (tmp_path / "ws" / "devel").mkdir(parents=True)
