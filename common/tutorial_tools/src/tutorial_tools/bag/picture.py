@@ -1,14 +1,17 @@
 """Curves of a recording as an SVG picture, which every browser shows (pure)."""
 
+from __future__ import annotations
+
 from html import escape
+from typing import Any, Sequence
 
 WIDTH, ROW = 900, 90  # [pixel] of the picture, and of one curve
 LEFT = 130  # [pixel] for the names
 COLOURS = ("#1f77b4", "#d62728", "#2ca02c", "#9467bd", "#8c564b", "#e377c2")
 
 
-def curves(recorded):
-    """[(name, [(time [s], value)])] of the axes that move and the buttons that are pressed.
+def curves(recorded: Sequence[Any]) -> list[tuple[str, list[tuple[float, float]]]]:
+    """Return [(name, [(time [s], value)])] of the axes that move and the buttons that are pressed.
 
     recorded: [(time [s], axes, buttons)] in the order of time. Nothing moves: all axes.
     """
@@ -23,8 +26,8 @@ def curves(recorded):
     return moving or [entry for entry in found if entry[0].startswith("axes")]
 
 
-def svg(title, lines):
-    """The picture: one row for each curve, time from left to right, -1 to 1 from bottom to top."""
+def svg(title: str, lines: list[tuple[str, list[tuple[float, float]]]]) -> str:
+    """Return the picture: one row for each curve, time from left to right, -1 to 1 from bottom to top."""
     duration = max((values[-1][0] for _, values in lines), default=0.0) or 1.0
     height = ROW * len(lines) + 60
     parts = [

@@ -1,8 +1,12 @@
 """What keeps a demonstration from a master: nodes that it would push aside or count (pure)."""
 
+from __future__ import annotations
 
-def in_the_way(state, nodes, topics):
-    """Names of registered nodes that a launch would meet, in alphabetical order.
+from typing import Any, Iterable
+
+
+def in_the_way(state: Any, nodes: Iterable[str], topics: Iterable[str]) -> list[str]:
+    """Return names of registered nodes that a launch would meet, in alphabetical order.
 
     Those that bear the name of one of its nodes, which would be ended by it, and those that publish
     on one of its topics, where two would drive one robot.
@@ -15,8 +19,8 @@ def in_the_way(state, nodes, topics):
     return sorted((registered & set(nodes)) | senders)
 
 
-def refusal(uri, names, own_uri):
-    """The line for the user: what runs on a master, and what to do. names: some, in_the_way()."""
+def refusal(uri: str, names: list[str], own_uri: str) -> str:
+    """Return the line for the user: what runs on a master, and what to do."""
     *most, last = names
     listed = f"{', '.join(most)} and {last}" if most else last
     runs, them = ("run", "them") if most else ("runs", "it")

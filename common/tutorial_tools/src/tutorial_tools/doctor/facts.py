@@ -2,22 +2,24 @@
 way.py judge.
 """
 
+from __future__ import annotations
+
 import re
 from dataclasses import dataclass, field
-from typing import Dict, List, Optional, Tuple
+from typing import Any, Iterable
 
 from node_kit.questions import Answer
 
 MOST_NAMES = 5  # in a line; a classroom has thirty robots
 
 
-def natural(name):
-    """The sort key that puts robot_2 before robot_10."""
+def natural(name: str) -> Any:
+    """Return the sort key that puts robot_2 before robot_10."""
     return [(int(part), "") if part.isdigit() else (0, part) for part in re.split(r"(\d+)", name)]
 
 
-def some(names, between=", "):
-    """Names in their natural order; of many the first ones, and how many more there are."""
+def some(names: Iterable[str], between: str = ", ") -> str:
+    """Return names in their natural order; of many the first ones, and how many more there are."""
     names = sorted(names, key=natural)
     more = [f"{len(names) - MOST_NAMES} more"] if len(names) > MOST_NAMES + 1 else []
     shown = names[:MOST_NAMES] if more else names
@@ -37,8 +39,8 @@ class Finding:
     seen: str
     todo: str = ""
 
-    def line(self):
-        """The finding as it is shown."""
+    def line(self) -> str:
+        """Return the finding as it is shown."""
         todo = f": {self.todo}" if self.todo else ""
         return f"{self.level:7}  {self.about:8}  {self.seen}{todo}"
 
@@ -54,8 +56,8 @@ class Node:
     uri: str
     host: str
     answer: Answer
-    here: Optional[bool] = True
-    links: List[Tuple[str, bool]] = field(default_factory=list)
+    here: bool | None = True
+    links: list[tuple[str, bool]] = field(default_factory=list)
 
 
 @dataclass(frozen=True)
@@ -79,8 +81,8 @@ class MuxInput:
 class Mux:
     """A multiplexer: what it says is active (None: it says nothing), and its inputs, if known."""
 
-    active: Optional[str]
-    inputs: List[MuxInput] = field(default_factory=list)
+    active: str | None
+    inputs: list[MuxInput] = field(default_factory=list)
 
 
 @dataclass(frozen=True)
@@ -88,7 +90,7 @@ class Joystick:
     """A device file: why it cannot be opened (errno), or None."""
 
     path: str
-    error: Optional[int] = None
+    error: int | None = None
 
 
 @dataclass(frozen=True)
@@ -102,30 +104,30 @@ class Facts:
     master_here: bool = True
     own_variable: str = ""
     own_name: str = "localhost"  # what the nodes of this machine say where they are
-    own_addresses: List[str] = field(default_factory=lambda: ["127.0.0.1"])
+    own_addresses: list[str] = field(default_factory=lambda: ["127.0.0.1"])
     own_is_here: bool = True  # whether that is this machine
     way_out: str = ""  # our address on the way to the master, if it is on another machine
-    called_back: Optional[bool] = True  # whether the master reached us; None: not tried
-    joysticks: List[Joystick] = field(default_factory=list)
+    called_back: bool | None = True  # whether the master reached us; None: not tried
+    joysticks: list[Joystick] = field(default_factory=list)
     workspace: str = ""  # a student's, which takes the place of the solutions
-    broken_manifests: List[Tuple[str, str]] = field(default_factory=list)  # path, what is wrong
+    broken_manifests: list[tuple[str, str]] = field(default_factory=list)  # path, what is wrong
     joy2twist: str = "/suite/joy2twist"  # folder of the package that would run; "": none
     container: bool = False
     wsl: bool = False
     # The graph: by topic the names of nodes, and its type.
-    nodes: Dict[str, Node] = field(default_factory=dict)
-    publishers: Dict[str, List[str]] = field(default_factory=dict)
-    subscribers: Dict[str, List[str]] = field(default_factory=dict)
-    types: Dict[str, str] = field(default_factory=dict)
+    nodes: dict[str, Node] = field(default_factory=dict)
+    publishers: dict[str, list[str]] = field(default_factory=dict)
+    subscribers: dict[str, list[str]] = field(default_factory=dict)
+    types: dict[str, str] = field(default_factory=dict)
     use_sim_time: bool = False
     clock_ticks: bool = False
-    clocks: Dict[str, Optional[Offset]] = field(default_factory=dict)  # of the other hosts
-    muxes: Dict[str, Mux] = field(default_factory=dict)  # by the name of the node
-    states: Dict[str, Tuple[bool, str]] = field(default_factory=dict)  # of joy2twist: well, text
-    silent_s: Dict[str, float] = field(default_factory=dict)  # since a joy_node's gamepad moved
+    clocks: dict[str, Offset | None] = field(default_factory=dict)  # of the other hosts
+    muxes: dict[str, Mux] = field(default_factory=dict)  # by the name of the node
+    states: dict[str, tuple[bool, str]] = field(default_factory=dict)  # of joy2twist: well, text
+    silent_s: dict[str, float] = field(default_factory=dict)  # since a joy_node's gamepad moved
 
-    def topics(self, kind):
-        """The names of all topics of a type that are in use; the master forgets no type."""
+    def topics(self, kind: str) -> list[str]:
+        """Return the names of all topics of a type that are in use; the master forgets no type."""
         used = (
             topic
             for topic in self.types
@@ -133,17 +135,17 @@ class Facts:
         )
         return sorted((topic for topic in used if self.types[topic] == kind), key=natural)
 
-    def senders(self, topic):
-        """The publishers of a topic without those that have died: the master does not miss them."""
+    def senders(self, topic: str) -> list[str]:
+        """Return the publishers of a topic without dead ones, which the master still lists."""
         return sorted(
             name
             for name in self.publishers.get(topic, [])
             if name not in self.nodes or self.nodes[name].answer not in DEAD
         )
 
-    def converters(self):
-        """{node that makes velocities of a joystick: (its joy topics, its velocity topics)}."""
-        found = {}
+    def converters(self) -> dict[str, tuple[list[str], list[str]]]:
+        """Return {node from joystick to velocity: (its joy topics, its velocity topics)}."""
+        found: dict[str, tuple[list[str], list[str]]] = {}
         for joy in self.topics(JOY):
             for node in self.subscribers.get(joy, []):
                 sends = [t for t in self.topics(TWIST) if node in self.publishers.get(t, [])]

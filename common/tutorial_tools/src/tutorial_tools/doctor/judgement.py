@@ -1,9 +1,13 @@
 """What the facts mean when nothing moves: a list of findings (pure)."""
 
+from __future__ import annotations
+
 import errno
+from typing import Iterator
 
 from gamepad.driver.device_choice import explain
-from tutorial_tools.doctor.facts import DEAD, JOY, OK, UNKNOWN, WRONG, Answer, Finding, some
+from node_kit.questions import Answer
+from tutorial_tools.doctor.facts import DEAD, JOY, OK, UNKNOWN, WRONG, Facts, Finding, some
 from tutorial_tools.doctor.way import muxes, rivals, states, topics
 
 # Clocks may differ by this much [s]: a tenth of a second of old transforms, or of a joystick
@@ -12,7 +16,7 @@ CLOCK_TOLERANCE_S = 0.1
 START_ANEW = "and start its nodes anew"
 
 
-def judge(facts):
+def judge(facts: Facts) -> list[Finding]:
     """All findings, in the order in which one would look for a cause."""
     findings = [*overlay(facts), *master(facts), *address(facts)]
     if facts.master is Answer.WELL:
@@ -21,7 +25,7 @@ def judge(facts):
     return [*findings, *joysticks(facts)]
 
 
-def overlay(facts):
+def overlay(facts: Facts) -> Iterator[Finding]:
     """Whose joy2twist would run."""
     path, workspace = facts.joy2twist, facts.workspace
     for broken, why in facts.broken_manifests:
@@ -44,7 +48,7 @@ def overlay(facts):
         yield Finding(WRONG, "overlay", f"joy2twist is not in your workspace: {path}", todo)
 
 
-def master(facts):
+def master(facts: Facts) -> Iterator[Finding]:
     """Whether a master answers at ROS_MASTER_URI."""
     uri, host = f"ROS_MASTER_URI={facts.master_uri}", facts.master_host
     start = "start roscore" if facts.master_here else f"start roscore, or minimal.launch, on {host}"
@@ -62,7 +66,7 @@ def master(facts):
         yield Finding(WRONG, "master", f"{uri} {facts.master.value}", todo[facts.master])
 
 
-def address(facts):
+def address(facts: Facts) -> Iterator[Finding]:
     """Whether the name under which this machine's nodes register leads back to them."""
     name = facts.own_name
     said = f"{facts.own_variable}={name}" if facts.own_variable else f'the name "{name}"'
@@ -88,7 +92,7 @@ def address(facts):
         yield Finding(WRONG, "address", f'the master does not reach "{name}"', todo)
 
 
-def nodes(facts):
+def nodes(facts: Facts) -> Iterator[Finding]:
     """Whether every node that is registered can be reached from here."""
     alone = facts.master_here and all(node.here is not False for node in facts.nodes.values())
     well = 0
@@ -115,7 +119,7 @@ def nodes(facts):
         yield Finding(OK, "nodes", f"all {well} answer")
 
 
-def clocks(facts):
+def clocks(facts: Facts) -> Iterator[Finding]:
     """Whether the clocks of the other machines agree with this one's."""
     if facts.use_sim_time:
         yield Finding(OK, "clocks", "/use_sim_time: all follow /clock")
@@ -136,14 +140,14 @@ def clocks(facts):
             yield Finding(WRONG, "clocks", seen, todo)
 
 
-def sim_time(facts):
+def sim_time(facts: Facts) -> Iterator[Finding]:
     """Whether simulated time, if it is asked for, runs."""
     if facts.use_sim_time and not facts.clock_ticks:
         todo = "rosparam delete /use_sim_time and start the nodes anew, or start what sends /clock"
         yield Finding(WRONG, "clocks", "/use_sim_time is true, and no /clock comes", todo)
 
 
-def joysticks(facts):
+def joysticks(facts: Facts) -> Iterator[Finding]:
     """Whether the gamepads of this machine can be read."""
     senders = {name for joy in facts.topics(JOY) for name in facts.senders(joy)}
     for joystick in facts.joysticks:

@@ -1,16 +1,30 @@
 """Judge the way from joystick to robot: topics, multiplexers, what joy2twist says (pure)."""
 
+from __future__ import annotations
+
 import re
+from typing import Iterator
 
 from node_kit.arming import DRIVING
-from tutorial_tools.doctor.facts import JOY, OK, TWIST, UNKNOWN, WRONG, Answer, Finding, some
+from node_kit.questions import Answer
+from tutorial_tools.doctor.facts import (
+    JOY,
+    OK,
+    TWIST,
+    UNKNOWN,
+    WRONG,
+    Facts,
+    Finding,
+    Mux,
+    some,
+)
 
 SILENT_S = 2.0  # a gamepad in the hand is not still for so long
 IDLE = ("", "idle")  # what a multiplexer says when nobody drives
 NO_MESSAGE = re.compile("no message|waiting for the joystick")
 
 
-def topics(facts):
+def topics(facts: Facts) -> Iterator[Finding]:
     """Whether the way from joystick to robot is connected from end to end."""
     converters = facts.converters()
     joys = facts.topics(JOY)
@@ -37,7 +51,7 @@ def topics(facts):
         yield from way(facts, node, hears, sends)
 
 
-def start_all(facts):
+def start_all(facts: Facts) -> str:
     """The launch file that starts joystick and joy2twist for the robot that is there."""
     robots = [t.split("/")[1] for t in undriven(facts) if re.fullmatch(r"/\w+/cmd_vel", t)]
     file = "launch_joy_node_realTurtlebot.launch" if facts.muxes else "launch_joy_node.launch"
@@ -47,12 +61,12 @@ def start_all(facts):
     return f"roslaunch joy2twist {file} ({without})"
 
 
-def undriven(facts):
+def undriven(facts: Facts) -> list[str]:
     """The velocity topics that a robot listens to and nobody publishes."""
     return [t for t in facts.topics(TWIST) if not facts.publishers.get(t)]
 
 
-def way(facts, node, hears, sends):
+def way(facts: Facts, node: str, hears: list[str], sends: list[str]) -> Iterator[Finding]:
     """Whether one converter is connected on both sides."""
     cut = [
         finding
@@ -68,7 +82,7 @@ def way(facts, node, hears, sends):
         yield Finding(OK, "topics", " -> ".join(", ".join(step) for step in steps))
 
 
-def link(facts, node, topic, inwards):
+def link(facts: Facts, node: str, topic: str, inwards: bool) -> Iterator[Finding]:
     """Whether a converter is connected to those at the other end of a topic."""
     others = (facts.publishers if inwards else facts.subscribers).get(topic, [])
     if not others and not inwards:
@@ -84,7 +98,7 @@ def link(facts, node, topic, inwards):
         yield Finding(WRONG, "topics", seen, todo)
 
 
-def muxes(facts):
+def muxes(facts: Facts) -> Iterator[Finding]:
     """Whether a multiplexer lets joy2twist through."""
     ours = {topic for _, sends in facts.converters().values() for topic in sends}
     for name, mux in sorted(facts.muxes.items()):
@@ -92,7 +106,7 @@ def muxes(facts):
             yield mux_finding(facts, name, mux, topic)
 
 
-def mux_finding(facts, name, mux, topic):
+def mux_finding(facts: Facts, name: str, mux: Mux, topic: str) -> Finding:
     """Whether a multiplexer lets one of our topics through."""
     if mux.active is None:
         todo = f"rostopic echo {name}/active"
@@ -118,7 +132,7 @@ def mux_finding(facts, name, mux, topic):
     return Finding(WRONG, "mux", f'{name} lets "{mux.active}" through, and not {topic}', todo)
 
 
-def rivals(facts):
+def rivals(facts: Facts) -> Iterator[Finding]:
     """Whether several nodes drive one robot, or several joysticks one joy2twist."""
     for topic in [*facts.topics(JOY), *facts.topics(TWIST)]:
         senders = facts.senders(topic)
@@ -127,7 +141,7 @@ def rivals(facts):
             yield Finding(WRONG, "topics", seen, "end all of them but one")
 
 
-def states(facts):
+def states(facts: Facts) -> Iterator[Finding]:
     """What joy2twist itself says on /diagnostics."""
     for node, (well, text) in sorted(facts.states.items()):
         joy = " ".join(facts.converters().get(node, (["joy"], []))[0])
