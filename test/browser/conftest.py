@@ -2,14 +2,11 @@
 
 import re
 from collections import defaultdict
-from pathlib import Path
 
 import pytest
 
 from tutorial_testing.cockpit.chromium import Chromium
 from tutorial_testing.cockpit.world import World
-
-REPOSITORY = Path(__file__).resolve().parents[2]
 
 
 def pytest_addoption(parser):

@@ -169,11 +169,12 @@ def test_plot_saves_what_it_shows(page, tmp_path):
     wait_for(lambda: png.exists() and png.read_bytes().startswith(b"\x89PNG"), "PNG")
 
 
-def test_log_shows_what_nodes_say_by_level_and_filter(world, page, ros):
+def test_log_shows_what_nodes_say_by_level_and_filter(world, page):
     page.tab("Log")
     said = '{level: 4, name: /probe, msg: "look here"}'
-    ros("rostopic", "pub", "-1", "/rosout", "rosgraph_msgs/Log", said)
-    page.wait_for_text("#log-lines [data-level=WARN]", "look here")
+    with world.run("rostopic", "pub", "/rosout", "rosgraph_msgs/Log", said):  # latched
+        page.wait_for_text("#log-lines", "look here")
+    assert page.all("#log-lines [data-level=WARN]")
     page.one("#log-filter").send_keys("no such words")
     wait_for(lambda: page.text("#log-lines") == "", "nothing that passes the filter")
     page.wait_for_text("#log-empty", "passes the filter")

@@ -27,7 +27,7 @@ aims = {}
 
 
 def connect(family, address):
-    """Whether somebody answers there."""
+    """Whether a server answers there."""
     with socket.socket(family) as probe:
         probe.settimeout(5.0)
         return probe.connect_ex(address) == 0

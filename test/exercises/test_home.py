@@ -98,13 +98,6 @@ def test_a_recording_in_the_home_folder(literal, floor, home):
     assert {result.status for result in seen.values()} <= {"ok", "note"}, seen
 
 
-def test_no_program_sees_the_home_folder(literal, floor, home):
-    (home / "secret").touch()
-    look = f"import os\n    assert not os.path.exists('{home}/secret')\n    rospy.init_node"
-    put(TALKER, "rospy.init_node", look)(literal)
-    assert verdicts(literal.parent, floor, "3")["C6"].status == "ok"
-
-
 def test_no_program_meets_anothers_files_in_tmp(literal, floor):
     with tempfile.NamedTemporaryFile(dir="/tmp") as left:
         left.write(b"of another student")

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 from attack import ATTACKS, FILLS_MEMORY, LEAVE
 from edits import B
-from test_awkward import SOURCE
+from test_awkward import SOURCE, command
 from test_endings import path_without_namespaces
 from test_hostile import processes_like
 
@@ -62,7 +62,7 @@ def impossible(words):
 
 @pytest.fixture(params=MODES)
 def mode(request):
-    """One that can be tried by who runs this."""
+    """One that this user can try."""
     is_root = os.geteuid() == 0
     if request.param.startswith("root") and not is_root:
         pytest.skip("only root can try what holds for root")
@@ -81,7 +81,7 @@ def folder():
 
 @pytest.fixture
 def bare_floor(folder):
-    """As much of the lower floor as can be read by everybody: for a build, and no node."""
+    """As much of the underlay as everybody can read: for a build, and no node."""
     packages = [each.parent for each in REPOSITORY.glob("*/*/src")] + [
         REPOSITORY / "fake_turtlebot_sim"
     ]
@@ -109,12 +109,12 @@ def words(mode, folder):
 
 def test_what_a_hostile_program_reaches(literal, mode, folder, bare_floor, words):
     name, number = f"attack_{os.getpid()}", 0x60000000 + os.getpid()
-    home, room = folder / "home", folder / "room"
-    (room / "bob").mkdir(parents=True)
-    (room / "bob" / "secret").write_text("x")
-    shutil.move(literal.parent, room / "ada")
-    shutil.rmtree(room / "ada" / "src" / "joy2twist")
-    package = room / "ada" / "src" / B
+    home, group = folder / "home", folder / "group"
+    (group / "bob").mkdir(parents=True)
+    (group / "bob" / "secret").write_text("x")
+    shutil.move(literal.parent, group / "ada")
+    shutil.rmtree(group / "ada" / "src" / "joy2twist")
+    package = group / "ada" / "src" / B
     shutil.copy(Path(__file__).with_name("attack.py"), package)
     with (package / "CMakeLists.txt").open("a") as file:
         file.write(BUILD)
@@ -129,29 +129,29 @@ def test_what_a_hostile_program_reaches(literal, mode, folder, bare_floor, words
     with socket.create_server(("127.0.0.1", 0)) as server, socket.socket(socket.AF_UNIX) as desktop:
         desktop.bind(f"\0{name}")
         desktop.listen()
-        aims = {"home": home, "other": room / "bob" / "secret", "name": name, "number": number}
+        aims = {"home": home, "other": group / "bob" / "secret", "name": name, "number": number}
         aims["solution"] = REPOSITORY / "joy2twist" / "CMakeLists.txt"
         aims["original"] = package / "CMakeLists.txt"
         aims = {key: value if key == "number" else str(value) for key, value in aims.items()}
         (package / "aims.json").write_text(json.dumps({**aims, "port": server.getsockname()[1]}))
         if words:
-            subprocess.run(["chown", "-R", str(STRANGER), home, room], check=True)
-        command = [*words, "/usr/bin/python3", "-m", "tutorial_check", "--floor", str(bare_floor)]
+            subprocess.run(["chown", "-R", str(STRANGER), home, group], check=True)
         subject = subprocess.Popen(["sh", "-c", "read line", name], stdin=subprocess.PIPE)
         try:
             done = subprocess.run(
-                [*command, "--all", str(room), "2", "3"],
+                [*words, *command(bare_floor, "--all", group, "2", "3")],
                 capture_output=True,
                 text=True,
                 check=False,
                 timeout=600,
                 env=environment,
+                preexec_fn=lambda: os.umask(0o077),  # whatever the user's, programs read the copy
             )
-            report = (room / "check" / "ada.txt").read_text()
+            report = (group / "check" / "ada.txt").read_text()
             numbers = re.search(r"reached:([\d ]*) \.", report)
             assert numbers, report + done.stderr
             reached = {list(ATTACKS)[int(each)] for each in numbers[1].split()}
-            # Told before the first verdict.
+            # Printed before the first verdict.
             assert ("no isolation here" in done.stderr) == mode.endswith("not isolated")
             shared = libc.shmget(number, 1, 0)
             sleeping = processes_like(f"sleep\0{number}\0")

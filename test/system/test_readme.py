@@ -103,13 +103,13 @@ def test_section(blocks, tutorial, screen, tmp_path, master_uri):
     environment["TUTORIAL_WORKSPACE"] = workspace  # whatever HOME is
     lasting = {}
 
-    def run(script, *floor):
+    def run(script, *options):
         """Start a script in the folder and with the home of a new user."""
         script = f"cd '{tmp_path}' && {script}"
-        return Program(tutorial, "run", *floor, "bash", "-ec", script, **environment)
+        return Program(tutorial, "run", *options, "bash", "-ec", script, **environment)
 
-    def run_to_its_end(script, *floor):
-        with run(script, *floor) as program:
+    def run_to_its_end(script, *options):
+        with run(script, *options) as program:
             assert program.wait(120) == 0, f"{script}\n{program.output}"
 
     def end(command):

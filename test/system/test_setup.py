@@ -166,7 +166,7 @@ def test_ctrl_c_waits_for_dpkg_and_says_so(tutorial, bare_system, monkeypatch):
 
 
 def test_without_pypi_only_replay_bag_is_missing(tutorial, bare_system):
-    """Nothing answers there; it is told once."""
+    """Nothing answers there; it is reported once."""
     with Program(tutorial, "setup", "system") as setup:
         assert setup.wait() == 0
     (bare_system / "ws" / "python").unlink()

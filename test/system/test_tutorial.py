@@ -175,5 +175,5 @@ def test_a_broken_package_xml_is_named_before_everything_fails_over_it(tutorial,
     said = subprocess.run(command, capture_output=True, text=True, check=True).stderr
     assert said.count("\n") == 1 and f"{package}: mismatched tag: line 2" in said
     doctor = [tutorial, "doctor", "--in", str(tmp_path)]
-    told = subprocess.run(doctor, capture_output=True, text=True, check=False).stdout
-    assert f"wrong    overlay   {package}: mismatched tag: line 2" in told
+    said = subprocess.run(doctor, capture_output=True, text=True, check=False).stdout
+    assert f"wrong    overlay   {package}: mismatched tag: line 2" in said

@@ -2,7 +2,7 @@
 
 import { element } from "./dom.js";
 
-// Told apart with either kind of background, and by most who see colours otherwise.
+// Distinct on light and dark backgrounds, and for most colour-blind readers.
 const COLOURS = ["#2b83d6", "#d9700a", "#1f9e6e", "#c2438f", "#8a6fd1", "#a38712", "#d6403a", "#3fa9b5"];
 // Where the colours begin again, lines are broken: lengths of strokes and gaps [px], and their name in CSS.
 const STROKES = [null, [7, 3], [2, 3]];

@@ -2,7 +2,7 @@
  * The person at this page as a joystick: what hands do on keys, glass or a gamepad goes to the server.
  *
  * Whether that moves a robot is the server's to decide. This side knows some losses of the operator
- * earlier (a hidden page, a lost pointer), and tells them.
+ * earlier (a hidden page, a lost pointer), and reports them.
  */
 
 import { Glass } from "./glass.js";
@@ -85,7 +85,7 @@ export class Driver {
   #shunMenus() {
     const options = { capture: true };
     addEventListener("contextmenu", (event) => this.isDriving && event.preventDefault(), options);
-    // While another button is held, the right one is told by a pointermove.
+    // While another button is held, the right one is reported by a pointermove.
     for (const kind of ["pointerdown", "pointermove"]) {
       addEventListener(kind, ({ pointerType, button, buttons }) => {
         if (pointerType === "mouse" && button === RIGHT && buttons & RIGHT_HELD) this.release("a menu was opened");

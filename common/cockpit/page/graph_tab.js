@@ -1,4 +1,4 @@
-/** The tab Graph: which nodes run and what they tell each other, live. */
+/** The tab Graph: the nodes and their topics, live. */
 
 import { byId, element, say } from "./dom.js";
 import { layout } from "./graph_layout.js";
@@ -89,7 +89,7 @@ export class GraphTab {
     if (focused) this.picture.querySelector(`[data-item="${CSS.escape(focused)}"]`)?.focus();
   }
 
-  /** What is drawn: all, or all but /rosout and topics on which nobody speaks. */
+  /** What is drawn: all, or all but /rosout and topics without a publisher. */
   #items({ nodes, topics, edges }) {
     const items = [...nodes.map(({ name }) => `node ${name}`), ...topics.map(({ name }) => `topic ${name}`)];
     if (byId("graph-all").checked) return items;

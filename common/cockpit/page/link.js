@@ -1,8 +1,8 @@
 /**
  * The connection to the server: JSON messages both ways, and its return after a loss.
  *
- * Silence is a loss, which is told at once; but who is silent may only be busy, or far from the Wi-Fi for
- * a moment. So the connection is kept for a while: with it goes the seat of who drives.
+ * Silence is a loss, which is shown at once; but a silent server may only be busy, or the Wi-Fi weak for
+ * a moment. So the connection is kept for a while: with it goes the driver's seat.
  */
 
 const RETRY_MS = 500;
@@ -66,7 +66,7 @@ export class Link {
 
   #hear(text) {
     this.#lastHeard = performance.now();
-    this.#become("open"); // who was silent speaks again
+    this.#become("open"); // after a silence
     const message = JSON.parse(text);
     for (const handler of this.#handlers.get(message.kind) ?? []) handler(message);
   }

@@ -4,8 +4,8 @@ import { byId, element, say } from "./dom.js";
 
 const LEVELS = ["DEBUG", "INFO", "WARN", "ERROR", "FATAL"];
 const MOST = 1000; // lines that are kept
-const NOTHING = `No node has logged anything since the cockpit was started. What is logged by rospy.loginfo() and
- the like comes here; what is printed stays in its terminal, and what was logged before is in ~/.ros/log.`;
+const NOTHING = `No line yet. What nodes log with rospy.loginfo() and the like comes here, and of each node the last line
+ before the cockpit was started. What is printed stays in its terminal; older lines are in ~/.ros/log.`;
 
 const PANEL = `
   <div class="card row">

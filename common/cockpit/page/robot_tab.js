@@ -1,4 +1,4 @@
-/** The tab Robot: the floor, the joystick, who drives, and driving from here. */
+/** The tab Robot: the floor, the joystick, the driver, and driving from here. */
 
 import { byId, offer, row, say } from "./dom.js";
 import { Driver } from "./driver.js";
@@ -77,7 +77,7 @@ export class RobotTab {
 
   #hello = null;
   #seat = { driver: null, yours: false };
-  #drives = { drivers: {}, again: "" }; // in words, by the server: who drives, and what to do
+  #drives = { drivers: {}, again: "" }; // the server's words: the driver, and what to do
   #teleop = new Map(); // robot -> what its joy2twist says
   #names = []; // of the robots
   #look = null; // the name of the one that is looked at, once there is one
@@ -167,7 +167,7 @@ export class RobotTab {
     else this.#offerRobots();
   }
 
-  /** Who has chosen a robot is never given another one: a robot that has gone may come back. */
+  /** A chosen robot stays chosen: one that has gone may come back. */
   #offerRobots() {
     const isGone = this.#look !== null && !this.#names.includes(this.#look);
     const choices = this.#names.map((name) => [name, name || "TurtleBot"]);
@@ -206,7 +206,7 @@ export class RobotTab {
   #rowOf(name) {
     const line = row(name, "", "", "");
     line.dataset.robot = name;
-    // Who drives sees what is driven.
+    // A driver sees the driven robot.
     line.addEventListener("click", () => this.#seat.yours || name === this.#look || this.#lookAt(name));
     return line;
   }
@@ -238,7 +238,7 @@ export class RobotTab {
   }
 
   #showSeat(seat) {
-    if (seat.yours && !this.#seat.yours) this.#follow(true); // who drives sees what is driven
+    if (seat.yours && !this.#seat.yours) this.#follow(true); // a driver sees the driven robot
     this.#seat = seat;
     if (seat.yours && seat.robot !== this.#look) this.#lookAt(seat.robot); // it was handed over
     if (seat.yours) this.driver.mode = byId("mode").value;

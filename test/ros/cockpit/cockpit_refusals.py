@@ -13,9 +13,6 @@ from tutorial_testing.processes import Program
 from tutorial_testing.socket_page import DRIVE, SocketPage
 from tutorial_testing.waiting import wait_for
 
-MESSAGES = 10_000
-CONNECTIONS = 1000
-FILES = 2048  # room for them: as a rule a process may have 1024, unless it asks for more
 OVERSIZED = 100_000  # bytes
 
 

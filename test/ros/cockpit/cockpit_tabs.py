@@ -91,22 +91,6 @@ class Tabs(WithCockpit):
         told = [m["why"] for m in self.page.messages[begin:] if m["kind"] == "teleop"]
         return any(words in (why or "") for why in told)
 
-    def test_the_graph_and_what_a_click_brings(self):
-        self.page.watch(graph=True, topic="/odom", node="/fake_turtlebot")
-        graph = self.page.wait_for("graph", lambda graph: len(graph["nodes"]) > 1)
-        names = {node["name"] for node in graph["nodes"]}
-        self.assertLessEqual({"/fake_turtlebot", "/myjoystick2twist"}, names)
-        self.assertIn({"name": "/odom", "type": "nav_msgs/Odometry"}, graph["topics"])
-        edge = {"from": "node /fake_turtlebot", "to": "topic /odom"}
-        self.assertIn(edge, graph["edges"])
-        topic = self.page.wait_for("topic", lambda topic: topic["rate"] > 40)
-        self.assertEqual(topic["type"], "nav_msgs/Odometry")
-        self.assertEqual(topic["publishers"], ["/fake_turtlebot"])
-        self.assertIn("child_frame_id", topic["last"])
-        node = self.page.wait_for("node", lambda node: "pid" in node)
-        self.assertIn("/odom", node["publishes"])
-        self.assertIn("/fake_turtlebot/reset", node["services"])
-
     def test_every_sample_of_a_field(self):
         self.page.watch(fields=[FIELD], field_list=True)
         self.assertIn(FIELD, self.page.wait_for("fields")["fields"])
@@ -117,26 +101,6 @@ class Tabs(WithCockpit):
         wait_for(lambda: len(self.page.of("plot")) > begin + 20, "plot")
         seen = {t for plot in self.page.of("plot") for t, _ in plot["samples"][FIELD]}
         self.assertEqual(stamps - seen, set())
-
-    def test_the_log(self):
-        self.page.watch(log=True)
-        rospy.logwarn("a line for the page")
-        self.page.wait_for("log")
-
-        def found():
-            entries = [entry for log in self.page.of("log") for entry in log["entries"]]
-            return [entry for entry in entries if entry["text"] == "a line for the page"]
-
-        entry = wait_for(found, "line of the log")[0]
-        self.assertEqual((entry["level"], entry["node"]), ("WARN", rospy.get_name()))
-
-    def test_the_doctor(self):
-        self.page.say("doctor")
-        told = self.page.wait_for(
-            "doctor", lambda doctor: doctor["lines"] and not doctor["running"]
-        )
-        self.assertIn("master", [line["subject"] for line in told["lines"]])
-        self.assertLessEqual({line["level"] for line in told["lines"]}, {"ok", "note", "wrong"})
 
     def test_a_recording_drives_and_takes_the_seat(self):
         self.page.watch(bag=True)

@@ -172,8 +172,7 @@ def test_who_watches_the_log_gets_each_line_once():
             logs._hear(SimpleNamespace(data=data.getvalue()), "/rosout")
         hub.hear(one, json.dumps({"kind": "watch", **watch}))
         sent.clear()
-        for _ in range(2):  # it speaks each other time
-            logs.prepare([one], 0.0)
+        for _ in range(2):
             logs.give(one, 0.0)
         entries = [json.loads(text)["entries"] for text in sent]
         return [entry["text"] for some in entries for entry in some]

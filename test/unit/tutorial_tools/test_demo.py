@@ -16,10 +16,10 @@ LAUNCH_FILE = str(JOY2TWIST / "launch" / "launch_bag.launch")
 def test_a_truncated_bag_gets_one_clear_line(tmp_path, capfd, size):
     bag = tmp_path / "truncated.bag"
     bag.write_bytes((JOY2TWIST / "bag" / "joy.bag").read_bytes()[:size])
-    with pytest.raises(DemoError) as told:
+    with pytest.raises(DemoError) as said:
         check_bag(bag)
-    assert str(told.value).startswith(f"{bag}: ")
-    assert len(str(told.value).splitlines()) == 1
+    assert str(said.value).startswith(f"{bag}: ")
+    assert len(str(said.value).splitlines()) == 1
     assert capfd.readouterr() == ("", "")
 
 

@@ -1,4 +1,4 @@
-"""Who may look and who may drive (pure).
+"""The right to look and to drive (pure).
 
 A page of somewhere else can have a browser of this network send us requests: under our address,
 with its own Origin, or under a name of its own that it lets point to us (DNS rebinding). So the

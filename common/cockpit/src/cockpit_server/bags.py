@@ -10,7 +10,6 @@ from cockpit_server.recording import JOY, RecordingError, Shelf, recordings
 from cockpit_server.schema import number, switch, text
 from cockpit_server.seat import BAG, RefusedError
 
-TICKS = 2  # how often pages are told the position: each other time that they are looked after
 LOOK_S = 2.0  # how often the folder is looked at for recordings, while a page shows them
 
 
@@ -39,14 +38,12 @@ class Bags(Source):
         self._hub = hub
         self._reader = ThreadPoolExecutor(1, thread_name_prefix="recordings")
         self._shelf = Shelf()
-        self._reading = set()  # numbers of the clients for whom one is read
+        self._reading = set()  # numbers of the clients that wait for one
         self._names, self._next_look = {}, 0.0  # whether it may drive -> names; when [s]
         self._opened = {}  # client's number -> Opened
         self._player, self._owner = None, None
-        self._ticks = 0
 
     def prepare(self, clients, now):
-        self._ticks += 1
         numbers = {client.number for client in clients}
         self._opened = {n: opened for n, opened in self._opened.items() if n in numbers}
         self._shelf.in_use = tuple(opened.recording for opened in self._opened.values())
@@ -65,7 +62,7 @@ class Bags(Source):
         if opened and opened.message:
             client.write(opened.message)
             opened.message = ""
-        if not client.watch.bag or opened is None or self._ticks % TICKS:
+        if not client.watch.bag or opened is None:
             return
         playing = self._plays(client.number)
         if playing:
@@ -89,7 +86,7 @@ class Bags(Source):
             if path is None:
                 raise RecordingError(f"{name!r} is none of the recordings that may be opened here")
             recording, message = self._shelf.take(path)
-        except Exception as error:  # whatever is in the file: who asked for it is told
+        except Exception as error:  # whatever is in the file, the page gets the reason
             known = isinstance(error, RecordingError)
             why = str(error) if known else f"{name}: {type(error).__name__}: {error}"
             self._hub.soon(lambda: self._refuse(client, why))

@@ -15,7 +15,7 @@ from cockpit_server.logs import without_folders
 
 LEVELS = {"ok": "ok", "wrong": "wrong"}  # what else it says is a note
 LONGEST_RUN_S = 60.0
-FRESH_S = 10.0  # who only looks gets what was found within that, and causes no new run
+FRESH_S = 10.0  # a viewer gets lines of this age, without a new run
 
 
 def shown(line):

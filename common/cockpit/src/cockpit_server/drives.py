@@ -1,4 +1,4 @@
-"""Who drives a robot, why it stands, and what to do: put into words here alone (pure)."""
+"""The words for what drives a robot, why it stands, and what to do; all of them here (pure)."""
 
 from typing import Any, Dict, NamedTuple, Optional, Sequence, Tuple
 
@@ -17,7 +17,7 @@ class About(NamedTuple):
 
     driver: number of the page that drives it, or None; name: of that page. how: PAGE or BAG. armed:
     whether all was seen released. why: the last stop by a loss of the driver, "" if there was none.
-    said: what joy2twist reports (see teleop.told), None if nothing. senders: other nodes that
+    said: what joy2twist reports (see teleop.report_of), None if nothing. senders: other nodes that
     publish its joystick's topic. moves: whether its odometry says so. is_heard: whether a node
     subscribes to its joystick's topic.
     """

@@ -1,7 +1,7 @@
 """Subscribes to what is looked at, and to nothing else, without ever waiting for the master.
 
 A node of rospy has one subscription for a topic, whatever it wants it for: here it is of raw
-messages, and whoever wants them reads as far as needed.
+messages, which each listener decodes as far as needed.
 """
 
 import threading

@@ -14,7 +14,7 @@ from node_kit.questions import Answer, call
 
 PERIOD_S = 0.5
 LONGEST_TEXT = 4000  # characters of the newest message
-LONGEST_MESSAGE = 20_000  # bytes; the text of a longer one would hold up those who drive
+LONGEST_MESSAGE = 20_000  # bytes; the text of a longer one would hold up the driver
 WINDOW_S = 2.0  # over which the rate is counted
 
 

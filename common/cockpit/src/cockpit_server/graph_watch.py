@@ -1,4 +1,4 @@
-"""Asks the master, once a second, who is there."""
+"""Asks the master for the graph, once a second."""
 
 import threading
 import time
@@ -20,7 +20,7 @@ class GraphWatch:
         self._uri = rosgraph.get_master_uri()
         self.graph, self.version = Graph(), 0
         self._is_lost = False
-        self._pid = None  # of the master, once it has told
+        self._pid = None  # of the master, once known
         self.look()
 
     def joysticks(self, robot):
@@ -48,13 +48,13 @@ class GraphWatch:
         answer, state = call(self._uri, "getSystemState", caller=self._own_name)
         if answer is Answer.SILENT:
             return
-        told, pid = call(self._uri, "getPid", caller=self._own_name)
+        answered, pid = call(self._uri, "getPid", caller=self._own_name)
         heard, types = call(self._uri, "getTopicTypes", caller=self._own_name)
-        if answer is Answer.WELL and Answer.SILENT in (told, heard):
+        if answer is Answer.WELL and Answer.SILENT in (answered, heard):
             return  # it is busy, and is asked again
         if self._pid is None:
             self._pid = pid
-        if {answer, told} != {Answer.WELL} or pid != self._pid:
+        if {answer, answered} != {Answer.WELL} or pid != self._pid:
             self._is_lost = True
             return
         types = dict(types or [])

@@ -13,7 +13,7 @@ from cockpit_server.seat import PAGE, Input, RefusedError, Seat
 from gamepad.gamepads import F710
 from node_kit.throttle import Throttle
 
-BEAT_S = 0.05  # of the server to who drives, and of the robots to all
+BEAT_S = 0.05  # of the server to the driver, and of the robots to all
 TICK_S = 0.01  # how often the seat and a recording that plays look at the time
 GIVE_S = 0.005  # of a tick for what pages are sent; the others' turn comes in the next
 CONNECT_S = 2.0  # after which a node that is registered is not waited for any longer

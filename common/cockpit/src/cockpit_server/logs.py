@@ -14,12 +14,11 @@ from cockpit_server.clients import Source
 from cockpit_server.schema import switch
 
 KEPT = 500  # lines
-AT_ONCE = 50  # lines in a message to a page: many long ones would hold up who drives
+AT_ONCE = 50  # lines in a message to a page: many long ones would hold up the driver
 LONGEST_LINE = 2000  # characters
 LEVELS = {
     Log.DEBUG: "DEBUG", Log.INFO: "INFO", Log.WARN: "WARN", Log.ERROR: "ERROR", Log.FATAL: "FATAL",
 }  # fmt: skip
-TICKS = 2  # a message to pages each other time that they are looked after
 
 
 def without_folders(text, home=None, here=None):
@@ -57,14 +56,10 @@ class Logs(Source):
         """
         self._lines = deque(maxlen=KEPT)  # (number, bytes)
         self._numbers = itertools.count(1)
-        self._ticks = 0
         feeds.want(self, {"/rosout": self._hear}, every=True)
 
-    def prepare(self, clients, now):
-        self._ticks += 1
-
     def give(self, client, _now):
-        if not client.watch.log or self._ticks % TICKS:
+        if not client.watch.log:
             return
         known = client.seen.get("log", 0)
         lines = [line for line in list(self._lines) if line[0] > known][:AT_ONCE]

@@ -16,7 +16,6 @@ from cockpit_server.schema import MOST_FIELDS, list_of, switch, text
 
 NEAR_S = 1.0  # of a stamp and this clock; curves of two clocks would not be seen side by side
 KEPT = 2000  # samples of a field for a page that is behind
-FIELDS_TICKS = 20  # how often the list of fields is looked at
 
 
 @lru_cache(maxsize=None)
@@ -57,11 +56,9 @@ class Plots(Source):
         self._classes = {}  # topic -> class of its messages
         self._samples = {}  # field -> deque of (number, time [s], value)
         self._number = 0
-        self._ticks = 0
         self._fields, self._fields_of = [], None
 
     def prepare(self, clients, _now):
-        self._ticks += 1
         fields = {field for client in clients for field in client.watch.fields}
         graph, wanted = self._graphs.graph, {}
         published = graph.published

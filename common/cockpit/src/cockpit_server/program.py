@@ -1,4 +1,4 @@
-"""The command: checks, waits for a master, and tells the address of the page."""
+"""The command: checks, waits for a master, and prints the address of the page."""
 
 import argparse
 import errno

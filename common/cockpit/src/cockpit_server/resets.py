@@ -45,7 +45,7 @@ class Resets(Source):
         if name in self._asked:
             raise RefusedError(f"{name} was called and has not answered yet")
         self._asked.add(name)
-        # A thread of its own: a robot that hangs does not answer, and others are to be driven.
+        # A thread of its own: a robot that hangs does not answer, and other robots go on.
         threading.Thread(target=self._call, args=(name,), daemon=True).start()
 
     def _call(self, name):

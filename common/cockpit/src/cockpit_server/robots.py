@@ -16,7 +16,7 @@ from node_kit.careful_connections import sender_of
 
 DIGITS = 4  # of metres: a tenth of a millimetre
 # [byte]; a gamepad's message has some 100. The thread that reads them, and sends each to all pages,
-# also watches over who drives, and a huge one would hold it up.
+# also watches over the driver, and a huge one would hold it up.
 LONGEST_JOY = 4000
 FRESH_S, LEAST_SPEED = 1.0, 0.01  # of odometry that says that a robot moves [m/s, rad/s]
 

@@ -1,9 +1,9 @@
-"""Who drives, and when the operator is lost (pure).
+"""The driver, and when the operator is lost (pure).
 
 Every method is given the time `now` [s] of one clock that never jumps; nothing here reads a clock.
 
 The rule for every loss: one neutral message, then silence, and nothing but silence until all
-buttons and sticks were seen released. Who is still there keeps the seat; who is away loses it.
+buttons and sticks were seen released. A page that is still there keeps the seat.
 """
 
 from __future__ import annotations

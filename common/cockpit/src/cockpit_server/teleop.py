@@ -13,7 +13,7 @@ MARK = ": joystick"  # the end of the name of joy2twist's status; before it stan
 SILENT_S = 4.0  # it speaks once a second
 SILENT = {"state": "silent", "why": "no report from joy2twist for 4 s", "level": 2, "deadman": None}
 UNKNOWN = "it reports once a second"  # what is shown meanwhile
-DEADMAN = "Dead-man button"  # the name of the value that tells which one it is, or "none"
+DEADMAN = "Dead-man button"  # key of the value that names it, or "none"
 
 
 def said(data):
@@ -25,10 +25,10 @@ def said(data):
     except DeserializationError:
         return []
     found = [status for status in statuses if status.name.endswith(MARK)]
-    return [(robot_of(f"/{one.name[: -len(MARK)]}"), told(one)) for one in found]
+    return [(robot_of(f"/{one.name[: -len(MARK)]}"), report_of(one)) for one in found]
 
 
-def told(status):
+def report_of(status):
     """Return a status as pages get it. deadman: number, "none", or None if not reported."""
     state = status.message.partition(":")[0].partition(" ")[0]
     button = {pair.key: pair.value for pair in status.values}.get(DEADMAN)
@@ -44,7 +44,7 @@ class Teleop(Source):
     """The newest report of joy2twist about each robot."""
 
     def __init__(self, feeds):
-        self._states = {}  # robot -> what is told
+        self._states = {}  # robot -> its report
         self._heard = {}  # robot -> when it spoke last [s]
         feeds.want(self, {"/diagnostics": self._hear}, every=True)
 

@@ -1,4 +1,4 @@
-"""HTTP and WebSocket: who may have what, and how much of it."""
+"""HTTP and WebSocket: rights and bounds of requests."""
 
 import asyncio
 import logging
@@ -195,8 +195,8 @@ class _Socket(_Limited, WebSocketHandler):
         return asyncio.sleep(wait_s) if wait_s else None
 
     def on_ping(self, data):
-        # Tornado has answered already. A page's script can send no ping, and whoever sends many may
-        # leave the answers unread: they would pile up here.
+        # Tornado has answered already. A page's script can send no ping, and a program that sends
+        # many may leave the answers unread: they would pile up here.
         self.pings += 1
         if self.pings > MOST_PINGS:
             self.stream.close()

@@ -70,7 +70,7 @@ def granted() -> Isolation:
 
 
 def _closed_user_namespace() -> int:
-    """Return a descriptor of a user namespace with root's users, in which nobody can make another one.
+    """Return a descriptor of a user namespace with root's users, in which no program can make another.
 
     A program in a user namespace of its own could mount a tmpfs of any size. Raises OSError.
     """

@@ -92,7 +92,7 @@ def examine(orders: dict[str, Any], send: Send, result: int) -> None:
             importlib.import_module("tutorial_check.driver")
         os.setgroups([])
         place.touch_files_as(uid, uid)
-    as_sent = paths_of_the_student(scratch, layout, orders["own"])
+    as_sent = _paths_of_the_student(scratch, layout, orders["own"])
     times = {"prepare": round(time.monotonic() - began_s, 2)}
     try:
         for exercise in orders["exercises"]:
@@ -110,7 +110,7 @@ def examine(orders: dict[str, Any], send: Send, result: int) -> None:
         print({**times, **run.seconds}, file=sys.stderr)
 
 
-def paths_of_the_student(
+def _paths_of_the_student(
     scratch: Path, layout: workspace.Layout, own: bool
 ) -> Callable[[Result], dict[str, Any]]:
     """Return a function that gives a Result as a dict, in which paths of the copy are the student's."""

@@ -49,7 +49,7 @@ def as_json(outcomes: Sequence[Outcome]) -> str:
         }
         for outcome in outcomes
     ]
-    done = sum(one.passed and not one.empty for one in outcomes)
+    done = sum(outcome.passed and not outcome.empty for outcome in outcomes)
     return json.dumps({"exercises": exercises, "passed": done, "total": len(outcomes)}, indent=1)
 
 

@@ -3,6 +3,8 @@
 In a process of its own, with the student's rights: what a launch file names is read.
 """
 
+from __future__ import annotations
+
 import contextlib
 import functools
 import io
@@ -10,12 +12,14 @@ import json
 import shlex
 import xml.dom.minidom
 from pathlib import Path
+from typing import Any, Dict
 
 MARK = "launch facts: "
+Node = Dict[str, Any]  # about a node: package, type, name, args ...
 
 
 @functools.lru_cache(maxsize=None)
-def can_be_found(package, kind):
+def can_be_found(package: str, kind: str) -> bool:
     """Whether rosrun would find such a program."""
     import roslib.packages  # noqa: PLC0415
 
@@ -25,7 +29,7 @@ def can_be_found(package, kind):
         return False
 
 
-def device_of(node, params):
+def device_of(node: Any, params: Any) -> Any:
     """The device that a node is told to read, as joy_node is; or empty."""
     try:
         words = shlex.split(node.args or "")
@@ -36,7 +40,7 @@ def device_of(node, params):
     return in_args[0] if in_args else str(in_file.value) if in_file else ""
 
 
-def _node(node, params):
+def _node(node: Any, params: Any) -> Node:
     """A dict about one node."""
     return {
         "package": node.package,
@@ -51,7 +55,7 @@ def _node(node, params):
     }
 
 
-def facts_of(path):
+def facts_of(path: str) -> Any:
     """A dict about one launch file."""
     import roslaunch.config  # noqa: PLC0415
     import roslaunch.loader  # noqa: PLC0415
@@ -59,7 +63,7 @@ def facts_of(path):
     # What <param command=...> prints is not wanted here, only what would be started.
     value_of = roslaunch.loader.Loader.param_value
 
-    def without_command(self, *about):
+    def without_command(self, *about: Any) -> Any:
         *start, value, textfile, binfile, command = about
         value = "" if command is not None else value
         return value_of(self, *start, value, textfile, binfile, None)
@@ -86,7 +90,7 @@ def facts_of(path):
     return facts
 
 
-def tell(paths):
+def tell(paths: Any) -> None:
     """Print one JSON object for each of these launch files."""
     for path in paths:
         print(MARK + json.dumps(facts_of(path)), flush=True)

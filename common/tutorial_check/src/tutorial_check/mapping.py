@@ -271,13 +271,9 @@ AFTER = (
 
 def judge(evidence: Evidence) -> tuple[str, str]:
     """Return (complaint, hint), each empty if there is none; a hint without a complaint is a remark."""
-    found = (
-        find(BEFORE, evidence)
-        or next(
-            filter(None, (find(OF_A_FIELD, f) for f in evidence.fields if not f.is_right)), None
-        )
-        or find(AFTER, evidence)
-    )
+    odd = [find(OF_A_FIELD, each) for each in evidence.fields if not each.is_right]
+    all_found = [find(BEFORE, evidence), *odd, find(AFTER, evidence)]
+    found = next((each for each in all_found if each), None)
     return (found.seen, found.hint) if found else ("", _remark(evidence))
 
 

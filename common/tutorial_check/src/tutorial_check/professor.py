@@ -191,7 +191,7 @@ def table_html(students: Iterable[Student], exercises: list[str]) -> str:
             word, details = student.cell(exercise)
             kind = {"ok": "ok", "-": "no", "?": "no", "not done": "no"}.get(word, "wrong")
             row += f'<td class="{kind}" title="{escape(details)}">{escape(word)}</td>'
-        done = sum(one.passed and not one.empty for one in student.outcomes)
+        done = sum(outcome.passed and not outcome.empty for outcome in student.outcomes)
         rows.append(f"<tr>{row}<td>{done}</td><td>{student.seconds:.0f} s</td></tr>")
     head = f'<meta charset="utf-8"><title>Exercises</title><style>{STYLE}</style>'
     return f'<!DOCTYPE html><html lang="en">{head}<table>{"".join(rows)}</table></html>\n'

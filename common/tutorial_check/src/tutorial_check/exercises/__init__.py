@@ -1,7 +1,10 @@
 """The exercises of the handout, and the decorator that makes a function one of their checks."""
 
+from __future__ import annotations
+
 import importlib
 import pkgutil
+from typing import Any, Callable, TypeVar
 
 from tutorial_check.model import Catalogue, Check
 
@@ -18,14 +21,17 @@ EXERCISES = {
     "6.2": "a class",
 }
 
-_checks = {}  # id -> (Check, function)
+_Function = TypeVar("_Function", bound=Callable[..., Any])
+_checks: dict[str, tuple[Check, Callable[..., Any]]] = {}  # by the id of the check
 
 
-def check(name, title, section, needs="", *, look="", timeless=False):
+def check(
+    name: str, title: str, section: str, needs: str = "", *, look: str = "", timeless: bool = False
+) -> Callable[[_Function], _Function]:
     """Make a function of a session a check: one line of the report. See model.Check."""
-    exercise = section if section in EXERCISES else section.split(".")[0]
+    exercise = section if section in EXERCISES else section.split(".", maxsplit=1)[0]
 
-    def keep(function):
+    def keep(function: _Function) -> _Function:
         one = Check(name, exercise, title, section, tuple(needs.split()), look, timeless)
         _checks[name] = one, function
         return function
@@ -33,7 +39,7 @@ def check(name, title, section, needs="", *, look="", timeless=False):
     return keep
 
 
-def catalogue():
+def catalogue() -> Catalogue:
     """Return the Catalogue of all checks, from the files of this folder. Loads ROS."""
     for module in pkgutil.iter_modules(__path__, f"{__name__}."):
         importlib.import_module(module.name)

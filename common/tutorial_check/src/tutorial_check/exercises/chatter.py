@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import statistics
+from typing import TYPE_CHECKING, Any, Iterable
 
 from tutorial_check.causes import with_import
 from tutorial_check.changed_programs import flipped_anonymous
@@ -13,6 +14,11 @@ from tutorial_check.exercises.talking import LISTEN_S, PACKAGE, TOPIC, scripts, 
 from tutorial_check.model import Note, Wrong, master_gone
 from tutorial_check.rows import Row, demand
 
+if TYPE_CHECKING:
+    from tutorial_check.exercises.talking import Talk
+    from tutorial_check.session import Session
+
+
 TALKS = "std_msgs/String on /chatter, about 10 times a second"
 LISTENS = "every text sent on /chatter, displayed once"
 GOES_ON = "it goes on until Ctrl-C"
@@ -22,7 +28,7 @@ FEW = 3  # Twists, of which no rate can be told
 class Half:
     """One of the two programs in a Talk: the facts of the rows below."""
 
-    def __init__(self, session, talk, script, program):
+    def __init__(self, session: Session, talk: Talk, script: str, program: Any) -> None:
         self.session, self.talk, self.script, self.program = session, talk, script, program
         self.facts = session.scripts(PACKAGE)[script]
         self.publisher_line = with_import(
@@ -32,37 +38,37 @@ class Half:
             "rospy.Subscriber('chatter', String, callback)", "String", self.facts
         )
 
-    def at(self, name, default=1):
+    def at(self, name: str, default: int = 1) -> str:
         """Where the first call of that name stands."""
         call = self.facts.first(name)
         return f"{self.script}:{call.line if call else default}"
 
     @property
-    def publisher(self):
+    def publisher(self) -> Any:
         """Where the Publisher is made."""
         return self.at("Publisher")
 
     @property
-    def subscriber(self):
+    def subscriber(self) -> Any:
         """Where the Subscriber is made."""
         return self.at("Subscriber") if self.facts.first("Subscriber") else self.script
 
     @property
-    def has_failed(self):
+    def has_failed(self) -> Any:
         """Whether it printed an error, or works without end."""
         return "Traceback" in self.program.output or self.program.spins
 
-    def is_meant(self, name, topic):
+    def is_meant(self, name: str, topic: str) -> Any:
         """Whether the first topic of that kind in the text is this one."""
         call = self.facts.first(name)
         return bool(call) and call.words[:1] in ([topic], [topic.lstrip("/")])
 
-    def other_topic(self, topics):
+    def other_topic(self, topics: Iterable[str]) -> Any:
         """Another topic than the one asked for, or an empty text."""
         return next(iter(sorted(set(topics) - {TOPIC, "/rosout"})), "")
 
     @property
-    def wanted(self):
+    def wanted(self) -> Any:
         """The type that the Subscriber asks for, if it is no String."""
         call = self.facts.first("Subscriber")
         kind = call.words[1].rpartition(".")[2] if call and len(call.words) > 1 else "String"
@@ -70,31 +76,31 @@ class Half:
         return kind if kind != "String" else "another type of message" if refused else ""
 
     @property
-    def carried(self):
+    def carried(self) -> Any:
         """The type on /chatter, if it is no String."""
         kind = self.talk.types.get(TOPIC, "std_msgs/String")
         is_other = TOPIC in self.talk.publishers and kind != "std_msgs/String"
         return kind if is_other or any("datatype" in line for line in self.talk.warnings) else ""
 
     @property
-    def found(self):
+    def found(self) -> Any:
         """How many of the texts were displayed; with or without colours or a separator."""
         return sum(text in self.program.output for text in self.talk.strings)
 
-    def crash(self, expected, hint=""):
+    def crash(self, expected: str, hint: str = "") -> Any:
         """The Wrong for a program that failed or ended."""
         place, meant = sunken_main(self.facts, self.script)
         wrong = crash(self.session, PACKAGE, self.program, expected, meant or hint)
         wrong.where = wrong.where or place
         return wrong
 
-    def silent_talker(self):
+    def silent_talker(self) -> Any:
         """The Wrong for a talker that says nothing and has failed or ended."""
         hint = "does the last line call talker()"
         loops = ", and does it loop: while not rospy.is_shutdown()"
         return self.crash(TALKS, f"{hint}{loops if self.facts.has_main else ''}?")
 
-    def ended_listener(self):
+    def ended_listener(self) -> Any:
         """The Wrong for a listener that ended."""
         hint = "does the last line call listener()?"
         if "spin" not in self.facts.calls:
@@ -107,13 +113,13 @@ class Half:
         return wrong
 
     @property
-    def times(self):
+    def times(self) -> Any:
         """How often each text was displayed."""
         lines = self.program.output.splitlines()
         return min(sum(text in line for line in lines) for text in self.talk.strings)
 
     @property
-    def second_line(self):
+    def second_line(self) -> Any:
         """Where a text is displayed for the second time."""
         subscribers = [call.line for call in self.facts.calls.get("Subscriber", [])]
         called = self.facts.called_back
@@ -149,7 +155,7 @@ DEAF_LISTENER = (
 )  # fmt: skip
 
 
-def _half(session, is_talker):
+def _half(session: Session, is_talker: bool) -> Any:
     """A program of the Talk. Raises Wrong if the master has gone."""
     talk = talk_of(session)
     if not talk.master_alive:
@@ -160,7 +166,7 @@ def _half(session, is_talker):
 
 @check("C5", "talker.py and listener.py can be run", "3.1", "C2",
        look="rosrun beginner_tutorials talker.py", timeless=True)  # fmt: skip
-def files(session):
+def files(session: Session) -> Note | str | None:
     """Check what can be said of the two without running them."""
     for script in scripts(session):
         check_file(session, PACKAGE, script)
@@ -169,7 +175,7 @@ def files(session):
 
 
 @check("C6", "the talker talks", "3.1", "C5", look="rostopic hz /chatter")
-def talker(session):
+def talker(session: Session) -> Note | str | None:
     """Check what comes on /chatter, and how often."""
     half = _half(session, is_talker=True)
     talk, facts = half.talk, half.facts
@@ -195,7 +201,7 @@ def talker(session):
 
 @check("C7", "the listener displays what it hears", "3.1", "C5",
        look="rosrun beginner_tutorials listener.py")  # fmt: skip
-def listener(session):
+def listener(session: Session) -> Note | str | None:
     """Check that every text that is sent appears in its output."""
     half = _half(session, is_talker=False)
     half.total = len(half.talk.strings)
@@ -211,7 +217,7 @@ def listener(session):
 
 @check("C8", "talker and listener are connected", "3.1", "C6 C7",
        look="rosnode info /rosout; rqt_graph")  # fmt: skip
-def graph(session):
+def graph(session: Session) -> Note | str | None:
     """Check the way from the one to the other."""
     talk = talk_of(session)
     if not talk.publishers.get(TOPIC) or not talk.subscribers.get(TOPIC):
@@ -220,7 +226,7 @@ def graph(session):
     return f"{talk.publishers[TOPIC][0]} -> /chatter -> {talk.subscribers[TOPIC][0]}"
 
 
-def _whole_talk(session):
+def _whole_talk(session: Session) -> Any:
     """The Talk; if it came to no second talker, as may be in a second look, C6 or C7 says why."""
     talk = talk_of(session)
     if not talk.taken:
@@ -230,7 +236,7 @@ def _whole_talk(session):
 
 
 @check("C9", "anonymous names", "3.1", "C6 C7 C10", look="rosnode list, with two talkers")
-def anonymous(session):
+def anonymous(session: Session) -> Note | str | None:
     """Start two talkers as submitted, and with anonymous the other way round in a copy."""
     script, _ = scripts(session)
     talk = _whole_talk(session)
@@ -255,7 +261,7 @@ def anonymous(session):
     return "as submitted, and the other way round"
 
 
-def _second_ends_first(session, script):
+def _second_ends_first(session: Session, script: str) -> Any:
     with session.stage() as stage:
         stage.call("listen", TOPIC, "String")
         first = stage.start(PACKAGE, script)
@@ -266,7 +272,7 @@ def _second_ends_first(session, script):
         caller = stage.call("heard", TOPIC)[0][1]
         second = stage.start(PACKAGE, script)
 
-        def settled():
+        def settled() -> Any:
             callers = {who for _, who, _ in stage.call("heard", TOPIC)}
             return first.ended or second.ended or callers - {caller}
 
@@ -275,7 +281,7 @@ def _second_ends_first(session, script):
 
 
 @check("C10", "Ctrl-C ends both", "3.1", "C6 C7", look="Ctrl-C in their terminals")
-def ctrl_c(session):
+def ctrl_c(session: Session) -> Note | str | None:
     """Check how they end."""
     talk = _whole_talk(session)
     for name, program in (("talker.py", talk.talkers[-1]), ("listener.py", talk.listener)):

@@ -1,7 +1,10 @@
 """C29 and C30: the program as a class."""
 
+from __future__ import annotations
+
 import re
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from tutorial_check.class_facts import with_bases
 from tutorial_check.exercises import check, conversation
@@ -11,20 +14,25 @@ from tutorial_check.exercises.joy2twist import NAME, check_manifest
 from tutorial_check.model import Note, Wrong
 from tutorial_check.rows import Row, demand
 
+if TYPE_CHECKING:
+    from tutorial_check.class_facts import ClassFacts
+    from tutorial_check.python_facts import Call
+    from tutorial_check.session import Session
 
-def _class_files(session):
+
+def _class_files(session: Session) -> Any:
     """{path: ClassFacts} of the classes that deal with ROS; of several the likeliest first."""
     scripts = session.scripts(PACKAGE)
     owned = [(path, one) for path, facts in scripts.items() for one in facts.classes]
     bases = {base.rpartition(".")[2] for _, one in owned for base in one.bases}
-    found = {}
+    found: dict[str, ClassFacts] = {}
     for (path, _), one in zip(owned, with_bases([one for _, one in owned])):
         better = path not in found or (found[path].name in bases and one.name not in bases)
         if one.is_node and better and "checked_" not in path:
             found[path] = one
     folder = session.package(PACKAGE).folder
 
-    def unlikely(path):
+    def unlikely(path: str) -> Any:
         """The step before, under joy2twist.py, may be a class already; and there are old copies."""
         return (
             found[path].name in bases,
@@ -39,11 +47,11 @@ def _class_files(session):
     return {path: found[path] for path in sorted(found, key=unlikely)}
 
 
-def _fits(words):
+def _fits(words: str) -> bool:
     return bool(re.search(r"joy.*twist", words, re.IGNORECASE))
 
 
-def program(session):
+def program(session: Session) -> Any:
     """(the program to start, the file with the class, its ClassFacts). Raises Wrong."""
     scripts, files = session.scripts(PACKAGE), _class_files(session)
     if not files:
@@ -66,7 +74,7 @@ def program(session):
 class Form:
     """A class beside its program: the facts of the rows below."""
 
-    def __init__(self, session, script, path, one):
+    def __init__(self, session: Session, script: str, path: str, one: ClassFacts) -> None:
         self.path, self.one = path, one
         self.facts = session.scripts(PACKAGE)[path]
         self.where = f"{path}:{one.line}"
@@ -76,7 +84,7 @@ class Form:
         self.methods = ", ".join(one.methods)
 
     @property
-    def odd_init(self):
+    def odd_init(self) -> Any:
         """What was meant to be __init__, or "no __init__"; empty if there is one, maybe of a base."""
         if "__init__" in self.one.methods:
             return ""
@@ -86,13 +94,13 @@ class Form:
         return "" if self.one.bases else f"{self.one.name} has no __init__"
 
     @property
-    def place_of_name(self):
+    def place_of_name(self) -> Any:
         """Where its name stands alone, without (), or else the class."""
         bare = (line for line, text in self.facts.bare_names if text == self.one.name)
         return next((f"{self.path}:{line}" for line in bare), self.where)
 
     @property
-    def early(self):
+    def early(self) -> Any:
         """The line of an on_shutdown before the Publisher, or 0."""
         early = self.facts.first("on_shutdown")
         made = min((call.line for call in self.facts.calls.get("Publisher", [])), default=0)
@@ -102,7 +110,7 @@ class Form:
 class Given:
     """What ROS is given in place of a method."""
 
-    def __init__(self, form, call, taker):
+    def __init__(self, form: Form, call: Call, taker: str) -> None:
         self.form, self.taker = form, taker
         word = call.words[0] if call.words else ""
         if taker == "the Subscriber":
@@ -113,12 +121,12 @@ class Given:
         self.line = form.facts.functions.get(self.name, 0)
 
     @property
-    def is_called(self):
+    def is_called(self) -> Any:
         """Whether it is called at once."""
         return self.name.endswith("()") and self.name[:-2] in self.form.facts.functions
 
     @property
-    def is_unknown(self):
+    def is_unknown(self) -> Any:
         """Whether the object surely has no such method; another's, or a base's, is not known here."""
         classes = self.form.facts.classes
         known = any(self.name in {*one.methods, *one.attributes} or one.bases for one in classes)
@@ -154,7 +162,7 @@ RIGHT_FORM = (
 
 @check("C29", "the program is a class", "6.2", "C12", look="rosrun joy2twist THE_CLASS",
        timeless=True)  # fmt: skip
-def is_class(session):
+def is_class(session: Session) -> Note | str | None:
     """Read the form of the class from its text."""
     script, path, one = program(session)
     must_be_one(session.package(PACKAGE).folder, Path(script).name)
@@ -169,7 +177,7 @@ def is_class(session):
 
 
 @check("C30", "the class does what the functions did", "6.2", "C29", look="rostopic echo /cmd_vel")
-def behaves(session):
+def behaves(session: Session) -> Note | str | None:
     """As C14 to C17."""
     script, _, _ = program(session)
     seen = drive(session, script)

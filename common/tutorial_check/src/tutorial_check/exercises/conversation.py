@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import statistics
+from typing import TYPE_CHECKING, Any
 
 from tutorial_check.exercises.dialogue import Conversation
 from tutorial_check.exercises.driving import CMD_VEL, COUNT, JOY
@@ -10,6 +11,11 @@ from tutorial_check.mapping import judge
 from tutorial_check.model import Note, master_gone
 from tutorial_check.probing import judge_probes
 from tutorial_check.rows import Row, demand
+
+if TYPE_CHECKING:
+    from tutorial_check.exercises.driving import Drive
+    from tutorial_check.session import Session
+
 
 CONNECTS = "it subscribes to /joy, sensor_msgs/Joy"
 DISPLAYS = "every Joy displayed with its six axes, two decimals, in one line"
@@ -136,7 +142,7 @@ RATE = (
 )  # fmt: skip
 
 
-def check_connected(session, seen):
+def check_connected(session: Session, seen: Drive) -> Any:
     """It subscribes to /joy as Joy, or Wrong says why not."""
     one = Conversation(session, seen)
     demand(CONNECTED, one, CONNECTS)
@@ -145,7 +151,9 @@ def check_connected(session, seen):
     return one
 
 
-def check_displays(session, seen, few_are_enough=False):
+def check_displays(
+    session: Session, seen: Drive, few_are_enough: bool = False
+) -> Note | str | None:
     """Joys appear in the output with all six axes, or Wrong."""
     one = check_connected(session, seen)
     if seen.all_shown or (seen.shown and few_are_enough):
@@ -156,7 +164,7 @@ def check_displays(session, seen, few_are_enough=False):
     return demand(NOT_DISPLAYED, one, DISPLAYS)
 
 
-def check_topics(session, seen):
+def check_topics(session: Session, seen: Drive) -> Note | str | None:
     """/joy in, /cmd_vel out, with their types, or Wrong."""
     one = check_connected(session, seen)
     note = demand(TOPICS, one, PUBLISHES)
@@ -165,7 +173,7 @@ def check_topics(session, seen):
     return note or "/joy -> /cmd_vel"
 
 
-def check_mapping(session, seen):
+def check_mapping(session: Session, seen: Drive) -> Note | str | None:
     """linear.x follows axis 1, angular.z axis 0; or Wrong names the rule that was found."""
     one = Conversation(session, seen)
     if not seen.trouble:
@@ -180,7 +188,7 @@ def check_mapping(session, seen):
     return demand(RIGHT_RULE, one, MAPS)
 
 
-def check_rate(session, seen):
+def check_rate(session: Session, seen: Drive) -> Note | str | None:
     """50 Joys a second are answered, each soon."""
     if seen.is_prompt:
         return seen.rate

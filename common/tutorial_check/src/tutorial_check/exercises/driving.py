@@ -1,8 +1,11 @@
 """One program that turns Joy into Twist, driven over its topics; what was seen, without a verdict."""
 
+from __future__ import annotations
+
 import re
 import statistics
 import time
+from typing import TYPE_CHECKING, Any, Sequence
 
 from tutorial_check.box import GRACE_S
 from tutorial_check.mapping import LINEAR, Evidence, judge, rule_of
@@ -20,6 +23,12 @@ from tutorial_check.probing import (
     small_and_button_probes,
 )
 from tutorial_check.stage import START_S
+
+if TYPE_CHECKING:
+    from tutorial_check.probing import Joy
+    from tutorial_check.session import Session
+    from tutorial_check.stage import Stage
+
 
 PACKAGE = "joy2twist"
 JOY, CMD_VEL = "/joy", "/cmd_vel"
@@ -39,23 +48,28 @@ COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 class Drive:
     """What came of starting a program and sending it Joy messages."""
 
-    def __init__(self, session, script, wants_twist=True):
+    def __init__(self, session: Session, script: str, wants_twist: bool = True) -> None:
         self.session, self.script = session, script
-        self.samples, self.missing, self.unasked, self.shown, self.asked = [], 0, 0, 0, 0
-        self.delays, self.sent, self.answered, self.strays = [], 0, 0, 0
+        self.samples: list[Any] = []
+        self.missing = self.unasked = self.shown = self.asked = 0
+        self.delays: list[float] = []
+        self.sent = self.answered = self.strays = 0
         self.came = 0  # Twists for the numbered Joys
-        self.first_samples = []  # of an earlier pass
-        self.at_rest = None  # the answer to a Joy at rest
-        self.waits = []  # [s] from a Joy to the next Twist, one at a time
-        self.twists, self.has_clock = [], False  # all of the second pass; whether more come unasked
+        self.first_samples: list[Any] = []  # of an earlier pass
+        self.at_rest: Any = None  # the answer to a Joy at rest
+        self.waits: list[float] = []  # [s] from a Joy to the next Twist, one at a time
+        self.twists: list[Any] = []  # all of the second pass
+        self.has_clock = False  # whether more come unasked
         self.repeats = False  # whether those move the robot, though no Joy came
-        self.answers, self.unanswered = [], None  # of the probes; (Joy, one before) without a Twist
+        self.answers: list[Any] = []  # of the probes
+        self.unanswered: Any = None  # (Joy, one before) without a Twist
         facts = session.scripts(PACKAGE).get(script)
         self.sleep_lines = facts.called_back.get("sleep", []) if facts else []
         # A queue of one drops what it has no time for, and the newest value is not late.
         drops = facts and facts.keeps_newest and not self.sleep_lines
         self.enough = 0.5 if drops else 0.95  # of the Joys of a stream answered
-        self.possible = self.unavoidable_s = None  # what our own Echo answered beside it
+        self.possible: int | None = None
+        self.unavoidable_s: float | None = None  # what our own Echo answered beside it
         with session.stage() as stage:
             stage.call("advertise", JOY, "Joy")
             stage.call("listen", CMD_VEL, "Twist")
@@ -80,9 +94,7 @@ class Drive:
             self.taken_s = session.box.end(self.program, grace_s)
             self.last_words = self.program.output[len(self.output) :]
 
-    # ------------------------------------------------------------------------------ driving
-
-    def _converse(self, stage, wants_twist):
+    def _converse(self, stage: Stage, wants_twist: bool) -> None:
         stage.call("send", JOY, NEUTRAL)
         joys = numbered_joys(COUNT)
         self.joys = joys
@@ -117,7 +129,7 @@ class Drive:
                 )
                 self._stream(stage, beside=answers)
 
-    def _ask_again(self, stage, joys):
+    def _ask_again(self, stage: Stage, joys: Sequence[Joy]) -> None:
         """The same with time: it has a clock of its own, publishes several, or is only slow."""
         is_plain = self.unasked <= 2
         low = [] if self.missing else low_joys()
@@ -134,7 +146,7 @@ class Drive:
         self.at_rest = heard[-1][2] if heard else None
         self._ask(stage, joys[-1], SETTLE_S)  # the last one moves the robot
 
-    def _keep_quiet(self, stage):
+    def _keep_quiet(self, stage: Stage) -> None:
         """See whether Twists come without a Joy. The last one moves the robot."""
         begun_s, before = time.monotonic(), stage.call("count", CMD_VEL)
         quiet_s = max(QUIET_S, 2.5 * min(ANSWER_S, statistics.median(self.waits)))
@@ -144,25 +156,25 @@ class Drive:
         late = [twist for when, _, twist in unasked if when > begun_s + SAME_S]
         self.repeats = self.has_clock and any(map(any, late))
 
-    def _probe(self, stage, joys):
+    def _probe(self, stage: Stage, joys: Sequence[Joy]) -> None:
         """The other Joys, each until it is answered; the first that is not, also when asked again, ends it."""
         before, settle_s = joys[-1], SETTLE_S if self.twists else 0.0
         # By now it is known how many Twists one Joy gets: no time is needed to wait for more.
-        often = max(1, round(len(self.twists) / len(self.samples)))
+        times = max(1, round(len(self.twists) / len(self.samples)))
         plan = [(joy, settle_s, 1) for joy in probes(joys)]
-        plan += [(joy, 0.0, often) for joy in small_and_button_probes()]
-        for joy, *patience in plan:
-            _, heard = self._ask(stage, joy, *patience)
+        plan += [(joy, 0.0, times) for joy in small_and_button_probes()]
+        for joy, wait_s, often in plan:
+            _, heard = self._ask(stage, joy, wait_s, often)
             if not heard and not self.program.ended:
-                self._ask(stage, before, *patience)
-                _, heard = self._ask(stage, joy, *patience)
+                self._ask(stage, before, wait_s, often)
+                _, heard = self._ask(stage, joy, wait_s, often)
             if not heard:
                 self.unanswered = joy, before
                 return
             self.answers.append((joy, heard[-1 if settle_s else 0][2]))
             before = joy
 
-    def _ask(self, stage, joy, settle_s, often=1):
+    def _ask(self, stage: Stage, joy: Any, settle_s: float, often: int = 1) -> Any:
         """(when a Joy was sent, what was heard from then on). often: how many Twists are waited for."""
         before = stage.call("count", CMD_VEL)
         sent_s = stage.call("send", JOY, joy)
@@ -174,7 +186,7 @@ class Drive:
             stage.wait(lambda: self.program.ended, settle_s)
         return sent_s, stage.call("heard", CMD_VEL, before)
 
-    def _one_by_one(self, stage, joys, settle_s):
+    def _one_by_one(self, stage: Stage, joys: Sequence[Joy], settle_s: float) -> None:
         begun, answered, unanswered = stage.call("count", CMD_VEL), len(self.samples), 0
         for joy in joys:
             sent_s, heard = self._ask(stage, joy, settle_s)
@@ -194,7 +206,7 @@ class Drive:
             self._hurry(stage, joys[len(self.samples) - answered + unanswered :])
         self.came = stage.call("count", CMD_VEL) - begun
 
-    def _hurry(self, stage, joys):
+    def _hurry(self, stage: Stage, joys: Sequence[Joy]) -> None:
         """Send the rest of the Joys without much patience, to see how many of all are answered."""
         for joy in joys:
             before = stage.call("count", CMD_VEL)
@@ -204,7 +216,7 @@ class Drive:
                 SAME_S,
             )
 
-    def _stream(self, stage, beside=None):
+    def _stream(self, stage: Stage, beside: str | None = None) -> None:
         count = int(RATE * STREAM_S)
         joys = rising_joys(count)
         before = stage.call("count", CMD_VEL)
@@ -214,7 +226,7 @@ class Drive:
         sent, heard = stage.call("sent", JOY), stage.call("heard", CMD_VEL, before)
         self.sent, self.answered = len(sent), len(heard)
         rule = rule_of(LINEAR, self.samples)
-        self.delays = delays(sent, heard, rule and rule.factor)
+        self.delays = delays(sent, heard, rule.factor if rule else None)
         moving = [any(twist) for _, _, twist in heard]
         # All of these Joys move the robot, once the first does.
         self.strays = moving[moving.index(True) :].count(False) if any(moving) else 0
@@ -223,67 +235,65 @@ class Drive:
             self.possible = len(echoed)
             self.unavoidable_s = statistics.median(delays(sent, echoed, 1.0) or [0.0])
 
-    # ------------------------------------------------------------------------------- looking
-
     @property
-    def evidence(self):
+    def evidence(self) -> Any:
         """What the numbered Joys were answered."""
         return Evidence(self.samples, self.first_samples, self.at_rest)
 
     @property
-    def complaint(self):
+    def complaint(self) -> Any:
         """What is odd about those answers; empty if nothing is."""
         return judge(self.evidence)[0]
 
     @property
-    def silence(self):
+    def silence(self) -> Any:
         """(what is seen, what to do) for the first probe that was not answered."""
         return silence(*self.unanswered, self.answers[-1][1] if self.answers else (1.0,))
 
     @property
-    def delay_s(self):
+    def delay_s(self) -> Any:
         """The median delay from Joy to Twist, or None."""
         return statistics.median(self.delays) if self.delays else None
 
     @property
-    def rate(self):
+    def rate(self) -> str:
         """How many Joys of the stream were answered, and how soon."""
         late = f", {1000 * self.delay_s:.1f} ms late" if self.delay_s is not None else ""
         return f"{self.answered} Twists for {self.sent} Joys{late}"
 
     @property
-    def is_prompt(self):
+    def is_prompt(self) -> Any:
         """Whether so many Joys as is enough were answered, and soon, as far as the machine allows."""
         if self.answered < self.enough * min(self.sent, self.possible or self.sent):
             return False
         return self.delay_s is None or self.delay_s < SOON_S + (self.unavoidable_s or 0.0)
 
     @property
-    def naps(self):
+    def naps(self) -> Any:
         """Whether its callback sleeps, and so long that each Joy waits for the one before."""
         is_slow = len(self.waits) > 2 and statistics.median(self.waits[:5]) > NAP_S
         return bool(self.sleep_lines) and is_slow
 
     @property
-    def all_shown(self):
+    def all_shown(self) -> Any:
         """Whether as many Joys were displayed as can be asked for."""
         return self.shown >= min(5, max(1, self.asked))
 
     @property
-    def shows_numbers(self):
+    def shows_numbers(self) -> bool:
         """Whether it prints lines with as many numbers as a Joy has axes."""
         return any(len(NUMBER.findall(line)) >= 6 for line in self.output.splitlines())
 
     @property
-    def trouble(self):
+    def trouble(self) -> Any:
         """Whether the program printed a traceback."""
         return "Traceback (most recent call last)" in self.output
 
-    def _displayed(self):
+    def _displayed(self) -> Any:
         """How many of the Joys were displayed, all six axes in a line."""
         return len(displayed(self.joys, COLOUR.sub("", self.program.output)))
 
 
-def drive(session, script, wants_twist=True):
+def drive(session: Session, script: str, wants_twist: bool = True) -> Any:
     """The Drive of a script; made once."""
     return session.run(("drive", script, wants_twist), lambda: Drive(session, script, wants_twist))

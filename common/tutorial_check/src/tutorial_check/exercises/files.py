@@ -6,6 +6,7 @@ import difflib
 import re
 import shutil
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from tutorial_check.causes import explain, hider, syntax_hint, traced
 from tutorial_check.model import Note, Wrong
@@ -13,6 +14,11 @@ from tutorial_check.python_facts import read_python
 from tutorial_check.python_text import unreadable
 from tutorial_check.rows import Row, find
 from tutorial_check.tracebacks import first_traceback, last_lines
+
+if TYPE_CHECKING:
+    from tutorial_check.session import Session
+    from tutorial_check.tracebacks import Traceback
+
 
 INTERPRETER = re.compile(
     rb"#!\s*(\S+)(?:\s+(?:-S\s*)?(?:\w+=\S*\s+)*(\S+))?"
@@ -25,7 +31,7 @@ WITHOUT = (
 )
 
 
-def find_script(session, package, name):
+def find_script(session: Session, package: str, name: str) -> Any:
     """The path of a program within its package. Raises Wrong."""
     folder = session.package(package).folder
     files = sorted(path for path in folder.rglob("*") if path.is_file())
@@ -52,7 +58,7 @@ def find_script(session, package, name):
     raise wrong
 
 
-def must_be_one(folder, name):
+def must_be_one(folder: Path, name: str) -> Any:
     """The programs of that name that rosrun would find in a package: one, or none. Raises Wrong."""
     found = sorted(path for path in folder.rglob(name) if path.is_file())
     runnable = [path for path in found if path.stat().st_mode & 0o100]
@@ -67,7 +73,7 @@ def must_be_one(folder, name):
 class Text:
     """A program that is not run yet: the facts of the rows below."""
 
-    def __init__(self, session, package, script):
+    def __init__(self, session: Session, package: str, script: str) -> None:
         self.session, self.package, self.script = session, package, script
         self.path = session.package(package).folder / script
         self.name, self.whole = self.path.name, session.whole(script, package)
@@ -76,22 +82,22 @@ class Text:
         self.facts = session.scripts(package).get(script)
 
     @property
-    def unreadable(self):
+    def unreadable(self) -> Any:
         """(line, what is there) of the first thing that is not of the file's coding, or None."""
         return unreadable(self.data) if self.facts else None
 
     @property
-    def first_line(self):
+    def first_line(self) -> Any:
         """The first line, as text."""
         return self.first.decode(errors="replace")[:80]
 
     @property
-    def python_hint(self):
+    def python_hint(self) -> Any:
         """What the error of Python most often means."""
         return syntax_hint(self.facts.error, self.facts.error_text)
 
     @property
-    def interpreter(self):
+    def interpreter(self) -> Any:
         """The program that #! names, if there is one of that name and it is Python; else empty."""
         found = INTERPRETER.match(self.first)
         program = found[1].decode(errors="replace") if found else ""
@@ -101,12 +107,12 @@ class Text:
         return program if known and "python" in program else ""
 
     @property
-    def is_runnable(self):
+    def is_runnable(self) -> Any:
         """Whether rosrun takes it."""
         return is_runnable(self.session, self.package, self.path)
 
     @property
-    def gap(self):
+    def gap(self) -> Any:
         """The first call that gives a node or topic a name with a space, or None."""
         kinds = ("Publisher", "Subscriber", "init_node")
         calls = (call for kind in kinds for call in self.facts.calls.get(kind, []))
@@ -164,23 +170,23 @@ OF_A_TEXT = (
 )  # fmt: skip
 
 
-def check_file(session, package, script):
+def check_file(session: Session, package: str, script: str) -> None:
     """What can be said of a program without running it. Raises Wrong."""
     text = Text(session, package, script)
     for expected, look, row in OF_A_TEXT:
         wrong = find([row], text, expected)
-        if wrong:
+        if isinstance(wrong, Wrong):
             wrong.look = look.format(whole=text.whole) or f"rosrun {package} {text.name}"
             raise wrong
 
 
-def is_runnable(session, package, path):
+def is_runnable(session: Session, package: str, path: Path) -> Any:
     """Whether rosrun takes a program: it may be run, or catkin has made one of it in devel."""
     may_be_run = path.stat().st_mode & 0o100
-    return bool(may_be_run) or session.command(package, path) != [str(path)]
+    return bool(may_be_run) or session.command(package, str(path)) != [str(path)]
 
 
-def odd_node(session, package, script):
+def odd_node(session: Session, package: str, script: str) -> Note | None:
     """A Note on the name of a node of which ROS warns; None if there is none."""
     facts = session.scripts(package).get(script)
     if not facts or not facts.odd_node:
@@ -193,7 +199,7 @@ def odd_node(session, package, script):
     )
 
 
-def cause_of(session, package, name, trace):
+def cause_of(session: Session, package: str, name: str, trace: Traceback) -> Any:
     """(the line that is to blame, what to do) for a Traceback of the program of that name."""
     name = re.sub(r"^checked_\d+_", "", name)
     script = next((each for each in session.scripts(package) if Path(each).name == name), "")
@@ -216,7 +222,7 @@ def cause_of(session, package, name, trace):
     return f"{script}:{line}" if line else "", hint
 
 
-def crash(session, package, program, expected, hint=""):
+def crash(session: Session, package: str, program: Any, expected: str, hint: str = "") -> Any:
     """The Wrong for a program that ended or failed, with the cause as far as its output tells."""
     trace = first_traceback(program.output, str(session.package(package).folder))
     if trace and not (program.was_stopped and trace.error.startswith("KeyboardInterrupt")):
@@ -239,7 +245,9 @@ def crash(session, package, program, expected, hint=""):
     )
 
 
-def check_end(session, package, script, taken_s, output):
+def check_end(
+    session: Session, package: str, script: str, taken_s: float | None, output: str
+) -> Note | None:
     """A Note on how a program ended after Ctrl-C, or None. taken_s: None if it had to be killed."""
     name = Path(script).name
     if taken_s is None:

@@ -1,13 +1,20 @@
 """C1: the workspace, and the underlay that it was built over."""
 
+from __future__ import annotations
+
 import os
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, Sequence
 
 from tutorial_check import place
 from tutorial_check.exercises import check
 from tutorial_check.exercises.packages import WANTED
 from tutorial_check.model import Note, Wrong
 from tutorial_check.workspace import underlays
+
+if TYPE_CHECKING:
+    from tutorial_check.session import Session
+
 
 SUITE = ("node_kit", "fake_turtlebot_sim")  # packages of the underlay
 AGAIN = "in the workspace: rm -r build devel, then catkin_make"
@@ -16,7 +23,7 @@ STAND_INS = ("joy", "rbx1_", "turtlebot_")
 
 
 @check("C1", "the workspace", "2.1", look="ls src devel", timeless=True)
-def workspace(session):
+def workspace(session: Session) -> Note | str | None:
     """Look for a src, and whether what was built was built over the suite."""
     layout = session.layout
     with place.own_rights():  # no program writes here
@@ -53,7 +60,7 @@ def workspace(session):
     return "src and devel, on top of this suite"
 
 
-def _check_below(session, below):
+def _check_below(session: Session, below: Sequence[str]) -> None:
     """This suite is among the folders that a workspace was built over, or Wrong."""
     suite = os.path.realpath(Path(session.floor).parent)
     if suite in map(os.path.realpath, below):
@@ -68,13 +75,13 @@ def _check_below(session, below):
     raise Wrong("a workspace built on top of this suite", seen, "devel", hint)
 
 
-def _is_suite(devel):
+def _is_suite(devel: str | Path) -> Any:
     """Whether a devel folder is the underlay of some copy of this suite; it may be hidden here."""
     is_there = any(os.path.isdir(os.path.join(devel, "share", name)) for name in SUITE)
     return is_there or Path(devel).parts[-2:] == ("lower", "devel")
 
 
-def _check_names(session):
+def _check_names(session: Session) -> None:
     """No package has the name of one that the exercises stand on, or Wrong."""
     share = Path(session.floor).parent / "share"
     for each in session.packages:

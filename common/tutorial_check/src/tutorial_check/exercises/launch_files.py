@@ -8,6 +8,7 @@ import os
 import re
 import shlex
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, Callable
 
 from tutorial_check import launch_facts, preloaded
 from tutorial_check.exercises import check
@@ -19,6 +20,12 @@ from tutorial_check.exercises.launch_xml import line_of, unclosed_node
 from tutorial_check.exercises.manifests import must_be_launchable
 from tutorial_check.model import CannotCheck, Wrong
 from tutorial_check.tracebacks import last_lines
+
+if TYPE_CHECKING:
+    from tutorial_check.launch_facts import Node
+    from tutorial_check.model import Note
+    from tutorial_check.session import Session
+
 
 BAG, STICK = "launch_bag.launch", "launch_joy_node.launch"
 TURTLEBOT, REAL = "joy2twist_turtlebot.launch", "launch_joy_node_realTurtlebot.launch"
@@ -37,7 +44,7 @@ READ_S = 15.0  # for all four files
 class LaunchFile:
     """A launch file of the student's: its text, and what roslaunch makes of it."""
 
-    def __init__(self, session, name):
+    def __init__(self, session: Session, name: str) -> None:
         """Raises Wrong if there is none."""
         self.session, self.name = session, name
         self.path = find_launch(session, name)
@@ -46,31 +53,31 @@ class LaunchFile:
         self.facts = session.memo("launch facts", lambda: _read(session)).get(name)
 
     @property
-    def nodes(self):
+    def nodes(self) -> Any:
         """The nodes that it starts, as launch_facts has them."""
         return self.facts["nodes"]
 
     @property
-    def own(self):
+    def own(self) -> Any:
         """Those of the student's package."""
         return [node for node in self.nodes if node["package"] == PACKAGE]
 
-    def at(self, *words):
+    def at(self, *words: str) -> Any:
         """FILE:LINE of the first line with the first of the words that is there; else the file."""
         return place_of(self.where, self.text, *words)
 
-    def at_node(self, node):
+    def at_node(self, node: Node) -> Any:
         """FILE:LINE of a node."""
         return self.at(*attribute("type", node["type"]), Path(node["type"]).name)
 
-    def demand(self, what, test, hint):
+    def demand(self, what: str, test: Callable[[Node], bool], hint: str) -> Any:
         """The first node of which test() is true. Raises Wrong."""
         found = next(filter(test, self.nodes), None)
         if not found:
             raise Wrong(f"{self.name} starts {what}", "it does not", self.where, hint)
         return found
 
-    def words_of(self, node):
+    def words_of(self, node: Node) -> Any:
         """The arguments of a node, as a shell would part them. Raises Wrong."""
         try:
             return shlex.split(node["args"])
@@ -80,13 +87,13 @@ class LaunchFile:
             raise Wrong(expected, seen, self.at_node(node), hint) from None
 
 
-def copy_bag(session):
+def copy_bag(session: Session) -> str:
     """The commands that put the suite's recording into the student's package."""
     folder = session.whole("bag", PACKAGE)
     return f'mkdir -p {folder}; cp "$(rospack find gamepad)/bag/joy.bag" {folder}'
 
 
-def find_launch(session, name):
+def find_launch(session: Session, name: str) -> Any:
     """The path of a launch file in the student's package. Raises Wrong."""
     folder = session.package(PACKAGE).folder
     found = sorted(path for path in folder.rglob(name) if path.is_file())
@@ -111,7 +118,7 @@ def find_launch(session, name):
     raise Wrong(expected, "no such file in your package", f"{PACKAGE}/launch", hint)
 
 
-def _read(session):
+def _read(session: Session) -> Any:
     """{name: facts} of those of the four that are there."""
     must_be_launchable(session)
     session.must_reach_floor()
@@ -142,7 +149,7 @@ def _read(session):
     return found
 
 
-def check_file(session, name):
+def check_file(session: Session, name: str) -> Any:
     """It exists, parses, and every $(find) leads somewhere that may be; its LaunchFile. Raises Wrong."""
     try:
         file = LaunchFile(session, name)
@@ -156,7 +163,7 @@ def check_file(session, name):
         raise
 
 
-def _check_text(file):
+def _check_text(file: LaunchFile) -> None:
     one = file.facts
     root = one.get("root", "launch")
     if root != "launch":
@@ -178,7 +185,7 @@ def _check_text(file):
         raise Wrong("names in one word", gap, file.at(gap), hint)
 
 
-def _check_words(file, said):
+def _check_words(file: LaunchFile, said: str) -> None:
     """Every tag and attribute is one that roslaunch knows, or Wrong."""
     pattern = r"unrecognized tag (\S+)|[Uu]nknown (?:<\w+> )?attribute '?([^\s']+)"
     odd = next((tag for tag in file.facts["tags"] if tag not in TAGS), "")
@@ -196,7 +203,7 @@ def _check_words(file, said):
     raise Wrong(expected, f"{word}: ignored by roslaunch", where, hint)
 
 
-def _check_node(file, node):
+def _check_node(file: LaunchFile, node: Node) -> None:
     package, kind, place = node["package"], node["type"], file.at_node(node)
     if "/" in kind:
         expected = "type is the name of a program, without its folder"
@@ -214,7 +221,7 @@ def _check_node(file, node):
         raise Wrong("nodes that exist", seen, place, hint)
 
 
-def _check_own_node(session, kind, place):
+def _check_own_node(session: Session, kind: str, place: str) -> None:
     folder = session.package(PACKAGE).folder
     names = {path.name: path for path in sorted(folder.rglob("*")) if path.is_file()}
     found = [path for path in folder.rglob("*") if path.name == kind and path.is_file()]
@@ -233,7 +240,7 @@ def _check_own_node(session, kind, place):
         raise Wrong(f"{kind} may be run", "it is not executable", place, hint)
 
 
-def _check_finds(file):
+def _check_finds(file: LaunchFile) -> None:
     """No $(find joy2twist) leads to a file that the student does not have."""
     folder = file.session.package(PACKAGE).folder
     for number, line in enumerate(file.text.splitlines(), 1):
@@ -254,6 +261,6 @@ def _check_finds(file):
 
 @check("C21", "the two launch files can be read", "5.1", "C12",
        look="roslaunch --nodes joy2twist launch_bag.launch", timeless=True)  # fmt: skip
-def files(session):
+def files(session: Session) -> Note | str | None:
     """Read the two launch files of section 5."""
     return ", ".join(check_file(session, name).where for name in (BAG, STICK))

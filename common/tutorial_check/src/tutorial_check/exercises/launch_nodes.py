@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from tutorial_check.exercises import check
 from tutorial_check.exercises.driving import PACKAGE
@@ -12,6 +13,11 @@ from tutorial_check.exercises.launch_files import BAG, JOY_HINT, STICK, LaunchFi
 from tutorial_check.exercises.launch_text import attribute
 from tutorial_check.exercises.robot import check_recording
 from tutorial_check.model import Note, Wrong
+
+if TYPE_CHECKING:
+    from tutorial_check.launch_facts import Node
+    from tutorial_check.session import Session
+
 
 ROBOT_HINT = '<include file="$(find rbx1_bringup)/launch/fake_turtlebot.launch"/>'
 OWN_HINT = '<node pkg="joy2twist" type="joy2twist.py" name="myjoystick2twist"/>'
@@ -23,34 +29,34 @@ VIEWER_HINT = '<node pkg="rviz" type="rviz" name="my_rviz" args="-d $(find rbx1_
 LONG_OPTIONS = "loop|clock|rate|quiet|delay|start|pause|immediate|queue|hz|keep-alive|topics"
 
 
-def is_viewer(node):
+def is_viewer(node: Node) -> Any:
     """Whether RViz, or what starts it."""
     return node["type"] in ("rviz", "view_robot")
 
 
-def is_simulator(node):
+def is_simulator(node: Node) -> Any:
     """Whether the simulated robot."""
     is_ours = (node["package"], node["type"]) == ("fake_turtlebot_sim", "fake_turtlebot.py")
     return is_ours or node["package"].startswith("arbotix")
 
 
-def is_player(node):
+def is_player(node: Node) -> Any:
     """Whether it plays a recording."""
     return (node["package"], node["type"]) == ("rosbag", "play")
 
 
-def is_joystick(node):
+def is_joystick(node: Node) -> Any:
     """Whether a driver of joysticks."""
     is_driver = node["type"] in ("joy_node", "joy_node.py", "joystick.py")
     return is_driver and node["package"] != "rosbag"
 
 
-def is_own(node):
+def is_own(node: Node) -> Any:
     """Whether the student's joy2twist."""
     return node["package"] == PACKAGE
 
 
-def check_viewer(file):
+def check_viewer(file: LaunchFile) -> Note | None:
     """RViz with a configuration that exists."""
     node = file.demand("RViz", is_viewer, VIEWER_HINT)
     words = file.words_of(node)
@@ -66,7 +72,7 @@ def check_viewer(file):
     return None
 
 
-def odd_name(file):
+def odd_name(file: LaunchFile) -> Note | None:
     """A Note about a node whose name has a space; None if there is none."""
     for name in (node["name"] for node in file.nodes if " " in node["name"]):
         hint = f'the PDF shows _ as a gap: name="{name.replace(" ", "_")}"'
@@ -75,7 +81,7 @@ def odd_name(file):
     return None
 
 
-def check_one_driver(file):
+def check_one_driver(file: LaunchFile) -> None:
     """No two programs of the student's send velocities to the same place, or Wrong."""
     drivers = [node for node in file.own if _drives(file.session, node)]
     drivers = [node for node in drivers if node["namespace"] == drivers[0]["namespace"]]
@@ -86,7 +92,7 @@ def check_one_driver(file):
         raise Wrong("one joy2twist", f"{len(drivers)}, {names}: all would drive", where, hint)
 
 
-def _drives(session, node):
+def _drives(session: Session, node: Node) -> bool:
     """Whether a program publishes Twist, and not on a topic of another name."""
     is_renamed = any(source.strip("/") == "cmd_vel" for source, _ in node["remaps"])
     if is_renamed or "cmd_vel:=" in node["args"]:
@@ -99,7 +105,7 @@ def _drives(session, node):
     )
 
 
-def check_joy(file, sender):
+def check_joy(file: LaunchFile, sender: Node) -> None:
     """What sends the Joys sends them where joy2twist listens, or Wrong. sender: its node."""
     renamed = [to for source, to in sender["remaps"] if source.strip("/") == "joy"]
     listens = [to.strip("/") for node in file.own for _, to in node["remaps"]]
@@ -110,7 +116,7 @@ def check_joy(file, sender):
         raise Wrong("the Joys go to joy2twist, on /joy", seen, where, hint)
 
 
-def bag_of(session):
+def bag_of(session: Session) -> Any:
     """(the recording that launch_bag plays, where that is written). Raises Wrong."""
     file = LaunchFile(session, BAG)
     node = file.demand("rosbag play", is_player, BAG_HINT)
@@ -135,7 +141,7 @@ def bag_of(session):
     return bags[0], where
 
 
-def _check_items(file):
+def _check_items(file: LaunchFile) -> Note | None:
     """What both files start; a Note about it, or None."""
     note = check_viewer(file) or odd_name(file)
     file.demand("the simulated robot", is_simulator, ROBOT_HINT)
@@ -146,7 +152,7 @@ def _check_items(file):
 
 @check("C22", "launch_bag starts the four items", "5.1", "C21",
        look="roslaunch --nodes joy2twist launch_bag.launch", timeless=True)  # fmt: skip
-def bag_nodes(session):
+def bag_nodes(session: Session) -> Note | str | None:
     """Look for the four items, and for no joystick."""
     file = LaunchFile(session, BAG)
     note = _check_items(file)
@@ -163,7 +169,7 @@ def bag_nodes(session):
 
 @check("C25", "launch_joy_node starts the four items", "5.1", "C21",
        look="roslaunch --nodes joy2twist launch_joy_node.launch", timeless=True)  # fmt: skip
-def stick_nodes(session):
+def stick_nodes(session: Session) -> Note | str | None:
     """Look for the four items, and for no recording."""
     file = LaunchFile(session, STICK)
     note = _check_items(file)

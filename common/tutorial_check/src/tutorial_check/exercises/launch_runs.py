@@ -1,9 +1,12 @@
 """C23, C24 and C26: the launch files of section 5 at work."""
 
+from __future__ import annotations
+
 import math
 import os
 import re
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, Callable
 
 from tutorial_check import student_files
 from tutorial_check.exercises import check
@@ -21,6 +24,11 @@ from tutorial_check.exercises.robot import ODOM, plug_in
 from tutorial_check.model import CannotCheck, Wrong
 from tutorial_check.tracebacks import first_traceback
 
+if TYPE_CHECKING:
+    from tutorial_check.session import Session
+    from tutorial_check.stage import Stage
+
+
 BAG_S = 1.2  # length of the recording that takes the place of the student's, and is played again
 ONCE_S = 60.0  # and of one that is not: like the student's it lasts until the others have started
 LOOP = re.compile(r"--l(oop|oo|o)?|-[a-z]*l[a-z]*")  # of rosbag play, as it may be written
@@ -31,32 +39,32 @@ UP_S = 6.0  # for what they are there for, once all of them are
 class Launch:
     """A launch file run on a stage, and what flowed."""
 
-    def __init__(self, file, stage, twists=CMD_VEL):
+    def __init__(self, file: LaunchFile, stage: Stage, twists: str = CMD_VEL) -> None:
         """twists: the topic on which the velocities should come."""
         self.file, self.stage, self.twists = file, stage, twists
         for topic, kind in ((JOY, "Joy"), (twists, "Twist"), (ODOM, "Odometry")):
             stage.call("listen", topic, kind)
         self.program = stage.launch(["roslaunch", str(file.path)])
 
-    def wait(self, condition):
+    def wait(self, condition: Callable[[], Any]) -> Any:
         """condition(), as soon as it is true, the launch is over, or its nodes have had their time."""
         self.stage.wait(lambda: condition() or self.is_over() or self._is_up(), START_S)
         self.stage.wait(lambda: condition() or self.is_over(), UP_S)
         return condition()
 
-    def is_over(self):
+    def is_over(self) -> Any:
         """Whether it has come to its end, or a node of it."""
         return self.program.ended or self.has_died
 
     @property
-    def has_died(self):
+    def has_died(self) -> bool:
         """Whether roslaunch said that a node has died; RViz, or rqt_graph, needs a screen, and may."""
         return any(
             "has died" in line and "rviz" not in line and "rqt" not in line
             for line in self.program.output.splitlines()
         )
 
-    def _is_up(self):
+    def _is_up(self) -> bool:
         """Whether the master knows all of its nodes; each has /rosout."""
         there = self.stage.call("state")[0].get("/rosout", [])
         return all(
@@ -65,12 +73,12 @@ class Launch:
             if not is_viewer(node)
         )
 
-    def moved(self):
+    def moved(self) -> Any:
         """How far the robot drove [m], along its way."""
         path = [value for _, _, value in self.stage.call("heard", ODOM)]
         return sum(math.hypot(b[1] - a[1], b[2] - a[2]) for a, b in zip(path, path[1:]))
 
-    def traced(self, expected):
+    def traced(self, expected: str) -> Any:
         """The Wrong for the first traceback that was printed, or None."""
         session = self.file.session
         output = re.sub(r"\x1b\[[0-9;]*m|\x1b\][^\x07]*\x07", "", self.program.output)
@@ -80,7 +88,7 @@ class Launch:
         where, hint = cause_of(session, PACKAGE, Path(trace.where.rpartition(":")[0]).name, trace)
         return Wrong(expected, trace.error, where, hint)
 
-    def wrong(self, expected):
+    def wrong(self, expected: str) -> Any:
         """The Wrong for a launch that does not do what it should, with the first cause there is."""
         traced = self.traced(expected)
         if traced:
@@ -104,7 +112,7 @@ class Launch:
         hint = hints[silent[0]] if silent else "rostopic echo /cmd_vel"
         return Wrong(expected, seen, f"launch/{self.file.name}", hint)
 
-    def _last_words(self):
+    def _last_words(self) -> Any:
         """The last lines that nodes without output="screen" wrote."""
         folder = Path(self.stage.environment["ROS_LOG_DIR"])
         logs = (
@@ -114,7 +122,7 @@ class Launch:
         return [line for log in logs for line in log.splitlines()[-1:] if "INFO" not in line]
 
 
-def _own_bag(path, length_s):
+def _own_bag(path: Path, length_s: float) -> None:
     """A recording in place of the student's: rest with LB released, then forwards."""
     import rosbag  # noqa: PLC0415
     import rospy  # noqa: PLC0415
@@ -134,7 +142,7 @@ def _own_bag(path, length_s):
     os.chmod(path, mode | 0o444)
 
 
-def _bag_run(session):
+def _bag_run(session: Session) -> Any:
     """(what is wrong or None, whether the recording begins again)."""
     bag, _ = bag_of(session)
     file = LaunchFile(session, BAG)
@@ -159,7 +167,7 @@ def _bag_run(session):
 
 @check("C23", "launch_bag drives the robot", "5.1", "C22 C16",
        look="roslaunch joy2twist launch_bag.launch")  # fmt: skip
-def bag_drives(session):
+def bag_drives(session: Session) -> None:
     """Start launch_bag, with a recording of the checker's own."""
     wrong, _ = session.run("bag run", lambda: _bag_run(session))
     if wrong:
@@ -167,7 +175,7 @@ def bag_drives(session):
 
 
 @check("C24", "the recording begins again at its end", "5.1", "C23", look="rostopic hz /joy")
-def bag_loops(session):
+def bag_loops(session: Session) -> None:
     """Look at /joy after the end of that recording."""
     _, loops = session.run("bag run", lambda: _bag_run(session))
     if not loops:
@@ -178,7 +186,7 @@ def bag_loops(session):
 
 @check("C26", "launch_joy_node drives the robot", "5.1", "C25 C16",
        look="roslaunch joy2twist launch_joy_node.launch")  # fmt: skip
-def stick_drives(session):
+def stick_drives(session: Session) -> None:
     """Start launch_joy_node, push the stick and release it."""
     file = LaunchFile(session, STICK)
     with session.stage() as stage:
@@ -194,7 +202,7 @@ def stick_drives(session):
             raise Wrong("released, the robot stands", "it drives on", f"launch/{STICK}")
 
 
-def plug_in_for(file, stage):
+def plug_in_for(file: LaunchFile, stage: Stage) -> Any:
     """A joystick where the joy_node of a launch file will look for it."""
     nodes = list(filter(is_joystick, file.nodes))
     named = [node["device"] for node in nodes if node["device"].startswith("/dev/input/")]
@@ -208,14 +216,14 @@ def plug_in_for(file, stage):
     return pad
 
 
-def push_when_ready(stage, pad, launch, *signs):
+def push_when_ready(stage: Stage, pad: Any, launch: Launch, *signs: str) -> bool:
     """Push the stick forwards once everything runs; whether it came to that.
 
     signs: topics, listened to, on which a message comes as soon as their node works.
     """
     topics = (JOY, launch.twists, ODOM)
 
-    def ready():
+    def ready() -> Any:
         return (
             pad.call("connected")
             and all(stage.call("speakers", topic) for topic in topics)

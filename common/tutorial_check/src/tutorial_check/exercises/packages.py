@@ -1,16 +1,24 @@
 """C2 to C4 and C12: the packages, their dependencies, the build."""
 
+from __future__ import annotations
+
 import difflib
 import os
 import re
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from tutorial_check.exercises import check
 from tutorial_check.exercises.launch_text import place_of, read
 from tutorial_check.exercises.manifests import unreadable
 from tutorial_check.model import Wrong
 from tutorial_check.place import own_rights
-from tutorial_check.workspace import packages_beside
+from tutorial_check.workspace import Package, packages_beside
+
+if TYPE_CHECKING:
+    from tutorial_check.model import Note
+    from tutorial_check.session import Session
+
 
 NAMES = ("beginner_tutorials", "joy2twist")
 WANTED = {
@@ -27,7 +35,7 @@ CMAKE_HINTS = (
 )
 
 
-def _similar(name, packages):
+def _similar(name: str, packages: Any) -> Any:
     """A package that was meant to be the one of that name, or None."""
     plain = re.sub(r"[^a-z0-9]", "", name)
     for each in packages:
@@ -38,7 +46,7 @@ def _similar(name, packages):
     return None
 
 
-def _package(session, name):
+def _package(session: Session, name: str) -> Any:
     """The package of that name. Raises Wrong."""
     packages, expected = session.packages, f"one package {name} in src"
     named = [each for each in packages if each.name == name]
@@ -59,7 +67,7 @@ def _package(session, name):
     return named[0]
 
 
-def _missing(session, name, expected):
+def _missing(session: Session, name: str, expected: str) -> Any:
     """The Wrong for a package that is not there, or is elsewhere, or has another name."""
     for beside in (each.inside for each in packages_beside(session.layout) if each.name == name):
         hint = f"mv {session.whole(beside)} {session.whole('src')}"
@@ -81,7 +89,7 @@ def _missing(session, name, expected):
     return Wrong(expected, f"none; found: {found}", hint=hint)
 
 
-def _dependencies(session, name):
+def _dependencies(session: Session, name: str) -> Any:
     """The package of that name, which has all dependencies. Raises Wrong."""
     package, wanted = _package(session, name), WANTED[name]
     where = f"{package.inside}/package.xml"
@@ -115,7 +123,7 @@ def _dependencies(session, name):
 @check(
     "C2", "package beginner_tutorials", "2.1", look="rospack find beginner_tutorials", timeless=True
 )
-def beginner(session):
+def beginner(session: Session) -> Note | str | None:
     """Package beginner_tutorials."""
     return f"src/{_package(session, 'beginner_tutorials').inside}"
 
@@ -123,7 +131,7 @@ def beginner(session):
 @check(
     "C3", "its dependencies", "2.1", "C2", look="rospack depends1 beginner_tutorials", timeless=True
 )
-def beginner_dependencies(session):
+def beginner_dependencies(session: Session) -> None:
     """Its dependencies."""
     _dependencies(session, "beginner_tutorials")
 
@@ -135,7 +143,7 @@ def beginner_dependencies(session):
     look="rospack find joy2twist",
     timeless=True,
 )
-def joy2twist(session):
+def joy2twist(session: Session) -> Note | str | None:
     """Package joy2twist and its dependencies."""
     package = _dependencies(session, "joy2twist")
     text = _cmake(package)
@@ -146,7 +154,7 @@ def joy2twist(session):
     return f"src/{package.inside}"
 
 
-def _is_known(session, name):
+def _is_known(session: Session, name: str) -> bool:
     """Whether find_package surely finds a package. If not, a build tells, which takes its time."""
     prefixes = session.floor_environment.get("CMAKE_PREFIX_PATH", "").split(":")
     if any(each.name == name for each in session.packages):
@@ -158,7 +166,7 @@ def _is_known(session, name):
         )
 
 
-def _cmake(package):
+def _cmake(package: Package) -> Any:
     """The text of a package's CMakeLists.txt without comments. Raises Wrong."""
     path = package.folder / "CMakeLists.txt"
     if not path.is_file():
@@ -168,7 +176,7 @@ def _cmake(package):
 
 
 @check("C4", "catkin_make builds", "2.1", "C2", look="catkin_make")
-def build(session):
+def build(session: Session) -> None:
     """Call catkin_make in a fresh copy."""
     for each in session.packages:
         _cmake(each)
@@ -185,7 +193,7 @@ def build(session):
         raise Wrong("catkin_make goes through beginner_tutorials", seen)
 
 
-def _build_error(session, output):
+def _build_error(session: Session, output: str) -> Any:
     """The Wrong for the first error of catkin_make."""
     output = re.sub(r"\x1b\[[0-9;]*m", "", output)
     lines = [line.strip() for line in output.splitlines()]
@@ -203,7 +211,7 @@ def _build_error(session, output):
     return Wrong("catkin_make without an error", words[:300], where, hint)
 
 
-def _missing_in(output):
+def _missing_in(output: str) -> Any:
     """The packages that catkin_make said it could not find."""
     return re.findall(
         r"[Cc]ould not find .*?(?:package configuration file provided by |component )?\"([^\"]+)\"",
@@ -211,7 +219,7 @@ def _missing_in(output):
     )
 
 
-def _not_found(session, name):
+def _not_found(session: Session, name: str) -> Any:
     """(what is seen, where, what to do) for a package that CMakeLists.txt names and catkin does not find."""
     place, text = _place_in_cmake(session, name)
     absent = {each for names in WANTED.values() for each in names if each not in text}
@@ -222,7 +230,7 @@ def _not_found(session, name):
     return f"catkin cannot find {name}", place, hint
 
 
-def _cmake_error(output):
+def _cmake_error(output: str) -> Any:
     """(message, FILE:LINE of the student's) of CMake's first error, each perhaps empty.
 
     Where the error is met, it is often in a file of catkin's; the call stack tells who called that.
@@ -234,7 +242,7 @@ def _cmake_error(output):
     return " ".join(found[1].split("Call Stack")[0].split()), place[0] if place else ""
 
 
-def _place_in_cmake(session, word):
+def _place_in_cmake(session: Session, word: str) -> Any:
     """(first line with a word in a CMakeLists.txt of the student's, its text); or empty."""
     for each in session.packages:
         name = f"{each.inside}/CMakeLists.txt"

@@ -1,8 +1,11 @@
 """C11, C19, C20: a recording, the simulated robot, the joystick."""
 
+from __future__ import annotations
+
 import math
 import shlex
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, Iterable, Sequence
 
 from tutorial_check.exercises import check
 from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL, PACKAGE
@@ -13,6 +16,11 @@ from tutorial_check.model import CannotCheck, Note, Wrong
 from tutorial_check.pad import Pad
 from tutorial_check.stage import START_S
 
+if TYPE_CHECKING:
+    from tutorial_check.session import Session
+    from tutorial_check.stage import Stage
+
+
 FORWARDS, LEFT = 0.5, 0.8  # positions of the stick
 ODOM = "/odom"
 COPY_BAG = 'cp "$(rospack find gamepad)/bag/joy.bag" .'
@@ -22,12 +30,12 @@ FASTEST = 0.7  # [m/s] the robot goes no faster, whatever it is told
 LOOKS = 3  # at the robot's speed: one stutter of a busy machine is none of the program's
 
 
-def held(left, forwards):
+def held(left: float, forwards: float) -> Any:
     """A Joy with LB held."""
     return (left, forwards, 0.0, 0.0, 0.0, 0.0), (*NEUTRAL[1][:4], 1, *NEUTRAL[1][5:])
 
 
-def rest(stage, *topics):
+def rest(stage: Stage, *topics: Iterable[str]) -> None:
     """Send Joys at rest until a Twist answers, or for a while: some programs drive only after it.
 
     A single Joy may be lost to a Subscriber with queue_size=1 that was still busy: so, several.
@@ -42,7 +50,7 @@ class NoJoy(Wrong):
 
 
 @check("C11", "a recording of /joy", "4.2", look="rosbag info joy.bag")
-def recording(session):
+def recording(session: Session) -> Note | str | None:
     """The first of the recordings that can be played to joy2twist counts; there may be others."""
     ours = session.package(PACKAGE)
     bags = session.source.rglob("*.bag") if ours or session.package("beginner_tutorials") else []
@@ -53,7 +61,8 @@ def recording(session):
             hint=f"the recording: {COPY_BAG}",
             empty=True,
         )
-    spoilt, others = [], []
+    spoilt: list[Wrong] = []
+    others: list[Wrong] = []
     for bag in bags:
         name = str(bag.relative_to(session.source))
         try:
@@ -66,7 +75,7 @@ def recording(session):
     return Note(f"no recording of /joy; {others[0].seen}", others[0].where, others[0].hint, True)
 
 
-def check_recording(bag, name):
+def check_recording(bag: Any, name: str) -> Any:
     """The topics of a recording that can be played to joy2twist. name: as the student knows it. Raises Wrong."""
     import rosbag  # noqa: PLC0415
 
@@ -91,14 +100,14 @@ def check_recording(bag, name):
     return list(topics)
 
 
-def _yaw(odom):
+def _yaw(odom: Sequence[float]) -> Any:
     return 2 * math.atan2(odom[3], odom[4])
 
 
-def steady(stage, how_long_s=0.8):
+def steady(stage: Stage, how_long_s: float = 0.8) -> Any:
     """(speed over ground, rate of turn) by the robot's own stamps, over a while of even driving."""
 
-    def since(stamp):
+    def since(stamp: float) -> Any:
         return [value for _, _, value in stage.call("heard", ODOM) if value[0] > stamp]
 
     start = stage.call("heard", ODOM)[-1][2]
@@ -110,13 +119,13 @@ def steady(stage, how_long_s=0.8):
     return (length / took, turned / took) if took > 0 else (0.0, 0.0)
 
 
-def _agree(measured, told):
+def _agree(measured: float, told: float) -> Any:
     return told > 0 and abs(measured - told) <= 0.1 * told
 
 
 @check("C19", "the simulated robot follows", "4.4", "C16",
        look="rostopic echo /odom/pose/pose/position")  # fmt: skip
-def simulated(session):
+def simulated(session: Session) -> Note | str | None:
     """Drive the simulated robot forwards, then turn it, and compare with what was told."""
     script = main_script(session)
     with session.stage() as stage:
@@ -135,7 +144,7 @@ def simulated(session):
     return seen
 
 
-def _beside_the_robot(session, stage, script):
+def _beside_the_robot(session: Session, stage: Stage, script: str) -> Any:
     """The program, started beside the simulated robot, which it alone drives. Raises Wrong."""
     for topic, kind in ((CMD_VEL, "Twist"), (ODOM, "Odometry")):
         stage.call("listen", topic, kind)
@@ -143,7 +152,7 @@ def _beside_the_robot(session, stage, script):
     robot = stage.start_ours("fake_turtlebot_sim", "fake_turtlebot.py")
     program = stage.start(PACKAGE, script)
 
-    def is_ready():
+    def is_ready() -> Any:
         return program.ended or (stage.call("listeners", JOY) and stage.call("count", ODOM))
 
     ready = stage.wait(is_ready, START_S)
@@ -163,11 +172,11 @@ def _beside_the_robot(session, stage, script):
     return program
 
 
-def _driven(stage, joy, field):
+def _driven(stage: Stage, joy: Any, field: Any) -> Any:
     """(speed of the robot, the last Twist or None) after driving for a while. field: which counts."""
     before = stage.call("count", CMD_VEL)
 
-    def heard():
+    def heard() -> Any:
         return [value for _, _, value in stage.call("heard", CMD_VEL, before)]
 
     stage.call("stream", JOY, [joy], 20.0, True)
@@ -182,7 +191,7 @@ def _driven(stage, joy, field):
     return measured, told
 
 
-def plug_in(session, stage, device="/dev/input/js0", mode="D"):
+def plug_in(session: Session, stage: Stage, device: str = "/dev/input/js0", mode: str = "D") -> Any:
     """A virtual F710 behind a device, or a FIFO where that cannot be; (Pad, path)."""
     path = Path(device) if session.can_have_devices else session.folder / "js0"
     pad = stage.help(lambda: Pad(str(path), mode))
@@ -191,7 +200,7 @@ def plug_in(session, stage, device="/dev/input/js0", mode="D"):
 
 
 @check("C20", "a joystick drives it", "4.5", "C16", look="rostopic echo /joy/axes[1]")
-def joystick(session):
+def joystick(session: Session) -> Note | str | None:
     """Drive with a virtual F710, its switch at D; then send Joys as with the switch at X."""
     script = main_script(session)
     with session.stage() as stage:
@@ -201,16 +210,16 @@ def joystick(session):
         node = stage.start_ours("gamepad", "joy_node", f"_dev:={path}", "_autorepeat_rate:=20")
         program = stage.start(PACKAGE, script)
 
-        def has_ended():
+        def has_ended() -> Any:
             return program.ended or node.ended
 
-        def speeds(since=0):
+        def speeds(since: int = 0) -> Any:
             return [value[0] for _, _, value in stage.call("heard", CMD_VEL, since)]
 
-        def drives():
+        def drives() -> bool:
             return any(abs(speed) > 0.01 for speed in speeds())
 
-        def is_up():
+        def is_up() -> Any:
             return stage.call("count", JOY) and stage.call("speakers", CMD_VEL)
 
         stage.wait(lambda: is_up() or has_ended(), START_S)
@@ -233,13 +242,13 @@ def joystick(session):
     return Note(seen, script, hint)
 
 
-def _survives_eight_axes(stage, program, speeds):
+def _survives_eight_axes(stage: Stage, program: Any, speeds: Any) -> Any:
     """Whether Joys as of the switch at X are answered. speeds(since): linear.x of the Twists."""
     stage.call("advertise", JOY, "Joy")
     # Our own Subscriber is one of them.
     stage.wait(lambda: stage.call("listeners", JOY) > 1 or program.ended, START_S)
 
-    def drive_backwards():
+    def drive_backwards() -> None:
         """Only this does; once it shows, all that was sent before has been answered."""
         index = stage.call("count", CMD_VEL)
         stage.call("send", JOY, held(0.1, -0.5))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from typing import TYPE_CHECKING, Any
 
 from tutorial_check.exercises import check, launch_nodes, launch_runs
 from tutorial_check.exercises.driving import CMD_VEL, JOY, PACKAGE
@@ -12,6 +13,12 @@ from tutorial_check.model import CannotCheck, Wrong
 from tutorial_check.rows import Row, demand
 from tutorial_check.tracebacks import last_lines
 
+if TYPE_CHECKING:
+    from tutorial_check.exercises.launch_files import LaunchFile
+    from tutorial_check.session import Session
+    from tutorial_check.stage import Stage
+
+
 TELEOP, ACTIVE = "/cmd_vel_mux/input/teleop", "/cmd_vel_mux/active"
 REMAP = '<remap from="/cmd_vel" to="/cmd_vel_mux/input/teleop"/>'
 EXPECTED = f"Twists on {TELEOP}, none on {CMD_VEL}"
@@ -20,7 +27,7 @@ EXPECTED = f"Twists on {TELEOP}, none on {CMD_VEL}"
 class Remapped:
     """What joy2twist_turtlebot did, beside its text: the facts of the rows below."""
 
-    def __init__(self, file):
+    def __init__(self, file: LaunchFile) -> None:
         self.file = file
         with file.session.stage() as stage:
             stage.call("listen", CMD_VEL, "Twist")
@@ -38,7 +45,7 @@ class Remapped:
             rest(stage, *topics)
             stage.call("stream", JOY, [held(0.2, 0.3)], 20.0, True)
 
-            def moving(topic):
+            def moving(topic: str) -> bool:
                 return any(abs(value[0]) > 0.01 for _, _, value in stage.call("heard", topic))
 
             stage.wait(lambda: any(map(moving, topics)) or launch.is_over(), 3.0)
@@ -52,23 +59,23 @@ class Remapped:
         self.at_param, self.at_type = file.at("<param"), file.at(file.own[0]["type"])
 
     @staticmethod
-    def _others(stage):
+    def _others(stage: Stage) -> Any:
         topics = (each for each in stage.call("state")[0] if each not in (TELEOP, CMD_VEL))
         return sorted(topic for topic in topics if re.search("vel|teleop|mux", topic))
 
     @property
-    def is_right(self):
+    def is_right(self) -> Any:
         """Whether the velocities flow where they should, and there alone."""
         return self.good and not self.bad and CMD_VEL not in self.publishers
 
     @property
-    def by_itself(self):
+    def by_itself(self) -> Any:
         """The program that knows the other topic by itself; empty if the launch file names it."""
         is_named = self.remaps or any(":=" in node["args"] for node in self.file.own)
         is_named = is_named or re.search(r"<(ros)?param\b", self.file.text)
         return "" if is_named else self.file.own[0]["type"]
 
-    def failed(self):
+    def failed(self) -> Any:
         """The Wrong for a launch of which a node has died."""
         said = last_lines(self.launch.program.output)
         return self.launch.traced(EXPECTED) or Wrong(EXPECTED, said, self.where)
@@ -105,7 +112,7 @@ BY_ITSELF = (
 
 @check("C27", "joy2twist_turtlebot sends to the multiplexer", "6.1", "C16",
        look="rostopic echo /cmd_vel_mux/input/teleop")  # fmt: skip
-def remapped(session):
+def remapped(session: Session) -> None:
     """Start joy2twist_turtlebot and look at both topics."""
     file = check_file(session, TURTLEBOT)
     file.demand("joy2twist", launch_nodes.is_own, launch_nodes.OWN_HINT)
@@ -118,7 +125,7 @@ def remapped(session):
 
 @check("C28", "launch_joy_node_realTurtlebot drives the TurtleBot", "6.1", "C27",
        look="rostopic echo /cmd_vel_mux/active")  # fmt: skip
-def real_robot(session):
+def real_robot(session: Session) -> None:
     """Start it beside a simulated TurtleBot, and push the stick."""
     file = check_file(session, REAL)
     _check_items(file)
@@ -143,7 +150,7 @@ def real_robot(session):
         raise Wrong("cmd_vel_mux/active says teleop", seen, file.where, REMAP)
 
 
-def _check_items(file):
+def _check_items(file: LaunchFile) -> None:
     """What it starts and includes, or Wrong."""
     # Its node, with the remap, may stand here once more.
     topics = [f"/{to.strip('/')}" for node in file.own for _, to in node["remaps"]]

@@ -11,6 +11,7 @@ import shlex
 import shutil
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 from node_kit.manifests import broken_manifests
@@ -18,13 +19,15 @@ from node_kit.manifests import broken_manifests
 REPOSITORY = Path(__file__).resolve().parents[5]
 NOETIC = Path("/opt/ros/noetic/setup.bash")
 # The underlay: what a student uses and never writes; stand-ins only for what is not installed.
-LOWER = ("common/cockpit", "common/gamepad", "common/node_kit", "common/tutorial_check")
-LOWER += ("common/tutorial_tools", "fake_turtlebot_sim")
+LOWER = (
+    "common/cockpit", "common/gamepad", "common/node_kit", "common/tutorial_check",
+    "common/tutorial_tools", "fake_turtlebot_sim",
+)  # fmt: skip
 STAND_INS = ("joy", "rbx1_bringup", "rbx1_nav", "turtlebot_bringup", "turtlebot_rviz_launchers")
 UPPER = ("beginner_tutorials", "joy2twist", "test")  # the overlay: the solutions
 # Commands of the shell, under these names.
-COMMANDS = ("common/tutorial_tools/scripts/rqt_graph", "common/tutorial_tools/scripts/rqt_bag")
-COMMANDS += ("tutorial",)
+SCRIPTS = "common/tutorial_tools/scripts"
+COMMANDS = (f"{SCRIPTS}/rqt_graph", f"{SCRIPTS}/rqt_bag", "tutorial")
 WRONG = re.compile("rror|invalid|mismatched|not found")
 
 
@@ -63,7 +66,7 @@ def clean_catkin_make(below: Path | None, folder: Path, log: Path) -> bool:
 
 
 @contextlib.contextmanager
-def one_at_a_time(workspace: Path):
+def one_at_a_time(workspace: Path) -> Iterator[None]:
     """Of two calls at once let one do the work, and the other wait and find it done."""
     workspace.mkdir(parents=True, exist_ok=True)
     with open(workspace / "lock", "w", encoding="utf-8") as file:

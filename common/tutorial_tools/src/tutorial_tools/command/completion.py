@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Mapping
 
 # The name is that of the command line: ./tutorial from a clone, tutorial in its shell.
 SCRIPT = """\
@@ -15,7 +16,7 @@ OPTIONS = {"check": ("--in", "--all", "--watch", "--no-hints"), "cockpit": ("--p
 
 
 def candidates(
-    words: dict[str, argparse.ArgumentParser], kinds: dict[str, str], typed: list[str]
+    words: Mapping[str, argparse.ArgumentParser], kinds: dict[str, str], typed: list[str]
 ) -> list[str]:
     """Return what the last typed word may become; nothing leaves it to bash, as for files."""
     *before, last = typed

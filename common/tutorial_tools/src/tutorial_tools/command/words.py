@@ -13,6 +13,7 @@ import re
 import shlex
 import sys
 from pathlib import Path
+from typing import NoReturn, TextIO
 
 from node_kit.arguments import above_zero
 from tutorial_tools.command.build import REPOSITORY
@@ -68,7 +69,7 @@ CHOICE = re.compile(r"argument \S+: invalid choice: '(.*)' \(choose from (.*)\)"
 class Parser(argparse.ArgumentParser):
     """Reports a mistake in one line."""
 
-    def error(self, message):
+    def error(self, message: str) -> NoReturn:
         word = self.prog.split()[-1]
         wrong = CHOICE.fullmatch(message)
         if wrong:
@@ -78,25 +79,25 @@ class Parser(argparse.ArgumentParser):
 
 def parser_of(word: str) -> Parser:
     """Return the parser of one word's arguments."""
-    arguments, told = WORDS[word]
-    parser = Parser(prog=f"./tutorial {word}", description=told, allow_abbrev=False)
+    arguments, text = WORDS[word]
+    parser = Parser(prog=f"./tutorial {word}", description=text, allow_abbrev=False)
     add = parser.add_argument
     if word in ("shell", "run", "doctor"):
         add("--in", dest="student", metavar="WORKSPACE", help="your own catkin workspace")
     if word == "demo":
-        told = "end after this time, with a line on the drive; exit code 0 if the robot moved"
-        add("--for", dest="duration_s", type=above_zero, metavar="SECONDS", help=told)
+        text = "end after this time, with a line on the drive; exit code 0 if the robot moved"
+        add("--for", dest="duration_s", type=above_zero, metavar="SECONDS", help=text)
         add("arguments", nargs="*", metavar="NAME:=VALUE", help="for launch_bag.launch")
     elif word == "join":
         add("host", metavar="HOST", help="the teacher's machine, or HOST:PORT")
         add("name", metavar="NAME", help="of the robot, such as robot_7")
-        told = "for student.launch, such as virtual:=true or joystick:=browser"
-        add("arguments", nargs="*", metavar="NAME:=VALUE", help=told)
+        text = "for student.launch, such as virtual:=true or joystick:=browser"
+        add("arguments", nargs="*", metavar="NAME:=VALUE", help=text)
     elif word == "setup":
         add("part", nargs="?", choices=("system", "workspace"), help="all without one")
     elif word == "test":
         parser.formatter_class = argparse.RawDescriptionHelpFormatter
-        kinds = "\n".join(f"  {kind:10} {told}" for kind, told in KINDS.items())
+        kinds = "\n".join(f"  {kind:10} {text}" for kind, text in KINDS.items())
         parser.epilog = f"kinds:\n{kinds}\nMore arguments go to pytest, such as -k EXPRESSION."
         add("kind", nargs="?", choices=KINDS, metavar="KIND", help="all of the first four if none")
         add("rest", nargs=argparse.REMAINDER, metavar="ARGUMENT")
@@ -107,18 +108,18 @@ def parser_of(word: str) -> Parser:
     return parser
 
 
-def show_help(file) -> None:
+def show_help(file: TextIO) -> None:
     """Print the list of words."""
     print("usage: ./tutorial WORD ...\n", file=file)
-    for word, (arguments, told) in WORDS.items():
-        print(f"  {f'{word} {arguments}':41} {told}", file=file)
+    for word, (arguments, text) in WORDS.items():
+        print(f"  {f'{word} {arguments}':41} {text}", file=file)
         if word == "test":
             for kind, what in KINDS.items():
                 print(f"    {kind:39} {what}", file=file)
     print(f"\n{EPILOG}", file=file)
 
 
-def fail(line: str, code: int = 1):
+def fail(line: str, code: int = 1) -> NoReturn:
     """Report a mistake in one line, and exit."""
     print(f"tutorial: {line}", file=sys.stderr)
     sys.exit(code)

@@ -1,9 +1,8 @@
-"""What a demonstration drive came to: messages counted, way driven, final pose. No ROS here."""
+"""The result of a demonstration drive: messages counted, way driven, final pose. No ROS here."""
 
 from __future__ import annotations
 
 import math
-from typing import Iterable
 
 
 class DriveReport:
@@ -11,8 +10,8 @@ class DriveReport:
 
     MOVED_M = 0.001  # less than this is a robot that stood
 
-    def __init__(self, topics: Iterable[str]) -> None:
-        """Take the names whose messages are counted, in the order of the report."""
+    def __init__(self, topics: tuple[str, ...]) -> None:
+        """topics: the names whose messages are counted, in the order of the report."""
         self.counts = {topic: 0 for topic in topics}
         self.distance_m = 0.0
         self.pose: tuple[float, float, float] | None = None
@@ -33,7 +32,7 @@ class DriveReport:
         return self.distance_m > self.MOVED_M
 
     def line(self, duration_s: float) -> str:
-        """Return the drive in one line."""
+        """The drive in one line."""
         counted = ", ".join(f"{count} {topic}" for topic, count in self.counts.items())
         if self.pose is None:
             return f"{duration_s:.1f} s: {counted}; no pose"

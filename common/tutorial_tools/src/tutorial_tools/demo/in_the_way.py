@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any, Iterable
+from collections.abc import Iterable
 
 
-def in_the_way(state: Any, nodes: Iterable[str], topics: Iterable[str]) -> list[str]:
-    """Return names of registered nodes that a launch would meet, in alphabetical order.
+def in_the_way(
+    state: list[list[tuple[str, list[str]]]], nodes: Iterable[str], topics: Iterable[str]
+) -> list[str]:
+    """Names of registered nodes that a launch would meet, in alphabetical order.
 
     Those that bear the name of one of its nodes, which would be ended by it, and those that publish
     on one of its topics, where two would drive one robot.
@@ -20,7 +22,7 @@ def in_the_way(state: Any, nodes: Iterable[str], topics: Iterable[str]) -> list[
 
 
 def refusal(uri: str, names: list[str], own_uri: str) -> str:
-    """Return the line for the user: what runs on a master, and what to do."""
+    """The line for the user: what runs on a master, and what to do. names: some, in_the_way()."""
     *most, last = names
     listed = f"{', '.join(most)} and {last}" if most else last
     runs, them = ("run", "them") if most else ("runs", "it")

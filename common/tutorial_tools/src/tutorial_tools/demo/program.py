@@ -27,7 +27,7 @@ NODES = ("/fake_turtlebot", "/myjoystick2twist", "/robot_state_publisher", "/ros
 RVIZ_NODE = "/my_rviz"
 PAGE_TIMEOUT_S = 5.0  # tornado and rospy load on a slow and busy machine, too
 CONNECT_TIMEOUT_S = 3.0  # a master on this machine answers within milliseconds
-RVIZ = re.compile("rviz:=")  # who says whether RViz opens, need not be told
+RVIZ = re.compile("rviz:=")  # given by the user, so no hint is needed
 WITHOUT_SCREEN = "there is no screen (DISPLAY is not set), so RViz is left out; to see it drive, "
 IN_TERMINAL = "in another terminal: ./tutorial run rostopic echo /odom/pose/pose/position"
 IN_BROWSER = "open {page} in a browser; from another machine: ssh -L {port}:127.0.0.1:{port} {host}"

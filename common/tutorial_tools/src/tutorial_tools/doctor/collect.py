@@ -110,7 +110,7 @@ def folder_of(package):
 def joystick(path):
     """Whether a device can be opened."""
     try:
-        # Not a FIFO: whoever opens one is its reader, and virtual_joystick has another.
+        # Not a FIFO: virtual_joystick has one reader, and to open it is to read it.
         if not stat.S_ISFIFO(os.stat(path).st_mode):
             os.close(os.open(path, os.O_RDONLY | os.O_NONBLOCK))
     except OSError as error:
@@ -119,7 +119,7 @@ def joystick(path):
 
 
 def graph(uri, joysticks):
-    """What the master and the nodes tell, by the names of Facts."""
+    """Return what the master and the nodes answer, by the names of Facts."""
     _, state = call(uri, "getSystemState")
     _, types = call(uri, "getTopicTypes")
     facts = {
@@ -262,13 +262,13 @@ def nearest(offsets_):
 
 def mux(uri, name, messages):
     """A Mux, by its latched topic and, where they are on the server, its parameters."""
-    told = [decode(String, data) for _, data in messages or []]
+    said = [decode(String, data) for _, data in messages or []]
     inputs = []
     with contextlib.suppress(TypeError, KeyError):  # a multiplexer of another kind
         for entry in parameter(uri, f"{name}/subscribers") or []:
             topic = f"{name}/{entry['topic']}"
             inputs.append(MuxInput(entry["name"], topic, entry["priority"]))
-    return Mux(told[0].data if told and told[0] else None, inputs)
+    return Mux(said[0].data if said and said[0] else None, inputs)
 
 
 def states(node, messages):

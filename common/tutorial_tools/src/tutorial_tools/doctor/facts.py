@@ -5,21 +5,21 @@ way.py judge.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass, field
-from typing import Any, Iterable
 
 from node_kit.questions import Answer
 
 MOST_NAMES = 5  # in a line; a classroom has thirty robots
 
 
-def natural(name: str) -> Any:
-    """Return the sort key that puts robot_2 before robot_10."""
+def natural(name: str) -> list[tuple[int, str]]:
+    """The sort key that puts robot_2 before robot_10."""
     return [(int(part), "") if part.isdigit() else (0, part) for part in re.split(r"(\d+)", name)]
 
 
 def some(names: Iterable[str], between: str = ", ") -> str:
-    """Return names in their natural order; of many the first ones, and how many more there are."""
+    """Names in their natural order; of many the first ones, and how many more there are."""
     names = sorted(names, key=natural)
     more = [f"{len(names) - MOST_NAMES} more"] if len(names) > MOST_NAMES + 1 else []
     shown = names[:MOST_NAMES] if more else names
@@ -27,7 +27,7 @@ def some(names: Iterable[str], between: str = ", ") -> str:
 
 
 OK, WRONG, UNKNOWN = "ok", "wrong", "unknown"
-DEAD = (Answer.REFUSED, Answer.STRANGE)  # of a node: nobody is there, or somebody else
+DEAD = (Answer.REFUSED, Answer.STRANGE)  # of a node: nothing listens, or another program
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ class Finding:
     todo: str = ""
 
     def line(self) -> str:
-        """Return the finding as it is shown."""
+        """The finding as it is shown."""
         todo = f": {self.todo}" if self.todo else ""
         return f"{self.level:7}  {self.about:8}  {self.seen}{todo}"
 
@@ -127,7 +127,7 @@ class Facts:
     silent_s: dict[str, float] = field(default_factory=dict)  # since a joy_node's gamepad moved
 
     def topics(self, kind: str) -> list[str]:
-        """Return the names of all topics of a type that are in use; the master forgets no type."""
+        """The names of all topics of a type that are in use; the master forgets no type."""
         used = (
             topic
             for topic in self.types
@@ -136,7 +136,7 @@ class Facts:
         return sorted((topic for topic in used if self.types[topic] == kind), key=natural)
 
     def senders(self, topic: str) -> list[str]:
-        """Return the publishers of a topic without dead ones, which the master still lists."""
+        """The publishers of a topic without those that have died: the master does not miss them."""
         return sorted(
             name
             for name in self.publishers.get(topic, [])
@@ -144,7 +144,7 @@ class Facts:
         )
 
     def converters(self) -> dict[str, tuple[list[str], list[str]]]:
-        """Return {node from joystick to velocity: (its joy topics, its velocity topics)}."""
+        """{node that makes velocities of a joystick: (its joy topics, its velocity topics)}."""
         found: dict[str, tuple[list[str], list[str]]] = {}
         for joy in self.topics(JOY):
             for node in self.subscribers.get(joy, []):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import errno
-from typing import Iterator
+from collections.abc import Iterator
 
 from gamepad.driver.device_choice import explain
 from node_kit.questions import Answer
@@ -101,7 +101,7 @@ def nodes(facts: Facts) -> Iterator[Finding]:
         local = node.host == "localhost" or node.host.startswith("127.")
         export = f"on its machine export ROS_IP {START_ANEW}"
         if local and not alone:
-            # Seen from another machine this would be somebody else, whatever answers.
+            # Seen from another machine this address is another program's, whatever answers.
             yield Finding(WRONG, "nodes", f"{at} can be reached from its own machine only", export)
         elif node.answer is Answer.UNKNOWN_NAME:
             todo = f'add "{node.host}" to /etc/hosts, or {export}'

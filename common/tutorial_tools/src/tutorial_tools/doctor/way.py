@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import Iterator
+from collections.abc import Iterator
 
 from node_kit.arming import DRIVING
 from node_kit.questions import Answer
@@ -110,7 +110,7 @@ def mux_finding(facts: Facts, name: str, mux: Mux, topic: str) -> Finding:
     """Whether a multiplexer lets one of our topics through."""
     if mux.active is None:
         todo = f"rostopic echo {name}/active"
-        return Finding(UNKNOWN, "mux", f"{name} does not say who is active", todo)
+        return Finding(UNKNOWN, "mux", f"{name} does not say what is active", todo)
     if mux.active in IDLE:
         senders = facts.publishers.get(topic, [])
         if any(facts.states.get(sender) == (True, DRIVING) for sender in senders):

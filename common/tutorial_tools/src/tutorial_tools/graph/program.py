@@ -137,7 +137,7 @@ def fail(text):
 def main(arguments=None):
     """Draw the graph into a file; arguments: of the command line unless given."""
     parser = argparse.ArgumentParser(description="Draws the running nodes and their topics.")
-    kinds = f"what to write, {', '.join(ENDINGS)}; unless told, graph.png"
+    kinds = f"what to write, {', '.join(ENDINGS)}; graph.png by default"
     parser.add_argument("file", nargs="?", default="graph.png", metavar="FILE", help=kinds)
     everything = "show also /rosout, and topics that nobody publishes or nobody hears"
     parser.add_argument("--all", action="store_true", help=everything)
