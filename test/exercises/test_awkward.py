@@ -90,12 +90,6 @@ def test_the_suites_own_solutions(floor):
     assert "this suite's solution, not yours" in error
 
 
-def test_an_empty_workspace(tmp_path, floor):
-    code, out, _ = check(floor, "--in", tmp_path, "2")
-    assert code == 1
-    assert "a folder src in the workspace" in out
-
-
 def test_a_home_folder_with_a_package_deep_below(literal, tmp_path, floor):
     (tmp_path / "home" / "Documents").mkdir(parents=True)
     (tmp_path / "home" / "course").mkdir()

@@ -2,6 +2,7 @@
 
 import json
 import xml.etree.ElementTree as ET
+from pathlib import Path
 
 import pytest
 
@@ -16,6 +17,7 @@ from tutorial_check.formats import (
     without_hints,
 )
 from tutorial_check.model import NOTE, OK, UNREACHED, WRONG, Result
+from tutorial_check.professor import Student, table_csv, table_html
 from tutorial_check.report import summary, text_of
 
 VALUES = (
@@ -104,3 +106,14 @@ def test_text():
     for word in ("expected: a < b", "where:    f.py:3", "hint:     do it"):
         assert word in text
     assert "handout 4.3; see it yourself: rostopic" in text
+
+
+def test_in_json_and_in_the_table_an_empty_exercise_is_not_done():
+    told = json.loads(as_json([GOOD, EMPTY]))
+    assert (told["passed"], told["total"]) == (1, 2)
+    words = [(each["passed"], each["nothing_to_check"]) for each in told["exercises"]]
+    assert words == [(True, False), (False, True)]
+    students = [Student("ann", Path("ann"), [GOOD, EMPTY])]
+    cells = table_csv(students, [GOOD.id, "4.2"]).splitlines()[1].split(",")
+    assert cells[1:4] == ["ok", "not done", "1"]
+    assert ">not done<" in table_html(students, [GOOD.id, "4.2"])

@@ -52,6 +52,11 @@ class Outcome:
         """Whether it is done, and nothing in it wrong."""
         return self.done and passed(self.results)
 
+    @property
+    def empty(self) -> bool:
+        """Whether there was nothing to check: nothing is wrong, and nothing done."""
+        return self.passed and bool(self.results) and all(each.empty for each in self.results)
+
 
 Report = Callable[[Outcome, Result], None]
 

@@ -42,13 +42,14 @@ def as_json(outcomes: Sequence[Outcome]) -> str:
     exercises = [
         {
             "id": outcome.id,
-            "passed": outcome.passed,
+            "passed": outcome.passed and not outcome.empty,
+            "nothing_to_check": outcome.empty,
             "trouble": outcome.trouble,
             "checks": [check(result) for result in outcome.results],
         }
         for outcome in outcomes
     ]
-    done = sum(outcome.passed for outcome in outcomes)
+    done = sum(outcome.passed and not outcome.empty for outcome in outcomes)
     return json.dumps({"exercises": exercises, "passed": done, "total": len(outcomes)}, indent=1)
 
 

@@ -48,6 +48,8 @@ class Student:
         if not self.outcomes:
             return "?", self.trouble
         outcome = next(each for each in self.outcomes if each.id == exercise)
+        if outcome.empty:
+            return "not done", "nothing to check"
         if outcome.passed:
             return "ok", ""
         wrong = [result for result in outcome.results if result.status == WRONG]
@@ -187,9 +189,9 @@ def table_html(students: Iterable[Student], exercises: list[str]) -> str:
         row = f'<td><a href="{link}">{escape(student.name)}</a></td>'
         for exercise in exercises:
             word, details = student.cell(exercise)
-            kind = {"ok": "ok", "-": "no", "?": "no"}.get(word, "wrong")
+            kind = {"ok": "ok", "-": "no", "?": "no", "not done": "no"}.get(word, "wrong")
             row += f'<td class="{kind}" title="{escape(details)}">{escape(word)}</td>'
-        done = sum(outcome.passed for outcome in student.outcomes)
+        done = sum(outcome.passed and not outcome.empty for outcome in student.outcomes)
         rows.append(f"<tr>{row}<td>{done}</td><td>{student.seconds:.0f} s</td></tr>")
     head = f'<meta charset="utf-8"><title>Exercises</title><style>{STYLE}</style>'
     return f'<!DOCTYPE html><html lang="en">{head}<table>{"".join(rows)}</table></html>\n'

@@ -45,7 +45,7 @@ def heading(outcome: Outcome) -> str:
 def summary(outcomes: Sequence[Outcome]) -> str:
     """Return the last line."""
     passed = [outcome for outcome in outcomes if outcome.passed]
-    empty = [one.id for one in passed if one.results and all(each.empty for each in one.results)]
+    empty = [outcome.id for outcome in passed if outcome.empty]
     rest = f" ({', '.join(empty)}: nothing to check)" if empty else ""
     return f"{len(passed) - len(empty)} of {len(outcomes)} exercises done{rest}"
 

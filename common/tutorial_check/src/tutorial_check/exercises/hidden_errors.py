@@ -1,20 +1,35 @@
 """C33: a program that cannot go on says why."""
 
+from __future__ import annotations
+
 import re
+from typing import TYPE_CHECKING
 
 from tutorial_check.changed_programs import without_name
+from tutorial_check.exercises import check
 from tutorial_check.exercises.classes import program
 from tutorial_check.exercises.driving import JOY, PACKAGE
 from tutorial_check.model import Note, Wrong
 from tutorial_check.tracebacks import last_lines
+
+if TYPE_CHECKING:
+    from tutorial_check.session import Session
+
 
 ALONE_S = 1.5  # without a joystick
 NAMES_IT = re.compile(r"not defined|NameError")  # what the lack of the import leads to
 TELLS = re.compile(r"Traceback|Error\b|Exception|not defined|exceeded|\[(?:ERROR|FATAL|WARN)\]")
 
 
-def errors_are_seen(session):
-    """C33: started without a joystick; and a copy that lacks the import of Joy."""
+@check(
+    "C33",
+    "its errors are seen",
+    "6.2",
+    "C30",
+    look="rosrun joy2twist THE_CLASS, without a joystick",
+)
+def errors_are_seen(session: Session) -> Note | str | None:
+    """Started without a joystick; and a copy that lacks the import of Joy."""
     script, path, _ = program(session)
     broken_text = without_name(session.text(PACKAGE, script), "Joy")
     with session.stage() as stage:
@@ -28,18 +43,20 @@ def errors_are_seen(session):
         stage.wait_for_start(lambda: alone.ended or JOY in stage.call("state")[1])
         stage.wait(lambda: alone.ended, ALONE_S)
         if broken:
-            stage.wait_for_start(lambda: broken.ended)
+            stage.wait_for_start(lambda program=broken: program.ended)
         has_ended, broken_ended = alone.ended, bool(broken) and broken.ended
     excepts = session.scripts(PACKAGE)[path].broad_excepts
     where = f"{path}:{excepts[0]}" if excepts else path
     if has_ended and not TELLS.search(alone.output):
-        raise Wrong(
-            "without a joystick it waits for one, or says what it misses",
-            f"nobody publishes on /joy, and it ends; it said: {last_lines(alone.output) or 'nothing'}",
-            where=where,
-            hint="a Subscriber waits by itself, for as long as it takes; what an except catches, it should show",
-        )
-    hides = not NAMES_IT.search(broken.output) if broken_ended else bool(excepts)
+        said = last_lines(alone.output) or "nothing"
+        seen = f"nobody publishes on /joy, and it ends; it printed: {said}"
+        hint = "a Subscriber waits by itself, for as long as it takes;"
+        hint += " what an except catches, it should show"
+        expected = "without a joystick it waits for one, or says what it misses"
+        raise Wrong(expected, seen, where, hint)
+    hides = bool(excepts)
+    if broken and broken_ended:
+        hides = not NAMES_IT.search(broken.output)
     if hides:
         return Note(
             "except: hides every mistake, a misspelt name as well as Ctrl-C",
