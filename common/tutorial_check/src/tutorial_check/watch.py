@@ -17,7 +17,7 @@ IGNORED = {"build", "devel", ".git", "__pycache__"}
 
 
 def stamps(folder: str) -> dict[str, tuple[int, int]]:
-    """Return {path: (time of the last change, size)} of the student's files in a folder."""
+    """Return {path: (time of the last change, also of its rights; size)} of the student's files in a folder."""
     found = {}
     for here, folders, files in os.walk(folder):
         folders[:] = [each for each in folders if each not in IGNORED]
@@ -26,7 +26,7 @@ def stamps(folder: str) -> dict[str, tuple[int, int]]:
                 path = os.path.join(here, name)
                 with contextlib.suppress(OSError):  # removed meanwhile
                     about = os.stat(path)
-                    found[path] = about.st_mtime_ns, about.st_size
+                    found[path] = about.st_ctime_ns, about.st_size
     return found
 
 
