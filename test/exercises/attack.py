@@ -12,11 +12,22 @@ import subprocess
 HERE = pathlib.Path(__file__).parent
 FORGED = '\n{"exercise": "2", "result": {"id": "FORGED", "status": "ok", "title": "x"}}\n'
 LEAVE = ("/tmp", "/var/tmp", "/dev/shm", "/run/lock")
+FILLS_MEMORY = [
+    "unshare",
+    "--user",
+    "--map-root-user",
+    "--mount",
+    "mount",
+    "-t",
+    "tmpfs",
+    "none",
+    "/mnt",
+]
 aims = {}
 
 
 def connect(family, address):
-    """Whether somebody answers there."""
+    """Whether a server answers there."""
     with socket.socket(family) as probe:
         probe.settimeout(5.0)
         return probe.connect_ex(address) == 0
@@ -27,9 +38,10 @@ def read(path):
     return pathlib.Path(path).read_text()
 
 
-def write(path):
-    """Make a file; true."""
-    pathlib.Path(path).write_text("x")
+def write(path, mode="w"):
+    """Make a file, or add to it; true."""
+    with open(path, mode) as file:
+        file.write("\n")
     return True
 
 
@@ -52,6 +64,13 @@ def forge():
                 pipe = os.readlink(path)
                 if pipe.startswith("pipe:") and pipe not in own:
                     os.write(os.open(path, os.O_WRONLY | os.O_NONBLOCK), FORGED.encode())
+
+
+def plant():
+    """Leave a link where the checker reads afterwards; whether it follows shows in its report."""
+    script = HERE / "scripts" / "talker.py"
+    script.unlink()
+    script.symlink_to(f"{aims['home']}/secret")
 
 
 def leave():
@@ -89,15 +108,17 @@ ATTACKS = {
     "read a private file of yours": lambda: read(f"{aims['home']}/secret"),
     "write into your home folder": lambda: write(f"{aims['home']}/new"),
     "read another student's files": lambda: read(aims["other"]),
+    "change another student's files": lambda: write(aims["other"], "a"),
+    "change what you check": lambda: write(aims["original"], "a"),
     "read this suite's solutions": lambda: read(aims["solution"]),
-    "reach your network and your roscore": lambda: connect(
-        socket.AF_INET, ("127.0.0.1", aims["port"])
-    ),
+    "reach your network": lambda: len(socket.if_nameindex()) > 1,
+    "reach your roscore": lambda: connect(socket.AF_INET, ("127.0.0.1", aims["port"])),
     "reach the sockets of your desktop": lambda: (
         os.listdir("/run") or connect(socket.AF_UNIX, f"\0{aims['name']}")
     ),
     "see your processes": lambda: any(aims["name"].encode() in each for each in processes()),
     "gain rights, as by sudo": rights,
+    "fill your memory with files": lambda: subprocess.call(FILLS_MEMORY) == 0,
 }
 
 
@@ -105,15 +126,16 @@ def main():
     """Try all."""
     aims.update(json.loads((HERE / "aims.json").read_text()))
     reached = []
-    for what, attack in ATTACKS.items():
+    for number, attack in enumerate(ATTACKS.values()):  # a name each would be cut off in the report
         try:
             if attack():
-                reached.append(what)
+                reached.append(str(number))
         except OSError:
             pass
     forge()
     leave()
-    print("reached:", ", ".join(reached) or "nothing")
+    plant()
+    print("reached:", *reached, ".")
 
 
 if __name__ == "__main__":

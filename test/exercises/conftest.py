@@ -72,7 +72,7 @@ def pytest_collection_modifyitems(config, items):
 
 @pytest.fixture(scope="session")
 def floor():
-    """setup.bash of what the exercises stand on."""
+    """setup.bash of the underlay."""
     return os.environ["TUTORIAL_FLOOR"]
 
 
@@ -95,35 +95,35 @@ def solutions(tmp_path):
     return src
 
 
+def properties(reports):
+    """{name: values} of what the tests have recorded."""
+    found = {}
+    for report in (each for kind in reports.values() for each in kind):
+        if getattr(report, "when", "") == "call":
+            for name, value in report.user_properties:
+                found.setdefault(name, []).append(value)
+    return found
+
+
 def pytest_terminal_summary(terminalreporter):
-    """The table of mistakes: found, wrongly blamed, missed."""
-    table = {kind: [] for kind in KINDS}
-    counts = {"solution": [], "checks": [], "alarm": [], "no verdict": []}
-    for reports in terminalreporter.stats.values():
-        for report in reports:
-            for name, value in (
-                getattr(report, "user_properties", ())
-                if getattr(report, "when", "") == "call"
-                else ()
-            ):
-                if name in table:
-                    table[name].append(value)
-                elif name in counts:
-                    counts[name].append(value)
-    if any(table.values()):
+    """Print the table of mistakes (found, wrongly blamed, missed), and the right solutions."""
+    found = properties(terminalreporter.stats)
+    write = terminalreporter.write_line
+    if set(KINDS) & set(found):
         terminalreporter.section("mistakes")
-        for kind, rows in table.items():
-            terminalreporter.write_line(f"{kind:>15}: {len(rows)}")
-            if kind != "found":
-                for row in rows:
-                    terminalreporter.write_line(f"{'':>17}{row}")
-    if counts["solution"]:
+        for kind in KINDS:
+            rows = found.get(kind, [])
+            write(f"{kind:>15}: {len(rows)}")
+            for row in rows if kind != "found" else ():
+                write(f"{'':>17}{row}")
+    if "solution" in found:
         terminalreporter.section("right solutions")
         took_s = time.monotonic() - terminalreporter.config.began_s
-        terminalreporter.write_line(
-            f"{len(counts['solution'])} checks of right solutions ({sum(counts['checks'])} lines),"
-            f" {len(counts['alarm'])} false alarms, {len(counts['no verdict'])} without a verdict;"
+        alarms, undecided = found.get("alarm", []), found.get("no verdict", [])
+        write(
+            f"{len(found['solution'])} checks of right solutions ({sum(found.get('checks', []))} lines),"
+            f" {len(alarms)} false alarms, {len(undecided)} without a verdict;"
             f" {took_s:.0f} s, load {os.getloadavg()[0]:.1f}"
         )
-        for each in counts["alarm"] + counts["no verdict"]:
-            terminalreporter.write_line(f"  {each}")
+        for each in alarms + undecided:
+            write(f"  {each}")

@@ -154,6 +154,8 @@ MISTAKES = [
     ("gate: a new message", only_if("msg != my.last", PLAIN + PUBLISH + "\nmy.last = msg"), "my.last = None", "", "same Joy again"),
     ("gate: a large change", only_if("abs(msg.linear.x - my.x) + abs(msg.angular.z - my.z) > 0.02", PLAIN + PUBLISH + "\nmy.x, my.z = msg.linear.x, msg.angular.z"), "my.x = my.z = 9.0", "", "same Joy again"),
     ("gate: every third", only_if("my.n % 3 == 0", f"my.n += 1\n{PLAIN}{PUBLISH}"), "my.n = 0", "", "Twists for 20 Joys"),
+    ("gate: every fifth", only_if("my.n % 5 == 0", f"my.n += 1\n{PLAIN}{PUBLISH}"), "my.n = 0", "", "seen:     4 Twists for 20 Joys"),
+    ("gate: one zero without LB", f"if not {HELD}:\n    if my.held:\n        my.pub.publish(Twist())\n    my.held = False\n    return\nmy.held = True\n{PLAIN}{PUBLISH}", "my.held = False", "", "only one zero after LB is released"),
     ("gate: it turns only while it drives", f"msg = Twist()\nif data.axes[1]:\n    {X}\n    {Z}\n{PUBLISH}", "", "", "alone is moved"),
     # memories
     ("memory: axis 1 at zero changes nothing", f"if data.axes[1]:\n    my.msg.linear.x = data.axes[1]\nmy.msg.angular.z = data.axes[0]\n{TWICE}", KEPT, "", "linear.x stays"),
@@ -161,15 +163,16 @@ MISTAKES = [
     ("memory: without LB the last one again", f"if {HELD}:\n    my.msg = Twist()\n    {SET.strip().replace(chr(10), chr(10) + '    ')}\n{TWICE}", KEPT, "", "LB released"),
     ("memory: forwards, backwards, and nothing else", f"if data.axes[1] > 0:\n    my.msg.linear.x = data.axes[1]\nelif data.axes[1] < 0:\n    my.msg.linear.x = data.axes[1]\nmy.msg.angular.z = data.axes[0]\n{TWICE}", KEPT, "", "linear.x stays"),
     ("memory: the fastest so far", f"my.x = max(my.x, abs(data.axes[1]))\n{values('my.x if data.axes[1] > 0 else -my.x')}", "my.x = 0.0", "", "linear.x"),
-    ("memory: half of the one before", f"my.x = 0.5 * my.x + 0.5 * data.axes[1]\n{values('my.x')}", "my.x = 0.0", "", "linear.x"),
+    ("memory: half of the one before", f"my.x = 0.5 * my.x + 0.5 * data.axes[1]\n{values('my.x')}", "my.x = 0.0", "", "linear.x depends on earlier Joys"),
     ("memory: a small value is skipped", f"if abs(data.axes[1]) > 0.1 or data.axes[1] == 0:\n    my.x = data.axes[1]\n{values('my.x')}", "my.x = 0.0", "", "linear.x stays 0.70 when axes[1] is 0.06: the robot drives on"),
-    ("memory: a small change is skipped", f"if abs(data.axes[1] - my.x) > 0.1:\n    my.x = data.axes[1]\n{values('my.x')}", "my.x = 0.0", "", "it goes by those before"),
+    ("memory: a small change is skipped", f"if abs(data.axes[1] - my.x) > 0.1:\n    my.x = data.axes[1]\n{values('my.x')}", "my.x = 0.0", "", "depends on earlier Joys"),
     # buttons
     ("button: a cruise control", f"if data.buttons[0]:\n    my.x = data.axes[1]\n{values('my.x or data.axes[1]')}", "my.x = 0.0", "", "the robot drives on"),
     ("button: stops by silence", f"if data.buttons[1]:\n    return\n{PLAIN}{PUBLISH}", "", "", "buttons[1] pressed"),
     ("button: faster with each Joy", f"if data.buttons[5]:\n    my.k *= 1.1\n{values('my.k * data.axes[1]')}", "my.k = 0.5", "", "once buttons[5] was pressed"),
     # accumulators
     ("accumulator: +=", f"my.msg.linear.x += data.axes[1]\nmy.msg.angular.z = data.axes[0]\n{TWICE}", KEPT, "", "linear.x"),
+    ("accumulator: += on both axes", f"my.msg.linear.x += data.axes[1]\nmy.msg.angular.z += data.axes[0]\n{TWICE}", KEPT, "", "depends on earlier Joys: it grows while the stick is held"),
     ("accumulator: a tenth of it", f"my.msg.linear.x += 0.1 * data.axes[1]\nmy.msg.angular.z = data.axes[0]\n{TWICE}", KEPT, "", "linear.x"),
     ("accumulator: a heading", f"my.z += data.axes[0]\n{values('data.axes[1]', 'my.z')}", "my.z = 0.0", "", "angular.z"),
     # clocks

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 from edits import TALKER, B, write
-from test_awkward import SOURCE
+from test_awkward import SOURCE, command
 from test_hostile import processes_like
 
-from tutorial_check import place
+from tutorial_check import bubblewrap
 from tutorial_testing.processes import Program, command_line, descendants, lives
 from tutorial_testing.waiting import wait_for
 
@@ -35,7 +35,7 @@ WORKS = {
 
 @pytest.fixture
 def scratch():
-    """Where the examination has its copy. Its users are nobody's."""
+    """Where the examination has its copy. Open to the users of programs."""
     with tempfile.TemporaryDirectory() as folder:
         Path(folder).chmod(0o755)
         yield folder
@@ -56,7 +56,7 @@ def environment(request, tmp_path, scratch):
     path = os.environ["PATH"]
     if request.param == "bare":
         path = path_without_namespaces(tmp_path)
-    elif not place.granted()[0]:
+    elif not bubblewrap.granted().options:
         pytest.skip("no namespaces here")
     return {"PYTHONPATH": str(SOURCE), "PATH": path, "TMPDIR": scratch}
 
@@ -66,10 +66,9 @@ def environment(request, tmp_path, scratch):
 def test_nothing_is_left(literal, floor, environment, how, work):
     exercise, file, text, seen = WORKS[work]
     write(file, text)(literal)
-    command = ["/usr/bin/python3", "-m", "tutorial_check", "--floor", str(floor)]
-    command += ["--in", str(literal.parent), exercise]
+    words = command(floor, "--in", literal.parent, exercise)
     scratch = environment["TMPDIR"]
-    with Program(*command, **environment) as checker:
+    with Program(*words, **environment) as checker:
         wait_for(
             lambda: [pid for pid in processes_like(f"{scratch}/") if seen in command_line(pid)],
             work,

@@ -1,4 +1,4 @@
-"""Programs that hang, fork, print without end or forge: an honest verdict, and nobody else harmed."""
+"""Programs that hang, fork, print without end or forge: an honest verdict, and no harm to others."""
 
 import contextlib
 import os
@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 from edits import JOY2TWIST, LISTENER, TALKER, apply, put, write
 
+from tutorial_check import bubblewrap
 from tutorial_check.examination import examine
 from tutorial_check.report import lines_of
 
@@ -24,8 +25,7 @@ ENDS_THE_MASTER = (
     f"{FIRST}import xmlrpc.client\n"
     "xmlrpc.client.ServerProxy(os.environ['ROS_MASTER_URI']).shutdown('/me', 'no more')\n"
 )
-# It works as it should, and leaves links where the checker writes a changed copy of it (C9); the one
-# to a descriptor of the checker's is to have its own text, by then a verdict, written there.
+# It works as it should, and leaves links where the checker writes a changed copy of it (C9).
 PLANTS_LINKS = """
 import os
 here = os.path.dirname(os.path.abspath(__file__))
@@ -33,16 +33,7 @@ for number in range(1, 9):
     link = os.path.join(here, "checked_%d_talker.py" % number)
     if not os.path.lexists(link):
         os.symlink({aim!r}, link)
-def forge():
-    with open(os.path.join(here, "talker.py"), "w") as file:
-        file.write({text!r})
-rospy.on_shutdown(forge)
 """
-FORGED = (
-    '{"exercise": "3", "result": {"id": "FORGED", "status": "ok", "title": "x"}}\n'
-    '{"exercise": "3", "done": 1, "trouble": ""}\n'
-    "rospy.init_node('talker', anonymous=True)"
-)
 AFTER_INIT = "    rospy.init_node('listener', anonymous=True)\n"
 
 
@@ -69,7 +60,7 @@ def processes_like(word):
 
 @pytest.fixture
 def scratch(monkeypatch):
-    """Where the examinations of a test have their copies, and no other's. Its users are nobody's."""
+    """Where the examinations of a test have their copies, and no other's. Open to the users of programs."""
     with tempfile.TemporaryDirectory() as folder:
         Path(folder).chmod(0o755)
         monkeypatch.setattr(tempfile, "tempdir", folder)
@@ -77,13 +68,11 @@ def scratch(monkeypatch):
 
 
 def test_one_that_ignores_ctrl_c(literal, floor, scratch):
-    write(
-        TALKER,
-        "#!/usr/bin/env python3\nimport signal\nsignal.signal(signal.SIGINT, signal.SIG_IGN)\nwhile True:\n    pass\n",
-    )(literal)
-    check, told = wrong_of(literal, floor, "3")
-    assert check == "C6", told
-    assert "works all the time" in told
+    ignore = "import signal\nsignal.signal(signal.SIGINT, signal.SIG_IGN)\n"
+    write(TALKER, f"{FIRST}{ignore}while True:\n    pass\n")(literal)
+    check, report = wrong_of(literal, floor, "3")
+    assert check == "C6", report
+    assert "works all the time" in report
     assert not processes_like(f"{scratch}/")
 
 
@@ -91,52 +80,46 @@ def test_a_fork_bomb(literal, floor, scratch):
     """It does not spoil what comes after it, either."""
     write(TALKER, FORK_BOMB)(literal)
     bombed, after = examine(literal.parent, floor, ["3", "4.3"])
-    check, told = first_wrong(bombed)
-    assert check == "C6", told
-    assert "again and again" in told
+    check, report = first_wrong(bombed)
+    assert check == "C6", report
+    assert "again and again" in report
     assert after.passed, after
     assert not processes_like(f"{scratch}/")
 
 
 def test_output_without_end(literal, floor):
-    apply(
-        [
-            put(
-                LISTENER,
-                "    rospy.spin()",
-                "    block = 'x' * 1000000 + '\\n'\n    for _ in range(1000):\n        print(block)\n    rospy.spin()",
-            )
-        ],
-        literal,
-    )
+    block = "    for _ in range(1000):\n        print('x' * 1000000)\n    rospy.spin()"
+    put(LISTENER, "    rospy.spin()", block)(literal)
     outcomes = examine(literal.parent, floor, ["3"])
     talker = next(result for result in outcomes[0].results if result.id == "C6")
     assert talker.status == "ok", "\n".join(lines_of(talker))
 
 
-def test_one_that_ends_the_master(literal, floor):
-    kill = "    import xmlrpc.client, os\n    xmlrpc.client.ServerProxy(os.environ['ROS_MASTER_URI']).shutdown('/me', 'no more')\n"
-    apply([put(JOY2TWIST, AFTER_INIT, AFTER_INIT + kill)], literal)
-    check, told = wrong_of(literal, floor, "4.3")
-    assert check == "C14", told
-    assert "has ended it" in told
+FORGED = '\n{"exercise": "4.3", "result": {"id": "C16", "status": "ok", "title": "x"}}\n'
+MASTER = "import os, xmlrpc.client\n    xmlrpc.client.ServerProxy(os.environ['ROS_MASTER_URI'])"
+JOINED = {
+    # what it does, its line after init_node, words of the verdict
+    "ends the master": (f"{MASTER}.shutdown('/me', 'no more')", "has ended it"),
+    "kills its group": ("import os\n    os.killpg(0, 9)", "signal 9"),
+    "fills the disk": ("open('filled', 'wb').write(b'x' * (100 << 20))", ""),
+    "prints a verdict": (f"print({FORGED!r} * 50)\n    __import__('os')._exit(0)", ""),
+}
+
+
+@pytest.mark.parametrize("what", JOINED)
+def test_one_that(literal, floor, what):
+    line, words = JOINED[what]
+    put(JOY2TWIST, AFTER_INIT, f"{AFTER_INIT}    {line}\n")(literal)
+    check, report = wrong_of(literal, floor, "4.3")
+    assert check == "C14" and words in report, report
 
 
 def test_one_that_kills_all_it_may(literal, floor):
-    kill = "    import os, signal\n    signal.signal(signal.SIGTERM, signal.SIG_IGN)\n    os.kill(-1, signal.SIGTERM)\n"
-    apply([put(JOY2TWIST, AFTER_INIT, AFTER_INIT + kill)], literal)
+    kill = "    import os, signal\n    signal.signal(15, signal.SIG_IGN)\n    os.kill(-1, 15)\n"
+    put(JOY2TWIST, AFTER_INIT, AFTER_INIT + kill)(literal)
     outcomes = examine(literal.parent, floor, ["4.3"])
     assert outcomes[0].results  # a verdict, and no end of the checker
     assert processes_like("pytest")
-
-
-def test_one_that_kills_its_group(literal, floor):
-    apply(
-        [put(JOY2TWIST, AFTER_INIT, AFTER_INIT + "    import os\n    os.killpg(0, 9)\n")], literal
-    )
-    check, told = wrong_of(literal, floor, "4.3")
-    assert check == "C14", told
-    assert "signal 9" in told
 
 
 def test_one_that_writes_into_the_workspace(literal, floor):
@@ -144,17 +127,10 @@ def test_one_that_writes_into_the_workspace(literal, floor):
     before = victim.read_bytes()
     spoil = f"    open({str(victim)!r}, 'w').write('spoilt')\n"
     apply([put(JOY2TWIST, AFTER_INIT, AFTER_INIT + spoil)], literal)
-    check, told = wrong_of(literal, floor, "4.3")
+    check, report = wrong_of(literal, floor, "4.3")
     assert victim.read_bytes() == before
-    assert check == "C14", told
-    assert "writes where it may not" in told
-
-
-def test_one_that_fills_the_disk(literal, floor):
-    fill = "    with open('filled', 'wb') as file:\n        while True:\n            file.write(b'x' * 1000000)\n"
-    apply([put(JOY2TWIST, AFTER_INIT, AFTER_INIT + fill)], literal)
-    check, told = wrong_of(literal, floor, "4.3")
-    assert check == "C14", told
+    assert check == "C14", report
+    assert "writes where it may not" in report
 
 
 def test_one_that_forges_what_the_checker_hears(literal, floor):
@@ -165,35 +141,18 @@ def test_one_that_forges_what_the_checker_hears(literal, floor):
         "    while not rospy.is_shutdown():\n        loud.publish(msg)\n        loud2.publish(Joy(axes=[0.3, 0.4, 0, 0, 0, 0], buttons=[0] * 12))\n        rospy.sleep(0.02)\n"
     )
     apply([put(JOY2TWIST, AFTER_INIT, AFTER_INIT + forge)], literal)
-    check, told = wrong_of(literal, floor, "4.3")
-    assert check in ("C14", "C15"), told
-    assert "/joy" in told
+    check, report = wrong_of(literal, floor, "4.3")
+    assert check in ("C14", "C15"), report
+    assert "/joy" in report
 
 
-def test_one_that_prints_a_verdict(literal, floor):
-    told = '{"exercise": "4.3", "result": {"id": "C16", "status": "ok", "title": "x"}}'
-    apply(
-        [
-            put(
-                JOY2TWIST,
-                AFTER_INIT,
-                AFTER_INIT
-                + f"    print('''\\n{told}\\n''' * 50)\n    os_exit = __import__('os')._exit(0)\n",
-            )
-        ],
-        literal,
-    )
-    check, _ = wrong_of(literal, floor, "4.3")
-    assert check == "C14"
-
-
-@pytest.mark.parametrize("aim", ["/proc/self/fd/4/planted", "/proc/self/fd/3", "{scratch}/planted"])
-def test_one_that_plants_links_where_the_checker_writes(literal, floor, scratch, aim):
-    plant = PLANTS_LINKS.format(aim=aim.format(scratch=scratch), text=FORGED)
+def test_one_that_plants_links_where_the_checker_writes(literal, floor, scratch, monkeypatch):
+    """Without isolation, where the link leads somewhere."""
+    monkeypatch.setattr(bubblewrap, "granted", bubblewrap.Isolation)
+    plant = PLANTS_LINKS.format(aim=f"{scratch}/planted")
     apply([put(TALKER, "import rospy\n", f"import rospy\n{plant}", 1)], literal)
-    seen = []
-    examine(literal.parent, floor, ["3"], lambda _, result: seen.append(result.id))
-    assert "C8" in seen and "FORGED" not in seen
+    (outcome,) = examine(literal.parent, floor, ["3"])
+    assert "C9" in [result.id for result in outcome.results]
     assert not os.path.lexists(f"{scratch}/planted")
 
 

@@ -3,6 +3,7 @@
 import ctypes
 import json
 import os
+import re
 import shutil
 import socket
 import subprocess
@@ -10,18 +11,19 @@ import tempfile
 from pathlib import Path
 
 import pytest
-from attack import ATTACKS, LEAVE
+from attack import ATTACKS, FILLS_MEMORY, LEAVE
 from edits import B
-from test_awkward import SOURCE
+from test_awkward import SOURCE, command
 from test_endings import path_without_namespaces
 from test_hostile import processes_like
 
-from tutorial_check import place
+from tutorial_check import bubblewrap
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 MODES = ("root", "a user", "root, not isolated", "a user, not isolated")
 STRANGER = 65533  # an ordinary user
-FORGES, FILES, SHARED, PROCESS = (
+LINK, FORGES, FILES, SHARED, PROCESS = (
+    "read it through a link that the checker follows",
     "write a verdict of its own",
     "leave files in /tmp, /var/tmp, /dev/shm",
     "leave System V shared memory",
@@ -40,7 +42,7 @@ def promised():
     rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines if "|" in line]
     begin = next(at for at, row in enumerate(rows) if row[1:] == list(MODES))
     table = [row for row in rows[begin + 2 :] if len(row) == 1 + len(MODES)]
-    assert {row[0] for row in table} == {*ATTACKS, FORGES, FILES, SHARED, PROCESS}
+    assert {row[0] for row in table} == {*ATTACKS, LINK, FORGES, FILES, SHARED, PROCESS}
     assert {cell for row in table for cell in row[1:]} == {"no", "yes"}
     return {
         mode: {row[0] for row in table if row[column] == "yes"}
@@ -48,14 +50,24 @@ def promised():
     }
 
 
+def impossible(words):
+    """What no program can do on this machine, whatever the mode."""
+    has_namespaces = subprocess.call([*words, *FILLS_MEMORY]) == 0
+    is_connected = len(socket.if_nameindex()) > 1
+    return {
+        *(() if has_namespaces else ("fill your memory with files",)),
+        *(() if is_connected else ("reach your network",)),
+    }
+
+
 @pytest.fixture(params=MODES)
 def mode(request):
-    """One that can be tried by who runs this."""
+    """One that this user can try."""
     is_root = os.geteuid() == 0
     if request.param.startswith("root") and not is_root:
         pytest.skip("only root can try what holds for root")
-    if request.param in MODES[:2] and not place.granted()[0]:
-        pytest.skip(f"no isolation here: {place.granted()[2]}")
+    if request.param in MODES[:2] and not bubblewrap.granted().options:
+        pytest.skip(f"no isolation here: {bubblewrap.granted().why}")
     return request.param
 
 
@@ -69,7 +81,7 @@ def folder():
 
 @pytest.fixture
 def bare_floor(folder):
-    """As much of the lower floor as can be read by everybody: for a build, and no node."""
+    """As much of the underlay as everybody can read: for a build, and no node."""
     packages = [each.parent for each in REPOSITORY.glob("*/*/src")] + [
         REPOSITORY / "fake_turtlebot_sim"
     ]
@@ -97,17 +109,17 @@ def words(mode, folder):
 
 def test_what_a_hostile_program_reaches(literal, mode, folder, bare_floor, words):
     name, number = f"attack_{os.getpid()}", 0x60000000 + os.getpid()
-    home, room = folder / "home", folder / "room"
-    (room / "bob").mkdir(parents=True)
-    (room / "bob" / "secret").write_text("x")
-    shutil.move(literal.parent, room / "ada")
-    shutil.rmtree(room / "ada" / "src" / "joy2twist")
-    package = room / "ada" / "src" / B
+    home, group = folder / "home", folder / "group"
+    (group / "bob").mkdir(parents=True)
+    (group / "bob" / "secret").write_text("x")
+    shutil.move(literal.parent, group / "ada")
+    shutil.rmtree(group / "ada" / "src" / "joy2twist")
+    package = group / "ada" / "src" / B
     shutil.copy(Path(__file__).with_name("attack.py"), package)
     with (package / "CMakeLists.txt").open("a") as file:
         file.write(BUILD)
     home.mkdir(0o700)
-    (home / "secret").write_text("x")
+    (home / "secret").write_text("<html>")  # of which the checker would say that it is a web page
     (home / "secret").chmod(0o600)
     environment = {**os.environ, "PYTHONPATH": str(SOURCE), "HOME": str(home)}
     if mode.endswith("not isolated"):
@@ -117,37 +129,42 @@ def test_what_a_hostile_program_reaches(literal, mode, folder, bare_floor, words
     with socket.create_server(("127.0.0.1", 0)) as server, socket.socket(socket.AF_UNIX) as desktop:
         desktop.bind(f"\0{name}")
         desktop.listen()
-        aims = {"home": home, "other": room / "bob" / "secret", "name": name, "number": number}
-        aims.update(solution=REPOSITORY / "joy2twist" / "CMakeLists.txt")
+        aims = {"home": home, "other": group / "bob" / "secret", "name": name, "number": number}
+        aims["solution"] = REPOSITORY / "joy2twist" / "CMakeLists.txt"
+        aims["original"] = package / "CMakeLists.txt"
         aims = {key: value if key == "number" else str(value) for key, value in aims.items()}
         (package / "aims.json").write_text(json.dumps({**aims, "port": server.getsockname()[1]}))
         if words:
-            subprocess.run(["chown", "-R", str(STRANGER), home, room], check=True)
-        command = [*words, "/usr/bin/python3", "-m", "tutorial_check", "--floor", str(bare_floor)]
+            subprocess.run(["chown", "-R", str(STRANGER), home, group], check=True)
         subject = subprocess.Popen(["sh", "-c", "read line", name], stdin=subprocess.PIPE)
         try:
             done = subprocess.run(
-                [*command, "--all", str(room), "2"],
+                [*words, *command(bare_floor, "--all", group, "2", "3")],
                 capture_output=True,
                 text=True,
                 check=False,
                 timeout=600,
                 env=environment,
+                preexec_fn=lambda: os.umask(0o077),  # whatever the user's, programs read the copy
             )
-            report = (room / "check" / "ada.txt").read_text()
-            reached = {what for what in ATTACKS if what in report}
-            assert "reached: " in report, report + done.stderr
-            # Told before the first verdict.
+            report = (group / "check" / "ada.txt").read_text()
+            numbers = re.search(r"reached:([\d ]*) \.", report)
+            assert numbers, report + done.stderr
+            reached = {list(ATTACKS)[int(each)] for each in numbers[1].split()}
+            # Printed before the first verdict.
             assert ("no isolation here" in done.stderr) == mode.endswith("not isolated")
             shared = libc.shmget(number, 1, 0)
             sleeping = processes_like(f"sleep\0{number}\0")
             seen = {
+                LINK: "a web page" in report,
                 FORGES: "FORGED" in report,
                 FILES: any(path.exists() for path in left),
                 SHARED: shared >= 0,
                 PROCESS: bool(sleeping),
             }
-            assert reached | {what for what, is_so in seen.items() if is_so} == promised()[mode]
+            assert reached | {what for what, is_so in seen.items() if is_so} == promised()[
+                mode
+            ] - impossible(words)
         finally:
             subject.communicate()
             libc.shmctl(libc.shmget(number, 1, 0), remove, None)

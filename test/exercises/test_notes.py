@@ -9,6 +9,8 @@ from tutorial_check.report import lines_of
 ROWS = [
     ("5", "a gap in a node's name", [put(LAUNCH_BAG, "my_rviz", "my rviz")], "C22", ("launch_bag.launch:2", 'name="my_rviz"')),
     ("4.3", "half as fast", [put(JOY2TWIST, "= data.axes[1]", "= 0.5*data.axes[1]")], "C16", ("linear.x = 0.50 * axes[1]",)),
+    ("4.3", "loginfo_throttle", [put(JOY2TWIST, "rospy.loginfo(", "rospy.loginfo_throttle(1.0, ")], "C14", ("now and then", "joy2twist.py:9")),
+    ("4.3", "two curves", [put(JOY2TWIST, "= data.axes[1]", "= data.axes[1] ** 3"), put(JOY2TWIST, "= data.axes[0]", "= data.axes[0] ** 3")], "C16", ("are curves of their axes",)),
 ]  # fmt: skip
 
 

@@ -78,6 +78,7 @@ ROWS = [
     ("a tenth of the speed", [put(JOY2TWIST, X, "msg.linear.x = 0.1 * data.axes[1]")], ["4.3", "4.4", "4.5"]),
     ("dead zone", [put(JOY2TWIST, X, "msg.linear.x = data.axes[1] if abs(data.axes[1]) > 0.35 else 0.0")], ["4.3", "4.4"]),
     ("limit", [put(JOY2TWIST, X, "msg.linear.x = max(-0.5, min(0.5, data.axes[1]))")], ["4.3", "4.4"]),
+    ("a low limit", [put(JOY2TWIST, X, "msg.linear.x = max(-0.22, min(0.22, data.axes[1]))")], ["4.3", "4.4"]),
     ("dead-man LB", [put(JOY2TWIST, f"    {PUBLISH}", f"    if not data.buttons[4]:\n        msg = Twist()\n    {PUBLISH}")], ["4.3", "4.4", "4.5"]),
     ("topics from parameters", [put(JOY2TWIST, "'/cmd_vel', Twist", "rospy.get_param('~out', '/cmd_vel'), Twist")], ["4.3"]),
     ("another node name, not anonymous", [put(JOY2TWIST, "'listener', anonymous=True", "'converter'")], ["4.3", "6.1"]),

@@ -6,7 +6,7 @@ import unittest
 
 import rostest
 
-from node_kit.states import DRIVING
+from node_kit.arming import DRIVING
 from tutorial_testing.cockpit_rig import CockpitRig
 from tutorial_testing.nodes import init_node
 from tutorial_testing.waiting import wait_for

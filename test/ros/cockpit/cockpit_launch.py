@@ -10,7 +10,7 @@ import rosgraph
 import rosnode
 import rostest
 
-from node_kit.page import address
+from node_kit.questions import address
 from tutorial_testing.cockpit_rig import CockpitRig
 from tutorial_testing.nodes import init_node, node_path
 from tutorial_testing.processes import Program

@@ -13,7 +13,7 @@ import rostest
 import yaml
 from sensor_msgs.msg import Joy
 
-from node_kit.page import address
+from node_kit.questions import address
 from tutorial_testing.nodes import init_node
 from tutorial_testing.ports import free_port
 from tutorial_testing.processes import Program

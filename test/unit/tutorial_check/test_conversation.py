@@ -1,78 +1,188 @@
-"""What works, and is worth a note."""
+"""What is said of a program, from recorded facts: one row for each diagnosis."""
 
 from types import SimpleNamespace
 
 import pytest
 
-from tutorial_check.exercises import chatter, conversation, joy2twist, talking
+from tutorial_check.exercises import chatter, joy2twist, talking
+from tutorial_check.exercises import conversation as c
+from tutorial_check.exercises.dialogue import Conversation, repetition
 from tutorial_check.exercises.driving import CMD_VEL, JOY, PACKAGE, Drive
-from tutorial_check.model import Wrong
+from tutorial_check.python_facts import read_python
+from tutorial_check.rows import find
 
 SCRIPT = "joy2twist.py"
-IN_CALLBACK = """#!/usr/bin/env python3
+ANSWERS = [(0.1 * k, 0.0, 0.0, 0.0, 0.0, 0.5) for k in range(20)]
+ZERO = (0.0,) * 6
+SAMPLES = [((), answer) for answer in ANSWERS]
+PROGRAM = """#!/usr/bin/env python3
 def callback(data):
-    send(Twist())
+    publish(msg)
+    send(msg)
 def send(msg):
     rospy.Publisher("/cmd_vel", Twist, queue_size=1).publish(msg)
+    rospy.sleep(0.5)
+def shutdown(self):
+    pub.publish(Twist())
 rospy.Subscriber("/joy", Joy, callback)
 """
+LOOP = """
+def callback(data):
+    pub.publish(msg)
+rospy.Subscriber("/joy", Joy, callback)
+pub.publish(Twist())
+while not rospy.is_shutdown():
+    pub.publish(Twist())
+"""
+TWO = 2 * 'rospy.Subscriber("/joy", Joy, lambda data: publish(data))\n'
+DEAF = 'rospy.Subscriber("/joy", Joy)\n'
+SILENT = "rospy.Subscriber('/joy', Joy, callback)\ndef callback(data):\n    pass\n"
+LATCHED = "from sensor_msgs.msg import Joy\npub = rospy.Publisher('/cmd_vel', Twist, latch=True)\n"
 
 
-def write(session, package, **texts):
-    """Programs of these texts, which may be run."""
-    for name, text in texts.items():
-        path = session.package(package).folder / f"{name}.py"
-        path.write_text(text)
-        path.chmod(0o755)
+def each(*kinds):
+    """All Twists, if each answer comes with these."""
+    return [twist for answer in ANSWERS for twist in [*kinds, answer]]
 
 
-def test_a_publisher_that_is_made_in_the_callback(make_session):
-    session = make_session(PACKAGE, "4.3")
-    write(session, PACKAGE, joy2twist=IN_CALLBACK)
-    seen = SimpleNamespace(
-        script=SCRIPT,
-        master_alive=True,
-        connected=True,
-        ended_early=False,
-        samples=[],
-        shown=0,
-        publishers={CMD_VEL: ["/node"]},
-        subscribers={JOY: ["/node"]},
-        types={CMD_VEL: "geometry_msgs/Twist"},
-        warnings=[],
-    )
-    note = conversation.check_topics(session, seen)
-    assert note.seen.startswith("the Publisher is made in the callback")
-    assert note.where == "joy2twist.py:5"
+def conversation(text, complaint="", **recorded):
+    """The Conversation with a program of that text, of which this was recorded."""
+    about = {
+        "script": SCRIPT, "samples": SAMPLES, "twists": [], "has_clock": False, "repeats": False,
+        "strays": 0, "naps": False, "waits": [], "master_alive": True, "connected": True,
+        "ended_early": False, "shown": 0, "publishers": {CMD_VEL: ["/node"]}, "came": 0,
+        "subscribers": {JOY: ["/node"]}, "types": {CMD_VEL: "geometry_msgs/Twist"},
+        "warnings": [], "trouble": False, "unanswered": None, "output": "", "rate": "50 for 125",
+        "program": SimpleNamespace(spins=False), "joys": 4 * [((0.1, 0.2, 0.3, 0.4),)],
+        "missing": 0, "unasked": 0, "shows_numbers": False,
+    }  # fmt: skip
+    facts = read_python(text)
+    about["sleep_lines"] = facts.called_back.get("sleep", [])
+    session = SimpleNamespace(scripts=lambda _: {SCRIPT: facts}, text=lambda *_: text)
+    one = Conversation(session, SimpleNamespace(**{**about, **recorded}))
+    one.complaint = complaint
+    return one
 
 
-NODE = "#!/usr/bin/env python3\nrospy.init_node('{}.py')\n"
+JOY_NEEDED = "callback), and at the top: from sensor_msgs.msg import Joy"
 
 
 @pytest.mark.parametrize(
-    "package, names, check, last",
+    "row",
     [
-        (PACKAGE, ["joy2twist"], joy2twist.file, "joy2twist"),
-        (talking.PACKAGE, ["talker", "listener"], chatter.files, "talker"),
+        ("CONNECTED", PROGRAM, {"master_alive": False}, "has ended it", "", ""),
+        ("CONNECTED", PROGRAM.replace("Joy,", "Twist,"), {"connected": False}, "wants Twist",
+         ":10", JOY_NEEDED),
+        ("CONNECTED", DEAF, {"samples": []}, "no callback", ":1", "callback"),
+        ("NOT_CONNECTED", PROGRAM, {"subscribers": {}, "publishers": {JOY: 1},
+         "types": {JOY: "T"}}, "PUBLISHES on /joy (T)", ":10", ""),
+        ("NOT_CONNECTED", PROGRAM, {"subscribers": {"/rosout": 1, "/Joy": 1}},
+         "subscribes to /Joy", ":10", ""),
+        ("NOT_CONNECTED", "", {"subscribers": {}}, "subscribes to nothing", "",
+         "before rospy.spin()"),
+        ("DISPLAYED", PROGRAM, {"shown": 3}, "3 of 20 were displayed", None, ""),
+        ("DISPLAYED", PROGRAM, {"naps": True, "waits": [0.5] * 3}, "0.5 s from one", ":7",
+         "no sleep"),
+        ("DISPLAYED", "rospy.loginfo_throttle(1, x)", {"shows_numbers": True}, "now and then",
+         ":1", "in place"),
+        ("NOT_DISPLAYED", "", {"output": "0.10 0.20"}, "2 of the six values", "", "all six"),
+        ("NOT_DISPLAYED", "rospy.Publisher()\nrospy.logdebug(1)", {}, "level debug", None, ""),
+        ("NOT_DISPLAYED", "print(1)", {}, "not one value", "", "does the callback display"),
+        ("NOT_DISPLAYED", "", {}, "not one value", "", "in the callback, with data.axes"),
+        ("TOPICS", PROGRAM, {"publishers": {JOY: ["/a"]}}, "on /joy itself (/a)", ":6", ""),
+        ("TOPICS", PROGRAM, {"types": {CMD_VEL: "T"}}, "/cmd_vel carries T", ":6", "import Twist"),
+        ("TOPICS", "", {"publishers": {CMD_VEL: ["/a", "/b"]}}, "several do: /a, /b", "", ""),
+        ("TOPICS", PROGRAM, {}, "the Publisher is made in the callback", ":6", "make it once"),
+        ("NO_TOPIC", PROGRAM, {"publishers": {"/cmdvel": 1}}, "publishes on /cmdvel", ":6",
+         "is called /cmd_vel"),
+        ("NO_TOPIC", PROGRAM, {"publishers": {"/cmd_vel_mux/a": 1}}, "_mux/a", ":6", "a <remap>"),
+        ("NO_TOPIC", PROGRAM, {"publishers": {}}, "it publishes nothing", ":6", "publish(msg) in"),
+        ("NO_TOPIC", SILENT, {"publishers": {}}, "there is no rospy.Publisher", "",
+         "publish(msg) in"),
+        ("ANSWERED", LOOP, {"samples": [], "came": 4}, "4 Twists for 20 Joys", ":3",
+         "for every message"),
+        ("ANSWERED", LOOP, {"samples": []}, "no Twist came", ":3", "is publish reached"),
+        ("ANSWERED", SILENT, {"samples": []}, "no Twist came", "", "called in the callback?"),
+        ("ONCE", LOOP, {"strays": 3}, "zeros come between", ":7", "in the callback alone"),
+        ("ONCE", LOOP, {"twists": each(ZERO), "has_clock": True, "complaint": "odd"},
+         "zeros come between", ":7", ""),
+        ("ONCE", LOOP, {"repeats": True}, "by a clock of its own", ":7", "once for every Joy"),
+        ("ONCE", PROGRAM, {"twists": each(ZERO)}, "2 Twists for each Joy, and they differ", ":6",
+         ""),
+        ("ONCE", PROGRAM, {"twists": each(ZERO), "samples": [((), ZERO)] * 20},
+         "the second is zero", ":6", "second publish"),
+        ("RIGHT_RULE", LOOP, {"unanswered": 1, "silence": ("no Twist", "always")}, "no Twist",
+         ":3", "always"),
+        ("RIGHT_RULE", "msg.linear.x = data.buttons[1]", {"complaint": "linear.x is 0"},
+         "linear.x is 0", ":1", "not data.buttons"),
+        ("RIGHT_RULE", TWO, {"twists": sorted(2 * ANSWERS)}, "2 Twists for each Joy", ":2",
+         "one is enough"),
+        ("RIGHT_RULE", LATCHED, {}, "latch=True", None, "leave latch out"),
+        ("RATE", PROGRAM, {}, "50 for 125", ":7", "no sleep"),
+        ("RATE", "rospy.sleep(1)", {}, "50 for 125", "", "takes so long"),
+    ],
+)  # fmt: skip
+def test_diagnosis(row):
+    rows, text, recorded, seen, where, hint = row
+    wrong = find(getattr(c, rows), conversation(text, **recorded), "")
+    assert seen in wrong.seen
+    assert hint in wrong.hint
+    assert wrong.where == ("" if where is None else SCRIPT + where)
+
+
+@pytest.mark.parametrize(
+    ("rows", "text", "recorded"),
+    [
+        ("CONNECTED", PROGRAM, {}),
+        ("CONNECTED", DEAF, {"shown": 3}),
+        ("TOPICS", LATCHED, {}),
+        ("ONCE", LOOP, {"strays": 2}),  # of a machine that stuttered
+        ("ONCE", LOOP, {"twists": each(ZERO), "has_clock": True}),  # before the first Joy
+        ("ONCE", LOOP, {"twists": [ZERO], "has_clock": True, "complaint": "every Twist is zero"}),
+        ("RIGHT_RULE", LOOP, {}),
     ],
 )
-def test_a_node_called_like_its_file(make_session, package, names, check, last):
-    session = make_session(package, "4.3")
-    write(session, package, **{name: NODE.format(name) for name in names})
-    note = check(session)
-    assert (note.where, f"'{last}'" in note.hint) == (f"{last}.py:2", True)
+def test_no_diagnosis(rows, text, recorded):
+    assert find(getattr(c, rows), conversation(text, **recorded)) is None
 
 
-@pytest.mark.parametrize(("sleeps", "where"), [([], SCRIPT), ([7], f"{SCRIPT}:7")])
-def test_a_sleep_is_blamed_only_in_the_callback(sleeps, where):
-    late = {"is_prompt": False, "delay_s": None, "trouble": False, "answered": 50, "sent": 125}
-    seen = SimpleNamespace(script=SCRIPT, sleep_lines=sleeps, **late)
-    with pytest.raises(Wrong) as raised:
-        conversation.check_rate(None, seen)
-    assert (raised.value.where, "no sleep" in raised.value.hint) == (where, bool(sleeps))
+@pytest.mark.parametrize(
+    "twists, expected",
+    [
+        ([], (1, False)),  # there was no second pass
+        (each(), (1, False)),
+        ([*each(), ZERO], (1, False)),  # a late one of before
+        (each(ZERO), (2, True)),
+        (each(ZERO, ZERO), (3, True)),
+        ([twist for answer in ANSWERS for twist in (answer, ZERO)], (2, True)),
+        (sorted(2 * ANSWERS), (2, False)),
+        (sorted(2 * ANSWERS)[1:], (2, False)),  # each of the second ones late
+        (sorted(3 * ANSWERS), (3, False)),
+        ([*each(), *10 * [ZERO]], (1, False)),  # by now and then
+    ],
+)
+def test_repetition(twists, expected):
+    assert repetition(ANSWERS, twists) == expected
 
 
 @pytest.mark.parametrize(("enough", "is_prompt"), [(0.95, False), (0.5, True)])
 def test_of_a_queue_of_one_the_newest_counts(enough, is_prompt):
     seen = {"answered": 90, "sent": 125, "possible": 120, "delay_s": 0.01, "unavoidable_s": 0.0}
     assert Drive.is_prompt.fget(SimpleNamespace(enough=enough, **seen)) == is_prompt
+
+
+@pytest.mark.parametrize(
+    "package, names, check",
+    [
+        (PACKAGE, ["joy2twist"], joy2twist.file),
+        (talking.PACKAGE, ["talker", "listener"], chatter.files),
+    ],
+)
+def test_a_node_called_like_its_file(make_session, package, names, check):
+    session = make_session(package, "4.3")
+    for name in names:
+        path = session.package(package).folder / f"{name}.py"
+        path.write_text(f"#!/usr/bin/env python3\nrospy.init_node('{name}.py')\n")
+        path.chmod(0o755)
+    note = check(session)
+    assert (note.where, f"'{names[0]}'" in note.hint) == (f"{names[0]}.py:2", True)

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from tutorial_check import examination, place
+from tutorial_check import bubblewrap, examination
 from tutorial_check.model import CannotCheck
 
 RESULT = '{"exercise": "2", "result": {"id": "C1", "status": "ok", "title": "one"}}'
@@ -19,7 +19,7 @@ def examine(tmp_path, monkeypatch):
 
     def examined(lines, ending="", tell=lambda outcome, result: None):
         script = "\n".join(["cat >/dev/null", *(f"echo '{line}'" for line in lines), ending])
-        monkeypatch.setattr(place, "command", lambda *_: ["sh", "-c", script])
+        monkeypatch.setattr(bubblewrap, "command", lambda *_: ["sh", "-c", script])
         return examination.examine(tmp_path, tmp_path / "setup.bash", ["2", "3", "5"], tell)
 
     return examined

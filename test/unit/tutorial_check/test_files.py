@@ -2,9 +2,10 @@
 
 import pytest
 
-from tutorial_check.exercises.files import check_file
+from tutorial_check.exercises.files import cause_of, check_file
 from tutorial_check.exercises.joy2twist import check_manifest
 from tutorial_check.model import Wrong
+from tutorial_check.tracebacks import first_traceback
 
 FIRST = "#!/usr/bin/env python3\n"
 PACKAGE, SCRIPT = "joy2twist", "scripts/a.py"
@@ -67,3 +68,31 @@ def test_no_interpreters(session, first):
     write(session, f"#!{first}\n")
     with pytest.raises(Wrong, match="an interpreter that exists"):
         check_file(session, PACKAGE, SCRIPT)
+
+
+FAILED = """Traceback (most recent call last):
+  File "{}/scripts/a.py", line 2, in <module>
+    import axes
+{}
+"""
+
+
+@pytest.mark.parametrize("error", ["ImportError: x", "ModuleNotFoundError: No module named 'a'"])
+@pytest.mark.parametrize(
+    ("cmake", "exit_code", "is_said"),
+    [
+        ("catkin_python_setup()", 1, True),
+        ("catkin_python_setup()", None, True),
+        ("catkin_python_setup()", 0, False),
+        ("catkin_package()", 1, False),
+    ],
+)
+def test_an_import_may_want_what_is_not_built(session, error, cmake, exit_code, is_said):
+    folder = session.package(PACKAGE).folder
+    (folder / "CMakeLists.txt").write_text(cmake)
+    write(session, f"{FIRST}import axes\n")
+    session.memo("built", lambda: (exit_code, ""))
+    trace = first_traceback(FAILED.format(folder, error), str(folder))
+    place, hint = cause_of(session, PACKAGE, "a.py", trace)
+    assert place == f"{SCRIPT}:2"
+    assert ("catkin_make, which may have to make it, fails" in hint) == is_said

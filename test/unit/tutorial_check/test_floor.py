@@ -1,4 +1,4 @@
-"""C1: a devel folder that is whole or not, over this suite or not; names that hide the floor's."""
+"""C1: a devel folder, whole or not, over this suite or not; names that hide the underlay."""
 
 from types import SimpleNamespace
 
@@ -11,7 +11,7 @@ from tutorial_check.workspace import Layout, Package
 
 @pytest.fixture
 def session(tmp_path):
-    """A workspace whose devel folder is still empty, and the floor of this copy of the suite."""
+    """A workspace whose devel folder is still empty, and the underlay of this copy of the suite."""
     for folder in ("ws/src", "ws/devel", "this/lower/devel", "other/lower/devel"):
         (tmp_path / folder).mkdir(parents=True)
     floor = tmp_path / "this/lower/devel/setup.bash"
@@ -62,10 +62,6 @@ def test_not_whole(session, tmp_path, gone):
     assert "not whole" in wrong.value.seen
     assert gone in wrong.value.seen
     assert wrong.value.hint == "in the workspace: rm -r build devel, then catkin_make"
-
-
-def test_never_built(session):
-    assert "never built" in workspace(session).seen
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""What a helper answers too late is not taken for the answer to another question."""
+"""A helper that does not answer is given up, and no late answer is taken for another one."""
 
 import os
 import select
@@ -10,48 +10,43 @@ from tutorial_check.forked import Helper
 from tutorial_check.model import CannotCheck
 
 
-class Waiter:
-    """Answers when it is let."""
-
-    def __init__(self, gate):
-        self._gate = gate
-
-    def wait(self):
-        """Until somebody opens the gate."""
-        with open(self._gate):
-            return "late"
-
-    def alive(self):
-        """Whether it is there."""
-        return True
+@pytest.fixture
+def gate(tmp_path):
+    os.mkfifo(tmp_path / "gate")
+    return tmp_path / "gate"
 
 
-def test_one_that_was_too_late_is_asked_no_more(tmp_path):
-    gate = tmp_path / "gate"
-    os.mkfifo(gate)
-    helper = Helper(lambda: Waiter(gate), {})
-    try:
-        assert helper.call("alive") is True
-        with pytest.raises(CannotCheck, match="hangs in wait"):
-            helper.call("wait", deadline_s=0)
-        with open(gate, "w"):
-            select.select([helper._line], [], [])  # now it has answered
-        with pytest.raises(CannotCheck, match="hangs in wait"):
-            helper.call("alive")
-    finally:
-        helper.end()
+@pytest.fixture
+def helper(gate):
+    """One whose read_text() waits for the gate."""
+    made = Helper(lambda: gate, {})
+    yield made
+    made.end()
 
 
-def test_what_is_asked_in_vain_is_not_waited_for(tmp_path):
-    """As a master that was ended, of which rospy never stops asking."""
-    gate = tmp_path / "gate"
-    os.mkfifo(gate)
-    helper, other = Helper(lambda: Waiter(gate), {}), Helper(lambda: Waiter(gate), {})
+def test_a_late_one_is_asked_no_more(helper, gate):
+    assert helper.call("exists") is True
+    with pytest.raises(CannotCheck, match="hangs in read_text"):
+        helper.call("read_text", deadline_s=0)
+    with open(gate, "w"):
+        pass
+    select.select([helper._line], [], [])  # now it has answered
+    with pytest.raises(CannotCheck, match="hangs in read_text"):
+        helper.call("exists")
+
+
+def test_a_call_in_vain_is_not_waited_for(helper, gate):
+    """As one of a master that was ended, which rospy never stops calling."""
+    other = Helper(lambda: gate, {})
     try:
         assert not other.ended
         os.kill(other.pid, signal.SIGKILL)
-        with pytest.raises(CannotCheck, match="hangs in wait"):
-            helper.call("wait", deadline_s=3600.0, in_vain=lambda: other.ended)
+        with pytest.raises(CannotCheck, match="hangs in read_text"):
+            helper.call("read_text", deadline_s=3600.0, in_vain=lambda: other.ended)
     finally:
-        helper.end()
         other.end()
+
+
+def test_a_fault_of_its_own_is_reported(helper):
+    with pytest.raises(CannotCheck, match="failed in rename: TypeError"):
+        helper.call("rename")

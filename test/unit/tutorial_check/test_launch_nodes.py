@@ -4,7 +4,7 @@ import pytest
 
 from tutorial_check.exercises import launch_nodes
 from tutorial_check.exercises.driving import PACKAGE
-from tutorial_check.exercises.launch_files import BAG
+from tutorial_check.exercises.launch_files import BAG, LaunchFile
 from tutorial_check.model import Wrong
 
 LISTENS = 'rospy.Subscriber("/joy", Joy, callback)\n'
@@ -35,16 +35,24 @@ def session(make_session):
     return session
 
 
-def given(monkeypatch, *nodes):
-    """Let the launch file start these."""
-    monkeypatch.setattr(launch_nodes, "nodes_of", lambda session, name: nodes)
+@pytest.fixture
+def given(session):
+    """given(*nodes, text): the LaunchFile of that text, which starts these."""
+
+    def make(*nodes, text=""):
+        if text:
+            (session.package(PACKAGE).folder / BAG).write_text(text)
+        session.memo("launch facts", dict)[BAG] = {"nodes": nodes}
+        return LaunchFile(session, BAG)
+
+    return make
 
 
 @pytest.mark.parametrize("kind", ["class.py", "joy2twist.py"])
-def test_two_drive(session, monkeypatch, kind):
-    given(monkeypatch, FIRST, node(kind))
+def test_two_drive(given, kind):
+    file = given(FIRST, node(kind))
     with pytest.raises(Wrong, match=f"2, joy2twist.py and {kind}: all would drive") as caught:
-        launch_nodes.check_one_driver(session, BAG)
+        launch_nodes.check_one_driver(file)
     assert caught.value.where == f"{BAG}:3"
 
 
@@ -59,30 +67,28 @@ def test_two_drive(session, monkeypatch, kind):
         node("made_of.cpp"),
     ],
 )
-def test_one_drives(session, monkeypatch, other):
-    given(monkeypatch, FIRST, other)
-    launch_nodes.check_one_driver(session, BAG)
+def test_one_drives(given, other):
+    file = given(FIRST, other)
+    launch_nodes.check_one_driver(file)
 
 
-def test_a_joystick_beside_the_recording(session, monkeypatch):
+def test_a_joystick_beside_the_recording(session, given, monkeypatch):
     recording = {**node("play"), "package": "rosbag", "args": f"{session.source}/joy.bag"}
     joystick = {**node("joy_node"), "package": "joy"}
     monkeypatch.setattr(launch_nodes, "check_recording", lambda *about: None)
     (session.source).mkdir(parents=True, exist_ok=True)
     (session.source / "joy.bag").write_text("")
-    given(monkeypatch, VIEWER, ROBOT, FIRST, recording)
+    given(VIEWER, ROBOT, FIRST, recording)
     launch_nodes.bag_nodes(session)
-    given(monkeypatch, VIEWER, ROBOT, FIRST, recording, joystick)
+    given(VIEWER, ROBOT, FIRST, recording, joystick)
     with pytest.raises(Wrong, match="it starts a joystick, too"):
         launch_nodes.bag_nodes(session)
 
 
 @pytest.mark.parametrize("word", ["-loop", "\u2013loop", "\u2014clock"])
-def test_an_option_with_one_dash(session, monkeypatch, word):
-    (session.package(PACKAGE).folder / BAG).write_text(
-        f'<launch>\n<node args="{word}"/>\n</launch>'
-    )
-    given(monkeypatch, {**node("play"), "package": "rosbag", "args": f"{word} /a.bag"})
+def test_an_option_with_one_dash(session, given, word):
+    text = f'<launch>\n<node args="{word}"/>\n</launch>'
+    given({**node("play"), "package": "rosbag", "args": f"{word} /a.bag"}, text=text)
     with pytest.raises(Wrong, match=f"{word}, which it does not") as caught:
         launch_nodes.bag_of(session)
     assert caught.value.where == f"{BAG}:2"
@@ -97,14 +103,13 @@ def test_an_option_with_one_dash(session, monkeypatch, word):
         ("joy", [], True),
     ],
 )
-def test_where_the_joys_go(session, monkeypatch, to, own, is_right):
+def test_where_the_joys_go(given, to, own, is_right):
     joystick = {**node("joy_node", remaps=[["/joy", to]]), "package": "joy"}
-    given(monkeypatch, node("joy2twist.py", remaps=own), joystick)
-    if is_right:
-        launch_nodes.check_joy(session, BAG, joystick)
-        return
     text = "<launch>\n<remap from='joy' to='/joystick'/>"
-    (session.package(PACKAGE).folder / BAG).write_text(text)
+    file = given(node("joy2twist.py", remaps=own), joystick, text=text)
+    if is_right:
+        launch_nodes.check_joy(file, joystick)
+        return
     with pytest.raises(Wrong, match="joy_node sends them on /joystick") as caught:
-        launch_nodes.check_joy(session, BAG, joystick)
+        launch_nodes.check_joy(file, joystick)
     assert caught.value.where == f"{BAG}:2"

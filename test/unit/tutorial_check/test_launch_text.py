@@ -1,9 +1,15 @@
-"""From a launch file and roslaunch's words to a line and a hint."""
+"""From the text of a launch file, and what roslaunch says of it, to a line and a hint."""
+
+from types import SimpleNamespace
+from xml.parsers import expat
 
 import pytest
 
 from tutorial_check.exercises.launch_text import parse_error, place_of, without_comments
+from tutorial_check.exercises.launch_xml import QUOTES, not_xml, unclosed_node
+from tutorial_check.launch_facts import device_of
 
+NODE = '  <node pkg="rosbag" type="play" name="x" args="--loop a.bag"/>\n'
 TEXT = """<launch>
   <!-- rviz and
        sim.rviz -->
@@ -20,47 +26,31 @@ def test_a_comment_is_no_place():
     assert place_of("a.launch", text, "nothing") == "a.launch"
 
 
+D_IS_MISSING = "[a.launch] requires the 'd' arg to be set"
+NO_FROM = (
+    "Invalid <node> tag: <remap> tag is missing required from/to attributes: <remap"
+    ' name="/cmd_vel" to="/x"/>. Node xml is <node pkg="rviz">'
+)
+
+
 @pytest.mark.parametrize(
     ("old", "new", "error", "word"),
     [
-        ("rbx1_nav", "rbx1 nav", "[find rbx1 nav]", "$(find rbx1_nav)"),
         ('pkg="rviz"', 'pkg="rviz one"', "rviz one", 'pkg="rviz_one"'),
         ("rbx1_nav)", "rbx1_nav", "[Errno 2] No such file", "needs its )"),
-        ("rbx1_nav", "rbx1_nv", "rbx1_nv ROS path [0]=/x", "is rbx1_nav meant?"),
-        ('"rviz"', "“rviz”", "not well-formed (invalid token): line 4, column 12", "curly"),
-        (
-            "$(find",
-            "$(rospack find",
-            "Unknown substitution command [rospack find rbx1_nav]. Valid commands are ['arg']",
-            "$(find rbx1_nav), without rospack",
-        ),
+        ("$(find", "$(rospack find", "Unknown substitution command [rospack find rbx1_nav].",
+         "$(find rbx1_nav), without rospack"),
         ("$(find", "$(finde", "Unknown substitution command [finde rbx1_nav]", "no $(finde ...)"),
         ("-d", "$(arg)", "$(arg var) must specify a variable name [arg]", "<arg name="),
-        ("-d", "$(arg d)", "[a.launch] requires the 'd' arg to be set", 'name="d" default='),
-        (
-            "<node",
-            '<arg name="d"/><node',
-            "[a.launch] requires the 'd' arg to be set",
-            'name="d" default=',
-        ),
-        (
-            ' type="rviz"',
-            "",
-            "<node> tag is missing required attribute: 'type'",
-            "pkg=, type= and name=",
-        ),
-        (
-            "/>",
-            '><remap name="/cmd_vel" to="/x"/></node>',
-            "Invalid <node> tag: <remap> tag is missing required from/to attributes: <remap"
-            ' name="/cmd_vel" to="/x"/>. Node xml is <node pkg="rviz">',
-            '<remap from="',
-        ),
+        ("-d", "$(arg d)", D_IS_MISSING, 'name="d" default='),
+        ("<node", '<arg name="d"/><node', D_IS_MISSING, 'name="d" default='),
+        (' type="rviz"', "", "<node> tag is missing required attribute: 'type'", "pkg=, type= and"),
+        ("/>", '><remap name="/cmd_vel" to="/x"/></node>', NO_FROM, '<remap from="'),
         ("<node", "<include/><node", "'file'", "an include has file="),
         ("-d", "/cmd_vel ", "remap to [/cmd_vel ] is not a valid ROS name", '"/cmd_vel"'),
         ("-d", "/cmd.vel", "remap to [/cmd.vel] is not a valid ROS name", "letters, digits"),
     ],
-)
+)  # fmt: skip
 def test_what_roslaunch_cannot_read(old, new, error, word):
     wrong = parse_error(error, "a.launch", TEXT.replace(old, new))
     assert word in wrong.hint
@@ -86,3 +76,64 @@ def test_a_file_that_is_not_there(tmp_path):
         wrong = parse_error(error, "a.launch", '<launch>\n<include file="simm.launch"/>')
         assert word in wrong.hint
         assert wrong.where == "a.launch:2"
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "words"),
+    [
+        ("", None, "begins with <launch>"),
+        (f"<launch>\n{NODE}", 1, "the <launch> of line 1 is never closed"),
+        (f'<launch>\n{NODE}  <node pkg="x">\n{NODE}</launch>\n', 3,
+         "the <node> of line 3 is never closed: /> at its end, or </node> below"),
+        (f"<launch>\n{NODE}  </node>\n</launch>\n", 3,
+         "</node> closes nothing: open is the <launch>"),
+        ('<launch>\n  <node pkg="x">\n  </nod>\n</launch>\n', 3, "open is the <node> of line 2"),
+        (f"<launch>\n<!--\n{NODE}-->\n</launch>\n", 3, "no --"),
+        (f"<launch>\n<!-- rosbag --->\n{NODE}</launch>\n", 2, "no --"),
+        (f"<launch>\n{NODE}<!-- rosbag\n</launch>\n", 3, "needs its -->"),
+        ('<launch>\n<node pkg="a type="b"/>\n</launch>\n', 2, QUOTES),
+        (f'<launch>\n<node pkg="a" type="b/>\n{NODE}</launch>\n', 2, QUOTES),
+        (f"<launch>\n{NODE}<node pkg=a/>\n</launch>\n", 3, QUOTES),
+        (f'<launch>\n{NODE}<node pkg="a/>\n', 3, QUOTES),
+        ('<launch>\n<node pkg="ä" type="ö>\n</launch>\n', 2, QUOTES),
+        ('<launch>\n<node\xa0pkg="a"/>\n</launch>\n', 2, "came from the PDF"),
+        ("<launch>\n<node pkg=“a”/>\n</launch>\n", 2, "curly quotes"),
+        (f"<launch>\n</launch>\n{NODE}", 3, "before"),
+        ('<launch>\n<node pkg="a"/\n</launch>\n', 2, "> or />"),
+    ],
+)  # fmt: skip
+def test_a_file_that_is_no_xml(text, line, words):
+    with pytest.raises(expat.ExpatError) as raised:
+        expat.ParserCreate().Parse(text.encode(), True)
+    found, hint = not_xml(str(raised.value), text)
+    assert words in hint
+    assert found == line
+
+
+@pytest.mark.parametrize(
+    ("text", "line"),
+    [
+        (f"<launch>\n{NODE}<node>\n<remap/>\n<include/>\n</node></launch>", 3),
+        ("<launch>\n<!-- <node> -->\n<node>\n</node>\n<include/></launch>", None),
+        (f"<launch>\n{NODE}<include/></launch>", None),
+    ],
+)
+def test_a_tag_within_a_node(text, line):
+    assert unclosed_node(text, "include") == line
+
+
+PARAMS = {"/joy_node/dev": SimpleNamespace(value="/dev/input/js2")}
+
+
+@pytest.mark.parametrize(
+    ("args", "params", "device"),
+    [
+        ("_autorepeat_rate:=20 _dev:='/dev/input/js1'", PARAMS, "/dev/input/js1"),
+        ("", PARAMS, "/dev/input/js2"),
+        ("_dev:='/dev/input/js1", {}, ""),
+        (None, {}, ""),
+    ],
+)
+def test_the_device_of_a_joystick(args, params, device):
+    node = SimpleNamespace(args=args, namespace="/", name="joy_node")
+    assert device_of(node, params) == device

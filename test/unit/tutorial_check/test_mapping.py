@@ -2,10 +2,12 @@
 
 import pytest
 
-from tutorial_check.exercises.driving import _delays as delays
-from tutorial_check.mapping import judge
+from tutorial_check.mapping import Evidence
+from tutorial_check.mapping import judge as judge_evidence
 from tutorial_check.probing import (
+    delays,
     judge_probes,
+    low_joys,
     numbered_joys,
     probes,
     silence,
@@ -13,6 +15,10 @@ from tutorial_check.probing import (
 )
 
 AXES = [axes for axes, _ in numbered_joys(20)]
+
+
+def judge(samples, again=(), at_rest=None):
+    return judge_evidence(Evidence(samples, list(again), at_rest))
 
 
 def samples(linear, angular, extra=None):
@@ -42,6 +48,12 @@ def test_no_two_joys_are_alike_and_lb_is_held():
 )
 def test_right(linear, angular):
     assert judge(samples(linear, angular)) == ("", "")
+
+
+@pytest.mark.parametrize("limit", [0.12, 0.22, 0.3])
+def test_a_low_limit_is_right(limit):
+    axes = [*AXES, *(axes for axes, _ in low_joys())]
+    assert judge([(a, (max(-limit, min(limit, a[1])), 0, 0, 0, 0, a[0])) for a in axes]) == ("", "")
 
 
 def test_a_factor_is_a_remark():
@@ -74,7 +86,15 @@ def test_slower_backwards_is_a_remark():
         (lambda a: abs(a[1]), lambda a: a[0], "lost the sign"),
         (lambda a: max(0.0, a[1]), lambda a: a[0], "linear.x is 0 wherever axes[1] is below 0"),
         (lambda a: a[1], lambda a: min(0.0, a[0]), "angular.z is 0 wherever axes[0] is above 0"),
-        (lambda a: max(0.0, a[1]) ** 2, lambda a: a[0], "no constant"),
+        (lambda a: max(0.0, a[1]) ** 2, lambda a: a[0], "linear.x is 0 wherever axes[1] is below"),
+        (lambda a: a[1] ** 2, lambda a: a[0], "lost the sign"),
+        (lambda a: float(int(a[1])), lambda a: float(int(a[0])), "linear.x has whole numbers only"),
+        (lambda a: a[1], lambda a: float(int(a[0])), "angular.z has whole numbers only"),
+        (
+            lambda a: a[1],
+            lambda a: a[0] if a[1] > 0 else -a[0],
+            "angular.z changes sign when axes[1] is",
+        ),
         (lambda a: float(int(3 * a[1])), lambda a: a[0], "whole numbers"),
         (lambda a: a[1] + 0.1, lambda a: a[0], "+ 0.10"),
         (lambda a: a[1] + a[0], lambda a: a[0], "no constant"),
@@ -180,11 +200,10 @@ def test_right_whatever_came_before(convert):
     [
         (lambda my, a, b: (a[1] or my.x, a[0]), "linear.x stays 0.70 when axes[1] is 0.00"),
         (lambda my, a, b: (a[1], a[0] if abs(a[0]) > 0.1 else my.z), "angular.z stays 0.60"),
-        (lambda my, a, b: (my.x + a[1], a[0]), "linear.x"),
         (lambda my, a, b: (a[1], a[0]) if b[4] else (my.x, my.z), "and LB released"),
         (lambda my, a, b: (a[1], a[0]) if a[1] else (0.0, 0.0), "axes[0] alone"),
         (lambda my, a, b: (a[1] if any(a) else float("nan"), a[0]), "linear.x is nan"),
-        (lambda my, a, b: (a[1] * (1 + (my.x > 0.69)), a[0]), "the same Joy gives linear.x"),
+        (lambda my, a, b: (a[1] * (1 + (my.x > 0.69)), a[0]), "linear.x depends on earlier Joys"),
         (
             lambda my, a, b: (a[1] if abs(a[1]) > 0.1 or a[1] == 0 else my.x, a[0]),
             "linear.x stays 0.70 when axes[1] is 0.06",
@@ -193,7 +212,10 @@ def test_right_whatever_came_before(convert):
             lambda my, a, b: (a[1] if abs(a[1] - my.x) > 0.05 else my.x, a[0]),
             "linear.x stays 0.06 when axes[1] is 0.03",
         ),
-        (lambda my, a, b: (a[1] if abs(a[1] - my.x) > 0.2 else my.x, a[0]), "it goes by those"),
+        (
+            lambda my, a, b: (a[1] if abs(a[1] - my.x) > 0.2 else my.x, a[0]),
+            "depends on earlier Joys",
+        ),
         (cruise(0), "linear.x stays 0.70 when axes[1] is 0.00 and buttons[0] pressed"),
         (cruise(5, lets_go=True), "linear.x stays -0.70 when axes[1] is 0.00"),
         (faster(5), "the same Joy gives linear.x = 0.70 and, once buttons[5] was pressed, 0.93"),
@@ -212,7 +234,40 @@ def test_silence_is_named():
     stop = (joys[0][0], (0, 1, 0, 0, 1, *(0,) * 7))
     assert "buttons[1] pressed: the robot drives on" in silence(stop, joys[0])[0]
     assert "LB released" in silence(released, joys[0])[0]
+    again = (joys[1][0], (0,) * 12)
+    assert "LB released" in silence(again, released, (0.3,))[0]
+    assert "only one zero after LB is released" in silence(again, released, (0.0,))[0]
     assert "with axes[1] = 0" in silence(((0.5, *rest[0][1:]), joys[0][1]), joys[0])[0]
+
+
+def twice(convert):
+    """What is said of a program that is asked the same Joys twice, and then one at rest."""
+    program = Converter(convert)
+    first, again = ([(a, program((a, ()))) for a in AXES] for _ in range(2))
+    return judge(again, first, program(((0.0,) * 6, ())))[0]
+
+
+@pytest.mark.parametrize(
+    ("convert", "words"),
+    [
+        (lambda my, a, b: (my.x + a[1], my.z + a[0]), "linear.x depends on earlier Joys: it grows"),
+        (lambda my, a, b: (my.x + 0.1 * a[1], a[0]), "linear.x depends on earlier Joys: it grows"),
+        (lambda my, a, b: (0.8 * my.x + 0.2 * a[1], a[0]), "linear.x depends on earlier Joys: the"),
+        (lambda my, a, b: (a[1], 0.5 * (my.z + a[0])), "angular.z depends on earlier Joys: the"),
+        (lambda my, a, b: (max(0.2, a[1]), a[0]), "linear.x is 0.20 at rest, all axes 0"),
+        (lambda my, a, b: (a[1], max(a[0], -0.1) + 0.3), "angular.z is 0.30 at rest"),
+    ],
+)
+def test_what_a_second_pass_and_rest_show(convert, words):
+    assert words in twice(convert)
+
+
+@pytest.mark.parametrize(
+    ("curves", "words"), [(1, "linear.x is a curve of"), (2, "linear.x and angular.z are curves")]
+)
+def test_curves_in_plain_english(curves, words):
+    _, remark = judge(samples(lambda a: a[1] ** 3, lambda a: a[0] ** 3 if curves == 2 else a[0]))
+    assert remark.startswith(words)
 
 
 def test_the_wrong_field():
@@ -223,6 +278,11 @@ def test_the_wrong_field():
 def test_a_field_too_many():
     complaint, _ = judge(samples(lambda a: a[1], lambda a: a[0], lambda a: a[0]))
     assert complaint == "linear.y follows axes[0]"
+
+
+@pytest.mark.parametrize("count", [1, 2, 3])
+def test_few_samples_are_judged(count):
+    assert judge(samples(lambda a: a[1] + a[0], lambda a: a[0])[:count])[0]
 
 
 def test_one_message_late():

@@ -42,9 +42,6 @@ NO_SOURCE = """CMake Error at beginner_tutorials/CMakeLists.txt:5 (add_executabl
 
   Tried extensions .c .C .c++ .cc .cpp .cxx
 """
-CUT_OFF = """CMake Error at beginner_tutorials/CMakeLists.txt:4:
-  Parse error.  Function missing ending ")".  End of file reached.
-"""
 OF_ALL = """CMake Error at /usr/share/catkin/cmake/catkin_workspace.cmake:100 (message):
   This workspace contains non-catkin packages in it.
 Call Stack (most recent call first):
@@ -58,10 +55,9 @@ Call Stack (most recent call first):
         (OF_CATKIN, "match current PROJECT_NAME 'beginner-tutorials'", 4, "into project()"),
         (NO_SCRIPT, "non-existing file '/ws/src/beginner_tutorials/scripts/taker.py'", 5, "path"),
         (NO_SOURCE, "CMake: Cannot find source file: src/talker.cpp", 5, "path"),
-        (CUT_OFF, "CMake: Parse error. Function missing", 4, "read the first error"),
         (OF_ALL, "CMake: This workspace contains non-catkin packages in it.", None, ""),
     ],
-    ids=["of catkin", "no script", "no source", "cut off", "of all"],
+    ids=["of catkin", "no script", "no source", "of all"],
 )
 def test_an_error_of_cmakes(error, seen, where, hint):
     wrong = build_error(SimpleNamespace(packages=[]), BEFORE + error + AFTER)
@@ -69,11 +65,6 @@ def test_an_error_of_cmakes(error, seen, where, hint):
     assert wrong.where == (f"beginner_tutorials/CMakeLists.txt:{where}" if where else "")
     assert hint in wrong.hint
     assert "Call Stack" not in wrong.seen and "Configuring" not in wrong.seen
-
-
-@pytest.mark.parametrize("output", ["", "all is well", BEFORE])
-def test_no_error_of_cmakes(output):
-    assert build_error(SimpleNamespace(packages=[]), output).where == ""
 
 
 @pytest.fixture
@@ -108,13 +99,6 @@ def test_a_component_that_cannot_be_found(joy2twist):
             "project(joy2twist)\nfind_package(catkin REQUIRED COMPONENTS\n  rospy joystick)\n"
         )
     assert raised.value.where == "joy2twist/CMakeLists.txt:3"
-
-
-def test_no_cmake_file(make_session, monkeypatch):
-    session = make_session("joy2twist", "4.3")
-    monkeypatch.setattr(packages, "_dependencies", lambda *_: session.package("joy2twist"))
-    with pytest.raises(Wrong, match=r"CMakeLists\.txt is missing"):
-        packages.joy2twist(session)
 
 
 def dependencies(session, *lines):

@@ -1,4 +1,4 @@
-"""The programs' clock: it slows down while they stand in line for a processor."""
+"""The programs' clock: it slows down while they wait for a processor."""
 
 import os
 
@@ -11,12 +11,13 @@ MS = 1_000_000  # nanoseconds
 
 
 class Machine:
-    """A clock, and one thread of the checker's and one of a program's."""
+    """A clock, one thread of the checker's and one of a program's."""
 
     def __init__(self):
-        self.now_s = 100.0
+        self.now_s, self.is_ready = 100.0, False
         self.threads = {OURS: [0, 0], THEIRS: [0, 0]}
-        self.is_ready = False
+        self.patience = Patience({OURS}, self.read, self.ready, lambda: self.now_s)
+        self.began_s = self.patience.now()
 
     def read(self):
         return {thread: (thread, *spent) for thread, spent in self.threads.items()}
@@ -24,13 +25,12 @@ class Machine:
     def ready(self, process, thread):
         return self.is_ready and thread == THEIRS
 
-    def clock(self):
-        return self.now_s
-
-    def pass_time(self, passed_s, worked_ms=0, in_line_ms=0, thread=THEIRS):
+    def passes(self, passed_s, worked_ms=0, ready_ms=0, thread=THEIRS):
+        """Let time pass; return the programs' time since the beginning."""
         self.now_s += passed_s
         self.threads[thread][0] += worked_ms * MS
-        self.threads[thread][1] += in_line_ms * MS
+        self.threads[thread][1] += ready_ms * MS
+        return self.patience.now() - self.began_s
 
 
 @pytest.fixture
@@ -38,104 +38,62 @@ def machine():
     return Machine()
 
 
-@pytest.fixture
-def patience(machine):
-    made = Patience({OURS}, machine.read, machine.ready, machine.clock)
-    made.now()
-    return made
+@pytest.mark.parametrize(
+    ("passed", "programs_s", "strained", "hopeless"),
+    [
+        ((1.0, 900, 0), 1.0, False, False),
+        ((1.0, 300, 700), 0.3, True, False),
+        ((1.0, 0, 500, OURS), 0.5, True, False),  # the checker's own waiting counts as well
+        ((10.0, 0, 100_000), 10.0 * SLOWEST, True, True),  # ten threads at once: it never stops
+    ],
+)
+def test_time_without_a_processor_does_not_count(machine, passed, programs_s, strained, hopeless):
+    assert machine.passes(*passed) == pytest.approx(programs_s)
+    assert (machine.patience.strained(), machine.patience.hopeless()) == (strained, hopeless)
 
 
-def test_alone_it_is_the_clock_on_the_wall(machine, patience):
-    began_s = patience.now()
-    machine.pass_time(1.0, worked_ms=900)
-    assert patience.now() - began_s == pytest.approx(1.0)
-    assert not patience.strained()
+@pytest.mark.parametrize(
+    ("first", "then"),
+    [((80.0, 10_000, 0), (3.0, 1_000, 1_500)), ((3.0, 1_000, 1_500), (1.0, 100, 0))],
+)
+def test_a_strain_is_seen_before_and_after_a_calm(machine, first, then):
+    machine.passes(*first)
+    machine.patience.begin()
+    machine.passes(*then)
+    assert machine.patience.strained() and not machine.patience.hopeless()
 
 
-def test_what_was_spent_in_line_does_not_count(machine, patience):
-    began_s = patience.now()
-    machine.pass_time(1.0, worked_ms=300, in_line_ms=700)
-    assert patience.now() - began_s == pytest.approx(0.3)
-    assert patience.strained()
-    assert not patience.hopeless()
-
-
-def test_the_checker_s_own_waiting_counts_as_well(machine, patience):
-    began_s = patience.now()
-    machine.pass_time(1.0, in_line_ms=500, thread=OURS)
-    assert patience.now() - began_s == pytest.approx(0.5)
-
-
-def test_it_never_stands_still(machine, patience):
-    began_s = patience.now()
-    machine.pass_time(10.0, in_line_ms=100_000)  # ten threads at once
-    assert patience.now() - began_s == pytest.approx(10.0 * SLOWEST)
-    assert patience.hopeless()
-
-
-def test_idle_is_who_neither_works_nor_stands_in_line(machine, patience):
-    machine.pass_time(1.0, worked_ms=500)
-    assert patience.idle_s() == pytest.approx(0.0)
-    machine.pass_time(1.0, worked_ms=20)
-    machine.pass_time(1.0, worked_ms=900, thread=OURS)
-    assert patience.idle_s() == pytest.approx(2.0)
-    machine.pass_time(1.0, in_line_ms=500)
-    assert patience.idle_s() == pytest.approx(0.0)
-
-
-def test_what_is_told_late_counts_for_the_time_before(machine, patience):
-    began_s = patience.now()
+def test_a_wait_that_is_counted_late_counts_for_the_time_before(machine):
     for _ in range(4):
-        machine.pass_time(1.0)
-        patience.now()
-    machine.pass_time(1.0, in_line_ms=4000)
-    assert patience.now() - began_s == pytest.approx(1.0)
+        machine.passes(1.0)
+    assert machine.passes(1.0, ready_ms=4000) == pytest.approx(1.0)
 
 
-def test_who_stands_in_line_is_not_idle_though_nothing_is_counted_yet(machine, patience):
+def test_programs_are_idle_that_neither_work_nor_wait_for_a_processor(machine):
+    idle_s = []
+    for passed in ((500,), (20,), (900, 0, OURS), (0, 500)):
+        machine.passes(1.0, *passed)
+        idle_s.append(machine.patience.idle_s())
+    assert idle_s == pytest.approx([0.0, 1.0, 2.0, 0.0])
+
+
+def test_a_ready_program_is_not_idle_but_starved(machine):
     machine.is_ready = True
     for _ in range(5):
-        machine.pass_time(1.0)
-        assert patience.idle_s() == pytest.approx(0.0)
-    assert patience.starved()
-    machine.pass_time(0.1, worked_ms=5)
-    patience.now()
-    assert not patience.starved()
+        machine.passes(1.0)
+        assert machine.patience.idle_s() == pytest.approx(0.0)
+    assert machine.patience.starved()
+    machine.passes(0.1, worked_ms=5)
+    assert not machine.patience.starved()
 
 
-def test_where_nothing_is_counted_nobody_is_idle_and_time_is_time(machine):
-    patience = Patience({OURS}, dict, machine.ready, machine.clock)
-    began_s = patience.now()
-    machine.pass_time(5.0)
-    assert patience.now() - began_s == pytest.approx(5.0)
-    assert patience.idle_s() == 0.0
+def test_where_nothing_is_counted_time_is_time(machine):
+    machine.threads.clear()
+    machine.now_s += 5.0
+    assert machine.patience.now() - machine.began_s == pytest.approx(5.0)
+    assert Patience({OURS}, dict, machine.ready, lambda: machine.now_s).idle_s() == 0.0
 
 
-def test_this_process_is_among_those_seen():
-    assert {process for process, _, _ in times().values()} >= {os.getpid()}
-
-
-def test_one_that_ends_while_it_is_looked_at_is_left_out(tmp_path):
-    (tmp_path / "7").mkdir()  # its threads have gone
-    (tmp_path / "8" / "task" / "81").mkdir(parents=True)  # this one in the very last moment
-    (tmp_path / "9" / "task" / "9").mkdir(parents=True)
-    (tmp_path / "9" / "task" / "9" / "schedstat").write_text("5 6 7\n")
-    (tmp_path / "uptime").write_text("1 2\n")
-    assert times(tmp_path) == {9: (9, 5, 6)}
-
-
-def test_a_short_strain_after_a_long_calm_is_seen(machine, patience):
-    machine.pass_time(80.0, worked_ms=10_000)
-    patience.begin()
-    machine.pass_time(3.0, worked_ms=1_000, in_line_ms=1_500)
-    patience.now()
-    assert patience.strained()
-    assert not patience.hopeless()
-
-
-def test_a_calm_after_a_strain_is_still_strained(machine, patience):
-    machine.pass_time(3.0, worked_ms=1_000, in_line_ms=1_500)
-    patience.begin()
-    machine.pass_time(1.0, worked_ms=100)
-    patience.now()
-    assert patience.strained()
+def test_linux_counts_this_process():
+    process, at_work, _ = times()[os.getpid()]
+    assert process == os.getpid() and at_work > 0

@@ -1,196 +1,177 @@
-"""What a program sees and may do apart, which the system has to grant."""
+"""Users, rights and limits of programs, and how surely they end."""
 
-import ctypes
 import os
-import socket
 import subprocess
 import sys
-import tempfile
+import threading
+import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
-from tutorial_check import place
-from tutorial_check.box import Box
+from tutorial_check import place, running
+from tutorial_check.box import Box, processes
 from tutorial_check.forked import Helper
+from tutorial_check.place import MOST_THREADS, unused_user
 
-isolated = pytest.mark.skipif(not place.granted()[0], reason="no isolation is granted here")
+ENVIRONMENT = {"HOME": "/", "PATH": "/usr/bin:/bin"}
 LOOK = """
-import os, sys
-for path in sys.argv[1:]:
-    try:
-        open(path, "x" if path.endswith("new") else "r+").close()
-        print("written")
-    except IsADirectoryError:
-        print(*sorted(os.listdir(path)))
-    except OSError as error:
-        print(error.strerror)
+import os
+status = dict(line.split(":") for line in open("/proc/self/status"))
+print(status["NoNewPrivs"], status["CapEff"])
+try:
+    os.listdir(f"/proc/{os.getppid()}/fd")
+except PermissionError:
+    print("closed")
 """
-MISSING, READ_ONLY = "No such file or directory", "Read-only file system"
-
-
-@pytest.fixture(params=["/tmp", "/var/tmp"])  # both are empty there
-def home(request):
-    """A home folder with a workspace, a link to it, the suite, and a file that nobody needs."""
-    with tempfile.TemporaryDirectory(dir=request.param) as folder:
-        home = Path(folder) / "home"
-        for path in ("course/ws/file", "suite/common/file", "suite/joy2twist/file", "scratch/file"):
-            (home / path).parent.mkdir(parents=True)
-            (home / path).touch()
-        for path in ("secret", "joy.bag"):
-            (home / path).touch()
-        (home / "link").symlink_to(home / "course" / "ws")
-        home.chmod(0o700)
-        yield home
-
-
-SHOWN = ("link", "joy.bag", "suite/common")
-
-
-def run(home, text, *words, shown=SHOWN):
-    """The lines that a Python program prints apart."""
-    command = place.command(home / "scratch", [home / each for each in shown], home / "suite")
-    done = subprocess.run(
-        [*command, "/usr/bin/python3", "-c", text, *map(str, words)],
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=60,
-    )
-    assert done.returncode == 0, done.stderr
-    return done.stdout.splitlines()
-
-
-@isolated
-@pytest.mark.parametrize("workspace", ["link", "."])
-def test_nothing_is_seen_but_what_is_shown(home, workspace):
-    """Of the suite not its solutions, also where it lies in a folder that is shown."""
-    expected = {
-        "secret": READ_ONLY if workspace == "." else MISSING,
-        "joy.bag": READ_ONLY,
-        f"{workspace}": "course joy.bag link scratch secret suite" if workspace == "." else "file",
-        "course/ws/file": READ_ONLY,
-        "suite": "common",
-        "suite/common/file": READ_ONLY,
-        "suite/new": READ_ONLY,
-        "scratch": "",
-        "scratch/new": "written",
-    }
-    seen = run(home, LOOK, *(home / path for path in expected), shown=[workspace, *SHOWN])
-    assert dict(zip(expected, seen)) == expected
-
-
-@isolated
-def test_nothing_of_the_system_is_left_to_write_to_or_to_speak_to(home):
-    expected = {
-        "/new": READ_ONLY,
-        "/usr/new": READ_ONLY,
-        "/etc/new": READ_ONLY,
-        "/dev/new": READ_ONLY,
-        "/etc/shadow": MISSING,
-        "/run/user": MISSING,
-        "/run/lock": MISSING,
-        "/sys": MISSING,
-        "/tmp/new": "written",
-        "/var/tmp/new": "written",
-        "/dev/shm": "",
-    }
-    assert dict(zip(expected, run(home, LOOK, *expected))) == expected
-    assert not Path("/tmp/new").exists() and not Path("/var/tmp/new").exists()
-
-
-@isolated
-@pytest.mark.parametrize("folder", ["/tmp", "/var/tmp", "/dev/shm", "scratch"])
-def test_what_is_written_is_limited(home, folder, monkeypatch):
-    if not place.granted()[1]:
-        pytest.skip("this bubblewrap is too old to limit it")
-    monkeypatch.setattr(place, "SCRATCH_MB", 64)
-    text = "import os, sys; os.posix_fallocate(os.open(sys.argv[1], os.O_CREAT | 1), 0, 65 << 20)"
-    with pytest.raises(AssertionError, match="No space left on device"):
-        run(home, text, home / folder / "new")
-
-
-@isolated
-def test_it_has_a_network_and_shared_memory_of_its_own(home):
-    text = (
-        "import ctypes, socket, sys\n"
-        "libc = ctypes.CDLL(None)\n"
-        "print(libc.shmget(int(sys.argv[1]), 1, 0))\n"
-        "with socket.create_server(('127.0.0.1', 0)) as own:\n"
-        "    socket.create_connection(own.getsockname()).close()\n"
-        "print(socket.socket().connect_ex(('127.0.0.1', int(sys.argv[2]))))\n"
-    )
-    libc, key, create, remove = ctypes.CDLL(None), 0x5EED0000 + os.getpid() % 65536, 0o1600, 0
-    shared = libc.shmget(key, 4096, create)
+COUNT = """
+import threading
+threading.stack_size(1 << 16)  # so that memory is no limit
+for count in range(100_000):
     try:
-        with socket.create_server(("127.0.0.1", 0)) as server:
-            assert shared >= 0
-            assert run(home, text, key, server.getsockname()[1]) == ["-1", "111"]
-    finally:
-        libc.shmctl(shared, remove, None)
+        threading.Thread(target=threading.Event().wait, daemon=True).start()
+    except RuntimeError:
+        break
+print(count)
+"""
 
 
-@isolated
-def test_what_is_needed_from_another_ones_home_can_be_reached(home):
-    """By the user as whom the programs run, too."""
-    text = (
-        "import os, sys; os.geteuid() or os.setuid(2_000_000); print(os.path.exists(sys.argv[1]))"
-    )
-    assert run(home, text, home / "suite/common/file") == ["True"]
+class Keeper:
+    """A box in a process of its own; first of all that process has so many threads."""
 
-
-class Starter:
-    """A box, and what a program in it prints."""
-
-    def __init__(self, uid):
+    def __init__(self, uid, threads=0, own_uid=None):
+        if own_uid is not None:
+            os.setgroups([])
+            os.setgid(own_uid)
+            os.setuid(own_uid)
+        for _ in range(threads):
+            threading.Thread(target=threading.Event().wait, daemon=True).start()
         place.keep_to_itself()
-        self._box = Box({"HOME": "/"}, uid)
+        place.adopt_orphans()
+        self._box = Box(ENVIRONMENT, uid)
 
     def run(self, *words):
-        """What it prints."""
+        """Return what a program prints."""
         program = self._box.start(words)
         self._box.wait(lambda: program.ended, 60.0)
         self._box.end(program)
         return program.output
 
+    def children(self):
+        """Return (name, state) of each child of this process."""
+        ours = [(pid, state) for pid, state, parent, _ in processes() if parent == os.getpid()]
+        return [(Path(f"/proc/{pid}/comm").read_text().strip(), state) for pid, state in ours]
 
-def test_a_program_neither_reaches_the_result_nor_gains_rights(stranger):
-    """Of any mode: it has no more than its user."""
-    text = (
-        "import os, sys\n"
-        "status = dict(line.split(':') for line in open('/proc/self/status'))\n"
-        "print(status['NoNewPrivs'], status['CapEff'])\n"
-        "try:\n"
-        "    os.listdir(f'/proc/{os.getppid()}/fd')\n"
-        "except PermissionError:\n"
-        "    print('closed')\n"
-    )
-    helper = Helper(lambda: Starter(stranger), {})
-    try:
-        assert helper.call("run", sys.executable, "-c", text).split() == ["1", "0" * 16, "closed"]
-    finally:
+    def left(self, program, state, trusted):
+        """Return what is left of a script that leaves three programs, once these are in a state."""
+        script = f"for each in 1 2 3; do ({program} &); done"
+        self._box.start(["sh", "-c", script], trusted=trusted)
+        child = program.split()[-2], state
+        assert self._box.wait(lambda: self.children().count(child) == 3, 60.0), self.children()
+        self._box.clear()
+        return self.children()
+
+
+@pytest.fixture
+def keep():
+    """keep(uid, ...): a Helper with a Keeper."""
+    helpers = []
+
+    def make(*words):
+        helpers.append(Helper(lambda: Keeper(*words), {}))
+        return helpers[-1]
+
+    yield make
+    for helper in helpers:
         helper.end()
 
 
 @pytest.mark.parametrize(
-    ("granted", "told"),
+    "what",
     [
-        (((), False, "bwrap: refused"), "no isolation here (bwrap: refused): a program "),
-        ((("bwrap",), False, ""), "too old (0.7) to limit"),
-        ((("bwrap",), True, ""), ""),
+        ("env true .", b"Z", False),
+        ("setsid sleep 3600", b"S", False),
+        ("setsid sleep 3600", b"S", True),  # as the nodes of a roslaunch of ours
+        ("env -i setsid sleep 3600", b"S", True),  # with no variable that it was started with
     ],
 )
-def test_what_the_system_does_not_provide_is_told(monkeypatch, granted, told):
-    monkeypatch.setattr(place, "granted", lambda: granted)
-    assert told in "".join(place.lacking())
-    assert bool(place.lacking()) == bool(told)
+def test_of_orphans_none_is_left(keep, stranger, what):
+    assert keep(stranger).call("left", *what) == []
 
 
-@pytest.mark.parametrize("script", ["echo bwrap: No permissions >&2; exit 1", None])
-def test_where_it_does_not_work_it_says_why(monkeypatch, tmp_path, script):
-    if script:
-        (tmp_path / "bwrap").write_text(f"#!/bin/sh\n{script}\n")
-        (tmp_path / "bwrap").chmod(0o755)
-    monkeypatch.setenv("PATH", str(tmp_path) if not script else f"{tmp_path}:/bin")
-    why = "bwrap: No permissions" if script else "bubblewrap is not installed"
-    assert place.granted.__wrapped__() == ((), False, why)
+def test_a_program_neither_reaches_the_result_nor_gains_rights(keep, stranger):
+    """Of any mode: it has no more than its user."""
+    printed = keep(stranger).call("run", sys.executable, "-c", LOOK)
+    assert printed.split() == ["1", "0" * 16, "closed"]
+
+
+def test_a_user_with_many_threads_may_have_more_but_not_without_end(keep, stranger):
+    busy = keep(None, MOST_THREADS + 50, stranger)
+    count = int(busy.call("run", sys.executable, "-c", COUNT))
+    assert MOST_THREADS <= count < 4 * MOST_THREADS
+
+
+@pytest.mark.parametrize(
+    ("uid_map", "lowest", "highest"),
+    [
+        ("         0          0 4294967295\n", 1_000_000, 1_999_999),  # a machine, or plain docker
+        ("", 1_000_000, 1_999_999),  # a kernel that maps no ids
+        ("0 1000 1\n1 100000 65536\n", 32_768, 65_533),  # podman of an ordinary user
+        ("0 231072 65536\n", 32_768, 65_533),  # docker's userns-remap
+    ],
+)
+def test_an_unused_uid_is_one_that_exists(uid_map, lowest, highest):
+    users = [unused_user(number, uid_map) for number in (*range(20), 7_919, 65_537, 419_430_400)]
+    assert lowest <= min(users) and max(users) <= highest
+    assert len(set(users)) > 20
+    assert unused_user(1, "0 1000 1\n1000 1000 1\n") is None
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root can read as another user")
+def test_root_opens_files_with_the_rights_of_the_programs_user(tmp_path, stranger):
+    secret = tmp_path / "secret"
+    secret.write_text("x")
+    secret.chmod(0o600)
+    place.touch_files_as(stranger, stranger)
+    try:
+        with pytest.raises(PermissionError):
+            secret.read_text()
+        with place.own_rights():
+            assert secret.read_text() == "x"
+        with pytest.raises(PermissionError):
+            secret.read_text()
+    finally:
+        place.restore_rights()
+    assert secret.read_text() == "x"
+
+
+def test_a_programs_name_may_be_any_bytes(tmp_path):
+    """Linux cuts it after 15 bytes, perhaps within a letter."""
+    script = tmp_path / ("a" * 14 + "ü")
+    script.write_text("#!/bin/sh\nread line\nexec sleep 3600\n")
+    script.chmod(0o755)
+    with subprocess.Popen([str(script)], stdin=subprocess.PIPE) as process:
+        try:
+            assert process.pid in {pid for pid, *_ in processes()}
+        finally:
+            process.kill()
+
+
+@pytest.mark.parametrize(
+    ("least_s", "is_noted", "was_stopped", "spins"),
+    [
+        (0.0, True, True, True),
+        (0.0, False, True, False),  # nothing has looked yet
+        (3600.0, True, True, False),
+        (0.0, True, False, False),  # it ended by itself
+    ],
+)
+def test_when_a_program_works_without_end(monkeypatch, least_s, is_noted, was_stopped, spins):
+    own_s = time.process_time() / 2 if least_s == 0.0 else time.process_time() + least_s
+    monkeypatch.setattr(running, "SPINNING_S", own_s)
+    program = running.Program(SimpleNamespace(pid=os.getpid()), "this one", 0)
+    program.was_stopped = was_stopped
+    if is_noted:
+        program.note_work()
+    assert program.spins == spins

@@ -1,21 +1,26 @@
-"""What a program says of itself without being run."""
+"""What a program says of itself without being run, and the same program with one thing changed."""
 
 import subprocess
 import sys
 
 import pytest
 
+from tutorial_check.changed_programs import flipped_anonymous, unmasked, without_name
+from tutorial_check.exercises.ending import _late_zero as late_zero
 from tutorial_check.python_facts import read_python
 from tutorial_check.python_text import unreadable
 
+NO_LINE_ENDS = pytest.mark.parametrize("odd", ["\f", "\v", "\x1c", "\x85", "\u2028"])  # of a PDF
 PROGRAM = """
 import rospy
 class Node(object):
     def __init__(self):
         rospy.init_node("a", anonymous=False)
         rospy.Subscriber("/joy", Joy, self.callback)
-    def callback(self, data): pass
+    def callback(self, data): send(data)
 class Odd(Exception): pass
+def send(data):
+    data.pub.publish(1)
 if __name__ == "__main__":
     try:
         Node()
@@ -32,40 +37,40 @@ def test_facts():
     assert facts.classes[0].methods == ["__init__", "callback"]
     assert facts.first("Subscriber").words == ["/joy", "Joy", "self.callback"]
     assert facts.first("init_node").names == {"anonymous": "False"}
+    assert facts.called_back == {"send": [7], "publish": [10]}
     assert facts.has_main
-    assert facts.broad_excepts == [12]
-    assert facts.bare_names == [(14, "rospy.spin")]
+    assert facts.broad_excepts == [14]
+    assert facts.bare_names == [(16, "rospy.spin")]
+    names = read_python("import rospy\ndef f(data):\n    msq = 1\n    msq = 2\n").names
+    assert names == {"rospy": 1, "f": 2, "data": 2, "msq": 3}
 
 
-def test_a_syntax_error_has_its_line():
+def test_what_python_cannot_read():
     facts = read_python("import rospy\nfrom std msgs.msg import String\n")
-    assert facts.error_line == 2
-    assert facts.error_text == "from std msgs.msg import String"
-
-
-def test_null_bytes_are_an_error_and_no_crash():
+    assert (facts.error_line, facts.error_text) == (2, "from std msgs.msg import String")
     assert read_python("a\0b").error
 
 
-@pytest.mark.parametrize("odd", ["\f", "\v", "\x1c", "\x85", "\u2028"])
+def test_a_warning_is_no_error_and_not_shown(recwarn):
+    assert not read_python("x = 1 is 1\ny = '\\d'\n").error
+    assert not recwarn
+
+
+@NO_LINE_ENDS
 def test_what_ends_no_line_for_python(odd):
-    """As text has it that was copied out of a PDF."""
-    assert read_python(f"# {odd}\nfrom std msgs.msg import String").error_text.startswith(
-        "from std"
-    )
+    wrong = read_python(f"# {odd}\nfrom std msgs.msg import String")
+    assert wrong.error_text.startswith("from std")
     assert read_python(f"# {odd}\nif name == ' main ':\n    pass").odd_main[1].startswith("if name")
-
-
-def test_names_have_their_first_line():
-    names = read_python("import rospy\ndef f(data):\n    msq = 1\n    msq = 2\n").names
-    assert names == {"rospy": 1, "f": 2, "data": 2, "msq": 3}
+    text = f"# a page{odd}and the next\r\n{PROGRAM}"
+    assert 'init_node("a", anonymous=True)' in flipped_anonymous(text, True)
+    assert "except ():\n        pass" in unmasked(text)
+    assert without_name(f"{text}from m import Joy", "Joy").endswith("from m import Joy\ndel Joy\n")
 
 
 @pytest.mark.parametrize(
     ("line", "is_odd"),
     [
         ("if __name__ == '__main__':", False),
-        ("if __name__ == ' main ':", True),
         ("if name == ' main ':", True),
         ("if _name_ == '_main_':", True),
         ("name = 'main'\nif name == 'main':", False),
@@ -79,9 +84,7 @@ def test_a_line_of_main_that_is_none(line, is_odd):
 @pytest.mark.parametrize(
     ("data", "line"),
     [
-        ("#!x\n# Jörg\n".encode(), None),
         ("#!x\n\n# Jörg\n".encode("latin-1"), 3),
-        ("# Jörg\n".encode("latin-1"), 1),
         ("# -*- coding: latin-1 -*-\n# Jörg\n".encode("latin-1"), None),
         ("#!x\n# vim: set fileencoding=cp1252 :\n# Jörg\n".encode("latin-1"), None),
         ("\n\n# coding: latin-1\n# Jörg\n".encode("latin-1"), 4),
@@ -97,21 +100,14 @@ def test_the_first_byte_that_is_not_of_the_files_coding(tmp_path, data, line):
     found = unreadable(data)
     assert (found and found[0]) == line
     (tmp_path / "program.py").write_bytes(data)
-    done = subprocess.run(
-        [sys.executable, tmp_path / "program.py"], capture_output=True, check=False
-    )
+    command = [sys.executable, tmp_path / "program.py"]
+    done = subprocess.run(command, capture_output=True, check=False)
     assert (b"SyntaxError" in done.stderr) == (line is not None), done.stderr
-
-
-def test_a_warning_is_no_error_and_not_shown(recwarn):
-    assert not read_python("x = 1 is 1\ny = '\\d'\n").error
-    assert not recwarn
 
 
 @pytest.mark.parametrize(
     "name, odd",
     [
-        ("'joy2twist.py'", (1, "joy2twist.py")),
         ("'joy-node'", (1, "joy-node")),
         ("'joy2twist'", ()),
         ("'a/b'", ()),  # an error
@@ -123,14 +119,46 @@ def test_a_name_of_which_ros_warns(name, odd):
     assert read_python(f"rospy.init_node({name}, anonymous=True)").odd_node == odd
 
 
+@pytest.mark.parametrize(("size", "keeps"), [(", queue_size=1", True), (", queue_size=10", False)])
+def test_a_queue_of_one_keeps_the_newest(size, keeps):
+    assert read_python(f"rospy.Publisher('/cmd_vel', Twist{size})").keeps_newest == keeps
+
+
+@pytest.mark.parametrize(("first", "line"), [("sleep(2)", 4), ("self.pub.publish(Twist())", 0)])
+def test_the_sleep_before_the_zero(first, line):
+    then = "self.pub.publish(Twist())" if line else "sleep(2)"
+    text = f"rospy.on_shutdown(self.stop)\n\ndef stop(self):\n    {first}\n    {then}\n"
+    assert late_zero(read_python(text)) == line
+
+
 @pytest.mark.parametrize(
-    ("text", "keeps"),
+    "handler",
     [
-        ("rospy.Publisher('/cmd_vel', Twist, queue_size=1)", True),
-        ("rospy.Subscriber('/joy', Joy, callback, queue_size=1)", True),
-        ("rospy.Publisher('/cmd_vel', Twist, queue_size=10)", False),
-        ("rospy.Publisher('/cmd_vel', Twist)", False),
+        "\texcept:\n\t\tpass\n",
+        "\texcept: pass\n",
+        "\texcept Exception as error:\n\t\tprint(error)\n",
+        "\texcept:\n\t\tif True:\n\t\t\tpass\n",
     ],
 )
-def test_a_queue_of_one_keeps_the_newest(text, keeps):
-    assert read_python(text).keeps_newest == keeps
+def test_what_an_except_hides_is_shown(handler):
+    with pytest.raises(ZeroDivisionError):
+        exec(unmasked(f"if True:\n\ttry:\n\t\t1 / 0\n{handler}"), {})
+    assert unmasked("x = 1\n") is None
+    assert unmasked("def (") is None
+
+
+def test_flipped_anonymous():
+    assert 'init_node("a", anonymous=True)' in flipped_anonymous(PROGRAM, True)
+    flipped = flipped_anonymous('rospy.init_node("é")\n', True)
+    assert flipped == 'rospy.init_node("é", anonymous=True)\n'
+    assert flipped_anonymous("rospy.init_node(name, anonymous=choice)", True) is None
+    assert flipped_anonymous("x = 1", True) is None
+
+
+def test_without_a_name_it_lacks_what_it_imported():
+    text = "if True:\n    from sensor_msgs.msg import (\n        Joy,\n    )\nprint(Joy)\n"
+    lines = without_name(text, "Joy").splitlines()
+    assert lines[4] == "    del Joy"
+    assert lines[:4] + lines[5:] == text.splitlines()
+    assert without_name("import sensor_msgs.msg\n", "Joy") is None
+    assert without_name("from x import (\n", "Joy") is None

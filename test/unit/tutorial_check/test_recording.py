@@ -36,7 +36,7 @@ def test_none_is_no_mistake(session):
     assert isinstance(recording(session), Note)
 
 
-@pytest.mark.parametrize("name", ["joy2twist/joy.bag", "joy2twist/figure.bag", "joy.bag"])
+@pytest.mark.parametrize("name", ["joy2twist/joy.bag", "joy.bag"])
 @pytest.mark.parametrize("said", [None, CHATTER])
 def test_the_one_of_joy_counts(session, name, said):
     record(session, "beginner_tutorials/chatter.bag", said)

@@ -12,7 +12,7 @@ from tutorial_check import workspace
 from tutorial_check.exercises.driving import displayed
 from tutorial_check.model import CannotCheck
 from tutorial_check.probing import numbered_joys
-from tutorial_check.workspace import hand_in
+from tutorial_check.workspace import copy, find_layout, hand_in, packages_below, unpack
 
 XML = """<package format="2"><name>{}</name><version>0.0.0</version><description>x</description>
 <maintainer email="a@b.example">a</maintainer><license>x</license>
@@ -25,45 +25,54 @@ def package(folder, name="joy2twist"):
     return folder
 
 
+def zipped(archive, files, pack=zipfile.ZIP_STORED):
+    archive.parent.mkdir(exist_ok=True)
+    with zipfile.ZipFile(archive, "w", pack) as opened:
+        for name, text in files.items():
+            opened.writestr(name, text)
+    return archive
+
+
+def copied(folder, tmp_path):
+    return copy(find_layout(folder), tmp_path / "copy")
+
+
 @pytest.mark.parametrize(
     "place", ["src/joy2twist", "joy2twist", "ada/src/joy2twist", "ada/joy2twist"]
 )
-def test_a_workspace_is_found(tmp_path, place):
-    package(tmp_path / place)
-    layout = workspace.find_layout(tmp_path)
-    copied = workspace.copy(layout, tmp_path / "copy")
-    assert [each.name for each in workspace.packages_below(copied)] == ["joy2twist"]
+@pytest.mark.parametrize("hidden", [".git", ".vscode"])
+def test_a_workspace_is_found(tmp_path, place, hidden):
+    package(tmp_path / "ws" / place)
+    (tmp_path / "ws" / hidden).mkdir()
+    found = packages_below(copied(tmp_path / "ws", tmp_path))
+    assert [each.name for each in found] == ["joy2twist"]
+
+
+def test_the_package_itself_or_nothing(tmp_path):
+    package(tmp_path / "joy2twist")
+    assert (copied(tmp_path / "joy2twist", tmp_path) / "joy2twist" / "package.xml").exists()
+    (tmp_path / "ws").mkdir()
+    assert packages_below(copy(find_layout(tmp_path / "ws"), tmp_path / "another")) == []
 
 
 @pytest.mark.parametrize("given", ["suite", "suite/joy2twist", "ws", "ws/src"])
-def test_the_suites_own_solutions_are_nobodys(tmp_path, given):
+def test_the_suites_own_solutions_are_refused(tmp_path, given):
     """Linked into a workspace as well, as those are that the suite builds for itself."""
     package(tmp_path / "suite/joy2twist")
     package(tmp_path / "ws/src/mine")
     (tmp_path / "ws/src/joy2twist").symlink_to(tmp_path / "suite/joy2twist")
-    layout = workspace.find_layout(tmp_path / given)
+    layout = find_layout(tmp_path / given)
     with pytest.raises(CannotCheck, match=r"/joy2twist is this suite's solution, not yours"):
         workspace.must_be_ones_own(layout, tmp_path / "suite")
     workspace.must_be_ones_own(layout, tmp_path / "another_copy")
 
 
-@pytest.mark.parametrize("hidden", [".git", ".github", ".vscode"])
-def test_a_workspace_in_a_repository_is_found(tmp_path, hidden):
-    package(tmp_path / "catkin_ws/src/joy2twist")
-    (tmp_path / hidden).mkdir()
-    assert workspace.find_layout(tmp_path).source == tmp_path / "catkin_ws/src"
-
-
-def zipped(archive, path="ws/src/joy2twist"):
-    archive.parent.mkdir(exist_ok=True)
-    with zipfile.ZipFile(archive, "w") as opened:
-        opened.writestr(f"{path}/package.xml", XML.format("joy2twist"))
-    return archive
+IN_ZIP = {"ws/src/joy2twist/package.xml": XML.format("joy2twist")}
 
 
 @pytest.mark.parametrize("name", ["ada.zip", "Ada_1_file/my_ws.zip", "Ada_1_file/MY WS.ZIP"])
 def test_a_zip_alone_or_in_a_folder_is_handed_in(tmp_path, name):
-    given = archive = zipped(tmp_path / name)
+    given = archive = zipped(tmp_path / name, IN_ZIP)
     if archive.parent != tmp_path:
         (archive.parent / "remark.txt").touch()
         given = archive.parent
@@ -72,34 +81,20 @@ def test_a_zip_alone_or_in_a_folder_is_handed_in(tmp_path, name):
     assert layout.source == tmp_path / "scratch/unpacked/ws/src"
 
 
-@pytest.mark.parametrize("beside", ["second.zip", "src/", "a/b/c/joy2twist/package.xml"])
-def test_a_zip_beside_something_else_is_not_unpacked(tmp_path, beside):
-    folder = zipped(tmp_path / "ada" / "first.zip").parent
-    if beside.endswith("/"):
+@pytest.mark.parametrize("beside", ["second.zip", "src/", "a/b/c/joy2twist/package.xml", "link"])
+def test_a_zip_beside_something_else_or_a_link_to_one_is_not_unpacked(tmp_path, beside):
+    folder = tmp_path / "ada"
+    zipped(folder / "first.zip", IN_ZIP)
+    if beside == "link":
+        (folder / "first.zip").rename(tmp_path / "first.zip")
+        (folder / "first.zip").symlink_to(tmp_path / "first.zip")
+    elif beside.endswith("/"):
         (folder / beside).mkdir()
     else:
         (folder / beside).parent.mkdir(parents=True, exist_ok=True)
         (folder / beside).write_text(XML.format("joy2twist"))
     assert hand_in(folder, tmp_path / "scratch")[0].root == folder
     assert not (tmp_path / "scratch").exists()
-
-
-def test_a_link_to_a_zip_is_not_unpacked(tmp_path):
-    (tmp_path / "ada").mkdir()
-    (tmp_path / "ada" / "ws.zip").symlink_to(zipped(tmp_path / "another.zip"))
-    assert hand_in(tmp_path / "ada", tmp_path / "scratch")[0].root == tmp_path / "ada"
-
-
-def test_the_package_itself(tmp_path):
-    package(tmp_path / "joy2twist")
-    copied = workspace.copy(workspace.find_layout(tmp_path / "joy2twist"), tmp_path / "copy")
-    assert (copied / "joy2twist" / "package.xml").exists()
-
-
-def test_an_empty_folder_has_no_package(tmp_path):
-    (tmp_path / "ws").mkdir()
-    layout = workspace.find_layout(tmp_path / "ws")
-    assert workspace.packages_below(workspace.copy(layout, tmp_path / "copy")) == []
 
 
 def test_what_launch_files_name_by_whole_paths(tmp_path):
@@ -115,15 +110,6 @@ def test_what_launch_files_name_by_whole_paths(tmp_path):
     assert workspace.named_outside(tmp_path / "src") == [str(kept), str(view)]
 
 
-def test_broken_xml_has_a_reason(tmp_path):
-    (package(tmp_path / "src" / "joy2twist") / "package.xml").write_text(
-        "<package><name></package>"
-    )
-    (found,) = workspace.packages_below(tmp_path / "src")
-    assert "mismatched tag" in found.error
-    assert found.malformed
-
-
 @pytest.mark.parametrize(
     ("old", "new", "reason"),
     [
@@ -136,82 +122,59 @@ def test_broken_xml_has_a_reason(tmp_path):
             "condition",
         ),
         ("<license>x</license>", "", "license"),
+        ("</name>", "", "mismatched tag"),
     ],
 )
-def test_xml_that_is_not_catkins_has_a_reason(tmp_path, old, new, reason):
-    file = package(tmp_path / "src" / "mine") / "package.xml"
-    text = XML.format("joy2twist")
-    assert old in text
-    file.write_text(text.replace(old, new))
-    (found,) = workspace.packages_below(tmp_path / "src")
+def test_a_package_xml_that_catkin_cannot_read_has_a_reason(tmp_path, old, new, reason):
+    file = package(tmp_path / "src" / "joy2twist") / "package.xml"
+    assert old in file.read_text()
+    file.write_text(file.read_text().replace(old, new))
+    (found,) = packages_below(tmp_path / "src")
     assert re.search(reason, found.error)
     assert found.name == "joy2twist"
-    assert not found.malformed
+    assert found.malformed == (reason == "mismatched tag")
 
 
-def test_a_link_to_a_folder_above_ends(tmp_path):
-    package(tmp_path / "src" / "joy2twist")
-    (tmp_path / "src" / "joy2twist" / "again").symlink_to(tmp_path / "src")
-    copied = workspace.copy(workspace.find_layout(tmp_path), tmp_path / "copy")
-    assert not (copied / "joy2twist" / "again" / "joy2twist" / "again" / "joy2twist").exists()
-
-
-def test_a_dangling_link_is_left_out(tmp_path):
-    (package(tmp_path / "src" / "joy2twist") / "gone").symlink_to(tmp_path / "nowhere")
-    copied = workspace.copy(workspace.find_layout(tmp_path), tmp_path / "copy")
-    assert (copied / "joy2twist" / "package.xml").exists()
-
-
-def test_a_link_to_itself_is_left_out(tmp_path):
-    (package(tmp_path / "src" / "joy2twist") / "bag").symlink_to("bag")
-    copied = workspace.copy(workspace.find_layout(tmp_path), tmp_path / "copy")
-    assert (copied / "joy2twist" / "package.xml").exists()
-    assert not (copied / "joy2twist" / "bag").is_symlink()
+@pytest.mark.parametrize("target", ["../../src", "nowhere", "link"])
+def test_a_link_to_above_to_nowhere_or_to_itself_ends(tmp_path, target):
+    (package(tmp_path / "src" / "joy2twist") / "link").symlink_to(target)
+    found = copied(tmp_path, tmp_path) / "joy2twist"
+    assert (found / "package.xml").exists()
+    assert not (found / "link" / "joy2twist" / "link" / "joy2twist").exists()
+    assert not (found / "link").is_symlink()
 
 
 @pytest.mark.parametrize("name", ["../evil.txt", "/evil.txt", "a/../../evil.txt", "..\\evil.txt"])
 def test_a_zip_with_a_path_outside(tmp_path, name):
-    with zipfile.ZipFile(tmp_path / "a.zip", "w") as opened:
-        opened.writestr(name, "x")
     with pytest.raises(CannotCheck, match="outside"):
-        workspace.unpack(tmp_path / "a.zip", tmp_path / "out")
+        unpack(zipped(tmp_path / "a.zip", {name: "x"}), tmp_path / "out")
     assert not (tmp_path / "evil.txt").exists()
 
 
 def test_a_zip_of_an_older_powershell(tmp_path):
     """It has backslashes in its paths."""
-    with zipfile.ZipFile(tmp_path / "a.zip", "w") as opened:
-        opened.writestr("ws\\src\\joy2twist\\package.xml", XML.format("joy2twist"))
-        opened.writestr("ws\\src\\joy2twist\\bag\\", "")
-    workspace.unpack(tmp_path / "a.zip", tmp_path / "out")
-    layout = workspace.find_layout(tmp_path / "out")
+    files = {"ws\\src\\joy2twist\\package.xml": XML.format("a"), "ws\\src\\joy2twist\\bag\\": ""}
+    unpack(zipped(tmp_path / "a.zip", files), tmp_path / "out")
+    layout = find_layout(tmp_path / "out")
     assert layout.source == tmp_path / "out/ws/src"
-    assert [each.name for each in workspace.packages_below(layout.source)] == ["joy2twist"]
+    assert [each.name for each in packages_below(layout.source)] == ["a"]
     assert (layout.source / "joy2twist/bag").is_dir()
 
 
-def test_no_zip(tmp_path):
-    (tmp_path / "a.zip").write_text("x")
-    with pytest.raises(CannotCheck, match="cannot be unpacked"):
-        workspace.unpack(tmp_path / "a.zip", tmp_path / "out")
-
-
 def test_rights_survive_a_zip(tmp_path):
-    with zipfile.ZipFile(tmp_path / "a.zip", "w") as opened:
-        for name, mode in (("run.py", 0o755), ("forgotten.py", 0o644)):
-            info = zipfile.ZipInfo(name)
-            info.external_attr = mode << 16
-            opened.writestr(info, "x")
-    workspace.unpack(tmp_path / "a.zip", tmp_path / "out")
-    assert (tmp_path / "out" / "run.py").stat().st_mode & 0o100
-    assert not (tmp_path / "out" / "forgotten.py").stat().st_mode & 0o100
+    files = {"run.py": 0o755, "forgotten.py": 0o644}
+    infos = [zipfile.ZipInfo(name) for name in files]
+    for info in infos:
+        info.external_attr = files[info.filename] << 16
+    unpack(zipped(tmp_path / "a.zip", dict.fromkeys(infos, "x")), tmp_path / "out")
+    assert [(tmp_path / "out" / name).stat().st_mode & 0o100 for name in files] == [0o100, 0]
 
 
 def test_too_large(tmp_path, monkeypatch):
     monkeypatch.setattr(workspace, "MOST_BYTES", 10)
     package(tmp_path / "src" / "joy2twist")
     with pytest.raises(CannotCheck, match="more than"):
-        workspace.copy(workspace.find_layout(tmp_path), tmp_path / "copy")
+        copied(tmp_path, tmp_path)
 
 
 @pytest.mark.parametrize(
@@ -231,31 +194,25 @@ def test_displayed(shape):
 
 
 def test_only_what_lies_right_beside_src_is_beside_it(tmp_path):
-    for folder in ("ws/src/a", "ws/b", "ws/course/anna/c"):
-        (tmp_path / folder).mkdir(parents=True)
-        (tmp_path / folder / "package.xml").write_text(
-            f"<package><name>{folder[-1]}</name></package>"
-        )
-    root = tmp_path / "ws"
-    layout = workspace.Layout(root, root / "src", True)
+    for folder in ("src/a", "b", "course/anna/c"):
+        package(tmp_path / folder)
+    layout = workspace.Layout(tmp_path, tmp_path / "src", True)
     assert [each.inside for each in workspace.packages_beside(layout)] == ["b"]
-    assert workspace.packages_beside(workspace.Layout(root, root, False)) == []
+    assert workspace.packages_beside(workspace.Layout(tmp_path, tmp_path, False)) == []
 
 
 LINKS = {
-    # a link in src/joy2twist, and what it leads to; "sub": the folder above is a link
     "file": "../../../secret",
     "absolute": "{0}/secret",
     "system": "/etc/passwd",
     "another student": "{0}/bob/src/joy2twist",
     "beside": "{0}/ada_too/secret",
-    "to itself": "link",
 }
 
 
 @pytest.mark.parametrize("target", LINKS.values(), ids=LINKS)
 def test_of_others_no_link_leads_out_of_what_they_handed_in(tmp_path, target):
-    """Whatever the rights of the one who checks them."""
+    """Whatever the rights of the user that checks them."""
     package(tmp_path / "bob/src/joy2twist")
     for name in ("secret", "ada_too/secret"):
         (tmp_path / name).parent.mkdir(exist_ok=True)
@@ -264,12 +221,9 @@ def test_of_others_no_link_leads_out_of_what_they_handed_in(tmp_path, target):
     (own / "link").symlink_to(target.format(tmp_path))
     (own / "inside").symlink_to("../../src/joy2twist/package.xml")
     layout, inside = hand_in(tmp_path / "ada", tmp_path / "scratch")
-    copied = workspace.copy(layout, tmp_path / "copy", inside)
-    assert sorted(path.name for path in (copied / "joy2twist").iterdir()) == [
-        "inside",
-        "package.xml",
-    ]
-    assert not (copied / "joy2twist/inside").is_symlink()
+    found = copy(layout, tmp_path / "copy", inside) / "joy2twist"
+    assert sorted(path.name for path in found.iterdir()) == ["inside", "package.xml"]
+    assert not (found / "inside").is_symlink()
 
 
 @pytest.mark.parametrize("link", ["src", "src/joy2twist", "src/joy2twist/scripts"])
@@ -279,22 +233,22 @@ def test_nor_does_a_folder_that_is_a_link(tmp_path, link):
     (tmp_path / "ada" / link).parent.mkdir(parents=True)
     (tmp_path / "ada" / link).symlink_to(tmp_path / "bob" / link)
     layout, inside = hand_in(tmp_path / "ada", tmp_path / "scratch")
-    copied = workspace.copy(layout, tmp_path / "copy", inside)
-    assert not [path for path in copied.rglob("*") if path.is_file()]
-    of_ones_own = workspace.copy(layout, tmp_path / "another")
+    found = copy(layout, tmp_path / "copy", inside)
+    assert not [path for path in found.rglob("*") if path.is_file()]
+    of_ones_own = copy(layout, tmp_path / "another")
     assert list(of_ones_own.rglob("joy2twist.py"))
 
 
 @pytest.mark.parametrize("file", ["package.xml", "scripts/joy2twist.py"])
-def test_what_is_no_file_and_never_ends_is_left_out(tmp_path, file):
+def test_a_pipe_is_left_out(tmp_path, file):
     own = package(tmp_path / "ada/src/joy2twist")
     (own / "scripts").mkdir()
     (own / file).unlink(missing_ok=True)
     os.mkfifo(own / file)
     layout, inside = hand_in(tmp_path / "ada", tmp_path / "scratch")
-    copied = workspace.copy(layout, tmp_path / "copy", inside)
-    assert not (copied / "joy2twist" / file).exists()
-    assert len(workspace.packages_below(layout.root)) == (file != "package.xml")
+    found = copy(layout, tmp_path / "copy", inside)
+    assert not (found / "joy2twist" / file).exists()
+    assert len(packages_below(layout.root)) == (file != "package.xml")
 
 
 @pytest.mark.parametrize("file", ["_setup_util.py", "setup.sh"])
@@ -305,26 +259,24 @@ def test_a_devel_folder_with_a_pipe_is_none(tmp_path, file):
 
 
 def test_rights_of_more_than_its_owner_are_not_copied(tmp_path):
-    """A program of root's that everybody may run as root would be one after the copy, too."""
+    """A setuid program of root's would be one after the copy, too."""
     file = package(tmp_path / "src" / "joy2twist") / "tool"
     file.touch()
     file.chmod(0o4755)
-    copied = workspace.copy(workspace.find_layout(tmp_path), tmp_path / "copy")
-    assert (copied / "joy2twist/tool").stat().st_mode & 0o7777 == 0o755
+    found = copied(tmp_path, tmp_path)
+    assert (found / "joy2twist/tool").stat().st_mode & 0o7777 == 0o755
 
 
 @pytest.mark.parametrize(
     "pack", [zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED, zipfile.ZIP_LZMA, zipfile.ZIP_BZIP2]
 )
 def test_a_zip_with_broken_bytes(tmp_path, pack):
-    archive = tmp_path / "a.zip"
-    with zipfile.ZipFile(archive, "w", pack) as opened:
-        opened.writestr("package.xml", XML * 20)
+    archive = zipped(tmp_path / "a.zip", {"package.xml": XML * 20}, pack)
     data = bytearray(archive.read_bytes())
     data[60:100] = b"\xff" * 40
     archive.write_bytes(data)
     with pytest.raises(CannotCheck, match=r"a\.zip: cannot be unpacked: "):
-        workspace.unpack(archive, tmp_path / "out")
+        unpack(archive, tmp_path / "out")
 
 
 READ = """
@@ -341,4 +293,4 @@ def test_a_launch_file_or_cmakelists_of_any_text_is_read_at_once(tmp_path, text)
     text *= 99_999
     (tmp_path / "a.launch").write_text(text)
     read = [sys.executable, "-c", READ, str(tmp_path)]
-    assert subprocess.check_output(read, input=text, text=True, timeout=30) == "[] None\n"
+    assert subprocess.check_output(read, input=text, text=True, timeout=120) == "[] None\n"

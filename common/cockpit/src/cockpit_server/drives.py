@@ -6,7 +6,7 @@ from cockpit_server.clients import Client, Source
 from cockpit_server.graph import topic_of
 from cockpit_server.seat import BAG
 from gamepad.gamepads import F710
-from node_kit.states import DRIVING
+from node_kit.arming import DRIVING
 
 LOOKS_ONLY = "This page was opened with the address for viewers: it may look, not drive."
 NO_ROBOT = "No robot is running yet. Start one, for example: ./tutorial demo"

@@ -15,8 +15,7 @@ import rosgraph
 import rospy
 
 from cockpit_server.access import Access
-from node_kit.page import PARAMETER, address
-from node_kit.questions import Answer, call
+from node_kit.questions import PARAMETER, Answer, address, call
 from node_kit.start import run
 
 NODE_NAME = "cockpit"

@@ -7,7 +7,7 @@ from genpy import DeserializationError
 
 from cockpit_server.clients import Source
 from cockpit_server.graph import robot_of
-from node_kit.states import DRIVING
+from node_kit.arming import DRIVING
 
 MARK = ": joystick"  # the end of the name of joy2twist's status; before it stands its node's
 SILENT_S = 4.0  # it speaks once a second

@@ -1,5 +1,7 @@
 """What a class of a Python file says of itself. Pure."""
 
+from __future__ import annotations
+
 import ast
 from dataclasses import dataclass, replace
 
@@ -12,16 +14,16 @@ class ClassFacts:
 
     name: str
     line: int
-    methods: list
+    methods: list[str]
     instantiated: bool
     is_node: bool
-    attributes_called: set
-    attributes: set  # that an object has, besides methods
-    bases: set  # but object
+    attributes_called: set[str]
+    attributes: set[str]  # that an object has, besides methods
+    bases: set[str]  # but object
 
 
-def class_facts(node, called):
-    """The ClassFacts of a ClassDef. called: the names of all that the file calls."""
+def class_facts(node: ast.ClassDef, called: set[str]) -> ClassFacts:
+    """Return the ClassFacts of a ClassDef. called: the names of all that the file calls."""
     inside = {text_of(part.func) for part in ast.walk(node) if isinstance(part, ast.Call)}
     words = {name.rsplit(".", 1)[-1] for name in inside}
     bases = {text_of(base) for base in node.bases}
@@ -39,11 +41,11 @@ def class_facts(node, called):
     )
 
 
-def with_bases(classes):
-    """The ClassFacts, each with what the bases among them give it."""
+def with_bases(classes: list[ClassFacts]) -> list[ClassFacts]:
+    """Return the ClassFacts, each with what the bases among them give it."""
     by_name = {one.name: one for one in classes}
 
-    def whole(one, below=()):
+    def whole(one: ClassFacts, below: tuple[str, ...] = ()) -> ClassFacts:
         for base in sorted(one.bases):
             parent = by_name.get(base.rpartition(".")[2])
             if parent is None or parent.name in (one.name, *below):
@@ -62,7 +64,7 @@ def with_bases(classes):
     return [whole(one) for one in classes]
 
 
-def _stored(node):
-    """What is assigned in a class: names as well as attributes."""
+def _stored(node: ast.ClassDef) -> set[str]:
+    """Return what is assigned in a class: names as well as attributes."""
     stored = [part for part in ast.walk(node) if isinstance(getattr(part, "ctx", None), ast.Store)]
     return {getattr(part, "attr", getattr(part, "id", "")) for part in stored}

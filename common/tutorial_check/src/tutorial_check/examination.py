@@ -1,4 +1,6 @@
-"""Starts examine in a place apart and reads what it tells. Knows no ROS."""
+"""Starts examine isolated and reads what it finds. Knows no ROS."""
+
+from __future__ import annotations
 
 import compileall
 import functools
@@ -15,9 +17,11 @@ import threading
 import time
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any, Callable, Iterable
 
-from tutorial_check import place
+from tutorial_check import bubblewrap, place
 from tutorial_check import workspace as workspaces
+from tutorial_check.environment import environment_of
 from tutorial_check.model import CannotCheck, Result, passed
 
 # All exercises take 90 s on two quiet processors, and each check has deadlines of its own, which a busy
@@ -27,7 +31,7 @@ LONGEST_S = 900.0
 # Of a shell of the suite: its roscore.xml, with which each roslaunch starts sooner, and what CMake 4
 # needs to read catkin's files.
 OF_SUITE = ("ROS_ETC_DIR", "CMAKE_POLICY_VERSION_MINIMUM")
-END_S = 10.0  # an examination that nobody listens to has this long to end what it started
+END_S = 10.0  # an examination whose result is not wanted has this long to end what it started
 SUITE = Path(__file__).resolve().parents[4]
 _no_more = threading.Event()
 NUMBERS = itertools.count(os.getpid() * 100)
@@ -38,25 +42,39 @@ class Outcome:
     """What came of one exercise."""
 
     id: str
-    results: list = field(default_factory=list)
+    results: list[Result] = field(default_factory=list)
     seconds: float = 0.0
     done: bool = False
     trouble: str = ""  # why a check could not be made, through no fault of the student's
 
     @property
-    def passed(self):
+    def passed(self) -> bool:
         """Whether it is done, and nothing in it wrong."""
         return self.done and passed(self.results)
 
+    @property
+    def empty(self):
+        """Whether there was nothing to check: nothing is wrong, and nothing done."""
+        return self.passed and bool(self.results) and all(each.empty for each in self.results)
+
+
+Report = Callable[[Outcome, Result], None]
+
 
 def examine(
-    workspace, floor, exercises, tell=lambda outcome, result: None, *, only_first=False, own=True
-):
-    """[Outcome] of a workspace. tell is called with each result as soon as it is there.
+    workspace: str | Path,
+    floor: str | Path,
+    exercises: Iterable[str],
+    tell: Report = lambda outcome, result: None,
+    *,
+    only_first: bool = False,
+    own: bool = True,
+) -> list[Outcome]:
+    """Return the Outcomes of a workspace; call tell with each result as soon as it is there.
 
     floor: setup.bash of the devel space with what students use and never write. only_first: end
     each exercise at the first check that is wrong. own: it is the caller's own workspace, whose
-    links may lead into his home folder.
+    links may lead into the home folder.
     Raises CannotCheck.
     """
     try:
@@ -76,28 +94,34 @@ def examine(
         start_new_session=True,
     )
     try:
-        return _examine(
-            os.path.abspath(workspace),
-            os.path.abspath(floor),
-            exercises,
-            folder,
-            tell=tell,
-            only_first=only_first,
-            own=own,
-        )
+        _compile()
+        layout, shown = _hand_in(os.path.abspath(workspace), Path(folder), own)
+        floor = os.path.abspath(floor)
+        orders = {
+            "layout": [str(layout.root), str(layout.source), layout.is_workspace],
+            "own": own,
+            "floor": floor,
+            "exercises": list(exercises),
+            "folder": folder,
+            "kept": _kept(floor),
+            "number": next(NUMBERS),
+            "only_first": only_first,
+            "environment": _environment(floor),
+        }
+        return _examine(orders, bubblewrap.command(folder, [*shown, *_kept(floor)], SUITE), tell)
     finally:
         shutil.rmtree(folder, ignore_errors=True)
         cleaner.communicate()
 
 
-def end_all():
-    """End the examinations of all threads, and those that are just begun; each raises CannotCheck."""
+def end_all() -> None:
+    """End the examinations of all threads, and those that have just begun; each raises CannotCheck."""
     _no_more.set()
 
 
 @functools.lru_cache(maxsize=None)
-def _environment(floor):
-    """What a shell has that has sourced setup.bash of the floor, and nothing else. Raises CannotCheck."""
+def _environment(floor: str) -> dict[str, str]:
+    """Return what a shell has that has sourced setup.bash, and nothing else. Raises CannotCheck."""
     try:
         done = subprocess.run(
             ["bash", "-c", '. "$1" >/dev/null && env -0', "bash", floor],
@@ -111,118 +135,98 @@ def _environment(floor):
         raise CannotCheck(f"{floor} cannot be sourced: {error}") from None
     if done.returncode != 0:
         raise CannotCheck(f"{floor} cannot be sourced: {done.stderr[-200:]}")
-    found = dict(word.split("=", 1) for word in done.stdout.split("\0") if "=" in word)
-    found.update({name: os.environ[name] for name in OF_SUITE if name in os.environ})
     # rospy loads numpy, which starts a thread for each processor; none is needed here.
-    found["OPENBLAS_NUM_THREADS"] = "1"
-    return {name: found[name] for name in found if name not in ("_", "SHLVL", "PWD", "OLDPWD")}
+    return {
+        **environment_of(done.stdout.split("\0")),
+        **{name: os.environ[name] for name in OF_SUITE if name in os.environ},
+        "OPENBLAS_NUM_THREADS": "1",
+    }
 
 
 @functools.lru_cache(maxsize=None)
-def _compiled():
+def _compile() -> None:
     """Compile our modules once: an examination, which writes nothing, would compile them each time."""
-    compileall.compile_dir(Path(__file__).parent, quiet=2)
+    compileall.compile_dir(str(Path(__file__).parent), quiet=2)
 
 
-def _kept(floor):
-    """Folders that the programs need: the floor, and its sources, this package among them."""
+def _kept(floor: str) -> list[str]:
+    """Return the folders that the programs need: the underlay and its sources, this package among them."""
     devel = Path(floor).parent
     kept = [devel.parent]
     with_sources = devel / ".catkin"
-    if with_sources.is_file():
-        for source in with_sources.read_text().split(";"):
-            kept += (
-                [link.resolve() for link in Path(source).glob("*") if link.is_dir()]
-                if source
-                else []
-            )
+    sources = with_sources.read_text().split(";") if with_sources.is_file() else []
+    for source in filter(None, sources):
+        kept += [link.resolve() for link in Path(source).glob("*") if link.is_dir()]
     return [str(each) for each in kept]
 
 
-def _hand_in(workspace, folder, own):
-    """(Layout, files and folders to show) of a workspace or zip, of which a copy is made. Raises CannotCheck."""
+def _hand_in(workspace: str, folder: Path, own: bool) -> tuple[workspaces.Layout, list[Path]]:
+    """Copy a workspace or zip; return its Layout, and what to show of it. Raises CannotCheck."""
     layout, inside = workspaces.hand_in(workspace, folder)
     workspaces.must_be_ones_own(layout, SUITE)
     copied = workspaces.copy(layout, folder / workspaces.COPY, None if own else inside)
     shown = [inside, folder / workspaces.COPY]
     if own:
-        shown += [layout.source, *workspaces.named_outside(copied)]
+        shown += [layout.source, *map(Path, workspaces.named_outside(copied))]
     # A home folder is no workspace, though one may lie in it.
     home = Path(os.path.expanduser("~")).resolve()
-    return layout, [each for each in shown if Path(each).resolve() not in (home, *home.parents)]
+    return layout, [each for each in shown if each.resolve() not in (home, *home.parents)]
 
 
-def _examine(workspace, floor, exercises, folder, *, tell, only_first, own):
-    _compiled()
-    layout, shown = _hand_in(workspace, Path(folder), own)
-    wrapper = place.command(folder, [*shown, *_kept(floor)], SUITE)
+def _examine(orders: dict[str, Any], wrapper: list[str], tell: Report) -> list[Outcome]:
     if not wrapper:
-        place.keep_to_itself()  # and the end of the pipe
-    orders = {
-        "layout": [layout.root, layout.source, layout.is_workspace],
-        "own": own,
-        "floor": floor,
-        "exercises": list(exercises),
-        "folder": folder,
-        "apart": bool(wrapper),
-        "kept": _kept(floor),
-        "number": next(NUMBERS),
-        "only_first": only_first,
-        "environment": _environment(floor),
-    }
+        place.keep_to_itself()  # and the end of the socket
+    names = ("HOME", "LANG", "TUTORIAL_CHECK_TIMES")
     environment = {
-        **_environment(floor),
-        **{
-            name: os.environ[name]
-            for name in ("HOME", "LANG", "TUTORIAL_CHECK_TIMES")
-            if name in os.environ
-        },
+        **orders["environment"],
+        **{name: os.environ[name] for name in names if name in os.environ},
         "PATH": "/usr/bin:/bin:/usr/sbin:/sbin",
         "PYTHONDONTWRITEBYTECODE": "1",
     }
-    log = tempfile.TemporaryFile("w+")  # noqa: SIM115  read below
     # No pipe, which a path in /proc would open: a program could plant a link to that.
     ours, theirs = socket.socketpair()
-    process = subprocess.Popen(
-        # -s: without what pip put into the home folder, which may be shown nowhere
-        [*wrapper, "/usr/bin/python3", "-s", "-m", "tutorial_check.examine"],
-        stdin=subprocess.PIPE,
-        stdout=theirs,
-        stderr=log,
-        env=environment,
-        start_new_session=True,
-        cwd="/",
-        text=True,
-    )
-    theirs.close()
-    outcomes = {exercise: Outcome(exercise) for exercise in exercises}
-    try:
-        process.stdin.write(json.dumps(orders, default=str))
-        process.stdin.close()
-        ending = _listen(ours, outcomes, tell)
-    finally:
-        ours.close()  # by which it knows
+    outcomes = {exercise: Outcome(exercise) for exercise in orders["exercises"]}
+    with tempfile.TemporaryFile("w+") as log, ours:
+        process = subprocess.Popen(
+            # -s: without what pip put into the home folder, which may be shown nowhere
+            [*wrapper, "/usr/bin/python3", "-s", "-m", "tutorial_check.examine"],
+            stdin=subprocess.PIPE,
+            stdout=theirs.fileno(),
+            stderr=log,
+            env=environment,
+            start_new_session=True,
+            pass_fds=bubblewrap.granted().descriptors if wrapper else (),
+            cwd="/",
+            text=True,
+        )
+        theirs.close()
         try:
-            if not wrapper:
-                process.wait(END_S)
-        except subprocess.TimeoutExpired:
-            pass
+            assert process.stdin
+            json.dump({**orders, "apart": bool(wrapper)}, process.stdin)
+            process.stdin.close()
+            ending = _listen(ours, outcomes, tell)
         finally:
-            process.kill()  # with it all of its namespaces
-            process.wait()
-
+            ours.close()  # so that it ends
+            try:
+                if not wrapper:
+                    process.wait(END_S)
+            except subprocess.TimeoutExpired:
+                pass
+            finally:
+                process.kill()  # with it all of its namespaces
+                process.wait()
+        log.seek(0)
+        logged = log.read()
     if "TUTORIAL_CHECK_TIMES" in os.environ:
-        log.seek(0)
-        print(log.read(), file=sys.stderr)
+        print(logged, file=sys.stderr)
     if ending is None:
-        log.seek(0)
-        last = [line for line in log.read()[-2000:].splitlines() if line.strip()][-1:]
-        ending = {"cannot": f"the examination ended without a result: {''.join(last)}"}
-    return _concluded(list(outcomes.values()), ending.get("cannot", ""))
+        last = [line for line in logged[-2000:].splitlines() if line.strip()][-1:]
+        ending = f"the examination ended without a result: {''.join(last)}"
+    return _concluded(list(outcomes.values()), ending)
 
 
-def _concluded(outcomes, trouble):
-    """The Outcomes, those that were not done with the trouble. Raises CannotCheck if that is all."""
+def _concluded(outcomes: list[Outcome], trouble: str) -> list[Outcome]:
+    """Return the Outcomes, those that were not done with the trouble. Raises CannotCheck if that is all."""
     if trouble and (_no_more.is_set() or not any(outcome.results for outcome in outcomes)):
         raise CannotCheck(trouble)
     for outcome in outcomes:
@@ -231,8 +235,8 @@ def _concluded(outcomes, trouble):
     return outcomes
 
 
-def _listen(line_in, outcomes, tell):
-    """The last word of the examination, or None if it ends without one."""
+def _listen(line_in: socket.socket, outcomes: dict[str, Outcome], tell: Report) -> str | None:
+    """Return why the examination cannot go on, empty at its end; None if it ends without a last word."""
     end = time.monotonic() + LONGEST_S
     buffer = ""
     with selectors.DefaultSelector() as selector:
@@ -246,22 +250,23 @@ def _listen(line_in, outcomes, tell):
             if not data:
                 return None
             *lines, buffer = (buffer + data).split("\n")
-            for line in lines:
-                word = json.loads(line)
+            for word in map(json.loads, lines):
                 if "exercise" not in word:
-                    return word
-                outcome = outcomes.get(word["exercise"])
-                if outcome is None or outcome.done:
-                    continue  # nobody asked, or it was told already
-                if "result" in word:
-                    result = Result(**word["result"])
-                    if result.id not in [each.id for each in outcome.results]:
-                        outcome.results.append(result)
-                        tell(outcome, result)
-                else:
-                    outcome.seconds, outcome.done = word["done"], True
-                    outcome.trouble = word["trouble"]
-    return {
-        "cannot": f"the examination took longer than {LONGEST_S:.0f} s: "
-        "the machine has too much else to do"
-    }
+                    return str(word.get("cannot", ""))
+                _note(word, outcomes, tell)
+    return (
+        f"the examination took longer than {LONGEST_S:.0f} s: the machine has too much else to do"
+    )
+
+
+def _note(word: dict[str, Any], outcomes: dict[str, Outcome], tell: Report) -> None:
+    outcome = outcomes.get(word["exercise"])
+    if outcome is None or outcome.done:
+        return  # it was not asked for, or has ended
+    if "result" not in word:
+        outcome.seconds, outcome.done, outcome.trouble = word["done"], True, word["trouble"]
+        return
+    result = Result(**word["result"])
+    if result.id not in [each.id for each in outcome.results]:
+        outcome.results.append(result)
+        tell(outcome, result)

@@ -1,11 +1,14 @@
-"""The examination itself, in its place apart: python3 -m tutorial_check.examine.
+"""The examination itself, isolated: python3 -m tutorial_check.examine.
 
-Its orders come as JSON on standard input; what it finds goes out as JSON lines through a socket that
-no program of the student's ever has: unlike a pipe, no path in /proc opens it: {"exercise": id, "result": {...}}, {"exercise": id, "done":
+Its orders come as JSON on standard input. What it finds goes out as JSON lines through a socket, which
+unlike a pipe no path in /proc opens: {"exercise": id, "result": {...}}, {"exercise": id, "done":
 seconds, "trouble": why it could not be checked as a whole, or ""}, and at the end {"end": true} or
 {"cannot": "why"}.
 """
 
+from __future__ import annotations
+
+import importlib
 import json
 import os
 import shlex
@@ -15,59 +18,61 @@ import sys
 import time
 import traceback
 from pathlib import Path
+from typing import Any, Callable
 
-from tutorial_check import limits, place, workspace
-from tutorial_check.model import CannotCheck, Run, fault
+from tutorial_check import environment, place, workspace
+from tutorial_check.model import CannotCheck, Result, Run, fault
+
+Send = Callable[..., None]
 
 
-def main():
-    """Read the orders, examine, tell."""
-    os.umask(0o022)  # what we write is read by programs that run as somebody else
+def main() -> None:
+    """Read the orders, examine, send what is found."""
+    os.umask(0o022)  # programs that run as another user read what we write
     place.keep_to_itself()
     orders = json.load(sys.stdin)
     if orders["apart"]:
         place.end_with_parent()  # which is bwrap
         place.limit_shared_memory()
-    else:  # its box notices that the one who reads has ended, and ends what was started
+    else:  # its box notices that the reader has ended, and ends what was started
         signal.signal(signal.SIGTERM, signal.SIG_IGN)
-        place.adopt_orphans()  # in a container nobody else may reap them
-    told = os.fdopen(os.dup(1), "w", buffering=1)
-    os.set_inheritable(told.fileno(), False)
-    os.dup2(2, 1)  # nothing else gets into what is told
+        place.adopt_orphans()  # in a container no other process may reap them
+    line = os.fdopen(os.dup(1), "w", buffering=1)
+    os.set_inheritable(line.fileno(), False)
+    os.dup2(2, 1)  # nothing else gets into the results
 
-    def tell(**what):
-        told.write(json.dumps(what) + "\n")
+    def send(**what: Any) -> None:
+        line.write(json.dumps(what) + "\n")
 
     try:
-        examine(orders, tell, told.fileno())
-        tell(end=True)
+        examine(orders, send, line.fileno())
+        send(end=True)
     except Exception as error:  # whatever it is, it is no fault of the student's
         if not isinstance(error, CannotCheck):
             traceback.print_exc()
-        tell(cannot=fault(error))
-    finally:  # who made the folder may have been killed
-        place.touch_files_as(os.geteuid(), os.getegid())
+        send(cannot=fault(error))
+    finally:  # the process that made the folder may have been killed
+        place.restore_rights()
         shutil.rmtree(orders["folder"], ignore_errors=True)
 
 
-def examine(orders, tell, told):
-    """orders: layout, folder, floor, exercises, apart, only_first ...; told: see Box."""
+def examine(orders: dict[str, Any], send: Send, result: int) -> None:
+    """Examine. orders: layout, folder, floor, exercises, apart, only_first ...; result: see Box."""
     began_s = time.monotonic()
     scratch = Path(orders["folder"])
     root, source, is_workspace = orders["layout"]
     layout = workspace.Layout(Path(root), Path(source), is_workspace)
     shutil.copytree(scratch / workspace.COPY, scratch / "ws" / "src", symlinks=True)
     # Before ROS, which reads the environment as it loads.
-    home = scratch / "ours"
-    home.mkdir(exist_ok=True)
-    os.environ.update(HOME=str(home), ROS_HOME=str(home), ROS_LOG_DIR=str(home), ROS_IP="127.0.0.1")
+    home = str(scratch / "ours")
+    os.environ.update(HOME=home, ROS_HOME=home, ROS_LOG_DIR=home, ROS_IP="127.0.0.1")
     os.environ.pop("ROS_HOSTNAME", None)
 
-    from tutorial_check import box, session, trial  # noqa: PLC0415
+    from tutorial_check import box, session  # noqa: PLC0415
     from tutorial_check.exercises import catalogue  # noqa: PLC0415
 
-    uid = limits.user(orders["number"], _uid_map()) if os.geteuid() == 0 else None
-    session.prepare(scratch, uid)
+    uid = place.unused_user(orders["number"], _uid_map()) if os.geteuid() == 0 else None
+    environment.prepare(scratch, uid)
     scratch.chmod(0o755)
     one = session.Session(
         scratch,
@@ -75,23 +80,46 @@ def examine(orders, tell, told):
         orders["exercises"],
         orders["environment"],
         floor=orders["floor"],
-        make_box=lambda environment: box.Box(environment, uid, orders["apart"], told),
+        make_box=lambda variables: box.Box(variables, uid, orders["apart"], result),
         can_have_devices=orders["apart"],
         needed=[*orders["kept"], Path(__file__)],
     )
-    trial.must_be_possible(one.box, scratch)
-    # Without isolation the suite itself may lie where that user cannot read.
-    if uid is not None and orders["apart"]:
+    one.must_start_programs()
+    run = Run(catalogue(), one, one.second_look, one.box.patience.hopeless)
+    if uid is not None:
+        if not orders["apart"]:  # then the suite may lie where that user cannot read
+            importlib.import_module("rosbag")
+            importlib.import_module("tutorial_check.driver")
         os.setgroups([])
         place.touch_files_as(uid, uid)
-    run = Run(catalogue(), one, one.second_look, one.box.patience.hopeless)
+    as_sent = _paths_of_the_student(scratch, layout, orders["own"])
+    times = {"prepare": round(time.monotonic() - began_s, 2)}
+    try:
+        for exercise in orders["exercises"]:
+            began_s = time.monotonic()
+
+            def tell(found: Result, exercise: str = exercise) -> None:
+                send(exercise=exercise, result=as_sent(found))
+
+            run.exercise(exercise, tell, orders["only_first"])
+            seconds = round(time.monotonic() - began_s, 2)
+            send(exercise=exercise, done=seconds, trouble=run.trouble(exercise))
+    finally:
+        one.box.clear()  # a build, too, is ended; where no namespace is, nothing else does that
+    if "TUTORIAL_CHECK_TIMES" in os.environ:
+        print({**times, **run.seconds}, file=sys.stderr)
+
+
+def _paths_of_the_student(
+    scratch: Path, layout: workspace.Layout, own: bool
+) -> Callable[[Result], dict[str, Any]]:
+    """Return a function that gives a Result as a dict, in which paths of the copy are the student's."""
     copied = f"{scratch}/ws/" if layout.is_workspace else f"{scratch}/ws/src/"
     is_unpacked = scratch in layout.root.parents
     # Commands work in any folder, where the workspace is known.
-    root = "" if is_unpacked or not orders["own"] else f"{shlex.quote(str(layout.root))}/"
+    root = "" if is_unpacked or not own else f"{shlex.quote(str(layout.root))}/"
 
-    def as_told(result):
-        """The result with the paths of the copy as the student knows them."""
+    def as_sent(result: Result) -> dict[str, Any]:
         return {
             name: words.replace(copied, root if name in ("hint", "look") else "")
             if isinstance(words, str)
@@ -99,24 +127,10 @@ def examine(orders, tell, told):
             for name, words in result.as_dict().items()
         }
 
-    times = {"prepare": round(time.monotonic() - began_s, 2)}
-    try:
-        for exercise in orders["exercises"]:
-            began_s = time.monotonic()
-            run.exercise(
-                exercise,
-                lambda result, exercise=exercise: tell(exercise=exercise, result=as_told(result)),
-                orders["only_first"],
-            )
-            seconds = round(time.monotonic() - began_s, 2)
-            tell(exercise=exercise, done=seconds, trouble=run.trouble(exercise))
-    finally:
-        one.box.clear()  # a build, too, is ended; where no namespace is, nothing else does that
-    if "TUTORIAL_CHECK_TIMES" in os.environ:
-        print({**times, **run.seconds}, file=sys.stderr)
+    return as_sent
 
 
-def _uid_map():
+def _uid_map() -> str:
     try:
         return Path("/proc/self/uid_map").read_text()
     except FileNotFoundError:  # a kernel that maps no ids

@@ -1,40 +1,18 @@
 """Trusted helpers in processes of their own, forked from this one so that ROS is loaded once."""
 
+from __future__ import annotations
+
 import contextlib
 import os
-import pickle
-import select
 import signal
-import socket
-import struct
 import sys
 import threading
 import time
+from multiprocessing.connection import Connection, Pipe
+from typing import Any, Callable, Mapping
 
 from tutorial_check import place
 from tutorial_check.model import CannotCheck
-
-
-def _send(descriptor, thing):
-    data = pickle.dumps(thing)
-    os.write(descriptor, struct.pack("!I", len(data)))
-    view = memoryview(data)
-    while view:
-        view = view[os.write(descriptor, view) :]
-
-
-def _receive(descriptor):
-    def exactly(count):
-        data = b""
-        while len(data) < count:
-            part = os.read(descriptor, count - len(data))
-            if not part:
-                raise EOFError
-            data += part
-        return data
-
-    return pickle.loads(exactly(struct.unpack("!I", exactly(4))[0]))
-
 
 ASK_AGAIN_S = 1.0  # whether an answer may still come
 
@@ -42,52 +20,56 @@ ASK_AGAIN_S = 1.0  # whether an answer may still come
 class Helper:
     """An object in a forked process; its methods are called through a socket that only we have.
 
-    Unlike a pipe, none can be opened by a path in /proc, to which a student's program may plant a link.
+    Unlike a pipe, no path in /proc opens it, to which a student's program may plant a link.
     """
 
-    def __init__(self, make, environment):
-        """make(): the object, called in the new process, whose environment is given."""
-        ours, theirs = socket.socketpair()
+    def __init__(self, make: Callable[[], Any], environment: Mapping[str, str]) -> None:
+        """make(): the object, called in the new process, in that environment."""
+        self._line, theirs = Pipe()
+        self._trouble = ""
         self.pid = os.fork()
         if self.pid == 0:
             try:
-                ours.close()
-                place.touch_files_as(os.geteuid(), os.getegid())
-                _serve(make, environment, theirs.fileno())
+                self._line.close()
+                place.restore_rights()
+                _serve(make, environment, theirs)
             finally:
                 os._exit(0)
         theirs.close()
-        self._line = ours
-        self._hangs = ""
 
     @property
-    def ended(self):
-        """Whether its process has ended."""
+    def ended(self) -> bool:
+        """Whether the process has ended."""
         return bool(os.waitid(os.P_PID, self.pid, os.WEXITED | os.WNOHANG | os.WNOWAIT))
 
-    def call(self, method, *arguments, deadline_s=60.0, in_vain=lambda: False):
-        """What the method returns. Raises CannotCheck if the helper fails or hangs, or did so once.
+    def call(
+        self,
+        method: str,
+        *arguments: Any,
+        deadline_s: float = 60.0,
+        in_vain: Callable[[], bool] = lambda: False,
+    ) -> Any:
+        """Return what the method returns. Raises CannotCheck if the helper fails or hangs, or did so once.
 
-        in_vain(): asked when it has not answered for a while; whether it never will.
+        in_vain(): whether it will never answer; asked when it has not for a while.
         """
-        if self._hangs:  # what it answers late would be taken for the answer to this
-            raise CannotCheck(self._hangs)
+        if self._trouble:  # a late answer would be taken for the answer to this call
+            raise CannotCheck(self._trouble)
         try:
-            _send(self._line.fileno(), (method, arguments))
+            self._line.send((method, arguments))
             end = time.monotonic() + deadline_s
-            while not select.select([self._line], [], [], min(deadline_s, ASK_AGAIN_S))[0]:
-                if time.monotonic() < end and not in_vain():
-                    continue
-                self._hangs = f"the checker's own helper hangs in {method}"
-                raise CannotCheck(self._hangs)
-            worked, value = _receive(self._line.fileno())
+            while not self._line.poll(min(deadline_s, ASK_AGAIN_S)):
+                if time.monotonic() >= end or in_vain():
+                    self._trouble = f"the checker's own helper hangs in {method}"
+                    raise CannotCheck(self._trouble)
+            worked, value = self._line.recv()
         except (EOFError, OSError) as error:
             raise CannotCheck(f"the checker's own helper has ended in {method}: {error}") from None
         if not worked:
             raise CannotCheck(f"the checker's own helper failed in {method}: {value}")
         return value
 
-    def end(self):
+    def end(self) -> None:
         """End the process."""
         with contextlib.suppress(ProcessLookupError):
             os.kill(self.pid, signal.SIGKILL)
@@ -95,50 +77,48 @@ class Helper:
         self._line.close()
 
 
-def _serve(make, environment, line):
+def _serve(make: Callable[[], Any], environment: Mapping[str, str], line: Connection) -> None:
     os.setsid()
     nothing = os.open(os.devnull, os.O_RDWR)
     for stream in (0, 1, 2):
         os.dup2(nothing, stream)
-    sys.stdout = open(os.devnull, "w")  # noqa: SIM115  for the life of the process
-    sys.stderr = sys.stdout
+    sys.stdout = sys.stderr = open(os.devnull, "w")  # noqa: SIM115  for the life of the process
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, signal.SIG_IGN)
     os.environ.clear()
     os.environ.update(environment)
-    thing = None
+    served = None
     while True:
         try:
-            method, arguments = _receive(line)
+            method, arguments = line.recv()
         except EOFError:
             return
         try:
-            if thing is None:
-                thing = make()
-            _send(line, (True, getattr(thing, method)(*arguments)))
+            served = served or make()
+            line.send((True, getattr(served, method)(*arguments)))
         except Exception as error:
-            _send(line, (False, f"{type(error).__name__}: {error}"))
+            line.send((False, f"{type(error).__name__}: {error}"))
 
 
 class MasterProcess:
     """A ROS master, in the process of a Helper."""
 
-    def __init__(self, port):
+    def __init__(self, port: int) -> None:
         from rosmaster.master import Master  # noqa: PLC0415  only where a master is wanted
 
         self._master = Master(port)
         self._master.start()
-        threading.Thread(target=self._end_when_told, daemon=True).start()
+        threading.Thread(target=self._end_when_asked, daemon=True).start()
 
-    def _end_when_told(self):
-        """A master that was asked to shut down ends, as rosmaster's own program does."""
+    def _end_when_asked(self) -> None:
+        """End after a request to shut down, as rosmaster's own program does."""
         while self._master.ok():
             time.sleep(0.05)
         os._exit(0)
 
-    def uri(self):
-        """Where it answers; None if it does not come to that."""
+    def uri(self) -> str | None:
+        """Return where it answers; None if it does not start."""
         end = time.monotonic() + 30
         while self._master.uri is None and time.monotonic() < end:
             time.sleep(0.002)
-        return self._master.uri
+        return self._master.uri  # type: ignore[no-any-return]

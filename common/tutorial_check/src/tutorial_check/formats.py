@@ -1,14 +1,18 @@
 """The report as files for other programs. Pure but for the writing."""
 
+from __future__ import annotations
+
 import contextlib
 import json
 import os
 import xml.etree.ElementTree as ET
 from dataclasses import replace
+from pathlib import Path
+from typing import Any, Callable, Mapping, Sequence
 
-from tutorial_check.exercises import EXERCISES
-from tutorial_check.model import NOTE, OK, UNREACHED, WRONG, CannotCheck
-from tutorial_check.report import lines_of
+from tutorial_check.examination import Outcome
+from tutorial_check.model import NOTE, OK, UNREACHED, WRONG, CannotCheck, Result, without_hint
+from tutorial_check.report import heading, lines_of
 
 FIELDS = ("id", "status", "title", "expected", "seen", "where", "hint")
 # What Classroom 50 knows of a submission, in the environment of an autograder, by its name in the result.
@@ -24,74 +28,64 @@ SUBMISSION = {
 }
 
 
-def without_hints(outcomes):
-    """The same without a word on how to mend it."""
-    return [
-        replace(outcome, results=[replace(result, hint="") for result in outcome.results])
+def without_hints(outcomes: Sequence[Outcome]) -> list[Outcome]:
+    """Return the same without a word on how to mend it."""
+    return [replace(one, results=[*map(without_hint, one.results)]) for one in outcomes]
+
+
+def as_json(outcomes: Sequence[Outcome]) -> str:
+    """Return one object with all exercises and checks."""
+
+    def check(result: Result) -> dict[str, Any]:
+        return {name: getattr(result, name) for name in FIELDS}
+
+    exercises = [
+        {
+            "id": outcome.id,
+            "passed": outcome.passed and not outcome.empty,
+            "nothing_to_check": outcome.empty,
+            "trouble": outcome.trouble,
+            "checks": [check(result) for result in outcome.results],
+        }
         for outcome in outcomes
     ]
+    done = sum(outcome.passed and not outcome.empty for outcome in outcomes)
+    return json.dumps({"exercises": exercises, "passed": done, "total": len(outcomes)}, indent=1)
 
 
-def as_json(outcomes):
-    """One object with all exercises and checks."""
-    return json.dumps(
-        {
-            "exercises": [
-                {
-                    "id": outcome.id,
-                    "passed": outcome.passed,
-                    "trouble": outcome.trouble,
-                    "checks": [
-                        {name: getattr(result, name) for name in FIELDS}
-                        for result in outcome.results
-                    ],
-                }
-                for outcome in outcomes
-            ],
-            "passed": sum(outcome.passed for outcome in outcomes),
-            "total": len(outcomes),
-        },
-        indent=1,
-    )
-
-
-def as_junit(outcomes):
-    """JUnit's XML: an exercise is a suite, a check a case; one more, if there is no verdict on it."""
+def as_junit(outcomes: Sequence[Outcome]) -> str:
+    """Return JUnit's XML: an exercise is a suite, a check a case; one more, if there is no verdict."""
     root = ET.Element("testsuites", name="tutorial check")
     for outcome in outcomes:
+        statuses = [result.status for result in outcome.results]
         suite = ET.SubElement(
             root,
             "testsuite",
-            name=f"{outcome.id} {EXERCISES[outcome.id]}",
-            tests=str(len(outcome.results) + bool(outcome.trouble)),
+            name=heading(outcome),
+            tests=str(len(statuses) + bool(outcome.trouble)),
             time=f"{outcome.seconds:.2f}",
-            failures=str(sum(result.status == WRONG for result in outcome.results)),
-            skipped=str(sum(result.status == UNREACHED for result in outcome.results)),
+            failures=str(statuses.count(WRONG)),
+            skipped=str(statuses.count(UNREACHED)),
             errors=str(int(bool(outcome.trouble))),
         )
-        classname = f"exercise {outcome.id}"
+        about = {"classname": f"exercise {outcome.id}"}
         for result in outcome.results:
-            case = ET.SubElement(
-                suite,
-                "testcase",
-                classname=classname,
-                name=f"{result.id} {result.title}",
-            )
-            text = _legal("\n".join(line.strip() for line in lines_of(result)[1:]))
-            if result.status == WRONG:
-                ET.SubElement(case, "failure", message=_legal(result.seen)).text = text
-            elif result.status == UNREACHED:
-                ET.SubElement(case, "skipped", message=_legal(result.seen))
-            elif result.status == NOTE:
-                ET.SubElement(case, "system-out").text = text
+            case = ET.SubElement(suite, "testcase", about, name=f"{result.id} {result.title}")
+            tag = {WRONG: "failure", UNREACHED: "skipped", NOTE: "system-out"}.get(result.status)
+            if tag:
+                message = {} if result.status == NOTE else {"message": _legal(result.seen)}
+                inner = ET.SubElement(case, tag, message)
+                if result.status != UNREACHED:
+                    lines = [line.strip() for line in lines_of(result)[1:]]
+                    inner.text = _legal("\n".join(lines))
         if outcome.trouble:
-            case = ET.SubElement(suite, "testcase", classname=classname, name="no verdict")
+            case = ET.SubElement(suite, "testcase", about, name="no verdict")
             ET.SubElement(case, "error", message=_legal(outcome.trouble))
     return ET.tostring(root, encoding="unicode", xml_declaration=True) + "\n"
 
 
-def _legal(text):
-    """Without the characters that XML forbids; a program may print anything."""
+def _legal(text: str) -> str:
+    """Return a text without the characters that XML forbids; a program may print anything."""
     return "".join(
         each
         for each in text
@@ -99,12 +93,12 @@ def _legal(text):
     )
 
 
-def as_gradescope(outcomes):
-    """Gradescope's results.json: one point a check; on top, on which exercises there is no verdict."""
+def as_gradescope(outcomes: Sequence[Outcome]) -> str:
+    """Return Gradescope's results.json: one point a check; on top, on what there is no verdict."""
     tests = [
         {
             "name": f"{outcome.id} {result.id}: {result.title}",
-            "score": 1.0 if result.status in (OK, NOTE) else 0.0,
+            "score": float(result.status in (OK, NOTE)),
             "max_score": 1.0,
             "output": "\n".join(line.strip() for line in lines_of(result)),
             "visibility": "visible",
@@ -112,21 +106,23 @@ def as_gradescope(outcomes):
         for outcome in outcomes
         for result in outcome.results
     ]
-    told = {"tests": tests, "execution_time": round(sum(each.seconds for each in outcomes), 1)}
-    troubles = [outcome for outcome in outcomes if outcome.trouble]
-    if troubles:
-        told["output"] = "\n".join(
-            f"no verdict on exercise {one.id}, through no fault of yours: {one.trouble}"
-            for one in troubles
-        )
-    return json.dumps(told, indent=1)
+    seconds = round(sum(each.seconds for each in outcomes), 1)
+    whole: dict[str, Any] = {"tests": tests, "execution_time": seconds}
+    remarks = [
+        f"no verdict on exercise {one.id}, through no fault of yours: {one.trouble}"
+        for one in outcomes
+        if one.trouble
+    ]
+    if remarks:
+        whole["output"] = "\n".join(remarks)
+    return json.dumps(whole, indent=1)
 
 
-def as_classroom(outcomes, environment=os.environ):
-    """Classroom 50's result: one point an exercise. environment: where it names the submission."""
+def as_classroom(outcomes: Sequence[Outcome], environment: Mapping[str, str] = os.environ) -> str:
+    """Return Classroom 50's result: one point an exercise. environment: it names the submission."""
     tests = [
         {
-            "test-name": f"{outcome.id} {EXERCISES[outcome.id]}",
+            "test-name": heading(outcome),
             "passed": outcome.passed,
             "score": int(outcome.passed),
             "max-score": 1,
@@ -138,19 +134,12 @@ def as_classroom(outcomes, environment=os.environ):
     }
     if "commit" in about:
         about.setdefault("review", about["commit"])
-    return json.dumps(
-        {
-            "schema": "classroom50/result/v1",
-            **about,
-            "score": sum(outcome.passed for outcome in outcomes),
-            "max-score": len(outcomes),
-            "tests": tests,
-        },
-        indent=1,
-    )
+    score = {"score": sum(outcome.passed for outcome in outcomes), "max-score": len(outcomes)}
+    result = {"schema": "classroom50/result/v1", **about, **score, "tests": tests}
+    return json.dumps(result, indent=1)
 
 
-FORMATS = {
+FORMATS: dict[str, Callable[[Sequence[Outcome]], str]] = {
     "json": as_json,
     "junit": as_junit,
     "gradescope": as_gradescope,
@@ -158,10 +147,10 @@ FORMATS = {
 }
 
 
-def clear(path):
-    """Remove what was written there earlier, so that nobody takes it for today's. Raises CannotCheck.
+def clear(path: str | Path) -> None:
+    """Remove a file of an earlier check. Raises CannotCheck if none can be written there.
 
-    What is no file, as a pipe, is left alone; so is a place where files can be written, not removed.
+    Leave alone what is no file, as a pipe, and what may be written, not removed.
     """
     if os.path.isfile(path) or os.path.isdir(path) or not os.path.exists(path):
         write(path, "")
@@ -169,8 +158,8 @@ def clear(path):
             os.unlink(os.path.realpath(path))
 
 
-def write(path, text):
-    """Write a file; a name in it that is no UTF-8, as Python shows such a name. Raises CannotCheck."""
+def write(path: str | Path, text: str) -> None:
+    """Write a file; a name in it that is no UTF-8 as Python shows such a name. Raises CannotCheck."""
     try:
         with open(path, "w", encoding="utf-8", errors="backslashreplace", newline="") as file:
             file.write(text)

@@ -1,7 +1,14 @@
-"""Which rule turns these joysticks into these velocities? Pure."""
+"""Which rule turns these Joys into these Twists? One row for each mistake that is known. Pure."""
+
+from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Iterable, Sequence, Tuple
+
+from tutorial_check.rows import Row, find
+
+Sample = Tuple[Sequence[float], Sequence[float]]  # (axes, six values of the Twist)
 
 FIELDS = ("linear.x", "linear.y", "linear.z", "angular.x", "angular.y", "angular.z")
 LINEAR, ANGULAR = 0, 5  # the two fields that a robot in the plane obeys
@@ -18,32 +25,41 @@ class Rule:
     factor: float
 
 
-def factor_of(values, inputs):
-    """The constant of proportion, or None. Zeros (dead zone) and a limit may be among the values."""
+def is_near(one: float, other: float) -> bool:
+    """Return whether two values are the same, as far as a message or a rounding goes."""
+    return abs(one - other) <= SMALL + 0.01 * abs(other)
+
+
+def factor_of(values: Sequence[float], inputs: Sequence[float]) -> float | None:
+    """Return the constant of proportion, or None. Zeros (dead zone) and a limit may be among the values."""
     pairs = [(value, given) for value, given in zip(values, inputs) if abs(given) > SMALL]
     moving = [(value, given) for value, given in pairs if abs(value) > SMALL]
-    ratios = sorted(value / given for value, given in moving)
+    ratios = sorted((value / given for value, given in moving), key=abs)
     if len(ratios) < max(2, 0.5 * len(pairs)):
         return None
-    factor = ratios[len(ratios) // 2]
     limit = max(abs(value) for value, _ in pairs)
     dead_zone = min(abs(given) for _, given in moving)
-    fits = limited = 0
-    for value, given in pairs:
-        if abs(value - factor * given) <= 0.02 * abs(factor * given) + SMALL:
-            fits += 1
-        elif (abs(value) <= SMALL and abs(given) < dead_zone) or (
-            abs(abs(value) - limit) < SMALL
-            and value * factor * given > 0
-            and limit < abs(factor * given)
-        ):
-            limited += 1
-    return factor if fits + limited == len(pairs) and fits >= 0.5 * len(pairs) else None
+    # Beyond a limit the ratio is less than the factor.
+    for factor, enough in ((sorted(ratios)[len(ratios) // 2], 0.5 * len(pairs)), (ratios[-1], 3)):
+        fits = limited = 0
+        for value, given in pairs:
+            wanted = factor * given
+            if abs(value - wanted) <= 0.02 * abs(wanted) + SMALL:
+                fits += 1
+            elif abs(value) <= SMALL:
+                limited += abs(given) < dead_zone
+            else:
+                at_limit = abs(abs(value) - limit) < SMALL and limit < abs(wanted)
+                limited += at_limit and value * wanted > 0
+        if fits + limited == len(pairs) and fits >= enough:
+            return factor
+    return None
 
 
-def rule_of(field, samples):
-    """The Rule that a field follows, or None. samples: [(axes, six values)]."""
-    values = [twist[field] for _, twist in samples]
+def rule_of(index: int, samples: Iterable[Sample]) -> Rule | None:
+    """Return the Rule that a field follows, or None."""
+    samples = list(samples)
+    values = [twist[index] for _, twist in samples]
     for axis in range(AXES):
         factor = factor_of(values, [axes[axis] for axes, _ in samples])
         if factor is not None:
@@ -51,140 +67,224 @@ def rule_of(field, samples):
     return None
 
 
-def is_monotone(field, axis, samples):
-    """Whether the field grows with the axis and has its sign: a curve, as for a dead zone."""
-    pairs = sorted((axes[axis], twist[field]) for axes, twist in samples)
-    rises = all(b[1] >= a[1] - SMALL for a, b in zip(pairs, pairs[1:]))
-    signs = all(value * given >= -SMALL for given, value in pairs)
-    return rises and signs and min(pairs[-1][1], -pairs[0][1]) > 0.05
+@dataclass
+class Evidence:
+    """What a program answered; `again` to the same Joys sent earlier, `at_rest` to one with all axes 0."""
+
+    samples: list[Sample]
+    again: list[Sample] = field(default_factory=list)
+    at_rest: Sequence[float] | None = None
+
+    def __post_init__(self) -> None:
+        """Find the rules."""
+        self.rules = {index: rule_of(index, self.samples) for index in range(6)}
+        self.moving = [
+            index
+            for index in range(6)
+            if any(abs(twist[index]) > SMALL for _, twist in self.samples)
+        ]
+        self.fields = [Field(self, index, axis) for index, axis in RIGHT.items()]
+
+    @property
+    def extra(self) -> str:
+        """Return what is said of a field that should stay 0; empty if all do."""
+        index = next((each for each in self.moving if each not in RIGHT), None)
+        if index is None:
+            return ""
+        rule = self.rules[index]
+        return f"{FIELDS[index]} follows axes[{rule.axis}]" if rule else f"{FIELDS[index]} is not 0"
 
 
-def judge(samples):
-    """(complaint, hint) about samples [(axes, six values)], each empty if there is none.
+class Field:
+    """One field of the Twists, beside the axis that it should follow."""
 
-    A complaint without a hint does not occur; a hint without a complaint is a remark.
-    """
-    odd = no_number(samples)
-    if odd:
-        return odd
-    rules = {field: rule_of(field, samples) for field in range(6)}
-    moving = [field for field in range(6) if any(abs(twist[field]) > SMALL for _, twist in samples)]
-    if not moving:
-        return (
-            "every Twist is zero",
-            "are linear.x and angular.z of the message that is published set from data.axes?",
+    def __init__(self, evidence: Evidence, index: int, axis: int) -> None:
+        self.name, self.axis, self.across_axis = FIELDS[index], axis, 1 - axis
+        self.values = [twist[index] for _, twist in evidence.samples]
+        self.given = [axes[axis] for axes, _ in evidence.samples]
+        self.across = [axes[1 - axis] for axes, _ in evidence.samples]
+        self.rule = evidence.rules[index]
+        self.is_right = bool(self.rule and self.rule.axis == axis and self.rule.factor > 0)
+        self.is_still = index not in evidence.moving
+        other = evidence.rules[ANGULAR if index == LINEAR else LINEAR]
+        self.is_swapped = bool(
+            self.rule and other and (self.rule.axis, other.axis) == (1 - axis, axis)
         )
-    for field, axis in RIGHT.items():
-        rule = rules[field]
-        other = ANGULAR if field == LINEAR else LINEAR
-        if rule and rule.axis == axis and rule.factor > 0:
-            continue
-        if rule and rule.axis == axis:
-            way = "backwards" if field == LINEAR else "right"
-            return (
-                f"{FIELDS[field]} = {rule.factor:.2f} * axes[{axis}]: the sign is wrong",
-                f"pushed {'forwards' if field == LINEAR else 'left'}, the robot goes {way}: leave the minus out",
-            )
-        if rule and rules[other] and rule.axis == RIGHT[other] and rules[other].axis == axis:
-            return (
-                "angular.z follows axes[1] and linear.x axes[0]: they are swapped",
-                "linear.x = axes[1] (forwards), angular.z = axes[0] (left)",
-            )
-        if rule:
-            return (
-                f"{FIELDS[field]} follows axes[{rule.axis}]",
-                f"{FIELDS[field]} = axes[{axis}]",
-            )
-        misplaced = next(
-            (f for f in moving if f not in RIGHT and rules[f] and rules[f].axis == axis), None
+        self.misplaced = next(
+            (
+                FIELDS[each]
+                for each in evidence.moving
+                if each not in RIGHT and (rule := evidence.rules[each]) and rule.axis == axis
+            ),
+            "",
         )
-        if field not in moving and misplaced is not None:
-            return (
-                f"{FIELDS[misplaced]} follows axes[{axis}], {FIELDS[field]} stays 0",
-                "a robot in the plane drives along x and turns about z: linear.x and angular.z",
-            )
-        if field not in moving:
-            return (f"{FIELDS[field]} is always 0", f"{FIELDS[field]} = axes[{axis}]")
-        complaint = _explain_odd(field, axis, samples)
-        if complaint:
-            return complaint
-    extra = [field for field in moving if field not in RIGHT]
-    if extra:
-        rule = rules[extra[0]]
-        what = (
-            f"{FIELDS[extra[0]]} follows axes[{rule.axis}]"
-            if rule
-            else f"{FIELDS[extra[0]]} is not 0"
+        self.at_rest = evidence.at_rest[index] if evidence.at_rest else 0.0
+        earlier = {tuple(axes): twist[index] for axes, twist in evidence.again}
+        self.other_answer = next(
+            (
+                (earlier[tuple(axes)], value)
+                for (axes, _), value in zip(evidence.samples, self.values)
+                if tuple(axes) in earlier and not is_near(earlier[tuple(axes)], value)
+            ),
+            None,
         )
-        return what, "only linear.x and angular.z move a robot in the plane; leave the others 0"
-    curves = [FIELDS[field] for field in RIGHT if rules[field] is None]
-    if curves:
-        return "", f"{' and '.join(curves)} is a curve of its axis, not a constant times it"
-    scaled = [
-        f"{FIELDS[field]} = {rules[field].factor:.2f} * axes[{axis}]"
-        for field, axis in RIGHT.items()
-        if abs(rules[field].factor - 1) > 0.02
-    ]
-    return "", f"{', '.join(scaled)}; the handout's has no factor" if scaled else ""
 
+    @property
+    def sides(self) -> tuple[str, str]:
+        """Return where the stick is pushed, and where a wrong sign takes the robot."""
+        return ("forwards", "backwards") if self.axis == 1 else ("left", "right")
 
-def _steps(values):
-    """The values as text if there are few of them for many positions; zero and a limit may be many."""
-    limit = max(map(abs, values))
-    between = [round(abs(value), 6) for value in values if SMALL < abs(value) < limit - SMALL]
-    limited = sum(abs(value) >= limit - SMALL for value in values)
-    if len(set(between)) > 0.6 * len(between) or not limited + len(between) > 2 + len(set(between)):
+    def follows(self, inputs: Iterable[float]) -> bool:
+        """Return whether the field is in proportion to these."""
+        return bool(factor_of(self.values, list(inputs)))
+
+    @property
+    def has_lost_its_sign(self) -> bool:
+        """Return whether it grows with the axis to either side: abs(), or a square."""
+        if self.follows(map(abs, self.given)):
+            return True
+        pairs = sorted((abs(given), value) for given, value in zip(self.given, self.values))
+        return pairs[0][1] > SMALL and _rises([value for _, value in pairs]) and self.varies
+
+    @property
+    def varies(self) -> bool:
+        """Return whether there are many values."""
+        return len({round(value, 6) for value in self.values}) > 0.6 * len(self.values)
+
+    @property
+    def adds_up(self) -> bool:
+        """Return whether each Joy adds to the value before."""
+        if len(self.values) < 4:
+            return False
+        steps = [after - before for before, after in zip(self.values, self.values[1:])]
+        factor = steps[-1] / self.given[-1] if self.given[-1] else 0.0
+        # Values that only change sign are nearly twice as much as those before.
+        fits = (abs(step - factor * each) < 1e-3 for step, each in zip(steps, self.given[1:]))
+        return abs(factor) > 1e-2 and all(fits)
+
+    @property
+    def side_left_out(self) -> str:
+        """Return on which side of 0 the axis does nothing; empty if on none."""
+        for sign, side in ((1, "below"), (-1, "above")):
+            rest = [value for value, each in zip(self.values, self.given) if sign * each < 0]
+            pairs = [
+                (abs(each), abs(value))
+                for value, each in zip(self.values, self.given)
+                if sign * each > 0
+            ]
+            if not any(rest) and _rises([value for _, value in sorted(pairs)]):
+                return side
         return ""
-    return ", ".join(f"{value:.2f}" for value in sorted({*between, round(limit, 6)})[:3])
+
+    @property
+    def offset(self) -> str | None:
+        """Return what is added to the axis."""
+        offsets = [value - each for value, each in zip(self.values, self.given)]
+        return f"{offsets[0]:.2f}" if max(offsets) - min(offsets) < 0.02 else None
+
+    @property
+    def steps(self) -> str:
+        """Return the values if there are few for many positions; zero and a limit may be many."""
+        found = {abs(given): abs(value) for given, value in zip(self.given, self.values)}.values()
+        limit = max(found)
+        between = [round(value, 6) for value in found if SMALL < value < limit - SMALL]
+        limited = sum(value >= limit - SMALL for value in found)
+        kinds = len(set(between))
+        if kinds > 0.6 * len(between) or not limited + len(between) > 2 + kinds:
+            return ""
+        return ", ".join(f"{value:.2f}" for value in sorted({*between, round(limit, 6)})[:3])
+
+    @property
+    def is_curve(self) -> bool:
+        """Return whether it grows with the axis and has its sign, as beyond a dead zone."""
+        pairs = sorted(zip(self.given, self.values))
+        signs = all(value * given >= -SMALL for given, value in pairs)
+        is_moved = min(pairs[-1][1], -pairs[0][1]) > 0.05
+        return _rises([value for _, value in pairs]) and signs and is_moved
 
 
-def no_number(samples):
-    """The complaint about a value that is infinite or no number, or None."""
+def _rises(values: Sequence[float]) -> bool:
+    return all(after >= before - SMALL for before, after in zip(values, values[1:]))
+
+
+def no_number(samples: Iterable[Sample]) -> str:
+    """Return what is said of a value that is infinite or no number; empty if all are numbers."""
     for _, twist in samples:
         for name, value in zip(FIELDS, twist):
             if not math.isfinite(value):
-                return (
-                    f"{name} is {value}, which is no number",
-                    "look at what it is calculated from",
-                )
-    return None
+                return f"{name} is {value}, which is no number"
+    return ""
 
 
-def _explain_odd(field, axis, samples):
-    """A complaint about a field that follows no axis by a constant; None if it is a mere curve."""
-    values = [twist[field] for _, twist in samples]
-    given = [axes[axis] for axes, _ in samples]
-    name = FIELDS[field]
-    if factor_of(values, [abs(value) for value in given]):
-        return f"{name} has lost the sign of axes[{axis}]", f"{name} = axes[{axis}], without abs"
-    if factor_of(values[1:], given[:-1]):
-        return (
-            f"{name} follows the Joy before: each Twist is one message late",
-            "first put the values into the message, then publish it",
-        )
-    for sign, side in ((1, "below"), (-1, "above")):
-        rest = [value for value, each in zip(values, given) if sign * each < 0]
-        if not any(rest) and factor_of(values, [max(0.0, sign * each) for each in given]):
-            return (
-                f"{name} is 0 wherever axes[{axis}] is {side} 0",
-                f"{name} = axes[{axis}], of either sign",
-            )
-    offsets = [value - each for value, each in zip(values, given)]
-    if max(offsets) - min(offsets) < 0.02:
-        return (
-            f"{name} = axes[{axis}] + {offsets[0]:.2f}: released, the robot still moves",
-            f"{name} = axes[{axis}]",
-        )
-    if all(value == round(value) for value in values):
-        return f"{name} has whole numbers only", f"{name} = axes[{axis}], without int() or round()"
-    if len({round(value, 6) for value in values}) == 1:
-        return f"{name} is always {values[0]:.2f}", f"{name} = axes[{axis}]"
-    steps = _steps(values)
-    if steps:
-        return (
-            f"{name} has steps, as {steps}: it does not follow axes[{axis}] between them",
-            f"{name} = axes[{axis}], without round(), and not one speed for many positions",
-        )
-    if is_monotone(field, axis, samples):
-        return None
-    return f"{name} is no constant times axes[{axis}]", f"{name} = axes[{axis}]"
+JUST = "{f.name} = axes[{f.axis}]"
+ONLY_THIS = "{f.name} comes from this Joy alone: no +=, no mean, nothing kept"
+BEFORE = (
+    Row(lambda e: no_number(e.samples), "{found}", "look at what it is calculated from"),
+    Row(lambda e: not e.moving, "every Twist is zero",
+        "are linear.x and angular.z of the message that is published set from data.axes?"),
+)  # fmt: skip
+# Of a field that does not follow its axis by a constant. The first row that applies counts.
+OF_A_FIELD = (
+    Row(lambda f: f.rule and f.rule.axis == f.axis,
+        "{f.name} = {f.rule.factor:.2f} * axes[{f.axis}]: the sign is wrong",
+        "pushed {f.sides[0]}, the robot goes {f.sides[1]}: leave the minus out"),
+    Row(lambda f: f.is_swapped, "angular.z follows axes[1] and linear.x axes[0]: they are swapped",
+        "linear.x = axes[1] (forwards), angular.z = axes[0] (left)"),
+    Row(lambda f: f.rule, "{f.name} follows axes[{found.axis}]", JUST),
+    Row(lambda f: f.is_still and f.misplaced,
+        "{found} follows axes[{f.axis}], {f.name} stays 0",
+        "a robot in the plane drives along x and turns about z: linear.x and angular.z"),
+    Row(lambda f: f.is_still, "{f.name} is always 0", JUST),
+    Row(lambda f: factor_of(f.values[1:], f.given[:-1]),
+        "{f.name} follows the Joy before: each Twist is one message late",
+        "first put the values into the message, then publish it"),
+    Row(lambda f: f.adds_up,
+        "{f.name} depends on earlier Joys: it grows while the stick is held", ONLY_THIS),
+    Row(lambda f: f.other_answer,
+        "{f.name} depends on earlier Joys: the same Joy gives {found[0]:.2f} and {found[1]:.2f}",
+        ONLY_THIS),
+    Row(lambda f: f.has_lost_its_sign, "{f.name} has lost the sign of axes[{f.axis}]",
+        JUST + ", without abs or a square"),
+    Row(lambda f: f.follows(g if a >= 0 else -g for g, a in zip(f.given, f.across)),
+        "{f.name} changes sign when axes[{f.across_axis}] is negative",
+        JUST + ", whatever the other axis is"),
+    Row(lambda f: len({round(value, 6) for value in f.values}) == 1,
+        "{f.name} is always {f.values[0]:.2f}", JUST),
+    Row(lambda f: all(value == round(value) for value in f.values),
+        "{f.name} has whole numbers only", JUST + ", without int() or round()"),
+    Row(lambda f: f.side_left_out, "{f.name} is 0 wherever axes[{f.axis}] is {found} 0",
+        JUST + ", of either sign"),
+    Row(lambda f: f.offset,
+        "{f.name} = axes[{f.axis}] + {found}: released, the robot still moves", JUST),
+    Row(lambda f: abs(f.at_rest) > SMALL,
+        "{f.name} is {f.at_rest:.2f} at rest, all axes 0: the robot never stands still", JUST),
+    Row(lambda f: f.steps,
+        "{f.name} has steps, as {found}: it does not follow axes[{f.axis}] between them",
+        JUST + ", without round(), and not one speed for many positions"),
+    Row(lambda f: not f.is_curve, "{f.name} is no constant times axes[{f.axis}]", JUST),
+)  # fmt: skip
+AFTER = (
+    Row(lambda e: e.extra, "{found}",
+        "only linear.x and angular.z move a robot in the plane; leave the others 0"),
+)  # fmt: skip
+
+
+def judge(evidence: Evidence) -> tuple[str, str]:
+    """Return (complaint, hint), each empty if there is none; a hint without a complaint is a remark."""
+    odd = [find(OF_A_FIELD, each) for each in evidence.fields if not each.is_right]
+    all_found = [find(BEFORE, evidence), *odd, find(AFTER, evidence)]
+    found = next((each for each in all_found if each), None)
+    return (found.seen, found.hint) if found else ("", _remark(evidence))
+
+
+def _remark(evidence: Evidence) -> str:
+    curves = [f.name for f in evidence.fields if f.rule is None]
+    if curves:
+        are = "are curves of their axes" if len(curves) > 1 else "is a curve of its axis"
+        return f"{' and '.join(curves)} {are}, not a constant times it"
+    scaled = [
+        f"{f.name} = {f.rule.factor:.2f} * axes[{f.axis}]"
+        for f in evidence.fields
+        if f.rule and abs(f.rule.factor - 1) > 0.02
+    ]
+    return f"{', '.join(scaled)}; the handout's has no factor" if scaled else ""

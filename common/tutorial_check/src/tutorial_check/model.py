@@ -1,10 +1,13 @@
 """What a check can come to, and the order in which checks are made. Pure."""
 
+from __future__ import annotations
+
 import re
 import time
 import traceback
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
+from typing import Any, Callable, Iterable, Iterator, Mapping
 
 OK, WRONG, NOTE, UNREACHED = "ok", "wrong", "note", "unreached"
 LINE = re.compile(r":\d+$")  # of a file, at the end of a place
@@ -22,11 +25,11 @@ class Result:
     where: str = ""
     hint: str = ""
     section: str = ""
-    look: str = ""  # a command with which to see it oneself
+    look: str = ""  # a command that shows it
     empty: bool = False  # a note that there was nothing to be checked
 
-    def as_dict(self):
-        """The result as --json has it."""
+    def as_dict(self) -> dict[str, Any]:
+        """Return the result as --json has it."""
         return asdict(self)
 
 
@@ -43,17 +46,19 @@ class Note:
 class Wrong(Exception):
     """A check that does not hold. Raised by checks, which so end at the first thing wrong."""
 
-    look = ""  # a command with which to see it oneself, if not that of the check
+    look = ""  # a command that shows it, if not that of the check
 
-    def __init__(self, expected, seen, where="", hint="", sure=False):
+    def __init__(
+        self, expected: str, seen: str, where: str = "", hint: str = "", sure: bool = False
+    ) -> None:
         """sure: whatever else the machine had to do, it is no matter of time."""
         super().__init__(f"expected {expected}; seen {seen}")
         self.expected, self.seen, self.where, self.hint = expected, seen, where, hint
         self.sure = sure
 
 
-def master_gone(where=""):
-    """The Wrong for a program that ends the master."""
+def master_gone(where: str = "") -> Wrong:
+    """Return the Wrong for a program that ends the master."""
     return Wrong(
         "the ROS master is left alone",
         "it no longer answers: a program of yours has ended it",
@@ -67,8 +72,8 @@ class CannotCheck(Exception):
     """The checker cannot work, through no fault of the student's; the text says why in one line."""
 
 
-def fault(error):
-    """In one line why an exception keeps the checker from working; where, if it is a fault of ours."""
+def fault(error: Exception) -> str:
+    """Return in one line why an exception keeps the checker from working; where, if it is a bug."""
     if isinstance(error, CannotCheck):
         return str(error)
     line = traceback.extract_tb(error.__traceback__)[-1]
@@ -83,89 +88,102 @@ class Check:
     exercise: str
     title: str
     section: str  # of the handout
-    needs: tuple = ()  # ids of the checks without which this one says nothing
+    needs: tuple[str, ...] = ()  # ids of the checks without which this one says nothing
     look: str = ""
     timeless: bool = False  # it reads files alone: no machine is too busy for that
+
+    def result(self, status: str, **more: Any) -> Result:
+        """Return the Result of this check."""
+        about = {"title": self.title, "section": self.section, "look": self.look, **more}
+        return Result(self.id, status, **about)
 
 
 class Catalogue:
     """All checks, in order, with the function that makes each."""
 
-    def __init__(self, checks, functions):
-        """checks: Check objects; functions: id -> function(session), of each of them."""
+    def __init__(
+        self, checks: Iterable[Check], functions: Mapping[str, Callable[[Any], Any]]
+    ) -> None:
+        """functions: id -> function(session) of each check, which returns a text, a Note or None."""
         self.checks = {check.id: check for check in checks}
         self.functions = functions
         if set(self.checks) != set(functions):
-            raise ValueError(
-                f"checks without or with too many functions: {set(self.checks) ^ set(functions)}"
-            )
+            odd = set(self.checks) ^ set(functions)
+            raise ValueError(f"checks without or with too many functions: {odd}")
 
-    def of(self, exercise):
-        """The checks of an exercise."""
+    def of(self, exercise: str) -> list[Check]:
+        """Return the checks of an exercise."""
         return [check for check in self.checks.values() if check.exercise == exercise]
 
 
 class Run:
-    """Makes checks, each at most once, and none whose ground is missing."""
+    """Makes checks, each at most once, and none that needs one which does not hold."""
 
     def __init__(
-        self, catalogue, session, second_look=lambda explained: False, too_busy=lambda: False
-    ):
+        self,
+        catalogue: Catalogue,
+        session: Any,
+        second_look: Callable[[bool], bool] = lambda explained: False,
+        too_busy: Callable[[], bool] = lambda: False,
+    ) -> None:
         """session: what the functions of the catalogue take.
 
-        second_look(explained): asked once for a check that does not hold; whether to make it again.
+        second_look(explained): whether to make a check that does not hold again; asked once.
         explained: whether a line of the student's is to blame.
-        too_busy(): asked if it does not hold then, either; whether that says nothing.
+        too_busy(): whether it says nothing if it does not hold then, either.
         """
         self._catalogue = catalogue
         self._session = session
         self._second_look, self._too_busy = second_look, too_busy
-        self._done = {}
-        self._blocked_by = {}  # id of a check not reached -> the results that are to blame
-        self._told = set()
-        self._troubles = {}  # id of a check that could not be made -> why
-        self.seconds = {}  # that each check took, with those it needs
+        self._done: dict[str, Result] = {}
+        self._blocked_by: dict[str, list[Result]] = {}  # of each check not reached
+        self._reported: set[str] = set()
+        self._troubles: dict[str, str] = {}  # id of a check that could not be made: why
+        self.seconds: dict[str, float] = {}  # that each check took, with those it needs
 
-    def result(self, check_id):
-        """The Result of a check; made now if it was not yet."""
+    def result(self, check_id: str) -> Result:
+        """Return the Result of a check; make it now if it was not yet."""
         if check_id not in self._done:
             began_s = time.monotonic()
             self._done[check_id] = self._make(self._catalogue.checks[check_id])
             self.seconds[check_id] = round(time.monotonic() - began_s, 2)
         return self._done[check_id]
 
-    def exercise(self, exercise, tell=lambda result: None, only_first=False):
-        """The results of an exercise, each told as soon as it is there.
+    def exercise(
+        self,
+        exercise: str,
+        tell: Callable[[Result], None] = lambda result: None,
+        only_first: bool = False,
+    ) -> list[Result]:
+        """Return the results of an exercise; call tell with each as soon as it is there.
 
-        only_first: whether to end at the first that is wrong.
-
-        What is wrong in an earlier exercise and keeps this one from being checked comes first,
-        unless it was told before.
+        What is wrong in an earlier exercise and keeps this one from being checked comes first, unless
+        it was reported before. only_first: end at the first that is wrong.
         """
         results = []
 
-        def add(result):
-            if result.id not in self._told or result.status != WRONG:
+        def add(result: Result) -> None:
+            if result.id not in self._reported or result.status != WRONG:
                 results.append(result)
-                self._told.add(result.id)
+                self._reported.add(result.id)
                 tell(result)
 
         for check in self._catalogue.of(exercise):
             for culprit in self._culprits(check):
                 elsewhere = self._catalogue.checks[culprit.id].exercise != exercise
-                if elsewhere and culprit.id not in self._told:
+                if elsewhere and culprit.id not in self._reported:
                     add(culprit)
             add(self.result(check.id))
             if only_first and any(result.status == WRONG for result in results):
                 break
         return results
 
-    def trouble(self, exercise):
-        """Why a check of the exercise could not be made, though nothing is wrong with it; or empty."""
+    def trouble(self, exercise: str) -> str:
+        """Return why a check of the exercise could not be made, though nothing is wrong with it."""
         own = [check.id for check in self._catalogue.of(exercise)]
         return next((f"{one}: {self._troubles[one]}" for one in own if one in self._troubles), "")
 
-    def _culprits(self, check):
+    def _culprits(self, check: Check) -> Iterator[Result]:
         for needed in check.needs:
             result = self.result(needed)
             if result.status == WRONG:
@@ -173,86 +191,75 @@ class Run:
             elif result.status == UNREACHED:
                 yield from self._blocked_by[needed]
 
-    def _make(self, check):
+    def _make(self, check: Check) -> Result:
         culprits = list(self._culprits(check))
         if culprits:
             return self._unreached(check, culprits)
-        about = {"id": check.id, "title": check.title, "section": check.section, "look": check.look}
         try:
             found = self._call(check)
         except Wrong as wrong:
-            same = self._told_of(wrong)
-            if same:  # one cause is told once, at the first check that it keeps from holding
+            same = self._same_cause(wrong)
+            if same:  # one cause is reported once, at the first check that it keeps from holding
                 return self._unreached(check, same)
-            what = {
-                "expected": wrong.expected,
-                "seen": wrong.seen,
-                "where": wrong.where,
-                "hint": wrong.hint,
-            }
-            about["look"] = wrong.look or check.look
-            return Result(status=WRONG, **about, **what)
-        except Exception as error:  # also a fault of ours: the other checks are made all the same
+            names = ("expected", "seen", "where", "hint")
+            what = {name: getattr(wrong, name) for name in names}
+            return check.result(WRONG, **what, look=wrong.look or check.look)
+        except Exception as error:  # also a bug of ours: the other checks are made all the same
             if not isinstance(error, CannotCheck):
                 traceback.print_exc()
-            return self._not_checked(about, fault(error))
+            why = self._troubles[check.id] = fault(error)
+            result = check.result(UNREACHED, seen=f"could not be checked: {why}")
+            self._blocked_by[check.id] = [result]
+            return result
         if isinstance(found, Note):
-            return Result(status=NOTE, **vars(found), **about)
-        return Result(status=OK, seen=found or "", **about)
+            return check.result(NOTE, **vars(found))
+        return check.result(OK, seen=found or "")
 
-    def _told_of(self, wrong):
-        """The wrong results that tell of the same cause."""
-        return [
-            one for one in self._done.values() if one.status == WRONG and _is_one_cause(one, wrong)
-        ]
+    def _same_cause(self, wrong: Wrong) -> list[Result]:
+        """Return the wrong results that are about the same cause."""
+        return [one for one in self._done.values() if _is_one_cause(one, wrong)]
 
-    def _call(self, check):
+    def _call(self, check: Check) -> Any:
         function = self._catalogue.functions[check.id]
         try:
             return function(self._session)
-        except (Wrong, CannotCheck) as error:
-            sure = isinstance(error, Wrong) and (error.sure or check.timeless)
-            if sure or (isinstance(error, Wrong) and self._told_of(error)):
+        except Wrong as wrong:
+            if wrong.sure or check.timeless or self._same_cause(wrong):
                 raise
-            if not self._second_look(bool(LINE.search(getattr(error, "where", "")))):
+            if not self._second_look(bool(LINE.search(wrong.where))):
+                raise
+        except CannotCheck:
+            if not self._second_look(False):
                 raise
         try:
             return function(self._session)
         except Wrong as wrong:
             if wrong.sure or not self._too_busy():
                 raise
-            raise CannotCheck(
-                f"{check.id}: the machine has too much else to do for a verdict ({wrong.seen})"
-            ) from None
+            why = f"the machine has too much else to do for a verdict ({wrong.seen})"
+            raise CannotCheck(f"{check.id}: {why}") from None
 
-    def _not_checked(self, about, why):
-        self._troubles[about["id"]] = why
-        result = Result(status=UNREACHED, seen=f"could not be checked: {why}", **about)
-        self._blocked_by[result.id] = [result]
-        return result
-
-    def _unreached(self, check, culprits):
+    def _unreached(self, check: Check, culprits: list[Result]) -> Result:
         self._blocked_by[check.id] = culprits
         first = culprits[0]
         why = f"first mend {first.id}: {first.title}"
         if first.status == UNREACHED:
             why = f"{first.id} could not be checked"
-        return Result(
-            id=check.id,
-            status=UNREACHED,
-            title=check.title,
-            section=check.section,
-            look=check.look,
-            seen=why,
-        )
+        return check.result(UNREACHED, seen=why)
 
 
-def _is_one_cause(result, wrong):
-    """Whether a Result tells of what a Wrong is about. "No such file" alone may be said of two files."""
-    is_same = (result.seen, result.where) == (wrong.seen, wrong.where)
-    return is_same and (bool(LINE.search(wrong.where)) or result.expected == wrong.expected)
+def _is_one_cause(result: Result, wrong: Wrong) -> bool:
+    """Return whether a Result is about the same cause. "No such file" alone may be said of two files."""
+    if result.status != WRONG or (result.seen, result.where) != (wrong.seen, wrong.where):
+        return False
+    return bool(LINE.search(wrong.where)) or result.expected == wrong.expected
 
 
-def passed(results):
-    """Whether an exercise is done: nothing wrong, and everything reached."""
+def passed(results: Iterable[Result]) -> bool:
+    """Return whether an exercise is done: nothing wrong, and everything reached."""
     return all(result.status in (OK, NOTE) for result in results)
+
+
+def without_hint(result: Result) -> Result:
+    """Return the same without a word on how to mend it."""
+    return replace(result, hint="")

@@ -1,139 +1,48 @@
-"""Isolation: bubblewrap shows a student's program its own copy and no other file of anybody.
+"""What this process and a student's programs may do: users, rights, limits."""
 
-Network: loopback only. Processes, System V shared memory: its own, which end with the check. Files:
-the system and what students use of this suite, read-only; an empty /tmp, /var/tmp and /dev/shm of
-limited size; no /run. Nothing there has a capability but the checker itself, where it is root.
-"""
+from __future__ import annotations
 
 import contextlib
 import ctypes
-import functools
 import os
-import shutil
+import resource
 import signal
-import subprocess
 from pathlib import Path
+from typing import Iterator
 
-SCRATCH_MB = 600  # for the copy, its build, logs and what the programs write
-# Of /etc not all: root, as whom the checker may read what a program left it a link to, may read more.
-ETC = "alternatives catkin group host.conf hosts ld.so.cache localtime nsswitch.conf passwd python3 ros"
-SYSTEM = (
-    *("/usr", "/bin", "/sbin", "/lib", "/lib32", "/lib64", "/libx32", "/opt/ros"),
-    *(f"/etc/{name}" for name in ETC.split()),
-)
-SHARED_PAGES = 1 << 16  # of System V shared memory: 256 MB
-NAMESPACES = ("--unshare-ipc", "--unshare-net", "--unshare-pid", "--unshare-uts")
-# What the checker needs as root: to run programs as another user, and to end them.
-RIGHTS = ("CHOWN", "DAC_OVERRIDE", "FOWNER", "KILL", "SETGID", "SETUID")
 PR_SET_PDEATHSIG, PR_SET_DUMPABLE, PR_SET_CHILD_SUBREAPER, PR_SET_NO_NEW_PRIVS = 1, 4, 36, 38
+SHARED_PAGES = 1 << 16  # of System V shared memory: 256 MB
+MOST_PIDS = 1 << 22  # that Linux has
+UNUSED = 1_000_000  # from here on, and as many again, are uids that no system uses
+FEW_IDS = 4096  # of fewer any may be in use
+MOST_THREADS = 400  # of an unused uid; of another one, in addition to those that it has anyway
+# The address space is what Python's threads reserve, not what they use.
+LIMITS = {
+    resource.RLIMIT_AS: 6 << 30,
+    resource.RLIMIT_FSIZE: 64 << 20,
+    resource.RLIMIT_CPU: 60,
+    resource.RLIMIT_CORE: 0,
+    resource.RLIMIT_NOFILE: 1024,
+}
 
 
-@functools.lru_cache(maxsize=None)
-def granted():
-    """(options of bwrap, whether it limits sizes, why it does not work); no options without isolation."""
-    bwrap = shutil.which("bwrap")
-    if not bwrap:
-        return (), False, "bubblewrap is not installed"
-    options = [bwrap, *NAMESPACES, "--as-pid-1"]
-    if os.geteuid() == 0:
-        options += ["--cap-drop", "ALL"]
-        options += [word for right in RIGHTS for word in ("--cap-add", f"CAP_{right}")]
-    else:
-        options += ["--unshare-user"]
-    # Before 0.8 there is no --disable-userns, and before 0.7 no --size. Root maps no users.
-    no_more = [] if os.geteuid() == 0 else ["--disable-userns"]
-    for more, limits in ((no_more, True), ([], True), ([], False)):
-        command = [*options, *more, "--ro-bind", "/", "/", "--proc", "/proc", "--dev", "/dev"]
-        why = _fault([*command, *_tmpfs("/tmp", 1, limits), "true"])
-        if not why:
-            return (*options, *more), limits, ""
-    return (), False, why
-
-
-def _fault(command):
-    """Why a command fails; empty if it does not."""
-    try:
-        tried = subprocess.run(
-            command, stdin=subprocess.DEVNULL, capture_output=True, check=False, timeout=60
-        )
-    except (OSError, subprocess.TimeoutExpired) as error:
-        return str(error)
-    said = tried.stderr.decode(errors="replace").split()
-    return " ".join(said) or f"{command[0]} fails" if tried.returncode else ""
-
-
-def lacking():
-    """What this system does not provide, a line for each thing; to be told before a verdict."""
-    options, limits, why = granted()
-    if options:
-        return [] if limits else ["this bubblewrap is too old (0.7) to limit what programs write"]
-    if os.geteuid() == 0:
-        rights = "runs as another user, but can read what everybody may, use the network"
-    else:
-        rights = "has your rights: it can read, change and remove your files, use the network"
-    return [f"no isolation here ({why}): a program {rights}, and leave files in /var/tmp"]
-
-
-def _tmpfs(path, megabytes, limits, mode="0755"):
-    return [*(("--size", str(megabytes << 20)) if limits else ()), "--perms", mode, "--tmpfs", path]
-
-
-def command(folder, shown, hidden):
-    """The command that starts another one apart; empty if the system grants no isolation.
-
-    folder: where the programs write, empty at first; shown: files and folders to see, read-only;
-    hidden: a folder that is not shown, though it may lie in one that is.
-    """
-    options, limits, _ = granted()
-    if not options:
-        return []
-    mounts = {
-        "/proc": ["--proc", "/proc"],
-        "/dev": ["--dev", "/dev"],
-        "/dev/shm": _tmpfs("/dev/shm", 64, limits, "1777"),
-        "/dev/input": _tmpfs("/dev/input", 1, limits),  # for a joystick
-        "/tmp": _tmpfs("/tmp", 64, limits, "1777"),
-        "/var/tmp": _tmpfs("/var/tmp", 64, limits, "1777"),
-        str(hidden): _tmpfs(str(hidden), 1, limits),
-        str(folder): _tmpfs(str(folder), SCRATCH_MB, limits),
-    }
-    for path in SYSTEM:
-        if os.path.islink(path):
-            mounts[path] = ["--symlink", os.readlink(path), path]
-        elif os.path.exists(path):
-            mounts[path] = ["--ro-bind", path, path]
-    shown = {str(path) for path in shown if os.path.exists(path)}
-    real = set(map(os.path.realpath, shown))
-    mounts.update({path: ["--ro-bind", path, path] for path in real})
-    for path in shown - real:  # catkin may have written down the name of a link
-        if not real & set(map(str, Path(path).parents)):
-            mounts[path] = ["--ro-bind", path, path]
-    for above in {above for path in mounts for above in Path(path).parents}:  # bwrap closes its own
-        mounts.setdefault(str(above), ["--perms", "0755", "--dir", str(above)])
-    outer_first = sorted(mounts, key=lambda path: len(Path(path).parts))
-    words = [word for path in outer_first for word in mounts[path]]
-    for path in ("/dev", str(hidden), "/"):
-        words += ["--remount-ro", path]
-    return [*options, *words, "--"]
-
-
-def _set(option, value):
+def _set(option: int, value: int) -> None:
     ctypes.CDLL(None).prctl(option, value, 0, 0, 0)
 
 
-def keep_to_itself():
+def keep_to_itself() -> None:
     """Let no process of this user look into this one, or into its open files."""
     _set(PR_SET_DUMPABLE, 0)
 
 
-def give_up_rights():
-    """Have this process, and what it starts, gain no rights by any program, as sudo. Its user may look in."""
+def give_up_rights() -> None:
+    """Let this process, and what it starts, gain no rights, as by sudo. Its user may look into it."""
     _set(PR_SET_NO_NEW_PRIVS, 1)
     _set(PR_SET_DUMPABLE, 1)
 
 
-def touch_files_as(user, group):
-    """Have this process, as root, open and make files with no more rights than that user has.
+def touch_files_as(user: int, group: int) -> None:
+    """Let this process, as root, open and make files with no more rights than that user has.
 
     So a link that a program plants leads the checker nowhere that the program could not go itself.
     """
@@ -146,29 +55,88 @@ def touch_files_as(user, group):
         keep_to_itself()  # which the change may have undone
 
 
+def restore_rights() -> None:
+    """Let this process open files as itself again."""
+    touch_files_as(os.geteuid(), os.getegid())
+
+
 @contextlib.contextmanager
-def own_rights():
-    """Have this process open files as itself for once: only what no student's program can change."""
+def own_rights() -> Iterator[None]:
+    """Let this process open files as itself for once: only what no student's program can change."""
     libc = ctypes.CDLL(None)
     user, group = libc.setfsuid(-1), libc.setfsgid(-1)
-    touch_files_as(os.geteuid(), os.getegid())
+    restore_rights()
     try:
         yield
     finally:
         touch_files_as(user, group)
 
 
-def end_with_parent():
-    """Have the kernel end this process when the one that started it ends."""
+def end_with_parent() -> None:
+    """Let the kernel end this process when its parent ends."""
     _set(PR_SET_PDEATHSIG, signal.SIGKILL)
 
 
-def adopt_orphans():
-    """Have what is started below this process, and left by its parent, be a child of this one."""
+def adopt_orphans() -> None:
+    """Become the parent of each process below this one whose own parent ends."""
     _set(PR_SET_CHILD_SUBREAPER, 1)
 
 
-def limit_shared_memory():
-    """Limit System V's shared memory of these namespaces, where the kernel lets this process."""
+def limit_shared_memory() -> None:
+    """Limit System V's shared memory of these namespaces, where the kernel allows it."""
     with contextlib.suppress(OSError):
         Path("/proc/sys/kernel/shmall").write_text(str(SHARED_PAGES))
+
+
+def unused_user(number: int, uid_map: str) -> int | None:
+    """Return an unused uid for an examination, or None.
+
+    uid_map: /proc/self/uid_map, as lines of first id, its id outside, count. In a container that an
+    ordinary user made, few ids exist, and the lower half of them may be in use.
+    """
+    ranges = [[int(word) for word in line.split()] for line in uid_map.splitlines()]
+    first, _, count = max(ranges, key=lambda each: each[2], default=(0, 0, 2 * UNUSED))
+    if first <= UNUSED and first + count >= 2 * UNUSED:
+        return UNUSED + number % UNUSED
+    return first + count // 2 + number % (count // 4) if count >= FEW_IDS else None
+
+
+def limits_of_programs(uid: int | None) -> dict[int, int]:
+    """Return the limits of programs that run under an unused uid, or under this process's (None)."""
+    threads = _threads_beside(MOST_THREADS) if uid is None else MOST_THREADS
+    return {resource.RLIMIT_NPROC: threads, **LIMITS}
+
+
+def limit(limits: dict[int, int]) -> None:
+    """Set these limits for this process, or keep those that are lower."""
+    for what, wanted in limits.items():
+        with contextlib.suppress(ValueError, OSError):
+            hard = resource.getrlimit(what)[1]
+            value = wanted if hard == resource.RLIM_INFINITY else min(wanted, hard)
+            resource.setrlimit(what, (value, value))
+
+
+def _threads_beside(threads: int) -> int:
+    """Return the RLIMIT_NPROC that allows as many threads in addition to those of now.
+
+    /proc does not show those outside of a container, which count. So try with which limit one more
+    can be started.
+    """
+    limit, hard = threads, resource.getrlimit(resource.RLIMIT_NPROC)[1]
+    highest = MOST_PIDS if hard == resource.RLIM_INFINITY else hard
+    while limit < highest and not _can_fork(limit, hard):
+        limit *= 2
+    return limit + threads
+
+
+def _can_fork(limit: int, hard: int) -> bool:
+    pid = os.fork()
+    if pid == 0:
+        try:
+            resource.setrlimit(resource.RLIMIT_NPROC, (limit, hard))
+            if os.fork() > 0:
+                os.wait()
+            os._exit(0)
+        finally:
+            os._exit(1)
+    return os.waitpid(pid, 0)[1] == 0

@@ -1,6 +1,29 @@
-"""Which Joys a check sends, and what the answers say that a right rule does not show. Pure."""
+"""Which Joys a check sends, and what is wrong with the answers that come for them. Pure."""
 
-from tutorial_check.mapping import AXES, FIELDS, RIGHT, SMALL, judge, no_number
+from __future__ import annotations
+
+import collections
+import math
+import re
+from dataclasses import dataclass
+from typing import Iterable, Sequence, Tuple
+
+from tutorial_check.mapping import (
+    AXES,
+    FIELDS,
+    ONLY_THIS,
+    RIGHT,
+    SMALL,
+    Evidence,
+    Sample,
+    is_near,
+    judge,
+    no_number,
+)
+from tutorial_check.rows import Row, find
+
+Joy = Tuple[Tuple[float, ...], Tuple[int, ...]]  # (axes, buttons)
+Answer = Tuple[Joy, Sequence[float]]  # and the six values of its Twist
 
 LB = 4  # the dead-man button of the handout's memo
 BUTTONS = 12
@@ -10,44 +33,62 @@ BACK = tuple(-axis for axis in FAST)
 SLOWEST = 0.25  # an axis below this may be in a dead zone, and is no measure of a factor
 
 
-def numbered_joys(count, buttons=BUTTONS):
-    """Joys of which no two are alike, nor any two axes: [(axes, buttons)], with LB held.
-
-    Signs change, so that a rule which is right only forwards or to the left is found out.
-    """
-    joys = []
-    for k in range(count):
-        forwards = (0.30 + 0.021 * k) * (1 if k % 2 == 0 else -1)
-        left = (0.25 + 0.017 * k) * (1 if k % 4 < 2 else -1)
-        # In an order of their own, so that none of them is by chance in proportion to these two.
-        rest = [0.03 + 0.05 * (index - 2) + 0.002 * (7 * k % 20) for index in range(2, AXES)]
-        joys.append(((left, forwards, *rest), _pressed(LB, buttons)))
-    return joys
-
-
-def _pressed(*pressed, buttons=BUTTONS):
+def _pressed(*pressed: int, buttons: int = BUTTONS) -> tuple[int, ...]:
     return tuple(int(index in pressed) for index in range(buttons))
 
 
-def probes(joys):
-    """The Joys after the numbered ones: rest, the same twice, one axis alone, another order, LB released."""
+NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e-?\d+)?")
+SLOW, STEP = 0.3, 0.005  # of rising_joys()
+EARLY_S = 0.06  # by which a Twist may seem to come before its Joy
+AT_REST: Joy = (REST, _pressed(LB))
+
+
+def numbered_joys(count: int, buttons: int = BUTTONS) -> list[Joy]:
+    """Return Joys of which no two are alike, nor any two axes, with LB held.
+
+    Signs change, so that a rule which is right only forwards or to the left is found out. In the
+    last two an axis is pushed as far as it goes, which int() alone leaves as it is.
+    """
+    joys = []
+    for k in range(count):
+        forwards = (0.30 + 0.021 * k if k < count - 1 else 1.0) * (1 if k % 2 == 0 else -1)
+        left = (0.25 + 0.017 * k if k != count - 2 else 1.0) * (1 if k % 4 < 2 else -1)
+        # In an order of their own, so that none of them is by chance in proportion to these two.
+        rest = [0.03 + 0.05 * (index - 2) + 0.002 * (7 * k % 20) for index in range(2, AXES)]
+        joys.append(((left, forwards, *rest), _pressed(LB, buttons=buttons)))
+    return joys
+
+
+def rising_joys(count: int) -> list[Joy]:
+    """Return Joys that come one after another at once; each drives, a little faster than before."""
+    return [((0.2 + 0.002 * k, SLOW + STEP * k, *REST[2:]), _pressed(LB)) for k in range(count)]
+
+
+def low_joys() -> list[Joy]:
+    """Return Joys below most limits, for a program that the numbered ones do not show to be right."""
+    pairs = ((0.05, 0.06), (-0.08, 0.09), (0.11, -0.12), (-0.14, -0.15), (0.17, 0.18))
+    return [((*pair, *REST[2:]), _pressed(LB)) for pair in pairs]
+
+
+def probes(joys: Sequence[Joy]) -> list[Joy]:
+    """Return the Joys after the numbered ones: rest, the same twice, one axis alone, LB released."""
     slow = (0.36, 0.40, *REST[2:])
     alone = [
-        (*(axis if index == alone else 0.0 for index, axis in enumerate(axes)),)
+        tuple(axis if index == moved else 0.0 for index, axis in enumerate(axes))
         for axes in (FAST, BACK)
-        for alone in RIGHT.values()
+        for moved in RIGHT.values()
     ]
-    axes = [FAST, REST, REST, *alone, slow, FAST, FAST, slow]
+    held = [FAST, REST, REST, *alone, slow, FAST, FAST, slow]
     return [
-        *((each, _pressed(LB)) for each in axes),
+        *((axes, _pressed(LB)) for axes in held),
         *(joys[index] for index in (7, 2)),
-        *((each, _pressed()) for each in (FAST, BACK, REST)),
+        *((axes, _pressed()) for axes in (FAST, BACK, REST)),
         (FAST, _pressed(LB)),
     ]
 
 
-def small_and_button_probes():
-    """The Joys after those: small values from rest and from fast, and each button pressed and released."""
+def small_and_button_probes() -> list[Joy]:
+    """Return the Joys after those: small values, and each button pressed and released."""
     smalls = [(0.05, 0.06, *REST[2:]), (0.02, 0.03, *REST[2:]), (0.01, 0.01, *REST[2:])]
     from_rest = [axes for small in smalls for axes in (REST, small)]
     slower = [FAST, *smalls, REST, FAST, smalls[-1], REST, FAST]
@@ -58,54 +99,135 @@ def small_and_button_probes():
     return joys
 
 
-def _other_button(buttons):
-    """The button that is pressed besides LB, or None."""
-    return next((index for index, value in enumerate(buttons) if value and index != LB), None)
+def _other_button(buttons: Sequence[int]) -> str:
+    """Return which button is pressed besides LB, or an empty text."""
+    pressed = (index for index, value in enumerate(buttons) if value and index != LB)
+    return next((f"buttons[{index}]" for index in pressed), "")
 
 
-def silence(joy, before):
-    """(what is seen, what to do) for a Joy after another one that no Twist answers."""
-    (axes, buttons), always = joy, "publish for every Joy, with no `if` around it"
-    if joy == before:
-        return "no Twist for the same Joy again", f"{always}: not only for a new one"
-    other = _other_button(buttons)
-    if other is not None:
-        return (
-            f"no Twist for a Joy with buttons[{other}] pressed: the robot drives on",
-            "silence stops no robot: to stop it publish Twist(), all zero, before return",
-        )
-    if not buttons[LB]:
-        return (
-            f"no Twist for a Joy with LB released (buttons[{LB}] = 0): the robot drives on",
-            "silence stops no robot: with LB released publish Twist(), all zero",
-        )
-    if not any(axes):
-        return (
-            "no Twist for a Joy at rest, all axes 0: the robot drives on",
-            f"{always}: zero is what stops the robot",
-        )
-    still = next((f" with axes[{axis}] = 0" for axis in RIGHT.values() if not axes[axis]), "")
-    return f"no Twist for a Joy{still or ' of another size'}", always
+@dataclass(frozen=True)
+class Silence:
+    """A Joy that no Twist answered, the one before it, and the last Twist that came."""
+
+    joy: Joy
+    before: Joy
+    last: Sequence[float] = (1.0,)
+
+    @property
+    def has_stopped(self) -> bool:
+        """Return whether LB was released before already, and a zero came then."""
+        return not self.joy[1][LB] and not self.before[1][LB] and not any(self.last)
+
+    @property
+    def still_axis(self) -> str:
+        """Return which axis is 0, of one that is moved alone."""
+        return next((f"axes[{axis}]" for axis in RIGHT.values() if not self.joy[0][axis]), "")
 
 
-def judge_probes(samples, answers):
-    """(complaint, hint) about the answers to the probes that a right start does not show, or ("", "").
+ALWAYS = "publish for every Joy, with no `if` around it"
+SILENCES = (
+    Row(lambda s: s.has_stopped, "only one zero after LB is released, and then silence",
+        "without LB publish Twist(), all zero, for every Joy, not only for the first"),
+    Row(lambda s: s.joy == s.before, "no Twist for the same Joy again",
+        ALWAYS + ": not only for a new one"),
+    Row(lambda s: _other_button(s.joy[1]),
+        "no Twist for a Joy with {found} pressed: the robot drives on",
+        "silence stops no robot: to stop it publish Twist(), all zero, before return"),
+    Row(lambda s: not s.joy[1][LB],
+        f"no Twist for a Joy with LB released (buttons[{LB}] = 0): the robot drives on",
+        "silence stops no robot: with LB released publish Twist(), all zero"),
+    Row(lambda s: not any(s.joy[0]), "no Twist for a Joy at rest, all axes 0: the robot drives on",
+        ALWAYS + ": zero is what stops the robot"),
+    Row(lambda s: s.still_axis, "no Twist for a Joy with {found} = 0", ALWAYS),
+    Row(lambda s: True, "no Twist for a Joy of another size", ALWAYS),
+)  # fmt: skip
 
-    samples: as of judge(), of the numbered Joys; answers: [((axes, buttons), six values)].
+
+def silence(joy: Joy, before: Joy, last: Sequence[float] = (1.0,)) -> tuple[str, str]:
+    """Return (what is seen, what to do) for a Joy after another one that no Twist answers."""
+    wrong = find(SILENCES, Silence(joy, before, last))
+    assert wrong  # the last row always applies
+    return wrong.seen, wrong.hint
+
+
+@dataclass(frozen=True)
+class Reply:
+    """One field of an answer, beside that to the Joy before, and to the same Joy when it came first."""
+
+    name: str
+    axis: int
+    joy: Joy
+    value: float
+    before: float
+    again: float
+    last_button: str
+
+    @property
+    def other(self) -> str:
+        """Return which button is pressed besides LB, or an empty text."""
+        return _other_button(self.joy[1])
+
+    @property
+    def differs(self) -> bool:
+        """Return whether the same Joy had another answer."""
+        return not is_near(self.value, self.again)
+
+    @property
+    def keeps(self) -> bool:
+        """Return whether the robot goes on as before."""
+        return is_near(self.value, self.before) and abs(self.value) > SMALL
+
+    @property
+    def drives_on(self) -> str:
+        """Return how the robot moves where it should not; empty if it does not."""
+        given = self.joy[0][self.axis]
+        # A button may turn the direction while it is held, but at rest the robot stands.
+        against = self.value * given < 0 and not self.other
+        is_odd = not given or against or (self.keeps and self.differs)
+        if abs(self.value) <= SMALL or not is_odd:
+            return ""
+        return "stays" if self.keeps else "is"
+
+    @property
+    def when(self) -> str:
+        """Return at which Joy this came."""
+        lb = "" if self.joy[1][LB] else " and LB released"
+        other = f" and {self.other} pressed" if self.other else ""
+        return f"axes[{self.axis}] is {self.joy[0][self.axis]:.2f}{lb}{other}"
+
+
+REPLIES = (
+    Row(lambda r: r.drives_on, "{f.name} {found} {f.value:.2f} when {f.when}: the robot drives on",
+        "{f.name} comes from this Joy alone, zero as well: a new Twist() in the callback,"
+        " no += and no `if` around the line"),
+    Row(lambda r: r.differs and not r.other and r.last_button,
+        "the same Joy gives {f.name} = {f.again:.2f} and, once {found} was pressed, {f.value:.2f}",
+        "a button changes the speed only while it is held: set the factor anew in the callback"),
+    Row(lambda r: r.differs,
+        "{f.name} depends on earlier Joys: the same Joy gives {f.again:.2f} and {f.value:.2f}",
+        ONLY_THIS),
+)  # fmt: skip
+
+
+def judge_probes(samples: Sequence[Sample], answers: Iterable[Answer]) -> tuple[str, str]:
+    """Return (complaint, hint), as judge() does, about the answers to the probes.
+
+    samples: the numbered Joys, whose rule is right as far as they show.
     """
-    odd = no_number(answers)
+    answers = list(answers)
+    odd = no_number([(axes, twist) for (axes, _), twist in answers])
     if odd:
-        return odd
-    known = {(axes, _pressed(LB)): twist for axes, twist in samples}
-    before, last_button = samples[-1][1], None
-    for (axes, buttons), twist in answers:
-        again, other = known.setdefault((axes, buttons), twist), _other_button(buttons)
-        last_button = last_button if other is None else other
-        for field in RIGHT:
+        return odd, "look at what it is calculated from"
+    known = {(tuple(axes), _pressed(LB)): twist for axes, twist in samples}
+    before, last_button = samples[-1][1], ""
+    for joy, twist in answers:
+        again = known.setdefault(joy, twist)
+        last_button = _other_button(joy[1]) or last_button
+        for field, axis in RIGHT.items():
             values = twist[field], before[field], again[field]
-            complaint = _odd_answer(field, (axes, buttons), values, last_button)
-            if complaint:
-                return complaint
+            wrong = find(REPLIES, Reply(FIELDS[field], axis, joy, *values, last_button))
+            if wrong:
+                return wrong.seen, wrong.hint
         before = twist
     held = [
         (axes, twist)
@@ -119,42 +241,41 @@ def judge_probes(samples, answers):
                     f"{FIELDS[field]} is 0 when axes[{axis}] alone is moved",
                     f"{FIELDS[field]} = axes[{axis}], whatever the other axis is",
                 )
-    complaint, hint = judge([*samples, *held])
+    complaint, hint = judge(Evidence([*samples, *held]))
     return (complaint, hint) if complaint else ("", "")
 
 
-def _odd_answer(field, joy, values, last_button):
-    """(complaint, hint) about one field of an answer, or None.
+def delays(
+    sent: Sequence[float], heard: Sequence[tuple[float, str, Sequence[float]]], factor: float | None
+) -> list[float]:
+    """Return [s] from each Joy to its Twist: the next one, or if some are missing that of its value.
 
-    values: the answer's, that of the Joy before, and that of the same Joy when it came first.
+    sent: when each of rising_joys() was; heard: [(when, who, six values)]; factor: of linear.x, or None.
     """
-    (axes, buttons), (value, before, again) = joy, values
-    given = axes[RIGHT[field]]
-    name, other = FIELDS[field], _other_button(buttons)
-    keeps = _is_near(value, before) and abs(value) > SMALL
-    differs = not _is_near(value, again)
-    # A button may turn the direction while it is held, but at rest the robot stands.
-    against = value * given < 0 and other is None
-    if abs(value) > SMALL and (not given or against or (keeps and differs)):
-        when = f"axes[{RIGHT[field]}] is {given:.2f}" + ("" if buttons[LB] else " and LB released")
-        when += "" if other is None else f" and buttons[{other}] pressed"
-        return (
-            f"{name} {'stays' if keeps else 'is'} {value:.2f} when {when}: the robot drives on",
-            f"{name} comes from this Joy alone, zero as well: a new Twist() in the callback,"
-            " no += and no `if` around the line",
-        )
-    if differs and last_button is not None and other is None:
-        return (
-            f"the same Joy gives {name} = {again:.2f} and, once buttons[{last_button}] was pressed, {value:.2f}",
-            "a button changes the speed only while it is held: set the factor anew in the callback",
-        )
-    if differs:
-        return (
-            f"the same Joy gives {name} = {again:.2f} and {value:.2f}: it goes by those before",
-            f"{name} comes from this Joy alone: no +=, no mean, nothing kept",
-        )
-    return None
+    heard = [each for each in heard if math.isfinite(each[2][0])]
+    if len(heard) == len(sent):
+        return [when - asked for (when, _, _), asked in zip(heard, sent)]
+    found = []
+    often = collections.Counter(round(twist[0], 6) for _, _, twist in heard)
+    for when, _, twist in heard:
+        if often[round(twist[0], 6)] > 1:
+            continue  # at a limit, or repeated: it does not tell which
+        k = round((twist[0] / factor - SLOW) / STEP) if factor else -1
+        # No answer is older than its Joy: then the value tells of another one.
+        if 0 <= k < len(sent) and when > sent[k] - EARLY_S:
+            found.append(when - sent[k])
+    return found
 
 
-def _is_near(one, other):
-    return abs(one - other) <= SMALL + 0.01 * abs(other)
+def displayed(joys: Iterable[Joy], output: str) -> list[Joy]:
+    """Return the Joys of which a line has all axes, with two decimals or more."""
+    lines = [[float(word) for word in NUMBER.findall(line)] for line in output.splitlines()]
+    lines = [line for line in lines if len(line) >= 6]
+    return [
+        joy
+        for joy in joys
+        if any(
+            all(any(abs(axis - seen) < 0.0056 for seen in line) for axis in joy[0])
+            for line in lines
+        )
+    ]

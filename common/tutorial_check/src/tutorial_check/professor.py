@@ -1,8 +1,10 @@
 """--all: every student of a folder, a table of them all, and each one's report."""
 
+from __future__ import annotations
+
+import argparse
 import contextlib
 import csv
-import html
 import io
 import os
 import re
@@ -10,10 +12,12 @@ import time
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass, field
+from html import escape
 from pathlib import Path
+from typing import Iterable
 from urllib.parse import quote
 
-from tutorial_check.examination import end_all, examine
+from tutorial_check.examination import Outcome, end_all, examine
 from tutorial_check.exercises import EXERCISES
 from tutorial_check.formats import as_json, clear, without_hints, write
 from tutorial_check.model import WRONG, CannotCheck, fault
@@ -23,6 +27,10 @@ ARCHIVES = (".zip", ".tar", ".tgz", ".gz", ".bz2", ".xz", ".7z", ".rar")
 RESULTS = (".csv", ".html", ".txt", ".json")
 # Where a spreadsheet begins a cell, whatever it takes for what separates two; and then a formula.
 FORMULA = re.compile(r"(^|[;,|\t\r\n])(?=\s*[=+\-@])")
+STYLE = (
+    "body{font-family:sans-serif}td,th{padding:.2em .6em;border:1px solid #ccc}"
+    "table{border-collapse:collapse}.ok{background:#cfc}.wrong{background:#fcc}.no{color:#777}"
+)
 
 
 @dataclass
@@ -31,15 +39,29 @@ class Student:
 
     name: str
     path: Path
-    outcomes: list = field(default_factory=list)
+    outcomes: list[Outcome] = field(default_factory=list)
     trouble: str = ""  # why nothing could be checked
     seconds: float = 0.0
 
+    def cell(self, exercise: str) -> tuple[str, str]:
+        """Return a word and details for an exercise: ok, the check that is wrong, - or ?."""
+        if not self.outcomes:
+            return "?", self.trouble
+        outcome = next(each for each in self.outcomes if each.id == exercise)
+        if outcome.empty:
+            return "not done", "nothing to check"
+        if outcome.passed:
+            return "ok", ""
+        wrong = [result for result in outcome.results if result.status == WRONG]
+        if wrong:
+            return wrong[0].id, "\n".join(lines_of(wrong[0]))
+        return ("?", outcome.trouble) if outcome.trouble else ("-", "not reached")
 
-def find_students(folder, out):
-    """The Students of a folder: each folder, archive and dangling link in it, but those of results.
 
-    Of an archive that is no zip, and of a link that leads nowhere, the table is to say so.
+def find_students(folder: str | Path, out: str | Path) -> list[Student]:
+    """Return the Students of a folder: each folder, archive and link in it, but those of results.
+
+    Archives that are no zip, and links, are among them: the table says that they are not checked.
     """
     try:
         entries = sorted(Path(folder).iterdir())
@@ -61,8 +83,8 @@ def find_students(folder, out):
     ]
 
 
-def _has_results(path, out):
-    """Whether it is the folder of the results, or that of an earlier check, in which is nothing else."""
+def _has_results(path: Path, out: str | Path) -> bool:
+    """Return whether it is the folder of the results, or that of an earlier check, with nothing else."""
     if os.path.realpath(path) == os.path.realpath(out):
         return True
     tables = [os.path.isfile(path / name) for name in ("table.csv", "table.html")]
@@ -74,17 +96,34 @@ def _has_results(path, out):
     return is_left_out
 
 
-def check_all(options):
-    """Check them, write table and reports; 0 if all are done, 1 if something is wrong, 2 if one could not be checked."""
-    from tqdm import tqdm  # noqa: PLC0415  only here
-
+def check_all(options: argparse.Namespace) -> int:
+    """Check all, write table and reports; 0: all are done, 1: something is wrong, 2: one is unchecked."""
     out = Path(options.out or Path(options.all) / "check")
     students = find_students(options.all, out)
-    _make_folder(out)
-    for student in students:
-        _forget(out, student)
+    with contextlib.suppress(OSError):
+        out.mkdir(parents=True, exist_ok=True)
+    if not (os.path.isdir(out) and os.access(out, os.W_OK | os.X_OK)):
+        raise CannotCheck(f"{out}: no folder that may be written to; --out names another one")
+    for student in students:  # what an earlier check said
+        for ending in (".txt", ".json"):
+            with contextlib.suppress(OSError):
+                (out / f"{student.name}{ending}").unlink()
     clear(out / "table.csv")
     clear(out / "table.html")
+    _check_each(students, out, options)
+    write(out / "table.csv", table_csv(students, options.exercises))
+    write(out / "table.html", table_html(students, options.exercises))
+    print(f"{out}/table.html, table.csv, and a report of each")
+    outcomes = [outcome for student in students for outcome in student.outcomes]
+    troubles = [*(one.trouble for one in students), *(one.trouble for one in outcomes)]
+    if any(troubles):
+        return 2
+    return 0 if all(outcome.passed for outcome in outcomes) else 1
+
+
+def _check_each(students: list[Student], out: Path, options: argparse.Namespace) -> None:
+    from tqdm import tqdm  # noqa: PLC0415  only here
+
     with ThreadPoolExecutor(max(1, options.jobs)) as pool, tqdm(
         total=len(students), unit="student", disable=None
     ) as bar:
@@ -97,43 +136,20 @@ def check_all(options):
                 except Exception as error:  # as in _check
                     student.trouble = student.trouble or fault(error)
                 bar.update()
-                bar.write(
-                    f"{student.name}: {student.trouble or summary(student.outcomes)}, {student.seconds:.0f} s"
-                )
+                verdict = student.trouble or summary(student.outcomes)
+                bar.write(f"{student.name}: {verdict}, {student.seconds:.0f} s")
         except KeyboardInterrupt:  # the pool would go on to the last student
             for check in checks:
                 check.cancel()
             end_all()
             raise
-    write(out / "table.csv", table_csv(students, options.exercises))
-    write(out / "table.html", table_html(students, options.exercises))
-    print(f"{out}/table.html, table.csv, and a report of each")
-    outcomes = [outcome for student in students for outcome in student.outcomes]
-    if any(one.trouble for one in (*students, *outcomes)):
-        return 2
-    return 0 if all(outcome.passed for outcome in outcomes) else 1
 
 
-def _make_folder(out):
-    """Make the folder of the results. Raises CannotCheck: not only when all are examined."""
-    with contextlib.suppress(OSError):
-        out.mkdir(parents=True, exist_ok=True)
-    if not (os.path.isdir(out) and os.access(out, os.W_OK | os.X_OK)):
-        raise CannotCheck(f"{out}: no folder that may be written to; --out names another one")
-
-
-def _forget(out, student):
-    """Remove what an earlier check said of a student."""
-    for ending in (".txt", ".json"):
-        with contextlib.suppress(OSError):
-            (out / f"{student.name}{ending}").unlink()
-
-
-def _check(student, options):
+def _check(student: Student, options: argparse.Namespace) -> Student:
     began_s = time.monotonic()
     try:
-        if student.path.is_symlink() and student.path.is_file():
-            raise CannotCheck("a link to an archive is not followed: put the archive itself here")
+        if student.path.is_symlink():  # it may lead to the files of another student
+            raise CannotCheck("a link is not followed: put the folder or the archive itself here")
         outcomes = examine(student.path, options.floor, options.exercises, own=False)
         student.outcomes = without_hints(outcomes) if options.no_hints else outcomes
     except Exception as error:  # whatever it is, it must not spoil the others
@@ -142,69 +158,40 @@ def _check(student, options):
     return student
 
 
-def _write(out, student):
-    text = f"{student.name}\n\n" + (
-        f"could not be checked: {student.trouble}\n"
-        if student.trouble
-        else text_of(student.outcomes)
-    )
-    write(out / f"{student.name}.txt", text)
+def _write(out: Path, student: Student) -> None:
+    report = f"could not be checked: {student.trouble}\n" if student.trouble else ""
+    write(out / f"{student.name}.txt", f"{student.name}\n\n{report or text_of(student.outcomes)}")
     if student.outcomes:
         write(out / f"{student.name}.json", as_json(student.outcomes))
 
 
-def _cell(student, exercise):
-    """(word, details) of one exercise of a student."""
-    if not student.outcomes:
-        return "?", student.trouble
-    outcome = next(each for each in student.outcomes if each.id == exercise)
-    if outcome.passed:
-        return "ok", ""
-    wrong = [result for result in outcome.results if result.status == WRONG]
-    if outcome.trouble and not wrong:
-        return "?", outcome.trouble
-    return (wrong[0].id, "\n".join(lines_of(wrong[0]))) if wrong else ("-", "not reached")
-
-
-def table_csv(students, exercises):
-    """One line a student: ok, the first check that is wrong, - (not reached), ? (not checked)."""
+def table_csv(students: Iterable[Student], exercises: list[str]) -> str:
+    """Return one line a student, without what a spreadsheet would take for a formula."""
     lines = io.StringIO()
     table = csv.writer(lines)
     table.writerow(["student", *exercises, "done", "seconds", "remark"])
     for student in students:
-        cells = [_cell(student, exercise)[0] for exercise in exercises]
-        name, remark = _no_formula(student.name), _no_formula(student.trouble)
+        cells = [student.cell(exercise)[0] for exercise in exercises]
+        name, remark = (FORMULA.sub(r"\1'", text) for text in (student.name, student.trouble))
         table.writerow([name, *cells, cells.count("ok"), f"{student.seconds:.1f}", remark])
     return lines.getvalue()
 
 
-def _no_formula(text):
-    """A text in which no spreadsheet finds a formula; a name may begin like one."""
-    return FORMULA.sub(r"\1'", text)
-
-
-def table_html(students, exercises):
-    """The same as a page; what is wrong is shown where the pointer rests."""
-    rows = []
+def table_html(students: Iterable[Student], exercises: list[str]) -> str:
+    """Return the same as a page; what is wrong is shown where the pointer rests."""
+    rows = [
+        "student",
+        *(f"{each}<br><small>{escape(EXERCISES[each])}</small>" for each in exercises),
+    ]
+    rows = [f"<tr>{''.join(f'<th>{word}</th>' for word in (*rows, 'done', 'took'))}</tr>"]
     for student in students:
-        cells = []
-        for exercise in exercises:
-            word, details = _cell(student, exercise)
-            kind = {"ok": "ok", "-": "no", "?": "no"}.get(word, "wrong")
-            cells.append(
-                f'<td class="{kind}" title="{html.escape(details, quote=True)}">{html.escape(word)}</td>'
-            )
         link = quote(f"{student.name}.txt", errors="surrogateescape")  # a name may be no UTF-8
-        done = sum(outcome.passed for outcome in student.outcomes)
-        rows.append(
-            f'<tr><td><a href="{link}">{html.escape(student.name)}</a></td>{"".join(cells)}<td>{done}</td><td>{student.seconds:.0f} s</td></tr>'
-        )
-    head = "".join(
-        f"<th>{each}<br><small>{html.escape(EXERCISES[each])}</small></th>" for each in exercises
-    )
-    return (
-        '<!DOCTYPE html><html lang="en"><meta charset="utf-8"><title>Exercises</title><style>'
-        "body{font-family:sans-serif}td,th{padding:.2em .6em;border:1px solid #ccc}table{border-collapse:collapse}"
-        ".ok{background:#cfc}.wrong{background:#fcc}.no{color:#777}</style>"
-        f"<table><tr><th>student</th>{head}<th>done</th><th>took</th></tr>{''.join(rows)}</table></html>\n"
-    )
+        row = f'<td><a href="{link}">{escape(student.name)}</a></td>'
+        for exercise in exercises:
+            word, details = student.cell(exercise)
+            kind = {"ok": "ok", "-": "no", "?": "no", "not done": "no"}.get(word, "wrong")
+            row += f'<td class="{kind}" title="{escape(details)}">{escape(word)}</td>'
+        done = sum(outcome.passed and not outcome.empty for outcome in student.outcomes)
+        rows.append(f"<tr>{row}<td>{done}</td><td>{student.seconds:.0f} s</td></tr>")
+    head = f'<meta charset="utf-8"><title>Exercises</title><style>{STYLE}</style>'
+    return f'<!DOCTYPE html><html lang="en">{head}<table>{"".join(rows)}</table></html>\n'

@@ -1,50 +1,60 @@
 """The command line: ./tutorial check."""
 
+from __future__ import annotations
+
 import argparse
+import io
 import os
 import signal
 import sys
+from typing import Sequence
 
-from tutorial_check import place
-from tutorial_check.examination import examine
+from tutorial_check import bubblewrap
+from tutorial_check.examination import Outcome, examine
 from tutorial_check.exercises import EXERCISES
 from tutorial_check.formats import FORMATS, clear, without_hints, write
 from tutorial_check.model import CannotCheck, fault
 from tutorial_check.report import Terminal, summary
 
-FLOOR = "TUTORIAL_FLOOR"  # environment variable: setup.bash of the lower floor
+FLOOR = "TUTORIAL_FLOOR"  # environment variable: setup.bash of the underlay
 WORKSPACE = "TUTORIAL_IN"  # environment variable: the workspace of the shell that this is called in
 
 
-def meant(word):
-    """The exercises that a word means: 4 is all of 4.2 to 4.5, and 5.1, a section of it, is 5."""
+def meant(word: str) -> list[str]:
+    """Return the exercises that a word means: 4 is all of 4.2 to 4.5, and 5.1, a section of it, is 5."""
     section = f"{word.rstrip('.')}."
     inner = [each for each in EXERCISES if each.startswith(section)]
     whole = [each for each in EXERCISES if section.startswith(f"{each}.")]
     return inner or whole or [word]
 
 
-def path(word):
-    """A path of the command line: as it was given, but that an empty word would be the current folder."""
+def path(word: str) -> str:
+    """Return a path of the command line; an empty word would be the current folder."""
     if not word:
         raise argparse.ArgumentTypeError("an empty word is no path")
     return word
 
 
-def parse(arguments):
-    """The command line."""
+FILES = {
+    "json": "all results",
+    "junit": "JUnit's XML",
+    "gradescope": "Gradescope's results.json",
+    "classroom": "Classroom 50's result",
+}
+
+
+def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="./tutorial check",
         description="Checks the exercises of the tutorial in your own workspace.",
         epilog="exercises: " + ", ".join(f"{name} ({what})" for name, what in EXERCISES.items()),
     )
-    of_shell = os.environ.get(WORKSPACE) or None
     where = parser.add_mutually_exclusive_group()
     where.add_argument(
         "--in",
         dest="workspace",
         type=path,
-        default=of_shell,
+        default=os.environ.get(WORKSPACE) or None,
         metavar="WORKSPACE",
         help="your catkin workspace, a folder of packages, or a zip; in a shell of it not needed",
     )
@@ -54,38 +64,29 @@ def parse(arguments):
         metavar="FOLDER",
         help="for the professor: every workspace, or zip, in a folder",
     )
-    parser.add_argument("exercises", nargs="*", metavar="EXERCISE", help="all without one")
-    parser.add_argument(
-        "--no-hints", action="store_true", help="say what is wrong, not how to mend it"
-    )
-    parser.add_argument("--watch", action="store_true", help="check again whenever a file is saved")
-    for name, what in (
-        ("json", "all results"),
-        ("junit", "JUnit's XML"),
-        ("gradescope", "Gradescope's results.json"),
-        ("classroom", "Classroom 50's result"),
-    ):
-        parser.add_argument(f"--{name}", type=path, metavar="FILE", help=f"write {what}")
-    parser.add_argument(
-        "--out",
-        type=path,
-        metavar="FOLDER",
-        help="with --all: where the table and the reports go (FOLDER/check)",
-    )
-    parser.add_argument("--jobs", type=int, help="with --all: how many at a time (2)")
-    parser.add_argument(
-        "--floor",
-        type=path,
-        default=os.environ.get(FLOOR),
-        metavar="SETUP",
-        help="setup.bash of what the exercises stand on",
-    )
+    add = parser.add_argument
+    add("exercises", nargs="*", metavar="EXERCISE", help="all without one")
+    add("--no-hints", action="store_true", help="say what is wrong, not how to mend it")
+    add("--watch", action="store_true", help="check again whenever a file is saved")
+    for name, what in FILES.items():
+        add(f"--{name}", type=path, metavar="FILE", help=f"write {what}")
+    to = "with --all: where the table and the reports go (FOLDER/check)"
+    add("--out", type=path, metavar="FOLDER", help=to)
+    add("--jobs", type=int, help="with --all: how many at a time (2)")
+    what = "setup.bash of what the exercises need"
+    add("--floor", type=path, default=os.environ.get(FLOOR), metavar="SETUP", help=what)
+    return parser
+
+
+def parse(arguments: Sequence[str]) -> argparse.Namespace:
+    """Return the options; end with a line if they are not clear."""
+    parser = _parser()
     options = parser.parse_args(arguments)
     if not options.workspace and not options.all:
         words = " ".join(options.exercises)
         parser.error(f"which workspace? For example: --in ~/ros/hydro/catkin_ws {words}".rstrip())
-    options.exercises = [name for each in options.exercises for name in meant(each)]
-    unknown = [each for each in options.exercises if each not in EXERCISES]
+    wanted = [name for each in options.exercises for name in meant(each)]
+    unknown = [each for each in wanted if each not in EXERCISES]
     if unknown:
         parser.error(f"no exercise {unknown[0]}; there are {', '.join(EXERCISES)}")
     _refuse_idle(parser, options)
@@ -94,13 +95,11 @@ def parse(arguments):
     if not options.floor:
         parser.error("--floor is missing; ./tutorial check gives it")
     # In the handout's order, whatever theirs.
-    options.exercises = [
-        each for each in EXERCISES if not options.exercises or each in options.exercises
-    ]
+    options.exercises = [each for each in EXERCISES if not wanted or each in wanted]
     return options
 
 
-def _refuse_idle(parser, options):
+def _refuse_idle(parser: argparse.ArgumentParser, options: argparse.Namespace) -> None:
     """End with a line if an option would do nothing."""
     files = [f"--{name}" for name in FORMATS if getattr(options, name)]
     if options.watch and options.all:
@@ -114,15 +113,14 @@ def _refuse_idle(parser, options):
             parser.error(f"--{name} is for --all")
 
 
-def write_files(files, outcomes):
-    """The files that were asked for, each though another cannot be written. Raises CannotCheck."""
+def write_files(files: dict[str, str], outcomes: list[Outcome]) -> None:
+    """Write the files, each though another cannot be written. Raises CannotCheck."""
     faults = []
     for name, file in files.items():
         if name == "classroom" and any(outcome.trouble for outcome in outcomes):
-            # It has no word for this. Without a file it tells of an error, and of no points.
-            print(
-                f"check: {file} is not written: not every exercise has a verdict", file=sys.stderr
-            )
+            # It has no word for this. Without a file it reports an error, and no points.
+            why = "not every exercise has a verdict"
+            print(f"check: {file} is not written: {why}", file=sys.stderr)
             continue
         try:
             write(file, FORMATS[name](outcomes))
@@ -132,8 +130,8 @@ def write_files(files, outcomes):
         raise CannotCheck("; ".join(faults))
 
 
-def check_one(options):
-    """Check a workspace; the exit code."""
+def check_one(options: argparse.Namespace) -> int:
+    """Check a workspace; return the exit code."""
     files = {name: getattr(options, name) for name in FORMATS if getattr(options, name)}
     for file in files.values():
         clear(file)
@@ -151,14 +149,15 @@ def check_one(options):
     return 0 if all(outcome.passed for outcome in outcomes) else 1
 
 
-def main():
-    """Exit code 0: nothing wrong; 1: something is; 2: the checker cannot work."""
+def main() -> None:
+    """Run the command. Exit code 0: nothing wrong; 1: something is; 2: the checker cannot work."""
+    assert isinstance(sys.stdout, io.TextIOWrapper)
     sys.stdout.reconfigure(errors="backslashreplace")  # for names of files that are no UTF-8
     options = parse(sys.argv[1:])
     for number in (signal.SIGTERM, signal.SIGHUP):  # as Ctrl-C: what was started ends, too
         if signal.getsignal(number) != signal.SIG_IGN:  # as nohup has it
             signal.signal(number, signal.default_int_handler)
-    for line in place.lacking():
+    for line in bubblewrap.lacking():
         print(f"check: {line}", file=sys.stderr, flush=True)
     try:
         if options.all:

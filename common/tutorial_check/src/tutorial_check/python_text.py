@@ -1,5 +1,7 @@
 """The text of a Python file: its coding, its lines, an expression in short. Pure."""
 
+from __future__ import annotations
+
 import ast
 import io
 import re
@@ -8,8 +10,8 @@ import re
 CODING = re.compile(rb"(?:[ \t\f]*(?:#[^\n]*)?\n)??[ \t\f]*#[^\n]*?coding[:=][ \t]*([-\w.]+)")
 
 
-def unreadable(data):
-    """(line, what is there) of the first thing in a file that is not of its coding; None if all is."""
+def unreadable(data: bytes) -> tuple[int, str] | None:
+    """Return (line, what is there) of the first thing in a file that is not of its coding; None if all is."""
     declared = CODING.match(data)
     coding = declared[1].decode() if declared else "utf-8"
     try:
@@ -19,17 +21,18 @@ def unreadable(data):
         what = f"the byte 0x{data[start]:02x}, which is not {coding.upper()}"
         return data.count(b"\n", 0, start) + 1, what
     except LookupError:
-        return data.count(b"\n", 0, declared.end()) + 1, f"a coding that is none, {coding}"
+        end = declared.end() if declared else 0
+        return data.count(b"\n", 0, end) + 1, f"a coding that is none, {coding}"
     return None
 
 
-def python_lines(text):
-    """The lines of a program as Python counts them; for splitlines() one also ends at a form feed or U+2028."""
+def python_lines(text: str) -> list[str]:
+    """Return the lines as Python counts them; splitlines() also splits at a form feed or U+2028."""
     return [line.rstrip("\r\n") for line in io.StringIO(text, newline="")]
 
 
-def text_of(node):
-    """A short text of an expression; for what has none, its kind."""
+def text_of(node: ast.AST) -> str:
+    """Return a short text of an expression; for what has none, its kind."""
     if isinstance(node, ast.Constant):
         return str(node.value)
     if isinstance(node, ast.Name):
@@ -43,6 +46,6 @@ def text_of(node):
     return type(node).__name__
 
 
-def last_name(node):
-    """The last part of the name of what is called."""
+def last_name(node: ast.Call) -> str:
+    """Return the last part of the name of what is called."""
     return text_of(node.func).rsplit(".", 1)[-1]

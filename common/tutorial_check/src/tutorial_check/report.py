@@ -1,27 +1,32 @@
 """What the student reads in the terminal. Pure but for the printing."""
 
+from __future__ import annotations
+
 import os
 import sys
+from typing import TYPE_CHECKING, Sequence, TextIO
 
 from tutorial_check.exercises import EXERCISES
-from tutorial_check.model import NOTE, OK, UNREACHED, WRONG
+from tutorial_check.model import NOTE, OK, UNREACHED, WRONG, Result
+
+if TYPE_CHECKING:
+    from tutorial_check.examination import Outcome
 
 WORDS = {OK: "ok", WRONG: "WRONG", NOTE: "note", UNREACHED: "-"}
 COLOURS = {OK: "32", WRONG: "1;31", NOTE: "33", UNREACHED: "2"}
 MARGIN = " " * 11
 
 
-def lines_of(result, hints=True):
-    """The report of one check: [line]."""
+def lines_of(result: Result, hints: bool = True) -> list[str]:
+    """Return the lines of the report of one check."""
     head = f"  {WORDS[result.status]:<6} {result.id:<4}{result.title}"
     if result.status == OK:
         return [head + (f"  ({result.seen})" if result.seen else "")]
     if result.status == UNREACHED:
         return [f"{head}: not reached; {result.seen}"]
-    lines = [head]
+    lines = [head, f"{MARGIN}seen:     {result.seen}"]
     if result.expected:
-        lines.append(f"{MARGIN}expected: {result.expected}")
-    lines.append(f"{MARGIN}seen:     {result.seen}")
+        lines.insert(1, f"{MARGIN}expected: {result.expected}")
     if result.where:
         lines.append(f"{MARGIN}where:    {result.where}")
     if hints and result.hint:
@@ -32,21 +37,21 @@ def lines_of(result, hints=True):
     return lines
 
 
-def heading(outcome):
-    """The line above an exercise."""
+def heading(outcome: Outcome) -> str:
+    """Return the line above an exercise."""
     return f"{outcome.id} {EXERCISES[outcome.id]}"
 
 
-def summary(outcomes):
-    """The last line."""
+def summary(outcomes: Sequence[Outcome]) -> str:
+    """Return the last line."""
     passed = [outcome for outcome in outcomes if outcome.passed]
-    empty = [one.id for one in passed if one.results and all(each.empty for each in one.results)]
+    empty = [outcome.id for outcome in passed if outcome.empty]
     rest = f" ({', '.join(empty)}: nothing to check)" if empty else ""
     return f"{len(passed) - len(empty)} of {len(outcomes)} exercises done{rest}"
 
 
-def text_of(outcomes):
-    """The whole report without colours."""
+def text_of(outcomes: Sequence[Outcome]) -> str:
+    """Return the whole report without colours."""
     lines = []
     for outcome in outcomes:
         lines.append(heading(outcome))
@@ -58,27 +63,25 @@ def text_of(outcomes):
 class Terminal:
     """Prints results as they come, with a line of what is done now where there is a terminal."""
 
-    def __init__(self, hints=True, out=None):
+    def __init__(self, hints: bool = True, out: TextIO | None = None) -> None:
         self._out = out or sys.stdout
         self._hints = hints
-        self._heading = None
+        self._heading = ""
         self.is_terminal = self._out.isatty()
         self._has_colour = self.is_terminal and "NO_COLOR" not in os.environ
 
-    def busy(self, words):
-        """A line that the next one replaces."""
+    def busy(self, words: str) -> None:
+        """Show a line that the next one replaces."""
         if self.is_terminal:
-            self._out.write(f"\r\x1b[K{words} ...")
-            self._out.flush()
+            print(f"\r\x1b[K{words} ...", end="", file=self._out, flush=True)
 
-    def done(self):
+    def done(self) -> None:
         """Take that line away."""
         if self.is_terminal:
-            self._out.write("\r\x1b[K")
-            self._out.flush()
+            print("\r\x1b[K", end="", file=self._out, flush=True)
 
-    def tell(self, outcome, result):
-        """One result."""
+    def tell(self, outcome: Outcome, result: Result) -> None:
+        """Print one result."""
         self.done()
         if self._heading != outcome.id:
             self._heading = outcome.id

@@ -4,6 +4,7 @@ import contextlib
 import os
 import stat
 from pathlib import Path
+from typing import Iterator, Tuple
 
 from tutorial_check.model import CannotCheck
 
@@ -20,7 +21,7 @@ def put(base: Path, path: Path, text: str, mode: int = 0o644) -> None:
 
 
 def read(base: Path, path: Path) -> bytes:
-    """What a file below a folder holds. Raises CannotCheck, also for a pipe or a device."""
+    """Return what a file below a folder holds. Raises CannotCheck, also for a pipe or a device."""
     with _folder_of(base, path) as (folder, name):
         flags = os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK
         with open(os.open(name, flags, dir_fd=folder), "rb") as file:
@@ -30,11 +31,11 @@ def read(base: Path, path: Path) -> bytes:
 
 
 @contextlib.contextmanager
-def _folder_of(base, path):
-    """(descriptor of the folder that a file is in, its name there)."""
+def _folder_of(base: Path, path: Path) -> Iterator[Tuple[int, str]]:
+    """Yield (descriptor of the folder that a file is in, its name there)."""
     *between, name = Path(path).relative_to(base).parts
     flags = os.O_RDONLY | os.O_DIRECTORY
-    folder = None
+    folder = -1
     try:
         folder = os.open(base, flags)
         for part in between:
@@ -46,5 +47,5 @@ def _folder_of(base, path):
         why = error.strerror or error
         raise CannotCheck(f"{path} is not as it was: a program changed it: {why}") from None
     finally:
-        if folder is not None:
+        if folder >= 0:
             os.close(folder)

@@ -1,5 +1,7 @@
 """From what a program printed to its traceback. Pure."""
 
+from __future__ import annotations
+
 import re
 from dataclasses import dataclass
 
@@ -20,13 +22,14 @@ CLOSED = re.compile(r"publish\(\) to a closed topic|topic was closed during publ
 ABOVE = "During handling of the above exception"
 
 
-def first_traceback(output, folder):
-    """The first Traceback in the output, or None: what follows is often its consequence.
+def first_traceback(output: str, folder: str) -> Traceback | None:
+    """Return the first Traceback in the output, or None: what follows is often its consequence.
 
     folder: the package's; its files count as the student's.
     """
     blocks = output.split("Traceback (most recent call last)")[1:]
-    found, is_closed = [], False
+    found: list[Traceback] = []
+    is_closed = False
     for block in reversed(blocks[:50]):
         if not block.strip(": \n"):  # cut off behind this line, it tells nothing
             continue
@@ -37,7 +40,7 @@ def first_traceback(output, folder):
     return next((trace for trace in found[::-1] if trace.where), found[-1] if found else None)
 
 
-def _traceback(block, folder):
+def _traceback(block: str, folder: str) -> Traceback:
     lines = block.splitlines()
     where = text = error = ""
     for number, line in enumerate(lines[1:], 1):
@@ -52,8 +55,8 @@ def _traceback(block, folder):
     return Traceback(error or lines[-1].strip(), where, text)
 
 
-def last_lines(output, count=3):
-    """The end of an output, in one line, without colours."""
+def last_lines(output: str, count: int = 3) -> str:
+    """Return the end of an output, in one line, without colours."""
     plain = re.sub(r"\x1b\[[0-9;]*m", "", output)
     lines = [line.strip() for line in plain.splitlines() if line.strip()]
     return " / ".join(line[:200] for line in lines[-count:])

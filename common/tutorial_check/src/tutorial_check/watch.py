@@ -1,81 +1,62 @@
 """--watch: checks again when a file is saved, the first wrong check on top."""
 
-import os
-import threading
-import time
+from __future__ import annotations
 
-from tutorial_check.examination import examine
+import argparse
+import contextlib
+import os
+import time
+from typing import Callable
+
+from tutorial_check.examination import Outcome, examine
 from tutorial_check.model import WRONG, CannotCheck
 from tutorial_check.report import Terminal, lines_of, summary
 
-QUIET_S = 0.3  # editors save in several steps; it begins when they have finished
-IGNORED = ("/build/", "/devel/", "/.git/", "__pycache__", ".swp", "~")
+PERIOD_S = 0.5  # between two looks; editors save in several steps, so two must be the same
+IGNORED = {"build", "devel", ".git", "__pycache__"}
 
 
-def matters(path, folder):
-    """Whether a change of a file in a folder is one of the student's."""
-    inside = f"/{os.path.relpath(path, folder)}/"
-    return not any(word in inside for word in IGNORED)
+def stamps(folder: str) -> dict[str, tuple[int, int]]:
+    """Return {path: (time of the last change, size)} of the student's files in a folder."""
+    found = {}
+    for here, folders, files in os.walk(folder):
+        folders[:] = [each for each in folders if each not in IGNORED]
+        for name in files:
+            if not name.endswith(("~", ".swp")):
+                path = os.path.join(here, name)
+                with contextlib.suppress(OSError):  # removed meanwhile
+                    about = os.stat(path)
+                    found[path] = about.st_mtime_ns, about.st_size
+    return found
 
 
-class Changes:
-    """Tells when a file of a folder has changed."""
-
-    def __init__(self, folder):
-        """Raises CannotCheck."""
-        from watchdog.events import FileSystemEventHandler  # noqa: PLC0415  only here
-        from watchdog.observers import Observer  # noqa: PLC0415
-
-        if not os.path.isdir(folder):
-            raise CannotCheck(f"{folder}: no folder, and --watch is for one")
-        self._folder = folder
-        self._changed = threading.Event()
-        handler = FileSystemEventHandler()
-        handler.on_any_event = self._on_event
-        self._observer = Observer()
-        try:
-            self._observer.schedule(handler, str(folder), recursive=True)
-            self._observer.start()
-        except OSError as error:
-            raise CannotCheck(
-                f"{folder}: {error.strerror}; without --watch it is checked once"
-            ) from None
-
-    def _on_event(self, event):
-        if event.event_type in ("opened", "closed_no_write"):
+def wait_for_change(folder: str, before: dict[str, tuple[int, int]]) -> None:
+    """Return once something differs from before, and then nothing changes for a moment."""
+    last = before
+    while True:
+        time.sleep(PERIOD_S)
+        now = stamps(folder)
+        if now == last and now != before:
             return
-        if not event.is_directory and matters(event.src_path, self._folder):
-            self._changed.set()
-
-    def wait(self):
-        """Return once something has changed, and then nothing for a moment."""
-        while not self._changed.wait(0.5):
-            pass
-        while self._changed.is_set():
-            self._changed.clear()
-            time.sleep(QUIET_S)
-
-    def end(self):
-        """Watch no longer."""
-        self._observer.stop()
+        last = now
 
 
-def watch(options, examine=examine):
-    """Until Ctrl-C: examine, tell the first that is wrong, wait for a change."""
-    changes = Changes(options.workspace)
-    try:
-        while True:
-            print("\x1b[2J\x1b[H" if Terminal().is_terminal else "", end="")
-            tell_once(options, examine)
-            print(f"waiting for a change in {options.workspace} (Ctrl-C ends)", flush=True)
-            changes.wait()
-    finally:
-        changes.end()
+def watch(options: argparse.Namespace, examine: Callable[..., list[Outcome]] = examine) -> int:
+    """Until Ctrl-C: examine, report the first that is wrong, wait for a change. Raises CannotCheck."""
+    if not os.path.isdir(options.workspace):
+        raise CannotCheck(f"{options.workspace}: no folder, and --watch is for one")
+    while True:
+        before = stamps(options.workspace)
+        print("\x1b[2J\x1b[H" if Terminal().is_terminal else "", end="")
+        report_once(options, examine)
+        print(f"waiting for a change in {options.workspace} (Ctrl-C ends)", flush=True)
+        wait_for_change(options.workspace, before)
 
 
-def tell_once(options, examine):
-    """One round: exercise after exercise, up to the first thing wrong."""
-    outcomes, terminal = [], Terminal()
+def report_once(options: argparse.Namespace, examine: Callable[..., list[Outcome]]) -> None:
+    """Check exercise after exercise, up to the first thing wrong."""
+    outcomes: list[Outcome] = []
+    terminal = Terminal()
     for exercise in options.exercises:
         terminal.busy(f"checking {exercise}")
         try:
@@ -92,9 +73,8 @@ def tell_once(options, examine):
         if outcomes[-1].trouble:
             print(f"check: {exercise}: no verdict: {outcomes[-1].trouble}")
             break
-    done = ", ".join(outcome.id for outcome in outcomes if outcome.passed)
-    print(
-        f"done: {done or 'none yet'}"
-        if len(outcomes) < len(options.exercises) or not outcomes[-1].passed
-        else summary(outcomes)
-    )
+    if len(outcomes) == len(options.exercises) and outcomes[-1].passed:
+        print(summary(outcomes))
+    else:
+        done = ", ".join(outcome.id for outcome in outcomes if outcome.passed and not outcome.empty)
+        print(f"done: {done or 'none yet'}")

@@ -1,211 +1,232 @@
 """C5 to C10: talker and listener."""
 
-import statistics
+from __future__ import annotations
 
+import statistics
+from typing import TYPE_CHECKING, Any, Iterable
+
+from tutorial_check.causes import with_import
 from tutorial_check.changed_programs import flipped_anonymous
+from tutorial_check.exercises import check
 from tutorial_check.exercises.files import check_end, check_file, crash, find_script, odd_node
 from tutorial_check.exercises.silent_end import sunken_main
 from tutorial_check.exercises.talking import LISTEN_S, PACKAGE, TOPIC, scripts, talk_of
 from tutorial_check.model import Note, Wrong, master_gone
+from tutorial_check.rows import Row, demand
 
-SUBSCRIBER_LINE = "rospy.Subscriber('chatter', String, callback)"
+if TYPE_CHECKING:
+    from tutorial_check.exercises.talking import Talk
+    from tutorial_check.session import Session
 
 
-def files(session):
-    """C5."""
+TALKS = "std_msgs/String on /chatter, about 10 times a second"
+LISTENS = "every text sent on /chatter, displayed once"
+GOES_ON = "it goes on until Ctrl-C"
+FEW = 3  # Twists, of which no rate can be told
+
+
+class Half:
+    """One of the two programs in a Talk: the facts of the rows below."""
+
+    def __init__(self, session: Session, talk: Talk, script: str, program: Any) -> None:
+        self.session, self.talk, self.script, self.program = session, talk, script, program
+        self.facts = session.scripts(PACKAGE)[script]
+        self.publisher_line = with_import(
+            "rospy.Publisher('chatter', String, queue_size=10)", "String", self.facts
+        )
+        self.subscriber_line = with_import(
+            "rospy.Subscriber('chatter', String, callback)", "String", self.facts
+        )
+
+    def at(self, name: str, default: int = 1) -> str:
+        """Where the first call of that name stands."""
+        call = self.facts.first(name)
+        return f"{self.script}:{call.line if call else default}"
+
+    @property
+    def publisher(self) -> Any:
+        """Where the Publisher is made."""
+        return self.at("Publisher")
+
+    @property
+    def subscriber(self) -> Any:
+        """Where the Subscriber is made."""
+        return self.at("Subscriber") if self.facts.first("Subscriber") else self.script
+
+    @property
+    def has_failed(self) -> Any:
+        """Whether it printed an error, or works without end."""
+        return "Traceback" in self.program.output or self.program.spins
+
+    def is_meant(self, name: str, topic: str) -> Any:
+        """Whether the first topic of that kind in the text is this one."""
+        call = self.facts.first(name)
+        return bool(call) and call.words[:1] in ([topic], [topic.lstrip("/")])
+
+    def other_topic(self, topics: Iterable[str]) -> Any:
+        """Another topic than the one asked for, or an empty text."""
+        return next(iter(sorted(set(topics) - {TOPIC, "/rosout"})), "")
+
+    @property
+    def wanted(self) -> Any:
+        """The type that the Subscriber asks for, if it is no String."""
+        call = self.facts.first("Subscriber")
+        kind = call.words[1].rpartition(".")[2] if call and len(call.words) > 1 else "String"
+        refused = any("datatype" in line and "chatter" in line for line in self.talk.warnings)
+        return kind if kind != "String" else "another type of message" if refused else ""
+
+    @property
+    def carried(self) -> Any:
+        """The type on /chatter, if it is no String."""
+        kind = self.talk.types.get(TOPIC, "std_msgs/String")
+        is_other = TOPIC in self.talk.publishers and kind != "std_msgs/String"
+        return kind if is_other or any("datatype" in line for line in self.talk.warnings) else ""
+
+    @property
+    def found(self) -> Any:
+        """How many of the texts were displayed; with or without colours or a separator."""
+        return sum(text in self.program.output for text in self.talk.strings)
+
+    def crash(self, expected: str, hint: str = "") -> Any:
+        """The Wrong for a program that failed or ended."""
+        place, meant = sunken_main(self.facts, self.script)
+        wrong = crash(self.session, PACKAGE, self.program, expected, meant or hint)
+        wrong.where = wrong.where or place
+        return wrong
+
+    def silent_talker(self) -> Any:
+        """The Wrong for a talker that says nothing and has failed or ended."""
+        hint = "does the last line call talker()"
+        loops = ", and does it loop: while not rospy.is_shutdown()"
+        return self.crash(TALKS, f"{hint}{loops if self.facts.has_main else ''}?")
+
+    def ended_listener(self) -> Any:
+        """The Wrong for a listener that ended."""
+        hint = "does the last line call listener()?"
+        if "spin" not in self.facts.calls:
+            hint = "rospy.spin() at the end of listener() keeps it alive"
+        wrong = self.crash(GOES_ON, hint)
+        bare = [line for line, text in self.facts.bare_names if text.endswith("spin")]
+        if bare and not wrong.where:
+            wrong.where = f"{self.script}:{bare[0]}"
+            wrong.hint = "rospy.spin needs its (): rospy.spin()"
+        return wrong
+
+    @property
+    def times(self) -> Any:
+        """How often each text was displayed."""
+        lines = self.program.output.splitlines()
+        return min(sum(text in line for line in lines) for text in self.talk.strings)
+
+    @property
+    def second_line(self) -> Any:
+        """Where a text is displayed for the second time."""
+        subscribers = [call.line for call in self.facts.calls.get("Subscriber", [])]
+        called = self.facts.called_back
+        shown = sorted(called.get("print", []) + called.get("loginfo", []))
+        lines = (each[1] for each in (subscribers, shown) if len(each) > 1)
+        return next((f"{self.script}:{line}" for line in lines), self.script)
+
+
+SILENT_TALKER = (
+    Row(lambda h: h.talk.talker_ended or h.has_failed, lambda h: h.silent_talker()),
+    Row(lambda h: TOPIC in h.talk.publishers and h.carried, "/chatter carries {found}",
+        "{f.publisher_line}", "{f.publisher}", sure=True),
+    Row(lambda h: h.carried, "/chatter carries {found}", "{f.publisher_line}", "{f.publisher}"),
+    Row(lambda h: (topic := h.other_topic(h.talk.publishers)) and h.is_meant("Publisher", topic)
+        and topic, "it publishes on {found}", "the topic is called chatter", "{f.publisher}",
+        sure=True),
+    Row(lambda h: h.other_topic(h.talk.publishers), "it publishes on {found}",
+        "the topic is called chatter", "{f.publisher}"),
+    Row(lambda h: True, "not one message", "is publish(...) called within the loop?", "{f.script}"),
+)  # fmt: skip
+DEAF_LISTENER = (
+    Row(lambda h: h.has_failed, lambda h: crash(h.session, PACKAGE, h.program, LISTENS)),
+    Row(lambda h: TOPIC not in h.talk.subscribers and h.other_topic(h.talk.subscribers),
+        "it subscribes to {found}", "the topic is called chatter", "{f.subscriber}", sure=True),
+    Row(lambda h: TOPIC not in h.talk.subscribers, "it subscribes to nothing",
+        "{f.subscriber_line}, before rospy.spin()", "{f.subscriber}"),
+    Row(lambda h: not h.found and h.facts.deaf, "its Subscriber has no callback",
+        "{f.subscriber_line}", "{f.script}:{found.line}", sure=True),
+    Row(lambda h: h.wanted, "it wants {found} on /chatter", "{f.subscriber_line}",
+        "{f.subscriber}"),
+    Row(lambda h: True, "{f.found} of {f.total} displayed",
+        "does callback(data) display data.data, with rospy.loginfo?", "{f.subscriber}"),
+)  # fmt: skip
+
+
+def _half(session: Session, is_talker: bool) -> Any:
+    """A program of the Talk. Raises Wrong if the master has gone."""
+    talk = talk_of(session)
+    if not talk.master_alive:
+        raise master_gone()
+    script = scripts(session)[0 if is_talker else 1]
+    return Half(session, talk, script, talk.talkers[0] if is_talker else talk.listener)
+
+
+@check("C5", "talker.py and listener.py can be run", "3.1", "C2",
+       look="rosrun beginner_tutorials talker.py", timeless=True)  # fmt: skip
+def files(session: Session) -> Note | str | None:
+    """Check what can be said of the two without running them."""
     for script in scripts(session):
         check_file(session, PACKAGE, script)
     notes = [odd_node(session, PACKAGE, script) for script in scripts(session)]
     return next(filter(None, notes), ", ".join(scripts(session)))
 
 
-def _facts(session, script):
-    return session.scripts(PACKAGE)[script]
-
-
-def _check_master(talk):
-    if not talk.master_alive:
-        raise master_gone()
-
-
-def _is_meant(call, topic):
-    """Whether the first topic of that kind in the program is this one; call may be None."""
-    return call is not None and call.words[:1] in ([topic], [topic.lstrip("/")])
-
-
-def talker(session):
-    """C6."""
-    talk = talk_of(session)
-    _check_master(talk)
-    script, _ = scripts(session)
-    expected = "std_msgs/String on /chatter, about 10 times a second"
-    program = talk.talkers[0]
-    facts = _facts(session, script)
+@check("C6", "the talker talks", "3.1", "C5", look="rostopic hz /chatter")
+def talker(session: Session) -> Note | str | None:
+    """Check what comes on /chatter, and how often."""
+    half = _half(session, is_talker=True)
+    talk, facts = half.talk, half.facts
     if not talk.heard:
-        made = facts.first("Publisher")
-        if talk.talker_ended or "Traceback" in program.output or program.spins:
-            place, hint = sunken_main(facts, script)
-            if not facts.has_main:
-                hint = "does the last line call talker()?"
-            wrong = crash(
-                session,
-                PACKAGE,
-                program,
-                expected,
-                hint
-                or "does the last line call talker(), and does it loop: while not rospy.is_shutdown()?",
-            )
-            wrong.where = wrong.where or place
-            raise wrong
-        topics = sorted(topic for topic in talk.publishers if topic not in (TOPIC, "/rosout"))
-        if (
-            TOPIC in talk.publishers
-            and talk.types.get(TOPIC, "std_msgs/String") != "std_msgs/String"
-        ) or any("datatype" in line for line in talk.warnings):
-            raise Wrong(
-                expected,
-                f"/chatter carries {talk.types.get(TOPIC)}",
-                where=f"{script}:{made.line if made else 1}",
-                hint="rospy.Publisher('chatter', String, queue_size=10)",
-                sure=TOPIC in talk.publishers,
-            )
-        if topics:
-            raise Wrong(
-                expected,
-                f"it publishes on {topics[0]}",
-                where=f"{script}:{made.line if made else 1}",
-                hint="the topic is called chatter",
-                sure=_is_meant(made, topics[0]),
-            )
-        raise Wrong(
-            expected,
-            "not one message",
-            where=script,
-            hint="is publish(...) called within the loop?",
-        )
-    texts = {value for _, _, value in talk.heard}
+        demand(SILENT_TALKER, half, TALKS)
     if talk.talker_ended:
-        raise crash(
-            session,
-            PACKAGE,
-            program,
-            "it goes on until Ctrl-C",
-            "while not rospy.is_shutdown(): ..., rate.sleep() within it",
-        )
+        hint = "while not rospy.is_shutdown(): ..., rate.sleep() within it"
+        raise crash(session, PACKAGE, half.program, GOES_ON, hint)
     times = [when for when, caller, _ in talk.heard if caller == talk.heard[0][1]]
-    if len(times) < 3:
+    if len(times) < FEW:
         return Note(f"{len(times)} messages in {LISTEN_S + 2:.0f} s: slower than 1 Hz")
     rate = 1 / max(1e-6, statistics.median(b - a for a, b in zip(times, times[1:])))
     # Where we come late for some, they come at once; but not more of them than were sent.
     if min(rate, (len(times) - 1) / max(1e-6, times[-1] - times[0])) > 150:
-        told = f"{rate:.0f}" if rate < 1000 else "thousands of"
-        raise Wrong(
-            expected,
-            f"{told} messages a second",
-            where=f"{script}:{facts.loops[0]}" if facts.loops else script,
-            hint="rate.sleep() is missing within the loop",
-            sure=True,
-        )
+        seen = f"{f'{rate:.0f}' if rate < 1000 else 'thousands of'} messages a second"
+        where = f"{half.script}:{facts.loops[0]}" if facts.loops else half.script
+        raise Wrong(TALKS, seen, where, "rate.sleep() is missing within the loop", sure=True)
+    texts = {value for _, _, value in talk.heard}
     if len(texts) == 1:
         return Note(f"always the same text, {texts.pop()!r}; the handout's has the time in it")
-    if not 8 <= rate <= 12:
-        return Note(f"{rate:.1f} Hz, the handout's is 10")
-    return f"{rate:.1f} Hz"
+    return f"{rate:.1f} Hz" if 8 <= rate <= 12 else Note(f"{rate:.1f} Hz, the handout's is 10")
 
 
-def listener(session):
-    """C7."""
-    talk = talk_of(session)
-    _check_master(talk)
-    _, script = scripts(session)
-    program = talk.listener
-    facts = _facts(session, script)
-    expected = "every text sent on /chatter, displayed once"
-    if talk.listener_ended:
-        has_spin = "spin" in facts.calls
-        bare = [line for line, text in facts.bare_names if text.endswith("spin")]
-        place, hint = sunken_main(facts, script)
-        hint = hint or (
-            "rospy.spin() at the end of listener() keeps it alive"
-            if not has_spin
-            else "does the last line call listener()?"
-        )
-        wrong = crash(session, PACKAGE, program, "it goes on until Ctrl-C", hint)
-        wrong.where = wrong.where or place
-        if bare and not wrong.where:
-            wrong.where, wrong.hint = f"{script}:{bare[0]}", "rospy.spin needs its (): rospy.spin()"
-        raise wrong
-    # Coloured or not, with or without a separator: the text itself is looked for.
-    found = [text for text in talk.strings if text in program.output]
-    if len(found) == len(talk.strings):
-        return _repeated(talk, facts, script)
-    if "Traceback" in program.output or program.spins:
-        raise crash(session, PACKAGE, program, expected)
-    call = facts.first("Subscriber")
-    where = f"{script}:{call.line}" if call else script
-    if TOPIC not in talk.subscribers:
-        others = sorted(set(talk.subscribers) - {"/rosout"})
-        raise Wrong(
-            expected,
-            f"it subscribes to {others[0] if others else 'nothing'}",
-            where=where,
-            hint="the topic is called chatter"
-            if others
-            else f"{SUBSCRIBER_LINE}, before rospy.spin()",
-            sure=bool(others) and _is_meant(call, others[0]),
-        )
-    if facts.deaf and not found:
-        raise Wrong(
-            expected,
-            "its Subscriber has no callback",
-            where=f"{script}:{facts.deaf.line}",
-            hint=SUBSCRIBER_LINE,
-            sure=True,
-        )
-    kind = call.words[1].rpartition(".")[2] if call and len(call.words) > 1 else "String"
-    refused = any("datatype" in line and "chatter" in line for line in talk.warnings)
-    if kind != "String" or refused:
-        seen = f"it wants {kind if kind != 'String' else 'another type of message'} on /chatter"
-        raise Wrong(expected, seen, where=where, hint=SUBSCRIBER_LINE)
-    raise Wrong(
-        expected,
-        f"{len(found)} of {len(talk.strings)} displayed",
-        where=where,
-        hint="does callback(data) display data.data, with rospy.loginfo?",
-    )
-
-
-def _repeated(talk, facts, script):
-    """A Note if every text is displayed several times; else None."""
-    lines = talk.listener.output.splitlines()
-    times = min(sum(text in line for line in lines) for text in talk.strings)
-    if times < 2:
+@check("C7", "the listener displays what it hears", "3.1", "C5",
+       look="rosrun beginner_tutorials listener.py")  # fmt: skip
+def listener(session: Session) -> Note | str | None:
+    """Check that every text that is sent appears in its output."""
+    half = _half(session, is_talker=False)
+    half.total = len(half.talk.strings)
+    if half.talk.listener_ended:
+        raise half.ended_listener()
+    if half.found < half.total:
+        demand(DEAF_LISTENER, half, LISTENS)
+    if half.times < 2:
         return None
-    shown = sorted(
-        line for name in ("print", "loginfo") for line in facts.called_back.get(name, [])
-    )
-    subscribers = [call.line for call in facts.calls.get("Subscriber", [])]
-    line = next((each[1] for each in (subscribers, shown) if len(each) > 1), 0)
-    return Note(
-        f"each text is displayed {times} times",
-        f"{script}:{line}" if line else script,
-        "one Subscriber, and one rospy.loginfo in its callback, are enough",
-    )
+    hint = "one Subscriber, and one rospy.loginfo in its callback, are enough"
+    return Note(f"each text is displayed {half.times} times", half.second_line, hint)
 
 
-def graph(session):
-    """C8."""
+@check("C8", "talker and listener are connected", "3.1", "C6 C7",
+       look="rosnode info /rosout; rqt_graph")  # fmt: skip
+def graph(session: Session) -> Note | str | None:
+    """Check the way from the one to the other."""
     talk = talk_of(session)
     if not talk.publishers.get(TOPIC) or not talk.subscribers.get(TOPIC):
-        raise Wrong(
-            "talker -> /chatter -> listener",
-            "no such way in the graph",
-            hint="one name for the topic, in both",
-        )
+        seen, hint = "no such way in the graph", "one name for the topic, in both"
+        raise Wrong("talker -> /chatter -> listener", seen, hint=hint)
     return f"{talk.publishers[TOPIC][0]} -> /chatter -> {talk.subscribers[TOPIC][0]}"
 
 
-def _whole_talk(session):
+def _whole_talk(session: Session) -> Any:
     """The Talk; if it came to no second talker, as may be in a second look, C6 or C7 says why."""
     talk = talk_of(session)
     if not talk.taken:
@@ -214,55 +235,44 @@ def _whole_talk(session):
     return talk
 
 
-def anonymous(session):
-    """C9: as submitted, and with anonymous the other way round in a copy."""
+@check("C9", "anonymous names", "3.1", "C6 C7 C10", look="rosnode list, with two talkers")
+def anonymous(session: Session) -> Note | str | None:
+    """Start two talkers as submitted, and with anonymous the other way round in a copy."""
     script, _ = scripts(session)
     talk = _whole_talk(session)
-    call = _facts(session, script).first("init_node")
+    call = session.scripts(PACKAGE)[script].first("init_node")
+    where = f"{script}:{call.line}" if call else script
     is_anonymous = bool(call) and call.names.get("anonymous") == "True"
     knows = bool(call) and call.names.get("anonymous", "False") in ("True", "False")
     if is_anonymous and talk.first_ended:
-        raise Wrong(
-            "two talkers side by side",
-            "the second one ended the first",
-            where=f"{script}:{call.line}",
-        )
+        raise Wrong("two talkers side by side", "the second one ended the first", where)
     if knows and not is_anonymous and talk.both and not talk.first_ended:
-        raise Wrong(
-            "the second talker of one name ends the first",
-            "both go on",
-            where=f"{script}:{call.line}",
-        )
+        raise Wrong("the second talker of one name ends the first", "both go on", where)
     if not talk.both and not talk.first_ended:
-        raise Wrong("a second talker speaks, or ends the first", "neither", where=script)
+        raise Wrong("a second talker speaks, or ends the first", "neither", script)
     flipped = flipped_anonymous(session.text(PACKAGE, script), not is_anonymous) if knows else None
     if not flipped:
         return Note("anonymous cannot be changed by the checker here; try both yourself")
     ended = _second_ends_first(session, session.sibling(PACKAGE, script, flipped))
     if ended == (not is_anonymous):
-        raise Wrong(
-            f"with anonymous={not is_anonymous} "
-            + ("both live" if not is_anonymous else "the second ends the first"),
-            "it was not so",
-            where=f"{script}:{call.line}",
-            hint="is anonymous given to rospy.init_node?",
-        )
+        then = "the second ends the first" if is_anonymous else "both live"
+        hint = "is anonymous given to rospy.init_node?"
+        raise Wrong(f"with anonymous={not is_anonymous} {then}", "it was not so", where, hint)
     return "as submitted, and the other way round"
 
 
-def _second_ends_first(session, script):
+def _second_ends_first(session: Session, script: str) -> Any:
     with session.stage() as stage:
         stage.call("listen", TOPIC, "String")
         first = stage.start(PACKAGE, script)
         talks = stage.wait_for_start(lambda: stage.call("count", TOPIC) or first.ended)
         if first.ended or not talks:
-            raise crash(
-                session, PACKAGE, first, "the talker runs with anonymous the other way round"
-            )
+            expected = "the talker runs with anonymous the other way round"
+            raise crash(session, PACKAGE, first, expected)
         caller = stage.call("heard", TOPIC)[0][1]
         second = stage.start(PACKAGE, script)
 
-        def settled():
+        def settled() -> Any:
             callers = {who for _, who, _ in stage.call("heard", TOPIC)}
             return first.ended or second.ended or callers - {caller}
 
@@ -270,8 +280,9 @@ def _second_ends_first(session, script):
         return first.ended
 
 
-def ctrl_c(session):
-    """C10."""
+@check("C10", "Ctrl-C ends both", "3.1", "C6 C7", look="Ctrl-C in their terminals")
+def ctrl_c(session: Session) -> Note | str | None:
+    """Check how they end."""
     talk = _whole_talk(session)
     for name, program in (("talker.py", talk.talkers[-1]), ("listener.py", talk.listener)):
         script = find_script(session, PACKAGE, name)

@@ -1,29 +1,38 @@
 """C29 and C30: the program as a class."""
 
+from __future__ import annotations
+
 import re
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from tutorial_check.class_facts import with_bases
-from tutorial_check.exercises import conversation
+from tutorial_check.exercises import check, conversation
 from tutorial_check.exercises.driving import PACKAGE, drive
 from tutorial_check.exercises.files import check_file, must_be_one
 from tutorial_check.exercises.joy2twist import NAME, check_manifest
 from tutorial_check.model import Note, Wrong
+from tutorial_check.rows import Row, demand
+
+if TYPE_CHECKING:
+    from tutorial_check.class_facts import ClassFacts
+    from tutorial_check.python_facts import Call
+    from tutorial_check.session import Session
 
 
-def _class_files(session):
+def _class_files(session: Session) -> Any:
     """{path: ClassFacts} of the classes that deal with ROS; of several the likeliest first."""
     scripts = session.scripts(PACKAGE)
     owned = [(path, one) for path, facts in scripts.items() for one in facts.classes]
     bases = {base.rpartition(".")[2] for _, one in owned for base in one.bases}
-    found = {}
+    found: dict[str, ClassFacts] = {}
     for (path, _), one in zip(owned, with_bases([one for _, one in owned])):
         better = path not in found or (found[path].name in bases and one.name not in bases)
         if one.is_node and better and "checked_" not in path:
             found[path] = one
     folder = session.package(PACKAGE).folder
 
-    def unlikely(path):
+    def unlikely(path: str) -> Any:
         """The step before, under joy2twist.py, may be a class already; and there are old copies."""
         return (
             found[path].name in bases,
@@ -38,124 +47,142 @@ def _class_files(session):
     return {path: found[path] for path in sorted(found, key=unlikely)}
 
 
-def _fits(words):
+def _fits(words: str) -> bool:
     return bool(re.search(r"joy.*twist", words, re.IGNORECASE))
 
 
-def program(session):
+def program(session: Session) -> Any:
     """(the program to start, the file with the class, its ClassFacts). Raises Wrong."""
-    scripts = session.scripts(PACKAGE)
-    files = _class_files(session)
+    scripts, files = session.scripts(PACKAGE), _class_files(session)
     if not files:
-        broken = [path for path, facts in scripts.items() if facts.error and _fits(path)]
-        for path in broken:
+        for path in (path for path, facts in scripts.items() if facts.error and _fits(path)):
             check_file(session, PACKAGE, path)
         named = [path for path in scripts if re.search(r"new|class", path, re.IGNORECASE)]
-        raise Wrong(
-            "a class that subscribes to /joy and publishes on /cmd_vel",
-            "no class in any program of joy2twist",
-            where=named[0] if named else "",
-            hint="class NewJoy2Twist: with __init__(self), callback(self, data), shutdown(self)",
-        )
+        expected = "a class that subscribes to /joy and publishes on /cmd_vel"
+        hint = "class NewJoy2Twist: with __init__(self), callback(self, data), shutdown(self)"
+        seen = "no class in any program of joy2twist"
+        raise Wrong(expected, seen, next(iter(named), ""), hint)
     path, one = next(iter(files.items()))
-    folder = session.package(PACKAGE).folder
-    if scripts[path].has_main or (folder / path).stat().st_mode & 0o100 or "src/" not in path:
+    file = session.package(PACKAGE).folder / path
+    if scripts[path].has_main or file.stat().st_mode & 0o100 or "src/" not in path:
         return path, path, one
     stem = Path(path).stem
-    for other, facts in scripts.items():
-        if any(stem in word.split(".") for word in facts.imports):
-            return other, path, one
-    return path, path, one
+    users = (p for p, f in scripts.items() if any(stem in word.split(".") for word in f.imports))
+    return next(users, path), path, one
 
 
-def is_class(session):
-    """C29."""
+class Form:
+    """A class beside its program: the facts of the rows below."""
+
+    def __init__(self, session: Session, script: str, path: str, one: ClassFacts) -> None:
+        self.path, self.one = path, one
+        self.facts = session.scripts(PACKAGE)[path]
+        self.where = f"{path}:{one.line}"
+        others = session.scripts(PACKAGE).values()
+        is_made = one.instantiated or any(one.name in each.calls for each in others)
+        self.is_made = is_made or script != path
+        self.methods = ", ".join(one.methods)
+
+    @property
+    def odd_init(self) -> Any:
+        """What was meant to be __init__, or "no __init__"; empty if there is one, maybe of a base."""
+        if "__init__" in self.one.methods:
+            return ""
+        odd = next((each for each in self.one.methods if re.fullmatch(r"_*init_*", each)), "")
+        if odd:
+            return f"`def {odd}`: Python calls `__init__`"
+        return "" if self.one.bases else f"{self.one.name} has no __init__"
+
+    @property
+    def place_of_name(self) -> Any:
+        """Where its name stands alone, without (), or else the class."""
+        bare = (line for line, text in self.facts.bare_names if text == self.one.name)
+        return next((f"{self.path}:{line}" for line in bare), self.where)
+
+    @property
+    def early(self) -> Any:
+        """The line of an on_shutdown before the Publisher, or 0."""
+        early = self.facts.first("on_shutdown")
+        made = min((call.line for call in self.facts.calls.get("Publisher", [])), default=0)
+        return early.line if early and early.line < made else 0
+
+
+class Given:
+    """What ROS is given in place of a method."""
+
+    def __init__(self, form: Form, call: Call, taker: str) -> None:
+        self.form, self.taker = form, taker
+        word = call.words[0] if call.words else ""
+        if taker == "the Subscriber":
+            word = call.words[2] if len(call.words) > 2 else call.names.get("callback", "")
+        self.word, self.name = word, word.rsplit(".", 1)[-1]
+        self.without = word[:-2]
+        self.where = f"{form.path}:{call.line}"
+        self.line = form.facts.functions.get(self.name, 0)
+
+    @property
+    def is_called(self) -> Any:
+        """Whether it is called at once."""
+        return self.name.endswith("()") and self.name[:-2] in self.form.facts.functions
+
+    @property
+    def is_unknown(self) -> Any:
+        """Whether the object surely has no such method; another's, or a base's, is not known here."""
+        classes = self.form.facts.classes
+        known = any(self.name in {*one.methods, *one.attributes} or one.bases for one in classes)
+        return self.word == f"self.{self.name}" and not self.name.endswith("()") and not known
+
+
+EXPECTED = "a class with __init__, its callback bound to self, made under __main__"
+FORM = (
+    Row(lambda f: f.odd_init, "{found}", "def __init__(self): with two underscores on either side",
+        "{f.where}"),
+    Row(lambda f: not f.is_made, "{f.one.name} is never made",
+        "{f.one.name}() with (), under if __name__ == '__main__':", "{f.place_of_name}"),
+)  # fmt: skip
+METHODS = (
+    Row(lambda g: g.taker == "the Subscriber" and g.word in g.form.one.methods,
+        "{f.word} alone: within a class that is no name", "self.{f.word}", "{f.where}"),
+    Row(lambda g: g.is_called, "{f.word} is called at once", "without (): {f.without}",
+        "{f.where}"),
+    Row(lambda g: g.is_unknown and g.line, "`def {f.name}` in line {found} is no method of the class",
+        "indent it like `def __init__`: neither further, nor less", "{f.where}"),
+    Row(lambda g: g.is_unknown, "the class has no {f.name}",
+        "one name: def {f.name}(self), or one of {f.form.methods}", "{f.where}"),
+)  # fmt: skip
+RIGHT_FORM = (
+    Row(lambda f: f.facts.globals, "a class needs no `global`: self. keeps what its methods share",
+        "", "{f.path}:{found[0]}", note=True),
+    Row(lambda f: f.early,
+        "on_shutdown comes before the publisher: a Ctrl-C in between finds none to stop the robot"
+        " with (the handout has it so)", "first the Publisher, then rospy.on_shutdown",
+        "{f.path}:{found}", note=True),
+)  # fmt: skip
+
+
+@check("C29", "the program is a class", "6.2", "C12", look="rosrun joy2twist THE_CLASS",
+       timeless=True)  # fmt: skip
+def is_class(session: Session) -> Note | str | None:
+    """Read the form of the class from its text."""
     script, path, one = program(session)
     must_be_one(session.package(PACKAGE).folder, Path(script).name)
     check_file(session, PACKAGE, script)
     check_manifest(session, script)
-    facts = session.scripts(PACKAGE)[path]
-    where = f"{path}:{one.line}"
-    expected = "a class with __init__, its callback bound to self, made under __main__"
-    odd = next((each for each in one.methods if re.fullmatch(r"_*init_*", each)), None)
-    if "__init__" not in one.methods and (odd or not one.bases):
-        seen = f"`def {odd}`: Python calls `__init__`" if odd else f"{one.name} has no __init__"
-        raise Wrong(
-            expected,
-            seen,
-            where=where,
-            hint="def __init__(self): with two underscores on either side",
-        )
-    made_elsewhere = any(
-        one.name in other.calls or script != path for other in session.scripts(PACKAGE).values()
-    )
-    if not one.instantiated and not made_elsewhere:
-        bare = next((line for line, text in facts.bare_names if text == one.name), None)
-        raise Wrong(
-            expected,
-            f"{one.name} is never made",
-            where=f"{path}:{bare}" if bare else where,
-            hint=f"{one.name}() with (), under if __name__ == '__main__':",
-        )
-    for call in facts.calls.get("on_shutdown", []):
-        word = call.words[0] if call.words else ""
-        _check_method(facts, one, word, "rospy.on_shutdown", f"{path}:{call.line}")
-    for call in facts.calls.get("Subscriber", []):
-        callback = call.words[2] if len(call.words) > 2 else call.names.get("callback", "")
-        if callback in one.methods:
-            raise Wrong(
-                "the callback is bound to the object",
-                f"{callback} alone: within a class that is no name",
-                where=f"{path}:{call.line}",
-                hint=f"self.{callback}",
-            )
-        _check_method(facts, one, callback, "the Subscriber", f"{path}:{call.line}")
-    if facts.globals:
-        return Note(
-            "a class needs no `global`: self. keeps what its methods share",
-            f"{path}:{facts.globals[0]}",
-        )
-    early = facts.first("on_shutdown")
-    if early and early.line < min(
-        (call.line for call in facts.calls.get("Publisher", [])), default=0
-    ):
-        return Note(
-            "on_shutdown comes before the publisher: a Ctrl-C in between finds none to stop the robot with"
-            " (the handout has it so)",
-            f"{path}:{early.line}",
-            "first the Publisher, then rospy.on_shutdown",
-        )
-    return f"{one.name} in {path}"
+    form = Form(session, script, path, one)
+    demand(FORM, form, EXPECTED)
+    for name, taker in (("on_shutdown", "rospy.on_shutdown"), ("Subscriber", "the Subscriber")):
+        for call in form.facts.calls.get(name, []):
+            demand(METHODS, Given(form, call, taker), f"{taker} gets a method of the object")
+    return demand(RIGHT_FORM, form, EXPECTED) or f"{one.name} in {path}"
 
 
-def _check_method(facts, one, word, taker, where):
-    """What is given in place of a method is one, as far as can be told. Raises Wrong."""
-    name = word.rsplit(".", 1)[-1]
-    if name.endswith("()") and name[:-2] in facts.functions:
-        raise Wrong(
-            f"{taker} gets the method itself",
-            f"{word} is called at once",
-            where=where,
-            hint=f"without (): {word[:-2]}",
-        )
-    # Another object's, or an inherited one, is not known here.
-    known = any(name in {*each.methods, *each.attributes} or each.bases for each in facts.classes)
-    if word != f"self.{name}" or name.endswith("()") or known:
-        return
-    seen, hint = f"the class has no {name}", f"one name: def {name}(self), or one of "
-    hint += ", ".join(one.methods)
-    if name in facts.functions:
-        seen = f"`def {name}` in line {facts.functions[name]} is no method of the class"
-        hint = "indent it like `def __init__`: neither further, nor less"
-    raise Wrong(f"{taker} gets a method that exists", seen, where=where, hint=hint)
-
-
-def behaves(session):
-    """C30: as C14 to C17."""
+@check("C30", "the class does what the functions did", "6.2", "C29", look="rostopic echo /cmd_vel")
+def behaves(session: Session) -> Note | str | None:
+    """As C14 to C17."""
     script, _, _ = program(session)
     seen = drive(session, script)
     notes = [
-        conversation.check_displays(session, script, seen, few_are_enough=True),
+        conversation.check_displays(session, seen, few_are_enough=True),
         conversation.check_topics(session, seen),
         conversation.check_mapping(session, seen),
         conversation.check_rate(session, seen),

@@ -1,16 +1,34 @@
 """One program that turns Joy into Twist, driven over its topics; what was seen, without a verdict."""
 
-import collections
-import math
+from __future__ import annotations
+
 import re
 import statistics
 import time
+from typing import TYPE_CHECKING, Any, Sequence
 
 from tutorial_check.box import GRACE_S
-from tutorial_check.mapping import LINEAR, judge, rule_of
-from tutorial_check.model import master_gone
-from tutorial_check.probing import judge_probes, numbered_joys, probes, small_and_button_probes
+from tutorial_check.mapping import LINEAR, Evidence, judge, rule_of
+from tutorial_check.probing import (
+    AT_REST,
+    NUMBER,
+    delays,
+    displayed,
+    judge_probes,
+    low_joys,
+    numbered_joys,
+    probes,
+    rising_joys,
+    silence,
+    small_and_button_probes,
+)
 from tutorial_check.stage import START_S
+
+if TYPE_CHECKING:
+    from tutorial_check.probing import Joy
+    from tutorial_check.session import Session
+    from tutorial_check.stage import Stage
+
 
 PACKAGE = "joy2twist"
 JOY, CMD_VEL = "/joy", "/cmd_vel"
@@ -24,27 +42,34 @@ SETTLE_S = 0.15  # after it, in which more of them may come
 QUIET_S = 0.25  # without a Joy, or longer for a slow one: a clock of its own makes itself heard
 SAME_S = 0.06  # in which several Twists answer one Joy
 NAP_S = 0.3  # for one Twist: none takes so long of whom nothing is wrong
-NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e-?\d+)?")
 COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 
 
 class Drive:
     """What came of starting a program and sending it Joy messages."""
 
-    def __init__(self, session, script, wants_twist=True):
+    def __init__(self, session: Session, script: str, wants_twist: bool = True) -> None:
         self.session, self.script = session, script
-        self.samples, self.missing, self.unasked, self.shown, self.asked = [], 0, 0, 0, 0
-        self.delays, self.sent, self.answered, self.strays = [], 0, 0, 0
-        self.waits = []  # [s] from a Joy to the next Twist, one at a time
-        self.twists, self.has_clock = [], False  # all of the second pass; whether more come unasked
+        self.samples: list[Any] = []
+        self.missing = self.unasked = self.shown = self.asked = 0
+        self.delays: list[float] = []
+        self.sent = self.answered = self.strays = 0
+        self.came = 0  # Twists for the numbered Joys
+        self.first_samples: list[Any] = []  # of an earlier pass
+        self.at_rest: Any = None  # the answer to a Joy at rest
+        self.waits: list[float] = []  # [s] from a Joy to the next Twist, one at a time
+        self.twists: list[Any] = []  # all of the second pass
+        self.has_clock = False  # whether more come unasked
         self.repeats = False  # whether those move the robot, though no Joy came
-        self.answers, self.unanswered = [], None  # of the probes; (Joy, one before) without a Twist
+        self.answers: list[Any] = []  # of the probes
+        self.unanswered: Any = None  # (Joy, one before) without a Twist
         facts = session.scripts(PACKAGE).get(script)
         self.sleep_lines = facts.called_back.get("sleep", []) if facts else []
         # A queue of one drops what it has no time for, and the newest value is not late.
         drops = facts and facts.keeps_newest and not self.sleep_lines
         self.enough = 0.5 if drops else 0.95  # of the Joys of a stream answered
-        self.possible = self.unavoidable_s = None  # what our own Echo answered beside it
+        self.possible: int | None = None
+        self.unavoidable_s: float | None = None  # what our own Echo answered beside it
         with session.stage() as stage:
             stage.call("advertise", JOY, "Joy")
             stage.call("listen", CMD_VEL, "Twist")
@@ -69,23 +94,21 @@ class Drive:
             self.taken_s = session.box.end(self.program, grace_s)
             self.last_words = self.program.output[len(self.output) :]
 
-    # ------------------------------------------------------------------------------ driving
-
-    def _converse(self, stage, wants_twist):
+    def _converse(self, stage: Stage, wants_twist: bool) -> None:
         stage.call("send", JOY, NEUTRAL)
         joys = numbered_joys(COUNT)
         self.joys = joys
         if wants_twist:
             stage.wait(lambda: stage.call("count", CMD_VEL), 0.5)
             self._one_by_one(stage, joys, 0.0)
-            doubtful = self.unasked > 2 or (self.samples and judge(self.samples)[0])
+            doubtful = self.unasked > 2 or (self.samples and self.complaint)
             if doubtful and not self.naps:
                 self._ask_again(stage, joys)
             if len(self.samples) > COUNT / 2 and not self.naps:
                 self._keep_quiet(stage)
                 if self.has_clock and not self.repeats and not self.twists:
                     self._ask_again(stage, joys)  # zeros by a watchdog, or between all answers
-                if not self.repeats and not judge(self.samples)[0]:
+                if not self.repeats and not self.complaint:
                     self._probe(stage, joys)
         else:
             for joy in joys:
@@ -106,17 +129,24 @@ class Drive:
                 )
                 self._stream(stage, beside=answers)
 
-    def _ask_again(self, stage, joys):
+    def _ask_again(self, stage: Stage, joys: Sequence[Joy]) -> None:
         """The same with time: it has a clock of its own, publishes several, or is only slow."""
+        is_plain = self.unasked <= 2
+        low = [] if self.missing else low_joys()
         first, self.samples, self.missing = self.samples, [], 0
         stage.wait(lambda: self.program.ended, SETTLE_S)  # late ones belong to the first pass
         begun = stage.call("count", CMD_VEL)
-        self._one_by_one(stage, joys, SETTLE_S)
+        self._one_by_one(stage, [*joys, *low], SETTLE_S)
         self.twists = [twist for _, _, twist in stage.call("heard", CMD_VEL, begun)]
         if len(self.samples) < len(first):
-            self.samples = first
+            first, self.samples = self.samples, first
+        # Of several Twists for one Joy it is not known which of them answers it.
+        self.first_samples = first if is_plain else []
+        heard = self._ask(stage, AT_REST, SETTLE_S)[1]
+        self.at_rest = heard[-1][2] if heard else None
+        self._ask(stage, joys[-1], SETTLE_S)  # the last one moves the robot
 
-    def _keep_quiet(self, stage):
+    def _keep_quiet(self, stage: Stage) -> None:
         """See whether Twists come without a Joy. The last one moves the robot."""
         begun_s, before = time.monotonic(), stage.call("count", CMD_VEL)
         quiet_s = max(QUIET_S, 2.5 * min(ANSWER_S, statistics.median(self.waits)))
@@ -126,25 +156,25 @@ class Drive:
         late = [twist for when, _, twist in unasked if when > begun_s + SAME_S]
         self.repeats = self.has_clock and any(map(any, late))
 
-    def _probe(self, stage, joys):
+    def _probe(self, stage: Stage, joys: Sequence[Joy]) -> None:
         """The other Joys, each until it is answered; the first that is not, also when asked again, ends it."""
         before, settle_s = joys[-1], SETTLE_S if self.twists else 0.0
         # By now it is known how many Twists one Joy gets: no time is needed to wait for more.
-        often = max(1, round(len(self.twists) / COUNT))
+        times = max(1, round(len(self.twists) / len(self.samples)))
         plan = [(joy, settle_s, 1) for joy in probes(joys)]
-        plan += [(joy, 0.0, often) for joy in small_and_button_probes()]
-        for joy, *patience in plan:
-            _, heard = self._ask(stage, joy, *patience)
+        plan += [(joy, 0.0, times) for joy in small_and_button_probes()]
+        for joy, wait_s, often in plan:
+            _, heard = self._ask(stage, joy, wait_s, often)
             if not heard and not self.program.ended:
-                self._ask(stage, before, *patience)
-                _, heard = self._ask(stage, joy, *patience)
+                self._ask(stage, before, wait_s, often)
+                _, heard = self._ask(stage, joy, wait_s, often)
             if not heard:
                 self.unanswered = joy, before
                 return
             self.answers.append((joy, heard[-1 if settle_s else 0][2]))
             before = joy
 
-    def _ask(self, stage, joy, settle_s, often=1):
+    def _ask(self, stage: Stage, joy: Any, settle_s: float, often: int = 1) -> Any:
         """(when a Joy was sent, what was heard from then on). often: how many Twists are waited for."""
         before = stage.call("count", CMD_VEL)
         sent_s = stage.call("send", JOY, joy)
@@ -156,7 +186,7 @@ class Drive:
             stage.wait(lambda: self.program.ended, settle_s)
         return sent_s, stage.call("heard", CMD_VEL, before)
 
-    def _one_by_one(self, stage, joys, settle_s):
+    def _one_by_one(self, stage: Stage, joys: Sequence[Joy], settle_s: float) -> None:
         begun, answered, unanswered = stage.call("count", CMD_VEL), len(self.samples), 0
         for joy in joys:
             sent_s, heard = self._ask(stage, joy, settle_s)
@@ -172,16 +202,23 @@ class Drive:
         # Also those that came between an answer and the next Joy.
         twists = stage.call("count", CMD_VEL) - begun
         self.unasked += twists - (len(self.samples) - answered)
+        if unanswered == 3 and not self.program.ended and not self.naps:
+            self._hurry(stage, joys[len(self.samples) - answered + unanswered :])
+        self.came = stage.call("count", CMD_VEL) - begun
 
-    def _stream(self, stage, beside=None):
-        count = int(RATE * STREAM_S)
-        joys = [
-            (
-                (0.2 + 0.002 * k, 0.3 + 0.005 * k, 0.0, 0.0, 0.0, 0.0),
-                (*NEUTRAL[1][:4], 1, *NEUTRAL[1][5:]),
+    def _hurry(self, stage: Stage, joys: Sequence[Joy]) -> None:
+        """Send the rest of the Joys without much patience, to see how many of all are answered."""
+        for joy in joys:
+            before = stage.call("count", CMD_VEL)
+            stage.call("send", JOY, joy)
+            stage.wait(
+                lambda before=before: stage.call("count", CMD_VEL) > before or self.program.ended,
+                SAME_S,
             )
-            for k in range(count)
-        ]
+
+    def _stream(self, stage: Stage, beside: str | None = None) -> None:
+        count = int(RATE * STREAM_S)
+        joys = rising_joys(count)
         before = stage.call("count", CMD_VEL)
         stage.call("stream", JOY, joys, RATE, False)
         stage.wait(lambda: len(stage.call("sent", JOY)) >= count, STREAM_S + 3)
@@ -189,87 +226,74 @@ class Drive:
         sent, heard = stage.call("sent", JOY), stage.call("heard", CMD_VEL, before)
         self.sent, self.answered = len(sent), len(heard)
         rule = rule_of(LINEAR, self.samples)
-        self.delays = _delays(sent, heard, rule and rule.factor)
+        self.delays = delays(sent, heard, rule.factor if rule else None)
         moving = [any(twist) for _, _, twist in heard]
         # All of these Joys move the robot, once the first does.
         self.strays = moving[moving.index(True) :].count(False) if any(moving) else 0
         if beside:
             echoed = stage.call("heard", beside)
             self.possible = len(echoed)
-            self.unavoidable_s = statistics.median(_delays(sent, echoed, 1.0) or [0.0])
-
-    # ------------------------------------------------------------------------------- looking
+            self.unavoidable_s = statistics.median(delays(sent, echoed, 1.0) or [0.0])
 
     @property
-    def delay_s(self):
+    def evidence(self) -> Any:
+        """What the numbered Joys were answered."""
+        return Evidence(self.samples, self.first_samples, self.at_rest)
+
+    @property
+    def complaint(self) -> Any:
+        """What is odd about those answers; empty if nothing is."""
+        return judge(self.evidence)[0]
+
+    @property
+    def silence(self) -> Any:
+        """(what is seen, what to do) for the first probe that was not answered."""
+        return silence(*self.unanswered, self.answers[-1][1] if self.answers else (1.0,))
+
+    @property
+    def delay_s(self) -> Any:
         """The median delay from Joy to Twist, or None."""
         return statistics.median(self.delays) if self.delays else None
 
     @property
-    def is_prompt(self):
+    def rate(self) -> str:
+        """How many Joys of the stream were answered, and how soon."""
+        late = f", {1000 * self.delay_s:.1f} ms late" if self.delay_s is not None else ""
+        return f"{self.answered} Twists for {self.sent} Joys{late}"
+
+    @property
+    def is_prompt(self) -> Any:
         """Whether so many Joys as is enough were answered, and soon, as far as the machine allows."""
         if self.answered < self.enough * min(self.sent, self.possible or self.sent):
             return False
         return self.delay_s is None or self.delay_s < SOON_S + (self.unavoidable_s or 0.0)
 
     @property
-    def naps(self):
+    def naps(self) -> Any:
         """Whether its callback sleeps, and so long that each Joy waits for the one before."""
         is_slow = len(self.waits) > 2 and statistics.median(self.waits[:5]) > NAP_S
         return bool(self.sleep_lines) and is_slow
 
     @property
-    def all_shown(self):
+    def all_shown(self) -> Any:
         """Whether as many Joys were displayed as can be asked for."""
         return self.shown >= min(5, max(1, self.asked))
 
     @property
-    def trouble(self):
+    def shows_numbers(self) -> bool:
+        """Whether it prints lines with as many numbers as a Joy has axes."""
+        return any(len(NUMBER.findall(line)) >= 6 for line in self.output.splitlines())
+
+    @property
+    def trouble(self) -> Any:
         """Whether the program printed a traceback."""
         return "Traceback (most recent call last)" in self.output
 
-    def _displayed(self):
+    def _displayed(self) -> Any:
         """How many of the Joys were displayed, all six axes in a line."""
         return len(displayed(self.joys, COLOUR.sub("", self.program.output)))
 
 
-def _delays(sent, heard, factor):
-    """[s] from each Joy to its Twist: the next one, if none is missing; else its value, by a known factor, says."""
-    heard = [each for each in heard if math.isfinite(each[2][0])]
-    if len(heard) == len(sent):
-        return [when - asked for (when, _, _), asked in zip(heard, sent)]
-    delays = []
-    often = collections.Counter(round(twist[0], 6) for _, _, twist in heard)
-    for when, _, twist in heard:
-        if often[round(twist[0], 6)] > 1:
-            continue  # at a limit, or repeated: it does not tell which
-        k = round((twist[0] / factor - 0.3) / 0.005) if factor else -1
-        # No answer is older than its Joy: then the value tells of another one.
-        if 0 <= k < len(sent) and when > sent[k] - SAME_S:
-            delays.append(when - sent[k])
-    return delays
-
-
-def displayed(joys, output):
-    """The Joys of which a line has all axes, with two decimals or more. Pure."""
-    lines = [[float(word) for word in NUMBER.findall(line)] for line in output.splitlines()]
-    lines = [line for line in lines if len(line) >= 6]
-    return [
-        joy
-        for joy in joys
-        if any(
-            all(any(abs(axis - seen) < 0.0056 for seen in line) for axis in joy[0])
-            for line in lines
-        )
-    ]
-
-
-def drive(session, script, wants_twist=True):
+def drive(session: Session, script: str, wants_twist: bool = True) -> Any:
     """The Drive of a script; made once."""
     return session.run(("drive", script, wants_twist), lambda: Drive(session, script, wants_twist))
-
-
-def check_master(seen):
-    """Raises Wrong if the master has gone."""
-    if not seen.master_alive:
-        raise master_gone(seen.script)

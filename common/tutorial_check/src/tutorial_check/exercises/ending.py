@@ -1,10 +1,14 @@
 """C31 and C32: the class is ended while it drives, in each of the ways there are."""
 
+from __future__ import annotations
+
 import time
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from tutorial_check import student_files
+from tutorial_check.exercises import check
 from tutorial_check.exercises.classes import program
 from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL, PACKAGE
 from tutorial_check.exercises.files import cause_of, crash
@@ -12,6 +16,11 @@ from tutorial_check.exercises.manifests import must_be_launchable
 from tutorial_check.exercises.robot import ODOM, held
 from tutorial_check.model import CannotCheck, Note, Wrong
 from tutorial_check.tracebacks import first_traceback
+
+if TYPE_CHECKING:
+    from tutorial_check.python_facts import PythonFacts
+    from tutorial_check.session import Session
+
 
 CTRL_C, KILL, LAUNCH = "Ctrl-C", "rosnode kill", "the end of a launch"
 # One node for each way, all at once: each ends in its way, and the robot stands when all have gone.
@@ -32,9 +41,9 @@ ARGUMENTS_HINT = (
 class End:
     """What came of ending it in one way."""
 
-    zero_after_s: float  # None: it never came
+    zero_after_s: float | None  # None: it never came
     in_time: bool  # within STOP_S, if it came
-    took_s: float  # None: it had to be killed
+    took_s: float | None  # None: it had to be killed
     after_zero: int  # Twists that moved the robot again
     output: str
 
@@ -42,7 +51,7 @@ class End:
 class Endings:
     """The program, started once for each way, driven and ended."""
 
-    def __init__(self, session, script):
+    def __init__(self, session: Session, script: str) -> None:
         self._session, self._script = session, script
         must_be_launchable(session)
         with session.stage() as stage:
@@ -57,7 +66,7 @@ class Endings:
             if robot.ended:
                 raise CannotCheck(f"the simulated robot has ended: {robot.output[-200:]}")
 
-    def _start(self, way):
+    def _start(self, way: Any) -> Any:
         name = NODES[way][1:]
         if way != LAUNCH:
             return self._stage.start(PACKAGE, self._script, f"__name:={name}")
@@ -67,7 +76,7 @@ class Endings:
         student_files.put(self._session.folder, file, text)
         return self._stage.launch(["roslaunch", str(file)])
 
-    def _twists(self, since=0):
+    def _twists(self, since: int = 0) -> Any:
         """{way: [(when, six values)]} that they have sent."""
         sent = {name: [] for name in NODES.values()}
         for when, caller, value in self._stage.call("heard", CMD_VEL, since):
@@ -75,21 +84,21 @@ class Endings:
                 sent[caller].append((when, value))
         return {way: sent[name] for way, name in NODES.items()}
 
-    def _robot_stands(self):
+    def _robot_stands(self) -> Any:
         last = self._stage.call("heard", ODOM, -1)
         return bool(last) and max(map(abs, last[0][2][5:])) < 0.01
 
-    def _drive(self):
+    def _drive(self) -> None:
         """Return once they all drive the robot. Raises Wrong."""
         stage, programs = self._stage, self._programs
 
-        def one_has_ended():
+        def one_has_ended() -> bool:
             return any(each.ended for each in programs.values())
 
-        def have_sent(count, which):
+        def have_sent(count: int, which: Any) -> bool:
             return all(sum(map(which, sent)) >= count for sent in self._twists().values())
 
-        def moves(twist):
+        def moves(twist: Any) -> Any:
             return twist[1] != ZERO
 
         stage.wait_for_start(
@@ -117,7 +126,7 @@ class Endings:
                 expected = f"the class drives, {how} as well"
                 raise crash(self._session, PACKAGE, each, expected, ARGUMENTS_HINT)
 
-    def _end(self):
+    def _end(self) -> None:
         stage, box = self._stage, self._session.box
         launched = stage.call("node_process", NODES[LAUNCH])
         index = stage.call("count", CMD_VEL)
@@ -127,7 +136,7 @@ class Endings:
         box.interrupt(self._programs[LAUNCH])
         stage.call("kill_node", NODES[KILL])
 
-        def all_gone():
+        def all_gone() -> bool:
             for way, each in self._programs.items():
                 # A launch takes its time, also when its nodes are gone.
                 left = way == LAUNCH and launched and not Path(f"/proc/{launched}").exists()
@@ -135,7 +144,7 @@ class Endings:
                     took_s[way] = time.monotonic() - began_s
             return all(took_s.values())
 
-        def all_stopped():
+        def all_stopped() -> bool:
             all_gone()
             for way, sent in self._twists(index).items():
                 in_time[way] = bool(took_s[way]) or any(value == ZERO for _, value in sent)
@@ -160,12 +169,19 @@ class Endings:
             )
 
 
-def _endings(session):
+def _endings(session: Session) -> Any:
     return session.run("endings", lambda: Endings(session, program(session)[0]))
 
 
-def stops(session):
-    """C31."""
+@check(
+    "C31",
+    "ended, it stops the robot",
+    "6.2",
+    "C30",
+    look="rostopic echo /cmd_vel; Ctrl-C in the node's terminal",
+)
+def stops(session: Session) -> Note | str | None:
+    """Ended, it stops the robot."""
     _, path, _ = program(session)
     endings = _endings(session)
     call = session.scripts(PACKAGE)[path].first("on_shutdown")
@@ -199,13 +215,13 @@ def stops(session):
     )
 
 
-def _late_zero(facts):
+def _late_zero(facts: PythonFacts) -> Any:
     """The line of a sleep before the first publish at the end, or 0."""
     sleep, publish = (min(facts.at_end.get(name, [0])) for name in ("sleep", "publish"))
     return sleep if sleep < publish else 0
 
 
-def _complaint(end, is_registered):
+def _complaint(end: Any, is_registered: Any) -> Any:
     """(what is wrong with an end, what to do); empty if nothing is."""
     if end.zero_after_s is None:
         hint = "rospy.on_shutdown(self.shutdown), and self.cmd_vel.publish(Twist()) in shutdown"
@@ -220,8 +236,9 @@ def _complaint(end, is_registered):
     return "", ""
 
 
-def nothing_after(session):
-    """C32. Never a failure: the handout's listing does it."""
+@check("C32", "nothing follows the zero", "6.2", "C31", look="rostopic echo /cmd_vel")
+def nothing_after(session: Session) -> Note | str | None:
+    """Never a failure: the handout's listing does it."""
     most = max(end.after_zero for end in _endings(session).ends.values())
     if most:
         return Note(

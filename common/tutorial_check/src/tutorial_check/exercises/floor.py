@@ -1,34 +1,43 @@
-"""C1: the workspace, and the floor that it stands on."""
+"""C1: the workspace, and the underlay that it was built over."""
+
+from __future__ import annotations
 
 import os
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, Sequence
 
 from tutorial_check import place
+from tutorial_check.exercises import check
 from tutorial_check.exercises.packages import WANTED
 from tutorial_check.model import Note, Wrong
 from tutorial_check.workspace import underlays
 
-SUITE = ("node_kit", "fake_turtlebot_sim")  # packages of the lower floor
+if TYPE_CHECKING:
+    from tutorial_check.session import Session
+
+
+SUITE = ("node_kit", "fake_turtlebot_sim")  # packages of the underlay
+AGAIN = "in the workspace: rm -r build devel, then catkin_make"
 # Of the suite's own these are stand-ins: the real ones may well lie in a student's src.
 STAND_INS = ("joy", "rbx1_", "turtlebot_")
 
 
-def workspace(session):
-    """C1: there is a src, and what was built was built over the suite."""
+@check("C1", "the workspace", "2.1", look="ls src devel", timeless=True)
+def workspace(session: Session) -> Note | str | None:
+    """Look for a src, and whether what was built was built over the suite."""
     layout = session.layout
     with place.own_rights():  # no program writes here
         has_source = layout.source.is_dir()
-        is_built_within = has_source and any(
-            (layout.source / name).is_dir() for name in ("build", "devel")
-        )
+        within = [layout.source / name for name in ("build", "devel")]
+        is_built_within = has_source and any(map(Path.is_dir, within))
         setup = layout.root / "devel" / "setup.bash"
         setup_size = setup.stat().st_size if setup.is_file() else None
     if not has_source:
-        raise Wrong(
-            "a folder src in the workspace",
-            f"none in {layout.root}, and no package",
-            hint="is this your workspace? --in ~/ros/hydro/catkin_ws; a new one begins with a folder src",
+        seen = f"none in {layout.root}, and no package"
+        hint = (
+            "is this your workspace? --in ~/ros/hydro/catkin_ws; a new one begins with a folder src"
         )
+        raise Wrong("a folder src in the workspace", seen, hint=hint)
     _check_names(session)
     if not layout.is_workspace:
         return Note("handed in as packages, without their workspace: built afresh here")
@@ -36,68 +45,50 @@ def workspace(session):
     found = underlays(devel)
     if setup_size is not None and (found is None or not setup_size):
         gone = setup.name if found else "_setup_util.py or setup.sh"
-        raise Wrong(
-            "a devel folder as catkin_make makes it",
-            f"it is not whole: {gone} is missing or empty",
-            where="devel",
-            hint="in the workspace: rm -r build devel, then catkin_make",
-        )
+        seen = f"it is not whole: {gone} is missing or empty"
+        raise Wrong("a devel folder as catkin_make makes it", seen, "devel", AGAIN)
+    if found is None and is_built_within:
+        hint = "catkin_make is called in the workspace: cd .., and remove src/build and src/devel"
+        raise Wrong("build and devel beside src", "they are within src", hint=hint)
     if found is None:
-        if is_built_within:
-            raise Wrong(
-                "build and devel beside src",
-                "they are within src",
-                hint="catkin_make is called in the workspace: cd .., and remove src/build and src/devel",
-            )
         return Note("never built here (no devel/setup.bash)", hint="catkin_make in the workspace")
     made_for, below = found
     if os.path.realpath(made_for) != os.path.realpath(devel):
         return Note(f"its devel folder was made elsewhere ({made_for}); built afresh here")
-    _check_below(
-        session, [each for each in below if os.path.realpath(each) != str(devel.resolve())]
-    )
+    own = str(devel.resolve())
+    _check_below(session, [each for each in below if os.path.realpath(each) != own])
     return "src and devel, on top of this suite"
 
 
-def _check_below(session, below):
+def _check_below(session: Session, below: Sequence[str]) -> None:
     """This suite is among the folders that a workspace was built over, or Wrong."""
-    floor = os.path.realpath(Path(session.floor).parent)
-    if floor in [os.path.realpath(each) for each in below]:
+    suite = os.path.realpath(Path(session.floor).parent)
+    if suite in map(os.path.realpath, below):
         return
-    expected = "a workspace built on top of this suite"
-    other = next((each for each in below if _is_suite(each)), None)
+    other = next(filter(_is_suite, below), None)
+    seen = f"devel was built over {', '.join(below) or 'nothing'}"
+    hint = "built in a terminal without ./tutorial shell: delete build and devel, then catkin_make in it"
     if other:
-        raise Wrong(
-            expected,
-            f"devel was built over another copy of the suite, {other}; this one is {floor}",
-            where="devel",
-            hint="in the workspace: rm -r build devel, then catkin_make in the ./tutorial shell of this copy; or check"
-            " with the ./tutorial (and TUTORIAL_WORKSPACE) of the other",
-        )
-    raise Wrong(
-        expected,
-        f"devel was built over {', '.join(below) or 'nothing'}",
-        where="devel",
-        hint="built in a terminal without ./tutorial shell: delete build and devel, then catkin_make in it",
-    )
+        seen = f"devel was built over another copy of the suite, {other}; this one is {suite}"
+        hint = f"{AGAIN} in the ./tutorial shell of this copy; or check with the ./tutorial"
+        hint += " (and TUTORIAL_WORKSPACE) of the other"
+    raise Wrong("a workspace built on top of this suite", seen, "devel", hint)
 
 
-def _is_suite(devel):
-    """Whether a devel folder is the lower floor of some copy of this suite; it may be hidden here."""
+def _is_suite(devel: str | Path) -> Any:
+    """Whether a devel folder is the underlay of some copy of this suite; it may be hidden here."""
     is_there = any(os.path.isdir(os.path.join(devel, "share", name)) for name in SUITE)
     return is_there or Path(devel).parts[-2:] == ("lower", "devel")
 
 
-def _check_names(session):
+def _check_names(session: Session) -> None:
     """No package has the name of one that the exercises stand on, or Wrong."""
     share = Path(session.floor).parent / "share"
     for each in session.packages:
-        is_suite = (share / each.name).is_dir() and not each.name.startswith(STAND_INS)
+        with place.own_rights():
+            is_suite = (share / each.name).is_dir() and not each.name.startswith(STAND_INS)
         if is_suite or any(each.name in names for names in WANTED.values()):
-            raise Wrong(
-                "packages of names of their own",
-                f"a package {each.name}: it hides {'the suite' if is_suite else 'ROS'}'s own",
-                where=f"src/{each.inside}",
-                hint="remove it from src. If catkin_create_pkg made it: its first word is the name"
-                " of the new package, those after it what that depends on",
-            )
+            seen = f"a package {each.name}: it hides {'the suite' if is_suite else 'ROS'}'s own"
+            hint = "remove it from src. If catkin_create_pkg made it: its first word is the name"
+            hint += " of the new package, those after it what that depends on"
+            raise Wrong("packages of names of their own", seen, f"src/{each.inside}", hint)

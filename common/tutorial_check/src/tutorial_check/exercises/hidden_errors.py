@@ -1,20 +1,35 @@
 """C33: a program that cannot go on says why."""
 
+from __future__ import annotations
+
 import re
+from typing import TYPE_CHECKING
 
 from tutorial_check.changed_programs import without_name
+from tutorial_check.exercises import check
 from tutorial_check.exercises.classes import program
 from tutorial_check.exercises.driving import JOY, PACKAGE
 from tutorial_check.model import Note, Wrong
 from tutorial_check.tracebacks import last_lines
+
+if TYPE_CHECKING:
+    from tutorial_check.session import Session
+
 
 ALONE_S = 1.5  # without a joystick
 NAMES_IT = re.compile(r"not defined|NameError")  # what the lack of the import leads to
 TELLS = re.compile(r"Traceback|Error\b|Exception|not defined|exceeded|\[(?:ERROR|FATAL|WARN)\]")
 
 
-def errors_are_seen(session):
-    """C33: started without a joystick; and a copy that lacks the import of Joy."""
+@check(
+    "C33",
+    "its errors are seen",
+    "6.2",
+    "C30",
+    look="rosrun joy2twist THE_CLASS, without a joystick",
+)
+def errors_are_seen(session: Session) -> Note | str | None:
+    """Started without a joystick; and a copy that lacks the import of Joy."""
     script, path, _ = program(session)
     broken_text = without_name(session.text(PACKAGE, script), "Joy")
     with session.stage() as stage:

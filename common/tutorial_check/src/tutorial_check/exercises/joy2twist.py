@@ -1,16 +1,24 @@
 """C13 to C18: the program joy2twist.py, first and second version."""
 
-from tutorial_check.exercises import conversation
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from tutorial_check.exercises import check, conversation
 from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL, PACKAGE, drive
 from tutorial_check.exercises.files import check_end, check_file, find_script, odd_node
 from tutorial_check.model import Note, Wrong
 from tutorial_check.stage import START_S
 
+if TYPE_CHECKING:
+    from tutorial_check.session import Session
+
+
 NAME = "joy2twist.py"
 STARTS = 10  # under load, all at once
 
 
-def main_script(session):
+def main_script(session: Session) -> Any:
     """The program that turns Joy into Twist: joy2twist.py, unless that is the first version still."""
     script = find_script(session, PACKAGE, NAME)
     scripts = session.scripts(PACKAGE)
@@ -33,8 +41,16 @@ def main_script(session):
     return script
 
 
-def file(session):
-    """C13."""
+@check(
+    "C13",
+    "joy2twist.py can be run",
+    "4.3",
+    "C12",
+    look="rosrun joy2twist joy2twist.py",
+    timeless=True,
+)
+def file(session: Session) -> Note | str | None:
+    """Joy2twist.py can be run."""
     script = find_script(session, PACKAGE, NAME)
     check_file(session, PACKAGE, script)  # before its text is relied on
     check_manifest(session, script)
@@ -45,7 +61,7 @@ def file(session):
     return odd_node(session, PACKAGE, main) or main
 
 
-def check_manifest(session, script):
+def check_manifest(session: Session, script: str) -> None:
     """roslib.load_manifest names a package that exists, or Wrong."""
     facts = session.scripts(PACKAGE).get(script)
     call = facts and facts.first("load_manifest")
@@ -64,31 +80,40 @@ def check_manifest(session, script):
         )
 
 
-def displays(session):
-    """C14."""
-    script = main_script(session)
-    seen = drive(session, script)
-    return conversation.check_displays(session, script, seen)
+@check(
+    "C14",
+    "it displays every Joy",
+    "4.3",
+    "C13",
+    look="rosrun joy2twist joy2twist.py; rostopic echo /joy",
+)
+def displays(session: Session) -> Note | str | None:
+    """It displays every Joy."""
+    return conversation.check_displays(session, drive(session, main_script(session)))
 
 
-def topics(session):
-    """C15."""
+@check("C15", "/joy in, /cmd_vel out", "4.3", "C13", look="rosnode info NODE")
+def topics(session: Session) -> Note | str | None:
+    """/joy in, /cmd_vel out."""
     seen = drive(session, main_script(session))
     return conversation.check_topics(session, seen)
 
 
-def mapping(session):
-    """C16."""
+@check("C16", "axis 1 drives forwards, axis 0 turns", "4.3", "C15", look="rostopic echo /cmd_vel")
+def mapping(session: Session) -> Note | str | None:
+    """Axis 1 drives forwards, axis 0 turns."""
     return conversation.check_mapping(session, drive(session, main_script(session)))
 
 
-def rate(session):
-    """C17."""
+@check("C17", "it keeps up with the joystick", "4.3", "C16", look="rostopic hz /cmd_vel")
+def rate(session: Session) -> Note | str | None:
+    """It keeps up with the joystick."""
     return conversation.check_rate(session, drive(session, main_script(session)))
 
 
-def ctrl_c(session):
-    """C34."""
+@check("C34", "Ctrl-C ends it", "4.3", "C16", look="Ctrl-C in its terminal")
+def ctrl_c(session: Session) -> Note | str | None:
+    """Ctrl-C ends it."""
     script = main_script(session)
     seen = drive(session, script)
     return check_end(session, PACKAGE, script, seen.taken_s, seen.last_words) or (
@@ -96,8 +121,15 @@ def ctrl_c(session):
     )
 
 
-def under_load(session):
-    """C18: started while 200 Joys a second come. Never a failure."""
+@check(
+    "C18",
+    "it starts while the joystick speaks",
+    "4.3",
+    "C16",
+    look="rosbag play --loop joy.bag; rosrun joy2twist joy2twist.py",
+)
+def under_load(session: Session) -> Note | str | None:
+    """Started while 200 Joys a second come. Never a failure."""
     script = main_script(session)
     facts = session.scripts(PACKAGE)[script]
     lines = [call.line if call else 0 for call in map(facts.first, ("Subscriber", "Publisher"))]
@@ -110,7 +142,7 @@ def under_load(session):
     return None
 
 
-def _finds_no_pub(session, script):
+def _finds_no_pub(session: Session, script: str) -> Any:
     """Whether it happens in one of so many starts."""
     with session.stage() as stage:
         stage.call("advertise", JOY, "Joy")
@@ -121,10 +153,10 @@ def _finds_no_pub(session, script):
             for number in range(STARTS)
         ]
 
-        def one_has_failed():
+        def one_has_failed() -> bool:
             return any("NameError" in each.output for each in programs)
 
-        def all_speak():
+        def all_speak() -> Any:
             return len({caller for _, caller, _ in stage.call("heard", CMD_VEL)}) >= STARTS
 
         stage.wait(lambda: all_speak() or one_has_failed(), START_S)

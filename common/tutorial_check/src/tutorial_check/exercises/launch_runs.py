@@ -1,26 +1,33 @@
 """C23, C24 and C26: the launch files of section 5 at work."""
 
+from __future__ import annotations
+
 import math
 import os
 import re
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, Callable
 
 from tutorial_check import student_files
-from tutorial_check.causes import explain
+from tutorial_check.exercises import check
 from tutorial_check.exercises.driving import CMD_VEL, JOY, PACKAGE
-from tutorial_check.exercises.launch_files import BAG, STICK, find_launch
+from tutorial_check.exercises.files import cause_of
+from tutorial_check.exercises.launch_files import BAG, STICK, LaunchFile
 from tutorial_check.exercises.launch_nodes import (
     ROBOT_HINT,
     bag_of,
     is_joystick,
     is_player,
     is_viewer,
-    nodes_of,
-    words_of,
 )
 from tutorial_check.exercises.robot import ODOM, plug_in
 from tutorial_check.model import CannotCheck, Wrong
 from tutorial_check.tracebacks import first_traceback
+
+if TYPE_CHECKING:
+    from tutorial_check.session import Session
+    from tutorial_check.stage import Stage
+
 
 BAG_S = 1.2  # length of the recording that takes the place of the student's, and is played again
 ONCE_S = 60.0  # and of one that is not: like the student's it lasts until the others have started
@@ -32,83 +39,90 @@ UP_S = 6.0  # for what they are there for, once all of them are
 class Launch:
     """A launch file run on a stage, and what flowed."""
 
-    def __init__(self, session, name, stage, twists=CMD_VEL):
+    def __init__(self, file: LaunchFile, stage: Stage, twists: str = CMD_VEL) -> None:
         """twists: the topic on which the velocities should come."""
-        self.session, self.stage, self.name, self.twists = session, stage, name, twists
+        self.file, self.stage, self.twists = file, stage, twists
         for topic, kind in ((JOY, "Joy"), (twists, "Twist"), (ODOM, "Odometry")):
             stage.call("listen", topic, kind)
-        self.program = stage.launch(["roslaunch", str(find_launch(session, name))])
+        self.program = stage.launch(["roslaunch", str(file.path)])
 
-    def wait(self, condition):
+    def wait(self, condition: Callable[[], Any]) -> Any:
         """condition(), as soon as it is true, the launch is over, or its nodes have had their time."""
         self.stage.wait(lambda: condition() or self.is_over() or self._is_up(), START_S)
         self.stage.wait(lambda: condition() or self.is_over(), UP_S)
         return condition()
 
-    def is_over(self):
+    def is_over(self) -> Any:
         """Whether it has come to its end, or a node of it."""
-        return self.program.ended or has_died(self)
+        return self.program.ended or self.has_died
 
-    def _is_up(self):
+    @property
+    def has_died(self) -> bool:
+        """Whether roslaunch said that a node has died; RViz, or rqt_graph, needs a screen, and may."""
+        return any(
+            "has died" in line and "rviz" not in line and "rqt" not in line
+            for line in self.program.output.splitlines()
+        )
+
+    def _is_up(self) -> bool:
         """Whether the master knows all of its nodes; each has /rosout."""
         there = self.stage.call("state")[0].get("/rosout", [])
         return all(
             node["namespace"] + node["name"] in there
-            for node in nodes_of(self.session, self.name)
+            for node in self.file.nodes
             if not is_viewer(node)
         )
 
-    def moved(self):
+    def moved(self) -> Any:
         """How far the robot drove [m], along its way."""
         path = [value for _, _, value in self.stage.call("heard", ODOM)]
         return sum(math.hypot(b[1] - a[1], b[2] - a[2]) for a, b in zip(path, path[1:]))
 
-    def wrong(self, expected):
-        """The Wrong for a launch that does not do what it should, with the first cause there is."""
+    def traced(self, expected: str) -> Any:
+        """The Wrong for the first traceback that was printed, or None."""
+        session = self.file.session
         output = re.sub(r"\x1b\[[0-9;]*m|\x1b\][^\x07]*\x07", "", self.program.output)
-        trace = first_traceback(output, str(self.session.package(PACKAGE).folder))
-        if trace:
-            return Wrong(expected, trace.error, where=trace.where, hint=explain(trace.error))
+        trace = first_traceback(output, str(session.package(PACKAGE).folder))
+        if not trace:
+            return None
+        where, hint = cause_of(session, PACKAGE, Path(trace.where.rpartition(":")[0]).name, trace)
+        return Wrong(expected, trace.error, where, hint)
+
+    def wrong(self, expected: str) -> Any:
+        """The Wrong for a launch that does not do what it should, with the first cause there is."""
+        traced = self.traced(expected)
+        if traced:
+            return traced
         counts = {topic: self.stage.call("count", topic) for topic in (JOY, self.twists, ODOM)}
         silent = [topic for topic, count in counts.items() if not count]
-        errors = [
-            line
-            for line in output.splitlines()
-            if re.search(r"ERROR|died|Invalid|cannot|Unable", line)
-            and "rviz" not in line
-            and "INFO" not in line
-        ]
-        errors = errors or [
-            line for log in self._logs() for line in log.splitlines()[-1:] if "INFO" not in line
-        ]
-        seen = (
-            f"nothing on {', '.join(silent)}" if silent else f"the robot moved {self.moved():.2f} m"
+        bad = re.compile(
+            r"^(?!.*(?:rviz|INFO)).*(?:ERROR|died|Invalid|cannot|Unable)", re.MULTILINE
         )
+        errors = [found[0] for found in bad.finditer(self.program.output)] or self._last_words()
+        seen = f"the robot moved {self.moved():.2f} m"
+        if silent:
+            seen = f"nothing on {', '.join(silent)}"
         if errors:
             seen += f"; {errors[0].strip()[:200]}"
-        return Wrong(
-            expected, seen, where=f"launch/{self.name}", hint=_silence_hint(silent, self.twists)
-        )
+        hints = {
+            JOY: "does the recording, or joy_node, run? rostopic hz /joy",
+            self.twists: f"does joy2twist run, and publish on {self.twists}? rosnode list",
+            ODOM: f"does the simulated robot run? {ROBOT_HINT}",
+        }
+        hint = hints[silent[0]] if silent else "rostopic echo /cmd_vel"
+        return Wrong(expected, seen, f"launch/{self.file.name}", hint)
 
-    def _logs(self):
-        """What nodes without output="screen" wrote."""
+    def _last_words(self) -> Any:
+        """The last lines that nodes without output="screen" wrote."""
         folder = Path(self.stage.environment["ROS_LOG_DIR"])
-        for path in sorted(folder.rglob("*-stdout.log")):
-            text = student_files.read(self.session.folder, path).decode(errors="replace")
-            yield text[-3000:]
+        logs = (
+            student_files.read(self.file.session.folder, path).decode(errors="replace")
+            for path in sorted(folder.rglob("*-stdout.log"))
+        )
+        return [line for log in logs for line in log.splitlines()[-1:] if "INFO" not in line]
 
 
-def _silence_hint(silent, twists):
-    if JOY in silent:
-        return "does the recording, or joy_node, run? rostopic hz /joy"
-    if twists in silent:
-        return f"does joy2twist run, and publish on {twists}? rosnode list"
-    if ODOM in silent:
-        return "does the simulated robot run? " + ROBOT_HINT
-    return "rostopic echo /cmd_vel"
-
-
-def _own_bag(path, length_s):
+def _own_bag(path: Path, length_s: float) -> None:
     """A recording in place of the student's: rest with LB released, then forwards."""
     import rosbag  # noqa: PLC0415
     import rospy  # noqa: PLC0415
@@ -128,71 +142,56 @@ def _own_bag(path, length_s):
     os.chmod(path, mode | 0o444)
 
 
-def _bag_run(session):
+def _bag_run(session: Session) -> Any:
+    """(what is wrong or None, whether the recording begins again)."""
     bag, _ = bag_of(session)
+    file = LaunchFile(session, BAG)
     replaced = bag.startswith(str(session.source))
-    player = next(node for node in nodes_of(session, BAG) if is_player(node))
-    by_words = any(LOOP.fullmatch(word) for word in words_of(session, BAG, player))
+    player = next(filter(is_player, file.nodes))
+    by_words = any(LOOP.fullmatch(word) for word in file.words_of(player))
     loops = by_words or player["respawn"]
     if replaced:
         _own_bag(bag, BAG_S if loops else ONCE_S)
     with session.stage() as stage:
-        launch = Launch(session, BAG, stage)
+        launch = Launch(file, stage)
         # A robot that drives by another topic has not shown that /joy does it.
         drives = launch.wait(lambda: launch.moved() > 0.3) and bool(stage.call("count", JOY))
-        wrong = (
-            None
-            if drives
-            else launch.wrong("/joy, /cmd_vel and /odom flow, and the robot drives more than 0.3 m")
-        )
-        if drives and by_words and replaced:
-            begun = stage.call("heard", JOY)[0][0]
-            loops = bool(
-                stage.wait(
-                    lambda: stage.call("heard", JOY)[-1][0] - begun > BAG_S + 0.5,
-                    BAG_S + 2.5,
-                )
-            )
-        return wrong, loops
+        if not drives:
+            expected = "/joy, /cmd_vel and /odom flow, and the robot drives more than 0.3 m"
+            return launch.wrong(expected), loops
+        if by_words and replaced:
+            end_s = stage.call("heard", JOY)[0][0] + BAG_S + 0.5
+            loops = stage.wait(lambda: stage.call("heard", JOY)[-1][0] > end_s, BAG_S + 2.5)
+        return None, bool(loops)
 
 
-def has_died(launch):
-    """Whether roslaunch said that a node has died; RViz, or rqt_graph, needs a screen, and may."""
-    return any(
-        "has died" in line and "rviz" not in line and "rqt" not in line
-        for line in launch.program.output.splitlines()
-    )
-
-
-def bag_drives(session):
-    """C23."""
+@check("C23", "launch_bag drives the robot", "5.1", "C22 C16",
+       look="roslaunch joy2twist launch_bag.launch")  # fmt: skip
+def bag_drives(session: Session) -> None:
+    """Start launch_bag, with a recording of the checker's own."""
     wrong, _ = session.run("bag run", lambda: _bag_run(session))
     if wrong:
         raise wrong
 
 
-def bag_loops(session):
-    """C24."""
+@check("C24", "the recording begins again at its end", "5.1", "C23", look="rostopic hz /joy")
+def bag_loops(session: Session) -> None:
+    """Look at /joy after the end of that recording."""
     _, loops = session.run("bag run", lambda: _bag_run(session))
     if not loops:
-        raise Wrong(
-            "/joy flows on after the end of the recording",
-            "it falls silent",
-            where=bag_of(session)[1],
-            hint="rosbag play --loop: in args= of that node",
-        )
+        expected = "/joy flows on after the end of the recording"
+        hint = "rosbag play --loop: in args= of that node"
+        raise Wrong(expected, "it falls silent", bag_of(session)[1], hint)
 
 
-def stick_drives(session):
-    """C26."""
-    check_stick(session, STICK)
-
-
-def check_stick(session, name):
-    """A launch file with a joystick: the robot moves with the stick."""
+@check("C26", "launch_joy_node drives the robot", "5.1", "C25 C16",
+       look="roslaunch joy2twist launch_joy_node.launch")  # fmt: skip
+def stick_drives(session: Session) -> None:
+    """Start launch_joy_node, push the stick and release it."""
+    file = LaunchFile(session, STICK)
     with session.stage() as stage:
-        pad = plug_in_for(session, stage, name)
-        launch = Launch(session, name, stage)
+        pad = plug_in_for(file, stage)
+        launch = Launch(file, stage)
         pushed = push_when_ready(stage, pad, launch)
         stage.wait(lambda: launch.moved() > 0.15 or launch.is_over(), 4.0 if pushed else 0.0)
         if launch.moved() <= 0.15:
@@ -200,15 +199,16 @@ def check_stick(session, name):
         pad.call("release")
         stage.wait(lambda: abs(stage.call("heard", ODOM)[-1][2][5]) < 0.01, 3.0)
         if abs(stage.call("heard", ODOM)[-1][2][5]) > 0.01:
-            raise Wrong("released, the robot stands", "it drives on", where=f"launch/{name}")
+            raise Wrong("released, the robot stands", "it drives on", f"launch/{STICK}")
 
 
-def plug_in_for(session, stage, name):
+def plug_in_for(file: LaunchFile, stage: Stage) -> Any:
     """A joystick where the joy_node of a launch file will look for it."""
-    nodes = [node for node in nodes_of(session, name) if is_joystick(node)]
+    nodes = list(filter(is_joystick, file.nodes))
     named = [node["device"] for node in nodes if node["device"].startswith("/dev/input/")]
+    session = file.session
     if named and not session.can_have_devices:
-        raise CannotCheck(f"the system grants no {named[0]} to try {name} with")
+        raise CannotCheck(f"the system grants no {named[0]} to try {file.name} with")
     pad, path = plug_in(session, stage, *named[:1])
     if not session.can_have_devices:
         for node in nodes:
@@ -216,14 +216,14 @@ def plug_in_for(session, stage, name):
     return pad
 
 
-def push_when_ready(stage, pad, launch, *signs):
+def push_when_ready(stage: Stage, pad: Any, launch: Launch, *signs: str) -> bool:
     """Push the stick forwards once everything runs; whether it came to that.
 
     signs: topics, listened to, on which a message comes as soon as their node works.
     """
     topics = (JOY, launch.twists, ODOM)
 
-    def ready():
+    def ready() -> Any:
         return (
             pad.call("connected")
             and all(stage.call("speakers", topic) for topic in topics)

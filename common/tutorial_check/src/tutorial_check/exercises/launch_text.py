@@ -1,9 +1,12 @@
 """The text of a launch file, and what roslaunch says of it: from both to a line and a hint."""
 
+from __future__ import annotations
+
 import difflib
 import os
 import re
 from pathlib import Path
+from typing import Any
 
 from tutorial_check.exercises.launch_xml import NOT_XML, line_of, not_xml, without_comments
 from tutorial_check.model import Wrong
@@ -36,12 +39,12 @@ ATTRIBUTES = {
 }
 
 
-def read(path):
+def read(path: Path) -> Any:
     """The text of a launch file, without its comments."""
     return without_comments(path.read_text(errors="replace"))
 
 
-def place_of(where, text, *words):
+def place_of(where: str, text: str, *words: str) -> Any:
     """FILE:LINE of the first line with the first of the words that is there; else the file."""
     for word in words:
         for number, line in enumerate(text.splitlines(), 1):
@@ -50,12 +53,12 @@ def place_of(where, text, *words):
     return where
 
 
-def attribute(name, value):
+def attribute(name: str, value: str) -> Any:
     """How it may be written, for place_of."""
     return f'{name}="{value}"', f"{name}='{value}'", value
 
 
-def space_hint(text):
+def space_hint(text: str) -> Any:
     """(what has a space that should be an underscore, what to do); empty if there is none."""
     for pattern in GAPS:
         found = re.search(pattern, text)
@@ -65,7 +68,7 @@ def space_hint(text):
     return "", ""
 
 
-def parse_error(error, where, text):
+def parse_error(error: str, where: str, text: str) -> Any:
     """The Wrong for a file that roslaunch cannot read. text: with its comments."""
     expected = "a launch file that roslaunch can read"
     if re.search(NOT_XML, error):
@@ -93,7 +96,7 @@ def parse_error(error, where, text):
     return Wrong(expected, error[:250], *_place_and_hint(error, where, text))
 
 
-def _place_and_hint(error, where, text):
+def _place_and_hint(error: str, where: str, text: str) -> Any:
     """The same for what says neither file nor package."""
     arg = re.search(r"requires the '(\w+)' arg", error)
     if arg:
@@ -119,7 +122,9 @@ def _place_and_hint(error, where, text):
         found = list(re.finditer(rf"<node\b[^<>]*\bname\s*=\s*[\"']{name}[\"']", text))
         place = f"{where}:{line_of(text, found[:2][-1].end())}" if found else where
         return place, "each node has a name of its own, those of included files as well"
-    about = error.split(" xml is ")[0]  # without the tag itself, in which there may be any word
+    about = error.split(" xml is ", maxsplit=1)[
+        0
+    ]  # without the tag itself, in which there may be any word
     lacks = re.search(r"<(\w+)> tag is missing", about)
     tag = "include" if error == "'file'" else lacks[1] if lacks else ""
     if tag:
@@ -133,7 +138,7 @@ def _place_and_hint(error, where, text):
     return where, "roslaunch --nodes FILE shows the same"
 
 
-def _tag_without(where, text, tag, attributes):
+def _tag_without(where: str, text: str, tag: str, attributes: Any) -> Any:
     """FILE:LINE of the first such tag that lacks an attribute. attributes: as re.findall has them."""
     names = [name for found in attributes for name in found if name]
     for found in re.finditer(rf"<{tag}\b[^<>]*", text):
@@ -142,8 +147,8 @@ def _tag_without(where, text, tag, attributes):
     return place_of(where, text, f"<{tag}")
 
 
-def _no_file(expected, path, where, text):
-    path = Path(path)
+def _no_file(expected: str, name: str, where: str, text: str) -> Any:
+    path = Path(name)
     seen, place = f"no such file: {path}", place_of(where, text, path.name)
     if not path.is_absolute():
         hint = 'an include needs the whole path: file="$(find PACKAGE)/launch/FILE"'

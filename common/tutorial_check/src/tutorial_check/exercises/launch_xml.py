@@ -1,5 +1,7 @@
 """A launch file that is no XML, or whose tags are nested by mistake: from its text to the culprit. Pure."""
 
+from __future__ import annotations
+
 import re
 from xml.parsers import expat
 
@@ -10,17 +12,17 @@ VALUE = re.compile(r"=\s*(\"[^\"]*\"|'[^']*')")
 QUOTES = 'each value stands between two quotes: name="value"'
 
 
-def without_comments(text):
+def without_comments(text: str) -> str:
     """The text with blanks in place of comments: its lines keep their numbers."""
     return COMMENT.sub(lambda found: re.sub(r"[^\n]", " ", found[0]), text)
 
 
-def line_of(text, index):
+def line_of(text: str, index: int) -> int:
     """The number of the line, from 1, in which text[index] stands."""
     return text.count("\n", 0, index) + 1
 
 
-def not_xml(error, text):
+def not_xml(error: str, text: str) -> tuple[int | None, str]:
     """(line or None, hint) for what expat says of a launch file. text: with its comments."""
     curly = CURLY.search(without_comments(text))
     if curly:
@@ -37,7 +39,7 @@ def not_xml(error, text):
     return _not_well_formed(text, line, start + column)
 
 
-def _not_well_formed(text, line, index):
+def _not_well_formed(text: str, line: int, index: int) -> tuple[int, str]:
     """The same for a file in which expat came as far as text[index], in that line."""
     dashes = [
         line_of(text, each.start(1) + f"{each[1]}-".index("--"))
@@ -52,15 +54,15 @@ def _not_well_formed(text, line, index):
         return line, "a gap that came from the PDF is no space: delete it, and type one instead"
     # A value without its second quote goes on to the next tag: so, the one before it first.
     for start in (text.rfind("<", 0, index), text.rfind("<", 0, index + 1)):
-        tag = re.match(r"[^<>]*", text[start + 1 :])[0] if start >= 0 else ""
+        tag = re.split("[<>]", text[start + 1 :])[0] if start >= 0 else ""
         if re.search(r"[\"'=]", VALUE.sub("", tag)):
             return line_of(text, start), QUOTES
     return line, "each tag ends with > or />; the mistake is in the line named or in the one before"
 
 
-def _not_closed(text):
+def _not_closed(text: str) -> tuple[int | None, str]:
     """The same for a file with a tag that is not closed, or closed twice."""
-    stack = []  # (tag, line) of those that are open
+    stack: list[tuple[str, int]] = []  # (tag, line) of those that are open
     parser = expat.ParserCreate("utf-8")
     parser.StartElementHandler = lambda tag, _: stack.append((tag, parser.CurrentLineNumber))
     parser.EndElementHandler = lambda _: stack.pop()
@@ -68,7 +70,7 @@ def _not_closed(text):
         parser.Parse(text.encode(), True)
     except expat.ExpatError as error:
         line = error.lineno
-        closing = re.match(r"[\w-]*", text.split("\n")[line - 1][error.offset :])[0]
+        closing = re.split(r"[^\w-]", text.split("\n")[line - 1][error.offset :])[0]
     else:
         return None, "each <tag> needs its </tag> or />"  # it was saved in between
     if not stack:
@@ -79,7 +81,7 @@ def _not_closed(text):
     return opened, f"the <{tag}> of line {opened} is never closed: /> at its end, or </{tag}> below"
 
 
-def unclosed_node(text, child):
+def unclosed_node(text: str, child: str) -> int | None:
     """The line of the first <node> with such a tag in it, which roslaunch ignores there; or None."""
     found = re.search(
         rf"<node\b[^<>]*(?<!/)>(?:(?!</node>).)*?<{child}\b", without_comments(text), re.DOTALL

@@ -1,12 +1,19 @@
 """Every package.xml of the workspace: what is wrong with one of them keeps the other packages, too."""
 
+from __future__ import annotations
+
 import os
 import re
+from typing import TYPE_CHECKING, Any
 
 from node_kit.manifests import broken_manifests
 from tutorial_check.exercises.launch_text import place_of, read
 from tutorial_check.model import Wrong
 from tutorial_check.workspace import Package
+
+if TYPE_CHECKING:
+    from tutorial_check.session import Session
+
 
 # What catkin says of a package.xml, the word that it means, what to do.
 WANTS = (
@@ -22,7 +29,7 @@ WANTS = (
 )
 
 
-def unreadable(package):
+def unreadable(package: Package) -> Any:
     """The Wrong for a package.xml that is no XML, or not what catkin makes of it."""
     where = f"{package.inside}/package.xml"
     if package.malformed:
@@ -43,7 +50,7 @@ def unreadable(package):
     )
 
 
-def must_be_startable(session):
+def must_be_startable(session: Session) -> None:
     """rospy reads every package.xml first, not only that of the package. Raises Wrong."""
     broken = session.memo("broken", lambda: broken_manifests(session.source))
     if broken:
@@ -55,10 +62,10 @@ def must_be_startable(session):
         raise unreadable(packages.get(inside, hidden))
 
 
-def must_be_launchable(session):
+def must_be_launchable(session: Session) -> None:
     """catkin reads them as well, and roslaunch asks catkin. Raises Wrong."""
     must_be_startable(session)
-    places = {}
+    places: dict[str, list[str]] = {}
     for package in session.packages:
         if package.error:
             raise unreadable(package)

@@ -1,15 +1,24 @@
 """C2 to C4 and C12: the packages, their dependencies, the build."""
 
+from __future__ import annotations
+
 import difflib
 import os
 import re
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
+from tutorial_check.exercises import check
 from tutorial_check.exercises.launch_text import place_of, read
 from tutorial_check.exercises.manifests import unreadable
 from tutorial_check.model import Wrong
 from tutorial_check.place import own_rights
-from tutorial_check.workspace import packages_beside
+from tutorial_check.workspace import Package, packages_beside
+
+if TYPE_CHECKING:
+    from tutorial_check.model import Note
+    from tutorial_check.session import Session
+
 
 NAMES = ("beginner_tutorials", "joy2twist")
 WANTED = {
@@ -26,7 +35,7 @@ CMAKE_HINTS = (
 )
 
 
-def _similar(name, packages):
+def _similar(name: str, packages: Any) -> Any:
     """A package that was meant to be the one of that name, or None."""
     plain = re.sub(r"[^a-z0-9]", "", name)
     for each in packages:
@@ -37,126 +46,105 @@ def _similar(name, packages):
     return None
 
 
-def _package(session, name):
-    packages = session.packages
+def _package(session: Session, name: str) -> Any:
+    """The package of that name. Raises Wrong."""
+    packages, expected = session.packages, f"one package {name} in src"
     named = [each for each in packages if each.name == name]
-    expected = f"one package {name} in src"
     broken = [each for each in packages if each.error and name in (each.name, each.folder.name)]
     if broken:
         raise unreadable(broken[0])
     if len(named) > 1:
-        raise Wrong(
-            expected,
-            f"{len(named)}: {', '.join(each.inside for each in named)}",
-            where=named[1].inside,
-            hint="remove the copy from src, or put an empty file CATKIN_IGNORE into it",
-        )
-    if named:
-        outer = next(
-            (
-                each
-                for each in packages
-                if each is not named[0] and each.folder in named[0].folder.parents
-            ),
-            None,
-        )
-        if outer:
-            raise Wrong(
-                expected,
-                f"it lies within another package, {outer.inside}",
-                where=named[0].inside,
-                hint="move it up: packages stand side by side in src",
-            )
-        return named[0]
-    beside = [each for each in packages_beside(session.layout) if each.name == name]
-    if beside:
-        raise Wrong(
-            expected,
-            f"it lies beside src: {beside[0].inside}",
-            where=beside[0].inside,
-            hint=f"mv {session.whole(beside[0].inside)} {session.whole('src')}",
-        )
+        seen = f"{len(named)}: {', '.join(each.inside for each in named)}"
+        hint = "remove the copy from src, or put an empty file CATKIN_IGNORE into it"
+        raise Wrong(expected, seen, named[1].inside, hint)
+    if not named:
+        raise _missing(session, name, expected)
+    outer = [each for each in packages if each.folder in named[0].folder.parents]
+    if outer:
+        seen = f"it lies within another package, {outer[0].inside}"
+        hint = "move it up: packages stand side by side in src"
+        raise Wrong(expected, seen, named[0].inside, hint)
+    return named[0]
+
+
+def _missing(session: Session, name: str, expected: str) -> Any:
+    """The Wrong for a package that is not there, or is elsewhere, or has another name."""
+    for beside in (each.inside for each in packages_beside(session.layout) if each.name == name):
+        hint = f"mv {session.whole(beside)} {session.whole('src')}"
+        return Wrong(expected, f"it lies beside src: {beside}", beside, hint)
     link = session.layout.source / name
     with own_rights():
         leads_to = os.readlink(link) if link.is_symlink() and not link.exists() else ""
     if leads_to:
-        raise Wrong(
-            expected,
-            f"src/{name} is a link to {leads_to}, and leads nowhere here",
-            where=f"src/{name}",
-            hint="put the folder itself into src in place of the link",
-        )
-    similar = _similar(name, packages)
+        seen = f"src/{name} is a link to {leads_to}, and leads nowhere here"
+        return Wrong(expected, seen, f"src/{name}", "put the folder itself into src, no link")
+    similar = _similar(name, session.packages)
     if similar:
-        raise Wrong(
-            expected,
-            f"a package called {similar.name}",
-            where=f"{similar.inside}/package.xml",
-            hint=f"its name must be exactly {name}: lower case, with _ and without -; in package.xml, CMakeLists.txt"
-            " and the folder",
-        )
-    raise Wrong(
-        expected,
-        "none; found: " + (", ".join(each.name for each in packages) or "no package at all"),
-        hint=f"cd to src of your workspace; {CREATE[name]}. ./tutorial shell without --in has one of OURS",
-    )
+        hint = f"its name must be exactly {name}: lower case, with _ and without -;"
+        hint += " in package.xml, CMakeLists.txt and the folder"
+        seen, where = f"a package called {similar.name}", f"{similar.inside}/package.xml"
+        return Wrong(expected, seen, where, hint)
+    found = ", ".join(each.name for each in session.packages) or "no package at all"
+    hint = f"cd to src of your workspace; {CREATE[name]}. ./tutorial shell without --in has one of OURS"
+    return Wrong(expected, f"none; found: {found}", hint=hint)
 
 
-def _dependencies(session, name):
-    package = _package(session, name)
-    odd = sorted(
-        each
-        for each in package.depends
-        if not re.fullmatch(r"[a-z][a-z0-9_+-]*", each, re.IGNORECASE)
-    )
-    if odd:
-        raise Wrong(
-            "names of packages",
-            f"a dependency on {odd[0]!r}",
-            where=f"{package.inside}/package.xml",
-            hint="between the dependencies stand spaces only, no commas: mend package.xml and CMakeLists.txt",
-        )
-    missing = [each for each in WANTED[name] if each not in package.depends]
-    others = package.depends - set(WANTED[name])
+def _dependencies(session: Session, name: str) -> Any:
+    """The package of that name, which has all dependencies. Raises Wrong."""
+    package, wanted = _package(session, name), WANTED[name]
+    where = f"{package.inside}/package.xml"
+    for odd in sorted(package.depends):
+        if not re.fullmatch(r"[a-z][a-z0-9_+-]*", odd, re.IGNORECASE):
+            hint = "between the dependencies stand spaces only, no commas:"
+            hint += " mend package.xml and CMakeLists.txt"
+            raise Wrong("names of packages", f"a dependency on {odd!r}", where, hint)
+    missing = [each for each in wanted if each not in package.depends]
+    others = package.depends - set(wanted)
     # One kind of dependency may name it rightly.
-    for each in sorted(others):
-        meant = difflib.get_close_matches(each, WANTED[name], 1, 0.8)
-        if not missing and meant and not _is_known(session, each):
-            missing = meant
-    if missing:
-        near = {each: difflib.get_close_matches(each, others, 1, 0.65) for each in missing}
-        seen, where = f"no {', '.join(missing)}", f"{package.inside}/package.xml"
-        if missing[0] in package.depends:
-            seen = f"{near[missing[0]][0]}, which is no package"
-        text = read(package.folder / "package.xml")
-        place = place_of(where, text, "exec_depend>", "run_depend>", "depend>", "</package>")
-        hint = "add " + " and ".join(f"<depend>{each}</depend>" for each in missing)
-        for each, found in near.items():
-            if found:
-                seen += f" (but {found[0]})" if each not in package.depends else ""
-                place = place_of(where, text, f">{found[0]}<", found[0])
-                hint = f"correct {found[0]} to {each}, in each line that has it"
-        raise Wrong(
-            f"dependencies on {', '.join(WANTED[name])}",
-            seen,
-            where=place,
-            hint=hint,
-        )
-    return package
+    for each in sorted(others) if not missing else ():
+        meant = difflib.get_close_matches(each, wanted, 1, 0.8)
+        missing = missing or (meant if not _is_known(session, each) else [])
+    if not missing:
+        return package
+    near = {each: difflib.get_close_matches(each, others, 1, 0.65) for each in missing}
+    seen = f"no {', '.join(missing)}"
+    if missing[0] in package.depends:
+        seen = f"{near[missing[0]][0]}, which is no package"
+    text = read(package.folder / "package.xml")
+    place = place_of(where, text, "exec_depend>", "run_depend>", "depend>", "</package>")
+    hint = "add " + " and ".join(f"<depend>{each}</depend>" for each in missing)
+    for each, (found,) in ((each, words) for each, words in near.items() if words):
+        seen += f" (but {found})" if each not in package.depends else ""
+        place = place_of(where, text, f">{found}<", found)
+        hint = f"correct {found} to {each}, in each line that has it"
+    raise Wrong(f"dependencies on {', '.join(wanted)}", seen, place, hint)
 
 
-def beginner(session):
-    """C2."""
+@check(
+    "C2", "package beginner_tutorials", "2.1", look="rospack find beginner_tutorials", timeless=True
+)
+def beginner(session: Session) -> Note | str | None:
+    """Package beginner_tutorials."""
     return f"src/{_package(session, 'beginner_tutorials').inside}"
 
 
-def beginner_dependencies(session):
-    """C3."""
+@check(
+    "C3", "its dependencies", "2.1", "C2", look="rospack depends1 beginner_tutorials", timeless=True
+)
+def beginner_dependencies(session: Session) -> None:
+    """Its dependencies."""
     _dependencies(session, "beginner_tutorials")
 
 
-def joy2twist(session):
-    """C12."""
+@check(
+    "C12",
+    "package joy2twist and its dependencies",
+    "4.3",
+    look="rospack find joy2twist",
+    timeless=True,
+)
+def joy2twist(session: Session) -> Note | str | None:
+    """Package joy2twist and its dependencies."""
     package = _dependencies(session, "joy2twist")
     text = _cmake(package)
     found = re.search(r"find_package\s*\(\s*catkin\b[^)]*\bCOMPONENTS\b([^)]*)\)", text)
@@ -166,77 +154,64 @@ def joy2twist(session):
     return f"src/{package.inside}"
 
 
-def _is_known(session, name):
+def _is_known(session: Session, name: str) -> bool:
     """Whether find_package surely finds a package. If not, a build tells, which takes its time."""
     prefixes = session.floor_environment.get("CMAKE_PREFIX_PATH", "").split(":")
-    return any(each.name == name for each in session.packages) or any(
-        Path(prefix, "share", name, "cmake", f"{name}Config.cmake").is_file()
-        for prefix in (*prefixes, "/usr")
-    )
+    if any(each.name == name for each in session.packages):
+        return True
+    with own_rights():
+        return any(
+            Path(prefix, "share", name, "cmake", f"{name}Config.cmake").is_file()
+            for prefix in (*prefixes, "/usr")
+        )
 
 
-def _cmake(package):
+def _cmake(package: Package) -> Any:
     """The text of a package's CMakeLists.txt without comments. Raises Wrong."""
     path = package.folder / "CMakeLists.txt"
     if not path.is_file():
-        raise Wrong(
-            "a package as catkin_create_pkg makes it",
-            "the file CMakeLists.txt is missing",
-            where=package.inside,
-            hint="take it from a new package of the same name",
-        )
+        expected, hint = "a package as catkin_create_pkg makes it", "take it from a new package"
+        raise Wrong(expected, "the file CMakeLists.txt is missing", package.inside, hint)
     return re.sub(r"#.*", "", path.read_text(errors="replace"))
 
 
-def build(session):
-    """C4: catkin_make in a fresh copy."""
+@check("C4", "catkin_make builds", "2.1", "C2", look="catkin_make")
+def build(session: Session) -> None:
+    """Call catkin_make in a fresh copy."""
     for each in session.packages:
         _cmake(each)
     code, output = session.built()
     if code is None:
-        raise Wrong(
-            "catkin_make ends",
-            "it runs for more than two minutes",
-            hint="catkin_make in your workspace",
-        )
+        hint = "catkin_make in your workspace"
+        raise Wrong("catkin_make ends", "it runs for more than two minutes", hint=hint)
     if code != 0:
         raise _build_error(session, output)
     listed = re.search(r"traversing \d+ packages?[^:]*:((?:\s*--\s+~~\s+- .*)+)", output)
     names = re.findall(r"- (\S+)", listed[1]) if listed else []
     if listed and "beginner_tutorials" not in names:
-        raise Wrong(
-            "catkin_make goes through beginner_tutorials", f"it goes through {', '.join(names)}"
-        )
+        seen = f"it goes through {', '.join(names)}"
+        raise Wrong("catkin_make goes through beginner_tutorials", seen)
 
 
-def _build_error(session, output):
+def _build_error(session: Session, output: str) -> Any:
+    """The Wrong for the first error of catkin_make."""
     output = re.sub(r"\x1b\[[0-9;]*m", "", output)
     lines = [line.strip() for line in output.splitlines()]
-    words = next(
-        (
-            line
-            for line in lines
-            if re.search(
-                r"Error at|^E: |mismatched tag|error:|Could not find|Multiple packages", line
-            )
-        ),
-        lines[-1] if lines else "",
-    )
+    bad = r"Error at|^E: |mismatched tag|error:|Could not find|Multiple packages"
+    words = next((line for line in lines if re.search(bad, line)), lines[-1] if lines else "")
     missing = _missing_in(output)
     message, where = _cmake_error(output)
     if words.startswith("CMake Error") and message:
         words = f"CMake: {message}"
-    hint = next(
-        (what for pattern, what in CMAKE_HINTS if re.search(pattern, message)),
-        "read the first error of catkin_make: it names file and line",
-    )
+    fits = (what for pattern, what in CMAKE_HINTS if re.search(pattern, message))
+    hint = next(fits, "read the first error of catkin_make: it names file and line")
     if missing:
         words, place, hint = _not_found(session, missing[0])
         where = place or where
-    return Wrong("catkin_make without an error", words[:300], where=where, hint=hint)
+    return Wrong("catkin_make without an error", words[:300], where, hint)
 
 
-def _missing_in(output):
+def _missing_in(output: str) -> Any:
     """The packages that catkin_make said it could not find."""
     return re.findall(
         r"[Cc]ould not find .*?(?:package configuration file provided by |component )?\"([^\"]+)\"",
@@ -244,7 +219,7 @@ def _missing_in(output):
     )
 
 
-def _not_found(session, name):
+def _not_found(session: Session, name: str) -> Any:
     """(what is seen, where, what to do) for a package that CMakeLists.txt names and catkin does not find."""
     place, text = _place_in_cmake(session, name)
     absent = {each for names in WANTED.values() for each in names if each not in text}
@@ -255,7 +230,7 @@ def _not_found(session, name):
     return f"catkin cannot find {name}", place, hint
 
 
-def _cmake_error(output):
+def _cmake_error(output: str) -> Any:
     """(message, FILE:LINE of the student's) of CMake's first error, each perhaps empty.
 
     Where the error is met, it is often in a file of catkin's; the call stack tells who called that.
@@ -267,7 +242,7 @@ def _cmake_error(output):
     return " ".join(found[1].split("Call Stack")[0].split()), place[0] if place else ""
 
 
-def _place_in_cmake(session, word):
+def _place_in_cmake(session: Session, word: str) -> Any:
     """(first line with a word in a CMakeLists.txt of the student's, its text); or empty."""
     for each in session.packages:
         name = f"{each.inside}/CMakeLists.txt"

@@ -1,30 +1,41 @@
 """C11, C19, C20: a recording, the simulated robot, the joystick."""
 
+from __future__ import annotations
+
 import math
 import shlex
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, Iterable, Sequence
 
+from tutorial_check.exercises import check
 from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL, PACKAGE
 from tutorial_check.exercises.files import crash
 from tutorial_check.exercises.joy2twist import main_script
+from tutorial_check.mapping import ANGULAR, LINEAR
 from tutorial_check.model import CannotCheck, Note, Wrong
 from tutorial_check.pad import Pad
 from tutorial_check.stage import START_S
+
+if TYPE_CHECKING:
+    from tutorial_check.session import Session
+    from tutorial_check.stage import Stage
+
 
 FORWARDS, LEFT = 0.5, 0.8  # positions of the stick
 ODOM = "/odom"
 COPY_BAG = 'cp "$(rospack find gamepad)/bag/joy.bag" .'
 SLOW_S = 4.0  # for a program that sleeps in its callback to answer what has gathered
 REST_S = 0.5  # for a Twist at rest; not every program sends one
+FASTEST = 0.7  # [m/s] the robot goes no faster, whatever it is told
 LOOKS = 3  # at the robot's speed: one stutter of a busy machine is none of the program's
 
 
-def held(left, forwards):
+def held(left: float, forwards: float) -> Any:
     """A Joy with LB held."""
     return (left, forwards, 0.0, 0.0, 0.0, 0.0), (*NEUTRAL[1][:4], 1, *NEUTRAL[1][5:])
 
 
-def rest(stage, *topics):
+def rest(stage: Stage, *topics: Iterable[str]) -> None:
     """Send Joys at rest until a Twist answers, or for a while: some programs drive only after it.
 
     A single Joy may be lost to a Subscriber with queue_size=1 that was still busy: so, several.
@@ -38,8 +49,9 @@ class NoJoy(Wrong):
     """For a recording of something else."""
 
 
-def recording(session):
-    """C11: the first of the recordings that can be played to joy2twist counts; there may be others."""
+@check("C11", "a recording of /joy", "4.2", look="rosbag info joy.bag")
+def recording(session: Session) -> Note | str | None:
+    """The first of the recordings that can be played to joy2twist counts; there may be others."""
     ours = session.package(PACKAGE)
     bags = session.source.rglob("*.bag") if ours or session.package("beginner_tutorials") else []
     bags = sorted(bags, key=lambda each: (each.name != "joy.bag", each))
@@ -49,7 +61,8 @@ def recording(session):
             hint=f"the recording: {COPY_BAG}",
             empty=True,
         )
-    spoilt, others = [], []
+    spoilt: list[Wrong] = []
+    others: list[Wrong] = []
     for bag in bags:
         name = str(bag.relative_to(session.source))
         try:
@@ -62,7 +75,7 @@ def recording(session):
     return Note(f"no recording of /joy; {others[0].seen}", others[0].where, others[0].hint, True)
 
 
-def check_recording(bag, name):
+def check_recording(bag: Any, name: str) -> Any:
     """The topics of a recording that can be played to joy2twist. name: as the student knows it. Raises Wrong."""
     import rosbag  # noqa: PLC0415
 
@@ -74,32 +87,27 @@ def check_recording(bag, name):
                 for _, (_, message, _) in zip(range(5), opened.read_messages(topics=[JOY, "joy"]))
             ]
     except (rosbag.ROSBagException, OSError, ValueError, KeyError, EOFError) as error:
-        raise Wrong(
-            "a recording that rosbag can read",
-            str(error) or type(error).__name__,
-            where=name,
-            hint=f"copy it anew: {COPY_BAG[:-1]}{shlex.quote(str(bag))}",
-        ) from None
+        seen = str(error) or type(error).__name__
+        hint = f"copy it anew: {COPY_BAG[:-1]}{shlex.quote(str(bag))}"
+        raise Wrong("a recording that rosbag can read", seen, name, hint) from None
     if not joys:
-        raise NoJoy(
-            "sensor_msgs/Joy on /joy",
-            "topics: " + (", ".join(topics) or "none"),
-            where=name,
-            hint=f"rosbag record /joy; or copy ours: {COPY_BAG}",
-        )
-    if len(getattr(joys[0], "axes", ())) < 2:
-        raise Wrong("at least two axes", f"{len(getattr(joys[0], 'axes', ()))}", where=name)
+        seen = f"topics: {', '.join(topics) or 'none'}"
+        hint = f"rosbag record /joy; or copy ours: {COPY_BAG}"
+        raise NoJoy("sensor_msgs/Joy on /joy", seen, name, hint)
+    axes = len(getattr(joys[0], "axes", ()))
+    if axes < 2:
+        raise Wrong("at least two axes", f"{axes}", name)
     return list(topics)
 
 
-def _yaw(odom):
+def _yaw(odom: Sequence[float]) -> Any:
     return 2 * math.atan2(odom[3], odom[4])
 
 
-def steady(stage, how_long_s=0.8):
+def steady(stage: Stage, how_long_s: float = 0.8) -> Any:
     """(speed over ground, rate of turn) by the robot's own stamps, over a while of even driving."""
 
-    def since(stamp):
+    def since(stamp: float) -> Any:
         return [value for _, _, value in stage.call("heard", ODOM) if value[0] > stamp]
 
     start = stage.call("heard", ODOM)[-1][2]
@@ -111,83 +119,79 @@ def steady(stage, how_long_s=0.8):
     return (length / took, turned / took) if took > 0 else (0.0, 0.0)
 
 
-def _possible(twist):
-    """(m/s, rad/s) of a Twist: a robot is as fast as it can, and no faster."""
-    return min(twist[0], 0.7), min(twist[5], math.pi)
-
-
-def _agree(measured, told):
+def _agree(measured: float, told: float) -> Any:
     return told > 0 and abs(measured - told) <= 0.1 * told
 
 
-def simulated(session):
-    """C19."""
+@check("C19", "the simulated robot follows", "4.4", "C16",
+       look="rostopic echo /odom/pose/pose/position")  # fmt: skip
+def simulated(session: Session) -> Note | str | None:
+    """Drive the simulated robot forwards, then turn it, and compare with what was told."""
     script = main_script(session)
     with session.stage() as stage:
-        for topic, kind in ((CMD_VEL, "Twist"), (ODOM, "Odometry")):
-            stage.call("listen", topic, kind)
-        stage.call("advertise", JOY, "Joy")
-        robot = stage.start_ours("fake_turtlebot_sim", "fake_turtlebot.py")
-        program = stage.start(PACKAGE, script)
-        ready = stage.wait(
-            lambda: program.ended or (stage.call("listeners", JOY) and stage.call("count", ODOM)),
-            START_S,
-        )
-        rest(stage, CMD_VEL)
-        # Its Publisher may be made in the callback.
-        ready = ready and stage.wait(
-            lambda: program.ended or stage.call("speakers", CMD_VEL), START_S
-        )
-        publishers = stage.call("state")[0].get(CMD_VEL, [])
-        if robot.ended or not stage.call("count", ODOM):
-            raise CannotCheck(f"the simulated robot does not start: {robot.output[-200:]}")
-        if not ready or program.ended:
-            raise crash(session, PACKAGE, program, "the node runs beside the simulated robot")
-        if len(set(publishers)) != 1:
-            raise Wrong(
-                "one node publishes on /cmd_vel",
-                f"{len(set(publishers))}: {', '.join(publishers)}",
-                hint="end the older version: rosnode list",
-            )
-        found = []
-        for joy in (held(0.0, FORWARDS), held(LEFT, 0.0)):
-            before = stage.call("count", CMD_VEL)
-            stage.call("stream", JOY, [joy], 20.0, True)
-            index = 0 if not found else 5
-            stage.wait(
-                lambda before=before, index=index: any(
-                    abs(v[index]) > 0.01 for _, _, v in stage.call("heard", CMD_VEL, before)
-                ),
-                3.0,
-            )
-            moving = stage.call("count", ODOM)
-            stage.wait(lambda moving=moving: stage.call("count", ODOM) > moving + 8, 3.0)
-            for _ in range(LOOKS):
-                measured, told = steady(stage), stage.call("heard", CMD_VEL, before)[-1:]
-                if told and _agree(measured[len(found)], _possible(told[0][2])[len(found)]):
-                    break
-            found.append((measured[len(found)], told))
-            stage.call("end_stream", JOY)
+        program = _beside_the_robot(session, stage, script)
+        straight, told = _driven(stage, held(0.0, FORWARDS), LINEAR)
+        turning, told_turn = _driven(stage, held(LEFT, 0.0), ANGULAR)
         session.box.end(program, 0.5)
-    (straight, told), (turning, told_turn) = found
     if not told or not told_turn:
         raise Wrong("Twists that the robot obeys", "none came")
-    v, w = told[-1][2][0], told_turn[-1][2][5]
-    expected = f"forwards with {v:.2f} m/s, then turning left with {w:.2f} rad/s"
+    v, w = told[LINEAR], told_turn[ANGULAR]
     seen = f"{straight:.2f} m/s, then {turning:.2f} rad/s"
-    if not _agree(straight, _possible(told[-1][2])[0]) or not _agree(
-        turning, _possible(told_turn[-1][2])[1]
-    ):
-        raise Wrong(
-            expected,
-            seen,
-            where=script,
-            hint="linear.x = axes[1], angular.z = axes[0], for every Joy",
-        )
+    if not _agree(straight, min(v, FASTEST)) or not _agree(turning, min(w, math.pi)):
+        expected = f"forwards with {v:.2f} m/s, then turning left with {w:.2f} rad/s"
+        hint = "linear.x = axes[1], angular.z = axes[0], for every Joy"
+        raise Wrong(expected, seen, script, hint)
     return seen
 
 
-def plug_in(session, stage, device="/dev/input/js0", mode="D"):
+def _beside_the_robot(session: Session, stage: Stage, script: str) -> Any:
+    """The program, started beside the simulated robot, which it alone drives. Raises Wrong."""
+    for topic, kind in ((CMD_VEL, "Twist"), (ODOM, "Odometry")):
+        stage.call("listen", topic, kind)
+    stage.call("advertise", JOY, "Joy")
+    robot = stage.start_ours("fake_turtlebot_sim", "fake_turtlebot.py")
+    program = stage.start(PACKAGE, script)
+
+    def is_ready() -> Any:
+        return program.ended or (stage.call("listeners", JOY) and stage.call("count", ODOM))
+
+    ready = stage.wait(is_ready, START_S)
+    rest(stage, CMD_VEL)
+    # Its Publisher may be made in the callback.
+    ready = ready and stage.wait(lambda: program.ended or stage.call("speakers", CMD_VEL), START_S)
+    publishers = stage.call("state")[0].get(CMD_VEL, [])
+    if robot.ended or not stage.call("count", ODOM):
+        raise CannotCheck(f"the simulated robot does not start: {robot.output[-200:]}")
+    if not ready or program.ended:
+        raise crash(session, PACKAGE, program, "the node runs beside the simulated robot")
+    if len(set(publishers)) != 1:
+        seen = f"{len(set(publishers))}: {', '.join(publishers)}"
+        raise Wrong(
+            "one node publishes on /cmd_vel", seen, "", "end the older version: rosnode list"
+        )
+    return program
+
+
+def _driven(stage: Stage, joy: Any, field: Any) -> Any:
+    """(speed of the robot, the last Twist or None) after driving for a while. field: which counts."""
+    before = stage.call("count", CMD_VEL)
+
+    def heard() -> Any:
+        return [value for _, _, value in stage.call("heard", CMD_VEL, before)]
+
+    stage.call("stream", JOY, [joy], 20.0, True)
+    stage.wait(lambda: any(abs(value[field]) > 0.01 for value in heard()), 3.0)
+    moving = stage.call("count", ODOM)
+    stage.wait(lambda: stage.call("count", ODOM) > moving + 8, 3.0)
+    for _ in range(LOOKS):
+        measured, told = steady(stage)[field == ANGULAR], next(iter(heard()[-1:]), None)
+        if told and _agree(measured, min(told[field], FASTEST if field == LINEAR else math.pi)):
+            break
+    stage.call("end_stream", JOY)
+    return measured, told
+
+
+def plug_in(session: Session, stage: Stage, device: str = "/dev/input/js0", mode: str = "D") -> Any:
     """A virtual F710 behind a device, or a FIFO where that cannot be; (Pad, path)."""
     path = Path(device) if session.can_have_devices else session.folder / "js0"
     pad = stage.help(lambda: Pad(str(path), mode))
@@ -195,8 +199,9 @@ def plug_in(session, stage, device="/dev/input/js0", mode="D"):
     return pad, path
 
 
-def joystick(session):
-    """C20."""
+@check("C20", "a joystick drives it", "4.5", "C16", look="rostopic echo /joy/axes[1]")
+def joystick(session: Session) -> Note | str | None:
+    """Drive with a virtual F710, its switch at D; then send Joys as with the switch at X."""
     script = main_script(session)
     with session.stage() as stage:
         stage.call("listen", JOY, "Joy")
@@ -205,59 +210,55 @@ def joystick(session):
         node = stage.start_ours("gamepad", "joy_node", f"_dev:={path}", "_autorepeat_rate:=20")
         program = stage.start(PACKAGE, script)
 
-        def drives():
-            return any(abs(value[0]) > 0.01 for _, _, value in stage.call("heard", CMD_VEL))
+        def has_ended() -> Any:
+            return program.ended or node.ended
 
-        stage.wait(
-            lambda: (
-                (stage.call("count", JOY) and stage.call("speakers", CMD_VEL))
-                or program.ended
-                or node.ended
-            ),
-            START_S,
-        )
+        def speeds(since: int = 0) -> Any:
+            return [value[0] for _, _, value in stage.call("heard", CMD_VEL, since)]
+
+        def drives() -> bool:
+            return any(abs(speed) > 0.01 for speed in speeds())
+
+        def is_up() -> Any:
+            return stage.call("count", JOY) and stage.call("speakers", CMD_VEL)
+
+        stage.wait(lambda: is_up() or has_ended(), START_S)
         pad.call("push", 0.0, 0.6)
-        stage.wait(lambda: drives() or program.ended or node.ended, 3.0)
+        stage.wait(lambda: drives() or has_ended(), 3.0)
         if not stage.call("count", JOY):
             raise CannotCheck(f"the joystick driver does not start: {node.output[-200:]}")
         if program.ended or not drives():
-            raise crash(
-                session, PACKAGE, program, "the stick pushed forwards moves the robot: linear.x > 0"
-            )
-        if [value for _, _, value in stage.call("heard", CMD_VEL)][-1][0] < 0:
-            raise Wrong(
-                "the stick pushed forwards moves the robot forwards", "linear.x < 0", where=script
-            )
+            expected = "the stick pushed forwards moves the robot: linear.x > 0"
+            raise crash(session, PACKAGE, program, expected)
+        if speeds()[-1] < 0:
+            expected = "the stick pushed forwards moves the robot forwards"
+            raise Wrong(expected, "linear.x < 0", script)
         session.box.end(node)
-        # The switch at X: eight axes.
-        stage.call("advertise", JOY, "Joy")
-        # Our own Subscriber is one of them.
-        stage.wait(lambda: stage.call("listeners", JOY) > 1 or program.ended, START_S)
+        survives = _survives_eight_axes(stage, program, speeds)
+    if survives:
+        return "switch at D and at X"
+    seen = "with the switch at X (eight axes) it fails; the handout's does, too"
+    hint = 'as many as there are: ", ".join("%.2f" % axis for axis in data.axes)'
+    return Note(seen, script, hint)
 
-        def since(index):
-            return [value[0] for _, _, value in stage.call("heard", CMD_VEL, index)]
 
-        def drive_backwards():
-            """Only this does; once it shows, all that was sent before has been answered."""
-            index = stage.call("count", CMD_VEL)
-            stage.call("send", JOY, held(0.1, -0.5))
-            stage.wait(lambda: min(since(index), default=0.0) < 0 or program.ended, SLOW_S)
+def _survives_eight_axes(stage: Stage, program: Any, speeds: Any) -> Any:
+    """Whether Joys as of the switch at X are answered. speeds(since): linear.x of the Twists."""
+    stage.call("advertise", JOY, "Joy")
+    # Our own Subscriber is one of them.
+    stage.wait(lambda: stage.call("listeners", JOY) > 1 or program.ended, START_S)
 
-        drive_backwards()
-        before, said = stage.call("count", CMD_VEL), program.output.count("Traceback")
-        for k in range(5):
-            axes = (0.1, 0.2 + 0.1 * k, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-            stage.call("send", JOY, (axes, (0,) * 4 + (1,) + (0,) * 6))
-        drive_backwards()
-        survives = (
-            max(since(before), default=0.0) > 0
-            and program.output.count("Traceback") == said
-            and not program.ended
-        )
-    if not survives:
-        return Note(
-            "with the switch at X (eight axes) it fails; the handout's does, too",
-            script,
-            'as many as there are: ", ".join("%.2f" % axis for axis in data.axes)',
-        )
-    return "switch at D and at X"
+    def drive_backwards() -> None:
+        """Only this does; once it shows, all that was sent before has been answered."""
+        index = stage.call("count", CMD_VEL)
+        stage.call("send", JOY, held(0.1, -0.5))
+        stage.wait(lambda: min(speeds(index), default=0.0) < 0 or program.ended, SLOW_S)
+
+    drive_backwards()
+    before, failed = stage.call("count", CMD_VEL), program.output.count("Traceback")
+    for k in range(5):
+        axes = (0.1, 0.2 + 0.1 * k, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+        stage.call("send", JOY, (axes, (0,) * 4 + (1,) + (0,) * 6))
+    drive_backwards()
+    has_failed = program.ended or program.output.count("Traceback") != failed
+    return not has_failed and max(speeds(before), default=0.0) > 0

@@ -1,13 +1,22 @@
 """Talkers and listeners at work; what was seen, without a verdict."""
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
 from tutorial_check.exercises.files import find_script
+
+if TYPE_CHECKING:
+    from tutorial_check.session import Session
+    from tutorial_check.stage import Stage
+
 
 PACKAGE = "beginner_tutorials"
 LISTEN_S = 1.5  # to the talker
 TOPIC = "/chatter"
 
 
-def scripts(session):
+def scripts(session: Session) -> Any:
     """The paths of the talker and of the listener."""
     return [find_script(session, PACKAGE, name) for name in ("talker.py", "listener.py")]
 
@@ -15,7 +24,7 @@ def scripts(session):
 class Talk:
     """What was seen with two talkers and two listeners, and then of the talkers alone."""
 
-    def __init__(self, session):
+    def __init__(self, session: Session) -> None:
         self.session = session
         talker, listener = scripts(session)
         with session.stage() as stage:
@@ -62,16 +71,16 @@ class Talk:
             self.taken = dict(zip(both, session.box.end_all(list(both.values()))))
 
     @staticmethod
-    def _heard(stage):
+    def _heard(stage: Stage) -> Any:
         return [each for each in stage.call("heard", TOPIC) if each[1] != "/tutorial_check"]
 
-    def _both(self, stage):
+    def _both(self, stage: Stage) -> Any:
         return (
             len({caller for _, caller, _ in self._heard(stage)[-20:]}) > 1
             and not self.talkers[0].ended
         )
 
 
-def talk_of(session):
+def talk_of(session: Session) -> Any:
     """The Talk of a workspace; made once."""
     return session.run("talk", lambda: Talk(session))

@@ -1,0 +1,54 @@
+"""The folders and variables in which a student's programs run."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Iterable
+
+# RViz is for human eyes: a program of its name only waits.
+NO_VIEW = "#!/bin/sh\nexec sleep 600\n"
+# With launch-prefix="xterm -e" a node has a window; there is no screen here, so it runs without one.
+NO_WINDOW = """#!/bin/sh
+while [ $# -gt 1 ] && [ "$1" != -e ] && [ "$1" != -x ] && [ "$1" != -- ]; do shift; done
+shift
+exec "$@"
+"""
+STAND_INS = {
+    "rviz": NO_VIEW,
+    "xterm": NO_WINDOW,
+    "gnome-terminal": NO_WINDOW,
+    "konsole": NO_WINDOW,
+}
+RVIZ = (
+    '<package format="2"><name>rviz</name><version>1.0.0</version><description>x</description>'
+    '<maintainer email="a@b.example">x</maintainer><license>x</license></package>'
+)
+
+
+def environment_of(words: Iterable[str]) -> dict[str, str]:
+    """Return the variables of NAME=value words, without those of the shell itself."""
+    found = dict(word.split("=", 1) for word in words if "=" in word)
+    return {name: found[name] for name in found if name not in ("_", "SHLVL", "PWD", "OLDPWD")}
+
+
+def prepare(folder: str | Path, uid: int | None) -> None:
+    """Make the folders of a session, of which home, tmp and ws belong to the student's programs."""
+    folder = Path(folder)
+    for name in ("home", "tmp", "bin", "ours", "ws", "view/lib/rviz", "view/src/rviz", "devel"):
+        (folder / name).mkdir(parents=True, exist_ok=True)
+    # The handout's listings begin with `env python`, as did all in its time.
+    (folder / "bin" / "python").symlink_to("/usr/bin/python3")
+    for name, text in STAND_INS.items():
+        (folder / "bin" / name).write_text(text)
+        (folder / "bin" / name).chmod(0o755)
+    # RViz for programs that ask ROS where it is, and what a build makes where there is nothing to build.
+    (folder / "view/.catkin").write_text(str(folder / "view/src"))
+    (folder / "view/src/rviz/package.xml").write_text(RVIZ)
+    (folder / "view/lib/rviz/rviz").symlink_to(folder / "bin" / "rviz")
+    (folder / "devel/.catkin").write_text(str(folder / "ws" / "src"))
+    if uid is not None:
+        for name in ("home", "tmp", "ws"):
+            for place, _, files in os.walk(folder / name):
+                for path in (place, *(os.path.join(place, file) for file in files)):
+                    os.chown(path, uid, uid, follow_symlinks=False)

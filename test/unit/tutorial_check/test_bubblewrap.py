@@ -1,0 +1,144 @@
+"""What an isolated program sees and may do; test/exercises/test_isolation.py has the attacks."""
+
+import ctypes
+import os
+import socket
+import subprocess
+import tempfile
+from pathlib import Path
+
+import pytest
+
+from tutorial_check import bubblewrap
+from tutorial_check.bubblewrap import Isolation
+
+isolated = pytest.mark.skipif(not bubblewrap.granted().options, reason="no isolation here")
+limited = pytest.mark.skipif(not bubblewrap.granted().is_limited, reason="no limits here")
+LOOK = """
+import os, sys
+for path in sys.argv[1:]:
+    try:
+        open(path, "x" if path.endswith("new") else "r+").close()
+        print("written")
+    except IsADirectoryError:
+        print(*sorted(os.listdir(path)))
+    except OSError as error:
+        print(error.strerror)
+"""
+MISSING, READ_ONLY = "No such file or directory", "Read-only file system"
+SHOWN = ("link", "joy.bag", "suite/common")
+
+
+@pytest.fixture(params=["/tmp", "/var/tmp"])  # both are empty for the program
+def home(request):
+    """A home folder with a workspace, a link to it, the suite, and a file that nothing needs."""
+    with tempfile.TemporaryDirectory(dir=request.param) as folder:
+        home = Path(folder) / "home"
+        files = "course/ws/file suite/common/file suite/joy2twist/file scratch/file secret joy.bag"
+        for path in files.split():
+            (home / path).parent.mkdir(parents=True, exist_ok=True)
+            (home / path).touch()
+        (home / "link").symlink_to(home / "course" / "ws")
+        home.chmod(0o700)
+        yield home
+
+
+def run(home, text, *words, shown=SHOWN):
+    """Return the lines that an isolated Python program prints."""
+    command = bubblewrap.command(home / "scratch", [home / each for each in shown], home / "suite")
+    done = subprocess.run(
+        [*command, "/usr/bin/python3", "-c", text, *map(str, words)],
+        capture_output=True,
+        text=True,
+        check=False,
+        timeout=60,
+        pass_fds=bubblewrap.granted().descriptors,
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout.splitlines()
+
+
+@isolated
+@pytest.mark.parametrize("workspace", ["link", "."])
+def test_nothing_is_seen_but_what_is_shown(home, workspace):
+    """Of the suite not its solutions, also where it lies in a folder that is shown."""
+    expected = {
+        "secret": READ_ONLY if workspace == "." else MISSING,
+        "joy.bag": READ_ONLY,
+        workspace: "course joy.bag link scratch secret suite" if workspace == "." else "file",
+        "course/ws/file": READ_ONLY,
+        "suite": "common",
+        "suite/common/file": READ_ONLY,
+        "suite/new": READ_ONLY,
+        "scratch": "",
+        "scratch/new": "written",
+    }
+    seen = run(home, LOOK, *(home / path for path in expected), shown=[workspace, *SHOWN])
+    assert dict(zip(expected, seen)) == expected
+
+
+@isolated
+def test_nothing_of_the_system_is_left_to_write_to_or_to_speak_to(home):
+    expected = dict.fromkeys(("/new", "/usr/new", "/etc/new", "/dev/new"), READ_ONLY)
+    expected.update(dict.fromkeys(("/etc/shadow", "/run/user", "/run/lock", "/sys"), MISSING))
+    expected.update({"/tmp/new": "written", "/var/tmp/new": "written", "/dev/shm": ""})
+    assert dict(zip(expected, run(home, LOOK, *expected))) == expected
+    assert not Path("/tmp/new").exists() and not Path("/var/tmp/new").exists()
+
+
+@limited
+@pytest.mark.parametrize("folder", ["/tmp", "/var/tmp", "/dev/shm", "scratch"])
+def test_what_is_written_is_limited(home, folder, monkeypatch):
+    monkeypatch.setattr(bubblewrap, "SCRATCH_MB", 64)
+    text = "import os, sys; os.posix_fallocate(os.open(sys.argv[1], os.O_CREAT | 1), 0, 65 << 20)"
+    with pytest.raises(AssertionError, match="No space left on device"):
+        run(home, text, home / folder / "new")
+
+
+@isolated
+def test_it_has_users_a_network_and_shared_memory_that_end_with_it(home):
+    text = (
+        "import ctypes, os, socket, sys\n"
+        "libc = ctypes.CDLL(None)\n"
+        "print(libc.shmget(int(sys.argv[1]), 1, 0))\n"
+        "with socket.create_server(('127.0.0.1', 0)) as own:\n"
+        "    socket.create_connection(own.getsockname()).close()\n"
+        "print(socket.socket().connect_ex(('127.0.0.1', int(sys.argv[2]))))\n"
+        "os.geteuid() or os.setuid(2_000_000)\n"
+        "print(os.path.exists(sys.argv[3]))\n"
+        "print(libc.unshare(0x10000000))\n"
+    )
+    libc, key, create, remove = ctypes.CDLL(None), 0x5EED0000 + os.getpid() % 65536, 0o1600, 0
+    shared = libc.shmget(key, 4096, create)
+    try:
+        with socket.create_server(("127.0.0.1", 0)) as server:
+            port = server.getsockname()[1]
+            *seen, namespace = run(home, text, key, port, home / "suite/common/file")
+            assert shared >= 0 and seen == ["-1", "111", "True"]
+            assert namespace == "-1" or not bubblewrap.granted().is_limited
+    finally:
+        libc.shmctl(shared, remove, None)
+
+
+@pytest.mark.parametrize(
+    ("granted", "words"),
+    [
+        (Isolation(why="bwrap: refused"), "no isolation here (bwrap: refused): a program "),
+        (Isolation(("bwrap",), is_limited=False), "does not limit the memory"),
+        (Isolation(("bwrap",)), ""),
+    ],
+)
+def test_what_the_system_does_not_provide_is_reported(monkeypatch, granted, words):
+    monkeypatch.setattr(bubblewrap, "granted", lambda: granted)
+    assert words in "".join(bubblewrap.lacking())
+    assert bool(bubblewrap.lacking()) == bool(words)
+
+
+@pytest.mark.parametrize("script", ["echo bwrap: No permissions >&2; exit 1", None])
+def test_where_it_does_not_work_it_says_why(monkeypatch, tmp_path, script):
+    if script:
+        (tmp_path / "bwrap").write_text(f"#!/bin/sh\n{script}\n")
+        (tmp_path / "bwrap").chmod(0o755)
+    monkeypatch.setenv("PATH", str(tmp_path) if not script else f"{tmp_path}:/bin")
+    why = "bwrap: No permissions" if script else "bubblewrap is not installed"
+    assert bubblewrap.granted.__wrapped__() == Isolation(why=why)
