@@ -69,7 +69,8 @@ async def connect(port, query=""):
 
 async def read_echo(socket):
     while True:
-        took_s = time.monotonic() - float(await socket.read_message())
+        began = float(await socket.read_message())
+        took_s = time.monotonic() - began
         heard["echo"].append(took_s)
         heard["stalls"] += took_s > STALL_S
 
