@@ -88,11 +88,8 @@ def examine(
         raise CannotCheck(f"{error.filename}: may not be read") from None
     folder = tempfile.mkdtemp(prefix="tutorial_check_")
     # If this process is killed; isolated, an examination does not reach the folder itself.
-    cleaner = subprocess.Popen(
-        ["sh", "-c", 'read -r _; rm -rf -- "$1"', "sh", folder],
-        stdin=subprocess.PIPE,
-        start_new_session=True,
-    )
+    words = ["sh", "-c", 'read -r _; rm -rf -- "$1"', "sh", folder]
+    cleaner = subprocess.Popen(words, stdin=subprocess.PIPE, start_new_session=True)
     try:
         _compile()
         layout, shown = _hand_in(os.path.abspath(workspace), Path(folder), own)
