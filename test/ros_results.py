@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Tells what tests came to, from the JUnit files that rostest and catkin's run_tests leave.
+"""Reports the outcome of tests from the JUnit files of rostest and catkin's run_tests.
 
     ros_results.py FOLDER
 
@@ -12,7 +12,7 @@ from xml.etree import ElementTree
 
 
 def outcome(case):
-    """(passed, failed or skipped, message) of one JUnit test case."""
+    """Return (passed, failed or skipped, message) of one JUnit test case."""
     for kind, meaning in (("error", "failed"), ("failure", "failed"), ("skipped", "skipped")):
         note = case.find(kind)
         if note is not None:
@@ -28,7 +28,7 @@ def results(folder):
     for path in sorted(folder.rglob("*.xml")):
         try:
             suite = ElementTree.parse(path).getroot()
-        except ElementTree.ParseError:  # the test was ended while it wrote, or before
+        except ElementTree.ParseError:  # the test was killed while it wrote, or before
             yield path.stem, "failed", "its results are not whole: it was ended from outside"
             continue
         cases = [(case.get("name"), *outcome(case)) for case in suite.iter("testcase")]

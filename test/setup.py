@@ -11,6 +11,6 @@ setup(
             "tutorial_testing.kernel",
             "tutorial_testing.two_hosts",
         ],
-        package_dir={"": "src"},
+        package_dir={"": "src", "tutorial_faults": "faults/tutorial_faults"},
     )
 )

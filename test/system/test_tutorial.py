@@ -17,25 +17,20 @@ TROUBLE = Path(__file__).resolve().parents[2] / "common" / "doc" / "TROUBLE.md"
     ("arguments", "expected"),
     [
         (["frobnicate"], 'tutorial: "frobnicate" is not a word'),
-        (
-            ["test", "everything"],
-            'test: "everything" is none of unit launch ros system again',
-        ),
-        (["setup", "moon"], 'setup: "moon" is not system or workspace'),
-        (["bench", "moon"], 'bench: "moon" has no folder'),
-        (["doctor", "--in", "/no/such"], "doctor: --in /no/such: no workspace"),
-        (["shell", "moon"], 'shell: "moon" is none of its arguments'),
-        (["run"], "run: a command is missing"),
-        (["run", "rosrun", "rviz", "rviz", "-d", "x"], "run: no screen for RViz"),
         (["run", "no_such_command"], 'run: there is no command "no_such_command"'),
-        (["demo", "colour:=red"], "demo: colour:=red: not an argument of launch_bag.launch"),
         (["demo", "--for", "ever"], "ever: not a number above 0"),
+        (["demo", "colour:=red"], "demo: colour:=red: not an argument of launch_bag.launch"),
         (["demo", "bag:=/no/such.bag"], "demo: /no/such.bag: cannot be read: No such file"),
     ],
 )
-def test_a_mistake_gets_one_clear_line(tutorial, monkeypatch, arguments, expected):
-    monkeypatch.delenv("DISPLAY", raising=False)
+def test_a_mistake_gets_one_clear_line(tutorial, arguments, expected):
     assert expected in refuse(tutorial, *arguments)
+
+
+def test_completion_in_bash(tutorial):
+    script = 'eval "$("$0" completion)"; COMP_WORDS=("$0" test ex) COMP_CWORD=2; _tutorial'
+    command = ["bash", "-ec", f"{script}; echo ${{COMPREPLY[*]}}", tutorial]
+    assert subprocess.check_output(command, text=True, timeout=DEADLINE_S) == "exercises\n"
 
 
 def test_no_word_at_all_shows_the_words(tutorial):
@@ -164,3 +159,21 @@ def test_of_two_calls_at_once_one_builds_and_both_go_on(tutorial, tmp_path):
     with Program(*command) as one, Program(*command) as other:
         assert (one.wait(), other.wait()) == (0, 0), one.output + other.output
         assert (one.output + other.output).count("tutorial: building") == 1
+
+
+def test_a_workspace_of_the_suite_is_refused(tutorial):
+    line = refuse(tutorial, "run", "--in", str(Path(tutorial).parent), "true")
+    assert "the suite's own" in line
+
+
+def test_a_broken_package_xml_is_named_before_everything_fails_over_it(tutorial, tmp_path):
+    package = tmp_path / "src" / "mine" / "package.xml"
+    command = [tutorial, "run", "--in", str(tmp_path), "true"]
+    assert subprocess.run(command, check=False).returncode == 0
+    package.parent.mkdir(parents=True)
+    package.write_text("<package>\n<name>mine</nam>\n</package>")
+    said = subprocess.run(command, capture_output=True, text=True, check=True).stderr
+    assert said.count("\n") == 1 and f"{package}: mismatched tag: line 2" in said
+    doctor = [tutorial, "doctor", "--in", str(tmp_path)]
+    said = subprocess.run(doctor, capture_output=True, text=True, check=False).stdout
+    assert f"wrong    overlay   {package}: mismatched tag: line 2" in said

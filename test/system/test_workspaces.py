@@ -65,13 +65,13 @@ def test_every_node_and_file_is_found(workspace, space):
 
 
 def test_the_installed_suite_drives(workspace, master_uri):
-    told = shell(
+    said = shell(
         f"source '{workspace}/install/setup.bash'; rosrun tutorial_tools demo.py --for 3"
         " rviz:=false",
         ROS_MASTER_URI=master_uri,
     )
-    assert "driven 0.00 m" not in told
-    assert f"{workspace}/src" not in told  # nothing of the source space is used
+    assert "driven 0.00 m" not in said
+    assert f"{workspace}/src" not in said  # nothing of the source space is used
 
 
 def test_the_rostests_are_registered_and_one_of_them_passes(workspace):
@@ -79,8 +79,8 @@ def test_the_rostests_are_registered_and_one_of_them_passes(workspace):
     target = "run_tests_ros1_tutorial_test_rostest_ros_{}_{}".format
     for test in Path(__file__).parents[1].joinpath("ros").rglob("*.test"):
         assert target(test.parent.name, test.name) in listed
-    told = shell(
+    said = shell(
         f"source '{workspace}/devel/setup.bash'; cd '{workspace}'"
         f" && catkin_make {target('fake_turtlebot_sim', 'minimal.test')} && catkin_test_results"
     )
-    assert re.search(r"Summary: [1-9]\d* tests, 0 errors, 0 failures", told)
+    assert re.search(r"Summary: [1-9]\d* tests, 0 errors, 0 failures", said)

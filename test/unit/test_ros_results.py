@@ -10,8 +10,14 @@ SCRIPT = Path(__file__).resolve().parents[1] / "ros_results.py"
 PASSED = '<testsuite errors="0" failures="0"><testcase name="a"/><testcase name="b"/></testsuite>'
 
 
-def told(tmp_path, **files):
-    """(exit code, last line) for files NAME.xml."""
+def suite(note, errors=0, failures=0):
+    """Return the file of one test case."""
+    case = f'<testcase name="a">{note}</testcase>'
+    return f'<testsuite errors="{errors}" failures="{failures}">{case}</testsuite>'
+
+
+def outcome(tmp_path, **files):
+    """Return (exit code, last line) for files NAME.xml."""
     for name, text in files.items():
         (tmp_path / "package").mkdir(exist_ok=True)
         (tmp_path / "package" / f"{name}.xml").write_text(text)
@@ -22,35 +28,25 @@ def told(tmp_path, **files):
     return done.returncode, done.stdout.splitlines()[-1]
 
 
-def test_all_passed(tmp_path):
-    assert told(tmp_path, **{"rosunit-x": PASSED}) == (0, "2 passed, 0 failed, 0 skipped")
-
-
-def test_the_file_of_a_rostest_repeats_and_is_not_counted_twice(tmp_path):
-    files = {"rosunit-x": PASSED, "rostest-x": '<testsuite><testcase name="x"/></testsuite>'}
-    assert told(tmp_path, **files) == (0, "2 passed, 0 failed, 0 skipped")
-
-
 @pytest.mark.parametrize(
-    "suite",
+    ("files", "expected"),
     [
-        '<testsuite failures="1"><testcase name="a"><failure message="no"/></testcase></testsuite>',
-        '<testsuite errors="1"><testcase name="a"><error>no</error></testcase></testsuite>',
-        '<testsuite errors="0" failures="1"></testsuite>',  # of a subTest: counted, not named
-        '<testsuite><testcase name="a"><skipped/></testcase></testsuite>',  # without a reason
-        "",  # of a test that was ended from outside
+        ({"rosunit-x": PASSED}, (0, "2 passed, 0 failed, 0 skipped")),
+        # The file of a rostest repeats, and is not counted twice.
+        ({"rosunit-x": PASSED, "rostest-x": '<testsuite><testcase name="x"/></testsuite>'},
+         (0, "2 passed, 0 failed, 0 skipped")),
+        ({"rosunit-x": PASSED, "rosunit-y": suite('<skipped message="no screen"/>')},
+         (0, "2 passed, 0 failed, 1 skipped")),
+        ({}, (1, "0 passed, 0 failed, 0 skipped")),
+        *(({"rosunit-x": PASSED, "rostest-y": text}, (1, "2 passed, 1 failed, 0 skipped"))
+          for text in (
+              suite('<failure message="no"/>', failures=1),
+              suite("<error>no</error>", errors=1),
+              '<testsuite errors="0" failures="1"></testsuite>',  # of a subTest: counted, not named
+              suite("<skipped/>"),  # without a reason
+              "",  # of a test that was killed
+          )),
     ],
-)
-def test_a_failure_in_any_form_fails(tmp_path, suite):
-    code, line = told(tmp_path, **{"rosunit-x": PASSED, "rostest-y": suite})
-    assert (code, line) == (1, "2 passed, 1 failed, 0 skipped")
-
-
-def test_a_skip_with_a_reason_is_told(tmp_path):
-    suite = '<testsuite><testcase name="a"><skipped message="no screen"/></testcase></testsuite>'
-    line = "2 passed, 0 failed, 1 skipped"
-    assert told(tmp_path, **{"rosunit-x": PASSED, "rosunit-y": suite}) == (0, line)
-
-
-def test_no_result_at_all_fails(tmp_path):
-    assert told(tmp_path) == (1, "0 passed, 0 failed, 0 skipped")
+)  # fmt: skip
+def test_the_last_line_and_the_exit_code(tmp_path, files, expected):
+    assert outcome(tmp_path, **files) == expected

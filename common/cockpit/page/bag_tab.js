@@ -3,16 +3,45 @@
 import { Chart } from "./chart.js";
 import { byId, element, offer, row, say } from "./dom.js";
 
+const PANEL = `
+  <div class="card row">
+    <label>Recording <select id="bag-name"></select></label>
+    <button id="bag-open">Open</button>
+    <span id="bag-about" role="status" aria-live="polite"></span>
+  </div>
+  <div class="card chart"><div id="bag-chart"></div></div>
+  <div class="card">
+    <label class="long">Position <output id="bag-at">0.0 s</output>
+      <input type="range" id="bag-position" min="0" max="1" step="0.01" value="0"></label>
+    <div class="row">
+      <label>Topic <select id="bag-topic"></select></label>
+      <label>Rate <select id="bag-rate">
+        <option value="0.25">¼</option><option value="0.5">½</option><option value="1" selected>1</option>
+        <option value="2">2</option><option value="4">4</option></select></label>
+      <label><input type="checkbox" id="bag-loop"> Loop</label>
+      <button id="bag-play" class="primary" disabled>Publish</button>
+      <button id="bag-pause" disabled>Pause</button>
+      <span id="bag-state" role="status" aria-live="polite"></span>
+    </div>
+    <div class="legend" id="bag-curves" role="group" aria-label="Curves"></div>
+  </div>
+  <div class="card"><h2>Topics</h2>
+    <table><thead><tr><th>Topic</th><th>Type</th><th>Messages</th></tr></thead><tbody id="bag-topics"></tbody></table>
+  </div>`;
+
 export class BagTab {
+  static title = "Bag";
+  static panel = PANEL;
+  static watches = { bag: false };
+
   #bag = null; // as the server described it
   #looksOnly = false; // this page may not publish
   #yours = false; // whether this page is the one that plays
   #scrubbed = 0; // when the slider was last moved by hand
   #hidden = new Set(); // curves that are not to be seen
 
-  /** robot(): the name of the robot to play to. */
-  constructor(link, watch, robot) {
-    Object.assign(this, { link, watch, robot });
+  constructor(link, watch, page) {
+    Object.assign(this, { link, watch, page });
     this.chart = new Chart(byId("bag-chart"));
     link.on("bags", ({ names }) => {
       offer(byId("bag-name"), names.map((name) => [name, name]));
@@ -60,7 +89,7 @@ export class BagTab {
       topic: byId("bag-topic").value,
       rate: Number(byId("bag-rate").value),
       loop: byId("bag-loop").checked,
-      robot: this.robot(),
+      robot: this.page.look(),
     });
   }
 
@@ -114,8 +143,8 @@ export class BagTab {
 
   #tell(playing, topic) {
     byId("bag-pause").disabled = !playing;
-    const looks = this.#looksOnly ? "This page may look, not publish: it was opened with the viewers' address." : "";
-    const none = this.#bag && !byId("bag-topic").options.length ? "It has no joystick's topic to publish." : "";
+    const looks = this.#looksOnly ? "This page was opened with the address for viewers: it may look, not publish." : "";
+    const none = this.#bag && !byId("bag-topic").options.length ? "This recording has no joystick topic to publish." : "";
     say(byId("bag-state"), playing ? `Publishing ${topic}. Pause stops the robot.` : looks || none);
     byId("bag").dataset.playing = playing;
   }

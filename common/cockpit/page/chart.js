@@ -2,7 +2,7 @@
 
 import { element } from "./dom.js";
 
-// Told apart with either kind of background, and by most who see colours otherwise.
+// Distinct on light and dark backgrounds, and for most colour-blind readers.
 const COLOURS = ["#2b83d6", "#d9700a", "#1f9e6e", "#c2438f", "#8a6fd1", "#a38712", "#d6403a", "#3fa9b5"];
 // Where the colours begin again, lines are broken: lengths of strokes and gaps [px], and their name in CSS.
 const STROKES = [null, [7, 3], [2, 3]];
@@ -91,6 +91,7 @@ export class Chart {
     this.#labels = labels;
     this.#graph = new globalThis.Dygraph(this.root, rows, {
       labels: ["time [s]", ...labels],
+      xlabel: "time [s]",
       colors: labels.map((_, i) => this.colour(i)),
       series: Object.fromEntries(labels.map((label, i) => [label, { strokePattern: STROKES[this.#stroke(i)] }])),
       connectSeparatedPoints: true,
@@ -140,7 +141,7 @@ export class Chart {
     pen.textAlign = "center";
     pen.fillStyle = style.color;
     const corner = this.root.getBoundingClientRect();
-    for (const label of this.root.querySelectorAll(".dygraph-axis-label")) {
+    for (const label of this.root.querySelectorAll(".dygraph-axis-label, .dygraph-xlabel")) {
       const box = label.getBoundingClientRect();
       const [x, y] = [box.left + box.width / 2 - corner.left, box.top + box.height / 2 - corner.top];
       pen.fillText(label.textContent, x, y);

@@ -4,11 +4,22 @@ import { byId, element, say } from "./dom.js";
 
 const SIGNS = { ok: "✓", note: "i", unknown: "?", wrong: "✗" };
 
+const PANEL = `
+  <div class="card row">
+    <button id="doctor-run" class="primary">Run again</button>
+    <span id="doctor-state" role="status" aria-live="polite"></span>
+  </div>
+  <ul id="doctor-lines" class="card"></ul>`;
+
 export class DoctorTab {
+  static title = "Doctor";
+  static panel = PANEL;
+  static watches = {};
+
   #asked = false;
   #shown = false;
 
-  constructor(link) {
+  constructor(link, _watch) {
     this.link = link;
     link.on("hello", () => {
       this.#asked = false; // and the one that ran may have ended with its server
@@ -27,13 +38,13 @@ export class DoctorTab {
   #ask() {
     this.#asked = this.link.send("doctor");
     if (!this.#asked) return;
-    say(byId("doctor-state"), "Looking …");
+    say(byId("doctor-state"), "Checking …");
   }
 
   #show({ lines, running }) {
     const wrong = lines.filter(({ level }) => level === "wrong").length;
-    const looking = lines.length ? "Looking for more …" : "Looking …";
-    say(byId("doctor-state"), running ? looking : wrong ? `${wrong} wrong` : "Nothing wrong");
+    const looking = lines.length ? "Checking …" : "Checking …";
+    say(byId("doctor-state"), running ? looking : wrong ? `${wrong} wrong` : "No problem found");
     byId("doctor-run").disabled = running;
     byId("doctor-lines").replaceChildren(...lines.map(({ level, subject, text }) =>
       element("li", { className: level, "data-level": level },

@@ -2,7 +2,7 @@
  * The person at this page as a joystick: what hands do on keys, glass or a gamepad goes to the server.
  *
  * Whether that moves a robot is the server's to decide. This side knows some losses of the operator
- * earlier (a hidden page, a lost pointer), and tells them.
+ * earlier (a hidden page, a lost pointer), and reports them.
  */
 
 import { Glass } from "./glass.js";
@@ -38,11 +38,11 @@ export class Driver {
       this.stop(); // a new connection drives nothing
     });
     link.on("beat", (beat) => (this.#beat = beat.n));
-    addEventListener("blur", () => this.#leave("blur"));
-    addEventListener("pagehide", () => this.#leave("pagehide"));
-    document.addEventListener("freeze", () => this.#leave("freeze"));
+    addEventListener("blur", () => this.#leave("the window lost the focus"));
+    addEventListener("pagehide", () => this.#leave("the page was left"));
+    document.addEventListener("freeze", () => this.#leave("the browser froze the page"));
     document.addEventListener("visibilitychange", () => {
-      if (document.hidden) this.#leave("hidden");
+      if (document.hidden) this.#leave("the page was hidden");
       else this.#away = false;
     });
     this.#shunMenus();
@@ -85,14 +85,14 @@ export class Driver {
   #shunMenus() {
     const options = { capture: true };
     addEventListener("contextmenu", (event) => this.isDriving && event.preventDefault(), options);
-    // While another button is held, the right one is told by a pointermove.
+    // While another button is held, the right one is reported by a pointermove.
     for (const kind of ["pointerdown", "pointermove"]) {
       addEventListener(kind, ({ pointerType, button, buttons }) => {
-        if (pointerType === "mouse" && button === RIGHT && buttons & RIGHT_HELD) this.release("menu");
+        if (pointerType === "mouse" && button === RIGHT && buttons & RIGHT_HELD) this.release("a menu was opened");
       }, options);
     }
     addEventListener("pointerdown", ({ target }) => {
-      if (target.closest?.("select")) this.release("menu");
+      if (target.closest?.("select")) this.release("a menu was opened");
     }, options);
   }
 
@@ -120,6 +120,7 @@ export class Driver {
     let { source, hands } = this.#ownHands();
     const pad = this.pad.read(this.names);
     if (pad && isAtRest(hands)) ({ source, hands } = { source: "pad", hands: pad.hands });
+    this.glass.show(hands);
     const { axes, buttons } = positions(this.mode, this.names[this.mode], hands);
     const now = performance.now();
     const held = JSON.stringify([source, axes, buttons]);

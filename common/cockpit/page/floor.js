@@ -203,7 +203,7 @@ export class Floor {
       pen.fillStyle = colour("--muted");
       if (!isHidden) pen.fillText(text, x, y);
     };
-    // Counted in whole numbers: far away, x + step is x again, for ever.
+    // Counted in whole numbers: far away, x + step is x again, and the loop would not end.
     const multiples = (from, to) => {
       const first = Math.ceil(from / step);
       return Array.from({ length: Math.floor(to / step) - first + 1 }, (_, i) => (first + i) * step);

@@ -46,34 +46,30 @@ export class Glass {
     this.#held.clear();
     this.#thumb = null;
     this.#left = [0, 0];
-    this.#draw();
+    this.show(REST);
   }
 
   #listen(element, { down, move, up, holds }) {
-    const changed = () => {
-      this.#draw();
-      this.onChange();
-    };
     element.addEventListener("pointerdown", (event) => {
       if (event.button !== 0) return;
       event.preventDefault();
       element.setPointerCapture(event.pointerId);
       down(event);
-      changed();
+      this.onChange();
     });
     element.addEventListener("pointermove", (event) => {
       if (!holds(event)) return;
       move(event);
-      changed();
+      this.onChange();
     });
     element.addEventListener("pointerup", (event) => {
       if (!holds(event)) return;
       up(event);
-      changed();
+      this.onChange();
     });
     // Of a pointer that is lifted the capture is lost as well, but only after pointerup.
     for (const kind of ["pointercancel", "lostpointercapture"]) {
-      element.addEventListener(kind, (event) => holds(event) && this.onLost(kind));
+      element.addEventListener(kind, (event) => holds(event) && this.onLost("the browser took the pointer"));
     }
   }
 
@@ -87,11 +83,11 @@ export class Glass {
     return [left / length, up / length];
   }
 
-  #draw() {
+  /** Draw what hands do here, on the keys or on a gamepad. */
+  show({ held, left: [left, up] }) {
     for (const button of this.buttons) {
-      button.classList.toggle("held", this.#held.has(button.dataset.button));
+      button.classList.toggle("held", held.includes(button.dataset.button));
     }
-    const [left, up] = this.#left;
     this.knob.style.transform = `translate(${-left * 100}%, ${-up * 100}%)`;
   }
 }

@@ -1,4 +1,4 @@
-/** The tab Graph: which nodes run and what they tell each other, live. */
+/** The tab Graph: the nodes and their topics, live. */
 
 import { byId, element, say } from "./dom.js";
 import { layout } from "./graph_layout.js";
@@ -15,7 +15,18 @@ function svg(tag, attributes = {}, ...children) {
   return made;
 }
 
+const PANEL = `
+  <label class="hint"><input type="checkbox" id="graph-all"> Show all: also /rosout, and topics without a publisher</label>
+  <div class="wide" id="graph-picture" tabindex="0" aria-label="Nodes and topics"></div>
+  <div class="panel">
+    <div class="card" id="graph-details" aria-live="polite"><p class="hint">Choose a node or a topic.</p></div>
+  </div>`;
+
 export class GraphTab {
+  static title = "Graph";
+  static panel = PANEL;
+  static watches = { graph: false, topic: null, node: null };
+
   #chosen = null; // "node /a" or "topic /b"
   #drawn = "";
   #graph = { nodes: [], topics: [], edges: [] };
@@ -73,12 +84,12 @@ export class GraphTab {
         "marker-end": "url(#tip)" }));
     }
     for (const item of items) picture.append(this.#box(item, boxes[item]));
-    this.picture.replaceChildren(items.length ? picture : element("p", { className: "hint" }, "Nothing runs."));
+    this.picture.replaceChildren(items.length ? picture : element("p", { className: "hint" }, "No node is running."));
     this.#mark();
     if (focused) this.picture.querySelector(`[data-item="${CSS.escape(focused)}"]`)?.focus();
   }
 
-  /** What is drawn: all, or all but /rosout and topics on which nobody speaks. */
+  /** What is drawn: all, or all but /rosout and topics without a publisher. */
   #items({ nodes, topics, edges }) {
     const items = [...nodes.map(({ name }) => `node ${name}`), ...topics.map(({ name }) => `topic ${name}`)];
     if (byId("graph-all").checked) return items;
@@ -126,7 +137,7 @@ export class GraphTab {
   #showTopic({ name, type, rate, publishers, subscribers, last }) {
     const old = this.details.querySelector("[data-value=last] pre");
     const isSame = this.details.querySelector("h2")?.textContent === `Topic ${name}`;
-    const newest = last || "none since you look";
+    const newest = last || "none yet";
     const perSecond = last && Number.isFinite(rate) ? `${rate.toFixed(1)} Hz` : "–";
     if (isSame && old) { // only what changes, so that a link keeps the keyboard
       say(this.details.querySelector("[data-value=rate]"), perSecond);
@@ -135,8 +146,8 @@ export class GraphTab {
     }
     this.#fill("Topic", name, [
       ["Type", "type", type], ["Rate", "rate", perSecond],
-      ["Published by", "publishers", this.#links("node", publishers)],
-      ["Heard by", "subscribers", this.#links("node", subscribers)],
+      ["Publishers", "publishers", this.#links("node", publishers)],
+      ["Subscribers", "subscribers", this.#links("node", subscribers)],
       ["Last message", "last", element("pre", {}, newest)],
     ]);
   }
@@ -145,8 +156,8 @@ export class GraphTab {
     this.#fill("Node", name, [
       ["Machine", "machine", machine || "–"], ["Process", "pid", String(pid ?? "–")],
       ["Publishes", "publishes", this.#links("topic", publishes)],
-      ["Hears", "subscribes", this.#links("topic", subscribes)],
-      ["Speaks to", "speaks_to", this.#links("node", speaksTo)],
+      ["Subscribes to", "subscribes", this.#links("topic", subscribes)],
+      ["Connected to", "speaks_to", this.#links("node", speaksTo)],
       ["Services", "services", services?.join(", ") || "–"],
     ]);
   }

@@ -21,8 +21,8 @@ export class Keys {
       for (const code of codes) this.#down.delete(code);
       if (this.#down.size !== count) onChange();
     };
-    // A menu or another program may have taken a key's release, but each event tells of Shift anew.
-    // While Cmd of a Mac is down, no release is told at all.
+    // A menu or another program may have taken a key's release, but each event has the state of Shift.
+    // While Cmd of a Mac is down, no release is reported.
     for (const kind of SAY_SHIFT) {
       addEventListener(kind, (event) => {
         if (event.metaKey) drop([...this.#down]);
@@ -41,7 +41,7 @@ export class Keys {
       onChange();
     }, { capture: true });
     addEventListener("keyup", (event) => {
-      // Of two Shifts that are let go of Windows tells one.
+      // Of two Shifts that are released Windows reports one.
       drop(event.code in BUTTONS ? SHIFTS : [event.code]);
     }, { capture: true });
   }

@@ -1,14 +1,15 @@
 /**
  * The connection to the server: JSON messages both ways, and its return after a loss.
  *
- * Silence is a loss, which is told at once; but who is silent may only be busy, or far from the Wi-Fi for
- * a moment. So the connection is kept for a while: with it goes the seat of who drives.
+ * Silence is a loss, which is shown at once; but a silent server may only be busy, or the Wi-Fi weak for
+ * a moment. So the connection is kept for a while: with it goes the driver's seat.
  */
 
 const RETRY_MS = 500;
 const CONNECT_MS = 3000; // after which an attempt is given up: a cut network answers nothing
 const QUIET_MS = 1000; // the robots' places come 20 times a second, so that silence is a loss
 const GONE_MS = 4000; // of silence; as long as the server waits for a page that does not answer
+const HOPE_MS = 6000; // of attempts in vain; then a person has to do something
 const FULL = 4096; // [byte] waiting to be sent: what is added now would come late
 
 export class Link {
@@ -16,9 +17,10 @@ export class Link {
   #handlers = new Map();
   #lastHeard = 0;
   #attempt = 0;
+  #lostAt = 0;
   #state = "connecting";
 
-  /** onState(state): "open" or "lost", at each change. */
+  /** onState(state): "open", "lost" or, after a while, "gone", at each change. */
   constructor(onState) {
     this.onState = onState;
     setInterval(() => this.#watch(), 250);
@@ -56,14 +58,15 @@ export class Link {
   }
 
   #become(state) {
-    if (state === this.#state) return;
+    if (state === this.#state || (state === "lost" && this.#state === "gone")) return;
+    if (state === "lost") this.#lostAt = performance.now();
     this.#state = state;
     this.onState(state);
   }
 
   #hear(text) {
     this.#lastHeard = performance.now();
-    this.#become("open"); // who was silent speaks again
+    this.#become("open"); // after a silence
     const message = JSON.parse(text);
     for (const handler of this.#handlers.get(message.kind) ?? []) handler(message);
   }
@@ -72,6 +75,7 @@ export class Link {
     const now = performance.now();
     const state = this.#socket?.readyState;
     const silence = now - this.#lastHeard;
+    if (this.#state === "lost" && now - this.#lostAt > HOPE_MS) this.#become("gone");
     if (document.hidden) {
       this.#lastHeard = now; // timers and messages of a hidden page come late, which is no loss
     } else if (state === WebSocket.OPEN && silence > QUIET_MS) {

@@ -4,10 +4,25 @@ import { byId, element, say } from "./dom.js";
 
 const LEVELS = ["DEBUG", "INFO", "WARN", "ERROR", "FATAL"];
 const MOST = 1000; // lines that are kept
-const NOTHING = `No node has logged anything since the cockpit was started. What is logged by rospy.loginfo() and
- the like comes here; what is printed stays in its terminal, and what was logged before is in ~/.ros/log.`;
+const NOTHING = `No line yet. What nodes log with rospy.loginfo() and the like comes here, and of each node the last line
+ before the cockpit was started. What is printed stays in its terminal; older lines are in ~/.ros/log.`;
+
+const PANEL = `
+  <div class="card row">
+    <label>From level <select id="log-level"><option>DEBUG</option><option selected>INFO</option><option>WARN</option>
+      <option>ERROR</option><option>FATAL</option></select></label>
+    <label class="grow">Filter <input type="search" id="log-filter" placeholder="node or text" autocomplete="off"></label>
+    <span id="log-count" class="hint"></span>
+  </div>
+  <div class="scroll" id="log-scroll" tabindex="0" aria-label="Messages of all nodes">
+    <p id="log-empty" class="hint"></p>
+    <table><tbody id="log-lines"></tbody></table></div>`;
 
 export class LogTab {
+  static title = "Log";
+  static panel = PANEL;
+  static watches = { log: false };
+
   #entries = [];
   #shown = false;
 

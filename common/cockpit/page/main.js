@@ -1,7 +1,7 @@
-/** The cockpit's page: one connection, six tabs, and what is to be asked of the server for them. */
+/** The cockpit's page: one connection, the tabs, and what the server is asked to send for them. */
 
 import { BagTab } from "./bag_tab.js";
-import { byId, say } from "./dom.js";
+import { byId, element, say } from "./dom.js";
 import { DoctorTab } from "./doctor_tab.js";
 import { GraphTab } from "./graph_tab.js";
 import { Link } from "./link.js";
@@ -10,21 +10,27 @@ import { PlotTab } from "./plot_tab.js";
 import { RobotTab } from "./robot_tab.js";
 import { makeTabs } from "./tabs.js";
 
+/**
+ * A tab has a title, a panel (its HTML), watches (what the server is asked to send at first), and may
+ * have show(on), called when it is chosen or left, and connect(isOpen). The robots' places are always
+ * watched: they show that the server is there.
+ */
+const TABS = [RobotTab, GraphTab, BagTab, PlotTab, LogTab, DoctorTab];
 const NOTICE_MS = 8000;
-const WORDS = { open: "Connected", lost: "Connection lost – trying again" };
+const WORDS = { open: "Connected", lost: "Connection lost – trying again", gone: "No cockpit – trying again" };
+const GONE = `The cockpit has exited, or the network to it is down. Start it again, with the launch file or with
+ ./tutorial cockpit: this page then reconnects. With --lan, open the new address that it prints.`;
 
-// What the server is asked to send. The robots' places are always watched: they tell that it is there.
-const watched = {
-  robots: true, look: null, graph: false, topic: null, node: null, fields: [], field_list: false,
-  log: false, bag: false,
-};
+const watched = Object.assign({}, ...TABS.map((Tab) => Tab.watches));
 let noticeEnd = null;
 
 const link = new Link((state) => {
   byId("connection").dataset.state = state;
   say(byId("connection"), WORDS[state]);
-  robot.connect(state === "open");
-  if (state === "open") link.send("watch", watched); // with it all is told anew, who drives, too
+  for (const tab of Object.values(tabs)) tab.connect?.(state === "open");
+  if (state === "gone") notice(GONE, Infinity);
+  else if (byId("notice").textContent === GONE) notice("");
+  if (state === "open") link.send("watch", watched); // the server then sends everything again
 });
 
 function watch(fields) {
@@ -33,27 +39,29 @@ function watch(fields) {
   if (JSON.stringify(watched) !== before) link.send("watch", watched);
 }
 
-/** Show a line for a while, or none (""). */
-function notice(text) {
+/** Show a line for a while [ms] or without end (Infinity), or none (""). */
+function notice(text, duration = NOTICE_MS) {
   byId("notice").hidden = !text;
   say(byId("notice"), text);
   clearTimeout(noticeEnd);
-  noticeEnd = setTimeout(() => (byId("notice").hidden = true), NOTICE_MS);
+  if (duration < Infinity) noticeEnd = setTimeout(() => (byId("notice").hidden = true), duration);
 }
 
-const robot = new RobotTab(link, watch, notice);
-const tabs = {
-  graph: new GraphTab(link, watch),
-  bag: new BagTab(link, watch, () => robot.look),
-  plot: new PlotTab(link, watch),
-  log: new LogTab(link, watch),
-  doctor: new DoctorTab(link),
-};
+const tablist = document.querySelector("[role=tablist]");
+for (const { title, panel } of TABS) {
+  const id = title.toLowerCase();
+  tablist.append(element("button", { role: "tab", id: `tab-${id}`, "aria-controls": id }, title));
+  const section = element("section", { role: "tabpanel", id, "aria-labelledby": `tab-${id}`, tabIndex: -1 });
+  section.innerHTML = panel;
+  document.querySelector("main").append(section);
+}
+const page = { notice, look: () => tabs.robot.look };
+const tabs = Object.fromEntries(TABS.map((Tab) => [Tab.title.toLowerCase(), new Tab(link, watch, page)]));
 link.on("refused", ({ what, why }) => {
-  if (what !== "input") notice(`${what}: ${why}`); // of the seat's loss the page is told otherwise
+  if (what !== "input") notice(`${what}: ${why}`); // the loss of the seat has a message of its own
 });
-makeTabs(document.querySelector("[role=tablist]"), (name) => {
-  for (const [other, tab] of Object.entries(tabs)) if (other !== name) tab.show(false);
-  tabs[name]?.show(true);
+makeTabs(tablist, (name) => {
+  for (const [other, tab] of Object.entries(tabs)) if (other !== name) tab.show?.(false);
+  tabs[name].show?.(true);
 });
 link.connect();

@@ -17,7 +17,7 @@ export class Pad {
     const gamepad = all.find((one) => one?.connected && one.axes.length >= 2);
     if (this.#index !== null && gamepad?.index !== this.#index) {
       this.#index = null;
-      this.onLost("pad unplugged");
+      this.onLost("the gamepad was unplugged");
     }
     if (!gamepad) return null;
     if (this.#index === null) this.#wasAtRest = false;

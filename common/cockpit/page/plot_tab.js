@@ -5,7 +5,7 @@ import { byId, element, save, say } from "./dom.js";
 
 const MOST = 20; // fields at a time, as the server has it
 const LISTED = 200; // of the fields that are found
-const KEEP_S = 600; // longest window
+const KEEP_S = 600; // longest window, which index.html offers, too
 const DRAW_MS = 100;
 const SET_BACK_S = 1; // by so much and more
 
@@ -19,7 +19,32 @@ function setBack(points, last) {
   return first;
 }
 
+const PANEL = `
+  <div class="wide">
+    <div class="card row">
+      <button id="plot-pause" aria-pressed="false">Pause</button>
+      <button id="plot-zoom">Whole range</button>
+      <button id="plot-clear">Clear</button>
+      <label>Last <select id="plot-window"><option value="10">10 s</option><option value="30" selected>30 s</option>
+        <option value="120">2 min</option><option value="600">10 min</option></select></label>
+      <button id="plot-csv">Save CSV</button>
+      <button id="plot-png">Save PNG</button>
+    </div>
+    <div class="card chart"><div id="plot-chart"></div></div>
+    <p class="hint">Drag across the chart to zoom.</p>
+    <div class="legend" id="plot-values" role="group" aria-label="Newest values"></div>
+  </div>
+  <div class="panel">
+    <div class="card"><h2><label for="plot-search">Fields</label></h2>
+      <input type="search" id="plot-search" placeholder="Search, e.g. odom linear" autocomplete="off">
+      <ul id="plot-fields"></ul></div>
+  </div>`;
+
 export class PlotTab {
+  static title = "Plot";
+  static panel = PANEL;
+  static watches = { fields: [], field_list: false };
+
   #samples = {}; // field -> [[t, value], ...], t since #zero
   #zero = null; // time of the first sample [s]
   #all = [];
@@ -41,7 +66,8 @@ export class PlotTab {
     link.on("plot", ({ samples }) => this.#take(samples));
     byId("plot-search").addEventListener("input", () => this.#list());
     byId("plot-pause").addEventListener("click", () => this.#pause(!this.#paused));
-    byId("plot-zoom").addEventListener("click", () => this.chart.wholeRange());
+    byId("plot-window").addEventListener("change", () => this.#showLast(byId("plot-window").value));
+    byId("plot-zoom").addEventListener("click", () => this.#showLast(KEEP_S));
     byId("plot-clear").addEventListener("click", () => this.#clear());
     byId("plot-csv").addEventListener("click", () => this.#saveCsv());
     byId("plot-png").addEventListener("click", () =>
@@ -118,10 +144,17 @@ export class PlotTab {
     }
   }
 
+  /** Show the last seconds, however the chart was zoomed. */
+  #showLast(seconds) {
+    byId("plot-window").value = seconds;
+    this.chart.wholeRange();
+    this.#fresh = true;
+  }
+
   #pause(on) {
     this.#paused = on;
     byId("plot-pause").setAttribute("aria-pressed", String(on));
-    say(byId("plot-pause"), on ? "Go on" : "Pause");
+    say(byId("plot-pause"), on ? "Resume" : "Pause");
     this.#fresh = true;
   }
 

@@ -1,4 +1,4 @@
-/** The tab Robot: the floor, the joystick, who drives, and driving from here. */
+/** The tab Robot: the floor, the joystick, the driver, and driving from here. */
 
 import { byId, offer, row, say } from "./dom.js";
 import { Driver } from "./driver.js";
@@ -10,24 +10,88 @@ const STALE_S = 1; // after which what is shown is not news
 const number = (value, digits = 2) =>
   Number.isFinite(value) ? value.toFixed(digits).replace(/^-(0\.?0*)$/, "$1") : "–"; // no -0.00
 
+const PANEL = `
+  <div class="floor">
+    <canvas id="floor" tabindex="0" role="img" aria-label="The floor from above, with the robots"></canvas>
+    <div class="toolbar" role="group" aria-label="View of the floor">
+      <button id="zoom-in" aria-label="Zoom in">+</button>
+      <button id="zoom-out" aria-label="Zoom out">−</button>
+      <button id="follow" aria-pressed="true">Follow</button>
+      <button id="show-all">Show all</button>
+      <button id="clear-trail">Clear trail</button>
+    </div>
+    <div id="glass" role="group" aria-label="Joystick on glass" hidden>
+      <div class="shoulders">
+        <button id="rb" data-button="RB" aria-label="RB, turbo">RB</button>
+        <button id="lb" data-button="LB" aria-label="LB" aria-describedby="how">LB</button>
+      </div>
+      <div id="stick" role="img" aria-label="Stick: drag it with a thumb, or use the arrow keys"><div id="knob"></div></div>
+    </div>
+  </div>
+  <div class="panel">
+    <div class="card" id="drive">
+      <h2><label for="look">Robot</label> <select id="look"></select> <small id="me"></small></h2>
+      <p id="seat" role="status" aria-live="polite"></p>
+      <p id="ready" role="status" aria-live="polite"></p>
+      <div class="row">
+        <button id="take" class="primary" disabled>Drive from this page</button>
+        <button id="leave" class="stop" hidden>Stop driving</button>
+        <button id="reset" disabled>Reset robot</button>
+      </div>
+      <div class="row" id="hand-over" hidden>
+        <button id="give">Hand over</button>
+        <label>to page <input type="number" id="heir" min="1" step="1"></label>
+      </div>
+      <p id="how" class="hint" hidden><span id="how-to"></span> <label>F710 at <select id="mode"><option>D</option><option>X</option></select></label></p>
+    </div>
+    <div class="card">
+      <h2>joy2twist</h2>
+      <p id="teleop" role="status" aria-live="polite" data-state="unknown">No report from joy2twist yet.</p>
+    </div>
+    <div class="card">
+      <h2>Joystick <small id="pad-age"></small></h2>
+      <div id="pad"></div>
+    </div>
+    <div class="card">
+      <h2>Odometry</h2>
+      <dl id="odometry">
+        <div><dt>x</dt><dd><output data-value="x">–</output> m</dd></div>
+        <div><dt>y</dt><dd><output data-value="y">–</output> m</dd></div>
+        <div><dt>heading</dt><dd><output data-value="yaw">–</output>°</dd></div>
+        <div><dt>speed</dt><dd><output data-value="v">–</output> m/s</dd></div>
+        <div><dt>turning</dt><dd><output data-value="w">–</output> rad/s</dd></div>
+        <div><dt>covered</dt><dd><output data-value="covered">–</output> m</dd></div>
+      </dl>
+    </div>
+    <div class="card" id="class" hidden>
+      <h2>All robots</h2>
+      <table><thead><tr><th>Robot</th><th>x, y [m]</th><th>Driver</th><th>joy2twist</th></tr></thead>
+        <tbody id="robots"></tbody></table>
+    </div>
+  </div>`;
+
 export class RobotTab {
+  static title = "Robot";
+  static panel = PANEL;
+  static watches = { robots: true, look: null };
+
   #hello = null;
   #seat = { driver: null, yours: false };
-  #drives = { drivers: {}, again: "" }; // in words, by the server: who drives, and what to do
+  #drives = { drivers: {}, again: "" }; // the server's words: the driver, and what to do
   #teleop = new Map(); // robot -> what its joy2twist says
   #names = []; // of the robots
   #look = null; // the name of the one that is looked at, once there is one
   #rows = new Map(); // name -> its row in the table of all; rows stay, as a click takes its time
   #onFloor = ""; // the names of those that say where they are, as JSON
 
-  /** link: the Link. watch(fields): what to ask the server for. notice(text): a line for the user. */
-  constructor(link, watch, notice) {
+  /** link: the Link. watch(fields): what to ask the server for. page: see main.js. */
+  constructor(link, watch, { notice }) {
     Object.assign(this, { link, watch, notice });
     const onFloor = ".toolbar button, #glass button, #stick";
     this.floor = new Floor(byId("floor"), () => [...byId("robot").querySelectorAll(onFloor)]);
     this.picture = new GamepadPicture(byId("pad"));
     this.driver = new Driver(link, byId("glass"));
-    this.driver.onLost = (why) => notice(`You let go (${why}). ${this.#drives.again}`);
+    this.driver.onLost = (why) => notice(`Stopped: ${why}. ${this.#drives.again}`);
     link.on("hello", (hello) => this.#meet(hello));
     link.on("names", ({ names }) => this.#showNames(names));
     link.on("robots", ({ robots }) => this.#showRobots(robots));
@@ -49,7 +113,7 @@ export class RobotTab {
     if (isOpen) this.#showButtons();
     else {
       this.#showSeat({ driver: null, yours: false });
-      this.#showDrives({ drivers: {}, who: "Not connected: who drives is not known.", ready: "", how: "", again: "" });
+      this.#showDrives({ drivers: {}, who: "Not connected: the driver is unknown.", ready: "", how: "", again: "" });
     }
   }
 
@@ -103,7 +167,7 @@ export class RobotTab {
     else this.#offerRobots();
   }
 
-  /** Who has chosen a robot is never given another one: a robot that has gone may come back. */
+  /** A chosen robot stays chosen: one that has gone may come back. */
   #offerRobots() {
     const isGone = this.#look !== null && !this.#names.includes(this.#look);
     const choices = this.#names.map((name) => [name, name || "TurtleBot"]);
@@ -117,7 +181,7 @@ export class RobotTab {
     this.#offerRobots();
     this.floor.look = name;
     this.picture.show({ D: [], X: [] }, [], []);
-    say(byId("pad-age"), "nothing yet");
+    say(byId("pad-age"), "no message yet");
     this.#showTeleop(this.#teleop.get(name) ?? { robot: name });
     this.watch({ look: name });
   }
@@ -142,7 +206,7 @@ export class RobotTab {
   #rowOf(name) {
     const line = row(name, "", "", "");
     line.dataset.robot = name;
-    // Who drives sees what is driven.
+    // A driver sees the driven robot.
     line.addEventListener("click", () => this.#seat.yours || name === this.#look || this.#lookAt(name));
     return line;
   }
@@ -170,11 +234,11 @@ export class RobotTab {
     if (state) this.#teleop.set(robot, { robot, state, why });
     if (robot !== this.look) return;
     byId("teleop").dataset.state = state ?? "unknown";
-    say(byId("teleop"), why || state || "It has said nothing yet.");
+    say(byId("teleop"), why || state || "No report from joy2twist yet.");
   }
 
   #showSeat(seat) {
-    if (seat.yours && !this.#seat.yours) this.#follow(true); // who drives sees what is driven
+    if (seat.yours && !this.#seat.yours) this.#follow(true); // a driver sees the driven robot
     this.#seat = seat;
     if (seat.yours && seat.robot !== this.#look) this.#lookAt(seat.robot); // it was handed over
     if (seat.yours) this.driver.mode = byId("mode").value;

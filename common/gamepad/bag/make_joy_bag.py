@@ -108,7 +108,9 @@ def write_bag(path):
     store = get_typestore(Stores.ROS1_NOETIC)
     joy_type = "sensor_msgs/msg/Joy"
     make = store.types
-    with Writer(path) as bag:
+    bag = Writer(path)
+    bag.set_compression(Writer.CompressionFormat.BZ2)
+    with bag:
         # The definition as ROS itself records it, with which `rosbag check` compares.
         connection = bag.add_connection("/joy", joy_type, msgdef=Joy._full_text, md5sum=Joy._md5sum)
         for count, (forward, turn, held) in enumerate(sticks()):

@@ -12,7 +12,7 @@ def callback(joy):
 
 
 def listener():
-    """Hand every joy message to callback() until the node is told to stop."""
+    """Hand every joy message to callback() until the node is stopped."""
     rospy.init_node("listener", anonymous=True)
     rospy.Subscriber("joy", Joy, callback)
     rospy.spin()

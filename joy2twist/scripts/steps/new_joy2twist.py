@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Step 3: the same as a class, which leaves the robot standing when it is told to stop."""
+"""Step 3: the same as a class, which leaves the robot standing when it is stopped."""
 
 import time
 

@@ -22,7 +22,7 @@ def callback(joy, publisher):
 
 
 def converter():
-    """Hand every joy message to callback() until the node is told to stop."""
+    """Hand every joy message to callback() until the node is stopped."""
     rospy.init_node("converter", anonymous=True)
     # The publisher comes first: a joy message may arrive as soon as there is a subscriber.
     publisher = rospy.Publisher("cmd_vel", Twist, queue_size=1)

@@ -1,9 +1,12 @@
 """What the node shows to its user."""
 
+from __future__ import annotations
+
 import contextlib
 import io
 import logging
 import sys
+from typing import Sequence
 
 import rospy
 from rosgraph.roslogging import RosStreamHandler
@@ -17,18 +20,18 @@ BURST_S = 0.1  # lets every message of a bag through that comes at log_rate, but
 class Console(Log):
     """A Log that also displays joystick messages, some tens a second."""
 
-    def __init__(self, log_rate):
-        """log_rate: how many messages a second are displayed at most."""
+    def __init__(self, log_rate: float) -> None:
+        """Take how many messages a second are displayed at most."""
         super().__init__()
         self._may_display = Throttle(log_rate, burst=max(1.0, log_rate * BURST_S))
         self._prefix = f"{rospy.get_name()}: Get from Joy"
 
-    def display(self, axes, now):
+    def display(self, axes: Sequence[float], now: float) -> None:
         """Show the axes of a joystick message, as the tutorial does."""
         if self._may_display.ready(now):
             self.put(self._show_axes, axes)
 
-    def goodbye(self, line):
+    def goodbye(self, line: str) -> None:
         """Show a last line at once, without a question to the master.
 
         The master would take that for this node's return, and end one that has taken over.
@@ -36,16 +39,13 @@ class Console(Log):
         with contextlib.suppress(OSError):
             _write([line])
 
-    def _show_axes(self, messages):
+    def _show_axes(self, messages: list[Sequence[float]]) -> None:
         texts = [", ".join(["%.2f"] * len(axes)) % axes for axes in messages]
         _write([f"{self._prefix} [{text}]" for text in texts])
 
 
-def _write(lines):
-    """Write lines as rospy.loginfo does, but nowhere else and with one look at ROSCONSOLE_FORMAT.
-
-    To have rospy log each one costs more than the whole conversion of a message.
-    """
+def _write(lines: list[str]) -> None:
+    """Write lines as rospy.loginfo does to the screen, which takes longer than all else."""
     mark = "\0"
     around = io.StringIO()
     record = logging.LogRecord("rosout.joy", logging.INFO, __file__, 0, mark, (), None)

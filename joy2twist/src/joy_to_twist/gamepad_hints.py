@@ -1,6 +1,11 @@
 """Notices from the messages that a gamepad is switched to another mode than expected (pure)."""
 
+from __future__ import annotations
+
+from typing import Sequence
+
 from joy_to_twist.mapping import NEUTRAL
+from joy_to_twist.parameters import Parameters
 
 # The Logitech F710 in D mode has 6 axes; with its MODE LED on, the left stick and the D-pad swap,
 # so that the stick moves axes 4 and 5. Source: the tutorial's "Gamepad F710 Setup Memo".
@@ -11,20 +16,19 @@ SWAPPED_STICK = {4, 5}
 class GamepadHints:
     """Looks at the first messages and gives at most one line of help on each thing found."""
 
-    def __init__(self, parameters):
-        """Take the axes in use and the expected number of axes of a parameters.Parameters."""
+    def __init__(self, parameters: Parameters) -> None:
         self._expected = parameters.gamepad_axes
         self._used = {axis.index for axis in parameters.axes}
-        self._count = None  # the number of axes that was looked at last
+        self._count: int | None = None  # the number of axes that was looked at last
         self._look_for_swap = False
 
     @property
-    def finished(self):
+    def finished(self) -> bool:
         """Whether nothing more can be found as long as the gamepad is the same."""
         return self._count is not None and not self._look_for_swap
 
-    def hint(self, axes):
-        """One line that says what to do, or None."""
+    def hint(self, axes: Sequence[float]) -> str | None:
+        """Return one line that says what to do, or None."""
         if len(axes) != self._count:
             self._count = len(axes)
             self._look_for_swap = self._count == D_MODE_AXES and not SWAPPED_STICK & self._used

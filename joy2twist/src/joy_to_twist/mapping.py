@@ -1,9 +1,16 @@
-"""From the axes and buttons of a joystick to the velocity that the user asks for (pure)."""
+"""From the axes and buttons of a joystick to the velocity that the user asks for (pure).
+
+A velocity is linear x, y, z [m/s] and angular x, y, z [rad/s]; REP-103. The linear and the angular
+part are limited as vectors, which keeps their direction.
+"""
+
+from __future__ import annotations
 
 import math
+from typing import Sequence
 
-from joy_to_twist.limits import limit_speed
-from joy_to_twist.parameters import COMPONENTS
+from joy_to_twist.parameters import COMPONENTS, Parameters
+from node_kit.arming import Velocity
 
 # A stick gives -1 to 1, other devices may give some hundreds. More is noise, not a hand.
 LARGEST_AXIS_VALUE = 1e6
@@ -18,8 +25,7 @@ class BadJoyError(ValueError):
 class Mapping:
     """What each axis and button means."""
 
-    def __init__(self, parameters):
-        """Take the axes, buttons, scales and speed limits of a parameters.Parameters."""
+    def __init__(self, parameters: Parameters) -> None:
         self._parameters = parameters
         # Tuples, because this is read for every message.
         self._axes = [(a.component, a.index, a.scale, a.turbo_scale) for a in parameters.axes]
@@ -34,10 +40,10 @@ class Mapping:
         self._max_linear = parameters.max_linear_speed or math.inf
         self._max_angular = parameters.max_angular_speed or math.inf
 
-    def velocity(self, axes, buttons):
-        """The velocity asked for (six floats, see limits), or None with the dead-man released.
+    def velocity(self, axes: Sequence[float], buttons: Sequence[int]) -> Velocity | None:
+        """Return the velocity asked for, or None with the dead-man released.
 
-        axes: floats, about -1 to 1. buttons: 0 or 1. Raises BadJoyError.
+        axes: about -1 to 1. buttons: 0 or 1. Raises BadJoyError.
         """
         if len(axes) < self._needed_axes or len(buttons) < self._needed_buttons:
             raise BadJoyError(self._what_is_missing(axes, buttons))
@@ -58,21 +64,21 @@ class Mapping:
             velocity[5] = -velocity[5]
         return limit_speed(tuple(velocity), self._max_linear, self._max_angular)
 
-    def rests(self, axes, velocity):
-        """Whether all is released in a good message, of which velocity() made this velocity."""
+    def rests(self, axes: Sequence[float], velocity: Velocity | None) -> bool:
+        """Return whether all is released in a good message, for which velocity() returned this."""
         return (velocity is None or self._free) and all(
             abs(axes[index]) <= NEUTRAL for _, index, _, _ in self._axes
         )
 
-    def stops(self, buttons):
-        """Whether the stop button is pressed, in a good message or a bad one."""
+    def stops(self, buttons: Sequence[int]) -> bool:
+        """Return whether the stop button is pressed, in a good message or a bad one."""
         return 0 <= self._stop < len(buttons) and buttons[self._stop] != 0
 
-    def resets(self, buttons):
-        """Whether a good message has the reset button pressed, and not the stop button."""
+    def resets(self, buttons: Sequence[int]) -> bool:
+        """Return whether a good message has the reset button pressed, and not the stop button."""
         return buttons[self._reset] != 0 and not self.stops(buttons)
 
-    def _what_is_missing(self, axes, buttons):
+    def _what_is_missing(self, axes: Sequence[float], buttons: Sequence[int]) -> str:
         for component, index, _, _ in self._axes:
             if index >= len(axes):
                 return f"no axis {index} (-> {COMPONENTS[component]}): it has {len(axes)} axes"
@@ -81,14 +87,14 @@ class Mapping:
         return f"no button {self._needed_buttons - 1} (~{name}): it has {len(buttons)} buttons"
 
     @property
-    def deadman(self):
+    def deadman(self) -> str:
         """The number of the button that has to be held, or "none"; turbo's, if it is the only."""
         if not self._parameters.require_enable_button:
             return "none"
         return str(self._enable if self._enable >= 0 else self._turbo)
 
-    def describe(self):
-        """One line for every axis that drives the robot, in words."""
+    def describe(self) -> list[str]:
+        """Return the mapping in words: a line for every axis that drives the robot, and more."""
         p = self._parameters
         held = [f"{p.enable_button}"] if p.require_enable_button and p.enable_button >= 0 else []
         held += [f"{self._turbo} for turbo"] if self._turbo >= 0 else []
@@ -107,3 +113,26 @@ class Mapping:
         if p.vigilance_timeout:
             lines.append(f"no change of the joystick for {p.vigilance_timeout:g} s stops the robot")
         return lines
+
+
+def limit_speed(velocity: Velocity, max_linear: float, max_angular: float) -> Velocity:
+    """Return the velocity with both parts within their largest length; infinity is no limit."""
+    x, y, z, roll, pitch, yaw = velocity
+    linear = math.hypot(x, y, z)
+    if linear > max_linear:
+        x, y, z = (max_linear * (v / linear) for v in (x, y, z))
+    angular = math.hypot(roll, pitch, yaw)
+    if angular > max_angular:
+        roll, pitch, yaw = (max_angular * (v / angular) for v in (roll, pitch, yaw))
+    return x, y, z, roll, pitch, yaw
+
+
+def approach(
+    velocity: Velocity, target: Velocity, max_linear_change: float, max_angular_change: float
+) -> Velocity:
+    """Return the velocity one step nearer to target, changed by at most so much [m/s, rad/s]."""
+    change = tuple(wanted - now for wanted, now in zip(target, velocity))
+    step = limit_speed(change, max_linear_change, max_angular_change)
+    if step == change:
+        return target  # exactly, not up to rounding: a robot that should stand must stand
+    return tuple(now + by for now, by in zip(velocity, step))

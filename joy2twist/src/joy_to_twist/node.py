@@ -1,19 +1,23 @@
 """The ROS node: joy (sensor_msgs/Joy) in, cmd_vel (geometry_msgs/Twist) out."""
 
+from __future__ import annotations
+
 import gc
+import struct
 import threading
 from time import monotonic, time_ns
+from typing import Any
 
 import diagnostic_updater
 import rospy
 from diagnostic_msgs.msg import DiagnosticStatus
+from sensor_msgs.msg import Joy
 
 from joy_to_twist.console import Console
-from joy_to_twist.lean_joy import LeanJoy
-from joy_to_twist.limits import ZERO
-from joy_to_twist.parameters import load
+from joy_to_twist.parameters import Parameters, load
 from joy_to_twist.teleoperation import Teleoperation
-from node_kit.careful_connections import connection_of, tell_of_bad_messages
+from node_kit.arming import ZERO, Velocity
+from node_kit.careful_connections import connection_of, report_bad_messages
 from node_kit.prompt_publisher import VelocityPublisher
 from node_kit.start import run
 from node_kit.suspension import Suspensions
@@ -23,7 +27,46 @@ NODE_NAME = "NewJoy2Twist"
 LOOK_ROUND_S = 0.25  # how soon it is noticed that the joystick node has left
 DELIVERY_TIME_S = 0.1  # for the last zero, which an exit at once may lose
 BURST = 100  # Joy messages read at once, at most: all of a burst, but never a long backlog
-READ_BYTES = 4096  # room for some tens of them, which Python makes anew for every message
+READ_BYTES = 4096  # some tens of them; Python allocates this for every message
+
+
+# Layout of a serialised Joy, little-endian: seq, secs, nsecs (uint32 each), the length of frame_id
+# and its bytes, the number of axes and as many float32, the number of buttons and as many int32.
+_STAMP = struct.Struct("<4xII")
+_COUNT = struct.Struct("<I")
+_FRAME_LENGTH_AT = 12
+
+
+class LeanJoy(Joy):
+    """A Joy to subscribe with, of which axes, buttons and stamp_ns are read, and nothing else.
+
+    rospy lets the message class read its own bytes. After an idle pause, when the caches of the
+    processor are cold, the general way (a Header, a Time, a decoded frame_id) takes most of the
+    time that passes between a message and its velocity.
+    """
+
+    __slots__ = ("_data",)
+
+    def __init__(self) -> None:
+        """Leave everything to deserialize(), the only source of these messages."""
+
+    def deserialize(self, data: bytes) -> LeanJoy:
+        """Read axes (tuple of floats) and buttons (tuple of ints); struct.error if cut."""
+        self._data = data
+        at = _FRAME_LENGTH_AT
+        at += 4 + _COUNT.unpack_from(data, at)[0]
+        axes = _COUNT.unpack_from(data, at)[0]
+        self.axes = struct.unpack_from(f"<{axes}f", data, at + 4)  # type: ignore[misc]
+        at += 4 + 4 * axes
+        buttons = _COUNT.unpack_from(data, at)[0]
+        self.buttons = struct.unpack_from(f"<{buttons}i", data, at + 4)  # type: ignore[misc]
+        return self
+
+    @property
+    def stamp_ns(self) -> int:
+        """The time of the reading [ns], on the clock of the joystick node."""
+        secs, nsecs = _STAMP.unpack_from(self._data)
+        return secs * 1_000_000_000 + nsecs
 
 
 class Joy2Twist:
@@ -32,22 +75,13 @@ class Joy2Twist:
     Subscribes: joy (sensor_msgs/Joy).
     Publishes: cmd_vel (geometry_msgs/Twist), never latched, in the frame of the base (REP-103);
     /diagnostics (diagnostic_msgs/DiagnosticArray).
-    Private parameters with their defaults (README.md says what each is for):
-        axis_linear: 1, axis_angular: 0, scale_linear: 1.0, scale_linear_turbo: 1.0,
-        scale_angular: 1.0, scale_angular_turbo: scale_angular,
-        enable_button: -1, enable_turbo_button: -1, require_enable_button: with enable_button,
-        inverted_reverse: false, axis_curve: 1.0, stop_button: -1, stop_reset_button: -1,
-        joy_timeout: 0.5 s, max_joy_age: 0.0 s, arm_on_neutral: false, vigilance_timeout: 0.0 s,
-        stop_messages: 5, output_rate: 20.0 Hz,
-        max_linear_speed: 0.0 m/s, max_angular_speed: 0.0 rad/s,
-        max_linear_acceleration: 0.0 m/s2, max_angular_acceleration: 0.0 rad/s2,
-        gamepad_axes: -1, log_rate: 50.0 Hz, diagnostic_period: 1.0 s.
+    Private parameters with their defaults: parameters.Parameters, as a table in README.md.
     """
 
-    def __init__(self, parameters):
-        """Take parameters.Parameters. The node is initialised, not anonymous: only one drives."""
+    def __init__(self, parameters: Parameters) -> None:
+        """Register topics; the node is initialised, not anonymous: only one drives."""
         self.console = Console(parameters.log_rate)
-        tell_of_bad_messages(self.console.warn)
+        report_bad_messages(self.console.warn)
         self.timer = threading.Event()  # set to have the time looked at now
         self.teleoperation = Teleoperation(parameters, self.console.warn, self.timer.set)
         self.safety = self.teleoperation.safety
@@ -68,13 +102,13 @@ class Joy2Twist:
         self.diagnostics.add("joystick", self.diagnose)
         self.may_diagnose = Throttle(1.0 / parameters.diagnostic_period)
         self.may_diagnose_new = Throttle(1.0 / LOOK_ROUND_S)
-        self.diagnosed = None  # the state on /diagnostics
+        self.diagnosed: str | None = None  # the state on /diagnostics
         self.joy = rospy.Subscriber(
             "joy", LeanJoy, self.callback, queue_size=BURST, buff_size=READ_BYTES, tcp_nodelay=True
         )
         threading.Thread(target=self.watch, daemon=True).start()
 
-    def callback(self, joy):
+    def callback(self, joy: LeanJoy) -> None:
         """Publish the velocity first, because displaying takes longer; then display the axes."""
         now = monotonic()
         age_ns = self.read_clock_ns() - joy.stamp_ns if self.uses_age else 0
@@ -84,22 +118,22 @@ class Joy2Twist:
             self.publish(self.teleoperation.joy(joy.axes, joy.buttons, now, age_ns, sender))
         self.console.display(joy.axes, now)
 
-    def notice_suspension(self, now):
+    def notice_suspension(self, now: float) -> None:
         """Stop if this process was suspended: what is in its sockets is old."""
         stop = self.teleoperation.suspended(self.suspensions.number(), now)
         if stop is not None:
             self.publish(stop)
 
-    def publish(self, velocity):
+    def publish(self, velocity: Velocity | None) -> None:
         """Publish a velocity, or None, until the node is stopped."""
         if not self.stopped.is_set():
             self.cmd_vel.publish(velocity, self.safety.released, self.hold_new)
 
-    def watch(self):
+    def watch(self) -> None:
         """Stop the robot when the joystick falls silent or leaves, and repeat what is to repeat.
 
-        A thread of its own with a clock of its own: rospy's timers follow the simulated time, which
-        may stand still or jump. Nobody drives unwatched: should it fail, the node ends.
+        A thread and a clock apart from rospy's: its timers follow the simulated time, which
+        may stand still or jump. If this thread fails, the node ends: nothing drives unwatched.
         """
         try:
             while not self.stopped.is_set():
@@ -107,8 +141,8 @@ class Joy2Twist:
         finally:
             rospy.signal_shutdown("the watch over the joystick has ended")
 
-    def look(self):
-        """Look at the time and the joystick once; for how long [s] nothing will be due."""
+    def look(self) -> float:
+        """Look at the time and the joystick once; return for how long [s] nothing will be due."""
         with self.lock:
             now = monotonic()
             self.notice_suspension(now)
@@ -124,7 +158,7 @@ class Joy2Twist:
             self.diagnostics.force_update()
         return max(0.0, due - monotonic())
 
-    def diagnose(self, status):
+    def diagnose(self, status: Any) -> Any:
         """Fill in the diagnostic status, a DiagnosticStatusWrapper."""
         with self.lock:
             well, state, details = self.teleoperation.summary(monotonic())
@@ -134,7 +168,7 @@ class Joy2Twist:
             status.add(name, value)
         return status
 
-    def shutdown(self):
+    def shutdown(self) -> None:
         """Leave the robot standing: zero velocity, and the time to deliver it."""
         with self.lock:
             self.stopped.set()
@@ -144,18 +178,18 @@ class Joy2Twist:
         threading.Event().wait(DELIVERY_TIME_S)
 
 
-def simulated_time_ns():
-    """What /clock says [ns]."""
-    return rospy.Time.now().to_nsec()
+def simulated_time_ns() -> int:
+    """Return the time of /clock [ns]."""
+    return int(rospy.Time.now().to_nsec())
 
 
-def spin(parameters):
-    """Be the node until it is shut down."""
+def spin(parameters: Parameters) -> None:
+    """Run the node until it is shut down."""
     Joy2Twist(parameters)
     gc.freeze()  # what is there now stays: the garbage collector need not look at it again
     rospy.spin()
 
 
-def main():
+def main() -> int:
     """Run the node until it is stopped; return its exit code."""
     return run(NODE_NAME, load, spin)

@@ -1,14 +1,18 @@
-"""The private parameters of the node: from a dict to a checked, frozen Parameters (pure, no ROS).
+"""The private parameters of the node, each declared once (pure).
 
 The YAML files of teleop_twist_joy, a C++ node, load unchanged. Two defaults differ, so that the
 bare node is the tutorial's: every scale is 1, and enable_button is -1 (no dead-man), not 0.
+`test/lint --fix` writes the README's table from these declarations.
 """
+
+from __future__ import annotations
 
 import itertools
 from dataclasses import dataclass
-from typing import Any, Dict, Tuple
+from typing import Any, Callable, Mapping
 
 from node_kit.parameters import (
+    Check,
     checked,
     is_number,
     is_whole,
@@ -21,10 +25,8 @@ from node_kit.parameters import (
 LINEAR = ("x", "y", "z")
 ANGULAR = ("roll", "pitch", "yaw")  # turning about x, y, z
 COMPONENTS = ("linear.x", "linear.y", "linear.z", "angular.x", "angular.y", "angular.z")
-
 # Far beyond any robot on wheels; what is larger is a slip of the keys. [m/s or rad/s]
 LARGEST_SCALE = 100
-_FROM_OTHERS = None  # the default depends on another parameter
 
 
 @dataclass(frozen=True)
@@ -37,60 +39,99 @@ class Axis:
     turbo_scale: float  # the same with the turbo button
 
 
+def _one_or_each(names: tuple[str, ...], fits: Callable[[Any], bool], allowed: str) -> Check:
+    def all_fit(value: Any) -> bool:
+        each = value if isinstance(value, dict) else {names[0]: value}
+        return bool(each) and all(name in names and fits(one) for name, one in each.items())
+
+    return Check(f"a number ({allowed}), or a map from {', '.join(names)} to such", all_fit)
+
+
+def _is_axis(value: Any) -> bool:
+    return is_whole(value) and value >= -1
+
+
+def _is_scale(value: Any) -> bool:
+    return is_number(value) and abs(value) <= LARGEST_SCALE
+
+
+_NONE = "an axis number, -1 for none"
+_RANGE = f"from -{LARGEST_SCALE} to {LARGEST_SCALE}"
+_LINEAR_AXES, _ANGULAR_AXES = (_one_or_each(names, _is_axis, _NONE) for names in (LINEAR, ANGULAR))
+_LINEAR_SCALES = _one_or_each(LINEAR, _is_scale, f"{_RANGE} m/s")
+_ANGULAR_SCALES = _one_or_each(ANGULAR, _is_scale, f"{_RANGE} rad/s")
 _BUTTON = whole_number(-1, allowed="a button number, or -1 for none")
 _TIMEOUT = number(0, 60, "s (0: off)")
 _SPEED = number(0, 1000, "m/s (0: no limit)")
 _TURN = number(0, 1000, "rad/s (0: no limit)")
+_AXES = whole_number(-1, allowed="the number of axes of the gamepad, or -1 for any")
 
 
 @dataclass(frozen=True)
 class Parameters:
-    """All parameters of the node, checked. Units: m, s, rad, Hz."""
+    """All parameters of the node, checked, with their defaults."""
 
-    axes: Tuple[Axis, ...]
-    enable_button: int = parameter(-1, _BUTTON)
-    enable_turbo_button: int = parameter(-1, _BUTTON)
-    require_enable_button: bool = parameter(_FROM_OTHERS, switch)
-    inverted_reverse: bool = parameter(False, switch)
-    joy_timeout: float = parameter(0.5, _TIMEOUT)
-    max_joy_age: float = parameter(0.0, _TIMEOUT)
-    arm_on_neutral: bool = parameter(False, switch)
-    vigilance_timeout: float = parameter(0.0, number(1, 60, "s, or 0 for off", off=0))
-    stop_button: int = parameter(-1, _BUTTON)
-    stop_reset_button: int = parameter(-1, _BUTTON)
-    axis_curve: float = parameter(1.0, number(1, 5, "(1: linear)"))
-    stop_messages: int = parameter(5, whole_number(1, 100, "a whole number from 1 to 100"))
-    output_rate: float = parameter(20.0, number(1, 1000, "Hz"))
-    max_linear_speed: float = parameter(0.0, _SPEED)
-    max_angular_speed: float = parameter(0.0, _TURN)
+    axis_linear: Any = parameter(1, _LINEAR_AXES, "the axis for linear.x, or `{x: 1, y: 0}`")
+    axis_angular: Any = parameter(0, _ANGULAR_AXES, "the axis for angular.z, or `{yaw: 0}`")
+    scale_linear: Any = parameter(1.0, _LINEAR_SCALES, "velocity at full deflection")
+    scale_linear_turbo: Any = parameter(
+        1.0, _LINEAR_SCALES, "with the turbo button; `~axis_linear` a map: as without turbo"
+    )
+    scale_angular: Any = parameter(1.0, _ANGULAR_SCALES, "velocity at full deflection")
+    scale_angular_turbo: Any = parameter(
+        None, _ANGULAR_SCALES, "with the turbo button", "as `~scale_angular`"
+    )
+    enable_button: int = parameter(-1, _BUTTON, "the dead-man button")
+    enable_turbo_button: int = parameter(-1, _BUTTON, "turbo; drives without the dead-man, too")
+    require_enable_button: bool = parameter(
+        None, switch, "one of these two must be held", "true with `~enable_button`"
+    )
+    inverted_reverse: bool = parameter(False, switch, "while reversing, steer as a car does")
+    axis_curve: float = parameter(
+        1.0, number(1, 5, "(1: linear)"), "exponent of an axis: 2 or 3 is gentle near the middle"
+    )
+    stop_button: int = parameter(-1, _BUTTON, "stops until the reset; needs the next")
+    stop_reset_button: int = parameter(-1, _BUTTON, "ends the effect of the stop button")
+    joy_timeout: float = parameter(0.5, _TIMEOUT, "a longer silence stops the robot")
+    max_joy_age: float = parameter(
+        0.0, _TIMEOUT, "an older message is not driven; needs synchronised clocks"
+    )
+    arm_on_neutral: bool = parameter(
+        False, switch, "wait for released sticks and dead-man before driving"
+    )
+    vigilance_timeout: float = parameter(
+        0.0,
+        number(1, 60, "s, or 0 for off", off=0),
+        "a joystick without change for so long stops a moving robot; needs `~arm_on_neutral`",
+    )
+    stop_messages: int = parameter(
+        5, whole_number(1, 100, "a whole number from 1 to 100"), "zeros sent on a stop"
+    )
+    output_rate: float = parameter(
+        20.0, number(1, 1000, "Hz"), "of these zeros, and of velocities with limited acceleration"
+    )
+    max_linear_speed: float = parameter(0.0, _SPEED, "of the vector")
+    max_angular_speed: float = parameter(0.0, _TURN, "of the vector")
     max_linear_acceleration: float = parameter(0.0, number(0, 1000, "m/s2 (0: no limit)"))
     max_angular_acceleration: float = parameter(0.0, number(0, 1000, "rad/s2 (0: no limit)"))
-    gamepad_axes: int = parameter(
-        -1, whole_number(-1, allowed="the number of axes of the gamepad, or -1 for any")
+    gamepad_axes: int = parameter(-1, _AXES, "with another number a hint is shown")
+    log_rate: float = parameter(
+        50.0, number(0, 1000, "lines a second (0: none)"), "messages displayed, at most"
     )
-    log_rate: float = parameter(50.0, number(0, 1000, "lines a second (0: none)"))
-    diagnostic_period: float = parameter(1.0, number(0.1, 60, "s"))
+    diagnostic_period: float = parameter(
+        1.0, number(0.1, 60, "s"), "between two messages on `/diagnostics`"
+    )
+    axes: tuple[Axis, ...] = ()  # what the first six mean
 
 
-# The parameters that make up Parameters.axes, with their defaults.
-AXIS_DEFAULTS = {
-    "axis_linear": 1,
-    "axis_angular": 0,
-    "scale_linear": 1.0,
-    "scale_linear_turbo": 1.0,
-    "scale_angular": 1.0,
-    "scale_angular_turbo": _FROM_OTHERS,  # scale_angular
-}
-
-
-def load(given: Dict[str, Any]) -> Parameters:
+def load(given: Mapping[str, Any]) -> Parameters:
     """Check the given private parameters and fill in the defaults.
 
     Raises ValueError, one line that names the parameter, its value and what is allowed.
     """
-    values = checked(Parameters, given, others=AXIS_DEFAULTS)
+    values = checked(Parameters, given)
     enable, turbo = values["enable_button"], values["enable_turbo_button"]
-    if values["require_enable_button"] is _FROM_OTHERS:
+    if values["require_enable_button"] is None:
         values["require_enable_button"] = enable != -1
     _check_buttons(values)
     if values["require_enable_button"] and max(enable, turbo) < 0:
@@ -102,11 +143,13 @@ def load(given: Dict[str, Any]) -> Parameters:
         raise ValueError(
             f"~vigilance_timeout: {values['vigilance_timeout']:g}: needs ~arm_on_neutral: true"
         )
-    axes = _axes(given, "linear", LINEAR, 0) + _axes(given, "angular", ANGULAR, len(LINEAR))
-    return Parameters(axes=tuple(axes), **values)
+    if isinstance(values["axis_linear"], dict) and "scale_linear_turbo" not in given:
+        values["scale_linear_turbo"] = None
+    linear, angular = _axes(values, "linear", LINEAR, 0), _axes(values, "angular", ANGULAR, 3)
+    return Parameters(axes=tuple(linear + angular), **values)
 
 
-def _check_buttons(values):
+def _check_buttons(values: dict[str, Any]) -> None:
     names = ("enable_button", "enable_turbo_button", "stop_button", "stop_reset_button")
     for one, other in itertools.combinations(names, 2):
         if values[one] == values[other] != -1:
@@ -116,51 +159,35 @@ def _check_buttons(values):
             raise ValueError(f"~{one}: {values[one]}: needs ~{other}")
 
 
-def _axes(given, kind, names, first_component):
-    """The axes that drive the linear or the angular velocity.
+def _axes(values: dict[str, Any], kind: str, names: tuple[str, ...], first: int) -> list[Axis]:
+    """Return the axes that drive the linear or the angular velocity.
 
     As in the C++ node, an axis_* number stands for x or yaw and a scale_* number for every
-    component, and with axis_linear as a number scale_linear_turbo is 1 unless given. Any other
-    turbo scale that is not given is that without turbo (in the C++ node it may become 0).
+    component. A turbo scale that is not given is that without turbo (in the C++ node perhaps 0).
     """
-    indices = _value(given, f"axis_{kind}", names, _is_index, "an axis number, -1 for none")
-    by_name = isinstance(indices, dict)
-    if not by_name:
+    indices = values[f"axis_{kind}"]
+    if not isinstance(indices, dict):
         indices = {"x" if kind == "linear" else "yaw": indices}
     used = [name for name in names if indices.get(name, -1) >= 0]
-    normal = turbo = _scales(given, f"scale_{kind}", names, used, {})
-    name = f"scale_{kind}_turbo"
-    if name in given or not (by_name or AXIS_DEFAULTS[name] is _FROM_OTHERS):
-        turbo = _scales(given, name, names, used, normal)
+    normal = turbo = _scales(values, f"scale_{kind}", names, used, {})
+    if values[f"scale_{kind}_turbo"] is not None:
+        turbo = _scales(values, f"scale_{kind}_turbo", names, used, normal)
     return [
-        Axis(first_component + names.index(name), indices[name], normal[name], turbo[name])
-        for name in used
+        Axis(first + names.index(name), indices[name], normal[name], turbo[name]) for name in used
     ]
 
 
-def _scales(given, name, names, used, otherwise):
-    """The scale of every used component, by its name."""
-    value = _value(given, name, names, _is_scale, f"from -{LARGEST_SCALE} to {LARGEST_SCALE}")
+def _scales(
+    values: dict[str, Any],
+    name: str,
+    names: tuple[str, ...],
+    used: list[str],
+    otherwise: dict[str, float],
+) -> dict[str, float]:
+    """Return the scale of every used component, by its name."""
+    value = values[name]
     scales = {**otherwise, **(value if isinstance(value, dict) else dict.fromkeys(names, value))}
     missing = [one for one in used if one not in scales]
     if missing:
         raise ValueError(f"~{name}: {value!r}: must be a map that has {', '.join(missing)} too")
     return {one: float(scales[one]) for one in used}
-
-
-def _is_index(value):
-    return is_whole(value) and value >= -1
-
-
-def _is_scale(value):
-    return is_number(value) and abs(value) <= LARGEST_SCALE
-
-
-def _value(given, name, names, valid, allowed):
-    """The value of a parameter: one that is valid, or a map from component names to such."""
-    value = given.get(name, AXIS_DEFAULTS[name])
-    each = value if isinstance(value, dict) else {names[0]: value}
-    if not each or not all(component in names and valid(one) for component, one in each.items()):
-        allowed = f"a number ({allowed}), or a map from {', '.join(names)} to such"
-        raise ValueError(f"~{name}: {value!r}: must be {allowed}")
-    return value

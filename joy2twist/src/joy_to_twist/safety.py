@@ -1,7 +1,7 @@
 """When to send a velocity, when to send zero and when to stay silent (pure).
 
 Every method takes the time `now` [s] of one clock that never jumps. A method returns the velocity
-to send at once (six floats, see limits), or None to send nothing.
+to send at once, or None to send nothing.
 
 A loss is: silence on joy, a joystick node that leaves, another sender, a suspension of this node,
 and a joystick that does not change while the robot moves. Where arm_on_neutral is on, nothing moves
@@ -10,11 +10,14 @@ Where it is off, only: no velocity later than joy_timeout after the last message
 sent between them.
 """
 
-import math
+from __future__ import annotations
 
-from joy_to_twist.limits import ZERO, approach
-from node_kit.arming import Arming
-from node_kit.states import DRIVING
+import math
+from typing import Callable
+
+from joy_to_twist.mapping import approach
+from joy_to_twist.parameters import Parameters
+from node_kit.arming import DRIVING, ZERO, Arming, Velocity
 from node_kit.throttle import Throttle
 
 WAITING = "waiting for the joystick"
@@ -36,8 +39,13 @@ class Safety:
     loss (hard stop); a released stick slows down within the acceleration limits (soft stop).
     """
 
-    def __init__(self, parameters, wake, warn=lambda line: None):
-        """wake: called when due has become sooner. warn: called with one line for the user."""
+    def __init__(
+        self,
+        parameters: Parameters,
+        wake: Callable[[], object],
+        warn: Callable[[str], object] = lambda line: None,
+    ) -> None:
+        """Call wake() when due has become sooner, and warn() with a line for the user."""
         p = self._parameters = parameters
         self._wake, self._warn = wake, warn
         self._period = 1.0 / p.output_rate
@@ -58,12 +66,12 @@ class Safety:
         self._still_at = math.inf  # when it has been unchanged for too long
         self._is_warned = False  # of that
         self._watches_stillness = p.vigilance_timeout > 0
-        self._sent = ZERO  # the last velocity sent
-        self._target = ZERO  # where the acceleration limits lead to
+        self._sent: Velocity = ZERO  # the last velocity sent
+        self._target: Velocity = ZERO  # where the acceleration limits lead to
         self._stopping = False  # zeros are being repeated, or have been
-        self._repeats = 0  # zeros still to come
+        self._repeats: float = 0  # zeros still to come
         self._next_output = math.inf  # when a zero or a step of the acceleration is due
-        self._sender = None  # of the last good message
+        self._sender: object = None  # of the last good message
         self._switched_at = -math.inf  # when that was another one than before
         self._may_warn = Throttle(1.0 / WARNING_PERIOD_S)
         self.arming = Arming(not p.arm_on_neutral)  # of that sender
@@ -72,22 +80,29 @@ class Safety:
         self.state = WAITING
 
     @property
-    def due(self):
+    def due(self) -> float:
         """When tick() must be called next [s]; infinity if nothing will happen by itself."""
         still_at = self._still_at - (0.0 if self._is_warned else WARNS_BEFORE_S)
         due = min(self._next_output, self._silent_at)
         return due if self._sent == ZERO else min(due, still_at)
 
     @property
-    def released(self):
+    def released(self) -> bool:
         """Whether a lost robot may be driven again: all released or, without arming, zero sent."""
         return self.arming.rests if self._parameters.arm_on_neutral else self._sent == ZERO
 
-    def drive(self, velocity, rests, now, sender=None, changed=True):
-        """A good message asks for this velocity; None: its dead-man button is released.
+    def drive(
+        self,
+        velocity: Velocity | None,
+        rests: bool,
+        now: float,
+        sender: object = None,
+        changed: bool = True,
+    ) -> Velocity | None:
+        """Take the velocity of a good message; None: its dead-man button is released.
 
-        rests: whether all is released. sender: an object, which tells one from another. changed:
-        whether any axis or button differs from the message before.
+        rests: all is released. sender: an object that identifies the joystick node. changed: an
+        axis or a button differs from the message before.
         """
         if changed:
             self._still_at = now + self._stillness_s
@@ -113,7 +128,7 @@ class Safety:
         answer = self._obey(velocity, rests, now)
         return stop if answer is None else answer
 
-    def _obey(self, velocity, rests, now):
+    def _obey(self, velocity: Velocity | None, rests: bool, now: float) -> Velocity | None:
         self._silent_at = now + self._silence_s
         if not self._hears:
             self._hears = True
@@ -133,13 +148,13 @@ class Safety:
         # While the velocity changes, tick() sends it at a steady rate.
         return self._step(now) if self._next_output == math.inf else None
 
-    def reject(self, now):
-        """A bad message came: stop. It is no sign of life."""
+    def reject(self, now: float) -> Velocity | None:
+        """Stop at a bad message, which is no sign of life."""
         self.arming.rests = False
         return self._refuse(BAD_MESSAGE, now)
 
-    def latch(self, now):
-        """The stop button is pressed: send zeros until reset(), and so hold a multiplexer, too."""
+    def latch(self, now: float) -> Velocity | None:
+        """Send zeros from the stop button until reset(), which hold a multiplexer, too."""
         if self.latched:
             return None
         button = self._parameters.stop_reset_button
@@ -151,13 +166,13 @@ class Safety:
         self._repeats = math.inf
         return self._repeat(now)
 
-    def reset(self):
-        """The reset button is pressed: the robot moves again after all was seen released."""
+    def reset(self) -> None:
+        """End the effect of the stop button: the robot moves again once all was seen released."""
         self.latched, self._repeats = False, 1
         self.state = self._unarmed = NOT_ARMED
 
-    def lost(self, why, now):
-        """The joystick cannot be relied upon any more: stop, and disarm if so configured."""
+    def lost(self, why: str, now: float) -> Velocity | None:
+        """Stop, as the joystick cannot be relied upon, and disarm if so configured."""
         if not self._hears:
             return None
         self._forget(f"stopped: {why}")
@@ -171,13 +186,13 @@ class Safety:
         stands = self._sent == ZERO and self._next_output == math.inf
         return None if stands else self._stop(now)
 
-    def _forget(self, state):
+    def _forget(self, state: str) -> None:
         self.state = state
         self._hears, self._silent_at = False, math.inf
         self.arming.rests = False
 
-    def tick(self, now):
-        """Time has passed: send what is due."""
+    def tick(self, now: float) -> Velocity | None:
+        """Send what is due by now."""
         if now >= self._silent_at:
             return self.lost(self._silence, now)
         if self._sent != ZERO and now >= self._still_at - WARNS_BEFORE_S:
@@ -192,36 +207,36 @@ class Safety:
             return None
         return self._repeat(now) if self._stopping else self._step(now)
 
-    def _refuse(self, why, now):
+    def _refuse(self, why: str, now: float) -> Velocity | None:
         self.state = why
         if self._parameters.require_enable_button:
             return self._stop(now)
         self._next_output = math.inf
         return self._send(ZERO)
 
-    def _stop(self, now):
+    def _stop(self, now: float) -> Velocity | None:
         if self._stopping:
             return None
         self._stopping = True
         self._repeats = self._parameters.stop_messages
         return self._repeat(now)
 
-    def _repeat(self, now):
+    def _repeat(self, now: float) -> Velocity:
         self._repeats -= 1
         self._schedule(now + self._period if self._repeats else math.inf)
         return self._send(ZERO)
 
-    def _step(self, now):
+    def _step(self, now: float) -> Velocity:
         velocity = approach(self._sent, self._target, *self._changes)
         rests = velocity == self._target == ZERO
         self._schedule(math.inf if rests else now + self._period)
         return self._send(velocity)
 
-    def _schedule(self, next_output):
+    def _schedule(self, next_output: float) -> None:
         self._next_output = next_output
         self._wake()
 
-    def _send(self, velocity):
+    def _send(self, velocity: Velocity) -> Velocity:
         before, self._sent = self._sent, velocity
         if self._watches_stillness and before == ZERO != velocity:
             self._wake()

@@ -1,11 +1,15 @@
-"""The whole way from a joystick message to a velocity, and what to tell the user (pure)."""
+"""The whole way from a joystick message to a velocity, and what to report to the user (pure)."""
+
+from __future__ import annotations
 
 import math
+from typing import Callable, Sequence
 
 from joy_to_twist.gamepad_hints import GamepadHints
 from joy_to_twist.mapping import BadJoyError, Mapping
-from joy_to_twist.safety import ARMED, DRIVING, Safety
-from node_kit.resumption import Resumption
+from joy_to_twist.parameters import Parameters
+from joy_to_twist.safety import ARMED, Safety
+from node_kit.arming import DRIVING, Resumption, Velocity
 from node_kit.throttle import Throttle
 
 UNHEARD_S = 2.0  # a robot that starts together with this node takes a moment to listen
@@ -15,12 +19,13 @@ WARNING_PERIOD_S = 5.0  # often enough to be seen, not so often that it hides th
 class Teleoperation:
     """Joins the mapping, the safety rules and the hints. Not thread-safe.
 
-    Times are in seconds of a clock that never jumps. A velocity is a tuple of six floats (see
-    limits); None means that nothing is to be sent. What is due without a message: see safety.
+    Times are in seconds of a clock that never jumps; None in place of a velocity: send nothing.
     """
 
-    def __init__(self, parameters, warn, wake):
-        """parameters, wake, warn: see Safety."""
+    def __init__(
+        self, parameters: Parameters, warn: Callable[[str], object], wake: Callable[[], object]
+    ) -> None:
+        """Take what Safety takes."""
         self._parameters = parameters
         self._warn = warn
         self.mapping = Mapping(parameters)
@@ -29,19 +34,26 @@ class Teleoperation:
         self._knows_gamepad = False
         self._may_warn = Throttle(1.0 / WARNING_PERIOD_S)
         self._max_age_ns = round(parameters.max_joy_age * 1e9)
-        self._unheard_since = None  # since when velocities reach nobody [s]
+        self._unheard_since: float | None = None  # when velocities began to reach no subscriber
         self._resumption = Resumption()
         self._messages = 0
-        self._last_message = None
+        self._last_message: float | None = None
         self._watches_stillness = parameters.vigilance_timeout > 0
-        self._last = None  # axes and buttons of the last good message
-        self._last_summary = (0, None)  # the messages until then, and when
+        self._last: object = None  # axes and buttons of the last good message
+        self._last_summary: tuple[int, float | None] = (0, None)  # messages until then, and when
 
-    def joy(self, axes, buttons, now, age_ns=0, sender=None):
-        """A joystick message came. Returns the velocity to send at once.
+    def joy(
+        self,
+        axes: Sequence[float],
+        buttons: Sequence[int],
+        now: float,
+        age_ns: int = 0,
+        sender: object = None,
+    ) -> Velocity | None:
+        """Take a joystick message; return the velocity to send at once.
 
-        age_ns: [ns] since its stamp; ignored unless max_joy_age is set. sender: an object, which
-        tells one joystick node from another.
+        age_ns: [ns] since its stamp; ignored unless max_joy_age is set. sender: an object that
+        identifies the joystick node.
         """
         if self.mapping.stops(buttons):
             return self.safety.latch(now)
@@ -68,44 +80,44 @@ class Teleoperation:
         rests = matters and self.mapping.rests(axes, velocity)
         return self.safety.drive(velocity, rests, now, sender, changed)
 
-    def suspended(self, number, now):
-        """This node was suspended so many times so far. Returns the velocity to send at once."""
+    def suspended(self, number: int, now: float) -> Velocity | None:
+        """Take how often this node was suspended; return the velocity to send at once."""
         if not self._resumption.notice(number, now):
             return None
         self._warn("This node was suspended. What came meanwhile is not driven.")
         return self.safety.lost("this node was suspended", now)
 
-    def _has_changed(self, axes, buttons):
+    def _has_changed(self, axes: Sequence[float], buttons: Sequence[int]) -> bool:
         last, self._last = self._last, (axes, buttons)
         return last != self._last
 
-    def _look_at_gamepad(self, axes):
+    def _look_at_gamepad(self, axes: Sequence[float]) -> None:
         hint = self._hints.hint(axes)
         if hint:
             self._warn(hint)
         self._knows_gamepad = self._hints.finished
 
-    def left(self, now):
-        """Nobody publishes joystick messages any more. Returns the velocity to send at once."""
+    def left(self, now: float) -> Velocity | None:
+        """Stop, as no node publishes joystick messages; return the velocity to send at once."""
         self._knows_gamepad = False  # the next one may be another
         return self.safety.lost("the joystick node has left", now)
 
-    def listeners(self, count, topic, now):
-        """Warn, once, when driving reaches nobody, as under a wrong name. count: of subscribers."""
+    def listeners(self, count: int, topic: str, now: float) -> None:
+        """Warn, once, when driving reaches no subscriber, as under a wrong name."""
         if count or self.safety.state != DRIVING:
             self._unheard_since = None
         elif self._unheard_since is None:
             self._unheard_since = now
         elif now - self._unheard_since > UNHEARD_S:
             self._unheard_since = math.inf
-            self._warn(f"Nobody listens to {topic}: start the robot, or check its name.")
+            self._warn(f"No node subscribes to {topic}: start the robot, or check its name.")
 
-    def summary(self, now):
-        """For diagnostics: whether all is well, the state, and details by name."""
+    def summary(self, now: float) -> tuple[bool, str, dict[str, str]]:
+        """Return for diagnostics whether all is well, the state, and details by name."""
         state = self.safety.state
         messages, since = self._last_summary
         self._last_summary = (self._messages, now)
-        rate = (self._messages - messages) / (now - since) if since not in (None, now) else 0.0
+        rate = 0.0 if since is None or since == now else (self._messages - messages) / (now - since)
         age = "none yet" if self._last_message is None else f"{now - self._last_message:.3f}"
         details = {
             "Joy rate [Hz]": f"{rate:.1f}",

@@ -2,8 +2,6 @@
 
 import json
 import os
-import re
-import socket
 import statistics
 import subprocess
 import sys
@@ -19,6 +17,8 @@ from live import HERE as LIVE
 from tutorial_faults.live.samples import complaints, growth, sample
 from tutorial_testing import flood as flood_program
 from tutorial_testing.nodes import node_path
+from tutorial_testing.ports import free_port
+from tutorial_testing.waiting import wait_for
 
 HERE = Path(__file__).parent
 INPUTS = 1000
@@ -41,20 +41,12 @@ def ros_master():
         yield
 
 
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
-
-
 def start_cockpit(stack, *options):
     """(process, port, tokens) of a cockpit that serves its page; with --lan: to look, to drive."""
     port = free_port()
-    script = f"{rospkg.RosPack().get_path('cockpit')}/scripts/cockpit.py"
-    command = [sys.executable, script, "--port", str(port), *options]
+    command = [node_path("cockpit", "cockpit.py"), "--port", str(port), *options]
     process = stack.enter_context(running(command, stdout=subprocess.PIPE, text=True))
     lines = [process.stdout.readline() for _ in range(2 if "--lan" in options else 1)]
-    assert re.match("cockpit: (open|to look)", lines[0])
     return process, port, [line.partition("token=")[2].strip() for line in lines]
 
 
@@ -66,20 +58,22 @@ def percentile(values, share):
     return sorted(values)[min(len(values) - 1, int(share * len(values)))]
 
 
+def told(*command):
+    return subprocess.run(command, check=False, capture_output=True, text=True).stdout
+
+
 def start_drive(stack):
-    """The port of an echo, once joy2twist listens."""
     config = f"{rospkg.RosPack().get_path('joy2twist')}/config/f710_d.yaml"
     subprocess.run(["rosparam", "load", config, "/NewJoy2Twist"], check=True)
     joy2twist = ["rosrun", "joy2twist", "joy2twist.py", "_arm_on_neutral:=true", "_log_rate:=0"]
     stack.enter_context(running(joy2twist))
     echo_port = free_port()
     stack.enter_context(running([sys.executable, str(HERE / "echo.py"), str(echo_port)]))
-    wait_for_joystick_listener()
+    wait_for(lambda: "NewJoy2Twist" in told("rostopic", "info", "/joy"), "joy2twist", START_S)
     return echo_port
 
 
 def drive(port, echo_port, count, *token):
-    """What probe.py has heard of so many inputs."""
     probe = [sys.executable, str(HERE / "probe.py"), str(port), str(echo_port), str(count), *token]
     done = subprocess.run(probe, stdout=subprocess.PIPE, text=True, check=True, timeout=300)
     return json.loads(done.stdout)
@@ -90,9 +84,8 @@ def test_an_input_until_the_velocity(figure):
         echo_port = start_drive(stack)
         _, port, _ = start_cockpit(stack)
         heard = drive(port, echo_port, INPUTS)
-    del heard["losses"]
-    medians = {name: statistics.median(values) for name, values in heard.items()}
-    worst = {name: percentile(values, 0.99) for name, values in heard.items()}
+    medians = {name: statistics.median(heard[name]) for name in ("input", "echo")}
+    worst = {name: percentile(heard[name], 0.99) for name in ("input", "echo")}
     for name, times, most in (
         ("median", medians, MEDIAN_MORE_S),
         ("99 of 100", worst, WORST_MORE_S),
@@ -127,11 +120,9 @@ def test_a_flood_of_viewers(figure):
         peak_kb = sample(0.0, "server", process.pid).memory_kb
         counts = json.loads(flood.stdout.readline())
         flood.wait()
-        end_s = time.monotonic() + START_S
-        more_kb = MOST_MORE_KB + 1
-        while more_kb > MOST_MORE_KB and time.monotonic() < end_s:
-            time.sleep(0.5)
-            more_kb = sample(0.0, "server", process.pid).memory_kb - before_kb
+        more_kb = lambda: sample(0.0, "server", process.pid).memory_kb - before_kb  # noqa: E731
+        wait_for(lambda: more_kb() <= MOST_MORE_KB, "memory as before", START_S)
+        more_kb = more_kb()
     worst = percentile(heard["input"], 0.99)
     share_driven = len(heard["input"]) / (FLOOD_S * INPUTS_PER_S)
     figure(
@@ -141,8 +132,9 @@ def test_a_flood_of_viewers(figure):
         f"≤ {milliseconds(MOST_FLOODED_S)}",
     )
     figure(
-        "velocities for inputs meanwhile; the operator lost",
-        f"{share_driven:.1%}; {heard['losses']} times", "all; never",
+        "velocities for inputs meanwhile; the operator lost; driver or echo held up",
+        f"{share_driven:.1%}; {heard['losses']} times; {heard['stalls']} times",
+        "all; never, unless held up",
     )  # fmt: skip
     figure(
         "messages taken; processor time of the server",
@@ -155,18 +147,7 @@ def test_a_flood_of_viewers(figure):
     )
     assert worst <= MOST_FLOODED_S
     assert share_driven > 0.95
-    assert more_kb <= MOST_MORE_KB
-
-
-def wait_for_joystick_listener():
-    end = time.monotonic() + START_S
-    while time.monotonic() < end:
-        ask = ["rostopic", "info", "/joy"]
-        listed = subprocess.run(ask, check=False, capture_output=True, text=True)
-        if "NewJoy2Twist" in listed.stdout:
-            return
-        time.sleep(0.2)
-    raise AssertionError("joy2twist does not listen")
+    assert heard["losses"] <= heard["stalls"]
 
 
 def test_thirty_robots_on_five_pages(figure):

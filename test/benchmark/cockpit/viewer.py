@@ -13,10 +13,7 @@ import time
 from tornado.httpclient import HTTPRequest
 from tornado.websocket import websocket_connect
 
-LOOK = {
-    "kind": "watch", "robots": True, "look": None, "graph": True, "topic": None, "node": None,
-    "fields": [], "field_list": False, "log": True, "bag": False,
-}  # fmt: skip
+LOOK = {"kind": "watch", "robots": True, "graph": True, "log": True}
 
 
 async def main(port, seconds):

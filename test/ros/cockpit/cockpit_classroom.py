@@ -6,7 +6,7 @@ import unittest
 
 import rostest
 
-from node_kit.states import DRIVING
+from node_kit.arming import DRIVING
 from tutorial_testing.cockpit_rig import CockpitRig
 from tutorial_testing.nodes import init_node
 from tutorial_testing.waiting import wait_for
@@ -15,8 +15,6 @@ OURS, OTHERS = "robot_2", ("robot_1", "robot_3")
 
 
 class Classroom(unittest.TestCase):
-    """One page of the teacher's."""
-
     def test_one_robot_of_three(self):
         with CockpitRig(robot=OURS) as rig, rig.page() as page:
             self.assertEqual(page.wait_for("hello")["robots"], sorted([OURS, *OTHERS]))

@@ -5,6 +5,8 @@ import contextlib
 import json
 import socket
 import sys
+import threading
+from concurrent.futures import ThreadPoolExecutor
 
 import rostest
 
@@ -23,17 +25,14 @@ PING = b"\x89\x80" + bytes(4)
 # A text message whose end never comes: its begin, and pieces of 0 bytes.
 BEGIN, PIECES = b"\x01\x80" + bytes(4), 1000 * (b"\x00\x80" + bytes(4))
 PONGS, PONG_BYTES = 1000 * (b"\x8a\x80" + bytes(4)), 30_000_000
-HALF_OPEN, MOST_PAGES = 300, 64
+HALF_OPEN, MOST_PAGES, REQUESTERS = 300, 64, 20
 ELSEWHERE = "127.0.0.2"  # another address of this machine
 
 
 class Flood(WithCockpit):
-    """A cockpit for other machines, and a robot."""
-
     options = ("--lan",)
 
     def memory_kb(self):
-        """Of the cockpit."""
         pids = self.rig.program.left_behind()
         return max(sample(0.0, "cockpit", pid).memory_kb for pid in pids)
 
@@ -120,6 +119,28 @@ class Flood(WithCockpit):
                 return None
             stack.push(attempt.pop_all())
             return pages
+
+    def test_a_flood_of_requests(self):
+        """Many connections that ask again and again leave the driver its time."""
+        host = f"127.0.0.1:{self.rig.port}"
+        request = f"GET /page/style.css HTTP/1.1\r\nHost: {host}\r\n\r\n".encode()
+        answers, ends = [], threading.Event()
+
+        def ask():
+            with socket.create_connection(("127.0.0.1", self.rig.port), 20) as one:
+                while not ends.is_set():
+                    one.sendall(request)
+                    answers.append(len(one.recv(1 << 20)))
+
+        with self.rig.page() as page, ThreadPoolExecutor(REQUESTERS) as pool:
+            asked = [pool.submit(ask) for _ in range(REQUESTERS)]
+            try:
+                wait_for(lambda: len(answers) > 10 * REQUESTERS, "answers")
+                self.rig.drive(page)
+            finally:
+                ends.set()
+            for one in asked:
+                one.result()
 
     def test_viewers_in_all_places(self):
         token = self.rig.token("look")

@@ -10,7 +10,7 @@ import rosgraph
 import rosnode
 import rostest
 
-from node_kit.page import address
+from node_kit.questions import address
 from tutorial_testing.cockpit_rig import CockpitRig
 from tutorial_testing.nodes import init_node, node_path
 from tutorial_testing.processes import Program
@@ -18,10 +18,7 @@ from tutorial_testing.waiting import wait_for
 
 
 class Launched(CockpitRig):
-    """The cockpit that the launch file has started."""
-
     def start(self):
-        """Wait for it."""
         page = wait_for(lambda: address(rosgraph.get_master_uri()), "address of the page")
         self.port = urlsplit(page).port
         self.program = Program("true")
@@ -29,14 +26,11 @@ class Launched(CockpitRig):
         wait_for(self.listens, "page of the cockpit")
 
     def listens(self):
-        """Whether the robot is known there."""
         with self.page() as page:
             return self.robot in page.wait_for("hello")["robots"]
 
 
 class BrowserJoystick(unittest.TestCase):
-    """What the launch file has started."""
-
     def test_the_page_drives(self):
         with Launched() as rig, rig.page() as page:
             self.assertNotIn("/joy_node", rosnode.get_node_names())
@@ -44,9 +38,9 @@ class BrowserJoystick(unittest.TestCase):
             page.close()
             rig.rest_after(time.time())
             at = f"http://127.0.0.1:{rig.port}/"
-            why = f"cockpit: one runs already: open {at} on this machine"
+            why = f"cockpit: a cockpit is already running: open {at} on this machine"
             self.second_says(rig.port, 0, f"{why}\n")
-            why = f"cockpit: one runs already at {at}; for other machines end it first[^\n]*"
+            why = f"cockpit: a cockpit is already running at {at}; for other machines end[^\n]*"
             self.second_says(rig.port, 1, f"{why} or take --port {rig.port + 1}\n", "--lan")
             with socket.create_server(("127.0.0.1", 0)) as taken:  # by another program
                 port = taken.getsockname()[1]

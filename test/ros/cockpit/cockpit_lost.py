@@ -11,7 +11,6 @@ import rostest
 from cockpit_server.seat import TICKS, is_neutral
 from tutorial_testing.cockpit_rig import ODOM_PERIOD_S, WithCockpit
 from tutorial_testing.nodes import init_node
-from tutorial_testing.socket_page import DRIVE
 from tutorial_testing.waiting import wait_for
 
 WITHIN_S = 0.5 + ODOM_PERIOD_S
@@ -19,8 +18,6 @@ ROUNDS = 3  # of each way; on a busy machine one may be late
 
 
 class OperatorLost(WithCockpit):
-    """Each test loses the operator of a robot that drives."""
-
     def assert_stops(self, lose, regain):
         """lose(page) and regain(page): the operator is gone, and is there again, still holding.
 
@@ -109,27 +106,6 @@ class OperatorLost(WithCockpit):
                 page.say("leave")
                 self.rig.rest_after(time.time())
         self.assertLessEqual(statistics.median(took), WITHIN_S)
-
-    def test_a_second_driver_is_refused_and_the_first_goes_on(self):
-        with self.rig.page() as first, self.rig.page() as second:
-            self.rig.drive(first)
-            second.say("drive", robot="", mode="D")
-            second.hand = DRIVE
-            self.assertIn("somebody else drives", second.wait_for("refused")["why"])
-            seat = second.wait_for("seat", lambda seat: seat["driver"] is not None)
-            self.assertFalse(seat["yours"])
-            self.assertTrue(self.rig.moves)
-            self.assertEqual(first.of("lost"), [])
-
-    def test_hand_over(self):
-        with self.rig.page() as first, self.rig.page() as second:
-            self.rig.drive(first)
-            when = time.time()
-            second.hand = DRIVE  # held already
-            first.say("hand_over", to=second.wait_for("hello")["id"])
-            second.wait_for("seat", lambda seat: seat["yours"])
-            self.rig.rest_after(when)
-            self.assertTrue(self.rig.drives_only_once_released(second))
 
     def test_the_server_ends(self):
         for number in (signal.SIGTERM, signal.SIGKILL):

@@ -1,27 +1,34 @@
 #!/usr/bin/python3
-"""Every node ends in time, a base at rest first, whatever the peers and the screen do."""
+"""Every node exits in time, a base at rest first, whatever the screen, peers and master do."""
 
 import contextlib
+import math
 import os
 import signal
 import sys
 import tempfile
-import time
 import unittest
 from pathlib import Path
 
+import rosgraph
+import rospy
 import rostest
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
 
-from tutorial_testing.nodes import init_node
-from tutorial_testing.rig import BASE, Rig, go_on, stop
+from node_kit.questions import call
+from tutorial_testing.nodes import init_node, node_path
+from tutorial_testing.processes import Program
+from tutorial_testing.rig import BASE, JOYSTICK, MUX, Rig, go_on, stop
 from tutorial_testing.waiting import BUSY_S, wait_for
 
 LONGEST_END_S = 1.5 + BUSY_S
+INPUTS = '[{"name": "a", "topic": "input", "timeout": 1.0, "priority": 1}]'
 
 
 @contextlib.contextmanager
 def held_screen():
-    """A path that can be written to, and has no room: so is a terminal after Ctrl-S."""
+    """Yield a path that can be written to, and is full: so is a terminal after Ctrl-S."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "screen"
         os.mkfifo(path)
@@ -36,47 +43,90 @@ def held_screen():
             os.close(descriptor)
 
 
+@contextlib.contextmanager
+def suspended(pids):
+    """Suspend processes for a while. A master takes connections then, and does not answer."""
+    stop(pids)
+    try:
+        yield
+    finally:
+        go_on(pids)
+
+
+def master():
+    return [call(rosgraph.get_master_uri(), "getPid")[1]]
+
+
 class FaultsAtTheEnd(unittest.TestCase):
-    def check_end(self, rig, node, number):
-        """The node is gone in time, and the robot stands."""
-        pid = rig.pid(node)
-        began = time.monotonic()
-        os.kill(pid, number)
-        rig.programs[node].wait()
-        self.assertLess(time.monotonic() - began, LONGEST_END_S, node)
+    def check_end(self, rig, node, pid, number=signal.SIGINT):
+        """Check that the node exits in time, and that the robot comes to rest."""
+        self.assertLess(rig.kill(node, number, pid), LONGEST_END_S, node)
         wait_for(lambda: not rig.is_moving(), f"robot at rest after the end of {node}")
 
-    def check_held_screen(self, number):
-        with held_screen() as screen, Rig(with_mux=True, screen=screen) as rig:
+    def check_all(self, number):
+        """One after the other is driven and ended, on a held screen, then with suspended peers."""
+        with held_screen() as screen, Rig(screen=screen) as rig:
             for node in rig.nodes:
                 rig.drive()
-                self.check_end(rig, node, number)
+                self.check_end(rig, node, rig.pid(node), number)
+                if node != BASE:
+                    rig.start(node)
+        with Rig() as rig:
+            for node in rig.nodes:
+                rig.drive()
+                pid = rig.pid(node)
+                with suspended([rig.pid(other) for other in rig.nodes if other != node]):
+                    self.assertLess(rig.kill(node, number, pid), LONGEST_END_S, node)
+                wait_for(lambda: not rig.is_moving(), "robot at rest")
                 if node != BASE:
                     rig.start(node)
 
-    def test_a_held_screen_and_sigint(self):
-        self.check_held_screen(signal.SIGINT)
+    def test_sigint(self):
+        self.check_all(signal.SIGINT)
 
-    def test_a_held_screen_and_sigterm(self):
-        self.check_held_screen(signal.SIGTERM)
+    def test_sigterm(self):
+        self.check_all(signal.SIGTERM)
 
-    def test_peers_that_are_suspended(self):
-        with Rig(with_mux=True) as rig:
-            for node in rig.nodes:
-                rig.drive()
-                others = [rig.pid(other) for other in rig.nodes if other != node]
-                stop(others)
-                try:
-                    pid = rig.pid(node)
-                    began = time.monotonic()
-                    os.kill(pid, signal.SIGINT)
-                    rig.programs[node].wait()
-                    self.assertLess(time.monotonic() - began, LONGEST_END_S, node)
-                finally:
-                    go_on(others)
-                wait_for(lambda: not rig.is_moving(), f"robot at rest after the end of {node}")
-                if node != BASE:
-                    rig.start(node)
+    def check_hung_master(self, first, number):
+        """All nodes end under a master that does not answer, one of them first."""
+        with Rig() as rig:
+            rig.drive()
+            pids = {node: rig.pid(node) for node in rig.nodes}
+            with suspended(master()):
+                for node in (first, *(node for node in rig.nodes if node != first)):
+                    self.check_end(rig, node, pids[node], number)
+
+    def test_a_hung_master_and_the_joystick_first(self):
+        self.check_hung_master(JOYSTICK, signal.SIGTERM)
+
+    def test_a_hung_master_and_the_mux_first(self):
+        self.check_hung_master(MUX, signal.SIGINT)
+
+    def test_a_hung_master_and_the_base_first(self):
+        self.check_hung_master(BASE, signal.SIGINT)
+
+    def test_a_warning_under_a_hung_master_makes_no_node_deaf(self):
+        """NaN and a speed beyond the robot's bring a warning of the mux and of the base."""
+        moving, command = [], Twist()
+        odom = rospy.Subscriber("odom", Odometry, lambda o: moving.append(o.twist.twist.linear.x))
+        pilot = rospy.Publisher("/cmd_vel_mux/input", Twist, queue_size=10)
+        self.addCleanup(odom.unregister)
+        self.addCleanup(pilot.unregister)
+
+        def speed(value):
+            command.linear.x = value
+            pilot.publish(command)
+            return moving and moving[-1]
+
+        mux = node_path("fake_turtlebot_sim", "cmd_vel_mux.py")
+        base = node_path("fake_turtlebot_sim", "fake_turtlebot.py")
+        with Program(mux, f"_subscribers:={INPUTS}", "cmd_vel_mux/output:=cmd_vel"), Program(base):
+            wait_for(lambda: speed(0.2), "robot that moves")
+            with suspended(master()):
+                for bad in (math.nan, 5.0, -5.0):
+                    speed(bad)
+                wait_for(lambda: speed(0.0) == 0.0, "robot that obeys zero")
+                wait_for(lambda: speed(0.2), "robot that obeys")
 
 
 if __name__ == "__main__":

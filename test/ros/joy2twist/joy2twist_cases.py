@@ -158,13 +158,13 @@ class Node:
     def _state(self, state, again=False):
         name = f"{self._namespace}/NewJoy2Twist: joystick".strip("/")
 
-        def told():
+        def reported():
             if again:
                 self._last_joy.header.stamp = rospy.Time.now()
                 self._joystick.publish(self._last_joy)
             return states.get(name, "").startswith(state)
 
-        wait_for(told, f"state {state} of {name}")
+        wait_for(reported, f"state {state} of {name}")
 
 
 class CasesTest(unittest.TestCase):

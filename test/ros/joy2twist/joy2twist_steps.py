@@ -17,7 +17,7 @@ from tutorial_testing.waiting import wait_for
 
 LONGEST_LINES = 45
 # What rospy raises in a callback that publishes while, or after, the topic is closed; in the first
-# case it tells of a closed file above it, too.
+# case it reports a closed file above it, too.
 TOO_LATE = r"ROSException: (?:topic was closed during publish\(\)|publish\(\) to a closed topic)"
 ABOVE = "During handling of the above exception"
 

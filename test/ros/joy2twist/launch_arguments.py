@@ -13,7 +13,7 @@ import rostest
 import yaml
 from sensor_msgs.msg import Joy
 
-from node_kit.page import address
+from node_kit.questions import address
 from tutorial_testing.nodes import init_node
 from tutorial_testing.ports import free_port
 from tutorial_testing.processes import Program
@@ -115,7 +115,9 @@ class ArgumentsTest(unittest.TestCase):
             with roslaunch(*student) as launch:
                 wait_for(lambda: "finished cleanly" in launch.output, "end of its cockpit")
                 page = address(rosgraph.get_master_uri())
-                self.assertIn(f"cockpit: one runs already: open {page} on", launch.output)
+                self.assertIn(
+                    f"cockpit: a cockpit is already running: open {page} on", launch.output
+                )
                 self.assertNotIn("died", launch.output)
                 launch.interrupt()
                 launch.wait()

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""launch_joy_node.launch with a gamepad that falls silent, trembles, or is a recording."""
+"""launch_joy_node.launch with a gamepad that falls silent, or is a recording."""
 
 import sys
 import time
@@ -17,7 +17,6 @@ from tutorial_testing.waiting import wait_for
 
 VIGILANCE_S = 3.0  # of the launch file
 LIMIT_S = VIGILANCE_S + 0.6 + 0.02  # the base's own timeout, and one period of its odometry
-TREMBLING_S, STEP_S = 8.0, 0.1
 FULL, LB, FORWARD = 32767, 4, 1
 BAG = rospkg.RosPack().get_path("joy2twist") + "/bag/joy.bag"
 SPIN = ("-s", "31", "-u", "12")  # [s] of joy.bag: a release, then a turn on the spot, held for 6 s
@@ -72,7 +71,7 @@ class RadioSilenceTest(unittest.TestCase):
         wait_for(lambda: not self.moves(), "robot at rest")
         return max(m.header.stamp.to_sec() for m in self.odometry if m.twist.twist.linear.x) - moved
 
-    def test_out_of_reach_it_stops_and_back_in_reach_it_waits_for_the_release(self):
+    def test_out_of_range_it_stops_and_back_in_range_it_waits_for_the_release(self):
         self.stream.plug_in()
         delays_s = []
         while len(delays_s) < 3 and min(delays_s, default=LIMIT_S) >= LIMIT_S:
@@ -82,23 +81,11 @@ class RadioSilenceTest(unittest.TestCase):
         wait_for(lambda: "stops in 0.5 s" in self.launch.output, "warning")
 
         stood = len(self.odometry)
-        for forward in (FULL, FULL // 2, FULL):  # back in reach, LB and the stick still held
+        for forward in (FULL, FULL // 2, FULL):  # back in range, LB and the stick still held
             self.show(True, forward)
         wait_for(lambda: len(self.odometry) > stood + 50, "odometry")
         self.assertFalse(any(m.twist.twist.linear.x for m in self.odometry[stood:]))
         self.drive()
-
-    def test_a_stick_that_trembles_by_one_step_is_not_stopped(self):
-        self.stream.plug_in()
-        self.drive()
-        begin = len(self.odometry)
-        end = time.monotonic() + TREMBLING_S
-        while time.monotonic() < end:
-            self.stream.send((AXIS, FORWARD, -FULL + round(time.monotonic() / STEP_S) % 2))
-            time.sleep(STEP_S)
-        speeds = [m.twist.twist.linear.x for m in self.odometry[begin:]]
-        self.assertGreater(len(speeds), TREMBLING_S * 25)
-        self.assertGreater(min(speeds), 0.34)
 
     def test_rosbag_play_of_our_recording_is_not_stopped(self):
         with Program("rosbag", "play", "--wait-for-subscribers", *SPIN, BAG) as player:

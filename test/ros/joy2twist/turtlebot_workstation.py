@@ -15,7 +15,7 @@ import rospy
 import rostest
 from geometry_msgs.msg import Twist
 
-from node_kit.names import holder
+from node_kit.questions import holder
 from tutorial_testing.joystick_stream import AXIS, BUTTON, Stream
 from tutorial_testing.nodes import init_node
 from tutorial_testing.processes import Program
@@ -60,7 +60,7 @@ class WorkstationTest(unittest.TestCase):
         short = os.path.join(self.folder(), "short.bag")
         with rosbag.Bag(str(BAG)) as whole, rosbag.Bag(short, "w") as part:
             messages = [(joy, stamp) for _, joy, stamp in whole.read_messages()][:200]
-            # Nobody touches it until all are connected: who comes later is held until the release.
+            # At rest until all are connected: a later subscriber is held until the release.
             rest, began = messages[0]
             for k in range(200, 0, -1):
                 part.write("/joy", rest, began - rospy.Duration(k / 50))
@@ -106,13 +106,13 @@ class WorkstationTest(unittest.TestCase):
     def view(self, *arguments):
         """How RViz is called when it is a program that writes down its arguments."""
         folder = self.folder()
-        rviz, told = Path(folder, "rviz"), Path(folder, "told")
-        rviz.write_text(f'#!/bin/sh\necho "$@" > {told}.new; mv {told}.new {told}; sleep 600\n')
+        rviz, given = Path(folder, "rviz"), Path(folder, "given")
+        rviz.write_text(f'#!/bin/sh\necho "$@" > {given}.new; mv {given}.new {given}; sleep 600\n')
         rviz.chmod(0o755)
         launch = self.start("rviz:=true", *arguments, PATH=f"{folder}:{os.environ['PATH']}")
-        wait_for(lambda: told.exists() or launch.ended, "view")
+        wait_for(lambda: given.exists() or launch.ended, "view")
         self.assertFalse(launch.ended, launch.output)
-        return told.read_text().split()
+        return given.read_text().split()
 
     def test_the_view_of_the_suite_opens_where_there_is_no_other(self):
         words = self.view()

@@ -31,7 +31,7 @@ def start(command):
 
 
 class Watch:
-    """The messages of a topic, by their senders; their numbers tell of one that was lost."""
+    """The messages of a topic, by their senders; their numbers show whether one was lost."""
 
     def __init__(self, topic):
         self.numbers = {}  # sender -> the numbers of its messages

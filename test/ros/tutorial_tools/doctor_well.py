@@ -46,8 +46,6 @@ class WellTest(unittest.TestCase):
     def test_a_wrong_address_of_this_machine(self):
         lines = self.wrong(f"ROS_IP={NOBODYS} is no address of this machine", ROS_IP=NOBODYS)
         self.assertEqual(len(lines), 1)
-
-    def test_a_name_that_nobody_knows(self):
         self.wrong("cannot be looked up", ROS_HOSTNAME="nobody.invalid")
 
     def test_a_second_driver(self):

@@ -49,7 +49,6 @@ class CockpitRig:
             subscriber.unregister()
 
     def start(self):
-        """Start the cockpit, or start it anew."""
         if self.program:
             self.program.__exit__()
         options = ("--port", str(self.port), *self._options)
@@ -75,7 +74,6 @@ class CockpitRig:
         return None
 
     def page(self, **more):
-        """A SocketPage of a driver."""
         return SocketPage(self.port, token=self.token("drive"), **more)
 
     def _on_odometry(self, odometry):
@@ -87,7 +85,6 @@ class CockpitRig:
 
     @property
     def moves(self):
-        """Whether the newest odometry says so."""
         return bool(self.speeds) and self.speeds[-1][1] > 0.0
 
     def drive(self, page):
@@ -110,7 +107,6 @@ class CockpitRig:
         return max(moved) - when + ODOM_PERIOD_S
 
     def stays_at_rest(self):
-        """Whether nothing moves for a while."""
         begin = self.speeds[-1][0]
         wait_for(lambda: self.speeds[-1][0] > begin + RESTING_S, "odometry")
         return not any(speed for stamp, speed in list(self.speeds) if stamp > begin)
@@ -127,8 +123,6 @@ class CockpitRig:
 
 
 class WithCockpit(unittest.TestCase):
-    """One rig for all tests of a class."""
-
     options = ()  # of the cockpit
 
     @classmethod

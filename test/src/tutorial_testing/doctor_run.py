@@ -11,7 +11,7 @@ LINE = r"^(ok|wrong|unknown) +(\w+) +\S.*$"
 
 
 def doctor(test, **environment):
-    """(exit code, {level: lines}) of a run, which ends in time and without a traceback."""
+    """Return (exit code, {level: lines}) of a run, which exits in time and without a traceback."""
     began_s = time.monotonic()
     with Program(node_path("tutorial_tools", "doctor.py"), **environment) as program:
         code = program.wait()
@@ -23,7 +23,7 @@ def doctor(test, **environment):
     test.assertLess(took_s, LONGEST_S)
     levels = {"ok": [], "wrong": [], "unknown": []}
     for line in lines:
-        told = re.match(LINE, line)
-        test.assertTrue(told, line)
-        levels[told[1]].append(line)
+        said = re.match(LINE, line)
+        test.assertTrue(said, line)
+        levels[said[1]].append(line)
     return code, levels

@@ -26,7 +26,6 @@ WORST = [  # what costs most, each as often as all others together
 
 
 def watch(dice):
-    """Look at other things each time."""
     return {
         "kind": "watch", "robots": dice.random() < 0.8, "look": dice.choice(["", None, "x" * 200]),
         "graph": dice.random() < 0.5, "topic": dice.choice(TOPICS), "node": "/fake_turtlebot",
@@ -36,7 +35,6 @@ def watch(dice):
 
 
 def others(dice):
-    """Each other kind of message."""
     return [
         {"kind": "drive", "robot": "", "mode": "D"},
         {"kind": "leave"},
@@ -52,8 +50,6 @@ def others(dice):
 
 
 class Flood:
-    """All viewers in one thread."""
-
     def __init__(self, port, token):
         self.address = f"127.0.0.1:{port}"
         self.query = f"?token={token}"

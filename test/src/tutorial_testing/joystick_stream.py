@@ -1,5 +1,6 @@
 """A FIFO in place of a joystick device, and what joy_node makes of it."""
 
+import contextlib
 import os
 import shutil
 import tempfile
@@ -25,24 +26,22 @@ class Stream:
         self._fd = None
 
     def plug_in(self, axes=AXES):
-        """Make the device, wait for its reader, tell it the state at opening: all zero."""
+        """Make the device, wait for its reader, send it the state at opening: all zero."""
         os.mkfifo(self.path)
         self._fd = wait_for(self._open, "reader of the device")
         self.send(*[(BUTTON | INIT, n, 0) for n in range(BUTTONS)])
         self.send(*[(AXIS | INIT, n, 0) for n in range(axes)])
 
     def _open(self):
-        try:
+        with contextlib.suppress(OSError):  # no reader yet
             return os.open(self.path, os.O_WRONLY | os.O_NONBLOCK)
-        except OSError:
-            return None  # nobody reads yet
 
     def send(self, *events):
-        """Events as (type, number, value), in one write."""
+        """Send events as (type, number, value), in one write."""
         os.write(self._fd, b"".join([pack(JsEvent(0, v, kind, n)) for kind, n, v in events]))
 
     def pull_out(self):
-        """Take the device away; returns the ROS time [s] just before."""
+        """Take the device away; return the ROS time [s] just before."""
         now = time.time()
         os.unlink(self.path)
         os.close(self._fd)
@@ -62,13 +61,11 @@ class JoyLog:
     def __init__(self):
         self.messages = []
         self._subscriber = rospy.Subscriber("joy", Joy, self.messages.append, queue_size=1000)
-
-    def stop(self):
-        self._subscriber.unregister()
+        self.stop = self._subscriber.unregister
 
     @property
     def connected(self):
-        """Whether a node sends here."""
+        """Whether a node publishes here."""
         return self._subscriber.get_num_connections() > 0
 
     @property
@@ -81,7 +78,7 @@ class JoyLog:
 
 
 def driver(path, *parameters):
-    """joy_node, reading a path; parameters as ~name:=value without the ~."""
+    """Start joy_node, reading a path; parameters as ~name:=value without the ~."""
     if rospy.has_param("/joy_node"):
         rospy.delete_param("/joy_node")  # of the test before: the master keeps them
     given = [f"_{parameter}" for parameter in (f"dev:={path}", *parameters)]

@@ -57,7 +57,7 @@ class Tmux:
             raise AssertionError(f"{error}; the screen:\n{self.screen}") from None
 
     def close(self):
-        """As the X of its window does; once more does no harm. What ran in it has ended then."""
+        """Close it, as the X of its window does; return when what ran in it has exited."""
         self._run("kill-server", check=False)
         wait_for(lambda: not lives(self._pid), "end of what ran in the terminal")
 
@@ -76,7 +76,7 @@ class KeyboardRig:
         self.terminal = Tmux(f"roslaunch joy2twist launch_joy_node.launch {arguments}")
 
     def wait_until_ready(self):
-        """A key pressed before joy2twist has seen the gamepad released would not drive."""
+        """Wait for joy2twist to see the gamepad released; a key before that would not drive."""
         wait_for(lambda: "Opened joystick" in self.terminal.history, "driver")
         wait_for(lambda: self.odometry, "robot")
         wait_for(lambda: self._states and self._states[-1] == ARMED, "armed joy2twist")

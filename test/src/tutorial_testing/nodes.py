@@ -10,7 +10,7 @@ from node_kit.careful_connections import connect_once
 
 @lru_cache(maxsize=None)
 def node_path(package, name):
-    """The path of a node's program, found as roslaunch finds it.
+    """Return the path of a node's program, found as roslaunch finds it.
 
     rosrun finds the same, but works for half a second, about as long as the node itself to start.
     """
@@ -18,6 +18,6 @@ def node_path(package, name):
 
 
 def init_node(name, **options):
-    """rospy.init_node() for a test: deaf by a fault of rospy, it would blame what it tests."""
+    """Call rospy.init_node(); deaf by a fault of rospy, a test would blame what it tests."""
     connect_once()
     rospy.init_node(name, **options)

@@ -1,8 +1,8 @@
-"""What a Safety sends while time passes and no message comes."""
+"""What a Safety sends while time passes and no message arrives."""
 
 
 def over_time(machine, start, end, step=0.01):
-    """Call tick() when it is due and at every step; the (time, velocity) that it sends."""
+    """Call tick() when it is due and at every step; return the (time, velocity) that it sends."""
     sent = []
     now = start
     while now < end:

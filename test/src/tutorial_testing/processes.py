@@ -20,7 +20,7 @@ MARK = "STARTED_BY_A_TEST"  # environment variable by which a program's descenda
 
 
 def lives(pid):
-    """Whether a process is there and has not ended; one that nobody has waited for has."""
+    """Return whether a process is there and has not exited, as a zombie has."""
     try:
         return Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0] != "Z"
     except OSError:
@@ -28,7 +28,7 @@ def lives(pid):
 
 
 def descendants(pid):
-    """A process and all that come from it, whatever their namespace and environment."""
+    """Return a process and its descendants, whatever their namespace and environment."""
     children = []
     with contextlib.suppress(OSError):  # ended meanwhile
         for each in Path(f"/proc/{pid}/task").glob("*/children"):  # each thread has its own
@@ -37,7 +37,7 @@ def descendants(pid):
 
 
 def command_line(pid):
-    """That of a process; empty if it has ended."""
+    """Return that of a process; empty if it has exited."""
     try:
         return Path(f"/proc/{pid}/cmdline").read_text()
     except OSError:
@@ -55,7 +55,7 @@ def refuse(*command):
 
 
 def suspend(pids):
-    """Stop processes as Ctrl-Z does; return when none of their threads works any more."""
+    """Stop processes as Ctrl-Z does; return when all of their threads are stopped."""
     for pid in pids:
         os.kill(pid, signal.SIGSTOP)
     wait_for(lambda: all(map(_is_stopped, pids)), f"end of the work of {pids}")
@@ -77,19 +77,14 @@ class Program:
 
     def __init__(self, *command, stdin=subprocess.DEVNULL, **environment):
         self._output = tempfile.TemporaryFile("w+")  # noqa: SIM115  closed in __exit__
-        self._mark = f"{MARK}={uuid.uuid4()}"
+        self._mark = str(uuid.uuid4())
         self._process = subprocess.Popen(
             command,
             stdin=stdin,
             stdout=self._output,
             stderr=subprocess.STDOUT,
             # Unbuffered: a test waits for what roslaunch, a Python program itself, prints.
-            env={
-                **os.environ,
-                "PYTHONUNBUFFERED": "1",
-                **environment,
-                **dict([self._mark.split("=")]),
-            },
+            env={**os.environ, "PYTHONUNBUFFERED": "1", **environment, MARK: self._mark},
             start_new_session=True,  # with a process group that Ctrl-C reaches, as in a terminal
         )
 
@@ -140,14 +135,14 @@ class Program:
         return self._process.returncode
 
     def left_behind(self):
-        """The ids of all processes that come from this program and still run.
+        """Return the ids of all processes that come from this program and still run.
 
         Known by their environment: roslaunch gives each node a session of its own.
         """
         pids = []
         for process in Path("/proc").glob("[0-9]*"):
             try:
-                marked = self._mark.encode() in (process / "environ").read_bytes().split(b"\0")
+                marked = f"{MARK}={self._mark}".encode() in (process / "environ").read_bytes()
             except OSError:
                 continue  # ended meanwhile, or another user's
             if marked and lives(process.name):

@@ -7,13 +7,13 @@ import subprocess
 
 @contextlib.contextmanager
 def virtual_screen(width, height):
-    """A virtual screen of so many pixels, on a display number that Xvfb finds; yields its name."""
+    """Yield the name of a virtual screen of so many pixels, on a display number that Xvfb finds."""
     read, write = os.pipe()
     # noreset: or it starts anew, and refuses for a moment, whenever its last client leaves.
     command = ["Xvfb", "-displayfd", str(write), "-noreset", "-nolisten", "tcp"]
     command += ["-screen", "0", f"{width}x{height}x24"]
     with subprocess.Popen(command, pass_fds=[write], stderr=subprocess.DEVNULL) as server:
         os.close(write)
-        with os.fdopen(read) as told:
-            yield f":{told.readline().strip()}"
+        with os.fdopen(read) as said:
+            yield f":{said.readline().strip()}"
         server.terminate()

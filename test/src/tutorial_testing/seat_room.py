@@ -1,5 +1,10 @@
 """A driver's seat and the pages around it: time is a number, and nothing waits."""
 
+import json
+from io import BytesIO
+from types import SimpleNamespace
+
+from cockpit_server.clients import Client
 from cockpit_server.seat import PAGE, Input, Seat
 
 ANNA, BOB = 1, 2
@@ -59,3 +64,20 @@ class Room:
         self.say(DRIVE)
         assert self.sent[-1] == ("ada", *DRIVE)
         self.sent.clear()
+
+
+def page(role="driver", number=7, **watch):
+    """(a Client that watches this, what it is sent as dicts)."""
+    sent = []
+    no = lambda: False  # noqa: E731  short
+    close = lambda: sent.append("closed")  # noqa: E731
+    hear = lambda text: sent.append(json.loads(text))  # noqa: E731
+    client = Client(number, role, "Firefox", hear, is_behind=no, is_cut=no, close=close)
+    client.watch = SimpleNamespace(**{"robots": False, "look": None, "bag": False, **watch})
+    return client, sent
+
+
+def serialised(message):
+    buffer = BytesIO()
+    message.serialize(buffer)
+    return buffer.getvalue()

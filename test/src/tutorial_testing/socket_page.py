@@ -14,10 +14,6 @@ from tutorial_testing.waiting import wait_for
 PERIOD_S = 0.05
 REST = ([0.0] * 6, [0] * 12)
 DRIVE = ([0.0, 1.0, 0.0, 0.0, 0.0, 0.0], [0, 0, 0, 0, 1] + [0] * 7)
-LOOK = {
-    "robots": False, "look": None, "graph": False, "topic": None, "node": None, "fields": [],
-    "field_list": False, "log": False, "bag": False,
-}  # fmt: skip
 
 
 class SocketPage:
@@ -89,7 +85,6 @@ class SocketPage:
             sent.add_done_callback(lambda done: done.exception())  # it may be closed meanwhile
 
     def input(self, axes, buttons):
-        """The next input, as a dict."""
         self._n += 1
         return {
             "kind": "input", "n": self._n, "t": 1000 * (time.monotonic() - self.delay_s),
@@ -98,32 +93,25 @@ class SocketPage:
         }  # fmt: skip
 
     def say(self, kind, **fields):
-        """Send a message."""
         self._loop.call_soon_threadsafe(self._write, {"kind": kind, **fields})
 
     def say_raw(self, data):
-        """Send anything."""
         self._loop.call_soon_threadsafe(self._write_text, data)
 
     def watch(self, **fields):
-        """Look at something."""
-        self.say("watch", **{**LOOK, **fields})
+        self.say("watch", **fields)
 
     def close(self):
-        """As a tab that is closed."""
         if self._socket:
             self._loop.call_soon_threadsafe(self._socket.close)
 
     def of(self, kind):
-        """All messages of a kind so far."""
         return [message for message in list(self.messages) if message["kind"] == kind]
 
     def wait_for(self, kind, fits=lambda message: True):
-        """The first message of a kind that fits."""
         return wait_for(lambda: next(filter(fits, self.of(kind)), None), f"message {kind}")
 
     def sit_down(self, robot=""):
-        """Take the seat, release all, until that was seen."""
         count = len(self.of("seat"))
         self.say("drive", robot=robot, mode="D")
         self.hand = REST

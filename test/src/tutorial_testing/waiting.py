@@ -10,9 +10,8 @@ BUSY_S = 2.0
 def wait_for(condition, what, deadline_s=DEADLINE_S):
     """Return the first true value of condition(); AssertionError naming `what` at the deadline.
 
-    It asks 100 times a second in the first second, then 20 times, as a question may be work for a
-    whole system, such as which nodes there are; one that is work here, such as what a screen shows,
-    for a sixth of the time.
+    It asks 100 times a second in the first second, then 20 times; and less often where a question
+    takes processor time here, so that it leaves five sixths of it.
     """
     begin = time.monotonic()
     while True:

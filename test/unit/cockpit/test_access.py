@@ -44,18 +44,8 @@ def test_the_origin_must_be_the_same():
     assert not HERE.may_connect(host, None)
 
 
-def test_a_rebound_name_with_its_own_origin_is_refused():
-    assert not HERE.may_connect("evil.example:8080", "http://evil.example:8080")
-    assert not LAN.may_connect("evil.example:8080", "http://evil.example:8080")
-
-
 def test_on_this_machine_everybody_drives():
     assert HERE.role(None) == HERE.role("x") == DRIVER
-
-
-def test_nobody_changes_who_may_do_what():
-    with pytest.raises(AttributeError, match="driver_token"):
-        HERE.driver_token = "x"
 
 
 def test_tokens_give_roles():

@@ -1,6 +1,5 @@
 """Recordings on pages: what is opened is what is shown and played."""
 
-import json
 import os
 import queue
 from math import inf, nan
@@ -11,16 +10,13 @@ import rosbag
 import rospy
 from sensor_msgs.msg import Joy
 
-from cockpit_server import bags, shelf
-from cockpit_server.access import DRIVER
-from cockpit_server.clients import Client
+from cockpit_server import bags, recording
 from cockpit_server.recording import RecordingError, curves, read
 from cockpit_server.seat import BAG, RefusedError
+from tutorial_testing.seat_room import page as new_page
 
 
 class Hub:
-    """The seat, and what is to be done soon."""
-
     def __init__(self):
         self.soon = queue.Queue().put
         self.wait = self.soon.__self__.get
@@ -34,20 +30,15 @@ class Hub:
 
 
 class Page:
-    """One page, and the Bags that it speaks to."""
-
     def __init__(self):
-        self.hub, self.sent = Hub(), []
+        self.hub = Hub()
         self.bags = bags.Bags(self.hub)
-        hear = lambda text: self.sent.append(json.loads(text))  # noqa: E731  short
-        no = lambda: False  # noqa: E731
-        self.client = Client(7, DRIVER, "x", hear, no, no, lambda: None)
+        self.client, self.sent = new_page()
 
     def say(self, kind, **fields):
-        self.bags.handlers[kind](self.client, 0.0, **fields)
+        getattr(self.bags, f"on_{kind}")(self.client, 0.0, **fields)
 
     def open(self, name):
-        """Ask for a recording; what is done once it is read."""
         self.say("bag_open", name=name)
         done = self.hub.wait(timeout=60)
 
@@ -87,7 +78,7 @@ def test_what_is_not_finite_is_left_out_of_curves(page):
 @pytest.mark.parametrize("broken", ["read", "encoded"])
 def test_what_cannot_be_shown_is_refused_and_not_opened(page, monkeypatch, broken):
     page.open("good.bag")()
-    monkeypatch.setattr(shelf, broken, lambda *_, **__: [].pop())
+    monkeypatch.setattr(recording, broken, lambda *_, **__: [].pop())
     page.open("odd.bag")()
     assert page.sent[-1]["kind"] == "refused"
     assert page.sent[-1]["why"].startswith("odd.bag: IndexError")
@@ -115,7 +106,7 @@ def test_a_page_opens_one_recording_at_a_time(page):
 
 def test_a_recording_is_read_once_for_all_pages(page, monkeypatch):
     read_so_far = []
-    monkeypatch.setattr(shelf, "read", lambda path: read_so_far.append(path.name) or read(path))
+    monkeypatch.setattr(recording, "read", lambda path: read_so_far.append(path.name) or read(path))
     for _ in range(3):
         for name in ("good.bag", "odd.bag"):
             page.open(name)()
@@ -123,7 +114,7 @@ def test_a_recording_is_read_once_for_all_pages(page, monkeypatch):
 
 
 def test_all_recordings_together_are_bounded(page, monkeypatch):
-    monkeypatch.setattr(shelf, "MOST_MESSAGES", 5)  # of 3 messages each there is room for one
+    monkeypatch.setattr(recording, "MOST_MESSAGES", 5)  # of 3 messages each there is room for one
     page.open("good.bag")()
     page.bags.prepare([page.client], 0.0)
     page.open("odd.bag")()
@@ -142,5 +133,5 @@ def test_what_is_no_file_is_refused_at_once_and_no_folder_is_named(tmp_path, mon
             read(tmp_path / name)
         assert str(error.value).startswith(f"{name}: ") and str(tmp_path) not in str(error.value)
     monkeypatch.chdir(tmp_path)
-    assert set(shelf.recordings(may_drive=True)) == {"joy.bag", "text.bag"}
-    assert set(shelf.recordings(may_drive=False)) == {"joy.bag"}  # nothing of this folder
+    assert set(recording.recordings(may_drive=True)) == {"joy.bag", "text.bag"}
+    assert set(recording.recordings(may_drive=False)) == {"joy.bag"}  # nothing of this folder

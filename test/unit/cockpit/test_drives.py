@@ -1,12 +1,10 @@
 """One truth about who drives and why a robot stands: what pages say in each situation."""
 
-import json
 from types import SimpleNamespace
 
 import pytest
 
 from cockpit_server.access import DRIVER, VIEWER
-from cockpit_server.clients import Client, Watch
 from cockpit_server.drives import (
     LOOKS_ONLY,
     NO_ROBOT,
@@ -19,7 +17,10 @@ from cockpit_server.drives import (
     ready,
     who,
 )
-from cockpit_server.seat import BAG, PAGE, Seat
+from cockpit_server.graph import Graph
+from cockpit_server.resets import Resets
+from cockpit_server.seat import BAG, PAGE, RefusedError, Seat
+from tutorial_testing.seat_room import page
 
 ANNA, BOB = 1, 2
 MOVING, ARMED, FREE = ({"state": s, "deadman": d} for s, d in
@@ -38,10 +39,10 @@ WHO = {
     "a joystick that has left": (About(said=MOVING), "A joystick drives ada."),
     "a joystick at rest": (
         About(said=ARMED, senders=PLAYS),
-        "Nobody drives. Registered as its joystick: /rosbag_play."),
+        "Nobody drives. Publishers of its joystick topic: /rosbag_play."),
     "without diagnostics": (About(senders=PLAYS, moves=True), "/rosbag_play drives ada."),
     "no joystick": (About(moves=True),
-        "No joystick drives ada, but it moves: the tab Graph shows what sends to it."),
+        "No joystick drives ada, but it moves: the tab Graph shows what moves it."),
     "it rolls out": (About(said=ARMED, moves=True), "Nobody drives."),
 }  # fmt: skip
 
@@ -54,6 +55,7 @@ def test_who_drives(case):
     assert (driver(about) == "") == said.startswith(("Nobody", "No joystick"))
 
 
+UNHEARD = "No node subscribes to /ada/joy: nothing moves before you start joy2twist for ada."
 READY = {
     "drives": (SEAT, "Hold LB, then move the stick."),
     "sits down": (SEAT._replace(armed=False), "Release LB and the stick first."),
@@ -67,26 +69,34 @@ READY = {
     "plays": (SEAT._replace(how=BAG, why=""), ""),
     "looks on": (About(said=ARMED), ""),
     "it stopped": (About(said=ARMED, why="the network is down"), "Stopped: the network is down."),
+    "without joy2twist": (SEAT._replace(is_heard=False, armed=False), UNHEARD),
+    "without joy2twist, looks on": (About(is_heard=False), UNHEARD),
+    "without joy2twist, stopped": (About(is_heard=False, why="it"), f"Stopped: it. {UNHEARD}"),
 }  # fmt: skip
 
 
 @pytest.mark.parametrize("case", READY)
 def test_why_it_stands_and_what_to_do(case):
     about, said = READY[case]
-    assert ready(about, ANNA, may_drive=True) == said
+    assert ready(about, "ada", ANNA, may_drive=True) == said
 
 
 def test_a_page_that_may_only_look_says_why():
-    assert ready(About(), ANNA, may_drive=False) == LOOKS_ONLY
+    assert ready(About(), "ada", ANNA, may_drive=False) == LOOKS_ONLY
     assert how_to(About(), ANNA, may_drive=False) == ""
-    stopped = ready(About(why="hidden"), ANNA, may_drive=False)
+    stopped = ready(About(why="hidden"), "ada", ANNA, may_drive=False)
     assert stopped == f"Stopped: hidden. {LOOKS_ONLY}"
 
 
 def test_how_to_drive_names_the_button_that_is_needed_and_no_other():
     assert how_to(SEAT, ANNA, True).startswith("Hold LB (a thumb, a gamepad's button, the key S")
     assert "Hold" not in how_to(SEAT._replace(said=FREE), ANNA, True)
-    for other in (SEAT._replace(how=BAG), SEAT._replace(driver=BOB), About(said=MOVING)):
+    for other in (
+        SEAT._replace(how=BAG),
+        SEAT._replace(is_heard=False),
+        SEAT._replace(driver=BOB),
+        About(said=MOVING),
+    ):
         assert how_to(other, ANNA, True) == ""
     other = SEAT._replace(said={"state": "armed", "deadman": "77"})
     assert "Hold button 77 " in how_to(other, ANNA, True)
@@ -95,21 +105,21 @@ def test_how_to_drive_names_the_button_that_is_needed_and_no_other():
 
 def test_a_refusal_is_not_called_a_stop():
     assert lost_text("hidden", keeps_seat=True) == "Stopped: hidden."
-    assert lost_text("it ended", keeps_seat=False) == "This page drives no longer: it ended."
+    assert lost_text("it ended", keeps_seat=False) == "This page no longer drives: it ended."
 
 
 class Room:
     """A seat, a joy2twist that reports, a graph, and a page that looks at the robot ada."""
 
     def __init__(self, role=DRIVER, robots=("ada",)):
-        self.sent, self.outdated, self.report, self.senders = [], [], ARMED, ()
-        hear, no = (lambda text: self.sent.append(json.loads(text))), (lambda: False)
-        self.client = Client(ANNA, role, "Firefox", hear, no, no, no)
-        self.client.watch = Watch(look="ada")
+        self.outdated, self.report, self.senders = [], ARMED, ()
+        self.client, self.sent = page(role, ANNA, look="ada")
         self.seat = Seat(lambda *_: None, lambda *_: None)
+        self.listeners = {"/joy2twist"}
         graphs = SimpleNamespace(
-            graph=SimpleNamespace(robots=lambda: robots), joysticks=lambda _: self.senders
-        )
+            graph=SimpleNamespace(robots=lambda: robots), joysticks=lambda _: self.senders,
+            joystick_listeners=lambda _: self.listeners,
+        )  # fmt: skip
         teleop = SimpleNamespace(newest=lambda _: self.report, outdate=self.outdated.append)
         self.drives = Drives(self, graphs, teleop, SimpleNamespace(moves=lambda *_: False))
 
@@ -142,6 +152,25 @@ def test_a_stop_is_old_once_a_recording_drives():
     assert room.look()["who"] == "/rosbag_play drives ada."
     room.report, room.senders = ARMED, ()
     assert (room.look()["who"], room.look()["ready"]) == ("Nobody drives.", "")
+
+
+def test_a_robot_without_joy2twist_is_said_to_stand():
+    room = Room()
+    room.listeners = set()
+    assert room.look()["ready"] == UNHEARD
+
+
+def test_a_robot_is_not_reset_while_a_node_drives_it():
+    room = Room()
+    graphs = SimpleNamespace(graph=Graph(services={"/ada/reset": {"/sim"}}))
+    resets = Resets(room, graphs, room.drives)
+    room.report, room.senders = MOVING, PLAYS
+    room.look()
+    with pytest.raises(RefusedError, match="/rosbag_play drives this robot: stop it"):
+        resets.on_reset(room.client, 0.0, "ada")
+    room.seat.take(BOB, "ada", PAGE, 0.0)
+    with pytest.raises(RefusedError, match="another page drives this robot"):
+        resets.on_reset(room.client, 0.0, "ada")
 
 
 def test_without_a_robot_a_page_says_so():

@@ -12,7 +12,6 @@ class Subscriber:
         self.topic = topic
 
     def unregister(self):
-        """rospy may fail here, too."""
         raise OSError("the master")
 
 

@@ -15,7 +15,6 @@ NOW = 1000.0
 
 
 def sample(monkeypatch, kind, message):
-    """(time, value) of the one sample of a topic /x."""
     monkeypatch.setattr(plots.rospy, "get_time", lambda: NOW)
     field = "/x/axes[0]" if kind == "sensor_msgs/Joy" else "/x/data"
     graph = Graph(publishers={"/x": {"/n"}}, types={"/x": kind})

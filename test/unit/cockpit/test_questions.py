@@ -74,13 +74,13 @@ def test_a_doctor_that_cannot_run_says_so_and_may_be_called_again(monkeypatch):
 
     monkeypatch.setattr(doctor.rospkg, "RosPack", [].pop)
     for _ in range(2):
-        one.handlers["doctor"](client, 0.0)
+        one.on_doctor(client, 0.0)
         wait_for(has_ended, "end of the doctor")
         assert [(line["level"], line["subject"]) for line in said["lines"]] == [("wrong", "doctor")]
         said.clear()
     client.drives, found = False, one._version
-    one.handlers["doctor"](client, one._ended_at + 1.0)  # who only looks gets what is known
+    one.on_doctor(client, one._ended_at + 1.0)  # who only looks gets what is known
     assert one._version == found and has_ended()
-    one.handlers["doctor"](client, one._ended_at + doctor.FRESH_S + 1.0)
+    one.on_doctor(client, one._ended_at + doctor.FRESH_S + 1.0)
     assert one._version > found
     wait_for(has_ended, "end of the doctor")

@@ -1,7 +1,5 @@
 """What pages are sent of robots and of their joysticks."""
 
-import json
-from io import BytesIO
 from math import inf
 from types import SimpleNamespace
 
@@ -9,27 +7,15 @@ from sensor_msgs.msg import Joy
 from std_msgs.msg import String
 
 from cockpit_server import robots as robots_module
-from cockpit_server.access import DRIVER
-from cockpit_server.clients import Client, Watch
 from cockpit_server.graph import JOY, ODOMETRY, Graph
+from cockpit_server.graph_view import LONGEST_MESSAGE, Topic
 from cockpit_server.robots import LONGEST_JOY, Pads, Robots, joy_shown
-from cockpit_server.topics import LONGEST_MESSAGE, Topic
+from tutorial_testing.seat_room import page, serialised
 
 
 class Feeds:
-    """Keeps what is wanted, in the place of subscriptions."""
-
     def want(self, _owner, hears, every):
         self.hears = hears
-
-
-def page(**watch):
-    """(Client that watches, what it is sent)."""
-    sent = []
-    no, close = lambda: False, lambda: None
-    one = Client(7, DRIVER, "x", lambda text: sent.append(json.loads(text)), no, no, close)
-    one.watch = Watch(**watch)
-    return one, sent
 
 
 def graph(*robots):
@@ -63,12 +49,6 @@ def test_who_does_not_look_at_robots_is_sent_none():
     robots.prepare([one], 0.0)
     robots.give(one, 0.0)
     assert sent == []
-
-
-def serialised(message):
-    buffer = BytesIO()
-    message.serialize(buffer)
-    return buffer.getvalue()
 
 
 def test_a_joystick_as_pages_get_it():

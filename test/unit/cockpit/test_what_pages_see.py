@@ -2,7 +2,6 @@
 
 import json
 import struct
-from io import BytesIO
 from math import inf, nan, pi
 
 import pytest
@@ -11,30 +10,19 @@ from geometry_msgs.msg import Quaternion
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Joy
 
-from cockpit_server.access import DRIVER, VIEWER
-from cockpit_server.clients import LONGEST_FLOOD, Client, encoded, name_of
+from cockpit_server.clients import LONGEST_FLOOD, encoded
 from cockpit_server.doctor import shown
 from cockpit_server.fields import numeric_fields, parts_of, split, value_at
 from cockpit_server.graph import Graph, without
+from cockpit_server.logs import without_folders
 from cockpit_server.motion import Motion, covered, motion
 from cockpit_server.plots import class_of, fields_of
-from cockpit_server.recording import RecordingError, corners, curves, read
+from cockpit_server.recording import corners, curves
 from cockpit_server.resets import reset_service
 from cockpit_server.robots import shown as robot_shown
 from cockpit_server.seat import RefusedError
 from cockpit_server.teleop import said
-
-
-def serialised(message):
-    buffer = BytesIO()
-    message.serialize(buffer)
-    return buffer.getvalue()
-
-
-def client(role=DRIVER):
-    sent = []
-    no, close = lambda: False, lambda: sent.append("closed")
-    return sent, Client(7, role, "x", sent.append, is_behind=no, is_cut=no, close=close)
+from tutorial_testing.seat_room import page, serialised
 
 
 def test_numbers_in_messages():
@@ -95,12 +83,6 @@ def test_the_motion_of_an_odometry():
 def test_the_way_covered(x, yaw, way):
     last = Motion(1.0 if x else 0.2, 0.0, yaw, 0.5, 0.0)
     assert covered(last, Motion(x, 0.0, yaw, 0.5, 0.0), 7.0) == pytest.approx(way)
-
-
-def test_the_way_covered_goes_on_after_nowhere():
-    nowhere, here = Motion(nan, 0.0, 0.5, 0.5, 0.0), Motion(1.0, 0.0, 0.5, 0.5, 0.0)
-    assert covered(nowhere, here, 7.0) == 7.0
-    assert covered(here, here._replace(x=1.5), 7.0) == 7.5  # LONGEST_STEP_M
 
 
 def test_a_place_that_is_none_is_left_out():
@@ -187,17 +169,13 @@ def test_curves_keep_their_corners():
     assert set(curves(joys)) == {"/joy/axes[0]", "/joy/axes[1]", "/joy/buttons[0]"}
 
 
-def test_a_recording_that_is_none(tmp_path):
-    (tmp_path / "x.bag").write_text("no bag")
-    for name in ("x.bag", "nothing.bag"):
-        with pytest.raises(RecordingError, match=name):
-            read(tmp_path / name)
-
-
-def test_names_of_pages():
-    agent = "Mozilla/5.0 (Linux; Android 14) AppleWebKit/537 Chrome/120 Safari/537"
-    assert name_of(agent, "10.0.0.5") == "Chromium on Android, 10.0.0.5"
-    assert name_of("", "::1") == "a program, ::1"
+@pytest.mark.parametrize(
+    ("text", "shown_text"),
+    [("in /home/ada/ws/x.bag", "in ./x.bag"), ("/home/ada/.ros/log", "~/.ros/log"),
+     ("/home/ada", "~"), ("/home/ada2/x /home/ada/ws-2", "/home/ada2/x ~/ws-2")],
+)  # fmt: skip
+def test_folders_of_the_server_are_not_shown(text, shown_text):
+    assert without_folders(text, "/home/ada", "/home/ada/ws") == shown_text
 
 
 def test_a_message_is_json_without_infinity():
@@ -206,19 +184,8 @@ def test_a_message_is_json_without_infinity():
         encoded("x", y=float("inf"))
 
 
-def test_a_client_gets_each_version_once():
-    _, one = client()
-    assert one.lacks("seat", 1) and not one.lacks("seat", 1) and one.lacks("seat", 2)
-
-
-def test_a_viewer_may_not_drive():
-    client(DRIVER)[1].must_drive()
-    with pytest.raises(RefusedError, match="only look"):
-        client(VIEWER)[1].must_drive()
-
-
 def test_a_flood_is_dropped_and_then_closed():
-    sent, one = client()
+    one, sent = page()
     taken = sum(one.allows(100.0) for _ in range(LONGEST_FLOOD))
     assert taken < 300 and sent == []
     while not sent:
@@ -227,7 +194,7 @@ def test_a_flood_is_dropped_and_then_closed():
 
 
 def test_refusals_are_told_but_not_without_end():
-    sent, one = client()
+    one, sent = page()
     for _ in range(1000):
         one.refuse("drive", "no", 100.0)
     assert 0 < len(sent) <= 10

@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 
 from fake_turtlebot_sim.simulator.differential_drive import (
     arc,
-    arcs,
     drive,
     ramp,
     wheel_rates,
@@ -187,43 +186,3 @@ def test_a_ramp_is_the_limit_of_many_short_arcs():
         share = (k + 0.5) / steps
         pose = arc(pose, (0.6 - 0.8 * share, -1.0 + 3.0 * share), dt / steps)
     assert ramp(ORIGIN, (0.6, -1.0), (-0.2, 2.0), dt) == pytest.approx(pose, abs=1e-9)
-
-
-@given(st.lists(st.tuples(POSE, VELOCITY), min_size=1, max_size=20))
-def test_many_robots_at_once_are_the_same_as_one_by_one(robots):
-    poses, velocities = (np.array(part).T.copy() for part in zip(*robots))
-    arcs(poses, velocities, 0.7)
-    for (pose, velocity), together in zip(robots, poses.T):
-        alone = arc(pose, velocity, 0.7)
-        assert together[:2] == pytest.approx(alone[:2], abs=1e-13)
-        assert wrap_angle(together[2] - alone[2]) == pytest.approx(0, abs=1e-13)
-        assert -pi < together[2] <= pi
-
-
-def test_many_robots_that_stand_turn_and_drive_straight_at_once():
-    velocities = [(0.5, 0.0), (0.5, 2.0), (0.5, -2.0), (0.0, 2.0), (0.0, 0.0), (-0.5, 0.0)]
-    poses = np.full((3, len(velocities)), 0.25)
-    arcs(poses, np.array(velocities).T, 1.0)
-    for velocity, together in zip(velocities, poses.T):
-        assert together == pytest.approx(arc((0.25, 0.25, 0.25), velocity, 1.0), abs=1e-15)
-
-
-def test_half_a_turn_is_pi_for_many_at_once_too():
-    yaws = [-pi, pi, 3.0, -3.0, 0.0]
-    poses = np.array([[0.0] * 5, [0.0] * 5, yaws])
-    arcs(poses, np.zeros((2, 5)), 1.0)
-    assert poses[2].tolist() == [pi, pi, 3.0, -3.0, 0.0]
-
-
-def test_turns_of_many_at_once_may_be_more_than_one():
-    poses = np.zeros((3, 4))
-    arcs(poses, np.array([[0.0] * 4, [7.0, -7.0, 20.0, -20.0]]), 1.0)
-    expected = (7.0 - tau, tau - 7.0, 20.0 - 3 * tau, 3 * tau - 20.0)
-    assert poses[2] == pytest.approx(expected, rel=0, abs=1e-14)
-
-
-@pytest.mark.parametrize("turns", [8.5, 9.5, -8.5, -9.5])
-def test_no_rounding_after_many_turns_leads_out_of_the_circle(turns):
-    poses = np.array([[0.0], [0.0], [turns * tau]])
-    arcs(poses, np.zeros((2, 1)), 1.0)
-    assert poses[2, 0] == pi

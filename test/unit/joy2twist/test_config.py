@@ -5,9 +5,9 @@ from pathlib import Path
 import pytest
 import yaml
 
-from joy_to_twist.limits import ZERO
 from joy_to_twist.parameters import load
 from joy_to_twist.teleoperation import Teleoperation
+from node_kit.arming import ZERO
 
 CONFIG = Path(__file__).parents[3] / "joy2twist" / "config"
 PRESETS = {path.stem: yaml.safe_load(path.read_text()) for path in sorted(CONFIG.glob("*.yaml"))}
@@ -43,6 +43,6 @@ def test_preset(name):
     assert joy([dead_man]) == pytest.approx((0.35, 0, 0, 0, 0, 0.6))
     assert joy([turbo]) == pytest.approx((0.7, 0, 0, 0, 0, 1.0))
     assert joy([]) == ZERO
-    # What no stick says: the robot is told no more than the fastest of the preset.
+    # Beyond any stick: no faster than the fastest of the preset.
     assert joy([dead_man], -465.0) == pytest.approx((-0.7, 0, 0, 0, 0, -2.0))
     assert warnings == []  # the number of axes is as expected

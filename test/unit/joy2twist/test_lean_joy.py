@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 Joy = pytest.importorskip("sensor_msgs.msg", reason="no ROS for this Python: ./tutorial setup").Joy
-from joy_to_twist.lean_joy import LeanJoy  # noqa: E402  needs sensor_msgs
+from joy_to_twist.node import LeanJoy  # noqa: E402  needs sensor_msgs
 
 uint32 = st.integers(0, 2**32 - 1)
 

@@ -1,10 +1,14 @@
 """From axes and buttons to a velocity, held against the C++ node teleop_twist_joy."""
 
-import pytest
+import math
 
-from joy_to_twist.limits import ZERO
-from joy_to_twist.mapping import BadJoyError, Mapping
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from joy_to_twist.mapping import BadJoyError, Mapping, approach, limit_speed
 from joy_to_twist.parameters import load
+from node_kit.arming import ZERO
 
 AXES = (0.3, 0.4, 0.5, 0.6, 0.7, 0.8)
 PAD = {"enable_button": 0, "enable_turbo_button": 1}
@@ -25,90 +29,42 @@ SIX_AXES = {
 }
 
 
+NOT_REQUIRED = {**DIFFERENTIAL, "require_enable_button": False}
+TURBO = {"enable_turbo_button": 0, "require_enable_button": True}
+TURBO_MAP = {**HOLONOMIC, "enable_turbo_button": 1, "scale_linear_turbo": {"x": 2.0, "y": 8.0}}
+CAR = {"inverted_reverse": True}
+
+
 @pytest.mark.parametrize(
-    ("given", "axes", "buttons", "expected"),
+    ("about", "given", "axes", "buttons", "expected"),
     [
-        pytest.param({}, AXES[:2], (), (0.4, 0, 0, 0, 0, 0.3), id="tutorial"),
-        pytest.param(DIFFERENTIAL, AXES, (1, 0), (0.4, 0, 0, 0, 0, 0.9), id="differential"),
-        pytest.param(HOLONOMIC, AXES, (1,), (0.4, 2.0, 0, 0, 0, 0.9), id="holonomic"),
-        pytest.param(SIX_AXES, AXES, (1,), (0.4, 2.0, 1.2, 2.1, 1.6, 0.3), id="six axes"),
-        pytest.param(DIFFERENTIAL, AXES, (0, 0), None, id="not enabled"),
-        pytest.param(DIFFERENTIAL, AXES, (0, 1), (0.8, 0, 0, 0, 0, 0.9), id="only turbo"),
-        pytest.param(DIFFERENTIAL, AXES, (1, 1), (0.8, 0, 0, 0, 0, 0.9), id="turbo over enable"),
-        pytest.param(
-            {**DIFFERENTIAL, "scale_angular_turbo": 5.0},
-            AXES,
-            (0, 1),
-            (0.8, 0, 0, 0, 0, 1.5),
-            id="angular turbo",
-        ),
-        pytest.param(
-            {"enable_button": 0, "scale_linear": 0.5, "enable_turbo_button": 1},
-            AXES,
-            (0, 1),
-            (0.4, 0, 0, 0, 0, 0.3),
-            id="turbo is 1 unless given",
-        ),
-        pytest.param(
-            {**HOLONOMIC, "enable_turbo_button": 1, "scale_linear_turbo": {"x": 2.0, "y": 8.0}},
-            AXES,
-            (0, 1),
-            (0.8, 4.0, 0, 0, 0, 0.9),
-            id="turbo from a map",
-        ),
-        pytest.param(
-            {**DIFFERENTIAL, "require_enable_button": False},
-            AXES,
-            (0, 0),
-            (0.4, 0, 0, 0, 0, 0.9),
-            id="enable not required",
-        ),
-        pytest.param(
-            {**DIFFERENTIAL, "require_enable_button": False},
-            AXES,
-            (0, 1),
-            (0.8, 0, 0, 0, 0, 0.9),
-            id="enable not required, turbo",
-        ),
-        pytest.param(
-            {"enable_turbo_button": 1, "require_enable_button": True},
-            AXES,
-            (1, 0),
-            None,
-            id="turbo is the only dead-man",
-        ),
-        pytest.param(
-            {"enable_turbo_button": 0, "require_enable_button": True},
-            AXES,
-            (1, 0),
-            (0.4, 0, 0, 0, 0, 0.3),
-            id="turbo is button 0",
-        ),
-        pytest.param(
-            {"enable_turbo_button": 0, "require_enable_button": True},
-            AXES,
-            (0, 1),
-            None,
-            id="and no other drives, as the last does not",
-        ),
-        pytest.param({}, (0.3, -0.4), (), (-0.4, 0, 0, 0, 0, 0.3), id="reverse"),
-        pytest.param(
-            {"inverted_reverse": True}, (0.3, 0.4), (), (0.4, 0, 0, 0, 0, 0.3), id="forward"
-        ),
-        pytest.param(
-            {"inverted_reverse": True}, (0.3, 0.0), (), (0, 0, 0, 0, 0, 0.3), id="on the spot"
-        ),
-        pytest.param(
-            {"inverted_reverse": True}, (0.3, -0.4), (), (-0.4, 0, 0, 0, 0, -0.3), id="like a car"
-        ),
-        pytest.param(
-            {"axis_linear": -1}, (0.5, 0.4), (), (0, 0, 0, 0, 0, 0.5), id="no linear axis"
-        ),
+        ("tutorial", {}, AXES[:2], (), (0.4, 0, 0, 0, 0, 0.3)),
+        ("differential", DIFFERENTIAL, AXES, (1, 0), (0.4, 0, 0, 0, 0, 0.9)),
+        ("holonomic", HOLONOMIC, AXES, (1,), (0.4, 2.0, 0, 0, 0, 0.9)),
+        ("six axes", SIX_AXES, AXES, (1,), (0.4, 2.0, 1.2, 2.1, 1.6, 0.3)),
+        ("not enabled", DIFFERENTIAL, AXES, (0, 0), None),
+        ("only turbo", DIFFERENTIAL, AXES, (0, 1), (0.8, 0, 0, 0, 0, 0.9)),
+        ("turbo over enable", DIFFERENTIAL, AXES, (1, 1), (0.8, 0, 0, 0, 0, 0.9)),
+        ("angular turbo", {**DIFFERENTIAL, "scale_angular_turbo": 5.0}, AXES, (0, 1),
+         (0.8, 0, 0, 0, 0, 1.5)),
+        ("turbo is 1 unless given", {**PAD, "scale_linear": 0.5}, AXES, (0, 1),
+         (0.4, 0, 0, 0, 0, 0.3)),
+        ("turbo from a map", TURBO_MAP, AXES, (0, 1), (0.8, 4.0, 0, 0, 0, 0.9)),
+        ("enable not required", NOT_REQUIRED, AXES, (0, 0), (0.4, 0, 0, 0, 0, 0.9)),
+        ("enable not required, turbo", NOT_REQUIRED, AXES, (0, 1), (0.8, 0, 0, 0, 0, 0.9)),
+        ("turbo is the only dead-man, and button 0", TURBO, AXES, (1, 0), (0.4, 0, 0, 0, 0, 0.3)),
+        ("no other button drives then", TURBO, AXES, (0, 1), None),
+        ("reverse", {}, (0.3, -0.4), (), (-0.4, 0, 0, 0, 0, 0.3)),
+        ("forward", CAR, (0.3, 0.4), (), (0.4, 0, 0, 0, 0, 0.3)),
+        ("on the spot", CAR, (0.3, 0.0), (), (0, 0, 0, 0, 0, 0.3)),
+        ("like a car", CAR, (0.3, -0.4), (), (-0.4, 0, 0, 0, 0, -0.3)),
+        ("no linear axis", {"axis_linear": -1}, (0.5, 0.4), (), (0, 0, 0, 0, 0, 0.5)),
+        ("no axis at all", {"axis_linear": -1, "axis_angular": -1}, (), (), ZERO),
     ],
-)
-def test_velocity(given, axes, buttons, expected):
+)  # fmt: skip
+def test_velocity(about, given, axes, buttons, expected):
     velocity = Mapping(load(given)).velocity(axes, buttons)
-    assert velocity == (None if expected is None else pytest.approx(expected))
+    assert velocity == (None if expected is None else pytest.approx(expected)), about
 
 
 def test_speed_limits_hold_for_the_length_of_the_vector():
@@ -177,40 +133,58 @@ def test_the_stop_button_counts_in_a_message_that_is_cut_and_wins_over_reset():
     assert not Mapping(load({})).stops((1, 1, 1))
 
 
-def test_the_mapping_in_words():
-    assert Mapping(load({})).describe() == [
-        "axis 1 -> linear.x at 1 m/s; no dead-man button",
-        "axis 0 -> angular.z at 1 rad/s; no dead-man button",
-    ]
-    given = {"scale_linear": 0.7, "axis_angular": -1, "enable_button": 4}
-    assert Mapping(load(given)).describe() == ["axis 1 -> linear.x at 0.7 m/s; hold button 4"]
-    given["enable_turbo_button"] = 5
-    assert Mapping(load(given)).describe() == [
-        "axis 1 -> linear.x at 0.7 m/s (turbo: 1 m/s); hold button 4, or 5 for turbo"
-    ]
-    given["require_enable_button"] = False
-    assert Mapping(load(given)).describe()[0].endswith("; hold button 5 for turbo")
-    given.update(require_enable_button=True, enable_button=-1)
-    assert Mapping(load(given)).describe()[0].endswith("; hold button 5 for turbo")
-    assert "no axis drives" in Mapping(load({"axis_linear": -1, "axis_angular": -1})).describe()[0]
-
-
 @pytest.mark.parametrize(
-    ("given", "words"),
+    ("given", "line"),
     [
-        ({"enable_turbo_button": 0, "require_enable_button": False}, "; hold button 0 for turbo"),
-        ({"enable_turbo_button": 0, "require_enable_button": True}, "; hold button 0 for turbo"),
-        ({"enable_button": 0}, "; hold button 0"),
-        (
-            {"enable_button": 1, "enable_turbo_button": 0},
-            "(turbo: 1 m/s); hold button 1, or 0",
-        ),
+        ({}, "axis 1 -> linear.x at 1 m/s; no dead-man button"),
+        ({"axis_linear": -1}, "axis 0 -> angular.z at 1 rad/s; no dead-man button"),
+        ({"enable_button": 0}, "axis 1 -> linear.x at 1 m/s; hold button 0"),
+        ({"enable_button": 4, "enable_turbo_button": 5, "scale_linear": 0.7},
+         "axis 1 -> linear.x at 0.7 m/s (turbo: 1 m/s); hold button 4, or 5 for turbo"),
+        ({**NOT_REQUIRED, "enable_button": 4},
+         "axis 1 -> linear.x at 1 m/s (turbo: 2 m/s); hold button 1 for turbo"),
+        (TURBO, "axis 1 -> linear.x at 1 m/s (turbo: 1 m/s); hold button 0 for turbo"),
+        ({"axis_linear": -1, "axis_angular": -1},
+         "no axis drives the robot: ~axis_linear and ~axis_angular are -1"),
     ],
-)
-def test_button_0_is_a_button(given, words):
-    assert words in Mapping(load(given)).describe()[0]
+)  # fmt: skip
+def test_the_mapping_in_words(given, line):
+    assert Mapping(load(given)).describe()[0] == line
 
 
-def test_where_no_axis_drives_none_is_asked_for():
-    mapping = Mapping(load({"axis_linear": -1, "axis_angular": -1}))
-    assert mapping.velocity((), ()) == ZERO
+def test_the_stop_and_the_vigilance_in_words():
+    given = {
+        "enable_button": 4, "stop_button": 1, "stop_reset_button": 2, "arm_on_neutral": True,
+        "vigilance_timeout": 3.0,
+    }  # fmt: skip
+    assert Mapping(load(given)).describe()[2:] == [
+        "button 1 stops, until button 2",
+        "no change of the joystick for 3 s stops the robot",
+    ]
+
+
+velocities = st.tuples(*[st.floats(-1e9, 1e9)] * 6)
+
+
+@given(velocities, st.floats(1e-3, 1e3), st.floats(1e-3, 1e3))
+def test_limited_speed_is_within_the_limits_and_keeps_its_direction(velocity, linear, angular):
+    limited = limit_speed(velocity, linear, angular)
+    for part, limit in ((slice(3), linear), (slice(3, 6), angular)):
+        length, before = math.hypot(*limited[part]), math.hypot(*velocity[part])
+        assert length <= limit * (1 + 1e-12)
+        assert before <= limit or length == pytest.approx(limit)
+        for now, wanted in zip(limited[part], velocity[part]):
+            assert now * before == pytest.approx(wanted * length, rel=1e-9)
+
+
+def test_a_step_changes_by_no_more_than_allowed():
+    assert approach(ZERO, (1.0, 0, 0, 0, 0, 2.0), 0.1, 0.5) == pytest.approx((0.1, 0, 0, 0, 0, 0.5))
+    assert approach((-0.3, 0, 0, 0, 0, 0), ZERO, 0.2, 0.2) == pytest.approx((-0.1, 0, 0, 0, 0, 0))
+
+
+@given(st.tuples(*[st.floats(-2, 2)] * 6), st.tuples(*[st.floats(-2, 2)] * 6))
+def test_the_target_is_reached_exactly_in_the_time_it_takes(start, target):
+    velocity = start
+    for _ in range(80):  # at most 2 * sqrt(3) * 2 apart, 0.1 a step
+        velocity = approach(velocity, target, 0.1, 0.1)
+    assert velocity == target

@@ -65,91 +65,62 @@ def test_a_named_enable_button_is_required_unless_said_otherwise(given, required
 @pytest.mark.parametrize(
     ("given", "words"),
     [
-        ({"axis_linear": "foo"}, ["~axis_linear", "'foo'", "number"]),
-        ({"vigilance_timeout": 3.0}, ["~vigilance_timeout: 3: needs ~arm_on_neutral: true"]),
-        ({"vigilance_timeout": 0.3, "arm_on_neutral": True}, ["from 1 to 60 s, or 0 for off"]),
-        ({"vigilance_timeout": False}, ["~vigilance_timeout", "False"]),
-        ({"stop_button": 1}, ["~stop_button: 1: needs ~stop_reset_button"]),
-        ({"stop_reset_button": 1}, ["~stop_reset_button: 1: needs ~stop_button"]),
-        ({"stop_button": 1, "stop_reset_button": 1}, ["other than ~stop_button"]),
-        ({"stop_button": 4, "stop_reset_button": 1, "enable_button": 4}, ["than ~enable_button"]),
-        ({"axis_curve": 0.5}, ["~axis_curve", "from 1 to 5"]),
-        ({"axis_curve": "soft"}, ["~axis_curve", "'soft'"]),
-        ({"axis_linear": 1.5}, ["~axis_linear", "1.5"]),
-        ({"axis_linear": True}, ["~axis_linear", "True"]),
-        ({"axis_linear": -2}, ["~axis_linear", "-2", "-1 for none"]),
-        ({"axis_linear": {}}, ["~axis_linear", "{}", "x, y, z"]),
-        ({"axis_linear": {"yaw": 1}}, ["~axis_linear", "yaw", "x, y, z"]),
-        ({"axis_angular": {"x": 1}}, ["~axis_angular", "roll, pitch, yaw"]),
-        ({"axis_angular": [0]}, ["~axis_angular", "[0]"]),
-        ({"scale_linear": "fast"}, ["~scale_linear", "'fast'", "from -100 to 100"]),
-        ({"scale_angular_turbo": -1e6}, ["~scale_angular_turbo", "from -100 to 100"]),
-        ({"scale_linear": 100.5}, ["~scale_linear", "100.5"]),
-        ({"scale_linear": {"x": 1.0, "y": "fast"}}, ["~scale_linear", "'fast'", "x, y, z"]),
-        ({"axis_linear": {"x": 1, "y": None}}, ["~axis_linear", "None", "x, y, z"]),
-        ({"scale_linear": -101}, ["~scale_linear", "-101", "from -100 to 100"]),
-        ({"scale_angular": float("nan")}, ["~scale_angular", "nan"]),
-        (
-            {"axis_linear": {"x": 1, "y": 0}, "scale_linear": {"x": 1.0}},
-            ["~scale_linear", "{'x': 1.0}", "y"],
-        ),
-        ({"enable_button": 1.0}, ["~enable_button", "1.0", "button number"]),
-        ({"enable_button": -2}, ["~enable_button", "-2"]),
-        ({"enable_button": 3, "enable_turbo_button": 3}, ["~enable_turbo_button", "3", "other"]),
-        ({"require_enable_button": True}, ["~require_enable_button", "~enable_button"]),
-        ({"require_enable_button": 1}, ["~require_enable_button", "true or false"]),
-        ({"arm_on_neutral": "yes"}, ["~arm_on_neutral", "'yes'", "true or false"]),
-        ({"joy_timeout": -0.1}, ["~joy_timeout", "-0.1", "0 to 60 s"]),
-        ({"joy_timeout": float("inf")}, ["~joy_timeout", "inf"]),
-        ({"joy_timeout": False}, ["~joy_timeout", "False"]),
-        ({"max_joy_age": "1 s"}, ["~max_joy_age", "'1 s'"]),
-        ({"output_rate": 0}, ["~output_rate", "0", "Hz"]),
-        ({"stop_messages": 0}, ["~stop_messages", "0", "1 to 100"]),
-        ({"stop_messages": 101}, ["~stop_messages", "101", "1 to 100"]),
-        ({"stop_messages": 2.5}, ["~stop_messages", "2.5", "whole number"]),
-        ({"output_rate": 0.5}, ["~output_rate", "0.5", "1 to 1000 Hz"]),
-        ({"joy_timeout": 61}, ["~joy_timeout", "61", "0 to 60 s"]),
-        ({"max_joy_age": -0.1}, ["~max_joy_age", "-0.1", "0 to 60 s"]),
-        ({"max_linear_speed": -1}, ["~max_linear_speed", "-1", "0 to 1000 m/s (0: no limit)"]),
-        ({"max_linear_speed": -0.5}, ["~max_linear_speed", "-0.5"]),
-        ({"max_angular_speed": -0.5}, ["~max_angular_speed", "-0.5", "0 to 1000 rad/s"]),
-        ({"max_linear_acceleration": -0.5}, ["~max_linear_acceleration", "0 to 1000 m/s2"]),
-        ({"max_angular_acceleration": 1001}, ["~max_angular_acceleration", "0 to 1000 rad/s2"]),
-        ({"diagnostic_period": 0}, ["~diagnostic_period", "0.1 to 60 s"]),
-        ({"gamepad_axes": -2}, ["~gamepad_axes", "-2", "or -1 for any"]),
-        ({"max_angular_acceleration": None}, ["~max_angular_acceleration", "None"]),
-        ({"log_rate": -0.5}, ["~log_rate", "-0.5", "0 to 1000 lines a second"]),
-        ({"log_rate": 1000.5}, ["~log_rate", "1000.5", "0 to 1000 lines a second"]),
-        ({"gamepad_axes": "six"}, ["~gamepad_axes", "'six'"]),
-        ({"axis_liner": 1}, ["~axis_liner", "axis_linear"]),
+        ({"axis_linear": "foo"}, "~axis_linear: 'foo': must be a number (an axis number, -1 for"),
+        ({"axis_linear": 1.5}, "~axis_linear: 1.5: must be"),
+        ({"axis_linear": True}, "~axis_linear: True: must be"),
+        ({"axis_linear": -2}, "~axis_linear: -2: must be"),
+        ({"axis_linear": {}}, "or a map from x, y, z to such"),
+        ({"axis_linear": {"yaw": 1}}, "~axis_linear: {'yaw': 1}: must be"),
+        ({"axis_linear": {"x": 1, "y": None}}, "~axis_linear: {'x': 1, 'y': None}: must be"),
+        ({"axis_angular": {"x": 1}}, "or a map from roll, pitch, yaw to such"),
+        ({"axis_angular": [0]}, "~axis_angular: [0]: must be"),
+        ({"scale_linear": "fast"}, "~scale_linear: 'fast': must be a number (from -100 to 100"),
+        ({"scale_linear": 100.5}, "~scale_linear: 100.5: must be"),
+        ({"scale_linear": -101}, "~scale_linear: -101: must be"),
+        ({"scale_linear": {"x": 1.0, "y": "fast"}}, "~scale_linear: {'x': 1.0, 'y': 'fast'}: must"),
+        ({"scale_angular": float("nan")}, "~scale_angular: nan: must be"),
+        ({"scale_angular_turbo": -1e6}, "~scale_angular_turbo: -1000000.0: must be"),
+        ({"axis_linear": {"x": 1, "y": 0}, "scale_linear": {"x": 1.0}}, "a map that has y too"),
+        ({"vigilance_timeout": 3.0}, "~vigilance_timeout: 3: needs ~arm_on_neutral: true"),
+        ({"vigilance_timeout": 0.3, "arm_on_neutral": True}, "from 1 to 60 s, or 0 for off"),
+        ({"stop_button": 1}, "~stop_button: 1: needs ~stop_reset_button"),
+        ({"stop_reset_button": 1}, "~stop_reset_button: 1: needs ~stop_button"),
+        ({"stop_button": 1, "stop_reset_button": 1}, "must be a button other than ~stop_button"),
+        ({"stop_button": 4, "stop_reset_button": 1, "enable_button": 4}, "than ~enable_button"),
+        ({"enable_button": 3, "enable_turbo_button": 3}, "~enable_turbo_button: 3: must be"),
+        ({"enable_button": 1.0}, "~enable_button: 1.0: must be a button number"),
+        ({"enable_button": -2}, "~enable_button: -2: must be"),
+        ({"require_enable_button": True}, "without ~enable_button and ~enable_turbo_button"),
+        ({"gamepad_axes": -2}, "~gamepad_axes: -2: must be the number of axes"),
+        ({"axis_liner": 1}, "did you mean ~axis_linear?"),
     ],
 )
 def test_an_error_names_parameter_value_and_what_is_allowed(given, words):
     with pytest.raises(ValueError, match="~") as error:
         load(given)
-    text = str(error.value)
-    assert "\n" not in text
-    for word in words:
-        assert word in text
+    assert words in str(error.value)
+    assert "\n" not in str(error.value)
 
 
-def test_the_least_and_the_most_are_allowed():
-    least = {
-        "stop_messages": 1, "output_rate": 1, "joy_timeout": 0, "diagnostic_period": 0.1,
-        "log_rate": 0, "gamepad_axes": -1,
-    }  # fmt: skip
-    most = {
-        "stop_messages": 100, "output_rate": 1000, "joy_timeout": 60, "diagnostic_period": 60,
-        "log_rate": 1000,
-    }  # fmt: skip
-    for given in (least, most):
-        p = load(given)
-        assert {name: getattr(p, name) for name in given} == given
-    assert load({"scale_linear": -100, "scale_angular": 100}).axes[0].scale == -100
-    assert load({"axis_linear": -1, "axis_angular": 0}).axes == (Axis(YAW, 0, 1.0, 1.0),)
+# What is allowed at least and at most; a step beyond is refused.
+BOUNDS = {
+    "axis_curve": (1, 5), "joy_timeout": (0, 60), "max_joy_age": (0, 60), "stop_messages": (1, 100),
+    "output_rate": (1, 1000), "max_linear_speed": (0, 1000), "max_angular_speed": (0, 1000),
+    "max_linear_acceleration": (0, 1000), "max_angular_acceleration": (0, 1000),
+    "log_rate": (0, 1000), "diagnostic_period": (0.1, 60), "scale_linear": (-100, 100),
+}  # fmt: skip
 
 
-def test_nobody_changes_what_was_checked():
+@pytest.mark.parametrize("name", BOUNDS)
+def test_the_least_and_the_most_are_allowed_and_no_more(name):
+    least, most = BOUNDS[name]
+    assert [getattr(load({name: value}), name) for value in (least, most)] == [least, most]
+    for value in (least - 0.5, most + 0.5, None, "1", False):
+        with pytest.raises(ValueError, match=rf"^~{name}: {value!r}: must be a .*number"):
+            load({name: value})
+
+
+def test_what_was_checked_cannot_be_changed():
     parameters = load({})
     for thing, name in ((parameters, "joy_timeout"), (parameters.axes[0], "scale")):
         with pytest.raises(FrozenInstanceError):

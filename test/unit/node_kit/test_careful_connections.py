@@ -37,7 +37,7 @@ def read(monkeypatch):
     return read
 
 
-def test_who_goes_on_so_is_named_once_a_second(read):
+def test_a_sender_of_them_is_reported_once_a_second(read):
     for number in range(25):
         lines, messages = read(LIES, 0.1 * number)
         assert messages is None
@@ -64,7 +64,7 @@ def test_one_publisher_is_connected_to_by_one_thread_at_a_time(monkeypatch):
         with counting:
             now[topic, uri] = now.get((topic, uri), 0) + 1
             most[topic, uri] = max(most.get((topic, uri), 0), now[topic, uri])
-        if first.acquire(blocking=False):  # the others get by, whoever waits for his turn
+        if first.acquire(blocking=False):  # the others get by
             others.wait(30)
         with counting:
             now[topic, uri] -= 1
@@ -86,4 +86,4 @@ def test_one_publisher_is_connected_to_by_one_thread_at_a_time(monkeypatch):
         thread.join()
     assert sorted(answers) == sorted(calls)
     assert set(most.values()) == {1}
-    assert not careful_connections._turns  # nothing is kept of who has gone
+    assert not careful_connections._turns  # no lock is kept

@@ -1,4 +1,4 @@
-"""Who is told to end because another node has its name: does it have its name still?"""
+"""A node is asked to end because another one has its name: does it still have its name?"""
 
 from types import SimpleNamespace
 
@@ -15,7 +15,7 @@ STATE = [["/cmd_vel", ["/robot"]], ["/rosout", ["/mux", "/robot"]]], [["/joy", [
 
 @pytest.fixture
 def answers(monkeypatch):
-    """What the master answers; the node /robot has the topics of STATE."""
+    """Change what the master answers; the node /robot has the topics of STATE."""
     given = {"lookupNode": (Answer.WELL, OWN), "getSystemState": (Answer.WELL, STATE)}
     topics = SimpleNamespace(
         get_publications=lambda: [["/cmd_vel", "Twist"], ["/rosout", "Log"]],
@@ -30,35 +30,26 @@ def answers(monkeypatch):
     return given
 
 
-def told(name="/robot", reason=REASON):
-    return ending._end_if_meant(None, "/master", reason.format(name)) == "ended"
+TOPIC_LOST = (Answer.WELL, (STATE[0], [["/joy", ["/other"]]], []))
+SILENT = (Answer.SILENT, None)
 
 
-def test_whoever_is_not_replaced_stays(answers):
-    assert not told()
-
-
-def test_whoever_is_replaced_ends(answers):
-    answers["lookupNode"] = (Answer.WELL, ANOTHER)
-    assert told()
-
-
-def test_who_lost_a_topic_to_one_of_its_name_ends_though_the_name_came_back(answers):
-    answers["getSystemState"] = (Answer.WELL, (STATE[0], [["/joy", ["/other"]]], []))
-    assert told()
-
-
-@pytest.mark.parametrize("method", ["lookupNode", "getSystemState"])
-def test_whose_master_does_not_answer_ends(answers, method):
-    answers[method] = (Answer.SILENT, None)
-    assert told()
-
-
-def test_whoever_is_taken_for_another_stays_without_asking(answers):
-    answers["lookupNode"] = answers["getSystemState"] = (Answer.SILENT, None)
-    assert not told("/died")
-
-
-@pytest.mark.parametrize("reason", ["user request", ""])
-def test_any_other_reason_is_obeyed(answers, reason):
-    assert told(reason=reason)
+@pytest.mark.parametrize(
+    ("about", "changed", "name", "reason", "ends"),
+    [
+        ("the master knows it as before", {}, "/robot", REASON, False),
+        ("it is replaced", {"lookupNode": (Answer.WELL, ANOTHER)}, "/robot", REASON, True),
+        ("the name came back, a topic did not", {"getSystemState": TOPIC_LOST}, "/robot", REASON,
+         True),
+        ("no answer", {"lookupNode": SILENT}, "/robot", REASON, True),
+        ("no second answer", {"getSystemState": SILENT}, "/robot", REASON, True),
+        ("taken for another: nothing is asked", {"lookupNode": SILENT, "getSystemState": SILENT},
+         "/died", REASON, False),
+        ("another reason", {}, "", "user request", True),
+        ("no reason", {}, "", "", True),
+    ],
+)  # fmt: skip
+def test_a_node_ends_only_if_it_is_meant(answers, about, changed, name, reason, ends):
+    answers.update(changed)
+    ended = ending._end_if_meant(None, "/master", reason.format(name)) == "ended"
+    assert ended is ends, about

@@ -1,4 +1,4 @@
-"""Who holds a name, asked of a master and of nodes that this test plays."""
+"""Which node holds a name, asked of a master and of nodes that this test plays."""
 
 import socket
 import threading
@@ -6,9 +6,8 @@ from xmlrpc.server import SimpleXMLRPCRequestHandler, SimpleXMLRPCServer
 
 import pytest
 
-from node_kit import names
-from node_kit.names import holder
-from node_kit.questions import Answer, call
+from node_kit import questions
+from node_kit.questions import Answer, call, holder
 
 
 class Quiet(SimpleXMLRPCRequestHandler):
@@ -65,7 +64,7 @@ def test_a_node_that_is_dead_holds_nothing(serve):
 
 
 def test_a_node_that_takes_the_connection_and_says_nothing_may_go_on(serve, monkeypatch):
-    monkeypatch.setattr(names, "PATIENCE_S", 0.1)
+    monkeypatch.setattr(questions, "PATIENCE_S", 0.1)
     with socket.create_server(("127.0.0.1", 0)) as silent:
         uri = f"http://127.0.0.1:{silent.getsockname()[1]}"
         assert holder(master(serve, uri), "/robot") == (uri, f"at {uri}, but does not answer")

@@ -7,8 +7,7 @@ import threading
 import pytest
 
 from node_kit import newest_only
-from node_kit.newest_only import CUT_AFTER_RESENDS, NewestOnly
-from tutorial_testing.waiting import wait_for
+from node_kit.newest_only import NewestOnly
 
 SIZE = 52  # of a Twist on the wire
 DEADLINE_S = 20.0
@@ -52,14 +51,6 @@ def numbers_until(far, last):
     return numbers
 
 
-def test_what_is_written_arrives_at_once(connection):
-    near, far = connection
-    sender = NewestOnly(near, STOP, buffer_bytes=8192)
-    for number in range(100):
-        sender.write(message(number))
-        assert far.recv(SIZE, socket.MSG_WAITALL) == message(number)
-
-
 def test_a_side_that_does_not_read_gets_whole_messages_and_the_newest_one(connection):
     near, far = connection
     sender = NewestOnly(near, STOP, buffer_bytes=8192)
@@ -69,21 +60,11 @@ def test_a_side_that_does_not_read_gets_whole_messages_and_the_newest_one(connec
     last = count + 10_000 - 1
     numbers = numbers_until(far, last)
     assert numbers == sorted(set(numbers))
-    # What lay between is not sent any more, but for what had room in the buffers of both sides.
+    # What lay between is not sent any more, but for what both sides' buffers held.
     assert len(numbers) < count + 1000
-
-
-def test_afterwards_messages_arrive_at_once_again(connection):
-    near, far = connection
-    sender = NewestOnly(near, STOP, buffer_bytes=8192)
-    count = fill(sender, near)
-    sender.write(message(count))
-    numbers_until(far, count)
-    before = threading.active_count()
-    for number in range(100):
+    for number in range(100):  # from here on each arrives at once again
         sender.write(message(number))
         assert far.recv(SIZE, socket.MSG_WAITALL) == message(number)
-    assert threading.active_count() <= before
 
 
 def test_a_side_that_has_gone_is_an_error_in_the_end(connection):
@@ -97,35 +78,27 @@ def test_a_side_that_has_gone_is_an_error_in_the_end(connection):
             select.select([], [near], [], DEADLINE_S)
 
 
-def test_a_connection_closed_here_is_an_error(connection):
-    near, _ = connection
-    sender = NewestOnly(near, STOP, buffer_bytes=8192)
-    near.close()
-    with pytest.raises(OSError, match=r"."):
-        sender.write(message(0))
-
-
 # At which number of resends what is done, and what then arrives. None: free() is called.
 CUT = [
     (0, 1, [1]),
     (1, 2, [2]),  # one lost packet
-    (CUT_AFTER_RESENDS, 3, [0]),  # cut: a last stop
+    (2, 3, [0]),  # cut: a last stop
     (5, 4, []),
     (6, None, []),  # released, but still cut
     (7, 6, []),
     (0, 7, []),  # whole again, and still driving
     (0, None, []),  # released
     (0, 8, [8]),
-    (CUT_AFTER_RESENDS, 10, [0]),  # cut once more
+    (2, 10, [0]),  # cut once more
     (0, None, []),
     (0, 11, [11]),
 ]
 
 
 def play_cut(near, far, steps, monkeypatch, **options):
-    """Do the steps; what was told meanwhile."""
-    told = []
-    sender = NewestOnly(near, STOP, told.append, **options)
+    """Do the steps; return what was reported meanwhile."""
+    reported = []
+    sender = NewestOnly(near, STOP, reported.append, **options)
     for resends, number, arriving in steps:
         monkeypatch.setattr(newest_only, "resends", lambda _, count=resends: count)
         if number is None:
@@ -136,7 +109,7 @@ def play_cut(near, far, steps, monkeypatch, **options):
             data = far.recv(SIZE, socket.MSG_WAITALL)
             assert int.from_bytes(data[:4], "little") == expected
         assert not select.select([far], [], [], 0)[0], number
-    return told
+    return reported
 
 
 def test_after_a_cut_nothing_is_driven_before_the_release(connection, monkeypatch):
@@ -165,44 +138,26 @@ class Answering:
         self._info = info
 
     def getsockopt(self, level, option, length):
-        assert (level, option) == (socket.IPPROTO_TCP, socket.TCP_INFO)
+        # An emulated processor knows options of 4 bytes only.
+        assert (level, option, length) == (socket.IPPROTO_TCP, socket.TCP_INFO, 4)
         return self._info[:length]
 
 
 # struct tcp_info: state (1 is established), congestion state (4 is loss), resends, probes.
 @pytest.mark.parametrize(
-    ("info", "resends"),
+    ("resends", "infos"),
     [
-        ([1, 4, 3, 0, 9, 9], 3),
-        ([1, 4, 1, 7], 1),
-        ([1, 0, 0, 0], 0),
-        ([12, 4, 2, 0], 2),  # the last state that there is
-        ([8, 4, 2, 0], 2),  # the other side has closed its half
-        ([], 0),
-        ([1], 0),
-        ([1, 4], 0),
-        ([1, 4, 9], 0),  # short: the last byte may be anything
-        ([0, 4, 9, 0], 0),  # there is no state 0
-        ([13, 4, 9, 0], 0),
-        ([1, 0, 9, 0], 0),  # resent without a loss: that cannot be
-        ([1, 5, 9, 0], 0),  # there is no such state of congestion
-        ([0x5A, 0x5A, 0x5A, 0x5A], 0),
+        (3, [[1, 4, 3, 0, 9, 9]]),
+        (1, [[1, 4, 1, 7]]),
+        (2, [[12, 4, 2, 0], [8, 4, 2, 0]]),  # the last state; the other side closed its half
+        (0, [[1, 0, 0, 0], [], [1], [1, 4], [1, 4, 9]]),  # short: the last byte may be anything
+        (0, [[0, 4, 9, 0], [13, 4, 9, 0]]),  # there are no such states
+        (0, [[1, 0, 9, 0], [1, 5, 9, 0], [0x5A] * 4]),  # resent without a loss cannot be
     ],
 )
-def test_an_answer_that_is_short_or_cannot_be_right_is_no_cut(info, resends):
-    assert newest_only.resends(Answering(bytes(info))) == resends
-
-
-def test_the_question_has_the_length_that_an_emulated_processor_knows():
-    lengths = []
-
-    class Asked(Answering):
-        def getsockopt(self, level, option, length):
-            lengths.append(length)
-            return super().getsockopt(level, option, length)
-
-    newest_only.resends(Asked(bytes(4)))
-    assert lengths == [4]
+def test_an_answer_that_is_short_or_cannot_be_right_is_no_cut(resends, infos):
+    for info in infos:
+        assert newest_only.resends(Answering(bytes(info))) == resends, info
 
 
 def test_a_connection_that_works_has_no_resends(connection):
@@ -212,25 +167,23 @@ def test_a_connection_that_works_has_no_resends(connection):
     assert newest_only.resends(near) == 0
 
 
-def test_a_connection_is_cut_after_the_second_resend_as_the_first_may_be_one_lost_packet():
-    assert CUT_AFTER_RESENDS == 2
+FIRST, SECOND, THIRD, LAST = b"11111111", b"22222222", b"33333333", b"00000000"
 
 
-class Scripted:
-    """A socket whose send() does what the test says: takes so many bytes, or raises."""
+class Near:
+    """A socket that takes what the test says: so many bytes, or an error; after that, all."""
 
-    def __init__(self, near, *answers):
-        self._near, self._answers = near, list(answers)
-        self.sent = b""
+    def __init__(self, real, *answers):
+        self._real, self._answers = real, list(answers)
+        self.options, self.sent = [], b""
 
-    def setsockopt(self, *_):
-        pass
+    def setsockopt(self, *option):
+        self.options.append(option)
 
     def fileno(self):
-        return self._near.fileno()
+        return self._real.fileno()
 
     def send(self, data, flags):
-        assert flags == socket.MSG_DONTWAIT
         answer = self._answers.pop(0) if self._answers else len(data)
         if isinstance(answer, Exception):
             raise answer
@@ -238,50 +191,103 @@ class Scripted:
         return min(answer, len(data))
 
 
-def wait_until_caught_up(sender):
-    wait_for(lambda: not sender._behind, "end of the thread", DEADLINE_S)
+@pytest.fixture
+def real():
+    """One end of a connection, which takes more."""
+    near, far = socket.socketpair()
+    with near, far:
+        yield near
 
 
-@pytest.mark.parametrize(
-    "answers",
-    [
-        (20,),  # a part, and the thread sends the rest
-        (20, BlockingIOError(), 20),
-        (BlockingIOError(),),
-        (BlockingIOError(), 1, BlockingIOError(), 1, 49),
-    ],
-)
-def test_a_message_is_never_torn(connection, answers):
-    near, _ = connection
-    scripted = Scripted(near, *answers)
-    sender = NewestOnly(scripted)
-    sender.write(message(1))
-    wait_until_caught_up(sender)
-    assert scripted.sent == message(1)
-    sender.write(message(2))
-    assert scripted.sent == message(1) + message(2)
+@pytest.fixture
+def threads(monkeypatch):
+    """The threads that were started: not yet run, as (target, whether it is a daemon)."""
+    started = []
+
+    class Thread:
+        def __init__(self, target, daemon=False):
+            self._about = (target, daemon)
+
+        def start(self):
+            started.append(self._about)
+
+    monkeypatch.setattr(threading, "Thread", Thread)
+    return started
 
 
-def test_the_begun_message_is_finished_before_the_newest_one(connection):
-    near, far = connection
-    near.setblocking(False)
-    with pytest.raises(BlockingIOError):
-        while True:
-            near.send(bytes(65536))
-    scripted = Scripted(near, 20)
-    sender = NewestOnly(scripted)
-    for number in (1, 2, 3):  # the thread waits for room in the full connection
-        sender.write(message(number))
-    while sender._behind:
-        far.recv(65536)
-    assert scripted.sent == message(1) + message(3)
+def test_a_message_waits_for_no_answer_and_the_buffer_is_as_asked_for(real):
+    near = Near(real)
+    NewestOnly(near, buffer_bytes=8192)
+    assert near.options == [
+        (socket.IPPROTO_TCP, socket.TCP_NODELAY, 1),
+        (socket.SOL_SOCKET, socket.SO_SNDBUF, 8192),
+    ]
 
 
-def test_after_an_error_in_the_thread_the_next_write_tells_of_it(connection):
-    near, _ = connection
-    scripted = Scripted(near, 20, ConnectionResetError("gone"), ConnectionResetError("gone"))
-    sender = NewestOnly(scripted)
-    sender.write(message(1))
-    wait_until_caught_up(sender)
-    with pytest.raises(ConnectionResetError):
-        sender.write(message(2))
+def test_one_thread_which_keeps_no_program_alive_sends_the_rest(real, threads):
+    near = Near(real, 3)
+    sender = NewestOnly(near)
+    for one in (FIRST, SECOND, THIRD):
+        sender.write(one)
+    ((catch_up, is_daemon),) = threads
+    assert is_daemon
+    assert near.sent == FIRST[:3]
+    catch_up()
+    assert near.sent == FIRST + THIRD
+
+
+@pytest.mark.parametrize("answers", [(), (BlockingIOError(), 1, BlockingIOError(), 1, 6)])
+def test_a_message_is_never_torn(real, threads, answers):
+    near = Near(real, *answers)
+    sender = NewestOnly(near)
+    sender.write(FIRST)
+    assert len(threads) == (answers != ())  # what the kernel takes needs no thread
+    for catch_up, _ in threads:
+        catch_up()
+    sender.write(SECOND)
+    assert near.sent == FIRST + SECOND
+
+
+def test_a_message_of_which_nothing_was_taken_gives_way_to_a_newer_one(real, threads):
+    near = Near(real, BlockingIOError(), BlockingIOError(), 3)
+    sender = NewestOnly(near)
+    sender.write(FIRST)
+    sender.write(SECOND)
+    threads[0][0]()
+    assert near.sent == SECOND
+
+
+def test_a_connection_that_is_behind_again_gets_a_thread_again(real, threads):
+    near = Near(real, 3, 5, 0)
+    sender = NewestOnly(near)
+    sender.write(FIRST)
+    threads[0][0]()
+    sender.write(SECOND)
+    assert len(threads) == 2
+    threads[1][0]()
+    assert near.sent == FIRST + SECOND
+
+
+def test_a_connection_that_is_cut_while_it_is_behind_gets_the_stop_alone(
+    real, threads, monkeypatch
+):
+    monkeypatch.setattr(newest_only, "resends", lambda _: 0)
+    near = Near(real, 3)
+    sender = NewestOnly(near, LAST)
+    sender.write(FIRST)
+    sender.write(SECOND)
+    monkeypatch.setattr(newest_only, "resends", lambda _: 2)
+    sender.write(THIRD)
+    sender.write(THIRD)
+    threads[0][0]()
+    assert near.sent == FIRST + LAST
+
+
+def test_a_connection_that_is_closed_while_it_is_behind_ends_the_thread(real, threads):
+    near = Near(real, 3, OSError("closed"))
+    sender = NewestOnly(near)
+    sender.write(FIRST)
+    real.close()
+    threads[0][0]()
+    with pytest.raises(OSError, match="closed"):
+        sender.write(SECOND)

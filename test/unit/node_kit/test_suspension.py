@@ -1,4 +1,4 @@
-"""Suspensions: noticed however short, and what was sent meanwhile is told from what is new."""
+"""Suspensions: noticed however short, and what was sent meanwhile is not obeyed."""
 
 import signal
 import time
@@ -6,50 +6,28 @@ import time
 import pytest
 
 from node_kit import suspension
-from node_kit.resumption import SETTLING_S, Resumption
+from node_kit.arming import SETTLING_S, Resumption
 from node_kit.suspension import Suspensions
 
 
-class TestResumption:
-    """Times in seconds, as they would pass."""
-
-    def test_nothing_is_old_or_held_without_a_suspension(self):
-        resumption = Resumption()
-        assert not resumption.notice(0, 5.0)
-        assert not resumption.is_old(5.0)
-        assert not resumption.holds(False, 5.0)
-        assert not resumption.is_old(0.0)
-
-    def test_any_other_number_is_new(self):
-        resumption = Resumption()
-        assert resumption.notice(3, 5.0)
-        assert resumption.notice(1, 5.1)
-
-    def test_each_suspension_is_new_once(self):
-        resumption = Resumption()
-        assert resumption.notice(1, 5.0)
-        assert not resumption.notice(1, 5.1)
-        assert resumption.notice(3, 5.2)
-
-    def test_what_comes_at_once_is_old(self):
-        resumption = Resumption()
-        resumption.notice(1, 5.0)
-        assert resumption.is_old(5.0)
-        assert resumption.is_old(5.0 + 0.99 * SETTLING_S)
-        assert not resumption.is_old(5.0 + SETTLING_S)
-
-    def test_it_settles_for_a_quarter_of_a_second(self):
-        assert SETTLING_S == 0.25  # less than joy2twist's ~joy_timeout, more than a full socket
-
-    def test_nothing_moves_before_a_stop_that_is_not_old(self):
-        resumption = Resumption()
-        resumption.notice(1, 5.0)
-        assert resumption.holds(False, 5.1)
-        assert not resumption.holds(True, 5.2)  # a stop is always obeyed, but this one is old
-        assert resumption.holds(False, 5.3)
-        assert resumption.holds(False, 500.0)
-        assert not resumption.holds(True, 500.1)
-        assert not resumption.holds(False, 500.2)
+def test_what_a_receiver_obeys_after_suspensions():
+    resumption = Resumption()
+    assert SETTLING_S == 0.25  # less than joy2twist's ~joy_timeout, more than a full socket takes
+    assert not resumption.is_old(0.0)
+    steps = [  # (now, number of suspensions, new, old, a motion is held, a stop is held)
+        (5.0, 0, False, False, False, False),
+        (6.0, 3, True, True, True, False),
+        (6.1, 3, False, True, True, False),  # a stop is always obeyed, but this one is old
+        (6.25, 3, False, False, True, False),
+        (6.3, 3, False, False, False, False),  # that stop was new
+        (7.0, 1, True, True, True, False),  # any other number is new
+        (500.0, 1, False, False, True, False),
+    ]
+    for now, number, new, old, holds_motion, holds_stop in steps:
+        assert resumption.notice(number, now) is new, now
+        assert resumption.is_old(now) is old, now
+        assert resumption.holds(False, now) is holds_motion, now
+        assert resumption.holds(True, now) is holds_stop, now
 
 
 @pytest.fixture
@@ -63,7 +41,7 @@ def clock(monkeypatch):
     signal.signal(signal.SIGCONT, before)
 
 
-def test_a_clock_that_jumps_tells_of_one(clock):
+def test_a_clock_that_jumps_is_one(clock):
     suspensions = Suspensions()
     clock[0] += 0.45  # busy
     assert suspensions.number() == 0
@@ -79,7 +57,7 @@ def test_a_stop_by_a_signal_is_noticed_however_short(clock):
     assert suspensions.number() == 1
 
 
-def test_the_clock_and_the_signal_tell_of_one(clock):
+def test_the_clock_and_the_signal_are_one(clock):
     suspensions = Suspensions()
     clock[0] += 3.0
     assert suspensions.number() == 1

@@ -83,9 +83,9 @@ def test_the_state_is_that_of_the_node():
     assert list(collect.states("/ada/joy2twist", [(ARRIVED_S, b"nonsense")])) == []
 
 
-@pytest.mark.parametrize(("told", "silent"), [("12.3", [12.3]), ("not open", [])])
-def test_how_long_a_gamepad_has_been_silent(told, silent):
-    status = DiagnosticStatus(values=[KeyValue(SILENT_FOR, told), KeyValue("topic", "/joy")])
+@pytest.mark.parametrize(("said", "silent"), [("12.3", [12.3]), ("not open", [])])
+def test_how_long_a_gamepad_has_been_silent(said, silent):
+    status = DiagnosticStatus(values=[KeyValue(SILENT_FOR, said), KeyValue("topic", "/joy")])
     assert list(collect.silences([(ARRIVED_S, wire(DiagnosticArray(status=[status])))])) == silent
 
 

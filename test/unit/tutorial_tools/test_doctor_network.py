@@ -121,10 +121,9 @@ def test_listening(server, monkeypatch, sent, heard):
     assert [data for _, data in network.listen("", "/odom", 0.5, most=2)] == heard
 
 
-def test_listening_to_nobody(monkeypatch):
-    monkeypatch.setattr(network, "call", lambda *_: (Answer.REFUSED, None))
-    assert network.listen("", "/odom", 0.5) == []
-    monkeypatch.setattr(network, "call", lambda *_: (Answer.WELL, [1]))
+@pytest.mark.parametrize("answer", [(Answer.REFUSED, None), (Answer.WELL, [1])])
+def test_listening_to_nobody(monkeypatch, answer):
+    monkeypatch.setattr(network, "call", lambda *_: answer)
     assert network.listen("", "/odom", 0.5) == []
 
 

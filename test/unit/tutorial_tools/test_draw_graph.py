@@ -7,7 +7,7 @@ import subprocess
 
 import pytest
 
-pytest.importorskip("rosgraph", reason="no ROS for this Python: ./tutorial setup")
+from tutorial_tools.graph.program import dot_text, shows_a_node
 
 ROSOUT = ["/rosout", ["/talker", "/listener"]]
 AGGREGATED = ["/rosout_agg", ["/rosout"]]
@@ -16,14 +16,6 @@ TALK = (
     [["/rosout", ["/rosout"]], ["/chatter", ["/listener"]], ["/unsaid", ["/listener"]]],
     [["/talker/get_loggers", ["/talker"]], ["/add_two_ints", ["/server"]]],
 )
-
-
-@pytest.fixture
-def dot_text():
-    """The function, which needs ROS to be imported."""
-    from tutorial_tools.graph.program import dot_text  # noqa: PLC0415
-
-    return dot_text
 
 
 def line(text, name):
@@ -42,7 +34,7 @@ def frames(text):
     }
 
 
-def test_talker_and_listener(dot_text):
+def test_talker_and_listener():
     text = dot_text(TALK, {})
     assert line(text, "node /talker") == '"node /talker" [label="/talker" shape=ellipse]'
     assert line(text, "topic /chatter") == '"topic /chatter" [label="/chatter" shape=box]'
@@ -57,30 +49,25 @@ def test_talker_and_listener(dot_text):
     "hidden",
     ["node /rosout", "topic /rosout", "topic /rosout_agg", "topic /unheard", "topic /unsaid"],
 )
-def test_what_only_everything_shows(dot_text, hidden):
+def test_what_only_everything_shows(hidden):
     assert hidden not in dot_text(TALK, {})
     assert line(dot_text(TALK, {}, everything=True), hidden)
 
 
 @pytest.mark.parametrize("everything", [False, True])
-def test_services_are_no_topics(dot_text, everything):
+def test_services_are_no_topics(everything):
     text = dot_text(TALK, {}, everything)
     assert "get_loggers" not in text
     assert "/server" not in text
 
 
-def test_a_node_without_a_topic_is_there(dot_text):
+def test_a_node_without_a_topic_is_there():
     text = dot_text(([ROSOUT], [["/rosout", ["/rosout"]]], []), {})
     assert line(text, "node /talker")
     assert "->" not in text
 
 
-def test_a_simulated_clock_is_shown(dot_text):
-    text = dot_text(([["/clock", ["/rosbag"]]], [["/clock", ["/mobile_base"]]], []), {})
-    assert '"node /rosbag" -> "topic /clock"' in text
-
-
-def test_a_node_and_a_topic_of_one_name_are_two(dot_text):
+def test_a_node_and_a_topic_of_one_name_are_two():
     text = dot_text(([["/odom", ["/odom"]]], [["/odom", ["/odom"]]], []), {})
     assert line(text, "node /odom") and line(text, "topic /odom")
     assert '"node /odom" -> "topic /odom"' in text
@@ -97,12 +84,12 @@ def test_a_node_and_a_topic_of_one_name_are_two(dot_text):
         ("/robot_1/odom", "/robot_1/odom"),
     ],
 )
-def test_a_long_name_is_broken(dot_text, name, label):
+def test_a_long_name_is_broken(name, label):
     text = dot_text(([[name, ["/a"]]], [[name, ["/b"]]], []), {})
     assert line(text, f"topic {name}") == f'"topic {name}" [label="{label}" shape=box]'
 
 
-def test_names_are_in_alphabetical_order(dot_text):
+def test_names_are_in_alphabetical_order():
     names = [f"/{letter}" for letter in "hgfedcba"]
     part = [[topic, names] for topic in names]
     machines = {name: "two" if name > "/d" else "one" for name in names}
@@ -117,7 +104,7 @@ def test_names_are_in_alphabetical_order(dot_text):
         assert re.findall(pattern, text, re.MULTILINE) == names[::-1], pattern
 
 
-def test_each_machine_has_its_frame_and_the_topic_between_them_none(dot_text):
+def test_each_machine_has_its_frame_and_the_topic_between_them_none():
     text = dot_text(TALK, {"/talker": "10.0.0.1", "/listener": "10.0.0.2"})
     assert sorted(frames(text)) == ["10.0.0.1", "10.0.0.2"]
     assert "/talker" in frames(text)["10.0.0.1"][0]
@@ -126,7 +113,7 @@ def test_each_machine_has_its_frame_and_the_topic_between_them_none(dot_text):
     assert "topic /chatter" not in str(frames(text))
 
 
-def test_a_topic_of_one_machine_is_in_its_frame(dot_text):
+def test_a_topic_of_one_machine_is_in_its_frame():
     publishers = [["/joy", ["/joy_node"]], ["/cmd_vel", ["/joy2twist"]]]
     subscribers = [["/joy", ["/joy2twist"]], ["/cmd_vel", ["/robot"]]]
     machines = {"/joy_node": "desk", "/joy2twist": "desk", "/robot": "robot"}
@@ -135,21 +122,21 @@ def test_a_topic_of_one_machine_is_in_its_frame(dot_text):
     assert "topic /cmd_vel" not in str(frames(text))
 
 
-def test_one_machine_has_no_frame(dot_text):
+def test_one_machine_has_no_frame():
     # /rosout, which is not shown, does not count.
     machines = {"/talker": "here", "/listener": "here", "/rosout": "there"}
     assert not frames(dot_text(TALK, machines))
     assert sorted(frames(dot_text(TALK, machines, everything=True))) == ["here", "there"]
 
 
-def test_a_node_that_has_just_ended_is_on_no_machine(dot_text):
+def test_a_node_that_has_just_ended_is_on_no_machine():
     text = dot_text(TALK, {"/talker": "here"})
     assert line(text, "node /listener")
     assert not frames(text)
 
 
 @pytest.mark.skipif(not shutil.which("dot"), reason="graphviz missing: ./tutorial setup")
-def test_graphviz_reads_back_every_name(dot_text):
+def test_graphviz_reads_back_every_name():
     names = ['/"quoted"', "/a->b;", "/{graph}", "/größe", "/<b>", "node", "/a b", "/", ""]
     state = ([[name, ["/a"]] for name in names], [[name, ["/b"]] for name in names], [])
     text = dot_text(state, {"/a": 'desk "1"', "/b": "{robot}"})
@@ -158,19 +145,13 @@ def test_graphviz_reads_back_every_name(dot_text):
     )
     assert done.stderr == ""
     graph = json.loads(done.stdout)
-    told = {part["name"] for part in graph["objects"]}
+    said = {part["name"] for part in graph["objects"]}
     clusters = {'cluster desk "1"', "cluster {robot}"}
-    assert told == {f"topic {name}" for name in names} | {"node /a", "node /b"} | clusters
+    assert said == {f"topic {name}" for name in names} | {"node /a", "node /b"} | clusters
     assert len(graph["edges"]) == 2 * len(names)
 
 
-def test_nothing_runs(dot_text):
-    assert dot_text(([], [], []), {}).startswith("digraph ros {\n")
-
-
 def test_a_graph_without_a_node_shows_nothing():
-    from tutorial_tools.graph.program import dot_text, shows_a_node  # noqa: PLC0415
-
     idle = ([[*ROSOUT[:1], ["/rosout"]], AGGREGATED], [["/rosout", ["/rosout"]]], [])
     assert not shows_a_node(dot_text(idle, {"/rosout": "here"}))
     assert shows_a_node(dot_text(idle, {}, everything=True))

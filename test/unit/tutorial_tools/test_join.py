@@ -54,9 +54,19 @@ def test_which_robots_there_are(monkeypatch):
         check_robot("http://10.0.0.1:11311", "robot_2")
 
 
-def test_an_argument_without_its_sign(monkeypatch):
-    monkeypatch.setattr("sys.argv", ["join", "10.0.0.1", "robot_7", "virtual=true"])
-    with pytest.raises(SystemExit, match=r"^join: virtual=true: .* did you mean virtual:=true\?$"):
+@pytest.mark.parametrize(
+    ("argument", "line"),
+    [
+        ("virtual=true", r"virtual=true: .* did you mean virtual:=true\?"),
+        ("virtul:=true", r"virtul:=true: not an argument of student.launch, .* mean virtual:=\?"),
+        ("virtual:=yes", "virtual:=yes: must be true or false"),
+        ("bag:=/no/such", "bag:=/no/such: cannot be read: No such file or directory"),
+        ("name:=robot_8", "name:=robot_8: the name is robot_7 already"),
+    ],
+)
+def test_a_wrong_argument_is_one_line_before_the_master_is_asked(monkeypatch, argument, line):
+    monkeypatch.setattr("sys.argv", ["join", "10.0.0.1", "robot_7", argument])
+    with pytest.raises(SystemExit, match=f"^join: {line}$"):
         program.main()
 
 

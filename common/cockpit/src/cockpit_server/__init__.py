@@ -1,1 +1,1 @@
-"""The server of the page: what it shows, who drives, who may."""
+"""The server of the page."""

@@ -1,31 +1,30 @@
-"""Who may look and who may drive (pure).
+"""The right to look and to drive (pure).
 
 A page of somewhere else can have a browser of this network send us requests: under our address,
 with its own Origin, or under a name of its own that it lets point to us (DNS rebinding). So the
 Host must be ours, and the Origin the same. Nobody can let an address in numbers point elsewhere.
 """
 
+from __future__ import annotations
+
 import hmac
 import ipaddress
 import re
 from dataclasses import dataclass
-from typing import Optional, Tuple
 
 DRIVER, VIEWER = "driver", "viewer"
 
 
 @dataclass(frozen=True)
 class Access:
-    """names: of this machine. Without tokens whoever reaches the server may drive: only this
-    machine does.
-    """
+    """names: of this machine. Without tokens, every client may drive: all are on this machine."""
 
-    names: Tuple[str, ...] = ("localhost",)
-    driver_token: Optional[str] = None
-    viewer_token: Optional[str] = None
+    names: tuple[str, ...] = ("localhost",)
+    driver_token: str | None = None
+    viewer_token: str | None = None
 
-    def is_ours(self, host):
-        """Whether a Host header, NAME or NAME:PORT, means this machine."""
+    def is_ours(self, host: str | None) -> bool:
+        """Return whether a Host header, NAME or NAME:PORT, means this machine."""
         found = re.fullmatch(r"(\[[0-9a-fA-F:.]+\]|[^:\[\]]+)(:\d{1,5})?", host or "")
         if not found:
             return False
@@ -36,25 +35,25 @@ class Access:
             return name in self.names
         return self.driver_token is not None or address.is_loopback
 
-    def may_request(self, host, origin):
-        """Whether a request may be answered. origin: the header, None if there is none."""
+    def may_request(self, host: str, origin: str | None) -> bool:
+        """Return whether a request may be answered. origin: the header, or None."""
         return self.is_ours(host) and origin in (None, f"http://{host}")
 
-    def may_connect(self, host, origin):
-        """Whether a WebSocket may be opened; every browser gives its Origin."""
+    def may_connect(self, host: str, origin: str | None) -> bool:
+        """Return whether a WebSocket may be opened; every browser sends its Origin."""
         return origin is not None and self.may_request(host, origin)
 
-    def role(self, token):
-        """DRIVER, VIEWER, or None if the token (None: there is none) is wrong."""
+    def role(self, token: str | None) -> str | None:
+        """Return DRIVER, VIEWER, or None if the token is wrong or missing."""
         if self.driver_token is None:
             return DRIVER
         given = (token or "").encode()
         # Both in any case: the time that it takes must say nothing.
         drives = hmac.compare_digest(given, self.driver_token.encode())
-        views = hmac.compare_digest(given, self.viewer_token.encode())
+        views = hmac.compare_digest(given, (self.viewer_token or "").encode())
         return DRIVER if drives else VIEWER if views else None
 
 
-def without_token(uri):
-    """A request's path and query as it may be logged."""
+def without_token(uri: str) -> str:
+    """Return a request's path and query as it may be logged."""
     return re.sub(r"(?i)(tok[^=&?]*=)[^&\s]*", r"\1...", uri)

@@ -1,38 +1,51 @@
-"""Who has to go when there is no more room, so that nobody locks out all others (pure)."""
+"""Which connection or page is closed when all places are taken (pure)."""
 
 from collections import Counter
-from typing import List, Optional, Sequence, Tuple, TypeVar
+from typing import List, NamedTuple, Optional, Sequence, Tuple, TypeVar
 
 from cockpit_server.access import DRIVER
+
+IDLE_S = 60.0  # a viewer that asked for nothing for so long gives way to one of its own address
 
 T = TypeVar("T")
 
 
+class Page(NamedTuple):
+    """One open page. idle_s: time since it sent a message or was opened [s]."""
+
+    number: int
+    role: str
+    address: str
+    idle_s: float
+
+
 def of_the_fullest(present: Sequence[Tuple[T, str]]) -> List[T]:
-    """Return what comes from the address that has the most. present: (what is there, address)."""
+    """Return the entries of the address that has most of them. present: (entry, address)."""
     counts = Counter(address for _, address in present)
     most = max(counts.values(), default=0)
     return [one for one, address in present if counts[address] == most]
 
 
 def connection_to_close(unused: Sequence[Tuple[T, str]]) -> Optional[T]:
-    """Return the one that has to go for a new connection, None if there is none.
+    """Return the connection to close for a new one, or None.
 
-    unused: (connection, address) of those that are no page's, the oldest first. A browser's are
-    through in milliseconds: what is old asks for nothing.
+    unused: (connection, address) of those that belong to no page, the oldest first. A browser's
+    request takes milliseconds: an old connection asks for nothing.
     """
     return next(iter(of_the_fullest(unused)), None)
 
 
-def page_to_close(pages: Sequence[Tuple[T, str, str]], role: str, address: str) -> Optional[T]:
-    """Return the viewer that has to go for a new page, None if the new one is to be refused.
+def page_to_close(pages: Sequence[Page], role: str, address: str) -> Optional[Page]:
+    """Return the viewer to close for a new page, or None if the new page is to be refused.
 
-    pages: (page, role, address), the oldest first. Who may drive comes in as long as anybody only
-    looks; a viewer, if another address has more of them than its own would then have.
+    A driver replaces the idlest viewer of the address that has most. A viewer does so if that
+    address has more than its own would then have, or else replaces a viewer of its own address that
+    is idle: many people may share one address (NAT).
     """
-    viewers = [(page, its) for page, its_role, its in pages if its_role != DRIVER]
-    fullest = of_the_fullest(viewers)
-    own = sum(its == address for _, its in viewers)
-    if not fullest or (role != DRIVER and len(fullest) <= own + 1):
-        return None
-    return fullest[-1]
+    viewers = [page for page in pages if page.role != DRIVER]
+    fullest = of_the_fullest([(page, page.address) for page in viewers])
+    own = [page for page in viewers if page.address == address]
+    if fullest and (role == DRIVER or len(fullest) > len(own) + 1):
+        return max(fullest, key=lambda page: page.idle_s)
+    idlest = max(own, key=lambda page: page.idle_s, default=None)
+    return idlest if idlest and idlest.idle_s > IDLE_S else None

@@ -2,19 +2,19 @@
 
 import time
 from concurrent.futures import ThreadPoolExecutor
+from typing import ClassVar
 
 from cockpit_server.clients import Source
 from cockpit_server.player import Player
-from cockpit_server.recording import JOY, RecordingError
+from cockpit_server.recording import JOY, RecordingError, Shelf, recordings
+from cockpit_server.schema import number, switch, text
 from cockpit_server.seat import BAG, RefusedError
-from cockpit_server.shelf import Shelf, recordings
 
-TICKS = 2  # how often pages are told the position: each other time that they are looked after
 LOOK_S = 2.0  # how often the folder is looked at for recordings, while a page shows them
 
 
 class Opened:
-    """What one page has opened. message: what it has not been sent yet."""
+    """What one page has opened. message: not sent yet."""
 
     def __init__(self, name, recording, message):
         self.name, self.recording, self.message = name, recording, message
@@ -26,26 +26,24 @@ class Bags(Source):
     one after the other, and for each page one at a time.
     """
 
+    watches: ClassVar = {"bag": (switch, False)}
+    messages: ClassVar = {
+        "bag_open": {"name": text},
+        "bag_play": {"topic": text, "rate": number(0.1, 10), "loop": switch, "robot": text},
+        "bag_pause": {},
+        "bag_seek": {"position": number(0, 1e6)},
+    }
+
     def __init__(self, hub):
-        """hub: has the seat."""
         self._hub = hub
-        self.handlers = {
-            "bag_open": self._on_open, "bag_play": self._on_play,
-            "bag_pause": self._on_pause, "bag_seek": self._on_seek,
-        }  # fmt: skip
         self._reader = ThreadPoolExecutor(1, thread_name_prefix="recordings")
         self._shelf = Shelf()
-        self._reading = set()  # numbers of the clients for whom one is read
+        self._reading = set()  # numbers of the clients that wait for one
         self._names, self._next_look = {}, 0.0  # whether it may drive -> names; when [s]
         self._opened = {}  # client's number -> Opened
         self._player, self._owner = None, None
-        self._ticks = 0
-
-    # ---------------------------------------------------------------- what pages are sent
 
     def prepare(self, clients, now):
-        """Forget the pages that are gone, and look which recordings there are."""
-        self._ticks += 1
         numbers = {client.number for client in clients}
         self._opened = {n: opened for n, opened in self._opened.items() if n in numbers}
         self._shelf.in_use = tuple(opened.recording for opened in self._opened.values())
@@ -57,7 +55,6 @@ class Bags(Source):
         self._names = {may_drive: sorted(recordings(may_drive)) for may_drive in (False, True)}
 
     def give(self, client, now):
-        """Send what may be opened, what was opened, and where it is."""
         names = self._names.get(client.drives)
         if client.watch.bag and names and client.lacks("bags", names):
             client.send("bags", names=names)
@@ -65,7 +62,7 @@ class Bags(Source):
         if opened and opened.message:
             client.write(opened.message)
             opened.message = ""
-        if not client.watch.bag or opened is None or self._ticks % TICKS:
+        if not client.watch.bag or opened is None:
             return
         playing = self._plays(client.number)
         if playing:
@@ -75,9 +72,7 @@ class Bags(Source):
             names = ("position", "playing", "rate", "loop", "topic")
             client.send("bag_at", **dict(zip(names, at)))
 
-    # -------------------------------------------------------------------------- what they say
-
-    def _on_open(self, client, _now, name):
+    def on_bag_open(self, client, _now, name):
         if client.number in self._reading:
             raise RefusedError("a recording is being opened for this page: wait for it")
         if self._plays(client.number):
@@ -91,7 +86,7 @@ class Bags(Source):
             if path is None:
                 raise RecordingError(f"{name!r} is none of the recordings that may be opened here")
             recording, message = self._shelf.take(path)
-        except Exception as error:  # whatever is in the file: who asked for it is told
+        except Exception as error:  # whatever is in the file, the page gets the reason
             known = isinstance(error, RecordingError)
             why = str(error) if known else f"{name}: {type(error).__name__}: {error}"
             self._hub.soon(lambda: self._refuse(client, why))
@@ -109,7 +104,7 @@ class Bags(Source):
         self._opened[client.number] = opened
         client.seen.pop("bag_at", None)
 
-    def _on_play(self, client, now, *, topic, rate, loop, robot):
+    def on_bag_play(self, client, now, *, topic, rate, loop, robot):
         opened = self._must_be_open(client)
         kind = opened.recording.topics.get(topic, ("",))[0]
         if not kind:
@@ -123,12 +118,12 @@ class Bags(Source):
         self._player.seek(opened.position, now)
         self._owner = client.number
 
-    def _on_pause(self, client, now):
+    def on_bag_pause(self, client, now):
         if self._plays(client.number):
             self._opened[client.number].position = self._player.position(now)
             self._hub.stand_up(client)
 
-    def _on_seek(self, client, now, position):
+    def on_bag_seek(self, client, now, position):
         opened = self._must_be_open(client)
         opened.position = min(position, opened.recording.duration)
         if self._plays(client.number):
@@ -140,14 +135,12 @@ class Bags(Source):
             raise RefusedError("open a recording first")
         return opened
 
-    # ------------------------------------------------------------------------------- playing
-
     def _plays(self, number):
         seat = self._hub.seat
         return self._player is not None and number == self._owner == seat.driver and seat.how == BAG
 
     def play(self, now):
-        """Publish what is due."""
+        """Publish the messages that are due."""
         if self._player is None:
             return
         if not self._plays(self._owner):

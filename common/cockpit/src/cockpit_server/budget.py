@@ -5,14 +5,15 @@ from typing import Optional
 SHARE = 0.3  # of that thread, for all pages together but the one that drives
 BURST_S = 0.05  # that one page may use at once, as for opening
 ALL_BURST_S = 0.01  # that the messages of all may use at once, while the driver waits
+REQUEST_S = 0.002  # of answering an HTTP request, measured: 1 to 2 ms
+REQUESTS_BURST_S = 0.1  # that one address may use at once: a page loads 25 files
 MESSAGE_S = 0.0002  # of receiving a message, whatever it asks for
 
 
 class Budget:
-    """Refills at a rate, up to a burst. Costs are known afterwards: it may be in debt."""
+    """Refills at a rate, up to burst_s. A cost is known afterwards: there may be debt."""
 
     def __init__(self, burst_s: float) -> None:
-        """burst_s: [s] of the thread's time, there from the beginning."""
         self._burst_s = self._left_s = burst_s
         self._at: Optional[float] = None
 
@@ -23,5 +24,4 @@ class Budget:
         return max(0.0, -self._left_s / rate)
 
     def spend(self, seconds: float) -> None:
-        """Use up some of it."""
         self._left_s -= seconds

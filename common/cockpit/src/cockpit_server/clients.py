@@ -1,8 +1,10 @@
 """One page that is open somewhere, as the rest of the server sees it (pure)."""
 
+from __future__ import annotations
+
 import json
 from dataclasses import dataclass, field
-from typing import ClassVar, Optional, Tuple
+from typing import Any, Callable, ClassVar, Mapping, Sequence
 
 from cockpit_server.access import DRIVER
 from cockpit_server.budget import BURST_S, Budget
@@ -20,21 +22,6 @@ SYSTEMS = (
 )  # fmt: skip
 
 
-@dataclass(frozen=True)
-class Watch:
-    """What a page wants to see; see schema.MESSAGES."""
-
-    robots: bool = False
-    look: Optional[str] = None
-    graph: bool = False
-    topic: Optional[str] = None
-    node: Optional[str] = None
-    fields: Tuple[str, ...] = ()
-    field_list: bool = False
-    log: bool = False
-    bag: bool = False
-
-
 @dataclass(eq=False)
 class Client:
     """write: called with a text to send. is_behind: whether the last one has not gone out yet.
@@ -46,46 +33,44 @@ class Client:
     number: int
     role: str
     name: str
-    write: callable
-    is_behind: callable
-    is_cut: callable
-    close: callable
+    write: Callable[[str], Any]
+    is_behind: Callable[[], bool]
+    is_cut: Callable[[], bool]
+    close: Callable[[], Any]
     address: str = ""
-    watch: Watch = Watch()
-    seen: dict = field(default_factory=dict)  # by what it is about: the newest that was sent
+    spoke_at: float = 0.0  # when it was opened or sent a message last [s]
+    watch: Any = None  # what it wants to see, by the names in the sources' watches
+    seen: dict[Any, Any] = field(default_factory=dict)  # about what: the newest version sent
     flood: int = 0
     budget: Budget = field(default_factory=lambda: Budget(BURST_S))
     may_send: Throttle = field(default_factory=lambda: Throttle(MESSAGES_RATE, MESSAGES_BURST))
     may_hear_no: Throttle = field(default_factory=lambda: Throttle(REFUSALS_RATE, REFUSALS_BURST))
 
     @property
-    def drives(self):
-        """Whether it may."""
+    def drives(self) -> bool:
         return self.role == DRIVER
 
-    def must_drive(self):
-        """Raise RefusedError if it may not."""
+    def must_drive(self) -> None:
         if not self.drives:
             raise RefusedError("this page was opened with the viewers' token: it may only look")
 
-    def send(self, kind, **fields):
-        """Send a message."""
+    def send(self, kind: str, **fields: Any) -> None:
         self.write(encoded(kind, **fields))
 
-    def refuse(self, what, why, now):
-        """Tell what was not done, and why, though not without end."""
+    def refuse(self, what: str, why: str, now: float) -> None:
+        """Report what was not done and why, at a bounded rate."""
         if self.may_hear_no.ready(now):
             self.send("refused", what=what, why=why)
 
-    def lacks(self, about, version):
-        """Whether the client has not got this version; from now on it has."""
+    def lacks(self, about: Any, version: Any) -> bool:
+        """Return whether the client lacks this version; from now on it has it."""
         if self.seen.get(about) == version:
             return False
         self.seen[about] = version
         return True
 
-    def allows(self, now):
-        """Whether one more message may be read; a flood closes the connection."""
+    def allows(self, now: float) -> bool:
+        """Return whether one more message may be read; close the connection after a flood."""
         if self.may_send.ready(now):
             return True
         self.flood += 1
@@ -95,26 +80,29 @@ class Client:
 
 
 class Source:
-    """Something that pages see. handlers: what is called for a kind of message that a page sends,
-    with the client, the time [s] and the fields.
+    """Something that pages see, and the messages that they may send about it.
+
+    watches: name -> (check of schema, value for a page that does not ask for it).
+    messages: kind -> {field: check}; each calls on_KIND(client, now [s], **fields).
     """
 
-    handlers: ClassVar[dict] = {}
+    watches: ClassVar[Mapping[str, tuple[Callable[[Any], Any], Any]]] = {}
+    messages: ClassVar[Mapping[str, Mapping[str, Callable[[Any], Any]]]] = {}
 
-    def prepare(self, clients, now):
+    def prepare(self, clients: Sequence[Client], now: float) -> None:
         """Gather what these clients want to see; twenty times a second."""
 
-    def give(self, client, now):
+    def give(self, client: Client, now: float) -> None:
         """Send a client what it lacks; it has read all that was sent before."""
 
 
-def encoded(kind, **fields):
-    """A message as it is sent: JSON, which knows no infinity."""
+def encoded(kind: str, **fields: Any) -> str:
+    """Return a message as JSON; infinity is a ValueError."""
     return json.dumps({"kind": kind, **fields}, allow_nan=False, separators=(",", ":"))
 
 
-def name_of(user_agent, address):
-    """A page's name for people, such as "Chromium on Linux, 192.168.1.5"."""
+def name_of(user_agent: str, address: str) -> str:
+    """Return a name of a page for people, such as "Chromium on Linux, 192.168.1.5"."""
     browser = next((name for mark, name in BROWSERS if mark in user_agent), "a program")
     system = next((f" on {name}" for mark, name in SYSTEMS if mark in user_agent), "")
     return f"{browser}{system}, {address}"

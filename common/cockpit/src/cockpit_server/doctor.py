@@ -6,39 +6,41 @@ import sys
 import threading
 import time
 from pathlib import Path
+from typing import ClassVar
 
 import rospkg
 
 from cockpit_server.clients import Source
+from cockpit_server.logs import without_folders
 
 LEVELS = {"ok": "ok", "wrong": "wrong"}  # what else it says is a note
 LONGEST_RUN_S = 60.0
-FRESH_S = 10.0  # who only looks gets what was found within that, and causes no new run
+FRESH_S = 10.0  # a viewer gets lines of this age, without a new run
 
 
 def shown(line):
-    """A line of the doctor as pages get it: subject is what it is about."""
+    """Return a line of the doctor as pages get it."""
     level, subject, text = [*line.split(maxsplit=2), "", "", ""][:3]
     if level not in ("ok", "wrong", "unknown"):
         subject, text = "", line
-    return {"level": LEVELS.get(level, "note"), "subject": subject, "text": text.strip()}
+    text = without_folders(text.strip())
+    return {"level": LEVELS.get(level, "note"), "subject": subject, "text": text}
 
 
 class Doctor(Source):
-    """Runs the doctor when a page asks for it, once at a time, and tells all pages."""
+    """Runs the doctor when a page asks for it, once at a time, and sends its lines to all pages."""
+
+    messages: ClassVar = {"doctor": {}}
 
     def __init__(self):
-        """It has not run yet."""
-        self.handlers = {"doctor": self._start}
         self._lines, self._running, self._version = [], False, 0
         self._ended_at = -math.inf  # of the last run [s]
 
     def give(self, client, _now):
-        """Send the lines so far, if there are new ones."""
         if self._version and client.lacks("doctor", self._version):
             client.send("doctor", lines=self._lines, running=self._running)
 
-    def _start(self, client, now):
+    def on_doctor(self, client, now):
         may = client.drives or now - self._ended_at > FRESH_S
         if not may:
             client.seen.pop("doctor", None)

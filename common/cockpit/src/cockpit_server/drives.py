@@ -1,11 +1,12 @@
-"""Who drives a robot, why it stands, and what to do: put into words here alone (pure)."""
+"""The words for what drives a robot, why it stands, and what to do; all of them here (pure)."""
 
-from typing import Any, Dict, NamedTuple, Optional, Tuple
+from typing import Any, Dict, NamedTuple, Optional, Sequence, Tuple
 
-from cockpit_server.clients import Source
+from cockpit_server.clients import Client, Source
+from cockpit_server.graph import topic_of
 from cockpit_server.seat import BAG
 from gamepad.gamepads import F710
-from node_kit.states import DRIVING
+from node_kit.arming import DRIVING
 
 LOOKS_ONLY = "This page was opened with the address for viewers: it may look, not drive."
 NO_ROBOT = "No robot is running yet. Start one, for example: ./tutorial demo"
@@ -16,8 +17,9 @@ class About(NamedTuple):
 
     driver: number of the page that drives it, or None; name: of that page. how: PAGE or BAG. armed:
     whether all was seen released. why: the last stop by a loss of the driver, "" if there was none.
-    said: what joy2twist reports (see teleop.told), None if nothing. senders: other nodes that
-    publish its joystick's topic. moves: whether its odometry says so.
+    said: what joy2twist reports (see teleop.report_of), None if nothing. senders: other nodes that
+    publish its joystick's topic. moves: whether its odometry says so. is_heard: whether a node
+    subscribes to its joystick's topic.
     """
 
     driver: Optional[int] = None
@@ -28,10 +30,10 @@ class About(NamedTuple):
     said: Optional[Dict[str, Any]] = None
     senders: Tuple[str, ...] = ()
     moves: bool = False
+    is_heard: bool = True
 
     @property
     def is_driven_by_node(self) -> bool:
-        """Whether something else than a page drives it."""
         if self.driver is not None:
             return False
         return self.said["state"] == DRIVING if self.said else self.moves and bool(self.senders)
@@ -56,10 +58,10 @@ def who(about: About, robot: str, page: int) -> str:
     if about.is_driven_by_node:
         return f"{some or 'A joystick'} drives {its}."
     if about.moves and not about.said:
-        return f"No joystick drives {its}, but it moves: the tab Graph shows what sends to it."
+        return f"No joystick drives {its}, but it moves: the tab Graph shows what moves it."
     if not some:
         return "Nobody drives."
-    return f"Nobody drives. Registered as its joystick: {some}."
+    return f"Nobody drives. Publishers of its joystick topic: {some}."
 
 
 def again(about: About) -> str:
@@ -70,9 +72,16 @@ def again(about: About) -> str:
     return f"Release {button} and the stick, then hold {button} again."
 
 
-def ready(about: About, page: int, may_drive: bool) -> str:
+def unheard(robot: str) -> str:
+    topic, where = topic_of(robot, "joy"), f" for {robot}" if robot else ""
+    return f"No node subscribes to {topic}: nothing moves before you start joy2twist{where}."
+
+
+def ready(about: About, robot: str, page: int, may_drive: bool) -> str:
     """Return why the robot stands, and what the person at a page is to do now."""
     stopped = f"Stopped: {about.why}." if about.why else ""
+    if not about.is_heard:
+        return " ".join(filter(None, (stopped, unheard(robot), "" if may_drive else LOOKS_ONLY)))
     button = held(about)
     if about.driver != page:
         todo = "" if may_drive else LOOKS_ONLY
@@ -91,7 +100,7 @@ def ready(about: About, page: int, may_drive: bool) -> str:
 def how_to(about: About, page: int, may_drive: bool) -> str:
     """Return how a page drives this robot; "" where a hand can do nothing now."""
     is_others = about.driver not in (None, page) or about.is_driven_by_node
-    if not may_drive or is_others or about.how == BAG:
+    if not may_drive or is_others or about.how == BAG or not about.is_heard:
         return ""
     button = held(about)
     if button is None:
@@ -112,21 +121,19 @@ def held(about: About) -> Optional[str]:
 
 
 def lost_text(why: str, keeps_seat: bool) -> str:
-    """Return what a page is sent that has lost its robot."""
-    return f"Stopped: {why}." if keeps_seat else f"This page drives no longer: {why}."
+    return f"Stopped: {why}." if keeps_seat else f"This page no longer drives: {why}."
 
 
 class Drives(Source):
-    """Sends each page who drives the robot that it looks at, and the drivers of all robots."""
+    """Sends each page what drives the robot that it shows, and the drivers of all robots."""
 
-    def __init__(self, hub, graph_watch, teleop, robots):
-        """hub: has the seat. graph_watch, teleop, robots: know the rest."""
+    def __init__(self, hub: Any, graph_watch: Any, teleop: Any, robots: Any) -> None:
         self._hub, self._graphs, self._teleop, self._robots = hub, graph_watch, teleop, robots
-        self._abouts, self._drivers = {}, {}
+        self._abouts: Dict[str, About] = {}
+        self._drivers: Dict[str, str] = {}
         self._driven = None  # from a page, the last time
 
-    def prepare(self, clients, now):
-        """Look at every robot once for all pages."""
+    def prepare(self, clients: Sequence[Client], now: float) -> None:
         seat, driven = self._hub.seat, self._hub.driven
         if self._driven not in (None, driven):
             self._teleop.outdate(self._driven)  # that robot's driver has left since it spoke
@@ -137,7 +144,7 @@ class Drives(Source):
                 seat.moves_on(robot)
         self._drivers = {robot: driver(about) for robot, about in self._abouts.items()}
 
-    def _about(self, robot, now):
+    def _about(self, robot: str, now: float) -> About:
         seat = self._hub.seat
         page = self._hub.clients.get(seat.driver) if robot == self._hub.driven else None
         return About(
@@ -149,16 +156,21 @@ class Drives(Source):
             said=self._teleop.newest(robot),
             senders=self._graphs.joysticks(robot),
             moves=self._robots.moves(robot, now),
+            is_heard=bool(self._graphs.joystick_listeners(robot)),
         )
 
-    def give(self, client, _now):
-        """Send what has changed."""
+    def node_that_drives(self, robot: str) -> str:
+        """Return the name of the node, other than a page, that drives a robot, or ""."""
+        about = self._abouts.get(robot, About())
+        return driver(about) if about.is_driven_by_node else ""
+
+    def give(self, client: Client, now: float) -> None:
         robot = client.watch.look
         about = self._abouts.get(robot, About())
         words = {
             "robot": robot,
             "who": who(about, robot or "", client.number),
-            "ready": ready(about, client.number, client.drives),
+            "ready": ready(about, robot or "", client.number, client.drives),
             "how": how_to(about, client.number, client.drives),
             "again": again(about),
             "drivers": self._drivers,

@@ -1,7 +1,7 @@
 """Subscribes to what is looked at, and to nothing else, without ever waiting for the master.
 
 A node of rospy has one subscription for a topic, whatever it wants it for: here it is of raw
-messages, and whoever wants them reads as far as needed.
+messages, which each listener decodes as far as needed.
 """
 
 import threading
@@ -18,7 +18,7 @@ _worker = ThreadPoolExecutor(1, thread_name_prefix="to_the_master")
 
 
 def later(action, *arguments):
-    """Do something that may wait for the master, in another thread; a failure is logged."""
+    """Do something that may wait for the master, in another thread; log a failure."""
 
     def do():
         try:
@@ -30,15 +30,13 @@ def later(action, *arguments):
 
 
 class OnceLater:
-    """An action for later(), which waits there once however often it is asked for."""
+    """An action for later(), queued once however often it is requested."""
 
     def __init__(self, action):
-        """action: called without arguments; what was asked before it begins is done with it."""
         self._action = action
         self._waits = threading.Event()
 
     def __call__(self):
-        """Ask for it."""
         if not self._waits.is_set():
             self._waits.set()
             later(self._do)
@@ -49,19 +47,17 @@ class OnceLater:
 
 
 class Raw(rospy.AnyMsg):
-    """A message of any type that is not read before somebody needs it. data: its bytes."""
+    """A message of any type, not deserialized."""
 
     def deserialize(self, data):
-        """Keep the bytes."""
         self.data = data
         return self
 
 
 class Feeds:
-    """Those topics that are wanted at this moment. Of one thread, but for the messages."""
+    """The topics that are wanted now. Used by one thread, except for the messages."""
 
     def __init__(self, tell):
-        """Nothing is wanted yet. tell: called with a line about a topic that rospy refuses."""
         self._guard = Guard(tell)
         self._wants = {}  # owner -> ({topic: hear}, whether every message is wanted)
         self._listeners = {}  # topic -> functions to call

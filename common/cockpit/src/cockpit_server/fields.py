@@ -3,7 +3,10 @@
 A message class is one that genpy made: __slots__ and _slot_types say what is in it.
 """
 
+from __future__ import annotations
+
 import re
+from typing import Any, Callable, Iterable, Iterator, Sequence
 
 NUMBERS = {
     "bool", "byte", "char", "float32", "float64", "int16", "int32", "int64", "int8", "uint16",
@@ -14,10 +17,10 @@ DEEPEST = 8
 _PART = re.compile(r"([A-Za-z]\w*)(?:\[(\d{1,6})\])?")
 
 
-def numeric_fields(kind, class_of, depth=DEEPEST):
-    """The names of the numbers in messages of a class. class_of: gives the class of a type's name,
-    or None.
-    """
+def numeric_fields(
+    kind: Any, class_of: Callable[[str], Any], depth: int = DEEPEST
+) -> Iterator[str]:
+    """Yield the names of a class's numbers. class_of: type name -> class or None."""
     if depth == 0:
         return
     for name, slot_type in zip(kind.__slots__, kind._slot_types):
@@ -37,16 +40,17 @@ def numeric_fields(kind, class_of, depth=DEEPEST):
                     yield from (f"{one}/{inside}" for one in names)
 
 
-def parts_of(field):
-    """[(name, index or None)] of a field's name. Raises ValueError."""
-    parts = [_PART.fullmatch(part) for part in field.split("/")]
-    if not all(parts) or len(parts) > DEEPEST:
+def parts_of(field: str) -> list[tuple[str, int | None]]:
+    """Return [(name, index or None)] of a field's name. Raises ValueError."""
+    words = field.split("/")
+    parts = [part for part in map(_PART.fullmatch, words) if part]
+    if len(parts) < len(words) or len(parts) > DEEPEST:
         raise ValueError(f"{field!r} is no field: write it as pose/position/x or axes[0]")
     return [(part[1], None if part[2] is None else int(part[2])) for part in parts]
 
 
-def value_at(message, parts):
-    """The number at parts_of(...) as a float, or None if the message has none there."""
+def value_at(message: Any, parts: Sequence[tuple[str, int | None]]) -> float | None:
+    """Return the number at parts_of(...) as a float, or None."""
     for name, index in parts:
         if name not in getattr(message, "__slots__", ()):
             return None
@@ -56,12 +60,12 @@ def value_at(message, parts):
                 return None
             message = message[index]
     if hasattr(message, "to_sec"):
-        return message.to_sec()
+        return float(message.to_sec())
     return float(message) if isinstance(message, (int, float)) else None
 
 
-def split(field, topics):
-    """(topic, the rest) of a field of one of the topics. Raises ValueError."""
+def split(field: str, topics: Iterable[str]) -> tuple[str, str]:
+    """Return (topic, rest) of a field of one of the topics. Raises ValueError."""
     fitting = [topic for topic in topics if field.startswith(f"{topic}/")]
     if not fitting:
         raise ValueError(f"{field!r} belongs to no topic that is published")

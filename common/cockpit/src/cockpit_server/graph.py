@@ -1,44 +1,42 @@
 """What the master knows, as pages get it (pure)."""
 
-from dataclasses import dataclass, field
-from typing import Dict, FrozenSet
+from __future__ import annotations
 
+from dataclasses import dataclass, field
+from typing import Any, Container, Dict, FrozenSet, Iterable, Iterator
+
+Column = Dict[str, FrozenSet[str]]
 ODOMETRY, JOY = "nav_msgs/Odometry", "sensor_msgs/Joy"
 
 
 @dataclass(frozen=True)
 class Graph:
-    """publishers, subscribers: topic -> names of nodes; services: name -> names of nodes; types:
-    topic -> type; machines: node -> the machine that it runs on.
-    """
+    """By name: nodes of publishers, subscribers, services; types; machines of nodes."""
 
-    publishers: Dict[str, FrozenSet[str]] = field(default_factory=dict)
-    subscribers: Dict[str, FrozenSet[str]] = field(default_factory=dict)
-    services: Dict[str, FrozenSet[str]] = field(default_factory=dict)
-    types: Dict[str, str] = field(default_factory=dict)
-    machines: Dict[str, str] = field(default_factory=dict)
+    publishers: Column = field(default_factory=dict)
+    subscribers: Column = field(default_factory=dict)
+    services: Column = field(default_factory=dict)
+    types: dict[str, str] = field(default_factory=dict)
+    machines: dict[str, str] = field(default_factory=dict)
 
     @property
-    def nodes(self):
-        """The names of all nodes."""
+    def nodes(self) -> set[str]:
         columns = (self.publishers, self.subscribers, self.services)
         return {node for column in columns for nodes in column.values() for node in nodes}
 
     @property
-    def published(self):
-        """The topics that somebody publishes, in alphabetical order."""
+    def published(self) -> list[str]:
         return sorted(topic for topic, nodes in self.publishers.items() if nodes)
 
-    def robots_with_odometry(self):
-        """The names of all robots that say where they are."""
+    def robots_with_odometry(self) -> set[str]:
         return {
             robot_of(topic)
             for topic in self.published
             if topic.endswith("/odom") and self.types.get(topic) == ODOMETRY
         }
 
-    def robots(self):
-        """The names of all robots, "" is the one without: they have an odometry, or hear a /joy."""
+    def robots(self) -> set[str]:
+        """Return all robots, which have an odometry or hear a /joy; "" has no namespace."""
         driven = {
             robot_of(topic)
             for topic, nodes in self.subscribers.items()
@@ -46,8 +44,8 @@ class Graph:
         }
         return self.robots_with_odometry() | driven
 
-    def parts(self):
-        """nodes, topics and edges as pages get them."""
+    def parts(self) -> dict[str, Any]:
+        """Return nodes, topics and edges as pages get them."""
         edges = [
             edge
             for topic in sorted(set(self.publishers) | set(self.subscribers))
@@ -65,15 +63,15 @@ class Graph:
             "edges": edges,
         }
 
-    def _edges(self, topic):
+    def _edges(self, topic: str) -> Iterator[dict[str, str]]:
         this = f"topic {topic}"
         for node in sorted(self.publishers.get(topic, ())):
             yield {"from": f"node {node}", "to": this}
         for node in sorted(self.subscribers.get(topic, ())):
             yield {"from": this, "to": f"node {node}"}
 
-    def about_node(self, name):
-        """What a node does, as pages get it."""
+    def about_node(self, name: str) -> dict[str, Any]:
+        """Return what a node does, as pages get it."""
         publishes = users_of(self.publishers, name)
         subscribes = users_of(self.subscribers, name)
         others = {n for topic in publishes for n in self.subscribers.get(topic, ())}
@@ -88,20 +86,22 @@ class Graph:
         }
 
 
-def users_of(column, node):
-    """The names under which a node stands in a column of the graph."""
+def users_of(column: Column, node: str) -> list[str]:
     return sorted(name for name, nodes in column.items() if node in nodes)
 
 
-def robot_of(topic):
-    """The robot that a topic belongs to: its namespace."""
+def topic_of(robot: str, name: str) -> str:
+    """Return the name of a robot's topic; the robot "" has no namespace."""
+    return f"/{robot}/{name}" if robot else f"/{name}"
+
+
+def robot_of(topic: str) -> str:
+    """Return the robot that a topic belongs to: its namespace."""
     return topic.rsplit("/", 1)[0].strip("/")
 
 
-def without(name, column, shown_in=()):
-    """A column of getSystemState() as {name: nodes}, without one node, but where it is to be shown:
-    the cockpit only looks at robots, and is a part of the graph where it moves them.
-    """
+def without(name: str, column: Iterable[Any], shown_in: Container[str] = ()) -> Column:
+    """Return a column of getSystemState() as {entry: nodes}, with a node in shown_in only."""
     users = {
         entry: frozenset(nodes) - ({name} if entry not in shown_in else set())
         for entry, nodes in column

@@ -1,4 +1,4 @@
-"""Asks the master, once a second, who is there."""
+"""Asks the master for the graph, once a second."""
 
 import threading
 import time
@@ -6,38 +6,36 @@ from urllib.parse import urlsplit
 
 import rosgraph
 
-from cockpit_server.graph import JOY, Graph, without
+from cockpit_server.graph import JOY, Graph, topic_of, without
 from node_kit.questions import Answer, call
 
 PERIOD_S = 1.0
 
 
 class GraphWatch:
-    """The newest Graph, and a number that grows with each change of it."""
+    """The newest Graph, without this node except as a joystick; version grows with each change."""
 
     def __init__(self, own_name):
-        """own_name: of this node, which is left out, but as a joystick."""
         self._own_name = own_name
         self._uri = rosgraph.get_master_uri()
         self.graph, self.version = Graph(), 0
         self._is_lost = False
-        self._pid = None  # of the master, once it has told
+        self._pid = None  # of the master, once known
         self.look()
 
     def joysticks(self, robot):
-        """The names of the other nodes that publish a robot's joystick."""
+        """Return the names of the other nodes that publish a robot's joystick."""
         return tuple(sorted(self._others(self.graph.publishers, robot)))
 
     def joystick_listeners(self, robot):
-        """The names of the other nodes that are registered to hear a robot's joystick."""
+        """Return the names of the other nodes that subscribe to a robot's joystick."""
         return self._others(self.graph.subscribers, robot)
 
     def _others(self, column, robot):
-        topic = f"/{robot}/joy" if robot else "/joy"
-        return column.get(topic, frozenset()) - {self._own_name}
+        return column.get(topic_of(robot, "joy"), frozenset()) - {self._own_name}
 
     def start(self, lost):
-        """Look again and again, in a thread of its own. lost: called when the master has gone."""
+        """Look once a second, in a thread. lost: called when the master has gone."""
         threading.Thread(target=self._run, args=(lost,), daemon=True).start()
 
     def _run(self, lost):
@@ -47,17 +45,16 @@ class GraphWatch:
         lost()
 
     def look(self):
-        """Ask once."""
         answer, state = call(self._uri, "getSystemState", caller=self._own_name)
         if answer is Answer.SILENT:
             return
-        told, pid = call(self._uri, "getPid", caller=self._own_name)
+        answered, pid = call(self._uri, "getPid", caller=self._own_name)
         heard, types = call(self._uri, "getTopicTypes", caller=self._own_name)
-        if answer is Answer.WELL and Answer.SILENT in (told, heard):
+        if answer is Answer.WELL and Answer.SILENT in (answered, heard):
             return  # it is busy, and is asked again
         if self._pid is None:
             self._pid = pid
-        if {answer, told} != {Answer.WELL} or pid != self._pid:
+        if {answer, answered} != {Answer.WELL} or pid != self._pid:
             self._is_lost = True
             return
         types = dict(types or [])

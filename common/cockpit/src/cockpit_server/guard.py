@@ -1,17 +1,21 @@
 """Lets one thing fail and the others go on (pure)."""
 
+from __future__ import annotations
+
+from typing import Any, Callable
+
 MOST_TOLD = 100  # things; a page may ask for any number of topics that are none
 
 
 class Guard:
-    """Calls what may fail; of each thing that does it tells once."""
+    """Calls what may fail, and reports the first failure of each thing."""
 
-    def __init__(self, tell):
-        """tell: called with a line; it must not wait."""
-        self._tell, self._told = tell, set()
+    def __init__(self, tell: Callable[[str], None]) -> None:
+        self._tell = tell
+        self._told: set[str] = set()
 
-    def __call__(self, about, action, *arguments):
-        """Do something. about: what a failure is told of, such as the name of a tab's source."""
+    def __call__(self, about: str, action: Callable[..., Any], *arguments: Any) -> None:
+        """Do something. about: what fails, such as the name of a source."""
         try:
             action(*arguments)
         except Exception as error:  # whatever it is, it is a fault of that thing alone

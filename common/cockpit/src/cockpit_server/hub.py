@@ -2,18 +2,18 @@
 
 import time
 from collections import deque
+from typing import ClassVar
 
-from cockpit_server.budget import ALL_BURST_S, MESSAGE_S, SHARE, Budget
-from cockpit_server.clients import Watch
+from cockpit_server import budget, schema
+from cockpit_server.budget import SHARE, Budget
 from cockpit_server.drives import lost_text
 from cockpit_server.feeds import OnceLater
 from cockpit_server.guard import Guard
-from cockpit_server.schema import MODES, check_lengths, check_message
 from cockpit_server.seat import PAGE, Input, RefusedError, Seat
 from gamepad.gamepads import F710
 from node_kit.throttle import Throttle
 
-BEAT_S = 0.05  # of the server to who drives, and of the robots to all
+BEAT_S = 0.05  # of the server to the driver, and of the robots to all
 TICK_S = 0.01  # how often the seat and a recording that plays look at the time
 GIVE_S = 0.005  # of a tick for what pages are sent; the others' turn comes in the next
 CONNECT_S = 2.0  # after which a node that is registered is not waited for any longer
@@ -21,22 +21,26 @@ RIVAL_S = 1.0  # another joystick that was heard within that has the first say
 
 
 class Hub:
-    """The pages that are open, who of them drives, and what each is sent."""
+    """The pages that are open, which of them drives, and what each is sent."""
+
+    watches: ClassVar = {}
+    messages: ClassVar = {
+        "drive": {"robot": schema.text, "mode": schema.one_of(*schema.MODES)},
+        "leave": {},
+        "hand_over": {"to": schema.whole},
+        "input": schema.INPUT,
+        "release": {"why": schema.text},
+    }
 
     def __init__(self, soon, graph_watch, joysticks, pads, tell):
-        """soon: called in any thread with what is to be called in this one. pads: knows who else
-        moves a robot. tell: called with a line about what has failed; it must not wait.
-        """
+        """soon: runs an action in this thread. tell: reports a failure at once."""
         self._guard = Guard(tell)
         self.soon, self._graphs, self._joysticks, self._pads = soon, graph_watch, joysticks, pads
         self._named, self._player = [], None  # the sources with their names
-        self._handlers = {
-            "watch": self._on_watch, "drive": self._on_drive, "leave": self._on_leave,
-            "hand_over": self._on_hand_over, "input": self._on_input, "release": self._on_release,
-        }  # fmt: skip
         self.clients = {}
         self._next_number, self._beats = 1, 0
-        self._messages = Budget(ALL_BURST_S)  # of all pages but the one that drives
+        self._messages = Budget(budget.ALL_BURST_S)  # of all pages but the one that drives
+        self._requests = {}  # address -> Budget of its HTTP requests
         self._due = deque()  # pages whose turn it is to be sent something
         self._may_beat = Throttle(1 / BEAT_S, burst=1.5)  # even, though the ticks are not
         self._modes = ()  # of the gamepad that may drive
@@ -47,49 +51,52 @@ class Hub:
         self.seat = Seat(joysticks.send, self._on_lost)
 
     def add(self, sources, player):
-        """sources: of what pages see, with prepare(), give() and handlers, by kind of message.
-        player: the one that plays recordings.
-        """
+        """sources: clients.Source. player: the one that plays recordings."""
         self._player = player
-        for source in sources:
-            self._handlers.update(source.handlers)
+        self._schema = schema.Schema([self, *sources])
+        self._handlers = {schema.WATCH: self.on_watch}
+        for one in (self, *sources):
+            self._handlers.update({kind: getattr(one, f"on_{kind}") for kind in one.messages})
         self._named = [(type(one).__name__, one) for one in sources]
 
-    # ------------------------------------------------------------------ pages come and go
-
     def number(self):
-        """A number for a new page."""
         self._next_number += 1
         return self._next_number - 1
 
     def join(self, client):
-        """A page was opened."""
         self.clients[client.number] = client
+        client.spoke_at = time.monotonic()
+        client.watch = self._schema.watch()
+        pads = {m: {"axes": len(pad.axes), "buttons": pad.buttons} for m, pad in F710.items()}
         client.send(
-            "hello",
-            id=client.number,
-            role=client.role,
+            "hello", id=client.number, role=client.role, beat_ms=round(1000 * BEAT_S), pad=pads,
             robots=sorted(self._graphs.graph.robots()),
-            beat_ms=round(1000 * BEAT_S),
-            pad={
-                mode: {"axes": len(pad.axes), "buttons": pad.buttons} for mode, pad in F710.items()
-            },
-        )
+        )  # fmt: skip
 
     def leave(self, client):
-        """A page was closed."""
         self.clients.pop(client.number, None)
         self._change(lambda: self.seat.gone(client.number))
 
     def wait_s(self, client):
-        """How long [s] the next message of a page has to wait, for what the page has cost."""
+        """Return how long [s] the next message of a page waits, for what the page has cost."""
         if client.number == self.seat.driver:
             return 0.0
         now = time.monotonic()
         own = client.budget.wait_s(now, self._rate)
         wait_s = max(own, self._messages.wait_s(now, SHARE))
-        client.budget.spend(MESSAGE_S)
-        self._messages.spend(MESSAGE_S)
+        client.budget.spend(budget.MESSAGE_S)
+        self._messages.spend(budget.MESSAGE_S)
+        return wait_s
+
+    def request_wait_s(self, address):
+        """Return how long [s] an HTTP request has to wait, for what its address has cost."""
+        now, rate = time.monotonic(), SHARE / max(2, len(self._requests))
+        if address not in self._requests:
+            debts = self._requests.items()
+            self._requests = {one: debt for one, debt in debts if debt.wait_s(now, rate)}
+        own = self._requests.setdefault(address, Budget(budget.REQUESTS_BURST_S))
+        wait_s = own.wait_s(now, rate)
+        own.spend(budget.REQUEST_S)
         return wait_s
 
     @property
@@ -98,11 +105,11 @@ class Hub:
         return SHARE / max(1, len(self.clients))
 
     def hear(self, client, data):
-        """A page has sent something."""
         if client.number not in self.clients:
             return  # it waited, and is gone
-        began_s = time.thread_time()
-        self._hear(client, data, time.monotonic())
+        began_s, now = time.thread_time(), time.monotonic()
+        client.spoke_at = now
+        self._hear(client, data, now)
         cost_s = time.thread_time() - began_s
         client.budget.spend(cost_s)
         if client.number != self.seat.driver:
@@ -110,57 +117,54 @@ class Hub:
 
     def _hear(self, client, data, now):
         if not client.allows(now):
-            client.refuse("messages", "too many in a second: some were dropped", now)
+            client.refuse("messages", "too many messages in a second: some were dropped", now)
             return
         kind = "message"
         try:
-            kind, fields = check_message(data)
+            kind, fields = self._schema.check(data)
             self._handlers[kind](client, now, **fields)
         except (ValueError, RefusedError) as error:
             client.refuse(kind, str(error), now)
 
-    # ------------------------------------------------------------------------ what they say
-
-    def _on_watch(self, client, _now, **fields):
+    def on_watch(self, client, _now, **fields):
         # Resend everything but log lines, which the page has already.
-        goes_on = client.watch.log and fields["log"] and "log" in client.seen
+        watch = self._schema.watch(**fields)
+        goes_on = client.watch.log and watch.log and "log" in client.seen
         client.seen = {"log": client.seen["log"]} if goes_on else {}
-        client.watch = Watch(**fields)
+        client.watch = watch
 
-    def _on_drive(self, client, now, robot, mode):
+    def on_drive(self, client, now, robot, mode):
         self.sit_down(client, robot, PAGE, now)
         self._modes = (mode,)
 
-    def _on_leave(self, client, _now):
+    def on_leave(self, client, _now):
         self.stand_up(client)
 
-    def _on_hand_over(self, client, now, to):
+    def on_hand_over(self, client, now, to):
         other = self.clients.get(to)
         if other is None or not other.drives:
-            raise RefusedError("that page is not there, or may not drive")
+            raise RefusedError("that page is closed, or may not drive")
         self._change(lambda: self.seat.hand_over(client.number, to, now))
-        self._modes = MODES  # the other hand may hold another gamepad
+        self._modes = schema.MODES  # the other hand may hold another gamepad
         self._sat_at = now
 
-    def _on_input(self, client, now, *, axes, buttons, source, **more):
+    def on_input(self, client, now, *, axes, buttons, source, **more):
         client.must_drive()
         if client.number != self.seat.driver:
             return  # it was on its way when the seat was lost
-        check_lengths(self._modes, axes, buttons)
+        schema.check_lengths(self._modes, axes, buttons)
         said = Input(axes=axes, buttons=buttons, **more)
         may_arm = self.seat.armed or self._is_heard(now)
         self._change(lambda: self.seat.input(client.number, said, now, may_arm))
 
     def _is_heard(self, now):
-        """Whether all that are registered for this joystick hear it; not all of them may answer."""
+        """Return whether all subscribers of this joystick hear it; some may never answer."""
         listeners = self._graphs.joystick_listeners(self.seat.robot)
         connected = listeners <= self._joysticks.listeners(self.seat.robot)
         return connected or now - self._sat_at > CONNECT_S
 
-    def _on_release(self, client, _now, why):
+    def on_release(self, client, _now, why):
         self._change(lambda: self.seat.release(client.number, why))
-
-    # ----------------------------------------------------------------------------- the seat
 
     def sit_down(self, client, robot, how, now):
         """Let a client drive a robot. Raises RefusedError."""
@@ -169,20 +173,18 @@ class Hub:
             raise RefusedError(f"there is no robot {robot!r}")
         rival = self._pads.rival(robot, now - RIVAL_S)
         if rival and self.seat.driver != client.number:
-            raise RefusedError(f"{rival} sends on the joystick topic of this robot: end it first")
+            raise RefusedError(f"{rival} publishes the joystick topic of this robot: end it first")
         self._change(lambda: self.seat.take(client.number, robot, how, now))
         self._sat_at = now
 
     def stand_up(self, client):
-        """The client drives no longer."""
         self._change(lambda: self.seat.leave(client.number))
 
     def lose(self, why):
-        """Who drives is lost."""
         self._change(lambda: self.seat.lose(why))
 
     def _change(self, action):
-        """Do something with the seat, of which all pages are told if it changes."""
+        """Change the seat, and note the change for all pages."""
         before = self.seat.state
         action()
         self._seat_version += self.seat.state != before
@@ -210,10 +212,7 @@ class Hub:
                 how=seat.how, yours=seat.driver == client.number, armed=seat.armed,
             )  # fmt: skip
 
-    # ------------------------------------------------------------------------------- time
-
     def tick(self):
-        """Time has passed."""
         now = time.monotonic()
         self._change(lambda: self.seat.tick(now))
         self._guard("the player of recordings", self._player.play, now)
@@ -227,7 +226,7 @@ class Hub:
         self._give(now)
 
     def _give(self, now):
-        """Send what pages lack, one after the other, for a while."""
+        """Send what pages lack, one page after the other, for a while."""
         end_s = time.thread_time() + GIVE_S
         began_s = time.thread_time()
         while self._due and began_s < end_s:
@@ -248,7 +247,7 @@ class Hub:
             return
         rival = self._pads.rival(self.seat.robot, self._sat_at)
         if rival:
-            self._change(lambda: self.seat.free(f"{rival} drives this robot, too: end it first"))
+            self._change(lambda: self.seat.free(f"{rival} also drives this robot: end it first"))
             return
         driver = self.clients[self.seat.driver]
         self._beats += 1
@@ -257,5 +256,4 @@ class Hub:
             driver.send("beat", n=self._beats, time=round(time.time(), 3), input=self.seat.newest)
 
     def end(self):
-        """The robot at rest, then nothing."""
         self.seat.end()

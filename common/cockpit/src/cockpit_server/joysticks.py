@@ -3,7 +3,7 @@
 import rospy
 from sensor_msgs.msg import Joy
 
-from cockpit_server.robots import topic_of
+from cockpit_server.graph import topic_of
 from gamepad.trembling import Trembling
 from node_kit.prompt_publisher import PromptPublisher
 
@@ -14,23 +14,19 @@ class Joysticks:
     """The publisher of sensor_msgs/Joy for the robot that is driven; for others there is none."""
 
     def __init__(self):
-        """Nothing is advertised yet."""
         self._publishers = {}  # robot -> PromptPublisher; at most one
         self._trembling = Trembling()
         self._message = Joy()
         self._message.header.frame_id = FRAME
 
     def keep(self, robot):
-        """Advertise the topic of this robot, and of no other (None: of none); may wait for the
-        master. Who is registered without driving would stand beside the joystick that drives.
-        """
+        """Advertise the topic of this robot only (None: of none): the graph shows what drives."""
         for other in set(self._publishers) - {robot}:
             self._publishers.pop(other).end()
         if robot is not None and robot not in self._publishers:
             self._publishers[robot] = PromptPublisher(topic_of(robot, "joy"), Joy)
 
     def listeners(self, robot):
-        """The names of the nodes that hear the joystick of a robot by now."""
         publisher = self._publishers.get(robot)
         return publisher.names if publisher else set()
 

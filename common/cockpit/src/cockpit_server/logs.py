@@ -1,26 +1,38 @@
 """The newest lines that nodes have logged."""
 
 import itertools
+import re
 from collections import deque
 from functools import lru_cache
+from pathlib import Path
+from typing import ClassVar
 
 from genpy import DeserializationError
 from rosgraph_msgs.msg import Log
 
 from cockpit_server.clients import Source
+from cockpit_server.schema import switch
 
 KEPT = 500  # lines
-AT_ONCE = 50  # lines in a message to a page: many long ones would hold up who drives
+AT_ONCE = 50  # lines in a message to a page: many long ones would hold up the driver
 LONGEST_LINE = 2000  # characters
 LEVELS = {
     Log.DEBUG: "DEBUG", Log.INFO: "INFO", Log.WARN: "WARN", Log.ERROR: "ERROR", Log.FATAL: "FATAL",
 }  # fmt: skip
-TICKS = 2  # a message to pages each other time that they are looked after
+
+
+def without_folders(text, home=None, here=None):
+    """Return a text with the working directory as "." and the home directory as "~"."""
+    folders = ((here or str(Path.cwd()), "."), (home or str(Path.home()), "~"))
+    for folder, short in folders:
+        if folder != "/":
+            text = re.sub(re.escape(folder) + r"(?![\w.-])", short, text)
+    return text
 
 
 @lru_cache(maxsize=KEPT)
 def shown(data):
-    """A line as pages get it, from the bytes of a rosgraph_msgs/Log; None if they are none."""
+    """Return a line as pages get it, or None if the bytes are no Log."""
     try:
         log = Log().deserialize(data)
     except DeserializationError:
@@ -29,30 +41,25 @@ def shown(data):
         "time": round(log.header.stamp.to_sec(), 3),
         "level": LEVELS.get(log.level, str(log.level)),
         "node": log.name,
-        "text": log.msg[:LONGEST_LINE],
+        "text": without_folders(log.msg[:LONGEST_LINE]),
     }
 
 
 class Logs(Source):
-    """Keeps lines as they came, and reads them when a page wants to see them."""
+    """Keeps lines as bytes, and decodes them when a page shows the log."""
 
-    def __init__(self, feeds, graph_watch):
-        """Listen for as long as the node runs. graph_watch: knows whether the node rosout runs."""
-        self._feeds, self._graphs = feeds, graph_watch
+    watches: ClassVar = {"log": (switch, False)}
+
+    def __init__(self, feeds):
+        """Subscribe for as long as the node runs: to /rosout, where each node's last line is
+        latched, and not to /rosout_agg, which sends nothing that was logged before.
+        """
         self._lines = deque(maxlen=KEPT)  # (number, bytes)
         self._numbers = itertools.count(1)
-        self._ticks = 0
-
-    def prepare(self, clients, now):
-        """Listen to the node rosout, which gathers all lines, or where it is not to all nodes."""
-        gathered = "/rosout_agg" in self._graphs.graph.publishers
-        topic = "/rosout_agg" if gathered else "/rosout"
-        self._feeds.want(self, {topic: self._hear}, every=True)
-        self._ticks += 1
+        feeds.want(self, {"/rosout": self._hear}, every=True)
 
     def give(self, client, _now):
-        """Send the lines that the client has not got."""
-        if not client.watch.log or self._ticks % TICKS:
+        if not client.watch.log:
             return
         known = client.seen.get("log", 0)
         lines = [line for line in list(self._lines) if line[0] > known][:AT_ONCE]
@@ -62,4 +69,5 @@ class Logs(Source):
             client.send("log", entries=entries)
 
     def _hear(self, message, _topic):
-        self._lines.append((next(self._numbers), message.data))
+        if all(data != message.data for _, data in list(self._lines)):  # latched, heard again
+            self._lines.append((next(self._numbers), message.data))

@@ -1,5 +1,7 @@
 """The motion on the floor from the bytes of a nav_msgs/Odometry (pure)."""
 
+from __future__ import annotations
+
 import struct
 from math import atan2, hypot, isfinite
 from typing import NamedTuple
@@ -25,8 +27,8 @@ class Motion(NamedTuple):
     w: float
 
 
-def motion(data):
-    """The Motion; struct.error if the bytes are none. Of thirty robots nobody reads covariances."""
+def motion(data: bytes) -> Motion:
+    """Return the Motion, without the covariances; struct.error if the bytes are too short."""
     at = _HEADER_BYTES
     at += 4 + _LENGTH.unpack_from(data, at)[0]
     at += 4 + _LENGTH.unpack_from(data, at)[0]
@@ -35,14 +37,13 @@ def motion(data):
     return Motion(x, y, yaw, v, w)
 
 
-def is_somewhere(state):
-    """Whether a Motion has a place that can be shown."""
+def is_somewhere(state: Motion) -> bool:
     finite = isfinite(state.x) and isfinite(state.y) and isfinite(state.yaw)
     return finite and max(abs(state.x), abs(state.y)) <= FARTHEST_M
 
 
-def covered(last, new, so_far):
-    """The way [m] since the robot was put where it began; so_far: until the last Motion."""
+def covered(last: Motion, new: Motion, so_far: float) -> float:
+    """Return the distance [m] since the last reset; so_far: until the last Motion."""
     if new.x == new.y == new.yaw == 0.0:  # as a reset has it, and no drive by chance
         return 0.0
     step = hypot(new.x - last.x, new.y - last.y)

@@ -11,7 +11,7 @@ from cockpit_server.bags import Bags
 from cockpit_server.doctor import Doctor
 from cockpit_server.drives import Drives
 from cockpit_server.feeds import Feeds
-from cockpit_server.graph_view import GraphView
+from cockpit_server.graph_view import GraphView, Topics
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.hub import TICK_S, Hub
 from cockpit_server.joysticks import Joysticks
@@ -20,7 +20,6 @@ from cockpit_server.plots import Plots
 from cockpit_server.resets import Resets
 from cockpit_server.robots import Pads, Robots
 from cockpit_server.teleop import Teleop
-from cockpit_server.topics import Topics
 from cockpit_server.web import server
 from node_kit.log import Log
 
@@ -34,13 +33,12 @@ class Cockpit:
     """Shows the robots of a master to browsers, and lets one of them drive.
 
     Subscribes: what pages look at: odom (nav_msgs/Odometry), joy (sensor_msgs/Joy) of the robots,
-        any topic; /diagnostics (diagnostic_msgs/DiagnosticArray), /rosout_agg (rosgraph_msgs/Log)
+        any topic; /diagnostics (diagnostic_msgs/DiagnosticArray), /rosout (rosgraph_msgs/Log)
     Publishes: joy (sensor_msgs/Joy) of a robot that is driven
     Calls: mobile services of type std_srvs/Empty that end in /reset
     """
 
     def __init__(self, sockets, access):
-        """sockets: that listen. access: access.Access."""
         self._sockets = sockets
         name = rospy.get_name()
         graphs = self._graphs = GraphWatch(name)
@@ -49,9 +47,10 @@ class Cockpit:
         pads = Pads(feeds, graphs, name)
         hub = self._hub = Hub(self._soon, graphs, Joysticks(), pads, log.warn)
         bags, robots, teleop = Bags(hub), Robots(feeds, graphs), Teleop(feeds)
+        drives = Drives(hub, graphs, teleop, robots)
         sources = (
-            robots, pads, teleop, Drives(hub, graphs, teleop, robots), Resets(hub, graphs),
-            GraphView(graphs), Topics(feeds, graphs), Plots(feeds, graphs), Logs(feeds, graphs),
+            robots, pads, teleop, drives, Resets(hub, graphs, drives),
+            GraphView(graphs), Topics(feeds, graphs), Plots(feeds, graphs), Logs(feeds),
             Doctor(), bags,
         )  # fmt: skip
         hub.add(sources, player=bags)
@@ -62,7 +61,6 @@ class Cockpit:
         self._ended = None
 
     def run(self):
-        """Serve until shut down."""
         sys.setswitchinterval(SWITCH_S)
         asyncio.run(self._serve())
 

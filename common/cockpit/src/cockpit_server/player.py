@@ -1,37 +1,38 @@
 """When which recorded message is due (pure)."""
 
+from __future__ import annotations
+
 from bisect import bisect_left
+from typing import Any, Sequence, Tuple
+
+Message = Tuple[float, Any, Any]
 
 
 class Player:
-    """Plays [(time since the start [s], axes, buttons)] in the order of time."""
+    """Plays [(time since the start [s], axes, buttons)]; now is [s] of one clock everywhere."""
 
-    def __init__(self, messages, duration, rate, loop):
-        """duration: of the whole recording [s]. rate: 1 is as fast as it was recorded. seek()
-        begins. Everywhere here now is [s] of one clock.
-        """
+    def __init__(
+        self, messages: Sequence[Message], duration: float, rate: float, loop: bool
+    ) -> None:
         self._messages, self._duration = messages, duration
         self._times = [message[0] for message in messages]
         self._rate, self._loop = rate, loop
         self._began, self._next = 0.0, 0
 
-    def seek(self, position, now):
-        """Go on from a position [s]."""
+    def seek(self, position: float, now: float) -> None:
         if position >= self._duration:
             position = 0.0
         self._began = now - position / self._rate
         self._next = bisect_left(self._times, position)
 
-    def position(self, now):
-        """Where it is [s]."""
+    def position(self, now: float) -> float:
         return min(self._duration, (now - self._began) * self._rate)
 
-    def is_over(self, now):
-        """Whether all has been played."""
+    def is_over(self, now: float) -> bool:
         return not self._loop and (now - self._began) * self._rate >= self._duration
 
-    def due(self, now):
-        """The (axes, buttons) to publish now, in their order."""
+    def due(self, now: float) -> list[tuple[Any, Any]]:
+        """Return the (axes, buttons) to publish now, in their order."""
         position = (now - self._began) * self._rate
         if self._loop and position >= self._duration:
             rest = self._messages[self._next :]

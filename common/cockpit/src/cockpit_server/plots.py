@@ -5,21 +5,22 @@ from collections import deque
 from functools import lru_cache
 from itertools import takewhile
 from math import isfinite
+from typing import ClassVar
 
 import roslib.message
 import rospy
 
 from cockpit_server.clients import Source
 from cockpit_server.fields import numeric_fields, parts_of, split, value_at
+from cockpit_server.schema import MOST_FIELDS, list_of, switch, text
 
 NEAR_S = 1.0  # of a stamp and this clock; curves of two clocks would not be seen side by side
 KEPT = 2000  # samples of a field for a page that is behind
-FIELDS_TICKS = 20  # how often the list of fields is looked at
 
 
 @lru_cache(maxsize=None)
 def class_of(type_name):
-    """The class of messages of a type, or None if its package is not installed here."""
+    """Return the class of a message type, or None if its package is not installed."""
     try:
         return roslib.message.get_message_class(type_name)
     except Exception:  # whatever a package that is half there brings about
@@ -28,18 +29,17 @@ def class_of(type_name):
 
 @lru_cache(maxsize=None)
 def fields_of(type_name):
-    """The names of all numbers in messages of a type, what is seldom drawn last."""
+    """Return the names of all numbers in messages of a type, rarely drawn ones last."""
     kind = class_of(type_name)
     return tuple(sorted(numeric_fields(kind, class_of), key=is_seldom_drawn)) if kind else ()
 
 
 def is_seldom_drawn(field):
-    """Whether a field belongs to the end of a list: a header's number and time, a covariance."""
     return "header/" in field or "covariance" in field
 
 
 def newer(samples, known):
-    """The [t, value] of samples whose number is larger, in their order; the newest stand last."""
+    """Return the [t, value] of samples with a larger number, in their order."""
     last = takewhile(lambda sample: sample[0] > known, reversed(samples))
     return [[t, value] for _, t, value in last][::-1]
 
@@ -47,20 +47,18 @@ def newer(samples, known):
 class Plots(Source):
     """Subscribes to what is drawn and keeps the newest samples."""
 
+    watches: ClassVar = {"fields": (list_of(text, MOST_FIELDS), ()), "field_list": (switch, False)}
+
     def __init__(self, feeds, graph_watch):
-        """graph_watch: knows the topics and their types."""
         self._feeds, self._graphs = feeds, graph_watch
         self._lock = threading.Lock()
         self._wanted = {}  # topic -> {field: parts}
         self._classes = {}  # topic -> class of its messages
         self._samples = {}  # field -> deque of (number, time [s], value)
         self._number = 0
-        self._ticks = 0
         self._fields, self._fields_of = [], None
 
     def prepare(self, clients, _now):
-        """Subscribe to what is wanted now, and to nothing else."""
-        self._ticks += 1
         fields = {field for client in clients for field in client.watch.fields}
         graph, wanted = self._graphs.graph, {}
         published = graph.published
@@ -85,7 +83,6 @@ class Plots(Source):
             self._fields = [f"{topic}/{name}" for topic, kind in topics for name in fields_of(kind)]
 
     def give(self, client, now):
-        """Send all samples since the last ones, and the list of fields where it has changed."""
         if client.watch.field_list and client.lacks("fields", self._fields_of):
             client.send("fields", fields=self._fields)
         if not client.watch.fields:

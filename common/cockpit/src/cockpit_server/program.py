@@ -1,4 +1,4 @@
-"""The command: checks, waits for a master, and tells the address of the page."""
+"""The command: checks, waits for a master, and prints the address of the page."""
 
 import argparse
 import errno
@@ -15,8 +15,7 @@ import rosgraph
 import rospy
 
 from cockpit_server.access import Access
-from node_kit.page import PARAMETER, address
-from node_kit.questions import Answer, call
+from node_kit.questions import PARAMETER, Answer, address, call
 from node_kit.start import run
 
 NODE_NAME = "cockpit"
@@ -27,14 +26,13 @@ TOKENS = "COCKPIT_TOKENS"  # environment variable, which only this user can read
 
 
 def port(text):
-    """A TCP port; the type of --port. Raises what argparse tells the user."""
+    """Return the TCP port of --port."""
     if not text.isdigit() or not 1 <= int(text) <= 65535:
         raise argparse.ArgumentTypeError(f"{text}: not a port, a number from 1 to 65535")
     return int(text)
 
 
 def parse(argv):
-    """The command line."""
     parser = argparse.ArgumentParser(
         prog="cockpit", description="Shows the robots in a browser, and lets one page drive."
     )
@@ -48,54 +46,50 @@ def fail(line):
     sys.exit(f"cockpit: {line}")
 
 
+def report(line):
+    print(f"cockpit: {line}", flush=True)
+
+
 def listening(port, lan):
-    """Sockets that listen; the line for the user if the port is taken."""
-    hosts = [""] if lan else ["127.0.0.1"]
+    """Return sockets that listen, or exit with a line if the port is taken."""
+    one = socket.socket()
+    one.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    one.setblocking(False)
     try:
-        return [_listening(host, port) for host in hosts]
+        one.bind(("" if lan else "127.0.0.1", port))
+        one.listen(128)
     except OSError as error:
         if error.errno == errno.EADDRINUSE:
             leave_to_other(port, lan)
         fail(f"cannot listen on port {port}: {error.strerror}; take another: --port 8080")
+    return [one]
 
 
 def leave_to_other(port, lan):
-    """Exit: with 0 if a cockpit of the same master has the port, and may as well be used."""
+    """Exit, with 0 if a cockpit of the same master has the port and serves the purpose."""
     page = address(rosgraph.get_master_uri())
     if not page or urlsplit(page).port != port:
         fail(f"port {port} is taken, maybe by another cockpit: end it, or take --port {port + 1}")
     if lan:
         fail(
-            f"one runs already at {page}; for other machines end it first (a launch file starts "
-            f"none with cockpit:=false), or take --port {port + 1}"
+            f"a cockpit is already running at {page}; for other machines end it first (a launch "
+            f"file starts none with cockpit:=false), or take --port {port + 1}"
         )
-    print(f"cockpit: one runs already: open {page} on this machine", flush=True)
+    report(f"a cockpit is already running: open {page} on this machine")
     sys.exit()
 
 
-def _listening(host, port):
-    one = socket.socket()
-    one.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-    one.setblocking(False)
-    one.bind((host, port))
-    one.listen(128)
-    return one
-
-
 def wait_for_master():
-    """Wait until one answers, after one line that says so."""
-    uri = rosgraph.get_master_uri()
-    if call(uri, "getPid")[0] is Answer.REFUSED:
-        print(
-            f"cockpit: waiting for a ROS master at {uri}: start roscore, or a launch file",
-            flush=True,
-        )
-        while call(uri, "getPid")[0] is Answer.REFUSED:
-            time.sleep(LOOK_S)
+    uri, is_reported = rosgraph.get_master_uri(), False
+    while call(uri, "getPid")[0] is Answer.REFUSED:
+        if not is_reported:
+            report(f"waiting for a ROS master at {uri}: start roscore, or a launch file")
+            is_reported = True
+        time.sleep(LOOK_S)
 
 
 def own_address():
-    """The address at which other machines may find this one."""
+    """Return the address at which other machines may find this one."""
     try:
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
             probe.connect(("192.0.2.1", 9))  # nothing is sent; RFC 5737 has it for documentation
@@ -105,7 +99,6 @@ def own_address():
 
 
 def main():
-    """Run the node until it is stopped; return its exit code."""
     try:
         from cockpit_server.node import Cockpit  # noqa: PLC0415  tornado may be missing
     except ModuleNotFoundError as error:
@@ -136,15 +129,15 @@ def main():
 
 
 def begin_anew(access):
-    """Wait for the next master, with the same tokens, in place of this process: rospy knows one."""
-    print("cockpit: the ROS master has gone", flush=True)
+    """Replace this process, with the same tokens: rospy knows one master."""
+    report("the ROS master has gone")
     if access.driver_token:
         os.environ[TOKENS] = f"{access.driver_token} {access.viewer_token}"
     os.execv(sys.executable, [sys.executable, *sys.argv])
 
 
 def new_access():
-    """An Access for other machines, too: new tokens, or those from before begin_anew()."""
+    """Return an Access for other machines, with new tokens or those from begin_anew()."""
     host = socket.gethostname().lower()
     tokens = os.environ.pop(TOKENS, "").split()
     tokens = tokens or [secrets.token_urlsafe(TOKEN_BYTES) for _ in range(2)]
@@ -152,29 +145,27 @@ def new_access():
 
 
 def no_parameters(given):
-    """There are none. Raises ValueError."""
     for name in given:
         raise ValueError(f"~{name}: no such parameter; the port is --port, other machines --lan")
 
 
 def tell(port, access):
-    """Print where the page is; only here, and on nothing but this terminal, is a token shown."""
+    """Print the page's address; a token is shown nowhere else."""
     if access.driver_token is None:
-        print(f"cockpit: open http://127.0.0.1:{port}/ on this machine", flush=True)
+        report(f"open http://127.0.0.1:{port}/ on this machine")
         return
     page = f"http://{own_address()}:{port}/?token="
     print(f"cockpit: to look:  {page}{access.viewer_token}")
-    print(f"cockpit: to drive: {page}{access.driver_token}", flush=True)
+    report(f"to drive: {page}{access.driver_token}")
     show_code(f"{page}{access.driver_token}")
 
 
 def show_code(text):
-    """The address as a QR code for a phone's camera. Not by an argument, which all users see."""
+    """Print the address as a QR code. Not by an argument, which all users see."""
     if not shutil.which("qrencode"):
-        print("cockpit: (for a QR code: apt install qrencode)", flush=True)
+        report("(for a QR code: apt install qrencode)")
         return
     done = subprocess.run(
         ["qrencode", "-t", "UTF8", "-m", "1"], input=text.encode(), capture_output=True, check=False
     )
-    sys.stdout.write(done.stdout.decode(errors="replace"))
-    sys.stdout.flush()
+    print(done.stdout.decode(errors="replace"), end="", flush=True)

@@ -1,20 +1,26 @@
-"""Reads a recording: what is in it, and the joystick messages of each topic."""
+"""Recordings: what is in them, and the joystick messages of each topic. Each is read once."""
 
 import stat
+from collections import OrderedDict
 from math import isfinite
 from pathlib import Path
 from typing import Dict, List, NamedTuple, Tuple
 
 import rosbag
+import rospkg
+
+from cockpit_server.clients import encoded
 
 JOY = "sensor_msgs/Joy"
 LARGEST = 200_000_000  # bytes
 MOST_MESSAGES = 500_000  # of joysticks; at 100 Hz more than an hour
 MOST_POINTS = 3000  # of a curve
+MOST_NAMES = 100  # of this folder
+MOST_KEPT = 20  # recordings
 
 
 class RecordingError(Exception):
-    """It cannot be read; the text says in one line why."""
+    """It cannot be read; the text says why in one line."""
 
 
 class Recording(NamedTuple):
@@ -29,17 +35,15 @@ class Recording(NamedTuple):
 
     @property
     def duration(self):
-        """[s]."""
         return self.end - self.start
 
     @property
     def messages(self):
-        """How many are kept here."""
         return sum(map(len, self.joys.values()))
 
 
 def read(path):
-    """The Recording of a file. Raises RecordingError; it names the file, and no folder."""
+    """Return the Recording of a file. Raises RecordingError, which names no folder."""
     name = Path(path).name
     try:
         about = Path(path).stat()
@@ -75,9 +79,7 @@ def _read(bag, name):
 
 
 def curves(joys):
-    """{"/joy/axes[0]": [[time since the start [s], value], ...]} of all axes and buttons,
-    without what is no number that can be drawn.
-    """
+    """Return {"/joy/axes[0]": [[time [s], value], ...], ...}, finite values only."""
     found = {}
     for topic, messages in joys.items():
         step = len(messages) // MOST_POINTS + 1
@@ -94,10 +96,62 @@ def curves(joys):
 
 
 def corners(points):
-    """The points without those in the middle of a horizontal line."""
+    """Return the points without those inside a horizontal line."""
     inner = [
         point
         for before, point, after in zip(points, points[1:], points[2:])
         if not before[1] == point[1] == after[1]
     ]
     return [*points[:1], *inner, *points[1:][-1:]]
+
+
+def recordings(may_drive):
+    """Return {name: path} of the suite's recording and, for drivers, those of this folder."""
+    ours = Path(rospkg.RosPack().get_path("gamepad")) / "bag" / "joy.bag"
+    here = sorted(filter(Path.is_file, Path.cwd().glob("*.bag"))) if may_drive else []
+    return {path.name: path for path in [ours, *here[:MOST_NAMES]]}
+
+
+class Shelf:
+    """The recordings that were read. Used by one thread, except in_use."""
+
+    def __init__(self):
+        self._read = OrderedDict()  # what the file is -> (Recording, message of it to pages)
+        self.in_use = ()  # Recordings that pages have open; set anew, never changed
+
+    def take(self, path):
+        """Return (Recording, message) of a file. Raises RecordingError."""
+        try:
+            about = path.stat()
+        except OSError as error:
+            raise RecordingError(f"{path.name}: cannot be read: {error.strerror}") from None
+        key = (path, about.st_mtime_ns, about.st_size)
+        if key not in self._read:
+            self._read[key] = self._taken(path)
+        self._read.move_to_end(key)
+        self._make_room(self._read[key][0])
+        return self._read[key]
+
+    def _taken(self, path):
+        recording = read(path)
+        topics = [
+            {"name": topic, "type": kind, "count": count}
+            for topic, (kind, count) in sorted(recording.topics.items())
+        ]
+        # Before anything changes: what cannot be shown is not opened.
+        return recording, encoded(
+            "bag", path=path.name, start=recording.start, end=recording.end, topics=topics,
+            curves=curves(recording.joys),
+        )  # fmt: skip
+
+    def _make_room(self, newest):
+        used = {id(one) for one in (*self.in_use, newest)}
+        unused = [key for key, (one, _) in self._read.items() if id(one) not in used]
+        while unused and (len(self._read) > MOST_KEPT or self._has_too_many()):
+            del self._read[unused.pop(0)]
+        if self._has_too_many() and len(self._read) > 1:
+            self._read.popitem()
+            raise RecordingError("other pages have long recordings open: close one of them")
+
+    def _has_too_many(self):
+        return sum(one.messages for one, _ in self._read.values()) > MOST_MESSAGES

@@ -1,17 +1,19 @@
 """Puts a robot back to where it started, by its service."""
 
 import threading
+from typing import ClassVar
 
 import rospy
 from std_srvs.srv import Empty
 
 from cockpit_server.clients import Source
-from cockpit_server.robots import topic_of
+from cockpit_server.graph import topic_of
+from cockpit_server.schema import text
 from cockpit_server.seat import RefusedError
 
 
 def reset_service(graph, robot):
-    """The name of the service that resets a robot and no other. Raises RefusedError."""
+    """Return the service that resets this robot and no other. Raises RefusedError."""
     own = topic_of(robot, "reset")
     if own in graph.services:
         return own
@@ -24,23 +26,26 @@ def reset_service(graph, robot):
 
 
 class Resets(Source):
-    """Calls the service of a robot when who may drive asks for it, and no other page drives it."""
+    """Resets a robot that nothing else drives, when a page asks for it."""
 
-    def __init__(self, hub, graph_watch):
-        """hub: has the seat. graph_watch: knows the services."""
-        self._hub, self._graphs = hub, graph_watch
-        self.handlers = {"reset": self._reset}
+    messages: ClassVar = {"reset": {"robot": text}}
+
+    def __init__(self, hub, graph_watch, drives):
+        self._hub, self._graphs, self._drives = hub, graph_watch, drives
         self._asked = set()  # names of services that have not answered yet
 
-    def _reset(self, client, _now, robot):
+    def on_reset(self, client, _now, robot):
         client.must_drive()
         if robot == self._hub.driven and client.number != self._hub.seat.driver:
-            raise RefusedError("another page drives this robot, and may reset it")
+            raise RefusedError("another page drives this robot: only that page may reset it")
+        node = self._drives.node_that_drives(robot)
+        if node:
+            raise RefusedError(f"{node} drives this robot: stop it before you reset the robot")
         name = reset_service(self._graphs.graph, robot)
         if name in self._asked:
-            raise RefusedError(f"{name} was called before, and has not answered yet")
+            raise RefusedError(f"{name} was called and has not answered yet")
         self._asked.add(name)
-        # A thread of its own: a robot that hangs does not answer, and others are to be driven.
+        # A thread of its own: a robot that hangs does not answer, and other robots go on.
         threading.Thread(target=self._call, args=(name,), daemon=True).start()
 
     def _call(self, name):

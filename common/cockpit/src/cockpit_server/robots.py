@@ -3,38 +3,36 @@
 import struct
 import time
 from math import isfinite
+from typing import ClassVar
 
 from genpy import DeserializationError
 from sensor_msgs.msg import Joy
 
 from cockpit_server.clients import Source, encoded
+from cockpit_server.graph import topic_of
 from cockpit_server.motion import covered, is_somewhere, motion
+from cockpit_server.schema import or_null, switch, text
 from node_kit.careful_connections import sender_of
 
 DIGITS = 4  # of metres: a tenth of a millimetre
 # [byte]; a gamepad's message has some 100. The thread that reads them, and sends each to all pages,
-# also watches over who drives, and a huge one would hold it up.
+# also watches over the driver, and a huge one would hold it up.
 LONGEST_JOY = 4000
 FRESH_S, LEAST_SPEED = 1.0, 0.01  # of odometry that says that a robot moves [m/s, rad/s]
-
-
-def topic_of(robot, name):
-    """The topic of a robot, "" is the one without a name."""
-    return f"/{robot}/{name}" if robot else f"/{name}"
 
 
 class Robots(Source):
     """The robots' names, and the newest odometry of each, for all pages that show them."""
 
+    watches: ClassVar = {"robots": (switch, False)}
+
     def __init__(self, feeds, graph_watch):
-        """graph_watch: knows the robots. Nothing is subscribed to before somebody looks."""
         self._feeds, self._graphs = feeds, graph_watch
         self._newest = {}  # topic -> (bytes, when they came [s])
         self._states = {}  # robot -> (Motion, when it came [s], distance covered [m])
         self._text = ""
 
     def prepare(self, clients, now):
-        """Gather what is sent to all that watch."""
         watched = any(client.watch.robots for client in clients)
         known = self._graphs.graph.robots_with_odometry() if watched else ()
         topics = {topic_of(robot, "odom"): robot for robot in known}
@@ -48,7 +46,6 @@ class Robots(Source):
         self._text = encoded("robots", stamp=round(time.time(), 3), robots=robots)
 
     def give(self, client, _now):
-        """Send the names where they have changed, and the newest state."""
         if not client.watch.robots:
             return
         names = sorted(self._graphs.graph.robots())
@@ -57,7 +54,7 @@ class Robots(Source):
         client.write(self._text)
 
     def moves(self, robot, now):
-        """Whether the newest odometry of a robot says so; it is known while a page looks."""
+        """Return whether the newest odometry says so; known while a page shows robots."""
         state, came, _ = self._states.get(robot, (None, 0.0, 0.0))
         fresh = state is not None and now - came < FRESH_S
         return fresh and max(abs(state.v), abs(state.w)) > LEAST_SPEED
@@ -78,7 +75,7 @@ class Robots(Source):
 
 
 def shown(state, came, way, now):
-    """A robot's state as pages get it; what is not finite is left out, and a place that is none."""
+    """Return a robot's state as pages get it, without values that are not finite."""
     values = {**state._asdict(), "covered": way, "age": max(0.0, now - came)}
     if not is_somewhere(state):
         for name in ("x", "y", "yaw"):
@@ -87,7 +84,7 @@ def shown(state, came, way, now):
 
 
 def joy_shown(data):
-    """{axes, buttons} as pages get them, from the bytes of a Joy; None if none, or too many."""
+    """Return {axes, buttons} of the bytes of a Joy, or None if malformed or too long."""
     if len(data) > LONGEST_JOY:
         return None
     try:
@@ -99,10 +96,11 @@ def joy_shown(data):
 
 
 class Pads(Source):
-    """The newest joystick message of each robot that somebody looks at or drives."""
+    """The newest joystick message of each robot that a page shows or drives."""
+
+    watches: ClassVar = {"look": (or_null(text), None)}
 
     def __init__(self, feeds, graph_watch, own_name):
-        """own_name: of this node. Others that send on the same topic are told by rival()."""
         self._feeds, self._graphs, self._own_name = feeds, graph_watch, own_name
         self.driven = None  # the robot that is driven from a page
         self._newest = {}  # topic -> (bytes, when they came [s])
@@ -110,7 +108,6 @@ class Pads(Source):
         self._rivals = {}  # topic -> (name of the node, when it last spoke [s])
 
     def prepare(self, clients, _now):
-        """Subscribe to what is looked at now, and read what is new, once for all pages."""
         looked_at = {client.watch.look for client in clients} & self._graphs.graph.robots()
         robots = (looked_at | {self.driven}) - {None}
         hears = {topic_of(robot, "joy"): self._hear for robot in robots}
@@ -125,7 +122,6 @@ class Pads(Source):
         }
 
     def give(self, client, now):
-        """Send what is new of the one it looks at."""
         robot = client.watch.look
         if robot is None:
             return
@@ -134,7 +130,7 @@ class Pads(Source):
             client.send("pad", robot=robot, age=round(max(0.0, now - came), 3), **joy)
 
     def rival(self, robot, since):
-        """The name of another node that has sent on the robot's topic since a time [s], or None."""
+        """Return the other node that sent on the robot's topic since a time [s], or None."""
         name, spoke = self._rivals.get(topic_of(robot, "joy"), ("", 0.0))
         return name if spoke >= since and name else None
 

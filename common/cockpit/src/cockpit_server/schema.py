@@ -1,9 +1,13 @@
-"""What a page may say: each message's fields and their bounds (pure).
+"""The messages that pages may send: fields and their bounds (pure).
 
-check_message() gives what is as it should be, and raises ValueError with one line for all else.
+A field's check returns the value as it is used, or raises ValueError with one line.
 """
 
+from __future__ import annotations
+
 import json
+from types import SimpleNamespace
+from typing import Any, Callable, Mapping, Sequence
 
 from gamepad.gamepads import F710
 from node_kit.parameters import is_number, is_whole
@@ -13,17 +17,21 @@ LONGEST_TEXT = 200
 MOST_FIELDS = 20
 LARGEST = 2**53 - 1  # up to here JavaScript's numbers are whole
 MODES = tuple(F710)
-SOURCES = ("pad", "touch", "keys")
+MOST_AXES = max(len(pad.axes) for pad in F710.values())
+MOST_BUTTONS = max(len(pad.buttons) for pad in F710.values())
+WATCH = "watch"
+
+Check = Callable[[Any], Any]
 
 
-def whole(value):
+def whole(value: Any) -> Any:
     if not is_whole(value) or not 0 <= value <= LARGEST:
         raise ValueError("must be a whole number from 0")
     return value
 
 
-def number(least, most):
-    def check(value):
+def number(least: float, most: float) -> Check:
+    def check(value: Any) -> float:
         if not is_number(value) or not least <= value <= most:
             raise ValueError(f"must be a number from {least:g} to {most:g}")
         return float(value)
@@ -31,27 +39,27 @@ def number(least, most):
     return check
 
 
-def text(value):
+def text(value: Any) -> str:
     if not isinstance(value, str) or len(value) > LONGEST_TEXT or not value.isprintable():
         raise ValueError(f"must be a text of at most {LONGEST_TEXT} characters")
     return value
 
 
-def full_name(value):
-    """A name of the graph with its namespace: rospy would take "x" for one beside the cockpit."""
+def full_name(value: Any) -> str:
+    """Check a name of the graph: rospy would put a relative one beside the cockpit."""
     if not text(value).startswith("/"):
         raise ValueError("must begin with /")
-    return value
+    return str(value)
 
 
-def switch(value):
+def switch(value: Any) -> bool:
     if not isinstance(value, bool):
         raise ValueError("must be true or false")
     return value
 
 
-def one_of(*values):
-    def check(value):
+def one_of(*values: str) -> Check:
+    def check(value: Any) -> Any:
         if value not in values or not isinstance(value, str):
             raise ValueError(f"must be {', '.join(values)}")
         return value
@@ -59,12 +67,12 @@ def one_of(*values):
     return check
 
 
-def or_null(check):
+def or_null(check: Check) -> Check:
     return lambda value: None if value is None else check(value)
 
 
-def list_of(check, most):
-    def check_all(value):
+def list_of(check: Check, most: int) -> Check:
+    def check_all(value: Any) -> tuple[Any, ...]:
         if not isinstance(value, list) or len(value) > most:
             raise ValueError(f"must be a list of at most {most}")
         return tuple([check(one) for one in value])
@@ -72,82 +80,75 @@ def list_of(check, most):
     return check_all
 
 
-MOST_AXES = max(len(pad.axes) for pad in F710.values())
-MOST_BUTTONS = max(len(pad.buttons) for pad in F710.values())
-
-
-def pressed(value):
+def pressed(value: Any) -> Any:
     if value not in (0, 1) or not is_whole(value):
         raise ValueError("must be 0 or 1")
     return value
 
 
 MILLISECONDS = number(0, 1e15)
-MESSAGES = {
-    "watch": {
-        "robots": switch,
-        "look": or_null(text),
-        "graph": switch,
-        "topic": or_null(full_name),
-        "node": or_null(full_name),
-        "fields": list_of(text, MOST_FIELDS),
-        "field_list": switch,
-        "log": switch,
-        "bag": switch,
-    },
-    "drive": {"robot": text, "mode": one_of(*MODES)},
-    "leave": {},
-    "hand_over": {"to": whole},
-    "input": {
-        "n": whole,
-        "t": MILLISECONDS,
-        "beat": whole,
-        "axes": list_of(number(-1, 1), MOST_AXES),
-        "buttons": list_of(pressed, MOST_BUTTONS),
-        "pad": or_null(MILLISECONDS),
-        "source": one_of(*SOURCES),
-    },
-    "release": {"why": text},
-    "reset": {"robot": text},
-    "bag_open": {"name": text},
-    "bag_play": {"topic": text, "rate": number(0.1, 10), "loop": switch, "robot": text},
-    "bag_pause": {},
-    "bag_seek": {"position": number(0, 1e6)},
-    "doctor": {},
+INPUT: dict[str, Check] = {
+    "n": whole,
+    "t": MILLISECONDS,
+    "beat": whole,
+    "axes": list_of(number(-1, 1), MOST_AXES),
+    "buttons": list_of(pressed, MOST_BUTTONS),
+    "pad": or_null(MILLISECONDS),
+    "source": one_of("pad", "touch", "keys"),
 }
 
 
-def check_message(data):
-    """(kind, {field: value}) of a message. Raises ValueError, one line."""
-    if not isinstance(data, str):
-        raise ValueError("a message must be a text")
-    if len(data) > LONGEST_MESSAGE:
-        raise ValueError(f"a message must have at most {LONGEST_MESSAGE} characters")
-    try:
-        given = json.loads(data)
-    except (ValueError, RecursionError):
-        raise ValueError("a message must be JSON") from None
-    if not isinstance(given, dict) or not isinstance(given.get("kind"), str):
-        raise ValueError('a message must be an object with "kind"')
-    kind = given.pop("kind")
-    if kind not in MESSAGES:
-        raise ValueError(f"no such kind of message: {_shown(kind)}")
-    fields = MESSAGES[kind]
-    for name in given:
-        if name not in fields:
-            raise ValueError(f"{kind} has no field {_shown(name)}")
-    values = {}
-    for name, check in fields.items():
-        if name not in given:
-            raise ValueError(f"{kind} lacks {name}")
+class Schema:
+    """All messages that some sources declare, and the message watch."""
+
+    def __init__(self, sources: Sequence[Any]) -> None:
+        watches = {name: of for one in sources for name, of in one.watches.items()}
+        self._nothing = {name: value for name, (_, value) in watches.items()}
+        self.messages: dict[str, Mapping[str, Check]] = {
+            WATCH: {name: check for name, (check, _) in watches.items()}
+        }
+        for one in sources:
+            self.messages.update(one.messages)
+
+    def watch(self, **fields: Any) -> SimpleNamespace:
+        """Return what a page watches; what it does not name is not shown."""
+        return SimpleNamespace(**{**self._nothing, **fields})
+
+    def check(self, data: Any) -> tuple[str, dict[str, Any]]:
+        """Return (kind, {field: value}) of a message. Raises ValueError, one line."""
+        if not isinstance(data, str):
+            raise ValueError("a message must be a text")
+        if len(data) > LONGEST_MESSAGE:
+            raise ValueError(f"a message must have at most {LONGEST_MESSAGE} characters")
         try:
-            values[name] = check(given[name])
-        except ValueError as error:
-            raise ValueError(f"{kind}: {name} {error}") from None
-    return kind, values
+            given = json.loads(data)
+        except (ValueError, RecursionError):
+            raise ValueError("a message must be JSON") from None
+        if not isinstance(given, dict) or not isinstance(given.get("kind"), str):
+            raise ValueError('a message must be an object with "kind"')
+        kind = given.pop("kind")
+        if kind not in self.messages:
+            raise ValueError(f"no such kind of message: {_shown(kind)}")
+        return kind, self._values(kind, given)
+
+    def _values(self, kind: str, given: dict[str, Any]) -> dict[str, Any]:
+        checks = self.messages[kind]
+        for name in given:
+            if name not in checks:
+                raise ValueError(f"{kind} has no field {_shown(name)}")
+        for name in checks:
+            if name not in given and kind != WATCH:
+                raise ValueError(f"{kind} lacks {name}")
+        values = {}
+        for name, value in given.items():
+            try:
+                values[name] = checks[name](value)
+            except ValueError as error:
+                raise ValueError(f"{kind}: {name} {error}") from None
+        return values
 
 
-def check_lengths(modes, axes, buttons):
+def check_lengths(modes: Sequence[str], axes: Sequence[float], buttons: Sequence[int]) -> None:
     """Raise ValueError unless these are as many as the gamepad in one of the modes has."""
     allowed = {mode: (len(F710[mode].axes), len(F710[mode].buttons)) for mode in modes}
     if (len(axes), len(buttons)) not in allowed.values():
@@ -155,5 +156,5 @@ def check_lengths(modes, axes, buttons):
         raise ValueError(f"input: {' and '.join(has)}")
 
 
-def _shown(word):
+def _shown(word: str) -> str:
     return repr(word[:40])

@@ -1,13 +1,15 @@
-"""Who drives, and when the operator is lost (pure).
+"""The driver, and when the operator is lost (pure).
 
 Every method is given the time `now` [s] of one clock that never jumps; nothing here reads a clock.
 
 The rule for every loss: one neutral message, then silence, and nothing but silence until all
-buttons and sticks were seen released. Who is still there keeps the seat; who is away loses it.
+buttons and sticks were seen released. A page that is still there keeps the seat.
 """
 
+from __future__ import annotations
+
 import math
-from typing import NamedTuple, Optional, Tuple
+from typing import Callable, NamedTuple, Tuple
 
 from gamepad.gamepads import triggers_by_count
 
@@ -23,10 +25,12 @@ KEPT_BEATS = 16  # of the server, as many as are sent in several SILENCE_S
 CLOCK_DRIFT = 1e-3
 NEUTRAL = 0.1  # a stick that was let go is within this, as joy2twist has it
 PAGE, BAG = "page", "bag"
+Axes = Tuple[float, ...]
+Buttons = Tuple[int, ...]
 
 
 class RefusedError(Exception):
-    """Something cannot be done; the text says in one line why."""
+    """Something cannot be done; the text says why in one line."""
 
 
 class Input(NamedTuple):
@@ -40,19 +44,18 @@ class Input(NamedTuple):
     n: int
     t: float
     beat: int
-    axes: Tuple[float, ...]
-    buttons: Tuple[int, ...]
-    pad: Optional[float] = None
+    axes: Axes
+    buttons: Buttons
+    pad: float | None = None
 
 
-def neutral_of(axes, buttons):
-    """(axes, buttons) of the same gamepad when nobody touches it."""
+def neutral_of(axes: Axes, buttons: Buttons) -> tuple[Axes, Buttons]:
+    """Return (axes, buttons) of the same gamepad when it is released."""
     triggers = triggers_by_count(len(axes))
     return tuple([1.0 if i in triggers else 0.0 for i in range(len(axes))]), (0,) * len(buttons)
 
 
-def is_neutral(axes, buttons):
-    """Whether all buttons and sticks are released."""
+def is_neutral(axes: Axes, buttons: Buttons) -> bool:
     rest, _ = neutral_of(axes, buttons)
     return not any(buttons) and all(abs(a - r) <= NEUTRAL for a, r in zip(axes, rest))
 
@@ -60,39 +63,42 @@ def is_neutral(axes, buttons):
 class Seat:
     """The one place of the driver. A client is any number; a robot is a name."""
 
-    def __init__(self, send, lost):
+    def __init__(
+        self, send: Callable[[str, Axes, Buttons], None], lost: Callable[[int, str], None]
+    ) -> None:
         """send: called with (robot, axes, buttons) for each message to publish. lost: called with
         (client, why) when a client has lost its robot.
         """
         self._send, self._tell_lost = send, lost
         self._has_ended = False
-        self._beats = {}  # number -> when it was sent
-        self.driver = None
-        self.why, self.stopped = "", None  # why a loss has stopped a robot, and which, at the last
+        self._beats: dict[int, float] = {}  # number -> when it was sent
+        self.driver: int | None = None
+        self.stopped: str | None = None  # the robot that a loss has stopped last, and why
+        self.why = ""  # why a loss has stopped a robot, and which, at the last
+        self._pad: float | None = None
         self._clear()
 
-    def _clear(self):
+    def _clear(self) -> None:
         self.driver, self.robot, self.how = None, "", PAGE
         self.armed = False  # all was seen released since the last loss
         self.newest = 0  # number of the newest input that was taken
-        self._last = None  # (axes, buttons) published last
+        self._last: tuple[Axes, Buttons] | None = None  # (axes, buttons) published last
         self._fresh_at = -math.inf  # when the last fresh input came
         self._least, self._least_at = math.inf, 0.0  # our clock minus the page's, at the least
         self._pad, self._pad_at = None, 0.0  # the gamepad's clock, and when it last went on
         self._ticks = 0  # how often it did while nothing moved
-        self._heard = None  # (axes, buttons) of the newest input
+        self._heard: tuple[Axes, Buttons] | None = None  # (axes, buttons) of the newest input
 
     @property
-    def state(self):
-        """What all pages are sent."""
+    def state(self) -> tuple[int | None, str, str, bool, str]:
         return self.driver, self.robot, self.how, self.armed, self.why
 
-    def take(self, client, robot, how, now):
+    def take(self, client: int, robot: str, how: str, now: float) -> None:
         """Sit down. Raises RefusedError if another sits there."""
         if self._has_ended:
             raise RefusedError("the cockpit is being shut down")
         if self.driver not in (None, client):
-            raise RefusedError("somebody else drives; who drives may hand over")
+            raise RefusedError("another page drives; its driver may hand over")
         self.leave(client)
         self.driver, self.robot, self.how = client, robot, how
         self.why, self.stopped = "", None
@@ -100,26 +106,24 @@ class Seat:
         self._fresh_at = now
         self._beats.clear()
 
-    def leave(self, client):
-        """Stand up, with the robot at rest."""
+    def leave(self, client: int) -> None:
         if client == self.driver:
             self._rest()
             self._clear()
 
-    def hand_over(self, client, to, now):
-        """Let another client sit down. Raises RefusedError if it is not client's to give."""
+    def hand_over(self, client: int, to: int, now: float) -> None:
+        """Let another client sit down. Raises RefusedError."""
         if client != self.driver or self.how != PAGE:
-            raise RefusedError("only who drives may hand over")
+            raise RefusedError("only the page that drives may hand over")
         robot = self.robot
         self.leave(client)
         self.take(to, robot, PAGE, now)
 
-    def beat(self, number, now):
-        """A beat of the server was sent."""
+    def beat(self, number: int, now: float) -> None:
         self._beats[number] = now
         self._beats.pop(number - KEPT_BEATS, None)
 
-    def input(self, client, message, now, may_arm=True):
+    def input(self, client: int, message: Input, now: float, may_arm: bool = True) -> None:
         """An Input came from a client; one that is old or not the driver's is dropped. may_arm:
         whether all that hear this joystick will see that everything is released.
         """
@@ -129,7 +133,7 @@ class Seat:
         self.newest, self._fresh_at = message.n, now
         neutral = is_neutral(message.axes, message.buttons)
         if self._is_frozen(message, now) and not neutral:
-            self.lose("the gamepad stands still: it is frozen or out of reach")
+            self.lose("the gamepad sends nothing new: it is frozen or out of reach")
         if neutral and may_arm:
             self.armed = True
         if self.armed:
@@ -137,14 +141,14 @@ class Seat:
                 self.moves_on(self.robot)
             self._publish(message.axes, message.buttons)
 
-    def _is_fresh(self, message, now):
+    def _is_fresh(self, message: Input, now: float) -> bool:
         late = now - message.t / 1000
         self._least = min(late, self._least + CLOCK_DRIFT * (now - self._least_at))
         self._least_at = now
         seen = self._beats.get(message.beat, -math.inf)
         return message.n > self.newest and late - self._least <= LATE_S and now - seen <= SILENCE_S
 
-    def _is_frozen(self, message, now):
+    def _is_frozen(self, message: Input, now: float) -> bool:
         still = (message.axes, message.buttons) == self._heard
         self._heard = (message.axes, message.buttons)
         if message.pad is None or message.pad != self._pad:
@@ -156,23 +160,21 @@ class Seat:
             return False
         return now - self._pad_at > FROZEN_S
 
-    def play(self, axes, buttons):
-        """Publish a recorded message, for the client that sits here for that."""
+    def play(self, axes: Axes, buttons: Buttons) -> None:
         if self.how == BAG and self.driver is not None:
             self._publish(axes, buttons)
 
-    def tick(self, now):
-        """Time has passed."""
+    def tick(self, now: float) -> None:
         if self.driver is None or self.how == BAG:
             return
         silent_s = now - self._fresh_at
         if self.armed and silent_s > SILENCE_S:
-            self.lose(f"nothing came from the page for {SILENCE_S:g} s")
+            self.lose(f"no input from the page for {SILENCE_S:g} s")
         if silent_s > AWAY_S:
-            self.free("the page was away for too long")
+            self.free("no input from the page for 5 s")
 
-    def lose(self, why):
-        """The operator is lost; the seat stays with the client, who may still be there."""
+    def lose(self, why: str) -> None:
+        """Stop the robot; the client keeps the seat, as it may still be there."""
         if self.driver is None or not self.armed:
             return
         self._keep(why)
@@ -182,8 +184,8 @@ class Seat:
         if self.how == BAG:
             self._clear()
 
-    def free(self, why):
-        """The operator is lost, and so is the seat."""
+    def free(self, why: str) -> None:
+        """Stop the robot and free the seat."""
         driver = self.driver
         if driver is None:
             return
@@ -192,36 +194,33 @@ class Seat:
         self._clear()
         self._tell_lost(driver, why)
 
-    def _keep(self, why):
-        """Keep why a robot stands, if it was moved until now."""
+    def _keep(self, why: str) -> None:
+        """Keep the reason of a stop, if the robot moved until now."""
         if self.armed and self._last is not None and not is_neutral(*self._last):
             self.why, self.stopped = why, self.robot
 
-    def moves_on(self, robot):
-        """A robot is moved again, by whatever: why it stood is worth reading no longer."""
+    def moves_on(self, robot: str) -> None:
+        """Forget why a robot stood: it moves again."""
         if robot == self.stopped:
             self.why, self.stopped = "", None
 
-    def release(self, client, why):
-        """A page says that its operator is lost."""
+    def release(self, client: int, why: str) -> None:
         if client == self.driver:
             self.lose(why)
 
-    def gone(self, client):
-        """A client has left."""
+    def gone(self, client: int) -> None:
         if client == self.driver:
             self.free("the page was closed, or the network is down")
 
-    def end(self):
-        """The server stops: the robot at rest, and nothing ever after."""
+    def end(self) -> None:
         self.free("the cockpit was shut down")
         self._has_ended = True
 
-    def _rest(self):
+    def _rest(self) -> None:
         if self.armed and self._last is not None:
             self._publish(*neutral_of(*self._last))
             self._last = None
 
-    def _publish(self, axes, buttons):
+    def _publish(self, axes: Axes, buttons: Buttons) -> None:
         self._last = (axes, buttons)
         self._send(self.robot, axes, buttons)

@@ -7,17 +7,17 @@ from genpy import DeserializationError
 
 from cockpit_server.clients import Source
 from cockpit_server.graph import robot_of
-from node_kit.states import DRIVING
+from node_kit.arming import DRIVING
 
 MARK = ": joystick"  # the end of the name of joy2twist's status; before it stands its node's
 SILENT_S = 4.0  # it speaks once a second
-SILENT = {"state": "silent", "why": "joy2twist says nothing any more", "level": 2, "deadman": None}
+SILENT = {"state": "silent", "why": "no report from joy2twist for 4 s", "level": 2, "deadman": None}
 UNKNOWN = "it reports once a second"  # what is shown meanwhile
-DEADMAN = "Dead-man button"  # the name of the value that tells which one it is, or "none"
+DEADMAN = "Dead-man button"  # key of the value that names it, or "none"
 
 
 def said(data):
-    """[(robot, {state, why, level, deadman})] from the bytes of a DiagnosticArray."""
+    """Return [(robot, {state, why, level, deadman})] of the bytes of a DiagnosticArray."""
     if MARK.encode() not in data:
         return []
     try:
@@ -25,13 +25,11 @@ def said(data):
     except DeserializationError:
         return []
     found = [status for status in statuses if status.name.endswith(MARK)]
-    return [(robot_of(f"/{one.name[: -len(MARK)]}"), told(one)) for one in found]
+    return [(robot_of(f"/{one.name[: -len(MARK)]}"), report_of(one)) for one in found]
 
 
-def told(status):
-    """A DiagnosticStatus as pages get it: state is its first word, deadman the number of the button
-    that has to be held, or "none" (None: an older joy2twist does not report it).
-    """
+def report_of(status):
+    """Return a status as pages get it. deadman: number, "none", or None if not reported."""
     state = status.message.partition(":")[0].partition(" ")[0]
     button = {pair.key: pair.value for pair in status.values}.get(DEADMAN)
     return {
@@ -43,32 +41,28 @@ def told(status):
 
 
 class Teleop(Source):
-    """The newest words about each robot."""
+    """The newest report of joy2twist about each robot."""
 
     def __init__(self, feeds):
-        """Listen, for as long as the node runs: it is little, and comes once a second."""
-        self._states = {}  # robot -> what is told
+        self._states = {}  # robot -> its report
         self._heard = {}  # robot -> when it spoke last [s]
         feeds.want(self, {"/diagnostics": self._hear}, every=True)
 
     def prepare(self, clients, now):
-        """Notice who has fallen silent."""
         for robot, heard in list(self._heard.items()):
             if now - heard > SILENT_S:
                 self._states[robot] = SILENT
 
     def newest(self, robot):
-        """What was told of a robot last; None if nothing was."""
         return self._states.get(robot)
 
     def outdate(self, robot):
-        """The driver of a robot has left: what joy2twist reported of driving is no longer true."""
+        """Forget that joy2twist was driving: the driver of the robot has left."""
         state = self._states.get(robot)
         if state and state["state"] == DRIVING:
             self._states[robot] = {**state, "state": "unknown", "why": UNKNOWN, "level": 1}
 
     def give(self, client, _now):
-        """Send what has changed of the robots that the client looks at."""
         for robot, state in list(self._states.items()):
             if (client.watch.robots or client.watch.look == robot) and client.lacks(
                 f"teleop {robot}", state

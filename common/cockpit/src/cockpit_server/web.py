@@ -1,8 +1,9 @@
-"""HTTP and WebSocket: who may have what, and how much of it."""
+"""HTTP and WebSocket: rights and bounds of requests."""
 
 import asyncio
 import logging
 import socket
+import time
 from pathlib import Path
 
 import rospkg
@@ -12,7 +13,7 @@ from tornado.web import Application, RequestHandler, StaticFileHandler
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
 from cockpit_server.access import without_token
-from cockpit_server.admission import connection_to_close, page_to_close
+from cockpit_server.admission import Page, connection_to_close, page_to_close
 from cockpit_server.clients import Client, name_of
 from cockpit_server.schema import LONGEST_MESSAGE
 from node_kit.newest_only import CUT_AFTER_RESENDS, resends
@@ -38,6 +39,7 @@ HEADERS = {
     "Cache-Control": "no-store",
     "Server": "cockpit",
 }
+NO_TOKEN = "open the address that the cockpit printed, with its token"
 # connect-src: older browsers do not take a WebSocket for 'self'.
 POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "
@@ -45,19 +47,17 @@ POLICY = (
 )
 
 
-class _Guarded(RequestHandler):
-    """Answers only who names this machine, and is not sent by another page."""
+class _Limited(RequestHandler):
+    """Delays a request by what its address has cost."""
 
-    def set_default_headers(self):
-        for name, value in HEADERS.items():
-            self.set_header(name, value)
+    async def prepare(self):
+        wait_s = self.settings["hub"].request_wait_s(self.request.remote_ip)
+        if wait_s:
+            await asyncio.sleep(wait_s)
 
-    def prepare(self):
-        host = self.request.host
-        if not self.settings["access"].may_request(host, self.request.headers.get("Origin")):
-            self.refuse(403, "this address is not the cockpit's: open the one that it printed")
-            return
-        self.set_header("Content-Security-Policy", POLICY.format(host=host))
+    @property
+    def role(self):
+        return self.settings["access"].role(self.get_query_argument("token", None))
 
     def refuse(self, status, why):
         self.set_status(status)
@@ -65,62 +65,78 @@ class _Guarded(RequestHandler):
         self.finish(f"{why}\n")
 
     def write_error(self, status_code, **_):
-        self.set_header("Content-Type", "text/plain; charset=utf-8")
-        self.finish(f"{status_code}: nothing here\n")
+        self.refuse(status_code, f"{status_code}: nothing here")
+
+
+class _Guarded(_Limited):
+    """Answers requests that name this machine and come from no other page."""
+
+    def set_default_headers(self):
+        for name, value in HEADERS.items():
+            self.set_header(name, value)
+
+    async def prepare(self):
+        await super().prepare()
+        host = self.request.host
+        if not self.settings["access"].may_request(host, self.request.headers.get("Origin")):
+            self.refuse(403, "not an address of the cockpit: open the one that it printed")
+            return
+        self.set_header("Content-Security-Policy", POLICY.format(host=host))
 
 
 class _Page(_Guarded):
-    """The page itself, for who has a token if one is needed."""
+    """The page, for a valid token if one is needed."""
 
     def get(self):
-        role = self.settings["access"].role(self.get_query_argument("token", None))
-        if role is None:
-            self.refuse(403, "open the address that the cockpit printed, with its token")
+        if self.role is None:
+            self.refuse(403, NO_TOKEN)
             return
         self.set_header("Content-Type", "text/html; charset=utf-8")
         self.finish((self.settings["page"] / "index.html").read_bytes())
 
 
-class _Files(_Guarded, StaticFileHandler):
-    """The page's scripts and styles, and the charts' ones."""
+class _Nothing(_Guarded):
+    async def prepare(self):
+        await super().prepare()
+        if not self._finished:
+            self.refuse(404, "nothing here")
 
+
+class _Files(_Guarded, StaticFileHandler):
     def set_extra_headers(self, path):
         self.set_header("Cache-Control", "no-cache")
 
 
-class _Socket(WebSocketHandler):
-    """The way between a page and the Hub."""
+class _Socket(_Limited, WebSocketHandler):
+    """The connection between a page and the Hub."""
 
     client = None
     pings = fragments = 0
 
     async def get(self, *_, **__):
-        access, hub = self.settings["access"], self.settings["hub"]
         origin = self.request.headers.get("Origin")
-        self.role = access.role(self.get_query_argument("token", None))
-        if not access.may_connect(self.request.host, origin):
+        if not self.settings["access"].may_connect(self.request.host, origin):
             self.refuse(403, "only this cockpit's own page may connect")
         elif self.role is None:
-            self.refuse(403, "open the address that the cockpit printed, with its token")
-        elif not self.has_room(list(hub.clients.values())):
-            self.refuse(503, f"{MOST_CLIENTS} pages are open: close one")
+            self.refuse(403, NO_TOKEN)
+        elif not self.has_room(self.settings["hub"]):
+            self.refuse(503, f"{MOST_CLIENTS} pages are open: close one, or try again later")
         else:
             await super().get()
 
-    def has_room(self, clients):
-        """Whether one more page may be opened; a viewer of another may have to go for it."""
+    def has_room(self, hub):
+        """Return whether one more page may be opened, for which a viewer may be closed."""
+        clients, now = list(hub.clients.values()), time.monotonic()
         if len(clients) < MOST_CLIENTS:
             return True
-        pages = [(one, one.role, one.address) for one in clients]
-        guest = page_to_close(pages, self.role, self.request.remote_ip)
-        if guest is not None:
-            self.settings["hub"].leave(guest)
-            guest.close()
-        return guest is not None
-
-    def refuse(self, status, why):
-        self.set_status(status)
-        self.finish(f"{why}\n")
+        pages = [Page(one.number, one.role, one.address, now - one.spoke_at) for one in clients]
+        page = page_to_close(pages, self.role, self.request.remote_ip)
+        if page is None:
+            return False
+        closed = hub.clients[page.number]
+        hub.leave(closed)
+        closed.close()
+        return True
 
     def check_origin(self, origin):
         return True  # get() has looked at it
@@ -179,8 +195,8 @@ class _Socket(WebSocketHandler):
         return asyncio.sleep(wait_s) if wait_s else None
 
     def on_ping(self, data):
-        # Tornado has answered already. A page's script can send no ping, and whoever sends many may
-        # leave the answers unread: they would pile up here.
+        # Tornado has answered already. A page's script can send no ping, and a program that sends
+        # many may leave the answers unread: they would pile up here.
         self.pings += 1
         if self.pings > MOST_PINGS:
             self.stream.close()
@@ -192,7 +208,7 @@ class _Socket(WebSocketHandler):
 
 
 class _Server(HTTPServer):
-    """Takes no more connections than there is room for; for a new one, one that waits has to go."""
+    """Bounds the connections; closes one that is not used for a new one."""
 
     def initialize(self, application, **more):
         super().initialize(application, **more)
@@ -214,7 +230,7 @@ class _Server(HTTPServer):
 
 
 def server(hub, access):
-    """The HTTP server; it does not listen yet."""
+    """Return the HTTP server; it does not listen yet."""
     for name in ("tornado.access", "tornado.general"):
         logging.getLogger(name).setLevel(logging.CRITICAL)  # whatever strangers send is no news
     logging.getLogger("tornado.application").addFilter(_hide_token)
@@ -249,12 +265,3 @@ def server(hub, access):
 def _hide_token(record):
     record.msg, record.args = without_token(record.getMessage()), None
     return True
-
-
-class _Nothing(_Guarded):
-    """Whatever else is asked for."""
-
-    def prepare(self):
-        super().prepare()
-        if not self._finished:
-            self.refuse(404, "nothing here")

@@ -8,6 +8,8 @@ as true here and is a mistake there, rosbag tells of a missing recording after a
 a robot's name that is none shows when nothing drives.
 """
 
+from __future__ import annotations
+
 import re
 import sys
 
@@ -15,13 +17,13 @@ LONGEST_BAG_HEADER = 4096  # bytes; http://wiki.ros.org/Bags/Format/2.0
 INDEX = re.compile(rb"index_pos=(.{8})", re.DOTALL)
 
 
-def true_or_false(value):
+def true_or_false(value: str) -> None:
     if value.lower() not in ("true", "false", "1", "0"):
         raise ValueError("must be true or false")
 
 
-def recording(value):
-    """A file that rosbag can play, or none."""
+def recording(value: str) -> None:
+    """Check for a file that rosbag can play, or none."""
     if value == "none":
         return
     if not value.startswith("/"):
@@ -41,14 +43,14 @@ def recording(value):
         raise ValueError(f"is cut short; mend it with: rosbag reindex {value}")
 
 
-def driver(value):
-    """A package with a joy_node; it was in joy2twist once."""
+def driver(value: str) -> None:
+    """Check for a package with a joy_node; it was in joy2twist once."""
     if value == "joy2twist":
         raise ValueError("joy_node is no longer there: leave joy_pkg out, or give joy or gamepad")
 
 
-def robot(value):
-    """A robot of classroom.launch: its topics begin with its name, so it must be one for ROS."""
+def robot(value: str) -> None:
+    """Check for the name of a robot of classroom.launch, which begins its topics."""
     if not value:
         raise ValueError("is missing: which robot of the classroom, such as name:=robot_7")
     if not re.fullmatch(r"[A-Za-z]\w*", value, re.ASCII):
@@ -58,13 +60,13 @@ def robot(value):
         raise ValueError(f"must be a letter followed by letters, digits and underscores{meant}")
 
 
-def joystick(value):
-    """What moves the robot, unless a recording does."""
+def joystick(value: str) -> None:
+    """Check what moves the robot, unless a recording does."""
     if value not in ("gamepad", "browser"):
         raise ValueError("must be gamepad or browser")
 
 
-def true_false_or_auto(value):
+def true_false_or_auto(value: str) -> None:
     if value != "auto":
         try:
             true_or_false(value)
@@ -72,13 +74,13 @@ def true_false_or_auto(value):
             raise ValueError("must be true, false or auto") from None
 
 
-def port(value):
+def port(value: str) -> None:
     if not re.fullmatch(r"\d{1,5}", value) or not 1 <= int(value) <= 65535:
         raise ValueError("must be a port, a number from 1 to 65535")
 
 
-def seconds_or_off(value):
-    """What joy2twist takes as its ~vigilance_timeout."""
+def seconds_or_off(value: str) -> None:
+    """Check for a ~vigilance_timeout of joy2twist."""
     if not re.fullmatch(r"\d+(\.\d*)?", value) or not (
         float(value) == 0 or 1 <= float(value) <= 60
     ):
@@ -100,7 +102,7 @@ RULES = {
 }
 
 
-def check(name, value):
+def check(name: str, value: str) -> None:
     """Raise ValueError with one line if an argument's value will not do."""
     try:
         RULES[name](value)
@@ -108,7 +110,7 @@ def check(name, value):
         raise ValueError(f"{name}:={value}: {error}") from None
 
 
-def assignment(argument: str) -> "tuple[str, str]":
+def assignment(argument: str) -> tuple[str, str]:
     """Return name and value of NAME:=VALUE; raise ValueError with one line if it is not that."""
     name, assigned, value = argument.partition(":=")
     if not assigned:
@@ -118,8 +120,8 @@ def assignment(argument: str) -> "tuple[str, str]":
     return name, value
 
 
-def main():
-    """check_arguments NAME:=VALUE ...: exit code 1, with a line, at the first that will not do."""
+def main() -> None:
+    """Check NAME:=VALUE ...; exit with code 1, with a line, at the first that will not do."""
     try:
         for argument in sys.argv[1:]:
             check(*assignment(argument))

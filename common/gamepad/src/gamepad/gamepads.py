@@ -5,8 +5,10 @@ drivers/hid/hid-input.c (D mode) and drivers/input/joystick/xpad.c (X mode). Cod
 linux/input-event-codes.h.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
-from typing import Tuple
+from typing import Sequence
 
 from gamepad.js_event import FULL
 
@@ -21,23 +23,23 @@ class Axis:
     low: int
     high: int
 
-    def raw(self, position):
-        """The raw value for a position in ROS' sense: from -1 to 1, left and up positive."""
+    def raw(self, position: float) -> int:
+        """Return the raw value for a position in ROS' sense: from -1 to 1, left and up positive."""
         return min(self.high, max(self.low, round(self._middle - position * self._half)))
 
-    def js_value(self, raw):
-        """The value of the joystick device's event for a raw value, as drivers/input/joydev.c."""
+    def js_value(self, raw: int) -> int:
+        """Return the value of the event for a raw value, as drivers/input/joydev.c does."""
         # Integers as there: the middle rounded down, a shift that rounds down, and no flat part.
         middle, half = int((self.high + self.low) / 2), (self.high - self.low) // 2
         return min(FULL, max(-FULL, ((raw - middle) * ((1 << 29) // half)) >> 14))
 
     @property
-    def _middle(self):
+    def _middle(self) -> int:
         # Even ranges have no middle; the raw value that the kernel takes for it is the lower one.
         return int((self.high + self.low) / 2)
 
     @property
-    def _half(self):
+    def _half(self) -> float:
         return (self.high - self.low) / 2
 
 
@@ -51,22 +53,22 @@ class Gamepad:
     name: str
     vendor: int
     product: int
-    axes: Tuple[Axis, ...]
-    buttons: Tuple[str, ...]
-    button_codes: Tuple[int, ...]
+    axes: tuple[Axis, ...]
+    buttons: tuple[str, ...]
+    button_codes: tuple[int, ...]
 
     @property
-    def usb_id(self):
+    def usb_id(self) -> str:
         """As lsusb writes it."""
         return f"{self.vendor:04x}:{self.product:04x}"
 
     @property
-    def triggers(self):
+    def triggers(self) -> tuple[int, ...]:
         """The numbers of the axes that are triggers: at rest they are at +1."""
         return trigger_axes([axis.code for axis in self.axes])
 
-    def trembled(self, raws):
-        """The raw values of all axes, those of held sticks one step nearer to the middle."""
+    def trembled(self, raws: Sequence[int]) -> list[int]:
+        """Return the raw values of all axes, those of held sticks one step nearer to the middle."""
         middles = [int(axis.raw(0.0)) for axis in self.axes]
         sticks = [i not in self.triggers and a.high - a.low > 2 for i, a in enumerate(self.axes)]
         return [
@@ -75,14 +77,14 @@ class Gamepad:
         ]
 
     @property
-    def untouched(self):
-        """The raw values of all axes when nobody touches the gamepad."""
+    def untouched(self) -> list[int]:
+        """The raw values of all axes of a gamepad at rest."""
         return [
             axis.low if i in self.triggers else axis.raw(0.0) for i, axis in enumerate(self.axes)
         ]
 
 
-def _axes(low, high, *codes):
+def _axes(low: int, high: int, *codes: int) -> tuple[Axis, ...]:
     return tuple([Axis(code, low, high) for code in codes])
 
 
@@ -111,8 +113,8 @@ F710_X = Gamepad(
 F710 = {"D": F710_D, "X": F710_X}
 
 
-def trigger_axes(codes):
-    """The numbers of the axes that are triggers, from the codes of all axes, in their order.
+def trigger_axes(codes: Sequence[int]) -> tuple[int, ...]:
+    """Return the numbers of the axes that are triggers, from the codes of all axes, in their order.
 
     Gamepads with triggers have the right stick on RX and RY and the triggers on Z and RZ; those
     without have the right stick there.
@@ -122,13 +124,13 @@ def trigger_axes(codes):
     return tuple([i for i, code in enumerate(codes) if code in (ABS_Z, ABS_RZ)])
 
 
-def triggers_by_count(axes):
-    """The triggers of a gamepad of which only the number of axes is known."""
+def triggers_by_count(axes: int) -> tuple[int, ...]:
+    """Return the triggers of a gamepad of which only the number of axes is known."""
     return F710_X.triggers if axes == len(F710_X.axes) else ()
 
 
-def mode_hint(usb_id):
-    """One line of help if this is an F710, else None. usb_id: as lsusb writes it."""
+def mode_hint(usb_id: str) -> str | None:
+    """Return one line of help if this is an F710, else None. usb_id: as lsusb writes it."""
     if usb_id == F710_D.usb_id:
         return (
             "This is a Logitech F710 in D mode: left stick on axes 0 and 1 if the MODE LED is off "

@@ -4,6 +4,8 @@ Source: linux/joystick.h. An event has 8 bytes in the machine's own byte order: 
 value (s16), type (u8), number of the button or axis (u8).
 """
 
+from __future__ import annotations
+
 import struct
 from typing import NamedTuple
 
@@ -30,32 +32,32 @@ class JsEvent(NamedTuple):
     number: int
 
 
-def pack(event):
-    """The 8 bytes of a JsEvent; struct.error if a value does not fit."""
+def pack(event: JsEvent) -> bytes:
+    """Return the 8 bytes of a JsEvent; struct.error if a value does not fit."""
     return _EVENT.pack(*event)
 
 
 class Decoder:
     """Turns what is read from a device, cut anywhere, into events."""
 
-    def __init__(self, late_init_is_change=False):
-        """late_init_is_change: whether INIT is taken off the events after the first change.
+    def __init__(self, late_init_is_change: bool = False) -> None:
+        """Take whether to remove INIT from the events after the first change.
 
-        The kernel tells the whole state again, as INIT, after its buffer of 64 events has run over.
+        The kernel sends the whole state again, as INIT, after its buffer of 64 events has run over.
         What had changed meanwhile stands only there, so for a kernel device this must be true.
         """
         self._rest = b""
         self._late_init_is_change = late_init_is_change
         self._changed = False
 
-    def feed(self, data):
-        """The events that are complete with these bytes, oldest first."""
+    def feed(self, data: bytes) -> list[JsEvent]:
+        """Return the events that are complete with these bytes, oldest first."""
         data = self._rest + data
         whole = len(data) - len(data) % EVENT_BYTES
         self._rest = data[whole:]
         return [self._checked(JsEvent(*fields)) for fields in _EVENT.iter_unpack(data[:whole])]
 
-    def _checked(self, event):
+    def _checked(self, event: JsEvent) -> JsEvent:
         if not event.type & INIT:
             self._changed = True
         elif self._changed and self._late_init_is_change:

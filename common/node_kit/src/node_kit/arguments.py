@@ -4,8 +4,8 @@ import argparse
 import math
 
 
-def above_zero(text):
-    """A finite number above 0, such as a time. Raises what argparse tells the user."""
+def above_zero(text: str) -> float:
+    """Return a finite number above 0, such as a time. Raises what argparse reports."""
     try:
         number = float(text)
     except ValueError:

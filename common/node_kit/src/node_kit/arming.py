@@ -1,13 +1,21 @@
-"""The rule of arming (pure): after a loss nothing moves before everything was seen at rest."""
+"""The rules after a loss, shared by joy2twist, the multiplexer and the robot (pure).
+
+Times are in seconds of one clock that never jumps.
+"""
 
 import math
+from typing import Tuple
+
+Velocity = Tuple[float, ...]  # linear x, y, z [m/s] and angular x, y, z [rad/s], REP-103
+ZERO: Velocity = (0.0,) * 6
+DRIVING = "driving"  # the state on /diagnostics in which joy2twist drives
+SETTLING_S = 0.25  # by then a resumed process has read what was sent to it meanwhile
 
 
 class Arming:
     """Decides whether one sender of joystick messages or velocities may move the robot.
 
-    A loss disarms. A rest arms again: messages in which all is released, over rest_s. Times are
-    in seconds of one clock that never jumps.
+    A loss disarms. A rest arms again: messages in which all is released, over rest_s.
     """
 
     def __init__(self, armed: bool = True, rest_s: float = 0.0) -> None:
@@ -29,3 +37,35 @@ class Arming:
             self.armed = True
         self.rests = rests
         return self.armed
+
+
+class Resumption:
+    """Decides what a receiver obeys after a suspension of its process.
+
+    It obeys nothing for SETTLING_S, and then, where stops are asked for, nothing before a stop.
+    """
+
+    def __init__(self) -> None:
+        self._seen = 0
+        self._settled_at = 0.0
+        self._needs_stop = False
+
+    def notice(self, number: int, now: float) -> bool:
+        """Return whether a suspension is new. number: of suspensions so far."""
+        if number == self._seen:
+            return False
+        self._seen = number
+        self._settled_at = now + SETTLING_S
+        self._needs_stop = True
+        return True
+
+    def is_old(self, now: float) -> bool:
+        """Return whether what comes now was sent during the suspension."""
+        return now < self._settled_at
+
+    def holds(self, stops: bool, now: float) -> bool:
+        """Return whether to ignore a command that comes now. stops: whether it is a stop."""
+        if self.is_old(now):
+            return not stops
+        self._needs_stop = self._needs_stop and not stops
+        return self._needs_stop

@@ -1,11 +1,12 @@
-"""Three faults of rospy's connections, mended from outside: the only place that knows its classes.
+"""Three faults of rospy's connections, mended from outside.
 
-A peer that connects and says nothing holds up every other that wants to subscribe, since rospy
-greets one after the other. A message that cannot be read leaves its bytes in the buffer, so that
-the connection made anew is taken for broken as well, and the node is deaf for good. So it is, now
-and then, when it hears twice of a publisher and connects twice at once: the publisher may give up
-one of the two, and the subscriber the other.
+A peer that connects and sends nothing holds up every other, since rospy greets one after the other.
+A message that cannot be read leaves its bytes in the buffer, so that the next connection counts as
+broken, too, and the node receives nothing more. So it is when rospy hears twice of a publisher and
+connects twice at once: the publisher may close one of the two, and the subscriber the other.
 """
+
+from __future__ import annotations
 
 import contextlib
 import socket
@@ -13,6 +14,7 @@ import struct
 import threading
 import time
 import weakref
+from typing import Any, Callable
 
 from rospy.exceptions import TransportException
 from rospy.impl.masterslave import ROSHandler
@@ -22,52 +24,53 @@ from rospy.msg import deserialize_messages
 
 from node_kit.throttle import ThrottleEach
 
-GREETING_S = 2.0  # for a peer to say what it wants; on one network it takes milliseconds
+GREETING_S = 2.0  # for a peer to name its topic; on one network it takes milliseconds
 # After this time from its first bytes a message claims to be longer than it is: all here are short.
 LONGEST_ARRIVAL_S = 0.5
-WARNING_PERIOD_S = 1.0  # a sender may go on so a hundred times a second
+WARNING_PERIOD_S = 1.0  # a sender may send a hundred of them a second
 _LENGTH = struct.Struct("<I")
 
 _greet = TCPROSServer._tcp_server_callback  # rospy's own
 _connect = ROSHandler._connect_topic  # rospy's own
-_turns = weakref.WeakValueDictionary()  # a lock for each (topic, publisher), while it is used
+# A lock for each (topic, publisher), while it is used.
+_turns: weakref.WeakValueDictionary[tuple[str, str], Any] = weakref.WeakValueDictionary()
 _turns_lock = threading.Lock()
-_warn = None  # called with a line about a message that cannot be read
+_warn: Callable[[str], object] | None = None  # takes a line about an unreadable message
 _may_warn = ThrottleEach(1.0 / WARNING_PERIOD_S)
 
 
-def be_careful():
-    """Have all connections of this node made carefully; call before rospy.init_node()."""
+def be_careful() -> None:
+    """Make all connections of this node carefully; call before rospy.init_node()."""
     TCPROSServer._tcp_server_callback = _greet_in_time
     TCPROSSub.read_messages = _read_messages
     connect_once()
 
 
-def connect_once():
-    """Have this node connect to no publisher twice, and nothing more: for one that observes."""
+def connect_once() -> None:
+    """Connect to no publisher twice, and change nothing else: for nodes that observe."""
     ROSHandler._connect_topic = _connect_in_turn
 
 
-def tell_of_bad_messages(warn):
-    """warn: called with a line, at most once a second for a topic; it must not wait."""
-    global _warn  # noqa: PLW0603  rospy makes the connections, and nobody can hand them anything
+def report_bad_messages(warn: Callable[[str], object]) -> None:
+    """Call warn(line), which must not wait, at most once a second for a topic."""
+    global _warn  # noqa: PLW0603  rospy makes the connections
     _warn = warn
 
 
-def sender_of(message):
-    """Who sent a message, as it said in its greeting; "" if it did not say."""
+def sender_of(message: Any) -> str:
+    """Return the name of the node that sent a message, "" if unknown."""
     return message._connection_header.get("callerid", "")
 
 
-def connection_of(message):
-    """An object that is the same (`is`) for all messages of one connection, and for no others."""
+def connection_of(message: Any) -> object:
+    """Return an object that is the same (`is`) for the messages of one connection only."""
     return message._connection_header
 
 
-def _greet_in_time(self, sock, client_addr):
-    """In place of TCPROSServer's: greet a peer in a thread of its own, which ends in time."""
+def _greet_in_time(self: Any, sock: socket.socket, client_addr: Any) -> None:
+    """In place of TCPROSServer's: greet each peer in another thread, which ends in time."""
 
-    def greet():
+    def greet() -> None:
         # Not the socket's own timeout, which would begin anew with every byte, and stay set.
         too_late = threading.Timer(GREETING_S, _cut, [sock])
         too_late.daemon = True
@@ -79,23 +82,23 @@ def _greet_in_time(self, sock, client_addr):
     threading.Thread(target=greet, daemon=True).start()
 
 
-def _connect_in_turn(self, topic, uri):
-    """In place of ROSHandler's: who comes second finds the connection that the first has made."""
+def _connect_in_turn(self: Any, topic: str, uri: str) -> Any:
+    """In place of ROSHandler's: a second thread finds the connection that the first has made."""
     with _turns_lock:
         turn = _turns.setdefault((topic, uri), threading.Lock())
     with turn:
         return _connect(self, topic, uri)
 
 
-def _cut(sock):
+def _cut(sock: socket.socket) -> None:
     with contextlib.suppress(OSError):
         sock.shutdown(socket.SHUT_RDWR)
 
 
-def _read_messages(self, buffer, messages, _sock):
-    """In place of TCPROSSub's: name what cannot be read, and begin anew with nothing in the buffer.
+def _read_messages(self: Any, buffer: Any, messages: list[Any], _sock: object) -> None:
+    """In place of TCPROSSub's: report what cannot be read, and restart with an empty buffer.
 
-    TransportException has rospy close the connection and make another one.
+    TransportException makes rospy close the connection and make another one.
     """
     try:
         deserialize_messages(buffer, messages, self.recv_data_class, queue_size=self.queue_size)
@@ -116,7 +119,7 @@ def _read_messages(self, buffer, messages, _sock):
         raise TransportException(f"{self.resolved_name}: a message cannot be read") from None
 
 
-def _check_arrival(self, buffer):
+def _check_arrival(self: Any, buffer: Any) -> None:
     """Raise ValueError if the message that has begun does not come to an end."""
     now = time.monotonic()
     if getattr(self, "incomplete_since", None) is None:

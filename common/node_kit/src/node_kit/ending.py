@@ -1,9 +1,12 @@
 """The end of a node: quiet, in time, with the robot at rest first, and not in place of another."""
 
+from __future__ import annotations
+
 import os
 import re
 import signal
 import threading
+from typing import Any
 
 import rosgraph
 import rospy
@@ -11,24 +14,24 @@ from rospy.impl.masterslave import ROSHandler
 
 from node_kit.questions import Answer, call
 
-# What rosmaster's registrations.py says to a node that is replaced, and the name of that.
+# The reason that rosmaster's registrations.py sends to a node that is replaced, with its name.
 REPLACED = re.compile(r"\[(\S*)\] Reason: new node registered with same name")
 
-# How long rospy may say goodbye to the master and to other nodes [s]. It would wait for ever for
-# one that does not answer; roslaunch waits 15 s for a node, a user does not.
+# How long rospy may unregister from the master and from other nodes [s]. It would wait without end
+# for one that does not answer; roslaunch waits 15 s for a node, a user does not.
 LONGEST_GOODBYE_S = 1.2
 
 _end = ROSHandler.shutdown  # rospy's own
 
 
-def end_on_signals():
+def end_on_signals() -> None:
     """Let SIGINT and SIGTERM shut the node down; call before init_node(disable_signals=True).
 
-    rospy's own handler talks to the master from the thread that it has interrupted. If that was
-    just doing the same, as while the node starts, it waits for its own lock for ever.
+    rospy's own handler calls the master from the thread that it has interrupted. If that was doing
+    the same, as while the node starts, it waits for its own lock without end.
     """
 
-    def end(number, _frame):
+    def end(number: int, _frame: object) -> None:
         _exit_soon()
         threading.Thread(
             target=rospy.signal_shutdown, args=(f"signal {number}",), daemon=True
@@ -38,22 +41,22 @@ def end_on_signals():
         signal.signal(number, end)
 
 
-def end_in_time():
+def end_in_time() -> None:
     """Limit what comes after the node's own shutdown, however it began; call after init_node()."""
     rospy.on_shutdown(_exit_soon)
 
 
-def end_only_if_replaced():
+def end_only_if_replaced() -> None:
     """Stay when a master takes this node for another; call before rospy.init_node().
 
-    A node that died stays registered where it was. Once its name is used anew, the master tells
-    whoever has its port by then to end: a node of another name, or even of another master.
+    A node that died stays registered. Once its name is used anew, the master asks the node that has
+    its port by then to shut down, even if its name or its master is another one.
     """
     ROSHandler.shutdown = _end_if_meant
 
 
-def _end_if_meant(self, *arguments):
-    """In place of ROSHandler's; arguments: who asks for the end, and why."""
+def _end_if_meant(self: Any, *arguments: Any) -> Any:
+    """In place of ROSHandler's; arguments: the caller's name and its reason."""
     replaced = REPLACED.search(str(arguments[-1:]))
     if replaced and (replaced[1] != rospy.get_name() or _has_its_name()):
         rospy.logwarn(
@@ -64,8 +67,8 @@ def _end_if_meant(self, *arguments):
     return _end(self, *arguments)
 
 
-def _has_its_name():
-    """Whether the own master knows this node as before; it forgets the topics of one replaced."""
+def _has_its_name() -> bool:
+    """Return whether the own master knows this node; it forgets the topics of one replaced."""
     master, name = rosgraph.get_master_uri(), rospy.get_name()
     if call(master, "lookupNode", name) != (Answer.WELL, rospy.get_node_uri()):
         return False
@@ -80,18 +83,18 @@ def _has_its_name():
     )
 
 
-def _exit_soon():
+def _exit_soon() -> None:
     timer = threading.Timer(LONGEST_GOODBYE_S, os._exit, [0])
     timer.daemon = True
     timer.start()
 
 
-def wait_for_goodbye():
+def wait_for_goodbye() -> None:
     """Wait until the shutdown is complete: a node that exits sooner stays registered."""
     if rospy.core._shutdown_lock.acquire(timeout=LONGEST_GOODBYE_S):  # held until then
         rospy.core._shutdown_lock.release()
 
 
-def is_ending():
-    """Whether the end was asked for; rospy.is_shutdown() says so only after the topics close."""
+def is_ending() -> bool:
+    """Return whether the end was requested; rospy.is_shutdown() waits until the topics close."""
     return rospy.core.is_shutdown_requested()

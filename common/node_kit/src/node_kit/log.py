@@ -1,8 +1,10 @@
 """Lines for the user, from a thread of their own.
 
-rospy asks the master a question for every line that it logs, and a screen may be held: a callback
-that logs may wait for ever. Here it never does.
+rospy asks the master a question for every line, and a screen may be held with Ctrl-S: a callback
+that logs through rospy may wait without end.
 """
+
+from __future__ import annotations
 
 import contextlib
 import itertools
@@ -10,35 +12,36 @@ import queue
 import threading
 import time
 from operator import itemgetter
+from typing import Any, Callable, List
 
 import rospy
 
 GATHER_S = 0.25  # lines within this time are shown together: to wake a thread for each costs more
-LONGEST_QUEUE = 1000  # lines kept for a screen or a master that is held; what comes after is lost
+LONGEST_QUEUE = 1000  # lines kept while a screen or a master is held; later ones are lost
+Show = Callable[[List[Any]], object]
 
 
 class Log:
-    """Shows lines, and sends them to /rosout, without ever waiting."""
+    """Shows lines, and sends them to /rosout, without waiting. The node must be initialised."""
 
-    def __init__(self):
-        """The node must be initialised."""
-        self._waiting = queue.SimpleQueue()  # (the method that shows it, what is to be shown)
+    def __init__(self) -> None:
+        self._waiting: queue.SimpleQueue[tuple[Show, Any]] = queue.SimpleQueue()
         threading.Thread(target=self._show, daemon=True).start()
 
-    def info(self, line):
+    def info(self, line: str) -> None:
         """Show a line."""
         self.put(self._info, line)
 
-    def warn(self, line):
+    def warn(self, line: str) -> None:
         """Show a warning."""
         self.put(self._warn, line)
 
-    def put(self, show, content):
+    def put(self, show: Show, content: Any) -> None:
         """Have show([content, ...]) called with this and what else came for it meanwhile."""
         if self._waiting.qsize() < LONGEST_QUEUE:
             self._waiting.put((show, content))
 
-    def _show(self):
+    def _show(self) -> None:
         while True:
             together = [self._waiting.get()]
             while not self._waiting.empty():
@@ -48,10 +51,10 @@ class Log:
                     show([content for _, content in group])
             time.sleep(GATHER_S)
 
-    def _info(self, lines):
+    def _info(self, lines: list[str]) -> None:
         for line in lines:
             rospy.loginfo("%s", line)
 
-    def _warn(self, lines):
+    def _warn(self, lines: list[str]) -> None:
         for line in lines:
             rospy.logwarn("%s", line)

@@ -1,21 +1,24 @@
 """Files package.xml that keep every ROS program of a workspace from starting.
 
-rospkg, and so rospy and roslaunch, reads all of them when it looks for any package; what it then
-says names no file.
+rospkg, and so rospy and roslaunch, reads all of them when it looks for any package; its error
+names no file.
 """
+
+from __future__ import annotations
 
 import os
 import sys
 from pathlib import Path
+from typing import Iterator
 from xml.etree import ElementTree
 
 
-def broken_manifests(folder):
-    """[(path, what is wrong)] of each package.xml below a folder that rospkg cannot read."""
+def broken_manifests(folder: str | Path) -> list[tuple[str, str]]:
+    """Return [(path, what is wrong)] of each package.xml below a folder that is unreadable."""
     return list(_broken(Path(folder), set()))
 
 
-def _broken(folder, above):
+def _broken(folder: Path, above: set[str]) -> Iterator[tuple[str, str]]:
     here = os.path.realpath(folder)
     try:
         inside = {entry.name: entry for entry in os.scandir(folder)}
@@ -27,13 +30,13 @@ def _broken(folder, above):
         complaint = _complaint(folder / "package.xml")
         if complaint:
             yield str(folder / "package.xml"), complaint
-        return  # below a package there is none, says rospkg
+        return  # rospkg looks no deeper than a package
     for name in sorted(inside):
         if os.path.isdir(inside[name].path):  # not is_dir(), which fails for a link to itself
             yield from _broken(folder / name, above | {here})
 
 
-def _complaint(path):
+def _complaint(path: Path) -> str:
     try:
         name = ElementTree.parse(path).findtext("name")
     except (ElementTree.ParseError, OSError, ValueError, LookupError) as error:
@@ -41,8 +44,8 @@ def _complaint(path):
     return "" if name is not None else "it has no <name>"
 
 
-def main():
-    """Name those below the folder of the command line; exit code 1 if there are any."""
+def main() -> None:
+    """Print those below the folder of the command line; exit code 1 if there are any."""
     broken = broken_manifests(sys.argv[1])
     for path, complaint in broken:
         print(f"{path}: {complaint}")

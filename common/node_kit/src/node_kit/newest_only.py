@@ -1,12 +1,15 @@
-"""Sends messages over a socket without ever waiting for the other side (pure: no ROS, no clock)."""
+"""Sends messages over a socket without waiting for the other side (pure: no ROS, no clock)."""
+
+from __future__ import annotations
 
 import select
 import socket
 import threading
+from typing import Callable
 
 # Linux resends what is not acknowledged after 0.2 s or more, then after twice that, and so on. A
-# packet lost on a radio link is resent once; a second time means that nobody has answered for some
-# 0.6 s, as long as a TurtleBot obeys a velocity.
+# packet lost on a radio link is resent once; a second time means no answer for some 0.6 s,
+# as long as a TurtleBot obeys a velocity.
 CUT_AFTER_RESENDS = 2
 # struct tcp_info of linux/tcp.h begins with these bytes: tcpi_state, tcpi_ca_state (4: packets were
 # lost), tcpi_retransmits. Four bytes are asked for, since QEMU's emulation of a processor knows
@@ -30,18 +33,22 @@ class NewestOnly:
     """
 
     def __init__(
-        self, connected_socket, stop=None, tell=lambda is_cut: None, buffer_bytes=None, held=False
-    ):
-        """connected_socket: a TCP socket, on which nobody else sends.
+        self,
+        connected_socket: socket.socket,
+        stop: bytes | None = None,
+        report: Callable[[bool], object] = lambda is_cut: None,
+        buffer_bytes: int | None = None,
+        held: bool = False,
+    ) -> None:
+        """Take over a TCP socket.
 
-        stop: the message to stop, or None if a late message does no harm. tell: called with True
-        when the connection is cut, with False when it is in use again. buffer_bytes: room for
-        messages on their way, which the kernel doubles; None: what the kernel finds right. held:
-        whether nothing is sent before free() is called.
+        stop: the message to stop, or None if a late message does no harm. report: called with True
+        when the connection is cut, with False when it is in use again. buffer_bytes: the size of
+        the kernel's buffer, which the kernel doubles. held: send nothing before free() is called.
         """
         self._socket = connected_socket
         self._stop = stop
-        self._tell = tell
+        self._report = report
         self._lock = threading.Lock()
         self._behind = False  # the thread runs
         self._begun = b""  # the rest of a message of which the kernel has taken a part
@@ -52,13 +59,16 @@ class NewestOnly:
         if buffer_bytes:
             connected_socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, buffer_bytes)
 
-    def write(self, message):
-        """Send the message (bytes), now or as soon as there is room. Raises OSError if broken."""
+    def write(self, message: bytes) -> None:
+        """Send the message now, or as soon as the kernel takes it. Raises OSError if broken."""
         with self._lock:
             if self._stop:
-                message = self._unless_held(message)
-                if message is None:
+                if self.held:
                     return
+                if self._is_cut():
+                    self.held = True
+                    self._report(True)
+                    message = self._stop
             if self._behind:
                 self._newest = message
                 return
@@ -69,40 +79,30 @@ class NewestOnly:
             self._behind = True
         threading.Thread(target=self._catch_up, daemon=True).start()
 
-    def free(self):
+    def free(self) -> None:
         """Use a held connection again, if it is whole: all was seen released."""
         with self._lock:
             if self.held and not self._is_cut():
                 self.held = False
-                self._tell(False)
+                self._report(False)
 
-    def _is_cut(self):
+    def _is_cut(self) -> bool:
         return resends(self._socket) >= CUT_AFTER_RESENDS
 
-    def _unless_held(self, message):
-        """What to send of a message over a connection that may be held or cut; None: nothing."""
-        if self.held:
-            return None
-        if not self._is_cut():
-            return message
-        self.held = True
-        self._tell(True)
-        return self._stop
-
-    def _catch_up(self):
-        room = select.poll()
+    def _catch_up(self) -> None:
+        writable = select.poll()
         try:
-            room.register(self._socket, select.POLLOUT)
+            writable.register(self._socket, select.POLLOUT)
             while self._behind:
-                room.poll()
+                writable.poll()
                 with self._lock:
                     self._send_some()
         except (OSError, ValueError):
-            # The other side is gone, or the connection was closed here. The next write() says so.
+            # The other side is gone, or the connection was closed here: the next write() raises.
             with self._lock:
                 self._behind = False
 
-    def _send_some(self):
+    def _send_some(self) -> None:
         if self._begun:
             self._begun = self._begun[self._send(self._begun) :]
         elif self._newest:
@@ -112,18 +112,18 @@ class NewestOnly:
         else:
             self._behind = False
 
-    def _send(self, data):
-        """The number of bytes that the kernel has taken."""
+    def _send(self, data: bytes) -> int:
+        """Return the number of bytes that the kernel has taken."""
         try:
             return self._socket.send(data, socket.MSG_DONTWAIT)
         except BlockingIOError:
             return 0
 
 
-def resends(connected_socket):
-    """How often Linux has resent, in vain so far, what the other side has not acknowledged.
+def resends(connected_socket: socket.socket) -> int:
+    """Return how often Linux has resent, in vain so far, what the other side has not acknowledged.
 
-    0 if what comes back cannot be right: an answer that means nothing must not stop a robot.
+    0 if what comes back cannot be right: a meaningless answer must not stop a robot.
     """
     info = connected_socket.getsockopt(socket.IPPROTO_TCP, socket.TCP_INFO, _INFO_BYTES)
     if len(info) < _INFO_BYTES or info[_STATE_AT] not in _STATES or info[_CONGESTION_AT] != _LOSS:

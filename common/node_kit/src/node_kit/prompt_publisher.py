@@ -1,51 +1,56 @@
 """Publishes from the caller's thread, and never waits for a subscriber.
 
 rospy offers one or the other: with queue_size=None it sends from the thread that publishes, which
-then waits for as long as any one subscriber does not read; with a queue it hands every message to
-one thread for each subscriber, which takes longer. Here rospy finds and greets the subscribers, but
-the sending is done by NewestOnly, which never waits.
+then waits for any subscriber that does not read; with a queue one thread for each subscriber sends,
+which takes longer. Here rospy finds and greets the subscribers, and NewestOnly sends.
 """
+
+from __future__ import annotations
 
 import io
 import struct
+from typing import Any, Callable, Dict
 
 import rospy
 from geometry_msgs.msg import Twist
 from rospy.msg import serialize_message
 
+from node_kit.arming import ZERO, Velocity
 from node_kit.newest_only import NewestOnly
+
+Peers = Dict[Any, NewestOnly]  # by rospy's connection
 
 
 class PromptPublisher(rospy.SubscribeListener):
     """Publishes messages of any type; a subscriber that is behind gets the newest only."""
 
-    def __init__(self, name, message_class):
-        """name: of the topic; relative, so that it can be remapped. Never latched."""
+    def __init__(self, name: str, message_class: type) -> None:
+        """Take the name of the topic, relative, so that it can be remapped. Never latched."""
         super().__init__()
-        self._peers = {}  # rospy's connection -> NewestOnly
+        self._peers: Peers = {}
         self._sequence = 0
         self._buffer = io.BytesIO()
         self._publisher = rospy.Publisher(name, message_class, queue_size=1, latch=False)
         self._publisher.impl.set_queue_size(None)  # no threads; given late, it brings no warning
         self._publisher.impl.add_subscriber_listener(self)
-        self._update_peers()  # whoever subscribed before the listener was there
+        self._update_peers()  # those that subscribed before the listener was added
 
     @property
-    def name(self):
+    def name(self) -> str:
         """The topic, as it was remapped."""
         return self._publisher.resolved_name
 
     @property
-    def listeners(self):
+    def listeners(self) -> int:
         """How many subscribers are connected."""
         return len(self._peers)
 
     @property
-    def names(self):
+    def names(self) -> set[str]:
         """The names of the nodes that are connected."""
         return {connection.endpoint_id for connection in self._peers}
 
-    def publish(self, message):
+    def publish(self, message: Any) -> None:
         """Send a message; one thread at a time."""
         self._sequence += 1
         if self._peers:
@@ -54,7 +59,7 @@ class PromptPublisher(rospy.SubscribeListener):
             serialize_message(self._buffer, self._sequence, message)
             self.send(self._buffer.getvalue())
 
-    def send(self, data):
+    def send(self, data: bytes) -> None:
         """Send the bytes of a message with its length before it."""
         for connection, peer in self._peers.items():
             try:
@@ -62,19 +67,17 @@ class PromptPublisher(rospy.SubscribeListener):
             except OSError:
                 connection.close()  # rospy takes it off its list and calls peer_unsubscribe()
 
-    def end(self):
-        """Close all connections, and register no longer."""
+    def end(self) -> None:
+        """Close all connections and unregister."""
         self._publisher.unregister()
 
-    def peer_subscribe(self, topic_name, topic_publish, peer_publish):
-        """Called by rospy when a subscriber has connected."""
+    def peer_subscribe(self, *_: object) -> None:  # rospy calls it, and the next
         self._update_peers()
 
-    def peer_unsubscribe(self, topic_name, num_peers):
-        """Called by rospy when a subscriber has left."""
+    def peer_unsubscribe(self, *_: object) -> None:
         self._update_peers()
 
-    def _update_peers(self):
+    def _update_peers(self) -> None:
         # A new dict, because send() may be going through the old one.
         self._peers = {
             connection: self._peers.get(connection) or self._peer(connection)
@@ -82,7 +85,7 @@ class PromptPublisher(rospy.SubscribeListener):
             if connection.socket  # not closed meanwhile
         }
 
-    def _peer(self, connection):
+    def _peer(self, connection: Any) -> NewestOnly:
         return NewestOnly(connection.socket)
 
 
@@ -90,13 +93,11 @@ class PromptPublisher(rospy.SubscribeListener):
 # and angular x, y, z (float64). Packed here, because rospy's way takes several times as long.
 _TWIST = struct.Struct("<I6d")
 _TWIST_BYTES = _TWIST.size - 4
-_ZERO = (0.0,) * 6
-_STOP = _TWIST.pack(_TWIST_BYTES, *_ZERO)
-# Room for some velocities on their way. More room would only keep more old ones for a subscriber
-# that has stopped reading.
+_STOP = _TWIST.pack(_TWIST_BYTES, *ZERO)
+# Enough for some velocities. More would only keep old ones for a subscriber that does not read.
 _BUFFER_BYTES = 8192
 UNTIL_RELEASED = (
-    "It is told nothing more until it can be reached and the dead-man button and the sticks are "
+    "It gets nothing more until it can be reached and the dead-man button and the sticks are "
     "released."
 )
 
@@ -104,17 +105,19 @@ UNTIL_RELEASED = (
 class VelocityPublisher(PromptPublisher):
     """Publishes geometry_msgs/Twist; a robot that was lost is not driven on when it is back.
 
-    A subscriber whose network was cut gets no velocity before all is released; neither does one
-    that appears in the middle of a motion of a stick that is held, such as a robot started anew.
+    A subscriber whose network was cut gets no velocity before all is released; nor does one
+    that connects in the middle of a motion, such as a robot that was restarted.
     """
 
-    def __init__(self, name, warn):
-        """warn: called with a line when a subscriber is held or free again; it must not wait."""
+    def __init__(self, name: str, warn: Callable[[str], object]) -> None:
+        """Take warn(line), called when a subscriber is held or free again; it must not wait."""
         self._warn = warn
-        self._holds_new = False  # the last velocity was a motion that nobody new takes part in
+        self._holds_new = False  # a new subscriber does not take part in the present motion
         super().__init__(name, Twist)
 
-    def publish(self, velocity, released=False, hold_new=False):
+    def publish(
+        self, velocity: Velocity | None, released: bool = False, hold_new: bool = False
+    ) -> None:
         """Send a velocity: linear x, y, z [m/s] and angular x, y, z [rad/s], frame of the base.
 
         None sends nothing. released: all was seen released, so lost subscribers are driven again.
@@ -123,10 +126,10 @@ class VelocityPublisher(PromptPublisher):
         if released:
             self._free()
         if velocity is not None:
-            self._holds_new = hold_new and velocity != _ZERO
+            self._holds_new = hold_new and velocity != ZERO
             self.send(_TWIST.pack(_TWIST_BYTES, *velocity))
 
-    def _free(self):
+    def _free(self) -> None:
         for connection, peer in self._peers.items():
             if peer.held:
                 try:
@@ -134,16 +137,16 @@ class VelocityPublisher(PromptPublisher):
                 except OSError:
                     connection.close()
 
-    def _peer(self, connection):
+    def _peer(self, connection: Any) -> NewestOnly:
         name = connection.endpoint_id
         held = self._holds_new
 
-        def tell(is_cut):
+        def report(is_cut: bool) -> None:
             if is_cut:
-                self._warn(f"The network to {name} is cut: it is told to stop. {UNTIL_RELEASED}")
+                self._warn(f"The network to {name} is cut: it gets a last stop. {UNTIL_RELEASED}")
             else:
                 self._warn(f"{name} is back: it can be driven again.")
 
         if held:
             self._warn(f"{name} has come in the middle of a motion. {UNTIL_RELEASED}")
-        return NewestOnly(connection.socket, _STOP, tell, _BUFFER_BYTES, held)
+        return NewestOnly(connection.socket, _STOP, report, _BUFFER_BYTES, held)

@@ -1,12 +1,21 @@
-"""Questions to a master or a node that always end in time (rospy's own may wait for ever)."""
+"""Questions to a master or a node that end in time, unlike rospy's own: which node is where.
+
+Also: which node holds a name, and where the cockpit's page is.
+"""
+
+from __future__ import annotations
 
 import os
 import socket
 import threading
 import xmlrpc.client
 from enum import Enum
+from typing import Any
+from urllib.parse import urlsplit
 
 TIMEOUT_S = 2.0  # for each question; on one network an answer takes milliseconds
+PATIENCE_S = 3.0  # a node that hangs or waits for a busy processor still holds its name
+PARAMETER = "/cockpit_address"  # http://HOST:PORT/, as long as the cockpit of a master runs
 
 
 class Answer(Enum):
@@ -21,21 +30,27 @@ class Answer(Enum):
 
 
 class _Transport(xmlrpc.client.Transport):
-    def __init__(self, timeout_s):
+    def __init__(self, timeout_s: float) -> None:
         super().__init__()
         self._timeout_s = timeout_s
 
-    def make_connection(self, host):
+    def make_connection(self, host: Any) -> Any:
         connection = super().make_connection(host)
         connection.timeout = self._timeout_s
         return connection
 
 
-def call(uri, method, *arguments, caller=None, timeout_s=TIMEOUT_S):
-    """Ask a master or a node, as `caller` or as nobody; return (Answer, value or None)."""
-    answer = [(Answer.SILENT, None)]
+def call(
+    uri: str,
+    method: str,
+    *arguments: Any,
+    caller: str | None = None,
+    timeout_s: float = TIMEOUT_S,
+) -> tuple[Answer, Any]:
+    """Ask a master or a node, as `caller` or under a name of no node; return (Answer, value)."""
+    answer: list[tuple[Answer, Any]] = [(Answer.SILENT, None)]
 
-    def ask():
+    def ask() -> None:
         answer[0] = _call(uri, method, arguments, caller or f"/question_{os.getpid()}", timeout_s)
 
     # Not only a timeout of the socket: another kind of server may send and send, and a look-up of a
@@ -46,7 +61,9 @@ def call(uri, method, *arguments, caller=None, timeout_s=TIMEOUT_S):
     return answer[0]
 
 
-def _call(uri, method, arguments, caller, timeout_s):
+def _call(
+    uri: str, method: str, arguments: tuple[Any, ...], caller: str, timeout_s: float
+) -> tuple[Answer, Any]:
     try:
         with xmlrpc.client.ServerProxy(uri, transport=_Transport(timeout_s)) as server:
             code, _, value = getattr(server, method)(caller, *arguments)
@@ -58,6 +75,45 @@ def _call(uri, method, arguments, caller, timeout_s):
         return Answer.STRANGE, None
     except OSError:  # a timeout, or no way to that host
         return Answer.SILENT, None
-    except Exception:  # whatever that program said, ROS does not say so
+    except Exception:  # whatever that program answered, it is not ROS
         return Answer.STRANGE, None
     return (Answer.WELL, value) if code == 1 else (Answer.STRANGE, value)
+
+
+def holder(master_uri: str, name: str) -> tuple[str, str] | None:
+    """Return where the node of a name runs, as (uri, words), or None if the name is free.
+
+    A name whose node is dead (its port refuses or belongs to another node, or its host is gone) is
+    free. One whose node accepts the connection but does not answer is not: it may be stopped, and
+    go on.
+    """
+    answer, uri = call(master_uri, "lookupNode", name)
+    if answer is not Answer.WELL:
+        return None
+    answer, pid = call(uri, "getPid", timeout_s=PATIENCE_S)
+    if answer is Answer.WELL:
+        answer, own = call(uri, "getName", timeout_s=PATIENCE_S)  # rospy's nodes know it
+        if answer is Answer.WELL and own != name:
+            return None
+        return uri, f"at {uri}, process {pid}"
+    if answer is Answer.SILENT and accepts(uri):
+        return uri, f"at {uri}, but does not answer"
+    return None
+
+
+def accepts(uri: str) -> bool:
+    """Return whether something accepts a connection at a URI, as a stopped process does, too."""
+    try:
+        parts = urlsplit(uri)
+        with socket.create_connection((parts.hostname or "", parts.port or 0), PATIENCE_S):
+            return True
+    except (OSError, ValueError):
+        return False
+
+
+def address(master_uri: str) -> str | None:
+    """Return the address of the page that shows this master's robots, or None without a page."""
+    answer, found = call(master_uri, "getParam", PARAMETER)
+    if answer is not Answer.WELL or not isinstance(found, str):
+        return None
+    return found if accepts(found) else None

@@ -1,6 +1,9 @@
 """The start of a node: every mistake is one line and exit code 1, and harms nothing that runs."""
 
+from __future__ import annotations
+
 import sys
+from typing import Any, Callable
 
 import rosgraph
 import rospy
@@ -14,9 +17,8 @@ from node_kit.ending import (
     is_ending,
     wait_for_goodbye,
 )
-from node_kit.names import holder
 from node_kit.parameters import checked_value, switch
-from node_kit.questions import Answer, call
+from node_kit.questions import Answer, call, holder
 
 TAKE_OVER = "take_over"  # private parameter of every node that keeps its name
 
@@ -25,15 +27,20 @@ class StartError(Exception):
     """The node cannot start; the text says in one line why and what to do."""
 
 
-def run(name, load, main, keeps_name=False):
-    """Run a node: main(load(private parameters)); returns its exit code.
+def run(
+    name: str,
+    load: Callable[[dict[str, Any]], Any],
+    main: Callable[[Any], object],
+    keeps_name: bool = False,
+) -> int:
+    """Run a node: main(load(private parameters)); return its exit code.
 
-    name: unless __name:= is given. load: takes a dict of the private parameters and raises
-    ValueError with one line. main: called once the node is registered; returns when it is shut
-    down. keeps_name: whether to start only if no other node of the name is there to be displaced.
+    name: unless __name:= is given. load: takes a dict of the private parameters; raises ValueError
+    with one line. main: called once the node is registered; returns when it is shut down.
+    keeps_name: start only if that displaces no other node of the name.
 
-    Everything is checked before rospy.init_node(): that ends a node of the same name that runs
-    well. The parameters of the command line are not put on the master, where they would stay.
+    Everything is checked before rospy.init_node(), which ends a running node of the same name. The
+    parameters of the command line are not put on the master, where they would stay.
     """
     try:
         full_name = _full_name(name)
@@ -63,17 +70,17 @@ def run(name, load, main, keeps_name=False):
     return 0
 
 
-def _fail(name, why):
+def _fail(name: str, why: object) -> int:
     print(f"{name}: {why}", file=sys.stderr)
     return 1
 
 
-def _full_name(name):
+def _full_name(name: str) -> str:
     name = rospy.names.get_mappings().get("__name", name)
     return rosgraph.names.ns_join(rosgraph.names.get_ros_namespace(), name)
 
 
-def _check_master():
+def _check_master() -> None:
     uri = rosgraph.get_master_uri()
     try:
         rosgraph.network.parse_http_host_and_port(uri)
@@ -90,8 +97,8 @@ def _check_master():
         )
 
 
-def _parameters(full_name):
-    """The private parameters of the master, and over them those of the command line."""
+def _parameters(full_name: str) -> dict[str, Any]:
+    """Return the private parameters of the master, and over them those of the command line."""
     answer, given = call(rosgraph.get_master_uri(), "getParam", full_name)
     given = given if answer is Answer.WELL and isinstance(given, dict) else {}
     try:
@@ -109,12 +116,12 @@ def _parameters(full_name):
     return given
 
 
-def _without_parameters(arguments):
-    """The command line without _name:=value, which rospy would put on the master; with remaps."""
+def _without_parameters(arguments: list[str]) -> list[str]:
+    """Return the command line without _name:=value, which rospy would put on the master."""
     return [a for a in arguments if not (":=" in a and a.startswith("_") and a[1:2] != "_")]
 
 
-def _check_name(full_name):
+def _check_name(full_name: str) -> None:
     held = holder(rosgraph.get_master_uri(), full_name)
     if held:
         raise StartError(

@@ -1,5 +1,7 @@
 """Limits how often something happens (pure): time enters in seconds."""
 
+from __future__ import annotations
+
 
 class Throttle:
     """Says yes at most `rate` times a second in the long run, and up to `burst` times at once.
@@ -7,14 +9,14 @@ class Throttle:
     The burst lets every one of a series through that comes at the rate but not quite evenly.
     """
 
-    def __init__(self, rate, burst=1.0):
-        """rate: [1/s], 0 for never. burst: at least 1."""
+    def __init__(self, rate: float, burst: float = 1.0) -> None:
+        """Take the rate [1/s], 0 for never, and the burst, at least 1."""
         self._period = 1.0 / rate if rate > 0 else None
         self._slack = (burst - 1.0) * (self._period or 0.0)
-        self._next = None  # when the next one of an even series comes [s]
+        self._next: float | None = None  # when the next one of an even series comes [s]
 
-    def ready(self, now):
-        """Whether it may happen at the time now [s]."""
+    def ready(self, now: float) -> bool:
+        """Return whether it may happen at the time now [s]."""
         if self._period is None:
             return False
         if self._next is None or now > self._next:
@@ -28,11 +30,11 @@ class Throttle:
 class ThrottleEach:
     """A Throttle for each text, so that one is not held up by another."""
 
-    def __init__(self, rate):
-        """rate: [1/s] of each."""
+    def __init__(self, rate: float) -> None:
+        """Take the rate [1/s] of each."""
         self._rate = rate
-        self._throttles = {}
+        self._throttles: dict[str, Throttle] = {}
 
-    def ready(self, text, now):
-        """Whether the text may be said at the time now [s]."""
+    def ready(self, text: str, now: float) -> bool:
+        """Return whether the text may be reported at the time now [s]."""
         return self._throttles.setdefault(text, Throttle(self._rate)).ready(now)

@@ -76,5 +76,5 @@ def report_once(options: argparse.Namespace, examine: Callable[..., list[Outcome
     if len(outcomes) == len(options.exercises) and outcomes[-1].passed:
         print(summary(outcomes))
     else:
-        done = ", ".join(outcome.id for outcome in outcomes if outcome.passed)
+        done = ", ".join(outcome.id for outcome in outcomes if outcome.passed and not outcome.empty)
         print(f"done: {done or 'none yet'}")

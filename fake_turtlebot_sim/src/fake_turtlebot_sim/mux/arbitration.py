@@ -5,10 +5,13 @@ timeout the one with the highest priority is active, and its commands alone go t
 goes through at once or never; none is kept for later.
 """
 
+from __future__ import annotations
+
 from enum import Enum
 from math import inf, isfinite
+from typing import Any, Iterable
 
-from node_kit.arming import Arming
+from node_kit.arming import Arming, Velocity
 
 IDLE = "idle"  # what is active when no input is
 ZERO = (0.0,) * 6  # linear x, y, z [m/s], angular x, y, z [rad/s]
@@ -32,14 +35,14 @@ class Verdict(Enum):
 class Arbiter:
     """Decides about every command of every input."""
 
-    def __init__(self, inputs):
+    def __init__(self, inputs: Iterable[Any]) -> None:
         """Take parameters.Inputs, whose names and priorities differ."""
         self._inputs = {i.name: i for i in sorted(inputs, key=lambda i: i.priority, reverse=True)}
         self._expiry_s = dict.fromkeys(self._inputs, -inf)
-        self._senders = {}  # (input, sender) -> its Arming
+        self._senders: dict[tuple[str, object], Arming] = {}  # (input, sender) -> its Arming
         self._drives = False  # whether the last command that went through was not zero
 
-    def command(self, name, velocity, now, sender=""):
+    def command(self, name: str, velocity: Velocity, now: float, sender: object = "") -> Verdict:
         """Return the Verdict on a velocity (numbers, whatever their units) that came now [s].
 
         The sender tells apart what speaks on one input, as to whether its commands may be late.
@@ -56,21 +59,21 @@ class Arbiter:
         self._drives = any(velocity)
         return Verdict.OBEYED
 
-    def rearms(self, name):
-        """Tell whether an input must rest after an outage before it moves the robot again."""
-        return self._inputs[name].rearm_on_zero
+    def rearms(self, name: str) -> bool:
+        """Return whether an input must rest after an outage before it moves the robot again."""
+        return bool(self._inputs[name].rearm_on_zero)
 
-    def lost(self):
+    def lost(self) -> None:
         """Disarm all senders on inputs with rearm_on_zero: this node was suspended."""
         for sender in self._senders.values():
             sender.lose()
 
-    def active(self, now):
+    def active(self, now: float) -> str:
         """Return the name of the active input at the time now [s], or IDLE."""
         return next((name for name in self._inputs if now < self._expiry_s[name]), IDLE)
 
-    def must_stop(self, now):
-        """Tell, once, that all inputs have fallen silent and the last command was not zero.
+    def must_stop(self, now: float) -> bool:
+        """Return, once, that all inputs have fallen silent and the last command was not zero.
 
         A zero is due then, once, so that it never contends with a later command. yocs_cmd_vel_mux
         leaves the stop to the base (yujin_ocs issue 16), but not every base has a timeout.
@@ -79,16 +82,16 @@ class Arbiter:
         self._drives = self._drives and not must_stop
         return must_stop
 
-    def lull(self, now):
+    def lull(self, now: float) -> float:
         """Return the time [s] until the active input expires, at most the shortest timeout.
 
-        So whoever looks again after that time is late for no input, even one that starts now.
+        A look after that time is late for no input, even for one that starts now.
         """
         expiry_s = self._expiry_s.get(self.active(now), inf)
         return min(expiry_s - now, *(i.timeout for i in self._inputs.values()))
 
 
-def admits(sender: Arming, velocity, now) -> bool:
+def admits(sender: Arming, velocity: Velocity, now: float) -> bool:
     """Return whether a sender's velocity that came now [s] may go through; a zero always may.
 
     When a network cable is pulled, TCP keeps what is sent meanwhile and delivers all of it once the

@@ -9,10 +9,10 @@ from std_msgs.msg import String
 
 from fake_turtlebot_sim.mux.arbitration import IDLE, ZERO, Arbiter, Verdict
 from fake_turtlebot_sim.mux.parameters import parse_mux_parameters
-from node_kit.careful_connections import sender_of, tell_of_bad_messages
+from node_kit.arming import Resumption
+from node_kit.careful_connections import report_bad_messages, sender_of
 from node_kit.log import Log
 from node_kit.prompt_publisher import VelocityPublisher
-from node_kit.resumption import Resumption
 from node_kit.start import run
 from node_kit.suspension import Suspensions
 from node_kit.throttle import ThrottleEach
@@ -34,7 +34,7 @@ class CmdVelMux:
         """Take MuxParameters; from now on commands go through."""
         self._arbiter = Arbiter(parameters.subscribers)
         self._log = Log()
-        tell_of_bad_messages(self._log.warn)
+        report_bad_messages(self._log.warn)
         self._may_warn = ThrottleEach(1.0 / WARNING_PERIOD_S)
         self._lock = threading.Lock()  # one command at a time, and none after the last zero
         self._has_ended = False

@@ -3,12 +3,14 @@
 The keys are those of yocs_cmd_vel_mux, so that a TurtleBot's own mux.yaml can be loaded.
 """
 
+from __future__ import annotations
+
 import re
-from dataclasses import dataclass
-from typing import Tuple
+from dataclasses import MISSING, dataclass
+from typing import Any, Mapping
 
 from fake_turtlebot_sim.mux.arbitration import IDLE
-from node_kit.parameters import MISSING, checked, number, parameter, switch, text, whole_number
+from node_kit.parameters import checked, number, parameter, switch, text, whole_number
 
 EXAMPLE = "as in subscribers: [{name: teleop, topic: input/teleop, timeout: 1.0, priority: 7}]"
 _TOPIC = text(
@@ -33,7 +35,7 @@ class Input:
     rearm_on_zero: bool = parameter(False, switch)
 
 
-def _inputs(value):
+def _inputs(value: Any) -> tuple[Input, ...]:
     if not isinstance(value, (list, tuple)) or not value:
         raise ValueError(f"must be a list of inputs, {EXAMPLE}")
     inputs = tuple(_input(number, entry) for number, entry in enumerate(value, start=1))
@@ -45,7 +47,7 @@ def _inputs(value):
     return inputs
 
 
-def _input(position, entry):
+def _input(position: int, entry: Any) -> Input:
     where = f"entry {position}: "
     if not isinstance(entry, dict):
         raise ValueError(f"{where}{entry!r}: must be {EXAMPLE}")
@@ -56,11 +58,11 @@ def _input(position, entry):
 class MuxParameters:
     """What can be set, with the defaults; README.md and config/cmd_vel_mux.yaml explain each."""
 
-    subscribers: Tuple[Input, ...] = parameter(MISSING, _inputs)
+    subscribers: tuple[Input, ...] = parameter(MISSING, _inputs)
     publisher: str = parameter("output", _TOPIC)
 
 
-def parse_mux_parameters(given):
+def parse_mux_parameters(given: Mapping[str, Any]) -> MuxParameters:
     """Return MuxParameters from a mapping of names to values.
 
     Raises ValueError with one line: the parameter, its value and what is allowed.

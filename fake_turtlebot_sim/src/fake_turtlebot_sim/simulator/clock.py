@@ -1,5 +1,7 @@
 """When the robots move and when the node publishes. Reads no clock: time enters as nanoseconds."""
 
+from __future__ import annotations
+
 
 class MotionClock:
     """Turns the readings of a clock that may be set back into a time that never decreases.
@@ -8,12 +10,12 @@ class MotionClock:
     does a step from 0, with which ROS says that it has no time yet.
     """
 
-    def __init__(self, reading_ns):
+    def __init__(self, reading_ns: int) -> None:
         """Start at zero, with the clock at reading_ns."""
         self._reading_ns = reading_ns
         self._elapsed_ns = 0
 
-    def update(self, reading_ns):
+    def update(self, reading_ns: int) -> int:
         """Return the time [ns] that has passed, given what the clock shows now."""
         if self._reading_ns:
             self._elapsed_ns += max(0, reading_ns - self._reading_ns)
@@ -24,13 +26,13 @@ class MotionClock:
 class PhaseLock:
     """Deadlines a whole number of periods after one start, so that no lateness is passed on."""
 
-    def __init__(self, period_ns, now_ns):
+    def __init__(self, period_ns: int, now_ns: int) -> None:
         """Let the first period begin now."""
         self._period_ns = period_ns
         self._last_ns = now_ns
         self.deadline_ns = now_ns
 
-    def complete(self, now_ns):
+    def complete(self, now_ns: int) -> int:
         """Move the deadline past now_ns and return how many periods went by unused.
 
         A clock that was set back begins a new count.

@@ -6,21 +6,31 @@ is half the change of yaw, and points along the heading in the middle of the arc
 usual formula with the radius v / w, this one keeps all its digits as w goes to zero.
 """
 
+from __future__ import annotations
+
 from math import ceil, cos, pi, remainder, sin, tau
+from typing import Tuple
 
 import numpy as np
 
 # Nodes and weights of Gauss-Legendre quadrature on [-1, 1], for the one path without a closed form.
-_NODES, _WEIGHTS = (values.tolist() for values in np.polynomial.legendre.leggauss(8))
+_NODES, _WEIGHTS = (
+    values.tolist()
+    for values in np.polynomial.legendre.leggauss(8)  # type: ignore[no-untyped-call, unused-ignore]
+)
 
 
-def wrap_angle(angle):
+Pose = Tuple[float, float, float]  # x [m], y [m], yaw [rad]
+Velocity = Tuple[float, float]  # v [m/s], w [rad/s]
+
+
+def wrap_angle(angle: float) -> float:
     """Return the angle [rad] turned by whole circles into (-pi, pi]."""
     wrapped = remainder(angle, tau)
     return wrapped if wrapped > -pi else pi
 
 
-def arc(pose, velocity, dt):
+def arc(pose: Pose, velocity: Velocity, dt: float) -> Pose:
     """Drive at constant velocity and return the new pose.
 
     pose is (x [m], y [m], yaw [rad]), velocity (v [m/s], w [rad/s]), dt the time [s].
@@ -37,7 +47,7 @@ def arc(pose, velocity, dt):
     return x + chord * cos(heading), y + chord * sin(heading), yaw
 
 
-def ramp(pose, velocity, end_velocity, dt):
+def ramp(pose: Pose, velocity: Velocity, end_velocity: Velocity, dt: float) -> Pose:
     """Drive while the velocity changes linearly in time to end_velocity; units as in arc().
 
     Yaw has a closed form. The path does not: it is integrated by Gauss-Legendre quadrature over
@@ -58,14 +68,16 @@ def ramp(pose, velocity, end_velocity, dt):
     return x, y, wrap_angle(yaw + 0.5 * (w + w_end) * dt)
 
 
-def drive(pose, velocity, end_velocity, dt):
+def drive(pose: Pose, velocity: Velocity, end_velocity: Velocity, dt: float) -> Pose:
     """Drive from one velocity to another: arc() if they are equal, otherwise ramp()."""
     if velocity == end_velocity:
         return arc(pose, velocity, dt)
     return ramp(pose, velocity, end_velocity, dt)
 
 
-def wheel_rates(velocity, wheel_separation, wheel_radius):
+def wheel_rates(
+    velocity: Velocity, wheel_separation: float, wheel_radius: float
+) -> tuple[float, float]:
     """Return the rates (left, right) [rad/s] of wheels that roll without slipping.
 
     velocity is (v [m/s], w [rad/s]); wheel_separation and wheel_radius are in metres.
@@ -73,30 +85,3 @@ def wheel_rates(velocity, wheel_separation, wheel_radius):
     v, w = velocity
     swing = 0.5 * w * wheel_separation
     return (v - swing) / wheel_radius, (v + swing) / wheel_radius
-
-
-def arcs(poses, velocities, dt):
-    """Drive n robots at once: arc() on arrays, poses (3, n) and velocities (2, n), float64.
-
-    The poses are overwritten with the new ones. It stands beside arc() because numpy on single
-    numbers is many times slower than plain floats.
-    """
-    x, y, yaw = poses
-    v, w = velocities
-    half_turn = w * (0.5 * dt)
-    chord = np.sin(half_turn)
-    # At exactly zero the quotient is 0 / 0; its limit is 1.
-    np.divide(chord, half_turn, out=chord, where=half_turn != 0.0)
-    chord[half_turn == 0.0] = 1.0
-    chord *= v
-    chord *= dt
-    yaw += half_turn
-    x += chord * np.cos(yaw)
-    y += chord * np.sin(yaw)
-    yaw += half_turn
-    turned = np.abs(yaw) >= pi
-    if turned.any():
-        wrapped = yaw[turned]
-        wrapped -= tau * np.rint(wrapped / tau)
-        # Half a turn is pi, also where rounding after many turns leaves a digit more.
-        yaw[turned] = np.where(np.abs(wrapped) < pi, wrapped, pi)

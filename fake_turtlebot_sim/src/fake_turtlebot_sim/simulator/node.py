@@ -12,7 +12,7 @@ from fake_turtlebot_sim.simulator.parameters import parse_parameters
 from fake_turtlebot_sim.simulator.robot_topics import RobotTopics
 from fake_turtlebot_sim.simulator.ros_clock import Motion, ros_clock
 from fake_turtlebot_sim.simulator.ros_messages import static_transform
-from node_kit.careful_connections import tell_of_bad_messages
+from node_kit.careful_connections import report_bad_messages
 from node_kit.log import Log
 from node_kit.prompt_publisher import PromptPublisher
 from node_kit.start import run
@@ -30,19 +30,13 @@ class FakeTurtlebot:
         base_pose_ground_truth (nav_msgs/Odometry; only if the odometry has errors),
         /tf and /tf_static (tf2_msgs/TFMessage), /diagnostics (diagnostic_msgs/DiagnosticArray)
     Services: ~reset (std_srvs/Empty), and of several robots each one's own, reset
-    Parameters: ~rate 50.0, ~cmd_vel_timeout 0.6, ~publish_tf true, ~wheel_separation 0.23,
-        ~wheel_radius 0.035, ~max_linear_speed 0.7, ~max_angular_speed pi,
-        ~max_linear_acceleration 0.0, ~max_angular_acceleration 0.0, ~initial_x 0.0,
-        ~initial_y 0.0, ~initial_yaw 0.0, ~odom_frame odom, ~base_frame base_footprint,
-        ~left_wheel_joint wheel_left_joint, ~right_wheel_joint wheel_right_joint,
-        ~wheel_noise 0.0, ~wheel_radius_ratio 1.0, ~track_ratio 1.0, ~seed 0, ~robots {},
-        ~world_frame world; README.md gives units and meanings
+    Parameters: parameters.Parameters, as a table in README.md
     """
 
     def __init__(self, parameters):
         """Put the robots at their start poses; nothing is published before spin()."""
         log = Log()
-        tell_of_bad_messages(log.warn)
+        report_bad_messages(log.warn)
         self._clock = ros_clock()
         self._motion = Motion(self._clock)
         self._period_ns = parameters.period_ns()

@@ -10,13 +10,16 @@ robot"): the measured travel of each wheel is off by a normal error whose varian
 distance, so its size does not depend on how the way is cut into steps.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from math import cos, sin, sqrt
 from random import Random
+from typing import Any
 
 import numpy as np
 
-from fake_turtlebot_sim.simulator.differential_drive import wheel_rates
+from fake_turtlebot_sim.simulator.differential_drive import Pose, Velocity, wheel_rates
 
 
 @dataclass(frozen=True)
@@ -32,18 +35,18 @@ class ErrorModel:
 class OdometryErrors:
     """The errors of one robot: what it truly does, what it measures, how far it can be trusted."""
 
-    def __init__(self, model, wheel_separation):
+    def __init__(self, model: ErrorModel, wheel_separation: float) -> None:
         """Take an ErrorModel and the nominal wheel_separation [m]."""
         self._model = model
         self._separation = wheel_separation
         self._random = Random(model.seed)
         self.forget()
 
-    def forget(self):
+    def forget(self) -> None:
         """Trust the odometry fully again, as after the robot was put at a known place."""
-        self.covariance = np.zeros((3, 3))  # of x [m], y [m], yaw [rad]
+        self.covariance: Any = np.zeros((3, 3))  # of x [m], y [m], yaw [rad]
 
-    def true_velocity(self, velocity):
+    def true_velocity(self, velocity: Velocity) -> Velocity:
         """Return the velocity of the actual robot whose wheels turn as the nominal one's."""
         left, right = wheel_rates(velocity, self._separation, 1.0)
         ratio = self._model.wheel_radius_ratio
@@ -51,7 +54,7 @@ class OdometryErrors:
         right *= 2.0 * ratio / (1.0 + ratio)
         return 0.5 * (left + right), (right - left) / (self._model.track_ratio * self._separation)
 
-    def measured(self, velocity, dt):
+    def measured(self, velocity: Velocity, dt: float) -> Velocity:
         """Return the mean velocity [m/s, rad/s] that the wheels seem to have had during dt [s]."""
         left, right = (
             rate + self._random.gauss(0.0, self._model.wheel_noise * sqrt(abs(rate) / dt))
@@ -59,7 +62,7 @@ class OdometryErrors:
         )
         return 0.5 * (left + right), (right - left) / self._separation
 
-    def grow(self, before, after, velocity, dt):
+    def grow(self, before: Pose, after: Pose, velocity: Velocity, dt: float) -> None:
         """Let the covariance grow by a step between two measured poses (x, y, yaw).
 
         The derivatives are those of a step along the heading in its middle.

@@ -1,10 +1,13 @@
 """Private parameters of the node: a mapping in, a checked and frozen Parameters out."""
 
+from __future__ import annotations
+
 import re
 from dataclasses import dataclass
 from math import inf, pi
-from typing import Dict, Tuple
+from typing import Any, Mapping
 
+from fake_turtlebot_sim.simulator.differential_drive import Pose
 from fake_turtlebot_sim.simulator.odometry_errors import ErrorModel
 from fake_turtlebot_sim.simulator.simulated_robot import RobotModel
 from fake_turtlebot_sim.simulator.velocity_command import VelocityLimits
@@ -29,7 +32,7 @@ _ACCELERATION = number(0.0, 1000.0, "m/s2 (0: no limit)")
 _ANGULAR_ACCELERATION = number(0.0, 1000.0, "rad/s2 (0: no limit)")
 
 
-def _robots(value):
+def _robots(value: Any) -> dict[str, Pose]:
     """Check {name: [x, y, yaw]}; names or a number of robots are lined up."""
     if isinstance(value, dict):
         return {_robot_name(robot): _robot_pose(robot, pose) for robot, pose in value.items()}
@@ -47,19 +50,20 @@ def _robots(value):
     )
 
 
-def _robot_name(robot):
+def _robot_name(robot: Any) -> str:
     if not isinstance(robot, str) or not re.fullmatch(r"[A-Za-z]\w*", robot, re.ASCII):
         raise ValueError(f"{robot!r}: must be a letter followed by letters, digits and underscores")
     return robot
 
 
-def _robot_pose(robot, pose):
+def _robot_pose(robot: str, pose: Any) -> Pose:
     if not isinstance(pose, (list, tuple)) or len(pose) != 3 or not all(map(is_number, pose)):
         raise ValueError(f"{robot}: {pose!r}: must be [x in m, y in m, yaw in rad]")
-    return tuple(map(float, pose))
+    x, y, yaw = map(float, pose)
+    return x, y, yaw
 
 
-def line_up(names):
+def line_up(names: list[str]) -> dict[str, Pose]:
     """Return {name: pose}, the first at the origin, rows of ten, 1 m apart."""
     return {name: (float(-(k // 10)), float(-(k % 10)), 0.0) for k, name in enumerate(names)}
 
@@ -68,38 +72,56 @@ def line_up(names):
 class Parameters:
     """What can be set, with the defaults; README.md and config/fake_turtlebot.yaml explain each."""
 
-    rate: float = parameter(50.0, number(5.0, 1000.0, "Hz"))
-    cmd_vel_timeout: float = parameter(0.6, number(0.02, 60.0, "s"))
-    publish_tf: bool = parameter(True, switch)
-    wheel_separation: float = parameter(0.230, number(0.01, 10.0, "m"))
+    rate: float = parameter(50.0, number(5, 1000, "Hz"), "of odometry, transform and wheels")
+    cmd_vel_timeout: float = parameter(
+        0.6, number(0.02, 60.0, "s"), "after which a command counts no more"
+    )
+    publish_tf: bool = parameter(
+        True, switch, "false leaves the transform to another node, such as a filter"
+    )
+    wheel_separation: float = parameter(0.23, number(0.01, 10.0, "m"))
     wheel_radius: float = parameter(0.035, number(0.001, 5.0, "m"))
     max_linear_speed: float = parameter(0.7, number(0.01, 100.0, "m/s"))
-    max_angular_speed: float = parameter(pi, number(0.01, 100.0, "rad/s"))
-    max_linear_acceleration: float = parameter(0.0, _ACCELERATION)
+    max_angular_speed: float = parameter(pi, number(0.01, 100.0, "rad/s"), "180 deg/s", "pi")
+    max_linear_acceleration: float = parameter(
+        0.0, _ACCELERATION, "with a limit the robot also needs time to stop"
+    )
     max_angular_acceleration: float = parameter(0.0, _ANGULAR_ACCELERATION)
-    initial_x: float = parameter(0.0, _LENGTH)
+    initial_x: float = parameter(0.0, _LENGTH, "start pose in the odometry frame")
     initial_y: float = parameter(0.0, _LENGTH)
     initial_yaw: float = parameter(0.0, number(-2 * pi, 2 * pi, "rad"))
     odom_frame: str = parameter("odom", _FRAME)
     base_frame: str = parameter("base_footprint", _FRAME)
     left_wheel_joint: str = parameter("wheel_left_joint", _FRAME)
     right_wheel_joint: str = parameter("wheel_right_joint", _FRAME)
-    wheel_noise: float = parameter(0.0, number(0.0, 1.0, "m (standard deviation after 1 m)"))
-    wheel_radius_ratio: float = parameter(1.0, number(0.5, 2.0, "(right / left)"))
-    track_ratio: float = parameter(1.0, number(0.5, 2.0, "(actual / nominal)"))
-    seed: int = parameter(0, whole_number())
-    robots: Dict[str, Tuple[float, float, float]] = parameter({}, _robots)  # noqa: RUF009
-    world_frame: str = parameter("world", _FRAME)
+    wheel_noise: float = parameter(
+        0.0,
+        number(0.0, 1.0, "m (standard deviation after 1 m)"),
+        "of a wheel's measured travel; it grows with the root of the way",
+    )
+    wheel_radius_ratio: float = parameter(
+        1.0, number(0.5, 2.0, "(right / left)"), "of the actual wheels, UMBmark's E_d"
+    )
+    track_ratio: float = parameter(
+        1.0, number(0.5, 2.0, "(actual / nominal)"), "of the wheel separation, UMBmark's E_b"
+    )
+    seed: int = parameter(0, whole_number(), "the same seed (and name) gives the same noise")
+    robots: dict[str, Pose] = parameter(
+        {}, _robots, "several: how many, `[ada, bob]`, or `{ada: [x, y, yaw], ...}` [m, m, rad]"
+    )
+    world_frame: str = parameter(
+        "world", _FRAME, "in which the odometry frames of several robots lie"
+    )
 
-    def period_ns(self):
+    def period_ns(self) -> int:
         """Return the time between two messages [ns]."""
         return round(1e9 / self.rate)
 
-    def start_poses(self):
+    def start_poses(self) -> dict[str, Pose]:
         """Return {name: (x, y, yaw)}; the only robot of a node without ~robots has no name."""
         return self.robots or {"": (self.initial_x, self.initial_y, self.initial_yaw)}
 
-    def robot_model(self, name):
+    def robot_model(self, name: str) -> RobotModel:
         """Return the RobotModel; each name draws odometry noise of its own, in company or alone."""
         limits = VelocityLimits(
             self.max_linear_speed,
@@ -115,7 +137,7 @@ class Parameters:
         )
 
 
-def parse_parameters(given):
+def parse_parameters(given: Mapping[str, Any]) -> Parameters:
     """Return Parameters from a mapping of names to values; names not given keep their default.
 
     Raises ValueError with one line: the parameter, its value and what is allowed.

@@ -12,8 +12,8 @@ from std_srvs import srv
 from fake_turtlebot_sim.simulator.ros_messages import RobotMessages, pose_on_floor
 from fake_turtlebot_sim.simulator.simulated_robot import REST, SimulatedRobot
 from fake_turtlebot_sim.simulator.velocity_command import Verdict
+from node_kit.arming import Resumption
 from node_kit.prompt_publisher import PromptPublisher
-from node_kit.resumption import Resumption
 
 
 class RobotTopics:

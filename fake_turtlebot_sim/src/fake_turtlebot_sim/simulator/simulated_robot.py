@@ -5,10 +5,18 @@ Time enters as a whole number of nanoseconds that never decreases. The robot mov
 timeout), so what it does depends on when commands came, not on how often it is asked.
 """
 
-from dataclasses import dataclass, field
-from typing import NamedTuple
+from __future__ import annotations
 
-from fake_turtlebot_sim.simulator.differential_drive import drive, wheel_rates, wrap_angle
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+from fake_turtlebot_sim.simulator.differential_drive import (
+    Pose,
+    Velocity,
+    drive,
+    wheel_rates,
+    wrap_angle,
+)
 from fake_turtlebot_sim.simulator.odometry_errors import ErrorModel, OdometryErrors
 from fake_turtlebot_sim.simulator.velocity_command import (
     VelocityLimits,
@@ -19,8 +27,8 @@ from fake_turtlebot_sim.simulator.velocity_command import (
     ramp_time,
 )
 
-REST = (0.0, 0.0)
-ORIGIN = (0.0, 0.0, 0.0)
+REST: Velocity = (0.0, 0.0)
+ORIGIN: Pose = (0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True)
@@ -51,7 +59,7 @@ class RobotState(NamedTuple):
 class SimulatedRobot:
     """A robot that obeys its newest command until the timeout, then stops."""
 
-    def __init__(self, model, start_pose=ORIGIN):
+    def __init__(self, model: RobotModel, start_pose: Pose = ORIGIN) -> None:
         """Put the robot at rest at start_pose, (x [m], y [m], yaw [rad]), at the time 0."""
         self._model = model
         self._timeout_ns = round(model.cmd_vel_timeout * 1e9)
@@ -62,7 +70,7 @@ class SimulatedRobot:
         self._errors = OdometryErrors(model.errors, model.wheel_separation) if has_errors else None
         self.place(start_pose)
 
-    def command(self, velocity, now_ns):
+    def command(self, velocity: Velocity, now_ns: int) -> Verdict:
         """Obey the velocity (v [m/s], w [rad/s]) from now on; return the Verdict on it."""
         if not is_finite(velocity):
             return Verdict.REJECTED  # and the timeout runs on
@@ -71,19 +79,19 @@ class SimulatedRobot:
         self._expires_ns = self._time_ns + self._timeout_ns
         return Verdict.ACCEPTED if self._target == velocity else Verdict.LIMITED
 
-    def place(self, pose):
+    def place(self, pose: Pose) -> None:
         """Lift the robot to a pose (x [m], y [m], yaw [rad]); its wheels and command stay."""
         x, y, yaw = pose
         self._pose = self._true_pose = (x, y, wrap_angle(yaw))
         if self._errors:
             self._errors.forget()
 
-    def reset(self):
+    def reset(self) -> None:
         """Zero the pose and the angles of the wheels, as the Kobuki's reset_odometry does."""
         self.place(ORIGIN)
         self._wheels = (0.0, 0.0)
 
-    def advance(self, to_ns):
+    def advance(self, to_ns: int) -> None:
         """Move up to the time to_ns; a time already passed changes nothing."""
         if self._time_ns < self._expires_ns <= to_ns:
             self._move(self._expires_ns)
@@ -91,12 +99,12 @@ class SimulatedRobot:
         if self._time_ns <= to_ns:
             self._move(to_ns)
 
-    def state(self):
+    def state(self) -> RobotState:
         """Return the RobotState at the time of the last advance()."""
         rates = self._wheel_rates(self._velocity)
         return RobotState(*self._pose, *self._velocity, *self._wheels, *rates)
 
-    def true_state(self):
+    def true_state(self) -> RobotState:
         """Return the RobotState as an outside observer sees it: without odometry errors."""
         state = self.state()
         if not self._errors:
@@ -105,29 +113,29 @@ class SimulatedRobot:
         v, w = self._errors.true_velocity(self._velocity)
         return state._replace(x=x, y=y, yaw=yaw, v=v, w=w)
 
-    def covariance(self):
+    def covariance(self) -> Any:
         """Return how the odometry errs, 3 x 3 for x [m], y [m], yaw [rad]; None without noise."""
-        return self._errors.covariance if self._model.errors.wheel_noise else None
+        return self._errors.covariance if self._errors and self._model.errors.wheel_noise else None
 
     @property
-    def has_errors(self):
+    def has_errors(self) -> bool:
         """Tell whether the odometry differs from the truth."""
         return self._errors is not None
 
     @property
-    def is_driven(self):
+    def is_driven(self) -> bool:
         """Tell whether a command is in force, that is, not timed out."""
         return self._time_ns < self._expires_ns
 
     @property
-    def is_moving(self):
+    def is_moving(self) -> bool:
         """Tell whether the robot had a velocity at the time of the last advance()."""
         return self._velocity != REST
 
-    def _wheel_rates(self, velocity):
+    def _wheel_rates(self, velocity: Velocity) -> tuple[float, float]:
         return wheel_rates(velocity, self._model.wheel_separation, self._model.wheel_radius)
 
-    def _move(self, to_ns):
+    def _move(self, to_ns: int) -> None:
         """Move with one target: first the ramp towards it, if any is left, then steadily."""
         dt = (to_ns - self._time_ns) * 1e-9
         self._time_ns = to_ns
@@ -141,7 +149,7 @@ class SimulatedRobot:
             dt -= ramp_s
         self._drive(self._target, dt)
 
-    def _drive(self, end_velocity, dt):
+    def _drive(self, end_velocity: Velocity, dt: float) -> None:
         """Drive for dt [s] while the velocity changes linearly to end_velocity."""
         velocity = self._velocity
         if dt == 0.0 or velocity == end_velocity == REST:
@@ -149,15 +157,21 @@ class SimulatedRobot:
         self._velocity = end_velocity
         mean = velocity if velocity == end_velocity else between(velocity, end_velocity, 0.5)
         if self._errors:
-            mean = self._drive_with_errors(velocity, end_velocity, mean, dt)
+            mean = self._drive_with_errors(self._errors, velocity, end_velocity, mean, dt)
         else:
             self._pose = drive(self._pose, velocity, end_velocity, dt)
         left, right = self._wheel_rates(mean)
         self._wheels = (self._wheels[0] + left * dt, self._wheels[1] + right * dt)
 
-    def _drive_with_errors(self, velocity, end_velocity, mean, dt):
+    def _drive_with_errors(
+        self,
+        errors: OdometryErrors,
+        velocity: Velocity,
+        end_velocity: Velocity,
+        mean: Velocity,
+        dt: float,
+    ) -> Velocity:
         """Drive the true robot and its odometry apart; return the mean velocity as measured."""
-        errors = self._errors
         true_start, true_end = errors.true_velocity(velocity), errors.true_velocity(end_velocity)
         self._true_pose = drive(self._true_pose, true_start, true_end, dt)
         before = self._pose

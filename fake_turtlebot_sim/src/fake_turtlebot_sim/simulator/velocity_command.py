@@ -3,9 +3,13 @@
 All velocities are pairs (v, w): forward [m/s] and counter-clockwise [rad/s].
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from enum import Enum
 from math import inf, isfinite, pi
+
+from fake_turtlebot_sim.simulator.differential_drive import Velocity
 
 
 class Verdict(Enum):
@@ -26,12 +30,12 @@ class VelocityLimits:
     angular_acceleration: float = inf  # [rad/s2]
 
 
-def is_finite(velocity):
-    """Tell whether both parts are finite; a NaN or an infinity is no command at all."""
+def is_finite(velocity: Velocity) -> bool:
+    """Return whether both parts are finite; a NaN or an infinity is no command at all."""
     return all(map(isfinite, velocity))
 
 
-def limit(velocity, limits):
+def limit(velocity: Velocity, limits: VelocityLimits) -> Velocity:
     """Return the velocity within the limits, both parts scaled alike: the curvature is kept."""
     v, w = velocity
     scale = 1.0
@@ -42,7 +46,7 @@ def limit(velocity, limits):
     return v * scale, w * scale
 
 
-def ramp_time(velocity, target, limits):
+def ramp_time(velocity: Velocity, target: Velocity, limits: VelocityLimits) -> float:
     """Return the least time [s] in which the limits let the velocity become the target.
 
     Both parts take the same time, so the velocity goes straight from the one to the other.
@@ -53,7 +57,7 @@ def ramp_time(velocity, target, limits):
     )
 
 
-def between(velocity, target, share):
+def between(velocity: Velocity, target: Velocity, share: float) -> Velocity:
     """Return the velocity that is the share (0 to 1) of the way to the target."""
     return (
         velocity[0] + (target[0] - velocity[0]) * share,

@@ -1,5 +1,6 @@
 """A Chromium that a test uses as a person does: looks, presses keys, touches glass."""
 
+import base64
 import contextlib
 import json
 import os
@@ -60,10 +61,7 @@ class Chromium:
             self.driver.service.stop()
         shutil.rmtree(self._folder, ignore_errors=True)
 
-    # -------------------------------------------------------------------------------- looking
-
     def send(self, method, **parameters):
-        """A command of the Chrome DevTools Protocol."""
         return self.driver.execute_cdp_cmd(method, parameters)
 
     def open(self, address):
@@ -73,15 +71,12 @@ class Chromium:
         self.wait_for_text("#connection", "Connected")
 
     def one(self, css):
-        """The element of a CSS selector."""
         return self.driver.find_element(By.CSS_SELECTOR, css)
 
     def all(self, css):
-        """All elements of a CSS selector."""
         return self.driver.find_elements(By.CSS_SELECTOR, css)
 
     def ask(self, expression):
-        """The value of a JavaScript expression."""
         return self.driver.execute_script(f"return {expression}")
 
     def text(self, css):
@@ -90,7 +85,6 @@ class Chromium:
         return self.driver.execute_script(script, css)
 
     def wait_for_text(self, css, text):
-        """Wait until an element has a text in it."""
         try:
             wait_for(lambda: text in self.text(css), text, LONG_S)
         except AssertionError as error:
@@ -104,15 +98,12 @@ class Chromium:
         return found[0]
 
     def click(self, name):
-        """Press the button of a name."""
         self.by_role("button", name).click()
 
     def tab(self, name):
-        """Choose a tab."""
         self.by_role("tab", name).click()
 
     def errors(self):
-        """What the console complained of since the last call."""
         return [e["message"] for e in self.driver.get_log("browser") if e["level"] != "INFO"]
 
     def requests(self):
@@ -123,10 +114,8 @@ class Chromium:
         return [one["request"]["url"] for one in sent] + [one["url"] for one in sockets]
 
     def save_picture(self, path):
-        """Save what is seen as a PNG file."""
-        Path(path).write_bytes(self.driver.get_screenshot_as_png())
-
-    # --------------------------------------------------------------------------------- hands
+        shot = self.send("Page.captureScreenshot", format="webp", quality=40)
+        Path(path).write_bytes(base64.b64decode(shot["data"]))
 
     def key(self, kind, code, repeats=False):
         """kind: "rawKeyDown" or "keyUp". repeats: as a key does that is held."""
@@ -153,11 +142,8 @@ class Chromium:
         box = self.one(css).rect
         return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
 
-    # ------------------------------------------------------------------------------ processes
-
     @property
     def pids(self):
-        """The browser's processes; not those of chromedriver."""
         mark = f"--user-data-dir={self._folder}".encode()
         found = []
         for process in Path("/proc").glob("[0-9]*"):

@@ -86,11 +86,9 @@ class Firefox:
         return self.ask(f"document.querySelector({json.dumps(css)})?.textContent ?? ''")
 
     def wait_for_text(self, css, text):
-        """Wait until an element has a text in it."""
         wait_for(lambda: text in self.text(css), text, LONG_S)
 
     def click(self, css):
-        """Press an element."""
         self.ask(f"document.querySelector({json.dumps(css)}).click()")
 
     def keys(self, kind, *keys):

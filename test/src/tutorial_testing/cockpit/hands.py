@@ -62,8 +62,6 @@ class Hands:
 
 
 class Keys(Hands):
-    """Shift and the arrow up."""
-
     codes = ("ShiftLeft", "ArrowUp")
 
     def hold(self):
@@ -80,8 +78,6 @@ class Keys(Hands):
 
 
 class Thumbs(Hands):
-    """One on LB, the other on the stick."""
-
     touch = True
     down = False
 
@@ -100,8 +96,6 @@ class Thumbs(Hands):
 
 
 class Gamepad(Hands):
-    """A gamepad, which JavaScript plays."""
-
     def prepare(self):
         self.browser.send("Page.addScriptToEvaluateOnNewDocument", source=FAKE_GAMEPAD)
 

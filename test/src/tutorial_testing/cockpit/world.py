@@ -109,7 +109,6 @@ class World:
 
     @property
     def now(self):
-        """The newest Moment."""
         return self.odometry[-1]
 
     def wait_for_rest(self):

@@ -5,19 +5,17 @@ emulated in software (TCG), so that no right is needed; its root is this system'
 9p, below an overlay in memory that takes all changes.
 
 While it works, its clock counts its instructions. So the work of other programs on this machine
-makes the test longer, but no time that is measured in it. KVM would have the clock of this machine;
-and a /dev/kvm without the processor's help (kvm_pvm, inside of some virtual machines) does make a
-machine, but one in which this kernel still unpacks itself after a minute.
+makes the test longer, but no time that is measured in it. KVM would have the clock of this machine.
 """
 
+import lzma
 import os
 import re
 import shlex
 import shutil
 import subprocess
+import tempfile
 from pathlib import Path
-
-from tutorial_testing.kernel.initramfs import archive, folder, modules, program
 
 CACHE = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "ros1_tutorial" / "kernel"
 BUSYBOX = Path("/bin/busybox")
@@ -50,7 +48,7 @@ $b sleep 60
 
 
 def makes_joysticks(root=Path("/")):
-    """Whether the kernel of this machine makes joysticks for this user, and has none so far.
+    """Return whether the kernel of this machine makes joysticks for this user, and has none so far.
 
     One that is plugged in would be taken for the virtual one. root: where its files are.
     """
@@ -70,7 +68,7 @@ class NoKernelError(MachineError):
 
 
 def kernel():
-    """(kernel image, folder of its modules): of Debian's package, downloaded once, not installed.
+    """Return (kernel image, folder of its modules) of Debian's package, downloaded once.
 
     Raises MachineError.
     """
@@ -112,23 +110,50 @@ def _run(*command, cwd=None):
     return done.stdout
 
 
+def modules(tree):
+    """Return {name: bytes} of MODULES and of those they need, in the order in which to load them.
+
+    tree: lib/modules/VERSION of a kernel. What is built into the kernel has no file.
+    """
+    files = {path.name.split(".")[0].replace("-", "_"): path for path in Path(tree).rglob("*.ko*")}
+    loaded = {}
+
+    def load(name):
+        if name in loaded or name not in files:
+            return
+        data = files[name].read_bytes()
+        if files[name].suffix == ".xz":
+            data = lzma.decompress(data)
+        needed = re.search(rb"\0depends=([^\0]*)\0", data)
+        for other in needed[1].decode().replace("-", "_").split(",") if needed else ():
+            load(other)
+        loaded[name] = data
+
+    for name in MODULES:
+        load(name)
+    return loaded
+
+
 def make_initramfs(path, tree, command):
     """Write what the kernel starts with: a shell, the modules, and the command of the guest."""
-    loaded = modules(tree, MODULES)
-    insmod = "\n".join([f"$b insmod /modules/{name}.ko" for name in loaded])
-    files = {}
-    for name in ("bin", "modules", "proc", "sys", "dev", "lower", "upper", "root"):
-        files.update(folder(name))
-    files.update(program("bin/busybox", BUSYBOX.read_bytes()))
+    files = {f"modules/{name}.ko": data for name, data in modules(tree).items()}
+    insmod = "\n".join(f"$b insmod /{name}" for name in files)
     script = INIT.format(insmod=insmod, command=shlex.join(command), exit=EXIT)
-    files.update(program("init", script.encode()))
-    for name, data in loaded.items():
-        files.update(program(f"modules/{name}.ko", data))
-    path.write_bytes(archive(files))
+    files.update({"init": script.encode(), "bin/busybox": BUSYBOX.read_bytes()})
+    with tempfile.TemporaryDirectory() as folder:
+        for name in ("bin", "modules", "proc", "sys", "dev", "lower", "upper", "root"):
+            Path(folder, name).mkdir()
+        for name, data in files.items():
+            Path(folder, name).write_bytes(data)
+            Path(folder, name).chmod(0o755)
+        pack = f"{BUSYBOX} find . | {BUSYBOX} cpio -o -H newc"
+        path.write_bytes(
+            subprocess.check_output(pack, shell=True, cwd=folder, stderr=subprocess.DEVNULL)
+        )
 
 
 def command_of_machine(image, initramfs, shift=SHIFT, memory_mib=2048):
-    """The command line of QEMU; the console is its standard output.
+    """Return the command line of QEMU; the console is its standard output.
 
     shift: an instruction takes 2**shift ns of the guest's time.
     """

@@ -18,7 +18,7 @@ class Host:
     """A network namespace. Programs started in it see its interfaces and no others."""
 
     def __init__(self, first=None):
-        """first: another host; who is not root may join only hosts of one user namespace."""
+        """first: another host; without root only hosts of one user namespace can be joined."""
         enter = first.command() if first and not AS_ROOT else []
         user = [] if AS_ROOT or first else ["--user", "--map-root-user"]
         # A namespace lives as long as a program in it. This one ends with its standard input.
@@ -35,7 +35,7 @@ class Host:
         self._holder.communicate("")
 
     def command(self, *command):
-        """The command line that runs a command on this host."""
+        """Return the command line that runs a command on this host."""
         user = [] if AS_ROOT else ["--user", "--preserve-credentials"]
         return ["nsenter", "--target", str(self._holder.pid), *user, "--net", *command]
 

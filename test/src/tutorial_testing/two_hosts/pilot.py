@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""The person at the workstation: an F710 in D mode, held as the words on standard input say.
+"""A person at the workstation: an F710 in D mode, held as the words on standard input say.
 
 drive    LB and the stick forward
 release  the stick still forward, LB not
 neutral  neither
 
-A change is published at once, as a driver does, and told: the word and the monotonic time [s].
+A change is published at once, as a driver does, and printed: the word and the monotonic time [s].
 """
 
 import sys

@@ -16,7 +16,7 @@ ROBOT, WORKSTATION = "robot", "workstation"
 
 
 def page_blocks():
-    """The page's commands: name of the host -> (its address, its variables, its launch)."""
+    """Return the page's commands: name of the host -> (its address, its variables, its launch)."""
     page = (REPOSITORY / "common/doc/TWO_MACHINES.md").read_text()
     blocks = re.findall(r"^```bash\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
     lines = {host: block.splitlines() for host, block in zip((ROBOT, WORKSTATION), blocks)}
@@ -51,7 +51,7 @@ class Scene:
         self._stack.__exit__(*error)
 
     def address(self, host):
-        """The IPv4 address of a host, as the page has it."""
+        """Return the IPv4 address of a host, as the page has it."""
         return self._blocks[host][0]
 
     def start(self, host, command, **options):
@@ -69,7 +69,7 @@ class Scene:
         wait_for(lambda: self.odometry, "odometry of the robot")
 
     def launch_workstation(self, launch=None):
-        """Start a launch on the workstation, the page's unless told."""
+        """Start a launch on the workstation, by default the page's."""
         self.workstation = self.start(WORKSTATION, launch or self._blocks[WORKSTATION][2])
 
     def launch_pilot(self):

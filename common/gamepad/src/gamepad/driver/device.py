@@ -8,6 +8,7 @@ import os
 import stat
 from pathlib import Path
 
+from gamepad.driver.container import in_container
 from gamepad.driver.device_choice import DeviceError, choose_by_name, explain
 from gamepad.gamepads import trigger_axes
 from gamepad.js_event import EVENT_BYTES
@@ -131,9 +132,8 @@ class Finder:
         try:
             return Device(path)
         except OSError as error:
-            container = any(map(os.path.exists, ("/.dockerenv", "/run/.containerenv")))
             wsl = "microsoft" in os.uname().release.lower()
-            raise DeviceError(explain(path, error.errno, container, wsl)) from None
+            raise DeviceError(explain(path, error.errno, in_container(), wsl)) from None
 
     def _open_by_name(self):
         # All are opened, and then all but one closed: a name read before opening might be that of

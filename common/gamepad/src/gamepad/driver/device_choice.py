@@ -1,7 +1,10 @@
-"""Which gamepad to open, and what to say if there is none (pure)."""
+"""Which gamepad to open, and what to report if there is none (pure)."""
+
+from __future__ import annotations
 
 import errno
 import os
+from typing import Mapping
 
 NO_GAMEPAD = (
     "No gamepad? rosrun gamepad virtual_joystick makes one; so does virtual:=true, for a launch "
@@ -13,8 +16,8 @@ class DeviceError(Exception):
     """No gamepad can be opened or read; the text says in one line why and what to do."""
 
 
-def choose_by_name(names, wanted):
-    """The path of the gamepad with the wanted name: its exact name, or else a part of it.
+def choose_by_name(names: Mapping[str, str], wanted: str) -> str:
+    """Return the path of the gamepad with the wanted name: its exact name, or else a part of it.
 
     names: dict from path to name. Raises DeviceError if none fits, or a part fits several.
     """
@@ -31,8 +34,8 @@ def choose_by_name(names, wanted):
     raise DeviceError(f"No gamepad is named {wanted!r}; there are: {there}. Plug it in.")
 
 
-def explain(path, error_number, container, wsl):
-    """One line on why a device cannot be opened, and what to do.
+def explain(path: str, error_number: int, container: bool, wsl: bool) -> str:
+    """Return one line on why a device cannot be opened, and what to do.
 
     error_number: errno. container, wsl: whether this runs inside a container, inside WSL.
     """

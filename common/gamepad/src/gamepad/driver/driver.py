@@ -1,9 +1,13 @@
 """What the driver publishes, and when: from bytes and times to axes and buttons (pure)."""
 
-import math
+from __future__ import annotations
 
+import math
+from typing import Iterable
+
+from gamepad.driver.parameters import DriverParameters
 from gamepad.driver.schedule import Schedule
-from gamepad.driver.state import NOTHING, NOW, GamepadState
+from gamepad.driver.state import NOTHING, NOW, GamepadState, Message
 from gamepad.js_event import INIT, SIGN_OF_LIFE_MS, Decoder
 
 # After a loss a gamepad is not opened again for this time [s]: a node that stops on silence (0.5 s,
@@ -22,11 +26,10 @@ class Driver:
     tuples: axes (floats from -1 to 1, left and up positive) and buttons (0 or 1).
     """
 
-    def __init__(self, parameters):
-        """parameters: driver_parameters.DriverParameters."""
+    def __init__(self, parameters: DriverParameters) -> None:
         self._parameters = parameters
-        self._state = None  # of the open gamepad
-        self._told = False  # whether somebody may be driving with what was published
+        self._state: GamepadState | None = None  # of the open gamepad
+        self._told = False  # whether what was published may be driving a robot
         self._mute = False  # nothing is published until the user touches the gamepad
         self.opens_at = -math.inf  # not to be opened before this time
         self.unknown_events = 0  # of a type that linux/joystick.h does not have
@@ -34,23 +37,23 @@ class Driver:
         self.heard_at = -math.inf  # when the gamepad gave bytes last
 
     @property
-    def lives(self):
+    def lives(self) -> bool:
         """Whether the source of an open gamepad gives signs of life."""
         return self._state is not None and self._lifeless_at < math.inf
 
     @property
-    def due(self):
+    def due(self) -> float:
         """When tick() must be called next [s]; infinity if only bytes can bring something new."""
         if self._state is None:
             return math.inf
         return min(math.inf if self._mute else self._schedule.due, self._lifeless_at)
 
-    def is_lifeless(self, now):
-        """Whether the source, of which signs of life must come, has given none for too long."""
+    def is_lifeless(self, now: float) -> bool:
+        """Return whether the source, which owes signs of life, has given none for too long."""
         return self._state is not None and now >= self._lifeless_at
 
-    def opened(self, triggers, kernel_device):
-        """A gamepad was opened. triggers: numbers of the axes that rest at +1; None if unknown.
+    def opened(self, triggers: Iterable[int] | None, kernel_device: bool) -> None:
+        """Begin with a gamepad. triggers: numbers of the axes that rest at +1; None if unknown.
 
         kernel_device: whether the kernel serves it, and not a file or a FIFO.
         """
@@ -62,10 +65,11 @@ class Driver:
         self._can_give_signs = not kernel_device
         self._lifeless_at = math.inf
 
-    def read(self, data, now):
+    def read(self, data: bytes, now: float) -> list[Message]:
         """Take bytes that came from the gamepad; return the messages to publish, oldest first."""
-        messages = []
+        messages: list[Message] = []
         self.heard_at = now
+        assert self._state
         for event in self._decoder.feed(data):
             self.events += 1
             initial = event.type & INIT
@@ -88,21 +92,21 @@ class Driver:
             messages += self.tick(now)  # a quick press and release must not end up in one message
         return messages
 
-    def tick(self, now):
-        """Time has passed; returns the messages to publish: one or none."""
+    def tick(self, now: float) -> list[Message]:
+        """Return the messages that are due by now: one or none."""
         if self._state is None or self._mute or now < self._schedule.due:
             return []
         self._schedule.published(now)
         self._told = True
         return [self._state.publish()]
 
-    def lost(self, now):
-        """The gamepad is gone; returns the messages to publish: a neutral one, if any was before.
+    def lost(self, now: float) -> list[Message]:
+        """Return the messages to publish at a loss: a neutral one, if any was before.
 
         The next gamepad to be opened is mute until the user touches it. What the kernel says of a
         gamepad at opening may be made up, and a made-up neutral position would arm a robot.
         """
-        messages = [self._state.neutral(self._triggers)] if self._told else []
+        messages = [self._state.neutral(self._triggers)] if self._state and self._told else []
         self._state, self._told, self._mute = None, False, True
         self.opens_at = now + SHORTEST_SILENCE_S
         return messages

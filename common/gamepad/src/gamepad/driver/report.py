@@ -1,53 +1,60 @@
-"""What the driver tells on /diagnostics, with the keys of ROS Noetic's joy_node (pure)."""
+"""What the driver reports on /diagnostics, with the keys of ROS Noetic's joy_node (pure)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gamepad.driver.driver import Driver
+from gamepad.driver.parameters import DriverParameters
 
 SILENT_FOR = "joystick silent for (s)"  # beyond upstream's: since the device gave its last event
 
 
 class DriverReport:
-    """Counts, and tells once in a period. All times in seconds, of one clock that never jumps."""
+    """Counts, and reports once in a period. All times in seconds, of one clock that never jumps."""
 
-    def __init__(self, parameters, topic):
-        """parameters: driver_parameters.DriverParameters. topic: its full name."""
+    def __init__(self, parameters: DriverParameters, topic: str) -> None:
+        """Take the full name of the topic."""
         self._parameters = parameters
         self._topic = topic
         self._open = False
         self._path, self._name = parameters.dev, parameters.dev_name
         self.published = 0  # messages so far
         self._next = -float("inf")
-        self._before = None  # (time, events, messages) when it was told last
+        self._before: tuple[float, int, int] | None = None  # (time, events, messages) reported last
 
-    def opened(self, path, name):
-        """A gamepad was opened."""
+    def opened(self, path: str, name: str) -> None:
+        """Note that a gamepad was opened."""
         self._open, self._path, self._name = True, path, name
-        self._next = -float("inf")  # tell it at once
+        self._next = -float("inf")  # report it at once
 
-    def lost(self):
-        """The gamepad is gone."""
+    def lost(self) -> None:
+        """Note that the gamepad is gone."""
         self._open = False
         self._next = -float("inf")
 
-    def due(self, now):
-        """Whether to tell now; the next time is one period later."""
+    def due(self, now: float) -> bool:
+        """Return whether to report now; the next time is one period later."""
         if now < self._next:
             return False
         self._next = now + self._parameters.diagnostic_period
         return True
 
-    def next_due(self, other):
-        """The sooner of the next time to tell and another time."""
+    def next_due(self, other: float) -> float:
+        """Return the sooner of the next time to report and another time."""
         return min(self._next, other)
 
-    def look_at(self, now, period, not_before):
-        """When to look for a missing gamepad again, or to tell, whichever is sooner."""
+    def look_at(self, now: float, period: float, not_before: float) -> float:
+        """Return when to look for a missing gamepad again, or to report, whichever is sooner."""
         look = not_before if not_before > now else now + period
         return self.next_due(look)
 
-    def summary(self):
-        """(all is well, in a few words)."""
+    def summary(self) -> tuple[bool, str]:
+        """Return (all is well, in a few words)."""
         return (True, "OK") if self._open else (False, "Joystick not open.")
 
-    def details(self, driver, subscribers, now):
-        """Pairs of name and value. driver: driver.Driver."""
+    def details(self, driver: Driver, subscribers: int, now: float) -> list[tuple[str, Any]]:
+        """Return pairs of name and value."""
         events = driver.events
         began, events_then, published_then = self._before or (now, events, self.published)
         seconds = (now - began) or 1.0

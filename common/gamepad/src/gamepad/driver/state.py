@@ -1,7 +1,11 @@
 """From events to axes and buttons, by the rules of ROS Noetic's joy_node (pure)."""
 
+from __future__ import annotations
+
+from typing import Any, Iterable, Tuple
+
 from gamepad.gamepads import triggers_by_count
-from gamepad.js_event import AXIS, BUTTON, FULL, INIT
+from gamepad.js_event import AXIS, BUTTON, FULL, INIT, JsEvent
 
 # What an event asks for.
 NOTHING = 0  # it is of an unknown type
@@ -11,13 +15,16 @@ NOW = 2  # publish at once
 LARGEST_DEADZONE = 0.9  # a wider one is taken as this, as upstream does
 
 
+Message = Tuple[Tuple[float, ...], Tuple[int, ...]]  # axes and buttons
+
+
 class GamepadState:
     """The axes and buttons of one gamepad since it was opened.
 
     Signs are those of ROS: left and up are positive, where the kernel has right and down.
     """
 
-    def __init__(self, deadzone, default_trig_val, sticky_buttons):
+    def __init__(self, deadzone: float, default_trig_val: bool, sticky_buttons: bool) -> None:
         """See driver_parameters.DriverParameters.
 
         deadzone: this part of the way of an axis around its middle counts as 0; the rest is
@@ -29,13 +36,13 @@ class GamepadState:
         self._scale = -1.0 / (1.0 - deadzone) / FULL
         self._take_initial_axes = default_trig_val
         self._sticky = sticky_buttons
-        self._axes = []
-        self._buttons = []
-        self._published = []  # buttons when published last
-        self._switched = []  # the sticky buttons
+        self._axes: list[float] = []
+        self._buttons: list[int] = []
+        self._published: list[int] = []  # buttons when published last
+        self._switched: list[int] = []  # the sticky buttons
 
-    def apply(self, event):
-        """Take in a js_event.JsEvent; returns NOTHING, SOON or NOW."""
+    def apply(self, event: JsEvent) -> int:
+        """Take in an event; return NOTHING, SOON or NOW."""
         kind, initial = event.type & ~INIT, event.type & INIT
         if kind == BUTTON:
             _put(self._buttons, event.number, int(event.value != 0))
@@ -48,13 +55,13 @@ class GamepadState:
             return SOON
         return NOTHING
 
-    def knows(self, event):
-        """Whether the axis or button of a js_event.JsEvent was told before."""
-        known = {BUTTON: self._buttons, AXIS: self._axes}.get(event.type & ~INIT, ())
-        return event.number < len(known)
+    def knows(self, event: JsEvent) -> bool:
+        """Return whether the axis or button of an event was reported before."""
+        known: Any = {BUTTON: self._buttons, AXIS: self._axes}.get(event.type & ~INIT, ())
+        return bool(event.number < len(known))
 
-    def publish(self):
-        """(axes, buttons) for a message: tuples of floats and of 0 and 1."""
+    def publish(self) -> Message:
+        """Return (axes, buttons) for a message: tuples of floats and of 0 and 1."""
         if not self._sticky:
             return tuple(self._axes), tuple(self._buttons)
         for states in (self._published, self._switched):
@@ -65,8 +72,8 @@ class GamepadState:
         self._published = list(self._buttons)
         return tuple(self._axes), tuple(self._switched)
 
-    def neutral(self, triggers):
-        """(axes, buttons) as if nobody touched the gamepad.
+    def neutral(self, triggers: Iterable[int] | None) -> Message:
+        """Return (axes, buttons) of a gamepad at rest.
 
         triggers: the numbers of the axes that are triggers; None if unknown.
         """
@@ -76,7 +83,7 @@ class GamepadState:
         axes = tuple([1.0 if i in triggers else 0.0 for i in range(len(self._axes))])
         return axes, (0,) * len(self._buttons)
 
-    def _position(self, value):
+    def _position(self, value: float) -> float:
         if value > self._dead:
             value -= self._dead
         elif value < -self._dead:
@@ -86,11 +93,11 @@ class GamepadState:
         return value * self._scale
 
 
-def _grow(values, number):
-    """Make room for a number; what was skipped is 0."""
+def _grow(values: list[Any], number: int) -> None:
+    """Lengthen the list up to a number; what was skipped is 0."""
     values.extend([0] * (number + 1 - len(values)))
 
 
-def _put(values, number, value):
+def _put(values: list[Any], number: int, value: float) -> None:
     _grow(values, number)
     values[number] = value

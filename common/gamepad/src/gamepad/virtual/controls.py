@@ -1,9 +1,11 @@
 """What a hand does on a Logitech F710, and what its axes and buttons then are (pure)."""
 
-from dataclasses import dataclass
-from typing import FrozenSet, Tuple
+from __future__ import annotations
 
-from gamepad.gamepads import F710, F710_X
+from dataclasses import dataclass
+from typing import Tuple
+
+from gamepad.gamepads import F710, F710_X, Gamepad
 from node_kit.parameters import is_number
 
 # A stick moves the D-pad's axes, which know only -1, 0 and 1, from this deflection on.
@@ -19,33 +21,36 @@ class Controls:
     left stick and the D-pad are then swapped. plugged: whether the gamepad is there at all.
     """
 
-    left_stick: Tuple[float, float] = (0.0, 0.0)
-    right_stick: Tuple[float, float] = (0.0, 0.0)
-    dpad: Tuple[float, float] = (0.0, 0.0)
-    triggers: Tuple[float, float] = (0.0, 0.0)
-    held: FrozenSet[str] = frozenset()
+    left_stick: tuple[float, float] = (0.0, 0.0)
+    right_stick: tuple[float, float] = (0.0, 0.0)
+    dpad: tuple[float, float] = (0.0, 0.0)
+    triggers: tuple[float, float] = (0.0, 0.0)
+    held: frozenset[str] = frozenset()
     mode_led: bool = False
     plugged: bool = True
 
 
-def positions(gamepad, controls):
-    """(axes, buttons) as on /joy of a gamepad, one of gamepads.F710, in the position Controls."""
+Position = Tuple[Tuple[float, ...], Tuple[int, ...]]  # axes and buttons
+
+
+def positions(gamepad: Gamepad, controls: Controls) -> Position:
+    """Return (axes, buttons) as on /joy of one of gamepads.F710 in this position."""
     stick, dpad = controls.left_stick, controls.dpad
     if controls.mode_led:
         stick, dpad = dpad, stick
-    dpad = tuple([float((v > DIGITAL_THRESHOLD) - (v < -DIGITAL_THRESHOLD)) for v in dpad])
+    x, y = [float((v > DIGITAL_THRESHOLD) - (v < -DIGITAL_THRESHOLD)) for v in dpad]
     held = set(controls.held)
     if gamepad is F710_X:
         left, right = [1.0 - 2.0 * pressed for pressed in controls.triggers]
-        axes = (*stick, left, *controls.right_stick, right, *dpad)
+        axes: tuple[float, ...] = (*stick, left, *controls.right_stick, right, x, y)
     else:  # in D mode the triggers are buttons
-        axes = (*stick, *controls.right_stick, *dpad)
+        axes = (*stick, *controls.right_stick, x, y)
         pulled = [v > DIGITAL_THRESHOLD for v in controls.triggers]
         held.update(name for name, down in zip(("LT", "RT"), pulled) if down)
     return axes, tuple([int(name in held) for name in gamepad.buttons])
 
 
-def check_controls(controls, mode):
+def check_controls(controls: Controls, mode: str) -> None:
     """Raise ValueError, one line, if a position is out of range or a button is not there."""
     for name, low in (("left_stick", -1), ("right_stick", -1), ("dpad", -1), ("triggers", 0)):
         value = getattr(controls, name)

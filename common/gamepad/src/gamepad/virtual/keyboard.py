@@ -1,9 +1,11 @@
 """Drives a gamepad with the keys of a terminal (pure).
 
-A terminal tells only that a key is pressed, and while it is held, that it is pressed again; and it
-repeats only the key pressed last. So a key counts as held until the terminal has been silent for
+A terminal reports only that a key is pressed and, while it is held, pressed again; it repeats only
+the key pressed last. So a key counts as held until the terminal has been silent for
 longer than its repetition takes, and all keys are released together then.
 """
+
+from __future__ import annotations
 
 import math
 import re
@@ -40,8 +42,8 @@ _KEY = re.compile(r"\x1b(?:\[\[.|\[[0-?]*[ -/]*[@-~]|O.)|.", re.DOTALL)
 _BEGUN_KEY = re.compile(r"\x1b(?:\[\[|\[[0-?]*[ -/]*|O)?\Z")
 
 
-def split_keys(text):
-    """(Keys, the rest) of what a terminal sent: characters in lower case, and arrows as they are.
+def split_keys(text: str) -> tuple[list[str], str]:
+    """Return (keys, the rest) of what a terminal sent: lower-case characters, arrows as they are.
 
     The rest is the begin of a sequence that a slow line has cut, to be put before what comes next.
     """
@@ -54,17 +56,16 @@ def split_keys(text):
 class Keyboard:
     """Keys and times in, Controls out. Times in seconds, of one clock that never jumps."""
 
-    def __init__(self):
-        """All keys are released."""
+    def __init__(self) -> None:
         self._rest = ""  # of a sequence, so far
-        self._held = set()  # keys of directions and buttons
+        self._held: set[str] = set()  # keys of directions and buttons
         self._released_at = 0.0
         self._deflection = 1.0
         self._mode_led = False
         self._plugged = True
         self.quit = False
 
-    def press(self, text, now):
+    def press(self, text: str, now: float) -> None:
         """Take in what the terminal sent at a time."""
         self._expire(now)
         keys, self._rest = split_keys(self._rest + text)
@@ -80,12 +81,12 @@ class Keyboard:
             elif key == "u":
                 self._plugged = not self._plugged
 
-    def release(self):
-        """Release all keys: nobody sees what they do, or their terminal is held."""
+    def release(self) -> None:
+        """Release all keys, as their terminal is held or their effect is not seen."""
         self._held = set()
 
-    def at(self, now):
-        """(Controls at a time, the time at which they change by themselves or infinity)."""
+    def at(self, now: float) -> tuple[Controls, float]:
+        """Return (Controls at a time, the time at which they change by themselves or infinity)."""
         self._expire(now)
         x, y = [sum(DIRECTIONS[key][i] for key in self._held if key in DIRECTIONS) for i in (0, 1)]
         controls = Controls(
@@ -96,11 +97,11 @@ class Keyboard:
         )
         return controls, (self._released_at if self._held else math.inf)
 
-    def _expire(self, now):
+    def _expire(self, now: float) -> None:
         if now >= self._released_at:
             self._held = set()
 
-    def _hold(self, key, now):
+    def _hold(self, key: str, now: float) -> None:
         repeated = key in self._held
         if key in DIRECTIONS:  # the other way, or the same way by another key: only the new one
             axis = DIRECTIONS[key].index(0)

@@ -9,8 +9,10 @@
 Besides `for` [s], a move has the names of controls.Controls; what it leaves out is released.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass, fields
-from typing import Any, Tuple
+from typing import Any
 
 from gamepad.gamepads import F710
 from gamepad.virtual.controls import Controls, check_controls
@@ -24,7 +26,7 @@ class Script:
     """mode: of the F710. moves: pairs of a duration [s] and Controls."""
 
     mode: str
-    moves: Tuple[Tuple[float, Controls], ...]
+    moves: tuple[tuple[float, Controls], ...]
 
 
 def load_script(document: Any) -> Script:
@@ -48,17 +50,17 @@ def load_script(document: Any) -> Script:
     return Script(mode, tuple(moves))
 
 
-def _load_move(move, mode):
-    names = {f.name: f.default for f in fields(Controls)}
+def _load_move(move: Any, mode: str) -> tuple[float, Controls]:
+    names: dict[str, Any] = {f.name: f.default for f in fields(Controls)}
     if not isinstance(move, dict):
         raise ValueError(f"{move!r} is not a map such as {{for: 1.0, held: [LB]}}")
     unknown = sorted(set(map(str, move)) - set(names) - {"for"})
     if unknown:
         raise ValueError(f"`{unknown[0]}` is unknown; allowed are for, {', '.join(names)}")
-    duration = move.get("for")
+    duration: Any = move.get("for")
     if not is_number(duration) or not 0 < duration <= LONGEST_S:
         raise ValueError(f"`for` is {duration!r}; allowed are seconds above 0, up to {LONGEST_S}")
-    given = {}
+    given: dict[str, Any] = {}
     for name in set(move) - {"for"}:
         value, default = move[name], names[name]
         wanted = bool if isinstance(default, bool) else list

@@ -5,27 +5,35 @@ None for an unplugged gamepad; until: when it changes by itself. Times in second
 never jumps. The first call of at() is the start.
 """
 
+from __future__ import annotations
+
 import bisect
 import math
+from typing import Optional, Sequence, Tuple
 
-from gamepad.virtual.controls import Controls, positions
+from gamepad.gamepads import Gamepad
+from gamepad.virtual.controls import Controls, Position, positions
+from gamepad.virtual.keyboard import Keyboard
+from gamepad.virtual.moves import Script
 
 LARGEST_AXIS = 1.001  # the kernel's range is not quite even, so that some drivers go beyond 1
 
 
-def _position(gamepad, controls):
+At = Tuple[Optional[Position], float]
+
+
+def _position(gamepad: Gamepad, controls: Controls) -> Position | None:
     return positions(gamepad, controls) if controls.plugged else None
 
 
 class KeySource:
     """Follows a keyboard.Keyboard until it quits."""
 
-    def __init__(self, gamepad, keyboard):
-        """gamepad: one of gamepads.F710."""
+    def __init__(self, gamepad: Gamepad, keyboard: Keyboard) -> None:
         self._gamepad, self._keyboard = gamepad, keyboard
         self.controls = Controls()
 
-    def at(self, now):
+    def at(self, now: float) -> At | None:
         """See the top of this file."""
         if self._keyboard.quit:
             return None
@@ -34,13 +42,12 @@ class KeySource:
 
 
 class UntouchedSource:
-    """Leaves the gamepad alone, for ever."""
+    """Leaves the gamepad at rest without end."""
 
-    def __init__(self, gamepad):
-        """gamepad: one of gamepads.F710."""
+    def __init__(self, gamepad: Gamepad) -> None:
         self._position = positions(gamepad, Controls())
 
-    def at(self, now):
+    def at(self, now: float) -> At | None:
         """See the top of this file."""
         return self._position, math.inf
 
@@ -48,17 +55,18 @@ class UntouchedSource:
 class TimedSource:
     """Follows what is known beforehand: a script or a recording."""
 
-    def __init__(self, steps, loop):
-        """steps: pairs of a duration [s] and a position. loop: begin again at the end."""
+    def __init__(self, steps: Sequence[tuple[float, Position | None]], loop: bool) -> None:
+        """Take pairs of a duration [s] and a position; loop: begin again at the end."""
         self._positions = [position for _, position in steps]
-        self._ends, total = [], 0.0
+        self._ends: list[float] = []
+        total = 0.0
         for duration, _ in steps:
             total += duration
             self._ends.append(total)
         self._loop = loop
-        self._start = None
+        self._start: float | None = None
 
-    def at(self, now):
+    def at(self, now: float) -> At | None:
         """See the top of this file."""
         if self._start is None:
             self._start = now
@@ -70,13 +78,15 @@ class TimedSource:
         return self._positions[index], until
 
 
-def script_source(gamepad, script, loop):
-    """A source from a moves.Script."""
+def script_source(gamepad: Gamepad, script: Script, loop: bool) -> TimedSource:
+    """Return a source from a script of moves."""
     return TimedSource([(d, _position(gamepad, controls)) for d, controls in script.moves], loop)
 
 
-def recording_source(gamepad, recorded, loop):
-    """A source from pairs of a time [s] and a position (axes, buttons), in the order of time.
+def recording_source(
+    gamepad: Gamepad, recorded: Sequence[tuple[float, Position]], loop: bool
+) -> TimedSource:
+    """Return a source from pairs of a time [s] and a position, in the order of time.
 
     Raises ValueError, one line, if they are of another gamepad.
     """

@@ -1,29 +1,36 @@
 """Curves of a recording as an SVG picture, which every browser shows (pure)."""
 
+from __future__ import annotations
+
 from html import escape
+from typing import List, Sequence, Tuple
 
 WIDTH, ROW = 900, 90  # [pixel] of the picture, and of one curve
 LEFT = 130  # [pixel] for the names
 COLOURS = ("#1f77b4", "#d62728", "#2ca02c", "#9467bd", "#8c564b", "#e377c2")
 
+# time [s], axes, buttons
+Sample = Tuple[float, Sequence[float], Sequence[int]]
+Curve = Tuple[str, List[Tuple[float, float]]]  # name, [(time [s], value)]
 
-def curves(recorded):
+
+def curves(recorded: list[Sample]) -> list[Curve]:
     """[(name, [(time [s], value)])] of the axes that move and the buttons that are pressed.
 
     recorded: [(time [s], axes, buttons)] in the order of time. Nothing moves: all axes.
     """
     start = recorded[0][0]
     found = []
-    for kind, part in (("axes", 1), ("buttons", 2)):
-        count = min(len(entry[part]) for entry in recorded)
-        for number in range(count):
-            values = [(entry[0] - start, float(entry[part][number])) for entry in recorded]
-            found.append((f"{kind}[{number}]", values))
+    times = [entry[0] - start for entry in recorded]
+    axes, buttons = [entry[1] for entry in recorded], [entry[2] for entry in recorded]
+    for kind, rows in (("axes", axes), ("buttons", buttons)):
+        for number, values in enumerate(zip(*rows)):
+            found.append((f"{kind}[{number}]", list(zip(times, map(float, values)))))
     moving = [(name, values) for name, values in found if len({v for _, v in values}) > 1]
     return moving or [entry for entry in found if entry[0].startswith("axes")]
 
 
-def svg(title, lines):
+def svg(title: str, lines: list[Curve]) -> str:
     """The picture: one row for each curve, time from left to right, -1 to 1 from bottom to top."""
     duration = max((values[-1][0] for _, values in lines), default=0.0) or 1.0
     height = ROW * len(lines) + 60

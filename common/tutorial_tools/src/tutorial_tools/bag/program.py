@@ -9,7 +9,7 @@ from pathlib import Path
 import rosbag
 import rosgraph
 
-from node_kit.page import address
+from node_kit.questions import address
 from tutorial_tools.bag.picture import curves, svg
 
 JOY = "sensor_msgs/Joy"

@@ -1,4 +1,6 @@
-"""What a demonstration drive came to: messages counted, way driven, final pose. No ROS here."""
+"""The result of a demonstration drive: messages counted, way driven, final pose. No ROS here."""
+
+from __future__ import annotations
 
 import math
 
@@ -8,28 +10,28 @@ class DriveReport:
 
     MOVED_M = 0.001  # less than this is a robot that stood
 
-    def __init__(self, topics):
-        """topics: the names whose messages are counted, in the order in which they are told."""
+    def __init__(self, topics: tuple[str, ...]) -> None:
+        """topics: the names whose messages are counted, in the order of the report."""
         self.counts = {topic: 0 for topic in topics}
         self.distance_m = 0.0
-        self.pose = None
+        self.pose: tuple[float, float, float] | None = None
 
-    def count(self, topic):
+    def count(self, topic: str) -> None:
         """Take note of one message on a topic."""
         self.counts[topic] += 1
 
-    def add_pose(self, x_m, y_m, qz, qw):
+    def add_pose(self, x_m: float, y_m: float, qz: float, qw: float) -> None:
         """Go on to a new pose; qz and qw are the parts of a quaternion about the z axis."""
         if self.pose is not None:
             self.distance_m += math.hypot(x_m - self.pose[0], y_m - self.pose[1])
         self.pose = (x_m, y_m, 2 * math.atan2(qz, qw))
 
     @property
-    def moved(self):
+    def moved(self) -> bool:
         """Whether the robot drove at all."""
         return self.distance_m > self.MOVED_M
 
-    def line(self, duration_s):
+    def line(self, duration_s: float) -> str:
         """The drive in one line."""
         counted = ", ".join(f"{count} {topic}" for topic, count in self.counts.items())
         if self.pose is None:

@@ -1,7 +1,13 @@
 """What keeps a demonstration from a master: nodes that it would push aside or count (pure)."""
 
+from __future__ import annotations
 
-def in_the_way(state, nodes, topics):
+from collections.abc import Iterable
+
+
+def in_the_way(
+    state: list[list[tuple[str, list[str]]]], nodes: Iterable[str], topics: Iterable[str]
+) -> list[str]:
     """Names of registered nodes that a launch would meet, in alphabetical order.
 
     Those that bear the name of one of its nodes, which would be ended by it, and those that publish
@@ -15,7 +21,7 @@ def in_the_way(state, nodes, topics):
     return sorted((registered & set(nodes)) | senders)
 
 
-def refusal(uri, names, own_uri):
+def refusal(uri: str, names: list[str], own_uri: str) -> str:
     """The line for the user: what runs on a master, and what to do. names: some, in_the_way()."""
     *most, last = names
     listed = f"{', '.join(most)} and {last}" if most else last

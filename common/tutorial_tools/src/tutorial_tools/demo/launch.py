@@ -85,7 +85,7 @@ class Launch:
             raise DemoError(f"no /odom within {START_TIMEOUT_S:.0f} s")
 
     def watch(self, duration_s):
-        """Count what runs on the topics for a time; however that ends, summary tells it."""
+        """Count what runs on the topics for a time; however that ends, summary has the result."""
         # Anew: on a busy machine seconds of /joy may come before the first /odom.
         self.report, began = DriveReport(TOPICS), time.monotonic()
         try:
@@ -94,7 +94,7 @@ class Launch:
             self.summary = self.report.line(time.monotonic() - began)
 
     def _is_ours(self, message):
-        """Whether a node of the launch sent it: somebody else may publish on the same topic."""
+        """Whether a node of the launch sent it: another node may publish on the same topic."""
         # The way that rospy documents: http://wiki.ros.org/rospy/Overview/Messages
         return sender_of(message) in self._nodes
 

@@ -1,11 +1,9 @@
-"""The command: checks, then starts launch_bag.launch, and tells what was driven.
+"""The command demo: checks, then starts launch_bag.launch, and reports what was driven.
 
-A look beforehand finds what roslaunch would report badly or not at all: an argument that does not
-exist, a bag that cannot be played, a port taken by another program, or nodes that run already: of
-those the launch would end some and be disturbed by others.
+The checks find what roslaunch reports badly or not at all: unknown arguments, a bag that cannot be
+played, a port taken by another program, and nodes that run already.
 """
 
-import argparse
 import math
 import os
 import re
@@ -13,66 +11,26 @@ import signal
 import socket
 import sys
 import time
-from pathlib import Path
 
 import rosbag
 import rosgraph
-import roslaunch
-import roslaunch.arg_dump
 import rospkg
 
-from gamepad.arguments import assignment, check
-from node_kit.arguments import above_zero
-from node_kit.names import holder
-from node_kit.page import address
-from node_kit.questions import Answer, call
+from node_kit.questions import Answer, address, call, holder
+from tutorial_tools.command.words import parser_of
 from tutorial_tools.demo.in_the_way import in_the_way, refusal
 from tutorial_tools.demo.launch import ENDING, TOPICS, DemoError, Launch
+from tutorial_tools.launch_arguments import launch_arguments
 
 # What launch_bag.launch starts. Not by loading that file here: it looks itself for what runs.
 NODES = ("/fake_turtlebot", "/myjoystick2twist", "/robot_state_publisher", "/rosbag")
 RVIZ_NODE = "/my_rviz"
 PAGE_TIMEOUT_S = 5.0  # tornado and rospy load on a slow and busy machine, too
 CONNECT_TIMEOUT_S = 3.0  # a master on this machine answers within milliseconds
-RVIZ = re.compile("rviz:=")  # who says whether RViz opens, need not be told
+RVIZ = re.compile("rviz:=")  # given by the user, so no hint is needed
 WITHOUT_SCREEN = "there is no screen (DISPLAY is not set), so RViz is left out; to see it drive, "
 IN_TERMINAL = "in another terminal: ./tutorial run rostopic echo /odom/pose/pose/position"
 IN_BROWSER = "open {page} in a browser; from another machine: ssh -L {port}:127.0.0.1:{port} {host}"
-
-
-def parse(argv):
-    """The command line: how long to drive (None: until stopped) and NAME:=VALUE arguments."""
-    parser = argparse.ArgumentParser(
-        prog="demo", description="Drives the simulated TurtleBot with the recorded joystick."
-    )
-    parser.add_argument(
-        "--for", dest="duration_s", type=above_zero, metavar="SECONDS",
-        help="end by itself, with one line that tells the drive; exit code 0 if the robot moved",
-    )  # fmt: skip
-    parser.add_argument("arguments", nargs="*", metavar="NAME:=VALUE", help="for launch_bag.launch")
-    return parser.parse_args(argv)
-
-
-def launch_arguments(launch_file, arguments):
-    """Return the launch arguments as a dict, the defaults included.
-
-    Raises DemoError for one that is not NAME:=VALUE, is unknown, or has a value that does not do.
-    """
-    known = roslaunch.arg_dump.get_args([launch_file])
-    values = {name: default for name, (_, default) in known.items()}
-    try:
-        for argument in arguments:
-            name, value = assignment(argument)
-            if name not in known:
-                names = ", ".join(f"{name}:=" for name in sorted(known))
-                there = f"not an argument of launch_bag.launch, which has {names}"
-                raise ValueError(f"{argument}: {there}")
-            values[name] = value
-        for name in ("rviz", "cockpit", "cockpit_port"):
-            check(name, values[name])
-    except ValueError as error:
-        raise DemoError(error) from error
-    return values
 
 
 def check_bag(path):
@@ -181,14 +139,13 @@ def main():
     """Check, then launch; exit code 0 if it ran and, with --for, if the robot moved."""
     for number in ENDING:
         signal.signal(number, signal.default_int_handler)
-    options = parse(sys.argv[1:])
+    options = parser_of("demo").parse_args()
     launch, interrupted = None, False
     try:
         launch_file = f"{rospkg.RosPack().get_path('joy2twist')}/launch/launch_bag.launch"
         values = launch_arguments(launch_file, options.arguments)
-        bag = Path(values["bag"]).expanduser().absolute()
-        check_bag(bag)
-        arguments = [*options.arguments, f"bag:={bag}"]
+        check_bag(values["bag"])
+        arguments = [*options.arguments, f"bag:={values['bag']}"]
         with_rviz = values["rviz"].lower() in ("true", "1")
         nodes = [*NODES, RVIZ_NODE] if with_rviz else NODES
         check_master()
@@ -200,7 +157,7 @@ def main():
             if not with_rviz and not any(map(RVIZ.match, options.arguments)):
                 print(f"demo: {WITHOUT_SCREEN}{where_to_look(values)}", flush=True)
             launch.watch(math.inf if options.duration_s is None else options.duration_s)
-    except DemoError as error:
+    except (DemoError, ValueError) as error:
         sys.exit(f"demo: {error}")
     except KeyboardInterrupt:
         interrupted = True

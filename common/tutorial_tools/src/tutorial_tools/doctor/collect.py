@@ -13,6 +13,7 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from genpy import DeserializationError
 from std_msgs.msg import String
 
+from gamepad.driver.container import in_container
 from gamepad.driver.report import SILENT_FOR
 from node_kit.manifests import broken_manifests
 from tutorial_tools.doctor.facts import JOY, Answer, Facts, Joystick, Mux, MuxInput, Node, Offset
@@ -63,12 +64,12 @@ def collect():
     if not facts["master_here"]:
         facts["way_out"] = way_out(found[0])
     facts["master"], _ = call(uri, "getPid")
-    facts["called_back"] = None
+    called_back = None
     if facts["master"] is Answer.WELL:
         if facts["own_is_here"]:
-            facts["called_back"] = is_called_back(uri, facts["own_name"])
+            called_back = is_called_back(uri, facts["own_name"])
         facts.update(graph(uri, facts["joysticks"]))
-    return Facts(**facts)
+    return Facts(**facts, called_back=called_back)
 
 
 def this_machine():
@@ -86,7 +87,7 @@ def this_machine():
         "workspace": os.environ.get("TUTORIAL_IN", ""),
         "broken_manifests": broken_in_own_folders(),
         "joy2twist": folder_of("joy2twist"),
-        "container": any(map(os.path.exists, ("/.dockerenv", "/run/.containerenv"))),
+        "container": in_container(),
         "wsl": "microsoft" in os.uname().release.lower(),
     }
 
@@ -109,7 +110,7 @@ def folder_of(package):
 def joystick(path):
     """Whether a device can be opened."""
     try:
-        # Not a FIFO: whoever opens one is its reader, and virtual_joystick has another.
+        # Not a FIFO: virtual_joystick has one reader, and to open it is to read it.
         if not stat.S_ISFIFO(os.stat(path).st_mode):
             os.close(os.open(path, os.O_RDONLY | os.O_NONBLOCK))
     except OSError as error:
@@ -118,7 +119,7 @@ def joystick(path):
 
 
 def graph(uri, joysticks):
-    """What the master and the nodes tell, by the names of Facts."""
+    """Return what the master and the nodes answer, by the names of Facts."""
     _, state = call(uri, "getSystemState")
     _, types = call(uri, "getTopicTypes")
     facts = {
@@ -133,7 +134,9 @@ def graph(uri, joysticks):
     for name in names - set(seen):
         facts["nodes"][name] = Node("?", "?", Answer.SILENT, None)
     known = Facts(**facts)
-    devices = [parameter(uri, f"{node}/dev") for node in known.nodes if is_driver(known, node)]
+    senders = {name for joy in known.topics(JOY) for name in known.publishers.get(joy, [])}
+    here = [name for name, node in known.nodes.items() if name in senders and node.here]
+    devices = [parameter(uri, f"{node}/dev") for node in here]
     paths = {device for device in devices if isinstance(device, str)}
     there = {joystick.path for joystick in joysticks}
     joysticks += [joystick(path) for path in sorted(paths - there)]
@@ -169,12 +172,6 @@ def look_at(uri, name):
 def connection(link):
     """(topic, whether it comes in) of an entry of getBusInfo: id, peer, direction, way, topic."""
     return link[4], link[2] == "i"
-
-
-def is_driver(facts, node):
-    """Whether a node of this machine sends joystick messages."""
-    sends = any(node in facts.publishers.get(joy, []) for joy in facts.topics(JOY))
-    return sends and facts.nodes[node].here
 
 
 def parameter(uri, name):
@@ -265,13 +262,13 @@ def nearest(offsets_):
 
 def mux(uri, name, messages):
     """A Mux, by its latched topic and, where they are on the server, its parameters."""
-    told = [decode(String, data) for _, data in messages or []]
+    said = [decode(String, data) for _, data in messages or []]
     inputs = []
     with contextlib.suppress(TypeError, KeyError):  # a multiplexer of another kind
         for entry in parameter(uri, f"{name}/subscribers") or []:
             topic = f"{name}/{entry['topic']}"
             inputs.append(MuxInput(entry["name"], topic, entry["priority"]))
-    return Mux(told[0].data if told and told[0] else None, inputs)
+    return Mux(said[0].data if said and said[0] else None, inputs)
 
 
 def states(node, messages):

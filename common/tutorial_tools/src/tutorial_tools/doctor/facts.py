@@ -1,22 +1,24 @@
-"""What the doctor has seen: plain data (pure). How it is seen is in collect.py, what it means in
-judgement.py.
+"""What the doctor has seen, and a finding: plain data (pure). collect.py sees; judgement.py and
+way.py judge.
 """
 
+from __future__ import annotations
+
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass, field
-from typing import Dict, List, Optional, Tuple
 
 from node_kit.questions import Answer
 
 MOST_NAMES = 5  # in a line; a classroom has thirty robots
 
 
-def natural(name):
+def natural(name: str) -> list[tuple[int, str]]:
     """The sort key that puts robot_2 before robot_10."""
     return [(int(part), "") if part.isdigit() else (0, part) for part in re.split(r"(\d+)", name)]
 
 
-def some(names, between=", "):
+def some(names: Iterable[str], between: str = ", ") -> str:
     """Names in their natural order; of many the first ones, and how many more there are."""
     names = sorted(names, key=natural)
     more = [f"{len(names) - MOST_NAMES} more"] if len(names) > MOST_NAMES + 1 else []
@@ -24,7 +26,23 @@ def some(names, between=", "):
     return between.join(shown) + (f" and {more[0]}" if more else "")
 
 
-DEAD = (Answer.REFUSED, Answer.STRANGE)  # of a node: nobody is there, or somebody else
+OK, WRONG, UNKNOWN = "ok", "wrong", "unknown"
+DEAD = (Answer.REFUSED, Answer.STRANGE)  # of a node: nothing listens, or another program
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One line for the user. level: OK, WRONG or UNKNOWN. about: one word. todo: what to do."""
+
+    level: str
+    about: str
+    seen: str
+    todo: str = ""
+
+    def line(self) -> str:
+        """The finding as it is shown."""
+        todo = f": {self.todo}" if self.todo else ""
+        return f"{self.level:7}  {self.about:8}  {self.seen}{todo}"
 
 
 @dataclass(frozen=True)
@@ -38,8 +56,8 @@ class Node:
     uri: str
     host: str
     answer: Answer
-    here: Optional[bool] = True
-    links: List[Tuple[str, bool]] = field(default_factory=list)
+    here: bool | None = True
+    links: list[tuple[str, bool]] = field(default_factory=list)
 
 
 @dataclass(frozen=True)
@@ -63,8 +81,8 @@ class MuxInput:
 class Mux:
     """A multiplexer: what it says is active (None: it says nothing), and its inputs, if known."""
 
-    active: Optional[str]
-    inputs: List[MuxInput] = field(default_factory=list)
+    active: str | None
+    inputs: list[MuxInput] = field(default_factory=list)
 
 
 @dataclass(frozen=True)
@@ -72,7 +90,7 @@ class Joystick:
     """A device file: why it cannot be opened (errno), or None."""
 
     path: str
-    error: Optional[int] = None
+    error: int | None = None
 
 
 @dataclass(frozen=True)
@@ -86,29 +104,29 @@ class Facts:
     master_here: bool = True
     own_variable: str = ""
     own_name: str = "localhost"  # what the nodes of this machine say where they are
-    own_addresses: List[str] = field(default_factory=lambda: ["127.0.0.1"])
+    own_addresses: list[str] = field(default_factory=lambda: ["127.0.0.1"])
     own_is_here: bool = True  # whether that is this machine
     way_out: str = ""  # our address on the way to the master, if it is on another machine
-    called_back: Optional[bool] = True  # whether the master reached us; None: not tried
-    joysticks: List[Joystick] = field(default_factory=list)
+    called_back: bool | None = True  # whether the master reached us; None: not tried
+    joysticks: list[Joystick] = field(default_factory=list)
     workspace: str = ""  # a student's, which takes the place of the solutions
-    broken_manifests: List[Tuple[str, str]] = field(default_factory=list)  # path, what is wrong
+    broken_manifests: list[tuple[str, str]] = field(default_factory=list)  # path, what is wrong
     joy2twist: str = "/suite/joy2twist"  # folder of the package that would run; "": none
     container: bool = False
     wsl: bool = False
     # The graph: by topic the names of nodes, and its type.
-    nodes: Dict[str, Node] = field(default_factory=dict)
-    publishers: Dict[str, List[str]] = field(default_factory=dict)
-    subscribers: Dict[str, List[str]] = field(default_factory=dict)
-    types: Dict[str, str] = field(default_factory=dict)
+    nodes: dict[str, Node] = field(default_factory=dict)
+    publishers: dict[str, list[str]] = field(default_factory=dict)
+    subscribers: dict[str, list[str]] = field(default_factory=dict)
+    types: dict[str, str] = field(default_factory=dict)
     use_sim_time: bool = False
     clock_ticks: bool = False
-    clocks: Dict[str, Optional[Offset]] = field(default_factory=dict)  # of the other hosts
-    muxes: Dict[str, Mux] = field(default_factory=dict)  # by the name of the node
-    states: Dict[str, Tuple[bool, str]] = field(default_factory=dict)  # of joy2twist: well, text
-    silent_s: Dict[str, float] = field(default_factory=dict)  # since a joy_node's gamepad moved
+    clocks: dict[str, Offset | None] = field(default_factory=dict)  # of the other hosts
+    muxes: dict[str, Mux] = field(default_factory=dict)  # by the name of the node
+    states: dict[str, tuple[bool, str]] = field(default_factory=dict)  # of joy2twist: well, text
+    silent_s: dict[str, float] = field(default_factory=dict)  # since a joy_node's gamepad moved
 
-    def topics(self, kind):
+    def topics(self, kind: str) -> list[str]:
         """The names of all topics of a type that are in use; the master forgets no type."""
         used = (
             topic
@@ -117,7 +135,7 @@ class Facts:
         )
         return sorted((topic for topic in used if self.types[topic] == kind), key=natural)
 
-    def senders(self, topic):
+    def senders(self, topic: str) -> list[str]:
         """The publishers of a topic without those that have died: the master does not miss them."""
         return sorted(
             name
@@ -125,9 +143,9 @@ class Facts:
             if name not in self.nodes or self.nodes[name].answer not in DEAD
         )
 
-    def converters(self):
+    def converters(self) -> dict[str, tuple[list[str], list[str]]]:
         """{node that makes velocities of a joystick: (its joy topics, its velocity topics)}."""
-        found = {}
+        found: dict[str, tuple[list[str], list[str]]] = {}
         for joy in self.topics(JOY):
             for node in self.subscribers.get(joy, []):
                 sends = [t for t in self.topics(TWIST) if node in self.publishers.get(t, [])]

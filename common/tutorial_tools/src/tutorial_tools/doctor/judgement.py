@@ -1,71 +1,54 @@
 """What the facts mean when nothing moves: a list of findings (pure)."""
 
+from __future__ import annotations
+
 import errno
-from dataclasses import dataclass
+from collections.abc import Iterator
 
 from gamepad.driver.device_choice import explain
-from node_kit.states import DRIVING
-from tutorial_tools.doctor.facts import DEAD, JOY, TWIST, Answer, some
-
-OK, WRONG, UNKNOWN = "ok", "wrong", "unknown"
+from node_kit.questions import Answer
+from tutorial_tools.doctor.facts import DEAD, JOY, OK, UNKNOWN, WRONG, Facts, Finding, some
+from tutorial_tools.doctor.way import muxes, rivals, states, topics
 
 # Clocks may differ by this much [s]: a tenth of a second of old transforms, or of a joystick
 # message that is refused for its age, goes unnoticed.
 CLOCK_TOLERANCE_S = 0.1
-SILENT_S = 2.0  # a gamepad in the hand is not still for so long
-IDLE = ("", "idle")  # what a multiplexer says when nobody drives
 START_ANEW = "and start its nodes anew"
 
 
-@dataclass(frozen=True)
-class Finding:
-    """One line for the user. level: OK, WRONG or UNKNOWN. about: one word. todo: what to do."""
-
-    level: str
-    about: str
-    seen: str
-    todo: str = ""
-
-    def line(self):
-        """The finding as it is shown."""
-        return f"{self.level:7}  {self.about:8}  {self.seen}" + (
-            f": {self.todo}" if self.todo else ""
-        )
-
-
-def judge(facts):
+def judge(facts: Facts) -> list[Finding]:
     """All findings, in the order in which one would look for a cause."""
-    findings = [*floor(facts), *master(facts), *address(facts)]
+    findings = [*overlay(facts), *master(facts), *address(facts)]
     if facts.master is Answer.WELL:
         for check in (nodes, clocks, sim_time, topics, muxes, rivals, states):
             findings += check(facts)
     return [*findings, *joysticks(facts)]
 
 
-def floor(facts):
+def overlay(facts: Facts) -> Iterator[Finding]:
     """Whose joy2twist would run."""
     path, workspace = facts.joy2twist, facts.workspace
     for broken, why in facts.broken_manifests:
         todo = "mend that line or the one before; until then no ROS program starts"
-        yield Finding(WRONG, "floor", f"{broken}: {why}", todo)
+        yield Finding(WRONG, "overlay", f"{broken}: {why}", todo)
     if facts.broken_manifests:
-        return
-    if not workspace and path:
-        yield Finding(OK, "floor", f"joy2twist is the suite's: {path}")
+        pass
+    elif not workspace and path:
+        yield Finding(OK, "overlay", f"joy2twist is the suite's: {path}")
     elif not workspace:
         todo = "call this through ./tutorial, or source devel/setup.bash of a workspace that has it"
-        yield Finding(UNKNOWN, "floor", "no joy2twist is found here", todo)
+        yield Finding(UNKNOWN, "overlay", "no joy2twist is found here", todo)
     elif not path:
         todo = f"make it in {workspace}/src, then catkin_make in {workspace}"
-        yield Finding(UNKNOWN, "floor", "your workspace has no joy2twist yet", todo)
+        yield Finding(UNKNOWN, "overlay", "your workspace has no joy2twist yet", todo)
     elif path.startswith(f"{workspace}/src/"):
-        yield Finding(OK, "floor", f"joy2twist is yours: {path}")
+        yield Finding(OK, "overlay", f"joy2twist is yours: {path}")
     else:
         todo = f"mv it into {workspace}/src, then catkin_make"
-        yield Finding(WRONG, "floor", f"joy2twist is not in your workspace: {path}", todo)
+        yield Finding(WRONG, "overlay", f"joy2twist is not in your workspace: {path}", todo)
 
 
-def master(facts):
+def master(facts: Facts) -> Iterator[Finding]:
     """Whether a master answers at ROS_MASTER_URI."""
     uri, host = f"ROS_MASTER_URI={facts.master_uri}", facts.master_host
     start = "start roscore" if facts.master_here else f"start roscore, or minimal.launch, on {host}"
@@ -83,7 +66,7 @@ def master(facts):
         yield Finding(WRONG, "master", f"{uri} {facts.master.value}", todo[facts.master])
 
 
-def address(facts):
+def address(facts: Facts) -> Iterator[Finding]:
     """Whether the name under which this machine's nodes register leads back to them."""
     name = facts.own_name
     said = f"{facts.own_variable}={name}" if facts.own_variable else f'the name "{name}"'
@@ -105,13 +88,11 @@ def address(facts):
     elif facts.called_back is None:
         yield Finding(OK, "address", f'nodes of this machine call it "{name}"')
     else:
-        firewall = "or open this machine's firewall for it"
-        yield Finding(
-            WRONG, "address", f'the master does not reach "{name}"', f"{todo}; {firewall}"
-        )
+        todo += "; or open this machine's firewall for it"
+        yield Finding(WRONG, "address", f'the master does not reach "{name}"', todo)
 
 
-def nodes(facts):
+def nodes(facts: Facts) -> Iterator[Finding]:
     """Whether every node that is registered can be reached from here."""
     alone = facts.master_here and all(node.here is not False for node in facts.nodes.values())
     well = 0
@@ -120,7 +101,7 @@ def nodes(facts):
         local = node.host == "localhost" or node.host.startswith("127.")
         export = f"on its machine export ROS_IP {START_ANEW}"
         if local and not alone:
-            # Seen from another machine this would be somebody else, whatever answers.
+            # Seen from another machine this address is another program's, whatever answers.
             yield Finding(WRONG, "nodes", f"{at} can be reached from its own machine only", export)
         elif node.answer is Answer.UNKNOWN_NAME:
             todo = f'add "{node.host}" to /etc/hosts, or {export}'
@@ -138,7 +119,7 @@ def nodes(facts):
         yield Finding(OK, "nodes", f"all {well} answer")
 
 
-def clocks(facts):
+def clocks(facts: Facts) -> Iterator[Finding]:
     """Whether the clocks of the other machines agree with this one's."""
     if facts.use_sim_time:
         yield Finding(OK, "clocks", "/use_sim_time: all follow /clock")
@@ -159,128 +140,14 @@ def clocks(facts):
             yield Finding(WRONG, "clocks", seen, todo)
 
 
-def sim_time(facts):
+def sim_time(facts: Facts) -> Iterator[Finding]:
     """Whether simulated time, if it is asked for, runs."""
     if facts.use_sim_time and not facts.clock_ticks:
         todo = "rosparam delete /use_sim_time and start the nodes anew, or start what sends /clock"
         yield Finding(WRONG, "clocks", "/use_sim_time is true, and no /clock comes", todo)
 
 
-def topics(facts):
-    """Whether the way from joystick to robot is connected from end to end."""
-    converters = facts.converters()
-    joys = facts.topics(JOY)
-    # A robot with a multiplexer has launch files of its own; others would bring a second robot.
-    whole, half = (
-        ("launch_joy_node_realTurtlebot.launch", "roslaunch joy2twist joy2twist_turtlebot.launch")
-        if facts.muxes
-        else ("launch_joy_node.launch", "rosrun joy2twist joy2twist.py")
-    )
-    heard = {joy for hears, _ in converters.values() for joy in hears}
-    if not joys:
-        todo = f"roslaunch joy2twist {whole}, or in a classroom student.launch"
-        yield Finding(WRONG, "topics", "there is neither a joystick nor joy2twist", todo)
-    for joy in joys:
-        if not facts.publishers.get(joy):
-            todo = "start joy_node, or play a recording; with a namespace in both, or in none"
-            yield Finding(WRONG, "topics", f"nobody sends {joy}", todo)
-        if joy not in heard:
-            todo = f"start joy2twist ({half})"
-            yield Finding(WRONG, "topics", f"nobody makes velocities of {joy}", todo)
-    for node, (hears, sends) in sorted(converters.items()):
-        yield from way(facts, node, hears, sends)
-
-
-def way(facts, node, hears, sends):
-    """Whether one converter is connected on both sides."""
-    cut = [
-        finding
-        for topic, inwards in [*[(topic, True) for topic in hears], *[(t, False) for t in sends]]
-        for finding in link(facts, node, topic, inwards)
-    ]
-    yield from cut
-    alive = node not in facts.nodes or facts.nodes[node].answer is Answer.WELL
-    if alive and not cut and all(facts.publishers.get(topic) for topic in hears):
-        begins = sorted({name for topic in hears for name in facts.senders(topic)})
-        ends = sorted({name for topic in sends for name in facts.subscribers[topic]})
-        steps = (begins, hears, [node], sends, ends)
-        yield Finding(OK, "topics", " -> ".join(", ".join(step) for step in steps))
-
-
-def link(facts, node, topic, inwards):
-    """Whether a converter is connected to those at the other end of a topic."""
-    others = (facts.publishers if inwards else facts.subscribers).get(topic, [])
-    if not others and not inwards:
-        free = [t for t in facts.topics(TWIST) if not facts.publishers.get(t)]
-        # The other inputs of a multiplexer are not for people.
-        free = [t for t in free if t.endswith("/input/teleop")] or free
-        todo = "start the robot" + (f", or drive the one at {some(free, ' or ')}" if free else "")
-        yield Finding(WRONG, "topics", f"nobody listens to {topic} of {node}", todo)
-    known = facts.nodes.get(node)
-    if others and known and known.answer is Answer.WELL and (topic, inwards) not in known.links:
-        seen = f"{topic}: {', '.join(others)} and {node} know of each other, but are not connected"
-        todo = "mend what the lines above say, or a firewall between them"
-        yield Finding(WRONG, "topics", seen, todo)
-
-
-def muxes(facts):
-    """Whether a multiplexer lets joy2twist through."""
-    ours = {topic for _, sends in facts.converters().values() for topic in sends}
-    for name, mux in sorted(facts.muxes.items()):
-        for topic in sorted(t for t in ours if t.startswith(f"{name}/")):
-            yield mux_finding(facts, name, mux, topic)
-
-
-def mux_finding(facts, name, mux, topic):
-    """Whether a multiplexer lets one of our topics through."""
-    if mux.active is None:
-        todo = f"rostopic echo {name}/active"
-        return Finding(UNKNOWN, "mux", f"{name} does not say who is active", todo)
-    if mux.active in IDLE:
-        senders = facts.publishers.get(topic, [])
-        if any(facts.states.get(sender) == (True, DRIVING) for sender in senders):
-            todo = "its network was cut meanwhile: release LB and the sticks, wait a second"
-            seen = f"{name} does not listen to {topic}, though {', '.join(senders)} drives"
-            return Finding(WRONG, "mux", seen, todo)
-        return Finding(OK, "mux", f"{name}: nobody drives at this moment")
-    inputs = {i.name: i for i in mux.inputs}
-    ours = [i for i in mux.inputs if i.topic == topic]
-    active = inputs.get(mux.active)
-    # A TurtleBot's own multiplexer keeps its inputs in a file: there Teleoperation is input/teleop.
-    short = topic.rsplit("/", 1)[1].lower()
-    if active in ours or (not ours and mux.active.lower().startswith(short)):
-        return Finding(OK, "mux", f"{name} lets {topic} through")
-    if active and ours and active.priority < ours[0].priority:
-        return Finding(OK, "mux", f'{name} lets "{mux.active}" through, until {topic} drives')
-    senders = facts.publishers.get(active.topic, []) if active else []
-    todo = f"end {', '.join(senders)}" if senders else "end what sends to that"
-    return Finding(WRONG, "mux", f'{name} lets "{mux.active}" through, and not {topic}', todo)
-
-
-def rivals(facts):
-    """Whether several nodes drive one robot, or several joysticks one joy2twist."""
-    for topic in [*facts.topics(JOY), *facts.topics(TWIST)]:
-        senders = facts.senders(topic)
-        if len(senders) > 1 and facts.subscribers.get(topic):
-            seen = f"{topic} is sent by {some(senders)} at once"
-            yield Finding(WRONG, "topics", seen, "end all of them but one")
-
-
-def states(facts):
-    """What joy2twist itself says on /diagnostics."""
-    for node, (well, text) in sorted(facts.states.items()):
-        todo = "move the joystick, or start it: rostopic hz joy shows its messages"
-        todo = todo if not well and "no message" in text else ""
-        yield Finding(OK if well else WRONG, "state", f"{node} says: {text}", todo)
-    still = any("has not changed" in text for _, text in facts.states.values())
-    for node, seconds in sorted(facts.silent_s.items()):
-        if still and seconds > SILENT_S:
-            seen = f"the gamepad of {node} has been silent for {seconds:.0f} s"
-            todo = "look at its battery and its distance, then move a stick"
-            yield Finding(WRONG, "joystick", seen, todo)
-
-
-def joysticks(facts):
+def joysticks(facts: Facts) -> Iterator[Finding]:
     """Whether the gamepads of this machine can be read."""
     senders = {name for joy in facts.topics(JOY) for name in facts.senders(joy)}
     for joystick in facts.joysticks:

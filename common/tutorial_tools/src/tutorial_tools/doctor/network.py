@@ -1,6 +1,6 @@
 """Questions to the network that always end in time.
 
-No rospy here: a node of it may wait for a master, or for a name, for ever.
+No rospy here: one of its nodes may wait forever for a master, or for a name.
 """
 
 import itertools
@@ -96,7 +96,7 @@ def is_called_back(master_uri, own_name):
     """Whether the master reaches this machine under its own name.
 
     For a moment there is a topic of which this program is publisher and subscriber at once; the
-    master has to tell the subscriber of the publisher.
+    master has to inform the subscriber of the publisher.
     """
     called = threading.Event()
 

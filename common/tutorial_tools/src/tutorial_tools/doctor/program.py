@@ -1,20 +1,17 @@
 """The command: looks at all that may keep a robot from moving, one line for each finding."""
 
-import argparse
 import signal
 import sys
 
+from tutorial_tools.command.words import parser_of
 from tutorial_tools.doctor.collect import collect
-from tutorial_tools.doctor.judgement import OK, UNKNOWN, WRONG, judge
+from tutorial_tools.doctor.facts import OK, UNKNOWN, WRONG
+from tutorial_tools.doctor.judgement import judge
 
 
 def main():
     """Show the findings; exit code 1 if something is wrong."""
-    argparse.ArgumentParser(
-        prog="doctor",
-        description="What to check when nothing moves: master, addresses, nodes, clocks, topics, "
-        "joysticks. A line says ok, wrong or unknown; exit code 1 if something is wrong.",
-    ).parse_args()
+    parser_of("doctor").parse_args()
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     try:
         findings = judge(collect())

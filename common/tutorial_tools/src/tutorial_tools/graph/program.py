@@ -1,13 +1,4 @@
-"""Draws the running nodes and their topics, as rqt_graph does.
-
-draw_graph.py [FILE] [--all]     FILE ends in .png, .svg, .pdf or .dot; graph.png unless told
-
-An ellipse is a node, a box is a topic; arrows go from publishers to the topic, and from there to
-its subscribers. Where the nodes run on several machines, each machine has a frame, labelled with
-the address that its nodes gave to the master: a topic outside the frames crosses the network.
-
-This program only asks the master, and is no node itself.
-"""
+"""Draws the running nodes and their topics, as rqt_graph does."""
 
 import argparse
 import json
@@ -21,7 +12,7 @@ from urllib.parse import urlsplit
 
 import rosgraph
 
-from node_kit.page import address
+from node_kit.questions import address
 
 ENDINGS = (".png", ".svg", ".pdf", ".dot")
 TIMEOUT_S = 5.0  # for each answer of the master; on one network it takes milliseconds
@@ -146,7 +137,7 @@ def fail(text):
 def main(arguments=None):
     """Draw the graph into a file; arguments: of the command line unless given."""
     parser = argparse.ArgumentParser(description="Draws the running nodes and their topics.")
-    kinds = f"what to write, {', '.join(ENDINGS)}; unless told, graph.png"
+    kinds = f"what to write, {', '.join(ENDINGS)}; graph.png by default"
     parser.add_argument("file", nargs="?", default="graph.png", metavar="FILE", help=kinds)
     everything = "show also /rosout, and topics that nobody publishes or nobody hears"
     parser.add_argument("--all", action="store_true", help=everything)

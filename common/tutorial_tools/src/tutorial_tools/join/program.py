@@ -1,35 +1,23 @@
-"""The command join HOST NAME: checks the way to the teacher's machine, and starts student.launch.
+"""The command join: checks the way to the teacher's machine, then starts student.launch."""
 
-What it finds wrong it tells with the means of the doctor, and starts nothing.
-"""
-
-import argparse
 import os
 import re
 import sys
 
-from gamepad.arguments import assignment
+import rospkg
+
+from gamepad.arguments import check
 from node_kit.questions import Answer
+from tutorial_tools.command.words import parser_of
 from tutorial_tools.doctor.facts import some
 from tutorial_tools.doctor.network import addresses, call, is_called_back, is_here, way_out
+from tutorial_tools.launch_arguments import launch_arguments
 
 DEFAULT_PORT = 11311
 
 
 class JoinError(Exception):
     """Why nothing can be started, in one line for the user."""
-
-
-def parse(argv):
-    """The command line."""
-    parser = argparse.ArgumentParser(
-        prog="join", description="Drives a robot of the classroom that runs on another machine."
-    )
-    parser.add_argument("host", metavar="HOST", help="the teacher's machine, or HOST:PORT")
-    parser.add_argument("name", metavar="NAME", help="of the robot, such as robot_7")
-    more = "for student.launch, such as virtual:=true or joystick:=browser"
-    parser.add_argument("arguments", nargs="*", default=[], metavar="NAME:=VALUE", help=more)
-    return parser.parse_args(argv)
 
 
 def check_host(host):
@@ -95,10 +83,13 @@ def check_robot(uri, name):
 
 def main():
     """Check, then become roslaunch."""
-    options = parse(sys.argv[1:])
+    options = parser_of("join").parse_args()
     try:
-        for argument in options.arguments:
-            assignment(argument)
+        file = f"{rospkg.RosPack().get_path('joy2twist')}/launch/student.launch"
+        values = launch_arguments(file, [f"name:={options.name}", *options.arguments])
+        if values["name"] != options.name:
+            raise JoinError(f"name:={values['name']}: the name is {options.name} already")
+        check("bag", values["bag"])
         uri, own = check_host(options.host)
         check_master(uri, own)
         check_run_id(uri)
@@ -109,4 +100,4 @@ def main():
     environment.update(ROS_MASTER_URI=uri, ROS_IP=own)
     print(f"join: ROS_MASTER_URI={uri} ROS_IP={own}", flush=True)
     launch = ["roslaunch", "joy2twist", "student.launch", f"name:={options.name}"]
-    os.execvpe(launch[0], [*launch, *options.arguments], environment)
+    os.execvpe(launch[0], [*launch, *options.arguments, f"bag:={values['bag']}"], environment)

@@ -1,0 +1,87 @@
+"""Two programs for launch files.
+
+    <param name="names_were_free" command="$(find node_kit)/names_free /fake_turtlebot"/>
+
+names_free: nothing is started while a node of one of these names runs. roslaunch runs the command
+while it reads the file, and exits if it fails; roslaunch itself would end the running node.
+
+    <node ... required="true" launch-prefix="$(find node_kit)/ends_launch"/>
+
+ends_launch: the normal end of a node ends the launch, as Ctrl-C does. required="true" alone reports
+every end as a process that has died.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+from node_kit.questions import holder
+
+DEFAULT_MASTER = "http://localhost:11311"
+# With these roslaunch only prints what is in the file.
+ONLY_READS = re.compile(r"--(nodes|files|args|find-node|ros-args|dump-params)\b")
+ENDING = (signal.SIGINT, signal.SIGTERM)  # what roslaunch ends a node with
+LONGEST_END_S = 60.0  # roslaunch kills whatever still runs after some 20 s
+
+
+def reader() -> list[str]:
+    """Return the command line of the parent: of the program that reads the launch file."""
+    return Path(f"/proc/{os.getppid()}/cmdline").read_bytes().decode(errors="replace").split("\0")
+
+
+def will_start(command: list[str]) -> bool:
+    """Return whether the program of this command line starts nodes on the master of all.
+
+    rostest has a master of its own, roslaunch-check starts nothing.
+    """
+    names = [Path(word).name for word in command[:2]]
+    return "roslaunch" in names and not any(map(ONLY_READS.match, command))
+
+
+def complaint(names: list[str], master_uri: str) -> str | None:
+    """Return one line about the first of the names that a node holds, or None."""
+    for name in [re.sub("/+", "/", f"/{given}") for given in names]:
+        held = holder(master_uri, name)
+        if held:
+            return (
+                f"{name} runs already, {held[1]}: end it first (Ctrl-C in its terminal, or rosnode "
+                f"kill {name}), or have a master of your own (export "
+                "ROS_MASTER_URI=http://localhost:11312)"
+            )
+    return None
+
+
+def names_free() -> None:
+    """Check the names of the command line; the output becomes the value of the parameter."""
+    uri = os.environ.get("ROS_MASTER_URI") or DEFAULT_MASTER
+    line = complaint(sys.argv[1:], uri) if will_start(reader()) else None
+    if line:
+        sys.exit(f"roslaunch: {line}")
+    print("true")
+
+
+def name_of(command: list[str]) -> str:
+    """Return the name that roslaunch gives the node of a command line."""
+    names = [word.partition(":=")[2] for word in command if word.startswith("__name:=")]
+    return names[0] if names else command[0]
+
+
+def ends_launch() -> None:
+    """Run the node of the command line; at its normal end interrupt roslaunch, and wait."""
+    command, ended = sys.argv[1:], threading.Event()
+    for number in ENDING:  # both go to the node, too, which has its own handlers
+        signal.signal(number, lambda *_: ended.set())
+    code = subprocess.call(command)
+    signal.pthread_sigmask(signal.SIG_BLOCK, ENDING)
+    if ended.is_set() or code != 0 or not will_start(reader()):
+        sys.exit(code if code >= 0 else 128 - code)
+    print(f"roslaunch: {name_of(command)} has finished, which ends this launch", file=sys.stderr)
+    os.kill(os.getppid(), signal.SIGINT)
+    # A node that exits before roslaunch has begun to end is reported as one that has died.
+    signal.sigtimedwait(ENDING, LONGEST_END_S)

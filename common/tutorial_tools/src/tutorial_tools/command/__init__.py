@@ -1,0 +1,1 @@
+"""What ./tutorial runs once Python is installed: its words, and the build."""

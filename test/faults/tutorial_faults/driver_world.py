@@ -1,0 +1,205 @@
+"""Every state of the joystick driver's rules (Driver and its parts), judged by (a) to (d).
+
+The driver must not deceive its subscribers: it never publishes "released" for a gamepad in an
+unknown state, publishes a loss before it is silent, and then is silent for longer than joy2twist
+waits.
+
+Clocks: the next message and the sign of life; without a gamepad the end of the silence after it.
+Thresholds: LONGEST_LIFELESS_S 0.45 s, SHORTEST_SILENCE_S 0.6 s, autorepeat 0.3 s,
+coalesce_interval 0.15 s.
+"""
+
+import math
+import struct
+
+from gamepad.driver.driver import LONGEST_LIFELESS_S, Driver
+from gamepad.driver.parameters import load
+from gamepad.js_event import AXIS, BUTTON, FULL, INIT, SIGN_OF_LIFE_MS
+from tutorial_faults.events import Violation
+from tutorial_faults.explore import Moment, copy_of, key_of, until
+
+LARGEST = 1.0001  # a little beyond 1: a kernel never gives -32768, but others may
+STEP_S = 0.05  # 0.15 s for two clocks
+JOY_TIMEOUT_S = 0.5  # joy2twist's default
+COALESCE_S, REPEAT_S = 0.15, 0.3
+GIVEN = {"coalesce_interval": COALESCE_S, "autorepeat_rate": 1.0 / REPEAT_S}
+
+
+def event(kind, value, number=0, time_ms=0):
+    """Return the bytes of an event of linux/joystick.h."""
+    return struct.pack("=IhBB", time_ms, value, kind, number)
+
+
+PRESS, RELEASE = event(BUTTON, 1), event(BUTTON, 0)
+BYTES = {
+    "press": PRESS,
+    "release": RELEASE,
+    "press and release at once": PRESS + RELEASE,
+    "stick": event(AXIS, -FULL),
+    "stick released": event(AXIS, 0),
+    "INIT: pressed": event(BUTTON | INIT, 1),
+    "INIT: stick": event(AXIS | INIT, -FULL),
+    "sign of life": event(BUTTON | INIT, 0, time_ms=SIGN_OF_LIFE_MS),
+    "unknown type": event(8, 1),
+}
+# Constants, what is only for the user, and parts that have keys of their own.
+NOT_IN_KEY = {
+    "_parameters", "_state", "_schedule", "_decoder", "_triggers", "events", "unknown_events",
+    "heard_at",
+}  # fmt: skip
+PASS, TICK, LOST = "time passes", "tick", "lost"
+OPEN = {"open: of the kernel": True, "open: a virtual one": False}
+EVENTS = {**{name: name for name in (PASS, TICK, LOST, *OPEN)}, **BYTES}
+
+
+class Gamepad:
+    """What the bytes say about the open gamepad."""
+
+    def __init__(self, is_of_kernel):
+        """It was opened just now."""
+        self.is_of_kernel = is_of_kernel
+        self.rest = b""
+        self.changed = False
+        self.pressed = None  # button 0; None: unknown
+
+    def feed(self, data):
+        """Return (changes, whether a sign of life was among them, whether noise was).
+
+        A change is (kind, value); kind: BUTTON, AXIS, or 0 for the state at opening.
+        """
+        data, changes, signed, noisy = self.rest + data, [], False, False
+        for at in range(0, len(data) - len(data) % 8, 8):
+            time_ms, value, kind, _ = struct.unpack_from("=IhBB", data, at)
+            is_sign = bool(kind & INIT) and time_ms == SIGN_OF_LIFE_MS and not self.is_of_kernel
+            signed = signed or is_sign
+            is_state = bool(kind & INIT) and not (self.is_of_kernel and self.changed)
+            self.changed = self.changed or not kind & INIT
+            kind &= ~INIT
+            if is_sign and self.pressed is not None:
+                continue
+            if kind == BUTTON:
+                self.pressed = int(value != 0)
+            if kind in (BUTTON, AXIS):
+                changes.append((0 if is_state else kind, value))
+            else:
+                noisy = True
+        self.rest = data[len(data) - len(data) % 8 :]
+        return changes, signed, noisy
+
+
+class DriverWorld:
+    """The real Driver, and the invariants that it must keep."""
+
+    def __init__(self):
+        """Nothing was opened yet."""
+        self._driver = Driver(load(GIVEN))
+        self._now = Moment(0)
+        self._pad = None  # the open Gamepad
+        self._is_mute = self._has_published = False
+        self._since_s = math.inf  # the first change that was not published
+        self._published_s = math.inf  # the last message of this gamepad
+        self._sign_due_s = math.inf  # when a sign of life must have come
+
+    def copy(self):
+        """Return a copy that shares what does not change."""
+        new = copy_of(self)
+        new._driver = driver = copy_of(self._driver)
+        if driver._state is not None:
+            driver._state = state = copy_of(driver._state)
+            state._axes, state._buttons = list(state._axes), list(state._buttons)
+            driver._schedule = copy_of(driver._schedule)
+            driver._decoder = copy_of(driver._decoder)
+            new._pad = copy_of(self._pad)
+        return new
+
+    def key(self):
+        """Return all that decides what follows."""
+        now, driver = self._now, self._driver
+        key = (self._is_mute, self._has_published, until(now, driver.opens_at))
+        if driver._state is None:
+            return (*key, driver._told, driver._mute)
+        return (
+            *key,
+            key_of(driver, now, future={"opens_at", "_lifeless_at"}, without=NOT_IN_KEY),
+            tuple(driver._state._axes),
+            tuple(driver._state._buttons),
+            until(now, driver._schedule.due),
+            driver._decoder._rest,
+            driver._decoder._changed,
+            tuple(vars(self._pad).values()),
+            until(now, self._since_s + COALESCE_S),
+            until(now, self._published_s + REPEAT_S),
+            until(now, self._sign_due_s),
+        )
+
+    def take(self, event):
+        """Let an event happen (a number: seconds pass); return the Violations."""
+        is_open = self._pad is not None
+        wrong = []
+        if event == PASS or isinstance(event, float):
+            self._now += STEP_S if event == PASS else event
+        elif event == TICK:
+            wrong = [*self._judge(self._driver.tick(self._now)), *self._must_be_called(True)]
+        elif event == LOST and is_open:
+            wrong = self._lose()
+        elif event in OPEN and not is_open and self._now >= self._driver.opens_at:
+            self._driver.opened((), OPEN[event])
+            self._pad = Gamepad(OPEN[event])
+            self._since_s = self._published_s = self._sign_due_s = math.inf
+        elif isinstance(event, bytes) and is_open:
+            wrong = [*self._read(event), *self._must_be_called()]
+        return [Violation(letter, self._now, what) for letter, what in wrong]
+
+    def _lose(self):
+        messages = self._driver.lost(self._now)
+        if self._has_published and not messages:
+            yield "d", "the loss of the gamepad is not published"
+        if messages and not self._has_published:
+            yield "b", "the loss of a gamepad that was not published before is published"
+        if any(any((*axes, *buttons)) for axes, buttons in messages):
+            yield "d", f"a lost gamepad is not published as released: {messages}"
+        if self._driver.opens_at - self._now <= JOY_TIMEOUT_S:
+            yield "b", "the next gamepad is opened before joy2twist can notice the loss"
+        if self._driver.due != math.inf:
+            yield "d", "something is due for a gamepad that is lost"
+        self._pad, self._is_mute, self._has_published = None, True, False
+
+    def _read(self, data):
+        changes, signed, noisy = self._pad.feed(data)
+        if any(kind for kind, _ in changes):
+            self._is_mute = False
+        must_give = noisy and not self._pad.is_of_kernel and self._sign_due_s == math.inf
+        if signed or must_give:
+            self._sign_due_s = self._now + LONGEST_LIFELESS_S
+        messages = self._driver.read(data, self._now)
+        if changes and self._since_s == math.inf:
+            self._since_s = self._now
+        yield from self._judge(messages)
+        published = [bool(buttons and buttons[0]) for _, buttons in messages]
+        presses = [bool(value) for kind, value in changes if kind == BUTTON]
+        if presses and published[-len(presses) :] != presses:
+            yield "d", f"pressed and released: {presses}, and published was {published}"
+
+    def _judge(self, messages):
+        for axes, _ in messages:
+            if self._pad is None or self._is_mute:
+                yield "b", "publishes a gamepad that was not touched since it is back"
+            if not all(abs(value) <= LARGEST for value in axes):
+                yield "c", f"axes beyond their ends: {axes}"
+        if messages and self._pad:
+            if bool(self._pad.pressed) != any(messages[-1][1]):
+                yield "a", f"the button is {self._pad.pressed}, and published is {messages[-1]}"
+            self._has_published = True
+            self._since_s, self._published_s = math.inf, self._now
+
+    def _must_be_called(self, has_ticked=False):
+        """Yield what is wrong with the time of the next call."""
+        driver, now = self._driver, self._now
+        if self._pad is None:
+            return
+        if not self._is_mute:
+            latest = min(self._since_s + COALESCE_S, self._published_s + REPEAT_S)
+            if driver.due > latest or (has_ticked and latest <= now):
+                yield "d", "a change or the repetition will be published too late"
+        if driver.due > self._sign_due_s or driver.is_lifeless(now) != (now >= self._sign_due_s):
+            yield "d", "a gamepad without a sign of life is not noticed"

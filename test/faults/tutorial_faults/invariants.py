@@ -1,0 +1,189 @@
+"""What never happens, whatever fails: the invariants of FAULTS.md (pure).
+
+Each class takes the events in the order of time with take(), which returns a Violation or None.
+They know nothing of the code that they judge.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, Callable, Iterable
+
+from tutorial_faults.events import Command, Joy, Loss, Through, Twist, Velocity, Violation, Wheels
+
+# Silence after which a base stops by itself [s]: fake_turtlebot's ~cmd_vel_timeout and a Kobuki's.
+BASE_TIMEOUT_S = 0.6
+# A sender that fell silent while it drove must rest as long before it moves the robot again [s].
+REST_S = 0.5
+ROUNDING = 1e-9  # of a float64, as part of a limit
+
+
+def moves(velocity: Iterable[float]) -> bool:
+    """Return whether a velocity is other than zero; NaN is, too."""
+    return any(part != 0 for part in velocity)
+
+
+def judged(events: Iterable[Any], *invariants: Any) -> list[Violation]:
+    """Return all violations of the invariants in a record, which is sorted by time here."""
+    found = []
+    for event in sorted(events, key=lambda event: event.at_s):
+        found += [violation for one in invariants for violation in [one.take(event)] if violation]
+    return found
+
+
+class HeldDeadMan:
+    """(a) Nothing moves without a dead-man button held in a message younger than joy_timeout, of a
+    joystick that has changed within vigilance_timeout.
+    """
+
+    def __init__(
+        self,
+        joy_timeout_s: float,
+        holds: Callable[[Joy], bool],
+        vigilance_s: float = 0.0,
+        is_good: Callable[[Joy], bool] = lambda joy: True,
+    ) -> None:
+        """joy_timeout_s, vigilance_s: [s], 0 for none. holds, is_good: of a Meaning."""
+        self._lasts_s = joy_timeout_s or math.inf
+        self._vigilance_s = vigilance_s or math.inf
+        self._holds, self._is_good = holds, is_good
+        self.held_s = -math.inf  # the robot may move before this time, if the joystick changes
+        self.still_s = -math.inf  # and before this one
+        self.shown: tuple[Any, Any] | None = None  # axes and buttons of the newest good message
+        self.settled_s = -math.inf  # what arrives before is old
+
+    @property
+    def until_s(self) -> float:
+        """The robot may move before this time."""
+        return min(self.held_s, self.still_s)
+
+    def take(self, event: Any) -> Violation | None:
+        """Take a Joy, a Twist or a Loss; after one that settles nothing counts from before."""
+        if isinstance(event, Loss) and event.settles_s:
+            self.held_s = min(self.held_s, event.at_s)
+            self.settled_s = max(self.settled_s, event.at_s + event.settles_s)
+        elif isinstance(event, Joy) and event.at_s >= self.settled_s:
+            if self._is_good(event):
+                shown, self.shown = self.shown, (event.axes, event.buttons)
+                if shown != self.shown:
+                    self.still_s = event.at_s + self._vigilance_s
+            held_s = event.at_s + self._lasts_s
+            self.held_s = held_s if self._holds(event) else min(self.held_s, event.at_s)
+        elif isinstance(event, Twist) and moves(event.velocity) and event.at_s >= self.until_s:
+            return Violation("a", event.at_s, f"{event.velocity} without a dead-man button held")
+        return None
+
+
+class SeenReleased:
+    """(b) After a start, silence or loss nothing moves until released, where arming is on.
+
+    A loss is also a suspension, and another sender than before. Released: a good message has all
+    released, and is of the sender that drives then.
+    """
+
+    def __init__(
+        self,
+        joy_timeout_s: float,
+        is_good: Callable[[Joy], bool],
+        is_released: Callable[[Joy], bool],
+    ) -> None:
+        """joy_timeout_s: [s], 0 for none. is_good, is_released: of a Meaning."""
+        self._timeout_s = joy_timeout_s or math.inf
+        self._is_good, self._is_released = is_good, is_released
+        self.armed = False
+        self.sender: Any = None
+        self.heard_s = -math.inf  # the last good message
+        self.settled_s = -math.inf  # what arrives before is old
+
+    def take(self, event: Any) -> Violation | None:
+        """Take a Joy, a Twist or a Loss of what drives."""
+        if isinstance(event, Loss):
+            self.armed = False
+            self.settled_s = max(self.settled_s, event.at_s + event.settles_s)
+        elif isinstance(event, Joy):
+            self._hear(event)
+        elif isinstance(event, Twist) and moves(event.velocity) and not self.armed:
+            return Violation("b", event.at_s, f"{event.velocity} before all was seen released")
+        return None
+
+    def _hear(self, joy: Joy) -> None:
+        if joy.at_s < self.settled_s or not self._is_good(joy):
+            return
+        if joy.sender != self.sender or joy.at_s - self.heard_s >= self._timeout_s:
+            self.armed = False
+        self.sender, self.heard_s = joy.sender, joy.at_s
+        self.armed = self.armed or self._is_released(joy)
+
+
+class WithinLimits:
+    """(c) Every velocity is finite and within the limits."""
+
+    def __init__(self, max_linear: float = math.inf, max_angular: float = math.inf) -> None:
+        """max_linear: [m/s], max_angular: [rad/s], of the vectors' lengths."""
+        self._max_linear = max_linear * (1 + ROUNDING)
+        self._max_angular = max_angular * (1 + ROUNDING)
+
+    def take(self, event: Any) -> Violation | None:
+        """Take a Twist, a Through or the Wheels."""
+        linear: Velocity
+        angular: Velocity
+        if isinstance(event, (Twist, Through)):
+            linear, angular = event.velocity[:3], event.velocity[3:]
+        elif isinstance(event, Wheels):
+            linear, angular = (event.v,), (event.w,)
+        else:
+            return None
+        if not all(map(math.isfinite, (*linear, *angular))):
+            return Violation("c", event.at_s, f"{linear}, {angular} is not finite")
+        if math.hypot(*linear) > self._max_linear or math.hypot(*angular) > self._max_angular:
+            return Violation("c", event.at_s, f"{linear}, {angular} is beyond the limits")
+        return None
+
+
+class HighestSpeaks:
+    """(e) The multiplexer lets one input through, the highest of those that speak."""
+
+    def __init__(self, inputs: dict[str, tuple[int, float]]) -> None:
+        """inputs: from name to (priority, timeout [s]). The higher priority wins."""
+        self._inputs = inputs
+        self.spoke_s = dict.fromkeys(inputs, -math.inf)
+
+    def take(self, event: Any) -> Violation | None:
+        """Take a Command that counts (finite, and not late) or what went Through."""
+        if isinstance(event, Command) and all(map(math.isfinite, event.velocity)):
+            self.spoke_s[event.input] = event.at_s
+        elif isinstance(event, Through):
+            priority, _ = self._inputs[event.input]
+            for name, (other, timeout_s) in self._inputs.items():
+                if other > priority and event.at_s < self.spoke_s[name] + timeout_s:
+                    return Violation("e", event.at_s, f"{event.input} drives while {name} speaks")
+        return None
+
+
+class NeverLate:
+    """(f) No late command after a cut: a sender that fell silent in a motion rests first."""
+
+    def __init__(self, rest_s: float = REST_S) -> None:
+        """rest_s: silent for longer [s], and so long nothing but zero before it moves again."""
+        self._rest_s = rest_s
+        self.held = self.moving = False
+        self.last_s = -math.inf  # the last command, if it was a motion
+        self.rests_since_s = math.inf  # the first zero after a motion
+
+    def late(self, velocity: Velocity, now: float) -> bool:
+        """Take a command of one sender; return whether it must not go through."""
+        if self.moving and now - self.last_s > self._rest_s:
+            self.held = True
+        if moves(velocity):
+            self.held = self.held and now - self.rests_since_s < self._rest_s
+            self.rests_since_s = math.inf
+        elif self.moving:
+            self.rests_since_s = now
+        self.moving = moves(velocity)
+        self.last_s = now if self.moving else -math.inf  # only a motion can be broken off
+        return self.held and self.moving
+
+    def lost(self, now: float) -> None:
+        """Treat a suspended receiver as a sender that fell silent while it drove."""
+        self.held = self.moving = True
+        self.last_s, self.rests_since_s = now, math.inf

@@ -1,0 +1,46 @@
+#!/usr/bin/python3
+"""Write the READMEs' tables of parameters from the dataclasses that declare them.
+
+--check: compare only, with exit code 1 if a table is old. Run by test/lint.
+"""
+
+import importlib
+import re
+import sys
+from pathlib import Path
+
+REPOSITORY = Path(__file__).resolve().parents[1]
+SOURCES = ["common/node_kit/src", "common/gamepad/src", "fake_turtlebot_sim/src", "joy2twist/src"]
+TABLES = [  # README, module, dataclass
+    ("joy2twist/README.md", "joy_to_twist.parameters", "Parameters"),
+    ("fake_turtlebot_sim/README.md", "fake_turtlebot_sim.simulator.parameters", "Parameters"),
+    ("common/gamepad/README.md", "gamepad.driver.parameters", "DriverParameters"),
+]
+
+
+def main() -> int:
+    """Compare or write each table; return the exit code."""
+    sys.path[:0] = [str(REPOSITORY / folder) for folder in SOURCES]
+    table = importlib.import_module("node_kit.parameters").table
+    old = []
+    for name, module, kind in TABLES:
+        new = table(getattr(importlib.import_module(module), kind))
+        first = re.escape(new.splitlines()[2].split(" | ")[0])
+        readme = REPOSITORY / name
+        before = readme.read_text()
+        after, count = re.subn(
+            rf"(?m)^\|.*\n\|[-|]+\n{first} .*\n(\|.*\n)*", lambda _, new=new: new, before
+        )
+        assert count == 1, name
+        if after != before:
+            old.append(name)
+            if "--check" not in sys.argv:
+                readme.write_text(after)
+    if "--check" not in sys.argv or not old:
+        return 0
+    print("tables of parameters that are old, which test/lint --fix mends:", *old)
+    return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,1 +1,0 @@
-"""What cannot happen to a robot, as invariants; and what looks for a way to break them."""

@@ -1,0 +1,71 @@
+"""The programs for launch files: names_free, and ends_launch where no roslaunch has started it."""
+
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from node_kit import launch
+from node_kit.launch import complaint, name_of, will_start
+
+KIT = Path(__file__).resolve().parents[3] / "common" / "node_kit"
+PYTHON = "/usr/bin/python3"
+
+
+@pytest.mark.parametrize(
+    ("command", "starts"),
+    [
+        ([PYTHON, "/usr/bin/roslaunch", "joy2twist", "launch_bag.launch"], True),
+        (["/usr/bin/roslaunch", "--wait", "a.launch"], True),
+        ([PYTHON, "/usr/bin/roslaunch", "--nodes", "joy2twist", "launch_bag.launch"], False),
+        ([PYTHON, "/usr/bin/roslaunch", "--ros-args", "joy2twist", "launch_bag.launch"], False),
+        ([PYTHON, "/usr/bin/roslaunch", "--dump-params", "a.launch"], False),
+        ([PYTHON, "/usr/bin/rostest", "a.test"], False),  # a master of its own
+        ([PYTHON, "/usr/bin/roslaunch-check", "launch"], False),
+        ([PYTHON, "-c", "pass", "roslaunch"], False),
+        ([""], False),
+    ],
+)
+def test_only_roslaunch_starts_nodes(command, starts):
+    assert will_start(command) is starts
+
+
+def test_the_first_name_that_is_held_is_reported_with_what_to_do(monkeypatch):
+    held = {"/robot_7/joy_node": ("http://here:1", "at http://here:1, process 5")}
+    monkeypatch.setattr(launch, "holder", lambda _, name: held.get(name))
+    line = complaint(["/rosbag", "/robot_7//joy_node"], "http://localhost:11311")
+    assert line.startswith("/robot_7/joy_node runs already, at http://here:1, process 5: end it")
+    assert "rosnode kill /robot_7/joy_node" in line
+    assert "ROS_MASTER_URI=" in line
+    assert complaint(["rosbag"], "http://localhost:11311") is None
+
+
+def ends_launch(script):
+    """Start it with a node that is a script of the shell."""
+    return subprocess.Popen(
+        [sys.executable, KIT / "scripts" / "ends_launch", "sh", "-c", script],
+        env={"PYTHONPATH": str(KIT / "src"), "PATH": "/usr/bin:/bin"},
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True,
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(("script", "code"), [("true", 0), ("exit 3", 3), ("kill -9 $$", 137)])
+def test_its_exit_code_is_that_of_the_node(script, code):
+    node = ends_launch(script)
+    assert (node.communicate(timeout=60)[0], node.returncode) == ("", code)
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_it_as_it_ends_the_node(number):
+    node = ends_launch("trap 'echo ended; exit 5' INT TERM; echo ready; while :; do read x; done")
+    assert node.stdout.readline() == "ready\n"
+    os.killpg(node.pid, number)  # as roslaunch does
+    assert (node.communicate(timeout=60)[0], node.returncode) == ("ended\n", 5)
+
+
+def test_the_name_that_roslaunch_gives():
+    assert name_of(["/usr/lib/rosbag/play", "a.bag", "__name:=rosbag"]) == "rosbag"
+    assert name_of(["play"]) == "play"

@@ -1,0 +1,54 @@
+"""rqt_bag of this suite: the picture of a joystick, and its words about a file that is no bag."""
+
+from xml.etree import ElementTree
+
+import pytest
+
+from tutorial_tools.bag.picture import curves, svg
+from tutorial_tools.bag.program import read
+
+RECORDED = [(10.0, (0.0, 0.0, 1.0), (0, 0)), (11.0, (0.0, 0.5, 1.0), (0, 1)), (12.0, (0.0, -1.0, 1.0), (0, 0))]  # fmt: skip  # noqa: E501
+
+
+def test_only_what_moves_is_drawn():
+    assert curves(RECORDED) == [
+        ("axes[1]", [(0.0, 0.0), (1.0, 0.5), (2.0, -1.0)]),
+        ("buttons[1]", [(0.0, 0.0), (1.0, 1.0), (2.0, 0.0)]),
+    ]
+
+
+def test_where_nothing_moves_all_axes_are_drawn():
+    assert [name for name, _ in curves(RECORDED[:1] * 2)] == ["axes[0]", "axes[1]", "axes[2]"]
+
+
+def test_the_picture_is_well_formed_and_has_a_line_for_each():
+    root = ElementTree.fromstring(svg("a < b.bag", curves(RECORDED)))
+    tag = "{http://www.w3.org/2000/svg}"
+    lines = root.findall(f"{tag}polyline")
+    assert len(lines) == 2
+    points = [tuple(map(float, point.split(","))) for point in lines[0].get("points").split()]
+    assert points[0][0] < points[1][0] < points[2][0]
+    assert points[1][1] < points[0][1] < points[2][1]  # up is smaller
+    assert "a < b.bag" in [text.text for text in root.findall(f"{tag}text")]
+
+
+@pytest.mark.parametrize(
+    ("data", "words"),
+    [
+        (None, 'no such file. For ours: cp "$(rospack find gamepad)/bag/joy.bag" .'),
+        ("folder", "cannot be read: Is a directory"),
+        (b"", "not a bag that can be read"),
+        (b"no bag", "not a bag that can be read"),
+        (b"#ROSBAG V2.0\n", "cut short; mend it with: rosbag reindex"),
+    ],
+)
+def test_what_is_no_whole_bag(tmp_path, data, words):
+    path = tmp_path / "joy.bag"
+    if data == "folder":
+        path.mkdir()
+    elif data is not None:
+        path.write_bytes(data)
+    with pytest.raises(SystemExit) as end:
+        read(path)
+    (line,) = str(end.value).splitlines()
+    assert words in line

@@ -1,0 +1,125 @@
+"""The words of ./tutorial: what they set up and start, their mistakes, completion, the build."""
+
+import os
+import sys
+
+import pytest
+
+from tutorial_tools.command import build
+from tutorial_tools.command.completion import candidates
+from tutorial_tools.command.words import KINDS, REPOSITORY, WORDS, main, parser_of, plan
+
+SECTIONS = {"demo": ["demo", "more"], "test": ["demo", "more", "test"], "doctor": ["doctor"]}
+SECTIONS["browser"] = [*SECTIONS["test"], "browser"]
+
+
+@pytest.mark.parametrize(
+    ("line", "sections", "program", "rest"),
+    [
+        ("demo --for 20 rviz:=false", "demo", "demo.py", "--for 20 rviz:=false"),
+        ("join teacher robot_7 virtual:=true", "demo", "join.py", "teacher robot_7 virtual:=true"),
+        ("cockpit --lan", "demo", "cockpit.py", "--lan"),
+        ("check --in ws 4.3 --watch", "demo", "python3", "-m tutorial_check --in ws 4.3 --watch"),
+        ("run rosrun joy2twist x.py _a:=1 -v", "demo", "rosrun", "joy2twist x.py _a:=1 -v"),
+        ("doctor", "doctor", "doctor.py", ""),
+        ("test", "test", "run.py", ""),
+        ("test unit -k expression -x", "test", "run.py", "unit -k expression -x"),
+        ("test faults --for 600", "test", "run.py", "faults --for 600"),
+        ("test exercises --every 5 --lf", "test", "run.py", "exercises --every 5 --lf"),
+        ("test browser --picture", "browser", "run.py", "browser --picture"),
+        ("bench joy2twist --hours 1", "test", "run.py", "bench joy2twist --hours 1"),
+        ("lint --fix", "test", "lint", "--fix"),
+        ("docs", "test", "docs", ""),
+    ],
+)
+def test_what_a_word_sets_up_and_starts(monkeypatch, line, sections, program, rest):
+    monkeypatch.delenv("TUTORIAL_IN", raising=False)
+    word, *arguments = line.split()
+    made = plan(word, arguments)
+    first, *others = made["command"]
+    assert made["sections"] == SECTIONS[sections]
+    assert (os.path.basename(first), others) == (program, rest.split())
+    assert made["builds"][0] == "workspace"
+    assert "student" not in made
+
+
+def test_a_students_workspace_is_absolute_and_built_last(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    made = plan("run", ["--in", "ws", "env", "--in", "x"])
+    assert made["student"] == [f"{tmp_path}/ws"]
+    assert made["builds"][-1] == f"student={tmp_path}/ws"
+    assert made["command"] == ["env", "--in", "x"]
+    monkeypatch.setenv("TUTORIAL_IN", "/mine")  # of the shell that it is called in
+    assert plan("doctor", [])["student"] == ["/mine"]
+
+
+def said(capsys, *arguments):
+    """The one line in which a mistake is reported."""
+    sys.argv = ["words", "/ws", *arguments]
+    with pytest.raises(SystemExit) as end:
+        main()
+    assert end.value.code in (1, 2)
+    (line,) = capsys.readouterr().err.splitlines()
+    return line
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("dmeo", '"dmeo" is not a word of this command; did you mean demo?'),
+        ("demo --for ever", "demo: argument --for: ever: not a number above 0"),
+        *((f"demo --for {time}", f"{time}: not a number above 0") for time in ("0", "nan", "inf")),
+        ("demo --in /tmp", "demo: knows no --in; shell, run, doctor and check do"),
+        ("join teacher", "join: the following arguments are required: NAME"),
+        ("test everything", 'test: "everything" is none of unit launch ros system again'),
+        ("setup moon", 'setup: "moon" is none of system workspace'),
+        ("bench moon", 'bench: "moon" has no folder in test/benchmark'),
+        ("shell moon", "shell: unrecognized arguments: moon"),
+        ("doctor --in /no/such", "doctor: --in /no/such: no workspace, it has no folder src"),
+        ("run", "run: a command is missing"),
+        ("run --in", "run: argument --in: expected one argument"),
+        ("run rosrun rviz rviz -d x", "run: no screen for RViz"),
+        (
+            "check 4.3",
+            "which workspace? For example: ./tutorial check --in ~/ros/hydro/catkin_ws 4.3",
+        ),
+    ],
+)
+def test_a_mistake_is_one_line(monkeypatch, capsys, line, words):
+    for name in ("DISPLAY", "TUTORIAL_IN"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setattr("sys.argv", [])
+    assert words in said(capsys, *line.split())
+
+
+@pytest.mark.parametrize(
+    ("typed", "found"),
+    [
+        (["te"], ["test"]),
+        (["test", "ex"], ["exercises"]),
+        (["test", "unit", ""], []),  # bash's own: files
+        (["demo", "--"], ["--help", "--for"]),
+        (["setup", ""], ["system", "workspace"]),
+        (["frob", ""], []),
+    ],
+)
+def test_completion(typed, found):
+    assert candidates({word: parser_of(word) for word in WORDS}, KINDS, typed) == found
+
+
+@pytest.mark.parametrize(
+    ("folder", "why"),
+    [
+        ("a b", "without spaces"),
+        ("package", "this is a package"),
+        ("ws/src", "this is the src folder"),
+        (REPOSITORY / "joy2twist" / "ws", "the suite's own"),
+        ("/proc/ws", "cannot be made"),
+    ],
+)
+def test_what_cannot_be_a_students_workspace(tmp_path, folder, why):
+    (tmp_path / "package").mkdir()
+    (tmp_path / "package" / "package.xml").touch()
+    (tmp_path / "ws" / "devel").mkdir(parents=True)
+    with pytest.raises(build.BuildError, match=why):
+        build.check_student(tmp_path / "cache", tmp_path / folder)
