@@ -52,7 +52,7 @@ def check(floor, *words, **options):
 def test_right_is_exit_code_0_with_all_its_files(literal, floor, tmp_path):
     files = [
         word
-        for name in ("json", "junit", "gradescope", "classgroup")
+        for name in ("json", "junit", "gradescope", "classroom")
         for word in (f"--{name}", tmp_path / name)
     ]
     code, out, _ = check(floor, "--in", literal.parent, "2", *files)
@@ -61,7 +61,7 @@ def test_right_is_exit_code_0_with_all_its_files(literal, floor, tmp_path):
     reported = json.loads((tmp_path / "json").read_text())
     assert reported["exercises"][0]["id"] == "2"
     assert [one["id"] for one in reported["exercises"][0]["checks"]] == ["C1", "C2", "C3", "C4"]
-    for name in ("junit", "gradescope", "classgroup"):
+    for name in ("junit", "gradescope", "classroom"):
         assert (tmp_path / name).stat().st_size > 100
 
 

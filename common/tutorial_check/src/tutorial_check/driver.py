@@ -121,7 +121,7 @@ class Driver:
 
     def _keep(self, message: Any, topic: str) -> None:
         if len(self._heard[topic]) < MOST_KEPT:
-            caller = message._connection_header.get("callerid", "")
+            caller = str(message._connection_header.get("callerid", ""))
             self._heard[topic].append((time.monotonic(), caller, _plain(message)))
 
     def listeners(self, topic: str) -> int:

@@ -8,6 +8,7 @@ import shutil
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from tutorial_check import student_files
 from tutorial_check.causes import explain, hider, syntax_hint, traced
 from tutorial_check.model import Note, Wrong
 from tutorial_check.python_facts import read_python
@@ -77,7 +78,7 @@ class Text:
         self.session, self.package, self.script = session, package, script
         self.path = session.package(package).folder / script
         self.name, self.whole = self.path.name, session.whole(script, package)
-        self.data = self.path.read_bytes()
+        self.data = student_files.read(session.folder, self.path)
         self.first = self.data.split(b"\n", 1)[0]
         self.facts = session.scripts(package).get(script)
 
