@@ -16,7 +16,7 @@ TROUBLE = Path(__file__).resolve().parents[2] / "common" / "doc" / "TROUBLE.md"
 @pytest.mark.parametrize(
     ("arguments", "expected"),
     [
-        (["frobnicate"], 'tutorial: "frobnicate" is not a word'),
+        (["frobnicate"], 'tutorial: "frobnicate" is no command'),
         (["run", "no_such_command"], 'run: there is no command "no_such_command"'),
         (["demo", "--for", "ever"], "ever: not a number above 0"),
         (["demo", "colour:=red"], "demo: colour:=red: not an argument of launch_bag.launch"),
@@ -69,7 +69,7 @@ def test_a_check_that_cannot_be_set_up_blames_no_student(tutorial, tmp_path, mon
     )  # fmt: skip
     why, verdict = done.stderr.splitlines()
     assert "set TUTORIAL_WORKSPACE to a path without spaces" in why
-    assert verdict == "check: this is no verdict on the exercises, and no fault in them"
+    assert verdict == "check: nothing was checked; this says nothing about your exercises"
     assert done.returncode == 2
 
 

@@ -13,6 +13,7 @@ import rostest
 from node_kit.questions import address
 from tutorial_testing.cockpit_rig import CockpitRig
 from tutorial_testing.nodes import init_node, node_path
+from tutorial_testing.ports import free_port
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
@@ -54,6 +55,16 @@ class BrowserJoystick(unittest.TestCase):
         with Program(*command, "__name:=another") as second:
             self.assertEqual(second.wait(), code)
             self.assertRegex(second.output, f"^{line}$")
+
+    def test_a_second_cockpit_that_ends_leaves_the_address_of_the_first(self):
+        uri, port = rosgraph.get_master_uri(), free_port()
+        first = wait_for(lambda: address(uri), "address of the page")
+        command = (node_path("cockpit", "cockpit.py"), "--port", str(port), "__name:=second")
+        with Program(*command) as second:
+            wait_for(lambda: address(uri) == f"http://127.0.0.1:{port}/", "the second's address")
+            second.interrupt()
+            second.wait()
+        self.assertEqual(address(uri), first)
 
     def test_rqt_commands_lead_to_the_page(self):
         page = wait_for(lambda: address(rosgraph.get_master_uri()), "address of the page")

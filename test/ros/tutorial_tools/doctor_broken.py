@@ -68,7 +68,7 @@ class BrokenTest(unittest.TestCase):
     def test_a_joystick_that_nobody_drives_with_and_a_mux_that_listens_to_another(self):
         joystick = rospy.Publisher("joy", Joy, queue_size=1)
         self.addCleanup(joystick.unregister)
-        self.wrong("nobody makes velocities of /joy")
+        self.wrong("nothing turns /joy into velocities")
         with Program("roslaunch", "joy2twist", "joy2twist_turtlebot.launch") as driver:
             wait_for(joystick.get_num_connections, "joy2twist")
             self.wrong("nobody listens to /cmd_vel_mux/input/teleop of /myjoystick2twist")

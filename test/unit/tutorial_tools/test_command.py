@@ -66,13 +66,13 @@ def said(capsys, *arguments):
 @pytest.mark.parametrize(
     ("line", "words"),
     [
-        ("dmeo", '"dmeo" is not a word of this command; did you mean demo?'),
+        ("dmeo", '"dmeo" is no command; did you mean demo?'),
         ("demo --for ever", "demo: argument --for: ever: not a number above 0"),
         *((f"demo --for {time}", f"{time}: not a number above 0") for time in ("0", "nan", "inf")),
         ("demo --in /tmp", "demo: knows no --in; shell, run, doctor and check do"),
         ("join teacher", "join: the following arguments are required: NAME"),
-        ("test everything", 'test: "everything" is none of unit launch ros system again'),
-        ("setup moon", 'setup: "moon" is none of system workspace'),
+        ("test everything", 'test: "everything": must be unit, launch, ros, system, again'),
+        ("setup moon", 'setup: "moon": must be system or workspace'),
         ("bench moon", 'bench: "moon" has no folder in test/benchmark'),
         ("shell moon", "shell: unrecognized arguments: moon"),
         ("doctor --in /no/such", "doctor: --in /no/such: no workspace, it has no folder src"),

@@ -125,7 +125,7 @@ WRONG = {  # words of the one line that is wrong, in their order: facts
     "though /joy2twist drives ... release LB and the sticks": mux("idle"),
     "nobody sends /joy: rosrun joy joy_node, or: rosbag play FILE;":
         well(publishers={TELEOP: ["/joy2twist"]}, joysticks=[]),
-    "nobody makes velocities of /joy ... joy2twist_turtlebot.launch":
+    "nothing turns /joy into velocities ... joy2twist_turtlebot.launch":
         well(publishers={"/joy": ["/joy_node"]}, subscribers={"/joy": ["/echo"]}),
     "rosrun joy2twist joy2twist.py)":
         well(publishers={"/joy": ["/joy_node"]}, subscribers={"/joy": ["/echo"]}, muxes={}),

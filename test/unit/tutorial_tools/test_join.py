@@ -15,7 +15,7 @@ from tutorial_tools.join.program import (
 
 def test_a_host_that_is_none():
     for host in ("http://10.0.0.1:11311", "a b", "", "host:x"):
-        with pytest.raises(JoinError, match="must be a name or an address"):
+        with pytest.raises(JoinError, match="must be a machine's name or address"):
             check_host(host)
 
 

@@ -15,7 +15,7 @@ import rosgraph
 import rospy
 
 from cockpit_server.access import Access
-from node_kit.questions import PARAMETER, Answer, address, call
+from node_kit.questions import PARAMETER, Answer, accepts, address, call
 from node_kit.start import run
 
 NODE_NAME = "cockpit"
@@ -112,16 +112,18 @@ def main():
 
     def spin(_parameters):
         tell(options.port, access)
-        page = f"http://127.0.0.1:{options.port}/"
+        uri, page = rosgraph.get_master_uri(), f"http://127.0.0.1:{options.port}/"
+        before = call(uri, "getParam", PARAMETER)[1]
         rospy.set_param(PARAMETER, page)
         cockpit = Cockpit(sockets, access)
         try:
             cockpit.run()
         finally:
-            uri = rosgraph.get_master_uri()
-            # Another cockpit, under a name of its own, may have put its own there.
+            # Another cockpit, under a name of its own, may have put its own there, then or before.
             if call(uri, "getParam", PARAMETER) == (Answer.WELL, page):
                 call(uri, "deleteParam", PARAMETER)
+                if before != page and accepts(str(before)):
+                    call(uri, "setParam", PARAMETER, before)
         if cockpit.has_lost_master:
             begin_anew(access)
 

@@ -172,7 +172,7 @@ def main() -> None:
             code = check_one(options)
     except Exception as error:  # whatever it is, it is no fault of the student's
         print(f"\ncheck: {fault(error)}", file=sys.stderr)
-        print("check: this is no verdict on the exercises, and no fault in them", file=sys.stderr)
+        print("check: this is a fault of the check, not of your exercises", file=sys.stderr)
         code = 2
     except KeyboardInterrupt:
         if not options.watch:

@@ -59,9 +59,9 @@ KINDS = {  # of tests
 IN_WORDS = ("shell", "run", "doctor", "check")  # which know --in
 EPILOG = """\
 --in WORKSPACE: your own catkin workspace in place of our beginner_tutorials and joy2twist, which
-are then not found at all. It is made and built if it does not exist.
-Every word first sets up what it needs. The suite's own catkin workspaces are outside this folder,
-in $TUTORIAL_WORKSPACE or else below ~/.cache; remove them, and they are built again.
+are then not found at all. `shell` and `run` make and build it if it does not exist.
+Every command first sets up what it needs. The suite's own catkin workspaces are in
+$TUTORIAL_WORKSPACE or else below ~/.cache; remove them, and they are built again.
 README.md leads through the tutorial, section by section."""
 CHOICE = re.compile(r"argument \S+: invalid choice: '(.*)' \(choose from (.*)\)")
 
@@ -70,10 +70,11 @@ class Parser(argparse.ArgumentParser):
     """Reports a mistake in one line."""
 
     def error(self, message: str) -> NoReturn:
-        word = self.prog.split()[-1]
+        word, message = self.prog.split()[-1], message.replace(", NAME:=VALUE", "")
         wrong = CHOICE.fullmatch(message)
         if wrong:
-            message = f'"{wrong[1]}" is none of {wrong[2].replace(",", "")}'.replace("'", "")
+            *others, last = wrong[2].replace("'", "").split(", ")
+            message = f'"{wrong[1]}": must be {", ".join(others)} or {last}'
         self.exit(2, f"tutorial: {word}: {message}; ./tutorial {word} --help shows more\n")
 
 
@@ -110,7 +111,7 @@ def parser_of(word: str) -> Parser:
 
 def show_help(file: TextIO) -> None:
     """Print the list of words."""
-    print("usage: ./tutorial WORD ...\n", file=file)
+    print("usage: ./tutorial COMMAND ...\n", file=file)
     for word, (arguments, text) in WORDS.items():
         print(f"  {f'{word} {arguments}':41} {text}", file=file)
         if word == "test":
@@ -233,7 +234,7 @@ def main() -> None:
     elif word not in WORDS:
         near = difflib.get_close_matches(word, WORDS, 1)
         meant = f"; did you mean {near[0]}?" if near else ""
-        fail(f'"{word}" is not a word of this command{meant}; ./tutorial help lists them')
+        fail(f'"{word}" is no command{meant}; ./tutorial help lists them')
     elif arguments[:1] == ["--in"] and word not in IN_WORDS:
         fail(f"{word}: knows no --in; shell, run, doctor and check do")
     else:

@@ -46,7 +46,7 @@ def topics(facts: Facts) -> Iterator[Finding]:
             if namespace or not facts.muxes:
                 half = f"rosrun joy2twist joy2twist.py{into}"
             todo = f"start joy2twist ({half})"
-            yield Finding(WRONG, "topics", f"nobody makes velocities of {joy}", todo)
+            yield Finding(WRONG, "topics", f"nothing turns {joy} into velocities", todo)
     for node, (hears, sends) in sorted(converters.items()):
         yield from way(facts, node, hears, sends)
 

@@ -24,7 +24,7 @@ def check_host(host):
     """(the master's URI, this machine's address on the way there). Raises JoinError."""
     found = re.fullmatch(r"([\w.-]+)(?::(\d{1,5}))?", host, re.ASCII)
     if not found:
-        raise JoinError(f"{host}: must be a name or an address of a machine, such as 192.168.1.5")
+        raise JoinError(f"{host}: must be a machine's name or address, such as 192.168.1.5[:11311]")
     name, port = found[1], int(found[2] or DEFAULT_PORT)
     known = addresses(name)
     if not known:
@@ -74,7 +74,8 @@ def check_robot(uri, name):
         raise JoinError(f"the master {uri} does not answer as one of ROS") from None
     robots = [topic.split("/")[1] for topic in subscribers if re.fullmatch(r"/\w+/cmd_vel", topic)]
     if name not in robots:
-        there = f"there are {some(robots)}" if robots else "there is no robot of a classroom"
+        todo = "no classroom runs there: has the teacher started classroom.launch?"
+        there = f"there are {some(robots)}" if robots else todo
         raise JoinError(f"{name} is not there; {there}")
     drivers = publishers.get(f"/{name}/cmd_vel")
     if drivers:
