@@ -124,8 +124,8 @@ def test_it_has_users_a_network_and_shared_memory_that_end_with_it(home):
     ("granted", "words"),
     [
         (Isolation(why="bwrap: refused"), "no isolation here (bwrap: refused): a program "),
-        (Isolation(("bwrap",), is_limited=False), "does not limit the memory"),
-        (Isolation(("bwrap",)), ""),
+        (Isolation(("bwrap",)), "does not limit the memory"),
+        (Isolation(("bwrap",), is_limited=True), ""),
     ],
 )
 def test_what_the_system_does_not_provide_is_reported(monkeypatch, granted, words):

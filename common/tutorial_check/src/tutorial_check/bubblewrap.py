@@ -37,7 +37,7 @@ class Isolation:
     """How bubblewrap isolates on this system."""
 
     options: tuple[str, ...] = ()  # words of its command; none without isolation
-    is_limited: bool = True  # no program can fill the memory with files
+    is_limited: bool = False  # no program can fill the memory with files
     has_sizes: bool = True  # it knows --size
     why: str = ""  # there is none
     descriptors: tuple[int, ...] = ()  # that it inherits
