@@ -86,6 +86,17 @@ def roscore(tutorial, master_uri):
         program.wait()
 
 
+def nodes_of(output):
+    """The names of the nodes that a roslaunch starts, from the summary that it prints first."""
+    summary = output.partition("\nNODES\n")[2].partition("\n\n")[0]
+    namespace = "/"
+    for line in summary.splitlines():
+        if line.startswith("    "):
+            yield namespace + line.split()[0]
+        else:
+            namespace = line.strip().rstrip("/") + "/"
+
+
 def is_known(master_uri, node):
     """Whether the master knows a node: as rosnode list tells, which loads for half a second."""
     code, _, _ = ServerProxy(master_uri).lookupNode("/test", node)
@@ -115,8 +126,8 @@ def test_section(blocks, tutorial, screen, tmp_path, master_uri):
     def end(command):
         with lasting.pop(command) as program:
             # A node that is ended while Python starts says so with a traceback.
-            for node in re.findall(r"process\[(.+)-\d+\]: started", program.output):
-                wait_for(lambda: is_known(master_uri, f"/{node}"), node, 120)  # noqa: B023
+            for node in nodes_of(program.output):
+                wait_for(lambda: program.ended or is_known(master_uri, node), node, 120)  # noqa: B023
             if not program.ended:
                 program.interrupt()
             program.wait()

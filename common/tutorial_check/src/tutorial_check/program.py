@@ -170,6 +170,9 @@ def main() -> None:
             code = watch(options)
         else:
             code = check_one(options)
+    except CannotCheck as error:
+        print(f"\ncheck: no verdict: {error}", file=sys.stderr)
+        code = 2
     except Exception as error:  # whatever it is, it is no fault of the student's
         print(f"\ncheck: {fault(error)}", file=sys.stderr)
         print("check: this is a fault of the check, not of your exercises", file=sys.stderr)
