@@ -2,7 +2,7 @@
 
 import pytest
 
-from cockpit_server.access import DRIVER, VIEWER, Access, without_token
+from cockpit_server.access import DRIVER, VIEWER, Access, gateways, without_token
 
 HERE = Access()
 LAN = Access(("localhost", "desk", "desk.local"), "drive-token", "view-token")
@@ -59,3 +59,23 @@ def test_a_token_is_never_logged():
     assert "secret" not in without_token("/?token=secret")
     assert "secret" not in without_token("/ws?a=1&TOKEN=secret&b=2")
     assert without_token("/ws?a=1&token=s&b=2") == "/ws?a=1&token=...&b=2"
+
+
+def test_in_a_container_requests_come_from_its_gateway_or_itself():
+    table = (
+        "Iface Destination Gateway Flags RefCnt Use Metric Mask MTU Window IRTT\n"
+        "eth0 00000000 010012AC 0003 0 0 0 00000000 0 0 0\n"
+        "eth0 000012AC 00000000 0001 0 0 0 0000FFFF 0 0 0\n"
+    )
+    assert gateways(table) == ("172.18.0.1",)
+    published = Access(peers=gateways(table))
+    assert published.may_come("172.18.0.1") and published.may_come("127.0.0.1")
+    assert not published.may_come("172.18.0.3") and not published.may_come("192.168.1.5")
+    assert Access().may_come("192.168.1.5")
+
+
+def test_a_codespace_has_an_address_of_its_own():
+    page = Access(origins=("https://old-space-8080.app.github.dev",))
+    assert page.may_connect("localhost:8080", "https://old-space-8080.app.github.dev")
+    assert not page.may_connect("localhost:8080", "https://new-space-8080.app.github.dev")
+    assert not page.may_connect("evil.example", "https://old-space-8080.app.github.dev")

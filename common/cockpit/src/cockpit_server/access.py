@@ -10,6 +10,7 @@ from __future__ import annotations
 import hmac
 import ipaddress
 import re
+import sys
 from dataclasses import dataclass
 
 DRIVER, VIEWER = "driver", "viewer"
@@ -17,11 +18,21 @@ DRIVER, VIEWER = "driver", "viewer"
 
 @dataclass(frozen=True)
 class Access:
-    """names: of this machine. Without tokens, every client may drive: all are on this machine."""
+    """names: of this machine. Without tokens, every client may drive: all are on this machine.
+
+    peers: the only addresses beside this machine's own from which requests come, if not None.
+    origins: under which others forward to this page.
+    """
 
     names: tuple[str, ...] = ("localhost",)
     driver_token: str | None = None
     viewer_token: str | None = None
+    peers: tuple[str, ...] | None = None
+    origins: tuple[str, ...] = ()
+
+    def may_come(self, address: str) -> bool:
+        """Return whether an IP address may send requests."""
+        return self.peers is None or address in self.peers or address.startswith("127.")
 
     def is_ours(self, host: str | None) -> bool:
         """Return whether a Host header, NAME or NAME:PORT, means this machine."""
@@ -37,7 +48,7 @@ class Access:
 
     def may_request(self, host: str, origin: str | None) -> bool:
         """Return whether a request may be answered. origin: the header, or None."""
-        return self.is_ours(host) and origin in (None, f"http://{host}")
+        return self.is_ours(host) and origin in (None, f"http://{host}", *self.origins)
 
     def may_connect(self, host: str, origin: str | None) -> bool:
         """Return whether a WebSocket may be opened; every browser sends its Origin."""
@@ -52,6 +63,13 @@ class Access:
         drives = hmac.compare_digest(given, self.driver_token.encode())
         views = hmac.compare_digest(given, (self.viewer_token or "").encode())
         return DRIVER if drives else VIEWER if views else None
+
+
+def gateways(route_table: str) -> tuple[str, ...]:
+    """Return the gateways of a /proc/net/route, which has numbers in the machine's byte order."""
+    rows = [line.split() for line in route_table.splitlines()[1:]]
+    found = [int(row[2], 16).to_bytes(4, sys.byteorder) for row in rows if row[1] == "00000000"]
+    return tuple(str(ipaddress.IPv4Address(one)) for one in found)
 
 
 def without_token(uri: str) -> str:

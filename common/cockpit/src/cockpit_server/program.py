@@ -14,7 +14,7 @@ from urllib.parse import urlsplit
 import rosgraph
 import rospy
 
-from cockpit_server.access import Access
+from cockpit_server.access import Access, gateways
 from node_kit.questions import PARAMETER, Answer, accepts, address, call
 from node_kit.start import run
 
@@ -23,6 +23,8 @@ DEFAULT_PORT = 8080
 LOOK_S = 1.0
 TOKEN_BYTES = 16
 TOKENS = "COCKPIT_TOKENS"  # environment variable, which only this user can read
+# In a container: the port of the host at which this one's is published, and who else may come.
+PUBLISHED, PEERS = "COCKPIT_PUBLISHED", "COCKPIT_PEERS"
 
 
 def port(text):
@@ -106,8 +108,12 @@ def main():
             raise
         fail("python3-tornado is missing: ./tutorial setup, or apt install python3-tornado")
     options = parse(rosgraph.myargv()[1:])
-    sockets = listening(options.port, options.lan)
-    access = new_access() if options.lan else Access()
+    published = PUBLISHED in os.environ and not options.lan
+    sockets = listening(options.port, options.lan or published)
+    if options.lan:
+        access = new_access()
+    else:
+        access = Access(peers=peers() if published else None, origins=codespace(options.port))
     wait_for_master()
 
     def spin(_parameters):
@@ -146,6 +152,21 @@ def new_access():
     return Access(("localhost", host, f"{host}.local"), *tokens)
 
 
+def peers():
+    """Return the addresses from which requests through a container's published port come."""
+    with open("/proc/net/route", encoding="ascii") as routes:
+        return (*gateways(routes.read()), *os.environ.get(PEERS, "").split())
+
+
+def codespace(port):
+    """Return the origin under which GitHub forwards a port of a Codespace; () elsewhere."""
+    # docs.github.com: "Default environment variables for your codespace"
+    name, domain = map(
+        os.environ.get, ("CODESPACE_NAME", "GITHUB_CODESPACES_PORT_FORWARDING_DOMAIN")
+    )
+    return (f"https://{name}-{port}.{domain}",) if name and domain else ()
+
+
 def no_parameters(given):
     for name in given:
         raise ValueError(f"~{name}: no such parameter; the port is --port, other machines --lan")
@@ -153,6 +174,9 @@ def no_parameters(given):
 
 def tell(port, access):
     """Print the page's address; a token is shown nowhere else."""
+    if access.peers is not None:
+        report(f"open http://localhost:{os.environ[PUBLISHED]}/ on the container's host")
+        return
     if access.driver_token is None:
         report(f"open http://127.0.0.1:{port}/ on this machine")
         return

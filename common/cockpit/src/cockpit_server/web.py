@@ -40,6 +40,10 @@ HEADERS = {
     "Server": "cockpit",
 }
 NO_TOKEN = "open the address that the cockpit printed, with its token"
+NOT_PUBLISHED = (
+    "{address}: not the gateway of this container, through which its published port is reached. "
+    "If it is your own machine, start the container with COCKPIT_PEERS={address}"
+)
 # connect-src: older browsers do not take a WebSocket for 'self'.
 POLICY = (
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "
@@ -48,12 +52,15 @@ POLICY = (
 
 
 class _Limited(RequestHandler):
-    """Delays a request by what its address has cost."""
+    """Delays a request by what its address has cost; answers only addresses that may come."""
 
     async def prepare(self):
         wait_s = self.settings["hub"].request_wait_s(self.request.remote_ip)
         if wait_s:
             await asyncio.sleep(wait_s)
+        address = self.request.remote_ip
+        if not self.settings["access"].may_come(address):
+            self.refuse(403, NOT_PUBLISHED.format(address=address))
 
     @property
     def role(self):
@@ -78,6 +85,8 @@ class _Guarded(_Limited):
     async def prepare(self):
         await super().prepare()
         host = self.request.host
+        if self._finished:
+            return
         if not self.settings["access"].may_request(host, self.request.headers.get("Origin")):
             self.refuse(403, "not an address of the cockpit: open the one that it printed")
             return

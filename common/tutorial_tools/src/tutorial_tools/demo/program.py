@@ -112,7 +112,9 @@ def where_to_look(values):
     """Where a robot is seen without a screen. values: of the arguments of launch_bag.launch."""
     if not wait_for_page(values):
         return IN_TERMINAL
-    port = values["cockpit_port"]
+    port, published = values["cockpit_port"], os.environ.get("COCKPIT_PUBLISHED")
+    if published:  # the port at which a container's page is found
+        return f"open http://localhost:{published}/ in a browser on the container's host"
     return IN_BROWSER.format(page=f"http://127.0.0.1:{port}/", port=port, host=socket.gethostname())
 
 
