@@ -163,6 +163,11 @@ def browser(arguments):
     return run([*PYTEST, "-p", "no:benchmark", *with_folder("test/browser", arguments)])
 
 
+def containers(arguments):
+    """The suite in containers, on a Docker engine."""
+    return run([REPOSITORY / "docker/check_containers", *arguments])
+
+
 def faults(arguments):
     """The hunt for faults on the live system."""
     return run(["/usr/bin/python3", "-m", "tutorial_faults", *arguments])
@@ -180,8 +185,8 @@ def bench(arguments):
     return run([*PYTEST, "-q", "-s", f"test/benchmark/{package}", *rest])
 
 
-KINDS = (unit, launch, ros, system, again, kernel, exercises, browser, faults, mutation, bench)
-KINDS = {kind.__name__: kind for kind in KINDS}
+KINDS = (unit, launch, ros, system, again, kernel, exercises, browser, containers)
+KINDS = {kind.__name__: kind for kind in (*KINDS, faults, mutation, bench)}
 
 
 def run_all():

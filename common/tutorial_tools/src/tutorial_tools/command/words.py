@@ -53,6 +53,7 @@ KINDS = {  # of tests
     "kernel": "joy_node and Chromium with a joystick of a real kernel; minutes",
     "exercises": "the tests of check itself",
     "browser": "the cockpit's page in real browsers, which this installs",
+    "containers": "docker/ on a Docker engine, which root starts if there is none; minutes",
     "faults": "random faults on the live system, --for SECONDS or --trials N: test/FAULTS.md",
     "mutation": "whether the unit tests notice small changes to the rules; hours",
 }
@@ -152,7 +153,7 @@ def command_of_run(command: list[str]) -> list[str]:
 def plan_of_test(kind: str | None, rest: list[str]) -> dict[str, list[str]]:
     """Return the plan of one kind of tests, or of all."""
     sections, programs, builds = ["demo", "more", "test"], [], ["workspace", PYPI]
-    if kind == "browser":
+    if kind in ("browser", "containers"):
         sections, programs = [*sections, "browser"], ["chromium", "chromedriver"]
     if kind == "mutation" and (REPOSITORY / "test/mutation/requirements.txt").exists():
         builds = [*builds, "pypi=mutation:test/mutation/requirements.txt"]

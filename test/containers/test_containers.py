@@ -1,0 +1,185 @@
+"""What common/doc/CONTAINER.md promises, on a real engine, with a browser on its host."""
+
+import json
+import os
+import re
+import shutil
+import socket
+import subprocess
+import time
+import urllib.error
+import urllib.request
+
+import pytest
+
+from tutorial_testing.cockpit.chromium import Chromium
+from tutorial_testing.cockpit.hands import Keys
+from tutorial_testing.containers import PAGE, SOURCE, Compose, RobotInside, run
+from tutorial_testing.processes import Program
+from tutorial_testing.waiting import wait_for
+
+LARGEST = 1e9  # bytes
+START_S, END_S = 60.0, 10.0
+STUDENT = 4321  # a user number of the host that the image does not know
+EXERCISE_2 = """cd src && catkin_create_pkg beginner_tutorials std_msgs rospy roscpp &&
+cd .. && catkin_make >/dev/null && tutorial check --no-hints 2 3"""
+
+
+def status(headers, address=PAGE):
+    """Return the status of a request."""
+    try:
+        request = urllib.request.Request(address, headers=headers)
+        with urllib.request.urlopen(request, timeout=10) as answer:
+            return answer.status
+    except urllib.error.HTTPError as error:
+        return error.code
+
+
+def addresses_of_this_host():
+    """Return its IPv4 addresses, apart from 127.0.0.1."""
+    found = json.loads(run("ip", "-json", "-4", "address"))
+    found = [one["local"] for interface in found for one in interface["addr_info"]]
+    return [address for address in found if address != "127.0.0.1"]
+
+
+def test_the_image_is_small_and_its_user_is_not_root():
+    about = json.loads(run("docker", "image", "inspect", "ros1_tutorial"))[0]
+    assert about["Size"] <= LARGEST
+    assert about["Config"]["User"] == "student"
+    assert about["Config"]["Healthcheck"] and about["Config"]["Labels"]
+
+
+def test_up_shows_a_moving_robot_on_this_host_alone():
+    with Compose() as compose, Chromium() as browser:
+        begin = time.monotonic()
+        compose("up", "-d")
+        wait_for(lambda: _answers(PAGE), "page", START_S)
+        browser.open(PAGE)
+        row = wait_for(lambda: browser.text("#robots tr"), "robot", START_S)
+        wait_for(lambda: browser.text("#robots tr") != row, "movement on the page", START_S)
+        assert time.monotonic() - begin < START_S
+        assert "http://localhost:8080/" in compose("logs")
+        container = compose.container("demo")
+
+        for address in addresses_of_this_host():
+            with pytest.raises(OSError):
+                socket.create_connection((address, 8080), 2).close()
+        assert status({"Host": "evil.example:8080"}) == 403
+        assert status({"Origin": "http://evil.example"}) == 403
+        neighbour = f"""
+import urllib.request, urllib.error
+request = urllib.request.Request("http://{container[:12]}:8080/", headers={{"Host": "localhost"}})
+try: print(urllib.request.urlopen(request).status)
+except urllib.error.HTTPError as error: print(error.code)"""
+        network = run("docker", "inspect", "-f", "{{.HostConfig.NetworkMode}}", container).strip()
+        asked = ("docker", "run", "--rm", "--network", network, "ros1_tutorial")
+        assert run(*asked, "/usr/bin/python3", "-c", neighbour).strip() == "403"
+
+        asked = ("docker", "inspect", "-f", "{{.State.Health.Status}}", container)
+        wait_for(lambda: run(*asked).strip() == "healthy", "healthy container")
+        begin = time.monotonic()
+        compose("down")
+        assert time.monotonic() - begin < END_S
+
+
+def _answers(page):
+    try:
+        return status({}, page) == 200
+    except OSError:
+        return False
+
+
+def test_the_page_drives_and_the_robot_rests_when_it_is_let_go_or_all_ends():
+    with Compose() as compose, Chromium() as browser:
+        compose("up", "-d", "drive")
+        with RobotInside(compose.container("drive")) as robot:
+            wait_for(lambda: _answers(PAGE), "page", START_S)
+            browser.open(PAGE)
+            browser.click("Drive from this page")
+            browser.wait_for_text("#seat", "You drive")
+            hands = Keys(browser)
+            x = robot.now.x
+            hands.drive(robot, until=lambda: robot.now.x > x + 0.2)
+            hands.release()
+            robot.wait_for_rest()
+            hands.drive(robot)
+            compose("stop")
+            assert not robot.now.moves
+
+
+@pytest.fixture
+def workspace(tmp_path):
+    """A folder of a student of this host."""
+    tmp_path.chmod(0o755)
+    for folder in tmp_path.parents:
+        if folder.stat().st_uid == os.geteuid() and folder.name.startswith("pytest"):
+            folder.chmod(0o755)
+    folder = tmp_path / "catkin_ws"
+    folder.mkdir()
+    if os.geteuid() == 0:
+        os.chown(folder, STUDENT, STUDENT)
+    return folder
+
+
+def test_a_students_workspace_stays_the_students(workspace):
+    owner = workspace.stat().st_uid
+    with Compose(CATKIN_WS=str(workspace), STUDENT=f"{owner}:{owner}") as compose:
+        asked = "cd ~/catkin_ws && " + EXERCISE_2
+        shell = (
+            "run",
+            "--rm",
+            "-T",
+            "shell",
+            "./tutorial",
+            "run",
+            "--in",
+            "/home/student/catkin_ws",
+        )
+        with pytest.raises(AssertionError) as wrong:
+            compose(*shell, "bash", "-c", asked)
+        inside = str(wrong.value)
+    assert "no isolation here" in inside
+    owners = {os.lstat(os.path.join(at, name)).st_uid
+              for at, folders, files in os.walk(workspace) for name in folders + files}  # fmt: skip
+    assert owners == {owner}
+    # The same outside, apart from the workspace's place, and from what is built there.
+    outside = workspace.parent / "outside"
+    shutil.copytree(workspace / "src", outside / "src", symlinks=True)
+    (outside / "src/CMakeLists.txt").unlink()
+    run(SOURCE / "tutorial", "run", "--in", str(outside), "true")
+    done = subprocess.run(
+        [SOURCE / "tutorial", "check", "--no-hints", "--in", outside, "2", "3"],
+        capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    verdicts = r"^  (ok|WRONG|-) +(C\d+)"
+    assert re.findall(verdicts, inside, re.M) == re.findall(verdicts, done.stdout, re.M) != []
+
+
+def test_two_hosts():
+    with Compose("two_hosts.yaml") as compose:
+        compose("up", "-d")
+        there = ("exec", "-T", "workstation", "./tutorial", "run", "rostopic", "echo", "-n", "1")
+        said = "/odom/twist/twist/linear/x"
+        moved = lambda: "0.0" not in compose(*there, said).splitlines()  # noqa: E731
+        wait_for(moved, "movement on the other host", START_S)
+
+
+@pytest.mark.skipif(not shutil.which("npx"), reason="npx (package npm) starts @devcontainers/cli")
+def test_the_devcontainer_checks_a_workspace_and_serves_the_page():
+    tool = ("npx", "--yes", "@devcontainers/cli@0.89.0")
+    up = json.loads(run(*tool, "up", "--workspace-folder", str(SOURCE)).splitlines()[-1])
+    try:
+        inside = (*tool, "exec", "--workspace-folder", str(SOURCE))
+        make = "catkin_create_pkg beginner_tutorials std_msgs rospy roscpp"
+        workspace = "/home/student/ws"
+        run(*inside, "./tutorial", "run", "--in", workspace, "bash", "-c", f"cd ~/ws/src && {make}")
+        checked = run(*inside, "./tutorial", "check", "--in", workspace, "2")
+        assert "1 of 1 exercises done" in checked
+        terminal = run(*inside, "bash", "-i", text="rospack find joy2twist; exit\n")
+        assert "/joy2twist\n" in terminal.replace("\r", "")
+        with Program(*inside, "./tutorial", "demo") as demo:
+            wait_for(lambda: "first /odom" in demo.output, "demo", START_S)
+            page = 'import urllib.request as r; print(r.urlopen("http://127.0.0.1:8080/").status)'
+            wait_for(lambda: "200" in run(*inside, "/usr/bin/python3", "-c", page), "page", START_S)
+    finally:
+        run("docker", "rm", "--force", up["containerId"])
