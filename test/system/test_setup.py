@@ -83,6 +83,24 @@ def test_what_the_archive_lacks_is_said_once_and_done_without(tutorial, bare_sys
     assert {"rviz", "graphviz"} <= set((bare_system / "installed").read_text().split())
 
 
+def test_a_ros_in_a_prefix_of_its_own_is_installed_and_built_over(
+    tutorial, bare_system, monkeypatch
+):
+    prefix = bare_system / "opt/ros/one"
+    hooks = prefix / "etc/catkin/profile.d"
+    hooks.mkdir(parents=True)
+    (prefix / ".catkin").touch()
+    (prefix / "setup.bash").write_text(f"export CMAKE_PREFIX_PATH='{prefix}'\n")
+    (hooks / "99.made_up.sh").write_text("export ROS_MADE_UP=one\n")
+    monkeypatch.setenv("TUTORIAL_ROS", str(prefix))
+    monkeypatch.setenv("TUTORIAL_WORKSPACE", str(bare_system / "one_ws"))
+    with Program(tutorial, "run", "sh", "-c", "echo $ROS_MADE_UP $CMAKE_PREFIX_PATH") as program:
+        assert program.wait() == 0, program.output
+        assert re.search(f"^one .*/one_ws/devel:.*:{prefix}$", program.output, re.MULTILINE)
+    installed = (bare_system / "installed").read_text().split()
+    assert "ros-one-ros-base" in installed and "python3-rospy" not in installed
+
+
 def test_an_archive_without_what_drives_is_named(tutorial, bare_system, monkeypatch):
     monkeypatch.setenv("LACKING", "rviz python3-rospy")
     with Program(tutorial, "demo") as demo:

@@ -17,7 +17,8 @@ from pathlib import Path
 from node_kit.manifests import broken_manifests
 
 REPOSITORY = Path(__file__).resolve().parents[5]
-NOETIC = Path("/opt/ros/noetic/setup.bash")
+# The prefix of a ROS that is not the system's own, as ./tutorial has found it.
+PREFIX = os.environ.get("TUTORIAL_ROS", "")
 # The underlay: what a student uses and never writes; stand-ins only for what is not installed.
 LOWER = (
     "common/cockpit", "common/gamepad", "common/node_kit", "common/tutorial_check",
@@ -42,7 +43,7 @@ def say(line: str) -> None:
 
 def stamp() -> str:
     """Return a checksum of what catkin reads; the Python files themselves are used in place."""
-    found = hashlib.sha1(f"{sys.version} {NOETIC.exists()} {COMMANDS}".encode())
+    found = hashlib.sha1(f"{sys.version} {PREFIX} {COMMANDS}".encode())
     for depth in ("*", "common/*", "common/stand_ins/*"):
         for name in ("CMakeLists.txt", "package.xml", "setup.py"):
             for path in sorted(REPOSITORY.glob(f"{depth}/{name}")):
@@ -82,7 +83,7 @@ def is_built(workspace: Path) -> bool:
 
 def is_installed(package: str) -> bool:
     """Whether a package is there without this suite."""
-    folders = "/opt/ros/noetic/share" if NOETIC.exists() else "/usr/share"
+    folders = f"{PREFIX or '/usr'}/share"
     environment = {**os.environ, "ROS_PACKAGE_PATH": folders}
     environment.pop("CMAKE_PREFIX_PATH", None)
     command = ["rospack", "find", package]
@@ -142,7 +143,7 @@ def build_both(workspace: Path) -> None:
     for command in COMMANDS:
         link(workspace / "bin" / Path(command).name, REPOSITORY / command)
     log.write_text("")
-    below = NOETIC if NOETIC.exists() else None
+    below = Path(PREFIX, "setup.bash") if PREFIX else None
     if not (
         clean_catkin_make(below, lower, log)
         and clean_catkin_make(lower / "devel" / "setup.bash", workspace, log)
