@@ -123,7 +123,7 @@ def test_a_file_that_cannot_be_written_is_found_before_the_work(main, tmp_path, 
     begun = []
     assert main(lambda *_: begun.append(1), "--json", tmp_path / place) == 2
     assert not begun
-    assert f"check: {tmp_path / place}: " in capsys.readouterr().err
+    assert f"check: no verdict: {tmp_path / place}: " in capsys.readouterr().err
 
 
 def test_a_file_is_written_though_another_cannot_be(main, tmp_path, capsys):
