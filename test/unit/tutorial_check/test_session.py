@@ -28,7 +28,7 @@ def one(stranger):
             None,
             [],
             {"PATH": "/usr/bin:/bin"},
-            floor=None,
+            underlay=None,
             make_box=lambda variables: Box(variables, stranger),
             can_have_devices=False,
         )

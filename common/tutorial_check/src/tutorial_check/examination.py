@@ -63,7 +63,7 @@ Report = Callable[[Outcome, Result], None]
 
 def examine(
     workspace: str | Path,
-    floor: str | Path,
+    underlay: str | Path,
     exercises: Iterable[str],
     tell: Report = lambda outcome, result: None,
     *,
@@ -72,14 +72,14 @@ def examine(
 ) -> list[Outcome]:
     """Return the Outcomes of a workspace; call tell with each result as soon as it is there.
 
-    floor: setup.bash of the devel space with what students use and never write. only_first: end
+    underlay: setup.bash of the devel space with what students use and never write. only_first: end
     each exercise at the first check that is wrong. own: it is the caller's own workspace, whose
     links may lead into the home folder.
     Raises CannotCheck.
     """
     try:
-        if not Path(floor).is_file():
-            raise CannotCheck(f"{floor}: no such file; ./tutorial setup builds it")
+        if not Path(underlay).is_file():
+            raise CannotCheck(f"{underlay}: no such file; ./tutorial setup builds it")
         if not Path(workspace).exists():
             raise CannotCheck(
                 f"{workspace}: no such folder or zip; ./tutorial shell --in FOLDER makes a workspace"
@@ -93,19 +93,19 @@ def examine(
     try:
         _compile()
         layout, shown = _hand_in(os.path.abspath(workspace), Path(folder), own)
-        floor = os.path.abspath(floor)
+        underlay = os.path.abspath(underlay)
         orders = {
             "layout": [str(layout.root), str(layout.source), layout.is_workspace],
             "own": own,
-            "floor": floor,
+            "underlay": underlay,
             "exercises": list(exercises),
             "folder": folder,
-            "kept": _kept(floor),
+            "kept": _kept(underlay),
             "number": next(NUMBERS),
             "only_first": only_first,
-            "environment": _environment(floor),
+            "environment": _environment(underlay),
         }
-        return _examine(orders, bubblewrap.command(folder, [*shown, *_kept(floor)], SUITE), tell)
+        return _examine(orders, bubblewrap.command(folder, [*shown, *_kept(underlay)], SUITE), tell)
     finally:
         shutil.rmtree(folder, ignore_errors=True)
         cleaner.communicate()
@@ -117,11 +117,11 @@ def end_all() -> None:
 
 
 @functools.lru_cache(maxsize=None)
-def _environment(floor: str) -> dict[str, str]:
+def _environment(underlay: str) -> dict[str, str]:
     """Return what a shell has that has sourced setup.bash, and nothing else. Raises CannotCheck."""
     try:
         done = subprocess.run(
-            ["bash", "-c", '. "$1" >/dev/null && env -0', "bash", floor],
+            ["bash", "-c", '. "$1" >/dev/null && env -0', "bash", underlay],
             env={"PATH": "/usr/bin:/bin", "LANG": "C.UTF-8"},
             capture_output=True,
             check=False,
@@ -129,9 +129,9 @@ def _environment(floor: str) -> dict[str, str]:
             text=True,
         )
     except (OSError, subprocess.TimeoutExpired) as error:
-        raise CannotCheck(f"{floor} cannot be sourced: {error}") from None
+        raise CannotCheck(f"{underlay} cannot be sourced: {error}") from None
     if done.returncode != 0:
-        raise CannotCheck(f"{floor} cannot be sourced: {done.stderr[-200:]}")
+        raise CannotCheck(f"{underlay} cannot be sourced: {done.stderr[-200:]}")
     # rospy loads numpy, which starts a thread for each processor; none is needed here.
     return {
         **environment_of(done.stdout.split("\0")),
@@ -146,9 +146,9 @@ def _compile() -> None:
     compileall.compile_dir(str(Path(__file__).parent), quiet=2)
 
 
-def _kept(floor: str) -> list[str]:
+def _kept(underlay: str) -> list[str]:
     """Return the folders that the programs need: the underlay and its sources, this package among them."""
-    devel = Path(floor).parent
+    devel = Path(underlay).parent
     kept = [devel.parent]
     with_sources = devel / ".catkin"
     sources = with_sources.read_text().split(";") if with_sources.is_file() else []

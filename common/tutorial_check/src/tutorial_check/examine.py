@@ -57,7 +57,7 @@ def main() -> None:
 
 
 def examine(orders: dict[str, Any], send: Send, result: int) -> None:
-    """Examine. orders: layout, folder, floor, exercises, apart, only_first ...; result: see Box."""
+    """Examine. orders: layout, folder, underlay, exercises, apart, only_first ...; result: see Box."""
     began_s = time.monotonic()
     scratch = Path(orders["folder"])
     root, source, is_workspace = orders["layout"]
@@ -79,7 +79,7 @@ def examine(orders: dict[str, Any], send: Send, result: int) -> None:
         layout,
         orders["exercises"],
         orders["environment"],
-        floor=orders["floor"],
+        underlay=orders["underlay"],
         make_box=lambda variables: box.Box(variables, uid, orders["apart"], result),
         can_have_devices=orders["apart"],
         needed=[*orders["kept"], Path(__file__)],

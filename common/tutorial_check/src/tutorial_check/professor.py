@@ -150,7 +150,7 @@ def _check(student: Student, options: argparse.Namespace) -> Student:
     try:
         if student.path.is_symlink():  # it may lead to the files of another student
             raise CannotCheck("a link is not followed: put the folder or the archive itself here")
-        outcomes = examine(student.path, options.floor, options.exercises, own=False)
+        outcomes = examine(student.path, options.underlay, options.exercises, own=False)
         student.outcomes = without_hints(outcomes) if options.no_hints else outcomes
     except Exception as error:  # whatever it is, it must not spoil the others
         student.trouble = fault(error)

@@ -16,7 +16,7 @@ from tutorial_check.formats import FORMATS, clear, without_hints, write
 from tutorial_check.model import CannotCheck, fault
 from tutorial_check.report import Terminal, summary
 
-FLOOR = "TUTORIAL_FLOOR"  # environment variable: setup.bash of the underlay
+UNDERLAY = "TUTORIAL_UNDERLAY"  # environment variable: setup.bash of the underlay
 WORKSPACE = "TUTORIAL_IN"  # environment variable: the workspace of the shell that this is called in
 
 
@@ -74,7 +74,7 @@ def _parser() -> argparse.ArgumentParser:
     add("--out", type=path, metavar="FOLDER", help=to)
     add("--jobs", type=int, help="with --all: how many at a time (2)")
     what = "setup.bash of what the exercises need"
-    add("--floor", type=path, default=os.environ.get(FLOOR), metavar="SETUP", help=what)
+    add("--underlay", type=path, default=os.environ.get(UNDERLAY), metavar="SETUP", help=what)
     return parser
 
 
@@ -92,8 +92,8 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     _refuse_idle(parser, options)
     if options.jobs is None:
         options.jobs = 2
-    if not options.floor:
-        parser.error("--floor is missing; ./tutorial check gives it")
+    if not options.underlay:
+        parser.error("--underlay is missing; ./tutorial check gives it")
     # In the handout's order, whatever theirs.
     options.exercises = [each for each in EXERCISES if not wanted or each in wanted]
     return options
@@ -137,7 +137,7 @@ def check_one(options: argparse.Namespace) -> int:
         clear(file)
     terminal = Terminal(hints=not options.no_hints)
     terminal.busy("copying and preparing")
-    outcomes = examine(options.workspace, options.floor, options.exercises, terminal.tell)
+    outcomes = examine(options.workspace, options.underlay, options.exercises, terminal.tell)
     terminal.done()
     print(f"{summary(outcomes)} in {os.path.abspath(options.workspace)}")
     write_files(files, without_hints(outcomes) if options.no_hints else outcomes)

@@ -51,28 +51,28 @@ class Session:
         exercises: Iterable[str],
         environment: Mapping[str, str],
         *,
-        floor: str,
+        underlay: str,
         make_box: Callable[[Mapping[str, str]], Box],
         can_have_devices: bool,
         needed: Iterable[str | Path] = (),
     ) -> None:
-        """floor: setup.bash of the underlay; environment: of a shell that sourced it.
+        """underlay: setup.bash of the underlay; environment: of a shell that sourced it.
 
         needed: files and folders of the suite that the student's launch files lead to.
-        floor_environment: the environment with folders of this session, without the student's packages.
+        underlay_environment: the environment with folders of this session, without the student's packages.
         """
         self.folder = Path(folder)
         self.layout = layout
         self.exercises = frozenset(exercises)  # that are asked for
         self.source = self.folder / "ws" / "src"
-        self.floor = floor
+        self.underlay = underlay
         self.can_have_devices = can_have_devices
         self._needed = [Path(each) for each in needed]
         self._memory: Memory = {}
         self._runs: Memory = {}
         self._siblings = 0
         home = self.folder / "home"
-        self.floor_environment = {
+        self.underlay_environment = {
             **environment,
             "PATH": f"{self.folder / 'bin'}:{environment['PATH']}",
             "HOME": str(home),
@@ -84,7 +84,7 @@ class Session:
             "PYTHONUNBUFFERED": "1",
             "PYTHONDONTWRITEBYTECODE": "1",
         }
-        self.box = make_box(self.floor_environment)
+        self.box = make_box(self.underlay_environment)
 
     def memo(self, key: object, make: Callable[[], Any]) -> Any:
         """Return make(), called once; what it raised is raised again. For facts, which do not change."""
@@ -172,12 +172,12 @@ class Session:
         ended = self.box.wait(lambda: program.ended, 120.0)
         self.box.end(program)
         if program.process.returncode != 0:
-            self.must_reach_floor()
+            self.must_reach_underlay()
         return (program.process.returncode if ended else None), program.output
 
-    def must_reach_floor(self) -> None:
+    def must_reach_underlay(self) -> None:
         """Raise CannotCheck if the student's programs cannot read what is the suite's."""
-        self.memo("floor", lambda: self.must_start_programs(self._needed))
+        self.memo("underlay", lambda: self.must_start_programs(self._needed))
 
     def must_start_programs(self, needed: Iterable[Path] = ()) -> None:
         """Raise CannotCheck if no program can be started, or reach the needed files and folders."""
@@ -228,7 +228,7 @@ class Session:
         if self._needs_build() and self.built()[0] == 0:
             found = self._sourced(self.folder / "ws" / "devel" / "setup.bash")
         else:
-            found = dict(self.floor_environment)
+            found = dict(self.underlay_environment)
             for name, own in (
                 ("CMAKE_PREFIX_PATH", self.folder / "devel"),
                 ("ROS_PACKAGE_PATH", self.source),

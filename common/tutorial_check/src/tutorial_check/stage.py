@@ -37,7 +37,7 @@ class Stage:
         # Our own programs are found in the underlay alone, whatever of their name the student has. Their
         # logs lie elsewhere: the student's may not write in folders of ours.
         own = dict.fromkeys(("HOME", "ROS_HOME", "ROS_LOG_DIR"), str(session.folder / "ours"))
-        self._ours = {**session.floor_environment, **master, **own}
+        self._ours = {**session.underlay_environment, **master, **own}
         self._helpers: list[forked.Helper] = []
         self._master = self.help(lambda: forked.MasterProcess(port))
         if not self._master.call("uri"):
@@ -74,7 +74,7 @@ class Stage:
 
     def start_ours(self, package: str, program: str, *arguments: str) -> Program:
         """Start a program of the suite's. Without rosrun, which searches it for half a second."""
-        path = Path(self.session.floor).parent / "lib" / package / program
+        path = Path(self.session.underlay).parent / "lib" / package / program
         return self.launch([str(path), *arguments], trusted=True)
 
     def launch(self, command: Sequence[str], trusted: bool = False) -> Program:

@@ -60,7 +60,7 @@ def report_once(options: argparse.Namespace, examine: Callable[..., list[Outcome
     for exercise in options.exercises:
         terminal.busy(f"checking {exercise}")
         try:
-            outcomes += examine(options.workspace, options.floor, [exercise], only_first=True)
+            outcomes += examine(options.workspace, options.underlay, [exercise], only_first=True)
         except CannotCheck as error:
             terminal.done()
             print(f"check: {error}")  # half-saved, or a folder that is just being moved

@@ -121,7 +121,7 @@ def find_launch(session: Session, name: str) -> Any:
 def _read(session: Session) -> Any:
     """{name: facts} of those of the four that are there."""
     must_be_launchable(session)
-    session.must_reach_floor()
+    session.must_reach_underlay()
     folder = session.package(PACKAGE).folder
     paths = {}
     for name in ALL:
