@@ -18,6 +18,7 @@ from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
 CONFIG = Path(__file__).resolve().parents[2] / "fake_turtlebot_sim" / "rviz" / "sim.rviz"
+CLASSROOM = CONFIG.parents[2] / "common" / "cockpit" / "rviz" / "classroom.rviz"
 START_S = 120.0  # RViz without a graphics card, on a busy machine
 TRAIL_PIXELS = 1200 if "TUTORIAL_PICTURE" in os.environ else 200
 TRAIL = (255, 85, 0)  # colour of the odometry's arrows in sim.rviz
@@ -158,8 +159,8 @@ def patches(mask):
 def test_rviz_shows_a_body_for_each_robot_of_a_class(screen, tutorial, master_uri, tmp_path):
     """In the first view, without a hand on the mouse."""
     assert master_uri  # a master of our own
-    config = drawn_slowly(CONFIG.with_name("classroom.rviz"), tmp_path)
-    launch = ("run", "roslaunch", "fake_turtlebot_sim", "classroom.launch", "rviz:=true")
+    config = drawn_slowly(CLASSROOM, tmp_path)
+    launch = ("run", "roslaunch", "cockpit", "classroom.launch", "rviz:=true")
     environment = {"DISPLAY": screen, "LIBGL_ALWAYS_SOFTWARE": "1"}
     with Program(
         tutorial, *launch, f"robots:={CLASS}", f"rviz_config:={config}", **environment
