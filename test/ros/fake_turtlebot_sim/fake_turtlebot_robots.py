@@ -33,7 +33,7 @@ class RobotsTest(unittest.TestCase):
         begin_ns = log[0][0]
         for name in self.names:
             told = [o for o in self.robots[name].odometry if o.header.stamp.to_nsec() > begin_ns]
-            alone = SimulatedRobot(self.parameters.robot_model(name), self.parameters.robots[name])
+            alone = SimulatedRobot(self.parameters, self.parameters.robots[name], name)
             commands = [(at, velocity) for at, who, velocity in log if who == name]
             for odometry in told:
                 now_ns = odometry.header.stamp.to_nsec()
