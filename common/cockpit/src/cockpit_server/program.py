@@ -77,7 +77,7 @@ def leave_to_other(port, lan):
             f"a cockpit is already running at {page}; for other machines end it first (a launch "
             f"file starts none with cockpit:=false), or take --port {port + 1}"
         )
-    report(f"a cockpit is already running: open {page} on this machine")
+    report(f"a cockpit is already running: {where(page)}")
     sys.exit()
 
 
@@ -172,13 +172,17 @@ def no_parameters(given):
         raise ValueError(f"~{name}: no such parameter; the port is --port, other machines --lan")
 
 
+def where(page):
+    """Return what to open, where the page of this address is for this machine only."""
+    if PUBLISHED in os.environ:
+        return f"open http://localhost:{os.environ[PUBLISHED]}/ on the container's host"
+    return f"open {page} on this machine"
+
+
 def tell(port, access):
     """Print the page's address; a token is shown nowhere else."""
-    if access.peers is not None:
-        report(f"open http://localhost:{os.environ[PUBLISHED]}/ on the container's host")
-        return
     if access.driver_token is None:
-        report(f"open http://127.0.0.1:{port}/ on this machine")
+        report(where(f"http://127.0.0.1:{port}/"))
         return
     page = f"http://{own_address()}:{port}/?token="
     print(f"cockpit: to look:  {page}{access.viewer_token}")
