@@ -72,7 +72,7 @@ def examine(orders: dict[str, Any], send: Send, result: int) -> None:
     os.environ.pop("ROS_HOSTNAME", None)
 
     from tutorial_check import box, session  # noqa: PLC0415
-    from tutorial_check.exercises import catalogue  # noqa: PLC0415
+    from tutorial_check.exercises import all_checks  # noqa: PLC0415
 
     uid = None
     if os.geteuid() == 0:
@@ -91,7 +91,7 @@ def examine(orders: dict[str, Any], send: Send, result: int) -> None:
         needed=[*orders["kept"], Path(__file__)],
     )
     one.must_start_programs()
-    run = Run(catalogue(), one, one.second_look, one.box.patience.hopeless)
+    run = Run(all_checks(), one, one.second_look, one.box.patience.hopeless)
     if uid is not None:
         if not orders["apart"]:  # then the suite may lie where that user cannot read
             importlib.import_module("rosbag")

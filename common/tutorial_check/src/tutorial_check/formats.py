@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any, Callable, Mapping, Sequence
 
 from tutorial_check.examination import Outcome
-from tutorial_check.model import NOTE, OK, UNREACHED, WRONG, CannotCheck, Result, without_hint
+from tutorial_check.model import NOTE, OK, UNREACHED, WRONG, CannotCheck, Result
 from tutorial_check.report import heading, lines_of
 
 FIELDS = ("id", "status", "title", "expected", "seen", "where", "hint")
@@ -30,7 +30,9 @@ SUBMISSION = {
 
 def without_hints(outcomes: Sequence[Outcome]) -> list[Outcome]:
     """Return the same without a word on how to mend it."""
-    return [replace(one, results=[*map(without_hint, one.results)]) for one in outcomes]
+    return [
+        replace(one, results=[replace(each, hint="") for each in one.results]) for one in outcomes
+    ]
 
 
 def as_json(outcomes: Sequence[Outcome]) -> str:
