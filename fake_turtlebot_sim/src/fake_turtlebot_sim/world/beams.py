@@ -17,8 +17,8 @@ SLACK = 1e-9  # [rad] of the ends of a wall, so that no beam slips between two t
 class Scanner:
     """Beams at angle_min + k * increment [rad], k from 0 to count - 1, from the sensor's middle.
 
-    walls: an array (n, 4) of x1, y1, x2, y2 [m]; discs: (m, 3) of x, y, radius [m]. count * increment
-    is at most one turn.
+    walls: an array (n, 4) of x1, y1, x2, y2 [m]; discs: (m, 3) of x, y, radius [m].
+    count * increment is at most one turn.
     """
 
     def __init__(self, angle_min: float, increment: float, count: int) -> None:
@@ -27,7 +27,7 @@ class Scanner:
         self._cos, self._sin = np.cos(angles), np.sin(angles)
 
     def ranges(self, pose: tuple[float, float, float], walls: Any, discs: Any) -> Any:
-        """Return the distances [m] from a pose (x [m], y [m], yaw [rad]), infinite where nothing is."""
+        """Return the distances [m] from a pose (x [m], y [m], yaw [rad]), else infinity."""
         x, y, yaw = pose
         found = []
         if len(walls):
@@ -41,7 +41,7 @@ class Scanner:
         return self._nearest(beams, np.concatenate([ranges for _, ranges in found]))
 
     def _nearest(self, beams: Any, ranges: Any) -> Any:
-        """Return the least range of each beam; a stable sort of small integers takes linear time."""
+        """Return the least range of each beam; stable sorting of small integers is linear."""
         order = np.argsort(beams, kind="stable")
         beams, ranges = beams[order], ranges[order]
         first = np.flatnonzero(np.concatenate(([True], beams[1:] != beams[:-1])))
@@ -50,7 +50,7 @@ class Scanner:
         return found
 
     def _pairs(self, begin: Any, width: Any) -> tuple[Any, Any]:
-        """Return (obstacle, beam) of all beams from the angles begin [rad] on, within width [rad]."""
+        """Return (obstacle, beam) of all beams within width [rad] from begin [rad] on."""
         turn = (begin - self._start) % tau
         # Twice, as a wall may be met by the first beams and, beyond a turn, by the last ones.
         low = np.concatenate((turn, turn - tau)) / self._increment

@@ -1,8 +1,9 @@
 """When a round robot on its arc touches something, in closed form (pure).
 
-The robot is a disc; walls are segments, posts and other robots are discs. Everything is in one frame,
-in metres, radians and seconds. The robot drives its arc until it touches; while it pushes it turns on
-the spot, as its wheels can, until its heading leads along the obstacle or away. It never slides.
+The robot is a disc; walls are segments, posts and other robots are discs. Everything is in one
+frame, in metres, radians and seconds. The robot drives its arc until it touches; while it pushes it
+turns on the spot, as its wheels can, until its heading leads along the obstacle or away. It never
+slides.
 """
 
 from __future__ import annotations
@@ -15,7 +16,8 @@ from fake_turtlebot_sim.simulator.velocity_command import between
 
 TOUCH_M = 1e-11  # a gap that counts as none: some hundred times the rounding of a place in metres
 TANGENT = 1e-9  # the sine of an angle below which a motion leads along an obstacle, not into it
-AGAIN_M = 1e-7  # what a robot that leaves an obstacle drives, at least, before it meets it again
+# What a robot that leaves an obstacle drives, at least, before it meets it again, or what it turns.
+AGAIN_M, AGAIN_RAD = 1e-7, 1e-3
 STRAIGHT = 1e-12  # the turn [rad] of a path that is taken for straight
 
 Segment = Tuple[float, float, float, float]  # x1, y1, x2, y2 [m]
@@ -23,17 +25,17 @@ Disc = Tuple[float, float, float]  # x, y, radius [m]
 Obstacle = Union[Segment, Disc]
 
 
-class Path(NamedTuple):
-    """What a robot does in a step: the pose at its end, and what its wheels did on the way."""
+class Piece(NamedTuple):
+    """A part of a drive: velocity (v [m/s], w [rad/s]) goes linearly to end_velocity in dt [s]."""
 
-    pose: Pose
-    travel: float  # [m] along the path, negative backwards
-    turn: float  # [rad]
-    contact: float | None  # the direction [rad] of what it pushes at the end, if anything
+    velocity: Velocity
+    end_velocity: Velocity
+    dt: float
+    is_blocked: bool = False  # something is in the way: the robot only turns
 
 
 def nearest(x: float, y: float, obstacle: Obstacle) -> tuple[float, float, float]:
-    """Return the point of an obstacle's core that is nearest to (x, y), and the core's radius [m]."""
+    """Return the point of an obstacle's core that is nearest to (x, y), and its radius [m]."""
     if len(obstacle) == 3:
         return obstacle
     x1, y1, x2, y2 = obstacle
@@ -78,8 +80,9 @@ class _Motion:
     """A circle or a line: the place x, y, a unit vector ahead, one to the side of the turn.
 
     After the way s the turn is a = bend s; the place has moved sin(a) / bend ahead and
-    (1 - cos(a)) / bend to the side. Where a linear or squared distance is given, the condition has the form
-    A sin(a) + B (1 - cos(a)) = C, a quadratic in tan(a / 2), which keeps its digits as bend goes to zero.
+    (1 - cos(a)) / bend to the side. A distance, or its square, then is given where
+    A sin(a) + B (1 - cos(a)) = C: a quadratic in tan(a / 2), which keeps its digits as bend
+    goes to zero.
     """
 
     def __init__(self, pose: Pose, velocity: Velocity) -> None:
@@ -106,7 +109,7 @@ class _Motion:
         is_straight = self.bend * longest < STRAIGHT
         if touches and is_straight:
             return None
-        least = AGAIN_M if touches else 0.0
+        least = min(AGAIN_M, AGAIN_RAD / self.bend) if touches else 0.0
         ways = []
         if len(obstacle) == 3:
             ways += self._to_disc(px, py, core + radius, is_straight)
@@ -180,27 +183,38 @@ class _Motion:
 
 
 def drive_among(
-    pose: Pose, velocity: Velocity, dt: float, radius: float, obstacles: Sequence[Obstacle]
-) -> Path:
-    """Drive at constant velocity for dt among obstacles; return the Path."""
-    v, w = velocity
-    travel, left = 0.0, dt
-    contact: float | None = None
+    pose: Pose,
+    velocity: Velocity,
+    end_velocity: Velocity,
+    dt: float,
+    radius: float,
+    obstacles: Sequence[Obstacle],
+) -> tuple[list[Piece], float | None]:
+    """Split a drive into Pieces without a touch and turns on the spot.
+
+    Returns them with the direction [rad] of what the robot pushes at the end, or None. Its velocity
+    goes linearly to end_velocity.
+    """
+    if velocity != end_velocity:
+        return _ramp_among(pose, velocity, end_velocity, dt, radius, obstacles)
+    w = velocity[1]
+    pieces, left = [], dt
     for _ in range(2 * len(obstacles) + 2):  # each may be met, and turned away from, once or twice
         met = first_contact(pose, velocity, left, radius, obstacles)
         free = met[0] if met else left
         pose = arc(pose, velocity, free)
-        travel += v * free
         left -= free
-        contact = direction_to(pose, met[1]) if met else None
-        if contact is None:
-            break
+        pieces.append(Piece(velocity, velocity, free))
+        if met is None:
+            return pieces, None
+        contact = direction_to(pose, met[1])
         turning = min(left, _time_to_turn_away(pose[2], velocity, contact))
         pose = arc(pose, (0.0, w), turning)
         left -= turning
+        pieces.append(Piece((0.0, w), (0.0, w), turning, True))
         if left <= 0.0:
             break
-    return Path(pose, travel, w * dt, contact)
+    return pieces, contact
 
 
 def _time_to_turn_away(yaw: float, velocity: Velocity, direction: float) -> float:
@@ -214,32 +228,29 @@ def _time_to_turn_away(yaw: float, velocity: Velocity, direction: float) -> floa
     return max(0.0, side + pi / 2) / abs(w)
 
 
-def ramp_among(
+def _ramp_among(
     pose: Pose,
     velocity: Velocity,
     end_velocity: Velocity,
     dt: float,
     radius: float,
     obstacles: Sequence[Obstacle],
-) -> Path:
-    """Drive while the velocity changes linearly to end_velocity; return the Path.
+) -> tuple[list[Piece], float | None]:
+    """Do as drive_among() where the velocity changes, and the path has no closed form.
 
-    Such a path has no closed form: the robot goes on by its gap to the nearest obstacle again and again,
-    which never leads into one. Once it pushes, it only turns for the rest of dt.
+    The robot goes on by its gap to the nearest obstacle, again and again, which never leads into
+    one. Once it pushes, it only turns for the rest of dt.
     """
     fastest = max(abs(velocity[0]), abs(end_velocity[0]))
-    after, place, contact = 0.0, pose, None
-    while after < dt:
-        now = between(velocity, end_velocity, after / dt)
-        near = min(obstacles, key=lambda one: gap(place[0], place[1], radius, one), default=None)
-        free = gap(place[0], place[1], radius, near) if near else inf
-        if free <= TOUCH_M and near and first_contact(place, now, dt, radius, [near]):
+    after, place, now = 0.0, pose, velocity
+    while after < dt and fastest and obstacles:
+        near = min(obstacles, key=lambda one: gap(place[0], place[1], radius, one))
+        free = gap(place[0], place[1], radius, near)
+        if free <= TOUCH_M and first_contact(place, now, dt, radius, [near]):
             contact = direction_to(place, near)
-            break
+            turns = Piece((0.0, now[1]), (0.0, end_velocity[1]), dt - after, True)
+            return [Piece(velocity, now, after), turns], contact
         after = min(dt, after + max(free, TOUCH_M) / fastest)
-        place = drive(pose, velocity, between(velocity, end_velocity, after / dt), after)
-    at_end = between(velocity, end_velocity, after / dt)
-    travel = 0.5 * (velocity[0] + at_end[0]) * after
-    turn = 0.5 * (at_end[1] + end_velocity[1]) * (dt - after)
-    place = arc(place, (0.0, turn), 1.0)
-    return Path(place, travel, 0.5 * (velocity[1] + end_velocity[1]) * dt, contact)
+        now = between(velocity, end_velocity, after / dt)
+        place = drive(pose, velocity, now, after)
+    return [Piece(velocity, end_velocity, dt)], None
