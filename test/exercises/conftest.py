@@ -71,9 +71,9 @@ def pytest_collection_modifyitems(config, items):
 
 
 @pytest.fixture(scope="session")
-def floor():
+def underlay():
     """setup.bash of the underlay."""
-    return os.environ["TUTORIAL_FLOOR"]
+    return os.environ["TUTORIAL_UNDERLAY"]
 
 
 @pytest.fixture

@@ -23,9 +23,9 @@ from tutorial_testing.waiting import wait_for
 SOURCE = Path(__file__).resolve().parents[2] / "common" / "tutorial_check" / "src"
 
 
-def command(floor, *words):
+def command(underlay, *words):
     """The words of a ./tutorial check."""
-    words = ["-m", "tutorial_check", "--floor", *map(str, (floor, *words))]
+    words = ["-m", "tutorial_check", "--underlay", *map(str, (underlay, *words))]
     return ["/usr/bin/python3", *words]
 
 
@@ -44,18 +44,18 @@ def run(words, env=None, **options):
     return done.returncode, done.stdout, done.stderr
 
 
-def check(floor, *words, **options):
+def check(underlay, *words, **options):
     """(exit code, stdout, stderr) of a run of ./tutorial check."""
-    return run(command(floor, *words), **options)
+    return run(command(underlay, *words), **options)
 
 
-def test_right_is_exit_code_0_with_all_its_files(literal, floor, tmp_path):
+def test_right_is_exit_code_0_with_all_its_files(literal, underlay, tmp_path):
     files = [
         word
         for name in ("json", "junit", "gradescope", "classroom")
         for word in (f"--{name}", tmp_path / name)
     ]
-    code, out, _ = check(floor, "--in", literal.parent, "2", *files)
+    code, out, _ = check(underlay, "--in", literal.parent, "2", *files)
     assert code == 0, out
     assert out.endswith(f"1 of 1 exercises done in {literal.parent}\n")
     reported = json.loads((tmp_path / "json").read_text())
@@ -65,52 +65,52 @@ def test_right_is_exit_code_0_with_all_its_files(literal, floor, tmp_path):
         assert (tmp_path / name).stat().st_size > 100
 
 
-def test_wrong_is_exit_code_1(literal, floor):
+def test_wrong_is_exit_code_1(literal, underlay):
     chmod(TALKER, 0o644)(literal)
-    code, out, _ = check(floor, "--in", literal.parent, "3")
+    code, out, _ = check(underlay, "--in", literal.parent, "3")
     assert code == 1
     assert f"hint:     chmod +x {literal}/{TALKER}\n" in out
     assert f"yourself: ls -l {literal}/{TALKER}\n" in out
-    assert "hint" not in check(floor, "--in", literal.parent, "3", "--no-hints")[1]
+    assert "hint" not in check(underlay, "--in", literal.parent, "3", "--no-hints")[1]
 
 
-@pytest.mark.parametrize("floor_there", [True, False])
-def test_it_cannot_work(tmp_path, floor, floor_there):
+@pytest.mark.parametrize("underlay_there", [True, False])
+def test_it_cannot_work(tmp_path, underlay, underlay_there):
     code, _, error = check(
-        floor if floor_there else tmp_path / "none", "--in", tmp_path / "nowhere", "2"
+        underlay if underlay_there else tmp_path / "none", "--in", tmp_path / "nowhere", "2"
     )
     assert code == 2
     assert "no such" in error
     assert "no verdict" in error
 
 
-def test_the_suites_own_solutions(floor):
-    code, _, error = check(floor, "--in", SOURCE.parents[2], "2")
+def test_the_suites_own_solutions(underlay):
+    code, _, error = check(underlay, "--in", SOURCE.parents[2], "2")
     assert code == 2
     assert "this suite's solution, not yours" in error
 
 
-def test_a_home_folder_with_a_package_deep_below(literal, tmp_path, floor):
+def test_a_home_folder_with_a_package_deep_below(literal, tmp_path, underlay):
     (tmp_path / "home" / "Documents").mkdir(parents=True)
     (tmp_path / "home" / "course").mkdir()
     literal.parent.rename(tmp_path / "home" / "course" / "anna")
-    code, out, _ = check(floor, "--in", ".", "2", "4.2", cwd=tmp_path / "home")
+    code, out, _ = check(underlay, "--in", ".", "2", "4.2", cwd=tmp_path / "home")
     assert code == 1
     assert "is this your workspace? --in" in out
     assert "anna" not in out and "mv " not in out
     assert "0 of 2 exercises done (4.2: nothing to check)" in out
 
 
-def test_packages_outside_of_src(literal, floor):
+def test_packages_outside_of_src(literal, underlay):
     move(B, f"../{B}")(literal)
-    code, out, _ = check(floor, "--in", literal.parent, "2")
+    code, out, _ = check(underlay, "--in", literal.parent, "2")
     assert code == 1
     assert f"hint:     mv {literal.parent}/{B} {literal}\n" in out
 
 
-def test_an_unreadable_folder(literal, floor):
+def test_an_unreadable_folder(literal, underlay):
     """For a user who is not root: to root everything is readable."""
-    words = command(floor, "--in", literal.parent, "2")
+    words = command(underlay, "--in", literal.parent, "2")
     if os.geteuid() == 0:
         for folder in (literal, *literal.parents):
             if folder.name == Path(tempfile.gettempdir()).name:
@@ -124,7 +124,7 @@ def test_an_unreadable_folder(literal, floor):
     assert "may not be read" in error
 
 
-def test_the_professor(literal, floor, tmp_path):
+def test_the_professor(literal, underlay, tmp_path):
     """A folder of one right, one wrong, one hostile, one that is no zip: each its own verdict."""
     group = tmp_path / "group"
     for name in ("ada", "bob", "eve"):
@@ -138,7 +138,7 @@ def test_the_professor(literal, floor, tmp_path):
     with zipfile.ZipFile(group / "kim.zip", "w") as opened:
         for path in sorted(literal.rglob("*")):
             opened.write(path, Path("kim") / "src" / path.relative_to(literal))
-    code, out, error = check(floor, "--all", group, "4.3")
+    code, out, error = check(underlay, "--all", group, "4.3")
     assert code == 2, out + error  # zoe's could not be checked
     table = (group / "check" / "table.csv").read_text().splitlines()
     cells = {line.split(",")[0]: line.split(",")[1] for line in table}
@@ -156,10 +156,10 @@ def test_the_professor(literal, floor, tmp_path):
     assert json.loads((group / "check" / "ada.json").read_text())["passed"] == 1
 
 
-def test_ctrl_c_ends_the_check_of_all(literal, floor, tmp_path):
+def test_ctrl_c_ends_the_check_of_all(literal, underlay, tmp_path):
     for number in range(4):
         shutil.copytree(literal.parent, tmp_path / "group" / str(number))
-    words = command(floor, "--all", tmp_path / "group")
+    words = command(underlay, "--all", tmp_path / "group")
     with Program(*words, PYTHONPATH=str(SOURCE)) as professor:
         wait_for(
             lambda: any(
@@ -176,7 +176,7 @@ def test_ctrl_c_ends_the_check_of_all(literal, floor, tmp_path):
         assert not (tmp_path / "group" / "check" / "table.csv").exists()
 
 
-def test_all_at_once_or_alone_is_the_same(literal, floor, tmp_path, request):
+def test_all_at_once_or_alone_is_the_same(literal, underlay, tmp_path, request):
     """Of many students each has the same verdict as alone. Prints how long they all took."""
     count = request.config.getoption("--students")
     rows, exercises = [row for row in mistakes_nodes.ROWS if row[0] == "4.3"], ["4.3"]
@@ -190,23 +190,23 @@ def test_all_at_once_or_alone_is_the_same(literal, floor, tmp_path, request):
         shutil.copytree(literal.parent, group / name)
         apply(edits, group / name / "src")
     began_s = time.monotonic()
-    code, out, error = check(floor, "--all", group, *exercises)
+    code, out, error = check(underlay, "--all", group, *exercises)
     print(f"\n{count} students: {time.monotonic() - began_s:.0f} s, load {os.getloadavg()[0]:.1f}")
     assert code == 1, out + error
     for name in students:
         report = json.loads((group / "check" / f"{name}.json").read_text())
         reported = [one for exercise in report["exercises"] for one in exercise["checks"]]
-        outcomes = examine(group / name, floor, exercises)
-        alone = [one.as_dict() for outcome in outcomes for one in outcome.results]
+        outcomes = examine(group / name, underlay, exercises)
+        alone = [vars(one) for outcome in outcomes for one in outcome.results]
         statuses = [[(one["id"], one["status"]) for one in each] for each in (reported, alone)]
         assert statuses[0] == statuses[1], f"{name}: {reported}\nalone: {alone}"
 
 
-def test_watch(literal, floor, tmp_path):
+def test_watch(literal, underlay, tmp_path):
     """It reports what is wrong, and that it is done once the file is mended, wherever the workspace is."""
     workspace = Path(shutil.move(str(literal.parent), str(tmp_path / "build")))
     chmod(TALKER, 0o644)(workspace / "src")
-    words = command(floor, "--in", workspace, "--watch", "3")
+    words = command(underlay, "--in", workspace, "--watch", "3")
     env = environment(PYTHONUNBUFFERED="1")
     with subprocess.Popen(words, stdout=subprocess.PIPE, text=True, env=env) as process:
         try:
@@ -218,10 +218,10 @@ def test_watch(literal, floor, tmp_path):
             process.kill()
 
 
-def test_alone_in_its_place(literal, floor):
+def test_alone_in_its_place(literal, underlay):
     """Two checks at once do not meet, and neither meets a master of the user's."""
     env = environment(ROS_MASTER_URI="http://localhost:1")
-    words = command(floor, "--in", literal.parent, "3")
+    words = command(underlay, "--in", literal.parent, "3")
     both = [subprocess.Popen(words, env=env, stdout=subprocess.PIPE, text=True) for _ in range(2)]
     printed = [process.communicate(timeout=1800)[0] for process in both]
     assert [process.returncode for process in both] == [0, 0], printed

@@ -14,15 +14,15 @@ def bare(tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", path_without_namespaces(tmp_path))
 
 
-def test_right_is_right(literal, floor):
-    code, out, error = check(floor, "--in", literal.parent, "2", "3", "4")
+def test_right_is_right(literal, underlay):
+    code, out, error = check(underlay, "--in", literal.parent, "2", "3", "4")
     assert code == 0, out + error
 
 
-def test_right_launch_files_are_right_or_not_judged(literal, floor):
+def test_right_launch_files_are_right_or_not_judged(literal, underlay):
     """Where the suite lies below root's home folder, launch files of another user cannot name it."""
-    others_may_enter = all(folder.stat().st_mode & 0o001 for folder in Path(floor).parents)
-    code, out, error = check(floor, "--in", literal.parent, "5")
+    others_may_enter = all(folder.stat().st_mode & 0o001 for folder in Path(underlay).parents)
+    code, out, error = check(underlay, "--in", literal.parent, "5")
     if os.geteuid() != 0 or others_may_enter:
         assert code == 0, out + error
     else:
@@ -32,11 +32,11 @@ def test_right_launch_files_are_right_or_not_judged(literal, floor):
 
 
 @pytest.mark.skipif(os.geteuid() != 0, reason="only root can run programs as another user")
-def test_where_the_programs_may_not_enter_nobody_is_blamed(literal, floor, tmp_path):
+def test_where_the_programs_may_not_enter_nobody_is_blamed(literal, underlay, tmp_path):
     closed = tmp_path / "closed"
     closed.mkdir(mode=0o700)
     tmp_path.chmod(0o755)
-    (closed / "setup.bash").write_text(f". {floor}\n")
+    (closed / "setup.bash").write_text(f". {underlay}\n")
     code, out, error = check(closed / "setup.bash", "--in", literal.parent, "5")
     assert code == 2, out + error
     assert "WRONG" not in out

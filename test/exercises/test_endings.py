@@ -63,10 +63,10 @@ def environment(request, tmp_path, scratch):
 
 @pytest.mark.parametrize("work", WORKS)
 @pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGTERM, signal.SIGHUP])
-def test_nothing_is_left(literal, floor, environment, how, work):
+def test_nothing_is_left(literal, underlay, environment, how, work):
     exercise, file, text, seen = WORKS[work]
     write(file, text)(literal)
-    words = command(floor, "--in", literal.parent, exercise)
+    words = command(underlay, "--in", literal.parent, exercise)
     scratch = environment["TMPDIR"]
     with Program(*words, **environment) as checker:
         wait_for(

@@ -39,71 +39,71 @@ def away(path, home):
     path.symlink_to(home / "git" / path.name)
 
 
-def verdicts(workspace, floor, exercise="2", **options):
+def verdicts(workspace, underlay, exercise="2", **options):
     """{check: result} of an exercise."""
-    (outcome,) = examine(workspace, floor, [exercise], **options)
+    (outcome,) = examine(workspace, underlay, [exercise], **options)
     return {result.id: result for result in outcome.results}
 
 
-def test_a_zip(literal, floor, home):
+def test_a_zip(literal, underlay, home):
     pack(literal, home / "x.zip")
-    code, out, error = check(floor, "--in", home / "x.zip", "2")
+    code, out, error = check(underlay, "--in", home / "x.zip", "2")
     assert code == 0, out + error
 
 
-def test_zips_of_a_class(literal, floor, home):
+def test_zips_of_a_class(literal, underlay, home):
     (home / "class").mkdir()
     pack(literal, home / "class" / "ada.zip")
-    code, out, error = check(floor, "--all", home / "class", "2")
+    code, out, error = check(underlay, "--all", home / "class", "2")
     assert code == 0, out + error
 
 
-def test_the_workspace_is_a_link(literal, floor, home):
+def test_the_workspace_is_a_link(literal, underlay, home):
     (home / "catkin_ws").symlink_to(literal.parent)
     devel = literal.parent / "devel"
     devel.mkdir()
     (devel / "_setup_util.py").write_text(
-        f"CMAKE_PREFIX_PATH = r'{Path(floor).parent}'.split(';')\n"
+        f"CMAKE_PREFIX_PATH = r'{Path(underlay).parent}'.split(';')\n"
     )
     (devel / "setup.sh").write_text(f": ${{_CATKIN_SETUP_DIR:={home}/catkin_ws/devel}}\n")
     (devel / "setup.bash").write_text("# as catkin has it\n")
-    seen = verdicts(home / "catkin_ws", floor)
+    seen = verdicts(home / "catkin_ws", underlay)
     assert "on top of this suite" in seen["C1"].seen, seen["C1"]
     assert {result.status for result in seen.values()} <= {"ok", "note"}
 
 
 @pytest.mark.parametrize(("what", "exercise"), [("", "2"), (J, "4.3"), (TALKER, "3")])
-def test_links_of_ones_own(literal, floor, home, what, exercise):
+def test_links_of_ones_own(literal, underlay, home, what, exercise):
     """The whole src, a package, a file."""
     away(literal / what, home)
-    seen = verdicts(literal.parent, floor, exercise)
+    seen = verdicts(literal.parent, underlay, exercise)
     assert {result.status for result in seen.values()} <= {"ok", "note"}, seen
 
 
-def test_links_of_others(literal, floor, home):
+def test_links_of_others(literal, underlay, home):
     """They lead not into the home folder of who checks, and it is said."""
     away(literal / B, home)
-    seen = verdicts(literal.parent, floor, own=False)["C2"]
+    seen = verdicts(literal.parent, underlay, own=False)["C2"]
     assert f"a link to {home}/git/{B}, and leads nowhere here" in seen.seen
 
 
-def test_a_recording_in_the_home_folder(literal, floor, home):
+def test_a_recording_in_the_home_folder(literal, underlay, home):
     """The student has it, and by a whole path it is played."""
     away(literal / "joy2twist/bag", home)
     (literal / "joy2twist/bag").unlink()
     put(LAUNCH_BAG, "$(find joy2twist)/bag", f"{home}/git/bag")(literal)
-    seen = verdicts(literal.parent, floor, "5")
+    seen = verdicts(literal.parent, underlay, "5")
     assert seen["C22"].status == "note"
     assert f"not in your package: {home}/git/bag/joy.bag" in seen["C22"].seen
     assert {result.status for result in seen.values()} <= {"ok", "note"}, seen
 
 
-def test_no_program_meets_anothers_files_in_tmp(literal, floor):
+def test_no_program_meets_anothers_files_in_tmp(literal, underlay):
     with tempfile.NamedTemporaryFile(dir="/tmp") as left:
         left.write(b"of another student")
         left.flush()
         use = f"open('{left.name}', 'a').write('mine')\n    rospy.init_node"
         put(TALKER, "rospy.init_node", use)(literal)
-        seen = verdicts(literal.parent, floor, "3")
+        seen = verdicts(literal.parent, underlay, "3")
         assert {result.status for result in seen.values()} <= {"ok", "note"}, seen
         assert Path(left.name).read_bytes() == b"of another student"

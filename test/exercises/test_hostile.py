@@ -37,9 +37,9 @@ for number in range(1, 9):
 AFTER_INIT = "    rospy.init_node('listener', anonymous=True)\n"
 
 
-def wrong_of(src, floor, exercise):
+def wrong_of(src, underlay, exercise):
     """What is wrong in an exercise: the first one's id and text."""
-    return first_wrong(*examine(src.parent, floor, [exercise]))
+    return first_wrong(*examine(src.parent, underlay, [exercise]))
 
 
 def first_wrong(outcome):
@@ -67,19 +67,19 @@ def scratch(monkeypatch):
         yield folder
 
 
-def test_one_that_ignores_ctrl_c(literal, floor, scratch):
+def test_one_that_ignores_ctrl_c(literal, underlay, scratch):
     ignore = "import signal\nsignal.signal(signal.SIGINT, signal.SIG_IGN)\n"
     write(TALKER, f"{FIRST}{ignore}while True:\n    pass\n")(literal)
-    check, report = wrong_of(literal, floor, "3")
+    check, report = wrong_of(literal, underlay, "3")
     assert check == "C6", report
     assert "works all the time" in report
     assert not processes_like(f"{scratch}/")
 
 
-def test_a_fork_bomb(literal, floor, scratch):
+def test_a_fork_bomb(literal, underlay, scratch):
     """It does not spoil what comes after it, either."""
     write(TALKER, FORK_BOMB)(literal)
-    bombed, after = examine(literal.parent, floor, ["3", "4.3"])
+    bombed, after = examine(literal.parent, underlay, ["3", "4.3"])
     check, report = first_wrong(bombed)
     assert check == "C6", report
     assert "again and again" in report
@@ -87,10 +87,10 @@ def test_a_fork_bomb(literal, floor, scratch):
     assert not processes_like(f"{scratch}/")
 
 
-def test_output_without_end(literal, floor):
+def test_output_without_end(literal, underlay):
     block = "    for _ in range(1000):\n        print('x' * 1000000)\n    rospy.spin()"
     put(LISTENER, "    rospy.spin()", block)(literal)
-    outcomes = examine(literal.parent, floor, ["3"])
+    outcomes = examine(literal.parent, underlay, ["3"])
     talker = next(result for result in outcomes[0].results if result.id == "C6")
     assert talker.status == "ok", "\n".join(lines_of(talker))
 
@@ -107,33 +107,33 @@ JOINED = {
 
 
 @pytest.mark.parametrize("what", JOINED)
-def test_one_that(literal, floor, what):
+def test_one_that(literal, underlay, what):
     line, words = JOINED[what]
     put(JOY2TWIST, AFTER_INIT, f"{AFTER_INIT}    {line}\n")(literal)
-    check, report = wrong_of(literal, floor, "4.3")
+    check, report = wrong_of(literal, underlay, "4.3")
     assert check == "C14" and words in report, report
 
 
-def test_one_that_kills_all_it_may(literal, floor):
+def test_one_that_kills_all_it_may(literal, underlay):
     kill = "    import os, signal\n    signal.signal(15, signal.SIG_IGN)\n    os.kill(-1, 15)\n"
     put(JOY2TWIST, AFTER_INIT, AFTER_INIT + kill)(literal)
-    outcomes = examine(literal.parent, floor, ["4.3"])
+    outcomes = examine(literal.parent, underlay, ["4.3"])
     assert outcomes[0].results  # a verdict, and no end of the checker
     assert processes_like("pytest")
 
 
-def test_one_that_writes_into_the_workspace(literal, floor):
+def test_one_that_writes_into_the_workspace(literal, underlay):
     victim = literal / "joy2twist" / "package.xml"
     before = victim.read_bytes()
     spoil = f"    open({str(victim)!r}, 'w').write('spoilt')\n"
     apply([put(JOY2TWIST, AFTER_INIT, AFTER_INIT + spoil)], literal)
-    check, report = wrong_of(literal, floor, "4.3")
+    check, report = wrong_of(literal, underlay, "4.3")
     assert victim.read_bytes() == before
     assert check == "C14", report
     assert "writes where it may not" in report
 
 
-def test_one_that_forges_what_the_checker_hears(literal, floor):
+def test_one_that_forges_what_the_checker_hears(literal, underlay):
     """Twists as they should be, but of its own making and not for the Joys that came."""
     forge = (
         "    import itertools\n    loud = rospy.Publisher('/cmd_vel', Twist, queue_size=1)\n"
@@ -141,22 +141,22 @@ def test_one_that_forges_what_the_checker_hears(literal, floor):
         "    while not rospy.is_shutdown():\n        loud.publish(msg)\n        loud2.publish(Joy(axes=[0.3, 0.4, 0, 0, 0, 0], buttons=[0] * 12))\n        rospy.sleep(0.02)\n"
     )
     apply([put(JOY2TWIST, AFTER_INIT, AFTER_INIT + forge)], literal)
-    check, report = wrong_of(literal, floor, "4.3")
+    check, report = wrong_of(literal, underlay, "4.3")
     assert check in ("C14", "C15"), report
     assert "/joy" in report
 
 
-def test_one_that_plants_links_where_the_checker_writes(literal, floor, scratch, monkeypatch):
+def test_one_that_plants_links_where_the_checker_writes(literal, underlay, scratch, monkeypatch):
     """Without isolation, where the link leads somewhere."""
     monkeypatch.setattr(bubblewrap, "granted", bubblewrap.Isolation)
     plant = PLANTS_LINKS.format(aim=f"{scratch}/planted")
     apply([put(TALKER, "import rospy\n", f"import rospy\n{plant}", 1)], literal)
-    (outcome,) = examine(literal.parent, floor, ["3"])
+    (outcome,) = examine(literal.parent, underlay, ["3"])
     assert "C9" in [result.id for result in outcome.results]
     assert not os.path.lexists(f"{scratch}/planted")
 
 
-def test_those_beside_them_are_unharmed(literal, floor, tmp_path):
+def test_those_beside_them_are_unharmed(literal, underlay, tmp_path):
     """Two at a time, as check --all has it: before and after each hostile one comes a right one."""
     programs = [FORK_BOMB, KILLS_ALL, PRINTS_WITHOUT_END, FILLS_THE_DISK, ENDS_THE_MASTER]
     students = [tmp_path / "right_0"]
@@ -167,7 +167,7 @@ def test_those_beside_them_are_unharmed(literal, floor, tmp_path):
             shutil.copytree(literal.parent, student)
         write(TALKER, program)(students[-2] / "src")
     with ThreadPoolExecutor(2) as pool:
-        found = list(pool.map(lambda student: examine(student, floor, ["3"]), students))
+        found = list(pool.map(lambda student: examine(student, underlay, ["3"]), students))
     wrong = [first_wrong(*outcomes) for outcomes in found]
     assert wrong[::2] == [(None, "")] * (len(programs) + 1)
     assert [check for check, _ in wrong[1::2]] == ["C6"] * len(programs), wrong

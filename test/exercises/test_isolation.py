@@ -80,18 +80,18 @@ def folder():
 
 
 @pytest.fixture
-def bare_floor(folder):
+def bare_underlay(folder):
     """As much of the underlay as everybody can read: for a build, and no node."""
     packages = [each.parent for each in REPOSITORY.glob("*/*/src")] + [
         REPOSITORY / "fake_turtlebot_sim"
     ]
     paths = ":".join(str(each / "src") for each in packages)
     for name in ("devel", "src"):
-        (folder / "floor" / name).mkdir(parents=True)
+        (folder / "underlay" / name).mkdir(parents=True)
     for each in packages:
-        (folder / "floor" / "src" / each.name).symlink_to(each)
-    (folder / "floor" / "devel" / ".catkin").write_text(str(folder / "floor" / "src"))
-    setup = folder / "floor" / "devel" / "setup.bash"
+        (folder / "underlay" / "src" / each.name).symlink_to(each)
+    (folder / "underlay" / "devel" / ".catkin").write_text(str(folder / "underlay" / "src"))
+    setup = folder / "underlay" / "devel" / "setup.bash"
     setup.write_text(f"export PATH=/usr/bin:/bin PYTHONPATH={paths}\n")
     return setup
 
@@ -107,7 +107,7 @@ def words(mode, folder):
     return found
 
 
-def test_what_a_hostile_program_reaches(literal, mode, folder, bare_floor, words):
+def test_what_a_hostile_program_reaches(literal, mode, folder, bare_underlay, words):
     name, number = f"attack_{os.getpid()}", 0x60000000 + os.getpid()
     home, group = folder / "home", folder / "group"
     (group / "bob").mkdir(parents=True)
@@ -139,7 +139,7 @@ def test_what_a_hostile_program_reaches(literal, mode, folder, bare_floor, words
         subject = subprocess.Popen(["sh", "-c", "read line", name], stdin=subprocess.PIPE)
         try:
             done = subprocess.run(
-                [*words, *command(bare_floor, "--all", group, "2", "3")],
+                [*words, *command(bare_underlay, "--all", group, "2", "3")],
                 capture_output=True,
                 text=True,
                 check=False,

@@ -25,11 +25,11 @@ def is_told(result, words):
 NAMES = [f"{row[0]} {row[1]}" for row in ROWS]
 
 
-def found(row, literal, floor, record_property, exercises):
+def found(row, literal, underlay, record_property, exercises):
     """All results that are wrong, when these exercises are checked."""
     apply(row[2], literal)
     try:
-        outcomes = examine(literal.parent, floor, exercises, only_first=len(exercises) == 1)
+        outcomes = examine(literal.parent, underlay, exercises, only_first=len(exercises) == 1)
         trouble = next((each.trouble for each in outcomes if each.trouble), "")
     except CannotCheck as error:
         trouble = str(error)
@@ -40,10 +40,10 @@ def found(row, literal, floor, record_property, exercises):
 
 
 @pytest.mark.parametrize("row", ROWS, ids=NAMES)
-def test_mistake(row, literal, floor, record_property):
+def test_mistake(row, literal, underlay, record_property):
     exercise, what, _, check, words = row
     title = f"{exercise} {what}"
-    wrong = found(row, literal, floor, record_property, [exercise])
+    wrong = found(row, literal, underlay, record_property, [exercise])
     if not wrong:
         record_property("missed", f"{title}: should be {check}")
         pytest.fail("missed")
@@ -55,10 +55,10 @@ def test_mistake(row, literal, floor, record_property):
 
 
 @pytest.mark.parametrize("row", ROWS, ids=NAMES)
-def test_in_all_exercises(row, literal, floor, record_property):
+def test_in_all_exercises(row, literal, underlay, record_property):
     """Its cause is told, maybe by an earlier check, and it keeps no other one from a verdict."""
     title = f"{row[0]} {row[1]}"
-    wrong = found(row, literal, floor, record_property, list(EXERCISES))
+    wrong = found(row, literal, underlay, record_property, list(EXERCISES))
     causes = [one for one in wrong if is_told(one, row[4])]
     others = [one.id for one in wrong if one not in causes]
     if others:

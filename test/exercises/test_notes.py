@@ -15,10 +15,10 @@ ROWS = [
 
 
 @pytest.mark.parametrize("row", ROWS, ids=[f"{row[0]} {row[1]}" for row in ROWS])
-def test_note(row, literal, floor):
+def test_note(row, literal, underlay):
     exercise, _, edits, check, words = row
     apply(edits, literal)
-    (outcome,) = examine(literal.parent, floor, [exercise])
+    (outcome,) = examine(literal.parent, underlay, [exercise])
     assert not [one for one in outcome.results if one.status == "wrong"]
     (note,) = [one for one in outcome.results if one.id == check]
     assert note.status == "note"

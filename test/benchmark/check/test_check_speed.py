@@ -35,7 +35,7 @@ def workspace(tmp_path_factory):
 def check_s(workspace, exercises):
     """How long a check takes [s], in which all is right."""
     began_s = time.monotonic()
-    outcomes = examine(workspace, os.environ["TUTORIAL_FLOOR"], exercises)
+    outcomes = examine(workspace, os.environ["TUTORIAL_UNDERLAY"], exercises)
     took_s = time.monotonic() - began_s
     assert not [one for each in outcomes for one in each.results if one.status not in (OK, NOTE)]
     assert all(outcome.passed for outcome in outcomes)

@@ -15,7 +15,7 @@ def make_session(tmp_path):
         folder = tmp_path / "ws/src" / package
         folder.mkdir(parents=True)
         (folder / "package.xml").write_text(f"<package><name>{package}</name></package>")
-        nothing = {"floor": "", "make_box": lambda environment: None, "can_have_devices": False}
+        nothing = {"underlay": "", "make_box": lambda environment: None, "can_have_devices": False}
         return Session(tmp_path, None, [exercise], {"PATH": ""}, **nothing)
 
     return make

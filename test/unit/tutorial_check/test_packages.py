@@ -75,7 +75,7 @@ def joy2twist(make_session, monkeypatch):
     monkeypatch.setattr(packages, "_dependencies", lambda *_: session.package("joy2twist"))
     (session.folder / "share/rospy/cmake").mkdir(parents=True)
     (session.folder / "share/rospy/cmake/rospyConfig.cmake").touch()
-    session.floor_environment["CMAKE_PREFIX_PATH"] = str(session.folder)
+    session.underlay_environment["CMAKE_PREFIX_PATH"] = str(session.folder)
     session.memo("built", lambda: (1, 'Could not find a package "joystick"\n'))
 
     def check(text):

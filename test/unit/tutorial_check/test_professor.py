@@ -30,7 +30,7 @@ def group(tmp_path, monkeypatch):
 def check_all(group, out=None, no_hints=False):
     """Return the exit code and the rows of the table."""
     options = SimpleNamespace(
-        all=str(group), out=out, jobs=1, no_hints=no_hints, floor="", exercises=["2"]
+        all=str(group), out=out, jobs=1, no_hints=no_hints, underlay="", exercises=["2"]
     )
     code = professor.check_all(options)
     with (group / "check" / "table.csv").open(newline="", encoding="utf-8") as table:

@@ -12,8 +12,8 @@ from tutorial_check.formats import FORMATS
 from tutorial_check.model import OK, UNREACHED, WRONG, Result
 from tutorial_check.program import parse
 
-FLOOR = ["--floor", "setup.bash"]
-BEFORE = [*FLOOR, "--in", "ws"]
+UNDERLAY = ["--underlay", "setup.bash"]
+BEFORE = [*UNDERLAY, "--in", "ws"]
 WELL = Outcome("2", [Result("C1", OK, "one")], 1.0, True)
 BAD = Outcome("2", [Result("C1", WRONG, "no file M\udcfcller.bag", hint="mkdir src")], 1.0, True)
 NO_VERDICT = Outcome("5", [Result("C21", UNREACHED, "two")], 1.0, True, "C21: no space")
@@ -34,21 +34,21 @@ def test_a_section_is_all_its_exercises(words, exercises):
 
 def test_in_a_shell_of_a_workspace_that_is_meant(monkeypatch):
     monkeypatch.setenv("TUTORIAL_IN", "/mine")
-    assert parse(FLOOR).workspace == "/mine"
-    assert parse([*FLOOR, "--in", "/another"]).workspace == "/another"
-    options = parse([*FLOOR, "--all", "/class"])
+    assert parse(UNDERLAY).workspace == "/mine"
+    assert parse([*UNDERLAY, "--in", "/another"]).workspace == "/another"
+    options = parse([*UNDERLAY, "--all", "/class"])
     assert (options.all, options.jobs) == ("/class", 2)
 
 
 @pytest.mark.parametrize(
     ("words", "error"),
     [
-        ([*FLOOR, "3"], "which workspace? For example: --in ~/ros/hydro/catkin_ws 3\n"),
+        ([*UNDERLAY, "3"], "which workspace? For example: --in ~/ros/hydro/catkin_ws 3\n"),
         *(([*BEFORE, word], "no exercise") for word in ("7", "", ".", "4.9")),
-        *(([*FLOOR, f"--{name}", ""], "an empty word is no path") for name in ("in", "all")),
-        *(([*BEFORE, f"--{name}", ""], "an empty word") for name in ("out", "json", "floor")),
-        ([*FLOOR, "--all", "class", "--json", "a"], "--json is for one workspace"),
-        ([*FLOOR, "--all", "class", "--watch"], "--watch is for one workspace"),
+        *(([*UNDERLAY, f"--{name}", ""], "an empty word is no path") for name in ("in", "all")),
+        *(([*BEFORE, f"--{name}", ""], "an empty word") for name in ("out", "json", "underlay")),
+        ([*UNDERLAY, "--all", "class", "--json", "a"], "--json is for one workspace"),
+        ([*UNDERLAY, "--all", "class", "--watch"], "--watch is for one workspace"),
         ([*BEFORE, "--watch", "--classroom", "a"], "leave --watch out"),
         ([*BEFORE, "--out", "a"], "--out is for --all"),
         ([*BEFORE, "--jobs", "2"], "--jobs is for --all"),
@@ -123,7 +123,7 @@ def test_a_file_that_cannot_be_written_is_found_before_the_work(main, tmp_path, 
     begun = []
     assert main(lambda *_: begun.append(1), "--json", tmp_path / place) == 2
     assert not begun
-    assert f"check: {tmp_path / place}: " in capsys.readouterr().err
+    assert f"check: no verdict: {tmp_path / place}: " in capsys.readouterr().err
 
 
 def test_a_file_is_written_though_another_cannot_be(main, tmp_path, capsys):
@@ -137,7 +137,7 @@ def test_a_file_is_written_though_another_cannot_be(main, tmp_path, capsys):
 
 
 def test_a_name_that_is_no_utf_8_is_reported(main, tmp_path, monkeypatch):
-    def examine(workspace, floor, exercises, tell):
+    def examine(workspace, underlay, exercises, tell):
         tell(BAD, BAD.results[0])
         return [BAD]
 

@@ -3,8 +3,20 @@
 from __future__ import annotations
 
 import ast
+from typing import Iterable
 
 from tutorial_check.python_text import last_name, python_lines, text_of
+
+
+def _nodes(text: str) -> list[ast.AST]:
+    try:
+        return list(ast.walk(ast.parse(text)))
+    except (SyntaxError, ValueError):
+        return []
+
+
+def _joined(lines: Iterable[str]) -> str:
+    return "".join(f"{line}\n" for line in lines)
 
 
 def unmasked(text: str) -> str | None:
@@ -12,72 +24,53 @@ def unmasked(text: str) -> str | None:
 
     Every line keeps its number, and its margin of blanks or tabs.
     """
-    try:
-        tree = ast.parse(text)
-    except (SyntaxError, ValueError):
-        return None
     lines = python_lines(text)
     hidden = [
         node
-        for node in ast.walk(tree)
+        for node in _nodes(text)
         if isinstance(node, ast.ExceptHandler)
         and (node.type is None or text_of(node.type) in ("Exception", "BaseException"))
     ]
-    if not hidden:
-        return None
     for handler in hidden:
         if handler.type:
             _put(lines, handler.type, handler.type.end_col_offset or 0, "()")
         else:
             _put(lines, handler, handler.col_offset + len("except"), "except ()")
-    return "\n".join(lines) + "\n"
+    return _joined(lines) if hidden else None
 
 
 def without_name(text: str, name: str) -> str | None:
     """Return the program without something that it imports; None if it does not import it by name."""
-    try:
-        tree = ast.parse(text)
-    except (SyntaxError, ValueError):
-        return None
     lines = python_lines(text)
-    for node in ast.walk(tree):
-        if isinstance(node, ast.ImportFrom) and name in {
-            each.asname or each.name for each in node.names
-        }:
+    for node in _nodes(text):
+        imported = node.names if isinstance(node, ast.ImportFrom) else []
+        if name in {each.asname or each.name for each in imported}:
             line = lines[node.lineno - 1]
             margin = line[: len(line) - len(line.lstrip())]
             lines.insert(node.end_lineno or node.lineno, f"{margin}del {name}")
-            return "\n".join(lines) + "\n"
+            return _joined(lines)
     return None
 
 
 def flipped_anonymous(text: str, wanted: bool) -> str | None:
     """Return the program with anonymous=wanted in its init_node; None if it has none that is plain."""
-    try:
-        tree = ast.parse(text)
-    except (SyntaxError, ValueError):
-        return None
-    for node in ast.walk(tree):
+    for node in _nodes(text):
         if not (isinstance(node, ast.Call) and last_name(node) == "init_node"):
             continue
+        given = [word.value for word in node.keywords if word.arg == "anonymous"]
+        if given:
+            old, new = given[0], str(wanted)
+        elif node.args:
+            old = node.args[-1]
+            new = f"{ast.get_source_segment(text, old)}, anonymous={wanted}"
+        else:
+            continue
+        if old.lineno != old.end_lineno or (given and not isinstance(old, ast.Constant)):
+            return None
         lines = python_lines(text)
-        for word in node.keywords:
-            if word.arg == "anonymous" and isinstance(word.value, ast.Constant):
-                return _replaced(lines, word.value, str(wanted))
-            if word.arg == "anonymous":
-                return None
-        if node.args:
-            last = node.args[-1]
-            segment = ast.get_source_segment(text, last)
-            return _replaced(lines, last, f"{segment}, anonymous={wanted}") if segment else None
+        _put(lines, old, old.end_col_offset or 0, new)
+        return _joined(lines)
     return None
-
-
-def _replaced(lines: list[str], node: ast.expr, new: str) -> str | None:
-    if node.lineno != node.end_lineno:
-        return None
-    _put(lines, node, node.end_col_offset or 0, new)
-    return "\n".join(lines) + "\n"
 
 
 def _put(lines: list[str], node: ast.expr | ast.ExceptHandler, end: int, new: str) -> None:

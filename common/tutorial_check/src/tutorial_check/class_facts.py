@@ -24,9 +24,11 @@ class ClassFacts:
 
 def class_facts(node: ast.ClassDef, called: set[str]) -> ClassFacts:
     """Return the ClassFacts of a ClassDef. called: the names of all that the file calls."""
-    inside = {text_of(part.func) for part in ast.walk(node) if isinstance(part, ast.Call)}
+    parts = list(ast.walk(node))
+    inside = {text_of(part.func) for part in parts if isinstance(part, ast.Call)}
     words = {name.rsplit(".", 1)[-1] for name in inside}
     bases = {text_of(base) for base in node.bases}
+    stored = [part for part in parts if isinstance(getattr(part, "ctx", None), ast.Store)]
     return ClassFacts(
         name=node.name,
         line=node.lineno,
@@ -36,7 +38,7 @@ def class_facts(node: ast.ClassDef, called: set[str]) -> ClassFacts:
         is_node=bool(words & {"Subscriber", "Publisher", "init_node", "publish"})
         and not any(base.endswith(("Exception", "Error")) for base in bases),
         attributes_called={name for name in inside if name.startswith("self.")},
-        attributes=_stored(node),
+        attributes={getattr(part, "attr", getattr(part, "id", "")) for part in stored},
         bases=bases - {"object"},
     )
 
@@ -62,9 +64,3 @@ def with_bases(classes: list[ClassFacts]) -> list[ClassFacts]:
         return one
 
     return [whole(one) for one in classes]
-
-
-def _stored(node: ast.ClassDef) -> set[str]:
-    """Return what is assigned in a class: names as well as attributes."""
-    stored = [part for part in ast.walk(node) if isinstance(getattr(part, "ctx", None), ast.Store)]
-    return {getattr(part, "attr", getattr(part, "id", "")) for part in stored}

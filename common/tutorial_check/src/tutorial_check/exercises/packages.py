@@ -156,7 +156,7 @@ def joy2twist(session: Session) -> Note | str | None:
 
 def _is_known(session: Session, name: str) -> bool:
     """Whether find_package surely finds a package. If not, a build tells, which takes its time."""
-    prefixes = session.floor_environment.get("CMAKE_PREFIX_PATH", "").split(":")
+    prefixes = session.underlay_environment.get("CMAKE_PREFIX_PATH", "").split(":")
     if any(each.name == name for each in session.packages):
         return True
     with own_rights():

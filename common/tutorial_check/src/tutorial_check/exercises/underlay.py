@@ -62,7 +62,7 @@ def workspace(session: Session) -> Note | str | None:
 
 def _check_below(session: Session, below: Sequence[str]) -> None:
     """This suite is among the folders that a workspace was built over, or Wrong."""
-    suite = os.path.realpath(Path(session.floor).parent)
+    suite = os.path.realpath(Path(session.underlay).parent)
     if suite in map(os.path.realpath, below):
         return
     other = next(filter(_is_suite, below), None)
@@ -83,7 +83,7 @@ def _is_suite(devel: str | Path) -> Any:
 
 def _check_names(session: Session) -> None:
     """No package has the name of one that the exercises stand on, or Wrong."""
-    share = Path(session.floor).parent / "share"
+    share = Path(session.underlay).parent / "share"
     for each in session.packages:
         with place.own_rights():
             is_suite = (share / each.name).is_dir() and not each.name.startswith(STAND_INS)

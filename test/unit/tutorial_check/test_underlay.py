@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from tutorial_check.exercises.floor import workspace
+from tutorial_check.exercises.underlay import workspace
 from tutorial_check.model import Wrong
 from tutorial_check.workspace import Layout, Package
 
@@ -14,9 +14,11 @@ def session(tmp_path):
     """A workspace whose devel folder is still empty, and the underlay of this copy of the suite."""
     for folder in ("ws/src", "ws/devel", "this/lower/devel", "other/lower/devel"):
         (tmp_path / folder).mkdir(parents=True)
-    floor = tmp_path / "this/lower/devel/setup.bash"
+    underlay = tmp_path / "this/lower/devel/setup.bash"
     root = tmp_path / "ws"
-    return SimpleNamespace(layout=Layout(root, root / "src", True), floor=str(floor), packages=[])
+    return SimpleNamespace(
+        layout=Layout(root, root / "src", True), underlay=str(underlay), packages=[]
+    )
 
 
 def build(session, *below):
