@@ -6,11 +6,11 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+from fake_turtlebot_sim.simulator.contact import drive_among, first_contact, gap
 from fake_turtlebot_sim.simulator.differential_drive import arc
 from fake_turtlebot_sim.simulator.simulated_robot import RobotModel, SimulatedRobot
 from fake_turtlebot_sim.simulator.velocity_command import VelocityLimits
-from fake_turtlebot_sim.world.contact import drive_among, first_contact, gap
-from fake_turtlebot_sim.world.shapes import World
+from fake_turtlebot_sim.simulator.world import World
 
 R = 0.178
 WALL = (1.0, -5.0, 1.0, 5.0)  # x = 1

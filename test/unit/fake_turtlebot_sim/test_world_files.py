@@ -3,8 +3,8 @@
 import pytest
 from PIL import Image
 
-from fake_turtlebot_sim.world.files import WorldError, read_world
-from fake_turtlebot_sim.world.shapes import Surroundings
+from fake_turtlebot_sim.simulator.world import Surroundings
+from fake_turtlebot_sim.simulator.world_files import WorldError, read_world
 
 OURS = """\
 walls:

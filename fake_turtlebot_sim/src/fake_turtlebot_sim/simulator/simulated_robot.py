@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
+from fake_turtlebot_sim.simulator.contact import Piece, drive_among
 from fake_turtlebot_sim.simulator.differential_drive import (
     Pose,
     Velocity,
@@ -26,8 +27,7 @@ from fake_turtlebot_sim.simulator.velocity_command import (
     limit,
     ramp_time,
 )
-from fake_turtlebot_sim.world.contact import Piece, drive_among
-from fake_turtlebot_sim.world.shapes import Surroundings, World
+from fake_turtlebot_sim.simulator.world import Surroundings, World
 
 REST: Velocity = (0.0, 0.0)
 ORIGIN: Pose = (0.0, 0.0, 0.0)

@@ -10,7 +10,7 @@ import numpy as np
 import yaml
 from PIL import Image
 
-from fake_turtlebot_sim.world.shapes import Point, World
+from fake_turtlebot_sim.simulator.world import Point, World
 
 FOLDER = Path("worlds")  # of the package, with those that are named without .yaml
 FIELDS = {

@@ -9,8 +9,8 @@ from typing import Any, Sequence, Tuple
 
 import numpy as np
 
+from fake_turtlebot_sim.simulator.contact import Disc, Obstacle, Segment
 from fake_turtlebot_sim.simulator.differential_drive import Pose
-from fake_turtlebot_sim.world.contact import Disc, Obstacle, Segment
 
 Point = Tuple[float, float]  # x, y [m]
 REACH_M = 1.0  # around a robot: what is farther away is looked at again only after so long a way

@@ -1,1 +1,0 @@
-"""What is in the way of a robot: walls, posts, cliffs (pure)."""
