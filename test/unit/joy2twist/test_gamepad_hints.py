@@ -40,10 +40,3 @@ def test_hint(about, messages, given, hint):
     found = [line for line in map(looker.hint, messages) if line]
     assert len(found) == (hint is not None), about
     assert hint is None or hint in found[0]
-
-
-def test_nothing_more_is_looked_for_once_the_stick_has_moved():
-    looker = GamepadHints(load({}))
-    for message, finished in ((six(), False), (six(a1=-0.5), True), (EIGHT, True)):
-        looker.hint(message)
-        assert looker.finished is finished

@@ -94,13 +94,6 @@ def test_a_bad_message_is_named(given, axes, buttons, words):
     assert words in str(error.value)
 
 
-def test_the_largest_value_that_is_no_noise():
-    mapping = Mapping(load({}))
-    assert mapping.velocity((0.0, -1e6), ()) == (-1e6, 0, 0, 0, 0, 0)
-    with pytest.raises(BadJoyError):
-        mapping.velocity((0.0, 1e6 + 0.5), ())
-
-
 def test_a_rest_looks_only_at_the_axes_in_use():
     mapping = Mapping(load({}))
     assert mapping.rests((0.05, -0.1, 1.0, -1.0), (0,) * 6)  # triggers rest at the end
@@ -175,11 +168,6 @@ def test_limited_speed_is_within_the_limits_and_keeps_its_direction(velocity, li
         assert before <= limit or length == pytest.approx(limit)
         for now, wanted in zip(limited[part], velocity[part]):
             assert now * before == pytest.approx(wanted * length, rel=1e-9)
-
-
-def test_a_step_changes_by_no_more_than_allowed():
-    assert approach(ZERO, (1.0, 0, 0, 0, 0, 2.0), 0.1, 0.5) == pytest.approx((0.1, 0, 0, 0, 0, 0.5))
-    assert approach((-0.3, 0, 0, 0, 0, 0), ZERO, 0.2, 0.2) == pytest.approx((-0.1, 0, 0, 0, 0, 0))
 
 
 @given(st.tuples(*[st.floats(-2, 2)] * 6), st.tuples(*[st.floats(-2, 2)] * 6))

@@ -1,7 +1,5 @@
 """Names, defaults and checks of the private parameters."""
 
-from dataclasses import FrozenInstanceError
-
 import pytest
 
 from joy_to_twist.parameters import Axis, load
@@ -36,16 +34,6 @@ def test_maps_name_the_components():
         Axis(PITCH, 5, 2.0, 2.0),
         Axis(YAW, 0, 1.0, 1.0),
     )
-
-
-def test_a_scale_number_is_for_every_axis_of_a_map():
-    axes = load({"axis_linear": {"x": 1, "y": 0}, "scale_linear": 0.3}).axes
-    assert axes[:2] == (Axis(LINEAR_X, 1, 0.3, 0.3), Axis(LINEAR_Y, 0, 0.3, 0.3))
-
-
-def test_a_scale_map_fits_an_axis_number():
-    axes = load({"axis_linear": 2, "scale_linear": {"x": 0.6, "y": 0.5}}).axes
-    assert axes[0] == Axis(LINEAR_X, 2, 0.6, 1.0)
 
 
 @pytest.mark.parametrize(
@@ -118,24 +106,3 @@ def test_the_least_and_the_most_are_allowed_and_no_more(name):
     for value in (least - 0.5, most + 0.5, None, "1", False):
         with pytest.raises(ValueError, match=rf"^~{name}: {value!r}: must be a .*number"):
             load({name: value})
-
-
-def test_what_was_checked_cannot_be_changed():
-    parameters = load({})
-    for thing, name in ((parameters, "joy_timeout"), (parameters.axes[0], "scale")):
-        with pytest.raises(FrozenInstanceError):
-            setattr(thing, name, 1.0)
-
-
-def test_all_defaults_written_out():
-    p = load({})
-    assert (p.stop_messages, p.output_rate, p.max_joy_age, p.inverted_reverse) == (5, 20, 0, False)
-    assert (p.max_linear_speed, p.max_angular_speed) == (0, 0)
-    assert (p.max_linear_acceleration, p.max_angular_acceleration) == (0, 0)
-    assert (p.gamepad_axes, p.diagnostic_period) == (-1, 1)
-
-
-@pytest.mark.parametrize(("enable", "turbo"), [(0, -1), (-1, 0), (1, 0), (0, 1)])
-def test_button_0_is_a_button(enable, turbo):
-    given = {"enable_button": enable, "enable_turbo_button": turbo, "require_enable_button": True}
-    assert load(given).require_enable_button

@@ -20,13 +20,6 @@ def teleoperation(**given):
     return Teleoperation(load(given), warnings.append, wake=lambda: None), warnings
 
 
-def test_a_message_becomes_a_velocity():
-    machine, warnings = teleoperation()
-    assert machine.joy((0.5, 0.7, 0, 0, 0, 0), (), 0.0) == pytest.approx((0.7, 0, 0, 0, 0, 0.5))
-    assert machine.safety.due == 0.5  # the end of joy_timeout
-    assert warnings == []
-
-
 def test_a_bad_message_is_reported_once_in_five_seconds():
     machine, warnings = teleoperation()
     for now, count in ((0.0, 1), (4.9, 1), (5.1, 2), (9.9, 2), (10.1, 3)):
@@ -100,14 +93,6 @@ def test_a_hint_on_the_gamepad_is_given_once_for_each_connection():
     assert len(warnings) == 2
 
 
-def test_a_joystick_node_that_leaves_stops_the_robot():
-    machine, _ = teleoperation(enable_button=0)
-    machine.joy((0.0, 1.0), (1,), 0.0)
-    assert machine.left(0.1) == (0,) * 6
-    assert machine.left(0.2) is None
-    assert machine.summary(0.3)[1] == "stopped: the joystick node has left"
-
-
 HELD, RELEASED = ((0.0, 1.0), (1, 0, 0)), ((0.0, 0.0), (0, 0, 0))
 
 
@@ -154,31 +139,6 @@ def test_a_stop_that_was_pressed_during_a_suspension_counts():
     machine.suspended(1, 0.1)
     machine.joy((0.0, 0.0), (0, 1, 0), 0.11)
     assert "stop button" in machine.summary(0.2)[1]
-
-
-def test_with_arming_stick_and_dead_man_are_released_first():
-    machine, _ = teleoperation(arm_on_neutral=True, enable_button=0)
-    for now, stick, button, sent, released in (
-        (0.0, 1.0, 1, 0.0, False), (0.1, 1.0, 0, None, False), (0.2, 1.0, 1, None, False),
-        (0.3, 0.05, 0, None, True), (0.4, 1.0, 1, 1.0, False), (0.5, 0.0, 0, 0.0, True),
-    ):  # fmt: skip
-        velocity = machine.joy((0.0, stick), (button,), now)
-        assert (velocity and velocity[0]) == sent, now
-        assert machine.safety.released is released, now
-
-
-@pytest.mark.parametrize(
-    ("given", "button"),
-    [
-        ({}, "none"),
-        ({"enable_button": 4, "enable_turbo_button": 5}, "4"),
-        ({"enable_turbo_button": 5, "require_enable_button": True}, "5"),
-        ({"enable_button": 4, "require_enable_button": False}, "none"),
-    ],
-)
-def test_diagnostics_name_the_deadman_button(given, button):
-    machine, _ = teleoperation(**given)
-    assert machine.summary(0.0)[2]["Dead-man button"] == button
 
 
 def test_diagnostics():
