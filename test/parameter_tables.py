@@ -11,10 +11,12 @@ from pathlib import Path
 
 REPOSITORY = Path(__file__).resolve().parents[1]
 SOURCES = ["common/node_kit/src", "common/gamepad/src", "fake_turtlebot_sim/src", "joy2twist/src"]
-TABLES = [  # README, module, dataclass
-    ("joy2twist/README.md", "joy_to_twist.parameters", "Parameters"),
-    ("fake_turtlebot_sim/README.md", "fake_turtlebot_sim.simulator.parameters", "Parameters"),
-    ("common/gamepad/README.md", "gamepad.driver.parameters", "DriverParameters"),
+TABLES = [  # README, module, dataclass; what stands before each name
+    ("joy2twist/README.md", "joy_to_twist.parameters", "Parameters", "~"),
+    ("fake_turtlebot_sim/README.md", "fake_turtlebot_sim.simulator.parameters", "Parameters", "~"),
+    ("fake_turtlebot_sim/README.md", "fake_turtlebot_sim.mux.parameters", "MuxParameters", "~"),
+    ("fake_turtlebot_sim/README.md", "fake_turtlebot_sim.mux.parameters", "Input", ""),
+    ("common/gamepad/README.md", "gamepad.driver.parameters", "DriverParameters", "~"),
 ]
 
 
@@ -23,8 +25,8 @@ def main() -> int:
     sys.path[:0] = [str(REPOSITORY / folder) for folder in SOURCES]
     table = importlib.import_module("node_kit.parameters").table
     old = []
-    for name, module, kind in TABLES:
-        new = table(getattr(importlib.import_module(module), kind))
+    for name, module, kind, where in TABLES:
+        new = table(getattr(importlib.import_module(module), kind), where)
         first = re.escape(new.splitlines()[2].split(" | ")[0])
         readme = REPOSITORY / name
         before = readme.read_text()

@@ -92,18 +92,20 @@ def unknown(name: str, value: Any, known: Collection[str], where: str = "~") -> 
     return f"{where}{name}: {value!r}: no such parameter; {hint}"
 
 
-def table(kind: type) -> str:
-    """Return the Markdown table of the parameters that a dataclass declares."""
+def table(kind: type, where: str = "~") -> str:
+    """Return the Markdown table of the parameters that a dataclass declares; where: as above."""
     rows = ["| parameter | default | allowed | |", "|---|---|---|---|"]
     for name, one in declared(kind).items():
         value = one.default if one.default_factory is MISSING else one.default_factory()
         default = one.metadata["default"] or _as_yaml(value)
         allowed = getattr(one.metadata["check"], "allowed", "")
-        rows.append(f"| `~{name}` | {default} | {allowed} | {one.metadata['meaning']} |")
+        rows.append(f"| `{where}{name}` | {default} | {allowed} | {one.metadata['meaning']} |")
     return "\n".join(rows) + "\n"
 
 
 def _as_yaml(value: Any) -> str:
+    if value is MISSING:
+        return ""
     return str(value).lower() if isinstance(value, bool) else str(value) or '""'
 
 

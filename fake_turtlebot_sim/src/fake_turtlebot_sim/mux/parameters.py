@@ -27,12 +27,20 @@ _NAME = text(
 class Input:
     """A source of commands: one entry of ~subscribers. rearm_on_zero is a key of ours."""
 
-    name: str = parameter(MISSING, _NAME)
-    topic: str = parameter(MISSING, _TOPIC)
-    timeout: float = parameter(MISSING, number(0.02, 60.0, "s"))
-    priority: int = parameter(MISSING, whole_number(0, allowed="a whole number, 0 for the lowest"))
-    short_desc: str = parameter("", text())
-    rearm_on_zero: bool = parameter(False, switch)
+    name: str = parameter(MISSING, _NAME, "what `~active` calls it")
+    topic: str = parameter(MISSING, _TOPIC, "below the node's name, unless it begins with `/`")
+    timeout: float = parameter(
+        MISSING,
+        number(0.02, 60.0, "s"),
+        "so long after its last command the input is active no more",
+    )
+    priority: int = parameter(
+        MISSING,
+        whole_number(0, allowed="a whole number, 0 for the lowest"),
+        "the highest wins; no two are the same",
+    )
+    short_desc: str = parameter("", text(), "for people")
+    rearm_on_zero: bool = parameter(False, switch, "see below; not a key of yocs_cmd_vel_mux")
 
 
 def _inputs(value: Any) -> tuple[Input, ...]:
@@ -58,8 +66,8 @@ def _input(position: int, entry: Any) -> Input:
 class MuxParameters:
     """What can be set, with the defaults; README.md and config/cmd_vel_mux.yaml explain each."""
 
-    subscribers: tuple[Input, ...] = parameter(MISSING, _inputs)
-    publisher: str = parameter("output", _TOPIC)
+    subscribers: tuple[Input, ...] = parameter(MISSING, _inputs, "list of inputs")
+    publisher: str = parameter("output", _TOPIC, "of the commands that go through")
 
 
 def parse_mux_parameters(given: Mapping[str, Any]) -> MuxParameters:
