@@ -89,7 +89,7 @@ def test_numbers_are_held_to_their_range(name):
         ({"robots": ["ada"] * 1001}, ["~robots: ['ada'", "1 to 1000"]),
         (
             {"robots": ["ada", "bob", "ada"]},
-            ["~robots: [", "'ada': stands there twice"],
+            ["~robots: [", "'ada': is listed twice"],
         ),
         ({"robots": ["ada", "2nd"]}, ["~robots: [", "'2nd'", "letter"]),
         ({"robots": [["ada"]]}, ["~robots: [['ada']]", "letter"]),

@@ -45,7 +45,7 @@ class Arbiter:
     def command(self, name: str, velocity: Velocity, now: float, sender: object = "") -> Verdict:
         """Return the Verdict on a velocity (numbers, whatever their units) that came now [s].
 
-        The sender tells apart what speaks on one input, as to whether its commands may be late.
+        sender: distinguishes the publishers of one input, each of which may be late by itself.
         """
         if not all(map(isfinite, velocity)):
             return Verdict.REJECTED  # and the timeout runs on

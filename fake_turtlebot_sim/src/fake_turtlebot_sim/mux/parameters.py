@@ -51,7 +51,7 @@ def _inputs(value: Any) -> tuple[Input, ...]:
         values = [getattr(one, key) for one in inputs]
         twice = next((v for k, v in enumerate(values) if v in values[:k]), None)
         if twice is not None:
-            raise ValueError(f"{key}: {twice!r}: stands there twice; must be unique")
+            raise ValueError(f"{key}: {twice!r}: is listed twice; must be unique")
     return inputs
 
 

@@ -37,7 +37,7 @@ def _robots(value: Any) -> dict[str, Pose]:
         names = list(map(_robot_name, value))
         for robot in names:
             if names.count(robot) > 1:
-                raise ValueError(f"{robot!r}: stands there twice; must be unique")
+                raise ValueError(f"{robot!r}: is listed twice; must be unique")
         return line_up(names)
     if is_number(value) and value in range(1, MOST_ROBOTS + 1):
         return line_up([f"robot_{k + 1}" for k in range(int(value))])
