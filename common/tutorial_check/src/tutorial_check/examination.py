@@ -49,7 +49,6 @@ class Outcome:
 
     @property
     def passed(self) -> bool:
-        """Whether it is done, and nothing in it wrong."""
         return self.done and passed(self.results)
 
     @property

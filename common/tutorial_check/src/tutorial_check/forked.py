@@ -66,7 +66,6 @@ class Helper:
         return value
 
     def end(self) -> None:
-        """End the process."""
         self._process.kill()
         self._process.join()
         self._line.close()

@@ -40,7 +40,6 @@ class Pad:
             time.sleep(PERIOD_S)
 
     def connected(self) -> bool:
-        """Return whether a driver reads it."""
         return bool(self._pad.connected)
 
     def push(self, left: float, forwards: float) -> None:
@@ -48,5 +47,4 @@ class Pad:
         self._position = self._at(left, forwards, 1)
 
     def release(self) -> None:
-        """Let go of all."""
         self._position = self._at(0.0, 0.0, 0)

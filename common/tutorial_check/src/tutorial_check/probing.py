@@ -164,17 +164,14 @@ class Reply:
 
     @property
     def other(self) -> str:
-        """Return which button is pressed besides LB, or an empty text."""
         return _other_button(self.joy[1])
 
     @property
     def differs(self) -> bool:
-        """Return whether the same Joy had another answer."""
         return not is_near(self.value, self.again)
 
     @property
     def keeps(self) -> bool:
-        """Return whether the robot goes on as before."""
         return is_near(self.value, self.before) and abs(self.value) > SMALL
 
     @property
@@ -190,7 +187,6 @@ class Reply:
 
     @property
     def when(self) -> str:
-        """Return at which Joy this came."""
         lb = "" if self.joy[1][LB] else " and LB released"
         other = f" and {self.other} pressed" if self.other else ""
         return f"axes[{self.axis}] is {self.joy[0][self.axis]:.2f}{lb}{other}"

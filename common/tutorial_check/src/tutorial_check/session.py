@@ -114,7 +114,6 @@ class Session:
         return self.memo("packages", lambda: packages_below(self.source))  # type: ignore[no-any-return]
 
     def package(self, name: str) -> Any:
-        """Return the Package of that name, or None."""
         return next((each for each in self.packages if each.name == name), None)
 
     def scripts(self, name: str) -> Any:

@@ -258,7 +258,6 @@ def packages_beside(layout: Layout) -> list[Package]:
 
 
 def read_package(place: Path, root: str | Path) -> Package:
-    """Return the Package in a folder."""
     package = Package(place, os.path.relpath(place, root))
     try:
         parsed = parse_package(str(place), warnings=package.warnings)
