@@ -87,14 +87,10 @@ def test_what_could_not_be_checked_is_reported_beside_the_rest(main, outcomes, c
 
 
 def test_without_a_verdict_classroom_50_gets_no_file(main, tmp_path, capsys):
-    words = ["--classroom", tmp_path / "classroom", "--json", tmp_path / "json"]
-    assert main(lambda *_: [WELL, NO_VERDICT], *words) == 2
+    words = ["--classroom", tmp_path / "classroom", "--json", tmp_path / "json", "--no-hints"]
+    assert main(lambda *_: [BAD, NO_VERDICT], *words) == 2
     assert sorted(path.name for path in tmp_path.iterdir()) == ["json"]
     assert f"check: {tmp_path}/classroom is not written" in capsys.readouterr().err
-
-
-def test_no_hints_holds_for_files_too(main, tmp_path):
-    main(lambda *_: [BAD], "--no-hints", "--json", tmp_path / "json")
     assert "mkdir src" not in (tmp_path / "json").read_text()
 
 
