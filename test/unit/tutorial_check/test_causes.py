@@ -184,8 +184,7 @@ def test_the_students_own_line():
     "no_mistake",
     [
         OUTPUT.replace("TypeError: 'tuple'", "rospy.ROSException: publish() to a closed topic"),
-        CLOSED
-        + OUTPUT.replace("TypeError:", "ROSException: topic was closed during publish()"),
+        CLOSED + OUTPUT.replace("TypeError:", "ROSException: topic was closed during publish()"),
         "Traceback (most recent call last)",  # it was cut off here
         "Traceback (most recent call last):\n",
     ],

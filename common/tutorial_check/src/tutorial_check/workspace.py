@@ -54,7 +54,7 @@ def hand_in(given: str | Path, folder: Path) -> tuple[Layout, Path]:
     A folder with nothing but a zip, as Moodle has it, is that zip. Raises CannotCheck.
     """
     given = archive = Path(given)
-    if not given.is_file():
+    if not os.path.isfile(given):
         layout = find_layout(given)
         zips = [] if layout.source.is_dir() else [*filter(is_zip, sorted(given.iterdir()))]
         if len(zips) != 1 or packages_below(given):
@@ -96,11 +96,12 @@ def unpack(archive: Path, folder: Path) -> None:
 def find_layout(folder: str | Path) -> Layout:
     """Return the Layout of a workspace, its src, a folder of packages, or one package."""
     folder = Path(folder)
-    if not folder.exists():
-        raise CannotCheck(f"{folder}: no such folder")
-    if not folder.is_dir():
-        raise CannotCheck(f"{folder}: neither a folder nor a zip")
     try:
+        if not folder.exists():
+            hint = "./tutorial shell --in FOLDER makes a workspace"
+            raise CannotCheck(f"{folder}: no such folder or zip; {hint}")
+        if not folder.is_dir():
+            raise CannotCheck(f"{folder}: neither a folder nor a zip")
         for candidate in (folder, *_only_child(folder)):
             if (candidate / "src").is_dir() and not (candidate / "package.xml").exists():
                 return Layout(candidate, candidate / "src", True)
