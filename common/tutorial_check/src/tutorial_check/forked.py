@@ -117,4 +117,4 @@ class MasterProcess:
         end = time.monotonic() + 30
         while self._master.uri is None and time.monotonic() < end:
             time.sleep(0.002)
-        return self._master.uri  # type: ignore[no-any-return]
+        return self._master.uri
