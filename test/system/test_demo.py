@@ -52,17 +52,6 @@ def test_demo_counts_and_drives(tutorial):
         assert re.search(r"^demo: first /odom after [\d.]+ s$", demo.output, re.MULTILINE)
 
 
-def test_demo_uses_a_master_that_runs_and_leaves_it(tutorial, master_uri):
-    port = master_uri.rsplit(":", 1)[1]
-    with Program(tutorial, "run", "roscore", "-p", port) as roscore:
-        wait_for(lambda: "started core service" in roscore.output, "roscore")
-        with Program(tutorial, "demo", "--for", "4", *BARE) as demo:
-            check_demo(demo, 4)
-        assert not roscore.ended
-        roscore.interrupt()
-        assert roscore.wait() == 0
-
-
 def test_demo_says_so_when_the_robot_stands(tutorial, tmp_path, master_uri):
     still = tmp_path / "still.bag"
     subprocess.run(

@@ -119,18 +119,6 @@ def test_the_doctor_installs_nothing(tutorial, bare_system):
     assert not (bare_system / "calls").exists()  # of apt-get
 
 
-def test_the_doctor_does_without_what_only_shows(tutorial, bare_system):
-    with Program(tutorial, "setup", "system") as setup:
-        assert setup.wait() == 0
-    installed = bare_system / "installed"
-    installed.write_text(installed.read_text().replace("rviz\n", ""))
-    (bare_system / "calls").unlink()
-    with Program(tutorial, "doctor", ROS_MASTER_URI="http://localhost:9") as doctor:
-        assert doctor.wait() == 1
-        assert "wrong    master" in doctor.output
-    assert not (bare_system / "calls").exists()
-
-
 @pytest.mark.usefixtures("bare_system")
 def test_without_a_network_it_says_so(tutorial, monkeypatch):
     monkeypatch.setenv("BROKEN", "yes")
@@ -210,29 +198,6 @@ def test_after_a_build_that_failed_nothing_counts_as_built(clone, own_workspace,
         assert setup.wait() == 1
         assert "tutorial: catkin_make failed" in setup.output
     assert not (own_workspace / "built").exists()
-
-
-@pytest.mark.usefixtures("clean_environment")
-def test_a_workspace_that_sudo_makes_and_one_of_a_moved_clone_are_reported(clone, tmp_path):
-    first, second = tmp_path / "first", tmp_path / "second"
-    shutil.copytree(clone, first, symlinks=True)
-    environment = {"HOME": str(tmp_path), "XDG_CACHE_HOME": "", "SUDO_USER": "ada"}
-
-    def set_up(folder):
-        with Program(str(folder / "tutorial"), "doctor", **environment) as doctor:
-            doctor.wait()
-            return doctor.output
-
-    said = set_up(first)
-    by_sudo = "ada's own calls do not use: call ./tutorial without sudo, it asks for it itself"
-    assert by_sudo in said
-    assert "clone that was moved" not in said
-    (old,) = (tmp_path / ".cache" / "ros1_tutorial").iterdir()
-    first.rename(second)
-    environment["SUDO_USER"] = ""
-    said = set_up(second)
-    assert f"a clone that was moved or removed are still there: rm -r {old}\n" in said
-    assert "without sudo" not in said
 
 
 def test_why_a_workspace_is_not_built_is_said_in_catkins_words(tutorial, tmp_path):

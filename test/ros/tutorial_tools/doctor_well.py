@@ -56,7 +56,7 @@ class WellTest(unittest.TestCase):
     def test_simulated_time_without_a_clock(self):
         rospy.set_param("/use_sim_time", True)
         self.addCleanup(rospy.delete_param, "/use_sim_time")
-        self.wrong("no /clock comes")
+        self.wrong("no /clock arrives")
 
 
 if __name__ == "__main__":

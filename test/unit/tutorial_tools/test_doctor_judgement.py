@@ -3,10 +3,13 @@
 import errno
 import re
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
-from tutorial_tools.doctor.facts import Answer, Facts, Joystick, Mux, MuxInput, Node, Offset, some
+from node_kit.questions import Answer
+from tutorial_tools.doctor import judgement, way
+from tutorial_tools.doctor.facts import Facts, Joystick, Mux, MuxInput, Node, Offset, some
 from tutorial_tools.doctor.judgement import judge
 
 JOY, TWIST = "sensor_msgs/Joy", "geometry_msgs/Twist"
@@ -114,7 +117,7 @@ WRONG = {  # words of the one line that is wrong, in their order: facts
         replace(nodes(joy_node=node("localhost")), master_here=True, way_out=""),
     "3.2 s ahead of us, by /odom": well(clocks={"robot": Offset(3.21, "/odom")}),
     "3.2 s behind us ... chrony": well(clocks={"robot": Offset(-3.21, "/odom")}),
-    "/use_sim_time is true, and no /clock comes ... rosparam delete":
+    "/use_sim_time is true, and no /clock arrives ... rosparam delete":
         well(use_sim_time=True, clocks={"robot": Offset(99.0, "/odom")}),
     "neither a joystick nor joy2twist: roslaunch joy2twist launch_joy_node.launch": Facts(),
     "neither a joystick nor joy2twist ... launch_joy_node_realTurtlebot.launch":
@@ -295,3 +298,11 @@ def test_a_robot_of_a_classroom_without_joystick():
 )
 def test_names_in_a_line(names, shown):
     assert some(names) == shown
+
+
+def test_the_readme_lists_what_is_looked_at():
+    package = Path(judgement.__file__).resolve().parents[3]
+    source = "".join(Path(module.__file__).read_text() for module in (judgement, way))
+    looked_at = set(re.findall(r'\b(?:ok|wrong|unknown)\("(\w+)"', source))
+    section = (package / "README.md").read_text().split("## When nothing moves")[1].split("##")[0]
+    assert set(re.findall(r"^\| `(\w+)` \|", section, re.M)) == looked_at

@@ -7,8 +7,8 @@ import time
 
 import pytest
 
+from node_kit.questions import Answer
 from tutorial_tools.doctor import network
-from tutorial_tools.doctor.facts import Answer
 
 
 @pytest.fixture(autouse=True)
