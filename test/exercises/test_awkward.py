@@ -197,7 +197,7 @@ def test_all_at_once_or_alone_is_the_same(literal, underlay, tmp_path, request):
         report = json.loads((group / "check" / f"{name}.json").read_text())
         reported = [one for exercise in report["exercises"] for one in exercise["checks"]]
         outcomes = examine(group / name, underlay, exercises)
-        alone = [one.as_dict() for outcome in outcomes for one in outcome.results]
+        alone = [vars(one) for outcome in outcomes for one in outcome.results]
         statuses = [[(one["id"], one["status"]) for one in each] for each in (reported, alone)]
         assert statuses[0] == statuses[1], f"{name}: {reported}\nalone: {alone}"
 

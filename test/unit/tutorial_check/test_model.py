@@ -1,15 +1,16 @@
 """The order of checks: none without those it needs, none twice, one cause reported once."""
 
+from dataclasses import replace
+
 import pytest
 
-from tutorial_check.exercises import catalogue
+from tutorial_check.exercises import all_checks
 from tutorial_check.model import (
     NOTE,
     OK,
     UNREACHED,
     WRONG,
     CannotCheck,
-    Catalogue,
     Check,
     Note,
     Run,
@@ -43,8 +44,8 @@ def run(checks=CHECKS, busy=None, hopeless=False, **functions):
         function = functions.get(name, lambda session: None)
         return lambda session: [called.append(name), function(session)][1]
 
-    catalogue = Catalogue(checks, {check.id: counted(check.id) for check in checks})
-    return Run(catalogue, None, lambda explained: bool(busy), lambda: hopeless), called
+    checks = [replace(check, function=counted(check.id)) for check in checks]
+    return Run(checks, None, lambda explained: bool(busy), lambda: hopeless), called
 
 
 def statuses(results):
@@ -111,11 +112,6 @@ def test_what_cannot_be_checked_keeps_no_other_check_from_it(error, why):
     assert one.trouble("1").startswith(why) and one.trouble("2") == ""
 
 
-def test_each_check_has_its_function():
-    with pytest.raises(ValueError, match="B"):
-        Catalogue(CHECKS[:2], {"A": None})
-
-
 @pytest.mark.parametrize(
     ("about", "busy", "hopeless", "looks", "status"),
     [
@@ -132,9 +128,7 @@ def test_a_second_look_on_a_busy_machine(about, busy, hopeless, looks, status):
     assert one.result("A").status == status
     assert len(called) == looks
     assert ("the machine has too much else to do" in one.trouble("1")) == (status == UNREACHED)
-    assert {"C5", "C13", "C21", "C29"} <= {
-        each.id for each in catalogue().checks.values() if each.timeless
-    }
+    assert {"C5", "C13", "C21", "C29"} <= {each.id for each in all_checks() if each.timeless}
 
 
 def test_the_second_look_counts():
@@ -164,6 +158,5 @@ def test_a_cause_that_was_reported_is_not_looked_for_again():
 )
 def test_a_second_look_knows_whether_a_line_explains_it(where, explained):
     asked = []
-    catalogue = Catalogue(independent("1"), {"A": wrong(where=where)})
-    Run(catalogue, None, asked.append).result("A")
+    Run(independent("1", function=wrong(where=where)), None, asked.append).result("A")
     assert asked == [explained]

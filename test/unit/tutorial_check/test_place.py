@@ -10,7 +10,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from tutorial_check import place, running
+from tutorial_check import box, place
 from tutorial_check.box import Box, processes
 from tutorial_check.forked import Helper
 from tutorial_check.place import MOST_THREADS, unused_user
@@ -48,7 +48,7 @@ class Keeper:
         for _ in range(threads):
             threading.Thread(target=threading.Event().wait, daemon=True).start()
         place.keep_to_itself()
-        place.adopt_orphans()
+        place.prctl(place.PR_SET_CHILD_SUBREAPER, 1)
         self._box = Box(ENVIRONMENT, uid)
 
     def run(self, *words):
@@ -159,19 +159,12 @@ def test_a_programs_name_may_be_any_bytes(tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("least_s", "is_noted", "was_stopped", "spins"),
-    [
-        (0.0, True, True, True),
-        (0.0, False, True, False),  # nothing has looked yet
-        (3600.0, True, True, False),
-        (0.0, True, False, False),  # it ended by itself
-    ],
+    ("least_s", "code", "spins"),
+    [(0.0, None, True), (3600.0, None, False), (0.0, 0, False)],  # the last ended by itself
 )
-def test_when_a_program_works_without_end(monkeypatch, least_s, is_noted, was_stopped, spins):
-    own_s = time.process_time() / 2 if least_s == 0.0 else time.process_time() + least_s
-    monkeypatch.setattr(running, "SPINNING_S", own_s)
-    program = running.Program(SimpleNamespace(pid=os.getpid()), "this one", 0)
-    program.was_stopped = was_stopped
-    if is_noted:
-        program.note_work()
+def test_when_a_program_works_without_end(monkeypatch, least_s, code, spins):
+    monkeypatch.setattr(box, "SPINNING_S", time.process_time() / 2 + least_s)
+    program = box.Program(SimpleNamespace(pid=os.getpid(), poll=lambda: code), "this one")
+    assert not program.spins
+    program.stop(0)
     assert program.spins == spins

@@ -82,14 +82,14 @@ def test_a_folder_that_is_closed_to_the_programs_is_named(one, needed, how):
 NOEXEC = """
 import subprocess, sys
 from pathlib import Path
-from types import SimpleNamespace
 from tutorial_check.box import Box
 from tutorial_check.session import Session
 
 subprocess.run(["mount", "-t", "tmpfs", "-o", "noexec,mode=755", "none", sys.argv[1]], check=True)
 (Path(sys.argv[1]) / "scratch").mkdir()
-one = SimpleNamespace(box=Box({"HOME": "/"}), folder=Path(sys.argv[1]) / "scratch")
-Session.must_start_programs(one)
+one = Session.__new__(Session)
+one.box, one.folder = Box({"HOME": "/"}), Path(sys.argv[1]) / "scratch"
+one.must_start_programs()
 """
 APART = ["unshare", "--mount", *([] if os.geteuid() == 0 else ["--user", "--map-root-user"])]
 may_mount = not subprocess.run(

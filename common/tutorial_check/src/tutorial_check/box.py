@@ -8,24 +8,75 @@ from __future__ import annotations
 
 import contextlib
 import os
-import resource
 import select
 import signal
 import subprocess
 import sys
 import time
-from typing import Callable, Iterator, Mapping, NoReturn, Sequence, TypeVar
+from typing import Callable, Iterable, Iterator, Mapping, Sequence, TypeVar
 
 from tutorial_check import place
 from tutorial_check.model import Wrong
-from tutorial_check.patience import Patience
-from tutorial_check.running import Forked, Program, fields_of
+from tutorial_check.patience import Patience, fields_of
 
 GRACE_S = 3.0  # after Ctrl-C a program has this long to end by itself
 IDLE_S = 2.0  # programs that have done nothing for so long wait for what does not come; a talker may for 1 s
+SPINNING_S = 6.0  # of a processor's time; to start, a ROS program needs less than one
 MOST_PROCESSES = 100  # a launch file's are a dozen
+KEPT_FIRST, KEPT_LAST = 200_000, 50_000  # bytes of a program's output
 ENDED = (b"Z", b"X")  # states of processes that are no more than a number
 Value = TypeVar("Value")
+
+
+class Program:
+    """A program of the student's, or one that serves the check."""
+
+    def __init__(self, process: subprocess.Popen[bytes], name: str) -> None:
+        self.process, self.name = process, name
+        self.was_stopped = False  # by us: then how it ended says nothing
+        self._worked_s = 0.0
+        self._first, self._last, self._printed = bytearray(), bytearray(), 0
+
+    @property
+    def ended(self) -> bool:
+        return self.process.poll() is not None
+
+    def signal(self, number: int) -> None:
+        """Send a signal to its process group."""
+        with contextlib.suppress(ProcessLookupError, PermissionError):
+            os.killpg(self.process.pid, number)
+
+    def stop(self, number: int) -> None:
+        """Signal it to end, and note how long it has worked: later the kernel does not know."""
+        with contextlib.suppress(OSError):
+            fields = fields_of(f"/proc/{self.process.pid}/stat")
+            self._worked_s = sum(map(int, fields[11:13])) / os.sysconf("SC_CLK_TCK")
+        if not self.ended:
+            self.was_stopped = True
+            self.signal(number)
+
+    @property
+    def spins(self) -> bool:
+        """Whether it worked without end until we ended it, so that no busy machine is to blame."""
+        return self.was_stopped and self._worked_s > SPINNING_S
+
+    @property
+    def output(self) -> str:
+        """What it printed; the middle of very much is left out."""
+        gap = b"\n[...]\n" if self._printed > KEPT_FIRST + KEPT_LAST else b""
+        return (self._first + gap + self._last).decode(errors="replace")
+
+    def read(self) -> bool:
+        """Take what it printed since the last time; return False at the end of its output."""
+        assert self.process.stdout
+        data = self.process.stdout.read(65536)
+        if data is None:  # nothing yet
+            return True
+        self._printed += len(data)
+        free = KEPT_FIRST - len(self._first)
+        self._first += data[:free]
+        self._last = (self._last + data[free:])[-KEPT_LAST:]
+        return bool(data)
 
 
 class Box:
@@ -43,19 +94,15 @@ class Box:
         result: a socket without whose reader nothing of this is wanted any more.
         """
         self.environment = environment
-        self._uid = uid
-        self._alone = alone
+        self._uid, self._alone, self._result = uid, alone, result
         self._limits = place.limits_of_programs(uid)
         self._open: list[Program] = []
+        self._reading: dict[int, Program] = {}  # by the descriptor of its output
         self._trusted = {os.getsid(0), os.getpid()}
         self.patience = Patience(self._trusted)
         self._poll = select.poll()
-        self._result = result
         if result is not None:
-            self._poll.register(
-                result, 0
-            )  # the end of its reader is an error, which is always reported
-        self._reading: dict[int, Program] = {}
+            self._poll.register(result, 0)  # the end of its reader is always reported
 
     def start(
         self,
@@ -64,56 +111,24 @@ class Box:
         trusted: bool = False,
     ) -> Program:
         """Start a program. Raises OSError if there is nothing to start."""
-        read, write = os.pipe()
-        try:
-            process = subprocess.Popen(
-                command,
-                stdin=subprocess.DEVNULL,
-                stdout=write,
-                stderr=write,
-                cwd=self.environment["HOME"],
-                env={**self.environment, **(environment or {})},
-                start_new_session=True,  # with a group that Ctrl-C reaches, as in a terminal
-                preexec_fn=place.restore_rights if trusted else self._restrict,  # noqa: PLW1509  one thread
-            )
-        except BaseException:
-            os.close(read)
-            raise
-        finally:
-            os.close(write)
+        process = subprocess.Popen(
+            command,
+            bufsize=0,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            cwd=self.environment["HOME"],
+            env={**self.environment, **(environment or {})},
+            start_new_session=True,  # with a group that Ctrl-C reaches, as in a terminal
+            preexec_fn=place.restore_rights if trusted else self._restrict,  # noqa: PLW1509  one thread
+        )
         if trusted:
             self._trusted.add(process.pid)
-        return self._listen_to(process, os.path.basename(command[0]), read)
-
-    def fork(
-        self, run: Callable[[], NoReturn], environment: Mapping[str, str], name: str
-    ) -> Program:
-        """Start run() as a program in a copy of this process, which run() has to end."""
-        read, write = os.pipe()
-        pid = os.fork()
-        if pid == 0:
-            try:
-                os.setsid()
-                os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
-                for stream in (1, 2):
-                    os.dup2(write, stream)
-                os.closerange(3, resource.getrlimit(resource.RLIMIT_NOFILE)[0])
-                os.environ.clear()
-                os.environ.update({**self.environment, **environment})
-                self._restrict()
-                os.chdir(self.environment["HOME"])
-                run()
-            finally:
-                os._exit(1)
-        os.close(write)
-        return self._listen_to(Forked(pid), name, read)
-
-    def _listen_to(
-        self, process: subprocess.Popen[bytes] | Forked, name: str, descriptor: int
-    ) -> Program:
-        os.set_blocking(descriptor, False)
-        program = Program(process, name, descriptor)
+        program = Program(process, os.path.basename(command[0]))
         self._open.append(program)
+        assert process.stdout
+        descriptor = process.stdout.fileno()
+        os.set_blocking(descriptor, False)
         self._reading[descriptor] = program
         self._poll.register(descriptor, select.POLLIN | select.POLLHUP)
         return program
@@ -158,17 +173,14 @@ class Box:
                     hint="where does it call os.fork, or start programs?",
                     sure=True,
                 )
-            self._pump(
-                max(0.01, 2 * (time.monotonic() - asked_s))
-            )  # asking takes time from the others
+            self._pump(max(0.01, 2 * (time.monotonic() - asked_s)))  # asking takes others' time
 
     def _is_crowded(self) -> bool:
         """Return whether the living programs are too many. Reap those that have ended."""
         if not self._alone or self.patience.crowd() <= MOST_PROCESSES:
             return False
         self._reap()
-        living = {pid for pid, state, *_ in processes() if state not in ENDED}
-        return len(living - self._trusted) > MOST_PROCESSES
+        return len(self._strays()) > MOST_PROCESSES
 
     def _pump(self, longest_s: float) -> None:
         """Read what was printed; return when something was, or after the given time.
@@ -178,18 +190,19 @@ class Box:
         for descriptor, _ in self._poll.poll(longest_s * 1000):
             if descriptor == self._result:
                 sys.exit("the checker has ended")
-            program = self._reading[descriptor]
-            if not program.read():
-                self._forget(program)
+            self._read(descriptor)
 
-    def _forget(self, program: Program) -> None:
-        if self._reading.pop(program.descriptor, None):
-            self._poll.unregister(program.descriptor)
-            os.close(program.descriptor)
+    def _read(self, descriptor: int, is_last: bool = False) -> None:
+        program = self._reading.get(descriptor)
+        if program and (not program.read() or is_last):
+            del self._reading[descriptor]
+            self._poll.unregister(descriptor)
+            assert program.process.stdout
+            program.process.stdout.close()
 
     def interrupt(self, program: Program) -> None:
         """Press Ctrl-C."""
-        _signal_group(program, signal.SIGINT)
+        program.signal(signal.SIGINT)
 
     def end(self, program: Program, grace_s: float = GRACE_S) -> float | None:
         """End a program; return how long it took after Ctrl-C [s], or None if it had to be killed."""
@@ -198,51 +211,47 @@ class Box:
     def end_all(self, programs: Sequence[Program], grace_s: float = GRACE_S) -> list[float | None]:
         """End several at once; return how long each took."""
         began_s = time.monotonic()
-        took_s = [0.0] * len(programs)
+        took_s: dict[Program, float] = {}
         for program in programs:
-            program.note_work()
-            if not program.ended:
-                program.was_stopped = True
-                self.interrupt(program)
+            program.stop(signal.SIGINT)
 
         def all_ended() -> bool:
-            for number, program in enumerate(programs):
-                if program.ended and not took_s[number]:
-                    took_s[number] = time.monotonic() - began_s
-            return all(took_s)
+            for program in programs:
+                if program.ended:
+                    took_s.setdefault(program, time.monotonic() - began_s)
+            return len(took_s) == len(programs)
 
         self.wait(all_ended, grace_s)
+        self._kill(programs)
+        return [took_s.get(program) for program in programs]
+
+    def _kill(self, programs: Iterable[Program]) -> None:
+        """Kill their groups, also what a program that has ended left behind; read what is left."""
         for program in programs:
-            _signal_group(program, signal.SIGKILL)
+            program.signal(signal.SIGKILL)
             program.process.wait()
-            while (
-                program.descriptor in self._reading
-                and select.select([program.descriptor], [], [], 0)[0]
-            ):
-                if not program.read():
-                    self._forget(program)
-        return [took or None for took in took_s]
+        for descriptor in [each for each, one in self._reading.items() if one in programs]:
+            self._read(descriptor)  # at most a pipe's size is left, which is read at once
 
     def clear(self) -> None:
         """End all that is left, whatever it is called and whatever started it."""
         for program in self._open:
-            program.note_work()
-            if not program.ended:
-                program.was_stopped = True
-                _signal_group(program, signal.SIGKILL)
-        if self._uid is not None:
-            _kill_all_of_user(self._uid)
-        for _ in range(50):  # a program that forks without end is faster than one round
-            strays = self._strays()
-            if not strays:
+            program.stop(signal.SIGKILL)
+        for _ in range(100):
+            stopped: set[int] = set()
+            while True:  # one that forks without end comes to the limit of its processes
+                new = set(self._strays()) - stopped
+                if not new:
+                    break
+                _signal(new, signal.SIGSTOP)
+                stopped |= new
+            if not stopped:
                 break
-            for number in (signal.SIGSTOP, signal.SIGKILL):
-                for pid in strays:
-                    with contextlib.suppress(ProcessLookupError, PermissionError):
-                        os.kill(pid, number)
+            _signal(stopped, signal.SIGKILL)
         for program in self._open:
             program.process.wait()
-            self._forget(program)
+        for descriptor in list(self._reading):
+            self._read(descriptor, is_last=True)
         self._open.clear()
         self._reap()
 
@@ -255,7 +264,7 @@ class Box:
                     os.waitpid(pid, os.WNOHANG)
 
     def _strays(self) -> list[int]:
-        """Return the ids of what is left: orphans become children of this process."""
+        """Return the ids of the living below this process, whose children orphans become."""
         found, below = list(processes()), {os.getpid()}
         more = below
         while more:
@@ -268,20 +277,10 @@ class Box:
         ]
 
 
-def _signal_group(program: Program, number: int) -> None:
-    with contextlib.suppress(ProcessLookupError, PermissionError):
-        os.killpg(program.process.pid, number)
-
-
-def _kill_all_of_user(uid: int) -> None:
-    """Kill them at once, so that none can fork meanwhile."""
-    pid = os.fork()
-    if pid == 0:
-        with contextlib.suppress(BaseException):
-            os.setuid(uid)
-            os.kill(-1, signal.SIGKILL)
-        os._exit(0)
-    os.waitpid(pid, 0)
+def _signal(pids: Iterable[int], number: int) -> None:
+    for pid in pids:
+        with contextlib.suppress(ProcessLookupError, PermissionError):
+            os.kill(pid, number)
 
 
 def processes() -> Iterator[tuple[int, bytes, int, int]]:

@@ -8,14 +8,13 @@ limited size; no /run. Only the checker has capabilities there, where it is root
 from __future__ import annotations
 
 import contextlib
-import ctypes
 import functools
 import os
 import shutil
-import socket
 import subprocess
 from dataclasses import dataclass
 from pathlib import Path
+from subprocess import DEVNULL, PIPE
 from typing import Iterable, Sequence
 
 SCRATCH_MB = 600  # for the copy, its build, logs and what the programs write
@@ -29,7 +28,6 @@ NAMESPACES = ("--unshare-ipc", "--unshare-net", "--unshare-pid", "--unshare-uts"
 # What the checker needs as root: to run programs as another user, and to end them.
 RIGHTS = ("CHOWN", "DAC_OVERRIDE", "FOWNER", "KILL", "SETGID", "SETUID")
 AS_ROOT = ("--cap-drop", "ALL", *(word for each in RIGHTS for word in ("--cap-add", f"CAP_{each}")))
-CLONE_NEWUSER = 0x10000000
 
 
 @dataclass(frozen=True)
@@ -74,44 +72,31 @@ def _closed_user_namespace() -> int:
 
     A program in a user namespace of its own could mount a tmpfs of any size. Raises OSError.
     """
-    ours, theirs = socket.socketpair()
-    child = os.fork()
-    if child == 0:
-        with contextlib.suppress(BaseException):
-            ours.close()
-            if ctypes.CDLL(None).unshare(CLONE_NEWUSER) == 0:
-                theirs.send(b"made")
-                theirs.recv(1)
-                Path("/proc/sys/user/max_user_namespaces").write_text("0")
-                theirs.send(b"closed")
-                theirs.recv(1)
-        os._exit(0)
-    theirs.close()
-    try:
-        if not ours.recv(9):
+    words = ["unshare", "--user", "sh", "-c", "echo; read -r _"]
+    with subprocess.Popen(words, stdin=PIPE, stdout=PIPE, stderr=DEVNULL) as made:
+        assert made.stdin and made.stdout
+        if not made.stdout.readline():
             raise OSError("no user namespace can be made")
         for name in ("uid_map", "gid_map"):
             ranges = [line.split() for line in Path("/proc/self", name).read_text().splitlines()]
             lines = [f"{first} {first} {count}\n" for first, _, count in ranges]
-            Path(f"/proc/{child}", name).write_text("".join(lines))
-        ours.send(b"x")
-        if not ours.recv(9):
-            raise OSError("the user namespace cannot be closed")
-        return os.open(f"/proc/{child}/ns/user", os.O_RDONLY)
-    finally:
-        ours.close()
-        os.waitpid(child, 0)
+            Path(f"/proc/{made.pid}", name).write_text("".join(lines))
+        close = "echo 0 >/proc/sys/user/max_user_namespaces"
+        why = _fault(["nsenter", "--user", f"--target={made.pid}", "sh", "-c", close])
+        if why:
+            raise OSError(why)
+        return os.open(f"/proc/{made.pid}/ns/user", os.O_RDONLY)
 
 
-def _fault(command: Sequence[str], descriptors: tuple[int, ...]) -> str:
+def _fault(command: Sequence[str], descriptors: tuple[int, ...] = ()) -> str:
     """Return why a command fails; empty if it does not."""
     try:
         tried = subprocess.run(
             command,
-            stdin=subprocess.DEVNULL,
+            stdin=DEVNULL,
             capture_output=True,
-            check=False,
             timeout=60,
+            check=False,
             pass_fds=descriptors,
         )
     except (OSError, subprocess.TimeoutExpired) as error:

@@ -43,12 +43,12 @@ def without_name(text: str, name: str) -> str | None:
     """Return the program without something that it imports; None if it does not import it by name."""
     lines = python_lines(text)
     for node in _nodes(text):
-        if isinstance(node, ast.ImportFrom):
-            if name in {each.asname or each.name for each in node.names}:
-                line = lines[node.lineno - 1]
-                margin = line[: len(line) - len(line.lstrip())]
-                lines.insert(node.end_lineno or node.lineno, f"{margin}del {name}")
-                return _joined(lines)
+        imported = node.names if isinstance(node, ast.ImportFrom) else []
+        if name in {each.asname or each.name for each in imported}:
+            line = lines[node.lineno - 1]
+            margin = line[: len(line) - len(line.lstrip())]
+            lines.insert(node.end_lineno or node.lineno, f"{margin}del {name}")
+            return _joined(lines)
     return None
 
 

@@ -5,11 +5,13 @@ Runs in the process of a forked.Helper; every method returns at once, waiting is
 
 from __future__ import annotations
 
+import contextlib
+import itertools
 import logging
 import threading
 import time
 import xmlrpc.client
-from typing import Any, Sequence
+from typing import Any, Callable, Sequence
 
 import rosgraph
 import rospy
@@ -43,15 +45,9 @@ def _plain(message: Any) -> Any:
         return (tuple(message.axes), tuple(message.buttons))
     if isinstance(message, Odometry):
         pose, twist = message.pose.pose, message.twist.twist
-        return (
-            message.header.stamp.to_sec(),
-            pose.position.x,
-            pose.position.y,
-            pose.orientation.z,
-            pose.orientation.w,
-            twist.linear.x,
-            twist.angular.z,
-        )
+        place, turn = pose.position, pose.orientation
+        velocity = (twist.linear.x, twist.angular.z)
+        return (message.header.stamp.to_sec(), place.x, place.y, turn.z, turn.w, *velocity)
     return message.data
 
 
@@ -104,10 +100,9 @@ class Driver:
 
     def warnings(self) -> list[str]:
         """Return what rospy complained of."""
-        return list(self._warnings.lines)
+        return self._warnings.lines
 
     def advertise(self, topic: str, kind: str) -> None:
-        """Become a publisher."""
         self._publishers[topic] = rospy.Publisher(
             topic, KINDS[kind], queue_size=1000, tcp_nodelay=True
         )
@@ -148,29 +143,17 @@ class Driver:
 
     def stream(self, topic: str, joys: Sequence[Any], rate: float, repeat: bool) -> None:
         """Publish these one after the other at a rate [Hz], in a thread; see sent()."""
-        self._sent[topic] = []
-        stop = threading.Event()
-        self._streams[topic] = stop
-        threading.Thread(
-            target=self._stream, args=(topic, joys, 1.0 / rate, repeat, stop), daemon=True
-        ).start()
+        self._sent[topic], self._streams[topic] = [], threading.Event()
+        _in_thread(self._stream, topic, joys, 1.0 / rate, repeat, self._streams[topic])
 
     def _stream(
-        self,
-        topic: str,
-        joys: Sequence[Any],
-        period: float,
-        repeat: bool,
-        stop: threading.Event,
+        self, topic: str, joys: Sequence[Any], period: float, repeat: bool, stop: threading.Event
     ) -> None:
         due = time.monotonic()
-        while True:
-            for joy in joys:
-                self._sent[topic].append(self.send(topic, joy))
-                due = max(due + period, time.monotonic() - period)
-                if stop.wait(max(0.0, due - time.monotonic())):
-                    return
-            if not repeat:
+        for joy in itertools.cycle(joys) if repeat else joys:
+            self._sent[topic].append(self.send(topic, joy))
+            due = max(due + period, time.monotonic() - period)
+            if stop.wait(max(0.0, due - time.monotonic())):
                 return
 
     def sent(self, topic: str) -> list[float]:
@@ -178,51 +161,48 @@ class Driver:
         return list(self._sent[topic])
 
     def end_stream(self, topic: str) -> None:
-        """End a stream."""
         self._streams[topic].set()
 
     def state(self) -> tuple[dict[str, list[str]], ...]:
         """Return publishers and subscribers, each {topic: [nodes]}, without ourselves."""
-        try:
-            publishers, subscribers, _ = self._master.getSystemState()
-        except (OSError, rosgraph.MasterException):
-            return {}, {}  # the master has gone; see Stage.master_lives
-        found = []
-        for part in (publishers, subscribers):
-            others = {
-                topic: [node for node in nodes if not node.startswith(f"/{NAME}")]
-                for topic, nodes in part
-            }
-            found.append({topic: others[topic] for topic in others if others[topic]})
-        return tuple(found)
+        with contextlib.suppress(OSError, rosgraph.MasterException):
+            return tuple(map(_others, self._master.getSystemState()[:2]))
+        return {}, {}  # the master has gone; see Stage.master_lives
 
     def types(self) -> dict[str, str]:
         """Return {topic: type}."""
-        try:
+        with contextlib.suppress(OSError, rosgraph.MasterException):
             return dict(self._master.getTopicTypes())
-        except (OSError, rosgraph.MasterException):
-            return {}
+        return {}
 
     def node_process(self, node: str) -> Any:
         """Return the id of a node's process, or None if it does not answer."""
-        try:
-            with xmlrpc.client.ServerProxy(self._master.lookupNode(node)) as proxy:
-                answer: Any = proxy.getPid(f"/{NAME}")
-                return answer[2]
-        except (OSError, rosgraph.MasterException, xmlrpc.client.Error):
-            return None
+        answer: Any = self._ask(node, lambda proxy: proxy.getPid(f"/{NAME}"))
+        return answer and answer[2]
 
     def kill_node(self, node: str) -> None:
         """Do what rosnode kill does, without waiting for the node."""
-        threading.Thread(target=self._kill, args=(node,), daemon=True).start()
+        _in_thread(self._ask, node, lambda proxy: proxy.shutdown(f"/{NAME}", "user request"))
 
-    def _kill(self, node: str) -> None:
-        try:
-            with xmlrpc.client.ServerProxy(self._master.lookupNode(node)) as proxy:
-                proxy.shutdown(f"/{NAME}", "user request")
-        except (OSError, rosgraph.MasterException, xmlrpc.client.Error):
-            pass  # it is gone already
+    def _ask(self, node: str, question: Callable[[Any], Any]) -> Any:
+        errors = (OSError, rosgraph.MasterException, xmlrpc.client.Error)  # it is gone already
+        with contextlib.suppress(*errors), self._proxy(node) as proxy:
+            return question(proxy)
+
+    def _proxy(self, node: str) -> xmlrpc.client.ServerProxy:
+        return xmlrpc.client.ServerProxy(self._master.lookupNode(node))
 
     def set_parameter(self, name: str, value: Any) -> None:
-        """Set it on the parameter server."""
         rospy.set_param(name, value)
+
+
+def _others(topics: Sequence[tuple[str, list[str]]]) -> dict[str, list[str]]:
+    found = {
+        topic: [node for node in nodes if not node.startswith(f"/{NAME}")]
+        for topic, nodes in topics
+    }
+    return {topic: nodes for topic, nodes in found.items() if nodes}
+
+
+def _in_thread(function: Callable[..., Any], *arguments: Any) -> None:
+    threading.Thread(target=function, args=arguments, daemon=True).start()

@@ -14,12 +14,7 @@ while [ $# -gt 1 ] && [ "$1" != -e ] && [ "$1" != -x ] && [ "$1" != -- ]; do shi
 shift
 exec "$@"
 """
-STAND_INS = {
-    "rviz": NO_VIEW,
-    "xterm": NO_WINDOW,
-    "gnome-terminal": NO_WINDOW,
-    "konsole": NO_WINDOW,
-}
+STAND_INS = {"rviz": NO_VIEW, **dict.fromkeys(("xterm", "gnome-terminal", "konsole"), NO_WINDOW)}
 RVIZ = (
     '<package format="2"><name>rviz</name><version>1.0.0</version><description>x</description>'
     '<maintainer email="a@b.example">x</maintainer><license>x</license></package>'
@@ -47,8 +42,6 @@ def prepare(folder: str | Path, uid: int | None) -> None:
     (folder / "view/src/rviz/package.xml").write_text(RVIZ)
     (folder / "view/lib/rviz/rviz").symlink_to(folder / "bin" / "rviz")
     (folder / "devel/.catkin").write_text(str(folder / "ws" / "src"))
-    if uid is not None:
-        for name in ("home", "tmp", "ws"):
-            for place, _, files in os.walk(folder / name):
-                for path in (place, *(os.path.join(place, file) for file in files)):
-                    os.chown(path, uid, uid, follow_symlinks=False)
+    for name in ("home", "tmp", "ws") if uid is not None else ():
+        for path in (folder / name, *(folder / name).rglob("*")):
+            os.chown(path, uid or 0, uid or 0, follow_symlinks=False)

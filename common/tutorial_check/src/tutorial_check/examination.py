@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import compileall
+import contextlib
 import functools
 import itertools
 import json
 import os
-import selectors
+import select
 import shutil
 import socket
 import subprocess
@@ -24,17 +25,16 @@ from tutorial_check import workspace as workspaces
 from tutorial_check.environment import environment_of
 from tutorial_check.model import CannotCheck, Result, passed
 
-# All exercises take 90 s on two quiet processors, and each check has deadlines of its own, which a busy
-# machine stretches. Ten times as long is enough: where programs have less than a seventh of the time,
-# there is no verdict anyway (patience.HOPELESS), and a student waits for an answer.
+# All exercises take 90 s on two quiet processors. Ten times as long is enough: where programs have less
+# than a seventh of the time, there is no verdict anyway (patience.HOPELESS), and a student waits.
 LONGEST_S = 900.0
 # Of a shell of the suite: its roscore.xml, with which each roslaunch starts sooner, and what CMake 4
 # needs to read catkin's files.
 OF_SUITE = ("ROS_ETC_DIR", "CMAKE_POLICY_VERSION_MINIMUM")
 END_S = 10.0  # an examination whose result is not wanted has this long to end what it started
 SUITE = Path(__file__).resolve().parents[4]
-_no_more = threading.Event()
 NUMBERS = itertools.count(os.getpid() * 100)
+_no_more = threading.Event()
 
 
 @dataclass
@@ -65,17 +65,16 @@ def examine(
     workspace: str | Path,
     underlay: str | Path,
     exercises: Iterable[str],
-    tell: Report = lambda outcome, result: None,
+    report: Report = lambda outcome, result: None,
     *,
     only_first: bool = False,
     own: bool = True,
 ) -> list[Outcome]:
-    """Return the Outcomes of a workspace; call tell with each result as soon as it is there.
+    """Return the Outcomes of a workspace; call report with each result as soon as it is there.
 
     underlay: setup.bash of the devel space with what students use and never write. only_first: end
-    each exercise at the first check that is wrong. own: it is the caller's own workspace, whose
-    links may lead into the home folder.
-    Raises CannotCheck.
+    at the first check that is wrong. own: it is the caller's own workspace, whose links may lead
+    into the home folder. Raises CannotCheck.
     """
     try:
         if not Path(underlay).is_file():
@@ -94,18 +93,21 @@ def examine(
         _compile()
         layout, shown = _hand_in(os.path.abspath(workspace), Path(folder), own)
         underlay = os.path.abspath(underlay)
+        kept = _kept(underlay)
+        wrapper = bubblewrap.command(folder, [*shown, *kept], SUITE)
         orders = {
             "layout": [str(layout.root), str(layout.source), layout.is_workspace],
             "own": own,
             "underlay": underlay,
             "exercises": list(exercises),
             "folder": folder,
-            "kept": _kept(underlay),
+            "kept": kept,
             "number": next(NUMBERS),
             "only_first": only_first,
             "environment": _environment(underlay),
+            "apart": bool(wrapper),
         }
-        return _examine(orders, bubblewrap.command(folder, [*shown, *_kept(underlay)], SUITE), tell)
+        return _examine(orders, wrapper, report)
     finally:
         shutil.rmtree(folder, ignore_errors=True)
         cleaner.communicate()
@@ -119,25 +121,26 @@ def end_all() -> None:
 @functools.lru_cache(maxsize=None)
 def _environment(underlay: str) -> dict[str, str]:
     """Return what a shell has that has sourced setup.bash, and nothing else. Raises CannotCheck."""
+    words = ["bash", "-c", '. "$1" >/dev/null && env -0', "bash", underlay]
+    bare = {"PATH": "/usr/bin:/bin", "LANG": "C.UTF-8"}
     try:
         done = subprocess.run(
-            ["bash", "-c", '. "$1" >/dev/null && env -0', "bash", underlay],
-            env={"PATH": "/usr/bin:/bin", "LANG": "C.UTF-8"},
-            capture_output=True,
-            check=False,
-            timeout=120,
-            text=True,
+            words, env=bare, capture_output=True, check=True, timeout=120, text=True
         )
+    except subprocess.CalledProcessError as error:
+        raise CannotCheck(f"{underlay} cannot be sourced: {error.stderr[-200:]}") from None
     except (OSError, subprocess.TimeoutExpired) as error:
         raise CannotCheck(f"{underlay} cannot be sourced: {error}") from None
-    if done.returncode != 0:
-        raise CannotCheck(f"{underlay} cannot be sourced: {done.stderr[-200:]}")
     # rospy loads numpy, which starts a thread for each processor; none is needed here.
     return {
         **environment_of(done.stdout.split("\0")),
-        **{name: os.environ[name] for name in OF_SUITE if name in os.environ},
+        **_given(OF_SUITE),
         "OPENBLAS_NUM_THREADS": "1",
     }
+
+
+def _given(names: Iterable[str]) -> dict[str, str]:
+    return {name: os.environ[name] for name in names if name in os.environ}
 
 
 @functools.lru_cache(maxsize=None)
@@ -149,12 +152,10 @@ def _compile() -> None:
 def _kept(underlay: str) -> list[str]:
     """Return the folders that the programs need: the underlay and its sources, this package among them."""
     devel = Path(underlay).parent
-    kept = [devel.parent]
     with_sources = devel / ".catkin"
     sources = with_sources.read_text().split(";") if with_sources.is_file() else []
-    for source in filter(None, sources):
-        kept += [link.resolve() for link in Path(source).glob("*") if link.is_dir()]
-    return [str(each) for each in kept]
+    links = [link for source in filter(None, sources) for link in Path(source).glob("*")]
+    return [str(devel.parent), *(str(link.resolve()) for link in links if link.is_dir())]
 
 
 def _hand_in(workspace: str, folder: Path, own: bool) -> tuple[workspaces.Layout, list[Path]]:
@@ -170,13 +171,12 @@ def _hand_in(workspace: str, folder: Path, own: bool) -> tuple[workspaces.Layout
     return layout, [each for each in shown if each.resolve() not in (home, *home.parents)]
 
 
-def _examine(orders: dict[str, Any], wrapper: list[str], tell: Report) -> list[Outcome]:
+def _examine(orders: dict[str, Any], wrapper: list[str], report: Report) -> list[Outcome]:
     if not wrapper:
         place.keep_to_itself()  # and the end of the socket
-    names = ("HOME", "LANG", "TUTORIAL_CHECK_TIMES")
     environment = {
         **orders["environment"],
-        **{name: os.environ[name] for name in names if name in os.environ},
+        **_given(("HOME", "LANG", "TUTORIAL_CHECK_TIMES")),
         "PATH": "/usr/bin:/bin:/usr/sbin:/sbin",
         "PYTHONDONTWRITEBYTECODE": "1",
     }
@@ -199,16 +199,14 @@ def _examine(orders: dict[str, Any], wrapper: list[str], tell: Report) -> list[O
         theirs.close()
         try:
             assert process.stdin
-            json.dump({**orders, "apart": bool(wrapper)}, process.stdin)
+            json.dump(orders, process.stdin)
             process.stdin.close()
-            ending = _listen(ours, outcomes, tell)
+            ending = _listen(ours, outcomes, report)
         finally:
             ours.close()  # so that it ends
             try:
-                if not wrapper:
-                    process.wait(END_S)
-            except subprocess.TimeoutExpired:
-                pass
+                with contextlib.suppress(subprocess.TimeoutExpired):
+                    process.wait(0 if wrapper else END_S)
             finally:
                 process.kill()  # with it all of its namespaces
                 process.wait()
@@ -219,44 +217,37 @@ def _examine(orders: dict[str, Any], wrapper: list[str], tell: Report) -> list[O
     if ending is None:
         last = [line for line in logged[-2000:].splitlines() if line.strip()][-1:]
         ending = f"the examination ended without a result: {''.join(last)}"
-    return _concluded(list(outcomes.values()), ending)
+    found = list(outcomes.values())
+    if ending and (_no_more.is_set() or not any(outcome.results for outcome in found)):
+        raise CannotCheck(ending)
+    for outcome in found:
+        outcome.trouble = outcome.trouble if outcome.done else ending
+    return found
 
 
-def _concluded(outcomes: list[Outcome], trouble: str) -> list[Outcome]:
-    """Return the Outcomes, those that were not done with the trouble. Raises CannotCheck if that is all."""
-    if trouble and (_no_more.is_set() or not any(outcome.results for outcome in outcomes)):
-        raise CannotCheck(trouble)
-    for outcome in outcomes:
-        if not outcome.done:
-            outcome.trouble = trouble
-    return outcomes
-
-
-def _listen(line_in: socket.socket, outcomes: dict[str, Outcome], tell: Report) -> str | None:
+def _listen(ours: socket.socket, outcomes: dict[str, Outcome], report: Report) -> str | None:
     """Return why the examination cannot go on, empty at its end; None if it ends without a last word."""
     end = time.monotonic() + LONGEST_S
     buffer = ""
-    with selectors.DefaultSelector() as selector:
-        selector.register(line_in, selectors.EVENT_READ)
-        while time.monotonic() < end:
-            if _no_more.is_set():
-                return None
-            if not selector.select(0.2):
-                continue
-            data = line_in.recv(65536).decode(errors="replace")
-            if not data:
-                return None
-            *lines, buffer = (buffer + data).split("\n")
-            for word in map(json.loads, lines):
-                if "exercise" not in word:
-                    return str(word.get("cannot", ""))
-                _note(word, outcomes, tell)
+    while time.monotonic() < end:
+        if _no_more.is_set():
+            return None
+        if not select.select([ours], [], [], 0.2)[0]:
+            continue
+        data = ours.recv(65536).decode(errors="replace")
+        if not data:
+            return None
+        *lines, buffer = (buffer + data).split("\n")
+        for word in map(json.loads, lines):
+            if "exercise" not in word:
+                return str(word.get("cannot", ""))
+            _note(word, outcomes, report)
     return (
         f"the examination took longer than {LONGEST_S:.0f} s: the machine has too much else to do"
     )
 
 
-def _note(word: dict[str, Any], outcomes: dict[str, Outcome], tell: Report) -> None:
+def _note(word: dict[str, Any], outcomes: dict[str, Outcome], report: Report) -> None:
     outcome = outcomes.get(word["exercise"])
     if outcome is None or outcome.done:
         return  # it was not asked for, or has ended
@@ -266,4 +257,4 @@ def _note(word: dict[str, Any], outcomes: dict[str, Outcome], tell: Report) -> N
     result = Result(**word["result"])
     if result.id not in [each.id for each in outcome.results]:
         outcome.results.append(result)
-        tell(outcome, result)
+        report(outcome, result)

@@ -8,6 +8,7 @@ seconds, "trouble": why it could not be checked as a whole, or ""}, and at the e
 
 from __future__ import annotations
 
+import contextlib
 import importlib
 import json
 import os
@@ -21,9 +22,10 @@ from pathlib import Path
 from typing import Any, Callable
 
 from tutorial_check import environment, place, workspace
-from tutorial_check.model import CannotCheck, Result, Run, fault
+from tutorial_check.model import CannotCheck, Result, Run, fault, passed
 
 Send = Callable[..., None]
+SHARED_PAGES = 1 << 16  # of System V shared memory: 256 MB
 
 
 def main() -> None:
@@ -32,11 +34,12 @@ def main() -> None:
     place.keep_to_itself()
     orders = json.load(sys.stdin)
     if orders["apart"]:
-        place.end_with_parent()  # which is bwrap
-        place.limit_shared_memory()
+        place.prctl(place.PR_SET_PDEATHSIG, signal.SIGKILL)  # of bwrap
+        with contextlib.suppress(OSError):  # where the kernel does not allow it
+            Path("/proc/sys/kernel/shmall").write_text(str(SHARED_PAGES))
     else:  # its box notices that the reader has ended, and ends what was started
         signal.signal(signal.SIGTERM, signal.SIG_IGN)
-        place.adopt_orphans()  # in a container no other process may reap them
+        place.prctl(place.PR_SET_CHILD_SUBREAPER, 1)  # in a container no other process may reap
     line = os.fdopen(os.dup(1), "w", buffering=1)
     os.set_inheritable(line.fileno(), False)
     os.dup2(2, 1)  # nothing else gets into the results
@@ -69,9 +72,12 @@ def examine(orders: dict[str, Any], send: Send, result: int) -> None:
     os.environ.pop("ROS_HOSTNAME", None)
 
     from tutorial_check import box, session  # noqa: PLC0415
-    from tutorial_check.exercises import catalogue  # noqa: PLC0415
+    from tutorial_check.exercises import all_checks  # noqa: PLC0415
 
-    uid = place.unused_user(orders["number"], _uid_map()) if os.geteuid() == 0 else None
+    uid = None
+    if os.geteuid() == 0:
+        uid_map = Path("/proc/self/uid_map")  # some kernels map no ids
+        uid = place.unused_user(orders["number"], uid_map.read_text() if uid_map.exists() else "")
     environment.prepare(scratch, uid)
     scratch.chmod(0o755)
     one = session.Session(
@@ -85,7 +91,7 @@ def examine(orders: dict[str, Any], send: Send, result: int) -> None:
         needed=[*orders["kept"], Path(__file__)],
     )
     one.must_start_programs()
-    run = Run(catalogue(), one, one.second_look, one.box.patience.hopeless)
+    run = Run(all_checks(), one, one.second_look, one.box.patience.hopeless)
     if uid is not None:
         if not orders["apart"]:  # then the suite may lie where that user cannot read
             importlib.import_module("rosbag")
@@ -98,12 +104,14 @@ def examine(orders: dict[str, Any], send: Send, result: int) -> None:
         for exercise in orders["exercises"]:
             began_s = time.monotonic()
 
-            def tell(found: Result, exercise: str = exercise) -> None:
+            def report(found: Result, exercise: str = exercise) -> None:
                 send(exercise=exercise, result=as_sent(found))
 
-            run.exercise(exercise, tell, orders["only_first"])
+            results = run.exercise(exercise, report, orders["only_first"])
             seconds = round(time.monotonic() - began_s, 2)
             send(exercise=exercise, done=seconds, trouble=run.trouble(exercise))
+            if orders["only_first"] and not passed(results):
+                break
     finally:
         one.box.clear()  # a build, too, is ended; where no namespace is, nothing else does that
     if "TUTORIAL_CHECK_TIMES" in os.environ:
@@ -115,26 +123,19 @@ def _paths_of_the_student(
 ) -> Callable[[Result], dict[str, Any]]:
     """Return a function that gives a Result as a dict, in which paths of the copy are the student's."""
     copied = f"{scratch}/ws/" if layout.is_workspace else f"{scratch}/ws/src/"
-    is_unpacked = scratch in layout.root.parents
     # Commands work in any folder, where the workspace is known.
-    root = "" if is_unpacked or not own else f"{shlex.quote(str(layout.root))}/"
+    is_known = own and scratch not in layout.root.parents
+    root = f"{shlex.quote(str(layout.root))}/" if is_known else ""
 
     def as_sent(result: Result) -> dict[str, Any]:
         return {
             name: words.replace(copied, root if name in ("hint", "look") else "")
             if isinstance(words, str)
             else words
-            for name, words in result.as_dict().items()
+            for name, words in vars(result).items()
         }
 
     return as_sent
-
-
-def _uid_map() -> str:
-    try:
-        return Path("/proc/self/uid_map").read_text()
-    except FileNotFoundError:  # a kernel that maps no ids
-        return ""
 
 
 if __name__ == "__main__":

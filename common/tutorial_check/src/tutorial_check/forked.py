@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-import contextlib
+import multiprocessing
 import os
 import signal
 import sys
 import threading
 import time
-from multiprocessing.connection import Connection, Pipe
+from multiprocessing.connection import Connection
 from typing import Any, Callable, Mapping
 
 from tutorial_check import place
 from tutorial_check.model import CannotCheck
 
 ASK_AGAIN_S = 1.0  # whether an answer may still come
+FORK = multiprocessing.get_context("fork")
 
 
 class Helper:
@@ -25,22 +26,17 @@ class Helper:
 
     def __init__(self, make: Callable[[], Any], environment: Mapping[str, str]) -> None:
         """make(): the object, called in the new process, in that environment."""
-        self._line, theirs = Pipe()
+        self._line, theirs = FORK.Pipe()
         self._trouble = ""
-        self.pid = os.fork()
-        if self.pid == 0:
-            try:
-                self._line.close()
-                place.restore_rights()
-                _serve(make, environment, theirs)
-            finally:
-                os._exit(0)
+        about = (make, environment, theirs, self._line)
+        self._process = FORK.Process(target=_serve, args=about, daemon=True)
+        self._process.start()
+        self.pid: int = self._process.pid or 0
         theirs.close()
 
     @property
     def ended(self) -> bool:
-        """Whether the process has ended."""
-        return bool(os.waitid(os.P_PID, self.pid, os.WEXITED | os.WNOHANG | os.WNOWAIT))
+        return not self._process.is_alive()
 
     def call(
         self,
@@ -71,18 +67,20 @@ class Helper:
 
     def end(self) -> None:
         """End the process."""
-        with contextlib.suppress(ProcessLookupError):
-            os.kill(self.pid, signal.SIGKILL)
-        os.waitpid(self.pid, 0)
+        self._process.kill()
+        self._process.join()
         self._line.close()
 
 
-def _serve(make: Callable[[], Any], environment: Mapping[str, str], line: Connection) -> None:
+def _serve(
+    make: Callable[[], Any], environment: Mapping[str, str], line: Connection, ours: Connection
+) -> None:
+    ours.close()  # so that the end of the checker is the end of this line
+    place.restore_rights()
     os.setsid()
-    nothing = os.open(os.devnull, os.O_RDWR)
-    for stream in (0, 1, 2):
-        os.dup2(nothing, stream)
     sys.stdout = sys.stderr = open(os.devnull, "w")  # noqa: SIM115  for the life of the process
+    for stream in (0, 1, 2):
+        os.dup2(sys.stdout.fileno(), stream)
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, signal.SIG_IGN)
     os.environ.clear()
@@ -92,7 +90,7 @@ def _serve(make: Callable[[], Any], environment: Mapping[str, str], line: Connec
         try:
             method, arguments = line.recv()
         except EOFError:
-            return
+            os._exit(0)  # whatever threads of ROS still run
         try:
             served = served or make()
             line.send((True, getattr(served, method)(*arguments)))
@@ -101,7 +99,7 @@ def _serve(make: Callable[[], Any], environment: Mapping[str, str], line: Connec
 
 
 class MasterProcess:
-    """A ROS master, in the process of a Helper."""
+    """A ROS master, in the process of a Helper, which ends with it: rosmaster asks for shutdown so."""
 
     def __init__(self, port: int) -> None:
         from rosmaster.master import Master  # noqa: PLC0415  only where a master is wanted
@@ -111,7 +109,6 @@ class MasterProcess:
         threading.Thread(target=self._end_when_asked, daemon=True).start()
 
     def _end_when_asked(self) -> None:
-        """End after a request to shut down, as rosmaster's own program does."""
         while self._master.ok():
             time.sleep(0.05)
         os._exit(0)

@@ -5,13 +5,14 @@ from __future__ import annotations
 import contextlib
 import json
 import os
+import re
 import xml.etree.ElementTree as ET
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, Callable, Mapping, Sequence
+from typing import Callable, Mapping, Sequence
 
 from tutorial_check.examination import Outcome
-from tutorial_check.model import NOTE, OK, UNREACHED, WRONG, CannotCheck, Result, without_hint
+from tutorial_check.model import NOTE, OK, UNREACHED, WRONG, CannotCheck
 from tutorial_check.report import heading, lines_of
 
 FIELDS = ("id", "status", "title", "expected", "seen", "where", "hint")
@@ -30,22 +31,20 @@ SUBMISSION = {
 
 def without_hints(outcomes: Sequence[Outcome]) -> list[Outcome]:
     """Return the same without a word on how to mend it."""
-    return [replace(one, results=[*map(without_hint, one.results)]) for one in outcomes]
+    return [
+        replace(one, results=[replace(each, hint="") for each in one.results]) for one in outcomes
+    ]
 
 
 def as_json(outcomes: Sequence[Outcome]) -> str:
     """Return one object with all exercises and checks."""
-
-    def check(result: Result) -> dict[str, Any]:
-        return {name: getattr(result, name) for name in FIELDS}
-
     exercises = [
         {
             "id": outcome.id,
             "passed": outcome.passed and not outcome.empty,
             "nothing_to_check": outcome.empty,
             "trouble": outcome.trouble,
-            "checks": [check(result) for result in outcome.results],
+            "checks": [{name: getattr(one, name) for name in FIELDS} for one in outcome.results],
         }
         for outcome in outcomes
     ]
@@ -58,16 +57,15 @@ def as_junit(outcomes: Sequence[Outcome]) -> str:
     root = ET.Element("testsuites", name="tutorial check")
     for outcome in outcomes:
         statuses = [result.status for result in outcome.results]
-        suite = ET.SubElement(
-            root,
-            "testsuite",
-            name=heading(outcome),
-            tests=str(len(statuses) + bool(outcome.trouble)),
-            time=f"{outcome.seconds:.2f}",
-            failures=str(statuses.count(WRONG)),
-            skipped=str(statuses.count(UNREACHED)),
-            errors=str(int(bool(outcome.trouble))),
-        )
+        counts = {
+            "tests": len(statuses) + bool(outcome.trouble),
+            "failures": statuses.count(WRONG),
+            "skipped": statuses.count(UNREACHED),
+            "errors": int(bool(outcome.trouble)),
+        }
+        about = {name: str(count) for name, count in counts.items()}
+        about.update(name=heading(outcome), time=f"{outcome.seconds:.2f}")
+        suite = ET.SubElement(root, "testsuite", about)
         about = {"classname": f"exercise {outcome.id}"}
         for result in outcome.results:
             case = ET.SubElement(suite, "testcase", about, name=f"{result.id} {result.title}")
@@ -76,8 +74,7 @@ def as_junit(outcomes: Sequence[Outcome]) -> str:
                 message = {} if result.status == NOTE else {"message": _legal(result.seen)}
                 inner = ET.SubElement(case, tag, message)
                 if result.status != UNREACHED:
-                    lines = [line.strip() for line in lines_of(result)[1:]]
-                    inner.text = _legal("\n".join(lines))
+                    inner.text = _legal("\n".join(line.strip() for line in lines_of(result)[1:]))
         if outcome.trouble:
             case = ET.SubElement(suite, "testcase", about, name="no verdict")
             ET.SubElement(case, "error", message=_legal(outcome.trouble))
@@ -86,11 +83,7 @@ def as_junit(outcomes: Sequence[Outcome]) -> str:
 
 def _legal(text: str) -> str:
     """Return a text without the characters that XML forbids; a program may print anything."""
-    return "".join(
-        each
-        for each in text
-        if each in "\n\t" or (ord(each) >= 0x20 and ord(each) not in (0xFFFE, 0xFFFF))
-    )
+    return re.sub("[^\n\t\x20-\ufffd\U00010000-\U0010ffff]", "", text)
 
 
 def as_gradescope(outcomes: Sequence[Outcome]) -> str:
@@ -107,31 +100,20 @@ def as_gradescope(outcomes: Sequence[Outcome]) -> str:
         for result in outcome.results
     ]
     seconds = round(sum(each.seconds for each in outcomes), 1)
-    whole: dict[str, Any] = {"tests": tests, "execution_time": seconds}
-    remarks = [
-        f"no verdict on exercise {one.id}, through no fault of yours: {one.trouble}"
-        for one in outcomes
-        if one.trouble
-    ]
-    if remarks:
-        whole["output"] = "\n".join(remarks)
+    why = "no verdict on exercise {0.id}, through no fault of yours: {0.trouble}"
+    remarks = "\n".join(why.format(one) for one in outcomes if one.trouble)
+    whole = {"tests": tests, "execution_time": seconds, **({"output": remarks} if remarks else {})}
     return json.dumps(whole, indent=1)
 
 
 def as_classroom(outcomes: Sequence[Outcome], environment: Mapping[str, str] = os.environ) -> str:
     """Return Classroom 50's result: one point an exercise. environment: it names the submission."""
     tests = [
-        {
-            "test-name": heading(outcome),
-            "passed": outcome.passed,
-            "score": int(outcome.passed),
-            "max-score": 1,
-        }
-        for outcome in outcomes
+        {"test-name": heading(one), "passed": one.passed, "score": int(one.passed), "max-score": 1}
+        for one in outcomes
     ]
-    about = {
-        field: environment[name] for field, name in SUBMISSION.items() if environment.get(name)
-    }
+    given = [(field, environment.get(name)) for field, name in SUBMISSION.items()]
+    about = {field: value for field, value in given if value}
     if "commit" in about:
         about.setdefault("review", about["commit"])
     score = {"score": sum(outcome.passed for outcome in outcomes), "max-score": len(outcomes)}

@@ -1,6 +1,7 @@
 """What launch files would start, read as roslaunch reads them and nothing started.
 
-In a process of its own, with the student's rights: what a launch file names is read.
+A program of its own, with the student's rights: what a launch file names is read. Its arguments are
+launch files; it prints a line for each, MARK and a JSON object.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ import functools
 import io
 import json
 import shlex
+import sys
 import xml.dom.minidom
 from pathlib import Path
 from typing import Any, Dict
@@ -20,7 +22,7 @@ Node = Dict[str, Any]  # about a node: package, type, name, args ...
 
 @functools.lru_cache(maxsize=None)
 def can_be_found(package: str, kind: str) -> bool:
-    """Whether rosrun would find such a program."""
+    """Return whether rosrun would find such a program."""
     import roslib.packages  # noqa: PLC0415
 
     try:
@@ -29,8 +31,8 @@ def can_be_found(package: str, kind: str) -> bool:
         return False
 
 
-def device_of(node: Any, params: Any) -> Any:
-    """The device that a node is told to read, as joy_node is; or empty."""
+def device_of(node: Any, params: Any) -> str:
+    """Return the device that a node is made to read, as joy_node is; or empty."""
     try:
         words = shlex.split(node.args or "")
     except ValueError:  # as a quote without its second; see launch_nodes.words_of
@@ -41,12 +43,9 @@ def device_of(node: Any, params: Any) -> Any:
 
 
 def _node(node: Any, params: Any) -> Node:
-    """A dict about one node."""
+    plain = ("package", "type", "name", "namespace")
     return {
-        "package": node.package,
-        "type": node.type,
-        "name": node.name,
-        "namespace": node.namespace,
+        **{name: getattr(node, name) for name in plain},
         "args": node.args or "",
         "remaps": [list(each) for each in node.remap_args],
         "respawn": bool(node.respawn),
@@ -55,18 +54,17 @@ def _node(node: Any, params: Any) -> Node:
     }
 
 
-def facts_of(path: str) -> Any:
-    """A dict about one launch file."""
+def facts_of(path: str) -> dict[str, Any]:
+    """Return what a launch file says; with an error, as far as roslaunch reads it."""
     import roslaunch.config  # noqa: PLC0415
     import roslaunch.loader  # noqa: PLC0415
 
-    # What <param command=...> prints is not wanted here, only what would be started.
     value_of = roslaunch.loader.Loader.param_value
 
     def without_command(self: Any, *about: Any) -> Any:
+        """Do without what <param command=...> prints: wanted is only what would be started."""
         *start, value, textfile, binfile, command = about
-        value = "" if command is not None else value
-        return value_of(self, *start, value, textfile, binfile, None)
+        return value_of(self, *start, value if command is None else "", textfile, binfile, None)
 
     roslaunch.loader.Loader.param_value = without_command
     said = io.StringIO()
@@ -76,8 +74,7 @@ def facts_of(path: str) -> Any:
         facts["root"] = getattr(document.documentElement, "tagName", "")
         facts["tags"] = [each.tagName for each in document.getElementsByTagName("*")]
     except Exception as error:
-        facts["error"] = f"{error}"
-        return facts
+        return {**facts, "error": str(error)}
     try:
         with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
             config = roslaunch.config.load_config_default([path], 11311, verbose=False)
@@ -86,11 +83,10 @@ def facts_of(path: str) -> Any:
         facts["files"] = sorted({str(Path(each).resolve()) for each in config.roslaunch_files})
     except (Exception, SystemExit) as error:
         facts["error"] = " ".join(str(error).split())
-    facts["said"] = said.getvalue()[-2000:]
-    return facts
+    return {**facts, "said": said.getvalue()[-2000:]}
 
 
-def tell(paths: Any) -> None:
-    """Print one JSON object for each of these launch files."""
-    for path in paths:
-        print(MARK + json.dumps(facts_of(path)), flush=True)
+if __name__ == "__main__":
+    sys.path.pop(0)  # this folder, where roslaunch needs nothing
+    for each in sys.argv[1:]:
+        print(MARK + json.dumps(facts_of(each)), flush=True)

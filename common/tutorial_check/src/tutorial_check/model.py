@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 import time
 import traceback
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Callable, Iterable, Iterator, Mapping
+from typing import Any, Callable, Iterable, Iterator
 
 OK, WRONG, NOTE, UNREACHED = "ok", "wrong", "note", "unreached"
 LINE = re.compile(r":\d+$")  # of a file, at the end of a place
@@ -27,10 +27,6 @@ class Result:
     section: str = ""
     look: str = ""  # a command that shows it
     empty: bool = False  # a note that there was nothing to be checked
-
-    def as_dict(self) -> dict[str, Any]:
-        """Return the result as --json has it."""
-        return asdict(self)
 
 
 @dataclass(frozen=True)
@@ -91,29 +87,11 @@ class Check:
     needs: tuple[str, ...] = ()  # ids of the checks without which this one says nothing
     look: str = ""
     timeless: bool = False  # it reads files alone: no machine is too busy for that
+    function: Callable[[Any], Any] = lambda session: None  # returns a text, a Note or None
 
     def result(self, status: str, **more: Any) -> Result:
-        """Return the Result of this check."""
         about = {"title": self.title, "section": self.section, "look": self.look, **more}
         return Result(self.id, status, **about)
-
-
-class Catalogue:
-    """All checks, in order, with the function that makes each."""
-
-    def __init__(
-        self, checks: Iterable[Check], functions: Mapping[str, Callable[[Any], Any]]
-    ) -> None:
-        """functions: id -> function(session) of each check, which returns a text, a Note or None."""
-        self.checks = {check.id: check for check in checks}
-        self.functions = functions
-        if set(self.checks) != set(functions):
-            odd = set(self.checks) ^ set(functions)
-            raise ValueError(f"checks without or with too many functions: {odd}")
-
-    def of(self, exercise: str) -> list[Check]:
-        """Return the checks of an exercise."""
-        return [check for check in self.checks.values() if check.exercise == exercise]
 
 
 class Run:
@@ -121,18 +99,18 @@ class Run:
 
     def __init__(
         self,
-        catalogue: Catalogue,
+        checks: Iterable[Check],
         session: Any,
         second_look: Callable[[bool], bool] = lambda explained: False,
         too_busy: Callable[[], bool] = lambda: False,
     ) -> None:
-        """session: what the functions of the catalogue take.
+        """session: what the functions of the checks, which are in order, take.
 
         second_look(explained): whether to make a check that does not hold again; asked once.
         explained: whether a line of the student's is to blame.
         too_busy(): whether it says nothing if it does not hold then, either.
         """
-        self._catalogue = catalogue
+        self._checks = {check.id: check for check in checks}
         self._session = session
         self._second_look, self._too_busy = second_look, too_busy
         self._done: dict[str, Result] = {}
@@ -145,43 +123,44 @@ class Run:
         """Return the Result of a check; make it now if it was not yet."""
         if check_id not in self._done:
             began_s = time.monotonic()
-            self._done[check_id] = self._make(self._catalogue.checks[check_id])
+            self._done[check_id] = self._make(self._checks[check_id])
             self.seconds[check_id] = round(time.monotonic() - began_s, 2)
         return self._done[check_id]
 
     def exercise(
         self,
         exercise: str,
-        tell: Callable[[Result], None] = lambda result: None,
+        report: Callable[[Result], None] = lambda result: None,
         only_first: bool = False,
     ) -> list[Result]:
-        """Return the results of an exercise; call tell with each as soon as it is there.
+        """Return the results of an exercise; call report with each as soon as it is there.
 
         What is wrong in an earlier exercise and keeps this one from being checked comes first, unless
         it was reported before. only_first: end at the first that is wrong.
         """
         results = []
-
-        def add(result: Result) -> None:
-            if result.id not in self._reported or result.status != WRONG:
-                results.append(result)
-                self._reported.add(result.id)
-                tell(result)
-
-        for check in self._catalogue.of(exercise):
-            for culprit in self._culprits(check):
-                elsewhere = self._catalogue.checks[culprit.id].exercise != exercise
-                if elsewhere and culprit.id not in self._reported:
-                    add(culprit)
-            add(self.result(check.id))
+        for check in self._of(exercise):
+            culprits = {
+                one.id: one
+                for one in self._culprits(check)
+                if one.id not in self._reported and self._checks[one.id].exercise != exercise
+            }
+            for result in (*culprits.values(), self.result(check.id)):
+                if result.id not in self._reported or result.status != WRONG:
+                    results.append(result)
+                    self._reported.add(result.id)
+                    report(result)
             if only_first and any(result.status == WRONG for result in results):
                 break
         return results
 
     def trouble(self, exercise: str) -> str:
         """Return why a check of the exercise could not be made, though nothing is wrong with it."""
-        own = [check.id for check in self._catalogue.of(exercise)]
-        return next((f"{one}: {self._troubles[one]}" for one in own if one in self._troubles), "")
+        own = [check.id for check in self._of(exercise) if check.id in self._troubles]
+        return f"{own[0]}: {self._troubles[own[0]]}" if own else ""
+
+    def _of(self, exercise: str) -> list[Check]:
+        return [check for check in self._checks.values() if check.exercise == exercise]
 
     def _culprits(self, check: Check) -> Iterator[Result]:
         for needed in check.needs:
@@ -201,8 +180,7 @@ class Run:
             same = self._same_cause(wrong)
             if same:  # one cause is reported once, at the first check that it keeps from holding
                 return self._unreached(check, same)
-            names = ("expected", "seen", "where", "hint")
-            what = {name: getattr(wrong, name) for name in names}
+            what = {name: getattr(wrong, name) for name in ("expected", "seen", "where", "hint")}
             return check.result(WRONG, **what, look=wrong.look or check.look)
         except Exception as error:  # also a bug of ours: the other checks are made all the same
             if not isinstance(error, CannotCheck):
@@ -216,23 +194,28 @@ class Run:
         return check.result(OK, seen=found or "")
 
     def _same_cause(self, wrong: Wrong) -> list[Result]:
-        """Return the wrong results that are about the same cause."""
-        return [one for one in self._done.values() if _is_one_cause(one, wrong)]
+        """Return the wrong results about the same cause. "No such file" alone may be said of two files."""
+        return [
+            one
+            for one in self._done.values()
+            if one.status == WRONG
+            and (one.seen, one.where) == (wrong.seen, wrong.where)
+            and (LINE.search(wrong.where) or one.expected == wrong.expected)
+        ]
 
     def _call(self, check: Check) -> Any:
-        function = self._catalogue.functions[check.id]
         try:
-            return function(self._session)
-        except Wrong as wrong:
-            if wrong.sure or check.timeless or self._same_cause(wrong):
-                raise
-            if not self._second_look(bool(LINE.search(wrong.where))):
-                raise
-        except CannotCheck:
-            if not self._second_look(False):
+            return check.function(self._session)
+        except (Wrong, CannotCheck) as error:
+            explained = False
+            if isinstance(error, Wrong):
+                if error.sure or check.timeless or self._same_cause(error):
+                    raise
+                explained = bool(LINE.search(error.where))
+            if not self._second_look(explained):
                 raise
         try:
-            return function(self._session)
+            return check.function(self._session)
         except Wrong as wrong:
             if wrong.sure or not self._too_busy():
                 raise
@@ -248,18 +231,6 @@ class Run:
         return check.result(UNREACHED, seen=why)
 
 
-def _is_one_cause(result: Result, wrong: Wrong) -> bool:
-    """Return whether a Result is about the same cause. "No such file" alone may be said of two files."""
-    if result.status != WRONG or (result.seen, result.where) != (wrong.seen, wrong.where):
-        return False
-    return bool(LINE.search(wrong.where)) or result.expected == wrong.expected
-
-
 def passed(results: Iterable[Result]) -> bool:
     """Return whether an exercise is done: nothing wrong, and everything reached."""
     return all(result.status in (OK, NOTE) for result in results)
-
-
-def without_hint(result: Result) -> Result:
-    """Return the same without a word on how to mend it."""
-    return replace(result, hint="")

@@ -12,8 +12,6 @@ import os
 import time
 from typing import Callable, Dict, Iterator, Tuple
 
-from tutorial_check.running import fields_of
-
 SLOWEST = 0.05  # of real time: a deadline is at most twenty times as long
 LOOKING = 0.05  # of the time at most goes into looking
 IDLE = 0.1  # of one processor; programs that use less only wait
@@ -25,6 +23,12 @@ STARVED_S = 0.5  # ready, and without a turn
 Times = Dict[
     int, Tuple[int, int, int]
 ]  # thread: (its process, ns at work, ns ready without a turn)
+
+
+def fields_of(stat: str) -> list[bytes]:
+    """Return a /proc/*/stat from its third field on; the second is a name, of any bytes. Raises OSError."""
+    with open(stat, "rb") as file:
+        return file.read().rsplit(b")", 1)[1].split()
 
 
 def times(proc: str = "/proc") -> Times:
@@ -75,16 +79,14 @@ class Patience:
         return now_s - self._lost_s
 
     def _look(self, now_s: float) -> None:
-        passed_s = now_s - self._last_s
-        new = self._read()
+        passed_s, new = now_s - self._last_s, self._read()
         longest = worked = 0
-        for thread, spent in new.items():
-            process, at_work, ready = spent
+        for thread, (process, at_work, ready) in new.items():
             before = self._last.get(thread, (process, 0, 0))
             longest = max(longest, ready - before[2])
             if process not in self._ours:
                 worked += at_work - before[1] + ready - before[2]
-            if thread not in self._last or spent != before:
+            if new[thread] != self._last.get(thread):
                 self._changed_s[thread] = now_s
         if self._last:
             self._reach_s = min(REACH_S, self._reach_s + passed_s)

@@ -6,12 +6,10 @@ import contextlib
 import ctypes
 import os
 import resource
-import signal
-from pathlib import Path
+import subprocess
 from typing import Iterator
 
 PR_SET_PDEATHSIG, PR_SET_DUMPABLE, PR_SET_CHILD_SUBREAPER, PR_SET_NO_NEW_PRIVS = 1, 4, 36, 38
-SHARED_PAGES = 1 << 16  # of System V shared memory: 256 MB
 MOST_PIDS = 1 << 22  # that Linux has
 UNUSED = 1_000_000  # from here on, and as many again, are uids that no system uses
 FEW_IDS = 4096  # of fewer any may be in use
@@ -26,19 +24,20 @@ LIMITS = {
 }
 
 
-def _set(option: int, value: int) -> None:
+def prctl(option: int, value: int) -> None:
+    """Set an attribute of this process."""
     ctypes.CDLL(None).prctl(option, value, 0, 0, 0)
 
 
 def keep_to_itself() -> None:
     """Let no process of this user look into this one, or into its open files."""
-    _set(PR_SET_DUMPABLE, 0)
+    prctl(PR_SET_DUMPABLE, 0)
 
 
 def give_up_rights() -> None:
     """Let this process, and what it starts, gain no rights, as by sudo. Its user may look into it."""
-    _set(PR_SET_NO_NEW_PRIVS, 1)
-    _set(PR_SET_DUMPABLE, 1)
+    prctl(PR_SET_NO_NEW_PRIVS, 1)
+    prctl(PR_SET_DUMPABLE, 1)
 
 
 def touch_files_as(user: int, group: int) -> None:
@@ -72,22 +71,6 @@ def own_rights() -> Iterator[None]:
         touch_files_as(user, group)
 
 
-def end_with_parent() -> None:
-    """Let the kernel end this process when its parent ends."""
-    _set(PR_SET_PDEATHSIG, signal.SIGKILL)
-
-
-def adopt_orphans() -> None:
-    """Become the parent of each process below this one whose own parent ends."""
-    _set(PR_SET_CHILD_SUBREAPER, 1)
-
-
-def limit_shared_memory() -> None:
-    """Limit System V's shared memory of these namespaces, where the kernel allows it."""
-    with contextlib.suppress(OSError):
-        Path("/proc/sys/kernel/shmall").write_text(str(SHARED_PAGES))
-
-
 def unused_user(number: int, uid_map: str) -> int | None:
     """Return an unused uid for an examination, or None.
 
@@ -103,7 +86,7 @@ def unused_user(number: int, uid_map: str) -> int | None:
 
 def limits_of_programs(uid: int | None) -> dict[int, int]:
     """Return the limits of programs that run under an unused uid, or under this process's (None)."""
-    threads = _threads_beside(MOST_THREADS) if uid is None else MOST_THREADS
+    threads = MOST_THREADS if uid is not None else _threads_of_this_user() + MOST_THREADS
     return {resource.RLIMIT_NPROC: threads, **LIMITS}
 
 
@@ -116,27 +99,12 @@ def limit(limits: dict[int, int]) -> None:
             resource.setrlimit(what, (value, value))
 
 
-def _threads_beside(threads: int) -> int:
-    """Return the RLIMIT_NPROC that allows as many threads in addition to those of now.
-
-    /proc does not show those outside of a container, which count. So try with which limit one more
-    can be started.
-    """
-    limit, hard = threads, resource.getrlimit(resource.RLIMIT_NPROC)[1]
-    highest = MOST_PIDS if hard == resource.RLIM_INFINITY else hard
-    while limit < highest and not _can_fork(limit, hard):
-        limit *= 2
-    return limit + threads
-
-
-def _can_fork(limit: int, hard: int) -> bool:
-    pid = os.fork()
-    if pid == 0:
-        try:
-            resource.setrlimit(resource.RLIMIT_NPROC, (limit, hard))
-            if os.fork() > 0:
-                os.wait()
-            os._exit(0)
-        finally:
-            os._exit(1)
-    return os.waitpid(pid, 0)[1] == 0
+def _threads_of_this_user() -> int:
+    """Return at least as many: RLIMIT_NPROC counts, and /proc does not show, those outside of a container."""
+    threads, starts_one_more = MOST_THREADS, ["sh", "-c", "(:); :"]
+    while threads < MOST_PIDS:
+        tried = ["prlimit", f"--nproc={threads}", *starts_one_more]
+        if not subprocess.run(tried, check=False, stderr=subprocess.DEVNULL).returncode:
+            break
+        threads *= 2
+    return threads

@@ -24,6 +24,7 @@ from tutorial_check.model import WRONG, CannotCheck, fault
 from tutorial_check.report import lines_of, summary, text_of
 
 ARCHIVES = (".zip", ".tar", ".tgz", ".gz", ".bz2", ".xz", ".7z", ".rar")
+TABLES = ("table.csv", "table.html")
 RESULTS = (".csv", ".html", ".txt", ".json")
 # Where a spreadsheet begins a cell, whatever it takes for what separates two; and then a formula.
 FORMULA = re.compile(r"(^|[;,|\t\r\n])(?=\s*[=+\-@])")
@@ -64,14 +65,13 @@ def find_students(folder: str | Path, out: str | Path) -> list[Student]:
     Archives that are no zip, and links, are among them: the table says that they are not checked.
     """
     try:
-        entries = sorted(Path(folder).iterdir())
+        entries = [path for path in sorted(Path(folder).iterdir()) if path.name[0] != "."]
     except OSError as error:
         raise CannotCheck(f"{folder}: {error.strerror}") from None
     paths = [
         path
         for path in entries
         if (path.is_dir() or path.suffix.lower() in ARCHIVES or not path.exists())
-        and not path.name.startswith(".")
         and not _has_results(path, out)
     ]
     if not paths:
@@ -87,7 +87,7 @@ def _has_results(path: Path, out: str | Path) -> bool:
     """Return whether it is the folder of the results, or that of an earlier check, with nothing else."""
     if os.path.realpath(path) == os.path.realpath(out):
         return True
-    tables = [os.path.isfile(path / name) for name in ("table.csv", "table.html")]
+    tables = [os.path.isfile(path / name) for name in TABLES]
     if path.is_symlink() or not all(tables) or not os.access(path, os.R_OK):
         return False
     is_left_out = all(each.is_file() and each.suffix in RESULTS for each in path.iterdir())
@@ -108,15 +108,14 @@ def check_all(options: argparse.Namespace) -> int:
         for ending in (".txt", ".json"):
             with contextlib.suppress(OSError):
                 (out / f"{student.name}{ending}").unlink()
-    clear(out / "table.csv")
-    clear(out / "table.html")
+    for name in TABLES:
+        clear(out / name)
     _check_each(students, out, options)
-    write(out / "table.csv", table_csv(students, options.exercises))
-    write(out / "table.html", table_html(students, options.exercises))
+    for name, make in zip(TABLES, (table_csv, table_html)):
+        write(out / name, make(students, options.exercises))
     print(f"{out}/table.html, table.csv, and a report of each")
     outcomes = [outcome for student in students for outcome in student.outcomes]
-    troubles = [*(one.trouble for one in students), *(one.trouble for one in outcomes)]
-    if any(troubles):
+    if any(one.trouble for one in (*students, *outcomes)):
         return 2
     return 0 if all(outcome.passed for outcome in outcomes) else 1
 
@@ -127,14 +126,9 @@ def _check_each(students: list[Student], out: Path, options: argparse.Namespace)
     with ThreadPoolExecutor(max(1, options.jobs)) as pool, tqdm(
         total=len(students), unit="student", disable=None
     ) as bar:
-        checks = [pool.submit(_check, student, options) for student in students]
+        checks = [pool.submit(_check, student, out, options) for student in students]
         try:
-            for done in as_completed(checks):
-                student = done.result()
-                try:
-                    _write(out, student)
-                except Exception as error:  # as in _check
-                    student.trouble = student.trouble or fault(error)
+            for student in (done.result() for done in as_completed(checks)):
                 bar.update()
                 verdict = student.trouble or summary(student.outcomes)
                 bar.write(f"{student.name}: {verdict}, {student.seconds:.0f} s")
@@ -145,24 +139,26 @@ def _check_each(students: list[Student], out: Path, options: argparse.Namespace)
             raise
 
 
-def _check(student: Student, options: argparse.Namespace) -> Student:
+def _check(student: Student, out: Path, options: argparse.Namespace) -> Student:
+    """Check one and write the report; whatever happens must not spoil the others."""
     began_s = time.monotonic()
     try:
         if student.path.is_symlink():  # it may lead to the files of another student
             raise CannotCheck("a link is not followed: put the folder or the archive itself here")
         outcomes = examine(student.path, options.underlay, options.exercises, own=False)
         student.outcomes = without_hints(outcomes) if options.no_hints else outcomes
-    except Exception as error:  # whatever it is, it must not spoil the others
+    except Exception as error:
         student.trouble = fault(error)
     student.seconds = time.monotonic() - began_s
-    return student
-
-
-def _write(out: Path, student: Student) -> None:
     report = f"could not be checked: {student.trouble}\n" if student.trouble else ""
-    write(out / f"{student.name}.txt", f"{student.name}\n\n{report or text_of(student.outcomes)}")
-    if student.outcomes:
-        write(out / f"{student.name}.json", as_json(student.outcomes))
+    try:
+        text = f"{student.name}\n\n{report or text_of(student.outcomes)}"
+        write(out / f"{student.name}.txt", text)
+        if student.outcomes:
+            write(out / f"{student.name}.json", as_json(student.outcomes))
+    except Exception as error:
+        student.trouble = student.trouble or fault(error)
+    return student
 
 
 def table_csv(students: Iterable[Student], exercises: list[str]) -> str:

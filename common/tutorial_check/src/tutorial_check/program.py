@@ -50,29 +50,21 @@ def _parser() -> Parser:
         description="Checks the exercises of the tutorial in your own workspace.",
         epilog="exercises: " + ", ".join(f"{name} ({what})" for name, what in EXERCISES.items()),
     )
-    where = parser.add_mutually_exclusive_group()
+    where, add = parser.add_mutually_exclusive_group(), parser.add_argument
+    what = "your catkin workspace, a folder of packages, or a zip; in a shell of it not needed"
+    own = os.environ.get(WORKSPACE) or None
     where.add_argument(
-        "--in",
-        dest="workspace",
-        type=path,
-        default=os.environ.get(WORKSPACE) or None,
-        metavar="WORKSPACE",
-        help="your catkin workspace, a folder of packages, or a zip; in a shell of it not needed",
+        "--in", dest="workspace", type=path, default=own, metavar="WORKSPACE", help=what
     )
-    where.add_argument(
-        "--all",
-        type=path,
-        metavar="FOLDER",
-        help="for the professor: every workspace, or zip, in a folder",
-    )
-    add = parser.add_argument
+    what = "for the professor: every workspace, or zip, in a folder"
+    where.add_argument("--all", type=path, metavar="FOLDER", help=what)
     add("exercises", nargs="*", metavar="EXERCISE", help="all without one")
     add("--no-hints", action="store_true", help="say what is wrong, not how to mend it")
     add("--watch", action="store_true", help="check again whenever a file is saved")
     for name, what in FILES.items():
         add(f"--{name}", type=path, metavar="FILE", help=f"write {what}")
-    to = "with --all: where the table and the reports go (FOLDER/check)"
-    add("--out", type=path, metavar="FOLDER", help=to)
+    what = "with --all: where the table and the reports go (FOLDER/check)"
+    add("--out", type=path, metavar="FOLDER", help=what)
     add("--jobs", type=int, help="with --all: how many at a time (2)")
     what = "setup.bash of what the exercises need"
     add("--underlay", type=path, default=os.environ.get(UNDERLAY), metavar="SETUP", help=what)
@@ -137,8 +129,8 @@ def check_one(options: argparse.Namespace) -> int:
     for file in files.values():
         clear(file)
     terminal = Terminal(hints=not options.no_hints)
-    terminal.busy("copying and preparing")
-    outcomes = examine(options.workspace, options.underlay, options.exercises, terminal.tell)
+    terminal.busy("copying and preparing ...")
+    outcomes = examine(options.workspace, options.underlay, options.exercises, terminal.result)
     terminal.done()
     print(f"{summary(outcomes)} in {os.path.abspath(options.workspace)}")
     write_files(files, without_hints(outcomes) if options.no_hints else outcomes)

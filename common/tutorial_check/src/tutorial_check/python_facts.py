@@ -159,7 +159,9 @@ class PythonFacts:
     @property
     def at_end(self) -> dict[str, list[int]]:
         """{name: lines} of what a function given to on_shutdown calls."""
-        return self._called_by(w for one in self.calls.get("on_shutdown", []) for w in one.words[:1])
+        return self._called_by(
+            w for one in self.calls.get("on_shutdown", []) for w in one.words[:1]
+        )
 
     def _called_by(self, given: Iterable[str]) -> dict[str, list[int]]:
         functions = {node.name: node for node in self._of(ast.FunctionDef)}

@@ -73,14 +73,13 @@ class Terminal:
     def busy(self, words: str) -> None:
         """Show a line that the next one replaces."""
         if self.is_terminal:
-            print(f"\r\x1b[K{words} ...", end="", file=self._out, flush=True)
+            print(f"\r\x1b[K{words}", end="", file=self._out, flush=True)
 
     def done(self) -> None:
         """Take that line away."""
-        if self.is_terminal:
-            print("\r\x1b[K", end="", file=self._out, flush=True)
+        self.busy("")
 
-    def tell(self, outcome: Outcome, result: Result) -> None:
+    def result(self, outcome: Outcome, result: Result) -> None:
         """Print one result."""
         self.done()
         if self._heading != outcome.id:
@@ -90,4 +89,4 @@ class Terminal:
         if self._has_colour:
             first = f"\x1b[{COLOURS[result.status]}m{first}\x1b[0m"
         print("\n".join([first, *rest]), file=self._out, flush=True)
-        self.busy(f"  checking {outcome.id}")
+        self.busy(f"  checking {outcome.id} ...")

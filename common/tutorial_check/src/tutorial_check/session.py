@@ -8,12 +8,13 @@ import shlex
 from pathlib import Path
 from typing import Any, Callable, Dict, Iterable, Iterator, Mapping, Tuple
 
-from tutorial_check import python_facts, student_files
-from tutorial_check.box import Box
+from tutorial_check import student_files
+from tutorial_check.box import Box, Program
 from tutorial_check.environment import environment_of
 from tutorial_check.exercises.manifests import must_be_startable
 from tutorial_check.model import CannotCheck, Wrong, master_gone
 from tutorial_check.place import own_rights
+from tutorial_check.python_facts import PythonFacts, read_python
 from tutorial_check.stage import Stage
 from tutorial_check.workspace import Layout, Package, packages_below
 
@@ -26,18 +27,18 @@ NEEDS_BUILD = re.compile(
 )
 # Prints the first folder that may not be entered.
 TRIAL = '#!/bin/sh\nfor folder do [ -x "$folder" ] || { echo "$folder"; exit; }; done\n'
-Memory = Dict[object, Tuple[bool, Any]]
+Memory = Dict[object, Tuple[Any, Any]]
 
 
 def _once(memory: Memory, key: object, make: Callable[[], Any]) -> Any:
     if key not in memory:
         try:
-            memory[key] = (True, make())
+            memory[key] = make(), None
         except Wrong as wrong:
-            memory[key] = (False, wrong)
-    worked, value = memory[key]
-    if not worked:
-        raise value
+            memory[key] = None, wrong
+    value, wrong = memory[key]
+    if wrong:
+        raise wrong
     return value
 
 
@@ -56,10 +57,10 @@ class Session:
         can_have_devices: bool,
         needed: Iterable[str | Path] = (),
     ) -> None:
-        """underlay: setup.bash of the underlay; environment: of a shell that sourced it.
+        """underlay: its setup.bash; environment: of a shell that sourced it.
 
         needed: files and folders of the suite that the student's launch files lead to.
-        underlay_environment: the environment with folders of this session, without the student's packages.
+        underlay_environment: the same without the student's packages, with folders of this session.
         """
         self.folder = Path(folder)
         self.layout = layout
@@ -110,7 +111,6 @@ class Session:
 
     @property
     def packages(self) -> list[Package]:
-        """All packages of the workspace."""
         return self.memo("packages", lambda: packages_below(self.source))  # type: ignore[no-any-return]
 
     def package(self, name: str) -> Any:
@@ -119,29 +119,27 @@ class Session:
 
     def scripts(self, name: str) -> Any:
         """Return {path within the package: PythonFacts} of the Python programs of a package."""
-        return self.memo(("scripts", name), lambda: self._scripts(name))
+        return self.memo(("scripts", name), lambda: dict(self._scripts(self.package(name))))
 
-    def _scripts(self, name: str) -> dict[str, Any]:
-        found = {}
-        package = self.package(name)
+    def _scripts(self, package: Package | None) -> Iterator[tuple[str, PythonFacts]]:
         for path in sorted(package.folder.rglob("*")) if package else []:
             inside = path.relative_to(package.folder)
             # What editors and file managers keep for themselves is hidden.
             if not path.is_file() or any(part.startswith(".") for part in inside.parts):
                 continue
             is_python = path.suffix == ".py"
-            if not is_python and not path.suffix:
+            if not path.suffix:
                 with path.open("rb") as file:
                     is_python = file.read(2) == b"#!" and b"python" in file.readline()
             if is_python and path.name not in ("setup.py", "__init__.py"):
-                text = student_files.read(self.folder, path).decode(errors="replace")
-                found[str(inside)] = python_facts.read_python(text)
-        return found
+                yield str(inside), read_python(self._text(path))
+
+    def _text(self, path: Path) -> str:
+        return student_files.read(self.folder, path).decode(errors="replace")
 
     def text(self, package: str, script: str) -> str:
         """Return the text of a script, its line ends as they are."""
-        path = self.package(package).folder / script
-        return student_files.read(self.folder, path).decode(errors="replace")
+        return self._text(self.package(package).folder / script)
 
     def whole(self, path: str, package: str = "") -> str:
         """Return a path of the workspace, or within a package, for a command of a shell in any folder.
@@ -161,16 +159,25 @@ class Session:
 
     # ------------------------------------------------------------------------- environment
 
+    def _ended(self, command: list[str], deadline_s: float = SLOW_S) -> tuple[Program, bool]:
+        """Return a program that was run, and whether it ended by itself."""
+        program = self.box.start(command)
+        ended = self.box.wait(lambda: program.ended, deadline_s)
+        self.box.end(program)
+        return program, ended
+
     def built(self) -> Any:
         """Return (catkin_make's exit code, its output); made once."""
         return self.memo("built", self._build)
 
     def _build(self) -> tuple[int | None, str]:
-        program = self.box.start(
-            ["catkin_make", "-C", str(self.folder / "ws"), "-DPYTHON_EXECUTABLE=/usr/bin/python3"]
-        )
-        ended = self.box.wait(lambda: program.ended, 120.0)
-        self.box.end(program)
+        make = [
+            "catkin_make",
+            "-C",
+            str(self.folder / "ws"),
+            "-DPYTHON_EXECUTABLE=/usr/bin/python3",
+        ]
+        program, ended = self._ended(make)
         if program.process.returncode != 0:
             self.must_reach_underlay()
         return (program.process.returncode if ended else None), program.output
@@ -189,14 +196,12 @@ class Session:
         with own_rights():
             folders = [str(each) for each in dict.fromkeys(above) if each.is_dir()]
         try:
-            program = self.box.start([str(script), *folders])
+            program, _ = self._ended([str(script), *folders])
         except OSError as error:
             raise CannotCheck(
                 f"no program can be started in {self.folder.parent} ({error.strerror}): set TMPDIR to a"
                 " folder that others may enter, and that is not mounted noexec"
             ) from None
-        self.box.wait(lambda: program.ended, SLOW_S)
-        self.box.end(program)
         if program.output:
             closed = Path(program.output.strip())
             # What lies below a needed one is as closed; but a home folder is opened no further.
@@ -208,11 +213,9 @@ class Session:
             )
 
     def _needs_build(self) -> bool:
-        cmake = [each.folder / "CMakeLists.txt" for each in self.packages]
-        return any(
-            each.is_file() and NEEDS_BUILD.search(each.read_text(errors="replace"))
-            for each in cmake
-        )
+        files = [each.folder / "CMakeLists.txt" for each in self.packages]
+        texts = (each.read_text(errors="replace") for each in files if each.is_file())
+        return any(map(NEEDS_BUILD.search, texts))
 
     @property
     def lacks_build(self) -> bool:
@@ -229,22 +232,17 @@ class Session:
             found = self._sourced(self.folder / "ws" / "devel" / "setup.bash")
         else:
             found = dict(self.underlay_environment)
-            for name, own in (
-                ("CMAKE_PREFIX_PATH", self.folder / "devel"),
-                ("ROS_PACKAGE_PATH", self.source),
-            ):
-                found[name] = f"{own}:{found.get(name, '')}".rstrip(":")
+            own = {"CMAKE_PREFIX_PATH": self.folder / "devel", "ROS_PACKAGE_PATH": self.source}
+            for name, path in own.items():
+                found[name] = f"{path}:{found.get(name, '')}".rstrip(":")
         found["CMAKE_PREFIX_PATH"] = f"{self.folder / 'view'}:{found['CMAKE_PREFIX_PATH']}"
         return found
 
     def _sourced(self, setup: Path) -> dict[str, str]:
         """Return the environment after a setup.bash, which runs like a program of the student's."""
         # What is printed before the first \0 is no variable.
-        program = self.box.start(
-            ["bash", "-c", '. "$1" >/dev/null && printf "\\0" && env -0', "bash", str(setup)]
-        )
-        self.box.wait(lambda: program.ended, SLOW_S)
-        self.box.end(program)
+        source = '. "$1" >/dev/null && printf "\\0" && env -0'
+        program, _ = self._ended(["bash", "-c", source, "bash", str(setup)])
         printed, *variables = program.output.split("\0")
         if program.process.returncode != 0 or not variables:
             raise CannotCheck(f"{setup} cannot be sourced: {' '.join(printed[-200:].split())}")

@@ -8,9 +8,9 @@ import uuid
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Callable, Sequence
 
-from tutorial_check import forked, preloaded
+from tutorial_check import forked
+from tutorial_check.box import Program
 from tutorial_check.model import CannotCheck, Wrong
-from tutorial_check.running import Program
 
 if TYPE_CHECKING:
     from tutorial_check.session import Session
@@ -27,8 +27,7 @@ class Stage:
 
         from tutorial_check import driver  # noqa: PLC0415
 
-        self.session = session
-        self.box = session.box
+        self.session, self.box, self.wait = session, session.box, session.box.wait
         with socket.socket() as probe:
             probe.bind(("127.0.0.1", 0))
             port = probe.getsockname()[1]
@@ -52,13 +51,6 @@ class Stage:
         """Start a script of the student's."""
         return self.launch([*self.session.command(package, script), *arguments])
 
-    def start_quickly(self, package: str, script: str, *arguments: str) -> Program:
-        """Start it in a Python that has ROS loaded already; see preloaded."""
-        path = str(self.session.package(package).folder / script)
-        return self.box.fork(
-            lambda: preloaded.run(path, *arguments), self.environment, Path(path).name
-        )
-
     def help(self, make: Callable[[], Any]) -> forked.Helper:
         """Return a forked.Helper for as long as the stage stands."""
         helper = forked.Helper(make, self._ours)
@@ -79,9 +71,8 @@ class Stage:
 
     def launch(self, command: Sequence[str], trusted: bool = False) -> Program:
         """Start a command on this master."""
-        environment = self._ours if trusted else self.environment
         try:
-            return self.box.start(command, environment, trusted=trusted)
+            return self.box.start(command, self._ours if trusted else self.environment, trusted)
         except OSError as error:
             raise Wrong(
                 "a program that can be started",
@@ -98,13 +89,9 @@ class Stage:
         """Whether no program has ended the master."""
         return not self._master.ended
 
-    def wait(self, condition: Callable[[], Any], deadline_s: float) -> Any:
-        """See Box.wait."""
-        return self.box.wait(condition, deadline_s)
-
     def wait_for_start(self, condition: Callable[[], Any], deadline_s: float = START_S) -> Any:
         """Wait until programs are as far as the condition says, or do nothing more."""
-        return self.box.wait(condition, deadline_s, or_idle=True)
+        return self.wait(condition, deadline_s, or_idle=True)
 
     def end(self) -> None:
         """End everything on this stage."""

@@ -6,7 +6,7 @@ import importlib
 import pkgutil
 from typing import Any, Callable, TypeVar
 
-from tutorial_check.model import Catalogue, Check
+from tutorial_check.model import Check
 
 # What the student reads: the number in the handout, and what it is about.
 EXERCISES = {
@@ -22,7 +22,7 @@ EXERCISES = {
 }
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
-_checks: dict[str, tuple[Check, Callable[..., Any]]] = {}  # by the id of the check
+_checks: dict[str, Check] = {}  # by id
 
 
 def check(
@@ -32,19 +32,16 @@ def check(
     exercise = section if section in EXERCISES else section.split(".", maxsplit=1)[0]
 
     def keep(function: _Function) -> _Function:
-        one = Check(name, exercise, title, section, tuple(needs.split()), look, timeless)
-        _checks[name] = one, function
+        about = (name, exercise, title, section, tuple(needs.split()), look, timeless)
+        _checks[name] = Check(*about, function)
         return function
 
     return keep
 
 
-def catalogue() -> Catalogue:
-    """Return the Catalogue of all checks, from the files of this folder. Loads ROS."""
+def all_checks() -> list[Check]:
+    """Return the checks of the files of this folder, in the handout's order. Loads ROS."""
     for module in pkgutil.iter_modules(__path__, f"{__name__}."):
         importlib.import_module(module.name)
     order = list(EXERCISES)
-    found = [_checks[name] for name in sorted(_checks, key=lambda name: int(name[1:]))]
-    found.sort(key=lambda pair: order.index(pair[0].exercise))
-    functions = {each.id: function for each, function in found}
-    return Catalogue([each for each, _ in found], functions)
+    return sorted(_checks.values(), key=lambda one: (order.index(one.exercise), int(one.id[1:])))

@@ -39,7 +39,7 @@ def errors_are_seen(session: Session) -> Note | str | None:
             copy = session.memo(
                 ("broken", script), lambda: session.sibling(PACKAGE, script, broken_text)
             )
-            broken = stage.start_quickly(PACKAGE, copy, "__name:=broken")
+            broken = stage.start(PACKAGE, copy, "__name:=broken")
         stage.wait_for_start(lambda: alone.ended or JOY in stage.call("state")[1])
         stage.wait(lambda: alone.ended, ALONE_S)
         stage.wait_for_start(lambda: broken is None or broken.ended)

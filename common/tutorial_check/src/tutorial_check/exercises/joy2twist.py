@@ -149,8 +149,7 @@ def _finds_no_pub(session: Session, script: str) -> Any:
         stage.call("listen", CMD_VEL, "Twist")
         stage.call("stream", JOY, [NEUTRAL], 200.0, True)
         programs = [
-            stage.start_quickly(PACKAGE, script, f"__name:=loaded_{number}")
-            for number in range(STARTS)
+            stage.start(PACKAGE, script, f"__name:=loaded_{number}") for number in range(STARTS)
         ]
 
         def one_has_failed() -> bool:

@@ -10,7 +10,7 @@ import shlex
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Callable
 
-from tutorial_check import launch_facts, preloaded
+from tutorial_check import launch_facts
 from tutorial_check.exercises import check
 from tutorial_check.exercises.driving import PACKAGE
 from tutorial_check.exercises.files import find_script, is_runnable
@@ -129,11 +129,8 @@ def _read(session: Session) -> Any:
             paths[name] = str(path)
     if not paths:
         return {}
-    program = session.box.fork(
-        lambda: preloaded.end_with(lambda: launch_facts.tell(paths.values())),
-        session.environment,
-        "launch_facts",
-    )
+    command = ["/usr/bin/python3", launch_facts.__file__, *paths.values()]
+    program = session.box.start(command, session.environment)
     ended = session.box.wait(lambda: program.ended, READ_S)
     session.box.end(program)
     if not ended and session.box.patience.strained():
