@@ -7,6 +7,7 @@ import subprocess
 
 import pytest
 
+from tutorial_tools import graph
 from tutorial_tools.graph import dot_text
 
 TALK = (
@@ -104,3 +105,42 @@ def test_graphviz_reads_back_every_name():
     clusters = {'cluster desk "1"', "cluster {robot}"}
     assert said == {f"topic {name}" for name in topics} | {"node /a", "node /b"} | clusters
     assert len(graph["edges"]) == 2 * len(topics)
+
+
+@pytest.fixture
+def drawn(monkeypatch, tmp_path, capsys):
+    """A function that draws a file in a new folder, and returns the line that is printed."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(graph, "ask_master", lambda: (TALK, {}))
+
+    def draw(*arguments):
+        try:
+            graph.main(list(arguments))
+        except SystemExit as end:
+            return str(end)
+        return capsys.readouterr().out.rstrip()
+
+    return draw
+
+
+@pytest.mark.skipif(not shutil.which("dot"), reason="graphviz missing: ./tutorial setup")
+@pytest.mark.parametrize(
+    ("file", "begin"),
+    [("a.png", b"\x89PNG"), ("a.svg", b"<?xml"), ("a.PDF", b"%PDF-"), ("a.dot", b"digraph")],
+)
+def test_what_is_written(drawn, tmp_path, file, begin):
+    assert drawn(file) == f"draw_graph: wrote {tmp_path}/{file}"
+    assert (tmp_path / file).read_bytes().startswith(begin)
+
+
+def test_refusals(drawn, tmp_path, monkeypatch):
+    assert drawn("graph.gif") == "draw_graph: graph.gif must end in .png, .svg, .pdf or .dot"
+    assert drawn("no/a.dot") == "draw_graph: cannot write no/a.dot: No such file or directory"
+    monkeypatch.setenv("PATH", "/nowhere")
+    assert "dot is missing: sudo apt install graphviz" in drawn("a.png")
+    monkeypatch.setattr(graph, "ask_master", lambda: (([], [], []), {}))
+    assert "nothing runs on http" in drawn("a.png")
+    monkeypatch.undo()
+    monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:9")  # "discard": no master listens
+    assert drawn("a.png").endswith("no ROS master at http://localhost:9; start one with: roscore")
+    assert list(tmp_path.iterdir()) == []

@@ -44,7 +44,7 @@ KINDS = {  # of tests
     "ros": "rostests: all, of a folder of test/ros, or of files; --times N",
     "system": "./tutorial itself, workspaces, RViz on a virtual screen, two hosts",
     "again": "what failed of these, once more and alone",
-    "kernel": "joy_node and Chromium with a joystick of a real kernel; minutes",
+    "kernel": "joy_node with a joystick of a real kernel; minutes",
     "exercises": "the tests of check itself",
     "browser": "the cockpit's page in real browsers, which this installs",
     "containers": "docker/ on a Docker engine, which root starts if there is none; minutes",

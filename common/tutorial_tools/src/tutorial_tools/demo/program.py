@@ -64,7 +64,7 @@ def check_master(nodes: Iterable[str]) -> None:
     elif accepts(uri):  # else roslaunch starts a master, or says that the host is not this one
         raise DemoError(
             f"port {port} of {host} is taken by a program that is not a ROS master; "
-            f"end it, or choose another port: export ROS_MASTER_URI={free_uri(port)}"
+            f"end it, or choose another port: export ROS_MASTER_URI={next_uri(port)}"
         )
 
 
@@ -89,34 +89,14 @@ def refusal(uri: str, names: list[str]) -> str:
     *most, last = names
     listed = f"{', '.join(most)} and {last}" if most else last
     runs, them = ("run", "them") if most else ("runs", "it")
-    own = free_uri(rosgraph.network.parse_http_host_and_port(uri)[1])
+    own = next_uri(rosgraph.network.parse_http_host_and_port(uri)[1])
     todo = f"end {them}, or take a master of your own: export ROS_MASTER_URI={own}"
     return f"{listed} {runs} already on {uri}; {todo}"
 
 
-def free_uri(taken: int) -> str:
-    """Return a ROS_MASTER_URI of this machine at the next port after one that is taken."""
-    for port in range(taken + 1, 65536):
-        try:
-            with socket.create_server(("localhost", port)):
-                return f"http://localhost:{port}"
-        except OSError:
-            continue
-    return "http://localhost:PORT"
-
-
-def claim_master() -> socket.socket:
-    """Return a socket that only one demonstration of a master has; raise DemoError for another.
-
-    Two that start at once see nothing of each other's nodes yet. The kernel forgets the name, which
-    is of no file, with the process.
-    """
-    claim, uri = socket.socket(socket.AF_UNIX), rosgraph.get_master_uri()
-    try:
-        claim.bind(f"\0ros1_tutorial demo {uri}"[:100])
-    except OSError as error:
-        raise DemoError(refusal(uri, ["another demo"])) from error
-    return claim
+def next_uri(taken: int) -> str:
+    """Return a ROS_MASTER_URI of this machine beside a port that is taken."""
+    return f"http://localhost:{taken % 65535 + 1}"
 
 
 def where_to_look(values: dict[str, str]) -> str:
@@ -156,7 +136,7 @@ def main() -> None:
         nodes = [*NODES, RVIZ_NODE] if with_rviz else NODES
         check_master(nodes)
         command = ["roslaunch", launch_file, *options.arguments, f"bag:={values['bag']}"]
-        with claim_master(), Launch(command, nodes) as launch:
+        with Launch(command, nodes) as launch:
             launch.wait_for_odometry()
             print(f"demo: first /odom after {age_of_this_process():.1f} s", flush=True)
             given = any(argument.startswith("rviz:=") for argument in options.arguments)
