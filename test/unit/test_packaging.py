@@ -57,7 +57,7 @@ SCRIPTS = [
 ]
 # Import name -> the name in package.xml, where they differ.
 DEBIAN = {
-    "cockpit_server": "cockpit", "joy_to_twist": "joy2twist",
+    "cockpit_server": "cockpit", "joy_to_twist": "joy2twist", "PIL": "python3-pil",
     **{name: f"python3-{name}" for name in (
         "evdev", "matplotlib", "numpy", "rospkg", "tornado", "tqdm", "watchdog", "yaml")},
 }  # fmt: skip

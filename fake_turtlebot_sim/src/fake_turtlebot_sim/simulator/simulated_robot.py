@@ -10,6 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
+from fake_turtlebot_sim.simulator.contact import Piece, drive_among
 from fake_turtlebot_sim.simulator.differential_drive import (
     Pose,
     Velocity,
@@ -26,6 +27,7 @@ from fake_turtlebot_sim.simulator.velocity_command import (
     limit,
     ramp_time,
 )
+from fake_turtlebot_sim.simulator.world import Surroundings, World
 
 REST: Velocity = (0.0, 0.0)
 ORIGIN: Pose = (0.0, 0.0, 0.0)
@@ -40,6 +42,7 @@ class RobotModel:
     cmd_vel_timeout: float = 0.6  # [s]
     limits: VelocityLimits = field(default_factory=VelocityLimits)
     errors: ErrorModel = field(default_factory=ErrorModel)
+    base_radius: float = 0.178  # [m] (kobuki.urdf.xacro)
 
 
 class RobotState(NamedTuple):
@@ -59,8 +62,13 @@ class RobotState(NamedTuple):
 class SimulatedRobot:
     """A robot that obeys its newest command until the timeout, then stops."""
 
-    def __init__(self, model: RobotModel, start_pose: Pose = ORIGIN) -> None:
-        """Put the robot at rest at start_pose, (x [m], y [m], yaw [rad]), at the time 0."""
+    def __init__(
+        self, model: RobotModel, start_pose: Pose = ORIGIN, world: World | None = None
+    ) -> None:
+        """Put the robot at rest at start_pose, (x [m], y [m], yaw [rad]), at the time 0.
+
+        world: what may be in its way, in the frame of the pose.
+        """
         self._model = model
         self._timeout_ns = round(model.cmd_vel_timeout * 1e9)
         self._time_ns = self._expires_ns = 0
@@ -68,6 +76,8 @@ class SimulatedRobot:
         self._wheels = (0.0, 0.0)
         has_errors = model.errors != ErrorModel(seed=model.errors.seed)
         self._errors = OdometryErrors(model.errors, model.wheel_separation) if has_errors else None
+        self._surroundings = Surroundings(world) if world else None
+        self._contact: float | None = None
         self.place(start_pose)
 
     def command(self, velocity: Velocity, now_ns: int) -> Verdict:
@@ -123,6 +133,11 @@ class SimulatedRobot:
         return self._errors is not None
 
     @property
+    def contact(self) -> float | None:
+        """Return in which direction [rad, ahead is 0] the robot pushes something, or None."""
+        return None if self._contact is None else wrap_angle(self._contact - self._truth[2])
+
+    @property
     def is_driven(self) -> bool:
         """Tell whether a command is in force, that is, not timed out."""
         return self._time_ns < self._expires_ns
@@ -131,6 +146,10 @@ class SimulatedRobot:
     def is_moving(self) -> bool:
         """Tell whether the robot had a velocity at the time of the last advance()."""
         return self._velocity != REST
+
+    @property
+    def _truth(self) -> Pose:
+        return self._true_pose if self._errors else self._pose
 
     def _wheel_rates(self, velocity: Velocity) -> tuple[float, float]:
         return wheel_rates(velocity, self._model.wheel_separation, self._model.wheel_radius)
@@ -155,31 +174,55 @@ class SimulatedRobot:
         if dt == 0.0 or velocity == end_velocity == REST:
             return
         self._velocity = end_velocity
+        errors = self._errors
+        true = velocity, end_velocity
+        if errors:
+            true = errors.true_velocity(velocity), errors.true_velocity(end_velocity)
+        if self._surroundings is None:
+            self._roll(velocity, end_velocity, Piece(*true, dt))
+            return
+        x, y, _ = self._truth
+        reach = self._model.base_radius + dt * max(abs(true[0][0]), abs(true[1][0]))
+        near = self._surroundings.near(x, y, reach)
+        pieces, self._contact = drive_among(self._truth, *true, dt, self._model.base_radius, near)
+        after = 0.0
+        for piece in pieces:
+            before, after = after, after + piece.dt
+            begin = between(velocity, end_velocity, before / dt)
+            end = between(velocity, end_velocity, after / dt)
+            if piece.is_blocked:  # the wheels, too, only turn the robot
+                begin, end = (0.0, begin[1]), (0.0, end[1])
+            self._roll(begin, end, piece)
+        if self._contact is not None:
+            self._velocity = 0.0, end_velocity[1]
+
+    def _roll(self, velocity: Velocity, end_velocity: Velocity, true: Piece) -> None:
+        """Let the wheels turn, while the robot itself drives a Piece."""
+        dt = true.dt
         mean = velocity if velocity == end_velocity else between(velocity, end_velocity, 0.5)
         if self._errors:
-            mean = self._drive_with_errors(self._errors, velocity, end_velocity, mean, dt)
+            mean = self._measure(self._errors, velocity, end_velocity, mean, true)
         else:
             self._pose = drive(self._pose, velocity, end_velocity, dt)
         left, right = self._wheel_rates(mean)
         self._wheels = (self._wheels[0] + left * dt, self._wheels[1] + right * dt)
 
-    def _drive_with_errors(
+    def _measure(
         self,
         errors: OdometryErrors,
         velocity: Velocity,
         end_velocity: Velocity,
         mean: Velocity,
-        dt: float,
+        true: Piece,
     ) -> Velocity:
         """Drive the true robot and its odometry apart; return the mean velocity as measured."""
-        true_start, true_end = errors.true_velocity(velocity), errors.true_velocity(end_velocity)
-        self._true_pose = drive(self._true_pose, true_start, true_end, dt)
+        self._true_pose = drive(self._true_pose, *true[:3])
         before = self._pose
-        if not self._model.errors.wheel_noise:
-            self._pose = drive(before, velocity, end_velocity, dt)
+        if not self._model.errors.wheel_noise or not true.dt:
+            self._pose = drive(before, velocity, end_velocity, true.dt)
             return mean
         # The measured travel of a step carries no more than its mean velocity.
-        mean = errors.measured(mean, dt)
-        self._pose = drive(before, mean, mean, dt)
-        errors.grow(before, self._pose, mean, dt)
+        mean = errors.measured(mean, true.dt)
+        self._pose = drive(before, mean, mean, true.dt)
+        errors.grow(before, self._pose, mean, true.dt)
         return mean

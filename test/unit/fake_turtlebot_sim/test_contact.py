@@ -1,0 +1,127 @@
+"""Where and when a round robot touches walls, posts and other robots."""
+
+from math import acos, asin, cos, hypot, inf, pi, sin, sqrt
+
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from fake_turtlebot_sim.simulator.contact import drive_among, first_contact, gap
+from fake_turtlebot_sim.simulator.differential_drive import arc
+from fake_turtlebot_sim.simulator.simulated_robot import RobotModel, SimulatedRobot
+from fake_turtlebot_sim.simulator.velocity_command import VelocityLimits
+from fake_turtlebot_sim.simulator.world import World
+
+R = 0.178
+WALL = (1.0, -5.0, 1.0, 5.0)  # x = 1
+EXACT = 1e-9
+
+
+# Pose, velocity, obstacle, and when they touch [s], worked out by hand.
+CASES = {
+    "a wall met straight": ((0, 0, 0), (0.5, 0), WALL, (1 - R) / 0.5),
+    "backwards": ((0, 0, pi), (-0.5, 0), WALL, (1 - R) / 0.5),
+    "at an angle": ((0, 0, pi / 3), (0.5, 0), WALL, (1 - R) / (0.5 * cos(pi / 3))),
+    # x = 0.5 / 0.4 sin(0.4 t) = 1 - R
+    "on an arc": ((0, 0, 0), (0.5, 0.4), WALL, asin((1 - R) * 0.4 / 0.5) / 0.4),
+    # The circle around (0, 2) of radius 2 comes no nearer to x = 3 than 1.
+    "past a wall": ((0, 0, 0), (2, 1), (3.0, -5.0, 3.0, 5.0), inf),
+    # y = 2 (1 - cos t) = 3 - R, on the way around that circle.
+    "a wall across": ((0, 0, 0), (2, 1), (-9.0, 3.0, 9.0, 3.0), acos(1 - (3 - R) / 2)),
+    "a corner by its end": ((0, 0, 0), (1, 0), (1.0, 0.1, 1.0, 3.0), 1 - sqrt(R**2 - 0.1**2)),
+    "a post": ((0, 0, 0), (1, 0), (2.0, 0.2, 0.3), 2 - sqrt((R + 0.3) ** 2 - 0.2**2)),
+    "another robot": ((0, 0, 0), (0.7, 0), (1.0, 0.0, R), (1 - 2 * R) / 0.7),
+    # On the circle around (0, 1), a chord of R + 0.1 before (1, 1).
+    "a post on an arc": ((0, 0, 0), (1, 1), (1.0, 1.0, 0.1), pi / 2 - 2 * asin((R + 0.1) / 2)),
+    "nothing": ((0, 0, 0), (1, 0), (5.0, 1.0, 5.0, 2.0), inf),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_the_time_of_contact_is_the_closed_forms(name):
+    pose, velocity, obstacle, after_s = CASES[name]
+    met = first_contact(pose, velocity, 60.0, R, [obstacle])
+    assert (met[0] if met else inf) == pytest.approx(after_s, abs=EXACT)
+
+
+places = st.floats(-2, 2)
+walls = st.tuples(places, places, places, places)
+posts = st.tuples(places, places, st.floats(0.0, 0.4))
+velocities = st.tuples(
+    st.floats(-1, 1) | st.sampled_from([0.7, -0.7, 0.0]),
+    st.floats(-3, 3) | st.sampled_from([0.0, 1e-9, pi]),
+)
+
+
+@settings(max_examples=2000, deadline=None)
+@given(
+    st.lists(walls | posts, min_size=1, max_size=8),
+    st.tuples(places, places, st.floats(-pi, pi)),
+    st.lists(st.tuples(velocities, st.floats(0.001, 3.0)), min_size=1, max_size=6),
+)
+def test_a_robot_is_never_inside_and_stops_only_where_it_touches(obstacles, pose, commands):
+    clear = lambda x, y: min(gap(x, y, R, one) for one in obstacles)  # noqa: E731
+    assume(clear(*pose[:2]) > 0.0)
+    for velocity, dt in commands:
+        pieces, contact = drive_among(pose, velocity, velocity, dt, R, obstacles)
+        for piece in pieces:
+            for part in range(1, 20):
+                x, y, _ = arc(pose, piece.velocity, piece.dt * part / 20)
+                assert clear(x, y) > -EXACT
+            pose = arc(pose, piece.velocity, piece.dt)
+        assert sum(piece.dt for piece in pieces) == pytest.approx(dt)
+        assert contact is None or abs(clear(*pose[:2])) < EXACT
+        if contact is not None:  # it drives towards what it touches: backing off is never kept
+            ahead = pose[2] if velocity[0] > 0 else pose[2] + pi
+            assert cos(contact - ahead) > -EXACT
+
+
+def robot_at_the_wall(velocity, limits=None, seconds=4):
+    robot = SimulatedRobot(
+        RobotModel(limits=limits or VelocityLimits()), world=World((((1.0, -5.0), (1.0, 5.0)),))
+    )
+    for cycle in range(50 * seconds):
+        robot.command(velocity, cycle * 20_000_000)
+        robot.advance((cycle + 1) * 20_000_000)
+    return robot
+
+
+def test_at_a_wall_the_wheels_stall_and_odometry_says_so():
+    robot = robot_at_the_wall((0.5, 0.0))
+    state = robot.state()
+    assert (state.x, state.v, state.left_rate) == (pytest.approx(1 - R, abs=EXACT), 0.0, 0.0)
+    assert robot.contact == pytest.approx(0.0, abs=EXACT)
+    assert state.left_angle == pytest.approx((1 - R) / 0.035)  # of a wheel of 35 mm
+    robot.command((-0.5, 0.0), 4_000_000_000)
+    robot.advance(4_500_000_000)
+    assert robot.state().x == pytest.approx(1 - R - 0.25, abs=EXACT)
+    assert robot.contact is None
+
+
+def test_with_a_turn_it_pushes_until_it_leads_along_the_wall():
+    robot = robot_at_the_wall((0.5, 0.4), seconds=8)
+    # On the spot from asin(0.6576) to pi / 2, then on a circle of 1.25 m away from the wall.
+    turned = pi / 2 / 0.4  # [s], as turning goes on in any case
+    x = 1 - R - 1.25 * (1 - cos(0.4 * (8 - turned)))
+    assert robot.state().x == pytest.approx(x, abs=EXACT)
+
+
+def test_a_ramp_ends_at_the_wall_too():
+    robot = robot_at_the_wall((0.7, 0.0), VelocityLimits(linear_acceleration=0.5))
+    assert robot.state().x == pytest.approx(1 - R, abs=EXACT)
+    assert robot.state().v == 0.0 and robot.contact is not None
+
+
+def test_a_robot_with_errors_touches_with_its_true_body():
+    from fake_turtlebot_sim.simulator.odometry_errors import ErrorModel  # noqa: PLC0415
+
+    model = RobotModel(errors=ErrorModel(1.02, 1.0, 0.01, "1"))
+    robot = SimulatedRobot(model, world=World((((1.0, -5.0), (1.0, 5.0)),)))
+    for cycle in range(200):
+        robot.command((0.5, 0.0), cycle * 20_000_000)
+        robot.advance((cycle + 1) * 20_000_000)
+        true = robot.true_state()
+        assert true.x <= 1 - R + EXACT
+    assert hypot(true.x - 1 + R, 0.0) < EXACT
+    assert robot.state().v == 0.0
+    assert sin(robot.contact) != 0.0  # its heading has gone astray, the wall has not
