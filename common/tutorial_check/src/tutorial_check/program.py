@@ -9,6 +9,7 @@ import signal
 import sys
 from typing import Sequence
 
+from node_kit.arguments import Parser
 from tutorial_check import bubblewrap
 from tutorial_check.examination import Outcome, examine
 from tutorial_check.exercises import EXERCISES
@@ -43,8 +44,8 @@ FILES = {
 }
 
 
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+def _parser() -> Parser:
+    parser = Parser(
         prog="./tutorial check",
         description="Checks the exercises of the tutorial in your own workspace.",
         epilog="exercises: " + ", ".join(f"{name} ({what})" for name, what in EXERCISES.items()),
@@ -123,7 +124,6 @@ def write_files(files: dict[str, str], outcomes: list[Outcome]) -> None:
 
 
 def check_one(options: argparse.Namespace) -> int:
-    """Check a workspace; return the exit code."""
     files = {name: getattr(options, name) for name in FORMATS if getattr(options, name)}
     for file in files.values():
         clear(file)

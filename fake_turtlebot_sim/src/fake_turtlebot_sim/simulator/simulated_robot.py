@@ -28,7 +28,7 @@ from fake_turtlebot_sim.simulator.world import Surroundings, World
 
 REST: Velocity = (0.0, 0.0)
 ORIGIN: Pose = (0.0, 0.0, 0.0)
-BASE_RADIUS = 0.178  # [m] (kobuki.urdf.xacro)
+BASE_RADIUS_M = 0.178  # kobuki.urdf.xacro
 
 
 class Verdict(Enum):
@@ -65,8 +65,8 @@ class SimulatedRobot:
     ) -> None:
         """Put the robot at rest at start_pose, (x [m], y [m], yaw [rad]), at the time 0.
 
-        name: each draws odometry noise of its own, in company or alone. world: what may be in its
-        way, in the frame of the pose.
+        Each name draws odometry noise of its own, in company or alone. world: what may be in the
+        robot's way, in the frame of the pose.
         """
         p = self._parameters = parameters
         self._timeout_ns = round(p.cmd_vel_timeout * 1e9)
@@ -187,9 +187,9 @@ class SimulatedRobot:
             self._roll(velocity, end_velocity, Piece(*true, dt))
             return
         x, y, _ = self._truth
-        reach = BASE_RADIUS + dt * max(abs(true[0][0]), abs(true[1][0]))
+        reach = BASE_RADIUS_M + dt * max(abs(true[0][0]), abs(true[1][0]))
         near = self._surroundings.near(x, y, reach)
-        pieces, self._contact = drive_among(self._truth, *true, dt, BASE_RADIUS, near)
+        pieces, self._contact = drive_among(self._truth, *true, dt, BASE_RADIUS_M, near)
         after = 0.0
         for piece in pieces:
             before, after = after, after + piece.dt
