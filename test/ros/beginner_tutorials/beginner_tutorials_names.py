@@ -60,25 +60,16 @@ class NamesTest(unittest.TestCase):
             self.assertEqual(node.wait(), 0)
             self.assertNotIn("Traceback", node.output)
 
-    def test_two_anonymous_talkers_live_side_by_side(self):
-        self.check_anonymous("talker")
 
-    def test_two_anonymous_listeners_live_side_by_side(self):
-        self.check_anonymous("listener")
-
-    def test_of_two_unique_talkers_the_older_ends(self):
-        self.check_unique("talker")
-
-    def test_of_two_unique_listeners_the_older_ends(self):
-        self.check_unique("listener")
-
-    def test_a_talker_without_a_master_says_so(self):
-        self.check_without_master("talker")
-
-    def test_a_listener_without_a_master_says_so(self):
-        self.check_without_master("listener")
+def add_tests():
+    """Make of every check a test for each of the two programs."""
+    for check in ("anonymous", "unique", "without_master"):
+        for name in ("talker", "listener"):
+            method = getattr(NamesTest, f"check_{check}")
+            setattr(NamesTest, f"test_{name}_{check}", lambda self, m=method, n=name: m(self, n))
 
 
 if __name__ == "__main__":
     init_node("names_test")
+    add_tests()
     rostest.rosrun("ros1_tutorial_test", "beginner_tutorials_names", NamesTest, sys.argv)
