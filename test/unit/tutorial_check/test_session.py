@@ -100,16 +100,6 @@ def test_a_second_look(make_session, strained, explained, is_worth_it):
     assert again == [2 if is_worth_it else 0, 1]
 
 
-def test_a_planted_link_is_not_written_through(make_session, tmp_path):
-    one = make_session("a", "2")
-    (tmp_path / "other").write_text("kept")
-    planted = one.package("a").folder / "checked_1_talker.py"
-    planted.symlink_to(tmp_path / "other")
-    assert one.sibling("a", "talker.py", "changed") == "checked_1_talker.py"
-    assert (tmp_path / "other").read_text() == "kept"
-    assert planted.read_text() == "changed" and not planted.is_symlink()
-
-
 @pytest.mark.parametrize("planted", ["scripts/talker.py", "scripts"])
 def test_a_planted_link_is_not_read_through(make_session, tmp_path, planted):
     one = make_session("a", "2")
