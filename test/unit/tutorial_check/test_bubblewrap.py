@@ -1,6 +1,5 @@
 """What an isolated program sees and may do; test/exercises/test_isolation.py has the attacks."""
 
-import os
 import subprocess
 import tempfile
 from pathlib import Path
