@@ -76,8 +76,7 @@ def main(monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("outcomes", "code"),
-    [([WELL], 0), ([BAD], 1), ([WELL, NO_VERDICT], 2), ([BAD, NO_VERDICT], 2)],
+    ("outcomes", "code"), [([WELL], 0), ([BAD], 1), ([WELL, NO_VERDICT], 2), ([BAD, NO_VERDICT], 2)]
 )
 def test_what_could_not_be_checked_is_reported_beside_the_rest(main, outcomes, code, capsys):
     assert main(lambda *_: outcomes) == code

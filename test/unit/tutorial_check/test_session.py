@@ -22,15 +22,8 @@ def one(stranger):
     with tempfile.TemporaryDirectory() as folder:
         Path(folder).chmod(0o755)
         environment.prepare(folder, stranger)
-        made = session.Session(
-            folder,
-            None,
-            [],
-            {"PATH": "/usr/bin:/bin"},
-            underlay=None,
-            make_box=lambda variables: Box(variables, stranger),
-            can_have_devices=False,
-        )
+        box = Box(environment.variables(Path(folder), {"PATH": "/usr/bin:/bin"}), stranger)
+        made = session.Session(folder, None, [], box, underlay="", can_have_devices=False)
         yield made
         made.box.clear()
 

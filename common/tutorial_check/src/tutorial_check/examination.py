@@ -89,7 +89,8 @@ def examine(
         kept = _kept(underlay)
         wrapper = bubblewrap.command(folder, [*shown, *kept], SUITE)
         orders = {
-            "layout": [str(layout.root), str(layout.source), layout.is_workspace],
+            "layout": [str(layout.root), str(layout.source)],
+            "is_workspace": layout.is_workspace,
             "own": own,
             "underlay": underlay,
             "exercises": list(exercises),

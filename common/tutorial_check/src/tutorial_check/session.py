@@ -6,7 +6,7 @@ import contextlib
 import re
 import shlex
 from pathlib import Path
-from typing import Any, Callable, Dict, Iterable, Iterator, Mapping, Tuple
+from typing import Any, Callable, Dict, Iterable, Iterator, Tuple
 
 from tutorial_check import student_files
 from tutorial_check.box import Box, Program
@@ -50,42 +50,24 @@ class Session:
         folder: str | Path,
         layout: Layout,
         exercises: Iterable[str],
-        environment: Mapping[str, str],
+        box: Box,
         *,
         underlay: str,
-        make_box: Callable[[Mapping[str, str]], Box],
         can_have_devices: bool,
         needed: Iterable[str | Path] = (),
     ) -> None:
-        """underlay: its setup.bash; environment: of a shell that sourced it.
-
-        needed: files and folders of the suite that the student's launch files lead to.
-        underlay_environment: the same without the student's packages, with folders of this session.
-        """
+        """underlay: its setup.bash; needed: what of the suite the student's launch files lead to."""
         self.folder = Path(folder)
         self.layout = layout
         self.exercises = frozenset(exercises)  # that are asked for
         self.source = self.folder / "ws" / "src"
-        self.underlay = underlay
+        self.box = box
+        self.underlay, self.underlay_environment = underlay, box.environment
         self.can_have_devices = can_have_devices
         self._needed = [Path(each) for each in needed]
         self._memory: Memory = {}
         self._runs: Memory = {}
         self._siblings = 0
-        home = self.folder / "home"
-        self.underlay_environment = {
-            **environment,
-            "PATH": f"{self.folder / 'bin'}:{environment['PATH']}",
-            "HOME": str(home),
-            "TMPDIR": str(self.folder / "tmp"),
-            "ROS_IP": "127.0.0.1",
-            "ROS_HOME": str(home / ".ros"),
-            "ROS_LOG_DIR": str(home / ".ros" / "log"),
-            "DISPLAY": ":99",  # whatever is there: for RViz stands a program that only waits
-            "PYTHONUNBUFFERED": "1",
-            "PYTHONDONTWRITEBYTECODE": "1",
-        }
-        self.box = make_box(self.underlay_environment)
 
     def memo(self, key: object, make: Callable[[], Any]) -> Any:
         """Return make(), called once; what it raised is raised again. For facts, which do not change."""
