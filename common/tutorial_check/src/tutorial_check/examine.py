@@ -62,7 +62,8 @@ def main() -> None:
 def examine(orders: dict[str, Any], send: Send, result: int) -> None:
     """Examine. orders: layout, folder, underlay, exercises, apart, only_first ...; result: see Box."""
     scratch = Path(orders["folder"])
-    layout = workspace.Layout(*map(Path, orders["layout"]), is_workspace=orders["is_workspace"])
+    root, source = map(Path, orders["layout"])
+    layout = workspace.Layout(root, source, orders["is_workspace"])
     shutil.copytree(scratch / workspace.COPY, scratch / "ws" / "src", symlinks=True)
     # Before ROS, which reads the environment as it loads.
     home = str(scratch / "ours")
