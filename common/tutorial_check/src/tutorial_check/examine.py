@@ -87,7 +87,6 @@ def examine(orders: dict[str, Any], send: Send, result: int) -> None:
         can_have_devices=apart,
         needed=[*orders["kept"], Path(__file__)],
     )
-    one.must_start_programs()
     run = Run(all_checks(), one, one.second_look, one.box.patience.hopeless)
     if uid is not None:
         if not apart:  # then the suite may lie where that user cannot read
@@ -95,6 +94,7 @@ def examine(orders: dict[str, Any], send: Send, result: int) -> None:
             importlib.import_module("tutorial_check.driver")
         os.setgroups([])
         place.touch_files_as(uid, uid)
+    one.must_start_programs()
     as_sent = _paths_of_the_student(scratch, layout, orders["own"])
     try:
         for exercise in orders["exercises"]:

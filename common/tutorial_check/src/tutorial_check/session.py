@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 import re
 import shlex
 from pathlib import Path
@@ -13,7 +14,6 @@ from tutorial_check.box import Box, Program
 from tutorial_check.environment import environment_of
 from tutorial_check.exercises.manifests import must_be_startable
 from tutorial_check.model import CannotCheck, Wrong, master_gone
-from tutorial_check.place import own_rights
 from tutorial_check.python_facts import PythonFacts, read_python
 from tutorial_check.stage import Stage
 from tutorial_check.workspace import Layout, Package, packages_below
@@ -25,8 +25,6 @@ NEEDS_BUILD = re.compile(
     r"|add_executable|catkin_install_python)\s*\(",
     re.MULTILINE,
 )
-# Prints the first folder that may not be entered.
-TRIAL = '#!/bin/sh\nfor folder do [ -x "$folder" ] || { echo "$folder"; exit; }; done\n'
 Memory = Dict[object, Tuple[Any, Any]]
 
 
@@ -165,35 +163,37 @@ class Session:
             self.must_reach_underlay()
         return (program.process.returncode if ended else None), program.output
 
+    # As root, this process opens files with the rights of the user that runs the student's programs.
+
+    def must_start_programs(self) -> None:
+        """Raise CannotCheck if no program can be started in this folder."""
+        try:
+            os.stat(f"{self.folder}/.")
+            why = "noexec" if os.statvfs(self.folder).f_flag & os.ST_NOEXEC else ""
+        except OSError as error:
+            why = error.strerror
+        if why:
+            raise CannotCheck(
+                f"no program can be started in {self.folder.parent} ({why}): set TMPDIR to a"
+                " folder that others may enter, and that is not mounted noexec"
+            )
+
     def must_reach_underlay(self) -> None:
         """Raise CannotCheck if the student's programs cannot read what is the suite's."""
-        self.memo("underlay", lambda: self.must_start_programs(self._needed))
-
-    def must_start_programs(self, needed: Iterable[Path] = ()) -> None:
-        """Raise CannotCheck if no program can be started, or reach the needed files and folders."""
-        script = self.folder / "trial"
-        if not script.exists():  # the second time the folder is closed to us, too
-            script.write_text(TRIAL)
-            script.chmod(0o755)
-        above = (folder for each in needed for folder in (*reversed(each.parents), each))
-        with own_rights():
-            folders = [str(each) for each in dict.fromkeys(above) if each.is_dir()]
-        try:
-            program, _ = self._ended([str(script), *folders])
-        except OSError as error:
-            raise CannotCheck(
-                f"no program can be started in {self.folder.parent} ({error.strerror}): set TMPDIR to a"
-                " folder that others may enter, and that is not mounted noexec"
-            ) from None
-        if program.output:
-            closed = Path(program.output.strip())
-            # What lies below a needed one is as closed; but a home folder is opened no further.
-            is_needed = set(needed) & {closed, *closed.parents}
-            raise CannotCheck(
-                f"{closed} is closed to others, as one of whom the programs run:"
-                f" {'chmod -R o+rX' if is_needed else 'chmod o+x'} {closed},"
-                " or keep this suite, and TUTORIAL_WORKSPACE, where others may enter"
-            )
+        for folder in dict.fromkeys(
+            f for one in self._needed for f in (*reversed(one.parents), one)
+        ):
+            with contextlib.suppress(NotADirectoryError, FileNotFoundError):
+                try:
+                    os.stat(f"{folder}/.")
+                except PermissionError:
+                    # What lies below a needed one is as closed; but a home folder is opened no further.
+                    is_needed = set(self._needed) & {folder, *folder.parents}
+                    how = "chmod -R o+rX" if is_needed else "chmod o+x"
+                    raise CannotCheck(
+                        f"{folder} is closed to others, as one of whom the programs run: {how} {folder},"
+                        " or keep this suite, and TUTORIAL_WORKSPACE, where others may enter"
+                    ) from None
 
     def _needs_build(self) -> bool:
         files = [each.folder / "CMakeLists.txt" for each in self.packages]
