@@ -5,24 +5,25 @@ The file `failed` in $TUTORIAL_RESULTS has the kinds that failed, for `test agai
 the start, so that after an interruption nothing is known to have failed.
 """
 
-import argparse
 import os
 import signal
 import subprocess
 import sys
 from pathlib import Path
 
+from node_kit.arguments import Parser
+
 REPOSITORY = Path(__file__).resolve().parents[1]
 RESULTS = Path(os.environ["TUTORIAL_RESULTS"])
 PYTEST = ["/usr/bin/python3", "-m", "pytest"]
+QUIET = [*PYTEST, "-p", "no:benchmark"]  # several at a time, of which a benchmark would complain
 JOBS = int(os.environ.get("TUTORIAL_JOBS", "2"))  # tests at a time
 NUMBER_OF_INTERRUPT = 130
 TOGETHER = ("ros", "system", "launch")  # of all; they mostly wait, so they run at the same time
-# pytest: all passed, some failed, or none was selected. Others: it ended early, without a summary.
-PYTEST_SUMMED_UP = (0, 1, 5)
 ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 RUNNING = []  # in the background
 PART = "TUTORIAL_PART"  # environment variable: this is one kind of all, which another one sums up
+KERNEL = "test/system/test_kernel_joystick.py"
 
 
 def say(line):
@@ -35,14 +36,13 @@ def interrupt(number, _):
     raise KeyboardInterrupt(number)
 
 
-def run(command, **variables):
+def run(*command):
     """Run a command in the repository; return its exit code. Ctrl-C reaches it, too."""
-    environment = {**os.environ, **variables}
-    process = subprocess.Popen(list(map(str, command)), cwd=REPOSITORY, env=environment)
+    process = subprocess.Popen(list(map(str, command)), cwd=REPOSITORY)
     try:
         return process.wait()
     except KeyboardInterrupt as error:
-        if error.args == (signal.SIGTERM,):  # which comes to this process alone
+        if error.args == (signal.SIGTERM,):  # which arrives at this process alone
             process.send_signal(signal.SIGINT)
         process.wait()
         raise
@@ -72,24 +72,14 @@ def end_background():
 
 
 def with_folder(folder, arguments):
-    """The arguments for pytest: a folder, unless they name something in it."""
+    """Return the arguments for pytest: a folder, unless they name something in it."""
     named = any(argument.startswith(folder) for argument in arguments)
     return arguments if named else [folder, *arguments]
 
 
-def unit(arguments):
-    """All of them several at a time; with arguments in turn, so that -s shows what they print."""
-    return run([*PYTEST, *with_folder("test/unit", arguments or ["-n", str(JOBS)])])
-
-
-def launch(arguments):
-    """Whether roslaunch can read each launch file."""
-    return run([*PYTEST, "-p", "no:benchmark", "-n", JOBS, *with_folder("test/launch", arguments)])
-
-
 def ros(arguments):
-    """All rostests, or those in one folder of test/ros, or in these files, N times."""
-    parser = argparse.ArgumentParser(prog="./tutorial test ros")
+    """Run all rostests, or those in one folder of test/ros, or in these files, N times."""
+    parser = Parser(prog="./tutorial test ros")
     parser.add_argument("--times", type=int, default=1, metavar="N", help="repeat each")
     parser.add_argument("tests", nargs="*", metavar="FOLDER_OR_FILE")
     options = parser.parse_args(arguments)
@@ -101,26 +91,20 @@ def ros(arguments):
         tests = sorted((folder / tests[0]).glob("*.test"))
     for test in tests:
         if not test.is_file():
-            sys.exit(f'tutorial: test: "{test}" is no folder of test/ros, and no file of a rostest')
+            parser.error(f'"{test}" is no folder of test/ros, and no file of a rostest')
     tests = [test.resolve() for test in tests * options.times]
     # They wait more than they work.
-    return run([REPOSITORY / "test/run_rostests", 2 * JOBS, RESULTS / "rostests", *tests])
+    return run(REPOSITORY / "test/run_rostests", 2 * JOBS, RESULTS / "rostests", *tests)
 
 
-def system(arguments):
-    """By file, as the tests of a file share what takes long to set up."""
-    noted = RESULTS / "failed_system"
-    noted.unlink(missing_ok=True)
-    arguments = with_folder("test/system", arguments)
-    kernel_test = "--ignore=test/system/test_kernel_joystick.py"
-    several = ["-p", "no:benchmark", "-n", str(JOBS), "--dist", "loadfile", kernel_test]
-    status = run([*PYTEST, *several, *arguments], TUTORIAL_FAILED=str(noted))
-    if status not in PYTEST_SUMMED_UP:
-        print("", *(f"FAILED {test}" for test in names_in(noted)), sep="\n", flush=True)
-        status = 128 - status if status < 0 else status
+def system(arguments, jobs=JOBS):
+    """Run the system tests, a file of them at a time; pytest notes what fails."""
+    several = ["-n", jobs, "--dist", "loadfile", f"--ignore={KERNEL}"]
+    several += ["-o", f"cache_dir={RESULTS}/system_cache"]  # which no other kind writes into
+    status = run(*QUIET, *several, *with_folder("test/system", arguments))
+    if status < 0 or status in (3, 4):
         say(f"pytest itself ended early (exit code {status}), so other tests may not have run")
-        noted.write_text("test/system\n")
-    return status
+    return abs(status)
 
 
 def again(_):
@@ -129,70 +113,54 @@ def again(_):
         todo = "./tutorial test must run to its end first"
         sys.exit(f"tutorial: test again: it is not known what failed: {todo}")
     status = 0
-    for kind in names_in(RESULTS / "failed"):
-        noted = {"system": "failed_system", "ros": "rostests/failed"}.get(kind, "none")
-        tests = names_in(RESULTS / noted)
-        if not tests:
+    for kind in (RESULTS / "failed").read_text().split():
+        failed = RESULTS / "rostests/failed"
+        if kind == "system":
+            status |= bool(system(["--last-failed", "--last-failed-no-failures=all"], 1))
+        elif kind == "ros" and failed.exists():
+            tests = sorted(set(failed.read_text().splitlines()))
+            status |= run(REPOSITORY / "test/run_rostests", 1, RESULTS / "rostests", *tests)
+        else:
             say(f"tests: {kind}: no single ones to run again; next: ./tutorial test {kind}")
             status = 1
-        elif kind == "system":
-            status |= bool(system(["-n", "1", *tests]))
-        else:
-            rostests = [REPOSITORY / "test/run_rostests", 1, RESULTS / "rostests", *tests]
-            status |= bool(run(rostests))
     return status
 
 
-def names_in(file):
-    """The different lines of a file, in order; none if there is no file."""
-    return sorted(set(file.read_text().splitlines())) if file.exists() else []
-
-
-def kernel(arguments):
-    """A joystick of a real kernel: this one's, or Debian's in QEMU."""
-    return run([*PYTEST, "test/system/test_kernel_joystick.py", *arguments])
-
-
-def exercises(arguments):
-    """Four times as many at a time: they wait more than they work."""
-    return run([*PYTEST, "-p", "no:benchmark", "-n", 4 * JOBS, "test/exercises", *arguments])
-
-
-def browser(arguments):
-    """The cockpit's page in browsers."""
-    return run([*PYTEST, "-p", "no:benchmark", *with_folder("test/browser", arguments)])
-
-
-def containers(arguments):
-    """The suite in containers, on a Docker engine."""
-    return run([REPOSITORY / "docker/check_containers", *arguments])
-
-
-def faults(arguments):
-    """The hunt for faults on the live system."""
-    return run(["/usr/bin/python3", "-m", "tutorial_faults", *arguments])
+def bench(arguments):
+    """Run the benchmarks of all packages, or of one."""
+    package, *rest = arguments or [""]
+    return run(*PYTEST, "-q", "-s", f"test/benchmark/{package}", *rest)
 
 
 def mutation(arguments):
-    """In the background of whatever else runs here: it takes hours."""
+    """Run in the background of whatever else runs here: it takes hours."""
     python = RESULTS / "mutation/bin/python"
-    return run(["nice", "-n", "19", python, "test/mutation/run.py", *arguments])
+    return run("nice", "-n", "19", python, "test/mutation/run.py", *arguments)
 
 
-def bench(arguments):
-    """The benchmarks of all packages, or of one."""
-    package, *rest = arguments or [""]
-    return run([*PYTEST, "-q", "-s", f"test/benchmark/{package}", *rest])
-
-
-KINDS = (unit, launch, ros, system, again, kernel, exercises, browser, containers)
-KINDS = {kind.__name__: kind for kind in (*KINDS, faults, mutation, bench)}
+KINDS = {
+    # Several at a time; with arguments in turn, so that -s shows what they print.
+    "unit": lambda given: run(*PYTEST, *with_folder("test/unit", given or ["-n", str(JOBS)])),
+    "launch": lambda given: run(*QUIET, "-n", JOBS, *with_folder("test/launch", given)),
+    "ros": ros,
+    # pytest forgets what failed before, so that it knows of nothing if it is killed.
+    "system": lambda given: system(["--cache-clear", *given]),
+    "again": again,
+    "kernel": lambda given: run(*PYTEST, KERNEL, *given),
+    # Four times as many at a time: they wait more than they work.
+    "exercises": lambda given: run(*QUIET, "-n", 4 * JOBS, "test/exercises", *given),
+    "browser": lambda given: run(*QUIET, *with_folder("test/browser", given)),
+    "containers": lambda given: run(REPOSITORY / "docker/check_containers", *given),
+    "faults": lambda given: run("/usr/bin/python3", "-m", "tutorial_faults", *given),
+    "mutation": mutation,
+    "bench": bench,
+}
 
 
 def run_all():
-    """Unit tests, then the others at once; return the kinds that failed."""
+    """Run unit tests, then the others at once; return the kinds that failed."""
     say("tests: unit")
-    failed = ["unit"] if unit([]) else []
+    failed = ["unit"] if KINDS["unit"]([]) else []
     logs = [RESULTS / f"test_{kind}.log" for kind in TOGETHER]
     processes = [start([__file__, kind], log) for kind, log in zip(TOGETHER, logs)]
     say("tests: ros, system and launch at once, for some minutes; till then see")

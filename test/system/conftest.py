@@ -16,17 +16,6 @@ REPOSITORY = Path(__file__).resolve().parents[2]
 WIDTH, HEIGHT = 1200, 800  # [pixel] of a virtual screen, and of RViz's window in sim.rviz
 
 
-def pytest_runtest_logreport(report):
-    """Note a failed test at once for `test again`, as pytest's own notes are lost if it is killed.
-
-    With xdist both processes note it.
-    """
-    noted = os.environ.get("TUTORIAL_FAILED")
-    if noted and report.failed:
-        with open(noted, "a", encoding="utf-8") as file:
-            file.write(f"{report.nodeid}\n")
-
-
 @pytest.fixture
 def master_uri(monkeypatch):
     """ROS_MASTER_URI of a port of our own, so that a master of the user's is left alone."""

@@ -31,9 +31,3 @@ def test_the_handouts_class_drives_on_after_its_end_and_a_seed_repeats_it(tutori
     assert re.search(r"\(d\) wheels turn \d\.\d+ s after the loss by end:joy2twist", output)
     again = re.search(r"again: \./tutorial test faults (.*)", output)[1].split()
     assert sorted(again) == sorted(first)
-
-
-def test_an_unknown_kind_is_one_line(tutorial):
-    code, output = faults(tutorial, "--kinds", "earthquake")
-    assert code != 0
-    assert "earthquake: is no kind of fault" in output.splitlines()[0]

@@ -8,7 +8,6 @@ workspace.
 import re
 import subprocess
 from pathlib import Path
-from xmlrpc.client import ServerProxy
 
 import pytest
 
@@ -32,13 +31,13 @@ LASTING = {
     "rosrun joy2twist joy2twist.py": "axis 1 -> linear.x",
     "roslaunch turtlebot_bringup minimal.launch": "process[mobile_base",
     "roslaunch rbx1_bringup": "process[fake_turtlebot",
-    "roslaunch fake_turtlebot_sim classroom.launch": "process[classroom",
+    "roslaunch cockpit classroom.launch": "process[classroom",
     "roslaunch joy2twist student.launch": "process[robot_7/my",
     "roslaunch joy2twist": "process[my",
     "rosrun rviz rviz": "",
     "roslaunch cockpit cockpit.launch": "http://127.0.0.1",
 }
-# Of those, one at a time: each is ended, once its nodes run, before the next one starts.
+# Of those, one at a time: each is ended before the next one starts.
 DRIVES = ("rosrun joy2twist", "roslaunch joy2twist")
 # What is not run here, and why.
 LEFT_OUT = {
@@ -86,26 +85,9 @@ def roscore(tutorial, master_uri):
         program.wait()
 
 
-def nodes_of(output):
-    """The names of the nodes that a roslaunch starts, from the summary that it prints first."""
-    summary = output.partition("\nNODES\n")[2].partition("\n\n")[0]
-    namespace = "/"
-    for line in summary.splitlines():
-        if line.startswith("    "):
-            yield namespace + line.split()[0]
-        else:
-            namespace = line.strip().rstrip("/") + "/"
-
-
-def is_known(master_uri, node):
-    """Whether the master knows a node: as rosnode list tells, which loads for half a second."""
-    code, _, _ = ServerProxy(master_uri).lookupNode("/test", node)
-    return code == 1
-
-
 @pytest.mark.parametrize("blocks", sections())
 @pytest.mark.usefixtures("roscore")
-def test_section(blocks, tutorial, screen, tmp_path, master_uri):
+def test_section(blocks, tutorial, screen, tmp_path):
     environment = {"DISPLAY": screen, "LIBGL_ALWAYS_SOFTWARE": "1", "HOME": str(tmp_path)}
     workspace = subprocess.run(
         [tutorial, "run", "sh", "-c", "echo ${CMAKE_PREFIX_PATH%%/devel:*}"],
@@ -125,13 +107,9 @@ def test_section(blocks, tutorial, screen, tmp_path, master_uri):
 
     def end(command):
         with lasting.pop(command) as program:
-            # A node that is ended while Python starts says so with a traceback.
-            for node in nodes_of(program.output):
-                wait_for(lambda: program.ended or is_known(master_uri, node), node, 120)  # noqa: B023
             if not program.ended:
                 program.interrupt()
             program.wait()
-            assert "Traceback" not in program.output, program.output
 
     try:
         for block in blocks:
@@ -144,7 +122,7 @@ def test_section(blocks, tutorial, screen, tmp_path, master_uri):
                     run_to_its_end(command)
                     continue
                 if command.startswith(DRIVES):
-                    for other in [other for other in lasting if other.startswith(DRIVES)]:
+                    for other in [each for each in lasting if each.startswith(DRIVES)]:
                         end(other)
                 program = lasting[command] = run(f"exec {command}")
                 wait_for(lambda: sign in program.output or program.ended, f"{sign} of {command}")  # noqa: B023
@@ -167,9 +145,3 @@ def test_do_it_yourself_comes_first_and_ends_with_the_check(section):
     assert check in body
     if "**See ours" in body and "**Do it" in body:
         assert body.index("**Do it") < body.index(check) < body.index("**See ours")
-
-
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
-def test_links_lead_somewhere(page):
-    for target in re.findall(r"\]\(([^)#:]+)(?:#[\w-]*)?\)", page.read_text()):
-        assert (page.parent / target).exists(), target

@@ -18,6 +18,7 @@ from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
 CONFIG = Path(__file__).resolve().parents[2] / "fake_turtlebot_sim" / "rviz" / "sim.rviz"
+CLASSROOM = CONFIG.parents[2] / "common" / "cockpit" / "rviz" / "classroom.rviz"
 START_S = 120.0  # RViz without a graphics card, on a busy machine
 TRAIL_PIXELS = 1200 if "TUTORIAL_PICTURE" in os.environ else 200
 TRAIL = (255, 85, 0)  # colour of the odometry's arrows in sim.rviz
@@ -25,9 +26,6 @@ TRAIL = (255, 85, 0)  # colour of the odometry's arrows in sim.rviz
 SCALE, GROUND = 100, (20, 40, 250)
 LATENESS = 75  # messages of odometry, 1.5 s, in which RViz has drawn the robot
 ROBOT_RADIUS_M = 0.178
-CLASS = 30  # robots
-DARK, GREY = 90, 25  # a body: no channel is brighter, and all are alike within
-THICK = 11  # [pixel]: a body is wider and higher than this, the strokes of letters are not
 
 
 @pytest.fixture
@@ -130,48 +128,3 @@ def places(printed):
     """[(x, y)] [m] of what rostopic echo -p has printed: time, x, y, z in each line."""
     lines = [line.split(",") for line in printed.splitlines() if re.match(r"\d+,", line)]
     return [(float(line[1]), float(line[2])) for line in lines if len(line) == 4]
-
-
-def solid(mask):
-    """The pixels that have a square of THICK pixels of the mask around them."""
-    for axis in (0, 1):
-        rows = [np.roll(mask, shift, axis) for shift in range(-(THICK // 2), THICK // 2 + 1)]
-        mask = np.logical_and.reduce(rows)
-    return mask
-
-
-def patches(mask):
-    """How many connected parts a mask has."""
-    left = set(zip(*map(list, np.nonzero(mask))))
-    count = 0
-    while left:
-        count += 1
-        edge = [left.pop()]
-        while edge:
-            row, column = edge.pop()
-            around = {(row + i, column + j) for i in (-1, 0, 1) for j in (-1, 0, 1)} & left
-            left -= around
-            edge += around
-    return count
-
-
-def test_rviz_shows_a_body_for_each_robot_of_a_class(screen, tutorial, master_uri, tmp_path):
-    """In the first view, without a hand on the mouse."""
-    assert master_uri  # a master of our own
-    config = drawn_slowly(CONFIG.with_name("classroom.rviz"), tmp_path)
-    launch = ("run", "roslaunch", "fake_turtlebot_sim", "classroom.launch", "rviz:=true")
-    environment = {"DISPLAY": screen, "LIBGL_ALWAYS_SOFTWARE": "1"}
-    with Program(
-        tutorial, *launch, f"robots:={CLASS}", f"rviz_config:={config}", **environment
-    ) as program:
-
-        def bodies():
-            assert not program.ended, program.output
-            pixels = picture(screen).astype(int)
-            dark = (pixels.max(axis=2) < DARK) & (np.ptp(pixels, axis=2) < GREY)
-            return patches(solid(dark)) == CLASS
-
-        wait_for(bodies, f"{CLASS} robots on the screen", START_S)
-        assert not re.search(r"\[ERROR\]|\[FATAL\]|Traceback", program.output)
-        program.interrupt()
-        program.wait()

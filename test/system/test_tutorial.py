@@ -1,16 +1,12 @@
 """./tutorial as a user calls it: what it prints, its exit code, what it leaves behind."""
 
-import re
 import socket
 import subprocess
-from pathlib import Path
 
 import pytest
 
 from tutorial_testing.processes import Program, refuse
 from tutorial_testing.waiting import DEADLINE_S, wait_for
-
-TROUBLE = Path(__file__).resolve().parents[2] / "common" / "doc" / "TROUBLE.md"
 
 
 @pytest.mark.parametrize(
@@ -33,32 +29,12 @@ def test_completion_in_bash(tutorial):
     assert subprocess.check_output(command, text=True, timeout=DEADLINE_S) == "exercises\n"
 
 
-def test_no_word_at_all_shows_the_words(tutorial):
-    done = subprocess.run(
-        [tutorial], capture_output=True, text=True, check=False, timeout=DEADLINE_S
-    )
-    assert done.returncode == 2
-    for word in ("demo", "test", "bench", "doctor", "setup", "shell", "run"):
-        assert re.search(rf"^  {word}\b", done.stderr, re.MULTILINE)
-
-
 def test_a_port_taken_by_another_program_is_named(tutorial, monkeypatch):
     with socket.create_server(("localhost", 0)) as taken:
         port = taken.getsockname()[1]
         monkeypatch.setenv("ROS_MASTER_URI", f"http://localhost:{port}")
         line = refuse(tutorial, "demo", "--for", "1")
     assert f"port {port} of localhost is taken by a program that is not a ROS master" in line
-
-
-def test_a_bad_master_uri_is_named(tutorial, monkeypatch):
-    monkeypatch.setenv("ROS_MASTER_URI", "moon")
-    assert "ROS_MASTER_URI=moon" in refuse(tutorial, "demo", "--for", "1")
-
-
-def test_a_workspace_path_with_spaces_is_refused(clone, tmp_path, monkeypatch):
-    monkeypatch.setenv("TUTORIAL_WORKSPACE", str(tmp_path / "my ws"))
-    line = refuse(str(clone / "tutorial"), "setup", "workspace")
-    assert "set TUTORIAL_WORKSPACE to a path without spaces" in line
 
 
 def test_a_check_that_cannot_be_set_up_blames_no_student(tutorial, tmp_path, monkeypatch):
@@ -73,18 +49,6 @@ def test_a_check_that_cannot_be_set_up_blames_no_student(tutorial, tmp_path, mon
     assert done.returncode == 2
 
 
-def test_a_check_of_no_workspace_installs_nothing(tutorial, tmp_path, monkeypatch):
-    """With a place for the suite's workspaces at which a set-up would fail."""
-    monkeypatch.setenv("TUTORIAL_WORKSPACE", str(tmp_path / "with space"))
-    monkeypatch.delenv("TUTORIAL_IN", raising=False)
-    done = subprocess.run(
-        [tutorial, "check", "4.3"], capture_output=True, text=True, check=False, timeout=DEADLINE_S
-    )
-    assert done.returncode == 2
-    (line,) = done.stderr.splitlines()
-    assert "which workspace? For example: ./tutorial check --in" in line and "4.3" in line
-
-
 @pytest.mark.parametrize("started_by", ["roscore", "roslaunch"])
 def test_a_master_has_what_rospy_would_ask_for_with_every_line(tutorial, master_uri, started_by):
     port = master_uri.rsplit(":", 1)[1]
@@ -96,26 +60,6 @@ def test_a_master_has_what_rospy_would_ask_for_with_every_line(tutorial, master_
         assert done.stdout.strip() == "false"
         master.interrupt()
         master.wait()
-
-
-@pytest.mark.usefixtures("clean_environment")
-def test_what_is_kept_of_the_environment_is_what_setup_bash_sets(tutorial):
-    script = """
-        show() { echo "$CMAKE_PREFIX_PATH $ROS_PACKAGE_PATH $PYTHONPATH"; }
-        show; . "${CMAKE_PREFIX_PATH%%:*}/setup.bash"; show"""
-    done = subprocess.run(
-        [tutorial, "run", "bash", "-c", script], capture_output=True, text=True, check=True
-    )
-    kept, set_anew = done.stdout.splitlines()
-    assert kept == set_anew
-
-
-def test_what_rospack_says_beside_its_answer_is_explained(tutorial):
-    command = [tutorial, "run", "rospack", "depends1", "beginner_tutorials"]
-    done = subprocess.run(command, capture_output=True, text=True, check=True)
-    assert done.stdout == "std_msgs\nrospy\nroscpp\n"
-    trouble = TROUBLE.read_text(encoding="utf-8")
-    assert [line for line in done.stderr.splitlines() if f"| `{line}` |" not in trouble] == []
 
 
 def test_shell_and_run_see_the_workspace_and_no_shell_file_is_touched(tutorial, tmp_path):
@@ -159,11 +103,6 @@ def test_of_two_calls_at_once_one_builds_and_both_go_on(tutorial, tmp_path):
     with Program(*command) as one, Program(*command) as other:
         assert (one.wait(), other.wait()) == (0, 0), one.output + other.output
         assert (one.output + other.output).count("tutorial: building") == 1
-
-
-def test_a_workspace_of_the_suite_is_refused(tutorial):
-    line = refuse(tutorial, "run", "--in", str(Path(tutorial).parent), "true")
-    assert "the suite's own" in line
 
 
 def test_a_broken_package_xml_is_named_before_everything_fails_over_it(tutorial, tmp_path):

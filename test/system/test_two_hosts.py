@@ -36,7 +36,7 @@ def drive(scene):
     return scene.moment(lambda m: m.time > began and m.v > 0, "driving robot")
 
 
-def test_the_readme_commands_drive_the_recording_across_and_the_doctor_finds_nothing(scene):
+def test_the_readme_commands_drive_the_recording_across_and_the_tools_see_it(scene, tmp_path):
     scene.launch_robot()
     scene.launch_workstation()
     wait_for(lambda: path_length(scene.odometry) > 1.0, "robot that follows the recording")
@@ -46,6 +46,11 @@ def test_the_readme_commands_drive_the_recording_across_and_the_doctor_finds_not
         assert doctor.wait() == 0, doctor.output
         assert f"{scene.address(other)} is within 0.1 s" in doctor.output
         assert "-> /cmd_vel_mux/input/teleop -> /cmd_vel_mux\n" in doctor.output
+    graph = scene.start(WORKSTATION, f"rosrun tutorial_tools draw_graph.py {tmp_path}/graph.dot")
+    assert graph.wait() == 0, graph.output
+    drawn = (tmp_path / "graph.dot").read_text()
+    for host in (WORKSTATION, ROBOT):
+        assert f'subgraph "cluster {scene.address(host)}"' in drawn
 
 
 @pytest.mark.parametrize("mux, late", [("", 0.0), (REAL_MUX, 0.02)], ids=["ours", "real"])

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""Draw the running nodes and topics: see tutorial_tools/graph/program.py."""
+"""Draw the running nodes and topics: see tutorial_tools/graph.py."""
 
 import signal
 
 signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C ends this quietly
 
-from tutorial_tools.graph.program import main
+from tutorial_tools.graph import main
 
 if __name__ == "__main__":
     main()

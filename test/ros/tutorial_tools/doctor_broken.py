@@ -5,7 +5,6 @@ import os
 import signal
 import socket
 import sys
-import unittest
 
 import rosgraph
 import rosnode
@@ -15,21 +14,13 @@ from geometry_msgs.msg import Twist
 from sensor_msgs.msg import Joy
 from std_msgs.msg import String
 
-from tutorial_testing.doctor_run import doctor
+from tutorial_testing.doctor_run import DoctorTest
 from tutorial_testing.nodes import init_node, node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
 
-class BrokenTest(unittest.TestCase):
-    def wrong(self, *words, **environment):
-        """One of the lines that are wrong has these words in it."""
-        code, levels = doctor(self, **environment)
-        self.assertEqual(code, 1)
-        self.assertTrue(
-            any(all(word in line for word in words) for line in levels["wrong"]), levels
-        )
-
+class BrokenTest(DoctorTest):
     def test_no_master(self):
         self.wrong("nothing listens", "start roscore", ROS_MASTER_URI="http://localhost:9")
         self.wrong("http://HOST:PORT", ROS_MASTER_URI="moon")

@@ -2,21 +2,20 @@
 """doctor.py beside launch_bag.launch: all is well, and one thing after the other is not."""
 
 import sys
-import unittest
 
 import rospy
 import rostest
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 
-from tutorial_testing.doctor_run import doctor
+from tutorial_testing.doctor_run import DoctorTest
 from tutorial_testing.nodes import init_node
 from tutorial_testing.waiting import wait_for
 
 NOBODYS = "192.0.2.7"  # an address for documentation (RFC 5737)
 
 
-class WellTest(unittest.TestCase):
+class WellTest(DoctorTest):
     @classmethod
     def setUpClass(cls):
         moving = []
@@ -29,15 +28,8 @@ class WellTest(unittest.TestCase):
         wait_for(lambda: moving, "moving robot")
         robot.unregister()
 
-    def wrong(self, word, **environment):
-        """The lines that are wrong; one of them has a word in it."""
-        code, levels = doctor(self, **environment)
-        self.assertEqual(code, 1)
-        self.assertTrue(any(word in line for line in levels["wrong"]), levels)
-        return levels["wrong"]
-
     def test_all_is_well(self):
-        code, levels = doctor(self)
+        code, levels = self.doctor()
         self.assertEqual((code, levels["wrong"]), (0, []))
         way = "/rosbag -> /joy -> /myjoystick2twist -> /cmd_vel -> /fake_turtlebot"
         self.assertTrue(any(way in line for line in levels["ok"]), levels)
@@ -56,7 +48,7 @@ class WellTest(unittest.TestCase):
     def test_simulated_time_without_a_clock(self):
         rospy.set_param("/use_sim_time", True)
         self.addCleanup(rospy.delete_param, "/use_sim_time")
-        self.wrong("no /clock comes")
+        self.wrong("no /clock arrives")
 
 
 if __name__ == "__main__":

@@ -4,8 +4,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from tutorial_tools.bag.picture import curves, svg
-from tutorial_tools.bag.program import read
+from tutorial_tools.bag import curves, read, svg
 
 RECORDED = [(10.0, (0.0, 0.0, 1.0), (0, 0)), (11.0, (0.0, 0.5, 1.0), (0, 1)), (12.0, (0.0, -1.0, 1.0), (0, 0))]  # fmt: skip  # noqa: E501
 

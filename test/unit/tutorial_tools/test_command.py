@@ -58,7 +58,7 @@ def said(capsys, *arguments):
     sys.argv = ["words", "/ws", *arguments]
     with pytest.raises(SystemExit) as end:
         main()
-    assert end.value.code in (1, 2)
+    assert end.value.code == 2
     (line,) = capsys.readouterr().err.splitlines()
     return line
 
@@ -74,6 +74,7 @@ def said(capsys, *arguments):
         ("test everything", 'test: "everything": must be unit, launch, ros, system, again'),
         ("setup moon", 'setup: "moon": must be system or workspace'),
         ("bench moon", 'bench: "moon" has no folder in test/benchmark'),
+        ("docs /etc/passwd", "docs: /etc/passwd: must be a folder"),
         ("shell moon", "shell: unrecognized arguments: moon"),
         ("doctor --in /no/such", "doctor: --in /no/such: no workspace, it has no folder src"),
         ("run", "run: a command is missing"),

@@ -3,10 +3,13 @@
 import errno
 import re
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 
-from tutorial_tools.doctor.facts import Answer, Facts, Joystick, Mux, MuxInput, Node, Offset, some
+from node_kit.questions import Answer
+from tutorial_tools.doctor import judgement, way
+from tutorial_tools.doctor.facts import Facts, Joystick, Mux, MuxInput, Node, Offset, some
 from tutorial_tools.doctor.judgement import judge
 
 JOY, TWIST = "sensor_msgs/Joy", "geometry_msgs/Twist"
@@ -114,7 +117,7 @@ WRONG = {  # words of the one line that is wrong, in their order: facts
         replace(nodes(joy_node=node("localhost")), master_here=True, way_out=""),
     "3.2 s ahead of us, by /odom": well(clocks={"robot": Offset(3.21, "/odom")}),
     "3.2 s behind us ... chrony": well(clocks={"robot": Offset(-3.21, "/odom")}),
-    "/use_sim_time is true, and no /clock comes ... rosparam delete":
+    "/use_sim_time is true, and no /clock arrives ... rosparam delete":
         well(use_sim_time=True, clocks={"robot": Offset(99.0, "/odom")}),
     "neither a joystick nor joy2twist: roslaunch joy2twist launch_joy_node.launch": Facts(),
     "neither a joystick nor joy2twist ... launch_joy_node_realTurtlebot.launch":
@@ -188,60 +191,31 @@ def test_nothing_is_wrong(facts):
     assert lines(facts, "wrong") == []
 
 
-def test_a_mux_with_its_inputs_in_a_file_lets_another_through():
-    (line,) = lines(mux("Navigation", [], states=ARMED), "wrong")
-    assert 'lets "Navigation" through' in line
-
-
 @pytest.mark.parametrize(
-    ("facts", "words"),
+    ("facts", "level", "words"),
     [
-        (well(joysticks=[]), "joystick messages come from /joy_node"),
-        (Facts(), "every node runs on this machine"),
+        (mux("Navigation", [], states=ARMED), "wrong", 'lets "Navigation" through'),
+        (well(joysticks=[]), "ok", "joystick messages come from /joy_node"),
+        (Facts(), "ok", "every node runs on this machine"),
+        (well(publishers=JOY_OF_TWO, nodes=DEAD_BAG), "ok", "/joy_node -> /joy -> /joy2twist ->"),
+        (well(clocks={"robot": None}), "unknown", "robot sends no stamped message: compare: date"),
+        (mux(None), "unknown", "rostopic echo /cmd_vel_mux/active"),
+        (well(publishers={}, joysticks=[]), "unknown", "No joystick at /dev/input/js0: plug it in"),
         (
-            well(publishers=JOY_OF_TWO, nodes=DEAD_BAG),
-            f"/joy_node -> /joy -> /joy2twist -> {TELEOP}",
+            Facts(joy2twist=""),
+            "unknown",
+            "no joy2twist is found here: call this through",
         ),
+        (Facts(workspace="/ws", joy2twist=""), "unknown", "yet: make it in /ws/src"),
+        (Facts(), "ok", "is the suite's: /suite/joy2twist"),
+        (Facts(workspace="/w", joy2twist="/w/src/joy2twist"), "ok", "is yours: /w/src/joy2twist"),
+        (Facts(workspace="/w"), "wrong", "is not in your workspace: /suite/joy2twist: mv it into"),
+        (Facts(workspace="/w", joy2twist="/w/joy2twist"), "wrong", "mv it into /w/src"),
+        (Facts(broken_manifests=[("/a/package.xml", "line 5")]), "wrong", "/a/package.xml: line 5"),
     ],
 )
-def test_what_is_ok(facts, words):
-    assert any(words in line for line in lines(facts, "ok"))
-
-
-@pytest.mark.parametrize(
-    ("facts", "words"),
-    [
-        (well(clocks={"robot": None}), "robot sends no stamped message: compare: date"),
-        (mux(None), "rostopic echo /cmd_vel_mux/active"),
-        (well(publishers={}, joysticks=[]), "No joystick at /dev/input/js0: plug it in"),
-        (Facts(joy2twist=""), "no joy2twist is found here: call this through ./tutorial"),
-        (Facts(workspace="/ws", joy2twist=""), "has no joy2twist yet: make it in /ws/src"),
-    ],
-)
-def test_what_is_unknown(facts, words):
-    assert any(words in line for line in lines(facts, "unknown"))
-
-
-@pytest.mark.parametrize(
-    ("workspace", "path", "level", "words"),
-    [
-        ("", "/suite/joy2twist", "ok", "is the suite's: /suite/joy2twist"),
-        ("/ws", "/ws/src/joy2twist", "ok", "is yours: /ws/src/joy2twist"),
-        ("/ws", "/suite/joy2twist", "wrong", "is not in your workspace: /suite/joy2twist"),
-        ("/ws", "/ws/joy2twist", "wrong", "mv it into /ws/src"),
-    ],
-)
-def test_which_joy2twist_would_run(workspace, path, level, words):
-    findings = judge(Facts(workspace=workspace, joy2twist=path))
-    assert (findings[0].level, findings[0].about) == (level, "overlay")
-    assert words in findings[0].line()
-
-
-def test_broken_package_xml_are_named():
-    broken = [("/ws/src/a/package.xml", "mismatched tag: line 5"), ("/ws/src/b/package.xml", "x")]
-    findings = judge(Facts(workspace="/ws", joy2twist="", broken_manifests=broken))
-    found = [finding.line() for finding in findings if finding.about == "overlay"]
-    assert [f"{path}: {why}" in line for line, (path, why) in zip(found, broken)] == [True, True]
+def test_a_line_of_a_level(facts, level, words):
+    assert any(words in line for line in lines(facts, level))
 
 
 def test_of_a_graph_that_was_not_seen_nothing_is_said():
@@ -295,3 +269,11 @@ def test_a_robot_of_a_classroom_without_joystick():
 )
 def test_names_in_a_line(names, shown):
     assert some(names) == shown
+
+
+def test_the_readme_lists_what_is_looked_at():
+    package = Path(judgement.__file__).resolve().parents[3]
+    source = "".join(Path(module.__file__).read_text() for module in (judgement, way))
+    looked_at = set(re.findall(r'\b(?:ok|wrong|unknown)\("(\w+)"', source))
+    section = (package / "README.md").read_text().split("## When nothing moves")[1].split("##")[0]
+    assert set(re.findall(r"^\| `(\w+)` \|", section, re.M)) == looked_at

@@ -1,4 +1,4 @@
-"""draw_graph.py: from what the master says to the text that graphviz draws."""
+"""draw_graph.py: from what the master answers to the text that graphviz draws."""
 
 import json
 import re
@@ -7,153 +7,140 @@ import subprocess
 
 import pytest
 
-from tutorial_tools.graph.program import dot_text, shows_a_node
+from tutorial_tools import graph
+from tutorial_tools.graph import dot_text
 
-ROSOUT = ["/rosout", ["/talker", "/listener"]]
-AGGREGATED = ["/rosout_agg", ["/rosout"]]
 TALK = (
-    [ROSOUT, AGGREGATED, ["/chatter", ["/talker"]], ["/unheard", ["/talker"]]],
+    [
+        ["/rosout", ["/talker", "/listener"]],
+        ["/rosout_agg", ["/rosout"]],
+        ["/chatter", ["/talker"]],
+        ["/unheard", ["/talker"]],
+    ],
     [["/rosout", ["/rosout"]], ["/chatter", ["/listener"]], ["/unsaid", ["/listener"]]],
     [["/talker/get_loggers", ["/talker"]], ["/add_two_ints", ["/server"]]],
 )
+LABELS = {
+    "/mobile_base/commands/velocity": r"/mobile_base\n/commands\n/velocity",
+    "/cmd_vel_mux/input/teleop": r"/cmd_vel_mux\n/input/teleop",
+    "/listener_4711_1700000000000": r"/listener_4711\n_1700000000000",
+    "/myjoystick2twist": "/myjoystick2twist",  # nowhere to break
+}
 
 
-def line(text, name):
-    """The line that declares a node or a topic, without its indent; "" if none does."""
-    found = [part for part in text.splitlines() if part.strip().startswith(f'"{name}" [')]
-    assert len(found) <= 1
-    return "".join(found).strip()
+def names(text):
+    """The nodes and topics that are declared."""
+    return re.findall(r'^ *"(\w+ /\S*)" \[', text, re.MULTILINE)
 
 
 def frames(text):
-    """{machine: lines inside its frame}."""
-    parts = text.split("  subgraph ")[1:]
-    return {
-        part.split('"cluster ')[1].split('"')[0]: part.split("\n  }\n")[0].splitlines()[2:]
-        for part in parts
-    }
+    """{machine: names inside its frame}."""
+    found = re.findall(r'subgraph "cluster (\S+)" {\n(.*?)\n  }\n', text, re.DOTALL)
+    return {machine: names(inside) for machine, inside in found}
 
 
 def test_talker_and_listener():
     text = dot_text(TALK, {})
-    assert line(text, "node /talker") == '"node /talker" [label="/talker" shape=ellipse]'
-    assert line(text, "topic /chatter") == '"topic /chatter" [label="/chatter" shape=box]'
-    arrows = [part.strip() for part in text.splitlines() if "->" in part]
-    assert arrows == [
+    assert names(text) == ["node /listener", "node /talker", "topic /chatter"]
+    assert '"node /talker" [label="/talker" shape=ellipse]' in text
+    assert '"topic /chatter" [label="/chatter" shape=box]' in text
+    assert [part.strip() for part in text.splitlines() if "->" in part] == [
         '"node /talker" -> "topic /chatter"',
         '"topic /chatter" -> "node /listener"',
     ]
 
 
-@pytest.mark.parametrize(
-    "hidden",
-    ["node /rosout", "topic /rosout", "topic /rosout_agg", "topic /unheard", "topic /unsaid"],
-)
-def test_what_only_everything_shows(hidden):
-    assert hidden not in dot_text(TALK, {})
-    assert line(dot_text(TALK, {}, everything=True), hidden)
-
-
-@pytest.mark.parametrize("everything", [False, True])
-def test_services_are_no_topics(everything):
-    text = dot_text(TALK, {}, everything)
-    assert "get_loggers" not in text
-    assert "/server" not in text
-
-
-def test_a_node_without_a_topic_is_there():
-    text = dot_text(([ROSOUT], [["/rosout", ["/rosout"]]], []), {})
-    assert line(text, "node /talker")
-    assert "->" not in text
+def test_everything_has_the_log_and_topics_with_one_end_and_no_service():
+    more = {"node /rosout", "topic /rosout", "topic /rosout_agg", "topic /unheard", "topic /unsaid"}
+    everything = dot_text(TALK, {}, everything=True)
+    assert set(names(everything)) == {*names(dot_text(TALK, {})), *more}
 
 
 def test_a_node_and_a_topic_of_one_name_are_two():
     text = dot_text(([["/odom", ["/odom"]]], [["/odom", ["/odom"]]], []), {})
-    assert line(text, "node /odom") and line(text, "topic /odom")
+    assert names(text) == ["node /odom", "topic /odom"]
     assert '"node /odom" -> "topic /odom"' in text
     assert '"topic /odom" -> "node /odom"' in text
 
 
-@pytest.mark.parametrize(
-    ("name", "label"),
-    [
-        ("/mobile_base/commands/velocity", r"/mobile_base\n/commands\n/velocity"),
-        ("/cmd_vel_mux/input/teleop", r"/cmd_vel_mux\n/input/teleop"),
-        ("/listener_4711_1700000000000", r"/listener_4711\n_1700000000000"),
-        ("/myjoystick2twist", "/myjoystick2twist"),  # nowhere to break
-        ("/robot_1/odom", "/robot_1/odom"),
-    ],
-)
+@pytest.mark.parametrize(("name", "label"), LABELS.items())
 def test_a_long_name_is_broken(name, label):
     text = dot_text(([[name, ["/a"]]], [[name, ["/b"]]], []), {})
-    assert line(text, f"topic {name}") == f'"topic {name}" [label="{label}" shape=box]'
+    assert f'"topic {name}" [label="{label}" shape=box]' in text
 
 
-def test_names_are_in_alphabetical_order():
-    names = [f"/{letter}" for letter in "hgfedcba"]
-    part = [[topic, names] for topic in names]
-    machines = {name: "two" if name > "/d" else "one" for name in names}
-    text = dot_text((part, part, []), machines)
-    assert list(frames(text)) == ["one", "two"]
-    for pattern in (
-        r'^ *"node (\S+)" \[',
-        r'^ *"topic (\S+)" \[',
-        r'^ *"node (\S+)" -> "topic /a"',
-        r'^ *"topic /a" -> "node (\S+)"',
-    ):
-        assert re.findall(pattern, text, re.MULTILINE) == names[::-1], pattern
-
-
-def test_each_machine_has_its_frame_and_the_topic_between_them_none():
-    text = dot_text(TALK, {"/talker": "10.0.0.1", "/listener": "10.0.0.2"})
-    assert sorted(frames(text)) == ["10.0.0.1", "10.0.0.2"]
-    assert "/talker" in frames(text)["10.0.0.1"][0]
-    assert "/listener" in frames(text)["10.0.0.2"][0]
-    assert line(text, "topic /chatter")
-    assert "topic /chatter" not in str(frames(text))
-
-
-def test_a_topic_of_one_machine_is_in_its_frame():
+def test_each_machine_has_its_frame_in_order_and_the_topic_between_them_none():
     publishers = [["/joy", ["/joy_node"]], ["/cmd_vel", ["/joy2twist"]]]
     subscribers = [["/joy", ["/joy2twist"]], ["/cmd_vel", ["/robot"]]]
-    machines = {"/joy_node": "desk", "/joy2twist": "desk", "/robot": "robot"}
+    machines = {"/robot": "robot", "/joy_node": "desk", "/joy2twist": "desk"}
     text = dot_text((publishers, subscribers, []), machines)
-    assert "topic /joy" in str(frames(text)["desk"])
-    assert "topic /cmd_vel" not in str(frames(text))
+    assert list(frames(text).items()) == [
+        ("desk", ["node /joy2twist", "node /joy_node", "topic /joy"]),
+        ("robot", ["node /robot"]),
+    ]
+    assert "topic /cmd_vel" in names(text)
+    again = (publishers[::-1], subscribers[::-1], [])
+    assert dot_text(again, dict(reversed(machines.items()))) == text
 
 
-def test_one_machine_has_no_frame():
+def test_one_machine_has_no_frame_nor_has_a_node_that_has_just_exited():
     # /rosout, which is not shown, does not count.
     machines = {"/talker": "here", "/listener": "here", "/rosout": "there"}
     assert not frames(dot_text(TALK, machines))
     assert sorted(frames(dot_text(TALK, machines, everything=True))) == ["here", "there"]
-
-
-def test_a_node_that_has_just_ended_is_on_no_machine():
     text = dot_text(TALK, {"/talker": "here"})
-    assert line(text, "node /listener")
-    assert not frames(text)
+    assert "node /listener" in names(text) and not frames(text)
 
 
 @pytest.mark.skipif(not shutil.which("dot"), reason="graphviz missing: ./tutorial setup")
 def test_graphviz_reads_back_every_name():
-    names = ['/"quoted"', "/a->b;", "/{graph}", "/größe", "/<b>", "node", "/a b", "/", ""]
-    state = ([[name, ["/a"]] for name in names], [[name, ["/b"]] for name in names], [])
+    topics = ['/"quoted"', "/a->b;", "/{graph}", "/größe", "/<b>", "node", "/a b", "/", ""]
+    state = ([[name, ["/a"]] for name in topics], [[name, ["/b"]] for name in topics], [])
     text = dot_text(state, {"/a": 'desk "1"', "/b": "{robot}"})
-    done = subprocess.run(
-        ["dot", "-Tjson"], input=text, capture_output=True, text=True, check=True, timeout=60
-    )
+    dot = ["dot", "-Tjson"]
+    done = subprocess.run(dot, input=text, capture_output=True, text=True, check=True, timeout=60)
     assert done.stderr == ""
     graph = json.loads(done.stdout)
     said = {part["name"] for part in graph["objects"]}
     clusters = {'cluster desk "1"', "cluster {robot}"}
-    assert said == {f"topic {name}" for name in names} | {"node /a", "node /b"} | clusters
-    assert len(graph["edges"]) == 2 * len(names)
+    assert said == {f"topic {name}" for name in topics} | {"node /a", "node /b"} | clusters
+    assert len(graph["edges"]) == 2 * len(topics)
 
 
-def test_a_graph_without_a_node_shows_nothing():
-    idle = ([[*ROSOUT[:1], ["/rosout"]], AGGREGATED], [["/rosout", ["/rosout"]]], [])
-    assert not shows_a_node(dot_text(idle, {"/rosout": "here"}))
-    assert shows_a_node(dot_text(idle, {}, everything=True))
-    assert not shows_a_node(dot_text(([], [], []), {}, everything=True))
-    assert shows_a_node(dot_text(TALK, {"/talker": "here", "/listener": "there"}))
+@pytest.fixture
+def drawn(monkeypatch, tmp_path, capsys):
+    """A function that draws a file in a new folder, and returns the line that is printed."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(graph, "ask_master", lambda: (TALK, {}))
+
+    def draw(*arguments):
+        try:
+            graph.main(list(arguments))
+        except SystemExit as end:
+            return str(end)
+        return capsys.readouterr().out.rstrip()
+
+    return draw
+
+
+@pytest.mark.skipif(not shutil.which("dot"), reason="graphviz missing: ./tutorial setup")
+@pytest.mark.parametrize(
+    ("file", "begin"),
+    [("a.png", b"\x89PNG"), ("a.svg", b"<?xml"), ("a.PDF", b"%PDF-"), ("a.dot", b"digraph")],
+)
+def test_what_is_written(drawn, tmp_path, file, begin):
+    assert drawn(file) == f"draw_graph: wrote {tmp_path}/{file}"
+    assert (tmp_path / file).read_bytes().startswith(begin)
+
+
+def test_refusals(drawn, tmp_path, monkeypatch):
+    assert drawn("graph.gif") == "draw_graph: graph.gif must end in .png, .svg, .pdf or .dot"
+    assert drawn("no/a.dot") == "draw_graph: cannot write no/a.dot: No such file or directory"
+    monkeypatch.setenv("PATH", "/nowhere")
+    assert "dot is missing: sudo apt install graphviz" in drawn("a.png")
+    monkeypatch.setattr(graph, "ask_master", lambda: (([], [], []), {}))
+    assert "nothing runs on http" in drawn("a.png")
+    monkeypatch.undo()
+    monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:9")  # "discard": no master listens
+    assert drawn("a.png").endswith("no ROS master at http://localhost:9; start one with: roscore")
+    assert list(tmp_path.iterdir()) == []

@@ -15,6 +15,7 @@ import rosgraph
 import rospy
 
 from cockpit_server.access import Access, gateways
+from node_kit.arguments import Parser
 from node_kit.questions import PARAMETER, Answer, accepts, address, call
 from node_kit.start import run
 
@@ -35,7 +36,7 @@ def port(text):
 
 
 def parse(argv):
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="cockpit", description="Shows the robots in a browser, and lets one page drive."
     )
     parser.add_argument("--port", type=port, default=DEFAULT_PORT, help="of the page's address")

@@ -1,7 +1,25 @@
-"""Types for the command lines of this suite's programs (pure)."""
+"""Command lines of this suite's programs (pure)."""
+
+from __future__ import annotations
 
 import argparse
 import math
+import re
+from typing import NoReturn
+
+CHOICE = re.compile(r"argument \S+: invalid choice: '(.*)' \(choose from (.*)\)")
+
+
+class Parser(argparse.ArgumentParser):
+    """Report a mistake in one line, with exit code 2."""
+
+    def error(self, message: str) -> NoReturn:
+        """Print the line and exit."""
+        wrong = CHOICE.fullmatch(message)
+        if wrong:
+            *others, last = wrong[2].replace("'", "").split(", ")
+            message = f'"{wrong[1]}": must be {", ".join(others)} or {last}'
+        self.exit(2, f"{self.prog}: {message}; {self.prog} --help shows more\n")
 
 
 def above_zero(text: str) -> float:

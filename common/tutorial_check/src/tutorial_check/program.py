@@ -9,6 +9,7 @@ import signal
 import sys
 from typing import Sequence
 
+from node_kit.arguments import Parser
 from tutorial_check import bubblewrap
 from tutorial_check.examination import Outcome, examine
 from tutorial_check.exercises import EXERCISES
@@ -43,8 +44,8 @@ FILES = {
 }
 
 
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+def _parser() -> Parser:
+    parser = Parser(
         prog="./tutorial check",
         description="Checks the exercises of the tutorial in your own workspace.",
         epilog="exercises: " + ", ".join(f"{name} ({what})" for name, what in EXERCISES.items()),

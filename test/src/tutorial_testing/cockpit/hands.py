@@ -12,7 +12,6 @@ SIT_DOWN = """document.getElementById("seat").dataset.state !== "yours"
   && document.getElementById("take").click()"""
 ARMED = "document.getElementById('seat').dataset.armed"
 # A gamepad of the standard mapping in place of the browser's: no browser here has a real one.
-# One of a real kernel is in kernel/drive_page.py.
 FAKE_GAMEPAD = """
 globalThis.fake = {plugged: true, frozen: false, held: false, at: 0};
 navigator.getGamepads = () => {

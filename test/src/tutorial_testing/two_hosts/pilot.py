@@ -5,7 +5,7 @@ drive    LB and the stick forward
 release  the stick still forward, LB not
 neutral  neither
 
-A change is published at once, as a driver does, and printed: the word and the monotonic time [s].
+A change is published at once, as a driver does, and printed: the word and the time [s].
 """
 
 import sys
@@ -40,11 +40,11 @@ def main():
                 publish()
 
     threading.Thread(target=repeat, daemon=True).start()
-    print("ready", time.monotonic(), flush=True)
+    print("ready", time.time(), flush=True)
     for line in sys.stdin:
         with lock:
             joy.axes[FORWARD], joy.buttons[LB] = HANDS[line.strip()]
-            now = time.monotonic()
+            now = time.time()
             publish()
         print(line.strip(), now, flush=True)
 

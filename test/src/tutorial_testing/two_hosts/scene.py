@@ -11,6 +11,7 @@ from tutorial_testing.waiting import wait_for
 from .network import Network
 
 HERE = Path(__file__).resolve().parent
+OBSERVER = HERE.parent / "cockpit" / "observer.py"
 REPOSITORY = HERE.parents[3]
 ROBOT, WORKSTATION = "robot", "workstation"
 
@@ -27,7 +28,7 @@ def page_blocks():
 
 
 class Moment(NamedTuple):
-    """An odometry message as it came: monotonic time [s], v [m/s], x, y [m] of the frame odom."""
+    """An odometry message: its stamp [s], v [m/s], x, y [m] of the frame odom."""
 
     time: float
     v: float
@@ -65,7 +66,7 @@ class Scene:
     def launch_robot(self, arguments=""):
         """Start the page's launch on the robot and watch its odometry."""
         self.robot = self.start(ROBOT, f"{self._blocks[ROBOT][2]} {arguments}")
-        self._observer = self.start(ROBOT, f"'{HERE}/observer.py'")
+        self._observer = self.start(ROBOT, f"'{OBSERVER}'")
         wait_for(lambda: self.odometry, "odometry of the robot")
 
     def launch_workstation(self, launch=None):
@@ -78,7 +79,7 @@ class Scene:
         wait_for(self._pilot_lines, "pilot")
 
     def tell(self, word):
-        """Tell the pilot to drive, release or neutral; return the monotonic time [s] of the Joy."""
+        """Tell the pilot to drive, release or neutral; return the time [s] of the Joy."""
         told = len(self._pilot_lines())
         self._pilot.type(word)
         line = wait_for(lambda: self._pilot_lines()[told:], f"pilot that does {word}")[0]
@@ -92,7 +93,7 @@ class Scene:
         """All Moments so far."""
         lines = self._observer.output.splitlines()[:-1]  # the last may be half written
         moments = [line.split() for line in lines if line[0].isdigit()]
-        return [Moment(*map(float, moment)) for moment in moments]
+        return [Moment(*map(float, (at, v, x, y))) for at, v, _, x, y in moments]
 
     def moment(self, condition, what):
         """Wait for an odometry message for which condition(Moment) holds; return the first one."""

@@ -1,14 +1,18 @@
-"""Build the catkin workspaces of ./tutorial, and a student's."""
+"""Set up what ./tutorial needs beside Debian packages: catkin workspaces, and what PyPI has.
+
+build.py WORKSPACE [workspace] [student=PATH] [pypi=NAME:FILE] [maybe=NAME:FILE]
+"""
 
 from __future__ import annotations
 
 import contextlib
 import fcntl
+import filecmp
 import hashlib
 import os
 import re
-import shlex
 import shutil
+import signal
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -20,12 +24,12 @@ REPOSITORY = Path(__file__).resolve().parents[5]
 # The prefix of a ROS that is not the system's own, as ./tutorial has found it.
 PREFIX = os.environ.get("TUTORIAL_ROS", "")
 # The underlay: what a student uses and never writes; stand-ins only for what is not installed.
-LOWER = (
+UNDERLAY = (
     "common/cockpit", "common/gamepad", "common/node_kit", "common/tutorial_check",
     "common/tutorial_tools", "fake_turtlebot_sim",
 )  # fmt: skip
 STAND_INS = ("joy", "rbx1_bringup", "rbx1_nav", "turtlebot_bringup", "turtlebot_rviz_launchers")
-UPPER = ("beginner_tutorials", "joy2twist", "test")  # the overlay: the solutions
+OVERLAY = ("beginner_tutorials", "joy2twist", "test")  # the solutions
 # Commands of the shell, under these names.
 SCRIPTS = "common/tutorial_tools/scripts"
 COMMANDS = (f"{SCRIPTS}/rqt_graph", f"{SCRIPTS}/rqt_bag", "tutorial")
@@ -54,7 +58,7 @@ def stamp() -> str:
 
 
 def clean_catkin_make(below: Path | None, folder: Path, log: Path) -> bool:
-    """Whether catkin_make succeeds over another workspace; with no other Python or workspace."""
+    """Return whether catkin_make succeeds over another workspace; without any other environment."""
     hidden = ("CMAKE_PREFIX_PATH", "ROS_PACKAGE_PATH", "PYTHONPATH")
     environment = {name: value for name, value in os.environ.items() if name not in hidden}
     environment["PATH"] = "/usr/bin:/bin"
@@ -76,18 +80,9 @@ def one_at_a_time(workspace: Path) -> Iterator[None]:
 
 
 def is_built(workspace: Path) -> bool:
-    """Whether the workspaces are built of what is there now."""
+    """Return whether the workspaces are built of what is there now."""
     built = workspace / "built"
     return built.exists() and built.read_text().strip() == stamp()
-
-
-def is_installed(package: str) -> bool:
-    """Whether a package is there without this suite."""
-    folders = f"{PREFIX or '/usr'}/share"
-    environment = {**os.environ, "ROS_PACKAGE_PATH": folders}
-    environment.pop("CMAKE_PREFIX_PATH", None)
-    command = ["rospack", "find", package]
-    return not subprocess.run(command, check=False, env=environment, capture_output=True).returncode
 
 
 def link_packages(workspace: Path, packages: list[str]) -> None:
@@ -119,8 +114,6 @@ def build_workspace(workspace: Path) -> None:
     if re.search(r"\s", str(workspace)):
         todo = "set TUTORIAL_WORKSPACE to a path without spaces"
         raise BuildError(f"catkin cannot build in {workspace}: {todo}")
-    if is_built(workspace):
-        return
     with one_at_a_time(workspace):
         if not is_built(workspace):
             build_both(workspace)
@@ -130,14 +123,17 @@ def build_both(workspace: Path) -> None:
     """Build the underlay and the overlay."""
     built, log, lower = stamp(), workspace / "build.log", workspace / "lower"
     say(f"building the catkin workspaces in {workspace}")
-    warn_of_caches(workspace)
-    stand_ins = [f"common/stand_ins/{name}" for name in STAND_INS if not is_installed(name)]
+    if os.environ.get("SUDO_USER") and not os.environ.get("TUTORIAL_WORKSPACE"):
+        own = f"{os.environ['SUDO_USER']}'s own calls do not use"
+        say(f"   which {own}: call ./tutorial without sudo, it asks for it itself")
+    share = Path(PREFIX or "/usr", "share")
+    stand_ins = [name for name in STAND_INS if not (share / name / "package.xml").exists()]
     with contextlib.suppress(FileNotFoundError):
         (workspace / "built").unlink()  # what it stands for changes from here on
-    link_packages(lower, [*LOWER, *stand_ins])
+    link_packages(lower, [*UNDERLAY, *(f"common/stand_ins/{name}" for name in stand_ins)])
     if not (lower / "devel").exists():
         remove_built(workspace)  # a package may have moved between the two
-    link_packages(workspace, list(UPPER))
+    link_packages(workspace, list(OVERLAY))
     (workspace / "bin").mkdir(exist_ok=True)
     link(workspace / "bin" / "python", "/usr/bin/python3")  # for programs with "env python"
     for command in COMMANDS:
@@ -150,37 +146,7 @@ def build_both(workspace: Path) -> None:
     ):
         print(*log.read_text().splitlines()[-15:], sep="\n", file=sys.stderr)
         raise BuildError(f"catkin_make failed; {log} has all of it")
-    keep_environment(workspace)
     (workspace / "built").write_text(f"{built}\n")
-
-
-def warn_of_caches(workspace: Path) -> None:
-    """Report a cache that sudo makes, and those of clones that were moved or removed."""
-    if os.environ.get("TUTORIAL_WORKSPACE"):
-        return
-    if os.environ.get("SUDO_USER"):
-        own = f"{os.environ['SUDO_USER']}'s own calls do not use"
-        say(f"   which {own}: call ./tutorial without sudo, it asks for it itself")
-    for old in workspace.parent.glob("*"):
-        package = old / "src" / "test"
-        if package.is_symlink() and not package.exists():
-            say(f"   those of a clone that was moved or removed are still there: rm -r {old}")
-
-
-def keep_environment(workspace: Path) -> None:
-    """Write down what setup.bash sets: its programs need a tenth of a second at every start."""
-    command = ["bash", "-c", '. "$0" && env -0', str(workspace / "devel" / "setup.bash")]
-    clean = {"PATH": "/usr/bin:/bin"}
-    done = subprocess.run(command, check=True, env=clean, capture_output=True, text=True)
-    lines = []
-    for name, _, value in (entry.partition("=") for entry in done.stdout.split("\0")):
-        if name in ("PATH", "PYTHONPATH", "LD_LIBRARY_PATH", "PKG_CONFIG_PATH"):
-            lines.append(f'export {name}={shlex.quote(value)}"${{{name}:+:${name}}}"')
-        elif name == "ROS_MASTER_URI":
-            lines.append(f'export {name}="${{{name}:-{value}}}"')
-        elif name == "CMAKE_PREFIX_PATH" or name.startswith("ROS_"):
-            lines.append(f"export {name}={shlex.quote(value)}")
-    (workspace / "environment").write_text("\n".join(lines) + "\n")
 
 
 def check_student(workspace: Path, student: Path) -> None:
@@ -206,13 +172,11 @@ def check_student(workspace: Path, student: Path) -> None:
 def build_student(workspace: Path, student: Path) -> None:
     """Make and build a student's workspace over the underlay. A mistake in it is only reported."""
     check_student(workspace, student)
-    if not (student / "devel" / "setup.bash").exists():
-        with one_at_a_time(workspace):
-            if not (student / "devel" / "setup.bash").exists():
-                build_new(workspace, student)
-        return
-    broken = broken_manifests(str(student / "src"))
-    for path, why in broken[:1]:
+    with one_at_a_time(workspace):
+        if not (student / "devel" / "setup.bash").exists():
+            build_new(workspace, student)
+            return
+    for path, why in broken_manifests(str(student / "src"))[:1]:
         say(f"{path}: {why}; until that is mended no ROS program starts in {student}")
     util = student / "devel" / "_setup_util.py"
     made = util.read_text(errors="replace") if util.exists() else ""
@@ -234,3 +198,72 @@ def build_new(workspace: Path, student: Path) -> None:
             print(f"   {line}", file=sys.stderr)
         todo = f"mend what is said above, then catkin_make in it ({log} has all)"
         say(f"{student} does not build: {todo}")
+
+
+def is_done(workspace: Path, part: str) -> bool:
+    """Return whether a part of the command line has nothing to do, so that it need not start."""
+    kind, _, value = part.partition("=")
+    if kind == "workspace":
+        return is_built(workspace)
+    if kind not in ("pypi", "maybe"):
+        return False
+    name, requirements = value.split(":")
+    return is_same(workspace / name / "installed", REPOSITORY / requirements)
+
+
+def is_same(kept: Path, requirements: Path) -> bool:
+    """Return whether a file is a copy of the requirements."""
+    return kept.exists() and filecmp.cmp(requirements, kept, shallow=False)
+
+
+def install_from_pypi(workspace: Path, name: str, requirements: str, needed: bool) -> None:
+    """Make a virtual environment with what a file of requirements names.
+
+    needed: else a failure is reported once, as a shell does without.
+    """
+    folder, wanted, log = workspace / name, REPOSITORY / requirements, workspace / "pip.log"
+    failed = workspace / "not_from_pypi"
+    with one_at_a_time(workspace):
+        if is_same(folder / "installed", wanted) or (not needed and is_same(failed, wanted)):
+            return
+        say(f"installing from PyPI what {requirements} names")
+        venv = ["/usr/bin/python3", "-m", "venv", "--clear", "--system-site-packages", str(folder)]
+        subprocess.run(venv, check=True)
+        pip = [f"{folder}/bin/python", "-m", "pip", "install", "-q", "--disable-pip-version-check"]
+        with open(log, "w", encoding="utf-8") as file:
+            command = [*pip, "-r", str(wanted)]
+            done = subprocess.run(command, check=False, stdout=file, stderr=file)
+        if not done.returncode:
+            shutil.copy(wanted, folder / "installed")
+            return
+        errors = [line for line in log.read_text().splitlines() if line.startswith("ERROR")]
+        print(*errors[:3], sep="\n", file=sys.stderr)
+        names = " ".join(dict.fromkeys(re.findall(r"^([a-z-]+)==", wanted.read_text(), re.M)))
+        todo = "then run ./tutorial setup again: it goes on where it stopped"
+        line = f"not installed from PyPI: {names}. Check the network ({log}), {todo}"
+        if needed:
+            raise BuildError(line)
+        say(f"{line}\ntutorial: all but replay_bag works without")
+        shutil.copy(wanted, failed)
+
+
+def main() -> None:
+    """Build the parts that the command line names, in its order."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    workspace, *parts = Path(sys.argv[1]), *sys.argv[2:]
+    for part in parts:
+        kind, _, value = part.partition("=")
+        try:
+            if kind == "workspace":
+                build_workspace(workspace)
+            elif kind == "student":
+                build_student(workspace, Path(value))
+            else:
+                name, requirements = value.split(":")
+                install_from_pypi(workspace, name, requirements, needed=kind == "pypi")
+        except BuildError as error:
+            sys.exit(f"tutorial: {error}")
+
+
+if __name__ == "__main__":
+    main()

@@ -9,31 +9,25 @@ from __future__ import annotations
 import argparse
 import difflib
 import os
-import re
 import shlex
 import sys
 from pathlib import Path
-from typing import NoReturn, TextIO
+from typing import Dict, List, NoReturn, TextIO
 
-from node_kit.arguments import above_zero
-from tutorial_tools.command.build import REPOSITORY
+from node_kit.arguments import Parser, above_zero
+from tutorial_tools.command.build import REPOSITORY, is_done
 from tutorial_tools.command.completion import SCRIPT, candidates
-from tutorial_tools.command.set_up import is_done
 
 SCRIPTS = REPOSITORY / "common" / "tutorial_tools" / "scripts"
-PROGRAMS = {word: SCRIPTS / f"{word}.py" for word in ("demo", "join", "doctor")}
-PROGRAMS["cockpit"] = REPOSITORY / "common" / "cockpit" / "scripts" / "cockpit.py"
-PYTHON = "/usr/bin/python3"
-PYPI = "pypi=python:test/requirements.txt"
+PROGRAMS = {word: str(SCRIPTS / f"{word}.py") for word in ("demo", "join", "doctor")}
+PROGRAMS["cockpit"] = str(REPOSITORY / "common" / "cockpit" / "scripts" / "cockpit.py")
+PYPI = "python:test/requirements.txt"
 WORDS = {  # word: (arguments as the help shows them, what it does)
     "demo": ("[--for SECONDS] [NAME:=VALUE ...]", "a recorded joystick drives the simulated robot"),
     "check": ("--in WORKSPACE [EXERCISE ...]", "which exercises are done in your workspace"),
     "test": ("[KIND] [ARGUMENT ...]", "run the tests: all, or those of one kind"),
     "cockpit": ("[--port PORT] [--lan]", "see and drive the robots in a browser"),
-    "join": (
-        "HOST NAME [NAME:=VALUE ...]",
-        "drive robot NAME of the classroom on HOST",
-    ),
+    "join": ("HOST NAME [NAME:=VALUE ...]", "drive robot NAME of the classroom on HOST"),
     "doctor": ("[--in WORKSPACE]", "what to check when nothing moves"),
     "bench": ("[PACKAGE] [--hours HOURS]", "run the benchmarks: all, or those of one package"),
     "lint": ("[--fix]", "check the sources: types, style, layers, packages, shell scripts"),
@@ -50,7 +44,7 @@ KINDS = {  # of tests
     "ros": "rostests: all, of a folder of test/ros, or of files; --times N",
     "system": "./tutorial itself, workspaces, RViz on a virtual screen, two hosts",
     "again": "what failed of these, once more and alone",
-    "kernel": "joy_node and Chromium with a joystick of a real kernel; minutes",
+    "kernel": "joy_node with a joystick of a real kernel; minutes",
     "exercises": "the tests of check itself",
     "browser": "the cockpit's page in real browsers, which this installs",
     "containers": "docker/ on a Docker engine, which root starts if there is none; minutes",
@@ -58,25 +52,14 @@ KINDS = {  # of tests
     "mutation": "whether the unit tests notice small changes to the rules; hours",
 }
 IN_WORDS = ("shell", "run", "doctor", "check")  # which know --in
+OWN_PARSER = ("check", "cockpit")  # programs that read their options themselves
 EPILOG = """\
 --in WORKSPACE: your own catkin workspace in place of our beginner_tutorials and joy2twist, which
 are then not found at all. `shell` and `run` make and build it if it does not exist.
 Every command first sets up what it needs. The suite's own catkin workspaces are in
 $TUTORIAL_WORKSPACE or else below ~/.cache; remove them, and they are built again.
 README.md leads through the tutorial, section by section."""
-CHOICE = re.compile(r"argument \S+: invalid choice: '(.*)' \(choose from (.*)\)")
-
-
-class Parser(argparse.ArgumentParser):
-    """Reports a mistake in one line."""
-
-    def error(self, message: str) -> NoReturn:
-        word, message = self.prog.split()[-1], message.replace(", NAME:=VALUE", "")
-        wrong = CHOICE.fullmatch(message)
-        if wrong:
-            *others, last = wrong[2].replace("'", "").split(", ")
-            message = f'"{wrong[1]}": must be {", ".join(others)} or {last}'
-        self.exit(2, f"tutorial: {word}: {message}; ./tutorial {word} --help shows more\n")
+Plan = Dict[str, List[str]]  # sections of packages, programs, builds, student and the command
 
 
 def parser_of(word: str) -> Parser:
@@ -105,6 +88,8 @@ def parser_of(word: str) -> Parser:
         add("rest", nargs=argparse.REMAINDER, metavar="ARGUMENT")
     elif word == "run":
         add("rest", nargs=argparse.REMAINDER, metavar="COMMAND")
+    elif word == "docs":
+        add("folder", nargs="?", metavar="FOLDER", help="of the site; in the suite's cache if none")
     else:
         parser.usage = f"./tutorial {word} {arguments}"
     return parser
@@ -115,16 +100,15 @@ def show_help(file: TextIO) -> None:
     print("usage: ./tutorial COMMAND ...\n", file=file)
     for word, (arguments, text) in WORDS.items():
         print(f"  {f'{word} {arguments}':41} {text}", file=file)
-        if word == "test":
-            for kind, what in KINDS.items():
-                print(f"    {kind:39} {what}", file=file)
+        for kind, what in KINDS.items() if word == "test" else ():
+            print(f"    {kind:39} {what}", file=file)
     print(f"\n{EPILOG}", file=file)
 
 
-def fail(line: str, code: int = 1) -> NoReturn:
-    """Report a mistake in one line, and exit."""
+def fail(line: str) -> NoReturn:
+    """Report a misuse in one line, and exit."""
     print(f"tutorial: {line}", file=sys.stderr)
-    sys.exit(code)
+    sys.exit(2)
 
 
 def student_of(word: str, given: str | None) -> str:
@@ -150,72 +134,70 @@ def command_of_run(command: list[str]) -> list[str]:
     return command
 
 
-def plan_of_test(kind: str | None, rest: list[str]) -> dict[str, list[str]]:
-    """Return the plan of one kind of tests, or of all."""
-    sections, programs, builds = ["demo", "more", "test"], [], ["workspace", PYPI]
+def plan_of_test(kind: str, rest: list[str]) -> Plan:
+    """Return the plan of one kind of tests, of all (""), or of what else needs their packages."""
+    made = {"sections": ["demo", "more", "test"], "builds": ["workspace", f"pypi={PYPI}"]}
     if kind in ("browser", "containers"):
-        sections, programs = [*sections, "browser"], ["chromium", "chromedriver"]
-    if kind == "mutation" and (REPOSITORY / "test/mutation/requirements.txt").exists():
-        builds = [*builds, "pypi=mutation:test/mutation/requirements.txt"]
-    command = [str(REPOSITORY / "test" / "run.py"), *filter(None, [kind]), *rest]
-    return {"sections": sections, "programs": programs, "builds": builds, "command": command}
+        made["sections"].append("browser")
+        made["programs"] = ["chromium", "chromedriver"]
+    if kind in ("lint", "docs"):
+        made["builds"].append(f"pypi={kind}:test/requirements-{kind}.txt")
+        return {**made, "command": [str(REPOSITORY / "test" / kind), *rest]}
+    if kind == "mutation":
+        made["builds"].append("pypi=mutation:test/mutation/requirements.txt")
+    return {**made, "command": [str(REPOSITORY / "test/run.py"), *filter(None, [kind]), *rest]}
 
 
-def plan_of_check(arguments: list[str]) -> dict[str, list[str]]:
-    """Return the plan of the checker, which reads its options itself."""
+def refuse(word: str, arguments: list[str]) -> None:
+    """Refuse what would fail only after a set-up of minutes."""
     options = {argument.split("=")[0] for argument in arguments}
-    if not os.environ.get("TUTORIAL_IN") and not options & {"--in", "--all", "-h", "--help"}:
+    named = os.environ.get("TUTORIAL_IN") or options & {"--in", "--all", "-h", "--help"}
+    if word == "check" and not named:
         words = " ".join(["./tutorial check --in ~/ros/hydro/catkin_ws", *arguments])
-        fail(f"check: which workspace? For example: {words}", 2)
-    command = [PYTHON, "-m", "tutorial_check", *arguments]
-    return {"sections": ["demo", "more"], "builds": ["workspace"], "command": command}
+        fail(f"check: which workspace? For example: {words}")
+    if (
+        word == "bench"
+        and arguments
+        and not (REPOSITORY / "test/benchmark" / arguments[0]).is_dir()
+    ):
+        fail(f'bench: "{arguments[0]}" has no folder in test/benchmark')
+    for folder in arguments if word == "docs" else ():
+        if any(
+            path.exists() and not path.is_dir() for path in (Path(folder), *Path(folder).parents)
+        ):
+            fail(f"docs: {folder}: must be a folder, which is made if it does not exist")
 
 
-def plan_of_shell(word: str, command: list[str]) -> dict[str, list[str]]:
-    """Return the plan of a shell, or of one command in it."""
-    if word == "shell":
-        rc = REPOSITORY / "common/tutorial_tools/etc/shellrc"
-        command = ["bash", "--rcfile", str(rc), "-i"]
-    builds = ["workspace", PYPI.replace("pypi", "maybe", 1)]
-    return {"sections": ["demo", "more"], "builds": builds, "command": command}
-
-
-def plan_of_tool(word: str, arguments: list[str]) -> dict[str, list[str]]:
-    """Return the plan of bench, or of lint or docs: test/WORD with what it needs from PyPI."""
-    _, rest = parser_of(word).parse_known_args(arguments)
-    if word == "bench":
-        if rest and not (REPOSITORY / "test/benchmark" / rest[0]).is_dir():
-            fail(f'bench: "{rest[0]}" has no folder in test/benchmark')
-        return plan_of_test("bench", rest)
-    requirements = f"test/requirements-{word}.txt"
-    made = plan_of_test(None, [])
-    if (REPOSITORY / requirements).exists():
-        made["builds"] = [*made["builds"], f"pypi={word}:{requirements}"]
-    return {**made, "command": [str(REPOSITORY / "test" / word), *rest]}
-
-
-def plan(word: str, arguments: list[str]) -> dict[str, list[str]]:
-    """Return the lists of the plan: sections of packages, programs, builds and the command."""
-    if word == "check":
-        return plan_of_check(arguments)
-    if word == "cockpit":  # which reads its options itself
-        command = [str(PROGRAMS[word]), *arguments]
-        return {"sections": ["demo", "more"], "builds": ["workspace"], "command": command}
+def plan(word: str, arguments: list[str]) -> Plan:
+    """Return the plan of a word."""
+    made: Plan = {"sections": ["demo", "more"], "builds": ["workspace"]}
+    if word in OWN_PARSER:
+        refuse(word, arguments)
+        program = (
+            [PROGRAMS[word]] if word in PROGRAMS else ["/usr/bin/python3", "-m", "tutorial_check"]
+        )
+        return {**made, "command": [*program, *arguments]}
     if word in ("bench", "lint", "docs"):
-        return plan_of_tool(word, arguments)
+        parser_of(word).parse_known_args(arguments)
+        refuse(word, arguments)
+        return plan_of_test(word, arguments)
     options = parser_of(word).parse_args(arguments)
     student = student_of(word, getattr(options, "student", None))
-    if word in PROGRAMS:
-        sections = ["doctor"] if word == "doctor" else ["demo", "more"]
-        command = [str(PROGRAMS[word]), *([] if word == "doctor" else arguments)]
-        made = {"sections": sections, "builds": ["workspace"], "command": command}
-    elif word == "setup":
-        made = {**plan_of_test(None, []), "command": []}
-        made["sections"] = [] if options.part == "workspace" else made["sections"]
-    elif word == "test":
-        made = plan_of_test(options.kind, options.rest)
+    if word == "doctor":
+        made.update(sections=["doctor"], command=[PROGRAMS[word]])
+    elif word in PROGRAMS:
+        made["command"] = [PROGRAMS[word], *arguments]
+    elif word in ("setup", "test"):
+        made = plan_of_test(*((options.kind or "", options.rest) if word == "test" else ("", [])))
+        if word == "setup":
+            made.update(
+                command=[], sections=[] if options.part == "workspace" else made["sections"]
+            )
     else:
-        made = plan_of_shell(word, command_of_run(options.rest) if word == "run" else [])
+        rc = REPOSITORY / "common/tutorial_tools/etc/shellrc"
+        shell = ["bash", "--rcfile", str(rc), "-i"]
+        made["command"] = command_of_run(options.rest) if word == "run" else shell
+        made["builds"].append(f"maybe={PYPI}")
     if student:
         made.update(student=[student], builds=[*made["builds"], f"student={student}"])
     return made

@@ -6,19 +6,15 @@ import math
 
 
 class DriveReport:
-    """Collects a drive; poses are in metres and radians, in the frame of the odometry."""
+    """A drive; poses are in metres and radians, in the frame of the odometry."""
 
     MOVED_M = 0.001  # less than this is a robot that stood
 
     def __init__(self, topics: tuple[str, ...]) -> None:
         """topics: the names whose messages are counted, in the order of the report."""
-        self.counts = {topic: 0 for topic in topics}
+        self.counts = dict.fromkeys(topics, 0)
         self.distance_m = 0.0
         self.pose: tuple[float, float, float] | None = None
-
-    def count(self, topic: str) -> None:
-        """Take note of one message on a topic."""
-        self.counts[topic] += 1
 
     def add_pose(self, x_m: float, y_m: float, qz: float, qw: float) -> None:
         """Go on to a new pose; qz and qw are the parts of a quaternion about the z axis."""
@@ -28,11 +24,11 @@ class DriveReport:
 
     @property
     def moved(self) -> bool:
-        """Whether the robot drove at all."""
+        """Return whether the robot drove at all."""
         return self.distance_m > self.MOVED_M
 
     def line(self, duration_s: float) -> str:
-        """The drive in one line."""
+        """Return the drive in one line."""
         counted = ", ".join(f"{count} {topic}" for topic, count in self.counts.items())
         if self.pose is None:
             return f"{duration_s:.1f} s: {counted}; no pose"

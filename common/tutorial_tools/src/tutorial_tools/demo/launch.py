@@ -1,9 +1,13 @@
 """A launch that runs: it is watched, counted, and ended as Ctrl-C ends it."""
 
+from __future__ import annotations
+
 import contextlib
 import signal
 import subprocess
 import time
+from collections.abc import Callable, Iterable
+from typing import Any
 
 import rosgraph
 import rosnode
@@ -29,7 +33,7 @@ class DemoError(Exception):
 class Launch:
     """A launch that runs, with a DriveReport of it; leaving the context ends it as Ctrl-C does."""
 
-    def __init__(self, command, nodes):
+    def __init__(self, command: list[str], nodes: Iterable[str]) -> None:
         """command: of roslaunch; nodes: the names of the nodes that it starts."""
         self.summary = ""  # what was driven, once it is over
         self.report = DriveReport(TOPICS)
@@ -37,10 +41,10 @@ class Launch:
         # In a session of its own: Ctrl-C in a terminal must not reach it before it is complete.
         self._process = subprocess.Popen(command, start_new_session=True)
 
-    def __enter__(self):
+    def __enter__(self) -> Launch:
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         for number in ENDING:
             signal.signal(number, signal.SIG_IGN)  # an impatient user must not leave nodes behind
         # A roslaunch that is interrupted while it still starts nodes leaves its master behind.
@@ -55,13 +59,13 @@ class Launch:
             self._process.wait()
         rospy.signal_shutdown("the demonstration is over")
 
-    def _is_complete(self):
+    def _is_complete(self) -> bool:
         try:
             return self._nodes <= set(rosnode.get_node_names())
         except rosnode.ROSNodeIOException:
             return False  # no master yet
 
-    def wait(self, until, happened=lambda: False):
+    def wait(self, until: float, happened: Callable[[], bool] = lambda: False) -> None:
         """Wait for something to happen, or until a time [s] of the monotonic clock.
 
         Raises DemoError if the launch ends meanwhile.
@@ -71,21 +75,21 @@ class Launch:
                 raise DemoError("the launch ended by itself; its messages above say why")
             time.sleep(0.02)
 
-    def wait_for_odometry(self):
-        """Listen to the topics, until the first odometry is there."""
+    def wait_for_odometry(self) -> None:
+        """Listen to the topics, until the first odometry arrives."""
         deadline = time.monotonic() + START_TIMEOUT_S
         self.wait(deadline, rosgraph.is_master_online)
         connect_once()
         rospy.init_node("demo", anonymous=True, disable_signals=True, log_level=rospy.ERROR)
-        rospy.Subscriber("/odom", Odometry, self._on_odometry)
-        for topic in ("/joy", "/cmd_vel"):
-            rospy.Subscriber(topic, AnyMsg, self._on_message, topic)
+        for topic in TOPICS:
+            kind = Odometry if topic == "/odom" else AnyMsg
+            rospy.Subscriber(topic, kind, self._on_message, topic)
         self.wait(deadline, lambda: self.report.pose is not None)
         if self.report.pose is None:
             raise DemoError(f"no /odom within {START_TIMEOUT_S:.0f} s")
 
-    def watch(self, duration_s):
-        """Count what runs on the topics for a time; however that ends, summary has the result."""
+    def watch(self, duration_s: float) -> None:
+        """Count the messages for a time; however that ends, summary has the result."""
         # Anew: on a busy machine seconds of /joy may come before the first /odom.
         self.report, began = DriveReport(TOPICS), time.monotonic()
         try:
@@ -93,20 +97,10 @@ class Launch:
         finally:
             self.summary = self.report.line(time.monotonic() - began)
 
-    def _is_ours(self, message):
-        """Whether a node of the launch sent it: another node may publish on the same topic."""
-        # The way that rospy documents: http://wiki.ros.org/rospy/Overview/Messages
-        return sender_of(message) in self._nodes
-
-    def _on_message(self, message, topic):
-        if self._is_ours(message):
-            self.report.count(topic)
-
-    def _on_odometry(self, message):
-        if not self._is_ours(message):
-            return
-        pose = message.pose.pose
-        self.report.count("/odom")
-        self.report.add_pose(
-            pose.position.x, pose.position.y, pose.orientation.z, pose.orientation.w
-        )
+    def _on_message(self, message: Any, topic: str) -> None:
+        if sender_of(message) not in self._nodes:
+            return  # another node may publish on the same topic
+        self.report.counts[topic] += 1
+        if topic == "/odom":
+            at, turn = message.pose.pose.position, message.pose.pose.orientation
+            self.report.add_pose(at.x, at.y, turn.z, turn.w)

@@ -1,4 +1,6 @@
-"""Looks at this machine, the master and the nodes: all that Facts holds."""
+"""Look at this machine, the master and the nodes: all that Facts holds."""
+
+from __future__ import annotations
 
 import contextlib
 import glob
@@ -6,6 +8,7 @@ import io
 import os
 import stat
 import struct
+from typing import Any, List, Tuple
 
 import rosgraph
 import rospkg
@@ -16,68 +19,57 @@ from std_msgs.msg import String
 from gamepad.driver.container import in_container
 from gamepad.driver.report import SILENT_FOR
 from node_kit.manifests import broken_manifests
-from tutorial_tools.doctor.facts import JOY, Answer, Facts, Joystick, Mux, MuxInput, Node, Offset
-from tutorial_tools.doctor.network import (
-    CALLER,
-    TIMEOUT_S,
-    addresses,
-    at_once,
-    call,
-    is_called_back,
-    is_here,
-    listen,
-    way_out,
-)
+from node_kit.questions import TIMEOUT_S, Answer
+from tutorial_tools.doctor import network
+from tutorial_tools.doctor.facts import JOY, Facts, Joystick, Mux, MuxInput, Node, Offset
+from tutorial_tools.doctor.network import addresses, call, is_here
 
-# Where the stamp (two uint32: s, ns) stands in messages that come often. They begin with a Header,
-# whose first field is a sequence number; a TFMessage has the length of its array before.
-STAMPS = {
-    "diagnostic_msgs/DiagnosticArray": 4,
-    "nav_msgs/Odometry": 4,
-    "sensor_msgs/Imu": 4,
-    "sensor_msgs/JointState": 4,
-    JOY: 4,
-    "sensor_msgs/LaserScan": 4,
-    "tf2_msgs/TFMessage": 8,
-}
+# Frequent messages that begin with a Header: sequence number, stamp as two uint32 (s, ns).
+STAMPED = (
+    "diagnostic_msgs/DiagnosticArray", "nav_msgs/Odometry", "sensor_msgs/JointState", JOY,
+    "sensor_msgs/LaserScan",
+)  # fmt: skip
 STAMPED_TOPICS = 6  # of each host
 STAMPED_MESSAGES = 20  # of each topic: the one that was fastest on its way counts
 LISTEN_S = 2.5  # /diagnostics comes once a second
+Messages = List[Tuple[float, bytes]]  # (arrival [s], bytes)
 
 
-def collect():
-    """The Facts, within some 15 s whatever the network does."""
+def collect() -> Facts:
+    """Return the Facts, within some 15 s whatever the network does."""
     uri = rosgraph.get_master_uri()
-    facts = {"master_uri": uri, **this_machine()}
+    facts = {"master_uri": uri, "called_back": None, **this_machine()}
     try:
         host, _ = rosgraph.network.parse_http_host_and_port(uri)
-        well_formed = uri.startswith("http://")
     except ValueError:
-        well_formed = False
-    if not well_formed:
-        return Facts(**facts, master=Answer.MALFORMED, called_back=None)
+        host = ""
+    if not host or not uri.startswith("http://"):
+        return Facts(**facts, master=Answer.MALFORMED)
     found = addresses(host)
-    facts["master_host"] = host
-    facts["master_here"] = all(map(is_here, found))
+    facts.update(master_host=host, master_here=all(map(is_here, found)))
     if not found:
-        return Facts(**facts, master=Answer.UNKNOWN_NAME, called_back=None)
+        return Facts(**facts, master=Answer.UNKNOWN_NAME)
     if not facts["master_here"]:
-        facts["way_out"] = way_out(found[0])
+        facts["way_out"] = network.way_out(found[0])
     facts["master"], _ = call(uri, "getPid")
-    called_back = None
     if facts["master"] is Answer.WELL:
         if facts["own_is_here"]:
-            called_back = is_called_back(uri, facts["own_name"])
+            facts["called_back"] = network.is_called_back(uri, facts["own_name"])
         facts.update(graph(uri, facts["joysticks"]))
-    return Facts(**facts, called_back=called_back)
+    return Facts(**facts)
 
 
-def this_machine():
-    """What can be seen without a network."""
+def this_machine() -> dict[str, Any]:
+    """Return what can be seen without a network."""
     set_variables = [name for name in ("ROS_HOSTNAME", "ROS_IP") if os.environ.get(name)]
     with contextlib.redirect_stderr(io.StringIO()):  # it comments on a variable that is empty
         own_name = rosgraph.network.get_host_name()
     own_addresses = addresses(own_name)
+    folders = os.environ.get("ROS_PACKAGE_PATH", "").split(":")
+    own = [folder for folder in folders if folder and not folder.startswith(("/usr/", "/opt/"))]
+    joy2twist = ""
+    with contextlib.suppress(Exception):  # not found, or whatever a broken package.xml brings about
+        joy2twist = os.path.realpath(rospkg.RosPack().get_path("joy2twist"))
     return {
         "own_variable": set_variables[0] if set_variables else "",
         "own_name": own_name,
@@ -85,30 +77,15 @@ def this_machine():
         "own_is_here": bool(own_addresses) and all(map(is_here, own_addresses)),
         "joysticks": [joystick(path) for path in sorted(glob.glob("/dev/input/js*"))],
         "workspace": os.environ.get("TUTORIAL_IN", ""),
-        "broken_manifests": broken_in_own_folders(),
-        "joy2twist": folder_of("joy2twist"),
+        "broken_manifests": [broken for folder in own for broken in broken_manifests(folder)],
+        "joy2twist": joy2twist,
         "container": in_container(),
         "wsl": "microsoft" in os.uname().release.lower(),
     }
 
 
-def broken_in_own_folders():
-    """[(path, what is wrong)] of what broken_manifests() finds in the user's own workspaces."""
-    folders = os.environ.get("ROS_PACKAGE_PATH", "").split(":")
-    own = [each for each in folders if each and not each.startswith(("/usr/", "/opt/"))]
-    return [broken for folder in own for broken in broken_manifests(folder)]
-
-
-def folder_of(package):
-    """Where a package lies, links followed; "" if it is not found."""
-    try:
-        return os.path.realpath(rospkg.RosPack().get_path(package))
-    except Exception:  # not found, or whatever a broken package.xml brings about
-        return ""
-
-
-def joystick(path):
-    """Whether a device can be opened."""
+def joystick(path: str) -> Joystick:
+    """Return whether a device can be opened."""
     try:
         # Not a FIFO: virtual_joystick has one reader, and to open it is to read it.
         if not stat.S_ISFIFO(os.stat(path).st_mode):
@@ -118,42 +95,35 @@ def joystick(path):
     return Joystick(path)
 
 
-def graph(uri, joysticks):
-    """Return what the master and the nodes answer, by the names of Facts."""
-    _, state = call(uri, "getSystemState")
-    _, types = call(uri, "getTopicTypes")
-    facts = {
-        "publishers": others(state[0] if state else []),
-        "subscribers": others(state[1] if state else []),
-        "types": dict(types or []),
+def graph(uri: str, joysticks: list[Joystick]) -> dict[str, Any]:
+    """Return what the master and the nodes answer, by the names of Facts; add their joysticks."""
+    publishers, subscribers, services = call(uri, "getSystemState")[1] or ([], [], [])
+    state = [*publishers, *subscribers, *services]
+    names = {name for _, users in state for name in users if name != network.CALLER}
+    seen = network.at_once(lambda name: look_at(uri, name), names, 2 * TIMEOUT_S + 1)
+    late = {name: Node("?", "?", Answer.SILENT, None) for name in names - set(seen)}
+    facts: dict[str, Any] = {
+        "publishers": dict(publishers),
+        "subscribers": dict(subscribers),
+        "types": dict(call(uri, "getTopicTypes")[1] or []),
+        "nodes": {**{name: node for name, node in seen.items() if node}, **late},
     }
-    names = {name for column in state or [] for _, users in column for name in users}
-    names = {name for name in names if name != CALLER}
-    seen = at_once(lambda name: look_at(uri, name), names, 2 * TIMEOUT_S + 1)
-    facts["nodes"] = {name: node for name, node in seen.items() if node}
-    for name in names - set(seen):
-        facts["nodes"][name] = Node("?", "?", Answer.SILENT, None)
     known = Facts(**facts)
-    senders = {name for joy in known.topics(JOY) for name in known.publishers.get(joy, [])}
-    here = [name for name, node in known.nodes.items() if name in senders and node.here]
-    devices = [parameter(uri, f"{node}/dev") for node in here]
-    paths = {device for device in devices if isinstance(device, str)}
+    devices = [parameter(uri, f"{node}/dev") for node in drivers(known) if known.nodes[node].here]
     there = {joystick.path for joystick in joysticks}
+    paths = {device for device in devices if isinstance(device, str)}
     joysticks += [joystick(path) for path in sorted(paths - there)]
     return {**facts, "use_sim_time": parameter(uri, "/use_sim_time") is True, **heard(uri, known)}
 
 
-def others(column):
-    """{topic: nodes} without this program."""
-    return {
-        topic: [name for name in users if name != CALLER]
-        for topic, users in column
-        if not topic.startswith(CALLER)
-    }
+def drivers(facts: Facts) -> set[str]:
+    """Return the nodes that publish joysticks."""
+    names = {name for joy in facts.topics(JOY) for name in facts.publishers.get(joy, [])}
+    return names & set(facts.nodes)
 
 
-def look_at(uri, name):
-    """The Node of a name, or None if it has just left."""
+def look_at(uri: str, name: str) -> Node | None:
+    """Return the Node of a name, or None if it has just left."""
     answer, node_uri = call(uri, "lookupNode", name)
     if answer is not Answer.WELL:
         return None
@@ -164,105 +134,79 @@ def look_at(uri, name):
     found = addresses(host)
     if not found:
         return Node(node_uri, host, Answer.UNKNOWN_NAME, None)
-    here = all(map(is_here, found))
-    answer, links = call(node_uri, "getBusInfo")
-    return Node(node_uri, host, answer, here, [connection(link) for link in links or []])
+    answer, links = call(node_uri, "getBusInfo")  # id, peer, direction, transport, topic
+    ends = [(link[4], link[2] == "i") for link in links or []]
+    return Node(node_uri, host, answer, all(map(is_here, found)), ends)
 
 
-def connection(link):
-    """(topic, whether it comes in) of an entry of getBusInfo: id, peer, direction, way, topic."""
-    return link[4], link[2] == "i"
-
-
-def parameter(uri, name):
-    """The value of a parameter, or None."""
+def parameter(uri: str, name: str) -> Any:
+    """Return the value of a parameter, or None."""
     return call(uri, "getParam", name)[1]
 
 
-def heard(uri, facts):
-    """What comes over the topics: clocks, simulated time, multiplexers, states."""
-    muxes = [
-        topic[: -len("/active")]
-        for topic in facts.topics(String._type)
-        if topic.endswith("/active") and facts.publishers.get(topic)
-    ]
-    hosts = {}
-    for node in facts.nodes.values():
-        if node.here is False and node.answer is Answer.WELL:
-            hosts.setdefault(node.host, stamped(facts, node.host))
-    jobs = {("mux", name): (f"{name}/active", 1) for name in muxes}
-    jobs.update({("state", name): ("/diagnostics", 1) for name in facts.converters()})
-    drivers = {name for joy in facts.topics(JOY) for name in facts.senders(joy)}
-    jobs.update({("state", name): ("/diagnostics", 1) for name in drivers})
-    jobs["clock", ""] = ("/clock", 1)
-    for host, names in hosts.items():
-        jobs.update({("stamp", (host, topic)): (topic, STAMPED_MESSAGES) for topic in names})
-
-    def hear(job):
-        topic, most = jobs[job]
-        kind, about = job
-        senders = [about] if kind == "state" else facts.publishers.get(topic, [])
-        if kind == "stamp":
-            senders = [name for name in senders if facts.nodes[name].host == about[0]]
-        for sender in senders[:1]:
-            if sender in facts.nodes and facts.nodes[sender].answer is Answer.WELL:
-                return listen(facts.nodes[sender].uri, topic, LISTEN_S, most)
-        return []
-
-    came = at_once(hear, jobs, LISTEN_S + TIMEOUT_S)
+def heard(uri: str, facts: Facts) -> dict[str, Any]:
+    """Return what arrives on topics: clocks, simulated time, multiplexers, states."""
+    active = [topic for topic in facts.topics(String._type) if topic.endswith("/active")]
+    far: dict[str, list[tuple[str, str, int]]] = {}  # host: (node, topic, number of messages)
+    stamped = [topic for kind in STAMPED for topic in facts.topics(kind)]
+    well = {name: node for name, node in facts.nodes.items() if node.answer is Answer.WELL}
+    for name, node in well.items():
+        if node.here is False:
+            sent = [topic for topic in stamped if name in facts.publishers.get(topic, [])]
+            far.setdefault(node.host, []).extend((name, t, STAMPED_MESSAGES) for t in sent)
+    far = {host: jobs[:STAMPED_TOPICS] for host, jobs in far.items()}
+    speakers = {*facts.converters(), *drivers(facts)}
+    jobs = [job for several in far.values() for job in several]
+    jobs += [(name, "/diagnostics", 1) for name in speakers]
+    for topic in (*active, "/clock"):
+        jobs += [(name, topic, 1) for name in facts.publishers.get(topic, [])[:1]]
+    came = network.at_once(
+        lambda job: network.listen(well[job[0]].uri, job[1], LISTEN_S, job[2]),
+        [job for job in jobs if job[0] in well],
+        LISTEN_S + TIMEOUT_S,
+    )
+    of = {(name, topic): messages for (name, topic, _), messages in came.items()}
+    on = {topic: messages for (_, topic), messages in of.items()}
+    said = {name: statuses(of.get((name, "/diagnostics"), [])) for name in speakers}
+    names = [topic[: -len("/active")] for topic in active if facts.publishers.get(topic)]
     return {
-        "clock_ticks": bool(came.get(("clock", ""))),
+        "clock_ticks": bool(on.get("/clock")),
         "clocks": {
-            host: nearest(
-                [
-                    Offset(seconds, topic)
-                    for topic in names
-                    for seconds in offsets(facts.types[topic], came.get(("stamp", (host, topic))))
-                ]
-            )
-            for host, names in hosts.items()
+            host: nearest([offset(topic, of.get((name, topic), [])) for name, topic, _ in several])
+            for host, several in far.items()
         },
-        "muxes": {name: mux(uri, name, came.get(("mux", name))) for name in muxes},
-        "states": dict(
-            said for name in facts.converters() for said in states(name, came.get(("state", name)))
-        ),
+        "muxes": {name: mux(uri, name, on.get(f"{name}/active", [])) for name in names},
+        "states": {
+            name: (status.level == DiagnosticStatus.OK, status.message)
+            for name in facts.converters()
+            for status in said[name]
+            if status.name == f"{name.strip('/')}: joystick"
+        },
         "silent_s": {
-            name: seconds for name in drivers for seconds in silences(came.get(("state", name)))
+            name: float(pair.value)
+            for name in drivers(facts)
+            for status in said[name]
+            for pair in status.values
+            if pair.key == SILENT_FOR and pair.value.replace(".", "", 1).isdigit()
         },
     }
 
 
-def stamped(facts, host):
-    """Topics with stamps that come from a host."""
-    return [
-        topic
-        for kind in STAMPS
-        for topic in facts.topics(kind)
-        if any(
-            name in facts.nodes and facts.nodes[name].host == host
-            for name in facts.publishers.get(topic, [])
-        )
-    ][:STAMPED_TOPICS]
+def offset(topic: str, messages: Messages) -> Offset | None:
+    """Return how much stamps are ahead of their arrival, by the message that was fastest."""
+    stamps = [(at_s, struct.unpack_from("<II", data, 4)) for at_s, data in messages if data[11:]]
+    ahead = [seconds + nanoseconds * 1e-9 - at_s for at_s, (seconds, nanoseconds) in stamps]
+    return Offset(max(ahead), topic) if ahead else None
 
 
-def offsets(kind, messages):
-    """How much the stamps are ahead of their arrival [s]: of the fastest on its way, or none."""
-    ahead = []
-    for arrived_s, data in messages or []:
-        if len(data) >= STAMPS[kind] + 8:
-            seconds, nanoseconds = struct.unpack_from("<II", data, STAMPS[kind])
-            ahead.append(seconds + nanoseconds * 1e-9 - arrived_s)
-    return [max(ahead)] if ahead else []
+def nearest(offsets: list[Offset | None]) -> Offset | None:
+    """Return the Offset that is nearest to none: a recording beside it has old stamps."""
+    return min(filter(None, offsets), key=lambda each: abs(each.seconds), default=None)
 
 
-def nearest(offsets_):
-    """The Offset that is nearest to none: a replayed recording beside it has old stamps."""
-    return min(offsets_, key=lambda offset: abs(offset.seconds), default=None)
-
-
-def mux(uri, name, messages):
-    """A Mux, by its latched topic and, where they are on the server, its parameters."""
-    said = [decode(String, data) for _, data in messages or []]
+def mux(uri: str, name: str, messages: Messages) -> Mux:
+    """Return a Mux, by its latched topic and, where they are on the server, its parameters."""
+    said = [decode(String, data) for _, data in messages]
     inputs = []
     with contextlib.suppress(TypeError, KeyError):  # a multiplexer of another kind
         for entry in parameter(uri, f"{name}/subscribers") or []:
@@ -271,25 +215,14 @@ def mux(uri, name, messages):
     return Mux(said[0].data if said and said[0] else None, inputs)
 
 
-def states(node, messages):
-    """[(node, (whether it is well, what it says))] from its message on /diagnostics."""
-    for _, data in messages or []:
-        for status in (decode(DiagnosticArray, data) or DiagnosticArray()).status:
-            if status.name == f"{node.strip('/')}: joystick":
-                yield node, (status.level == DiagnosticStatus.OK, status.message)
+def statuses(messages: Messages) -> list[DiagnosticStatus]:
+    """Return what a node reports on /diagnostics."""
+    arrays = [decode(DiagnosticArray, data) for _, data in messages]
+    return [status for array in arrays if array for status in array.status]
 
 
-def silences(messages):
-    """For how long the gamepad of a joy_node has been silent [s], from its /diagnostics."""
-    for _, data in messages or []:
-        for status in (decode(DiagnosticArray, data) or DiagnosticArray()).status:
-            for pair in status.values:
-                if pair.key == SILENT_FOR and pair.value.replace(".", "", 1).isdigit():
-                    yield float(pair.value)
-
-
-def decode(kind, data):
-    """The message, or None if the bytes are none."""
+def decode(kind: Any, data: bytes) -> Any:
+    """Return the message, or None if it is malformed."""
     try:
         return kind().deserialize(data)
     except DeserializationError:

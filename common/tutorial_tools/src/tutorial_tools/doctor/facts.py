@@ -1,12 +1,11 @@
-"""What the doctor has seen, and a finding: plain data (pure). collect.py sees; judgement.py and
-way.py judge.
-"""
+"""What the doctor has seen (collect.py), and a finding (judgement.py, way.py): data (pure)."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from node_kit.questions import Answer
 
@@ -14,25 +13,26 @@ MOST_NAMES = 5  # in a line; a classroom has thirty robots
 
 
 def natural(name: str) -> list[tuple[int, str]]:
-    """The sort key that puts robot_2 before robot_10."""
+    """Return the sort key that puts robot_2 before robot_10."""
     return [(int(part), "") if part.isdigit() else (0, part) for part in re.split(r"(\d+)", name)]
 
 
 def some(names: Iterable[str], between: str = ", ") -> str:
-    """Names in their natural order; of many the first ones, and how many more there are."""
+    """Return names in their natural order; of many the first ones, and how many more."""
     names = sorted(names, key=natural)
     more = [f"{len(names) - MOST_NAMES} more"] if len(names) > MOST_NAMES + 1 else []
     shown = names[:MOST_NAMES] if more else names
     return between.join(shown) + (f" and {more[0]}" if more else "")
 
 
+JOY = "sensor_msgs/Joy"
+TWIST = "geometry_msgs/Twist"
 OK, WRONG, UNKNOWN = "ok", "wrong", "unknown"
 DEAD = (Answer.REFUSED, Answer.STRANGE)  # of a node: nothing listens, or another program
 
 
-@dataclass(frozen=True)
-class Finding:
-    """One line for the user. level: OK, WRONG or UNKNOWN. about: one word. todo: what to do."""
+class Finding(NamedTuple):
+    """One line for the user. about: one word. todo: what to do."""
 
     level: str
     about: str
@@ -40,13 +40,27 @@ class Finding:
     todo: str = ""
 
     def line(self) -> str:
-        """The finding as it is shown."""
+        """Return the finding as it is shown."""
         todo = f": {self.todo}" if self.todo else ""
         return f"{self.level:7}  {self.about:8}  {self.seen}{todo}"
 
 
-@dataclass(frozen=True)
-class Node:
+def ok(about: str, seen: str) -> Finding:
+    """Return a finding that nothing is wrong here."""
+    return Finding(OK, about, seen)
+
+
+def wrong(about: str, seen: str, todo: str = "") -> Finding:
+    """Return a finding that explains why nothing moves."""
+    return Finding(WRONG, about, seen, todo)
+
+
+def unknown(about: str, seen: str, todo: str = "") -> Finding:
+    """Return a finding that the doctor cannot judge."""
+    return Finding(UNKNOWN, about, seen, todo)
+
+
+class Node(NamedTuple):
     """A node as the master has it, and as it answers here.
 
     here: whether it runs on this machine; None if its name cannot be looked up.
@@ -57,19 +71,17 @@ class Node:
     host: str
     answer: Answer
     here: bool | None = True
-    links: list[tuple[str, bool]] = field(default_factory=list)
+    links: list[tuple[str, bool]] = []  # noqa: RUF012 (never changed)
 
 
-@dataclass(frozen=True)
-class Offset:
+class Offset(NamedTuple):
     """How much a host's clock is ahead of ours [s], by the stamps on a topic."""
 
     seconds: float
     topic: str
 
 
-@dataclass(frozen=True)
-class MuxInput:
+class MuxInput(NamedTuple):
     """An input of a multiplexer of velocities."""
 
     name: str
@@ -77,16 +89,14 @@ class MuxInput:
     priority: float
 
 
-@dataclass(frozen=True)
-class Mux:
-    """A multiplexer: what it says is active (None: it says nothing), and its inputs, if known."""
+class Mux(NamedTuple):
+    """A multiplexer: its active input (None: not published), and its inputs, if known."""
 
     active: str | None
-    inputs: list[MuxInput] = field(default_factory=list)
+    inputs: list[MuxInput] = []  # noqa: RUF012 (never changed)
 
 
-@dataclass(frozen=True)
-class Joystick:
+class Joystick(NamedTuple):
     """A device file: why it cannot be opened (errno), or None."""
 
     path: str
@@ -95,7 +105,7 @@ class Joystick:
 
 @dataclass(frozen=True)
 class Facts:
-    """All that was seen. The defaults are those of a machine on which all is well and idle."""
+    """All that was seen. The defaults: a machine on which all is well and idle."""
 
     # This machine. own_variable is "ROS_IP", "ROS_HOSTNAME" or "" (neither is set).
     master_uri: str = "http://localhost:11311"
@@ -127,24 +137,19 @@ class Facts:
     silent_s: dict[str, float] = field(default_factory=dict)  # since a joy_node's gamepad moved
 
     def topics(self, kind: str) -> list[str]:
-        """The names of all topics of a type that are in use; the master forgets no type."""
-        used = (
-            topic
-            for topic in self.types
-            if self.publishers.get(topic) or self.subscribers.get(topic)
-        )
-        return sorted((topic for topic in used if self.types[topic] == kind), key=natural)
+        """Return the topics of a type that are in use; the master forgets no type."""
+        used = {
+            topic for part in (self.publishers, self.subscribers) for topic in part if part[topic]
+        }
+        return sorted((topic for topic in used if self.types.get(topic) == kind), key=natural)
 
     def senders(self, topic: str) -> list[str]:
-        """The publishers of a topic without those that have died: the master does not miss them."""
-        return sorted(
-            name
-            for name in self.publishers.get(topic, [])
-            if name not in self.nodes or self.nodes[name].answer not in DEAD
-        )
+        """Return the publishers of a topic that live; the master does not miss the dead."""
+        dead = {name for name, node in self.nodes.items() if node.answer in DEAD}
+        return sorted(set(self.publishers.get(topic, [])) - dead)
 
     def converters(self) -> dict[str, tuple[list[str], list[str]]]:
-        """{node that makes velocities of a joystick: (its joy topics, its velocity topics)}."""
+        """Return {node that turns a joystick into velocities: (its joys, its velocities)}."""
         found: dict[str, tuple[list[str], list[str]]] = {}
         for joy in self.topics(JOY):
             for node in self.subscribers.get(joy, []):
@@ -153,7 +158,3 @@ class Facts:
                     hears, _ = found.setdefault(node, ([], sends))
                     hears.append(joy)
         return found
-
-
-JOY = "sensor_msgs/Joy"
-TWIST = "geometry_msgs/Twist"

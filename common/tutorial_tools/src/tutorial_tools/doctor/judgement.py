@@ -7,50 +7,50 @@ from collections.abc import Iterator
 
 from gamepad.driver.device_choice import explain
 from node_kit.questions import Answer
-from tutorial_tools.doctor.facts import DEAD, JOY, OK, UNKNOWN, WRONG, Facts, Finding, some
+from tutorial_tools.doctor.facts import DEAD, JOY, Facts, Finding, ok, some, unknown, wrong
 from tutorial_tools.doctor.way import muxes, rivals, states, topics
 
 # Clocks may differ by this much [s]: a tenth of a second of old transforms, or of a joystick
 # message that is refused for its age, goes unnoticed.
 CLOCK_TOLERANCE_S = 0.1
-START_ANEW = "and start its nodes anew"
+RESTART = "and restart its nodes"
 
 
 def judge(facts: Facts) -> list[Finding]:
-    """All findings, in the order in which one would look for a cause."""
+    """Return all findings, in the order in which one would look for a cause."""
     findings = [*overlay(facts), *master(facts), *address(facts)]
     if facts.master is Answer.WELL:
-        for check in (nodes, clocks, sim_time, topics, muxes, rivals, states):
+        for check in (nodes, clocks, topics, muxes, rivals, states):
             findings += check(facts)
     return [*findings, *joysticks(facts)]
 
 
 def overlay(facts: Facts) -> Iterator[Finding]:
-    """Whose joy2twist would run."""
+    """Judge whose joy2twist would run."""
     path, workspace = facts.joy2twist, facts.workspace
     for broken, why in facts.broken_manifests:
         todo = "mend that line or the one before; until then no ROS program starts"
-        yield Finding(WRONG, "overlay", f"{broken}: {why}", todo)
+        yield wrong("overlay", f"{broken}: {why}", todo)
     if facts.broken_manifests:
-        pass
-    elif not workspace and path:
-        yield Finding(OK, "overlay", f"joy2twist is the suite's: {path}")
+        return
+    if not workspace and path:
+        yield ok("overlay", f"joy2twist is the suite's: {path}")
     elif not workspace:
         todo = "call this through ./tutorial, or source devel/setup.bash of a workspace that has it"
-        yield Finding(UNKNOWN, "overlay", "no joy2twist is found here", todo)
+        yield unknown("overlay", "no joy2twist is found here", todo)
     elif not path:
         todo = f"make it in {workspace}/src, then catkin_make in {workspace}"
-        yield Finding(UNKNOWN, "overlay", "your workspace has no joy2twist yet", todo)
+        yield unknown("overlay", "your workspace has no joy2twist yet", todo)
     elif path.startswith(f"{workspace}/src/"):
-        yield Finding(OK, "overlay", f"joy2twist is yours: {path}")
+        yield ok("overlay", f"joy2twist is yours: {path}")
     else:
         todo = f"mv it into {workspace}/src, then catkin_make"
-        yield Finding(WRONG, "overlay", f"joy2twist is not in your workspace: {path}", todo)
+        yield wrong("overlay", f"joy2twist is not in your workspace: {path}", todo)
 
 
 def master(facts: Facts) -> Iterator[Finding]:
-    """Whether a master answers at ROS_MASTER_URI."""
-    uri, host = f"ROS_MASTER_URI={facts.master_uri}", facts.master_host
+    """Judge whether a master answers at ROS_MASTER_URI."""
+    host = facts.master_host
     start = "start roscore" if facts.master_here else f"start roscore, or minimal.launch, on {host}"
     other = "export ROS_MASTER_URI=http://HOST:11311, with the machine on which roscore runs"
     todo = {
@@ -61,104 +61,98 @@ def master(facts: Facts) -> Iterator[Finding]:
         Answer.STRANGE: f"end that program, or {other}",
     }
     if facts.master is Answer.WELL:
-        yield Finding(OK, "master", f"{facts.master_uri} answers")
+        yield ok("master", f"{facts.master_uri} answers")
     else:
-        yield Finding(WRONG, "master", f"{uri} {facts.master.value}", todo[facts.master])
+        seen = f"ROS_MASTER_URI={facts.master_uri} {facts.master.value}"
+        yield wrong("master", seen, todo[facts.master])
 
 
 def address(facts: Facts) -> Iterator[Finding]:
-    """Whether the name under which this machine's nodes register leads back to them."""
+    """Judge whether the name under which this machine's nodes register leads back to them."""
     name = facts.own_name
     said = f"{facts.own_variable}={name}" if facts.own_variable else f'the name "{name}"'
+    todo = f"unset ROS_IP ROS_HOSTNAME, or export ROS_IP=127.0.0.1, {RESTART}"
     if facts.way_out:
-        todo = f"export ROS_IP={facts.way_out} in every terminal of this machine {START_ANEW}"
-    else:
-        todo = f"unset ROS_IP ROS_HOSTNAME, or export ROS_IP=127.0.0.1, {START_ANEW}"
+        todo = f"export ROS_IP={facts.way_out} in every terminal of this machine {RESTART}"
     loopback = all(a.startswith("127.") or a == "::1" for a in facts.own_addresses)
     if not facts.own_addresses:
-        yield Finding(WRONG, "address", f"{said} of this machine cannot be looked up", todo)
+        yield wrong("address", f"{said} of this machine cannot be looked up", todo)
     elif not facts.own_is_here:
         where = ", ".join(facts.own_addresses)
         shown = said if where == name else f"{said} ({where})"
-        yield Finding(WRONG, "address", f"{shown} is no address of this machine", todo)
+        yield wrong("address", f"{shown} is no address of this machine", todo)
     elif facts.called_back:
-        yield Finding(OK, "address", f'the master reaches this machine as "{name}"')
+        yield ok("address", f'the master reaches this machine as "{name}"')
     elif not facts.master_here and loopback and facts.own_variable:
-        yield Finding(WRONG, "address", f"{said} is seen by this machine only", todo)
+        yield wrong("address", f"{said} is seen by this machine only", todo)
     elif facts.called_back is None:
-        yield Finding(OK, "address", f'nodes of this machine call it "{name}"')
+        yield ok("address", f'nodes of this machine call it "{name}"')
     else:
         todo += "; or open this machine's firewall for it"
-        yield Finding(WRONG, "address", f'the master does not reach "{name}"', todo)
+        yield wrong("address", f'the master does not reach "{name}"', todo)
 
 
 def nodes(facts: Facts) -> Iterator[Finding]:
-    """Whether every node that is registered can be reached from here."""
+    """Judge whether every node that is registered can be reached from here."""
     alone = facts.master_here and all(node.here is not False for node in facts.nodes.values())
-    well = 0
+    export = f"on its machine export ROS_IP {RESTART}"
+    bad = {name: node for name, node in facts.nodes.items() if node.answer is not Answer.WELL}
     for name, node in sorted(facts.nodes.items()):
         at = f"{name} at {node.uri}"
         local = node.host == "localhost" or node.host.startswith("127.")
-        export = f"on its machine export ROS_IP {START_ANEW}"
         if local and not alone:
             # Seen from another machine this address is another program's, whatever answers.
-            yield Finding(WRONG, "nodes", f"{at} can be reached from its own machine only", export)
+            bad[name] = node
+            yield wrong("nodes", f"{at} can be reached from its own machine only", export)
         elif node.answer is Answer.UNKNOWN_NAME:
             todo = f'add "{node.host}" to /etc/hosts, or {export}'
-            yield Finding(WRONG, "nodes", f'{at}: "{node.host}" cannot be looked up here', todo)
+            yield wrong("nodes", f'{at}: "{node.host}" cannot be looked up here', todo)
         elif node.answer in DEAD:
-            todo = "start it anew, or forget it with: rosnode cleanup"
+            todo = "restart it, or forget it with: rosnode cleanup"
             todo += f"; if it runs on another machine, {export}" if local else ""
-            yield Finding(WRONG, "nodes", f"{at} is registered, but has died", todo)
+            yield wrong("nodes", f"{at} is registered, but has died", todo)
         elif node.answer is not Answer.WELL:
             todo = f"it hangs, or a network is down: try ping {node.host}; look at its firewall"
-            yield Finding(WRONG, "nodes", f"{at} {node.answer.value}", todo)
-        else:
-            well += 1
-    if well == len(facts.nodes):
-        yield Finding(OK, "nodes", f"all {well} answer")
+            yield wrong("nodes", f"{at} {node.answer.value}", todo)
+    if not bad:
+        yield ok("nodes", f"all {len(facts.nodes)} answer")
 
 
 def clocks(facts: Facts) -> Iterator[Finding]:
-    """Whether the clocks of the other machines agree with this one's."""
+    """Judge whether the clocks of the other machines agree with ours; or simulated time runs."""
     if facts.use_sim_time:
-        yield Finding(OK, "clocks", "/use_sim_time: all follow /clock")
+        yield ok("clocks", "/use_sim_time: all follow /clock")
+        if not facts.clock_ticks:
+            todo = "rosparam delete /use_sim_time and restart the nodes, or start what sends /clock"
+            yield wrong("clocks", "/use_sim_time is true, and no /clock arrives", todo)
         return
     if not facts.clocks:
-        yield Finding(OK, "clocks", "every node runs on this machine")
+        yield ok("clocks", "every node runs on this machine")
     for host, offset in sorted(facts.clocks.items()):
         if offset is None:
             todo = f"compare: date +%s.%N; ssh {host} date +%s.%N"
-            yield Finding(UNKNOWN, "clocks", f"{host} sends no stamped message", todo)
+            yield unknown("clocks", f"{host} sends no stamped message", todo)
         elif abs(offset.seconds) <= CLOCK_TOLERANCE_S:
-            seen = f"{host} is within {CLOCK_TOLERANCE_S:g} s, by {offset.topic}"
-            yield Finding(OK, "clocks", seen)
+            yield ok("clocks", f"{host} is within {CLOCK_TOLERANCE_S:g} s, by {offset.topic}")
         else:
             ahead = "ahead of" if offset.seconds > 0 else "behind"
             seen = f"{host} is {abs(offset.seconds):.1f} s {ahead} us, by {offset.topic}"
             todo = "on both machines: sudo apt install chrony (a recording has old stamps, though)"
-            yield Finding(WRONG, "clocks", seen, todo)
-
-
-def sim_time(facts: Facts) -> Iterator[Finding]:
-    """Whether simulated time, if it is asked for, runs."""
-    if facts.use_sim_time and not facts.clock_ticks:
-        todo = "rosparam delete /use_sim_time and start the nodes anew, or start what sends /clock"
-        yield Finding(WRONG, "clocks", "/use_sim_time is true, and no /clock comes", todo)
+            yield wrong("clocks", seen, todo)
 
 
 def joysticks(facts: Facts) -> Iterator[Finding]:
-    """Whether the gamepads of this machine can be read."""
+    """Judge whether the gamepads of this machine can be read."""
     senders = {name for joy in facts.topics(JOY) for name in facts.senders(joy)}
-    for joystick in facts.joysticks:
-        if joystick.error is None:
-            yield Finding(OK, "joystick", f"{joystick.path} can be read")
+    for path, error in facts.joysticks:
+        if error is None:
+            yield ok("joystick", f"{path} can be read")
         else:
-            seen = explain(joystick.path, joystick.error, facts.container, facts.wsl)
-            yield Finding(WRONG, "joystick", seen.rstrip("."))
+            seen = explain(path, error, facts.container, facts.wsl)
+            yield wrong("joystick", seen.rstrip("."))
     if not facts.joysticks and senders:
         seen = f"none at /dev/input/js*; joystick messages come from {some(senders)}"
-        yield Finding(OK, "joystick", seen)
+        yield ok("joystick", seen)
     elif not facts.joysticks:
         seen = explain("/dev/input/js0", errno.ENOENT, facts.container, facts.wsl)
-        yield Finding(UNKNOWN, "joystick", seen.rstrip("."))
+        yield unknown("joystick", seen.rstrip("."))

@@ -1,7 +1,6 @@
-"""Questions to the network that always end in time.
+"""Questions to the network that always end in time; rospy's may wait forever."""
 
-No rospy here: one of its nodes may wait forever for a master, or for a name.
-"""
+from __future__ import annotations
 
 import itertools
 import os
@@ -9,7 +8,9 @@ import socket
 import struct
 import threading
 import time
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Iterable
+from contextlib import suppress
+from typing import Any, TypeVar
 from xmlrpc.server import SimpleXMLRPCRequestHandler, SimpleXMLRPCServer
 
 from node_kit import questions
@@ -17,15 +18,19 @@ from node_kit.questions import TIMEOUT_S, Answer
 
 CALLER = f"/doctor_{os.getpid()}"
 LONGEST_MESSAGE = 10_000_000  # bytes; the stamped messages looked at are far shorter
+Thing = TypeVar("Thing")
+Found = TypeVar("Found")
 _number = itertools.count()
 
 
-def at_once(question, things, timeout_s):
-    """Ask question(thing) about all things at once; {thing: answer} of those answered in time."""
+def at_once(
+    question: Callable[[Thing], Found], things: Iterable[Thing], timeout_s: float
+) -> dict[Thing, Found]:
+    """Ask question(thing) about all things at once; return {thing: answer} of those in time."""
     answers = {}
 
-    def ask(thing):
-        with suppress(Exception):  # what a broken peer says may be anything
+    def ask(thing: Thing) -> None:
+        with suppress(Exception):  # what a broken peer answers may be anything
             answers[thing] = question(thing)
 
     threads = [threading.Thread(target=ask, args=(thing,), daemon=True) for thing in things]
@@ -37,50 +42,44 @@ def at_once(question, things, timeout_s):
     return dict(answers)
 
 
-def addresses(name):
-    """The addresses of a host, maybe none. Ends in time, though a look-up itself may not."""
+def addresses(name: str) -> list[str]:
+    """Return the addresses of a host, maybe none; in time, though a look-up itself may not end."""
     # As ROS does: IPv6 only where it is asked for.
     family = socket.AF_UNSPEC if os.environ.get("ROS_IPV6") == "on" else socket.AF_INET
 
-    def look_up(host):
-        try:
-            return [
-                found[4][0] for found in socket.getaddrinfo(host, 0, family, socket.SOCK_STREAM)
-            ]
-        except (OSError, UnicodeError):
-            return []
+    def look_up(host: str) -> list[str]:
+        found = socket.getaddrinfo(host, 0, family, socket.SOCK_STREAM)
+        return [str(entry[4][0]) for entry in found]
 
     return at_once(look_up, [name], TIMEOUT_S).get(name, [])
 
 
-def is_here(address):
-    """Whether an address is one of this machine: only then can a socket be bound to it."""
-    if address in ("0.0.0.0", "::"):
-        return False
+def is_here(address: str) -> bool:
+    """Return whether an address is one of this machine: only then can a socket be bound to it."""
     try:
         with socket.socket(_family(address), socket.SOCK_DGRAM) as probe:
             probe.bind((address, 0))
-            return True
+            return address not in ("0.0.0.0", "::")
     except OSError:
         return False
 
 
-def way_out(address):
-    """Our own address on the way to another one, or "". Nothing is sent."""
+def way_out(address: str) -> str:
+    """Return our own address on the way to another one, or "". Nothing is sent."""
     try:
         with socket.socket(_family(address), socket.SOCK_DGRAM) as probe:
             probe.connect((address, 9))
-            return probe.getsockname()[0]
+            return str(probe.getsockname()[0])
     except OSError:
         return ""
 
 
-def _family(address):
+def _family(address: str) -> socket.AddressFamily:
     return socket.AF_INET6 if ":" in address else socket.AF_INET
 
 
-def call(uri, method, *arguments):
-    """Call a master's or a node's method as this program; (Answer, its value or None)."""
+def call(uri: str, method: str, *arguments: Any) -> tuple[Answer, Any]:
+    """Call a master's or a node's method as this program; return (Answer, its value or None)."""
     answer, value = questions.call(uri, method, *arguments, caller=CALLER)
     return answer, value if answer is Answer.WELL else None
 
@@ -88,19 +87,19 @@ def call(uri, method, *arguments):
 class _Quiet(SimpleXMLRPCRequestHandler):
     rpc_paths = ()  # any
 
-    def log_message(self, *_):
+    def log_message(self, *_: object) -> None:
         pass
 
 
-def is_called_back(master_uri, own_name):
-    """Whether the master reaches this machine under its own name.
+def is_called_back(master_uri: str, own_name: str) -> bool:
+    """Return whether the master reaches this machine under its own name.
 
-    For a moment there is a topic of which this program is publisher and subscriber at once; the
-    master has to inform the subscriber of the publisher.
+    For a moment this program is publisher and subscriber of one topic; the master has to inform
+    the subscriber of the publisher.
     """
     called = threading.Event()
 
-    def publisher_update(*_):
+    def publisher_update(*_: object) -> tuple[int, str, int]:
         called.set()
         return 1, "", 0
 
@@ -119,62 +118,33 @@ def is_called_back(master_uri, own_name):
             server.shutdown()
 
 
-@contextmanager
-def _connection(node_uri, topic):
-    """A socket on which a node sends the messages of a topic. Raises OSError, ValueError."""
-    _, way = call(node_uri, "requestTopic", topic, [["TCPROS"]])
-    if not way:
-        raise OSError("it does not send this topic")
-    _, host, port = way
-    with socket.create_connection((host, port), TIMEOUT_S) as connection:
-        # A name for each: a node drops an older connection of the same name.
-        fields = {
-            "callerid": f"{CALLER}_{next(_number)}",
-            "topic": topic,
-            "md5sum": "*",
-            "type": "*",
-        }
-        lines = [f"{name}={value}".encode() for name, value in fields.items()]
-        header = b"".join(struct.pack("<I", len(line)) + line for line in lines)
-        connection.sendall(struct.pack("<I", len(header)) + header)
-        yield connection
-
-
-def listen(node_uri, topic, seconds, most=1):
-    """[(time of arrival [s, of this machine's clock], bytes)] of messages that a node sends.
+def listen(node_uri: str, topic: str, seconds: float, most: int = 1) -> list[tuple[float, bytes]]:
+    """Return [(arrival [s, of this machine's clock], bytes)] of messages that a node sends.
 
     Ends after `most` messages or after some seconds; there may be none.
     """
-    heard = []
+    heard: list[tuple[float, bytes]] = []
     end = time.monotonic() + seconds
-    try:
-        with _connection(node_uri, topic) as connection:
-            _receive(connection, end)  # the node's own header
+    # A name for each connection: a node drops an older one of the same name.
+    name = f"{CALLER}_{next(_number)}"
+    fields = [f"callerid={name}", f"topic={topic}", "md5sum=*", "type=*"]
+    header = b"".join(struct.pack("<I", len(field)) + field.encode() for field in fields)
+    with suppress(OSError, ValueError, TypeError, struct.error):  # late, or the node has gone
+        _, (_, host, port) = call(node_uri, "requestTopic", topic, [["TCPROS"]])
+        with socket.create_connection((host, port), TIMEOUT_S) as connection:
+            connection.sendall(struct.pack("<I", len(header)) + header)
+            stream = connection.makefile("rb")
+            _block(connection, stream, end)  # the node's own header
             while len(heard) < most:
-                message = _receive(connection, end)
-                heard.append((time.time(), message))
-    except (OSError, ValueError):
-        pass  # the time is over, or the node has gone
+                data = _block(connection, stream, end)
+                heard.append((time.time(), data))
     return heard
 
 
-def _receive(connection, end):
-    """One block of bytes with its length before it. Raises OSError, ValueError."""
-    (length,) = struct.unpack("<I", _read(connection, 4, end))
-    if length > LONGEST_MESSAGE:
-        raise ValueError(f"{length} bytes")
-    return _read(connection, length, end)
-
-
-def _read(connection, count, end):
-    data = b""
-    while len(data) < count:
-        left_s = end - time.monotonic()
-        if left_s <= 0:
-            raise OSError("no time left")
-        connection.settimeout(left_s)
-        part = connection.recv(count - len(data))
-        if not part:
-            raise OSError("it was closed")
-        data += part
+def _block(connection: socket.socket, stream: Any, end: float) -> bytes:
+    connection.settimeout(max(0.001, end - time.monotonic()))
+    (length,) = struct.unpack("<I", stream.read(4))
+    data: bytes = stream.read(min(length, LONGEST_MESSAGE))
+    if len(data) < length:
+        raise ValueError("the connection was closed, or no message of ROS is so long")
     return data

@@ -9,7 +9,7 @@ from tutorial_tools.doctor.facts import OK, UNKNOWN, WRONG
 from tutorial_tools.doctor.judgement import judge
 
 
-def main():
+def main() -> None:
     """Show the findings; exit code 1 if something is wrong."""
     parser_of("doctor").parse_args()
     signal.signal(signal.SIGINT, signal.SIG_DFL)

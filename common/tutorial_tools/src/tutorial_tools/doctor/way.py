@@ -7,17 +7,7 @@ from collections.abc import Iterator
 
 from node_kit.arming import DRIVING
 from node_kit.questions import Answer
-from tutorial_tools.doctor.facts import (
-    JOY,
-    OK,
-    TWIST,
-    UNKNOWN,
-    WRONG,
-    Facts,
-    Finding,
-    Mux,
-    some,
-)
+from tutorial_tools.doctor.facts import JOY, TWIST, Facts, Finding, Mux, ok, some, unknown, wrong
 
 SILENT_S = 2.0  # a gamepad in the hand is not still for so long
 IDLE = ("", "idle")  # what a multiplexer says when nobody drives
@@ -25,13 +15,13 @@ NO_MESSAGE = re.compile("no message|waiting for the joystick")
 
 
 def topics(facts: Facts) -> Iterator[Finding]:
-    """Whether the way from joystick to robot is connected from end to end."""
+    """Judge whether the way from joystick to robot is connected from end to end."""
     converters = facts.converters()
     joys = facts.topics(JOY)
     heard = {joy for hears, _ in converters.values() for joy in hears}
     if not joys:
         todo = start_all(facts)
-        yield Finding(WRONG, "topics", "there is neither a joystick nor joy2twist", todo)
+        yield wrong("topics", "there is neither a joystick nor joy2twist", todo)
     for joy in joys:
         namespace = joy.rsplit("/", 1)[0]
         into = f" __ns:={namespace}" if namespace else ""
@@ -39,20 +29,20 @@ def topics(facts: Facts) -> Iterator[Finding]:
             todo = f"rosrun joy joy_node{into}, or: rosbag play FILE"
             todo += f" /joy:={joy}" if namespace else ""
             todo += "; with joystick:=browser, drive on the cockpit's page"
-            yield Finding(WRONG, "topics", f"nobody sends {joy}", todo)
+            yield wrong("topics", f"nobody sends {joy}", todo)
         if joy not in heard:
             # A robot with a multiplexer has launch files of its own.
             half = "roslaunch joy2twist joy2twist_turtlebot.launch"
             if namespace or not facts.muxes:
                 half = f"rosrun joy2twist joy2twist.py{into}"
             todo = f"start joy2twist ({half})"
-            yield Finding(WRONG, "topics", f"nothing turns {joy} into velocities", todo)
+            yield wrong("topics", f"nothing turns {joy} into velocities", todo)
     for node, (hears, sends) in sorted(converters.items()):
         yield from way(facts, node, hears, sends)
 
 
 def start_all(facts: Facts) -> str:
-    """The launch file that starts joystick and joy2twist for the robot that is there."""
+    """Return the launch that starts joystick and joy2twist for the robot that is there."""
     robots = [t.split("/")[1] for t in undriven(facts) if re.fullmatch(r"/\w+/cmd_vel", t)]
     file = "launch_joy_node_realTurtlebot.launch" if facts.muxes else "launch_joy_node.launch"
     if robots:
@@ -62,44 +52,41 @@ def start_all(facts: Facts) -> str:
 
 
 def undriven(facts: Facts) -> list[str]:
-    """The velocity topics that a robot listens to and nobody publishes."""
+    """Return the velocity topics that a robot listens to and nobody publishes."""
     return [t for t in facts.topics(TWIST) if not facts.publishers.get(t)]
 
 
 def way(facts: Facts, node: str, hears: list[str], sends: list[str]) -> Iterator[Finding]:
-    """Whether one converter is connected on both sides."""
-    cut = [
-        finding
-        for topic, inwards in [*[(topic, True) for topic in hears], *[(t, False) for t in sends]]
-        for finding in link(facts, node, topic, inwards)
-    ]
+    """Judge whether one converter is connected on both sides."""
+    both = [*((topic, True) for topic in hears), *((topic, False) for topic in sends)]
+    cut = [finding for end in both for finding in link(facts, node, *end)]
     yield from cut
     alive = node not in facts.nodes or facts.nodes[node].answer is Answer.WELL
     if alive and not cut and all(facts.publishers.get(topic) for topic in hears):
         begins = sorted({name for topic in hears for name in facts.senders(topic)})
         ends = sorted({name for topic in sends for name in facts.subscribers[topic]})
         steps = (begins, hears, [node], sends, ends)
-        yield Finding(OK, "topics", " -> ".join(", ".join(step) for step in steps))
+        yield ok("topics", " -> ".join(", ".join(step) for step in steps))
 
 
 def link(facts: Facts, node: str, topic: str, inwards: bool) -> Iterator[Finding]:
-    """Whether a converter is connected to those at the other end of a topic."""
+    """Judge whether a converter is connected to those at the other end of a topic."""
     others = (facts.publishers if inwards else facts.subscribers).get(topic, [])
     if not others and not inwards:
         free = undriven(facts)
         # The other inputs of a multiplexer are not for people.
         free = [t for t in free if t.endswith("/input/teleop")] or free
         todo = "start the robot" + (f", or drive the one at {some(free, ' or ')}" if free else "")
-        yield Finding(WRONG, "topics", f"nobody listens to {topic} of {node}", todo)
+        yield wrong("topics", f"nobody listens to {topic} of {node}", todo)
     known = facts.nodes.get(node)
     if others and known and known.answer is Answer.WELL and (topic, inwards) not in known.links:
         seen = f"{topic}: {', '.join(others)} and {node} know of each other, but are not connected"
         todo = "mend what the lines above say, or a firewall between them"
-        yield Finding(WRONG, "topics", seen, todo)
+        yield wrong("topics", seen, todo)
 
 
 def muxes(facts: Facts) -> Iterator[Finding]:
-    """Whether a multiplexer lets joy2twist through."""
+    """Judge whether a multiplexer lets joy2twist through."""
     ours = {topic for _, sends in facts.converters().values() for topic in sends}
     for name, mux in sorted(facts.muxes.items()):
         for topic in sorted(t for t in ours if t.startswith(f"{name}/")):
@@ -107,51 +94,52 @@ def muxes(facts: Facts) -> Iterator[Finding]:
 
 
 def mux_finding(facts: Facts, name: str, mux: Mux, topic: str) -> Finding:
-    """Whether a multiplexer lets one of our topics through."""
+    """Judge whether a multiplexer lets one of our topics through."""
     if mux.active is None:
         todo = f"rostopic echo {name}/active"
-        return Finding(UNKNOWN, "mux", f"{name} does not say what is active", todo)
+        return unknown("mux", f"{name} does not say what is active", todo)
     if mux.active in IDLE:
         senders = facts.publishers.get(topic, [])
         if any(facts.states.get(sender) == (True, DRIVING) for sender in senders):
             todo = "its network was cut meanwhile: release LB and the sticks, wait a second"
             seen = f"{name} does not listen to {topic}, though {', '.join(senders)} drives"
-            return Finding(WRONG, "mux", seen, todo)
-        return Finding(OK, "mux", f"{name}: nobody drives at this moment")
+            return wrong("mux", seen, todo)
+        return ok("mux", f"{name}: nobody drives at this moment")
     inputs = {i.name: i for i in mux.inputs}
     ours = [i for i in mux.inputs if i.topic == topic]
     active = inputs.get(mux.active)
     # A TurtleBot's own multiplexer keeps its inputs in a file: there Teleoperation is input/teleop.
     short = topic.rsplit("/", 1)[1].lower()
     if active in ours or (not ours and mux.active.lower().startswith(short)):
-        return Finding(OK, "mux", f"{name} lets {topic} through")
+        return ok("mux", f"{name} lets {topic} through")
     if active and ours and active.priority < ours[0].priority:
-        return Finding(OK, "mux", f'{name} lets "{mux.active}" through, until {topic} drives')
+        return ok("mux", f'{name} lets "{mux.active}" through, until {topic} drives')
     senders = facts.publishers.get(active.topic, []) if active else []
     todo = f"end {', '.join(senders)}" if senders else "end what sends to that"
-    return Finding(WRONG, "mux", f'{name} lets "{mux.active}" through, and not {topic}', todo)
+    return wrong("mux", f'{name} lets "{mux.active}" through, and not {topic}', todo)
 
 
 def rivals(facts: Facts) -> Iterator[Finding]:
-    """Whether several nodes drive one robot, or several joysticks one joy2twist."""
+    """Judge whether several nodes drive one robot, or several joysticks one joy2twist."""
     for topic in [*facts.topics(JOY), *facts.topics(TWIST)]:
         senders = facts.senders(topic)
         if len(senders) > 1 and facts.subscribers.get(topic):
             seen = f"{topic} is sent by {some(senders)} at once"
-            yield Finding(WRONG, "topics", seen, "end all of them but one")
+            yield wrong("topics", seen, "end all of them but one")
 
 
 def states(facts: Facts) -> Iterator[Finding]:
-    """What joy2twist itself says on /diagnostics."""
+    """Judge what joy2twist itself reports on /diagnostics."""
     for node, (well, text) in sorted(facts.states.items()):
         joy = " ".join(facts.converters().get(node, (["joy"], []))[0])
         todo = f"move the joystick, or start it: rostopic hz {joy} shows its messages"
         todo += "; with joystick:=browser, drive on the cockpit's page"
-        todo = todo if not well and NO_MESSAGE.search(text) else ""
-        yield Finding(OK if well else WRONG, "state", f"{node} says: {text}", todo)
+        todo = todo if NO_MESSAGE.search(text) else ""
+        seen = f"{node} says: {text}"
+        yield ok("state", seen) if well else wrong("state", seen, todo)
     still = any("has not changed" in text for _, text in facts.states.values())
     for node, seconds in sorted(facts.silent_s.items()) if still else ():
         if seconds > SILENT_S:
             seen = f"the gamepad of {node} has been silent for {seconds:.0f} s"
             todo = "look at its battery and its distance, then move a stick"
-            yield Finding(WRONG, "joystick", seen, todo)
+            yield wrong("joystick", seen, todo)

@@ -1,4 +1,6 @@
-"""Draws the running nodes and their topics, as rqt_graph does."""
+"""Draw the running nodes and their topics, as rqt_graph does."""
+
+from __future__ import annotations
 
 import argparse
 import json
@@ -8,6 +10,7 @@ import socket
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any, NoReturn
 from urllib.parse import urlsplit
 
 import rosgraph
@@ -29,13 +32,13 @@ STYLE = """\
 """
 
 
-def quoted(text):
-    """A text as graphviz reads it; it has the same quotes and backslashes as JSON."""
+def quoted(text: str) -> str:
+    """Return a text as graphviz reads it; it has the same quotes and backslashes as JSON."""
     return json.dumps(text, ensure_ascii=False)
 
 
-def drawn(kind, name, shape):
-    """The line of a node or a topic. A long name is broken before / and _, as a book does it."""
+def drawn(kind: str, name: str, shape: str) -> str:
+    """Return the line of a node or a topic. A long name is broken before / and _."""
     lines = [""]
     for part in re.split("(?=[/_])", name):
         if len(lines[-1] + part) > LINE and lines[-1]:
@@ -45,35 +48,33 @@ def drawn(kind, name, shape):
     return f"{quoted(f'{kind} {name}')} [label={quoted(label)} shape={shape}]"
 
 
-def dot_text(state, machines, everything=False):
-    """The graph in graphviz's language, DOT; of the same graph always the same text.
+def dot_text(state: Any, machines: dict[str, str], everything: bool = False) -> str:
+    """Return the graph in graphviz's language, DOT; of the same graph always the same text.
 
     state: publishers, subscribers and services as the master's getSystemState() gives them, each a
     list of [topic, [node, ...]]. machines: {node: machine that it runs on}. everything: show also
-    /rosout, and topics that nobody publishes or nobody hears.
+    /rosout, and topics without a publisher or a subscriber.
     """
     hidden = set() if everything else DEBUG_NODES
-    publishers, subscribers = (
-        {topic: set(nodes) - hidden for topic, nodes in part} for part in state[:2]
-    )
+    ends = [{topic: set(nodes) - hidden for topic, nodes in part} for part in state[:2]]
+    publishers, subscribers = ends
     nodes = set().union(*publishers.values(), *subscribers.values())
+    topics = set(publishers) & set(subscribers) - DEBUG_TOPICS
     if everything:
-        topics = set(publishers) | set(subscribers)
-    else:
-        topics = set(publishers) & set(subscribers) - DEBUG_TOPICS
+        topics = {*publishers, *subscribers}
 
-    inside = {machines.get(node, ""): [] for node in nodes}  # machine -> its lines
-    inside[""] = []  # on no machine: the topics between them, and a node that has just ended
+    inside: dict[str, list[str]] = {machines.get(node, ""): [] for node in nodes}  # its lines
+    inside[""] = []  # on no machine: the topics between them, and a node that has just exited
     arrows = []
     for node in sorted(nodes):
         inside[machines.get(node, "")].append(drawn("node", node, "ellipse"))
     for topic in sorted(topics):
-        talkers, listeners = publishers.get(topic, set()), subscribers.get(topic, set())
-        where = {machines.get(node, "") for node in talkers | listeners}
+        senders, receivers = publishers.get(topic, set()), subscribers.get(topic, set())
+        where = {machines.get(node, "") for node in senders | receivers}
         inside[where.pop() if len(where) == 1 else ""].append(drawn("topic", topic, "box"))
         this = quoted(f"topic {topic}")
-        arrows += [f"{quoted(f'node {node}')} -> {this}" for node in sorted(talkers)]
-        arrows += [f"{this} -> {quoted(f'node {node}')}" for node in sorted(listeners)]
+        arrows += [f"{quoted(f'node {node}')} -> {this}" for node in sorted(senders)]
+        arrows += [f"{this} -> {quoted(f'node {node}')}" for node in sorted(receivers)]
 
     lines = inside.pop("")
     for machine in sorted(inside):
@@ -86,13 +87,8 @@ def dot_text(state, machines, everything=False):
     return "digraph ros {\n" + STYLE + "".join(f"  {line}\n" for line in lines + arrows) + "}\n"
 
 
-def shows_a_node(text):
-    """Whether a DOT text has a node of ROS in it: without one, there is nothing to look at."""
-    return '"node ' in text
-
-
-def ask_master():
-    """(state, machines) for dot_text()."""
+def ask_master() -> tuple[Any, dict[str, str]]:
+    """Return (state, machines) for dot_text()."""
     master = rosgraph.Master("/draw_graph")
     state = master.getSystemState()
     machines = {}
@@ -100,46 +96,38 @@ def ask_master():
         try:
             machines[node] = urlsplit(master.lookupNode(node)).hostname
         except rosgraph.MasterException:
-            pass  # it has ended meanwhile
+            pass  # it has exited meanwhile
     return state, machines
 
 
-class DotError(Exception):
-    """Nothing can be drawn; the text says in one line why and what to do."""
-
-
-def picture(text, kind):
-    """What dot draws of a text: the bytes of a file of some kind, such as png. Raises DotError."""
+def picture(text: str, kind: str) -> bytes:
+    """Return what dot draws of a text: the bytes of a file of some kind, such as png."""
+    dot = ["dot", f"-T{kind}"]
     try:
-        done = subprocess.run(
-            ["dot", f"-T{kind}"], input=text.encode(), capture_output=True, check=False
-        )
+        done = subprocess.run(dot, input=text.encode(), capture_output=True, check=False)
     except FileNotFoundError:
-        raise DotError(
-            "dot is missing: sudo apt install graphviz, or choose a FILE that ends in .dot"
-        ) from None
+        fail("dot is missing: sudo apt install graphviz, or choose a FILE that ends in .dot")
     if done.returncode != 0:
-        words = " ".join(done.stderr.decode(errors="replace").split())
-        raise DotError(f"dot cannot draw this: {words}")
+        fail(f"dot cannot draw this: {' '.join(done.stderr.decode(errors='replace').split())}")
     return done.stdout
 
 
-def page_of_graph():
-    """The address at which the cockpit shows the graph live; None if it does not run."""
+def page_of_graph() -> str | None:
+    """Return the address at which the cockpit shows the graph live; None if it does not run."""
     page = address(rosgraph.get_master_uri())
     return page and f"{page}#Graph"
 
 
-def fail(text):
+def fail(text: str) -> NoReturn:
     sys.exit(f"draw_graph: {text}")
 
 
-def main(arguments=None):
+def main(arguments: list[str] | None = None) -> None:
     """Draw the graph into a file; arguments: of the command line unless given."""
     parser = argparse.ArgumentParser(description="Draws the running nodes and their topics.")
     kinds = f"what to write, {', '.join(ENDINGS)}; graph.png by default"
     parser.add_argument("file", nargs="?", default="graph.png", metavar="FILE", help=kinds)
-    everything = "show also /rosout, and topics that nobody publishes or nobody hears"
+    everything = "show also /rosout, and topics without a publisher or a subscriber"
     parser.add_argument("--all", action="store_true", help=everything)
     options = parser.parse_args(rosgraph.myargv()[1:] if arguments is None else arguments)
     file = Path(options.file)
@@ -152,13 +140,11 @@ def main(arguments=None):
     except Exception:  # whatever answers there, or does not, is no master
         fail(f"no ROS master at {rosgraph.get_master_uri()}; start one with: roscore")
     text = dot_text(state, machines, options.all)
-    if not shows_a_node(text):
+    if '"node ' not in text:
         fail(f"nothing runs on {rosgraph.get_master_uri()} to be drawn; start a node first")
+    data = text.encode() if kind == ".dot" else picture(text, kind[1:])
     try:
-        data = text.encode() if kind == ".dot" else picture(text, kind[1:])
         file.write_bytes(data)
-    except DotError as error:
-        fail(error)
     except OSError as error:
-        fail(f"cannot write {file}: {os.strerror(error.errno)}")
+        fail(f"cannot write {file}: {os.strerror(error.errno or 0)}")
     print(f"draw_graph: wrote {file.absolute()}")

@@ -1,1 +1,0 @@
-"""A picture of the running nodes and topics."""

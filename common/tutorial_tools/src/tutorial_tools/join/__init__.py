@@ -1,1 +1,0 @@
-"""Joining the classroom of another machine."""
