@@ -43,7 +43,7 @@ def test_in_a_shell_of_a_workspace_that_is_meant(monkeypatch):
 @pytest.mark.parametrize(
     ("words", "error"),
     [
-        ([*UNDERLAY, "3"], "which workspace? For example: --in ~/ros/hydro/catkin_ws 3\n"),
+        ([*UNDERLAY, "3"], "which workspace? For example: --in ~/ros/hydro/catkin_ws 3;"),
         *(([*BEFORE, word], "no exercise") for word in ("7", "", ".", "4.9")),
         *(([*UNDERLAY, f"--{name}", ""], "an empty word is no path") for name in ("in", "all")),
         *(([*BEFORE, f"--{name}", ""], "an empty word") for name in ("out", "json", "underlay")),

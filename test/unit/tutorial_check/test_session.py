@@ -78,9 +78,7 @@ def test_a_folder_that_is_closed_to_the_programs_is_named(one, stranger, needed,
 def test_a_folder_in_which_nothing_can_be_started_is_named(one, monkeypatch):
     one.must_start_programs()
     monkeypatch.setattr(os, "statvfs", lambda path: SimpleNamespace(f_flag=os.ST_NOEXEC))
-    with pytest.raises(
-        CannotCheck, match=rf"in {one.folder.parent} \(noexec\): set TMPDIR"
-    ):
+    with pytest.raises(CannotCheck, match=rf"in {one.folder.parent} \(noexec\): set TMPDIR"):
         one.must_start_programs()
 
 

@@ -171,7 +171,7 @@ class Session:
             os.stat(f"{self.folder}/.")
             why = "noexec" if os.statvfs(self.folder).f_flag & os.ST_NOEXEC else ""
         except OSError as error:
-            why = error.strerror
+            why = str(error.strerror)
         if why:
             raise CannotCheck(
                 f"no program can be started in {self.folder.parent} ({why}): set TMPDIR to a"
