@@ -53,7 +53,7 @@ velocities = st.tuples(
 )
 
 
-@settings(max_examples=2000, deadline=None)
+@settings(max_examples=500, deadline=None)
 @given(
     st.lists(walls | posts, min_size=1, max_size=8),
     st.tuples(places, places, st.floats(-pi, pi)),

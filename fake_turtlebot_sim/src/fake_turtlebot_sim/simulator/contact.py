@@ -15,8 +15,6 @@ from fake_turtlebot_sim.simulator.differential_drive import Pose, Velocity, arc,
 
 TOUCH_M = 1e-11  # a gap that counts as none: some hundred times the rounding of a place in metres
 TANGENT = 1e-9  # the sine of an angle below which a motion leads along an obstacle, not into it
-# What a robot that leaves an obstacle drives, at least, before it meets it again, or what it turns.
-AGAIN_M, AGAIN_RAD = 1e-7, 1e-3
 STRAIGHT = 1e-12  # the turn [rad] of a path that is taken for straight
 
 Segment = Tuple[float, float, float, float]  # x1, y1, x2, y2 [m]
@@ -102,13 +100,19 @@ class _Motion:
         free = distance - core - radius
         if free > longest:
             return None
-        touches = free <= TOUCH_M
-        if touches and self._leads_into(dx, dy, distance):
-            return 0.0
         is_straight = self.bend * longest < STRAIGHT
-        if touches and is_straight:
-            return None
-        least = min(AGAIN_M, AGAIN_RAD / self.bend) if touches else 0.0
+        least = 0.0
+        if free <= TOUCH_M:
+            if not distance:
+                return None  # both have one middle: every way leads out
+            towards = (dx * self.ahead[0] + dy * self.ahead[1]) / distance
+            bends_to_it = dx * self.side[0] + dy * self.side[1] > 0.0 and not is_straight
+            if towards > TANGENT or (towards > -TANGENT and bends_to_it):
+                return 0.0
+            if is_straight:
+                return None
+            if towards > -TANGENT:  # along it and away: not met again before half a circle
+                least = pi / self.bend
         ways = []
         if len(obstacle) == 3:
             ways += self._to_disc(px, py, core + radius, is_straight)
@@ -117,14 +121,6 @@ class _Motion:
             ways += self._to_disc(*obstacle[:2], radius, is_straight)
             ways += self._to_disc(*obstacle[2:], radius, is_straight)
         return min((way for way in ways if least <= way <= longest), default=None)
-
-    def _leads_into(self, dx: float, dy: float, distance: float) -> bool:
-        """Return whether a robot that touches something at (dx, dy) drives into it."""
-        if not distance:
-            return False  # both have one middle: every way leads out
-        towards = (dx * self.ahead[0] + dy * self.ahead[1]) / distance
-        bends = self.bend * (dx * self.side[0] + dy * self.side[1])
-        return towards > TANGENT or (towards > -TANGENT and bends > 0.0)
 
     def _to_wall(
         self, wall: Segment, radius: float, longest: float, is_straight: bool
@@ -142,7 +138,7 @@ class _Motion:
             if is_straight:
                 ways = [(radius - away) / along] if along < 0 and away > radius else []
             else:
-                ways = self._ways(along, aside, self.bend * (radius - away))
+                ways = self._ways(along, aside, self.bend * _rounded(radius - away))
             for way in ways:
                 if not way <= longest:
                     continue
@@ -156,7 +152,7 @@ class _Motion:
         along = ex * self.ahead[0] + ey * self.ahead[1]
         aside = ex * self.side[0] + ey * self.side[1]
         distance = hypot(ex, ey)
-        outside = (distance - reach) * (distance + reach)
+        outside = _rounded(distance - reach) * (distance + reach)
         if is_straight:
             room = reach * reach - aside * aside
             return [-along - sqrt(room)] if along < 0 < room else []
@@ -183,6 +179,11 @@ class _Motion:
             self.x + ahead * self.ahead[0] + aside * self.side[0],
             self.y + ahead * self.ahead[1] + aside * self.side[1],
         )
+
+
+def _rounded(gap_m: float) -> float:
+    """Return 0 for a gap that counts as none: a robot that leaves may be inside by a rounding."""
+    return gap_m if abs(gap_m) > TOUCH_M else 0.0
 
 
 def drive_among(
