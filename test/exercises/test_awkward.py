@@ -21,6 +21,7 @@ from tutorial_testing.processes import Program, command_line, descendants, lives
 from tutorial_testing.waiting import wait_for
 
 SOURCE = Path(__file__).resolve().parents[2] / "common" / "tutorial_check" / "src"
+PYTHONPATH = f"{SOURCE}:{SOURCE.parents[1] / 'node_kit' / 'src'}"
 
 
 def command(underlay, *words):
@@ -31,7 +32,7 @@ def command(underlay, *words):
 
 def environment(**more):
     """That of a check."""
-    return {**os.environ, "PYTHONPATH": str(SOURCE), **more}
+    return {**os.environ, "PYTHONPATH": PYTHONPATH, **more}
 
 
 def run(words, env=None, **options):
@@ -160,7 +161,7 @@ def test_ctrl_c_ends_the_check_of_all(literal, underlay, tmp_path):
     for number in range(4):
         shutil.copytree(literal.parent, tmp_path / "group" / str(number))
     words = command(underlay, "--all", tmp_path / "group")
-    with Program(*words, PYTHONPATH=str(SOURCE)) as professor:
+    with Program(*words, PYTHONPATH=PYTHONPATH) as professor:
         wait_for(
             lambda: any(
                 "tutorial_check.examine" in command_line(p) for p in descendants(professor.pid)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from edits import TALKER, B, write
-from test_awkward import SOURCE, command
+from test_awkward import PYTHONPATH, command
 from test_hostile import processes_like
 
 from tutorial_check import bubblewrap
@@ -58,7 +58,7 @@ def environment(request, tmp_path, scratch):
         path = path_without_namespaces(tmp_path)
     elif not bubblewrap.granted().options:
         pytest.skip("no namespaces here")
-    return {"PYTHONPATH": str(SOURCE), "PATH": path, "TMPDIR": scratch}
+    return {"PYTHONPATH": PYTHONPATH, "PATH": path, "TMPDIR": scratch}
 
 
 @pytest.mark.parametrize("work", WORKS)

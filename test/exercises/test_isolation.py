@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 from attack import ATTACKS, FILLS_MEMORY, LEAVE
 from edits import B
-from test_awkward import SOURCE, command
+from test_awkward import PYTHONPATH, SOURCE, command
 from test_endings import path_without_namespaces
 from test_hostile import processes_like
 
@@ -121,7 +121,7 @@ def test_what_a_hostile_program_reaches(literal, mode, folder, bare_underlay, wo
     home.mkdir(0o700)
     (home / "secret").write_text("<html>")  # of which the checker would say that it is a web page
     (home / "secret").chmod(0o600)
-    environment = {**os.environ, "PYTHONPATH": str(SOURCE), "HOME": str(home)}
+    environment = {**os.environ, "PYTHONPATH": PYTHONPATH, "HOME": str(home)}
     if mode.endswith("not isolated"):
         environment["PATH"] = path_without_namespaces(folder)
     libc, remove = ctypes.CDLL(None), 0

@@ -1,6 +1,7 @@
 """What the tests of check share: a session of a package, and a user for its programs."""
 
 import os
+from types import SimpleNamespace
 
 import pytest
 
@@ -15,8 +16,8 @@ def make_session(tmp_path):
         folder = tmp_path / "ws/src" / package
         folder.mkdir(parents=True)
         (folder / "package.xml").write_text(f"<package><name>{package}</name></package>")
-        nothing = {"underlay": "", "make_box": lambda environment: None, "can_have_devices": False}
-        return Session(tmp_path, None, [exercise], {"PATH": ""}, **nothing)
+        box = SimpleNamespace(environment={"PATH": ""})
+        return Session(tmp_path, None, [exercise], box, underlay="", can_have_devices=False)
 
     return make
 

@@ -206,12 +206,7 @@ FIRST, SECOND, HELD, FREE = AXES[0], AXES[1], JOYS[0][1], (0,) * 12
     [
         ((0.0,) * 6, HELD, (FIRST, HELD), "at rest"),
         (FIRST, HELD, (FIRST, HELD), "the same Joy again"),
-        (
-            FIRST,
-            (0, 1, 0, 0, 1, *(0,) * 7),
-            (FIRST, HELD),
-            "buttons[1] pressed: the robot drives",
-        ),
+        (FIRST, (0, 1, 0, 0, 1, *(0,) * 7), (FIRST, HELD), "buttons[1] pressed: the robot drives"),
         (FIRST, FREE, (FIRST, HELD), "LB released"),
         (SECOND, FREE, (FIRST, FREE), "LB released"),
         ((0.5, *(0.0,) * 5), HELD, (FIRST, HELD), "with axes[1] = 0"),

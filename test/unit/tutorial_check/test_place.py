@@ -121,11 +121,14 @@ def test_a_user_with_many_threads_may_have_more_but_not_without_end(keep, strang
         ("0 231072 65536\n", 32_768, 65_533),  # docker's userns-remap
     ],
 )
-def test_an_unused_uid_is_one_that_exists(uid_map, lowest, highest):
-    users = [unused_user(number, uid_map) for number in (*range(20), 7_919, 65_537, 419_430_400)]
+def test_an_unused_uid_is_one_that_exists(tmp_path, uid_map, lowest, highest):
+    file = tmp_path / "uid_map"
+    file.write_text(uid_map)
+    users = [unused_user(number, file) for number in (*range(20), 7_919, 65_537, 419_430_400)]
     assert lowest <= min(users) and max(users) <= highest
     assert len(set(users)) > 20
-    assert unused_user(1, "0 1000 1\n1000 1000 1\n") is None
+    file.write_text("0 1000 1\n1000 1000 1\n")
+    assert unused_user(1, file) is None
 
 
 @pytest.mark.skipif(os.geteuid() != 0, reason="only root can read as another user")

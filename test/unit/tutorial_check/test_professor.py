@@ -76,10 +76,7 @@ def test_what_was_said_last_week_is_not_todays(group, monkeypatch):
 
 @pytest.mark.parametrize(
     ("blocked", "out", "why"),
-    [
-        ("check/table.html/", None, "Is a directory"),
-        ("file", "file", "--out names another"),
-    ],
+    [("check/table.html/", None, "Is a directory"), ("file", "file", "--out names another")],
 )
 def test_results_that_cannot_be_written_are_found_before_the_work(
     group, monkeypatch, blocked, out, why

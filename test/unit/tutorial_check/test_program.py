@@ -43,7 +43,7 @@ def test_in_a_shell_of_a_workspace_that_is_meant(monkeypatch):
 @pytest.mark.parametrize(
     ("words", "error"),
     [
-        ([*UNDERLAY, "3"], "which workspace? For example: --in ~/ros/hydro/catkin_ws 3\n"),
+        ([*UNDERLAY, "3"], "which workspace? For example: --in ~/ros/hydro/catkin_ws 3;"),
         *(([*BEFORE, word], "no exercise") for word in ("7", "", ".", "4.9")),
         *(([*UNDERLAY, f"--{name}", ""], "an empty word is no path") for name in ("in", "all")),
         *(([*BEFORE, f"--{name}", ""], "an empty word") for name in ("out", "json", "underlay")),
@@ -76,8 +76,7 @@ def main(monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("outcomes", "code"),
-    [([WELL], 0), ([BAD], 1), ([WELL, NO_VERDICT], 2), ([BAD, NO_VERDICT], 2)],
+    ("outcomes", "code"), [([WELL], 0), ([BAD], 1), ([WELL, NO_VERDICT], 2), ([BAD, NO_VERDICT], 2)]
 )
 def test_what_could_not_be_checked_is_reported_beside_the_rest(main, outcomes, code, capsys):
     assert main(lambda *_: outcomes) == code

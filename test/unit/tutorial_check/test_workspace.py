@@ -2,13 +2,12 @@
 
 import os
 import re
-import subprocess
-import sys
+import time
 import zipfile
 
 import pytest
 
-from tutorial_check import workspace
+from tutorial_check import session, workspace
 from tutorial_check.model import CannotCheck
 from tutorial_check.workspace import copy, find_layout, hand_in, packages_below, unpack
 
@@ -180,16 +179,10 @@ def test_only_what_lies_right_beside_src_is_beside_it(tmp_path):
     assert workspace.packages_beside(workspace.Layout(tmp_path, tmp_path, False)) == []
 
 
-LINKS = {
-    "file": "../../../secret",
-    "absolute": "{0}/secret",
-    "system": "/etc/passwd",
-    "another student": "{0}/bob/src/joy2twist",
-    "beside": "{0}/ada_too/secret",
-}
-
-
-@pytest.mark.parametrize("target", LINKS.values(), ids=LINKS)
+@pytest.mark.parametrize(
+    "target",
+    ["../../../secret", "{0}/secret", "/etc/passwd", "{0}/bob/src/joy2twist", "{0}/ada_too/secret"],
+)
 def test_of_others_no_link_leads_out_of_what_they_handed_in(tmp_path, target):
     """Whatever the rights of the user that checks them."""
     package(tmp_path / "bob/src/joy2twist")
@@ -248,18 +241,11 @@ def test_a_zip_with_broken_bytes(tmp_path, pack):
         unpack(archive, tmp_path / "out")
 
 
-READ = """
-import sys
-from pathlib import Path
-from tutorial_check import session, workspace
-print(workspace.named_outside(Path(sys.argv[1])), session.NEEDS_BUILD.search(sys.stdin.read()))
-"""
-
-
 @pytest.mark.parametrize("text", ["=/", "/a", ".bag/", "\n"])
 def test_a_launch_file_or_cmakelists_of_any_text_is_read_at_once(tmp_path, text):
     """Not in the square of its length, which takes minutes."""
-    text *= 99_999
-    (tmp_path / "a.launch").write_text(text)
-    read = [sys.executable, "-c", READ, str(tmp_path)]
-    assert subprocess.check_output(read, input=text, text=True, timeout=120) == "[] None\n"
+    (tmp_path / "a.launch").write_text(text * 99_999)
+    began_s = time.process_time()
+    assert workspace.named_outside(tmp_path) == []
+    assert not session.NEEDS_BUILD.search(text * 99_999)
+    assert time.process_time() - began_s < 60.0

@@ -97,8 +97,9 @@ class Box:
         self._limits = place.limits_of_programs(uid)
         self._open: list[Program] = []
         self._reading: dict[int, Program] = {}  # by the descriptor of its output
-        self._trusted = {os.getsid(0), os.getpid()}
-        self.patience = Patience(self._trusted)
+        # Left alone: ours, and those that we start, which lead sessions of their own.
+        self.trusted = {os.getsid(0), os.getpid()}
+        self.patience = Patience(self.trusted)
         self._poll = select.poll()
         if result is not None:
             self._poll.register(result, 0)  # the end of its reader is always reported
@@ -122,7 +123,7 @@ class Box:
             preexec_fn=place.restore_rights if trusted else self._restrict,  # noqa: PLW1509  one thread
         )
         if trusted:
-            self._trusted.add(process.pid)
+            self.trusted.add(process.pid)
         program = Program(process, os.path.basename(command[0]))
         self._open.append(program)
         assert process.stdout
@@ -142,10 +143,6 @@ class Box:
             os.setgid(self._uid)
             os.setuid(self._uid)
         place.give_up_rights()
-
-    def trust(self, pid: int) -> None:
-        """Leave alone a process that we forked, which leads a session of its own."""
-        self._trusted.add(pid)
 
     def wait(
         self, condition: Callable[[], Value], deadline_s: float, or_idle: bool = False
@@ -255,7 +252,7 @@ class Box:
 
     def _reap(self) -> None:
         """Reap orphans that have ended: till then they count against the user's limit."""
-        known = {program.process.pid for program in self._open} | self._trusted
+        known = {program.process.pid for program in self._open} | self.trusted
         for pid, state, parent, _ in processes():
             if state in ENDED and parent == os.getpid() and pid not in known:
                 with contextlib.suppress(ChildProcessError):
@@ -271,7 +268,7 @@ class Box:
         return [
             pid
             for pid, state, _, session in found
-            if pid in below - {os.getpid()} and state not in ENDED and session not in self._trusted
+            if pid in below - {os.getpid()} and state not in ENDED and session not in self.trusted
         ]
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import Iterable
+from typing import Iterable, Mapping
 
 # RViz is for human eyes: a program of its name only waits.
 NO_VIEW = "#!/bin/sh\nexec sleep 600\n"
@@ -25,6 +25,23 @@ def environment_of(words: Iterable[str]) -> dict[str, str]:
     """Return the variables of NAME=value words, without those of the shell itself."""
     found = dict(word.split("=", 1) for word in words if "=" in word)
     return {name: found[name] for name in found if name not in ("_", "SHLVL", "PWD", "OLDPWD")}
+
+
+def variables(folder: Path, environment: Mapping[str, str]) -> dict[str, str]:
+    """Return an environment, of a shell that sourced the underlay, with the folders of a session."""
+    home = folder / "home"
+    return {
+        **environment,
+        "PATH": f"{folder / 'bin'}:{environment['PATH']}",
+        "HOME": str(home),
+        "TMPDIR": str(folder / "tmp"),
+        "ROS_IP": "127.0.0.1",
+        "ROS_HOME": str(home / ".ros"),
+        "ROS_LOG_DIR": str(home / ".ros" / "log"),
+        "DISPLAY": ":99",  # whatever is there: for RViz stands a program that only waits
+        "PYTHONUNBUFFERED": "1",
+        "PYTHONDONTWRITEBYTECODE": "1",
+    }
 
 
 def prepare(folder: str | Path, uid: int | None) -> None:

@@ -75,7 +75,9 @@ def examine(
     into the home folder. Raises CannotCheck.
     """
     if not os.path.isfile(underlay):
-        raise CannotCheck(f"{underlay}: no such file; ./tutorial setup builds it")
+        raise CannotCheck(
+            f"{underlay}: no such file, or may not be read; ./tutorial setup builds it"
+        )
     folder = tempfile.mkdtemp(prefix="tutorial_check_")
     # If this process is killed; isolated, an examination does not reach the folder itself.
     words = ["sh", "-c", 'read -r _; rm -rf -- "$1"', "sh", folder]
@@ -87,7 +89,8 @@ def examine(
         kept = _kept(underlay)
         wrapper = bubblewrap.command(folder, [*shown, *kept], SUITE)
         orders = {
-            "layout": [str(layout.root), str(layout.source), layout.is_workspace],
+            "layout": [str(layout.root), str(layout.source)],
+            "is_workspace": layout.is_workspace,
             "own": own,
             "underlay": underlay,
             "exercises": list(exercises),

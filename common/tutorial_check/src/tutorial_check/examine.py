@@ -62,8 +62,8 @@ def main() -> None:
 def examine(orders: dict[str, Any], send: Send, result: int) -> None:
     """Examine. orders: layout, folder, underlay, exercises, apart, only_first ...; result: see Box."""
     scratch = Path(orders["folder"])
-    root, source, is_workspace = orders["layout"]
-    layout = workspace.Layout(Path(root), Path(source), is_workspace)
+    root, source = map(Path, orders["layout"])
+    layout = workspace.Layout(root, source, orders["is_workspace"])
     shutil.copytree(scratch / workspace.COPY, scratch / "ws" / "src", symlinks=True)
     # Before ROS, which reads the environment as it loads.
     home = str(scratch / "ours")
@@ -73,30 +73,28 @@ def examine(orders: dict[str, Any], send: Send, result: int) -> None:
     from tutorial_check import box, session  # noqa: PLC0415
     from tutorial_check.exercises import all_checks  # noqa: PLC0415
 
-    uid = None
-    if os.geteuid() == 0:
-        uid_map = Path("/proc/self/uid_map")  # some kernels map no ids
-        uid = place.unused_user(orders["number"], uid_map.read_text() if uid_map.exists() else "")
+    uid = place.unused_user(orders["number"]) if os.geteuid() == 0 else None
     environment.prepare(scratch, uid)
     scratch.chmod(0o755)
+    apart = orders["apart"]
+    variables = environment.variables(scratch, orders["environment"])
     one = session.Session(
         scratch,
         layout,
         orders["exercises"],
-        orders["environment"],
+        box.Box(variables, uid, apart, result),
         underlay=orders["underlay"],
-        make_box=lambda variables: box.Box(variables, uid, orders["apart"], result),
-        can_have_devices=orders["apart"],
+        can_have_devices=apart,
         needed=[*orders["kept"], Path(__file__)],
     )
-    one.must_start_programs()
     run = Run(all_checks(), one, one.second_look, one.box.patience.hopeless)
     if uid is not None:
-        if not orders["apart"]:  # then the suite may lie where that user cannot read
+        if not apart:  # then the suite may lie where that user cannot read
             importlib.import_module("rosbag")
             importlib.import_module("tutorial_check.driver")
         os.setgroups([])
         place.touch_files_as(uid, uid)
+    one.must_start_programs()
     as_sent = _paths_of_the_student(scratch, layout, orders["own"])
     try:
         for exercise in orders["exercises"]:

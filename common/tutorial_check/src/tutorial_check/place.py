@@ -7,6 +7,7 @@ import ctypes
 import os
 import resource
 import subprocess
+from pathlib import Path
 from typing import Iterator
 
 PR_SET_PDEATHSIG, PR_SET_DUMPABLE, PR_SET_CHILD_SUBREAPER, PR_SET_NO_NEW_PRIVS = 1, 4, 36, 38
@@ -69,13 +70,14 @@ def own_rights() -> Iterator[None]:
         touch_files_as(user, group)
 
 
-def unused_user(number: int, uid_map: str) -> int | None:
+def unused_user(number: int, uid_map: Path = Path("/proc/self/uid_map")) -> int | None:
     """Return an unused uid for an examination, or None.
 
-    uid_map: /proc/self/uid_map, as lines of first id, its id outside, count. In a container that an
-    ordinary user made, few ids exist, and the lower half of them may be in use.
+    uid_map: lines of first id, its id outside, count. In a container that an ordinary user made, few
+    ids exist, and the lower half of them may be in use. Some kernels map no ids.
     """
-    ranges = [[int(word) for word in line.split()] for line in uid_map.splitlines()]
+    lines = uid_map.read_text().splitlines() if uid_map.exists() else []
+    ranges = [[int(word) for word in line.split()] for line in lines]
     first, _, count = max(ranges, key=lambda each: each[2], default=(0, 0, 2 * UNUSED))
     if first <= UNUSED and first + count >= 2 * UNUSED:
         return UNUSED + number % UNUSED

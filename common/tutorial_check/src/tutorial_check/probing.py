@@ -235,7 +235,7 @@ def delays(
 ) -> list[float]:
     """Return [s] from each Joy to its Twist: the next one, or if some are missing that of its value.
 
-    sent: when each of rising_joys() was; heard: [(when, who, six values)]; factor: of linear.x, or None.
+    sent: when each of rising_joys() was; heard: [(when, sender, six values)]; factor: of linear.x, or None.
     """
     heard = [each for each in heard if math.isfinite(each[2][0])]
     if len(heard) == len(sent):
@@ -244,7 +244,7 @@ def delays(
     often = collections.Counter(round(twist[0], 6) for _, _, twist in heard)
     for when, _, twist in heard:
         if often[round(twist[0], 6)] > 1:
-            continue  # at a limit, or repeated: it does not tell which
+            continue  # at a limit, or repeated: that does not say which
         k = round((twist[0] / factor - SLOW) / STEP) if factor else -1
         # No answer is older than its Joy: then the value tells of another one.
         if 0 <= k < len(sent) and when > sent[k] - EARLY_S:

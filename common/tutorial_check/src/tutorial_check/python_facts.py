@@ -45,6 +45,29 @@ class PythonFacts:
                 self.error_text = lines[self.error_line].strip(" \t")
         self._top = tree.body
         self._nodes = list(ast.walk(tree))
+        self._functions = self._of(ast.FunctionDef)
+        self.functions = {node.name: node.lineno for node in self._functions}
+        self.inner_names = {  # that functions make, or are given
+            name for function in self._functions for _, name in _made(ast.walk(function))
+        }
+        self.has_main = any(map(_is_main, self._nodes))
+        self.loops = [node.lineno for node in self._of(ast.While)]
+        self.globals = [node.lineno for node in self._of(ast.Global)]
+        self.broad_excepts = [
+            handler.lineno
+            for handler in self._of(ast.ExceptHandler)
+            if not handler.type or text_of(handler.type) in ("Exception", "BaseException")
+        ]
+        self.bare_names = [  # (line, text) of statements that do nothing, as rospy.spin without ()
+            (node.lineno, text_of(node.value))
+            for node in self._of(ast.Expr)
+            if isinstance(node.value, (ast.Attribute, ast.Name))
+        ]
+        self.imports = {
+            f"{node.module}.{alias.name}" if isinstance(node, ast.ImportFrom) else alias.name
+            for node in self._of(ast.Import, ast.ImportFrom)
+            for alias in node.names
+        }
 
     def _of(self, *kinds: type[ast.AST]) -> list[Any]:
         return [node for node in self._nodes if isinstance(node, kinds)]
@@ -64,26 +87,9 @@ class PythonFacts:
         return [class_facts(node, set(self.calls)) for node in self._of(ast.ClassDef)]
 
     @property
-    def broad_excepts(self) -> list[int]:
-        """Lines of except: and except Exception:."""
-        broad = ("Exception", "BaseException")
-        handlers = self._of(ast.ExceptHandler)
-        return [each.lineno for each in handlers if not each.type or text_of(each.type) in broad]
-
-    @cached_property
-    def imports(self) -> set[str]:
-        whole = {alias.name for node in self._of(ast.Import) for alias in node.names}
-        parts = self._of(ast.ImportFrom)
-        return whole | {f"{node.module}.{alias.name}" for node in parts for alias in node.names}
-
-    @property
-    def has_main(self) -> bool:
-        return any(map(_is_main, self._nodes))
-
-    @property
     def sunken_main(self) -> Place:
         """(line, function) of an `if __name__ == '__main__':` that stands within a function."""
-        for function in self._of(ast.FunctionDef):
+        for function in self._functions:
             for node in ast.walk(function):
                 if isinstance(node, ast.If) and _is_main(node):
                     return node.lineno, function.name
@@ -112,12 +118,6 @@ class PythonFacts:
         return {name: line for line, name in sorted(found, reverse=True)}
 
     @property
-    def inner_names(self) -> set[str]:
-        """Names that functions make, or are given."""
-        functions = self._of(ast.FunctionDef)
-        return {name for function in functions for _, name in _made(ast.walk(function))}
-
-    @property
     def attributes(self) -> dict[str, tuple[int, str]]:
         """{"msg.linear.x": (first line, what it is set to)}."""
         found = [
@@ -143,10 +143,6 @@ class PythonFacts:
                     found.update(dict.fromkeys(lines, above))
         return found
 
-    @property
-    def functions(self) -> dict[str, int]:
-        return {node.name: node.lineno for node in self._of(ast.FunctionDef)}
-
     @cached_property
     def called_back(self) -> dict[str, list[int]]:
         """{name: lines} of what callbacks call, and what these call."""
@@ -163,7 +159,7 @@ class PythonFacts:
         )
 
     def _called_by(self, given: Iterable[str]) -> dict[str, list[int]]:
-        functions = {node.name: node for node in self._of(ast.FunctionDef)}
+        functions = {node.name: node for node in self._functions}
         waiting = [name.rsplit(".", 1)[-1] for name in given]
         lines: dict[str, set[int]] = {}
         while waiting:
@@ -184,21 +180,6 @@ class PythonFacts:
                 if isinstance(name, str) and not re.fullmatch(r"[A-Za-z]\w*|.*/.*|", name):
                     return node.lineno, name
         return ()
-
-    @property
-    def loops(self) -> list[int]:
-        return [node.lineno for node in self._of(ast.While)]
-
-    @property
-    def globals(self) -> list[int]:
-        return [node.lineno for node in self._of(ast.Global)]
-
-    @property
-    def bare_names(self) -> list[tuple[int, str]]:
-        """(line, text) of statements that do nothing, as rospy.spin without ()."""
-        statements = self._of(ast.Expr)
-        bare = [one for one in statements if isinstance(one.value, (ast.Attribute, ast.Name))]
-        return [(one.lineno, text_of(one.value)) for one in bare]
 
     def first(self, name: str) -> Call | None:
         return next(iter(self.calls.get(name, [])), None)

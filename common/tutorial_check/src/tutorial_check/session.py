@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 import contextlib
+import os
 import re
 import shlex
 from pathlib import Path
-from typing import Any, Callable, Dict, Iterable, Iterator, Mapping, Tuple
+from typing import Any, Callable, Dict, Iterable, Iterator, Tuple
 
 from tutorial_check import student_files
 from tutorial_check.box import Box, Program
 from tutorial_check.environment import environment_of
 from tutorial_check.exercises.manifests import must_be_startable
 from tutorial_check.model import CannotCheck, Wrong, master_gone
-from tutorial_check.place import own_rights
 from tutorial_check.python_facts import PythonFacts, read_python
 from tutorial_check.stage import Stage
 from tutorial_check.workspace import Layout, Package, packages_below
@@ -25,8 +25,6 @@ NEEDS_BUILD = re.compile(
     r"|add_executable|catkin_install_python)\s*\(",
     re.MULTILINE,
 )
-# Prints the first folder that may not be entered.
-TRIAL = '#!/bin/sh\nfor folder do [ -x "$folder" ] || { echo "$folder"; exit; }; done\n'
 Memory = Dict[object, Tuple[Any, Any]]
 
 
@@ -50,42 +48,24 @@ class Session:
         folder: str | Path,
         layout: Layout,
         exercises: Iterable[str],
-        environment: Mapping[str, str],
+        box: Box,
         *,
         underlay: str,
-        make_box: Callable[[Mapping[str, str]], Box],
         can_have_devices: bool,
         needed: Iterable[str | Path] = (),
     ) -> None:
-        """underlay: its setup.bash; environment: of a shell that sourced it.
-
-        needed: files and folders of the suite that the student's launch files lead to.
-        underlay_environment: the same without the student's packages, with folders of this session.
-        """
+        """underlay: its setup.bash; needed: what of the suite the student's launch files lead to."""
         self.folder = Path(folder)
         self.layout = layout
         self.exercises = frozenset(exercises)  # that are asked for
         self.source = self.folder / "ws" / "src"
-        self.underlay = underlay
+        self.box = box
+        self.underlay, self.underlay_environment = underlay, box.environment
         self.can_have_devices = can_have_devices
         self._needed = [Path(each) for each in needed]
         self._memory: Memory = {}
         self._runs: Memory = {}
         self._siblings = 0
-        home = self.folder / "home"
-        self.underlay_environment = {
-            **environment,
-            "PATH": f"{self.folder / 'bin'}:{environment['PATH']}",
-            "HOME": str(home),
-            "TMPDIR": str(self.folder / "tmp"),
-            "ROS_IP": "127.0.0.1",
-            "ROS_HOME": str(home / ".ros"),
-            "ROS_LOG_DIR": str(home / ".ros" / "log"),
-            "DISPLAY": ":99",  # whatever is there: for RViz stands a program that only waits
-            "PYTHONUNBUFFERED": "1",
-            "PYTHONDONTWRITEBYTECODE": "1",
-        }
-        self.box = make_box(self.underlay_environment)
 
     def memo(self, key: object, make: Callable[[], Any]) -> Any:
         """Return make(), called once; what it raised is raised again. For facts, which do not change."""
@@ -183,35 +163,37 @@ class Session:
             self.must_reach_underlay()
         return (program.process.returncode if ended else None), program.output
 
+    # As root, this process opens files with the rights of the user that runs the student's programs.
+
+    def must_start_programs(self) -> None:
+        """Raise CannotCheck if no program can be started in this folder."""
+        try:
+            os.stat(f"{self.folder}/.")
+            why = "noexec" if os.statvfs(self.folder).f_flag & os.ST_NOEXEC else ""
+        except OSError as error:
+            why = str(error.strerror)
+        if why:
+            raise CannotCheck(
+                f"no program can be started in {self.folder.parent} ({why}): set TMPDIR to a"
+                " folder that others may enter, and that is not mounted noexec"
+            )
+
     def must_reach_underlay(self) -> None:
         """Raise CannotCheck if the student's programs cannot read what is the suite's."""
-        self.memo("underlay", lambda: self.must_start_programs(self._needed))
-
-    def must_start_programs(self, needed: Iterable[Path] = ()) -> None:
-        """Raise CannotCheck if no program can be started, or reach the needed files and folders."""
-        script = self.folder / "trial"
-        if not script.exists():  # the second time the folder is closed to us, too
-            script.write_text(TRIAL)
-            script.chmod(0o755)
-        above = (folder for each in needed for folder in (*reversed(each.parents), each))
-        with own_rights():
-            folders = [str(each) for each in dict.fromkeys(above) if each.is_dir()]
-        try:
-            program, _ = self._ended([str(script), *folders])
-        except OSError as error:
-            raise CannotCheck(
-                f"no program can be started in {self.folder.parent} ({error.strerror}): set TMPDIR to a"
-                " folder that others may enter, and that is not mounted noexec"
-            ) from None
-        if program.output:
-            closed = Path(program.output.strip())
-            # What lies below a needed one is as closed; but a home folder is opened no further.
-            is_needed = set(needed) & {closed, *closed.parents}
-            raise CannotCheck(
-                f"{closed} is closed to others, as one of whom the programs run:"
-                f" {'chmod -R o+rX' if is_needed else 'chmod o+x'} {closed},"
-                " or keep this suite, and TUTORIAL_WORKSPACE, where others may enter"
-            )
+        for folder in dict.fromkeys(
+            f for one in self._needed for f in (*reversed(one.parents), one)
+        ):
+            with contextlib.suppress(NotADirectoryError, FileNotFoundError):
+                try:
+                    os.stat(f"{folder}/.")
+                except PermissionError:
+                    # What lies below a needed one is as closed; but a home folder is opened no further.
+                    is_needed = set(self._needed) & {folder, *folder.parents}
+                    how = "chmod -R o+rX" if is_needed else "chmod o+x"
+                    raise CannotCheck(
+                        f"{folder} is closed to others, as one of whom the programs run: {how} {folder},"
+                        " or keep this suite, and TUTORIAL_WORKSPACE, where others may enter"
+                    ) from None
 
     def _needs_build(self) -> bool:
         files = [each.folder / "CMakeLists.txt" for each in self.packages]

@@ -52,7 +52,7 @@ class Stage:
 
     def help(self, make: Callable[[], Any]) -> forked.Helper:
         helper = forked.Helper(make, self._ours)
-        self.box.trust(helper.pid)
+        self.box.trusted.add(helper.pid)
         self._helpers.append(helper)
         return helper
 
