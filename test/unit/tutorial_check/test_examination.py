@@ -25,7 +25,7 @@ def examine(tmp_path, monkeypatch):
     return examined
 
 
-def told(outcomes):
+def found_in(outcomes):
     """{exercise: (ids of its results, trouble)}."""
     return {one.id: ([result.id for result in one.results], one.trouble) for one in outcomes}
 
@@ -39,7 +39,7 @@ def told(outcomes):
 )
 def test_what_was_found_before_it_ended(examine, ending, why):
     outcomes = examine([RESULT, DONE, BEGUN], ending)
-    assert told(outcomes) == {"2": (["C1"], ""), "3": (["C5"], why), "5": ([], why)}
+    assert found_in(outcomes) == {"2": (["C1"], ""), "3": (["C5"], why), "5": ([], why)}
     assert [one.passed for one in outcomes] == [True, False, False]
 
 
@@ -51,13 +51,13 @@ def test_what_was_found_before_the_time_was_over(examine, monkeypatch):
         if outcome.id == "3":
             clock.monotonic = lambda: examination.LONGEST_S + 1
 
-    outcomes = told(examine([RESULT, DONE, BEGUN], "exec sleep 3600", let_it_be_over))
+    outcomes = found_in(examine([RESULT, DONE, BEGUN], "exec sleep 3600", let_it_be_over))
     assert outcomes["2"] == (["C1"], "")
     assert outcomes["3"][0] == ["C5"] and "took longer than 900 s" in outcomes["3"][1]
 
 
 @pytest.mark.parametrize("lines", [[], [RESULT]])
-def test_no_verdict_if_nothing_was_found_or_nobody_wants_it(examine, monkeypatch, lines):
+def test_no_verdict_if_nothing_was_found_or_it_is_no_longer_wanted(examine, monkeypatch, lines):
     if lines:
         monkeypatch.setattr(examination._no_more, "is_set", lambda: True)
     with pytest.raises(CannotCheck, match="ended without a result"):
@@ -69,7 +69,7 @@ def test_what_holds_in_a_shell_of_the_suite(examine, tmp_path, monkeypatch, name
     (tmp_path / "setup.bash").write_text(f"export {name}=of_the_system\n")
     monkeypatch.setenv(name, "of_the_suite")
     outcomes = examine([RESULT], f"""printf '{{"cannot": "%s"}}\\n' "${name}" """)
-    assert told(outcomes)["3"] == ([], "of_the_suite")
+    assert found_in(outcomes)["3"] == ([], "of_the_suite")
 
 
 def test_a_result_that_nobody_asked_for_or_that_comes_twice_is_none(examine):
@@ -82,9 +82,9 @@ def test_a_result_that_nobody_asked_for_or_that_comes_twice_is_none(examine):
         lambda outcome, result: seen.append((outcome.id, result.id, result.status)),
     )
     assert seen == [("2", "C1", "ok")]
-    assert told(outcomes)["2"] == (["C1"], "")
+    assert found_in(outcomes)["2"] == (["C1"], "")
 
 
 def test_the_way_of_the_verdicts_cannot_be_opened_by_a_path(examine):
     script = """echo '{"cannot": "opened"}' >/proc/self/fd/1 && exit; echo shut >&2"""
-    assert told(examine([RESULT], script))["3"][1].endswith("shut")
+    assert found_in(examine([RESULT], script))["3"][1].endswith("shut")

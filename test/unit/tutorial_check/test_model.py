@@ -5,79 +5,55 @@ from dataclasses import replace
 import pytest
 
 from tutorial_check.exercises import all_checks
-from tutorial_check.model import (
-    NOTE,
-    OK,
-    UNREACHED,
-    WRONG,
-    CannotCheck,
-    Check,
-    Note,
-    Run,
-    Wrong,
-    passed,
-)
+from tutorial_check.model import OK, UNREACHED, WRONG, CannotCheck, Check, Note, Run, Wrong, passed
 
-CHECKS = (
-    Check("A", "1", "a", "1"),
-    Check("B", "1", "b", "1", ("A",)),
-    Check("C", "2", "c", "2", ("B",)),
-)
+NEEDS = {"A": ("1", ()), "B": ("1", ("A",)), "C": ("2", ("B",)), "D": ("2", ())}
+CHECKS = [Check(name, one, name, one, needs) for name, (one, needs) in NEEDS.items()]
+ONE, OTHER = Check("A", "1", "a", "1"), Check("B", "2", "b", "2")
+BAD = Wrong("good", "bad", "f:1")
 
 
-def raises(error):
-    def check(session):
-        raise error
-
-    return check
-
-
-def wrong(seen="bad", where="f:1", expected="good", **more):
-    return raises(Wrong(expected, seen, where, **more))
-
-
-def run(checks=CHECKS, busy=None, hopeless=False, **functions):
-    """(Run, ids of the checks that it has called); busy: its answer to whether to look again."""
+def run(checks, busy=False, hopeless=False, **come_to):
+    """(Run, ids of the checks that it has called); come_to: what each comes to, or an iterator."""
     called = []
 
-    def counted(name):
-        function = functions.get(name, lambda session: None)
-        return lambda session: [called.append(name), function(session)][1]
+    def function(name):
+        def call(session):
+            called.append(name)
+            found = come_to.get(name)
+            found = found if isinstance(found, (Exception, Note, type(None))) else next(found)
+            if isinstance(found, Exception):
+                raise found
+            return found
 
-    checks = [replace(check, function=counted(check.id)) for check in checks]
-    return Run(checks, None, lambda explained: bool(busy), lambda: hopeless), called
+        return call
 
-
-def statuses(results):
-    return "; ".join(f"{result.id} {result.status}" for result in results)
-
-
-def independent(*exercises, **options):
-    return tuple(Check(name, one, name, one, **options) for name, one in zip("ABCD", exercises))
-
-
-def test_all_well():
-    one, called = run(B=lambda session: Note("odd"))
-    results = one.exercise("1")
-    assert statuses(results) == f"A {OK}; B {NOTE}" and passed(results)
-    one.exercise("1")
-    assert called == ["A", "B"]
+    checks = [replace(check, function=function(check.id)) for check in checks]
+    return Run(checks, None, lambda explained: busy, lambda: hopeless), called
 
 
-def test_what_needs_something_wrong_is_not_reached():
-    one, called = run(A=wrong())
-    results = one.exercise("1")
-    assert statuses(results) == f"A {WRONG}; B {UNREACHED}" and not passed(results)
-    assert called == ["A"] and "A" in results[1].seen
-    assert statuses(one.exercise("2")) == f"C {UNREACHED}"  # A was reported
+def statuses(one, exercises, **options):
+    found = [result for each in exercises.split() for result in one.exercise(each, **options)]
+    return " ".join(f"{result.id}:{result.status}" for result in found)
 
 
-def test_the_culprit_of_an_earlier_exercise_is_reported_with_the_later_one():
-    assert statuses(run(A=wrong())[0].exercise("2")) == f"A {WRONG}; C {UNREACHED}"
+@pytest.mark.parametrize(
+    ("come_to", "exercises", "expected", "calls"),
+    [
+        ({"B": Note("odd")}, "1 1", "A:ok B:note A:ok B:note", "A B"),
+        ({"A": BAD}, "1 2", "A:wrong B:unreached C:unreached D:ok", "A D"),
+        ({"A": BAD}, "2", "A:wrong C:unreached D:ok", "A D"),  # the culprit with the later one
+    ],
+)
+def test_order(come_to, exercises, expected, calls):
+    one, called = run(CHECKS, **come_to)
+    assert statuses(one, exercises) == expected
+    assert called == calls.split()
+    assert passed(one.exercise("1")) == (BAD not in come_to.values())
 
 
 def test_it_can_end_at_the_first():
-    assert statuses(run(A=wrong())[0].exercise("1", only_first=True)) == f"A {WRONG}"
+    assert statuses(run(CHECKS, A=BAD)[0], "1", only_first=True) == "A:wrong"
 
 
 @pytest.mark.parametrize(
@@ -90,10 +66,16 @@ def test_it_can_end_at_the_first():
     ],
 )
 def test_when_two_checks_are_about_one_cause(expected, where, status):
-    second = wrong("bad", where, expected)
-    one, _ = run(independent("1", "2"), A=wrong("bad", where), B=second)
-    one.exercise("1")
-    assert statuses(one.exercise("2")) == f"B {status}"
+    first, second = Wrong("good", "bad", where), Wrong(expected, "bad", where)
+    assert statuses(run([ONE, OTHER], A=first, B=second)[0], "1 2") == f"A:wrong B:{status}"
+
+
+def test_a_cause_that_was_reported_is_not_looked_for_again():
+    """Else the second look may put it in other words, as if there were two."""
+    second = (Wrong("good", "bad", where) for where in ("f:1", "f"))
+    one, called = run([ONE, OTHER], True, A=iter([BAD, BAD]), B=second)
+    assert statuses(one, "1 2") == "A:wrong B:unreached"
+    assert called == ["A", "A", "B"]
 
 
 @pytest.mark.parametrize(
@@ -104,11 +86,10 @@ def test_when_two_checks_are_about_one_cause(expected, where, status):
     ],
 )
 def test_what_cannot_be_checked_keeps_no_other_check_from_it(error, why):
-    one, _ = run((*CHECKS, Check("D", "2", "d", "2")), A=raises(error))
-    first, second = one.exercise("1"), one.exercise("2")
-    assert statuses(first) == f"A {UNREACHED}; B {UNREACHED}" and not passed(first)
-    assert "could not be checked" in first[0].seen and first[1].seen == "A could not be checked"
-    assert statuses(second) == f"C {UNREACHED}; D {OK}"  # A is reported once
+    one, _ = run(CHECKS, A=error)
+    assert statuses(one, "1 2") == "A:unreached B:unreached C:unreached D:ok"  # A is reported once
+    assert "could not be checked" in one.result("A").seen
+    assert one.result("B").seen == "A could not be checked"
     assert one.trouble("1").startswith(why) and one.trouble("2") == ""
 
 
@@ -120,43 +101,26 @@ def test_what_cannot_be_checked_keeps_no_other_check_from_it(error, why):
         ("sure", True, True, 1, WRONG),
         ("timeless", True, True, 1, WRONG),  # it reads files alone
         ("", True, True, 2, UNREACHED),
+        ("late once", True, False, 2, OK),
     ],
 )
 def test_a_second_look_on_a_busy_machine(about, busy, hopeless, looks, status):
-    checks = independent("1", timeless=about == "timeless")
-    one, called = run(checks, busy, hopeless, A=wrong(sure=about == "sure"))
+    wrong = Wrong("good", "bad", "f:1", sure=about == "sure")
+    check = replace(ONE, timeless=about == "timeless")
+    come_to = iter([wrong, None if about == "late once" else wrong])
+    one, called = run([check], busy, hopeless, A=come_to)
     assert one.result("A").status == status
     assert len(called) == looks
     assert ("the machine has too much else to do" in one.trouble("1")) == (status == UNREACHED)
     assert {"C5", "C13", "C21", "C29"} <= {each.id for each in all_checks() if each.timeless}
 
 
-def test_the_second_look_counts():
-    looks = iter([Wrong("soon", "late"), None])
-
-    def late_once(session):
-        if error := next(looks):
-            raise error
-
-    one, _ = run(independent("1"), True, A=late_once)
-    assert one.result("A").status == OK
-
-
-def test_a_cause_that_was_reported_is_not_looked_for_again():
-    """Else the second look may put it in other words, as if there were two."""
-    looks = iter(["f:1", "f:1", "f:1", "f"])
-
-    def second(session):
-        raise Wrong("good", "bad", next(looks))
-
-    one, _ = run(independent("1", "1"), True, A=second, B=second)
-    assert statuses(one.exercise("1")) == f"A {WRONG}; B {UNREACHED}"
-
-
-@pytest.mark.parametrize(
-    ("where", "explained"), [("scripts/a.py:3", True), ("scripts/a.py", False)]
-)
+@pytest.mark.parametrize(("where", "explained"), [("a.py:3", True), ("a.py", False)])
 def test_a_second_look_knows_whether_a_line_explains_it(where, explained):
     asked = []
-    Run(independent("1", function=wrong(where=where)), None, asked.append).result("A")
+
+    def wrong(session):
+        raise Wrong("good", "bad", where)
+
+    Run([replace(ONE, function=wrong)], None, asked.append).result("A")
     assert asked == [explained]

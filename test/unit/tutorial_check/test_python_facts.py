@@ -105,18 +105,11 @@ def test_the_first_byte_that_is_not_of_the_files_coding(tmp_path, data, line):
     assert (b"SyntaxError" in done.stderr) == (line is not None), done.stderr
 
 
-@pytest.mark.parametrize(
-    "name, odd",
-    [
-        ("'joy-node'", (1, "joy-node")),
-        ("'joy2twist'", ()),
-        ("'a/b'", ()),  # an error
-        ("self.name", ()),
-        ("f'node.{number}'", ()),
-    ],
-)
-def test_a_name_of_which_ros_warns(name, odd):
-    assert read_python(f"rospy.init_node({name}, anonymous=True)").odd_node == odd
+@pytest.mark.parametrize("name", ["'joy-node'", "'joy2twist'", "'a/b'", "self.name", "f'node.{n}'"])
+def test_a_name_of_which_ros_warns(name):
+    """With a / it is an error."""
+    odd = read_python(f"rospy.init_node({name}, anonymous=True)").odd_node
+    assert odd == ((1, "joy-node") if "-" in name else ())
 
 
 @pytest.mark.parametrize(("size", "keeps"), [(", queue_size=1", True), (", queue_size=10", False)])
@@ -131,18 +124,11 @@ def test_the_sleep_before_the_zero(first, line):
     assert late_zero(read_python(text)) == line
 
 
-@pytest.mark.parametrize(
-    "handler",
-    [
-        "\texcept:\n\t\tpass\n",
-        "\texcept: pass\n",
-        "\texcept Exception as error:\n\t\tprint(error)\n",
-        "\texcept:\n\t\tif True:\n\t\t\tpass\n",
-    ],
-)
-def test_what_an_except_hides_is_shown(handler):
+@pytest.mark.parametrize("handler", ["", " Exception", " Exception as error"])
+@pytest.mark.parametrize("block", [" pass", "\n\t\tif True:\n\t\t\tpass"])
+def test_what_an_except_hides_is_shown(handler, block):
     with pytest.raises(ZeroDivisionError):
-        exec(unmasked(f"if True:\n\ttry:\n\t\t1 / 0\n{handler}"), {})
+        exec(unmasked(f"if True:\n\ttry:\n\t\t1 / 0\n\texcept{handler}:{block}\n"), {})
     assert unmasked("x = 1\n") is None
     assert unmasked("def (") is None
 

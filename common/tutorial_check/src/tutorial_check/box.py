@@ -42,7 +42,6 @@ class Program:
         return self.process.poll() is not None
 
     def signal(self, number: int) -> None:
-        """Send a signal to its process group."""
         with contextlib.suppress(ProcessLookupError, PermissionError):
             os.killpg(self.process.pid, number)
 
@@ -201,7 +200,6 @@ class Box:
             program.process.stdout.close()
 
     def interrupt(self, program: Program) -> None:
-        """Press Ctrl-C."""
         program.signal(signal.SIGINT)
 
     def end(self, program: Program, grace_s: float = GRACE_S) -> float | None:

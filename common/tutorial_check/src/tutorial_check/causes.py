@@ -144,12 +144,8 @@ def _rows(text: str) -> list[tuple[str, str]]:
     return [(pattern, words.strip()) for pattern, words in zip(lines[::2], lines[1::2])]
 
 
-ROWS = [
-    row
-    for message, home in HOMES.items()
-    for row in _rows(MISSING_IMPORTS.replace("MESSAGE", message).replace("HOME", home))
-] + _rows(CAUSES)
-SYNTAX_ROWS = _rows(SYNTAX)
+IMPORTS = [MISSING_IMPORTS.replace("MESSAGE", one).replace("HOME", HOMES[one]) for one in HOMES]
+ROWS = [row for text in (*IMPORTS, CAUSES) for row in _rows(text)]
 
 
 def _explained(rows: list[tuple[str, str]], text: str) -> str:
@@ -167,7 +163,7 @@ def explain(error: str, text: str = "") -> str:
 
 def syntax_hint(message: str, text: str) -> str:
     """Return what a SyntaxError most often means here. text: the message's line of the program."""
-    return _explained(SYNTAX_ROWS, f"{message}\n{text}")
+    return _explained(_rows(SYNTAX), f"{message}\n{text}")
 
 
 def with_import(line: str, message: str, facts: PythonFacts) -> str:
@@ -210,15 +206,11 @@ def hider(error: str, script: str, others: Collection[str]) -> tuple[str, str]:
 
 
 def misspelt(error: str, names: Mapping[str, int]) -> str:
-    """Return which name was meant by one that is not defined; empty if none is like it.
-
-    names: {name: line} of what the program defines.
-    """
+    """Return which of the program's names {name: line} was meant by one that is not defined, or empty."""
     found = re.search(UNDEFINED, error)
     if not found or found[1] in names or found[1] in HOMES:
         return ""
-    near = difflib.get_close_matches(found[1], names, 3, 0.6)
-    near = [each for each in near if each[0].lower() == found[1][0].lower()]
-    if not near:
-        return ""
-    return f"{near[0]} in line {names[near[0]]}, {found[1]} here: one name for one thing"
+    for near in difflib.get_close_matches(found[1], names, 3, 0.6):
+        if near[0].lower() == found[1][0].lower():
+            return f"{near} in line {names[near]}, {found[1]} here: one name for one thing"
+    return ""

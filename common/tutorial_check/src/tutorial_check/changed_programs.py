@@ -43,8 +43,9 @@ def without_name(text: str, name: str) -> str | None:
     """Return the program without something that it imports; None if it does not import it by name."""
     lines = python_lines(text)
     for node in _nodes(text):
-        imported = node.names if isinstance(node, ast.ImportFrom) else []
-        if name in {each.asname or each.name for each in imported}:
+        if not isinstance(node, ast.ImportFrom):
+            continue
+        if name in {each.asname or each.name for each in node.names}:
             line = lines[node.lineno - 1]
             margin = line[: len(line) - len(line.lstrip())]
             lines.insert(node.end_lineno or node.lineno, f"{margin}del {name}")

@@ -36,7 +36,6 @@ def _joy(values: tuple[Sequence[float], Sequence[int]]) -> Joy:
 
 
 def _plain(message: Any) -> Any:
-    """Return a message as numbers or text."""
     if isinstance(message, Twist):
         return tuple(
             getattr(part, axis) for part in (message.linear, message.angular) for axis in "xyz"
@@ -99,7 +98,6 @@ class Driver:
             logging.getLogger(name).addHandler(self._warnings)
 
     def warnings(self) -> list[str]:
-        """Return what rospy complained of."""
         return self._warnings.lines
 
     def advertise(self, topic: str, kind: str) -> None:
@@ -108,7 +106,6 @@ class Driver:
         )
 
     def listen(self, topic: str, kind: str) -> None:
-        """Keep what comes from now on."""
         self._heard[topic] = []
         self._subscribers[topic] = rospy.Subscriber(
             topic, KINDS[kind], self._keep, topic, tcp_nodelay=True
@@ -120,7 +117,6 @@ class Driver:
             self._heard[topic].append((time.monotonic(), caller, _plain(message)))
 
     def listeners(self, topic: str) -> int:
-        """Return how many are connected to our publisher."""
         return int(self._publishers[topic].get_num_connections())
 
     def speakers(self, topic: str) -> int:
@@ -128,11 +124,9 @@ class Driver:
         return int(self._subscribers[topic].get_num_connections())
 
     def heard(self, topic: str, since: int = 0) -> list[tuple[float, str, Any]]:
-        """Return (monotonic time, sender, value) of each from the given index on."""
         return self._heard[topic][since:]
 
     def count(self, topic: str) -> int:
-        """Return how many were heard."""
         return len(self._heard[topic])
 
     def send(self, topic: str, values: Any) -> float:
@@ -157,7 +151,6 @@ class Driver:
                 return
 
     def sent(self, topic: str) -> list[float]:
-        """Return when each message of the stream was sent."""
         return list(self._sent[topic])
 
     def end_stream(self, topic: str) -> None:
@@ -170,7 +163,6 @@ class Driver:
         return {}, {}  # the master has gone; see Stage.master_lives
 
     def types(self) -> dict[str, str]:
-        """Return {topic: type}."""
         with contextlib.suppress(OSError, rosgraph.MasterException):
             return dict(self._master.getTopicTypes())
         return {}

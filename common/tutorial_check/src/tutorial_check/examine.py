@@ -61,7 +61,6 @@ def main() -> None:
 
 def examine(orders: dict[str, Any], send: Send, result: int) -> None:
     """Examine. orders: layout, folder, underlay, exercises, apart, only_first ...; result: see Box."""
-    began_s = time.monotonic()
     scratch = Path(orders["folder"])
     root, source, is_workspace = orders["layout"]
     layout = workspace.Layout(Path(root), Path(source), is_workspace)
@@ -99,7 +98,6 @@ def examine(orders: dict[str, Any], send: Send, result: int) -> None:
         os.setgroups([])
         place.touch_files_as(uid, uid)
     as_sent = _paths_of_the_student(scratch, layout, orders["own"])
-    times = {"prepare": round(time.monotonic() - began_s, 2)}
     try:
         for exercise in orders["exercises"]:
             began_s = time.monotonic()
@@ -114,8 +112,6 @@ def examine(orders: dict[str, Any], send: Send, result: int) -> None:
                 break
     finally:
         one.box.clear()  # a build, too, is ended; where no namespace is, nothing else does that
-    if "TUTORIAL_CHECK_TIMES" in os.environ:
-        print({**times, **run.seconds}, file=sys.stderr)
 
 
 def _paths_of_the_student(

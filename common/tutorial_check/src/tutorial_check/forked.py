@@ -66,7 +66,6 @@ class Helper:
         return value
 
     def end(self) -> None:
-        """End the process."""
         self._process.kill()
         self._process.join()
         self._line.close()
@@ -118,4 +117,4 @@ class MasterProcess:
         end = time.monotonic() + 30
         while self._master.uri is None and time.monotonic() < end:
             time.sleep(0.002)
-        return self._master.uri  # type: ignore[no-any-return]
+        return self._master.uri

@@ -76,13 +76,9 @@ class Evidence:
     at_rest: Sequence[float] | None = None
 
     def __post_init__(self) -> None:
-        """Find the rules."""
+        twists = [twist for _, twist in self.samples]
         self.rules = {index: rule_of(index, self.samples) for index in range(6)}
-        self.moving = [
-            index
-            for index in range(6)
-            if any(abs(twist[index]) > SMALL for _, twist in self.samples)
-        ]
+        self.moving = [i for i in range(6) if any(abs(twist[i]) > SMALL for twist in twists)]
         self.fields = [Field(self, index, axis) for index, axis in RIGHT.items()]
 
     @property
@@ -100,42 +96,27 @@ class Field:
 
     def __init__(self, evidence: Evidence, index: int, axis: int) -> None:
         self.name, self.axis, self.across_axis = FIELDS[index], axis, 1 - axis
+        self.sides = ("forwards", "backwards") if axis == 1 else ("left", "right")
         self.values = [twist[index] for _, twist in evidence.samples]
         self.given = [axes[axis] for axes, _ in evidence.samples]
         self.across = [axes[1 - axis] for axes, _ in evidence.samples]
+        self.pairs = list(zip(self.given, self.values))
         self.rule = evidence.rules[index]
         self.is_right = bool(self.rule and self.rule.axis == axis and self.rule.factor > 0)
         self.is_still = index not in evidence.moving
         other = evidence.rules[ANGULAR if index == LINEAR else LINEAR]
-        self.is_swapped = bool(
-            self.rule and other and (self.rule.axis, other.axis) == (1 - axis, axis)
-        )
-        self.misplaced = next(
-            (
-                FIELDS[each]
-                for each in evidence.moving
-                if each not in RIGHT and (rule := evidence.rules[each]) and rule.axis == axis
-            ),
-            "",
-        )
+        crossed = (1 - axis, axis)
+        self.is_swapped = self.rule and other and (self.rule.axis, other.axis) == crossed
+        strange = [each for each in evidence.moving if each not in RIGHT]
+        followers = [FIELDS[each] for each in strange if _axis(evidence.rules[each]) == axis]
+        self.misplaced = "".join(followers[:1])
         self.at_rest = evidence.at_rest[index] if evidence.at_rest else 0.0
         earlier = {tuple(axes): twist[index] for axes, twist in evidence.again}
-        self.other_answer = next(
-            (
-                (earlier[tuple(axes)], value)
-                for (axes, _), value in zip(evidence.samples, self.values)
-                if tuple(axes) in earlier and not is_near(earlier[tuple(axes)], value)
-            ),
-            None,
-        )
-
-    @property
-    def sides(self) -> tuple[str, str]:
-        """Return where the stick is pushed, and where a wrong sign takes the robot."""
-        return ("forwards", "backwards") if self.axis == 1 else ("left", "right")
+        keys = [tuple(axes) for axes, _ in evidence.samples]
+        both = [(earlier[key], now) for key, now in zip(keys, self.values) if key in earlier]
+        self.other_answer = next((each for each in both if not is_near(*each)), None)
 
     def follows(self, inputs: Iterable[float]) -> bool:
-        """Return whether the field is in proportion to these."""
         return bool(factor_of(self.values, list(inputs)))
 
     @property
@@ -143,49 +124,38 @@ class Field:
         """Return whether it grows with the axis to either side: abs(), or a square."""
         if self.follows(map(abs, self.given)):
             return True
-        pairs = sorted((abs(given), value) for given, value in zip(self.given, self.values))
-        return pairs[0][1] > SMALL and _rises([value for _, value in pairs]) and self.varies
-
-    @property
-    def varies(self) -> bool:
-        """Return whether there are many values."""
-        return len({round(value, 6) for value in self.values}) > 0.6 * len(self.values)
+        values = [value for _, value in sorted((abs(given), value) for given, value in self.pairs)]
+        varies = len({round(value, 6) for value in values}) > 0.6 * len(values)
+        return values[0] > SMALL and _rises(values) and varies
 
     @property
     def adds_up(self) -> bool:
-        """Return whether each Joy adds to the value before."""
-        if len(self.values) < 4:
-            return False
         steps = [after - before for before, after in zip(self.values, self.values[1:])]
-        factor = steps[-1] / self.given[-1] if self.given[-1] else 0.0
+        if len(steps) < 3 or not self.given[-1]:
+            return False
+        factor = steps[-1] / self.given[-1]
         # Values that only change sign are nearly twice as much as those before.
         fits = (abs(step - factor * each) < 1e-3 for step, each in zip(steps, self.given[1:]))
         return abs(factor) > 1e-2 and all(fits)
 
     @property
     def side_left_out(self) -> str:
-        """Return on which side of 0 the axis does nothing; empty if on none."""
         for sign, side in ((1, "below"), (-1, "above")):
-            rest = [value for value, each in zip(self.values, self.given) if sign * each < 0]
-            pairs = [
-                (abs(each), abs(value))
-                for value, each in zip(self.values, self.given)
-                if sign * each > 0
-            ]
-            if not any(rest) and _rises([value for _, value in sorted(pairs)]):
+            rest = [value for given, value in self.pairs if sign * given < 0]
+            pairs = sorted((abs(g), abs(value)) for g, value in self.pairs if sign * g > 0)
+            if not any(rest) and _rises([value for _, value in pairs]):
                 return side
         return ""
 
     @property
     def offset(self) -> str | None:
-        """Return what is added to the axis."""
-        offsets = [value - each for value, each in zip(self.values, self.given)]
+        offsets = [value - given for given, value in self.pairs]
         return f"{offsets[0]:.2f}" if max(offsets) - min(offsets) < 0.02 else None
 
     @property
     def steps(self) -> str:
         """Return the values if there are few for many positions; zero and a limit may be many."""
-        found = {abs(given): abs(value) for given, value in zip(self.given, self.values)}.values()
+        found = {abs(given): abs(value) for given, value in self.pairs}.values()
         limit = max(found)
         between = [round(value, 6) for value in found if SMALL < value < limit - SMALL]
         limited = sum(value >= limit - SMALL for value in found)
@@ -196,11 +166,13 @@ class Field:
 
     @property
     def is_curve(self) -> bool:
-        """Return whether it grows with the axis and has its sign, as beyond a dead zone."""
-        pairs = sorted(zip(self.given, self.values))
-        signs = all(value * given >= -SMALL for given, value in pairs)
-        is_moved = min(pairs[-1][1], -pairs[0][1]) > 0.05
-        return _rises([value for _, value in pairs]) and signs and is_moved
+        values = [value for _, value in sorted(self.pairs)]
+        signs = all(value * given >= -SMALL for given, value in self.pairs)
+        return _rises(values) and signs and min(values[-1], -values[0]) > 0.05
+
+
+def _axis(rule: Rule | None) -> int | None:
+    return rule.axis if rule else None
 
 
 def _rises(values: Sequence[float]) -> bool:

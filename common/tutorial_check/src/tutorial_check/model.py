@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import time
 import traceback
 from dataclasses import dataclass
 from pathlib import Path
@@ -117,14 +116,11 @@ class Run:
         self._blocked_by: dict[str, list[Result]] = {}  # of each check not reached
         self._reported: set[str] = set()
         self._troubles: dict[str, str] = {}  # id of a check that could not be made: why
-        self.seconds: dict[str, float] = {}  # that each check took, with those it needs
 
     def result(self, check_id: str) -> Result:
         """Return the Result of a check; make it now if it was not yet."""
         if check_id not in self._done:
-            began_s = time.monotonic()
             self._done[check_id] = self._make(self._checks[check_id])
-            self.seconds[check_id] = round(time.monotonic() - began_s, 2)
         return self._done[check_id]
 
     def exercise(

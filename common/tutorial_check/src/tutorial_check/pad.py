@@ -22,17 +22,9 @@ class Pad:
             os.unlink(path)
         self._pad = StreamPad(F710[mode], path)
         os.chmod(path, 0o666)
-        self._buttons = len(F710[mode].buttons)
-        self._axes = len(F710[mode].axes)
-        self._position = self._at(0.0, 0.0, 0)
+        self._mode = F710[mode]
+        self.release()
         threading.Thread(target=self._serve, daemon=True).start()
-
-    def _at(
-        self, left: float, forwards: float, lb: int
-    ) -> tuple[tuple[float, ...], tuple[int, ...]]:
-        buttons = [0] * self._buttons
-        buttons[4] = lb
-        return (left, forwards, *(0.0,) * (self._axes - 2)), tuple(buttons)
 
     def _serve(self) -> None:
         while True:
@@ -40,13 +32,12 @@ class Pad:
             time.sleep(PERIOD_S)
 
     def connected(self) -> bool:
-        """Return whether a driver reads it."""
         return bool(self._pad.connected)
 
-    def push(self, left: float, forwards: float) -> None:
+    def push(self, left: float, forwards: float, lb: int = 1) -> None:
         """Hold LB and put the stick there."""
-        self._position = self._at(left, forwards, 1)
+        axes = (left, forwards, *(0.0 for _ in self._mode.axes[2:]))
+        self._position = axes, (0, 0, 0, 0, lb, *(0 for _ in self._mode.buttons[5:]))
 
     def release(self) -> None:
-        """Let go of all."""
-        self._position = self._at(0.0, 0.0, 0)
+        self.push(0.0, 0.0, lb=0)

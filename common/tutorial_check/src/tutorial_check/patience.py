@@ -32,7 +32,6 @@ def fields_of(stat: str) -> list[bytes]:
 
 
 def times(proc: str = "/proc") -> Times:
-    """Return the Times of all threads that can be seen."""
     found = {}
     for process in filter(str.isdigit, os.listdir(proc)):
         with contextlib.suppress(OSError):  # ended meanwhile
@@ -118,7 +117,6 @@ class Patience:
         return any(now_s - self._changed_s[each] > STARVED_S for each in self._ready_threads())
 
     def crowd(self) -> int:
-        """Return how many processes the programs are."""
         return len({process for process, _, _ in self._last.values()} - self._ours)
 
     def begin(self) -> None:

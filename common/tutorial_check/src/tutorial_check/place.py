@@ -25,7 +25,6 @@ LIMITS = {
 
 
 def prctl(option: int, value: int) -> None:
-    """Set an attribute of this process."""
     ctypes.CDLL(None).prctl(option, value, 0, 0, 0)
 
 
@@ -55,7 +54,6 @@ def touch_files_as(user: int, group: int) -> None:
 
 
 def restore_rights() -> None:
-    """Let this process open files as itself again."""
     touch_files_as(os.geteuid(), os.getegid())
 
 

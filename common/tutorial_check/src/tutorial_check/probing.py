@@ -114,11 +114,6 @@ class Silence:
     last: Sequence[float] = (1.0,)
 
     @property
-    def has_stopped(self) -> bool:
-        """Return whether LB was released before already, and a zero came then."""
-        return not self.joy[1][LB] and not self.before[1][LB] and not any(self.last)
-
-    @property
     def still_axis(self) -> str:
         """Return which axis is 0, of one that is moved alone."""
         return next((f"axes[{axis}]" for axis in RIGHT.values() if not self.joy[0][axis]), "")
@@ -126,7 +121,8 @@ class Silence:
 
 ALWAYS = "publish for every Joy, with no `if` around it"
 SILENCES = (
-    Row(lambda s: s.has_stopped, "only one zero after LB is released, and then silence",
+    Row(lambda s: not s.joy[1][LB] and not s.before[1][LB] and not any(s.last),
+        "only one zero after LB is released, and then silence",
         "without LB publish Twist(), all zero, for every Joy, not only for the first"),
     Row(lambda s: s.joy == s.before, "no Twist for the same Joy again",
         ALWAYS + ": not only for a new one"),
@@ -164,33 +160,25 @@ class Reply:
 
     @property
     def other(self) -> str:
-        """Return which button is pressed besides LB, or an empty text."""
         return _other_button(self.joy[1])
 
     @property
     def differs(self) -> bool:
-        """Return whether the same Joy had another answer."""
         return not is_near(self.value, self.again)
-
-    @property
-    def keeps(self) -> bool:
-        """Return whether the robot goes on as before."""
-        return is_near(self.value, self.before) and abs(self.value) > SMALL
 
     @property
     def drives_on(self) -> str:
         """Return how the robot moves where it should not; empty if it does not."""
         given = self.joy[0][self.axis]
+        keeps = is_near(self.value, self.before) and abs(self.value) > SMALL
         # A button may turn the direction while it is held, but at rest the robot stands.
         against = self.value * given < 0 and not self.other
-        is_odd = not given or against or (self.keeps and self.differs)
-        if abs(self.value) <= SMALL or not is_odd:
+        if abs(self.value) <= SMALL or not (not given or against or (keeps and self.differs)):
             return ""
-        return "stays" if self.keeps else "is"
+        return "stays" if keeps else "is"
 
     @property
     def when(self) -> str:
-        """Return at which Joy this came."""
         lb = "" if self.joy[1][LB] else " and LB released"
         other = f" and {self.other} pressed" if self.other else ""
         return f"axes[{self.axis}] is {self.joy[0][self.axis]:.2f}{lb}{other}"
@@ -234,13 +222,10 @@ def judge_probes(samples: Sequence[Sample], answers: Iterable[Answer]) -> tuple[
         for (axes, buttons), twist in answers
         if buttons == _pressed(LB) and (not any(axes) or max(map(abs, axes)) > SLOWEST)
     ]
-    for axes, twist in held:
-        for field, axis in RIGHT.items():
-            if not axes[1 - axis] and axes[axis] and not any(twist):
-                return (
-                    f"{FIELDS[field]} is 0 when axes[{axis}] alone is moved",
-                    f"{FIELDS[field]} = axes[{axis}], whatever the other axis is",
-                )
+    for field, axis in RIGHT.items():
+        if any(axes[axis] and not axes[1 - axis] and not any(twist) for axes, twist in held):
+            seen = f"{FIELDS[field]} is 0 when axes[{axis}] alone is moved"
+            return seen, f"{FIELDS[field]} = axes[{axis}], whatever the other axis is"
     complaint, hint = judge(Evidence([*samples, *held]))
     return (complaint, hint) if complaint else ("", "")
 
@@ -270,12 +255,8 @@ def delays(
 def displayed(joys: Iterable[Joy], output: str) -> list[Joy]:
     """Return the Joys of which a line has all axes, with two decimals or more."""
     lines = [[float(word) for word in NUMBER.findall(line)] for line in output.splitlines()]
-    lines = [line for line in lines if len(line) >= 6]
-    return [
-        joy
-        for joy in joys
-        if any(
-            all(any(abs(axis - seen) < 0.0056 for seen in line) for axis in joy[0])
-            for line in lines
-        )
-    ]
+
+    def has(line: list[float], joy: Joy) -> bool:
+        return all(any(abs(axis - seen) < 0.0056 for seen in line) for axis in joy[0])
+
+    return [joy for joy in joys if any(len(line) >= 6 and has(line, joy) for line in lines)]

@@ -115,7 +115,7 @@ def check_all(options: argparse.Namespace) -> int:
         write(out / name, make(students, options.exercises))
     print(f"{out}/table.html, table.csv, and a report of each")
     outcomes = [outcome for student in students for outcome in student.outcomes]
-    if any(one.trouble for one in (*students, *outcomes)):
+    if any(one.trouble for one in students) or any(one.trouble for one in outcomes):
         return 2
     return 0 if all(outcome.passed for outcome in outcomes) else 1
 

@@ -124,7 +124,6 @@ def write_files(files: dict[str, str], outcomes: list[Outcome]) -> None:
 
 
 def check_one(options: argparse.Namespace) -> int:
-    """Check a workspace; return the exit code."""
     files = {name: getattr(options, name) for name in FORMATS if getattr(options, name)}
     for file in files.values():
         clear(file)

@@ -145,7 +145,6 @@ class PythonFacts:
 
     @property
     def functions(self) -> dict[str, int]:
-        """{function or method: line}."""
         return {node.name: node.lineno for node in self._of(ast.FunctionDef)}
 
     @cached_property
@@ -188,12 +187,10 @@ class PythonFacts:
 
     @property
     def loops(self) -> list[int]:
-        """Lines of `while`."""
         return [node.lineno for node in self._of(ast.While)]
 
     @property
     def globals(self) -> list[int]:
-        """Lines of `global`."""
         return [node.lineno for node in self._of(ast.Global)]
 
     @property
@@ -204,7 +201,6 @@ class PythonFacts:
         return [(one.lineno, text_of(one.value)) for one in bare]
 
     def first(self, name: str) -> Call | None:
-        """Return the first call of that name."""
         return next(iter(self.calls.get(name, [])), None)
 
     @property

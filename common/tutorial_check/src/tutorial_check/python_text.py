@@ -47,5 +47,4 @@ def text_of(node: ast.AST) -> str:
 
 
 def last_name(node: ast.Call) -> str:
-    """Return the last part of the name of what is called."""
     return text_of(node.func).rsplit(".", 1)[-1]

@@ -18,7 +18,6 @@ MARGIN = " " * 11
 
 
 def lines_of(result: Result, hints: bool = True) -> list[str]:
-    """Return the lines of the report of one check."""
     head = f"  {WORDS[result.status]:<6} {result.id:<4}{result.title}"
     if result.status == OK:
         return [head + (f"  ({result.seen})" if result.seen else "")]
@@ -38,12 +37,10 @@ def lines_of(result: Result, hints: bool = True) -> list[str]:
 
 
 def heading(outcome: Outcome) -> str:
-    """Return the line above an exercise."""
     return f"{outcome.id} {EXERCISES[outcome.id]}"
 
 
 def summary(outcomes: Sequence[Outcome]) -> str:
-    """Return the last line."""
     passed = [outcome for outcome in outcomes if outcome.passed]
     empty = [outcome.id for outcome in passed if outcome.empty]
     rest = f" ({', '.join(empty)}: nothing to check)" if empty else ""
@@ -76,11 +73,9 @@ class Terminal:
             print(f"\r\x1b[K{words}", end="", file=self._out, flush=True)
 
     def done(self) -> None:
-        """Take that line away."""
         self.busy("")
 
     def result(self, outcome: Outcome, result: Result) -> None:
-        """Print one result."""
         self.done()
         if self._heading != outcome.id:
             self._heading = outcome.id

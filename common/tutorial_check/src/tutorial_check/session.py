@@ -36,9 +36,9 @@ def _once(memory: Memory, key: object, make: Callable[[], Any]) -> Any:
             memory[key] = make(), None
         except Wrong as wrong:
             memory[key] = None, wrong
-    value, wrong = memory[key]
-    if wrong:
-        raise wrong
+    value, error = memory[key]
+    if error:
+        raise error
     return value
 
 
@@ -111,10 +111,9 @@ class Session:
 
     @property
     def packages(self) -> list[Package]:
-        return self.memo("packages", lambda: packages_below(self.source))  # type: ignore[no-any-return]
+        return self.memo("packages", lambda: packages_below(self.source))
 
     def package(self, name: str) -> Any:
-        """Return the Package of that name, or None."""
         return next((each for each in self.packages if each.name == name), None)
 
     def scripts(self, name: str) -> Any:
@@ -122,7 +121,9 @@ class Session:
         return self.memo(("scripts", name), lambda: dict(self._scripts(self.package(name))))
 
     def _scripts(self, package: Package | None) -> Iterator[tuple[str, PythonFacts]]:
-        for path in sorted(package.folder.rglob("*")) if package else []:
+        if package is None:
+            return
+        for path in sorted(package.folder.rglob("*")):
             inside = path.relative_to(package.folder)
             # What editors and file managers keep for themselves is hidden.
             if not path.is_file() or any(part.startswith(".") for part in inside.parts):

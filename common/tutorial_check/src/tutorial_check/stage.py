@@ -48,11 +48,9 @@ class Stage:
         self.call("set_parameter", "/rosout_disable_topics_generation", False)
 
     def start(self, package: str, script: str, *arguments: str) -> Program:
-        """Start a script of the student's."""
         return self.launch([*self.session.command(package, script), *arguments])
 
     def help(self, make: Callable[[], Any]) -> forked.Helper:
-        """Return a forked.Helper for as long as the stage stands."""
         helper = forked.Helper(make, self._ours)
         self.box.trust(helper.pid)
         self._helpers.append(helper)
@@ -70,7 +68,6 @@ class Stage:
         return self.launch([str(path), *arguments], trusted=True)
 
     def launch(self, command: Sequence[str], trusted: bool = False) -> Program:
-        """Start a command on this master."""
         try:
             return self.box.start(command, self._ours if trusted else self.environment, trusted)
         except OSError as error:
@@ -94,7 +91,6 @@ class Stage:
         return self.wait(condition, deadline_s, or_idle=True)
 
     def end(self) -> None:
-        """End everything on this stage."""
         self.box.clear()
         for helper in reversed(self._helpers):
             helper.end()

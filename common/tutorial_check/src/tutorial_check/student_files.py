@@ -33,19 +33,15 @@ def read(base: Path, path: Path) -> bytes:
 @contextlib.contextmanager
 def _folder_of(base: Path, path: Path) -> Iterator[Tuple[int, str]]:
     """Yield (descriptor of the folder that a file is in, its name there)."""
-    *between, name = Path(path).relative_to(base).parts
-    flags = os.O_RDONLY | os.O_DIRECTORY
-    folder = -1
+    wanted = os.path.normpath(os.path.realpath(base) / path.parent.relative_to(base))
     try:
-        folder = os.open(base, flags)
-        for part in between:
-            below = os.open(part, flags | os.O_NOFOLLOW, dir_fd=folder)
+        folder = os.open(path.parent, os.O_RDONLY | os.O_DIRECTORY)
+        try:
+            if os.readlink(f"/proc/self/fd/{folder}") != wanted:
+                raise OSError("its folder is a link")
+            yield folder, path.name
+        finally:
             os.close(folder)
-            folder = below
-        yield folder, name
     except OSError as error:
         why = error.strerror or error
         raise CannotCheck(f"{path} is not as it was: a program changed it: {why}") from None
-    finally:
-        if folder >= 0:
-            os.close(folder)

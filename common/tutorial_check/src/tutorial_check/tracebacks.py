@@ -27,32 +27,28 @@ def first_traceback(output: str, folder: str) -> Traceback | None:
 
     folder: the package's; its files count as the student's.
     """
-    blocks = output.split("Traceback (most recent call last)")[1:]
     found: list[Traceback] = []
     is_closed = False
-    for block in reversed(blocks[:50]):
-        if not block.strip(": \n"):  # cut off behind this line, it tells nothing
-            continue
-        trace = _traceback(block, folder)
-        # What led to such an end, which rospy tells before it, is none, either.
-        is_closed = bool(CLOSED.search(trace.error)) or (is_closed and ABOVE in block)
-        found += [] if is_closed else [trace]
+    for block in reversed(output.split("Traceback (most recent call last)")[1:51]):
+        if block.strip(": \n"):  # else it was cut off behind this line
+            trace = _traceback(block, folder)
+            # What led to such an end, which rospy reports before it, is none, either.
+            is_closed = bool(CLOSED.search(trace.error)) or (is_closed and ABOVE in block)
+            found += [] if is_closed else [trace]
     return next((trace for trace in found[::-1] if trace.where), found[-1] if found else None)
 
 
 def _traceback(block: str, folder: str) -> Traceback:
-    lines = block.splitlines()
-    where = text = error = ""
-    for number, line in enumerate(lines[1:], 1):
+    lines = [*block.splitlines(), ""]
+    where = text = ""
+    for line, below in zip(lines[1:], lines[2:]):
         frame = FRAME.match(line)
-        if frame:
-            if frame["file"].startswith(folder):
-                where = f"{frame['file'][len(folder) :].lstrip('/')}:{frame['line']}"
-                text = lines[number + 1].strip() if number + 1 < len(lines) else ""
+        if frame and frame["file"].startswith(folder):
+            where = f"{frame['file'][len(folder) :].lstrip('/')}:{frame['line']}"
+            text = below.strip()
         elif ERROR.match(line):
-            error = line.strip()
-            break
-    return Traceback(error or lines[-1].strip(), where, text)
+            return Traceback(line.strip(), where, text)
+    return Traceback(lines[-2].strip(), where, text)
 
 
 def last_lines(output: str, count: int = 3) -> str:

@@ -50,7 +50,6 @@ def watch(options: argparse.Namespace) -> int:
 
 
 def report_once(options: argparse.Namespace) -> None:
-    """Check exercise after exercise, up to the first thing wrong."""
     terminal = Terminal()
     terminal.busy("copying and preparing ...")
     try:

@@ -54,7 +54,7 @@ def hand_in(given: str | Path, folder: Path) -> tuple[Layout, Path]:
     A folder with nothing but a zip, as Moodle has it, is that zip. Raises CannotCheck.
     """
     given = archive = Path(given)
-    if not given.is_file():
+    if not os.path.isfile(given):
         layout = find_layout(given)
         zips = [] if layout.source.is_dir() else [*filter(is_zip, sorted(given.iterdir()))]
         if len(zips) != 1 or packages_below(given):
@@ -80,16 +80,13 @@ def unpack(archive: Path, folder: Path) -> None:
             for member in members:
                 # Of an older PowerShell, whose zips have them against the rule.
                 member.filename = member.filename.replace("\\", "/")
-                path = Path(member.filename)
+                path, mode = Path(member.filename), member.external_attr >> 16
                 if path.is_absolute() or ".." in path.parts:
                     raise CannotCheck(f"{archive}: has a path outside of itself: {member.filename}")
-                if stat.S_ISLNK(member.external_attr >> 16):
-                    continue
-                target = Path(opened.extract(member, folder))
+                target = folder if stat.S_ISLNK(mode) else Path(opened.extract(member, folder))
                 if target.is_file():
                     # One made on Windows knows no rights; then chmod +x cannot be judged.
-                    mode = (member.external_attr >> 16) & 0o777
-                    target.chmod((mode or 0o755) | 0o600)
+                    target.chmod((mode & 0o777 or 0o755) | 0o600)
     except CannotCheck:
         raise
     except Exception as error:  # each way to pack has errors of its own for broken bytes
@@ -99,11 +96,12 @@ def unpack(archive: Path, folder: Path) -> None:
 def find_layout(folder: str | Path) -> Layout:
     """Return the Layout of a workspace, its src, a folder of packages, or one package."""
     folder = Path(folder)
-    if not folder.exists():
-        raise CannotCheck(f"{folder}: no such folder")
-    if not folder.is_dir():
-        raise CannotCheck(f"{folder}: neither a folder nor a zip")
     try:
+        if not folder.exists():
+            hint = "./tutorial shell --in FOLDER makes a workspace"
+            raise CannotCheck(f"{folder}: no such folder or zip; {hint}")
+        if not folder.is_dir():
+            raise CannotCheck(f"{folder}: neither a folder nor a zip")
         for candidate in (folder, *_only_child(folder)):
             if (candidate / "src").is_dir() and not (candidate / "package.xml").exists():
                 return Layout(candidate, candidate / "src", True)
@@ -119,11 +117,8 @@ def find_layout(folder: str | Path) -> Layout:
 def _only_child(folder: Path) -> Iterator[Path]:
     """Yield folders around everything, as a zip or a repository often has one; two at most."""
     for _ in range(2):
-        inner = [
-            each
-            for each in folder.iterdir()
-            if each.is_dir() and each.name != "__MACOSX" and not each.name.startswith(".")
-        ]
+        inner = [each for each in folder.iterdir() if each.is_dir() and each.name[0] != "."]
+        inner = [each for each in inner if each.name != "__MACOSX"]
         if len(inner) != 1:
             return
         folder = inner[0]
@@ -157,68 +152,48 @@ def copy(layout: Layout, target: Path, inside: str | Path | None = None) -> Path
 
 @dataclass
 class _Copying:
+    """What lies at a path may change meanwhile: it is first held, then looked at, then opened."""
+
     target: str
     inside: str | None
     size: int = 0
     count: int = 0
 
-    def open(self, path: Path) -> int | None:
-        """Return the descriptor of a file or folder; None if it is something else, or lies outside.
-
-        What lies at the path may change meanwhile: so it is first held, then looked at, then opened.
-        """
-        try:
-            held = os.open(path, os.O_PATH | os.O_CLOEXEC)
-        except PermissionError:
-            raise
-        except OSError:  # a link to nowhere, or to itself
-            return None
-        try:
-            mode = os.fstat(held).st_mode
-            if self.inside and not f"{_path_of(held)}/".startswith(f"{self.inside}/"):
-                return None
-            if not (stat.S_ISDIR(mode) or stat.S_ISREG(mode)):
-                return None
-            return os.open(f"/proc/self/fd/{held}", os.O_RDONLY | os.O_CLOEXEC)
-        finally:
-            os.close(held)
-
     def copy(self, source: Path, target: Path, seen: frozenset[str]) -> None:
-        """Copy a file, or what is in a folder."""
-        try:
-            descriptor = self.open(source)
-        except PermissionError:
-            raise CannotCheck(f"{source}: may not be read; chmod -R u+rX would help") from None
-        if descriptor is None:
-            return
-        try:
-            if stat.S_ISREG(os.fstat(descriptor).st_mode):
-                self._copy_file(descriptor, source, target)
+        """Copy a file, or what is in a folder; nothing else, and nothing that lies outside."""
+        with contextlib.ExitStack() as stack:
+            try:
+                held = os.open(source, os.O_PATH | os.O_CLOEXEC)
+                stack.callback(os.close, held)
+                about, real = os.fstat(held), os.readlink(f"/proc/self/fd/{held}")
+                is_folder = stat.S_ISDIR(about.st_mode)
+                if self.inside and not f"{real}/".startswith(f"{self.inside}/"):
+                    return
+                if not is_folder and not stat.S_ISREG(about.st_mode):
+                    return
+                opened = os.open(f"/proc/self/fd/{held}", os.O_RDONLY | os.O_CLOEXEC)
+                stack.callback(os.close, opened)
+            except PermissionError:
+                raise CannotCheck(f"{source}: may not be read; chmod -R u+rX would help") from None
+            except OSError:  # a link to nowhere, or to itself
                 return
-            real = _path_of(descriptor)
-            if real in seen or real == self.target:
-                return  # a link to a folder above, or the copy itself
-            target.mkdir(exist_ok=True)
-            for name in sorted(set(os.listdir(descriptor)) - LEFT_OUT):
-                self.copy(source / name, target / name, seen | {real})
-        finally:
-            os.close(descriptor)
+            if not is_folder:
+                self._copy_file(opened, about, source, target)
+            elif real not in seen and real != self.target:  # no link to a folder above
+                target.mkdir(exist_ok=True)
+                for name in sorted(set(os.listdir(opened)) - LEFT_OUT):
+                    self.copy(source / name, target / name, seen | {real})
 
-    def _copy_file(self, descriptor: int, source: Path, target: Path) -> None:
-        about = os.fstat(descriptor)
+    def _copy_file(self, opened: int, about: os.stat_result, source: Path, target: Path) -> None:
         self.size += about.st_size
         self.count += 1
         if self.size > MOST_BYTES or self.count > MOST_FILES:
             most = f"{MOST_BYTES >> 20} MB or {MOST_FILES} files"
             raise CannotCheck(f"{source.parent}: more than {most}")
-        with open(descriptor, "rb", closefd=False) as file, target.open("wb") as copied:
+        with open(opened, "rb", closefd=False) as file, target.open("wb") as copied:
             shutil.copyfileobj(file, copied)
         target.chmod((about.st_mode & 0o777) | 0o400)
         os.utime(target, ns=(about.st_atime_ns, about.st_mtime_ns))
-
-
-def _path_of(descriptor: int) -> str:
-    return os.readlink(f"/proc/self/fd/{descriptor}")
 
 
 def named_outside(source: Path) -> list[str]:
@@ -258,7 +233,6 @@ def packages_beside(layout: Layout) -> list[Package]:
 
 
 def read_package(place: Path, root: str | Path) -> Package:
-    """Return the Package in a folder."""
     package = Package(place, os.path.relpath(place, root))
     try:
         parsed = parse_package(str(place), warnings=package.warnings)
