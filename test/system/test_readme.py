@@ -31,7 +31,7 @@ LASTING = {
     "rosrun joy2twist joy2twist.py": "axis 1 -> linear.x",
     "roslaunch turtlebot_bringup minimal.launch": "process[mobile_base",
     "roslaunch rbx1_bringup": "process[fake_turtlebot",
-    "roslaunch fake_turtlebot_sim classroom.launch": "process[classroom",
+    "roslaunch cockpit classroom.launch": "process[classroom",
     "roslaunch joy2twist student.launch": "process[robot_7/my",
     "roslaunch joy2twist": "process[my",
     "rosrun rviz rviz": "",

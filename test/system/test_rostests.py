@@ -14,7 +14,7 @@ from tutorial_testing.waiting import DEADLINE_S, wait_for
 TESTS = Path(__file__).resolve().parents[1]
 LONG_TESTS = tuple(
     str(TESTS / "ros" / "fake_turtlebot_sim" / f"{name}.test")
-    for name in ("fake_turtlebot_interface", "fake_turtlebot_live")
+    for name in ("fake_turtlebot_drive", "fake_turtlebot_live")
 )
 
 

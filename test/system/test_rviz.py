@@ -18,6 +18,7 @@ from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
 CONFIG = Path(__file__).resolve().parents[2] / "fake_turtlebot_sim" / "rviz" / "sim.rviz"
+CLASSROOM = CONFIG.parents[2] / "common" / "cockpit" / "rviz" / "classroom.rviz"
 START_S = 120.0  # RViz without a graphics card, on a busy machine
 TRAIL_PIXELS = 1200 if "TUTORIAL_PICTURE" in os.environ else 200
 TRAIL = (255, 85, 0)  # colour of the odometry's arrows in sim.rviz

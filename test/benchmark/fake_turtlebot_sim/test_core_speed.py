@@ -5,7 +5,7 @@ import numpy as np
 from fake_turtlebot_sim.replay.bag_replay import replay
 from fake_turtlebot_sim.simulator.differential_drive import arc
 from fake_turtlebot_sim.simulator.parameters import Parameters
-from fake_turtlebot_sim.simulator.simulated_robot import RobotModel, SimulatedRobot
+from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
 
 PERIOD_NS = 20_000_000
 PERIOD_S = 0.02
@@ -35,7 +35,7 @@ def test_simulated_robot(benchmark, figure):
     commands = [(0.7 * np.sin(k), 3.0 * np.cos(k)) for k in range(steps)]
 
     def drive():
-        robot = SimulatedRobot(RobotModel())
+        robot = SimulatedRobot(Parameters())
         for k, command in enumerate(commands):
             # A command in each period, in the middle of it, so that each step is split.
             robot.command(command, k * PERIOD_NS + PERIOD_NS // 2)

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A teleoperation whose network breaks: what comes late moves nothing, what comes after does."""
+"""The mux when a network breaks, when a program is started anew, and at its own end."""
 
 import contextlib
 import os
@@ -16,7 +16,7 @@ from geometry_msgs.msg import Twist
 from rosgraph_msgs.msg import Log
 from std_msgs.msg import String
 
-from tutorial_testing.nodes import init_node
+from tutorial_testing.nodes import init_node, node_path
 from tutorial_testing.processes import Program, suspend
 from tutorial_testing.waiting import wait_for
 
@@ -88,6 +88,19 @@ class LateTest(unittest.TestCase):
                 program.interrupt()
                 program.wait()
             wait_for(lambda: self.active[-1] == "idle", "silence")
+
+    def test_ctrl_c_in_the_middle_of_a_motion_leaves_the_robot_standing(self):
+        driven = []
+        teleop = {"name": "teleop", "topic": "input", "timeout": 60.0, "priority": 1}
+        rospy.set_param("/ctrl_c/subscribers", [teleop])
+        rospy.Subscriber("/ctrl_c/output", Twist, lambda twist: driven.append(twist.linear.x))
+        stick = rospy.Publisher("/ctrl_c/input", Twist, queue_size=1)
+        mux = node_path("fake_turtlebot_sim", "cmd_vel_mux.py")
+        with Program(mux, "__name:=ctrl_c") as node:
+            wait_for(lambda: stick.publish(twist(0.2)) or driven, "a command that goes through")
+            node.interrupt()
+            self.assertEqual((node.wait(), node.output.strip()), (0, ""))
+        wait_for(lambda: driven[-1] == 0.0, "last zero")
 
     def warnings(self):
         return [line.msg for line in self.log if "suspended" in line.msg]

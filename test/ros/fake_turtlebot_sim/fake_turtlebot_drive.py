@@ -3,7 +3,7 @@
 
 ~cases: for each name, which is the namespace of a robot of its own,
   commands: list of {send: [v, w], shown: [v, w] (if the robot executes another), wait: seconds}
-  expect: names from below with values, exact to 1e-9
+  expect: names from below with values, exact to 1e-9; warnings: a word of each, in their order
 """
 
 import sys
@@ -14,7 +14,9 @@ import rospy
 import rostest
 from fake_turtlebot_stepping import PERIOD_NS, Robot, World
 from nav_msgs.msg import Odometry
+from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import JointState
+from tf2_msgs.msg import TFMessage
 
 from tutorial_testing.nodes import init_node
 from tutorial_testing.waiting import wait_for
@@ -27,7 +29,9 @@ class DriveTest(unittest.TestCase):
 
     def drive(self, name, commands, expect):
         robot = Robot(f"/{name}/")
-        joints, truths = [], []
+        joints, truths, log, bases = [], [], [], set()
+        rospy.Subscriber("/rosout", Log, log.append)
+        rospy.Subscriber("/tf", TFMessage, lambda m: bases.add(m.transforms[0].child_frame_id))
         rospy.Subscriber(f"/{name}/joint_states", JointState, joints.append)
         rospy.Subscriber(f"/{name}/base_pose_ground_truth", Odometry, truths.append)
         world = World([robot], DriveTest.world_ns)
@@ -45,6 +49,18 @@ class DriveTest(unittest.TestCase):
         if any(key.startswith("true_") for key in expect):
             wait_for(lambda: truths and truths[-1].header.stamp == end.header.stamp, "truth")
             result.update({f"true_{key}": value for key, value in pose_of(truths[-1]).items()})
+        wait_for(lambda: bases, "transforms of the other robots")
+        self.assertNotIn("hull", bases)  # ~publish_tf is false
+
+        def warnings():
+            node = f"/{name}/fake_turtlebot"
+            return [line.msg for line in log if line.level >= Log.WARN and line.name == node]
+
+        words = expect.pop("warnings", [])
+        wait_for(lambda: len(warnings()) >= len(words), f"warnings {words}")
+        self.assertEqual(len(warnings()), len(words), warnings())
+        for word, warning in zip(words, warnings()):
+            self.assertIn(word, warning)
         for key, value in expect.items():
             if isinstance(value, str):
                 self.assertEqual(result[key], value, key)

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The model's links hang on the robot that they belong to; names by ~prefix."""
+"""The model's links hang on the robot that they belong to, alone and in a classroom."""
 
 import sys
 import unittest
@@ -11,24 +11,29 @@ from tf2_msgs.msg import TFMessage
 from tutorial_testing.nodes import init_node
 from tutorial_testing.waiting import wait_for
 
+# Child: parent, both behind the name of the robot.
+LINKS = {
+    "base_footprint": "odom",
+    "base_link": "base_footprint",
+    "stack_link": "base_link",
+    "wheel_left_link": "base_link",
+    "wheel_right_link": "base_link",
+}
+
 
 class ModelTest(unittest.TestCase):
     def test_every_link_hangs_on_the_odometry_of_its_robot(self):
-        prefix, parents = rospy.get_param("~prefix"), {}
+        parents = {}
 
         def on_transforms(message):
-            for transform in message.transforms:
-                parents[transform.child_frame_id] = transform.header.frame_id
+            parents.update((t.child_frame_id, t.header.frame_id) for t in message.transforms)
 
         rospy.Subscriber("/tf", TFMessage, on_transforms)
         rospy.Subscriber("/tf_static", TFMessage, on_transforms)
-        for link in ("stack_link", "wheel_left_link", "wheel_right_link"):
-            wait_for(lambda link=link: prefix + link in parents, f"transform of {prefix}{link}")
-            self.assertEqual(parents[prefix + link], f"{prefix}base_link")
-        wait_for(lambda: f"{prefix}base_link" in parents, "transform of the base")
-        self.assertEqual(parents[f"{prefix}base_link"], f"{prefix}base_footprint")
-        wait_for(lambda: f"{prefix}base_footprint" in parents, "transform of the robot")
-        self.assertEqual(parents[f"{prefix}base_footprint"], f"{prefix}odom")
+        expected = {p + link: p + parent for p in ("", "bob/") for link, parent in LINKS.items()}
+        expected.update({f"{name}/odom": "world" for name in ("ada", "bob")})
+        wait_for(lambda: parents.keys() >= expected.keys(), "transforms of every link")
+        self.assertEqual({link: parents[link] for link in expected}, expected)
 
 
 if __name__ == "__main__":

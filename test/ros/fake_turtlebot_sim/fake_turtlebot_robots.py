@@ -8,12 +8,10 @@ import unittest
 import rospy
 import rostest
 from fake_turtlebot_stepping import Robot, World
-from tf2_msgs.msg import TFMessage
 
 from fake_turtlebot_sim.simulator.parameters import parse_parameters
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
 from tutorial_testing.nodes import init_node
-from tutorial_testing.waiting import wait_for
 
 
 class RobotsTest(unittest.TestCase):
@@ -35,7 +33,7 @@ class RobotsTest(unittest.TestCase):
         begin_ns = log[0][0]
         for name in self.names:
             told = [o for o in self.robots[name].odometry if o.header.stamp.to_nsec() > begin_ns]
-            alone = SimulatedRobot(self.parameters.robot_model(name), self.parameters.robots[name])
+            alone = SimulatedRobot(self.parameters, self.parameters.robots[name], name)
             commands = [(at, velocity) for at, who, velocity in log if who == name]
             for odometry in told:
                 now_ns = odometry.header.stamp.to_nsec()
@@ -58,17 +56,6 @@ class RobotsTest(unittest.TestCase):
         self.assertEqual(self.robots[stale].velocity(), (0.0, 0.0))
         for name in driven:
             self.assertEqual(self.robots[name].velocity()[0], 0.3)
-
-    def test_frames_carry_the_names_and_hang_on_one_world(self):
-        moving, fixed = [], []
-        rospy.Subscriber("/tf", TFMessage, moving.append)
-        rospy.Subscriber("/tf_static", TFMessage, fixed.append)
-        wait_for(lambda: self.world.step() or (moving and fixed), "transforms")
-        pairs = {(t.header.frame_id, t.child_frame_id) for t in moving[-1].transforms}
-        self.assertEqual(pairs, {(f"{n}/odom", f"{n}/base_footprint") for n in self.names})
-        pairs = {(t.header.frame_id, t.child_frame_id) for t in fixed[-1].transforms}
-        self.assertEqual(pairs, {("world", f"{n}/odom") for n in self.names})
-        self.assertEqual(len({t.header.stamp for t in moving[-1].transforms}), 1)
 
 
 if __name__ == "__main__":

@@ -80,16 +80,15 @@ class MinimalTest(unittest.TestCase):
         forwards, backwards = Twist(), Twist()
         forwards.linear.x, backwards.linear.x = 0.3, -0.1
 
-        names = rospy.get_param("~")
         self.assertEqual(place(), 0.0)
-        wait_for(lambda: teleop.publish(forwards) or is_driven(names["teleop"], 0.3), "teleop")
+        wait_for(lambda: teleop.publish(forwards) or is_driven("teleop", 0.3), "teleop")
         wait_for(lambda: teleop.publish(forwards) or place() > 0.1, "way forwards")
 
         def both():
             teleop.publish(forwards)
             safety.publish(backwards)
 
-        wait_for(lambda: both() or is_driven(names["safety_controller"], -0.1), "safety_controller")
+        wait_for(lambda: both() or is_driven("safety_controller", -0.1), "safety_controller")
         farthest = place()
         wait_for(lambda: both() or place() < farthest - 0.05, "way back")
         wait_for(lambda: is_driven("idle", 0.0), "robot that stands")

@@ -8,13 +8,12 @@ import unittest
 
 import rospy
 import rostest
-from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Twist
 from sensor_msgs.msg import Joy
 
 from tutorial_testing.nodes import init_node, node_path
 from tutorial_testing.processes import Program
-from tutorial_testing.waiting import BUSY_S, DEADLINE_S, wait_for
+from tutorial_testing.waiting import BUSY_S, wait_for
 
 LONGEST_EXIT_S = 1.5 + BUSY_S
 LINE = r"\[INFO\] \[[\d.]+\]: /NewJoy2Twist: Get from Joy \[0\.00, 0\.50, -0\.25\]\n"
@@ -77,15 +76,6 @@ class RunningTest(unittest.TestCase):
             self.assertNotIn("Traceback", node.output)
             wait_for(lambda: self.forward() or 0.5 in self.speeds[zeros:], "newer node")
 
-    def test_a_wrong_parameter_does_not_end_the_node_that_runs(self):
-        node = self.start()
-        with joy2twist("_axis_linear:=foo") as wrong:
-            self.assertEqual(wrong.wait(), 1)
-        count = len(self.speeds)
-        wait_for(lambda: self.forward() or len(self.speeds) > count, "velocity")
-        self.assertFalse(node.ended)
-        self.assertFalse(rospy.has_param("/NewJoy2Twist/axis_linear"))
-
     def test_every_message_of_a_bag_is_displayed_as_in_the_tutorial(self):
         # Ten times the default, as a busy machine may hold messages back and deliver some at once.
         node = self.start("_log_rate:=500")
@@ -104,34 +94,11 @@ class RunningTest(unittest.TestCase):
             self.forward()
             time.sleep(1 / 250)
         took_s = time.monotonic() - begin
-        self.check_end_of_display(node, 10 * (took_s - 1), 10 * (took_s + 5))
-
-    def test_diagnostics_tell_the_rate_and_the_age_of_the_messages(self):
-        self.start("_diagnostic_period:=0.5")
-        statuses = []
-        subscriber = rospy.Subscriber(
-            "/diagnostics", DiagnosticArray, lambda array: statuses.extend(array.status)
-        )
-        self.addCleanup(subscriber.unregister)
-        begin, sent = time.monotonic(), 0
-        while len(statuses) < 4:  # the first ones may count from before
-            self.forward()
-            sent += 1
-            self.assertLess(time.monotonic() - begin, DEADLINE_S)
-            time.sleep(1 / 50)
-        values = {value.key: value.value for value in statuses[-1].values}
-        rate = sent / (time.monotonic() - begin)
-        self.assertEqual(statuses[-1].message, "driving")
-        self.assertGreater(float(values["Joy rate [Hz]"]), 0.5 * rate)
-        self.assertLess(float(values["Joy rate [Hz]"]), 2.0 * rate)
-        self.assertLess(float(values["Age of the last Joy [s]"]), 0.5)  # or it would not drive
-
-    def check_end_of_display(self, node, fewest, most):
         node.interrupt()
         node.wait()
         lines = len(re.findall(LINE, node.output))
-        self.assertGreaterEqual(lines, fewest)
-        self.assertLessEqual(lines, most)
+        self.assertGreaterEqual(lines, 10 * (took_s - 1))
+        self.assertLessEqual(lines, 10 * (took_s + 5))
 
 
 class StartTest(unittest.TestCase):
@@ -140,14 +107,6 @@ class StartTest(unittest.TestCase):
         (line,) = node.output.splitlines()
         for word in words:
             self.assertIn(word, line)
-
-    def test_a_wrong_parameter_is_one_line(self):
-        with joy2twist("_axis_linear:=foo") as node:
-            self.check_line(node, "~axis_linear", "'foo'", "number")
-
-    def test_an_unknown_parameter_is_one_line(self):
-        with joy2twist("_axis_liner:=1") as node:
-            self.check_line(node, "~axis_liner", "axis_linear")
 
     def test_a_wrong_parameter_on_the_server_is_one_line(self):
         rospy.set_param("/wrong/joy_timeout", -1)

@@ -19,7 +19,6 @@ from tutorial_testing.ports import free_port
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
-SIM = "fake_turtlebot_sim"
 BAGS = Path(rospkg.RosPack().get_path("joy2twist")) / "bag"
 
 
@@ -106,9 +105,16 @@ class ArgumentsTest(unittest.TestCase):
 
     def test_a_classroom_without_a_screen_and_a_student_beside_it_share_one_page(self):
         port = f"cockpit_port:={free_port()}"
-        self.refused("lan:=yes: must be true or false", "classroom.launch", "lan:=yes", package=SIM)
+        self.refused(
+            "lan:=yes: must be true or false", "classroom.launch", "lan:=yes", package="cockpit"
+        )
+        with roslaunch(
+            "classroom.launch", "robots:=0", "cockpit:=false", package="cockpit"
+        ) as none:
+            none.wait()
+            self.assertIn("~robots: 0: must be a number from 1 to 1000", none.output)
         student = ("student.launch", "name:=robot_1", "joystick:=browser", "rviz:=false", port)
-        with roslaunch("classroom.launch", "lan:=true", port, package=SIM) as classroom:
+        with roslaunch("classroom.launch", "lan:=true", port, package="cockpit") as classroom:
             wait_for(lambda: address(rosgraph.get_master_uri()), "page of the classroom")
             for line in ("cockpit: to look:  http://", "cockpit: to drive: http://"):
                 self.assertIn(line, classroom.output)

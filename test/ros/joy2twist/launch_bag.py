@@ -20,19 +20,11 @@ SAMPLE_S = 6.0  # how much is looked at; the tour begins with a second of rest
 
 
 class Recorder:
-    """Keeps the messages of a topic with their time of arrival [s]."""
+    """Keeps the messages of a topic."""
 
     def __init__(self, topic, message_type):
-        self.messages, self.times_s = [], []
-        self.subscriber = rospy.Subscriber(topic, message_type, self._on_message)
-
-    def _on_message(self, message):
-        self.times_s.append(rospy.get_time())
-        self.messages.append(message)
-
-    @property
-    def rate_hz(self):
-        return (len(self.times_s) - 1) / (self.times_s[-1] - self.times_s[0])
+        self.messages = []
+        self.subscriber = rospy.Subscriber(topic, message_type, self.messages.append)
 
 
 class LaunchBagTest(unittest.TestCase):
@@ -77,10 +69,6 @@ class LaunchBagTest(unittest.TestCase):
         for twist in self.cmd_vel.messages:
             others = (twist.linear.y, twist.linear.z, twist.angular.x, twist.angular.y)
             self.assertEqual(others, (0, 0, 0, 0))
-
-    def test_everything_runs_at_50_hz(self):
-        for recorder in (self.joy, self.cmd_vel, self.odom, self.joints):
-            self.assertAlmostEqual(recorder.rate_hz, RATE_HZ, delta=0.1 * RATE_HZ)
 
     def test_the_wheels_turn_and_the_model_is_published(self):
         first, last = self.joints.messages[0], self.joints.messages[-1]

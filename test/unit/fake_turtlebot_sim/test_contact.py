@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 
 from fake_turtlebot_sim.simulator.contact import drive_among, first_contact, gap
 from fake_turtlebot_sim.simulator.differential_drive import arc
-from fake_turtlebot_sim.simulator.simulated_robot import RobotModel, SimulatedRobot
-from fake_turtlebot_sim.simulator.velocity_command import VelocityLimits
+from fake_turtlebot_sim.simulator.parameters import Parameters
+from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
 from fake_turtlebot_sim.simulator.world import World
 
 R = 0.178
@@ -76,10 +76,8 @@ def test_a_robot_is_never_inside_and_stops_only_where_it_touches(obstacles, pose
             assert cos(contact - ahead) > -EXACT
 
 
-def robot_at_the_wall(velocity, limits=None, seconds=4):
-    robot = SimulatedRobot(
-        RobotModel(limits=limits or VelocityLimits()), world=World((((1.0, -5.0), (1.0, 5.0)),))
-    )
+def robot_at_the_wall(velocity, parameters=Parameters(), seconds=4):  # noqa: B008  it is frozen
+    robot = SimulatedRobot(parameters, world=World((((1.0, -5.0), (1.0, 5.0)),)))
     for cycle in range(50 * seconds):
         robot.command(velocity, cycle * 20_000_000)
         robot.advance((cycle + 1) * 20_000_000)
@@ -107,16 +105,14 @@ def test_with_a_turn_it_pushes_until_it_leads_along_the_wall():
 
 
 def test_a_ramp_ends_at_the_wall_too():
-    robot = robot_at_the_wall((0.7, 0.0), VelocityLimits(linear_acceleration=0.5))
+    robot = robot_at_the_wall((0.7, 0.0), Parameters(max_linear_acceleration=0.5))
     assert robot.state().x == pytest.approx(1 - R, abs=EXACT)
     assert robot.state().v == 0.0 and robot.contact is not None
 
 
 def test_a_robot_with_errors_touches_with_its_true_body():
-    from fake_turtlebot_sim.simulator.odometry_errors import ErrorModel  # noqa: PLC0415
-
-    model = RobotModel(errors=ErrorModel(1.02, 1.0, 0.01, "1"))
-    robot = SimulatedRobot(model, world=World((((1.0, -5.0), (1.0, 5.0)),)))
+    parameters = Parameters(wheel_radius_ratio=1.02, wheel_noise=0.01)
+    robot = SimulatedRobot(parameters, world=World((((1.0, -5.0), (1.0, 5.0)),)))
     for cycle in range(200):
         robot.command((0.5, 0.0), cycle * 20_000_000)
         robot.advance((cycle + 1) * 20_000_000)

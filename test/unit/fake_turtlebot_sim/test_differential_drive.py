@@ -1,6 +1,6 @@
 """The kinematics against closed forms and extended precision."""
 
-from math import cos, pi, sin, tau
+from math import cos, pi, sin
 
 import numpy as np
 import pytest
@@ -9,8 +9,11 @@ from hypothesis import strategies as st
 
 from fake_turtlebot_sim.simulator.differential_drive import (
     arc,
+    between,
     drive,
+    limit,
     ramp,
+    ramp_time,
     wheel_rates,
     wrap_angle,
 )
@@ -83,12 +86,6 @@ def test_half_a_turn_is_pi_from_both_sides():
     assert arc(ORIGIN, (0.0, -pi), 1.0)[2] == pi
 
 
-def test_a_turn_over_the_edge_goes_on_at_the_other_side():
-    assert arc((0.0, 0.0, 3.0), (0.0, 1.0), 1.0)[2] == pytest.approx(4.0 - tau, abs=1e-15)
-    assert arc((0.0, 0.0, -3.0), (0.0, -1.0), 1.0)[2] == pytest.approx(tau - 4.0, abs=1e-15)
-    assert ramp((0.0, 0.0, 3.0), (0.0, 0.0), (0.0, 2.0), 1.0)[2] == pytest.approx(4.0 - tau)
-
-
 def random_segments(rng, hour_s=3600.0):
     """One hour of velocities held for 0.2 to 2 s, as (v [m/s], w [rad/s], periods of 50 Hz)."""
     periods = rng.integers(10, 101, size=int(hour_s))
@@ -117,30 +114,11 @@ def test_an_hour_of_random_segments_against_extended_precision():
     assert wrap_angle(float(pose[2] - yaw)) == pytest.approx(0, abs=1e-9)
 
 
-def test_an_hour_on_a_circle():
-    pose = ORIGIN
-    for _ in range(3600 * 50):
-        pose = arc(pose, (0.7, 1.0), 0.02)
-    assert pose[:2] == pytest.approx(circle(0.7, 1.0, 3600.0)[:2], rel=0, abs=1e-8)
-
-
-def test_an_hour_at_rest_changes_no_bit():
-    pose = start = (1.1, -2.2, 3.1)
-    for _ in range(3600 * 50):
-        pose = arc(pose, (0.0, 0.0), 0.02)
-    assert pose == start
-
-
 @given(VELOCITY)
 def test_wheels_roll_the_path_and_the_turn(velocity):
     left, right = wheel_rates(velocity, 0.230, 0.035)
     assert 0.035 * (left + right) / 2 == pytest.approx(velocity[0], abs=1e-15)
     assert 0.035 * (right - left) / 0.230 == pytest.approx(velocity[1], abs=1e-14)
-
-
-def test_wheels_of_a_known_robot():
-    assert wheel_rates((0.35, 0.0), 0.230, 0.035) == pytest.approx((10, 10))
-    assert wheel_rates((0.0, 1.0), 0.230, 0.0575) == pytest.approx((-2, 2))
 
 
 @given(velocity=VELOCITY, dt=st.floats(0, 2))
@@ -186,3 +164,57 @@ def test_a_ramp_is_the_limit_of_many_short_arcs():
         share = (k + 0.5) / steps
         pose = arc(pose, (0.6 - 0.8 * share, -1.0 + 3.0 * share), dt / steps)
     assert ramp(ORIGIN, (0.6, -1.0), (-0.2, 2.0), dt) == pytest.approx(pose, abs=1e-9)
+
+
+KOBUKI = (0.7, pi)
+
+
+@pytest.mark.parametrize(
+    ("asked", "given_"),
+    [
+        ((-0.7, pi), (-0.7, pi)),
+        ((0.3, -1.0), (0.3, -1.0)),
+        ((1.4, 1.0), (0.7, 0.5)),
+        ((-1.4, 1.0), (-0.7, 0.5)),
+        ((0.5, 2 * pi), (0.25, pi)),
+        ((0.5, 1.25 * pi), (0.4, pi)),
+        ((1.4, 1.25 * pi), (0.7, 0.625 * pi)),  # within the limit of w once v is
+        ((7.0, 20 * pi), (0.35, pi)),
+        ((1e300, 0.0), (0.7, 0.0)),
+        ((1e300, -1e300), (0.7, -0.7)),
+        ((0.0, -1e300), (0.0, -pi)),
+    ],
+)
+def test_both_parts_are_scaled_alike(asked, given_):
+    assert limit(asked, *KOBUKI) == pytest.approx(given_, rel=1e-15)
+
+
+@given(st.floats(-1e6, 1e6), st.floats(-1e6, 1e6))
+def test_the_curvature_is_kept(v, w):
+    limited_v, limited_w = limit((v, w), *KOBUKI)
+    assert abs(limited_v) <= min(abs(v), 0.7 * (1 + 1e-15))
+    assert abs(limited_w) <= min(abs(w), pi * (1 + 1e-15))
+    assert limited_v * v >= 0
+    assert limited_v * w == pytest.approx(limited_w * v, rel=1e-12, abs=1e-300)
+
+
+def test_between_two_velocities():
+    assert between((0.0, 2.0), (1.0, -2.0), 0.25) == (0.25, 1.0)
+    assert between((0.5, 1.5), (-1.0, 4.5), 0.25) == (0.125, 2.25)
+    assert between((0.5, 1.5), (-1.0, 4.5), 0.0) == (0.5, 1.5)
+    assert between((0.5, 1.5), (-1.0, 4.5), 1.0) == (-1.0, 4.5)
+
+
+@pytest.mark.parametrize(
+    ("velocity", "target", "limits", "seconds"),
+    [
+        ((0.7, -pi), (-0.7, pi), (0.0, 0.0), 0.0),
+        ((0.0, 0.0), (0.5, 1.0), (0.5, 2.0), 1.0),
+        ((0.0, 1.0), (0.5, -3.0), (0.5, 2.0), 2.0),
+        ((0.25, 5.0), (0.625, -5.0), (0.5, 0.0), 0.75),
+        ((0.25, 0.0), (-0.5, 0.0), (0.5, 0.0), 1.5),
+        ((5.0, 0.25), (-5.0, 1.5), (0.0, 2.0), 0.625),
+    ],
+)
+def test_a_ramp_takes_as_long_as_the_slower_part(velocity, target, limits, seconds):
+    assert ramp_time(velocity, target, *limits) == seconds

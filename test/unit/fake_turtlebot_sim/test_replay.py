@@ -14,7 +14,7 @@ from tf2_msgs.msg import TFMessage
 from fake_turtlebot_sim.replay import bag_replay
 from fake_turtlebot_sim.replay import command as replay_command
 from fake_turtlebot_sim.simulator.parameters import Parameters
-from fake_turtlebot_sim.simulator.simulated_robot import RobotModel, SimulatedRobot
+from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
 
 START_NS = 1_400_000_000 * 10**9
 JOY_BAG = Path(__file__).parents[3] / "joy2twist" / "bag" / "joy.bag"
@@ -103,34 +103,6 @@ def test_after_the_last_command_the_timeout_stops_the_robot(tmp_path):
     assert result.path[-1].v == 0.0
 
 
-def test_what_is_no_command_moves_nothing(tmp_path):
-    messages = [(0, twist(0.1, 0.0)), (100, twist(nan, 0.0)), (1000, twist(0.0, 0.0))]
-    bag = write_bag(tmp_path / "nan.bag", {"/cmd_vel": messages})
-    recorded = bag_replay.read_commands(bag, "/cmd_vel", Twist, lambda _: None)
-    result = bag_replay.replay(recorded, tmp_path / "none.bag", Parameters())
-    assert (result.ignored, result.distance) == (3, 0.0)
-    recorded = bag_replay.read_commands(bag, "/cmd_vel", Twist, replay_command.velocity_of_twist)
-    result = bag_replay.replay(recorded, tmp_path / "out.bag", Parameters())
-    assert result.distance == pytest.approx(0.06)
-
-
-def test_progress_is_told_for_every_period(tmp_path):
-    told = []
-    recorded = [(START_NS, (0.1, 0.0)), (START_NS + 10**9, (0.0, 0.0))]
-    bag_replay.replay(recorded, tmp_path / "out.bag", Parameters(), told.append)
-    assert told == pytest.approx([0.02 * k for k in range(51)])
-
-
-def test_the_truth_is_recorded_if_it_differs(commands, tmp_path):
-    config = tmp_path / "unequal.yaml"
-    config.write_text("wheel_radius_ratio: 1.1")
-    target = tmp_path / "out.bag"
-    assert replay_command.main([str(commands), str(target), "--config", str(config)]) == 0
-    read = read_bag(target)
-    assert len(read["/base_pose_ground_truth"]) == len(read["/odom"])
-    assert read["/base_pose_ground_truth"][-1].pose != read["/odom"][-1].pose
-
-
 def test_a_picture_of_the_path(commands, tmp_path):
     picture = tmp_path / "path.png"
     arguments = [str(commands), str(tmp_path / "out.bag"), "--picture", str(picture)]
@@ -205,19 +177,11 @@ def test_a_joystick_drives_as_the_tutorials_node_does(axes, velocity):
     assert replay_command.velocity_of_joy(Joy(axes=axes)) == velocity
 
 
-def test_a_missing_library_is_named(commands, tmp_path, capsys, monkeypatch):
-    out = tmp_path / "out.bag"
-    monkeypatch.setattr(replay_command, "bag_replay", None)
-    missing = ModuleNotFoundError(name="rosbags")
-    monkeypatch.setattr(replay_command, "missing", missing, raising=False)
-    assert "needs rosbags: ./tutorial setup" in failure_of(capsys, commands, out)
-
-
 def test_an_hour_of_laps_closes_where_the_first_one_says():
     """Each lap begins where the last one closed, and takes the same way from there."""
     with Reader(JOY_BAG) as reader:
         joys = [(at, Joy().deserialize(data)) for _, at, data in reader.messages()]
-    robot = SimulatedRobot(RobotModel())
+    robot = SimulatedRobot(Parameters())
     begin_ns, lap_ns = joys[0][0], joys[-1][0] - joys[0][0] + 20_000_000
     laps = round(3600e9 / lap_ns)
     closed = []

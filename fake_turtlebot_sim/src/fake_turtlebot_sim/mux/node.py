@@ -1,15 +1,18 @@
 """The node cmd_vel_mux: ROS on one side, an Arbiter on the other, and no arithmetic in between."""
 
+from __future__ import annotations
+
 import threading
 import time
+from typing import Any
 
 import rospy
 from geometry_msgs.msg import Twist
 from std_msgs.msg import String
 
 from fake_turtlebot_sim.mux.arbitration import IDLE, ZERO, Arbiter, Verdict
-from fake_turtlebot_sim.mux.parameters import parse_mux_parameters
-from node_kit.arming import Resumption
+from fake_turtlebot_sim.mux.parameters import MuxParameters, parse_mux_parameters
+from node_kit.arming import Resumption, Velocity
 from node_kit.careful_connections import report_bad_messages, sender_of
 from node_kit.log import Log
 from node_kit.prompt_publisher import VelocityPublisher
@@ -19,7 +22,7 @@ from node_kit.throttle import ThrottleEach
 
 NODE_NAME = "cmd_vel_mux"
 SHUTDOWN_CHECK_S = 0.1  # how long a shutdown may go unnoticed
-WARNING_PERIOD_S = 10.0  # how often the same is said of an input, at most
+WARNING_PERIOD_S = 10.0  # how often the same is reported of an input, at most
 
 
 class CmdVelMux:
@@ -30,7 +33,7 @@ class CmdVelMux:
     Parameters: ~subscribers, ~publisher output; README.md gives units and meanings
     """
 
-    def __init__(self, parameters):
+    def __init__(self, parameters: MuxParameters) -> None:
         """Take MuxParameters; from now on commands go through."""
         self._arbiter = Arbiter(parameters.subscribers)
         self._log = Log()
@@ -43,7 +46,7 @@ class CmdVelMux:
         self._output = VelocityPublisher(_in_own_namespace(parameters.publisher), self._log.warn)
         # A state, unlike a velocity, may be latched; the queue holds a burst of changes.
         self._active = rospy.Publisher("~active", String, queue_size=10, latch=True)
-        self._told = None
+        self._last_active = ""
         rospy.on_shutdown(self._end)
         self._look()
         for one in parameters.subscribers:
@@ -53,14 +56,14 @@ class CmdVelMux:
                 queue_size=1, tcp_nodelay=True,
             )  # fmt: skip
 
-    def spin(self):
-        """Notice who falls silent, until shut down. The clock is one that nobody can set."""
+    def spin(self) -> None:
+        """Notice inputs that fall silent, until shut down. The clock is one that nobody can set."""
         while not rospy.is_shutdown():
             time.sleep(min(self._look(), SHUTDOWN_CHECK_S))
 
-    def _on_command(self, twist, name):
+    def _on_command(self, twist: Any, name: str) -> None:
         linear, angular = twist.linear, twist.angular
-        velocity = (linear.x, linear.y, linear.z, angular.x, angular.y, angular.z)
+        velocity: Velocity = (linear.x, linear.y, linear.z, angular.x, angular.y, angular.z)
         sender = sender_of(twist)
         with self._lock:
             now = time.monotonic()
@@ -73,45 +76,45 @@ class CmdVelMux:
                 # that drives does.
                 is_stick = self._arbiter.rearms(name)
                 self._output.publish(velocity, velocity == ZERO or not is_stick, is_stick)
-            self._tell(self._arbiter.active(now))
+            self._report(self._arbiter.active(now))
         if verdict in (Verdict.REJECTED, Verdict.LATE):
             line = f"{name}: {verdict.value}"
             if self._may_warn.ready(line, now):
                 self._log.warn(line)
 
-    def _notice_suspension(self, now):
+    def _notice_suspension(self, now: float) -> None:
         """Stop the robot if this process was suspended: what is in its sockets is old."""
         if self._resumption.notice(self._suspensions.number(), now):
             self._output.publish(ZERO)
             self._arbiter.lost()
             self._log.warn("This node was suspended. Who drives must release the sticks once.")
 
-    def _look(self):
+    def _look(self) -> float:
         """Act upon silence; return for how long [s] nothing will be due."""
         with self._lock:
             now = time.monotonic()
             self._notice_suspension(now)
             if self._arbiter.must_stop(now) and not self._has_ended:
                 self._output.publish(ZERO)
-            self._tell(self._arbiter.active(now))
+            self._report(self._arbiter.active(now))
             return self._arbiter.lull(now)
 
-    def _tell(self, active):
-        if active != self._told and not self._has_ended:
-            self._told = active
+    def _report(self, active: str) -> None:
+        if active != self._last_active and not self._has_ended:
+            self._last_active = active
             self._active.publish(active)
 
-    def _end(self):
+    def _end(self) -> None:
         with self._lock:
             self._output.publish(ZERO)  # nobody will send one later
-            self._tell(IDLE)
+            self._report(IDLE)
             self._has_ended = True
 
 
-def _in_own_namespace(topic):
+def _in_own_namespace(topic: str) -> str:
     return topic if topic.startswith("/") else f"~{topic}"
 
 
-def main():
+def main() -> int:
     """Run the node until it is shut down; return its exit code."""
     return run(NODE_NAME, parse_mux_parameters, lambda p: CmdVelMux(p).spin(), keeps_name=True)

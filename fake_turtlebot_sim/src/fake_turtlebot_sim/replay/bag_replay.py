@@ -4,23 +4,30 @@ The same simulation as in the node, only that time is read from the bag, and so 
 machine can. rosbags (PyPI) reads and writes the bags; the messages are ROS's own classes.
 """
 
+from __future__ import annotations
+
 from contextlib import contextmanager
 from dataclasses import dataclass
 from io import BytesIO
 from math import hypot
 from pathlib import Path
+from typing import Any, Callable, Iterator, List, Optional, Tuple
 
 from genpy import Time
 from genpy.message import DeserializationError
 from rosbags.rosbag1 import Reader, ReaderError, Writer
 from tf2_msgs.msg import TFMessage
 
+from fake_turtlebot_sim.simulator.differential_drive import Velocity
+from fake_turtlebot_sim.simulator.parameters import Parameters
 from fake_turtlebot_sim.simulator.ros_messages import RobotMessages
-from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
+from fake_turtlebot_sim.simulator.simulated_robot import RobotState, SimulatedRobot
+
+Commands = List[Tuple[int, Optional[Velocity]]]  # times [ns]; None: a message not to be obeyed
 
 
 class ReplayError(Exception):
-    """A bag that cannot be replayed; the text says which and why, in one line."""
+    """What the user can mend; the text says how, in one line."""
 
 
 @dataclass
@@ -28,37 +35,39 @@ class Replay:
     """What came of it."""
 
     seconds: float  # of simulated time
-    periods: int
     distance: float  # [m] along the path of the odometry
-    path: list  # of RobotState, one for each period
+    path: list[RobotState]  # one for each period
     ignored: int  # commands that were none
 
 
-def read_commands(path, topic, message_class, to_velocity):
-    """Return [(time [ns], velocity or None)] of the messages on a topic of a bag, in their order.
+def read_commands(
+    path: Path, topic: str, kind: Any, to_velocity: Callable[[Any], Velocity | None]
+) -> Commands:
+    """Return the commands in the messages, of the class `kind`, on a topic of a bag.
 
-    to_velocity turns a message into (v [m/s], w [rad/s]), or None if it is not to be obeyed.
-    Raises ReplayError.
+    to_velocity turns a message into (v [m/s], w [rad/s]) or None. Raises ReplayError.
     """
-    commands, message = [], message_class()
+    message = kind()
     with _open(path) as reader:
         connections = [c for c in reader.connections if c.topic == topic]
-        for _, time_ns, data in reader.messages(connections):
-            commands.append((time_ns, to_velocity(message.deserialize(data))))
+        commands = [
+            (time_ns, to_velocity(message.deserialize(data)))
+            for _, time_ns, data in reader.messages(connections)
+        ]
     if not commands:
         raise ReplayError(f"{path}: no message on {topic}")
     return commands
 
 
-def topics_of(path):
+def topics_of(path: Path) -> dict[str, str]:
     """Return {topic: message type, such as geometry_msgs/Twist} of a bag. Raises ReplayError."""
     with _open(path) as reader:
         return {c.topic: c.msgtype.replace("/msg/", "/") for c in reader.connections}
 
 
 @contextmanager
-def _open(path):
-    if not Path(path).is_file():
+def _open(path: Path) -> Iterator[Reader]:
+    if not path.is_file():
         raise ReplayError(f"{path}: no such file")
     try:
         with Reader(path) as reader:
@@ -67,75 +76,51 @@ def _open(path):
         raise ReplayError(f"{path}: not a whole ROS 1 bag ({error})") from error
 
 
-def replay(commands, target, parameters, progress=lambda seconds: None):
+def replay(commands: Commands, target: Path, parameters: Parameters) -> Replay:
     """Obey the commands and write odom, /tf and joint_states to a new bag `target`.
 
-    progress is called with the simulated time [s] of each period. Returns a Replay.
     The robot starts at the first command and is watched until it has come to rest after the last.
     """
-    robot = SimulatedRobot(parameters.robot_model(""), parameters.start_poses()[""])
+    robot = SimulatedRobot(parameters, parameters.start_poses()[""])
     messages, path = RobotMessages(parameters), []
     with Writer(target) as writer:
-        record = Recorder(writer, messages, robot.has_errors)
-        start_ns = commands[0][0]
-        for now_ns in periods(robot, commands, parameters):
-            messages.tell(robot, Time(*divmod(now_ns, 10**9)))
-            record(now_ns)
+        topics = {
+            "/odom": messages.odometry,
+            "/tf": TFMessage([messages.transform]),
+            "/joint_states": messages.joints,
+        }
+        if robot.has_errors:
+            topics["/base_pose_ground_truth"] = messages.ground_truth
+        connections = [(_add(writer, topic, message), message) for topic, message in topics.items()]
+        for now_ns in periods(robot, commands, parameters.period_ns()):
+            messages.fill(robot, Time(*divmod(now_ns, 10**9)))
+            for connection, message in connections:
+                buffer = BytesIO()
+                message.serialize(buffer)
+                writer.write(connection, now_ns, buffer.getvalue())
             path.append(robot.state())
-            progress((now_ns - start_ns) * 1e-9)
     return Replay(
-        seconds=(now_ns - start_ns) * 1e-9,
-        periods=len(path),
+        seconds=(now_ns - commands[0][0]) * 1e-9,
         distance=sum(hypot(b.x - a.x, b.y - a.y) for a, b in zip(path, path[1:])),
         path=path,
         ignored=sum(velocity is None for _, velocity in commands),
     )
 
 
-def periods(robot, commands, parameters):
+def _add(writer: Writer, topic: str, message: Any) -> Any:
+    kind = message._type.replace("/", "/msg/")  # as rosbags names it
+    return writer.add_connection(topic, kind, msgdef=message._full_text, md5sum=message._md5sum)
+
+
+def periods(robot: SimulatedRobot, commands: Commands, period_ns: int) -> Iterator[int]:
     """Move the robot period by period through the commands; yield the time [ns] of each."""
-    start_ns = commands[0][0]
-    waiting = iter(commands)
-    time_ns, velocity = next(waiting)
-    now_ns = start_ns
-    while time_ns is not None or robot.is_moving:
-        while time_ns is not None and time_ns <= now_ns:
+    start_ns = now_ns = commands[0][0]
+    waiting = list(reversed(commands))
+    while waiting or robot.is_moving:
+        while waiting and waiting[-1][0] <= now_ns:
+            time_ns, velocity = waiting.pop()
             if velocity is not None:
                 robot.command(velocity, time_ns - start_ns)
-            time_ns, velocity = next(waiting, (None, None))
         robot.advance(now_ns - start_ns)
         yield now_ns
-        now_ns += parameters.period_ns()
-
-
-class Recorder:
-    """Writes the messages of one robot into a bag."""
-
-    def __init__(self, writer, messages, has_truth):
-        """Take a rosbags Writer and the RobotMessages that will be told anew for each record."""
-        self._writer = writer
-        self._buffer = BytesIO()
-        self._topics = [
-            self._add("odom", messages.odometry),
-            self._add("/tf", TFMessage([messages.transform])),
-            self._add("joint_states", messages.joints),
-        ]
-        if has_truth:
-            self._topics.append(self._add("base_pose_ground_truth", messages.ground_truth))
-
-    def _add(self, topic, message):
-        connection = self._writer.add_connection(
-            "/" + topic.lstrip("/"),
-            message._type.replace("/", "/msg/"),  # as rosbags names it
-            msgdef=message._full_text,
-            md5sum=message._md5sum,
-        )
-        return connection, message
-
-    def __call__(self, time_ns):
-        """Write what the messages tell now."""
-        for connection, message in self._topics:
-            self._buffer.seek(0)
-            self._buffer.truncate()
-            message.serialize(self._buffer)
-            self._writer.write(connection, time_ns, self._buffer.getvalue())
+        now_ns += period_ns

@@ -1,4 +1,6 @@
-"""The command replay_bag: arguments, progress, picture and one clear line for each mistake."""
+"""The command replay_bag: arguments, picture and one clear line for each mistake."""
+
+from __future__ import annotations
 
 import argparse
 import os
@@ -6,43 +8,20 @@ import sys
 import time
 from math import isfinite
 from pathlib import Path
+from typing import Any, Sequence
 
 import yaml
 from geometry_msgs.msg import Twist
 from sensor_msgs.msg import Joy
 
-from fake_turtlebot_sim.simulator.parameters import parse_parameters
-
-try:
-    from tqdm import tqdm
-
-    from fake_turtlebot_sim.replay import bag_replay
-except ImportError as error:  # neither is needed to run the robot live
-    bag_replay, missing = None, error
+from fake_turtlebot_sim.replay.bag_replay import ReplayError, read_commands, replay, topics_of
+from fake_turtlebot_sim.simulator.differential_drive import Velocity
+from fake_turtlebot_sim.simulator.parameters import Parameters, parse_parameters
+from fake_turtlebot_sim.simulator.simulated_robot import RobotState
 
 
-class CommandError(Exception):
-    """What the user can mend; the text says how, in one line."""
-
-
-def main(arguments=None):
+def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command and return its exit code."""
-    options = parse(arguments)
-    try:
-        if bag_replay is None:
-            raise CommandError(f"needs {missing.name}: ./tutorial setup")
-        try:
-            run(options)
-        except bag_replay.ReplayError as error:
-            raise CommandError(error) from error
-    except (CommandError, ValueError, OSError) as error:
-        print(f"replay_bag: {error}", file=sys.stderr)
-        return 1
-    return 0
-
-
-def parse(arguments):
-    """Return the options, or end with argparse's own line about them."""
     parser = argparse.ArgumentParser(
         prog="replay_bag",
         description="Drive a simulated TurtleBot from a bag with geometry_msgs/Twist or"
@@ -54,25 +33,30 @@ def parse(arguments):
     parser.add_argument("--config", type=Path, help="YAML file of parameters of fake_turtlebot")
     parser.add_argument("--picture", type=Path, metavar="PNG", help="draw the path")
     parser.add_argument("--force", action="store_true", help="overwrite the output")
-    return parser.parse_args(arguments)
+    try:
+        run(parser.parse_args(arguments))
+    except (ReplayError, ValueError, OSError) as error:
+        print(f"replay_bag: {error}", file=sys.stderr)
+        return 1
+    return 0
 
 
-def run(options):
-    """Replay as the options say; raises one of the errors that main() tells."""
+def run(options: argparse.Namespace) -> None:
+    """Replay as the options say. Raises ReplayError, ValueError or OSError, one line each."""
     parameters = read_parameters(options.config)
     if options.output.exists() and not options.force:
-        raise CommandError(f"{options.output}: exists already; --force overwrites it")
+        raise ReplayError(f"{options.output}: exists already; --force overwrites it")
     if not options.output.parent.is_dir():
-        raise CommandError(f"{options.output.parent}: no such folder")
+        raise ReplayError(f"{options.output.parent}: no such folder")
     topic, kind = choose_topic(options.bag, options.topic)
-    to_velocity = velocity_of_twist if kind is Twist else velocity_of_joy
     began_s = time.monotonic()
-    commands = bag_replay.read_commands(options.bag, topic, kind, to_velocity)
+    to_velocity = velocity_of_twist if kind is Twist else velocity_of_joy
+    commands = read_commands(options.bag, topic, kind, to_velocity)
     # Under another name until it is whole, so that an interruption leaves no half of a bag.
     unfinished = options.output.with_name(options.output.name + ".unfinished")
     try:
         unfinished.unlink(missing_ok=True)
-        result = replay_with_progress(commands, unfinished, parameters)
+        result = replay(commands, unfinished, parameters)
         os.replace(unfinished, options.output)
     finally:
         unfinished.unlink(missing_ok=True)
@@ -87,72 +71,55 @@ def run(options):
     )
 
 
-def replay_with_progress(commands, target, parameters):
-    """Call bag_replay.replay() behind a bar that counts simulated seconds."""
-    total_s = round((commands[-1][0] - commands[0][0]) * 1e-9)
-    with tqdm(total=total_s, unit="s", unit_scale=True, disable=None) as bar:
-
-        def progress(seconds):
-            if int(seconds) > bar.n:
-                bar.update(int(seconds) - bar.n)
-
-        return bag_replay.replay(commands, target, parameters, progress)
-
-
-def read_parameters(path):
+def read_parameters(path: Path | None) -> Parameters:
     """Return the Parameters of a YAML file, or the defaults without one."""
     if path is None:
         return parse_parameters({})
     try:
         given = yaml.safe_load(path.read_text(encoding="utf-8")) or {}
     except (yaml.YAMLError, UnicodeDecodeError) as error:
-        raise CommandError(f"{path}: not YAML ({' '.join(str(error).split())})") from error
+        raise ReplayError(f"{path}: not YAML ({' '.join(str(error).split())})") from error
     if not isinstance(given, dict):
-        raise CommandError(f"{path}: must hold lines of `name: value`")
+        raise ReplayError(f"{path}: must hold lines of `name: value`")
     parameters = parse_parameters(given)
     if parameters.robots:
-        raise CommandError(f"{path}: a replay is of one robot; leave ~robots out")
+        raise ReplayError(f"{path}: a replay is of one robot; leave ~robots out")
     return parameters
 
 
-def choose_topic(bag, wanted):
+def choose_topic(bag: Path, wanted: str | None) -> tuple[str, Any]:
     """Return (topic, message class) of the commands: the wanted, a Twist, or a Joy."""
     kinds = {Twist._type: Twist, Joy._type: Joy}
-    found = {t: kinds[kind] for t, kind in bag_replay.topics_of(bag).items() if kind in kinds}
-    if wanted is not None:
-        found = {topic: kind for topic, kind in found.items() if topic == wanted}
-    twists = {topic: kind for topic, kind in found.items() if kind is Twist}
-    candidates = sorted((twists or found).items(), key=lambda candidate: candidate[0])
-    if len(candidates) != 1:
-        topics = ", ".join(topic for topic, _ in candidates)
-        if topics:
-            raise CommandError(f"{bag}: several topics ({topics}); choose one with --topic")
+    found = {
+        topic: kinds[kind]
+        for topic, kind in sorted(topics_of(bag).items())
+        if kind in kinds and wanted in (None, topic)
+    }
+    found = {topic: kind for topic, kind in found.items() if kind is Twist} or found
+    if len(found) > 1:
+        raise ReplayError(f"{bag}: several topics ({', '.join(found)}); choose one with --topic")
+    if not found:
         name = f"topic {wanted}" if wanted else "topic"
-        raise CommandError(f"{bag}: no {name} of {Twist._type} or {Joy._type}")
-    return candidates[0]
+        raise ReplayError(f"{bag}: no {name} of {Twist._type} or {Joy._type}")
+    return next(iter(found.items()))
 
 
-def velocity_of_twist(twist):
+def velocity_of_twist(twist: Any) -> Velocity:
     """Return (v [m/s], w [rad/s]) of a Twist."""
     return twist.linear.x, twist.angular.z
 
 
-def velocity_of_joy(joy):
-    """Return (v [m/s], w [rad/s]) as the tutorial's node makes it of a Joy.
-
-    A message that cannot be used stops the robot, as it does there.
-    """
+def velocity_of_joy(joy: Any) -> Velocity:
+    """Return (v [m/s], w [rad/s]) as the tutorial's node does: zero if the message is unusable."""
     if len(joy.axes) < 2 or not all(map(isfinite, joy.axes[:2])):
         return 0.0, 0.0
     return joy.axes[1], joy.axes[0]
 
 
-def draw(path, target):
-    """Draw the path of RobotStates as a picture."""
-    try:
-        import matplotlib  # noqa: PLC0415
-    except ImportError as error:
-        raise CommandError("--picture needs matplotlib: ./tutorial setup") from error
+def draw(path: Sequence[RobotState], target: Path) -> None:
+    """Draw the path as a picture."""
+    import matplotlib  # noqa: PLC0415  takes a second to load
+
     matplotlib.use("Agg")
     from matplotlib import pyplot  # noqa: PLC0415
 

@@ -11,8 +11,7 @@ from __future__ import annotations
 from math import atan2, cos, hypot, inf, pi, sin, sqrt, tau
 from typing import Iterable, Iterator, NamedTuple, Sequence, Tuple, Union
 
-from fake_turtlebot_sim.simulator.differential_drive import Pose, Velocity, arc, drive
-from fake_turtlebot_sim.simulator.velocity_command import between
+from fake_turtlebot_sim.simulator.differential_drive import Pose, Velocity, arc, between, drive
 
 TOUCH_M = 1e-11  # a gap that counts as none: some hundred times the rounding of a place in metres
 TANGENT = 1e-9  # the sine of an angle below which a motion leads along an obstacle, not into it
@@ -114,7 +113,7 @@ class _Motion:
         if len(obstacle) == 3:
             ways += self._to_disc(px, py, core + radius, is_straight)
         else:
-            ways += self._to_wall(obstacle, radius, is_straight)
+            ways += self._to_wall(obstacle, radius, longest, is_straight)
             ways += self._to_disc(*obstacle[:2], radius, is_straight)
             ways += self._to_disc(*obstacle[2:], radius, is_straight)
         return min((way for way in ways if least <= way <= longest), default=None)
@@ -127,7 +126,9 @@ class _Motion:
         bends = self.bend * (dx * self.side[0] + dy * self.side[1])
         return towards > TANGENT or (towards > -TANGENT and bends > 0.0)
 
-    def _to_wall(self, wall: Segment, radius: float, is_straight: bool) -> Iterator[float]:
+    def _to_wall(
+        self, wall: Segment, radius: float, longest: float, is_straight: bool
+    ) -> Iterator[float]:
         """Yield the ways [m] to touches of the inside of a wall, from either side."""
         x1, y1, x2, y2 = wall
         length = hypot(x2 - x1, y2 - y1)
@@ -143,6 +144,8 @@ class _Motion:
             else:
                 ways = self._ways(along, aside, self.bend * (radius - away))
             for way in ways:
+                if not way <= longest:
+                    continue
                 x, y = self._place(way)
                 if 0.0 <= (x - x1) * tx + (y - y1) * ty <= length:
                     yield way

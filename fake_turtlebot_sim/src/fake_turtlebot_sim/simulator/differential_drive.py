@@ -1,4 +1,4 @@
-"""Kinematics of a robot with two driven wheels, exact for any velocity and any step.
+"""Kinematics of a robot with two driven wheels, exact for any velocity and any step; its limits.
 
 x points forward, y to the left, yaw grows counter-clockwise (REP-103); metres, radians, seconds.
 A constant velocity traces an arc of a circle. Its chord is ``v dt sin(h) / h`` long, where ``h``
@@ -8,7 +8,7 @@ usual formula with the radius v / w, this one keeps all its digits as w goes to 
 
 from __future__ import annotations
 
-from math import ceil, cos, pi, remainder, sin, tau
+from math import ceil, cos, inf, pi, remainder, sin, tau
 from typing import Tuple
 
 import numpy as np
@@ -73,6 +73,38 @@ def drive(pose: Pose, velocity: Velocity, end_velocity: Velocity, dt: float) -> 
     if velocity == end_velocity:
         return arc(pose, velocity, dt)
     return ramp(pose, velocity, end_velocity, dt)
+
+
+def limit(velocity: Velocity, max_linear: float, max_angular: float) -> Velocity:
+    """Return the velocity within the limits, both parts scaled alike: the curvature is kept."""
+    v, w = velocity
+    scale = 1.0
+    if abs(v) > max_linear:
+        scale = max_linear / abs(v)
+    if abs(w) * scale > max_angular:
+        scale = max_angular / abs(w)
+    return v * scale, w * scale
+
+
+def ramp_time(
+    velocity: Velocity, target: Velocity, linear_acceleration: float, angular_acceleration: float
+) -> float:
+    """Return the least time [s] in which the velocity becomes the target; acceleration 0: no limit.
+
+    Both parts take the same time, so the velocity goes straight from the one to the other.
+    """
+    return max(
+        abs(target[0] - velocity[0]) / (linear_acceleration or inf),
+        abs(target[1] - velocity[1]) / (angular_acceleration or inf),
+    )
+
+
+def between(velocity: Velocity, target: Velocity, share: float) -> Velocity:
+    """Return the velocity that is the share (0 to 1) of the way to the target."""
+    return (
+        velocity[0] + (target[0] - velocity[0]) * share,
+        velocity[1] + (target[1] - velocity[1]) * share,
+    )
 
 
 def wheel_rates(

@@ -1,16 +1,20 @@
 """The node: ROS on one side, simulated robots on the other, and no arithmetic in between."""
 
-import threading
+from __future__ import annotations
 
+import threading
+from typing import Any
+
+import diagnostic_updater
 import rospy
+from diagnostic_msgs.msg import DiagnosticStatus
 from std_srvs.srv import Empty, EmptyResponse
 from tf2_msgs.msg import TFMessage
 
 from fake_turtlebot_sim.simulator.clock import PhaseLock
-from fake_turtlebot_sim.simulator.diagnostics import Diagnostics
-from fake_turtlebot_sim.simulator.parameters import parse_parameters
+from fake_turtlebot_sim.simulator.parameters import Parameters, parse_parameters
 from fake_turtlebot_sim.simulator.robot_topics import RobotTopics
-from fake_turtlebot_sim.simulator.ros_clock import Motion, ros_clock
+from fake_turtlebot_sim.simulator.ros_clock import Instant, Motion
 from fake_turtlebot_sim.simulator.ros_messages import static_transform
 from node_kit.careful_connections import report_bad_messages
 from node_kit.log import Log
@@ -33,13 +37,13 @@ class FakeTurtlebot:
     Parameters: parameters.Parameters, as a table in README.md
     """
 
-    def __init__(self, parameters):
+    def __init__(self, parameters: Parameters) -> None:
         """Put the robots at their start poses; nothing is published before spin()."""
         log = Log()
         report_bad_messages(log.warn)
-        self._clock = ros_clock()
-        self._motion = Motion(self._clock)
+        self._motion = Motion()
         self._period_ns = parameters.period_ns()
+        self._rate = parameters.rate
         # Absolute, as every listener of tf2 subscribes to it; one message for all robots.
         self._tf = PromptPublisher("/tf", TFMessage)
         self._topics = [
@@ -51,30 +55,33 @@ class FakeTurtlebot:
             self._transforms.transforms = [topics.messages.transform for topics in self._topics]
         if parameters.publish_tf and parameters.robots:
             self._join_in(parameters.world_frame)
-        self._diagnostics = Diagnostics(self._topics, parameters.rate)
+        self._cycles = self._missed = self._reported_rejected = 0  # since the last report
+        self._diagnostics = diagnostic_updater.Updater()
+        self._diagnostics.setHardwareID("none (simulated)")
+        self._diagnostics.add("simulation", self._report)
         rospy.Service("~reset", Empty, self._on_reset)
         self._is_ending = False
         self._has_ended = threading.Event()  # the robots at rest were published
         rospy.on_shutdown(self._end)
 
-    def spin(self):
+    def spin(self) -> None:
         """Publish until shut down."""
         schedule = None
         while not self._is_ending:
             now = self._cycle()
             if schedule is None:
                 schedule = PhaseLock(self._period_ns, now.reading_ns)
-            self._diagnostics.count(schedule.complete(now.reading_ns))
-            self._clock.wait(now.reading_ns, schedule.deadline_ns)
+            self._count(schedule.complete(now.reading_ns))
+            self._motion.clock.wait(now.reading_ns, schedule.deadline_ns)
         self._cycle()
         self._has_ended.set()
 
-    def _cycle(self):
-        """Move all robots to the present and publish it; return the Instant."""
+    def _cycle(self) -> Instant:
+        """Move all robots to the present and publish it."""
         with self._motion.hold() as now:
             for topics in self._topics:
                 topics.robot.advance(now.motion_ns)
-                topics.tell(now.stamp)
+                topics.messages.fill(topics.robot, now.stamp)
         if now.stamp:  # zero: simulated time has not begun
             for topics in self._topics:
                 topics.publish()
@@ -82,7 +89,7 @@ class FakeTurtlebot:
                 self._tf.publish(self._transforms)
         return now
 
-    def _join_in(self, world_frame):
+    def _join_in(self, world_frame: str) -> None:
         """Lay the odometry frames of all robots onto one, so that RViz can show them together."""
         stamp = rospy.Time.now()
         self._tf_static = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
@@ -90,7 +97,7 @@ class FakeTurtlebot:
             TFMessage([static_transform(world_frame, t.odom_frame, stamp) for t in self._topics])
         )
 
-    def _end(self):
+    def _end(self) -> None:
         """Leave the robots standing, and have it seen that they do."""
         with self._motion.hold() as now:
             for topics in self._topics:
@@ -98,19 +105,37 @@ class FakeTurtlebot:
         self._is_ending = True
         self._has_ended.wait(LONGEST_END_S)
 
-    def _on_reset(self, _request):
-        with self._motion.hold() as now:
-            for topics in self._topics:
-                topics.robot.advance(now.motion_ns)
-                topics.robot.reset()
+    def _on_reset(self, _request: Any) -> Any:
+        for topics in self._topics:
+            topics.reset()
         return EmptyResponse()
 
+    def _count(self, missed: int) -> None:
+        """Count one cycle and the periods missed before it; report once a second."""
+        self._cycles += 1
+        self._missed += missed
+        if self._cycles + self._missed >= self._rate:
+            self._diagnostics.force_update()
+            self._cycles = self._missed = 0
 
-def main():
+    def _report(self, status: Any) -> Any:
+        rejected = sum(topics.rejected for topics in self._topics)
+        level, text = DiagnosticStatus.OK, "running"
+        if self._missed:
+            level = DiagnosticStatus.WARN
+            text = "periods missed: busy, or /clock is slower than ~rate"
+        elif rejected > self._reported_rejected:
+            level, text = DiagnosticStatus.WARN, "commands that are not finite were ignored"
+        status.summary(level, text)
+        self._reported_rejected = rejected
+        status.add("robots", len(self._topics))
+        status.add("robots under command", sum(t.robot.is_driven for t in self._topics))
+        status.add("rate [Hz]", self._rate)
+        status.add("periods missed in the last second", self._missed)
+        status.add("commands rejected since the start", rejected)
+        return status
+
+
+def main() -> int:
     """Run the node until it is shut down; return its exit code."""
-    return run(
-        NODE_NAME,
-        parse_parameters,
-        lambda parameters: FakeTurtlebot(parameters).spin(),
-        keeps_name=True,
-    )
+    return run(NODE_NAME, parse_parameters, lambda p: FakeTurtlebot(p).spin(), keeps_name=True)

@@ -12,7 +12,6 @@ distance, so its size does not depend on how the way is cut into steps.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import cos, sin, sqrt
 from random import Random
 from typing import Any
@@ -22,24 +21,26 @@ import numpy as np
 from fake_turtlebot_sim.simulator.differential_drive import Pose, Velocity, wheel_rates
 
 
-@dataclass(frozen=True)
-class ErrorModel:
-    """How wrong the odometry is; the default is not at all."""
-
-    wheel_radius_ratio: float = 1.0  # E_d, actual right radius / actual left radius
-    track_ratio: float = 1.0  # E_b, actual / nominal wheel separation
-    wheel_noise: float = 0.0  # [m] standard deviation of a wheel's travel after 1 m
-    seed: str = ""  # the same seed draws the same errors
-
-
 class OdometryErrors:
     """The errors of one robot: what it truly does, what it measures, how far it can be trusted."""
 
-    def __init__(self, model: ErrorModel, wheel_separation: float) -> None:
-        """Take an ErrorModel and the nominal wheel_separation [m]."""
-        self._model = model
+    def __init__(
+        self,
+        wheel_separation: float,
+        wheel_radius_ratio: float = 1.0,
+        track_ratio: float = 1.0,
+        wheel_noise: float = 0.0,
+        seed: str = "",
+    ) -> None:
+        """Take the nominal wheel_separation [m] and how wrong the odometry is.
+
+        wheel_radius_ratio: E_d; track_ratio: E_b; wheel_noise: standard deviation [m] of a wheel's
+        travel after 1 m, drawn from the seed.
+        """
         self._separation = wheel_separation
-        self._random = Random(model.seed)
+        self._radius_ratio, self._track_ratio = wheel_radius_ratio, track_ratio
+        self.wheel_noise = wheel_noise
+        self._random = Random(seed)
         self.forget()
 
     def forget(self) -> None:
@@ -49,15 +50,15 @@ class OdometryErrors:
     def true_velocity(self, velocity: Velocity) -> Velocity:
         """Return the velocity of the actual robot whose wheels turn as the nominal one's."""
         left, right = wheel_rates(velocity, self._separation, 1.0)
-        ratio = self._model.wheel_radius_ratio
+        ratio = self._radius_ratio
         left *= 2.0 / (1.0 + ratio)
         right *= 2.0 * ratio / (1.0 + ratio)
-        return 0.5 * (left + right), (right - left) / (self._model.track_ratio * self._separation)
+        return 0.5 * (left + right), (right - left) / (self._track_ratio * self._separation)
 
     def measured(self, velocity: Velocity, dt: float) -> Velocity:
         """Return the mean velocity [m/s, rad/s] that the wheels seem to have had during dt [s]."""
         left, right = (
-            rate + self._random.gauss(0.0, self._model.wheel_noise * sqrt(abs(rate) / dt))
+            rate + self._random.gauss(0.0, self.wheel_noise * sqrt(abs(rate) / dt))
             for rate in wheel_rates(velocity, self._separation, 1.0)
         )
         return 0.5 * (left + right), (right - left) / self._separation
@@ -78,5 +79,5 @@ class OdometryErrors:
         by_wheels[:2, 1] = 0.5 * along + aside * across
         by_wheels[2] = -1.0 / self._separation, 1.0 / self._separation
         distances = np.abs(wheel_rates(velocity, self._separation, 1.0)) * dt
-        wheels = self._model.wheel_noise**2 * distances
+        wheels = self.wheel_noise**2 * distances
         self.covariance = by_pose @ self.covariance @ by_pose.T + (by_wheels * wheels) @ by_wheels.T

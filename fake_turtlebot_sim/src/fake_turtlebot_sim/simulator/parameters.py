@@ -4,13 +4,10 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from math import inf, pi
+from math import pi
 from typing import Any, Mapping
 
 from fake_turtlebot_sim.simulator.differential_drive import Pose
-from fake_turtlebot_sim.simulator.odometry_errors import ErrorModel
-from fake_turtlebot_sim.simulator.simulated_robot import RobotModel
-from fake_turtlebot_sim.simulator.velocity_command import VelocityLimits
 from node_kit.parameters import (
     checked,
     is_number,
@@ -120,21 +117,6 @@ class Parameters:
     def start_poses(self) -> dict[str, Pose]:
         """Return {name: (x, y, yaw)}; the only robot of a node without ~robots has no name."""
         return self.robots or {"": (self.initial_x, self.initial_y, self.initial_yaw)}
-
-    def robot_model(self, name: str) -> RobotModel:
-        """Return the RobotModel; each name draws odometry noise of its own, in company or alone."""
-        limits = VelocityLimits(
-            self.max_linear_speed,
-            self.max_angular_speed,
-            self.max_linear_acceleration or inf,
-            self.max_angular_acceleration or inf,
-        )
-        errors = ErrorModel(
-            self.wheel_radius_ratio, self.track_ratio, self.wheel_noise, f"{self.seed}/{name}"
-        )
-        return RobotModel(
-            self.wheel_separation, self.wheel_radius, self.cmd_vel_timeout, limits, errors
-        )
 
 
 def parse_parameters(given: Mapping[str, Any]) -> Parameters:

@@ -1,6 +1,9 @@
-"""The topics of one robot; the node decides when they speak."""
+"""The topics of one robot; the node decides when they are published."""
+
+from __future__ import annotations
 
 import time
+from typing import Any, Callable
 
 import rospy
 from geometry_msgs.msg import PoseWithCovarianceStamped, Twist
@@ -9,9 +12,11 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Empty
 from std_srvs import srv
 
-from fake_turtlebot_sim.simulator.ros_messages import RobotMessages, pose_on_floor
-from fake_turtlebot_sim.simulator.simulated_robot import REST, SimulatedRobot
-from fake_turtlebot_sim.simulator.velocity_command import Verdict
+from fake_turtlebot_sim.simulator.differential_drive import Pose
+from fake_turtlebot_sim.simulator.parameters import Parameters
+from fake_turtlebot_sim.simulator.ros_clock import Instant, Motion
+from fake_turtlebot_sim.simulator.ros_messages import RobotMessages, pose_on_plane
+from fake_turtlebot_sim.simulator.simulated_robot import REST, SimulatedRobot, Verdict
 from node_kit.arming import Resumption
 from node_kit.prompt_publisher import PromptPublisher
 
@@ -19,91 +24,89 @@ from node_kit.prompt_publisher import PromptPublisher
 class RobotTopics:
     """A simulated robot and its topics, in the namespace of its name if it has one."""
 
-    def __init__(self, name, start_pose, parameters, motion, warn):
-        """Take the start pose (x, y, yaw), the Parameters and the Motion shared by all robots.
-
-        warn: called with a line for the user; it must not wait.
-        """
+    def __init__(
+        self,
+        name: str,
+        start_pose: Pose,
+        parameters: Parameters,
+        motion: Motion,
+        warn: Callable[[str], object],
+    ) -> None:
+        """Take the Motion of all robots; warn() gets a line for the user and must not wait."""
         prefix = f"{name}/" if name else ""
         self._name = name or "the robot"
         self._motion = motion
         self._resumption = Resumption()
         self._warn = warn
-        self._said = set()
+        self._reported: set[str] = set()
         self._has_ended = False
         self.rejected = 0
-        self.robot = SimulatedRobot(parameters.robot_model(name), start_pose)
+        self.robot = SimulatedRobot(parameters, start_pose, name)
         self.odom_frame = prefix + parameters.odom_frame
         # The frames a pose may be given in: that of all robots lies on that of each odometry.
         self._frames = [self.odom_frame] + ([parameters.world_frame] if name else [])
         self.messages = RobotMessages(parameters, prefix)
-        self._odom = PromptPublisher(f"{prefix}odom", Odometry)
-        self._joints = PromptPublisher(f"{prefix}joint_states", JointState)
+        self._publishers = [
+            (PromptPublisher(f"{prefix}odom", Odometry), self.messages.odometry),
+            (PromptPublisher(f"{prefix}joint_states", JointState), self.messages.joints),
+        ]
         if self.robot.has_errors:
-            self._ground_truth = PromptPublisher(f"{prefix}base_pose_ground_truth", Odometry)
+            truth = PromptPublisher(f"{prefix}base_pose_ground_truth", Odometry)
+            self._publishers.append((truth, self.messages.ground_truth))
         for topic, kind, callback in (
             ("cmd_vel", Twist, self._on_cmd_vel),
             ("initialpose", PoseWithCovarianceStamped, self._on_initialpose),
-            ("mobile_base/commands/reset_odometry", Empty, self._on_reset),
+            ("mobile_base/commands/reset_odometry", Empty, self.reset),
         ):
             # Only the newest counts, so none may wait behind it.
             rospy.Subscriber(prefix + topic, kind, callback, queue_size=1, tcp_nodelay=True)
         if name:  # of a single robot the node's own does the same
-            rospy.Service(f"{prefix}reset", srv.Empty, self._on_reset_call)
+            rospy.Service(f"{prefix}reset", srv.Empty, self._on_reset)
 
-    def tell(self, stamp):
-        """Write the robot's state into its messages; call while the motion is held."""
-        self.messages.tell(self.robot, stamp)
+    def publish(self) -> None:
+        """Publish the messages as they were filled last."""
+        for publisher, message in self._publishers:
+            publisher.publish(message)
 
-    def publish(self):
-        """Publish what was told last."""
-        self._odom.publish(self.messages.odometry)
-        self._joints.publish(self.messages.joints)
-        if self.robot.has_errors:
-            self._ground_truth.publish(self.messages.ground_truth)
-
-    def end(self, now):
+    def end(self, now: Instant) -> None:
         """Stop the robot for good; call while the motion is held."""
         self.robot.command(REST, now.motion_ns)
         self._has_ended = True
 
-    def _on_cmd_vel(self, twist):
+    def reset(self, _message: Any = None) -> None:
+        """Zero pose and wheels."""
+        with self._motion.hold() as now:
+            self.robot.advance(now.motion_ns)
+            self.robot.reset()
+
+    def _on_reset(self, _request: Any) -> Any:
+        self.reset()
+        return srv.EmptyResponse()
+
+    def _on_cmd_vel(self, twist: Any) -> None:
         with self._motion.hold() as now:
             if self._has_ended or not self._takes(twist):
                 return
             verdict = self.robot.command((twist.linear.x, twist.angular.z), now.motion_ns)
             self.rejected += verdict is Verdict.REJECTED
-        if verdict is not Verdict.ACCEPTED:
-            self._say_once(f"cmd_vel of {self._name}: {verdict.value}")
+        if verdict is not Verdict.ACCEPTED and verdict.value not in self._reported:
+            self._reported.add(verdict.value)
+            self._warn(f"cmd_vel of {self._name}: {verdict.value}")
 
-    def _takes(self, twist):
-        """Whether a command may be obeyed: after a suspension none before a stop that is new."""
+    def _takes(self, twist: Any) -> bool:
+        """Return whether to obey: after a suspension nothing before a stop that is new."""
         now = time.monotonic()
         if self._resumption.notice(self._motion.suspensions.number(), now):
             self._warn(f"{self._name} was suspended: it obeys again after a command to stand.")
         stops = not (twist.linear.x or twist.angular.z)
         return not self._resumption.holds(stops, now)
 
-    def _on_initialpose(self, message):
+    def _on_initialpose(self, message: Any) -> None:
         try:
-            pose = pose_on_floor(message, self._frames)
+            pose = pose_on_plane(message, self._frames)
         except ValueError as error:
             self._warn(f"initialpose of {self._name}: {error}")
             return
         with self._motion.hold() as now:
             self.robot.advance(now.motion_ns)
             self.robot.place(pose)
-
-    def _on_reset(self, _empty):
-        with self._motion.hold() as now:
-            self.robot.advance(now.motion_ns)
-            self.robot.reset()
-
-    def _on_reset_call(self, request):
-        self._on_reset(request)
-        return srv.EmptyResponse()
-
-    def _say_once(self, text):
-        if text not in self._said:
-            self._said.add(text)
-            self._warn(text)

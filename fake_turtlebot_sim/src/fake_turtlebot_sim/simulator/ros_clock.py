@@ -1,14 +1,16 @@
-"""The two clocks a ROS node can live by, behind one interface.
+"""The two clocks a ROS node can live by, behind one interface, and the motion that follows them.
 
 ``read()`` returns (stamp, reading): the ROS time for the messages and the time in nanoseconds that
 motion and periods follow. ``wait(reading, deadline)`` returns once the clock has reached the
 deadline, was set back behind the reading, or the node is shut down.
 """
 
+from __future__ import annotations
+
 import threading
 import time
 from contextlib import contextmanager
-from typing import NamedTuple
+from typing import Iterator, NamedTuple
 
 import rospy
 
@@ -21,36 +23,27 @@ SHUTDOWN_CHECK_S = 0.1  # how long a shutdown may go unnoticed while /clock stan
 class RealClock:
     """Stamps from the system clock; motion from the monotonic one, which nobody can set."""
 
-    def read(self):
-        """Return (ROS time, monotonic time [ns])."""
+    def read(self) -> tuple[rospy.Time, int]:
         return rospy.Time.now(), time.monotonic_ns()
 
-    def wait(self, _reading_ns, deadline_ns):
-        """Sleep until the deadline."""
+    def wait(self, _reading_ns: int, deadline_ns: int) -> None:
         time.sleep(max(0, deadline_ns - time.monotonic_ns()) * 1e-9)
 
 
 class SimulatedClock:
     """Everything from /clock, which may pause, jump forwards and be set back."""
 
-    def read(self):
-        """Return (ROS time, the same [ns])."""
+    def read(self) -> tuple[rospy.Time, int]:
         stamp = rospy.Time.now()
         return stamp, stamp.to_nsec()
 
-    def wait(self, reading_ns, deadline_ns):
-        """Wait for the messages on /clock until one reaches the deadline or sets the time back."""
+    def wait(self, reading_ns: int, deadline_ns: int) -> None:
         changed = rospy.rostime.get_rostime_cond()
         with changed:
             while (
                 reading_ns <= rospy.Time.now().to_nsec() < deadline_ns and not rospy.is_shutdown()
             ):
                 changed.wait(SHUTDOWN_CHECK_S)
-
-
-def ros_clock():
-    """Return the clock that /use_sim_time asks for; the node must be initialised."""
-    return RealClock() if rospy.rostime.is_wallclock() else SimulatedClock()
 
 
 class Instant(NamedTuple):
@@ -62,18 +55,18 @@ class Instant(NamedTuple):
 
 
 class Motion:
-    """Guards the motion of all robots: who holds it has them, and the present, alone."""
+    """Guards the motion of all robots: a thread that holds it has them, and the present, alone."""
 
-    def __init__(self, clock):
-        """Take a RealClock or a SimulatedClock."""
-        self._clock = clock
+    def __init__(self) -> None:
+        """Follow the clock that /use_sim_time asks for; the node must be initialised."""
+        self.clock = RealClock() if rospy.rostime.is_wallclock() else SimulatedClock()
         self._lock = threading.Lock()
         self.suspensions = Suspensions()
-        self._motion_clock = MotionClock(clock.read()[1])
+        self._motion_clock = MotionClock(self.clock.read()[1])
 
     @contextmanager
-    def hold(self):
+    def hold(self) -> Iterator[Instant]:
         """Keep other threads out and yield the Instant, read inside so that all are in order."""
         with self._lock:
-            stamp, reading_ns = self._clock.read()
+            stamp, reading_ns = self.clock.read()
             yield Instant(stamp, reading_ns, self._motion_clock.update(reading_ns))

@@ -1,18 +1,25 @@
-"""Between the state of a robot and the messages that tell it, all with one stamp.
+"""From the state of a robot to its messages, all with one stamp, and from a pose message back.
 
 Frames as REP-105 orders them: the pose of the base in the odometry frame, the twist in the frame
 of the base. The message objects are made once and filled again for every state: rospy copies a
 message when it publishes it, and making a new Odometry would cost more than all the rest.
 """
 
+from __future__ import annotations
+
 from math import atan2, cos, hypot, isfinite, sin
+from typing import Any, Sequence
 
 from geometry_msgs.msg import TransformStamped
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import JointState
 
+from fake_turtlebot_sim.simulator.differential_drive import Pose
+from fake_turtlebot_sim.simulator.parameters import Parameters
+from fake_turtlebot_sim.simulator.simulated_robot import RobotState, SimulatedRobot
+
 # Diagonal of the pose covariance [m2, rad2] that kobuki_node publishes (odometry.cpp): huge for
-# what a robot on a floor cannot know. Its twist covariance is left at zero, "unknown".
+# what a robot on a plane cannot know. Its twist covariance is left at zero, "unknown".
 KOBUKI_POSE_COVARIANCE = (0.1, 0.1, 1e10, 1e10, 1e10, 0.05)
 X_Y_YAW = (0, 1, 5)  # where x, y and yaw stand in the 6 x 6 covariance of a message
 # Added to the variances of x, y and yaw, as filters cannot invert a covariance of zero.
@@ -22,7 +29,7 @@ LEAST_VARIANCE = 1e-9  # [m2, rad2]
 class RobotMessages:
     """The odometry, transform and wheel joints of one robot, and the truth if that differs."""
 
-    def __init__(self, parameters, prefix=""):
+    def __init__(self, parameters: Parameters, prefix: str = "") -> None:
         """Take the names of frames and joints from the Parameters; the prefix is for the frames."""
         odom_frame, base_frame = prefix + parameters.odom_frame, prefix + parameters.base_frame
         self.odometry, self.ground_truth = Odometry(), Odometry()
@@ -39,26 +46,22 @@ class RobotMessages:
         self.joints = JointState()
         self.joints.name = [parameters.left_wheel_joint, parameters.right_wheel_joint]
 
-    def tell(self, robot, stamp):
-        """Tell what the SimulatedRobot does at the instant `stamp`."""
-        self.fill(robot.state(), stamp)
-        covariance = robot.covariance()
-        if covariance is not None:
-            self.fill_covariance(covariance)
-        if robot.has_errors:
-            fill_odometry(self.ground_truth, robot.true_state(), stamp)
-
-    def fill(self, state, stamp):
-        """Write a RobotState into all messages but the truth."""
+    def fill(self, robot: SimulatedRobot, stamp: Any) -> None:
+        """Write what the robot does at the instant `stamp` into all messages."""
+        state = robot.state()
         fill_odometry(self.odometry, state, stamp)
         self.transform.header.stamp = self.joints.header.stamp = stamp
         self.transform.transform.translation.x = state.x
         self.transform.transform.translation.y = state.y
         self.joints.position = (state.left_angle, state.right_angle)
         self.joints.velocity = (state.left_rate, state.right_rate)
+        covariance = robot.covariance()
+        if covariance is not None:
+            self._fill_covariance(covariance)
+        if robot.has_errors:
+            fill_odometry(self.ground_truth, robot.true_state(), stamp)
 
-    def fill_covariance(self, covariance):
-        """Tell the 3 x 3 covariance of x [m], y [m] and yaw [rad]."""
+    def _fill_covariance(self, covariance: Any) -> None:
         for row, message_row in enumerate(X_Y_YAW):
             for column, message_column in enumerate(X_Y_YAW):
                 value = float(covariance[row, column])
@@ -66,7 +69,7 @@ class RobotMessages:
             self.odometry.pose.covariance[7 * message_row] += LEAST_VARIANCE
 
 
-def fill_odometry(odometry, state, stamp):
+def fill_odometry(odometry: Odometry, state: RobotState, stamp: Any) -> None:
     """Write the pose and the twist of a RobotState into an Odometry."""
     odometry.header.stamp = stamp
     odometry.pose.pose.position.x = state.x
@@ -77,7 +80,7 @@ def fill_odometry(odometry, state, stamp):
     odometry.twist.twist.angular.z = state.w
 
 
-def static_transform(parent, child, stamp):
+def static_transform(parent: str, child: str, stamp: Any) -> TransformStamped:
     """Return the TransformStamped that lays the frame `child` onto its parent."""
     transform = TransformStamped()
     transform.header.stamp = stamp
@@ -86,7 +89,7 @@ def static_transform(parent, child, stamp):
     return transform
 
 
-def pose_on_floor(message, frames):
+def pose_on_plane(message: Any, frames: Sequence[str]) -> Pose:
     """Return (x [m], y [m], yaw [rad]) of a PoseWithCovarianceStamped in one of the frames.
 
     Raises ValueError with one line if the frame is another or the pose is not one.
@@ -100,5 +103,5 @@ def pose_on_floor(message, frames):
     aside = 2.0 * (q.w * q.z + q.x * q.y)
     pose = (position.x, position.y, atan2(aside, ahead))
     if not all(map(isfinite, pose)) or hypot(ahead, aside) < 1e-6:
-        raise ValueError("the pose has no finite position or no heading on the floor")
+        raise ValueError("the pose has no finite position or no heading on the plane")
     return pose

@@ -7,42 +7,36 @@ timeout), so what it does depends on when commands came, not on how often it is 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from enum import Enum
+from math import isfinite
 from typing import Any, NamedTuple
 
 from fake_turtlebot_sim.simulator.contact import Piece, drive_among
 from fake_turtlebot_sim.simulator.differential_drive import (
     Pose,
     Velocity,
+    between,
     drive,
+    limit,
+    ramp_time,
     wheel_rates,
     wrap_angle,
 )
-from fake_turtlebot_sim.simulator.odometry_errors import ErrorModel, OdometryErrors
-from fake_turtlebot_sim.simulator.velocity_command import (
-    VelocityLimits,
-    Verdict,
-    between,
-    is_finite,
-    limit,
-    ramp_time,
-)
+from fake_turtlebot_sim.simulator.odometry_errors import OdometryErrors
+from fake_turtlebot_sim.simulator.parameters import Parameters
 from fake_turtlebot_sim.simulator.world import Surroundings, World
 
 REST: Velocity = (0.0, 0.0)
 ORIGIN: Pose = (0.0, 0.0, 0.0)
+BASE_RADIUS_M = 0.178  # kobuki.urdf.xacro
 
 
-@dataclass(frozen=True)
-class RobotModel:
-    """Constants of a robot. Defaults: TurtleBot 2 (wheels: kobuki_core; timeout: kobuki_node)."""
+class Verdict(Enum):
+    """What becomes of a command."""
 
-    wheel_separation: float = 0.230  # [m]
-    wheel_radius: float = 0.035  # [m]
-    cmd_vel_timeout: float = 0.6  # [s]
-    limits: VelocityLimits = field(default_factory=VelocityLimits)
-    errors: ErrorModel = field(default_factory=ErrorModel)
-    base_radius: float = 0.178  # [m] (kobuki.urdf.xacro)
+    ACCEPTED = "obeyed"
+    LIMITED = "more than the robot can do; scaled down to what it can"
+    REJECTED = "not a finite number; ignored"
 
 
 class RobotState(NamedTuple):
@@ -63,29 +57,37 @@ class SimulatedRobot:
     """A robot that obeys its newest command until the timeout, then stops."""
 
     def __init__(
-        self, model: RobotModel, start_pose: Pose = ORIGIN, world: World | None = None
+        self,
+        parameters: Parameters,
+        start_pose: Pose = ORIGIN,
+        name: str = "",
+        world: World | None = None,
     ) -> None:
         """Put the robot at rest at start_pose, (x [m], y [m], yaw [rad]), at the time 0.
 
-        world: what may be in its way, in the frame of the pose.
+        Each name draws odometry noise of its own, in company or alone. world: what may be in the
+        robot's way, in the frame of the pose.
         """
-        self._model = model
-        self._timeout_ns = round(model.cmd_vel_timeout * 1e9)
+        p = self._parameters = parameters
+        self._timeout_ns = round(p.cmd_vel_timeout * 1e9)
         self._time_ns = self._expires_ns = 0
         self._velocity = self._target = REST
         self._wheels = (0.0, 0.0)
-        has_errors = model.errors != ErrorModel(seed=model.errors.seed)
-        self._errors = OdometryErrors(model.errors, model.wheel_separation) if has_errors else None
+        errors = (p.wheel_radius_ratio, p.track_ratio, p.wheel_noise)
+        self._errors = None
+        if errors != (1.0, 1.0, 0.0):
+            self._errors = OdometryErrors(p.wheel_separation, *errors, f"{p.seed}/{name}")
         self._surroundings = Surroundings(world) if world else None
         self._contact: float | None = None
         self.place(start_pose)
 
     def command(self, velocity: Velocity, now_ns: int) -> Verdict:
         """Obey the velocity (v [m/s], w [rad/s]) from now on; return the Verdict on it."""
-        if not is_finite(velocity):
+        if not all(map(isfinite, velocity)):
             return Verdict.REJECTED  # and the timeout runs on
         self.advance(now_ns)
-        self._target = limit(velocity, self._model.limits)
+        p = self._parameters
+        self._target = limit(velocity, p.max_linear_speed, p.max_angular_speed)
         self._expires_ns = self._time_ns + self._timeout_ns
         return Verdict.ACCEPTED if self._target == velocity else Verdict.LIMITED
 
@@ -125,11 +127,11 @@ class SimulatedRobot:
 
     def covariance(self) -> Any:
         """Return how the odometry errs, 3 x 3 for x [m], y [m], yaw [rad]; None without noise."""
-        return self._errors.covariance if self._errors and self._model.errors.wheel_noise else None
+        return self._errors.covariance if self._errors and self._errors.wheel_noise else None
 
     @property
     def has_errors(self) -> bool:
-        """Tell whether the odometry differs from the truth."""
+        """Return whether the odometry differs from the truth."""
         return self._errors is not None
 
     @property
@@ -139,12 +141,12 @@ class SimulatedRobot:
 
     @property
     def is_driven(self) -> bool:
-        """Tell whether a command is in force, that is, not timed out."""
+        """Return whether a command is in force, that is, not timed out."""
         return self._time_ns < self._expires_ns
 
     @property
     def is_moving(self) -> bool:
-        """Tell whether the robot had a velocity at the time of the last advance()."""
+        """Return whether the robot had a velocity at the time of the last advance()."""
         return self._velocity != REST
 
     @property
@@ -152,14 +154,17 @@ class SimulatedRobot:
         return self._true_pose if self._errors else self._pose
 
     def _wheel_rates(self, velocity: Velocity) -> tuple[float, float]:
-        return wheel_rates(velocity, self._model.wheel_separation, self._model.wheel_radius)
+        p = self._parameters
+        return wheel_rates(velocity, p.wheel_separation, p.wheel_radius)
 
     def _move(self, to_ns: int) -> None:
         """Move with one target: first the ramp towards it, if any is left, then steadily."""
         dt = (to_ns - self._time_ns) * 1e-9
         self._time_ns = to_ns
         if self._velocity != self._target:
-            ramp_s = ramp_time(self._velocity, self._target, self._model.limits)
+            p = self._parameters
+            limits = p.max_linear_acceleration, p.max_angular_acceleration
+            ramp_s = ramp_time(self._velocity, self._target, *limits)
             if ramp_s > dt:
                 self._drive(between(self._velocity, self._target, dt / ramp_s), dt)
                 return
@@ -182,9 +187,9 @@ class SimulatedRobot:
             self._roll(velocity, end_velocity, Piece(*true, dt))
             return
         x, y, _ = self._truth
-        reach = self._model.base_radius + dt * max(abs(true[0][0]), abs(true[1][0]))
+        reach = BASE_RADIUS_M + dt * max(abs(true[0][0]), abs(true[1][0]))
         near = self._surroundings.near(x, y, reach)
-        pieces, self._contact = drive_among(self._truth, *true, dt, self._model.base_radius, near)
+        pieces, self._contact = drive_among(self._truth, *true, dt, BASE_RADIUS_M, near)
         after = 0.0
         for piece in pieces:
             before, after = after, after + piece.dt
@@ -218,7 +223,7 @@ class SimulatedRobot:
         """Drive the true robot and its odometry apart; return the mean velocity as measured."""
         self._true_pose = drive(self._true_pose, *true[:3])
         before = self._pose
-        if not self._model.errors.wheel_noise or not true.dt:
+        if not errors.wheel_noise or not true.dt:
             self._pose = drive(before, velocity, end_velocity, true.dt)
             return mean
         # The measured travel of a step carries no more than its mean velocity.

@@ -28,7 +28,7 @@ def commands():
     """Yield the command lines: the recording's launch file, and a classroom with students."""
     bag = os.path.join(rospkg.RosPack().get_path("joy2twist"), "bag", "joy.bag")
     yield "roslaunch", "joy2twist", "launch_bag.launch", "rviz:=false"
-    yield "roslaunch", "--wait", "fake_turtlebot_sim", "classroom.launch", f"robots:={ROBOTS}"
+    yield "roslaunch", "--wait", "cockpit", "classroom.launch", f"robots:={ROBOTS}"
     for number in STUDENTS:
         yield (
             "roslaunch", "--wait", "joy2twist", "student.launch", f"name:=robot_{number}",
