@@ -1,8 +1,8 @@
 """What ./tutorial runs can be reached from this machine only, until the user names an address.
 
 ROS's own limit, which stays: a C++ node (rosout, robot_state_publisher, rosbag) answers XML-RPC on
-every address. Who finds that port can end the node, or name another publisher to it; the
-master, the Python nodes and every topic are out of reach.
+every address. A program that finds that port can end the node, or name another
+publisher to it; the master, the Python nodes and every topic are out of reach.
 """
 
 import re

@@ -78,8 +78,8 @@ def test_a_cable_is_pulled_and_plugged_in_again(scene, tmp_path, mux, late):
     wait_for(lambda: ends_with(active, "idle"), "robot that nobody drives")
     scene.network.plug_cable(WORKSTATION)
     wait_for(lambda: ends_with(active, "teleop"), "late commands")
-    told = len(scene.odometry)
-    wait_for(lambda: len(scene.odometry) > told + 50, "another second of odometry")
+    count = len(scene.odometry)
+    wait_for(lambda: len(scene.odometry) > count + 50, "another second of odometry")
     assert max(distance(m, stands) for m in scene.odometry if m.time > stands.time) <= late
 
     # Neutral once, and it drives as before, with no program started anew.

@@ -6,8 +6,7 @@ import sys
 import pytest
 
 from tutorial_tools.command import build
-from tutorial_tools.command.completion import candidates
-from tutorial_tools.command.words import KINDS, WORDS, main, parser_of, plan
+from tutorial_tools.command.words import candidates, main, plan
 
 SECTIONS = {"demo": ["demo", "more"], "test": ["demo", "more", "test"], "doctor": ["doctor"]}
 SECTIONS["browser"] = [*SECTIONS["test"], "browser"]
@@ -105,7 +104,7 @@ def test_a_mistake_is_one_line(monkeypatch, capsys, line, words):
     ],
 )
 def test_completion(typed, found):
-    assert candidates({word: parser_of(word) for word in WORDS}, KINDS, typed) == found
+    assert candidates(typed) == found
 
 
 @pytest.mark.parametrize(

@@ -5,8 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from tutorial_tools.demo.drive_report import DriveReport
-from tutorial_tools.demo.launch import DemoError
+from tutorial_tools.demo.launch import DemoError, DriveReport
 from tutorial_tools.demo.program import check_bag, in_the_way, refusal
 from tutorial_tools.launch_arguments import launch_arguments
 

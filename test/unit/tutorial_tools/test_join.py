@@ -70,10 +70,7 @@ def test_which_robots_there_are(monkeypatch):
     "state",
     [
         5,
-        "no",
         [[], []],
-        [[], [], [], []],
-        [[5], [], []],
         [[["/a"]], [], []],
         [[], [[5, ["/a"]]], []],
         [[], [["/robot_1/cmd_vel", 5]], []],

@@ -66,6 +66,7 @@ class Scene:
     def launch_robot(self, arguments=""):
         """Start the page's launch on the robot and watch its odometry."""
         self.robot = self.start(ROBOT, f"{self._blocks[ROBOT][2]} {arguments}")
+        wait_for(lambda: "core service" in self.robot.output, "master of the robot")
         self._observer = self.start(ROBOT, f"'{OBSERVER}'")
         wait_for(lambda: self.odometry, "odometry of the robot")
 

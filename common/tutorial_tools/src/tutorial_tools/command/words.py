@@ -16,7 +16,6 @@ from typing import Dict, List, NoReturn, TextIO
 
 from node_kit.arguments import Parser, above_zero
 from tutorial_tools.command.build import REPOSITORY, is_done
-from tutorial_tools.command.completion import SCRIPT, candidates
 
 SCRIPTS = REPOSITORY / "common" / "tutorial_tools" / "scripts"
 PROGRAMS = {word: str(SCRIPTS / f"{word}.py") for word in ("demo", "join", "doctor")}
@@ -52,13 +51,23 @@ KINDS = {  # of tests
     "mutation": "whether the unit tests notice small changes to the rules; hours",
 }
 IN_WORDS = ("shell", "run", "doctor", "check")  # which know --in
-OWN_PARSER = ("check", "cockpit")  # programs that read their options themselves
+OWN_PARSER = {  # programs that read their options themselves, and those for completion
+    "check": ("--in", "--all", "--watch", "--no-hints"),
+    "cockpit": ("--port", "--lan"),
+}
 EPILOG = """\
 --in WORKSPACE: your own catkin workspace in place of our beginner_tutorials and joy2twist, which
 are then not found at all. `shell` and `run` make and build it if it does not exist.
 Every command first sets up what it needs. The suite's own catkin workspaces are in
 $TUTORIAL_WORKSPACE or else below ~/.cache; remove them, and they are built again.
 README.md leads through the tutorial, section by section."""
+# For bash. The name is that of the command line: ./tutorial from a clone, tutorial in its shell.
+COMPLETION = """\
+_tutorial() {
+    local IFS=$'\\n'
+    COMPREPLY=($("${COMP_WORDS[0]}" completion "${COMP_WORDS[@]:1:COMP_CWORD}" 2>/dev/null))
+}
+complete -o default -F _tutorial tutorial ./tutorial"""
 Plan = Dict[str, List[str]]  # sections of packages, programs, builds, student and the command
 
 
@@ -178,7 +187,9 @@ def plan(word: str, arguments: list[str]) -> Plan:
         )
         return {**made, "command": [*program, *arguments]}
     if word in ("bench", "lint", "docs"):
-        parser_of(word).parse_known_args(arguments)
+        parsed = parser_of(word).parse_known_args(arguments)
+        if word == "docs" and parsed[1]:
+            parser_of(word).error(f"unrecognized arguments: {' '.join(parsed[1])}")
         refuse(word, arguments)
         return plan_of_test(word, arguments)
     options = parser_of(word).parse_args(arguments)
@@ -203,6 +214,19 @@ def plan(word: str, arguments: list[str]) -> Plan:
     return made
 
 
+def candidates(typed: list[str]) -> list[str]:
+    """Return what the last typed word may become; nothing leaves it to bash, as for files."""
+    word, *before, last = ["", *typed] if len(typed) == 1 else typed
+    found = list(WORDS)
+    if word:
+        actions = parser_of(word)._actions if word in WORDS else []  # noqa: SLF001 (argparse offers no other way)
+        found = [option for action in actions for option in action.option_strings]
+        found += OWN_PARSER.get(word, ())
+        more = {"test": list(KINDS), "setup": ["system", "workspace"]}
+        found += more.get(word, []) if not before else []
+    return [each for each in found if each.startswith(last) and (last or each[0] != "-")]
+
+
 def main() -> None:
     """Print the plan on file descriptor 3; without one, nothing is left to do."""
     workspace, word, *arguments = [*sys.argv[1:], ""] if len(sys.argv) == 2 else sys.argv[1:]
@@ -212,8 +236,7 @@ def main() -> None:
     if word in ("help", "-h", "--help"):
         show_help(sys.stdout)
     elif word == "completion":
-        words = {name: parser_of(name) for name in WORDS}
-        print("\n".join(candidates(words, KINDS, arguments)) if arguments else SCRIPT)
+        print("\n".join(candidates(arguments)) if arguments else COMPLETION)
     elif word not in WORDS:
         near = difflib.get_close_matches(word, WORDS, 1)
         meant = f"; did you mean {near[0]}?" if near else ""
