@@ -139,6 +139,18 @@ def test_a_second_demo_is_refused_and_the_first_drives_on(tutorial, master_uri):
         assert first.wait() == 130
 
 
+@pytest.mark.usefixtures("master_uri")
+def test_of_two_demos_that_start_at_once_one_drives(tutorial):
+    both = [Program(tutorial, "demo", "--for", "4", *BARE) for _ in range(2)]
+    with both[0], both[1]:
+        wait_for(lambda: both[0].ended or both[1].ended, "end of one")
+        refused, drives = sorted(both, key=lambda program: program.ended, reverse=True)
+        assert refused.wait() == 1
+        assert " already on " in refused.output, refused.output
+        assert len(refused.output.splitlines()) == 1
+        check_demo(drives, 4)
+
+
 def test_demo_is_refused_beside_another_sender_but_not_beside_a_dead_node(tutorial, master_uri):
     def start(*command):
         return Program(tutorial, "run", *command)

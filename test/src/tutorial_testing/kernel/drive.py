@@ -4,8 +4,11 @@ Starts its own master. Prints what it finds in lines that begin with "drive: ", 
 "drive: passed"; any failure is an exception.
 """
 
+import math
 import os
 import platform
+import struct
+import threading
 import time
 from pathlib import Path
 
@@ -23,7 +26,11 @@ from tutorial_testing.waiting import wait_for
 DEVICE = Path("/dev/input/js0")
 DEADLINE_S = 90.0  # of the guest's time: an emulated processor is some ten times slower
 PROMPT_S = 0.1  # how soon a released dead-man or a lost gamepad must have its effect
+DEADZONE = 0.05
 METRES_PER_S = 0.35  # at full deflection: config/f710_d.yaml
+STICKS = (  # some in the deadzone, some at the ends
+    (0.0, 0.0), (1.0, -1.0), (0.02, -0.04), (0.06, -0.5), (-1.0, 1.0), (0.33, 0.77), (0.0, 0.0),
+)  # fmt: skip
 FORWARD = Controls(left_stick=(0.0, 1.0))
 HELD = Controls(left_stick=(0.0, 1.0), held=frozenset(["LB"]))
 
@@ -34,6 +41,40 @@ def report(text):
 
 def wait(condition, what):
     return wait_for(condition, what, DEADLINE_S)
+
+
+class RawReader:
+    """The newest state of the joystick device, read beside the driver."""
+
+    def __init__(self):
+        self.axes, self.buttons = {}, {}
+        self.lost = False  # whether the kernel reported to this reader that the gamepad is gone
+        self._file = DEVICE.open("rb", buffering=0)
+        threading.Thread(target=self._read, daemon=True).start()
+
+    def _read(self):
+        try:
+            while True:
+                _, value, kind, number = struct.unpack("=IhBB", self._file.read(8))
+                (self.buttons if kind & 1 else self.axes)[number] = value
+        except OSError:
+            self.lost = True
+
+    def values(self):
+        """Return the axes as the kernel has them."""
+        return [self.axes[n] for n in sorted(self.axes)]
+
+    def is_as_on(self, joy):
+        """Return whether joy_node published this state, but for rounding to 32 bits."""
+        axes, buttons = map(scaled, self.values()), [self.buttons[n] for n in sorted(self.buttons)]
+        close = all(abs(a - b) < 1e-7 for a, b in zip(joy.axes, axes))
+        return close and len(joy.axes) == len(self.axes) and list(joy.buttons) == buttons
+
+
+def scaled(value):
+    """Return an axis on /joy, from the value of the kernel."""
+    size = max(0.0, abs(value) - 32767 * DEADZONE) / (32767 * (1 - DEADZONE))
+    return math.copysign(size, -value)
 
 
 class Robot:
@@ -49,11 +90,6 @@ class Robot:
         """Of the newest odometry [m/s]."""
         return self.odometry[-1].twist.twist.linear.x
 
-    def shown(self):
-        """Return (axes, buttons) of the newest message, as whole numbers and truth values."""
-        joy = self.joy[-1]
-        return [round(axis) for axis in joy.axes], list(map(bool, joy.buttons))
-
     def check_stands(self, since, what):
         """The robot stood soon after a time [s]."""
         wait(lambda: self.speed == 0.0, "standing robot")
@@ -63,18 +99,21 @@ class Robot:
         assert took_s < PROMPT_S
 
 
-def check_positions(pad, robot):
-    """Every axis at its ends, and every button that is held, appears on /joy."""
-    for stick in (1.0, -1.0):
+def check_positions(pad, raw, robot):
+    """Every position appears on /joy exactly as the kernel reports it."""
+    for stick in STICKS:
         for controls in (
-            Controls(left_stick=(stick, -stick), right_stick=(-stick, stick)),
-            Controls(dpad=(int(stick), -int(stick)), held=frozenset(["X", "RIGHT"])),
+            Controls(left_stick=stick, right_stick=stick[::-1]),
+            Controls(dpad=(round(stick[1]), round(stick[0])), held=frozenset(["X", "RIGHT"])),
         ):
             axes, buttons = positions(F710_D, controls)
             pad.show((axes, buttons))
-            shown = ([round(axis) for axis in axes], list(map(bool, buttons)))
-            wait(lambda shown=shown: robot.shown() == shown, f"{controls} on /joy")
-    report("both ends of 6 axes, and buttons, are on /joy")
+            values = [axis.js_value(axis.raw(p)) for axis, p in zip(F710_D.axes, axes)]
+            wait(lambda values=values: raw.values() == values, f"events with {values}")
+            wait(lambda: raw.is_as_on(robot.joy[-1]), "same state on /joy")
+    report(
+        f"{2 * len(STICKS)} positions of 6 axes and 12 buttons are on /joy as the kernel has them"
+    )
 
 
 def drive(pad, robot):
@@ -85,10 +124,11 @@ def drive(pad, robot):
     wait(lambda: abs(robot.speed - METRES_PER_S) < 1e-6, f"speed {METRES_PER_S} m/s")
 
 
-def check_unplugged(pad, launch, robot):
+def check_unplugged(pad, raw, launch, robot):
     """Neutral at once, no other gamepad, and no motion before neutral was seen again."""
     seen, since = len(robot.joy), time.time()
     pad.show(None)
+    wait(lambda: raw.lost, "end of the raw stream")
     robot.check_stands(since, "unplugged while driving")
     neutral = next(joy for joy in robot.joy[seen:] if not any(joy.axes) and not any(joy.buttons))
     delay_s = neutral.header.stamp.to_sec() - since
@@ -113,20 +153,20 @@ def check_unplugged(pad, launch, robot):
     report("plugged in with LB held and the stick pushed: nothing moves")
 
 
-def check_all(pad, launch):
+def check_all(pad, raw, launch):
     """Check what the launch file's nodes make of the gamepad."""
     wait(lambda: "Opened joystick" in launch.output, "driver")
     init_node("drive")
     robot = Robot()
     wait(lambda: robot.joy and robot.odometry, "joystick and robot")
     wait(lambda: "This is a Logitech F710 in D mode" in launch.output, "line on the mode")
-    check_positions(pad, robot)
+    check_positions(pad, raw, robot)
     drive(pad, robot)
     since = time.time()
     pad.show(positions(F710_D, FORWARD))
     robot.check_stands(since, "LB released")
     drive(pad, robot)
-    check_unplugged(pad, launch, robot)
+    check_unplugged(pad, raw, launch, robot)
     drive(pad, robot)
     report("released and held again: it drives")
     rospy.signal_shutdown("done")
@@ -141,9 +181,10 @@ def main():
     with UinputPad(F710_D) as pad:
         # udev grants the right to read it a little later.
         wait(lambda: os.access(DEVICE, os.R_OK), f"{DEVICE} to be read")
+        raw = RawReader()
         with Program("roslaunch", "joy2twist", "launch_joy_node.launch", "rviz:=false") as launch:
             try:
-                check_all(pad, launch)
+                check_all(pad, raw, launch)
             except BaseException:
                 print(launch.output)
                 raise

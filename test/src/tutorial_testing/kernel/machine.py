@@ -21,6 +21,7 @@ CACHE = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "ros1_t
 BUSYBOX = Path("/bin/busybox")
 QEMU = "qemu-system-x86_64"
 MODULES = ("virtio_pci", "9pnet_virtio", "9p", "overlay", "evdev", "joydev", "uinput")
+SHIFT = 1  # of command_of_machine(): about what the emulation takes
 EXIT = "the guest's command ended with"  # a line with the exit code, on the console
 
 INIT = """\
@@ -151,11 +152,14 @@ def make_initramfs(path, tree, command):
         )
 
 
-def command_of_machine(image, initramfs):
-    """Return the command line of QEMU; the console is its standard output."""
+def command_of_machine(image, initramfs, shift=SHIFT, memory_mib=2048):
+    """Return the command line of QEMU; the console is its standard output.
+
+    shift: an instruction takes 2**shift ns of the guest's time.
+    """
     return (
-        QEMU, "-accel", "tcg", "-cpu", "max", "-m", "2048",
-        "-icount", "shift=1,sleep=on",
+        QEMU, "-accel", "tcg", "-cpu", "max", "-m", str(memory_mib),
+        "-icount", f"shift={shift},sleep=on",
         "-nodefaults", "-display", "none", "-no-reboot", "-serial", "stdio",
         "-kernel", str(image), "-initrd", str(initramfs),
         "-append", "console=ttyS0 quiet panic=-1",

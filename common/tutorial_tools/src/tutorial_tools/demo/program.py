@@ -99,6 +99,20 @@ def next_uri(taken: int) -> str:
     return f"http://localhost:{taken % 65535 + 1}"
 
 
+def claim_master() -> socket.socket:
+    """Return a socket that no other demo of this machine and this master has while it is open.
+
+    Two that start at once see nothing of each other's nodes yet. The kernel forgets the name, which
+    is of no file, with the process. Raises DemoError.
+    """
+    claim, uri = socket.socket(socket.AF_UNIX), rosgraph.get_master_uri()
+    try:
+        claim.bind(f"\0ros1_tutorial demo {uri}"[:100])
+    except OSError as error:
+        raise DemoError(refusal(uri, ["another demo"])) from error
+    return claim
+
+
 def where_to_look(values: dict[str, str]) -> str:
     """Return where a robot is seen without a screen. values: those of launch_bag.launch."""
     wanted = values["cockpit"].lower() not in ("false", "0")
@@ -136,7 +150,7 @@ def main() -> None:
         nodes = [*NODES, RVIZ_NODE] if with_rviz else NODES
         check_master(nodes)
         command = ["roslaunch", launch_file, *options.arguments, f"bag:={values['bag']}"]
-        with Launch(command, nodes) as launch:
+        with claim_master(), Launch(command, nodes) as launch:
             launch.wait_for_odometry()
             print(f"demo: first /odom after {age_of_this_process():.1f} s", flush=True)
             given = any(argument.startswith("rviz:=") for argument in options.arguments)
