@@ -45,6 +45,14 @@ def test_the_page_of_the_cockpit():
         assert refused("cockpit_port", value) == "must be a port, a number from 1 to 65535"
 
 
+def test_a_preset(tmp_path):
+    for name in ("xbox", "f710_d"):
+        (tmp_path / f"{name}.yaml").touch()
+    check("joy_config", str(tmp_path / "xbox.yaml"))
+    said = "there is none of this name; there are f710_d, xbox"
+    assert refused("joy_config", str(tmp_path / "xbos.yaml")) == said
+
+
 def test_what_moves_the_robot():
     check("joystick", "gamepad")
     check("joystick", "browser")
@@ -100,8 +108,8 @@ def test_a_robot():
 
 def test_only_arguments_with_a_rule_are_asked_for():
     assert set(RULES) == {
-        "bag", "cockpit", "cockpit_port", "joy_pkg", "joystick", "lan", "loop", "name", "rviz",
-        "vigilance_timeout", "virtual",
+        "bag", "cockpit", "cockpit_port", "joy_config", "joy_pkg", "joystick", "lan", "loop", "name",
+        "rviz", "vigilance_timeout", "virtual",
     }  # fmt: skip
 
 

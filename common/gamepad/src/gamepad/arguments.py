@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import re
 import sys
+from pathlib import Path
 
 LONGEST_BAG_HEADER = 4096  # bytes; http://wiki.ros.org/Bags/Format/2.0
 INDEX = re.compile(rb"index_pos=(.{8})", re.DOTALL)
@@ -87,10 +88,19 @@ def seconds_or_off(value: str) -> None:
         raise ValueError("must be a number from 1 to 60 s, or 0 for off")
 
 
+def preset(value: str) -> None:
+    """Check for the path of a preset of joy2twist."""
+    path = Path(value)
+    if not path.is_file():
+        names = ", ".join(sorted(one.stem for one in path.parent.glob("*.yaml")))
+        raise ValueError(f"there is none of this name; there are {names}")
+
+
 RULES = {
     "bag": recording,
     "cockpit": true_false_or_auto,
     "cockpit_port": port,
+    "joy_config": preset,
     "joy_pkg": driver,
     "joystick": joystick,
     "lan": true_or_false,
