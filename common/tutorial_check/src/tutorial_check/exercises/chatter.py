@@ -88,20 +88,20 @@ class Half:
         return sum(text in self.program.output for text in self.talk.strings)
 
     def crash(self, expected: str, hint: str = "") -> Any:
-        """The Wrong for a program that failed or ended."""
+        """Return the Wrong for a program that failed or ended."""
         place, meant = sunken_main(self.facts, self.script)
         wrong = crash(self.session, PACKAGE, self.program, expected, meant or hint)
         wrong.where = wrong.where or place
         return wrong
 
     def silent_talker(self) -> Any:
-        """The Wrong for a talker that says nothing and has failed or ended."""
+        """Return the Wrong for a talker that says nothing and has failed or ended."""
         hint = "does the last line call talker()"
         loops = ", and does it loop: while not rospy.is_shutdown()"
         return self.crash(TALKS, f"{hint}{loops if self.facts.has_main else ''}?")
 
     def ended_listener(self) -> Any:
-        """The Wrong for a listener that ended."""
+        """Return the Wrong for a listener that ended."""
         hint = "does the last line call listener()?"
         if "spin" not in self.facts.calls:
             hint = "rospy.spin() at the end of listener() keeps it alive"
@@ -156,7 +156,7 @@ DEAF_LISTENER = (
 
 
 def _half(session: Session, is_talker: bool) -> Any:
-    """A program of the Talk. Raises Wrong if the master has gone."""
+    """Return a program of the Talk. Raises Wrong if the master has gone."""
     talk = talk_of(session)
     if not talk.master_alive:
         raise master_gone()
@@ -227,7 +227,7 @@ def graph(session: Session) -> Note | str | None:
 
 
 def _whole_talk(session: Session) -> Any:
-    """The Talk; if it came to no second talker, as may be in a second look, C6 or C7 says why."""
+    """Return the Talk; if it came to no second talker, as may be in a second look, C6 or C7 says why."""
     talk = talk_of(session)
     if not talk.taken:
         talker(session)

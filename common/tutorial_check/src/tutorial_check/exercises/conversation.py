@@ -143,7 +143,7 @@ RATE = (
 
 
 def check_connected(session: Session, seen: Drive) -> Any:
-    """It subscribes to /joy as Joy, or Wrong says why not."""
+    """Raise Wrong unless it subscribes to /joy as Joy."""
     one = Conversation(session, seen)
     demand(CONNECTED, one, CONNECTS)
     if not seen.connected or (seen.ended_early and not seen.samples and not seen.shown):

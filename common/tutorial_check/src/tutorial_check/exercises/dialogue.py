@@ -91,7 +91,7 @@ class Conversation:
         return kind if kind != "geometry_msgs/Twist" or refused else ""
 
     def other_topic(self, topics: Iterable[str]) -> Any:
-        """The first of the topics that is not the one asked for."""
+        """Return the first of the topics that is not the one asked for."""
         return next(iter(sorted(set(topics) - {"/rosout", "/clock", JOY})), "")
 
     @property
@@ -155,7 +155,7 @@ class Conversation:
     # ------------------------------------------------------------------------ why it failed
 
     def crash(self, hint: str = "") -> Any:
-        """The Wrong for a program that failed; with an except that hides the cause taken away."""
+        """Return the Wrong for a program that failed; with an except that hides the cause taken away."""
         session, seen, excepts = self.session, self.seen, self.facts.broad_excepts
         if excepts and not seen.program.spins and (seen.ended_early or not seen.trouble):
             text = unmasked(session.text(PACKAGE, self.script))
@@ -168,7 +168,7 @@ class Conversation:
         return crash(session, PACKAGE, seen.program, "", hint)
 
     def _hidden(self, shown: Any, wrong: Any) -> Any:
-        """The same Wrong, with the except that hid it."""
+        """Return the same Wrong, with the except that hid it."""
         failed = int(wrong.where.rpartition(":")[2] or 0)
         line = min(self.facts.broad_excepts, key=lambda each: (each < failed, each))
         text = python_lines(self.session.text(PACKAGE, self.script))[line - 1].strip()
@@ -183,14 +183,14 @@ class Conversation:
         return wrong if wrong and wrong.where else None
 
     def end(self) -> Any:
-        """The Wrong for a program that ends at once without an error."""
+        """Return the Wrong for a program that ends at once without an error."""
         wrong = self.crash()
         place, hint = silent_end(self.facts, self.script)
         wrong.where, wrong.hint = wrong.where or place, wrong.hint or hint
         return wrong
 
     def odd(self) -> Any:
-        """The Wrong for answers of another rule, at the line that sets the field."""
+        """Return the Wrong for answers of another rule, at the line that sets the field."""
         line, hint = self._line_of(self.complaint)
         sure = not self.seen.missing and not self.seen.unasked
         return Wrong("", self.complaint, line or self.at["publish"], hint or self.hint, sure)

@@ -33,7 +33,7 @@ WITHOUT = (
 
 
 def find_script(session: Session, package: str, name: str) -> Any:
-    """The path of a program within its package. Raises Wrong."""
+    """Return the path of a program within its package. Raises Wrong."""
     folder = session.package(package).folder
     files = sorted(path for path in folder.rglob("*") if path.is_file())
     # One without .py counts where there is none with it.
@@ -60,7 +60,7 @@ def find_script(session: Session, package: str, name: str) -> Any:
 
 
 def must_be_one(folder: Path, name: str) -> Any:
-    """The programs of that name that rosrun would find in a package: one, or none. Raises Wrong."""
+    """Return the programs of that name that rosrun would find in a package: one, or none. Raises Wrong."""
     found = sorted(path for path in folder.rglob(name) if path.is_file())
     runnable = [path for path in found if path.stat().st_mode & 0o100]
     if len(runnable) > 1:
@@ -173,7 +173,7 @@ OF_A_TEXT = (
 
 
 def check_file(session: Session, package: str, script: str) -> None:
-    """What can be said of a program without running it. Raises Wrong."""
+    """Return what can be said of a program without running it. Raises Wrong."""
     text = Text(session, package, script)
     for expected, look, row in OF_A_TEXT:
         wrong = find([row], text, expected)
@@ -189,7 +189,7 @@ def is_runnable(session: Session, package: str, path: Path) -> Any:
 
 
 def odd_node(session: Session, package: str, script: str) -> Note | None:
-    """A Note on the name of a node of which ROS warns; None if there is none."""
+    """Return a Note on the name of a node of which ROS warns; None if there is none."""
     facts = session.scripts(package).get(script)
     if not facts or not facts.odd_node:
         return None
@@ -202,7 +202,7 @@ def odd_node(session: Session, package: str, script: str) -> Note | None:
 
 
 def cause_of(session: Session, package: str, name: str, trace: Traceback) -> Any:
-    """(the line that is to blame, what to do) for a Traceback of the program of that name."""
+    """Return (the line that is to blame, what to do) for a Traceback of the program of that name."""
     name = re.sub(r"^checked_\d+_", "", name)
     script = next((each for each in session.scripts(package) if Path(each).name == name), "")
     script = trace.where.rpartition(":")[0] or script
@@ -225,7 +225,7 @@ def cause_of(session: Session, package: str, name: str, trace: Traceback) -> Any
 
 
 def crash(session: Session, package: str, program: Any, expected: str, hint: str = "") -> Any:
-    """The Wrong for a program that ended or failed, with the cause as far as its output tells."""
+    """Return the Wrong for a program that ended or failed, with the cause as far as its output tells."""
     trace = first_traceback(program.output, str(session.package(package).folder))
     if trace and not (program.was_stopped and trace.error.startswith("KeyboardInterrupt")):
         seen = trace.error + (f"   in: {trace.text}" if trace.text else "")
@@ -250,7 +250,7 @@ def crash(session: Session, package: str, program: Any, expected: str, hint: str
 def check_end(
     session: Session, package: str, script: str, taken_s: float | None, output: str
 ) -> Note | None:
-    """A Note on how a program ended after Ctrl-C, or None. taken_s: None if it had to be killed."""
+    """Return a Note on how a program ended after Ctrl-C, or None. taken_s: None if it had to be killed."""
     name = Path(script).name
     if taken_s is None:
         facts = session.scripts(package)[script]

@@ -17,7 +17,7 @@ TOPIC = "/chatter"
 
 
 def scripts(session: Session) -> Any:
-    """The paths of the talker and of the listener."""
+    """Return the paths of the talker and of the listener."""
     return [find_script(session, PACKAGE, name) for name in ("talker.py", "listener.py")]
 
 
@@ -82,5 +82,5 @@ class Talk:
 
 
 def talk_of(session: Session) -> Any:
-    """The Talk of a workspace; made once."""
+    """Return the Talk of a workspace; made once."""
     return session.run("talk", lambda: Talk(session))
