@@ -88,14 +88,6 @@ def test_a_text_that_is_displayed_twice(asked, text, output, seen):
     assert (note and (note.seen[-7:], note.where)) == seen
 
 
-@pytest.mark.parametrize(("topic", "sure"), [("'chater'", True), ("topic", False)])
-def test_what_text_and_graph_agree_on_is_sure(asked, topic, sure):
-    """Whatever comes late on a busy machine, it would not come on another topic."""
-    with pytest.raises(Wrong) as caught:
-        asked(chatter.talker, PUBLISHER.replace("'chater'", topic), **ELSEWHERE)
-    assert caught.value.sure == sure
-
-
 @pytest.mark.parametrize(("hertz", "said"), [(10, "10.0 Hz"), (5, "5.0 Hz, the handout's is 10")])
 def test_the_rate(asked, hertz, said):
     heard = [(k / hertz, "/talker", str(k)) for k in range(9)]

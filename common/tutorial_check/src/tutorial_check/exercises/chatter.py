@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any, Iterable
 from tutorial_check.causes import with_import
 from tutorial_check.changed_programs import flipped_anonymous
 from tutorial_check.exercises import check
-from tutorial_check.exercises.files import check_end, check_file, crash, find_script, odd_node
-from tutorial_check.exercises.silent_end import sunken_main
+from tutorial_check.exercises.files import check_end, check_file, crash, odd_node, sunken_main
 from tutorial_check.exercises.talking import LISTEN_S, PACKAGE, TOPIC, scripts, talk_of
 from tutorial_check.model import Note, Wrong, master_gone
 from tutorial_check.rows import Row, demand
@@ -30,77 +29,48 @@ class Half:
 
     def __init__(self, session: Session, talk: Talk, script: str, program: Any) -> None:
         self.session, self.talk, self.script, self.program = session, talk, script, program
-        self.facts = session.scripts(PACKAGE)[script]
-        self.publisher_line = with_import(
-            "rospy.Publisher('chatter', String, queue_size=10)", "String", self.facts
-        )
-        self.subscriber_line = with_import(
-            "rospy.Subscriber('chatter', String, callback)", "String", self.facts
-        )
+        self.facts = facts = session.scripts(PACKAGE)[script]
+        line = "rospy.Publisher('chatter', String, queue_size=10)"
+        self.publisher_line = with_import(line, "String", facts)
+        line = "rospy.Subscriber('chatter', String, callback)"
+        self.subscriber_line = with_import(line, "String", facts)
+        made, asked = facts.first("Publisher"), facts.first("Subscriber")
+        self.publisher = f"{script}:{made.line if made else 1}"
+        self.subscriber = f"{script}:{asked.line}" if asked else script
+        self.has_failed = "Traceback" in program.output or program.spins
+        self.sent_on = self._other(talk.publishers)
+        self.heard_on = TOPIC not in talk.subscribers and self._other(talk.subscribers)
+        # The type that the Subscriber asks for, and that on /chatter, where it is no String.
+        refused = [line for line in talk.warnings if "datatype" in line]
+        kind = asked.words[1].rpartition(".")[2] if asked and len(asked.words) > 1 else "String"
+        other = "another type of message" if any("chatter" in line for line in refused) else ""
+        self.wanted = kind if kind != "String" else other
+        kind = talk.types.get(TOPIC, "std_msgs/String")
+        is_other = TOPIC in talk.publishers and kind != "std_msgs/String"
+        self.carried = kind if is_other or refused else ""
+        # With or without colours or a separator.
+        lines = program.output.splitlines()
+        self.times = [sum(text in line for line in lines) for text in talk.strings]
+        self.found, self.total = sum(map(bool, self.times)), len(talk.strings)
 
-    def at(self, name: str, default: int = 1) -> str:
-        """Where the first call of that name stands."""
-        call = self.facts.first(name)
-        return f"{self.script}:{call.line if call else default}"
-
-    @property
-    def publisher(self) -> Any:
-        """Where the Publisher is made."""
-        return self.at("Publisher")
-
-    @property
-    def subscriber(self) -> Any:
-        """Where the Subscriber is made."""
-        return self.at("Subscriber") if self.facts.first("Subscriber") else self.script
-
-    @property
-    def has_failed(self) -> Any:
-        """Whether it printed an error, or works without end."""
-        return "Traceback" in self.program.output or self.program.spins
-
-    def is_meant(self, name: str, topic: str) -> Any:
-        """Whether the first topic of that kind in the text is this one."""
-        call = self.facts.first(name)
-        return bool(call) and call.words[:1] in ([topic], [topic.lstrip("/")])
-
-    def other_topic(self, topics: Iterable[str]) -> Any:
-        """Another topic than the one asked for, or an empty text."""
+    @staticmethod
+    def _other(topics: Iterable[str]) -> str:
+        """Return another topic than the one asked for, or an empty text."""
         return next(iter(sorted(set(topics) - {TOPIC, "/rosout"})), "")
 
-    @property
-    def wanted(self) -> Any:
-        """The type that the Subscriber asks for, if it is no String."""
-        call = self.facts.first("Subscriber")
-        kind = call.words[1].rpartition(".")[2] if call and len(call.words) > 1 else "String"
-        refused = any("datatype" in line and "chatter" in line for line in self.talk.warnings)
-        return kind if kind != "String" else "another type of message" if refused else ""
-
-    @property
-    def carried(self) -> Any:
-        """The type on /chatter, if it is no String."""
-        kind = self.talk.types.get(TOPIC, "std_msgs/String")
-        is_other = TOPIC in self.talk.publishers and kind != "std_msgs/String"
-        return kind if is_other or any("datatype" in line for line in self.talk.warnings) else ""
-
-    @property
-    def found(self) -> Any:
-        """How many of the texts were displayed; with or without colours or a separator."""
-        return sum(text in self.program.output for text in self.talk.strings)
-
-    def crash(self, expected: str, hint: str = "") -> Any:
+    def crash(self, expected: str, hint: str = "") -> Wrong:
         """Return the Wrong for a program that failed or ended."""
         place, meant = sunken_main(self.facts, self.script)
         wrong = crash(self.session, PACKAGE, self.program, expected, meant or hint)
         wrong.where = wrong.where or place
         return wrong
 
-    def silent_talker(self) -> Any:
-        """Return the Wrong for a talker that says nothing and has failed or ended."""
-        hint = "does the last line call talker()"
-        loops = ", and does it loop: while not rospy.is_shutdown()"
-        return self.crash(TALKS, f"{hint}{loops if self.facts.has_main else ''}?")
+    def silent_talker(self) -> Wrong:
+        """Return the Wrong for a talker that publishes nothing and has failed or ended."""
+        loops = ", and does it loop: while not rospy.is_shutdown()" if self.facts.has_main else ""
+        return self.crash(TALKS, f"does the last line call talker(){loops}?")
 
-    def ended_listener(self) -> Any:
+    def ended_listener(self) -> Wrong:
         """Return the Wrong for a listener that ended."""
         hint = "does the last line call listener()?"
         if "spin" not in self.facts.calls:
@@ -108,18 +78,12 @@ class Half:
         wrong = self.crash(GOES_ON, hint)
         bare = [line for line, text in self.facts.bare_names if text.endswith("spin")]
         if bare and not wrong.where:
-            wrong.where = f"{self.script}:{bare[0]}"
-            wrong.hint = "rospy.spin needs its (): rospy.spin()"
+            wrong.where, wrong.hint = f"{self.script}:{bare[0]}", "rospy.spin needs its ():"
+            wrong.hint += " rospy.spin()"
         return wrong
 
     @property
-    def times(self) -> Any:
-        """How often each text was displayed."""
-        lines = self.program.output.splitlines()
-        return min(sum(text in line for line in lines) for text in self.talk.strings)
-
-    @property
-    def second_line(self) -> Any:
+    def second_line(self) -> str:
         """Where a text is displayed for the second time."""
         subscribers = [call.line for call in self.facts.calls.get("Subscriber", [])]
         called = self.facts.called_back
@@ -130,20 +94,15 @@ class Half:
 
 SILENT_TALKER = (
     Row(lambda h: h.talk.talker_ended or h.has_failed, lambda h: h.silent_talker()),
-    Row(lambda h: TOPIC in h.talk.publishers and h.carried, "/chatter carries {found}",
-        "{f.publisher_line}", "{f.publisher}", sure=True),
     Row(lambda h: h.carried, "/chatter carries {found}", "{f.publisher_line}", "{f.publisher}"),
-    Row(lambda h: (topic := h.other_topic(h.talk.publishers)) and h.is_meant("Publisher", topic)
-        and topic, "it publishes on {found}", "the topic is called chatter", "{f.publisher}",
-        sure=True),
-    Row(lambda h: h.other_topic(h.talk.publishers), "it publishes on {found}",
-        "the topic is called chatter", "{f.publisher}"),
+    Row(lambda h: h.sent_on, "it publishes on {found}", "the topic is called chatter",
+        "{f.publisher}"),
     Row(lambda h: True, "not one message", "is publish(...) called within the loop?", "{f.script}"),
 )  # fmt: skip
 DEAF_LISTENER = (
     Row(lambda h: h.has_failed, lambda h: crash(h.session, PACKAGE, h.program, LISTENS)),
-    Row(lambda h: TOPIC not in h.talk.subscribers and h.other_topic(h.talk.subscribers),
-        "it subscribes to {found}", "the topic is called chatter", "{f.subscriber}", sure=True),
+    Row(lambda h: h.heard_on, "it subscribes to {found}", "the topic is called chatter",
+        "{f.subscriber}", sure=True),
     Row(lambda h: TOPIC not in h.talk.subscribers, "it subscribes to nothing",
         "{f.subscriber_line}, before rospy.spin()", "{f.subscriber}"),
     Row(lambda h: not h.found and h.facts.deaf, "its Subscriber has no callback",
@@ -155,7 +114,7 @@ DEAF_LISTENER = (
 )  # fmt: skip
 
 
-def _half(session: Session, is_talker: bool) -> Any:
+def _half(session: Session, is_talker: bool) -> Half:
     """Return a program of the Talk. Raises Wrong if the master has gone."""
     talk = talk_of(session)
     if not talk.master_alive:
@@ -166,16 +125,16 @@ def _half(session: Session, is_talker: bool) -> Any:
 
 @check("C5", "talker.py and listener.py can be run", "3.1", "C2",
        look="rosrun beginner_tutorials talker.py", timeless=True)  # fmt: skip
-def files(session: Session) -> Note | str | None:
-    """Check what can be said of the two without running them."""
+def files(session: Session) -> Note | str:
+    """Check the two without running them."""
     for script in scripts(session):
         check_file(session, PACKAGE, script)
-    notes = [odd_node(session, PACKAGE, script) for script in scripts(session)]
+    notes = (odd_node(session, PACKAGE, script) for script in scripts(session))
     return next(filter(None, notes), ", ".join(scripts(session)))
 
 
 @check("C6", "the talker talks", "3.1", "C5", look="rostopic hz /chatter")
-def talker(session: Session) -> Note | str | None:
+def talker(session: Session) -> Note | str:
     """Check what comes on /chatter, and how often."""
     half = _half(session, is_talker=True)
     talk, facts = half.talk, half.facts
@@ -201,23 +160,22 @@ def talker(session: Session) -> Note | str | None:
 
 @check("C7", "the listener displays what it hears", "3.1", "C5",
        look="rosrun beginner_tutorials listener.py")  # fmt: skip
-def listener(session: Session) -> Note | str | None:
+def listener(session: Session) -> Note | None:
     """Check that every text that is sent appears in its output."""
     half = _half(session, is_talker=False)
-    half.total = len(half.talk.strings)
     if half.talk.listener_ended:
         raise half.ended_listener()
     if half.found < half.total:
         demand(DEAF_LISTENER, half, LISTENS)
-    if half.times < 2:
+    if min(half.times) < 2:
         return None
     hint = "one Subscriber, and one rospy.loginfo in its callback, are enough"
-    return Note(f"each text is displayed {half.times} times", half.second_line, hint)
+    return Note(f"each text is displayed {min(half.times)} times", half.second_line, hint)
 
 
 @check("C8", "talker and listener are connected", "3.1", "C6 C7",
        look="rosnode info /rosout; rqt_graph")  # fmt: skip
-def graph(session: Session) -> Note | str | None:
+def graph(session: Session) -> str:
     """Check the way from the one to the other."""
     talk = talk_of(session)
     if not talk.publishers.get(TOPIC) or not talk.subscribers.get(TOPIC):
@@ -226,8 +184,8 @@ def graph(session: Session) -> Note | str | None:
     return f"{talk.publishers[TOPIC][0]} -> /chatter -> {talk.subscribers[TOPIC][0]}"
 
 
-def _whole_talk(session: Session) -> Any:
-    """Return the Talk; if it came to no second talker, as may be in a second look, C6 or C7 says why."""
+def _whole_talk(session: Session) -> Talk:
+    """Return the Talk; if a second look came to no second talker, C6 or C7 says why."""
     talk = talk_of(session)
     if not talk.taken:
         talker(session)
@@ -236,32 +194,31 @@ def _whole_talk(session: Session) -> Any:
 
 
 @check("C9", "anonymous names", "3.1", "C6 C7 C10", look="rosnode list, with two talkers")
-def anonymous(session: Session) -> Note | str | None:
+def anonymous(session: Session) -> Note | str:
     """Start two talkers as submitted, and with anonymous the other way round in a copy."""
-    script, _ = scripts(session)
-    talk = _whole_talk(session)
+    talk, script = _whole_talk(session), scripts(session)[0]
     call = session.scripts(PACKAGE)[script].first("init_node")
     where = f"{script}:{call.line}" if call else script
-    is_anonymous = bool(call) and call.names.get("anonymous") == "True"
-    knows = bool(call) and call.names.get("anonymous", "False") in ("True", "False")
-    if is_anonymous and talk.first_ended:
+    given = call.names.get("anonymous", "False") if call else ""
+    if given == "True" and talk.first_ended:
         raise Wrong("two talkers side by side", "the second one ended the first", where)
-    if knows and not is_anonymous and talk.both and not talk.first_ended:
+    if given == "False" and talk.both and not talk.first_ended:
         raise Wrong("the second talker of one name ends the first", "both go on", where)
     if not talk.both and not talk.first_ended:
         raise Wrong("a second talker speaks, or ends the first", "neither", script)
-    flipped = flipped_anonymous(session.text(PACKAGE, script), not is_anonymous) if knows else None
+    flipped = None
+    if given in ("True", "False"):
+        flipped = flipped_anonymous(session.text(PACKAGE, script), given == "False")
     if not flipped:
         return Note("anonymous cannot be changed by the checker here; try both yourself")
-    ended = _second_ends_first(session, session.sibling(PACKAGE, script, flipped))
-    if ended == (not is_anonymous):
-        then = "the second ends the first" if is_anonymous else "both live"
+    if _second_ends_first(session, session.sibling(PACKAGE, script, flipped)) == (given == "False"):
+        then = "the second ends the first" if given == "True" else "both live"
         hint = "is anonymous given to rospy.init_node?"
-        raise Wrong(f"with anonymous={not is_anonymous} {then}", "it was not so", where, hint)
+        raise Wrong(f"with anonymous={given == 'False'} {then}", "it was not so", where, hint)
     return "as submitted, and the other way round"
 
 
-def _second_ends_first(session: Session, script: str) -> Any:
+def _second_ends_first(session: Session, script: str) -> bool:
     with session.stage() as stage:
         stage.call("listen", TOPIC, "String")
         first = stage.start(PACKAGE, script)
@@ -269,24 +226,23 @@ def _second_ends_first(session: Session, script: str) -> Any:
         if first.ended or not talks:
             expected = "the talker runs with anonymous the other way round"
             raise crash(session, PACKAGE, first, expected)
-        caller = stage.call("heard", TOPIC)[0][1]
         second = stage.start(PACKAGE, script)
 
-        def settled() -> Any:
-            callers = {who for _, who, _ in stage.call("heard", TOPIC)}
-            return first.ended or second.ended or callers - {caller}
+        def settled() -> bool:
+            callers = {caller for _, caller, _ in stage.call("heard", TOPIC)}
+            return first.ended or second.ended or len(callers) > 1
 
         stage.wait_for_start(settled)
         return first.ended
 
 
 @check("C10", "Ctrl-C ends both", "3.1", "C6 C7", look="Ctrl-C in their terminals")
-def ctrl_c(session: Session) -> Note | str | None:
+def ctrl_c(session: Session) -> Note | str:
     """Check how they end."""
     talk = _whole_talk(session)
-    for name, program in (("talker.py", talk.talkers[-1]), ("listener.py", talk.listener)):
-        script = find_script(session, PACKAGE, name)
-        note = check_end(session, PACKAGE, script, talk.taken[name], program.output)
+    programs = talk.talkers[-1], talk.listener
+    for script, program, taken_s in zip(scripts(session), programs, talk.taken.values()):
+        note = check_end(session, PACKAGE, script, taken_s, program.output)
         if note:
             return note
     return ", ".join(f"{name} {taken:.1f} s" for name, taken in talk.taken.items())

@@ -11,8 +11,7 @@ from typing import TYPE_CHECKING, Any, Dict, Iterable
 from tutorial_check.causes import with_import
 from tutorial_check.changed_programs import unmasked
 from tutorial_check.exercises.driving import CMD_VEL, JOY, PACKAGE, drive
-from tutorial_check.exercises.files import check_file, crash
-from tutorial_check.exercises.silent_end import silent_end
+from tutorial_check.exercises.files import check_file, crash, silent_end
 from tutorial_check.model import Wrong
 from tutorial_check.python_text import python_lines
 

@@ -1,4 +1,4 @@
-"""What every program must be before it can run: C5 and C13."""
+"""What every program must be before it can run, C5 and C13, and why one has failed."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from tutorial_check import student_files
 from tutorial_check.causes import explain, hider, syntax_hint, traced
 from tutorial_check.model import Note, Wrong
-from tutorial_check.python_facts import read_python
+from tutorial_check.python_facts import PythonFacts, read_python
 from tutorial_check.python_text import unreadable
 from tutorial_check.rows import Row, find
 from tutorial_check.tracebacks import first_traceback, last_lines
@@ -20,19 +20,15 @@ if TYPE_CHECKING:
     from tutorial_check.session import Session
     from tutorial_check.tracebacks import Traceback
 
-
-INTERPRETER = re.compile(
-    rb"#!\s*(\S+)(?:\s+(?:-S\s*)?(?:\w+=\S*\s+)*(\S+))?"
-)  # env -S takes arguments
-
-
+# env -S takes arguments
+INTERPRETER = re.compile(rb"#!\s*(\S+)(?:\s+(?:-S\s*)?(?:\w+=\S*\s+)*(\S+))?")
 WITHOUT = (
     "without #! in the very first line the shell tries to run the Python lines itself"
     " (import: command not found)"
 )
 
 
-def find_script(session: Session, package: str, name: str) -> Any:
+def find_script(session: Session, package: str, name: str) -> str:
     """Return the path of a program within its package. Raises Wrong."""
     folder = session.package(package).folder
     files = sorted(path for path in folder.rglob("*") if path.is_file())
@@ -59,8 +55,8 @@ def find_script(session: Session, package: str, name: str) -> Any:
     raise wrong
 
 
-def must_be_one(folder: Path, name: str) -> Any:
-    """Return the programs of that name that rosrun would find in a package: one, or none. Raises Wrong."""
+def must_be_one(folder: Path, name: str) -> list[Path]:
+    """Return the programs of that name that rosrun finds: one, or none. Raises Wrong."""
     found = sorted(path for path in folder.rglob(name) if path.is_file())
     runnable = [path for path in found if path.stat().st_mode & 0o100]
     if len(runnable) > 1:
@@ -75,30 +71,18 @@ class Text:
     """A program that is not run yet: the facts of the rows below."""
 
     def __init__(self, session: Session, package: str, script: str) -> None:
-        self.session, self.package, self.script = session, package, script
-        self.path = session.package(package).folder / script
-        self.name, self.whole = self.path.name, session.whole(script, package)
-        self.data = student_files.read(session.folder, self.path)
+        path = session.package(package).folder / script
+        self.script, self.name, self.whole = script, path.name, session.whole(script, package)
+        self.data = student_files.read(session.folder, path)
         self.first = self.data.split(b"\n", 1)[0]
+        self.first_line = self.first.decode(errors="replace")[:80]
         self.facts = session.scripts(package).get(script)
+        self.error = self.facts and self.facts.error
+        self.python_hint = self.error and syntax_hint(self.error, self.facts.error_text)
+        self.is_runnable = is_runnable(session, package, path)
 
     @property
-    def unreadable(self) -> Any:
-        """(line, what is there) of the first thing that is not of the file's coding, or None."""
-        return unreadable(self.data) if self.facts else None
-
-    @property
-    def first_line(self) -> Any:
-        """The first line, as text."""
-        return self.first.decode(errors="replace")[:80]
-
-    @property
-    def python_hint(self) -> Any:
-        """What the error of Python most often means."""
-        return syntax_hint(self.facts.error, self.facts.error_text)
-
-    @property
-    def interpreter(self) -> Any:
+    def interpreter(self) -> str:
         """The program that #! names, if there is one of that name and it is Python; else empty."""
         found = INTERPRETER.match(self.first)
         words = [word.decode(errors="replace") for word in found.groups() if word] if found else []
@@ -109,16 +93,12 @@ class Text:
         return program if known and "python" in program else ""
 
     @property
-    def is_runnable(self) -> Any:
-        """Whether rosrun takes it."""
-        return is_runnable(self.session, self.package, self.path)
-
-    @property
-    def gap(self) -> Any:
-        """The first call that gives a node or topic a name with a space, or None."""
-        kinds = ("Publisher", "Subscriber", "init_node")
+    def gap(self) -> tuple[Any, str] | None:
+        """(the first call that gives a node or topic a name with a space, the name without)."""
+        kinds = ("Publisher", "Subscriber", "init_node") if self.facts else ()
         calls = (call for kind in kinds for call in self.facts.calls.get(kind, []))
-        return next((call for call in calls if call.words and " " in call.words[0]), None)
+        found = next((call for call in calls if call.words and " " in call.words[0]), None)
+        return found and (found, "_".join(found.words[0].split()))
 
 
 PYTHON3 = "#!/usr/bin/env python3"
@@ -138,15 +118,12 @@ OF_A_TEXT = (
          "the file has Windows line ends (python3\\r: No such file)",
          "sed -i 's/\\r$//' {f.whole}", "{f.script}:1")),
     ("a file in UTF-8, or in the coding that its first lines name", "python3 -m py_compile {whole}",
-     Row(lambda t: t.unreadable, "{found[1]}",
+     Row(lambda t: t.facts and unreadable(t.data), "{found[1]}",
          "save the file as UTF-8 and name no other coding; or name the right one in line 2:"
          " # coding: latin-1", "{f.script}:{found[0]}")),
     ("Python that can be read", "python3 -m py_compile {whole}",
-     Row(lambda t: t.facts and t.facts.error, "{found}: {f.facts.error_text}", "{f.python_hint}",
+     Row(lambda t: t.error, "{found}: {f.facts.error_text}", "{f.python_hint}",
          "{f.script}:{f.facts.error_line}")),
-    (f"{PYTHON3} as the first line", "head -3 {whole}",
-     Row(lambda t: not t.first.startswith(b"#!") and b"\n#!" in t.data, "it stands further down",
-         WITHOUT, "{f.script}:1")),
     (f"{PYTHON3} as the first line", "head -3 {whole}",
      Row(lambda t: not t.first.startswith(b"#!"), "the first line is {f.first_line!r}", WITHOUT,
          "{f.script}:1")),
@@ -166,14 +143,13 @@ OF_A_TEXT = (
          "two underscores on either side of name and of main, and no blanks: the PDF shows gaps",
          "{f.script}:{found[0]}")),
     ("names of nodes and topics without a space", "",
-     Row(lambda t: t.facts and t.gap and (t.gap, "_".join(t.gap.words[0].split())),
-         "the name {found[0].words[0]!r} has a space", "the PDF shows _ as a gap: {found[1]!r}",
-         "{f.script}:{found[0].line}")),
+     Row(lambda t: t.gap, "the name {found[0].words[0]!r} has a space",
+         "the PDF shows _ as a gap: {found[1]!r}", "{f.script}:{found[0].line}")),
 )  # fmt: skip
 
 
 def check_file(session: Session, package: str, script: str) -> None:
-    """Return what can be said of a program without running it. Raises Wrong."""
+    """Check a program without running it. Raises Wrong."""
     text = Text(session, package, script)
     for expected, look, row in OF_A_TEXT:
         wrong = find([row], text, expected)
@@ -182,27 +158,28 @@ def check_file(session: Session, package: str, script: str) -> None:
             raise wrong
 
 
-def is_runnable(session: Session, package: str, path: Path) -> Any:
-    """Whether rosrun takes a program: it may be run, or catkin has made one of it in devel."""
+def is_runnable(session: Session, package: str, path: Path) -> bool:
+    """Return whether rosrun takes a program: executable, or made so by catkin in devel."""
     may_be_run = path.stat().st_mode & 0o100
     return bool(may_be_run) or session.command(package, str(path)) != [str(path)]
 
 
 def odd_node(session: Session, package: str, script: str) -> Note | None:
-    """Return a Note on the name of a node of which ROS warns; None if there is none."""
+    """Return a Note on the name of a node of which ROS warns, or None."""
     facts = session.scripts(package).get(script)
     if not facts or not facts.odd_node:
         return None
     line, name = facts.odd_node
-    return Note(
-        f"the node is called {name!r}, of which ROS warns: not a legal ROS base name",
-        f"{script}:{line}",
-        "letters, digits and _ only: " + repr(re.sub(r"\W", "_", re.sub(r"\.py$", "", name))),
-    )
+    seen = f"the node is called {name!r}, of which ROS warns: not a legal ROS base name"
+    right = re.sub(r"\W", "_", re.sub(r"\.py$", "", name))
+    return Note(seen, f"{script}:{line}", f"letters, digits and _ only: {right!r}")
 
 
-def cause_of(session: Session, package: str, name: str, trace: Traceback) -> Any:
-    """Return (the line that is to blame, what to do) for a Traceback of the program of that name."""
+# ------------------------------------------------------------------------- why one has failed
+
+
+def cause_of(session: Session, package: str, name: str, trace: Traceback) -> tuple[str, str]:
+    """Return (the line to blame, what to do) for a Traceback of the program of that name."""
     name = re.sub(r"^checked_\d+_", "", name)
     script = next((each for each in session.scripts(package) if Path(each).name == name), "")
     script = trace.where.rpartition(":")[0] or script
@@ -224,8 +201,8 @@ def cause_of(session: Session, package: str, name: str, trace: Traceback) -> Any
     return f"{script}:{line}" if line else "", hint
 
 
-def crash(session: Session, package: str, program: Any, expected: str, hint: str = "") -> Any:
-    """Return the Wrong for a program that ended or failed, with the cause as far as its output tells."""
+def crash(session: Session, package: str, program: Any, expected: str, hint: str = "") -> Wrong:
+    """Return the Wrong for a program that ended or failed, with the cause that its output shows."""
     trace = first_traceback(program.output, str(session.package(package).folder))
     if trace and not (program.was_stopped and trace.error.startswith("KeyboardInterrupt")):
         seen = trace.error + (f"   in: {trace.text}" if trace.text else "")
@@ -240,17 +217,14 @@ def crash(session: Session, package: str, program: Any, expected: str, hint: str
         return Wrong(expected, seen, hint=hint, sure=True)
     ended = "it runs" if code is None else f"it ended at once, exit code {code}"
     said = last_lines(program.output)
-    return Wrong(
-        expected,
-        f"{ended}; it printed: {said}" if said else f"{ended}, and printed nothing",
-        hint=hint,
-    )
+    said = f"; it printed: {said}" if said else ", and printed nothing"
+    return Wrong(expected, ended + said, hint=hint)
 
 
 def check_end(
     session: Session, package: str, script: str, taken_s: float | None, output: str
 ) -> Note | None:
-    """Return a Note on how a program ended after Ctrl-C, or None. taken_s: None if it had to be killed."""
+    """Return a Note on how a program ended after Ctrl-C, or None. taken_s: None if it was killed."""
     name = Path(script).name
     if taken_s is None:
         facts = session.scripts(package)[script]
@@ -266,3 +240,39 @@ def check_end(
         hint = "try: ... except rospy.ROSInterruptException: pass"
         raise Wrong(f"{name} ends without a traceback", trace.error, trace.where, hint)
     return None
+
+
+def misnamed_init(methods: list[str]) -> str:
+    """Return the method that was meant to be __init__, or an empty text."""
+    return next((each for each in methods if re.fullmatch(r"_*init_*", each)), "")
+
+
+def silent_end(facts: PythonFacts, script: str) -> tuple[str, str]:
+    """Return (where, hint) for a program that ends at once, as far as its text shows."""
+    for line, text in facts.bare_names:
+        if text.endswith(("spin", "listener")):
+            return f"{script}:{line}", f"{text} needs its (): {text}()"
+    for one in facts.classes:
+        odd = misnamed_init(one.methods) if "__init__" not in one.methods else ""
+        if one.is_node and odd:
+            hint = f"`def {odd}`: Python calls `__init__`, two underscores on either side"
+            return f"{script}:{one.line}", hint
+        if one.is_node and not one.instantiated:
+            hint = f"it is never made: {one.name}() under if __name__ == '__main__':"
+            return f"{script}:{one.line}", hint
+    if facts.sunken_main:
+        return sunken_main(facts, script)
+    if "spin" not in facts.calls:
+        return script, "rospy.spin() is missing: without it the program comes to its end"
+    if not facts.has_main:
+        return script, "listener() is never called: if __name__ == '__main__': listener()"
+    return script, "is the function called, in the last line, and with ()?"
+
+
+def sunken_main(facts: PythonFacts, script: str) -> tuple[str, str]:
+    """Return (where, hint) for a __main__ that stands within a function, or empty texts."""
+    if not facts.sunken_main:
+        return "", ""
+    line, function = facts.sunken_main
+    hint = f"line {line} stands within {function}(): move it, and what is below it, to the left"
+    return f"{script}:{line}", f"{hint} margin"

@@ -14,9 +14,10 @@ if TYPE_CHECKING:
 PACKAGE = "beginner_tutorials"
 LISTEN_S = 1.5  # to the talker
 TOPIC = "/chatter"
+STRINGS = [f"tutorial check {word} {number}" for word, number in zip("ABCDE", range(21, 36, 3))]
 
 
-def scripts(session: Session) -> Any:
+def scripts(session: Session) -> list[str]:
     """Return the paths of the talker and of the listener."""
     return [find_script(session, PACKAGE, name) for name in ("talker.py", "listener.py")]
 
@@ -25,62 +26,58 @@ class Talk:
     """What was seen with two talkers and two listeners, and then of the talkers alone."""
 
     def __init__(self, session: Session) -> None:
-        self.session = session
         talker, listener = scripts(session)
+        self.strings = STRINGS
         with session.stage() as stage:
             stage.call("listen", TOPIC, "String")
-            self.talkers = [stage.start(PACKAGE, talker)]
-            self.listener = stage.start(PACKAGE, listener)
-            stage.wait_for_start(lambda: stage.call("count", TOPIC) or self.talkers[0].ended)
+            first = stage.start(PACKAGE, talker)
+            self.talkers, self.listener = [first], stage.start(PACKAGE, listener)
+            stage.wait_for_start(lambda: stage.call("count", TOPIC) or first.ended)
             self.types = stage.call("types")
             stage.call("advertise", TOPIC, "String")
             stage.wait_for_start(lambda: stage.call("listeners", TOPIC) > 1 or self.listener.ended)
-            talks = bool(self._heard(stage))
+            talks = bool(_heard(stage))
             if talks:
-                stage.wait(lambda: len(self._heard(stage)) > 3 or self.talkers[0].ended, 2.0)
+                stage.wait(lambda: len(_heard(stage)) > 3 or first.ended, 2.0)
             self.publishers, self.subscribers = stage.call("state")
             self.warnings = stage.call("warnings")
-            first = len(self._heard(stage))
-            self.strings = [
-                f"tutorial check {word} {3 * number}" for number, word in enumerate("ABCDE", 7)
-            ]
-            for text in self.strings:
+            count = len(_heard(stage))
+            for text in STRINGS:
                 stage.call("send", TOPIC, text)
-            stage.wait(lambda: all(text in self.listener.output for text in self.strings), 2.0)
+            stage.wait(lambda: all(text in self.listener.output for text in STRINGS), 2.0)
             if talks:
-                stage.wait(
-                    lambda: len(self._heard(stage)) >= first + 6 or self.talkers[0].ended, LISTEN_S
-                )
-            self.heard = self._heard(stage)
-            self.talker_ended, self.listener_ended = self.talkers[0].ended, self.listener.ended
+                stage.wait(lambda: len(_heard(stage)) >= count + 6 or first.ended, LISTEN_S)
+            self.heard = _heard(stage)
+            self.talker_ended, self.listener_ended = first.ended, self.listener.ended
             self.master_alive = stage.master_lives
             self.first_ended, self.both, self.taken = False, False, {}
-            if self.talker_ended or self.listener_ended or not self.heard:
-                return
-            # A second talker of the same kind; both must go on, or the first must end.
-            self.talkers.append(stage.start(PACKAGE, talker))
-            names = set(self.publishers.get(TOPIC, []))
-            stage.wait_for_start(
-                lambda: set(stage.call("state")[0].get(TOPIC, [])) - names or self.talkers[0].ended
-            )
-            stage.wait_for_start(lambda: self.talkers[0].ended or self._both(stage))
-            self.first_ended, self.both = self.talkers[0].ended, self._both(stage)
-            so_far = len(self._heard(stage))  # the one that is ended next must be well under way
-            stage.wait(lambda: len(self._heard(stage)) > so_far + 2 or self.talkers[1].ended, 3.0)
-            both = {"talker.py": self.talkers[-1], "listener.py": self.listener}
-            self.taken = dict(zip(both, session.box.end_all(list(both.values()))))
+            if self.heard and not self.talker_ended and not self.listener_ended:
+                self._talk_both(session, stage, talker)
 
-    @staticmethod
-    def _heard(stage: Stage) -> Any:
-        return [each for each in stage.call("heard", TOPIC) if each[1] != "/tutorial_check"]
+    def _talk_both(self, session: Session, stage: Stage, talker: str) -> None:
+        """Start a second talker of the same kind; both must go on, or the first must end."""
+        first, second = self.talkers[0], stage.start(PACKAGE, talker)
+        self.talkers.append(second)
 
-    def _both(self, stage: Stage) -> Any:
-        return (
-            len({caller for _, caller, _ in self._heard(stage)[-20:]}) > 1
-            and not self.talkers[0].ended
+        def both() -> bool:
+            return len({caller for _, caller, _ in _heard(stage)[-20:]}) > 1 and not first.ended
+
+        names = set(self.publishers.get(TOPIC, []))
+        stage.wait_for_start(
+            lambda: set(stage.call("state")[0].get(TOPIC, [])) - names or first.ended
         )
+        stage.wait_for_start(lambda: first.ended or both())
+        self.first_ended, self.both = first.ended, both()
+        so_far = len(_heard(stage))  # the one that is ended next must be well under way
+        stage.wait(lambda: len(_heard(stage)) > so_far + 2 or second.ended, 3.0)
+        taken = session.box.end_all([second, self.listener])
+        self.taken = dict(zip(("talker.py", "listener.py"), taken))
 
 
-def talk_of(session: Session) -> Any:
+def _heard(stage: Stage) -> list[Any]:
+    return [each for each in stage.call("heard", TOPIC) if each[1] != "/tutorial_check"]
+
+
+def talk_of(session: Session) -> Talk:
     """Return the Talk of a workspace; made once."""
     return session.run("talk", lambda: Talk(session))
