@@ -14,7 +14,7 @@ import pytest
 
 from tutorial_testing.cockpit.chromium import Chromium
 from tutorial_testing.cockpit.hands import Keys
-from tutorial_testing.containers import PAGE, SOURCE, Compose, RobotInside, run
+from tutorial_testing.containers import INSIDE, PAGE, SOURCE, Compose, RobotInside, run
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
@@ -153,6 +153,23 @@ def test_a_students_workspace_stays_the_students(workspace):
     )  # fmt: skip
     verdicts = r"^  (ok|WRONG|-) +(C\d+)"
     assert re.findall(verdicts, inside, re.M) == re.findall(verdicts, done.stdout, re.M) != []
+
+
+def test_a_classroom_and_a_student_in_further_terminals(workspace):
+    with Compose(CATKIN_WS=str(workspace)) as compose:
+        classroom = ["./tutorial", "run", "roslaunch", "cockpit", "classroom.launch", "robots:=3"]
+        compose("run", "-d", "--name", "course", "shell", *classroom)
+        try:
+            terminal = ("docker", "exec", "-i", "course", "./tutorial", "run")
+            wait_for(lambda: "cockpit: open" in run("docker", "logs", "course"), "page", START_S)
+            student = "roslaunch joy2twist student.launch name:=robot_2 loop:=true bag:="
+            bag = f"{INSIDE}/common/gamepad/bag/joy.bag"
+            with Program(*terminal, *f"{student}{bag}".split()):
+                where = ("rostopic", "echo", "-n", "1", "/robot_2/odom/twist/twist/linear/x")
+                moved = lambda: "0.0" not in run(*terminal, *where).splitlines()  # noqa: E731
+                wait_for(moved, "movement of robot_2", START_S)
+        finally:
+            run("docker", "rm", "--force", "course")
 
 
 def test_two_hosts():

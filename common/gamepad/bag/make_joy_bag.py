@@ -90,7 +90,7 @@ def sticks():
 
 
 def axis(value, count):
-    """What joy_node publishes for a stick position: one of the steps of the Linux device.
+    """Return what joy_node publishes for a stick position: one of the steps of the Linux device.
 
     Messages are rounded down and up in turn: a hand that holds a stick trembles.
     """

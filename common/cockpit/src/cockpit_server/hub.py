@@ -51,7 +51,7 @@ class Hub:
         self.seat = Seat(joysticks.send, self._on_lost)
 
     def add(self, sources, player):
-        """sources: clients.Source. player: the one that plays recordings."""
+        """Take in the sources (clients.Source) and the player, the one that plays recordings."""
         self._player = player
         self._schema = schema.Schema([self, *sources])
         self._handlers = {schema.WATCH: self.on_watch}

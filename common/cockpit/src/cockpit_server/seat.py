@@ -124,7 +124,7 @@ class Seat:
         self._beats.pop(number - KEPT_BEATS, None)
 
     def input(self, client: int, message: Input, now: float, may_arm: bool = True) -> None:
-        """An Input came from a client; one that is old or not the driver's is dropped. may_arm:
+        """Take an Input from a client; one that is old or not the driver's is dropped. may_arm:
         whether all that hear this joystick will see that everything is released.
         """
         self.tick(now)  # a silence that was not yet noticed

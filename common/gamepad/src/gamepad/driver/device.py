@@ -85,7 +85,7 @@ class Device:
         return self._fd
 
     def read(self):
-        """The bytes that are there, maybe none. Raises DeviceError if the gamepad is gone."""
+        """Return the bytes that are there, maybe none. DeviceError if the gamepad is gone."""
         try:
             data = os.read(self._fd, _READ_BYTES)
         except BlockingIOError:

@@ -78,7 +78,7 @@ class JoyNode:
             threading.Event().wait(DELIVERY_TIME_S)
 
     def wait_for_gamepad(self):
-        """The Device, open, or None if the node is shut down."""
+        """Return the Device, open, or None if the node is shut down."""
         watch = AppearanceWatch(self.finder.pattern, self.wake.wake)
         told = None
         try:

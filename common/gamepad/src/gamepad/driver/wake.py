@@ -73,16 +73,16 @@ class AppearanceWatch(FileSystemEventHandler):
         self._folder = self._observer = None
 
     def on_created(self, event):
-        """Called by watchdog."""
+        """Wake up, for watchdog."""
         self._appeared(event.src_path)
 
     def on_modified(self, event):
-        """Called by watchdog; a change of permissions counts as such."""
+        """Wake up, for watchdog; a change of permissions counts as such."""
         if not event.is_directory:
             self._appeared(event.src_path)
 
     def on_moved(self, event):
-        """Called by watchdog."""
+        """Wake up, for watchdog."""
         self._appeared(event.dest_path)
 
     def _appeared(self, path):

@@ -32,7 +32,7 @@ NAME = "virtual_joystick"
 
 
 def parse(arguments):
-    """The command line; roslaunch's name:=value are left out."""
+    """Return the command line; roslaunch's name:=value are left out."""
     parser = argparse.ArgumentParser(prog=NAME, description="A virtual Logitech F710 gamepad.")
     parser.add_argument("--mode", choices=sorted(F710), help="the switch of the gamepad")
     parser.add_argument("--stream", metavar="PATH", help=f"serve a FIFO instead of {UINPUT}")
@@ -45,7 +45,7 @@ def parse(arguments):
 
 
 def read_script(path):
-    """The moves.Script in a YAML file. Raises ValueError, OSError."""
+    """Return the moves.Script in a YAML file. Raises ValueError, OSError."""
     with open(path, encoding="utf-8") as file:
         try:
             return load_script(yaml.safe_load(file))
@@ -105,7 +105,7 @@ def play(pad, source, keyboard, terminal):
 
 
 def wait_for_reader(pad, gamepad):
-    """A script must not begin before somebody reads."""
+    """Wait until a program reads: a script must not begin before."""
     pad.show(positions(gamepad, Controls()))
     while not pad.connected:
         wait(pad, None, math.inf)

@@ -42,7 +42,7 @@ class Terminal:
         return self._fd
 
     def read(self):
-        """The keys that were pressed; "" if the terminal is gone."""
+        """Return the keys that were pressed; "" if the terminal is gone."""
         try:
             return os.read(self._fd, 1024).decode(errors="replace")
         except OSError:

@@ -33,7 +33,7 @@ def _class_files(session: Session) -> Any:
     folder = session.package(PACKAGE).folder
 
     def unlikely(path: str) -> Any:
-        """The step before, under joy2twist.py, may be a class already; and there are old copies."""
+        """Return a sort key: the step before, joy2twist.py, may be a class already; and there are old copies."""
         return (
             found[path].name in bases,
             not _fits(found[path].name + path),
@@ -52,7 +52,7 @@ def _fits(words: str) -> bool:
 
 
 def program(session: Session) -> Any:
-    """(the program to start, the file with the class, its ClassFacts). Raises Wrong."""
+    """Return (the program to start, the file with the class, its ClassFacts). Raises Wrong."""
     scripts, files = session.scripts(PACKAGE), _class_files(session)
     if not files:
         for path in (path for path, facts in scripts.items() if facts.error and _fits(path)):

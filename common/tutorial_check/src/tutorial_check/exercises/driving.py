@@ -128,7 +128,7 @@ class Drive:
                 self._stream(stage, beside=answers)
 
     def _ask_again(self, stage: Stage, joys: Sequence[Joy]) -> None:
-        """The same with time: it has a clock of its own, publishes several, or is only slow."""
+        """Judge the same with time: it has a clock of its own, publishes several, or is only slow."""
         is_plain = self.unasked <= 2
         low = [] if self.missing else low_joys()
         first, self.samples, self.missing = self.samples, [], 0
@@ -155,7 +155,7 @@ class Drive:
         self.repeats = self.has_clock and any(map(any, late))
 
     def _probe(self, stage: Stage, joys: Sequence[Joy]) -> None:
-        """The other Joys, each until it is answered; the first that is not, also when asked again, ends it."""
+        """Send the other Joys, each until it is answered; the first that is not, also when asked again, ends it."""
         before, settle_s = joys[-1], SETTLE_S if self.twists else 0.0
         # By now it is known how many Twists one Joy gets: no time is needed to wait for more.
         times = max(1, round(len(self.twists) / len(self.samples)))
@@ -296,5 +296,5 @@ class Drive:
 
 
 def drive(session: Session, script: str, wants_twist: bool = True) -> Any:
-    """The Drive of a script; made once."""
+    """Return the Drive of a script; made once."""
     return session.run(("drive", script, wants_twist), lambda: Drive(session, script, wants_twist))

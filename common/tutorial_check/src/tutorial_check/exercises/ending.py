@@ -181,7 +181,7 @@ def _endings(session: Session) -> Any:
     look="rostopic echo /cmd_vel; Ctrl-C in the node's terminal",
 )
 def stops(session: Session) -> Note | str | None:
-    """Ended, it stops the robot."""
+    """Judge whether it stops the robot at its end."""
     _, path, _ = program(session)
     endings = _endings(session)
     call = session.scripts(PACKAGE)[path].first("on_shutdown")
@@ -216,13 +216,13 @@ def stops(session: Session) -> Note | str | None:
 
 
 def _late_zero(facts: PythonFacts) -> Any:
-    """The line of a sleep before the first publish at the end, or 0."""
+    """Return the line of a sleep before the first publish at the end, or 0."""
     sleep, publish = (min(facts.at_end.get(name, [0])) for name in ("sleep", "publish"))
     return sleep if sleep < publish else 0
 
 
 def _complaint(end: Any, is_registered: Any) -> Any:
-    """(what is wrong with an end, what to do); empty if nothing is."""
+    """Return (what is wrong with an end, what to do); empty if nothing is."""
     if end.zero_after_s is None:
         hint = "rospy.on_shutdown(self.shutdown), and self.cmd_vel.publish(Twist()) in shutdown"
         if is_registered:

@@ -29,7 +29,7 @@ TELLS = re.compile(r"Traceback|Error\b|Exception|not defined|exceeded|\[(?:ERROR
     look="rosrun joy2twist THE_CLASS, without a joystick",
 )
 def errors_are_seen(session: Session) -> Note | str | None:
-    """Started without a joystick; and a copy that lacks the import of Joy."""
+    """Start it without a joystick; and a copy that lacks the import of Joy."""
     script, path, _ = program(session)
     broken_text = without_name(session.text(PACKAGE, script), "Joy")
     with session.stage() as stage:

@@ -19,7 +19,7 @@ STARTS = 10  # under load, all at once
 
 
 def main_script(session: Session) -> Any:
-    """The program that turns Joy into Twist: joy2twist.py, unless that is the first version still."""
+    """Return the program that turns Joy into Twist: joy2twist.py, unless that is the first version still."""
     script = find_script(session, PACKAGE, NAME)
     scripts = session.scripts(PACKAGE)
     facts = scripts.get(script)
@@ -88,7 +88,7 @@ def check_manifest(session: Session, script: str) -> None:
     look="rosrun joy2twist joy2twist.py; rostopic echo /joy",
 )
 def displays(session: Session) -> Note | str | None:
-    """It displays every Joy."""
+    """Judge whether it displays every Joy."""
     return conversation.check_displays(session, drive(session, main_script(session)))
 
 
@@ -107,7 +107,7 @@ def mapping(session: Session) -> Note | str | None:
 
 @check("C17", "it keeps up with the joystick", "4.3", "C16", look="rostopic hz /cmd_vel")
 def rate(session: Session) -> Note | str | None:
-    """It keeps up with the joystick."""
+    """Judge whether it keeps up with the joystick."""
     return conversation.check_rate(session, drive(session, main_script(session)))
 
 
@@ -129,7 +129,7 @@ def ctrl_c(session: Session) -> Note | str | None:
     look="rosbag play --loop joy.bag; rosrun joy2twist joy2twist.py",
 )
 def under_load(session: Session) -> Note | str | None:
-    """Started while 200 Joys a second come. Never a failure."""
+    """Start it while 200 Joys a second come. Never a failure."""
     script = main_script(session)
     facts = session.scripts(PACKAGE)[script]
     lines = [call.line if call else 0 for call in map(facts.first, ("Subscriber", "Publisher"))]

@@ -45,7 +45,7 @@ class LaunchFile:
     """A launch file of the student's: its text, and what roslaunch makes of it."""
 
     def __init__(self, session: Session, name: str) -> None:
-        """Raises Wrong if there is none."""
+        """Read the file. Raises Wrong if there is none."""
         self.session, self.name = session, name
         self.path = find_launch(session, name)
         self.where = os.path.relpath(self.path, session.package(PACKAGE).folder)
@@ -71,14 +71,14 @@ class LaunchFile:
         return self.at(*attribute("type", node["type"]), Path(node["type"]).name)
 
     def demand(self, what: str, test: Callable[[Node], bool], hint: str) -> Any:
-        """The first node of which test() is true. Raises Wrong."""
+        """Return the first node of which test() is true. Raises Wrong."""
         found = next(filter(test, self.nodes), None)
         if not found:
             raise Wrong(f"{self.name} starts {what}", "it does not", self.where, hint)
         return found
 
     def words_of(self, node: Node) -> Any:
-        """The arguments of a node, as a shell would part them. Raises Wrong."""
+        """Return the arguments of a node, as a shell would part them. Raises Wrong."""
         try:
             return shlex.split(node["args"])
         except ValueError as error:
@@ -88,13 +88,13 @@ class LaunchFile:
 
 
 def copy_bag(session: Session) -> str:
-    """The commands that put the suite's recording into the student's package."""
+    """Return the commands that put the suite's recording into the student's package."""
     folder = session.whole("bag", PACKAGE)
     return f'mkdir -p {folder}; cp "$(rospack find gamepad)/bag/joy.bag" {folder}'
 
 
 def find_launch(session: Session, name: str) -> Any:
-    """The path of a launch file in the student's package. Raises Wrong."""
+    """Return the path of a launch file in the student's package. Raises Wrong."""
     folder = session.package(PACKAGE).folder
     found = sorted(path for path in folder.rglob(name) if path.is_file())
     if len(found) > 1:
@@ -147,7 +147,7 @@ def _read(session: Session) -> Any:
 
 
 def check_file(session: Session, name: str) -> Any:
-    """It exists, parses, and every $(find) leads somewhere that may be; its LaunchFile. Raises Wrong."""
+    """Return the LaunchFile: it exists, parses, each $(find) leads where it may. Raises Wrong."""
     try:
         file = LaunchFile(session, name)
         _check_text(file)

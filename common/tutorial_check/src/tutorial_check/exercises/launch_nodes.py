@@ -73,7 +73,7 @@ def check_viewer(file: LaunchFile) -> Note | None:
 
 
 def odd_name(file: LaunchFile) -> Note | None:
-    """A Note about a node whose name has a space; None if there is none."""
+    """Return a Note about a node whose name has a space; None if there is none."""
     for name in (node["name"] for node in file.nodes if " " in node["name"]):
         hint = f'the PDF shows _ as a gap: name="{name.replace(" ", "_")}"'
         seen = f'name="{name}": the name of a node has no space'
@@ -106,7 +106,7 @@ def _drives(session: Session, node: Node) -> bool:
 
 
 def check_joy(file: LaunchFile, sender: Node) -> None:
-    """What sends the Joys sends them where joy2twist listens, or Wrong. sender: its node."""
+    """Raise Wrong unless the sender, a node, sends its Joys where joy2twist listens."""
     renamed = [to for source, to in sender["remaps"] if source.strip("/") == "joy"]
     listens = [to.strip("/") for node in file.own for _, to in node["remaps"]]
     if renamed and renamed[0].strip("/") not in ("joy", *listens):
@@ -117,7 +117,7 @@ def check_joy(file: LaunchFile, sender: Node) -> None:
 
 
 def bag_of(session: Session) -> Any:
-    """(the recording that launch_bag plays, where that is written). Raises Wrong."""
+    """Return (the recording that launch_bag plays, where that is written). Raises Wrong."""
     file = LaunchFile(session, BAG)
     node = file.demand("rosbag play", is_player, BAG_HINT)
     where = file.at(*attribute("type", "play"))
@@ -142,7 +142,7 @@ def bag_of(session: Session) -> Any:
 
 
 def _check_items(file: LaunchFile) -> Note | None:
-    """What both files start; a Note about it, or None."""
+    """Look at what both files start; return a Note about it, or None."""
     note = check_viewer(file) or odd_name(file)
     file.demand("the simulated robot", is_simulator, ROBOT_HINT)
     file.demand("joy2twist", is_own, OWN_HINT)

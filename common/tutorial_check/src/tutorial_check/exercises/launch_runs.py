@@ -79,7 +79,7 @@ class Launch:
         return sum(math.hypot(b[1] - a[1], b[2] - a[2]) for a, b in zip(path, path[1:]))
 
     def traced(self, expected: str) -> Any:
-        """The Wrong for the first traceback that was printed, or None."""
+        """Return the Wrong for the first traceback that was printed, or None."""
         session = self.file.session
         output = re.sub(r"\x1b\[[0-9;]*m|\x1b\][^\x07]*\x07", "", self.program.output)
         trace = first_traceback(output, str(session.package(PACKAGE).folder))
@@ -89,7 +89,7 @@ class Launch:
         return Wrong(expected, trace.error, where, hint)
 
     def wrong(self, expected: str) -> Any:
-        """The Wrong for a launch that does not do what it should, with the first cause there is."""
+        """Return the Wrong for a launch that does not do what it should, with the first cause there is."""
         traced = self.traced(expected)
         if traced:
             return traced
@@ -113,7 +113,7 @@ class Launch:
         return Wrong(expected, seen, f"launch/{self.file.name}", hint)
 
     def _last_words(self) -> Any:
-        """The last lines that nodes without output="screen" wrote."""
+        """Return the last lines that nodes without output="screen" wrote."""
         folder = Path(self.stage.environment["ROS_LOG_DIR"])
         logs = (
             student_files.read(self.file.session.folder, path).decode(errors="replace")
@@ -123,7 +123,7 @@ class Launch:
 
 
 def _own_bag(path: Path, length_s: float) -> None:
-    """A recording in place of the student's: rest with LB released, then forwards."""
+    """Write a recording in place of the student's: rest with LB released, then forwards."""
     import rosbag  # noqa: PLC0415
     import rospy  # noqa: PLC0415
     from sensor_msgs.msg import Joy  # noqa: PLC0415
@@ -143,7 +143,7 @@ def _own_bag(path: Path, length_s: float) -> None:
 
 
 def _bag_run(session: Session) -> Any:
-    """(what is wrong or None, whether the recording begins again)."""
+    """Return (what is wrong or None, whether the recording begins again)."""
     bag, _ = bag_of(session)
     file = LaunchFile(session, BAG)
     replaced = bag.startswith(str(session.source))
@@ -203,7 +203,7 @@ def stick_drives(session: Session) -> None:
 
 
 def plug_in_for(file: LaunchFile, stage: Stage) -> Any:
-    """A joystick where the joy_node of a launch file will look for it."""
+    """Put a joystick where the joy_node of a launch file will look for it."""
     nodes = list(filter(is_joystick, file.nodes))
     named = [node["device"] for node in nodes if node["device"].startswith("/dev/input/")]
     session = file.session

@@ -40,7 +40,7 @@ ATTRIBUTES = {
 
 
 def read(path: Path) -> Any:
-    """The text of a launch file, without its comments."""
+    """Return the text of a launch file, without its comments."""
     return without_comments(path.read_text(errors="replace"))
 
 
@@ -59,7 +59,7 @@ def attribute(name: str, value: str) -> Any:
 
 
 def space_hint(text: str) -> Any:
-    """(what has a space that should be an underscore, what to do); empty if there is none."""
+    """Return (what has a space that should be an underscore, what to do); empty if there is none."""
     for pattern in GAPS:
         found = re.search(pattern, text)
         if found:
@@ -69,7 +69,7 @@ def space_hint(text: str) -> Any:
 
 
 def parse_error(error: str, where: str, text: str) -> Any:
-    """The Wrong for a file that roslaunch cannot read. text: with its comments."""
+    """Return the Wrong for a file that roslaunch cannot read. text: with its comments."""
     expected = "a launch file that roslaunch can read"
     if re.search(NOT_XML, error):
         line, hint = not_xml(error, text)
@@ -97,7 +97,7 @@ def parse_error(error: str, where: str, text: str) -> Any:
 
 
 def _place_and_hint(error: str, where: str, text: str) -> Any:
-    """The same for what says neither file nor package."""
+    """Return the same for what says neither file nor package."""
     arg = re.search(r"requires the '(\w+)' arg", error)
     if arg:
         return (

@@ -13,12 +13,12 @@ QUOTES = 'each value stands between two quotes: name="value"'
 
 
 def without_comments(text: str) -> str:
-    """The text with blanks in place of comments: its lines keep their numbers."""
+    """Return the text with blanks in place of comments: its lines keep their numbers."""
     return COMMENT.sub(lambda found: re.sub(r"[^\n]", " ", found[0]), text)
 
 
 def line_of(text: str, index: int) -> int:
-    """The number of the line, from 1, in which text[index] stands."""
+    """Return the number of the line, from 1, in which text[index] stands."""
     return text.count("\n", 0, index) + 1
 
 
@@ -40,7 +40,7 @@ def not_xml(error: str, text: str) -> tuple[int | None, str]:
 
 
 def _not_well_formed(text: str, line: int, index: int) -> tuple[int, str]:
-    """The same for a file in which expat came as far as text[index], in that line."""
+    """Return the same for a file in which expat came as far as text[index], in that line."""
     dashes = [
         line_of(text, each.start(1) + f"{each[1]}-".index("--"))
         for each in COMMENT.finditer(text)
@@ -61,7 +61,7 @@ def _not_well_formed(text: str, line: int, index: int) -> tuple[int, str]:
 
 
 def _not_closed(text: str) -> tuple[int | None, str]:
-    """The same for a file with a tag that is not closed, or closed twice."""
+    """Return the same for a file with a tag that is not closed, or closed twice."""
     stack: list[tuple[str, int]] = []  # (tag, line) of those that are open
     parser = expat.ParserCreate("utf-8")
     parser.StartElementHandler = lambda tag, _: stack.append((tag, parser.CurrentLineNumber))
@@ -82,7 +82,7 @@ def _not_closed(text: str) -> tuple[int | None, str]:
 
 
 def unclosed_node(text: str, child: str) -> int | None:
-    """The line of the first <node> with such a tag in it, which roslaunch ignores there; or None."""
+    """Return the line of the first <node> with such a tag in it, which roslaunch ignores there; or None."""
     found = re.search(
         rf"<node\b[^<>]*(?<!/)>(?:(?!</node>).)*?<{child}\b", without_comments(text), re.DOTALL
     )

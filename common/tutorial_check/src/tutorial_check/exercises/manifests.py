@@ -30,7 +30,7 @@ WANTS = (
 
 
 def unreadable(package: Package) -> Any:
-    """The Wrong for a package.xml that is no XML, or not what catkin makes of it."""
+    """Return the Wrong for a package.xml that is no XML, or not what catkin makes of it."""
     where = f"{package.inside}/package.xml"
     if package.malformed:
         line = re.search(r"line (\d+)", package.error)

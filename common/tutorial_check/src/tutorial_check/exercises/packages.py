@@ -36,7 +36,7 @@ CMAKE_HINTS = (
 
 
 def _similar(name: str, packages: Any) -> Any:
-    """A package that was meant to be the one of that name, or None."""
+    """Return a package that was meant to be the one of that name, or None."""
     plain = re.sub(r"[^a-z0-9]", "", name)
     for each in packages:
         for word in (each.name, each.folder.name):
@@ -47,7 +47,7 @@ def _similar(name: str, packages: Any) -> Any:
 
 
 def _package(session: Session, name: str) -> Any:
-    """The package of that name. Raises Wrong."""
+    """Return the package of that name. Raises Wrong."""
     packages, expected = session.packages, f"one package {name} in src"
     named = [each for each in packages if each.name == name]
     broken = [each for each in packages if each.error and name in (each.name, each.folder.name)]
@@ -68,7 +68,7 @@ def _package(session: Session, name: str) -> Any:
 
 
 def _missing(session: Session, name: str, expected: str) -> Any:
-    """The Wrong for a package that is not there, or is elsewhere, or has another name."""
+    """Return the Wrong for a package that is not there, or is elsewhere, or has another name."""
     for beside in (each.inside for each in packages_beside(session.layout) if each.name == name):
         hint = f"mv {session.whole(beside)} {session.whole('src')}"
         return Wrong(expected, f"it lies beside src: {beside}", beside, hint)
@@ -90,7 +90,7 @@ def _missing(session: Session, name: str, expected: str) -> Any:
 
 
 def _dependencies(session: Session, name: str) -> Any:
-    """The package of that name, which has all dependencies. Raises Wrong."""
+    """Return the package of that name, which has all dependencies. Raises Wrong."""
     package, wanted = _package(session, name), WANTED[name]
     where = f"{package.inside}/package.xml"
     for odd in sorted(package.depends):
@@ -167,7 +167,7 @@ def _is_known(session: Session, name: str) -> bool:
 
 
 def _cmake(package: Package) -> Any:
-    """The text of a package's CMakeLists.txt without comments. Raises Wrong."""
+    """Return the text of a package's CMakeLists.txt without comments. Raises Wrong."""
     path = package.folder / "CMakeLists.txt"
     if not path.is_file():
         expected, hint = "a package as catkin_create_pkg makes it", "take it from a new package"
@@ -194,7 +194,7 @@ def build(session: Session) -> None:
 
 
 def _build_error(session: Session, output: str) -> Any:
-    """The Wrong for the first error of catkin_make."""
+    """Return the Wrong for the first error of catkin_make."""
     output = re.sub(r"\x1b\[[0-9;]*m", "", output)
     lines = [line.strip() for line in output.splitlines()]
     bad = r"Error at|^E: |mismatched tag|error:|Could not find|Multiple packages"
@@ -212,7 +212,7 @@ def _build_error(session: Session, output: str) -> Any:
 
 
 def _missing_in(output: str) -> Any:
-    """The packages that catkin_make said it could not find."""
+    """Return the packages that catkin_make said it could not find."""
     return re.findall(
         r"[Cc]ould not find .*?(?:package configuration file provided by |component )?\"([^\"]+)\"",
         output,
@@ -220,7 +220,7 @@ def _missing_in(output: str) -> Any:
 
 
 def _not_found(session: Session, name: str) -> Any:
-    """(what is seen, where, what to do) for a package that CMakeLists.txt names and catkin does not find."""
+    """Return (what is seen, where, what to do) for a package that CMakeLists.txt names and catkin does not find."""
     place, text = _place_in_cmake(session, name)
     absent = {each for names in WANTED.values() for each in names if each not in text}
     near = difflib.get_close_matches(name, absent, 1, 0.65)

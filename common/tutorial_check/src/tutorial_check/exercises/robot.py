@@ -31,7 +31,7 @@ LOOKS = 3  # at the robot's speed: one stutter of a busy machine is none of the 
 
 
 def held(left: float, forwards: float) -> Any:
-    """A Joy with LB held."""
+    """Return a Joy with LB held."""
     return (left, forwards, 0.0, 0.0, 0.0, 0.0), (*NEUTRAL[1][:4], 1, *NEUTRAL[1][5:])
 
 
@@ -51,7 +51,7 @@ class NoJoy(Wrong):
 
 @check("C11", "a recording of /joy", "4.2", look="rosbag info joy.bag")
 def recording(session: Session) -> Note | str | None:
-    """The first of the recordings that can be played to joy2twist counts; there may be others."""
+    """Take the first of the recordings that can be played to joy2twist; there may be others."""
     ours = session.package(PACKAGE)
     bags = session.source.rglob("*.bag") if ours or session.package("beginner_tutorials") else []
     bags = sorted(bags, key=lambda each: (each.name != "joy.bag", each))
@@ -76,7 +76,7 @@ def recording(session: Session) -> Note | str | None:
 
 
 def check_recording(bag: Any, name: str) -> Any:
-    """The topics of a recording that can be played to joy2twist. name: as the student knows it. Raises Wrong."""
+    """Return the topics of a recording that can be played to joy2twist. name: as the student knows it. Raises Wrong."""
     import rosbag  # noqa: PLC0415
 
     try:
@@ -145,7 +145,7 @@ def simulated(session: Session) -> Note | str | None:
 
 
 def _beside_the_robot(session: Session, stage: Stage, script: str) -> Any:
-    """The program, started beside the simulated robot, which it alone drives. Raises Wrong."""
+    """Return the program, started beside the simulated robot, which it alone drives. Raises Wrong."""
     for topic, kind in ((CMD_VEL, "Twist"), (ODOM, "Odometry")):
         stage.call("listen", topic, kind)
     stage.call("advertise", JOY, "Joy")
@@ -192,7 +192,7 @@ def _driven(stage: Stage, joy: Any, field: Any) -> Any:
 
 
 def plug_in(session: Session, stage: Stage, device: str = "/dev/input/js0", mode: str = "D") -> Any:
-    """A virtual F710 behind a device, or a FIFO where that cannot be; (Pad, path)."""
+    """Make a virtual F710 behind a device, or a FIFO where that cannot be; (Pad, path)."""
     path = Path(device) if session.can_have_devices else session.folder / "js0"
     pad = stage.help(lambda: Pad(str(path), mode))
     pad.call("connected")

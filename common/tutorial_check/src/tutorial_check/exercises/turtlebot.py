@@ -76,7 +76,7 @@ class Remapped:
         return "" if is_named else self.file.own[0]["type"]
 
     def failed(self) -> Any:
-        """The Wrong for a launch of which a node has died."""
+        """Return the Wrong for a launch of which a node has died."""
         said = last_lines(self.launch.program.output)
         return self.launch.traced(EXPECTED) or Wrong(EXPECTED, said, self.where)
 
@@ -151,7 +151,7 @@ def real_robot(session: Session) -> None:
 
 
 def _check_items(file: LaunchFile) -> None:
-    """What it starts and includes, or Wrong."""
+    """Raise Wrong unless it starts and includes what it should."""
     # Its node, with the remap, may stand here once more.
     topics = [f"/{to.strip('/')}" for node in file.own for _, to in node["remaps"]]
     is_included = any(each.endswith(f"/{TURTLEBOT}") for each in file.facts["files"])

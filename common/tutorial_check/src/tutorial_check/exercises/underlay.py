@@ -61,7 +61,7 @@ def workspace(session: Session) -> Note | str | None:
 
 
 def _check_below(session: Session, below: Sequence[str]) -> None:
-    """This suite is among the folders that a workspace was built over, or Wrong."""
+    """Raise Wrong unless this suite is among the folders that a workspace was built over."""
     suite = os.path.realpath(Path(session.underlay).parent)
     if suite in map(os.path.realpath, below):
         return
