@@ -144,9 +144,7 @@ def check_connected(session: Session, seen: Drive) -> Conversation:
     return one
 
 
-def check_displays(
-    session: Session, seen: Drive, few_are_enough: bool = False
-) -> Note | str | None:
+def check_displays(session: Session, seen: Drive, few_are_enough: bool = False) -> Note | None:
     """Check that Joys appear in the output with all six axes. Raises Wrong."""
     one = check_connected(session, seen)
     if seen.all_shown or (seen.shown and few_are_enough):
