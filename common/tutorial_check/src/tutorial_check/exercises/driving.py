@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import statistics
 import time
-from typing import TYPE_CHECKING, Any, Sequence
+from typing import TYPE_CHECKING, Any, Callable, Sequence
 
 from tutorial_check.box import GRACE_S
 from tutorial_check.mapping import LINEAR, Evidence, judge, rule_of
@@ -27,7 +27,6 @@ from tutorial_check.stage import START_S
 if TYPE_CHECKING:
     from tutorial_check.probing import Joy
     from tutorial_check.session import Session
-    from tutorial_check.stage import Stage
 
 
 PACKAGE = "joy2twist"
@@ -51,10 +50,10 @@ class Drive:
     def __init__(self, session: Session, script: str, wants_twist: bool = True) -> None:
         self.session, self.script = session, script
         self.samples: list[Any] = []
-        self.missing = self.unasked = self.shown = self.asked = 0
-        self.delays: list[float] = []
-        self.sent = self.answered = self.strays = self.came = 0  # came: for the numbered Joys
         self.first_samples: list[Any] = []  # of an earlier pass
+        self.missing = self.unasked = self.shown = self.asked = 0
+        self.sent = self.answered = self.strays = self.came = 0  # came: for the numbered Joys
+        self.delays: list[float] = []
         self.at_rest: Any = None  # the answer to a Joy at rest
         self.waits: list[float] = []  # [s] from a Joy to the next Twist, one at a time
         self.twists: list[Any] = []  # all of the second pass
@@ -69,18 +68,17 @@ class Drive:
         self.possible: int | None = None
         self.unavoidable_s: float | None = None  # what our own Echo answered beside it
         with session.stage() as stage:
+            self._stage = stage
             stage.call("advertise", JOY, "Joy")
             stage.call("listen", CMD_VEL, "Twist")
             self.program = stage.start(PACKAGE, script)
-            self.connected = bool(
-                stage.wait_for_start(lambda: stage.call("listeners", JOY) or self.program.ended)
-                and not self.program.ended
-            )
+            stage.wait_for_start(lambda: stage.call("listeners", JOY) or self.program.ended)
+            self.connected = bool(stage.call("listeners", JOY)) and not self.program.ended
             if self.connected and wants_twist:
-                stage.wait(lambda: stage.call("speakers", CMD_VEL) or self.program.ended, 1.5)
+                self._wait(lambda: stage.call("speakers", CMD_VEL), 1.5)
             self.publishers, self.subscribers = stage.call("state")
             if self.connected:
-                self._converse(stage, wants_twist)
+                self._converse(wants_twist)
             self.ended_early = self.program.ended
             publishers, _ = stage.call("state") if stage.master_lives else ({}, {})
             self.publishers = {**self.publishers, **publishers}
@@ -92,32 +90,45 @@ class Drive:
             self.taken_s = session.box.end(self.program, grace_s)
             self.last_words = self.program.output[len(self.output) :]
 
-    def _converse(self, stage: Stage, wants_twist: bool) -> None:
-        stage.call("send", JOY, NEUTRAL)
-        joys = numbered_joys(COUNT)
+    def _wait(self, condition: Callable[[], Any], longest_s: float) -> None:
+        self._stage.wait(lambda: self.program.ended or condition(), longest_s)
+
+    def _pause(self, longest_s: float) -> None:
+        self._wait(lambda: False, longest_s)
+
+    def _count(self) -> int:
+        """How many Twists came."""
+        return self._stage.call("count", CMD_VEL)
+
+    def _heard(self, since: int) -> list[Any]:
+        return self._stage.call("heard", CMD_VEL, since)
+
+    def _converse(self, wants_twist: bool) -> None:
+        stage, joys = self._stage, numbered_joys(COUNT)
         self.joys = joys
+        stage.call("send", JOY, NEUTRAL)
         if wants_twist:
-            stage.wait(lambda: stage.call("count", CMD_VEL), 0.5)
-            self._one_by_one(stage, joys, 0.0)
+            stage.wait(self._count, 0.5)
+            self._one_by_one(joys, 0.0)
             doubtful = self.unasked > 2 or (self.samples and self.complaint)
             if doubtful and not self.naps:
-                self._ask_again(stage, joys)
+                self._ask_again(joys)
             if len(self.samples) > COUNT / 2 and not self.naps:
-                self._keep_quiet(stage)
+                self._keep_quiet()
                 if self.has_clock and not self.repeats and not self.twists:
-                    self._ask_again(stage, joys)  # zeros by a watchdog, or between all answers
+                    self._ask_again(joys)  # zeros by a watchdog, or between all answers
                 if not self.repeats and not self.complaint:
-                    self._probe(stage, joys)
+                    self._probe(joys)
         else:
             for joy in joys:
                 stage.call("send", JOY, joy)
             self.asked = COUNT
-        stage.wait(lambda: self._displayed() >= min(5, self.asked) or self.program.ended, 0.7)
+        self._wait(lambda: self._displayed() >= min(5, self.asked), 0.7)
         self.shown = self._displayed()
         goes = self.answers and not self.unanswered
         goes = goes and not judge_probes(self.samples, self.answers)[0]
         if goes and RATED & self.session.exercises and not self.program.ended:
-            self._stream(stage)
+            self._stream()
             if not self.is_prompt and not self.program.ended:
                 before = stage.call("listeners", JOY)
                 echo, answers = stage.echo()
@@ -125,69 +136,67 @@ class Drive:
                 stage.wait(
                     lambda: echo.call("ready") and stage.call("listeners", JOY) > before, START_S
                 )
-                self._stream(stage, beside=answers)
+                self._stream(beside=answers)
 
-    def _ask_again(self, stage: Stage, joys: Sequence[Joy]) -> None:
-        """Judge the same with time: it has a clock of its own, publishes several, or is only slow."""
+    def _ask_again(self, joys: Sequence[Joy]) -> None:
+        """Ask the same with time: it has a clock of its own, publishes several, or is only slow."""
         is_plain = self.unasked <= 2
         low = [] if self.missing else low_joys()
         first, self.samples, self.missing = self.samples, [], 0
-        stage.wait(lambda: self.program.ended, SETTLE_S)  # late ones belong to the first pass
-        begun = stage.call("count", CMD_VEL)
-        self._one_by_one(stage, [*joys, *low], SETTLE_S)
-        self.twists = [twist for _, _, twist in stage.call("heard", CMD_VEL, begun)]
+        self._pause(SETTLE_S)  # late ones belong to the first pass
+        begun = self._count()
+        self._one_by_one([*joys, *low], SETTLE_S)
+        self.twists = [twist for _, _, twist in self._heard(begun)]
         if len(self.samples) < len(first):
             first, self.samples = self.samples, first
         # Of several Twists for one Joy it is not known which of them answers it.
         self.first_samples = first if is_plain else []
-        heard = self._ask(stage, AT_REST, SETTLE_S)[1]
+        heard = self._ask(AT_REST, SETTLE_S)[1]
         self.at_rest = heard[-1][2] if heard else None
-        self._ask(stage, joys[-1], SETTLE_S)  # the last one moves the robot
+        self._ask(joys[-1], SETTLE_S)  # the last one moves the robot
 
-    def _keep_quiet(self, stage: Stage) -> None:
+    def _keep_quiet(self) -> None:
         """See whether Twists come without a Joy. The last one moves the robot."""
-        begun_s, before = time.monotonic(), stage.call("count", CMD_VEL)
-        quiet_s = max(QUIET_S, 2.5 * min(ANSWER_S, statistics.median(self.waits)))
-        stage.wait(lambda: self.program.ended, quiet_s)
-        unasked = stage.call("heard", CMD_VEL, before)
+        begun_s, before = time.monotonic(), self._count()
+        self._pause(max(QUIET_S, 2.5 * min(ANSWER_S, statistics.median(self.waits))))
+        unasked = self._heard(before)
         self.has_clock = len(unasked) > 1
         late = [twist for when, _, twist in unasked if when > begun_s + SAME_S]
         self.repeats = self.has_clock and any(map(any, late))
 
-    def _probe(self, stage: Stage, joys: Sequence[Joy]) -> None:
-        """Send the other Joys, each until it is answered; the first that is not, also when asked again, ends it."""
+    def _probe(self, joys: Sequence[Joy]) -> None:
+        """Send the other Joys, each until it is answered; end at one that is not when asked again."""
         before, settle_s = joys[-1], SETTLE_S if self.twists else 0.0
         # By now it is known how many Twists one Joy gets: no time is needed to wait for more.
         times = max(1, round(len(self.twists) / len(self.samples)))
         plan = [(joy, settle_s, 1) for joy in probes(joys)]
         plan += [(joy, 0.0, times) for joy in small_and_button_probes()]
         for joy, wait_s, often in plan:
-            _, heard = self._ask(stage, joy, wait_s, often)
+            _, heard = self._ask(joy, wait_s, often)
             if not heard and not self.program.ended:
-                self._ask(stage, before, wait_s, often)
-                _, heard = self._ask(stage, joy, wait_s, often)
+                self._ask(before, wait_s, often)
+                _, heard = self._ask(joy, wait_s, often)
             if not heard:
                 self.unanswered = joy, before
                 return
             self.answers.append((joy, heard[-1 if settle_s else 0][2]))
             before = joy
 
-    def _ask(self, stage: Stage, joy: Any, settle_s: float, often: int = 1) -> Any:
-        """(when a Joy was sent, what was heard from then on). often: how many Twists are waited for."""
-        before = stage.call("count", CMD_VEL)
-        sent_s = stage.call("send", JOY, joy)
-        stage.wait(
-            lambda: stage.call("count", CMD_VEL) - before >= often or self.program.ended,
-            ANSWER_S if often == 1 else SETTLE_S,
-        )
+    def _ask(
+        self, joy: Joy, settle_s: float, often: int = 1, longest_s: float = ANSWER_S
+    ) -> tuple[float, list[Any]]:
+        """Return (when a Joy was sent, what came then). often: how many Twists are waited for."""
+        before = self._count()
+        sent_s = self._stage.call("send", JOY, joy)
+        self._wait(lambda: self._count() - before >= often, longest_s if often == 1 else SETTLE_S)
         if settle_s:
-            stage.wait(lambda: self.program.ended, settle_s)
-        return sent_s, stage.call("heard", CMD_VEL, before)
+            self._pause(settle_s)
+        return sent_s, self._heard(before)
 
-    def _one_by_one(self, stage: Stage, joys: Sequence[Joy], settle_s: float) -> None:
-        begun, answered, unanswered = stage.call("count", CMD_VEL), len(self.samples), 0
+    def _one_by_one(self, joys: Sequence[Joy], settle_s: float) -> None:
+        begun, answered, unanswered = self._count(), len(self.samples), 0
         for joy in joys:
-            sent_s, heard = self._ask(stage, joy, settle_s)
+            sent_s, heard = self._ask(joy, settle_s)
             self.asked += 1
             self.waits.append(heard[0][0] - sent_s if heard else ANSWER_S)
             if heard:
@@ -197,33 +206,22 @@ class Drive:
                 unanswered += 1
             if unanswered == 3 or self.program.ended or self.naps:
                 break
+        answered = len(self.samples) - answered
         # Also those that came between an answer and the next Joy.
-        twists = stage.call("count", CMD_VEL) - begun
-        self.unasked += twists - (len(self.samples) - answered)
+        self.unasked += self._count() - begun - answered
         if unanswered == 3 and not self.program.ended and not self.naps:
-            self._hurry(stage, joys[len(self.samples) - answered + unanswered :])
-        self.came = stage.call("count", CMD_VEL) - begun
+            # The rest without much patience, to see how many of all are answered.
+            for joy in joys[answered + unanswered :]:
+                self._ask(joy, 0.0, longest_s=SAME_S)
+        self.came = self._count() - begun
 
-    def _hurry(self, stage: Stage, joys: Sequence[Joy]) -> None:
-        """Send the rest of the Joys without much patience, to see how many of all are answered."""
-        before = 0
-
-        def is_answered() -> bool:
-            return self.program.ended or stage.call("count", CMD_VEL) > before
-
-        for joy in joys:
-            before = stage.call("count", CMD_VEL)
-            stage.call("send", JOY, joy)
-            stage.wait(is_answered, SAME_S)
-
-    def _stream(self, stage: Stage, beside: str | None = None) -> None:
-        count = int(RATE * STREAM_S)
-        joys = rising_joys(count)
-        before = stage.call("count", CMD_VEL)
-        stage.call("stream", JOY, joys, RATE, False)
+    def _stream(self, beside: str | None = None) -> None:
+        stage, count = self._stage, int(RATE * STREAM_S)
+        before = self._count()
+        stage.call("stream", JOY, rising_joys(count), RATE, False)
         stage.wait(lambda: len(stage.call("sent", JOY)) >= count, STREAM_S + 3)
-        stage.wait(lambda: stage.call("count", CMD_VEL) - before >= count, 0.3)
-        sent, heard = stage.call("sent", JOY), stage.call("heard", CMD_VEL, before)
+        stage.wait(lambda: self._count() - before >= count, 0.3)
+        sent, heard = stage.call("sent", JOY), self._heard(before)
         self.sent, self.answered = len(sent), len(heard)
         rule = rule_of(LINEAR, self.samples)
         self.delays = delays(sent, heard, rule.factor if rule else None)
@@ -236,24 +234,22 @@ class Drive:
             self.unavoidable_s = statistics.median(delays(sent, echoed, 1.0) or [0.0])
 
     @property
-    def evidence(self) -> Any:
-        """What the numbered Joys were answered."""
+    def evidence(self) -> Evidence:
         return Evidence(self.samples, self.first_samples, self.at_rest)
 
     @property
-    def complaint(self) -> Any:
-        """What is odd about those answers; empty if nothing is."""
+    def complaint(self) -> str:
+        """What is odd about the answers to the numbered Joys; empty if nothing is."""
         return judge(self.evidence)[0]
 
     @property
-    def silence(self) -> Any:
+    def silence(self) -> tuple[str, str]:
         """(what is seen, what to do) for the first probe that was not answered."""
         joy, before = self.unanswered
         return silence(joy, before, self.answers[-1][1] if self.answers else (1.0,))
 
     @property
-    def delay_s(self) -> Any:
-        """The median delay from Joy to Twist, or None."""
+    def delay_s(self) -> float | None:
         return statistics.median(self.delays) if self.delays else None
 
     @property
@@ -263,21 +259,20 @@ class Drive:
         return f"{self.answered} Twists for {self.sent} Joys{late}"
 
     @property
-    def is_prompt(self) -> Any:
-        """Whether so many Joys as is enough were answered, and soon, as far as the machine allows."""
+    def is_prompt(self) -> bool:
+        """Whether enough Joys were answered, and soon, as far as the machine allows."""
         if self.answered < self.enough * min(self.sent, self.possible or self.sent):
             return False
         return self.delay_s is None or self.delay_s < SOON_S + (self.unavoidable_s or 0.0)
 
     @property
-    def naps(self) -> Any:
+    def naps(self) -> bool:
         """Whether its callback sleeps, and so long that each Joy waits for the one before."""
         is_slow = len(self.waits) > 2 and statistics.median(self.waits[:5]) > NAP_S
         return bool(self.sleep_lines) and is_slow
 
     @property
-    def all_shown(self) -> Any:
-        """Whether as many Joys were displayed as can be asked for."""
+    def all_shown(self) -> bool:
         return self.shown >= min(5, max(1, self.asked))
 
     @property
@@ -286,15 +281,14 @@ class Drive:
         return any(len(NUMBER.findall(line)) >= 6 for line in self.output.splitlines())
 
     @property
-    def trouble(self) -> Any:
-        """Whether the program printed a traceback."""
+    def trouble(self) -> bool:
         return "Traceback (most recent call last)" in self.output
 
-    def _displayed(self) -> Any:
+    def _displayed(self) -> int:
         """How many of the Joys were displayed, all six axes in a line."""
         return len(displayed(self.joys, COLOUR.sub("", self.program.output)))
 
 
-def drive(session: Session, script: str, wants_twist: bool = True) -> Any:
+def drive(session: Session, script: str, wants_twist: bool = True) -> Drive:
     """Return the Drive of a script; made once."""
     return session.run(("drive", script, wants_twist), lambda: Drive(session, script, wants_twist))

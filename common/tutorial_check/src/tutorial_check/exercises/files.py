@@ -76,6 +76,7 @@ class Text:
         self.data = student_files.read(session.folder, path)
         self.first = self.data.split(b"\n", 1)[0]
         self.first_line = self.first.decode(errors="replace")[:80]
+        self.further = "; #! stands further down" if b"\n#!" in self.data else ""
         self.facts = session.scripts(package).get(script)
         self.error = self.facts and self.facts.error
         self.python_hint = self.error and syntax_hint(self.error, self.facts.error_text)
@@ -125,8 +126,8 @@ OF_A_TEXT = (
      Row(lambda t: t.error, "{found}: {f.facts.error_text}", "{f.python_hint}",
          "{f.script}:{f.facts.error_line}")),
     (f"{PYTHON3} as the first line", "head -3 {whole}",
-     Row(lambda t: not t.first.startswith(b"#!"), "the first line is {f.first_line!r}", WITHOUT,
-         "{f.script}:1")),
+     Row(lambda t: not t.first.startswith(b"#!"), "the first line is {f.first_line!r}{f.further}",
+         WITHOUT, "{f.script}:1")),
     (f"an interpreter that exists: {PYTHON3}", "head -1 {whole}",
      Row(lambda t: not t.interpreter, "{f.first_line}", f"{PYTHON3}, or #!/usr/bin/python3",
          "{f.script}:1")),

@@ -50,8 +50,8 @@ class Talk:
             self.heard = _heard(stage)
             self.talker_ended, self.listener_ended = first.ended, self.listener.ended
             self.master_alive = stage.master_lives
-            self.first_ended, self.both = False, False
-            self.taken: dict[str, float | None] = {}
+            self.first_ended = self.both = False
+            self.taken: dict[str, float | None] = {}  # [s] to the end of each
             if self.heard and not self.talker_ended and not self.listener_ended:
                 self._talk_both(session, stage, talker)
 
