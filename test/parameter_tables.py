@@ -16,6 +16,7 @@ TABLES = [  # README, module, dataclass; what stands before each name
     ("fake_turtlebot_sim/README.md", "fake_turtlebot_sim.simulator.parameters", "Parameters", "~"),
     ("fake_turtlebot_sim/README.md", "fake_turtlebot_sim.mux.parameters", "MuxParameters", "~"),
     ("fake_turtlebot_sim/README.md", "fake_turtlebot_sim.mux.parameters", "Input", ""),
+    ("fake_turtlebot_sim/README.md", "fake_turtlebot_sim.safety.parameters", "Parameters", "~"),
     ("common/gamepad/README.md", "gamepad.driver.parameters", "DriverParameters", "~"),
 ]
 

@@ -76,8 +76,11 @@ def test_a_robot_is_never_inside_and_stops_only_where_it_touches(obstacles, pose
             assert cos(contact - ahead) > -EXACT
 
 
-def robot_at_the_wall(velocity, parameters=Parameters(), seconds=4):  # noqa: B008  it is frozen
-    robot = SimulatedRobot(parameters, world=World((((1.0, -5.0), (1.0, 5.0)),)))
+WALL = World((((1.0, -5.0), (1.0, 5.0)),))
+
+
+def robot_at_the_wall(velocity, seconds=4, **parameters):
+    robot = SimulatedRobot(Parameters(world=WALL, **parameters))
     for cycle in range(50 * seconds):
         robot.command(velocity, cycle * 20_000_000)
         robot.advance((cycle + 1) * 20_000_000)
@@ -105,14 +108,13 @@ def test_with_a_turn_it_pushes_until_it_leads_along_the_wall():
 
 
 def test_a_ramp_ends_at_the_wall_too():
-    robot = robot_at_the_wall((0.7, 0.0), Parameters(max_linear_acceleration=0.5))
+    robot = robot_at_the_wall((0.7, 0.0), max_linear_acceleration=0.5)
     assert robot.state().x == pytest.approx(1 - R, abs=EXACT)
     assert robot.state().v == 0.0 and robot.contact is not None
 
 
 def test_a_robot_with_errors_touches_with_its_true_body():
-    parameters = Parameters(wheel_radius_ratio=1.02, wheel_noise=0.01)
-    robot = SimulatedRobot(parameters, world=World((((1.0, -5.0), (1.0, 5.0)),)))
+    robot = SimulatedRobot(Parameters(world=WALL, wheel_radius_ratio=1.02, wheel_noise=0.01))
     for cycle in range(200):
         robot.command((0.5, 0.0), cycle * 20_000_000)
         robot.advance((cycle + 1) * 20_000_000)

@@ -125,7 +125,7 @@ def test_robots_by_name_and_by_number():
 
 
 def test_robots_that_are_lined_up_do_not_touch():
-    places = list(line_up(range(35)).values())
+    places = line_up(35)
     assert len(set(places)) == 35
     assert places[0] == (0.0, 0.0, 0.0)
     assert places[9] == (0.0, -9.0, 0.0)

@@ -89,7 +89,7 @@ def replay(commands: Commands, target: Path, parameters: Parameters) -> Replay:
             "/tf": TFMessage([messages.transform]),
             "/joint_states": messages.joints,
         }
-        if robot.has_errors:
+        if robot.odometry_differs:
             topics["/base_pose_ground_truth"] = messages.ground_truth
         connections = [(_add(writer, topic, message), message) for topic, message in topics.items()]
         for now_ns in periods(robot, commands, parameters.period_ns()):

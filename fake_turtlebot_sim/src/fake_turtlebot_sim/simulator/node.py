@@ -15,7 +15,9 @@ from fake_turtlebot_sim.simulator.clock import PhaseLock
 from fake_turtlebot_sim.simulator.parameters import Parameters, parse_parameters
 from fake_turtlebot_sim.simulator.robot_topics import RobotTopics
 from fake_turtlebot_sim.simulator.ros_clock import Instant, Motion
-from fake_turtlebot_sim.simulator.ros_messages import static_transform
+from fake_turtlebot_sim.simulator.ros_messages import ORIGIN, Place, static_transform
+from fake_turtlebot_sim.simulator.world import World
+from fake_turtlebot_sim.simulator.world_topics import WorldTopics
 from node_kit.careful_connections import report_bad_messages
 from node_kit.log import Log
 from node_kit.prompt_publisher import PromptPublisher
@@ -31,7 +33,10 @@ class FakeTurtlebot:
     Subscribers: cmd_vel (geometry_msgs/Twist), initialpose (PoseWithCovarianceStamped),
         mobile_base/commands/reset_odometry (std_msgs/Empty)
     Publishers: odom (nav_msgs/Odometry), joint_states (sensor_msgs/JointState),
-        base_pose_ground_truth (nav_msgs/Odometry; only if the odometry has errors),
+        base_pose_ground_truth (nav_msgs/Odometry; in a world, or if the odometry has errors),
+        in a world map (nav_msgs/OccupancyGrid) and world_markers (MarkerArray), both latched, and
+        for each robot scan (sensor_msgs/LaserScan), bumper_markers (MarkerArray) and
+        mobile_base/events/bumper, cliff, wheel_drop (kobuki_msgs),
         /tf and /tf_static (tf2_msgs/TFMessage), /diagnostics (diagnostic_msgs/DiagnosticArray)
     Services: ~reset (std_srvs/Empty), and of several robots each one's own, reset
     Parameters: parameters.Parameters, as a table in README.md
@@ -53,9 +58,14 @@ class FakeTurtlebot:
         self._transforms = TFMessage()
         if parameters.publish_tf:
             self._transforms.transforms = [topics.messages.transform for topics in self._topics]
-        if parameters.publish_tf and parameters.robots:
-            self._join_in(parameters.world_frame)
+        self._world: WorldTopics | None = None
+        if parameters.world:
+            self._show_world(parameters, parameters.world)
+        elif parameters.publish_tf and parameters.robots:
+            world_frame = parameters.world_frame
+            self._lay(*((world_frame, topics.odom_frame, ORIGIN) for topics in self._topics))
         self._cycles = self._missed = self._reported_rejected = 0  # since the last report
+        self._cycle_number = 0
         self._diagnostics = diagnostic_updater.Updater()
         self._diagnostics.setHardwareID("none (simulated)")
         self._diagnostics.add("simulation", self._report)
@@ -79,23 +89,36 @@ class FakeTurtlebot:
     def _cycle(self) -> Instant:
         """Move all robots to the present and publish it."""
         with self._motion.hold() as now:
+            if self._world:
+                self._world.before_move()
             for topics in self._topics:
-                topics.robot.advance(now.motion_ns)
-                topics.messages.fill(topics.robot, now.stamp)
+                topics.move(now)
+            if self._world:
+                self._world.after_move(now.stamp)
+        self._cycle_number += 1
         if now.stamp:  # zero: simulated time has not begun
             for topics in self._topics:
                 topics.publish()
+            if self._world:
+                self._world.publish(self._cycle_number)
             if self._transforms.transforms:
                 self._tf.publish(self._transforms)
         return now
 
-    def _join_in(self, world_frame: str) -> None:
-        """Lay the odometry frames of all robots onto one, so that RViz can show them together."""
+    def _lay(self, *frames: tuple[str, str, Place]) -> None:
+        """Publish where frames lie for good: (parent, child, place [m] in the parent)."""
         stamp = rospy.Time.now()
         self._tf_static = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
-        self._tf_static.publish(
-            TFMessage([static_transform(world_frame, t.odom_frame, stamp) for t in self._topics])
-        )
+        transforms = [static_transform(one, stamp) for one in frames]
+        self._tf_static.publish(TFMessage(transforms))
+
+    def _show_world(self, parameters: Parameters, world: World) -> None:
+        """Publish the world, and where it is in the frames."""
+        robots = {topics.name: topics.robot for topics in self._topics}
+        self._world = WorldTopics(parameters, world, robots)
+        if parameters.publish_tf:
+            self._transforms.transforms += [topics.messages.in_map for topics in self._topics]
+            self._lay(*self._world.frames())
 
     def _end(self) -> None:
         """Leave the robots standing, and have it seen that they do."""

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from math import pi
+from math import pi, tau
 from typing import Any, Mapping
 
 from fake_turtlebot_sim.simulator.differential_drive import Pose
+from fake_turtlebot_sim.simulator.world import World
+from fake_turtlebot_sim.simulator.world_files import WorldError, find_world, read_world
 from node_kit.parameters import (
     checked,
     is_number,
@@ -29,8 +31,8 @@ _ACCELERATION = number(0.0, 1000.0, "m/s2 (0: no limit)")
 _ANGULAR_ACCELERATION = number(0.0, 1000.0, "rad/s2 (0: no limit)")
 
 
-def _robots(value: Any) -> dict[str, Pose]:
-    """Check {name: [x, y, yaw]}; names or a number of robots are lined up."""
+def _robots(value: Any) -> dict[str, Pose | None]:
+    """Check {name: [x, y, yaw]}; of names or a number of robots the poses are None."""
     if isinstance(value, dict):
         return {_robot_name(robot): _robot_pose(robot, pose) for robot, pose in value.items()}
     if isinstance(value, (list, tuple)) and 1 <= len(value) <= MOST_ROBOTS:
@@ -38,9 +40,9 @@ def _robots(value: Any) -> dict[str, Pose]:
         for robot in names:
             if names.count(robot) > 1:
                 raise ValueError(f"{robot!r}: is listed twice; must be unique")
-        return line_up(names)
+        return dict.fromkeys(names)
     if is_number(value) and value in range(1, MOST_ROBOTS + 1):
-        return line_up([f"robot_{k + 1}" for k in range(int(value))])
+        return {f"robot_{k + 1}": None for k in range(int(value))}
     raise ValueError(
         f"must be a number from 1 to {MOST_ROBOTS}, names as in [ada, bob], or"
         " names with their start poses as in {ada: [0, 0, 0], bob: [1, 0, 1.57]}"
@@ -60,9 +62,21 @@ def _robot_pose(robot: str, pose: Any) -> Pose:
     return x, y, yaw
 
 
-def line_up(names: list[str]) -> dict[str, Pose]:
-    """Return {name: pose}, the first at the origin, rows of ten, 1 m apart."""
-    return {name: (float(-(k // 10)), float(-(k % 10)), 0.0) for k, name in enumerate(names)}
+def line_up(count: int) -> list[Pose]:
+    """Return poses, the first at the origin, rows of ten, 1 m apart."""
+    return [(float(-(k // 10)), float(-(k % 10)), 0.0) for k in range(count)]
+
+
+def _world(value: Any) -> World | None:
+    """Read a world: the path of a file, or the name of one of this package; "" is none."""
+    if not isinstance(value, str):
+        raise ValueError("must be a file, or the name of a world of this package")
+    if not value:
+        return None
+    try:
+        return read_world(find_world(value))
+    except WorldError as error:
+        raise ValueError(str(error)) from None
 
 
 @dataclass(frozen=True)
@@ -103,20 +117,56 @@ class Parameters:
         1.0, number(0.5, 2.0, "(actual / nominal)"), "of the wheel separation, UMBmark's E_b"
     )
     seed: int = parameter(0, whole_number(), "the same seed (and name) gives the same noise")
-    robots: dict[str, Pose] = parameter(
+    robots: dict[str, Pose | None] = parameter(
         {}, _robots, "several: how many, `[ada, bob]`, or `{ada: [x, y, yaw], ...}` [m, m, rad]"
     )
     world_frame: str = parameter(
         "world", _FRAME, "in which the odometry frames of several robots lie"
+    )
+    world: World | None = parameter(
+        None,
+        _world,
+        "what to drive in: `room`, `maze`, `table`, or a file; none: an empty plane",
+        '""',
+    )
+    map_frame: str = parameter("map", _FRAME, "that of the world")
+    robots_meet: bool = parameter(True, switch, "in a world robots touch and see each other")
+    scan_rate: float = parameter(
+        10.0, number(0.1, 1000.0, "Hz, or 0: no scan", off=0.0), "of the laser scanner in a world"
+    )
+    scan_frame: str = parameter("camera_depth_frame", _FRAME)
+    scan_x: float = parameter(-0.087, number(-10.0, 10.0, "m"), "of the scanner, ahead of the base")
+    scan_y: float = parameter(0.0125, number(-10.0, 10.0, "m"), "to the left")
+    scan_angle: float = parameter(58 * pi / 180, number(0.001, tau, "rad"), "58 deg", "1.0123")
+    scan_beams: int = parameter(
+        640, whole_number(1, 10_000, "a whole number from 1 to 10000"), "over the angle"
+    )
+    scan_range_min: float = parameter(0.45, number(0.0, 100.0, "m"), "nearer is reported as -inf")
+    scan_range_max: float = parameter(10.0, number(0.01, 1000.0, "m"), "farther is inf")
+    scan_noise: float = parameter(
+        0.0, number(0.0, 10.0, "m (standard deviation)"), "of each range, drawn from the seed"
     )
 
     def period_ns(self) -> int:
         """Return the time between two messages [ns]."""
         return round(1e9 / self.rate)
 
+    def meeting_reach(self) -> float:
+        """Return the distance [m] between two robots beyond which they do not meet in a step."""
+        longest_s = self.cmd_vel_timeout + 10.0 / self.rate  # as when the machine was busy
+        return 1.0 + 2.0 * self.max_linear_speed * longest_s
+
     def start_poses(self) -> dict[str, Pose]:
-        """Return {name: (x, y, yaw)}; the only robot of a node without ~robots has no name."""
-        return self.robots or {"": (self.initial_x, self.initial_y, self.initial_yaw)}
+        """Return {name: (x, y, yaw)}; the only robot of a node without ~robots has no name.
+
+        Raises ValueError if the world has no room.
+        """
+        initial = self.initial_x, self.initial_y, self.initial_yaw
+        if not self.robots:
+            return {"": self.world.start if self.world and initial == (0.0, 0.0, 0.0) else initial}
+        count = len(self.robots)
+        places = self.world.places(count) if self.world else line_up(count)
+        return {name: pose or places.pop(0) for name, pose in self.robots.items()}
 
 
 def parse_parameters(given: Mapping[str, Any]) -> Parameters:
@@ -129,4 +179,12 @@ def parse_parameters(given: Mapping[str, Any]) -> Parameters:
         value = getattr(parameters, one)
         if value == getattr(parameters, other):
             raise ValueError(f"~{other}: {value!r}: must differ from ~{one}")
+    if parameters.scan_range_min >= parameters.scan_range_max:
+        raise ValueError("~scan_range_min: must be less than ~scan_range_max")
+    if parameters.world:
+        try:
+            for pose in parameters.start_poses().values():
+                parameters.world.check_place(pose)
+        except ValueError as error:
+            raise ValueError(f"~world: {error}; give other start poses") from None
     return parameters

@@ -15,7 +15,12 @@ from std_srvs import srv
 from fake_turtlebot_sim.simulator.differential_drive import Pose
 from fake_turtlebot_sim.simulator.parameters import Parameters
 from fake_turtlebot_sim.simulator.ros_clock import Instant, Motion
-from fake_turtlebot_sim.simulator.ros_messages import RobotMessages, pose_on_plane
+from fake_turtlebot_sim.simulator.ros_messages import (
+    RobotMessages,
+    between_frames,
+    composed,
+    pose_on_plane,
+)
 from fake_turtlebot_sim.simulator.simulated_robot import REST, SimulatedRobot, Verdict
 from node_kit.arming import Resumption
 from node_kit.prompt_publisher import PromptPublisher
@@ -34,6 +39,7 @@ class RobotTopics:
     ) -> None:
         """Take the Motion of all robots; warn() gets a line for the user and must not wait."""
         prefix = f"{name}/" if name else ""
+        self.name = name
         self._name = name or "the robot"
         self._motion = motion
         self._resumption = Resumption()
@@ -45,23 +51,31 @@ class RobotTopics:
         self.odom_frame = prefix + parameters.odom_frame
         # The frames a pose may be given in: that of all robots lies on that of each odometry.
         self._frames = [self.odom_frame] + ([parameters.world_frame] if name else [])
+        self._is_in_world = parameters.world is not None
+        if parameters.world:
+            self._frames.append(parameters.map_frame)
         self.messages = RobotMessages(parameters, prefix)
         self._publishers = [
             (PromptPublisher(f"{prefix}odom", Odometry), self.messages.odometry),
             (PromptPublisher(f"{prefix}joint_states", JointState), self.messages.joints),
         ]
-        if self.robot.has_errors:
+        if self.robot.odometry_differs:
             truth = PromptPublisher(f"{prefix}base_pose_ground_truth", Odometry)
             self._publishers.append((truth, self.messages.ground_truth))
         for topic, kind, callback in (
             ("cmd_vel", Twist, self._on_cmd_vel),
             ("initialpose", PoseWithCovarianceStamped, self._on_initialpose),
-            ("mobile_base/commands/reset_odometry", Empty, self.reset),
+            ("mobile_base/commands/reset_odometry", Empty, self._on_reset_odometry),
         ):
             # Only the newest counts, so none may wait behind it.
             rospy.Subscriber(prefix + topic, kind, callback, queue_size=1, tcp_nodelay=True)
         if name:  # of a single robot the node's own does the same
             rospy.Service(f"{prefix}reset", srv.Empty, self._on_reset)
+
+    def move(self, now: Instant) -> None:
+        """Move the robot to the present and take its messages; call while the motion is held."""
+        self.robot.advance(now.motion_ns)
+        self.messages.fill(self.robot, now.stamp)
 
     def publish(self) -> None:
         """Publish the messages as they were filled last."""
@@ -73,11 +87,22 @@ class RobotTopics:
         self.robot.command(REST, now.motion_ns)
         self._has_ended = True
 
-    def reset(self, _message: Any = None) -> None:
-        """Zero pose and wheels."""
+    def reset(self) -> None:
+        """Begin again at the start."""
         with self._motion.hold() as now:
             self.robot.advance(now.motion_ns)
-            self.robot.reset()
+            self._lift(self.robot.reset)
+
+    def _lift(self, put: Callable[[], None]) -> None:
+        try:
+            put()
+        except ValueError as error:
+            self._warn(f"{self._name} stays where it is: {error}")
+
+    def _on_reset_odometry(self, _message: Any) -> None:
+        with self._motion.hold() as now:
+            self.robot.advance(now.motion_ns)
+            self.robot.reset_odometry()
 
     def _on_reset(self, _request: Any) -> Any:
         self.reset()
@@ -109,4 +134,7 @@ class RobotTopics:
             return
         with self._motion.hold() as now:
             self.robot.advance(now.motion_ns)
-            self.robot.place(pose)
+            if self._is_in_world and message.header.frame_id.lstrip("/") == self.odom_frame:
+                frame = between_frames(self.robot.true_pose, self.robot.state()[:3])
+                pose = composed(frame, pose)
+            self._lift(lambda: self.robot.place(pose))

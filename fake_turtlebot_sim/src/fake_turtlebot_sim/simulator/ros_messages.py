@@ -8,9 +8,9 @@ message when it publishes it, and making a new Odometry would cost more than all
 from __future__ import annotations
 
 from math import atan2, cos, hypot, isfinite, sin
-from typing import Any, Sequence
+from typing import Any, Sequence, Tuple
 
-from geometry_msgs.msg import TransformStamped
+from geometry_msgs.msg import TransformStamped, Vector3
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import JointState
 
@@ -21,6 +21,8 @@ from fake_turtlebot_sim.simulator.simulated_robot import RobotState, SimulatedRo
 # Diagonal of the pose covariance [m2, rad2] that kobuki_node publishes (odometry.cpp): huge for
 # what a robot on a plane cannot know. Its twist covariance is left at zero, "unknown".
 KOBUKI_POSE_COVARIANCE = (0.1, 0.1, 1e10, 1e10, 1e10, 0.05)
+Place = Tuple[float, float, float]  # x, y, z [m]
+ORIGIN: Place = (0.0, 0.0, 0.0)
 X_Y_YAW = (0, 1, 5)  # where x, y and yaw stand in the 6 x 6 covariance of a message
 # Added to the variances of x, y and yaw, as filters cannot invert a covariance of zero.
 LEAST_VARIANCE = 1e-9  # [m2, rad2]
@@ -36,6 +38,10 @@ class RobotMessages:
         for odometry in (self.odometry, self.ground_truth):
             odometry.header.frame_id = odom_frame
             odometry.child_frame_id = base_frame
+        self.in_map = TransformStamped()  # where the odometry began, in the frame of the world
+        self.in_map.header.frame_id, self.in_map.child_frame_id = parameters.map_frame, odom_frame
+        if parameters.world:
+            self.ground_truth.header.frame_id = parameters.map_frame
         self.odometry.pose.covariance = [0.0] * 36
         self.odometry.pose.covariance[::7] = KOBUKI_POSE_COVARIANCE
         self.transform = TransformStamped()
@@ -58,8 +64,14 @@ class RobotMessages:
         covariance = robot.covariance()
         if covariance is not None:
             self._fill_covariance(covariance)
-        if robot.has_errors:
-            fill_odometry(self.ground_truth, robot.true_state(), stamp)
+        if robot.odometry_differs:
+            truth = robot.true_state()
+            fill_odometry(self.ground_truth, truth, stamp)
+            x, y, yaw = between_frames(truth[:3], state[:3])
+            self.in_map.header.stamp = stamp
+            self.in_map.transform.translation.x, self.in_map.transform.translation.y = x, y
+            self.in_map.transform.rotation.z = sin(0.5 * yaw)
+            self.in_map.transform.rotation.w = cos(0.5 * yaw)
 
     def _fill_covariance(self, covariance: Any) -> None:
         for row, message_row in enumerate(X_Y_YAW):
@@ -80,11 +92,27 @@ def fill_odometry(odometry: Odometry, state: RobotState, stamp: Any) -> None:
     odometry.twist.twist.angular.z = state.w
 
 
-def static_transform(parent: str, child: str, stamp: Any) -> TransformStamped:
-    """Return the TransformStamped that lays the frame `child` onto its parent."""
+def between_frames(outer: Pose, inner: Pose) -> Pose:
+    """Return the pose of the frame in which a body is at `inner`, where it is at `outer` itself."""
+    yaw = outer[2] - inner[2]
+    c, s = cos(yaw), sin(yaw)
+    x, y = outer[0] - (c * inner[0] - s * inner[1]), outer[1] - (s * inner[0] + c * inner[1])
+    return x, y, yaw
+
+
+def composed(frame: Pose, pose: Pose) -> Pose:
+    """Return a pose that is given in a frame, in the frame in which that one is given."""
+    c, s = cos(frame[2]), sin(frame[2])
+    x, y = frame[0] + c * pose[0] - s * pose[1], frame[1] + s * pose[0] + c * pose[1]
+    return x, y, frame[2] + pose[2]
+
+
+def static_transform(frame: tuple[str, str, Place], stamp: Any) -> TransformStamped:
+    """Return the TransformStamped of (parent, child, place [m] in the parent), unturned."""
     transform = TransformStamped()
     transform.header.stamp = stamp
-    transform.header.frame_id, transform.child_frame_id = parent, child
+    transform.header.frame_id, transform.child_frame_id, (x, y, z) = frame
+    transform.transform.translation = Vector3(x, y, z)
     transform.transform.rotation.w = 1.0
     return transform
 

@@ -9,9 +9,11 @@ from __future__ import annotations
 
 from enum import Enum
 from math import isfinite
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Sequence
 
-from fake_turtlebot_sim.simulator.contact import Piece, drive_among
+import numpy as np
+
+from fake_turtlebot_sim.simulator.contact import Disc, Obstacle, Piece, drive_among
 from fake_turtlebot_sim.simulator.differential_drive import (
     Pose,
     Velocity,
@@ -22,13 +24,24 @@ from fake_turtlebot_sim.simulator.differential_drive import (
     wheel_rates,
     wrap_angle,
 )
+from fake_turtlebot_sim.simulator.falling import fall
 from fake_turtlebot_sim.simulator.odometry_errors import OdometryErrors
 from fake_turtlebot_sim.simulator.parameters import Parameters
-from fake_turtlebot_sim.simulator.world import Surroundings, World
+from fake_turtlebot_sim.simulator.sensors import Sensed, bumpers, cliffs
+from fake_turtlebot_sim.simulator.world import BASE_RADIUS_M, Surroundings
 
 REST: Velocity = (0.0, 0.0)
 ORIGIN: Pose = (0.0, 0.0, 0.0)
-BASE_RADIUS_M = 0.178  # kobuki.urdf.xacro
+ON_ITS_WHEELS = (False, False)
+
+
+def meet(robots: Sequence[SimulatedRobot], reach: float) -> None:
+    """Let each robot meet those within reach [m]: those that it could touch in its next steps."""
+    places = np.array([robot.true_pose[:2] for robot in robots])
+    away = np.hypot(*(places[:, None] - places).transpose(2, 0, 1))
+    np.fill_diagonal(away, np.inf)
+    for robot, row in zip(robots, away <= reach):
+        robot.company = [robots[k] for k in row.nonzero()[0]]
 
 
 class Verdict(Enum):
@@ -56,17 +69,11 @@ class RobotState(NamedTuple):
 class SimulatedRobot:
     """A robot that obeys its newest command until the timeout, then stops."""
 
-    def __init__(
-        self,
-        parameters: Parameters,
-        start_pose: Pose = ORIGIN,
-        name: str = "",
-        world: World | None = None,
-    ) -> None:
+    def __init__(self, parameters: Parameters, start_pose: Pose = ORIGIN, name: str = "") -> None:
         """Put the robot at rest at start_pose, (x [m], y [m], yaw [rad]), at the time 0.
 
-        Each name draws odometry noise of its own, in company or alone. world: what may be in the
-        robot's way, in the frame of the pose.
+        Each name draws odometry noise of its own, in company or alone. The pose is in the frame of
+        the Parameters' world, if there is one, and the odometry starts with it.
         """
         p = self._parameters = parameters
         self._timeout_ns = round(p.cmd_vel_timeout * 1e9)
@@ -77,8 +84,11 @@ class SimulatedRobot:
         self._errors = None
         if errors != (1.0, 1.0, 0.0):
             self._errors = OdometryErrors(p.wheel_separation, *errors, f"{p.seed}/{name}")
-        self._surroundings = Surroundings(world) if world else None
+        self._surroundings = Surroundings(p.world) if p.world else None
         self._contact: float | None = None
+        self._dropped = ON_ITS_WHEELS
+        self.company: Sequence[SimulatedRobot] = ()  # others that may be in the way
+        self._start_pose = start_pose if p.world else ORIGIN
         self.place(start_pose)
 
     def command(self, velocity: Velocity, now_ns: int) -> Verdict:
@@ -92,15 +102,34 @@ class SimulatedRobot:
         return Verdict.ACCEPTED if self._target == velocity else Verdict.LIMITED
 
     def place(self, pose: Pose) -> None:
-        """Lift the robot to a pose (x [m], y [m], yaw [rad]); its wheels and command stay."""
+        """Lift the robot to a pose (x [m], y [m], yaw [rad]); its wheels and command stay.
+
+        Raises ValueError if something is there, or an edge.
+        """
+        if self._parameters.world:
+            self._parameters.world.check_place(pose)
         x, y, yaw = pose
         self._pose = self._true_pose = (x, y, wrap_angle(yaw))
+        self._contact, self._dropped = None, ON_ITS_WHEELS
         if self._errors:
             self._errors.forget()
 
+    def reset_odometry(self) -> None:
+        """Zero the odometry and the angles of the wheels, as the Kobuki does on request.
+
+        On an empty plane the robot itself is at the origin then, too.
+        """
+        if self._surroundings is None:
+            self.place(ORIGIN)
+        else:
+            self._pose = ORIGIN
+            if self._errors:
+                self._errors.forget()
+        self._wheels = (0.0, 0.0)
+
     def reset(self) -> None:
-        """Zero the pose and the angles of the wheels, as the Kobuki's reset_odometry does."""
-        self.place(ORIGIN)
+        """Begin again: in a world at the start, else at the origin, with wheels at zero."""
+        self.place(self._start_pose)
         self._wheels = (0.0, 0.0)
 
     def advance(self, to_ns: int) -> None:
@@ -119,10 +148,8 @@ class SimulatedRobot:
     def true_state(self) -> RobotState:
         """Return the RobotState as an outside observer sees it: without odometry errors."""
         state = self.state()
-        if not self._errors:
-            return state
-        x, y, yaw = self._true_pose
-        v, w = self._errors.true_velocity(self._velocity)
+        x, y, yaw = self.true_pose
+        v, w = self._errors.true_velocity(self._velocity) if self._errors else self._velocity
         return state._replace(x=x, y=y, yaw=yaw, v=v, w=w)
 
     def covariance(self) -> Any:
@@ -130,14 +157,31 @@ class SimulatedRobot:
         return self._errors.covariance if self._errors and self._errors.wheel_noise else None
 
     @property
-    def has_errors(self) -> bool:
-        """Return whether the odometry differs from the truth."""
-        return self._errors is not None
+    def odometry_differs(self) -> bool:
+        """Return whether the odometry may differ from the truth."""
+        return self._errors is not None or self._surroundings is not None
+
+    @property
+    def true_pose(self) -> Pose:
+        """Return where the robot is, (x [m], y [m], yaw [rad])."""
+        return self._true_pose if self.odometry_differs else self._pose
 
     @property
     def contact(self) -> float | None:
         """Return in which direction [rad, ahead is 0] the robot pushes something, or None."""
-        return None if self._contact is None else wrap_angle(self._contact - self._truth[2])
+        return None if self._contact is None else wrap_angle(self._contact - self.true_pose[2])
+
+    @property
+    def disc(self) -> Disc:
+        """Return the robot as others meet it."""
+        return (*self.true_pose[:2], BASE_RADIUS_M)
+
+    def sensed(self) -> Sensed:
+        """Return what the robot's sensors feel at the time of the last advance()."""
+        world = self._parameters.world
+        if world is None:
+            return Sensed()
+        return Sensed(bumpers(self.contact), cliffs(self.true_pose, world), self._dropped)
 
     @property
     def is_driven(self) -> bool:
@@ -148,10 +192,6 @@ class SimulatedRobot:
     def is_moving(self) -> bool:
         """Return whether the robot had a velocity at the time of the last advance()."""
         return self._velocity != REST
-
-    @property
-    def _truth(self) -> Pose:
-        return self._true_pose if self._errors else self._pose
 
     def _wheel_rates(self, velocity: Velocity) -> tuple[float, float]:
         p = self._parameters
@@ -186,10 +226,11 @@ class SimulatedRobot:
         if self._surroundings is None:
             self._roll(velocity, end_velocity, Piece(*true, dt))
             return
-        x, y, _ = self._truth
-        reach = BASE_RADIUS_M + dt * max(abs(true[0][0]), abs(true[1][0]))
-        near = self._surroundings.near(x, y, reach)
-        pieces, self._contact = drive_among(self._truth, *true, dt, BASE_RADIUS_M, near)
+        if self._dropped != ON_ITS_WHEELS:
+            self._velocity = REST  # it lies there until it is lifted
+            return
+        near = self._near(BASE_RADIUS_M + dt * max(abs(true[0][0]), abs(true[1][0])))
+        pieces, self._contact = drive_among(self.true_pose, *true, dt, BASE_RADIUS_M, near)
         after = 0.0
         for piece in pieces:
             before, after = after, after + piece.dt
@@ -197,37 +238,46 @@ class SimulatedRobot:
             end = between(velocity, end_velocity, after / dt)
             if piece.is_blocked:  # the wheels, too, only turn the robot
                 begin, end = (0.0, begin[1]), (0.0, end[1])
+            if self._falls(begin, end, piece):
+                return
             self._roll(begin, end, piece)
         if self._contact is not None:
             self._velocity = 0.0, end_velocity[1]
+
+    def _near(self, reach: float) -> Sequence[Obstacle]:
+        """Return at least what is within reach [m] of the robot's middle."""
+        x, y, _ = self.true_pose
+        near = self._surroundings.near(x, y, reach) if self._surroundings else ()
+        others = [robot.disc for robot in self.company]
+        return [*near, *others] if others else near
+
+    def _falls(self, begin: Velocity, end: Velocity, piece: Piece) -> bool:
+        """Return whether a wheel drops within a Piece; if so, drive it so far."""
+        world = self._parameters.world
+        if world is None or not world.edges:
+            return False
+        fallen = fall(self.true_pose, *piece[:3], self._parameters.wheel_separation, world.edges)
+        if fallen is None:
+            return False
+        dt, self._dropped = fallen
+        share = dt / piece.dt if piece.dt else 0.0
+        to = between(piece.velocity, piece.end_velocity, share)
+        self._roll(begin, between(begin, end, share), Piece(piece.velocity, to, dt))
+        self._velocity, self._contact = REST, None
+        return True
 
     def _roll(self, velocity: Velocity, end_velocity: Velocity, true: Piece) -> None:
         """Let the wheels turn, while the robot itself drives a Piece."""
         dt = true.dt
         mean = velocity if velocity == end_velocity else between(velocity, end_velocity, 0.5)
-        if self._errors:
-            mean = self._measure(self._errors, velocity, end_velocity, mean, true)
+        if self.odometry_differs:
+            self._true_pose = drive(self._true_pose, *true[:3])
+        if self._errors and self._errors.wheel_noise and dt:
+            # The measured travel of a step carries no more than its mean velocity.
+            before, mean = self._pose, self._errors.measured(mean, dt)
+            self._pose = drive(before, mean, mean, dt)
+            self._errors.grow(before, self._pose, mean, dt)
         else:
             self._pose = drive(self._pose, velocity, end_velocity, dt)
         left, right = self._wheel_rates(mean)
         self._wheels = (self._wheels[0] + left * dt, self._wheels[1] + right * dt)
-
-    def _measure(
-        self,
-        errors: OdometryErrors,
-        velocity: Velocity,
-        end_velocity: Velocity,
-        mean: Velocity,
-        true: Piece,
-    ) -> Velocity:
-        """Drive the true robot and its odometry apart; return the mean velocity as measured."""
-        self._true_pose = drive(self._true_pose, *true[:3])
-        before = self._pose
-        if not errors.wheel_noise or not true.dt:
-            self._pose = drive(before, velocity, end_velocity, true.dt)
-            return mean
-        # The measured travel of a step carries no more than its mean velocity.
-        mean = errors.measured(mean, true.dt)
-        self._pose = drive(before, mean, mean, true.dt)
-        errors.grow(before, self._pose, mean, true.dt)
-        return mean

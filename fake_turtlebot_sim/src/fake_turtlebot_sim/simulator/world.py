@@ -4,16 +4,19 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import hypot
+from math import cos, hypot, pi, sin
 from typing import Any, Sequence, Tuple
 
 import numpy as np
 
-from fake_turtlebot_sim.simulator.contact import Disc, Obstacle, Segment
+from fake_turtlebot_sim.simulator.contact import Disc, Obstacle, Segment, first_contact, gap
 from fake_turtlebot_sim.simulator.differential_drive import Pose
 
+BASE_RADIUS_M = 0.178  # kobuki.urdf.xacro
 Point = Tuple[float, float]  # x, y [m]
 REACH_M = 1.0  # around a robot: what is farther away is looked at again only after so long a way
+INSIDE_M = 1e-9  # how deep in a wall a robot may be put
+GRID_M = 0.5  # between robots that are lined up
 
 
 @dataclass(frozen=True)
@@ -31,6 +34,12 @@ class World:
         return tuple((*a, *b) for line in self.walls for a, b in zip(line, line[1:]))
 
     @cached_property
+    def edges(self) -> tuple[Segment, ...]:
+        """The edges of the cliffs, piece by piece."""
+        closed = ((*line, line[0]) for line in self.cliffs)
+        return tuple((*a, *b) for line in closed for a, b in zip(line, line[1:]))
+
+    @cached_property
     def arrays(self) -> tuple[Any, Any]:
         """The walls (n, 4) and the posts (m, 3), as a Scanner takes them."""
         return np.array(self.segments).reshape(-1, 4), np.array(self.posts).reshape(-1, 3)
@@ -38,6 +47,50 @@ class World:
     def is_cliff(self, x: float, y: float) -> bool:
         """Return whether there is no floor at (x, y) [m]."""
         return any(_is_inside(x, y, cliff) for cliff in self.cliffs)
+
+    def check_place(self, pose: Pose) -> None:
+        """Raise ValueError if a robot cannot stand at a pose (x [m], y [m], yaw [rad])."""
+        x, y, _ = pose
+        obstacles: tuple[Obstacle, ...] = (*self.segments, *self.posts)
+        if any(gap(x, y, BASE_RADIUS_M, one) < -INSIDE_M for one in obstacles):
+            raise ValueError(f"a robot at ({x:g}, {y:g}) would be inside of a wall")
+        over = (gap(x, y, BASE_RADIUS_M, edge) < 0.0 for edge in self.edges)
+        if self.is_cliff(x, y) or any(over):
+            raise ValueError(f"a robot at ({x:g}, {y:g}) would be over an edge")
+
+    def places(self, count: int) -> list[Pose]:
+        """Return as many start poses, GRID_M apart, which a robot can reach from the first.
+
+        The first is the start, and all have its heading. Raises ValueError if there is no room.
+        """
+        x, y, yaw = self.start
+        self.check_place(self.start)
+        around = Surroundings(self)
+        found = {(0, 0): self.start}
+        for (row, column), (px, py, _) in _growing(found):
+            for k, (dr, dc) in enumerate(((0, -1), (-1, 0), (0, 1), (1, 0))):
+                key = row + dr, column + dc
+                if len(found) >= count or key in found:
+                    continue
+                way = px, py, yaw - (k + 1) * pi / 2
+                obstacles = [*around.near(px, py, REACH_M), *self.edges]
+                if first_contact(way, (1.0, 0.0), GRID_M, BASE_RADIUS_M, obstacles) is None:
+                    ahead, aside = GRID_M * key[0], GRID_M * key[1]
+                    found[key] = (
+                        x + ahead * cos(yaw) - aside * sin(yaw),
+                        y + ahead * sin(yaw) + aside * cos(yaw),
+                        yaw,
+                    )
+        if len(found) < count:
+            raise ValueError(f"the world has room for {len(found)} robots")
+        return list(found.values())
+
+
+def _growing(found: dict[Any, Any]) -> Any:
+    """Yield the items of a dictionary, those too that are added meanwhile."""
+    seen = 0
+    while seen < len(found):
+        yield from list(found.items())[seen : (seen := len(found))]
 
 
 def _is_inside(x: float, y: float, polygon: Sequence[Point]) -> bool:

@@ -8,11 +8,9 @@ from typing import Any
 
 import numpy as np
 import yaml
-from PIL import Image
 
 from fake_turtlebot_sim.simulator.world import Point, World
 
-FOLDER = Path("worlds")  # of the package, with those that are named without .yaml
 FIELDS = {
     "walls": "a list of polylines [[x, y], [x, y], ...] in metres",
     "posts": "a list of {x: ..., y: ..., radius: ...} in metres",
@@ -25,6 +23,25 @@ MOST_WALLS = 20_000
 
 class WorldError(Exception):
     """Why a file is no world: one line, with the line of the file and what is allowed."""
+
+
+def find_world(name: str) -> Path:
+    """Return the path of a world, given as a file or by the name of one of this package."""
+    if "/" in name or name.endswith((".yaml", ".yml")):
+        return Path(name).expanduser()
+    worlds = shipped_worlds()
+    if name not in worlds:
+        names = ", ".join(sorted(worlds))
+        raise WorldError(f"no world of this package has that name: take {names} or a file")
+    return worlds[name]
+
+
+def shipped_worlds() -> dict[str, Path]:
+    """Return the worlds of this package by name."""
+    import rospkg  # noqa: PLC0415  the only ROS here
+
+    folder = Path(rospkg.RosPack().get_path("fake_turtlebot_sim")) / "worlds"
+    return {path.stem: path for path in folder.glob("*.yaml")}
 
 
 def read_world(path: Path) -> World:
@@ -100,6 +117,8 @@ def _start(value: Any) -> Any:
 
 def _from_map(path: Path, about: dict[str, Any]) -> World:
     """Return the walls around the occupied cells of a map; its rows begin at the top."""
+    from PIL import Image  # noqa: PLC0415  a quarter of the node's start, and for maps alone
+
     image = path.parent / str(about["image"])
     try:
         resolution = _number(about["resolution"])

@@ -28,7 +28,10 @@ UNDERLAY = (
     "common/cockpit", "common/gamepad", "common/node_kit", "common/tutorial_check",
     "common/tutorial_tools", "fake_turtlebot_sim",
 )  # fmt: skip
-STAND_INS = ("joy", "rbx1_bringup", "rbx1_nav", "turtlebot_bringup", "turtlebot_rviz_launchers")
+STAND_INS = (
+    "joy", "kobuki_msgs", "rbx1_bringup", "rbx1_nav", "turtlebot_bringup",
+    "turtlebot_rviz_launchers",
+)  # fmt: skip
 OVERLAY = ("beginner_tutorials", "joy2twist", "test")  # the solutions
 # Commands of the shell, under these names.
 SCRIPTS = "common/tutorial_tools/scripts"

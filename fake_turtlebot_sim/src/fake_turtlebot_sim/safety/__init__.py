@@ -1,0 +1,1 @@
+"""Backs a bumped robot off: the node safety_controller."""

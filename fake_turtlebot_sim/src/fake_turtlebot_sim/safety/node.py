@@ -1,0 +1,88 @@
+"""The node safety_controller: ROS on one side, a Reaction on the other."""
+
+from __future__ import annotations
+
+import threading
+import time
+from typing import Any
+
+import rospy
+from geometry_msgs.msg import Twist
+from kobuki_msgs.msg import BumperEvent, CliffEvent, WheelDropEvent
+from std_msgs.msg import Empty
+
+from fake_turtlebot_sim.safety.parameters import Parameters, parse_parameters
+from fake_turtlebot_sim.safety.reaction import Kind, Reaction
+from node_kit.careful_connections import report_bad_messages
+from node_kit.log import Log
+from node_kit.prompt_publisher import PromptPublisher
+from node_kit.start import run
+
+NODE_NAME = "kobuki_safety_controller"
+PERIOD_S = 0.1  # as on the Kobuki; the mux waits for 0.2 s
+QUEUE = 30  # of events, none of which may be lost
+
+
+class SafetyController:
+    """Drives a bumped robot back, over the mux input that wins against all others.
+
+    Subscribers: ~events/bumper (kobuki_msgs/BumperEvent), ~events/cliff (CliffEvent),
+        ~events/wheel_drop (WheelDropEvent), ~enable, ~disable, ~reset (std_msgs/Empty)
+    Publishers: ~cmd_vel (geometry_msgs/Twist), while a sensor is active and for nothing else
+    Parameters: ~time_to_extend_bump_cliff_events 0 s
+    """
+
+    def __init__(self, parameters: Parameters) -> None:
+        """Take the parameters; from now on events count."""
+        report_bad_messages(Log().warn)
+        self._reaction = Reaction(parameters.time_to_extend_bump_cliff_events)
+        self._is_enabled = True
+        self._lock = threading.Lock()
+        self._publisher = PromptPublisher("~cmd_vel", Twist)
+        for kind, message, field in (
+            (Kind.BUMPER, BumperEvent, "bumper"),
+            (Kind.CLIFF, CliffEvent, "sensor"),
+            (Kind.WHEEL_DROP, WheelDropEvent, "wheel"),
+        ):
+            rospy.Subscriber(
+                f"~events/{kind.value}", message, self._on_event, callback_args=(kind, field),
+                queue_size=QUEUE, tcp_nodelay=True,
+            )  # fmt: skip
+        rospy.Subscriber("~enable", Empty, self._enable, callback_args=True, queue_size=1)
+        rospy.Subscriber("~disable", Empty, self._enable, callback_args=False, queue_size=1)
+        rospy.Subscriber("~reset", Empty, self._on_reset, queue_size=1)
+
+    def spin(self) -> None:
+        """Publish again and again while a sensor is active, until shut down."""
+        while not rospy.is_shutdown():
+            with self._lock:
+                self._publish()
+            time.sleep(PERIOD_S)
+
+    def _on_event(self, event: Any, about: tuple[Kind, str]) -> None:
+        kind, field = about
+        with self._lock:
+            sensor, is_active = getattr(event, field), bool(event.state)
+            self._reaction.event(kind, sensor, is_active, time.monotonic())
+            self._publish()
+
+    def _publish(self) -> None:
+        velocity = self._reaction.velocity(time.monotonic())
+        if velocity is None or not self._is_enabled:
+            return
+        twist = Twist()
+        twist.linear.x, twist.angular.z = velocity
+        self._publisher.publish(twist)
+
+    def _enable(self, _message: Any, is_enabled: bool) -> None:
+        with self._lock:
+            self._is_enabled = is_enabled
+
+    def _on_reset(self, _message: Any) -> None:
+        with self._lock:
+            self._reaction.reset()
+
+
+def main() -> int:
+    """Run the node until it is shut down; return its exit code."""
+    return run(NODE_NAME, parse_parameters, lambda p: SafetyController(p).spin(), keeps_name=True)

@@ -1,0 +1,22 @@
+"""Private parameters of the node: a mapping in, checked and frozen Parameters out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Mapping
+
+from node_kit.parameters import checked, number, parameter
+
+
+@dataclass(frozen=True)
+class Parameters:
+    """What can be set."""
+
+    time_to_extend_bump_cliff_events: float = parameter(
+        0.0, number(0.0, 10.0, "s"), "how long the robot backs off beyond the release of a sensor"
+    )
+
+
+def parse_parameters(given: Mapping[str, Any]) -> Parameters:
+    """Return Parameters from a mapping. Raises ValueError, one line."""
+    return Parameters(**checked(Parameters, given))

@@ -1,0 +1,220 @@
+"""A robot in a world: sensors, edges, other robots, and where it is put."""
+
+from math import asin, cos, hypot, inf, pi
+
+import numpy as np
+import pytest
+
+from fake_turtlebot_sim.simulator.laser import Laser
+from fake_turtlebot_sim.simulator.occupancy import occupancy
+from fake_turtlebot_sim.simulator.parameters import Parameters, parse_parameters
+from fake_turtlebot_sim.simulator.ros_messages import between_frames, composed
+from fake_turtlebot_sim.simulator.sensors import bumpers
+from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot, meet
+from fake_turtlebot_sim.simulator.world import World
+from fake_turtlebot_sim.simulator.world_files import read_world, shipped_worlds
+
+R = 0.178
+EXACT = 1e-9
+PERIOD_NS = 20_000_000
+NOBODY = np.empty((0, 3))
+SQUARE = ((-2.0, -2.0), (2.0, -2.0), (2.0, 2.0), (-2.0, 2.0), (-2.0, -2.0))
+EDGE = World(cliffs=(((1.0, -3.0), (3.0, -3.0), (3.0, 3.0), (1.0, 3.0)),))
+
+
+def drive(robot, velocity, seconds, begin=0.0):
+    """Command a velocity in every period, and yield the robot after each."""
+    for cycle in range(round(begin * 50), round((begin + seconds) * 50)):
+        robot.command(velocity, cycle * PERIOD_NS)
+        robot.advance((cycle + 1) * PERIOD_NS)
+        yield robot
+
+
+def driven(robot, velocity, seconds, begin=0.0):
+    *_, last = drive(robot, velocity, seconds, begin)
+    return last
+
+
+@pytest.mark.parametrize(
+    ("degrees", "pressed"),
+    [
+        (90, "L"), (45, "L"), (31, "L"), (29, "C"), (0, "C"), (-29, "C"), (-31, "R"), (-89, "R"),
+        (91, ""), (-120, ""), (180, ""),
+    ],
+)  # fmt: skip
+def test_the_bumpers_have_the_sectors_of_the_kobuki(degrees, pressed):
+    felt = bumpers(degrees * pi / 180)
+    assert "".join(name for name, is_on in zip("LCR", felt) if is_on) == pressed
+
+
+def test_nothing_is_felt_without_a_push():
+    robot = SimulatedRobot(Parameters(world=World((SQUARE,))))
+    assert not any(map(any, robot.sensed()))
+    assert driven(robot, (0.5, 0.0), 4).sensed().bumpers == (False, True, False)
+    assert not any(driven(robot, (-0.1, 0.0), 0.1, 4).sensed().bumpers)
+
+
+@pytest.mark.parametrize(
+    ("velocity", "distance", "which"),
+    [
+        ((0.5, 0.0), 1.0, (True, True)),  # both wheels reach the edge at once
+        ((-0.5, 0.0), None, (False, False)),
+    ],
+)
+def test_a_wheel_drops_exactly_at_the_edge(velocity, distance, which):
+    robot = driven(SimulatedRobot(Parameters(world=EDGE)), velocity, 5)
+    assert robot.sensed().wheels == which
+    if distance:
+        assert robot.true_pose[0] == pytest.approx(distance, abs=EXACT)
+        assert robot.state()[3:5] == (0.0, 0.0)  # it lies there
+        assert driven(robot, (-0.5, 0.0), 1, 5).true_pose[0] == pytest.approx(distance, abs=EXACT)
+
+
+def test_on_an_arc_the_outer_wheel_drops_first():
+    """The right wheel drives a circle of 0.615 m around (0, 0.5)."""
+    edge = World(cliffs=(((0.5, -3.0), (3.0, -3.0), (3.0, 3.0), (0.5, 3.0)),))
+    robot = driven(SimulatedRobot(Parameters(world=edge)), (0.25, 0.5), 4)
+    assert robot.sensed().wheels == (False, True)
+    assert robot.true_pose[2] == pytest.approx(asin(0.5 / 0.615), abs=EXACT)
+    driven(robot, (0.0, 0.0), 1, 4)
+    robot.place((0.0, 0.0, 0.0))
+    assert robot.sensed().wheels == (False, False)
+    assert driven(robot, (0.1, 0.0), 1, 5).state().x > 0.05
+
+
+def test_a_ramp_ends_at_the_edge_too():
+    parameters = Parameters(world=EDGE, max_linear_acceleration=0.3)
+    robot = driven(SimulatedRobot(parameters), (0.7, 0.0), 5)
+    assert robot.true_pose[0] == pytest.approx(1.0, abs=EXACT)
+    assert robot.sensed().wheels == (True, True)
+
+
+def test_the_cliff_sensors_are_ahead_of_the_wheels():
+    """The sensor in the middle sees the edge 0.156 m before the wheels get there."""
+    seen = {}
+    for robot in drive(SimulatedRobot(Parameters(world=EDGE)), (0.1, 0.0), 12):
+        for name, is_over in zip(("left", "center", "right"), robot.sensed().cliffs):
+            if is_over:
+                seen.setdefault(name, robot.true_pose[0])
+    within = 0.1 * 0.02 + EXACT  # a period's way
+    assert seen["center"] == pytest.approx(1 - 0.156, abs=within)
+    assert seen["left"] == pytest.approx(1 - 0.08734, abs=within)
+    assert seen["right"] == pytest.approx(1 - 0.085, abs=within)
+
+
+def test_robots_stop_each_other():
+    parameters = Parameters(world=World())
+    one = SimulatedRobot(parameters, (0.0, 0.0, 0.0))
+    other = SimulatedRobot(parameters, (2.0, 0.1, pi))
+    for cycle in range(250):
+        meet([one, other], parameters.meeting_reach())
+        for robot in (one, other):
+            robot.command((0.3, 0.0), cycle * PERIOD_NS)
+            robot.advance((cycle + 1) * PERIOD_NS)
+        apart = hypot(*(a - b for a, b in zip(one.true_pose[:2], other.true_pose[:2])))
+        assert apart > 2 * R - EXACT
+    assert apart == pytest.approx(2 * R, abs=EXACT)
+    assert one.sensed().bumpers == other.sensed().bumpers == (False, True, False)
+
+
+def test_a_reset_of_the_odometry_leaves_the_robot_where_it_is():
+    robot = driven(
+        SimulatedRobot(Parameters(world=World((SQUARE,))), (0.5, 0.5, 1.0)), (0.2, 0.3), 2
+    )
+    at = robot.true_pose
+    robot.reset_odometry()
+    assert (robot.true_pose, robot.state()[:3]) == (at, (0.0, 0.0, 0.0))
+    odometry_in_map = between_frames(at, robot.state()[:3])
+    driven(robot, (0.2, -0.3), 2, 2)
+    assert composed(odometry_in_map, robot.state()[:3]) == pytest.approx(robot.true_pose, abs=EXACT)
+    robot.reset()
+    assert robot.true_pose == robot.state()[:3] == (0.5, 0.5, 1.0)
+
+
+def test_it_is_not_put_into_a_wall_or_over_an_edge():
+    robot = SimulatedRobot(Parameters(world=World((SQUARE,), cliffs=EDGE.cliffs)))
+    for pose in ((1.9, 0.0, 0.0), (0.0, -1.9, 0.0), (0.9, 0.0, 0.0), (1.5, 0.0, 0.0)):
+        with pytest.raises(ValueError, match=r"inside of a wall|over an edge"):
+            robot.place(pose)
+    assert robot.true_pose == (0.0, 0.0, 0.0)
+
+
+def test_ranges_begin_at_the_camera_and_end_as_rep_117_has_it():
+    parameters = Parameters(world=World((SQUARE,)), scan_beams=3)
+    laser = Laser(parameters, parameters.world)
+    right, ahead, _left = laser.measure((0.0, 0.0, 0.0), NOBODY)
+    half = 29 * pi / 180
+    assert ahead == pytest.approx(2.087, abs=EXACT)
+    assert right == pytest.approx(2.087 / cos(half), abs=EXACT)
+    near = laser.measure((1.8, 0.0, 0.0), NOBODY)
+    assert near[1] == -inf  # 0.287 m
+    seen = laser.measure((-1.5, 0.0, 0.0), np.array([[0.5, 0.0125, 0.2]]))
+    assert seen[1] == pytest.approx(2.087 - 0.2, abs=EXACT)
+    empty = Laser(Parameters(scan_beams=3), World())
+    assert empty.measure((0.0, 0.0, 0.0), NOBODY) == [inf, inf, inf]
+
+
+def test_noise_is_drawn_from_the_seed_and_the_name():
+    parameters = Parameters(world=World((SQUARE,)), scan_noise=0.02, scan_beams=1000)
+    scans = [
+        Laser(parameters, parameters.world, name).measure((0.0, 0.0, 0.0), NOBODY)
+        for name in ("ada", "ada", "bob")
+    ]
+    exact = Laser(Parameters(scan_beams=1000), parameters.world).measure((0.0, 0.0, 0.0), NOBODY)
+    assert scans[0] == scans[1] != scans[2]
+    assert np.std(np.subtract(scans[0], exact)) == pytest.approx(0.02, rel=0.15)
+
+
+def test_a_scan_of_a_whole_turn_has_no_beam_twice():
+    laser = Laser(Parameters(scan_angle=2 * pi, scan_beams=4), World((SQUARE,)))
+    assert laser.increment == pytest.approx(pi / 2)
+
+
+def test_a_map_has_its_walls_posts_and_edges():
+    world = World((SQUARE,), ((0.0, 0.0, 0.3),), (((1.0, 1.0), (1.5, 1.0), (1.5, 1.5)),))
+    cells, (x, y), resolution = occupancy(world, 0.1)
+
+    def at(px, py):
+        return cells[int((py - y) / resolution), int((px - x) / resolution)]
+
+    assert (x, y) == (-2.5, -2.5) and cells.shape == (50, 50)
+    assert [at(*one) for one in ((2.0, 0.3), (-1.7, 2.0), (0.2, 0.1), (1.3, 1.0))] == [100] * 4
+    assert [at(*one) for one in ((1.8, 0.0), (0.5, 0.0), (-2.3, -2.3))] == [0] * 3
+
+
+def test_robots_are_lined_up_where_they_can_drive_to():
+    inside = World((SQUARE, ((-2.0, 1.0), (2.0, 1.0))), start=(0.0, 0.0, 1.0))
+    places = inside.places(20)
+    assert places[0] == (0.0, 0.0, 1.0)
+    assert all(y < 1 - R and abs(x) < 2 - R and y > -2 + R for x, y, _ in places)
+    apart = [hypot(a[0] - b[0], a[1] - b[1]) for a in places for b in places if a is not b]
+    assert min(apart) == pytest.approx(0.5)
+    with pytest.raises(ValueError, match=r"room for .. robots"):
+        inside.places(1000)
+
+
+@pytest.mark.parametrize("name", ["room", "maze", "table"])
+def test_each_world_of_the_package_has_room_for_a_class(name):
+    world = read_world(shipped_worlds()[name])
+    assert len(world.places(10)) == 10
+    assert (world.segments or world.posts) and occupancy(world)[0].any()
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"world": 3}, "~world: 3: must be a file"),
+        ({"world": "moon"}, "~world: 'moon': no world of this package has that name: take maze, "),
+        (
+            {"world": "./none.yaml"},
+            "~world: './none.yaml': none.yaml: cannot be read: No such file",
+        ),
+        ({"world": "maze", "robots": 500}, "~world: the world has room for"),
+        ({"world": "maze", "robots": {"ada": [1.0, 1.0, 0.0]}}, "would be inside of a wall"),
+        ({"scan_range_min": 11.0}, "~scan_range_min: must be less than ~scan_range_max"),
+    ],
+)
+def test_a_mistake_is_one_line(given, said):
+    with pytest.raises(ValueError) as error:
+        parse_parameters(given)
+    assert said in str(error.value) and "\n" not in str(error.value)
