@@ -1,0 +1,117 @@
+#!/usr/bin/python3
+"""A room as programs see it: map, scan, bumpers, frames, and the way back from a wall."""
+
+import sys
+import time
+import unittest
+from math import cos, inf
+
+import rospy
+import rostest
+from geometry_msgs.msg import Twist
+from kobuki_msgs.msg import BumperEvent
+from nav_msgs.msg import OccupancyGrid, Odometry
+from sensor_msgs.msg import LaserScan
+from std_msgs.msg import Empty
+from tf2_msgs.msg import TFMessage
+from visualization_msgs.msg import MarkerArray
+
+from tutorial_testing.nodes import init_node
+from tutorial_testing.waiting import wait_for
+
+AT_THE_WALL = 4.0 - 0.178  # x of the robot's middle [m]
+FLOAT32 = 1e-5  # of a range in a message [m]
+LONGEST_PUSH_S = 0.5
+
+
+class WorldTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.heard = {}
+        for topic, kind in (
+            ("map", OccupancyGrid), ("world_markers", MarkerArray), ("scan", LaserScan),
+            ("odom", Odometry), ("base_pose_ground_truth", Odometry),
+            ("bumper_markers", MarkerArray),
+        ):  # fmt: skip
+            rospy.Subscriber(topic, kind, lambda m, topic=topic: cls.heard.update({topic: m}))
+        cls.frames, cls.events = {}, []
+        for topic in ("/tf", "/tf_static"):
+            rospy.Subscriber(topic, TFMessage, cls.on_tf)
+        rospy.Subscriber(
+            "mobile_base/events/bumper", BumperEvent,
+            lambda event: cls.events.append((time.monotonic(), event)),
+        )  # fmt: skip
+        cls.teleop = rospy.Publisher("cmd_vel_mux/input/teleop", Twist, queue_size=1)
+        cls.reset = rospy.Publisher("mobile_base/commands/reset_odometry", Empty, queue_size=1)
+        wait_for(cls.teleop.get_num_connections, "mux")
+        wait_for(cls.reset.get_num_connections, "robot")
+        topics = ("map", "world_markers", "scan", "odom", "base_pose_ground_truth")
+        wait_for(lambda: all(topic in cls.heard for topic in topics), "first messages")
+
+    @classmethod
+    def on_tf(cls, message):
+        for one in message.transforms:
+            cls.frames[one.header.frame_id, one.child_frame_id] = one.transform.translation
+
+    def drive(self, v, until, what):
+        twist = Twist()
+        twist.linear.x = v
+        wait_for(lambda: self.teleop.publish(twist) or until(), what)
+
+    def x(self, topic="base_pose_ground_truth"):
+        return self.heard[topic].pose.pose.position.x
+
+    def test_1_the_room_is_shown(self):
+        grid = self.heard["map"]
+        self.assertEqual(grid.header.frame_id, "map")
+
+        def cell(x, y):
+            column = int((x - grid.info.origin.position.x) / grid.info.resolution)
+            row = int((y - grid.info.origin.position.y) / grid.info.resolution)
+            return grid.data[row * grid.info.width + column]
+
+        self.assertEqual([cell(4.02, 0.0), cell(2.4, 1.4), cell(0.0, 0.0)], [100, 100, 0])
+        shown = {marker.ns for marker in self.heard["world_markers"].markers}
+        self.assertEqual(shown, {"walls", "posts"})
+        for frames in (("map", "odom"), ("base_footprint", "camera_depth_frame")):
+            wait_for(lambda frames=frames: frames in self.frames, f"transform {frames}")
+        self.assertAlmostEqual(self.frames["map", "odom"].x, 0.0)
+        self.assertAlmostEqual(self.frames["base_footprint", "camera_depth_frame"].x, -0.087)
+
+    def test_2_the_scan_sees_the_wall_ahead_and_the_column(self):
+        scan = self.heard["scan"]
+        self.assertEqual((scan.header.frame_id, len(scan.ranges)), ("camera_depth_frame", 640))
+        angles = [scan.angle_min + k * scan.angle_increment for k in range(640)]
+        self.assertAlmostEqual(angles[-1], scan.angle_max, places=5)
+        ahead = [pair for pair in zip(angles, scan.ranges) if abs(pair[0]) < 0.1]
+        for angle, measured in ahead:
+            self.assertAlmostEqual(measured, 4.087 / cos(angle), delta=FLOAT32)
+        self.assertLess(max(scan.ranges), inf)  # walls all around
+        # The column, 0.25 m thick, 2.487 m ahead of the camera and 1.2875 m to its left.
+        nearest = min(r for angle, r in zip(angles, scan.ranges) if angle > 0.4)
+        self.assertAlmostEqual(nearest, (2.487**2 + 1.2875**2) ** 0.5 - 0.25, delta=0.001)
+
+    def test_3_at_the_wall_it_backs_off_however_the_stick_is_held(self):
+        self.drive(0.7, lambda: len(self.events) >= 8, "the wall, met four times")
+        self.assertLessEqual(self.x(), AT_THE_WALL + 1e-9)
+        states = [event.state for _, event in self.events]
+        self.assertEqual(states[:8], [1, 0] * 4)  # one event for each change
+        self.assertEqual({event.bumper for _, event in self.events}, {BumperEvent.CENTER})
+        pushes = [off - on for (on, _), (off, _) in zip(self.events[::2], self.events[1::2])]
+        self.assertLess(max(pushes), LONGEST_PUSH_S)
+        self.assertIn("bumper_markers", self.heard)
+        self.drive(-0.5, lambda: self.x() < 3.0, "way back, by the stick")
+
+    def test_4_a_reset_of_the_odometry_does_not_move_the_robot(self):
+        wait_for(lambda: self.heard["odom"].twist.twist.linear.x == 0.0, "rest")
+        before = self.x()
+        self.assertAlmostEqual(self.x("odom"), before, delta=1e-9)
+        self.reset.publish()
+        wait_for(lambda: self.x("odom") == 0.0, "odometry at zero")
+        self.assertEqual(self.x(), before)
+        wait_for(lambda: abs(self.frames["map", "odom"].x - before) < 1e-9, "odom in the map")
+
+
+if __name__ == "__main__":
+    init_node("world")
+    rostest.rosrun("ros1_tutorial_test", "world", WorldTest, sys.argv)

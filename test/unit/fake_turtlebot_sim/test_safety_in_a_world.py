@@ -1,0 +1,118 @@
+"""A stick that drives on, and a safety controller: in the room, and on the table."""
+
+import random
+from math import hypot, isfinite
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from fake_turtlebot_sim.safety.reaction import Kind, Reaction
+from fake_turtlebot_sim.simulator.contact import gap
+from fake_turtlebot_sim.simulator.parameters import Parameters
+from fake_turtlebot_sim.simulator.sensors import Sensed
+from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
+from fake_turtlebot_sim.simulator.world import BASE_RADIUS_M
+from fake_turtlebot_sim.simulator.world_files import read_world, shipped_worlds
+
+EXACT = 1e-9
+PERIOD_S = 0.02  # of the sensors
+DELAY = 2  # periods from an event to the command that answers it
+LONGEST_PUSH_S = 0.5
+ROOM, TABLE = (read_world(shipped_worlds()[name]) for name in ("room", "table"))
+
+
+class Drive:
+    """A robot, its safety controller, and a mux that lets the controller win for 0.2 s."""
+
+    def __init__(self, world, is_safe=True):
+        self.robot, self.reaction = SimulatedRobot(Parameters(world=world), world.start), Reaction()
+        self.sensed, self.cycle, self.is_safe = Sensed(), 0, is_safe
+        self.answers, self.holds_until, self.pushed = [None] * DELAY, 0.0, 0
+        self.longest_push = 0
+
+    def step(self, stick):
+        now = self.cycle * PERIOD_S
+        answer = self.answers.pop(0)
+        if answer is not None:
+            self.holds_until = now + 0.2
+            self.robot.command(answer, round(now * 1e9))
+        elif now >= self.holds_until:
+            self.robot.command(stick, round(now * 1e9))
+        self.cycle += 1
+        self.robot.advance(round(self.cycle * PERIOD_S * 1e9))
+        before, self.sensed = self.sensed, self.robot.sensed()
+        for kind, was, is_now in zip(Kind, before, self.sensed):
+            for sensor, (old, new) in enumerate(zip(was, is_now)):
+                if old != new:
+                    self.reaction.event(kind, sensor, new, now)
+        self.answers.append(self.reaction.velocity(now) if self.is_safe else None)
+        self.pushed = self.pushed + 1 if any(self.sensed.bumpers) else 0
+        self.longest_push = max(self.longest_push, self.pushed)
+
+
+def random_sticks(seed, seconds):
+    """Yield one velocity a period, held for half a second to three."""
+    draw = random.Random(seed)
+    left = 0
+    for _ in range(round(seconds / PERIOD_S)):
+        if left <= 0:
+            left = draw.uniform(0.5, 3.0) / PERIOD_S
+            stick = draw.uniform(-0.3, 0.7), draw.uniform(-2.0, 2.0)
+        left -= 1
+        yield stick
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_ten_minutes_of_random_sticks_in_the_room(seed):
+    drive = Drive(ROOM)
+    way, last = 0.0, drive.robot.true_pose
+    for stick in random_sticks(seed, 150.0):
+        drive.step(stick)
+        x, y, yaw = drive.robot.true_pose
+        assert isfinite(x + y + yaw)
+        nearest = min(gap(x, y, BASE_RADIUS_M, one) for one in (*ROOM.segments, *ROOM.posts))
+        assert nearest > -EXACT
+        way, last = way + hypot(x - last[0], y - last[1]), (x, y)
+    assert drive.longest_push * PERIOD_S <= LONGEST_PUSH_S
+    assert way > 10.0  # it is never caught
+
+
+@settings(deadline=None, max_examples=60)
+@given(st.floats(0.05, 0.7), st.floats(-0.7, 0.7), st.floats(-3.1, 3.1))
+def test_no_stick_held_forward_drives_over_the_edge(v, w, yaw):
+    """On arcs wider than the robot: beside and behind its wheels the Kobuki has no sensors."""
+    w = max(-v / 0.4, min(v / 0.4, w))
+    drive = Drive(TABLE)
+    drive.robot.place((0.0, 0.0, yaw))
+    for _ in range(1000):
+        drive.step((v, w))
+        assert drive.robot.sensed().wheels == (False, False)
+
+
+def test_without_the_controller_it_falls():
+    drive = Drive(TABLE, is_safe=False)
+    for _ in range(400):
+        drive.step((0.5, 0.0))
+    assert drive.robot.sensed().wheels == (True, True)
+
+
+@settings(deadline=None, max_examples=30)
+@given(st.integers(0, 10_000), st.sampled_from([7, 50, 333, 1000]))
+def test_where_a_drive_ends_does_not_depend_on_the_rate(seed, rate):
+    """Ten seconds of velocities, as they come, with the robot looked at as often as may be."""
+    ends = []
+    for looks in (50, rate):
+        robot = SimulatedRobot(Parameters(world=ROOM), ROOM.start)
+        draw, now_ns = random.Random(seed), 0
+        for _ in range(10):
+            velocity = draw.uniform(-0.7, 0.7), draw.uniform(-2.0, 2.0)
+            for k in range(3):
+                robot.command(velocity, now_ns + k * 300_000_000)
+                begin = now_ns + k * 300_000_000
+                for look in range(1, looks):
+                    robot.advance(begin + look * 300_000_000 // looks)
+            now_ns += 900_000_000
+        robot.advance(now_ns)
+        ends.append(robot.true_pose)
+    assert ends[0] == pytest.approx(ends[1], abs=1e-7)
