@@ -34,7 +34,7 @@ class FakeTurtlebot:
         mobile_base/commands/reset_odometry (std_msgs/Empty)
     Publishers: odom (nav_msgs/Odometry), joint_states (sensor_msgs/JointState),
         base_pose_ground_truth (nav_msgs/Odometry; in a world, or if the odometry has errors),
-        in a world map (nav_msgs/OccupancyGrid) and world_markers (MarkerArray), both latched, and
+        in a world map (nav_msgs/OccupancyGrid, latched), world_markers (MarkerArray) and
         for each robot scan (sensor_msgs/LaserScan), bumper_markers (MarkerArray) and
         mobile_base/events/bumper, cliff, wheel_drop (kobuki_msgs),
         /tf and /tf_static (tf2_msgs/TFMessage), /diagnostics (diagnostic_msgs/DiagnosticArray)

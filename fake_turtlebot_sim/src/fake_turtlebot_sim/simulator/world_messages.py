@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cos, sin
+from math import cos, hypot, sin
 from typing import Any
 
 from geometry_msgs.msg import Point, Quaternion
@@ -51,9 +51,7 @@ def world_markers(world: World, frame: str) -> list[Marker]:
         walls = marker("walls", 0, Marker.TRIANGLE_LIST, frame, GREY)
         walls.scale.x = walls.scale.y = walls.scale.z = 1.0
         for x1, y1, x2, y2 in world.segments:
-            a, b = Point(x1, y1, 0.0), Point(x2, y2, 0.0)
-            c, d = Point(x2, y2, WALL_M), Point(x1, y1, WALL_M)
-            walls.points += [a, b, c, a, c, d, c, b, a, d, c, a]  # seen from both sides
+            walls.points += wall_side(x1, y1, x2, y2) + wall_side(x2, y2, x1, y1)
         found.append(walls)
     for number, (x, y, radius) in enumerate(world.posts):
         post = marker("posts", number, Marker.CYLINDER, frame, GREY)
@@ -66,6 +64,15 @@ def world_markers(world: World, frame: str) -> list[Marker]:
         edge.points = [Point(x, y, 0.0) for x, y in (*cliff, cliff[0])]
         found.append(edge)
     return found
+
+
+def wall_side(x1: float, y1: float, x2: float, y2: float) -> list[Point]:
+    """Return the two triangles of a wall's right side, a little off its middle."""
+    off = 0.5 * LINE_M / max(hypot(x2 - x1, y2 - y1), 1e-9)
+    dx, dy = off * (y2 - y1), off * (x1 - x2)
+    a, b = Point(x1 + dx, y1 + dy, 0.0), Point(x2 + dx, y2 + dy, 0.0)
+    c, d = Point(x2 + dx, y2 + dy, WALL_M), Point(x1 + dx, y1 + dy, WALL_M)
+    return [a, b, c, a, c, d]
 
 
 def bumper_markers(pressed: Three, frame: str) -> list[Marker]:

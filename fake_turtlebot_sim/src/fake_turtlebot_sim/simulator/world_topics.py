@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import io
 from typing import Any
 
 import numpy as np
 import rospy
 from nav_msgs.msg import OccupancyGrid
+from rospy.msg import serialize_message
 from visualization_msgs.msg import MarkerArray
 
 from fake_turtlebot_sim.simulator.parameters import Parameters
@@ -15,14 +17,16 @@ from fake_turtlebot_sim.simulator.sensor_topics import SensorTopics
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot, meet
 from fake_turtlebot_sim.simulator.world import World
 from fake_turtlebot_sim.simulator.world_messages import world_map, world_markers
+from node_kit.prompt_publisher import PromptPublisher
 
 # The camera's depth frame above base_footprint [m]: turtlebot_description's 0.287 above base_link.
 SCAN_Z = 0.2972
+MARKERS_S = 1.0  # how often they are sent: RViz drops a marker that comes before its frame
 NOBODY = np.empty((0, 3))
 
 
 class WorldTopics:
-    """Publishers: map and world_markers, both latched; and the SensorTopics of each robot."""
+    """Publishers: map, latched, world_markers and the SensorTopics of each robot."""
 
     def __init__(
         self, parameters: Parameters, world: World, robots: dict[str, SimulatedRobot]
@@ -32,9 +36,13 @@ class WorldTopics:
         self._reach = parameters.meeting_reach()
         self._sensors = [SensorTopics(name, parameters, world) for name in robots]
         self._map = rospy.Publisher("map", OccupancyGrid, queue_size=1, latch=True)
-        self._markers = rospy.Publisher("world_markers", MarkerArray, queue_size=1, latch=True)
+        self._markers = PromptPublisher("world_markers", MarkerArray)
+        self._cycles_per_markers = round(MARKERS_S * parameters.rate)
         self._map.publish(world_map(world, parameters.map_frame, rospy.Time.now()))
-        self._markers.publish(MarkerArray(world_markers(world, parameters.map_frame)))
+        # Made once: a map as large as a building takes a while.
+        shown = io.BytesIO()
+        serialize_message(shown, 0, MarkerArray(world_markers(world, parameters.map_frame)))
+        self._shown = shown.getvalue()
 
     def frames(self) -> list[tuple[str, str, Place]]:
         """Return which frames lie where for good: (parent, child, place [m] in the parent)."""
@@ -57,5 +65,7 @@ class WorldTopics:
 
     def publish(self, cycle: int) -> None:
         """Publish what is new in this cycle; not all robots scan in the same one."""
+        if cycle % self._cycles_per_markers == 0:
+            self._markers.send(self._shown)
         for k, sensors in enumerate(self._sensors):
             sensors.publish(cycle + k)

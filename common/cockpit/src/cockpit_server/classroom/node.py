@@ -39,15 +39,15 @@ BODY = (
 Pairs = Set[Tuple[str, str]]  # of transforms, as (parent, child)
 
 
-def robots(static: Pairs) -> set[str]:
+def robots(known: Pairs) -> set[str]:
     """Return the names of the robots: the simulator lays NAME/... of each onto the world."""
-    return {child.split("/")[0] for parent, child in static if "/" in child and "/" not in parent}
+    return {child.split("/")[0] for parent, child in known if "/" in child and "/" not in parent}
 
 
 def base_frames(static: Pairs, moving: Pairs) -> dict[str, str]:
     """Return {robot: frame of its base} of the robots whose base was seen to move in /tf."""
     base = dict(moving)
-    laid = {child for parent, child in static if "/" not in parent}
+    laid = {child for parent, child in static | moving if "/" not in parent}
     return {child.split("/")[0]: base[child] for child in laid if "/" in child and child in base}
 
 
@@ -102,7 +102,7 @@ class ClassroomBodies:
         static = self._static
         self._moving |= pairs(message)
         bases = base_frames(static, self._moving)
-        if self._tf is not None and set(bases) == robots(static):
+        if self._tf is not None and set(bases) == robots(static | self._moving):
             self._tf.unregister()  # fifty messages a second, which say nothing new
             self._tf = None
             self._bodies = MarkerArray([m for name in bases for m in markers(name, bases[name])])
