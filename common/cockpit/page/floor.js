@@ -1,4 +1,6 @@
-/** The floor from above: grid, trails, robots. x is to the right, y up, as on paper. */
+/** The floor from above: grid, map, trails, robots. x is to the right, y up, as on paper. */
+
+import { drawBumpers, Surroundings } from "./surroundings.js";
 
 const BODY_RADIUS_M = 0.177; // TurtleBot 2
 const TRAIL_STEP_M = 0.02; // between two points of a trail
@@ -22,6 +24,7 @@ export class Floor {
     this.follow = true;
     this.look = ""; // the robot that is followed
     this.onUnfollow = () => {};
+    this.around = new Surroundings(() => this.#drawSoon());
     new ResizeObserver(() => this.#drawSoon()).observe(canvas);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.#drawSoon());
     this.#listen();
@@ -29,7 +32,9 @@ export class Floor {
 
   /** robots: {name: {x, y, yaw, v, w}} [m, rad]; one without a place is nowhere to be seen. */
   show(robots) {
-    const placed = Object.entries(robots).filter(([, { x, y, yaw }]) => [x, y, yaw].every(Number.isFinite));
+    const placed = Object.entries(robots)
+      .map(([name, robot]) => [name, this.around.placed(name, robot)])
+      .filter(([, { x, y, yaw }]) => [x, y, yaw].every(Number.isFinite));
     this.#robots = Object.fromEntries(placed);
     for (const [name, { x, y }] of placed) {
       const trail = this.#trails.get(name) ?? [];
@@ -42,6 +47,11 @@ export class Floor {
     }
     for (const name of this.#trails.keys()) if (!(name in robots)) this.#trails.delete(name);
     this.#drawSoon();
+  }
+
+  /** Its points stay where they are while the robot drives on. */
+  showScan(scan) {
+    this.around.showScan(scan, this.#robots[scan.robot]);
   }
 
   clearTrails() {
@@ -68,6 +78,7 @@ export class Floor {
   showAll() {
     const points = [...this.#trails.values()].flat();
     points.push(...Object.values(this.#robots).map(({ x, y }) => [x, y]));
+    points.push(...this.around.corners());
     if (points.length === 0) return;
     const range = (i) => points.reduce(
       ([low, high], p) => [Math.min(low, p[i]), Math.max(high, p[i])], [Infinity, -Infinity]);
@@ -182,6 +193,9 @@ export class Floor {
     pen.fillStyle = colour("--floor");
     pen.fillRect(0, 0, width, height);
     this.#drawGrid(pen, width, height, colour);
+    const toPixels = (point) => this.#toPixels(point);
+    this.around.drawMap(pen, toPixels, this.#scale, colour);
+    this.around.drawScan(pen, toPixels, this.look, colour);
     for (const [name, trail] of this.#trails) this.#drawTrail(pen, trail, name, colour);
     for (const [name, robot] of Object.entries(this.#robots)) this.#drawRobot(pen, name, robot, colour);
   }
@@ -237,7 +251,7 @@ export class Floor {
     pen.stroke();
   }
 
-  #drawRobot(pen, name, { x, y, yaw, age }, colour) {
+  #drawRobot(pen, name, { x, y, yaw, age, bumpers }, colour) {
     const [px, py] = this.#toPixels([x, y]);
     const radius = Math.max(5, BODY_RADIUS_M * this.#scale);
     pen.globalAlpha = age > 1 ? 0.4 : 1; // it says nothing any more
@@ -257,6 +271,7 @@ export class Floor {
     pen.closePath();
     pen.fill();
     pen.globalAlpha = 1;
+    drawBumpers(pen, [px, py], yaw, radius, bumpers ?? [], colour);
     if (!name) return;
     pen.fillStyle = colour("--text");
     pen.font = `${name === this.look ? "bold " : ""}13px system-ui, sans-serif`;

@@ -95,6 +95,13 @@ export class RobotTab {
     link.on("hello", (hello) => this.#meet(hello));
     link.on("names", ({ names }) => this.#showNames(names));
     link.on("robots", ({ robots }) => this.#showRobots(robots));
+    link.on("map", (map) => {
+      this.floor.around.showMap(map);
+      this.floor.showAll();
+      if (this.#names.length < 2) this.#follow(true);
+    });
+    link.on("around", ({ robots }) => this.floor.around.showRobots(robots));
+    link.on("scan", (scan) => this.floor.showScan(scan));
     link.on("pad", (pad) => this.#showPad(pad));
     link.on("teleop", (teleop) => this.#showTeleop(teleop));
     link.on("seat", (seat) => this.#showSeat(seat));

@@ -17,7 +17,7 @@ MOVING = {("ada/odom", "ada/base_footprint"), ("ada/base_link", "ada/wheel_left_
 
 
 def test_a_robot_that_was_not_seen_yet_has_no_base():
-    assert robots(STATIC) == {"ada", "robot_2"}
+    assert robots(STATIC) == robots(STATIC | MOVING) == {"ada", "robot_2"}
     assert base_frames(STATIC, MOVING) == {"ada": "ada/base_footprint"}
     both = base_frames(STATIC, MOVING | {("robot_2/odom", "robot_2/base")})
     assert both == {"ada": "ada/base_footprint", "robot_2": "robot_2/base"}

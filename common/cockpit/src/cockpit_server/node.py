@@ -19,6 +19,7 @@ from cockpit_server.logs import Logs
 from cockpit_server.plots import Plots
 from cockpit_server.resets import Resets
 from cockpit_server.robots import Pads, Robots
+from cockpit_server.surroundings import Surroundings
 from cockpit_server.teleop import Teleop
 from cockpit_server.web import server
 from node_kit.log import Log
@@ -32,8 +33,11 @@ SWITCH_S = 0.0005
 class Cockpit:
     """Shows the robots of a master to browsers, and lets one of them drive.
 
-    Subscribes: what pages look at: odom (nav_msgs/Odometry), joy (sensor_msgs/Joy) of the robots,
-        any topic; /diagnostics (diagnostic_msgs/DiagnosticArray), /rosout (rosgraph_msgs/Log)
+    Subscribes: what pages look at: odom (nav_msgs/Odometry), joy (sensor_msgs/Joy), scan
+        (sensor_msgs/LaserScan), base_pose_ground_truth (nav_msgs/Odometry) and
+        mobile_base/events/bumper (kobuki_msgs/BumperEvent) of the robots, any topic;
+        /map (nav_msgs/OccupancyGrid), /tf_static (tf2_msgs/TFMessage),
+        /diagnostics (diagnostic_msgs/DiagnosticArray), /rosout (rosgraph_msgs/Log)
     Publishes: joy (sensor_msgs/Joy) of a robot that is driven
     Calls: mobile services of type std_srvs/Empty that end in /reset
     """
@@ -51,7 +55,7 @@ class Cockpit:
         sources = (
             robots, pads, teleop, drives, Resets(hub, graphs, drives),
             GraphView(graphs), Topics(feeds, graphs), Plots(feeds, graphs), Logs(feeds),
-            Doctor(), bags,
+            Doctor(), bags, Surroundings(feeds, graphs),
         )  # fmt: skip
         hub.add(sources, player=bags)
         self._server = server(self._hub, access)

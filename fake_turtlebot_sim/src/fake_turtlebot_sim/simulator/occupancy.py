@@ -11,14 +11,14 @@ from fake_turtlebot_sim.simulator.world import Point, World
 
 MARGIN_M = 0.5  # of free cells around everything
 MOST_CELLS = 4_000_000
-OCCUPIED = 100  # nav_msgs/OccupancyGrid; 0: free
+OCCUPIED, UNKNOWN = 100, -1  # nav_msgs/OccupancyGrid; 0: free
 
 
 def occupancy(world: World, resolution: float = 0.05) -> tuple[Any, Point, float]:
     """Return cells (rows from low y to high), the corner (x, y) of the first, and the cell [m].
 
-    Occupied is a cell with a wall, a post or the edge of a cliff in it. A world too large for
-    MOST_CELLS of the resolution [m] gets larger ones.
+    Occupied is a cell with a wall, a post or the edge of a cliff in it; unknown, one over a cliff.
+    A world too large for MOST_CELLS of the resolution [m] gets larger ones.
     """
     segments = np.array((*world.segments, *world.edges)).reshape(-1, 4)
     posts = world.arrays[1]
@@ -30,17 +30,30 @@ def occupancy(world: World, resolution: float = 0.05) -> tuple[Any, Point, float
     resolution = max(resolution, float(np.sqrt((high - low).prod() / MOST_CELLS)))
     columns, rows = (ceil(size) for size in (high - low) / resolution)
     cells = np.zeros((rows, columns), dtype=np.int8)
+    ys, xs = (
+        low[axis] + (np.arange(count) + 0.5) * resolution
+        for axis, count in ((1, rows), (0, columns))
+    )
+    for cliff in world.cliffs:
+        cells[_inside(xs, ys[:, None], np.array(cliff))] = UNKNOWN
     for x1, y1, x2, y2 in segments:
         steps = ceil(4 * np.hypot(x2 - x1, y2 - y1) / resolution) + 1
         line = np.linspace((x1, y1), (x2, y2), steps)
         at = ((line - low) / resolution).astype(int)
         cells[at[:, 1], at[:, 0]] = OCCUPIED
-    ys, xs = (
-        low[axis] + (np.arange(n) + 0.5) * resolution for axis, n in ((1, rows), (0, columns))
-    )
     for x, y, radius in posts:
         reach = radius + 0.5 * resolution
         near = np.flatnonzero(np.abs(ys - y) <= reach), np.flatnonzero(np.abs(xs - x) <= reach)
         disc = np.hypot(xs[near[1]] - x, ys[near[0], None] - y) <= reach
         cells[np.ix_(*near)] = np.where(disc, OCCUPIED, cells[np.ix_(*near)])
     return cells, (float(low[0]), float(low[1])), resolution
+
+
+def _inside(xs: Any, ys: Any, polygon: Any) -> Any:
+    """Return which points (x, y) are in a polygon: a ray crosses it an odd number of times."""
+    crossed = np.zeros(np.broadcast(xs, ys).shape, dtype=bool)
+    for (x1, y1), (x2, y2) in zip(polygon, np.roll(polygon, -1, axis=0)):
+        if y1 != y2:
+            crosses = ((y1 > ys) != (y2 > ys)) & (xs < x1 + (ys - y1) * (x2 - x1) / (y2 - y1))
+            crossed ^= crosses
+    return crossed

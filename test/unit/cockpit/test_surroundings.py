@@ -1,0 +1,142 @@
+"""The map, the scan and the bumpers, as pages get them."""
+
+import base64
+from math import cos, inf, nan, pi
+from types import SimpleNamespace
+
+import pytest
+from geometry_msgs.msg import TransformStamped
+from nav_msgs.msg import OccupancyGrid, Odometry
+from sensor_msgs.msg import LaserScan
+from std_msgs.msg import String
+from tf2_msgs.msg import TFMessage
+
+from cockpit_server.graph import ODOMETRY, Graph
+from cockpit_server.surroundings import (
+    BUMPER,
+    MAP,
+    MOST_CELLS,
+    MOST_POINTS,
+    SCAN,
+    Surroundings,
+    map_shown,
+    scan_points,
+)
+from tutorial_testing.seat_room import page, serialised
+
+TYPES = {
+    "/map": MAP, "/tf_static": "tf2_msgs/TFMessage", "/ada/odom": ODOMETRY, "/ada/scan": SCAN,
+    "/ada/base_pose_ground_truth": "nav_msgs/Odometry", "/ada/mobile_base/events/bumper": BUMPER,
+}  # fmt: skip
+
+
+def grid(rows, columns, data, cell=0.5):
+    message = OccupancyGrid()
+    message.info.height, message.info.width, message.info.resolution = rows, columns, cell
+    message.info.origin.position.x, message.data = -1.0, data
+    return message
+
+
+def scan(ranges, **fields):
+    fields = {
+        "angle_min": -0.5,
+        "angle_increment": 0.5,
+        "range_min": 0.4,
+        "range_max": 9.0,
+        **fields,
+    }
+    message = LaserScan(ranges=ranges, **fields)
+    message.header.frame_id = "ada/camera"
+    return message
+
+
+class Seen:
+    """The Surroundings of one robot, ada, and a page that looks at her."""
+
+    def __init__(self, **watch):
+        self.hears = {}
+        published = {topic: {"/sim"} for topic in TYPES}
+        graphs = SimpleNamespace(graph=Graph(publishers=published, types=TYPES))
+        self.source = Surroundings(self, graphs)
+        self.page, self.sent = page(**{"robots": True, "look": "ada", **watch})
+        self.look()
+
+    def want(self, _owner, hears, every):
+        self.hears.update(hears)
+
+    def hear(self, topic, data):
+        self.hears[topic](SimpleNamespace(data=data), topic)
+
+    def look(self):
+        self.sent.clear()
+        self.source.prepare([self.page], 0.0)
+        self.source.give(self.page, 0.0)
+        return {message["kind"]: message for message in self.sent}
+
+
+def test_a_page_gets_the_map_the_place_in_it_and_the_scan_when_they_change():
+    seen = Seen()
+    assert seen.look() == {}  # no map, as on an empty plane
+    truth, mount = Odometry(), TransformStamped()
+    truth.pose.pose.position.x = truth.pose.pose.orientation.w = 1.0
+    mount.child_frame_id, mount.transform.translation.x = "ada/camera", -0.1
+    seen.hear("/map", serialised(grid(1, 3, [0, 100, -1])))
+    seen.hear("/ada/base_pose_ground_truth", serialised(truth))
+    seen.hear("/tf_static", serialised(TFMessage([mount])))
+    seen.hear("/ada/scan", serialised(scan([inf, 2.0, nan])))
+    seen.hear("/ada/mobile_base/events/bumper", b"\1\1")
+    got = seen.look()
+    assert base64.b64decode(got["map"]["cells"]) == b"\0\1\2"
+    place = {"x": 1.0, "y": 0.0, "yaw": 0.0, "bumpers": [1]}
+    assert got["around"]["robots"] == {"ada": place}
+    assert (got["scan"]["robot"], got["scan"]["points"]) == ("ada", [[1.9, 0.0]])
+    assert seen.look() == {}
+    seen.hear("/ada/mobile_base/events/bumper", b"\1\0")
+    assert list(seen.look()) == ["around"]
+
+
+def test_who_looks_elsewhere_is_sent_nothing():
+    seen = Seen(robots=False)
+    assert seen.hears == {}
+    assert seen.look() == {}
+
+
+@pytest.mark.parametrize("data", [b"", b"\1", b"\3\1", b"\0\1\1"])
+def test_a_bumper_that_is_none_is_left_out(data):
+    seen = Seen()
+    seen.hear("/map", serialised(grid(1, 1, [0])))
+    seen.hear("/ada/mobile_base/events/bumper", data)
+    assert seen.look()["around"]["robots"]["ada"]["bumpers"] == []
+
+
+@pytest.mark.parametrize(
+    "message",
+    [
+        String("no map"), grid(2, 2, [0]), grid(0, 0, []), grid(1, 1, [0], cell=nan),
+        grid(1, 1, [0], cell=inf),
+    ],
+)  # fmt: skip
+def test_a_map_that_is_none_is_left_out(message):
+    assert map_shown(serialised(message)) == {}
+
+
+def test_a_large_map_gets_larger_cells_and_keeps_its_walls():
+    data = [0] * (1001 * 1200)
+    data[500 * 1200 + 600] = 100
+    shown = map_shown(serialised(grid(1001, 1200, data)))
+    cells = base64.b64decode(shown["cells"])
+    assert len(cells) == shown["rows"] * shown["columns"] <= MOST_CELLS
+    factor = shown["cell"] / 0.5
+    at = cells.index(1)
+    assert (at // shown["columns"], at % shown["columns"]) == (500 // factor, 600 // factor)
+    assert cells.count(1) == 1
+
+
+def test_a_scan_as_points_on_the_robot():
+    message = scan([1.0, 0.2, 20.0, -inf, 2.0], angle_min=-pi / 3, angle_increment=pi / 6)
+    first, last = scan_points(serialised(message), {"ada/camera": (0.1, 0.0)})
+    assert first == pytest.approx([0.1 + cos(pi / 3), -(3**0.5) / 2], abs=1e-3)
+    assert last == pytest.approx([1.1, 3**0.5], abs=1e-3)
+    assert len(scan_points(serialised(scan([1.0] * 10_000)), {})) <= MOST_POINTS
+    assert scan_points(b"none", {}) == []
+    assert scan_points(serialised(scan([1.0], angle_min=nan)), {}) == []
