@@ -197,3 +197,19 @@ def test_an_hour_of_laps_closes_where_the_first_one_says():
         expected = (expected[0] + c * x - s * y, expected[1] + s * x + c * y, expected[2] + yaw)
         assert hypot(pose[0] - expected[0], pose[1] - expected[1]) < 1e-6
         assert abs(remainder(pose[2] - expected[2], 2 * pi)) < 1e-6
+
+
+def test_a_recording_in_a_room_meets_its_column_and_a_wall(tmp_path, capsys):
+    output, picture = tmp_path / "out.bag", tmp_path / "path.png"
+    arguments = [str(JOY_BAG), str(output), "--world", "room", "--picture", str(picture)]
+    assert replay_command.main(arguments) == 0
+    assert picture.stat().st_size > 10_000
+    read = read_bag(output)
+    places = [message.pose.pose.position for message in read["/base_pose_ground_truth"]]
+    nearest = min(hypot(place.x - 2.4, place.y - 1.3) for place in places)
+    assert nearest == pytest.approx(0.25 + 0.178, abs=1e-9)  # the column's radius and the robot's
+    assert min(place.y for place in places) == pytest.approx(-2.5 + 0.178, abs=1e-9)
+    frames = {(t.header.frame_id, t.child_frame_id) for t in read["/tf"][0].transforms}
+    assert frames == {("odom", "base_footprint"), ("map", "odom")}
+    assert replay_command.main([*arguments, "--force", "--world", "moon"]) == 1
+    assert "no world of this package" in capsys.readouterr().err

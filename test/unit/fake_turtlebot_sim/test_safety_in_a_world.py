@@ -2,11 +2,15 @@
 
 import random
 from math import hypot, isfinite
+from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from sensor_msgs.msg import Joy
 
+from fake_turtlebot_sim.replay.bag_replay import read_commands
+from fake_turtlebot_sim.replay.command import velocity_of_joy
 from fake_turtlebot_sim.safety.reaction import Kind, Reaction
 from fake_turtlebot_sim.simulator.contact import gap
 from fake_turtlebot_sim.simulator.parameters import Parameters
@@ -15,6 +19,7 @@ from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
 from fake_turtlebot_sim.simulator.world import BASE_RADIUS_M
 from fake_turtlebot_sim.simulator.world_files import read_world, shipped_worlds
 
+JOY_BAG = Path(__file__).parents[3] / "joy2twist" / "bag" / "joy.bag"
 EXACT = 1e-9
 PERIOD_S = 0.02  # of the sensors
 DELAY = 2  # periods from an event to the command that answers it
@@ -88,6 +93,23 @@ def test_no_stick_held_forward_drives_over_the_edge(v, w, yaw):
     for _ in range(1000):
         drive.step((v, w))
         assert drive.robot.sensed().wheels == (False, False)
+
+
+def test_ten_minutes_of_the_recording_in_the_room():
+    commands = read_commands(JOY_BAG, "/joy", Joy, velocity_of_joy)
+    seconds = (commands[-1][0] - commands[0][0]) * 1e-9
+    drive, k = Drive(ROOM), 0
+    for cycle in range(round(600.0 / PERIOD_S)):
+        elapsed_ns = round(cycle * PERIOD_S % seconds * 1e9)
+        if elapsed_ns < PERIOD_S * 1e9:
+            k = 0
+        while k + 1 < len(commands) and commands[k + 1][0] - commands[0][0] <= elapsed_ns:
+            k += 1
+        drive.step(commands[k][1])
+        x, y, _ = drive.robot.true_pose
+        nearest = min(gap(x, y, BASE_RADIUS_M, one) for one in (*ROOM.segments, *ROOM.posts))
+        assert nearest > -EXACT
+    assert drive.longest_push * PERIOD_S <= LONGEST_PUSH_S
 
 
 def test_without_the_controller_it_falls():

@@ -35,8 +35,8 @@ class Replay:
     """What came of it."""
 
     seconds: float  # of simulated time
-    distance: float  # [m] along the path of the odometry
-    path: list[RobotState]  # one for each period
+    distance: float  # [m] along the path
+    path: list[RobotState]  # one for each period, by the odometry; in a world, by the truth
     ignored: int  # commands that were none
 
 
@@ -86,7 +86,7 @@ def replay(commands: Commands, target: Path, parameters: Parameters) -> Replay:
     with Writer(target) as writer:
         topics = {
             "/odom": messages.odometry,
-            "/tf": TFMessage([messages.transform]),
+            "/tf": TFMessage([messages.transform] + [messages.in_map] * bool(parameters.world)),
             "/joint_states": messages.joints,
         }
         if robot.odometry_differs:
@@ -98,7 +98,7 @@ def replay(commands: Commands, target: Path, parameters: Parameters) -> Replay:
                 buffer = BytesIO()
                 message.serialize(buffer)
                 writer.write(connection, now_ns, buffer.getvalue())
-            path.append(robot.state())
+            path.append(robot.true_state() if parameters.world else robot.state())
     return Replay(
         seconds=(now_ns - commands[0][0]) * 1e-9,
         distance=sum(hypot(b.x - a.x, b.y - a.y) for a, b in zip(path, path[1:])),

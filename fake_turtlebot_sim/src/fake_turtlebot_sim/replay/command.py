@@ -18,6 +18,7 @@ from fake_turtlebot_sim.replay.bag_replay import ReplayError, read_commands, rep
 from fake_turtlebot_sim.simulator.differential_drive import Velocity
 from fake_turtlebot_sim.simulator.parameters import Parameters, parse_parameters
 from fake_turtlebot_sim.simulator.simulated_robot import RobotState
+from fake_turtlebot_sim.simulator.world import World
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -31,6 +32,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("output", type=Path, help="new bag with /odom, /tf and /joint_states")
     parser.add_argument("--topic", help="which topic holds the commands, if there are several")
     parser.add_argument("--config", type=Path, help="YAML file of parameters of fake_turtlebot")
+    parser.add_argument("--world", help="what to drive in: room, maze, table or a file")
     parser.add_argument("--picture", type=Path, metavar="PNG", help="draw the path")
     parser.add_argument("--force", action="store_true", help="overwrite the output")
     try:
@@ -43,7 +45,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def run(options: argparse.Namespace) -> None:
     """Replay as the options say. Raises ReplayError, ValueError or OSError, one line each."""
-    parameters = read_parameters(options.config)
+    parameters = read_parameters(options.config, options.world)
     if options.output.exists() and not options.force:
         raise ReplayError(f"{options.output}: exists already; --force overwrites it")
     if not options.output.parent.is_dir():
@@ -62,7 +64,7 @@ def run(options: argparse.Namespace) -> None:
         unfinished.unlink(missing_ok=True)
     took_s = time.monotonic() - began_s
     if options.picture:
-        draw(result.path, options.picture)
+        draw(result.path, options.picture, parameters.world)
     end = result.path[-1]
     print(
         f"{options.output}: {result.seconds:.1f} s from {topic} in {took_s:.1f} s,"
@@ -71,17 +73,18 @@ def run(options: argparse.Namespace) -> None:
     )
 
 
-def read_parameters(path: Path | None) -> Parameters:
-    """Return the Parameters of a YAML file, or the defaults without one."""
+def read_parameters(path: Path | None, world: str | None = None) -> Parameters:
+    """Return the Parameters of a YAML file, or the defaults without one; world: in place of its."""
+    in_world = {} if world is None else {"world": world}
     if path is None:
-        return parse_parameters({})
+        return parse_parameters(in_world)
     try:
         given = yaml.safe_load(path.read_text(encoding="utf-8")) or {}
     except (yaml.YAMLError, UnicodeDecodeError) as error:
         raise ReplayError(f"{path}: not YAML ({' '.join(str(error).split())})") from error
     if not isinstance(given, dict):
         raise ReplayError(f"{path}: must hold lines of `name: value`")
-    parameters = parse_parameters(given)
+    parameters = parse_parameters({**given, **in_world})
     if parameters.robots:
         raise ReplayError(f"{path}: a replay is of one robot; leave ~robots out")
     return parameters
@@ -116,14 +119,21 @@ def velocity_of_joy(joy: Any) -> Velocity:
     return joy.axes[1], joy.axes[0]
 
 
-def draw(path: Sequence[RobotState], target: Path) -> None:
-    """Draw the path as a picture."""
+def draw(path: Sequence[RobotState], target: Path, world: World | None = None) -> None:
+    """Draw the path, and the world around it, as a picture."""
     import matplotlib  # noqa: PLC0415  takes a second to load
 
     matplotlib.use("Agg")
     from matplotlib import pyplot  # noqa: PLC0415
 
     figure, axes = pyplot.subplots(figsize=(6, 6))
+    if world:
+        for line in world.walls:
+            axes.plot(*zip(*line), color="black")
+        for x, y, radius in world.posts:
+            axes.add_patch(pyplot.Circle((x, y), radius, color="black"))
+        for cliff in world.cliffs:
+            axes.fill(*zip(*cliff), color="silver")
     axes.plot([state.x for state in path], [state.y for state in path], color="tab:orange")
     axes.plot(path[0].x, path[0].y, "o", color="tab:green", label="start")
     axes.plot(path[-1].x, path[-1].y, "s", color="tab:red", label="end")
