@@ -4,15 +4,17 @@ import grammar
 import mistakes_launch
 import mistakes_nodes
 import mistakes_packages
+import mistakes_world
 import pytest
 from edits import apply
 
 from tutorial_check.examination import examine
-from tutorial_check.exercises import EXERCISES
+from tutorial_check.exercises import HANDOUT
 from tutorial_check.model import CannotCheck
 from tutorial_check.report import lines_of
 
-ROWS = mistakes_packages.ROWS + mistakes_nodes.ROWS + mistakes_launch.ROWS + grammar.WRONG
+OF_HANDOUT = mistakes_packages.ROWS + mistakes_nodes.ROWS + mistakes_launch.ROWS + grammar.WRONG
+ROWS = OF_HANDOUT + mistakes_world.ROWS
 
 
 def is_told(result, words):
@@ -22,7 +24,8 @@ def is_told(result, words):
     return all(word.lower() in told for word in words)
 
 
-NAMES = [f"{row[0]} {row[1]}" for row in ROWS]
+def named(rows):
+    return [f"{row[0]} {row[1]}" for row in rows]
 
 
 def found(row, literal, underlay, record_property, exercises):
@@ -39,7 +42,7 @@ def found(row, literal, underlay, record_property, exercises):
     return [one for each in outcomes for one in each.results if one.status == "wrong"]
 
 
-@pytest.mark.parametrize("row", ROWS, ids=NAMES)
+@pytest.mark.parametrize("row", ROWS, ids=named(ROWS))
 def test_mistake(row, literal, underlay, record_property):
     exercise, what, _, check, words = row
     title = f"{exercise} {what}"
@@ -54,11 +57,11 @@ def test_mistake(row, literal, underlay, record_property):
     record_property("found", title)
 
 
-@pytest.mark.parametrize("row", ROWS, ids=NAMES)
+@pytest.mark.parametrize("row", OF_HANDOUT, ids=named(OF_HANDOUT))
 def test_in_all_exercises(row, literal, underlay, record_property):
     """Its cause is told, maybe by an earlier check, and it keeps no other one from a verdict."""
     title = f"{row[0]} {row[1]}"
-    wrong = found(row, literal, underlay, record_property, list(EXERCISES))
+    wrong = found(row, literal, underlay, record_property, HANDOUT)
     causes = [one for one in wrong if is_told(one, row[4])]
     others = [one.id for one in wrong if one not in causes]
     if others:

@@ -18,6 +18,7 @@ from edits import (
     write,
 )
 from grammar import RIGHT
+from mistakes_world import RIGHT as RIGHT_IN_WORLD
 
 SHOW = 'rospy.loginfo(rospy.get_name() + ": axes [%.2f, %.2f, %.2f, %.2f, %.2f, %.2f]" % data.axes)'
 X = "msg.linear.x = data.axes[1]"
@@ -116,4 +117,5 @@ ROWS = [
     ("two nodes of one class name, a helper class", [put(CLASS, "class NewJoy2Twist", "class Config():\n    speed = 1.0\n\n\nclass NewJoy2Twist")], ["6.2"]),
     ("a part of the suite in src, which hides nothing from the checker", [part("fake_turtlebot_sim"), part("gamepad")], ["4.4", "4.5"]),
     *RIGHT,
+    *RIGHT_IN_WORLD,
 ]  # fmt: skip

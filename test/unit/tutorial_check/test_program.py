@@ -44,7 +44,7 @@ def test_in_a_shell_of_a_workspace_that_is_meant(monkeypatch):
     ("words", "error"),
     [
         ([*UNDERLAY, "3"], "which workspace? For example: --in ~/ros/hydro/catkin_ws 3;"),
-        *(([*BEFORE, word], "no exercise") for word in ("7", "", ".", "4.9")),
+        *(([*BEFORE, word], "no exercise") for word in ("8", "", ".", "4.9")),
         *(([*UNDERLAY, f"--{name}", ""], "an empty word is no path") for name in ("in", "all")),
         *(([*BEFORE, f"--{name}", ""], "an empty word") for name in ("out", "json", "underlay")),
         ([*UNDERLAY, "--all", "class", "--json", "a"], "--json is for one workspace"),

@@ -16,6 +16,7 @@ from typing import Any, Callable, Sequence
 import rosgraph
 import rospy
 from geometry_msgs.msg import Twist
+from kobuki_msgs.msg import BumperEvent
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Joy
 from std_msgs.msg import String
@@ -24,7 +25,7 @@ from node_kit.careful_connections import connect_once
 
 NAME = "tutorial_check"
 ECHO = f"/{NAME}/echo"  # topic of the Echo
-KINDS = {"String": String, "Joy": Joy, "Twist": Twist, "Odometry": Odometry}
+KINDS = {each.__name__: each for each in (BumperEvent, Joy, Odometry, String, Twist)}
 MOST_KEPT = 20_000  # messages of a topic
 
 
@@ -47,6 +48,8 @@ def _plain(message: Any) -> Any:
         place, turn = pose.position, pose.orientation
         velocity = (twist.linear.x, twist.angular.z)
         return (message.header.stamp.to_sec(), place.x, place.y, turn.z, turn.w, *velocity)
+    if isinstance(message, BumperEvent):
+        return (message.bumper, message.state)
     return message.data
 
 
@@ -130,9 +133,10 @@ class Driver:
         return len(self._heard[topic])
 
     def send(self, topic: str, values: Any) -> float:
-        """Publish one message, (axes, buttons) or text; return when."""
+        """Publish one message, (axes, buttons), (bumper, state) or text; return when."""
         publisher = self._publishers[topic]
-        publisher.publish(_joy(values) if publisher.data_class is Joy else values)
+        make = {Joy: _joy, BumperEvent: lambda both: BumperEvent(*both)}
+        publisher.publish(make.get(publisher.data_class, publisher.data_class)(values))
         return time.monotonic()
 
     def stream(self, topic: str, joys: Sequence[Any], rate: float, repeat: bool) -> None:

@@ -12,7 +12,7 @@ from typing import Sequence
 from node_kit.arguments import Parser
 from tutorial_check import bubblewrap
 from tutorial_check.examination import Outcome, examine
-from tutorial_check.exercises import EXERCISES
+from tutorial_check.exercises import EXERCISES, HANDOUT
 from tutorial_check.formats import FORMATS, clear, without_hints, write
 from tutorial_check.model import CannotCheck, fault
 from tutorial_check.report import Terminal, summary
@@ -58,7 +58,7 @@ def _parser() -> Parser:
     )
     what = "for the professor: every workspace, or zip, in a folder"
     where.add_argument("--all", type=path, metavar="FOLDER", help=what)
-    add("exercises", nargs="*", metavar="EXERCISE", help="all without one")
+    add("exercises", nargs="*", metavar="EXERCISE", help="all of the handout without one")
     add("--no-hints", action="store_true", help="say what is wrong, not how to mend it")
     add("--watch", action="store_true", help="check again whenever a file is saved")
     for name, what in FILES.items():
@@ -88,7 +88,7 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     if not options.underlay:
         parser.error("--underlay is missing; ./tutorial check gives it")
     # In the handout's order, whatever theirs.
-    options.exercises = [each for each in EXERCISES if not wanted or each in wanted]
+    options.exercises = [each for each in EXERCISES if each in (wanted or HANDOUT)]
     return options
 
 

@@ -32,7 +32,8 @@ def lines_of(result: Result, hints: bool = True) -> list[str]:
         lines.append(f"{MARGIN}hint:     {result.hint}")
     if result.status == WRONG:
         see = f"; see it yourself: {result.look}" if result.look else ""
-        lines.append(f"{MARGIN}handout {result.section}{see}")
+        book = "lesson" if result.section == "7" else "handout"
+        lines.append(f"{MARGIN}{book} {result.section}{see}")
     return lines
 
 

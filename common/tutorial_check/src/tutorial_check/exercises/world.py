@@ -1,0 +1,172 @@
+"""C35 to C37: the seventh lesson, ours: bumper, laser and wandering in a simulated room."""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import TYPE_CHECKING, Any
+
+from tutorial_check.exercises import check
+from tutorial_check.exercises.files import check_file, crash, find_script
+from tutorial_check.exercises.talking import PACKAGE
+from tutorial_check.model import CannotCheck, Wrong
+from tutorial_check.stage import START_S
+
+if TYPE_CHECKING:
+    from tutorial_check.session import Session
+    from tutorial_check.stage import Stage
+
+
+BUMPER, TRUTH = "/mobile_base/events/bumper", "/base_pose_ground_truth"
+SIDES = ("left", "center", "right")  # kobuki_msgs/BumperEvent: 0, 1, 2
+ANSWER_S = 2.0  # for a line on the screen
+STAMP = re.compile(r"\[[^\]]*\]")  # what rospy.loginfo puts before a text
+# Towards the wall of the room at x = 4 m, from where 0.1 m/s takes some seconds.
+START_X, WALL_X, RADIUS_M = 2.9, 4.0, 0.178
+SPEEDS = (0.1, 0.3, 0.6)  # [m/s]
+LEAST_GAP_M, MOST_GAP_M = 0.3, 0.5
+REST_S, LONGEST_DRIVE_S = 1.0, 20.0
+WANDER_S, LONGEST_PUSH_S = 60.0, 1.0
+LEAST_WAY_M, LEAST_WIDTH_M = 3.0, 1.0
+
+
+def program_of(session: Session, name: str) -> str:
+    """Return the path of a program of the lesson. Raises Wrong if it cannot be run."""
+    script = find_script(session, PACKAGE, name)
+    check_file(session, PACKAGE, script)
+    return script
+
+
+@check("C35", "the bumper is read", "7", "C2", look="rosrun beginner_tutorials bumper.py")
+def reads_bumper(session: Session) -> str:
+    """Press each bumper, and look for its name, or its number, on the screen."""
+    script = program_of(session, "bumper.py")
+    with session.stage() as stage:
+        stage.call("advertise", BUMPER, "BumperEvent")
+        program = stage.start(PACKAGE, script)
+        stage.wait_for_start(lambda: stage.call("listeners", BUMPER) or program.ended)
+        if program.ended:
+            raise crash(session, PACKAGE, program, "bumper.py goes on until Ctrl-C")
+        if not stage.call("listeners", BUMPER):
+            hint = "rospy.Subscriber('mobile_base/events/bumper', BumperEvent, callback)"
+            raise Wrong(f"it subscribes to {BUMPER}", "it does not", script, hint)
+        for number, side in enumerate(SIDES):
+            before = len(program.output)
+            stage.call("send", BUMPER, (number, 1))
+            wanted = re.compile(rf"(?i){side}|\b{number}\b|{'centre' if number == 1 else side}")
+
+            def is_shown(before: int = before, wanted: re.Pattern[str] = wanted) -> bool:
+                return bool(wanted.search(STAMP.sub("", program.output[before:])))
+
+            stage.wait(lambda: program.ended or is_shown(), ANSWER_S)
+            if not is_shown():
+                expected = f"the {side} bumper on the screen when it is pressed"
+                shown = STAMP.sub("", program.output[before:]).strip()
+                hint = f"event.bumper is {number} (BumperEvent.{side.upper()}), event.state 1"
+                raise (
+                    crash(session, PACKAGE, program, expected, hint)
+                    if (program.ended or "Traceback" in shown)
+                    else Wrong(expected, shown or "nothing", script, hint)
+                )
+            stage.call("send", BUMPER, (number, 0))
+    return ", ".join(SIDES)
+
+
+@check("C36", "it stops before a wall", "7", "C2",
+       look="roslaunch fake_turtlebot_sim fake_turtlebot.launch world:=room;"
+       " rosrun beginner_tutorials stop_before_wall.py _speed:=0.3")  # fmt: skip
+def stops(session: Session) -> str:
+    """Let it drive to a wall with three speeds."""
+    script = program_of(session, "stop_before_wall.py")
+    gaps = [_gap(session, script, speed) for speed in SPEEDS]
+    return ", ".join(f"{gap:.2f} m at {speed} m/s" for gap, speed in zip(gaps, SPEEDS))
+
+
+def _gap(session: Session, script: str, speed: float) -> float:
+    """Return how far [m] before the wall it stops. Raises Wrong."""
+    with session.stage() as stage:
+        _start_robot(stage, f"_initial_x:={START_X}")
+        program = stage.start(PACKAGE, script, f"_speed:={speed}")
+
+        def moves() -> bool:
+            return any(value[5] for _, _, value in stage.call("heard", TRUTH)[-50:])
+
+        stage.wait(lambda: program.ended or moves(), START_S)
+        if program.ended or not moves():
+            hint = "it publishes on cmd_vel for each LaserScan on scan"
+            expected = f"the robot drives towards the wall with _speed:={speed}"
+            raise crash(session, PACKAGE, program, expected, hint)
+        stage.wait(lambda: program.ended or not moves(), LONGEST_DRIVE_S)
+        path = [value for _, _, value in stage.call("heard", TRUTH)]
+        pressed, ended = bool(stage.call("count", BUMPER)), program.ended
+    fastest, gap = max(value[5] for value in path), WALL_X - RADIUS_M - path[-1][1]
+    expected = f"a stop {LEAST_GAP_M} to {MOST_GAP_M} m before the wall, with _speed:={speed}"
+    if ended:
+        raise crash(session, PACKAGE, program, expected)
+    if abs(fastest - speed) > 0.2 * speed:
+        hint = 'rospy.get_param("~speed", 0.3) is the speed [m/s]'
+        raise Wrong(f"{speed} m/s with _speed:={speed}", f"{fastest:.2f} m/s", script, hint)
+    if pressed:
+        seen = "it drives into the wall"
+    elif path[-1][5]:
+        seen = f"it still drives, {gap:.2f} m before it"
+    elif LEAST_GAP_M <= gap <= MOST_GAP_M:
+        return gap
+    else:
+        seen = f"{gap:.2f} m"
+    hint = "ranges begin at the camera, 0.087 m behind the middle of the robot, whose radius is"
+    raise Wrong(expected, seen, script, f"{hint} {RADIUS_M} m; too near is -inf")
+
+
+@check("C37", "it wanders", "7", "C2",
+       look="roslaunch fake_turtlebot_sim fake_turtlebot.launch world:=room;"
+       " rosrun beginner_tutorials wander.py")  # fmt: skip
+def wanders(session: Session) -> str:
+    """Let it wander for a minute."""
+    script = program_of(session, "wander.py")
+    with session.stage() as stage:
+        _start_robot(stage)
+        program = stage.start(PACKAGE, script)
+
+        def longest_push() -> float:
+            return push_of(stage.call("heard", BUMPER), stage.call("heard", TRUTH)[-1][0])
+
+        stage.wait(lambda: program.ended or longest_push() > LONGEST_PUSH_S, WANDER_S)
+        path = [value[1:3] for _, _, value in stage.call("heard", TRUTH)]
+        push, ended = longest_push(), program.ended
+    way = sum(math.dist(a, b) for a, b in zip(path, path[1:]))
+    width = max(max(place[axis] for place in path) - min(place[axis] for place in path)
+                for axis in (0, 1))  # fmt: skip
+    expected = f"it drives about for {WANDER_S:.0f} s and pushes nothing for {LONGEST_PUSH_S:.0f} s"
+    if ended:
+        raise crash(session, PACKAGE, program, expected, "does it loop, or rospy.spin()?")
+    if push > LONGEST_PUSH_S:
+        hint = "with BumperEvent.PRESSED go back: linear.x < 0; what is beside it no scan shows"
+        raise Wrong(expected, f"it pushes for {push:.1f} s", script, hint)
+    if way < LEAST_WAY_M or width < LEAST_WIDTH_M:
+        hint = "ahead while min(scan.ranges) is large enough, else turn until it is"
+        raise Wrong(expected, f"{way:.1f} m in a place {width:.1f} m wide", script, hint)
+    return f"{way:.1f} m"
+
+
+def _start_robot(stage: Stage, *arguments: str) -> None:
+    """Start the simulated robot in the room. Raises CannotCheck."""
+    stage.call("listen", TRUTH, "Odometry")
+    stage.call("listen", BUMPER, "BumperEvent")
+    robot = stage.start_ours("fake_turtlebot_sim", "fake_turtlebot.py", "_world:=room", *arguments)
+    stage.wait(lambda: robot.ended or stage.call("count", TRUTH), START_S)
+    if robot.ended or not stage.call("count", TRUTH):
+        raise CannotCheck(f"the simulated robot does not start: {robot.output[-200:]}")
+
+
+def push_of(events: Any, now: float) -> float:
+    """Return how long [s] a bumper was pressed at a time, at most; events: heard of BUMPER."""
+    pressed: set[int] = set()
+    longest = began = 0.0
+    for when, _, (number, state) in events:
+        if state and not pressed:
+            began = when
+        (pressed.add if state else pressed.discard)(number)
+        longest = max(longest, when - began) if began else longest
+        began = began if pressed else 0.0
+    return max(longest, now - began) if pressed else longest

@@ -1,0 +1,39 @@
+"""The seventh lesson: right solutions beside ours, and mistakes. Rows as elsewhere."""
+
+from pathlib import Path
+
+from edits import B, put, remove, write
+
+OURS = Path(__file__).resolve().parents[2] / "beginner_tutorials" / "scripts"
+NAMES = ("bumper.py", "stop_before_wall.py", "wander.py")
+BUMPER, STOP, WANDER = (f"{B}/scripts/{name}" for name in NAMES)
+SOLVED = [write(f"{B}/scripts/{name}", (OURS / name).read_text()) for name in NAMES]
+
+
+def row(what, path, old, new, check, word):
+    """A row with one change in our solution."""
+    return ("7", what, [*SOLVED, put(path, old, new)], check, word)
+
+
+SHOWN = 'rospy.loginfo("%s bumper %s", SIDES[event.bumper], change)'
+ROWS = [
+    ("7", "no bumper.py", [*SOLVED, remove(BUMPER)], "C35", "scripts/bumper.py"),
+    row("another topic", BUMPER, "mobile_base/events/bumper", "events/bumper", "C35", "mobile_base/events/bumper"),
+    row("nothing displayed", BUMPER, SHOWN, "pass", "C35", "left bumper on the screen"),
+    row("always the same bumper", BUMPER, "SIDES[event.bumper]", "'left'", "C35", "the center bumper"),
+    row("a field that there is not", BUMPER, "SIDES[event.bumper]", "event.sensor", "C35", "bumper.py:"),
+    row("no spin", BUMPER, "    rospy.spin()\n", "", "C35", "until Ctrl-C"),
+    row("it never stops", STOP, "min(scan.ranges) - TO_FRONT > GAP", "True", "C36", "into the wall"),
+    row("from the camera, not the front", STOP, "TO_FRONT = 0.087 + 0.178", "TO_FRONT = 0.0", "C36", "0.087 m"),
+    row("it stops too early", STOP, "GAP = 0.4", "GAP = 0.7", "C36", "m before the wall"),
+    row("a speed of its own", STOP, 'rospy.get_param("~speed", 0.3)', "0.3", "C36", "get_param"),
+    row("it does not move", STOP, '"scan"', '"/camera/scan"', "C36", "for each LaserScan on scan"),
+    row("a scan that is no list", STOP, "min(scan.ranges)", "scan.ranges.min()", "C36", "stop_before_wall.py:"),
+    row("it ignores the bumper and the laser", WANDER, "if since_bump < BACK_S:", "if True:\n            twist.linear.x = SPEED\n        elif since_bump < BACK_S:", "C37", "it pushes"),
+    row("it turns on the spot", WANDER, "min(scan.ranges) < FREE", "True", "C37", "turn until it is"),
+    row("it ends", WANDER, "    rospy.spin()\n", "", "C37", "rospy.spin()"),
+]  # fmt: skip
+RIGHT = [
+    ("lesson 7, each event as it comes", [*SOLVED, put(BUMPER, SHOWN, "rospy.loginfo(event)")], ["7"]),
+    ("lesson 7, slower near the wall", [*SOLVED, put(STOP, "twist.linear.x = self.speed", "twist.linear.x = min(self.speed, 2 * (min(scan.ranges) - TO_FRONT - GAP) + 0.02)")], ["7"]),
+]  # fmt: skip
