@@ -22,7 +22,7 @@ from fake_turtlebot_sim.simulator.world_files import read_world, shipped_worlds
 JOY_BAG = Path(__file__).parents[3] / "joy2twist" / "bag" / "joy.bag"
 EXACT = 1e-9
 PERIOD_S = 0.02  # of the sensors
-DELAY = 2  # periods from an event to the command that answers it
+DELAY, LONGEST_DELAY = 2, 5  # periods from an event to the command that answers it
 LONGEST_PUSH_S = 0.5
 ROOM, TABLE = (read_world(shipped_worlds()[name]) for name in ("room", "table"))
 
@@ -30,10 +30,10 @@ ROOM, TABLE = (read_world(shipped_worlds()[name]) for name in ("room", "table"))
 class Drive:
     """A robot, its safety controller, and a mux that lets the controller win for 0.2 s."""
 
-    def __init__(self, world, is_safe=True):
+    def __init__(self, world, is_safe=True, delay=DELAY):
         self.robot, self.reaction = SimulatedRobot(Parameters(world=world), world.start), Reaction()
         self.sensed, self.cycle, self.is_safe = Sensed(), 0, is_safe
-        self.answers, self.holds_until, self.pushed = [None] * DELAY, 0.0, 0
+        self.answers, self.holds_until, self.pushed = [None] * delay, 0.0, 0
         self.longest_push = 0
 
     def step(self, stick):
@@ -84,15 +84,23 @@ def test_ten_minutes_of_random_sticks_in_the_room(seed):
 
 
 @settings(deadline=None, max_examples=60)
-@given(st.floats(0.05, 0.7), st.floats(-0.7, 0.7), st.floats(-3.1, 3.1))
-def test_no_stick_held_forward_drives_over_the_edge(v, w, yaw):
-    """On arcs wider than the robot: beside and behind its wheels the Kobuki has no sensors."""
+@given(
+    st.floats(0.05, 0.7), st.floats(-0.7, 0.7), st.floats(-3.1, 3.1),
+    st.integers(1, LONGEST_DELAY), st.lists(st.integers(0, 999), max_size=6),
+)  # fmt: skip
+def test_no_stick_held_forward_drives_over_the_edge(v, w, yaw, delay, cuts):
+    """Whatever is slow, and however often the stick is lost and back.
+
+    On arcs wider than the robot: beside and behind its wheels the Kobuki has no sensors.
+    """
     w = max(-v / 0.4, min(v / 0.4, w))
-    drive = Drive(TABLE)
+    drive = Drive(TABLE, delay=delay)
     drive.robot.place((0.0, 0.0, yaw))
-    for _ in range(1000):
-        drive.step((v, w))
+    for cycle in range(1000):
+        is_cut = sum(cut <= cycle for cut in cuts) % 2
+        drive.step((0.0, 0.0) if is_cut else (v, w))
         assert drive.robot.sensed().wheels == (False, False)
+    assert drive.longest_push * PERIOD_S <= LONGEST_PUSH_S
 
 
 def test_ten_minutes_of_the_recording_in_the_room():
