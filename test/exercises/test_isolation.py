@@ -10,6 +10,7 @@ import subprocess
 import tempfile
 from pathlib import Path
 
+import kobuki_msgs
 import pytest
 from attack import ATTACKS, FILLS_MEMORY, LEAVE
 from edits import B
@@ -85,7 +86,9 @@ def bare_underlay(folder):
     packages = [each.parent for each in REPOSITORY.glob("*/*/src")] + [
         REPOSITORY / "fake_turtlebot_sim"
     ]
-    paths = ":".join(str(each / "src") for each in packages)
+    messages = folder / "messages"  # a copy: what the build made may be closed to others
+    shutil.copytree(Path(kobuki_msgs.__file__).parent, messages / "kobuki_msgs")
+    paths = ":".join([*(str(each / "src") for each in packages), str(messages)])
     for name in ("devel", "src"):
         (folder / "underlay" / name).mkdir(parents=True)
     for each in packages:

@@ -14,7 +14,7 @@ from nav_msgs.msg import OccupancyGrid
 from sensor_msgs.msg import LaserScan
 from tf2_msgs.msg import TFMessage
 
-from cockpit_server.clients import Client, Source
+from cockpit_server.clients import Client, Source, encoded
 from cockpit_server.graph import topic_of
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.motion import is_somewhere, motion
@@ -35,7 +35,7 @@ class Surroundings(Source):
     def __init__(self, feeds: Any, graph_watch: GraphWatch) -> None:
         self._feeds, self._graphs = feeds, graph_watch
         self._map: dict[str, Any] = {}
-        self._version = 0
+        self._version, self._text = 0, ""
         self._poses: dict[str, bytes] = {}  # topic -> the newest Odometry in the frame of the map
         self._scans: dict[str, tuple[float, bytes]] = {}  # topic -> (when it came [s], LaserScan)
         self._mounts: dict[str, tuple[float, float]] = {}  # frame -> x, y [m] on the robot
@@ -60,15 +60,16 @@ class Surroundings(Source):
         events = {topic_of(robot, "mobile_base/events/bumper") for robot in robots}
         pressing = {topic: self._hear_bumper for topic in events if types.get(topic) == BUMPER}
         self._feeds.want((self, "events"), pressing, every=True)
+        around = {robot: self._around(robot) for robot in sorted(robots)} if self._map else {}
+        self._text = encoded("around", robots=around)
 
     def give(self, client: Client, now: float) -> None:
         if not client.watch.robots or not self._map:
             return
         if client.lacks("map", self._version):
             client.send("map", **self._map)
-        around = {robot: self._around(robot) for robot in self._graphs.graph.robots()}
-        if client.lacks("around", around):
-            client.send("around", robots=around)
+        if client.lacks("around", self._text):
+            client.write(self._text)
         robot = client.watch.look
         if robot is None:
             return
