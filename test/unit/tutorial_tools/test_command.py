@@ -115,6 +115,7 @@ def test_completion(typed, found):
         ("ws/src", "this is the src folder"),
         ("suite/joy2twist/ws", "the suite's own"),
         ("/proc/ws", "cannot be made"),
+        ("/proc", "belongs to user 0, and you are 4321"),
     ],
 )
 def test_what_cannot_be_a_students_workspace(tmp_path, monkeypatch, folder, why):
@@ -122,5 +123,6 @@ def test_what_cannot_be_a_students_workspace(tmp_path, monkeypatch, folder, why)
     (tmp_path / "package").mkdir()
     (tmp_path / "package" / "package.xml").touch()
     (tmp_path / "ws" / "devel").mkdir(parents=True)
+    monkeypatch.setattr(os, "geteuid", lambda: 4321)
     with pytest.raises(build.BuildError, match=why):
         build.check_student(tmp_path / "cache", tmp_path / folder)

@@ -152,6 +152,17 @@ def build_both(workspace: Path) -> None:
     (workspace / "built").write_text(f"{built}\n")
 
 
+def _of_another(student: Path) -> str:
+    """Return what to do about a folder that is another user's; empty if it is not."""
+    owner = student.stat() if student.is_dir() else None
+    if owner is None or owner.st_uid == os.geteuid():
+        return ""
+    why = f"belongs to user {owner.st_uid}, and you are {os.geteuid()}: choose a folder of yours"
+    if Path("/.dockerenv").exists():  # Docker's own, in each of its containers
+        why += f", or first, on the computer of the container: export STUDENT={owner.st_uid}:{owner.st_gid}"
+    return why
+
+
 def check_student(workspace: Path, student: Path) -> None:
     """Raise BuildError if a folder cannot be a student's workspace."""
     why = ""
@@ -166,8 +177,11 @@ def check_student(workspace: Path, student: Path) -> None:
     else:
         try:
             (student / "src").mkdir(parents=True, exist_ok=True)
+            is_writable = os.access(student, os.W_OK)
         except OSError:
-            why = "cannot be made: choose a folder of yours"
+            is_writable = False
+        if not is_writable:
+            why = _of_another(student) or "cannot be made: choose a folder of yours"
     if why:
         raise BuildError(f"--in {student}: {why}")
 
