@@ -130,10 +130,10 @@ def test_a_students_workspace_stays_the_students(workspace):
             "--rm",
             "-T",
             "shell",
-            "./tutorial",
+            "tutorial",
             "run",
             "--in",
-            "/home/student/catkin_ws",
+            ".",
         )
         with pytest.raises(AssertionError) as wrong:
             compose(*shell, "bash", "-c", asked)
@@ -155,12 +155,29 @@ def test_a_students_workspace_stays_the_students(workspace):
     assert re.findall(verdicts, inside, re.M) == re.findall(verdicts, done.stdout, re.M) != []
 
 
+def test_a_terminal_starts_in_the_workspace_and_ends_at_once(workspace):
+    owner = workspace.stat().st_uid
+    if owner == STUDENT:  # so that the image's own user may not write there
+        with Compose(CATKIN_WS=str(workspace)) as compose, pytest.raises(AssertionError) as wrong:
+            compose("run", "--rm", "-T", "shell")
+        assert f"export STUDENT={owner}:{owner}" in str(wrong.value)
+    with Compose(CATKIN_WS=str(workspace), STUDENT=f"{owner}:{owner}") as compose:
+        compose("run", "-d", "--name", "course", "shell")
+        wait_for(lambda: "tutorial check" in run("docker", "logs", "course"), "shell", START_S)
+        where = run("docker", "exec", "course", "tutorial", "run", "--in", ".", "pwd")
+        assert where.splitlines()[-1] == "/home/student/catkin_ws"
+        begin = time.monotonic()
+        compose("down")
+        assert time.monotonic() - begin < END_S
+        assert "course" not in run("docker", "ps", "--all")
+
+
 def test_a_classroom_and_a_student_in_further_terminals(workspace):
     with Compose(CATKIN_WS=str(workspace)) as compose:
-        classroom = ["./tutorial", "run", "roslaunch", "cockpit", "classroom.launch", "robots:=3"]
+        classroom = ["tutorial", "run", "roslaunch", "cockpit", "classroom.launch", "robots:=3"]
         compose("run", "-d", "--name", "course", "shell", *classroom)
         try:
-            terminal = ("docker", "exec", "-i", "course", "./tutorial", "run")
+            terminal = ("docker", "exec", "-i", "course", "tutorial", "run")
             wait_for(lambda: "cockpit: open" in run("docker", "logs", "course"), "page", START_S)
             student = "roslaunch joy2twist student.launch name:=robot_2 loop:=true bag:="
             bag = f"{INSIDE}/common/gamepad/bag/joy.bag"

@@ -116,7 +116,7 @@ def lacking() -> list[str]:
         rights = "runs as another user, but can read what everybody may, use the network"
     else:
         rights = "has your rights: it can read, change and remove your files, use the network"
-    why = isolation.why
+    why = isolation.why.partition(". ")[0].rstrip(".")
     return [f"no isolation here ({why}): a program {rights}, and leave files in /var/tmp"]
 
 

@@ -159,7 +159,7 @@ def _of_another(student: Path) -> str:
         return ""
     why = f"belongs to user {owner.st_uid}, and you are {os.geteuid()}: choose a folder of yours"
     if Path("/.dockerenv").exists():  # Docker's own, in each of its containers
-        why += f", or first, on the computer of the container: export STUDENT={owner.st_uid}:{owner.st_gid}"
+        why += f", or, before docker compose: export STUDENT={owner.st_uid}:{owner.st_gid}"
     return why
 
 
