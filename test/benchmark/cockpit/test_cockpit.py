@@ -150,9 +150,12 @@ def test_a_flood_of_viewers(figure):
     assert heard["losses"] <= heard["stalls"]
 
 
-def test_thirty_robots_on_five_pages(figure):
+@pytest.mark.parametrize("world", ["", "maze"])
+def test_thirty_robots_on_five_pages(figure, world):
+    """Each page shows all robots, and of the first its surroundings: map, scan and bumpers."""
     with ExitStack() as stack:
-        stack.enter_context(running([*FAKE_TURTLEBOT, f"_robots:={ROBOTS}"]))
+        robots = [*FAKE_TURTLEBOT, f"_robots:={ROBOTS}"]
+        stack.enter_context(running([*robots, *([f"_world:={world}"] * bool(world))]))
         process, port, _ = start_cockpit(stack)
         shares, frames, longest = measure_viewers(stack, process, port)
         stalled = [sys.executable, str(HERE / "viewer.py"), str(port), "stalled"]
@@ -160,7 +163,8 @@ def test_thirty_robots_on_five_pages(figure):
         assert idle.stdout.readline() == "ready\n"
         shares2, frames2, longest2 = measure_viewers(stack, process, port)
     figure(
-        f"{ROBOTS} robots on {VIEWERS} pages: processor time of the server; frames; longest gap",
+        f"{ROBOTS} robots{' in the ' * bool(world)}{world} on {VIEWERS} pages: processor time"
+        " of the server; frames; longest gap",
         f"{shares:.1%}; {min(frames):.1f}/s; {1e3 * max(longest):.0f} ms",
         f"≤ {MOST_PROCESSOR:.0%}; 20/s",
     )

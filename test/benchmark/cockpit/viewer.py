@@ -13,7 +13,7 @@ import time
 from tornado.httpclient import HTTPRequest
 from tornado.websocket import websocket_connect
 
-LOOK = {"kind": "watch", "robots": True, "graph": True, "log": True}
+LOOK = {"kind": "watch", "robots": True, "look": "robot_1", "graph": True, "log": True}
 
 
 async def main(port, seconds):
