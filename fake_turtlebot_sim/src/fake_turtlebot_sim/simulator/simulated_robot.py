@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from enum import Enum
 from math import isfinite
-from typing import Any, NamedTuple, Sequence
+from typing import Any, NamedTuple, Sequence, Tuple
 
 import numpy as np
 
@@ -33,6 +33,7 @@ from fake_turtlebot_sim.simulator.world import BASE_RADIUS_M, Surroundings
 REST: Velocity = (0.0, 0.0)
 ORIGIN: Pose = (0.0, 0.0, 0.0)
 ON_ITS_WHEELS = (False, False)
+Change = Tuple[Velocity, Velocity]  # of a velocity, linear in time: at its begin and at its end
 
 
 def meet(robots: Sequence[SimulatedRobot], reach: float) -> None:
@@ -85,6 +86,8 @@ class SimulatedRobot:
         if errors != (1.0, 1.0, 0.0):
             self._errors = OdometryErrors(p.wheel_separation, *errors, f"{p.seed}/{name}")
         self._surroundings = Surroundings(p.world) if p.world else None
+        # Whether the odometry may differ from the truth.
+        self.odometry_differs = self._errors is not None or self._surroundings is not None
         self._contact: float | None = None
         self._dropped = ON_ITS_WHEELS
         self.company: Sequence[SimulatedRobot] = ()  # others that may be in the way
@@ -157,11 +160,6 @@ class SimulatedRobot:
         return self._errors.covariance if self._errors and self._errors.wheel_noise else None
 
     @property
-    def odometry_differs(self) -> bool:
-        """Return whether the odometry may differ from the truth."""
-        return self._errors is not None or self._surroundings is not None
-
-    @property
     def true_pose(self) -> Pose:
         """Return where the robot is, (x [m], y [m], yaw [rad])."""
         return self._true_pose if self.odometry_differs else self._pose
@@ -224,7 +222,7 @@ class SimulatedRobot:
         if errors:
             true = errors.true_velocity(velocity), errors.true_velocity(end_velocity)
         if self._surroundings is None:
-            self._roll(velocity, end_velocity, Piece(*true, dt))
+            self._roll(velocity, end_velocity, true, dt)
             return
         if self._dropped != ON_ITS_WHEELS:
             self._velocity = REST  # it lies there until it is lifted
@@ -240,7 +238,7 @@ class SimulatedRobot:
                 begin, end = (0.0, begin[1]), (0.0, end[1])
             if self._falls(begin, end, piece):
                 return
-            self._roll(begin, end, piece)
+            self._roll(begin, end, piece[:2], piece.dt)
         if self._contact is not None:
             self._velocity = 0.0, end_velocity[1]
 
@@ -262,16 +260,15 @@ class SimulatedRobot:
         dt, self._dropped = fallen
         share = dt / piece.dt if piece.dt else 0.0
         to = between(piece.velocity, piece.end_velocity, share)
-        self._roll(begin, between(begin, end, share), Piece(piece.velocity, to, dt))
+        self._roll(begin, between(begin, end, share), (piece.velocity, to), dt)
         self._velocity, self._contact = REST, None
         return True
 
-    def _roll(self, velocity: Velocity, end_velocity: Velocity, true: Piece) -> None:
-        """Let the wheels turn, while the robot itself drives a Piece."""
-        dt = true.dt
+    def _roll(self, velocity: Velocity, end_velocity: Velocity, true: Change, dt: float) -> None:
+        """Let the wheels turn for dt [s], while the robot's own velocity changes as true says."""
         mean = velocity if velocity == end_velocity else between(velocity, end_velocity, 0.5)
         if self.odometry_differs:
-            self._true_pose = drive(self._true_pose, *true[:3])
+            self._true_pose = drive(self._true_pose, *true, dt)
         if self._errors and self._errors.wheel_noise and dt:
             # The measured travel of a step carries no more than its mean velocity.
             before, mean = self._pose, self._errors.measured(mean, dt)
