@@ -23,6 +23,13 @@ def test_a_minute_of_random_faults_violates_nothing(tutorial, tmp_path):
     assert len((tmp_path / "table.csv").read_text().splitlines()) == int(trials) + 1
 
 
+def test_in_a_cell_nothing_pushes_or_falls(tutorial):
+    code, output = faults(tutorial, "--in-a-cell", "--for", "40")
+    trials, _, violations, _ = re.fullmatch(LAST_LINE, output.splitlines()[-1]).groups()
+    assert (code, int(violations)) == (0, 0), output
+    assert int(trials) > 0
+
+
 def test_the_handouts_class_drives_on_after_its_end_and_a_seed_repeats_it(tutorial):
     """6.2 of the handout: one zero, then about 50 more velocities while its shutdown sleeps."""
     first = ("--node", "handout", "--kinds", "end:joy2twist", "--seed", "1", "--trials", "1")

@@ -1,11 +1,15 @@
 #!/usr/bin/python3
 """A room as programs see it: map, scan, bumpers, frames, and the way back from a wall."""
 
+import contextlib
+import os
+import signal
 import sys
 import time
 import unittest
 from math import cos, inf
 
+import rosgraph
 import rospy
 import rostest
 from geometry_msgs.msg import Twist
@@ -16,7 +20,9 @@ from std_msgs.msg import Empty
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import MarkerArray
 
+from node_kit.questions import call
 from tutorial_testing.nodes import init_node
+from tutorial_testing.processes import lives
 from tutorial_testing.waiting import wait_for
 
 AT_THE_WALL = 4.0 - 0.178  # x of the robot's middle [m]
@@ -110,6 +116,20 @@ class WorldTest(unittest.TestCase):
         wait_for(lambda: self.x("odom") == 0.0, "odometry at zero")
         self.assertEqual(self.x(), before)
         wait_for(lambda: abs(self.frames["map", "odom"].x - before) < 1e-9, "odom in the map")
+
+    def test_5_of_a_base_that_died_at_the_wall_no_bumper_stays_pressed(self):
+        uri = call(rosgraph.get_master_uri(), "lookupNode", "/mobile_base")[1]
+        pid, heard = call(uri, "getPid")[1], []
+
+        def back_off(_):  # the controller knows of the bumper by now
+            heard.append(time.monotonic())
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGKILL)
+
+        rospy.Subscriber("cmd_vel_mux/input/safety_controller", Twist, back_off)
+        self.drive(0.7, lambda: not lives(pid), "the wall, met for the last time")
+        ended = time.monotonic()
+        wait_for(lambda: time.monotonic() - max([ended, *heard]) > 1.0, "safety controller silent")
 
 
 if __name__ == "__main__":

@@ -24,15 +24,17 @@ from tutorial_testing.processes import Program, suspend
 from tutorial_testing.waiting import wait_for
 
 JOYSTICK, DRIVER, MUX, BASE = "/joy_node", "/NewJoy2Twist", "/cmd_vel_mux", "/fake_turtlebot"
+SAFETY = "/kobuki_safety_controller"
+EVENTS = ("bumper", "cliff", "wheel_drop")  # of the Kobuki
 TIMEOUT_S = 0.6  # of the base
 REST_S = 0.6  # for which a multiplexer wants to see a sender rest
 CYCLE_S = 5.0  # to release all and drive again, at least
 
 
-def given_to(node, device, with_mux=True, **joy2twist):
+def given_to(node, device, with_mux=True, world="", **joy2twist):
     """Return (package, program, parameters, remaps) of a node.
 
-    device: that joy_node reads. joy2twist: more parameters of joy2twist.
+    device: that joy_node reads. world: of the base. joy2twist: more parameters of joy2twist.
     """
 
     def config(package, name):
@@ -49,7 +51,12 @@ def given_to(node, device, with_mux=True, **joy2twist):
         remaps = {"cmd_vel_mux/output": "cmd_vel"}
         given = config("fake_turtlebot_sim", "cmd_vel_mux.yaml")
         return "fake_turtlebot_sim", "cmd_vel_mux.py", given, remaps
-    return "fake_turtlebot_sim", "fake_turtlebot.py", {}, {}
+    if node == SAFETY:
+        topics = {f"~events/{kind}": f"mobile_base/events/{kind}" for kind in EVENTS}
+        remaps = {"~cmd_vel": "cmd_vel_mux/input/safety_controller", **topics}
+        remaps = {name.replace("~", f"{SAFETY}/"): to for name, to in remaps.items()}
+        return "fake_turtlebot_sim", "safety_controller.py", {}, remaps
+    return "fake_turtlebot_sim", "fake_turtlebot.py", {"world": world}, {}
 
 
 def arguments(parameters, remaps):

@@ -105,6 +105,35 @@ def test_e_a_lower_input_drives_while_teleop_speaks():
     assert found(HELD, killed, (1.5, 0.3), commands=[TELEOP, LOWER]) == ""
 
 
+@pytest.mark.parametrize(
+    ("injuries", "bumpers", "drops", "letters"),
+    [
+        ([], [(0.0, 0), (0.5, 1), (0.9, 0)], [(0.0, 0)], ""),
+        ([], [(0.0, 0), (0.5, 1), (0.6, 2), (0.7, 1), (1.1, 0)], [(0.0, 0)], "i"),
+        ([], [(0.0, 0), (0.5, 1)], [(0.0, 0)], "i"),  # to the end
+        ([], [(0.0, 0), (0.5, 1), (0.9, 0), (0.92, 1), (1.3, 0)], [(0.0, 0)], ""),
+        ([], [(0.0, 0)], [(0.0, 0), (1.0, 1)], "i"),
+        ([Injury("stop:joy_node", 0.5, 0.9)], [(0.0, 0)], [(0.0, 0), (1.0, 1)], "i"),
+        # Without mux or base nothing can back it off.
+        ([Injury("stop:mux", 0.5, 0.9)], [(0.0, 0)], [(0.0, 0), (1.0, 1)], ""),
+    ],
+)
+def test_i_pushes_and_falls(injuries, bumpers, drops, letters):
+    more = {"is_safe": True, "bumpers": bumpers, "drops": drops}
+    assert found(HELD, injuries, (1.5, 0.3), **more) == letters
+
+
+def test_in_a_world_backing_off_is_no_violation_and_driving_on_is():
+    more = {"is_safe": True, "bumpers": [(0.0, 0)], "drops": [(0.0, 0)]}
+    assert found(LET_GO, [], (1.1, 0.3), (2.5, -0.1), **more) == ""
+    assert found(LET_GO, [], (2.5, 0.3), **more) == "a"
+    unplugged = [Injury("unplug", 0.5, 2.0)]
+    assert found(HELD, unplugged, (1.0, 0.3), (1.2, -0.1), (2.5, 0.0), **more) == ""
+    assert found(HELD, unplugged, (2.5, 0.3), **more) == "d"
+    hung = [Injury("hang_master", 0.3, 0.9)]
+    assert found(HELD, hung, (0.5, 0.3), (0.7, -0.1), (0.9, 0.3), **more) == ""
+
+
 def test_of_each_invariant_the_first_violation_and_those_that_were_reported():
     reported = [Violation("g", 0.7, "did not exit")]
     fast = [FAST, FAST._replace(at_s=0.6)]

@@ -40,4 +40,4 @@ def test_what_is_not_granted_is_left_out():
 
 def test_in_words():
     words = "unplug at 0.10 s for 0.50 s + loss at 0.10 s for 0.50 s"
-    assert [str(Plan(1, (), (A, B))), str(Plan(1, (), ()))] == [words, "no fault"]
+    assert [str(Plan(1, (), (A, B), 0.0)), str(Plan(1, (), (), 0.0))] == [words, "no fault"]

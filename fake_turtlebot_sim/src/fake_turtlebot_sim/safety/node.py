@@ -39,15 +39,17 @@ class SafetyController:
         self._is_enabled = True
         self._lock = threading.Lock()
         self._publisher = PromptPublisher("~cmd_vel", Twist)
-        for kind, message, field in (
-            (Kind.BUMPER, BumperEvent, "bumper"),
-            (Kind.CLIFF, CliffEvent, "sensor"),
-            (Kind.WHEEL_DROP, WheelDropEvent, "wheel"),
-        ):
+        self._sensors = [
             rospy.Subscriber(
                 f"~events/{kind.value}", message, self._on_event, callback_args=(kind, field),
                 queue_size=QUEUE, tcp_nodelay=True,
-            )  # fmt: skip
+            )
+            for kind, message, field in (
+                (Kind.BUMPER, BumperEvent, "bumper"),
+                (Kind.CLIFF, CliffEvent, "sensor"),
+                (Kind.WHEEL_DROP, WheelDropEvent, "wheel"),
+            )
+        ]  # fmt: skip
         rospy.Subscriber("~enable", Empty, self._enable, callback_args=True, queue_size=1)
         rospy.Subscriber("~disable", Empty, self._enable, callback_args=False, queue_size=1)
         rospy.Subscriber("~reset", Empty, self._on_reset, queue_size=1)
@@ -56,6 +58,8 @@ class SafetyController:
         """Publish again and again while a sensor is active, until shut down."""
         while not rospy.is_shutdown():
             with self._lock:
+                if not any(sensor.get_num_connections() for sensor in self._sensors):
+                    self._reaction.reset()  # a base that has exited releases no sensor
                 self._publish()
             time.sleep(PERIOD_S)
 

@@ -49,7 +49,7 @@ def act(world, plan):
     """Do what the plan says; return the judge.Record."""
     try:
         world.hands.be_radio(plan.is_radio)
-        world.drive()
+        world.drive(plan.heading_rad)
     except AssertionError as error:
         if was_late(world.record):
             raise LateError("this machine was too late") from error
@@ -128,7 +128,8 @@ class Hunt:
 
     def _attempt(self, plan):
         if not self._world:
-            self._world = World(self._hosts, self._folder, self._node).__enter__()
+            world = World(self._hosts, self._folder, self._node, self._options.in_a_cell)
+            self._world = world.__enter__()
         answer = run_trial(self._world, plan)
         self._last_words = self._world.last_words()
         if self._world.is_used_up:
@@ -140,8 +141,9 @@ class Hunt:
         options = self._options
         node = f" --node {options.node}" if self._node else ""
         kinds = f" --kinds {' '.join(options.kinds)}" if options.kinds else ""
+        cell = " --in-a-cell" if options.in_a_cell else ""
         lines = [f"VIOLATION, seed {plan.seed}: {plan}"]
         lines += [f"  ({v.invariant}) {v.what}" for v in judgement.violations]
         lines += [f"  {line}" for line in timeline(record, judgement.violations)]
-        again = f"./tutorial test faults --seed {plan.seed} --trials 1{node}{kinds}"
+        again = f"./tutorial test faults --seed {plan.seed} --trials 1{node}{kinds}{cell}"
         return [*lines, f"  again: {again}", *self._last_words]

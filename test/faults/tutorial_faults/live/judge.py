@@ -24,6 +24,7 @@ MAX_LINEAR, MAX_ANGULAR = 0.7, 2.0
 TELEOP_S = 1.0 - 0.15
 # As long a gap as a busy machine may make in what is published every 20 ms.
 LONGEST_GAP_S = 0.3
+LONGEST_PUSH_S = 0.5  # in a world with a safety controller
 
 
 @dataclass
@@ -41,7 +42,8 @@ class Record:
 
     hands: (time, what they show). commands: at the base. asked: at the mux, by teleop. late: gaps
     (time of their end, length) in which this machine did not run the hunt. reported: violations
-    that wheels and hands do not show.
+    that wheels and hands do not show. is_safe: in a world, with a safety controller; bumpers,
+    drops: (time, how many bumpers are pressed and wheels dropped from then on).
     """
 
     hands: list[tuple[float, str]] = field(default_factory=list)
@@ -51,6 +53,9 @@ class Record:
     asked: list[Twist] = field(default_factory=list)
     late: list[tuple[float, float]] = field(default_factory=list)
     reported: list[Violation] = field(default_factory=list)
+    is_safe: bool = False
+    bumpers: list[tuple[float, float]] = field(default_factory=list)
+    drops: list[tuple[float, float]] = field(default_factory=list)
 
 
 @dataclass(frozen=True)
@@ -66,7 +71,8 @@ def judge(record: Record) -> Judgement:
     limits = WithinLimits(MAX_LINEAR, MAX_ANGULAR)
     found = judged([*record.wheels, *record.commands, *record.asked], limits)
     late, rest_s = _rest(record)
-    found += late + _moved_again(record) + _went_on(record) + _outranked(record)
+    found += late + _outranked(record)
+    found += _unsafe(record) if record.is_safe else _moved_again(record) + _went_on(record)
     first: dict[str, Violation] = {}
     for violation in sorted(record.reported + found, key=lambda violation: violation.at_s):
         first.setdefault(violation.invariant, violation)
@@ -89,7 +95,8 @@ def _rest(record: Record) -> tuple[list[Violation], float]:
     """Return the Violations (a) and (d), wheels that turn too long; and the longest time [s]."""
     found, worst_s = [], 0.0
     for wheels in record.wheels:
-        if not moves((wheels.v, wheels.w)):
+        # Backing off is the safety controller's, whatever is shown or lost.
+        if not moves((wheels.v, wheels.w)) or (record.is_safe and wheels.v <= 0):
             continue
         now = wheels.at_s
         shown, since = shown_at(record.hands, now)
@@ -172,6 +179,20 @@ def _went_on(record: Record) -> list[Violation]:
             return [Violation("h", wheels.at_s, "stopped by a fault elsewhere")]
         last_s = wheels.at_s
     return []
+
+
+def _unsafe(record: Record) -> list[Violation]:
+    """Return the Violations (i): a push that lasts, a fall; unless mux or base were hit."""
+    if any(KINDS[injury.kind].part in (MUX, BASE) for injury in record.injuries):
+        return []
+    found = [Violation("i", at_s, "a wheel dropped over an edge") for at_s, n in record.drops if n]
+    ends = [record.wheels[-1].at_s] if record.wheels else []
+    since_s = None
+    for at_s, pressed in [*record.bumpers, *((end, 0) for end in ends)]:
+        if since_s is not None and not pressed and at_s - since_s > LONGEST_PUSH_S + SLACK_S:
+            found.append(Violation("i", at_s, f"a bumper was pressed for {at_s - since_s:.3f} s"))
+        since_s = (at_s if since_s is None else since_s) if pressed else None
+    return found
 
 
 def _outranked(record: Record) -> list[Violation]:

@@ -11,6 +11,7 @@ from typing import Any, Callable, Collection, Dict, List, Tuple
 
 DRIVER, JOY2TWIST, MUX, BASE = "joy_node", "joy2twist", "mux", "base"
 NODES = (DRIVER, JOY2TWIST, MUX, BASE)
+SAFETY = "safety_controller"  # in a world; itself it is not hit
 
 LINK, MOUNT = "network namespaces", "mounting"  # what a kind needs of the machine
 

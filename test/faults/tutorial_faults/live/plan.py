@@ -5,6 +5,7 @@ Times [s] count from the moment at which the robot, driven by the hands, has beg
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from random import Random
 from typing import Sequence
@@ -54,6 +55,7 @@ class Plan:
     seed: int
     hands: tuple[Hand, ...]
     faults: tuple[Fault, ...]
+    heading_rad: float  # of the robot at the beginning, in a cell
 
     @property
     def lasts_s(self) -> float:
@@ -83,7 +85,7 @@ def draw(seed: int, names: Sequence[str]) -> Plan:
     for kind in kinds:
         faults.append(Fault(kind, at_s, random.uniform(*KINDS[kind].lasts_s), random.random()))
         at_s += random.uniform(0.0, 0.6)
-    return Plan(seed, _hands(random), tuple(faults))
+    return Plan(seed, _hands(random), tuple(faults), random.uniform(-math.pi, math.pi))
 
 
 def _same_part(one: str, other: str) -> bool:

@@ -75,6 +75,9 @@ def parse(arguments):
     add("--seed", type=int, help=f"of the first trial ({FIRST_SEED})")
     add("--kinds", type=kind, nargs="+", default=[], metavar="KIND", help="these faults alone")
     add("--node", type=node, metavar="PACKAGE/TYPE", help=f"in place of joy2twist; or {HANDOUT}")
+    add(
+        "--in-a-cell", action="store_true", help="between walls and edges, with a safety controller"
+    )
     add("--table", type=writable, metavar="FILE", help="write each trial to FILE; print a table")
     return parser.parse_args(arguments)
 

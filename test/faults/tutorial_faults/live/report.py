@@ -35,6 +35,8 @@ def timeline(record: Record, violations: Sequence[Violation] = ()) -> list[str]:
     events += _changes(record.asked, lambda one: one.velocity, "joy2twist asks for")
     events += _changes(record.commands, lambda one: one.velocity, "the base receives")
     events += _changes(record.wheels, lambda one: (one.v, one.w), "wheels turn at")
+    events += [(at_s, f"bumpers pressed: {count:.0f}") for at_s, count in record.bumpers]
+    events += [(at_s, f"wheels dropped: {count:.0f}") for at_s, count in record.drops]
     events += [(v.at_s, f"VIOLATION ({v.invariant}) {v.what}") for v in violations]
     began = min((at_s for at_s, _ in events), default=0.0)
     return [f"{at_s - began:8.3f} s  {what}" for at_s, what in sorted(events)]

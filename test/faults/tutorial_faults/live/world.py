@@ -4,6 +4,7 @@ import contextlib
 import os
 import signal
 import time
+from pathlib import Path
 
 import rospkg
 
@@ -11,13 +12,16 @@ from node_kit.questions import call
 from tutorial_faults.events import Twist, Violation, Wheels
 from tutorial_faults.live.helpers import PYTHON, Helper, beat
 from tutorial_faults.live.judge import Injury, Record
-from tutorial_faults.live.kinds import BASE, DRIVER, JOY2TWIST, MUX, NODES, VIGILANCE_S
+from tutorial_faults.live.kinds import BASE, DRIVER, JOY2TWIST, MUX, NODES, SAFETY, VIGILANCE_S
 from tutorial_testing import rig
 from tutorial_testing.hands import DRIVE, RELEASED, Hands
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import BUSY_S, wait_for
 
-NAMES = {DRIVER: rig.JOYSTICK, JOY2TWIST: rig.DRIVER, MUX: rig.MUX, BASE: rig.BASE}
+NAMES = {
+    DRIVER: rig.JOYSTICK, JOY2TWIST: rig.DRIVER, MUX: rig.MUX, BASE: rig.BASE, SAFETY: rig.SAFETY,
+}  # fmt: skip
+CELL = Path(__file__).resolve().parents[2] / "cell.yaml"
 ENDS_S = 1.5 + BUSY_S  # for a node to exit, when asked to
 STARTS_S = 4.0  # to release all and drive again, at least
 DRIVES_S = 90.0  # after which a system that does not drive is deaf
@@ -27,13 +31,18 @@ MASTER_S = 120.0  # for its first answer, on a machine that is busy with somethi
 class World:
     """All processes of the system and those beside it. A context manager that ends them all."""
 
-    def __init__(self, hosts, folder, node=()):
-        """hosts: hosts.Hosts. folder: for the FIFO. node: a command in place of joy2twist's."""
-        self.hosts, self._node = hosts, node
+    def __init__(self, hosts, folder, node=(), is_cell=False):
+        """hosts: hosts.Hosts. folder: for the FIFO. node: a command in place of joy2twist's.
+
+        is_cell: whether it drives in CELL, where a safety controller backs it off.
+        """
+        self.hosts, self._node, self._is_cell = hosts, node, is_cell
+        self._nodes = (*NODES, SAFETY) if is_cell else NODES
         self._stack = contextlib.ExitStack()
         self._packages = rospkg.RosPack()  # which looks through all folders once
         self.programs, self.record = {}, Record()
         self._newest = None  # events.Wheels
+        self._pressed = {"bumpers": 0.0, "drops": 0.0}  # how many are
         self._device = os.path.join(folder, "js0")
         self.is_used_up = False  # it cannot be repaired for the next trial
 
@@ -44,7 +53,7 @@ class World:
             self.master = enter(self._start_master())
             self.hands = enter(Hands(self._device))
             self._stack.callback(self._end_nodes)
-            for node in reversed(NODES):
+            for node in reversed(self._nodes):
                 self.start(node)
             environment = {**os.environ, **self.hosts.robot_environment}
             helpers = [
@@ -54,7 +63,7 @@ class World:
             ]
             for one in helpers:
                 one.wait_ready()
-            _, self.viewer, self.stranger = helpers
+            self._observer, self.viewer, self.stranger = helpers
             wait_for(lambda: self._newest, "odometry", DRIVES_S)
         except BaseException:
             self.__exit__(None, None, None)
@@ -93,7 +102,8 @@ class World:
             old.__exit__()
 
     def _command(self, node):
-        given = rig.given_to(NAMES[node], self._device, vigilance_timeout=VIGILANCE_S)
+        cell = str(CELL) if self._is_cell else ""
+        given = rig.given_to(NAMES[node], self._device, world=cell, vigilance_timeout=VIGILANCE_S)
         package, name, parameters, remaps = given
         if node == JOY2TWIST and self._node:
             # The preset is that of teleop_twist_joy, too; arming and vigilance are ours.
@@ -126,9 +136,9 @@ class World:
         self.repair()
         self.begin_record()
         asked_s = time.time()
-        for node in NODES:
+        for node in self._nodes:
             self.signal(node, signal.SIGINT)
-        for node in NODES:
+        for node in self._nodes:
             self.await_end(node, asked_s)
         return self.record.reported
 
@@ -142,13 +152,19 @@ class World:
             self.record.wheels.append(self._newest)
         elif kind == "late":
             self.record.late.append((at_s, x))
+        elif kind in ("bumpers", "drops"):
+            self._pressed[kind] = x
+            getattr(self.record, kind).append((at_s, x))
         else:
             into = self.record.commands if kind == "command" else self.record.asked
             into.append(Twist(at_s, (x, y, 0.0, 0.0, 0.0, z)))
 
     def begin_record(self):
         """Begin a new record."""
-        self.record = Record(hands=self.hands.new_record())
+        now, pressed = time.time(), self._pressed
+        self.record = Record(hands=self.hands.new_record(), is_safe=self._is_cell)
+        self.record.bumpers.append((now, pressed["bumpers"]))
+        self.record.drops.append((now, pressed["drops"]))
 
     def injure(self, kind):
         """Record that a fault of this kind begins now; return its judge.Injury."""
@@ -169,14 +185,15 @@ class World:
 
     def repair(self):
         """Start again what has exited."""
-        for node in NODES:
+        for node in self._nodes:
             if self.programs[node].ended:
                 self.start(node)
 
-    def drive(self):
+    def drive(self, heading_rad):
         """Release all, then hold LB and the stick until the robot moves, in a new record.
 
-        Raises AssertionError if it never does.
+        heading_rad: into which it is turned in the middle of a cell. Raises AssertionError if it
+        never moves.
         """
 
         def once():
@@ -184,6 +201,8 @@ class World:
             self.hands.show(RELEASED)
             began = time.time()
             wait_for(lambda: self._newest.at_s > began and not self.moves, "robot at rest")
+            if self._is_cell:
+                self._observer.write(heading_rad)
             time.sleep(rig.REST_S)
             self.begin_record()
             self.hands.show(DRIVE)
