@@ -3,8 +3,8 @@
 import pytest
 
 from tutorial_check.causes import explain, hider, misspelt, syntax_hint, traced
-from tutorial_check.exercises.files import silent_end
 from tutorial_check.python_facts import read_python
+from tutorial_check.scripts import silent_end
 from tutorial_check.tracebacks import first_traceback, last_lines
 
 FORMAT = "TypeError: not enough arguments for format string"

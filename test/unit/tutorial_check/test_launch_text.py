@@ -5,9 +5,9 @@ from xml.parsers import expat
 
 import pytest
 
-from tutorial_check.exercises.launch_text import parse_error, place_of, without_comments
-from tutorial_check.exercises.launch_xml import QUOTES, not_xml, unclosed_node
-from tutorial_check.launch_facts import device_of
+from tutorial_check.exercises.launch_facts import device_of
+from tutorial_check.exercises.launch_text import parse_error
+from tutorial_check.launch_xml import QUOTES, not_xml, place_of, unclosed_node, without_comments
 
 NODE = '  <node pkg="rosbag" type="play" name="x" args="--loop a.bag"/>\n'
 TEXT = """<launch>

@@ -5,8 +5,8 @@ from types import SimpleNamespace
 import pytest
 
 from tutorial_check.exercises.driving import displayed
-from tutorial_check.mapping import Evidence, judge
-from tutorial_check.probing import (
+from tutorial_check.exercises.mapping import Evidence, judge
+from tutorial_check.exercises.probing import (
     delays,
     judge_probes,
     low_joys,

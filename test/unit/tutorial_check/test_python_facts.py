@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-from tutorial_check.changed_programs import flipped_anonymous, unmasked, without_name
+from tutorial_check.exercises.changed_programs import flipped_anonymous, unmasked, without_name
 from tutorial_check.exercises.ending import _late_zero as late_zero
 from tutorial_check.python_facts import read_python
 from tutorial_check.python_text import unreadable

@@ -12,7 +12,7 @@ from typing import Any, Callable, Dict, Iterable, Iterator, Tuple
 from tutorial_check import student_files
 from tutorial_check.box import Box, Program
 from tutorial_check.environment import environment_of
-from tutorial_check.exercises.manifests import must_be_startable
+from tutorial_check.manifests import must_be_startable
 from tutorial_check.model import CannotCheck, Wrong, master_gone
 from tutorial_check.python_facts import PythonFacts, read_python
 from tutorial_check.stage import Stage

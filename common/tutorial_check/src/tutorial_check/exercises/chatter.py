@@ -6,12 +6,12 @@ import statistics
 from typing import TYPE_CHECKING, Any, Iterable
 
 from tutorial_check.causes import with_import
-from tutorial_check.changed_programs import flipped_anonymous
 from tutorial_check.exercises import check
-from tutorial_check.exercises.files import check_end, check_file, crash, odd_node, sunken_main
+from tutorial_check.exercises.changed_programs import flipped_anonymous
 from tutorial_check.exercises.talking import LISTEN_S, PACKAGE, TOPIC, scripts, talk_of
 from tutorial_check.model import Note, Wrong, master_gone
 from tutorial_check.rows import Row, demand
+from tutorial_check.scripts import check_end, check_file, crash, odd_node, sunken_main
 
 if TYPE_CHECKING:
     from tutorial_check.exercises.talking import Talk

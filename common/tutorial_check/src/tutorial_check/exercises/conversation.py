@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 from tutorial_check.exercises.dialogue import Conversation
 from tutorial_check.exercises.driving import CMD_VEL, COUNT, JOY
-from tutorial_check.mapping import judge
+from tutorial_check.exercises.mapping import judge
+from tutorial_check.exercises.probing import judge_probes
 from tutorial_check.model import Note, master_gone
-from tutorial_check.probing import judge_probes
 from tutorial_check.rows import Row, demand
 
 if TYPE_CHECKING:

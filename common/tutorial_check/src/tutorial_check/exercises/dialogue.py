@@ -9,11 +9,11 @@ import re
 from typing import TYPE_CHECKING, Any, Iterable, Sequence
 
 from tutorial_check.causes import with_import
-from tutorial_check.changed_programs import unmasked
+from tutorial_check.exercises.changed_programs import unmasked
 from tutorial_check.exercises.driving import CMD_VEL, JOY, PACKAGE, drive
-from tutorial_check.exercises.files import check_file, crash, silent_end
 from tutorial_check.model import Wrong
 from tutorial_check.python_text import python_lines
+from tutorial_check.scripts import check_file, crash, silent_end
 
 if TYPE_CHECKING:
     from tutorial_check.exercises.driving import Drive

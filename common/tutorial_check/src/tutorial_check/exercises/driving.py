@@ -8,8 +8,8 @@ import time
 from typing import TYPE_CHECKING, Any, Callable, Sequence
 
 from tutorial_check.box import GRACE_S
-from tutorial_check.mapping import LINEAR, Evidence, judge, rule_of
-from tutorial_check.probing import (
+from tutorial_check.exercises.mapping import LINEAR, Evidence, judge, rule_of
+from tutorial_check.exercises.probing import (
     AT_REST,
     NUMBER,
     delays,
@@ -25,7 +25,7 @@ from tutorial_check.probing import (
 from tutorial_check.stage import START_S
 
 if TYPE_CHECKING:
-    from tutorial_check.probing import Joy
+    from tutorial_check.exercises.probing import Joy
     from tutorial_check.session import Session
 
 

@@ -11,10 +11,10 @@ from tutorial_check import student_files
 from tutorial_check.exercises import check
 from tutorial_check.exercises.classes import program
 from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL, PACKAGE
-from tutorial_check.exercises.files import cause_of, crash
-from tutorial_check.exercises.manifests import must_be_launchable
 from tutorial_check.exercises.robot import ODOM, held
+from tutorial_check.manifests import must_be_launchable
 from tutorial_check.model import CannotCheck, Note, Wrong
+from tutorial_check.scripts import cause_of, crash
 from tutorial_check.tracebacks import first_traceback
 
 if TYPE_CHECKING:

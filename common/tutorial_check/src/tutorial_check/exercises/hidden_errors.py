@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from tutorial_check.changed_programs import without_name
 from tutorial_check.exercises import check
+from tutorial_check.exercises.changed_programs import without_name
 from tutorial_check.exercises.classes import program
 from tutorial_check.exercises.driving import JOY, PACKAGE
 from tutorial_check.model import Note, Wrong

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 from tutorial_check.exercises import check, conversation
 from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL, PACKAGE, drive
-from tutorial_check.exercises.files import check_end, check_file, find_script, odd_node
 from tutorial_check.model import Note, Wrong
+from tutorial_check.scripts import check_end, check_file, find_script, odd_node
 from tutorial_check.stage import START_S
 
 if TYPE_CHECKING:

@@ -10,19 +10,18 @@ import shlex
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Callable
 
-from tutorial_check import launch_facts
-from tutorial_check.exercises import check
+from tutorial_check.exercises import check, launch_facts
 from tutorial_check.exercises.driving import PACKAGE
-from tutorial_check.exercises.files import find_script, is_runnable
 from tutorial_check.exercises.joy2twist import NAME
-from tutorial_check.exercises.launch_text import attribute, parse_error, place_of, read, space_hint
-from tutorial_check.exercises.launch_xml import line_of, unclosed_node
-from tutorial_check.exercises.manifests import must_be_launchable
+from tutorial_check.exercises.launch_text import attribute, parse_error, space_hint
+from tutorial_check.launch_xml import line_of, place_of, read, unclosed_node
+from tutorial_check.manifests import must_be_launchable
 from tutorial_check.model import CannotCheck, Wrong
+from tutorial_check.scripts import find_script, is_runnable
 from tutorial_check.tracebacks import last_lines
 
 if TYPE_CHECKING:
-    from tutorial_check.launch_facts import Node
+    from tutorial_check.exercises.launch_facts import Node
     from tutorial_check.model import Note
     from tutorial_check.session import Session
 

@@ -15,7 +15,7 @@ from tutorial_check.exercises.robot import check_recording
 from tutorial_check.model import Note, Wrong
 
 if TYPE_CHECKING:
-    from tutorial_check.launch_facts import Node
+    from tutorial_check.exercises.launch_facts import Node
     from tutorial_check.session import Session
 
 

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any, Callable
 from tutorial_check import student_files
 from tutorial_check.exercises import check
 from tutorial_check.exercises.driving import CMD_VEL, JOY, PACKAGE
-from tutorial_check.exercises.files import cause_of
 from tutorial_check.exercises.launch_files import BAG, STICK, LaunchFile
 from tutorial_check.exercises.launch_nodes import (
     ROBOT_HINT,
@@ -22,6 +21,7 @@ from tutorial_check.exercises.launch_nodes import (
 )
 from tutorial_check.exercises.robot import ODOM, plug_in
 from tutorial_check.model import CannotCheck, Wrong
+from tutorial_check.scripts import cause_of
 from tutorial_check.tracebacks import first_traceback
 
 if TYPE_CHECKING:

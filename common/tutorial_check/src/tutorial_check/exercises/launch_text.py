@@ -8,7 +8,7 @@ import re
 from pathlib import Path
 from typing import Any
 
-from tutorial_check.exercises.launch_xml import NOT_XML, line_of, not_xml, without_comments
+from tutorial_check.launch_xml import NOT_XML, line_of, not_xml, place_of, without_comments
 from tutorial_check.model import Wrong
 
 # Those that a launch file of the exercises may name.
@@ -37,20 +37,6 @@ ATTRIBUTES = {
     "include": 'an include has file="$(find PACKAGE)/launch/FILE"',
     "remap": '<remap from="name in the program" to="name on the robot"/>',
 }
-
-
-def read(path: Path) -> Any:
-    """Return the text of a launch file, without its comments."""
-    return without_comments(path.read_text(errors="replace"))
-
-
-def place_of(where: str, text: str, *words: str) -> Any:
-    """FILE:LINE of the first line with the first of the words that is there; else the file."""
-    for word in words:
-        for number, line in enumerate(text.splitlines(), 1):
-            if word and word in line:
-                return f"{where}:{number}"
-    return where
 
 
 def attribute(name: str, value: str) -> Any:

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tutorial_check.exercises import check
-from tutorial_check.exercises.launch_text import place_of, read
-from tutorial_check.exercises.manifests import unreadable
+from tutorial_check.launch_xml import place_of, read
+from tutorial_check.manifests import unreadable
 from tutorial_check.model import Wrong
 from tutorial_check.place import own_rights
 from tutorial_check.workspace import Package, packages_beside

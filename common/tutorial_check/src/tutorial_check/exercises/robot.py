@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any, Iterable, Sequence
 
 from tutorial_check.exercises import check
 from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL, PACKAGE
-from tutorial_check.exercises.files import crash
 from tutorial_check.exercises.joy2twist import main_script
-from tutorial_check.mapping import ANGULAR, LINEAR
+from tutorial_check.exercises.mapping import ANGULAR, LINEAR
+from tutorial_check.exercises.pad import Pad
 from tutorial_check.model import CannotCheck, Note, Wrong
-from tutorial_check.pad import Pad
+from tutorial_check.scripts import crash
 from tutorial_check.stage import START_S
 
 if TYPE_CHECKING:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from tutorial_check.exercises.files import find_script
+from tutorial_check.scripts import find_script
 
 if TYPE_CHECKING:
     from tutorial_check.session import Session

@@ -7,9 +7,9 @@ import re
 from typing import TYPE_CHECKING, Any
 
 from tutorial_check.exercises import check
-from tutorial_check.exercises.files import check_file, crash, find_script
 from tutorial_check.exercises.talking import PACKAGE
 from tutorial_check.model import CannotCheck, Wrong
+from tutorial_check.scripts import check_file, crash, find_script
 from tutorial_check.stage import START_S
 
 if TYPE_CHECKING:

@@ -2,9 +2,9 @@
 
 import pytest
 
-from tutorial_check.exercises.files import cause_of, check_file
 from tutorial_check.exercises.joy2twist import check_manifest
 from tutorial_check.model import Wrong
+from tutorial_check.scripts import cause_of, check_file
 from tutorial_check.tracebacks import first_traceback
 
 FIRST = "#!/usr/bin/env python3\n"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 from xml.parsers import expat
 
 NOT_XML = r"mismatched tag|no element found|not well-formed|junk after|unclosed token"
@@ -15,6 +16,20 @@ QUOTES = 'each value stands between two quotes: name="value"'
 def without_comments(text: str) -> str:
     """Return the text with blanks in place of comments: its lines keep their numbers."""
     return COMMENT.sub(lambda found: re.sub(r"[^\n]", " ", found[0]), text)
+
+
+def read(path: Path) -> str:
+    """Return the text of a launch file, or manifest, without its comments."""
+    return without_comments(path.read_text(errors="replace"))
+
+
+def place_of(where: str, text: str, *words: str) -> str:
+    """FILE:LINE of the first line with the first of the words that is there; else the file."""
+    for word in words:
+        for number, line in enumerate(text.splitlines(), 1):
+            if word and word in line:
+                return f"{where}:{number}"
+    return where
 
 
 def line_of(text: str, index: int) -> int:

@@ -7,7 +7,7 @@ import re
 from typing import TYPE_CHECKING, Any
 
 from node_kit.manifests import broken_manifests
-from tutorial_check.exercises.launch_text import place_of, read
+from tutorial_check.launch_xml import place_of, read
 from tutorial_check.model import Wrong
 from tutorial_check.workspace import Package
 

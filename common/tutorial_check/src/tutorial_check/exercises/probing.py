@@ -8,7 +8,7 @@ import re
 from dataclasses import dataclass
 from typing import Iterable, Sequence, Tuple
 
-from tutorial_check.mapping import (
+from tutorial_check.exercises.mapping import (
     AXES,
     FIELDS,
     ONLY_THIS,
