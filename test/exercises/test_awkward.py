@@ -15,8 +15,8 @@ import pytest
 import test_mistakes
 from edits import JOY2TWIST, TALKER, B, J, apply, chmod, move, put
 
+from tutorial_check.course import read_course
 from tutorial_check.examination import examine
-from tutorial_check.exercises import HANDOUT
 from tutorial_testing.processes import Program, command_line, descendants, lives
 from tutorial_testing.waiting import wait_for
 
@@ -182,7 +182,7 @@ def test_all_at_once_or_alone_is_the_same(literal, underlay, tmp_path, request):
     count = request.config.getoption("--students")
     rows, exercises = [row for row in mistakes_nodes.ROWS if row[0] == "4.3"], ["4.3"]
     if request.config.getoption("--everything"):
-        rows, exercises = test_mistakes.ROWS, HANDOUT
+        rows, exercises = test_mistakes.ROWS, read_course().by_default
     group = tmp_path / "group"
     students = {"right": []}
     for number in range(1, count):

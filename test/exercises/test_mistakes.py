@@ -8,8 +8,8 @@ import mistakes_world
 import pytest
 from edits import apply
 
+from tutorial_check.course import read_course
 from tutorial_check.examination import examine
-from tutorial_check.exercises import HANDOUT
 from tutorial_check.model import CannotCheck
 from tutorial_check.report import lines_of
 
@@ -61,7 +61,7 @@ def test_mistake(row, literal, underlay, record_property):
 def test_in_all_exercises(row, literal, underlay, record_property):
     """Its cause is told, maybe by an earlier check, and it keeps no other one from a verdict."""
     title = f"{row[0]} {row[1]}"
-    wrong = found(row, literal, underlay, record_property, HANDOUT)
+    wrong = found(row, literal, underlay, record_property, read_course().by_default)
     causes = [one for one in wrong if is_told(one, row[4])]
     others = [one.id for one in wrong if one not in causes]
     if others:

@@ -7,8 +7,8 @@ import pytest
 from edits import apply
 from variants import TELLS
 
+from tutorial_check.course import read_course
 from tutorial_check.examination import examine
-from tutorial_check.exercises import HANDOUT
 from tutorial_check.model import CannotCheck
 from tutorial_check.report import lines_of
 
@@ -37,13 +37,13 @@ def check(workspace, underlay, exercises, record_property):
 
 
 def test_the_solutions_of_the_suite(solutions, underlay, record_property):
-    exercises = [*HANDOUT, "7"]
+    exercises = [*read_course().by_default, "7"]
     outcomes = check(solutions.parent, underlay, exercises, record_property)
     assert [outcome.id for outcome in outcomes] == exercises
 
 
 def test_a_literal_solution(literal, underlay, record_property):
-    outcomes = check(literal.parent, underlay, HANDOUT, record_property)
+    outcomes = check(literal.parent, underlay, read_course().by_default, record_property)
     seen = {result.id: result.status for outcome in outcomes for result in outcome.results}
     assert len(seen) == 34
     # What the handout's own listings do is worth a word, no more.

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from tutorial_check.course import read_course
 from tutorial_check.examination import examine
-from tutorial_check.exercises import EXERCISES, HANDOUT
 from tutorial_check.model import NOTE, OK
 
 REPOSITORY = Path(__file__).resolve().parents[3]
@@ -52,8 +52,9 @@ def rostest_s(file):
 
 
 def test_each_exercise_and_all_of_them(workspace, tmp_path, figure):
-    parts = {f"{name} {what}": [name] for name, what in EXERCISES.items() if name in HANDOUT}
-    parts["all of them"] = HANDOUT
+    course = read_course()
+    parts = {f"{name} {course.exercises[name].title}": [name] for name in course.by_default}
+    parts["all of them"] = course.by_default
     late = []
     for what, exercises in parts.items():
         bare_s = rostest_s(tmp_path / "bare.test")  # anew each time: what else runs here changes

@@ -25,12 +25,22 @@ VALUES = (
     "c\x00\x1b & d",
     "f.py:3",
     "do it",
-    "4.3",
+    "handout 4.3",
     "rostopic echo",
 )
-GOOD = Outcome("2", [Result("C1", OK, "one"), Result("C2", NOTE, "two", seen="odd")], 1.0, True)
+GOOD = Outcome(
+    "2",
+    [Result("C1", OK, "one"), Result("C2", NOTE, "two", seen="odd")],
+    1.0,
+    True,
+    title="a package",
+)
 BAD = Outcome(
-    "4.3", [Result(*VALUES), Result("C17", UNREACHED, "four", seen="first mend C16")], 2.0, True
+    "4.3",
+    [Result(*VALUES), Result("C17", UNREACHED, "four", seen="first mend C16")],
+    2.0,
+    True,
+    title="joy2twist",
 )
 NO_VERDICT = Outcome("5", [Result("C21", UNREACHED, "five")], 1.0, True, "C21: no\x1b space")
 CUT_OFF = Outcome("5", [Result("C21", OK, "five")], 0.0, False)

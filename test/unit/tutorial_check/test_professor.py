@@ -9,6 +9,7 @@ from types import SimpleNamespace
 import pytest
 
 from tutorial_check import professor
+from tutorial_check.course import read_course
 from tutorial_check.examination import Outcome
 from tutorial_check.model import OK, UNREACHED, WRONG, CannotCheck, Result
 from tutorial_check.professor import Student, table_csv, table_html
@@ -31,7 +32,7 @@ def group(tmp_path, monkeypatch):
 def check_all(group, out=None):
     """Return the exit code and the rows of the table."""
     about = {"jobs": 1, "no_hints": False, "underlay": "", "exercises": ["2"]}
-    options = SimpleNamespace(all=str(group), out=out, **about)
+    options = SimpleNamespace(all=str(group), out=out, course=read_course(), **about)
     code = professor.check_all(options)
     with (group / "check" / "table.csv").open(newline="", encoding="utf-8") as table:
         return code, list(csv.reader(table))[1:]
@@ -143,6 +144,6 @@ def test_the_table_has_what_could_be_checked():
     rows = list(csv.reader(table_csv(students, ["2", "5"]).splitlines()))
     cells = [["ada", "ok", "?", "1"], ["'=bob", "C1", "-", "0"], ["eve", "ok", "not done", "1"]]
     assert [row[:4] for row in rows[1:]] == cells
-    page = table_html(students, ["2", "5"])
+    page = table_html(students, ["2", "5"], {"2": "a package", "5": "launch files"})
     assert 'title="C21: no space">?</td>' in page and 'class="wrong"' in page
     assert ">not done<" in page

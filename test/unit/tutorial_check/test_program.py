@@ -79,7 +79,7 @@ def main(monkeypatch):
     ("outcomes", "code"), [([WELL], 0), ([BAD], 1), ([WELL, NO_VERDICT], 2), ([BAD, NO_VERDICT], 2)]
 )
 def test_what_could_not_be_checked_is_reported_beside_the_rest(main, outcomes, code, capsys):
-    assert main(lambda *_: outcomes) == code
+    assert main(lambda *_, **__: outcomes) == code
     out, err = capsys.readouterr()
     assert f"{sum(one.passed for one in outcomes)} of {len(outcomes)} exercises done" in out
     assert ("check: 5: no verdict: C21: no space\n" in err) == (NO_VERDICT in outcomes)
@@ -87,7 +87,7 @@ def test_what_could_not_be_checked_is_reported_beside_the_rest(main, outcomes, c
 
 def test_without_a_verdict_classroom_50_gets_no_file(main, tmp_path, capsys):
     words = ["--classroom", tmp_path / "classroom", "--json", tmp_path / "json", "--no-hints"]
-    assert main(lambda *_: [BAD, NO_VERDICT], *words) == 2
+    assert main(lambda *_, **__: [BAD, NO_VERDICT], *words) == 2
     assert sorted(path.name for path in tmp_path.iterdir()) == ["json"]
     assert f"check: {tmp_path}/classroom is not written" in capsys.readouterr().err
     assert "mkdir src" not in (tmp_path / "json").read_text()
@@ -96,7 +96,7 @@ def test_without_a_verdict_classroom_50_gets_no_file(main, tmp_path, capsys):
 @pytest.mark.parametrize("name", FORMATS)
 def test_a_bug_of_the_checker_is_no_fault_of_the_students(main, tmp_path, capsys, name):
     (tmp_path / "file").write_text("last week's")
-    assert main(lambda *_: [].pop(), f"--{name}", tmp_path / "file") == 2
+    assert main(lambda *_, **__: [].pop(), f"--{name}", tmp_path / "file") == 2
     error = capsys.readouterr().err
     assert "check: IndexError: pop from empty list (test_program.py:" in error
     assert "a fault of the check, not of your exercises" in error and "Traceback" not in error
@@ -107,7 +107,10 @@ def test_a_link_stays_one_and_so_does_a_pipe(main, tmp_path):
     (tmp_path / "link").symlink_to(tmp_path / "file")
     os.mkfifo(tmp_path / "pipe")
     reader = os.open(tmp_path / "pipe", os.O_RDONLY | os.O_NONBLOCK)
-    assert main(lambda *_: [WELL], "--json", tmp_path / "link", "--junit", tmp_path / "pipe") == 0
+    assert (
+        main(lambda *_, **__: [WELL], "--json", tmp_path / "link", "--junit", tmp_path / "pipe")
+        == 0
+    )
     assert (tmp_path / "link").is_symlink() and (tmp_path / "file").stat().st_size
     assert b"testsuites" in os.read(reader, 1000)
     os.close(reader)
@@ -118,7 +121,7 @@ def test_a_file_that_cannot_be_written(main, tmp_path, capsys, when):
     """It is found before the work, if it can be; and others are written all the same."""
     begun = []
 
-    def examine(*_):
+    def examine(*_, **__):
         begun.append(1)
         (tmp_path / "json").mkdir()
         return [WELL]
@@ -131,7 +134,7 @@ def test_a_file_that_cannot_be_written(main, tmp_path, capsys, when):
 
 
 def test_a_name_that_is_no_utf_8_is_reported(main, tmp_path, monkeypatch):
-    def examine(workspace, underlay, exercises, tell):
+    def examine(workspace, underlay, exercises, tell, **_):
         tell(BAD, BAD.results[0])
         return [BAD]
 

@@ -21,6 +21,7 @@ from typing import Any, Callable, Iterable
 
 from tutorial_check import bubblewrap, place
 from tutorial_check import workspace as workspaces
+from tutorial_check.course import FILE, OURS, read_course
 from tutorial_check.environment import environment_of
 from tutorial_check.model import CannotCheck, Result, passed
 
@@ -45,6 +46,8 @@ class Outcome:
     seconds: float = 0.0
     done: bool = False
     trouble: str = ""  # why a check could not be made, through no fault of the student's
+    title: str = ""
+    points: float = 0.0  # for all of it; 0: one a check
 
     @property
     def passed(self) -> bool:
@@ -67,12 +70,13 @@ def examine(
     *,
     only_first: bool = False,
     own: bool = True,
+    course: Path = OURS,
 ) -> list[Outcome]:
     """Return the Outcomes of a workspace; call report with each result as soon as it is there.
 
     underlay: setup.bash of the devel space with what students use and never write. only_first: end
     at the first check that is wrong. own: it is the caller's own workspace, whose links may lead
-    into the home folder. Raises CannotCheck.
+    into the home folder. course: its folder. Raises CannotCheck.
     """
     if not os.path.isfile(underlay):
         raise CannotCheck(
@@ -85,15 +89,17 @@ def examine(
     try:
         _compile()
         layout, shown = _hand_in(os.path.abspath(workspace), Path(folder), own)
+        checks = _course_within(Path(folder), course)
         underlay = os.path.abspath(underlay)
         kept = _kept(underlay)
-        wrapper = bubblewrap.command(folder, [*shown, *kept], SUITE)
+        wrapper = bubblewrap.command(folder, [*shown, checks, *kept], SUITE)
         orders = {
             "layout": [str(layout.root), str(layout.source)],
             "is_workspace": layout.is_workspace,
             "own": own,
             "underlay": underlay,
             "exercises": list(exercises),
+            "course": str(checks),
             "folder": folder,
             "kept": kept,
             "number": next(NUMBERS),
@@ -152,6 +158,17 @@ def _kept(underlay: str) -> list[str]:
     return [str(devel.parent), *(str(link.resolve()) for link in links if link.is_dir())]
 
 
+def _course_within(folder: Path, course: Path) -> Path:
+    """Copy what the examination needs of a course, and no solution, into its folder; ours is there."""
+    if course == OURS:
+        return course
+    copied = folder / "course"
+    copied.mkdir()
+    for path in (course / FILE, *course.glob("*.py")):
+        shutil.copy(path, copied)
+    return copied
+
+
 def _hand_in(workspace: str, folder: Path, own: bool) -> tuple[workspaces.Layout, list[Path]]:
     """Copy a workspace or zip; return its Layout, and what to show of it. Raises CannotCheck."""
     layout, inside = workspaces.hand_in(workspace, folder)
@@ -176,7 +193,11 @@ def _examine(orders: dict[str, Any], wrapper: list[str], report: Report) -> list
     }
     # No pipe, which a path in /proc would open: a program could plant a link to that.
     ours, theirs = socket.socketpair()
-    outcomes = {exercise: Outcome(exercise) for exercise in orders["exercises"]}
+    known = read_course(orders["course"]).exercises
+    outcomes = {
+        name: Outcome(name, title=known[name].title, points=known[name].points)
+        for name in orders["exercises"]
+    }
     with tempfile.TemporaryFile("w+") as log, ours:
         process = subprocess.Popen(
             # -s: without what pip put into the home folder, which may be shown nowhere

@@ -71,7 +71,7 @@ def examine(orders: dict[str, Any], send: Send, result: int) -> None:
     os.environ.pop("ROS_HOSTNAME", None)
 
     from tutorial_check import box, session  # noqa: PLC0415
-    from tutorial_check.exercises import all_checks  # noqa: PLC0415
+    from tutorial_check.course import checks_of, read_course  # noqa: PLC0415
 
     uid = place.unused_user(orders["number"]) if os.geteuid() == 0 else None
     environment.prepare(scratch, uid)
@@ -87,7 +87,9 @@ def examine(orders: dict[str, Any], send: Send, result: int) -> None:
         can_have_devices=apart,
         needed=[*orders["kept"], Path(__file__)],
     )
-    run = Run(all_checks(), one, one.second_look, one.box.patience.hopeless)
+    run = Run(
+        checks_of(read_course(orders["course"])), one, one.second_look, one.box.patience.hopeless
+    )
     if uid is not None:
         if not apart:  # then the suite may lie where that user cannot read
             importlib.import_module("rosbag")

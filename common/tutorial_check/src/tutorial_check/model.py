@@ -82,7 +82,7 @@ class Check:
     id: str
     exercise: str
     title: str
-    section: str  # of the handout
+    section: str  # of the course: "handout 4.3"
     needs: tuple[str, ...] = ()  # ids of the checks without which this one says nothing
     look: str = ""
     timeless: bool = False  # it reads files alone: no machine is too busy for that

@@ -14,11 +14,10 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass, field
 from html import escape
 from pathlib import Path
-from typing import Iterable
+from typing import Iterable, Mapping
 from urllib.parse import quote
 
 from tutorial_check.examination import Outcome, end_all, examine
-from tutorial_check.exercises import EXERCISES
 from tutorial_check.formats import as_json, clear, without_hints, write
 from tutorial_check.model import WRONG, CannotCheck, fault
 from tutorial_check.report import lines_of, summary, text_of
@@ -111,8 +110,9 @@ def check_all(options: argparse.Namespace) -> int:
     for name in TABLES:
         clear(out / name)
     _check_each(students, out, options)
-    for name, make in zip(TABLES, (table_csv, table_html)):
-        write(out / name, make(students, options.exercises))
+    titles = {name: one.title for name, one in options.course.exercises.items()}
+    write(out / TABLES[0], table_csv(students, options.exercises))
+    write(out / TABLES[1], table_html(students, options.exercises, titles))
     print(f"{out}/table.html, table.csv, and a report of each")
     outcomes = [outcome for student in students for outcome in student.outcomes]
     if any(one.trouble for one in students) or any(one.trouble for one in outcomes):
@@ -145,7 +145,13 @@ def _check(student: Student, out: Path, options: argparse.Namespace) -> Student:
     try:
         if student.path.is_symlink():  # it may lead to the files of another student
             raise CannotCheck("a link is not followed: put the folder or the archive itself here")
-        outcomes = examine(student.path, options.underlay, options.exercises, own=False)
+        outcomes = examine(
+            student.path,
+            options.underlay,
+            options.exercises,
+            own=False,
+            course=options.course.folder,
+        )
         student.outcomes = without_hints(outcomes) if options.no_hints else outcomes
     except Exception as error:
         student.trouble = fault(error)
@@ -173,11 +179,11 @@ def table_csv(students: Iterable[Student], exercises: list[str]) -> str:
     return lines.getvalue()
 
 
-def table_html(students: Iterable[Student], exercises: list[str]) -> str:
+def table_html(students: Iterable[Student], exercises: list[str], titles: Mapping[str, str]) -> str:
     """Return the same as a page; what is wrong is shown where the pointer rests."""
     rows = [
         "student",
-        *(f"{each}<br><small>{escape(EXERCISES[each])}</small>" for each in exercises),
+        *(f"{each}<br><small>{escape(titles[each])}</small>" for each in exercises),
     ]
     rows = [f"<tr>{''.join(f'<th>{word}</th>' for word in (*rows, 'done', 'took'))}</tr>"]
     for student in students:

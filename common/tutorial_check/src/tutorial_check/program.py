@@ -11,22 +11,15 @@ from typing import Sequence
 
 from node_kit.arguments import Parser
 from tutorial_check import bubblewrap
+from tutorial_check.course import OURS, read_course
 from tutorial_check.examination import Outcome, examine
-from tutorial_check.exercises import EXERCISES, HANDOUT
 from tutorial_check.formats import FORMATS, clear, without_hints, write
 from tutorial_check.model import CannotCheck, fault
 from tutorial_check.report import Terminal, summary
+from tutorial_check.self_test import self_test
 
 UNDERLAY = "TUTORIAL_UNDERLAY"  # environment variable: setup.bash of the underlay
 WORKSPACE = "TUTORIAL_IN"  # environment variable: the workspace of the shell that this is called in
-
-
-def meant(word: str) -> list[str]:
-    """Return the exercises that a word means: 4 is all of 4.2 to 4.5, and 5.1, a section of it, is 5."""
-    section = f"{word.rstrip('.')}."
-    inner = [each for each in EXERCISES if each.startswith(section)]
-    whole = [each for each in EXERCISES if section.startswith(f"{each}.")]
-    return inner or whole or [word]
 
 
 def path(word: str) -> str:
@@ -48,7 +41,8 @@ def _parser() -> Parser:
     parser = Parser(
         prog="./tutorial check",
         description="Checks the exercises of the tutorial in your own workspace.",
-        epilog="exercises: " + ", ".join(f"{name} ({what})" for name, what in EXERCISES.items()),
+        epilog="exercises: "
+        + ", ".join(f"{name} ({one.title})" for name, one in read_course().exercises.items()),
     )
     where, add = parser.add_mutually_exclusive_group(), parser.add_argument
     what = "your catkin workspace, a folder of packages, or a zip; in a shell of it not needed"
@@ -59,6 +53,10 @@ def _parser() -> Parser:
     what = "for the professor: every workspace, or zip, in a folder"
     where.add_argument("--all", type=path, metavar="FOLDER", help=what)
     add("exercises", nargs="*", metavar="EXERCISE", help="all of the handout without one")
+    what = "a folder with course.yaml and your own checks, in place of the handout"
+    add("--course", type=path, default=str(OURS), metavar="FOLDER", help=what)
+    what = "check the solutions that lie in the course, right ones and wrong ones"
+    where.add_argument("--self-test", action="store_true", help=what)
     add("--no-hints", action="store_true", help="say what is wrong, not how to mend it")
     add("--watch", action="store_true", help="check again whenever a file is saved")
     for name, what in FILES.items():
@@ -75,20 +73,26 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     """Return the options; end with a line if they are not clear."""
     parser = _parser()
     options = parser.parse_args(arguments)
-    if not options.workspace and not options.all:
+    try:
+        options.course = read_course(options.course)
+    except CannotCheck as error:
+        parser.error(str(error))
+    known = options.course.exercises
+    if not (options.workspace or options.all or options.self_test):
         words = " ".join(options.exercises)
         parser.error(f"which workspace? For example: --in ~/ros/hydro/catkin_ws {words}".rstrip())
-    wanted = [name for each in options.exercises for name in meant(each)]
-    unknown = [each for each in wanted if each not in EXERCISES]
+    wanted = [name for each in options.exercises for name in options.course.meant(each)]
+    unknown = [each for each in wanted if each not in known]
     if unknown:
-        parser.error(f"no exercise {unknown[0]}; there are {', '.join(EXERCISES)}")
+        parser.error(f"no exercise {unknown[0]}; there are {', '.join(known)}")
     _refuse_idle(parser, options)
     if options.jobs is None:
         options.jobs = 2
     if not options.underlay:
         parser.error("--underlay is missing; ./tutorial check gives it")
-    # In the handout's order, whatever theirs.
-    options.exercises = [each for each in EXERCISES if each in (wanted or HANDOUT)]
+    # In the course's order, whatever theirs.
+    wanted = wanted or options.course.by_default
+    options.exercises = [each for each in known if each in wanted]
     return options
 
 
@@ -101,8 +105,9 @@ def _refuse_idle(parser: argparse.ArgumentParser, options: argparse.Namespace) -
         parser.error(f"{files[0]} is for one workspace; --all writes a .json of each student")
     if files and options.watch:
         parser.error(f"{files[0]} is for one check; leave --watch out")
-    for name in ("out", "jobs"):
-        if getattr(options, name) is not None and not options.all:
+    many = {"out": options.all, "jobs": options.all or options.self_test}
+    for name, is_useful in many.items():
+        if getattr(options, name) is not None and not is_useful:
             parser.error(f"--{name} is for --all")
 
 
@@ -129,7 +134,10 @@ def check_one(options: argparse.Namespace) -> int:
         clear(file)
     terminal = Terminal(hints=not options.no_hints)
     terminal.busy("copying and preparing ...")
-    outcomes = examine(options.workspace, options.underlay, options.exercises, terminal.result)
+    outcomes = examine(
+        options.workspace, options.underlay, options.exercises, terminal.result,
+        course=options.course.folder,
+    )  # fmt: skip
     terminal.done()
     print(f"{summary(outcomes)} in {os.path.abspath(options.workspace)}")
     write_files(files, without_hints(outcomes) if options.no_hints else outcomes)
@@ -156,6 +164,8 @@ def main() -> None:
             from tutorial_check.professor import check_all  # noqa: PLC0415
 
             code = check_all(options)
+        elif options.self_test:
+            code = self_test(options.course, options.underlay, max(1, options.jobs))
         elif options.watch:
             from tutorial_check.watch import watch  # noqa: PLC0415
 

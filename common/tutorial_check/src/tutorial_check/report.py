@@ -6,7 +6,6 @@ import os
 import sys
 from typing import TYPE_CHECKING, Sequence, TextIO
 
-from tutorial_check.exercises import EXERCISES
 from tutorial_check.model import NOTE, OK, UNREACHED, WRONG, Result
 
 if TYPE_CHECKING:
@@ -32,13 +31,12 @@ def lines_of(result: Result, hints: bool = True) -> list[str]:
         lines.append(f"{MARGIN}hint:     {result.hint}")
     if result.status == WRONG:
         see = f"; see it yourself: {result.look}" if result.look else ""
-        book = "lesson" if result.section == "7" else "handout"
-        lines.append(f"{MARGIN}{book} {result.section}{see}")
+        lines.append(f"{MARGIN}{result.section}{see}")
     return lines
 
 
 def heading(outcome: Outcome) -> str:
-    return f"{outcome.id} {EXERCISES[outcome.id]}"
+    return f"{outcome.id} {outcome.title}".rstrip()
 
 
 def summary(outcomes: Sequence[Outcome]) -> str:

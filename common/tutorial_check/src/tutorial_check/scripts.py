@@ -55,6 +55,16 @@ def find_script(session: Session, package: str, name: str) -> str:
     raise wrong
 
 
+def program_of(session: Session, package: str, name: str) -> str:
+    """Return the path of a program that can be run, within its package. Raises Wrong."""
+    if session.package(package) is None:
+        there = ", ".join(each.name for each in session.packages) or "no package at all"
+        raise Wrong(f"a package {package} in src", there, hint=f"catkin_create_pkg {package} rospy")
+    script = find_script(session, package, name)
+    check_file(session, package, script)
+    return script
+
+
 def must_be_one(folder: Path, name: str) -> list[Path]:
     """Return the programs of that name that rosrun finds: one, or none. Raises Wrong."""
     found = sorted(path for path in folder.rglob(name) if path.is_file())

@@ -59,6 +59,7 @@ def report_once(options: argparse.Namespace) -> None:
             options.exercises,
             lambda outcome, _: terminal.busy(f"checking {outcome.id} ..."),
             only_first=True,
+            course=options.course.folder,
         )
     except CannotCheck as error:
         terminal.done()

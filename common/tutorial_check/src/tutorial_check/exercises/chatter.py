@@ -6,7 +6,7 @@ import statistics
 from typing import TYPE_CHECKING, Any, Iterable
 
 from tutorial_check.causes import with_import
-from tutorial_check.exercises import check
+from tutorial_check.course import check
 from tutorial_check.exercises.changed_programs import flipped_anonymous
 from tutorial_check.exercises.talking import LISTEN_S, PACKAGE, TOPIC, scripts, talk_of
 from tutorial_check.model import Note, Wrong, master_gone

@@ -7,7 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tutorial_check.class_facts import with_bases
-from tutorial_check.exercises import check, conversation
+from tutorial_check.course import check
+from tutorial_check.exercises import conversation
 from tutorial_check.exercises.driving import PACKAGE, drive
 from tutorial_check.exercises.joy2twist import NAME, check_manifest
 from tutorial_check.model import Note, Wrong

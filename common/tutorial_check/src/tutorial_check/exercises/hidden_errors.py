@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from tutorial_check.exercises import check
+from tutorial_check.course import check
 from tutorial_check.exercises.changed_programs import without_name
 from tutorial_check.exercises.classes import program
 from tutorial_check.exercises.driving import JOY, PACKAGE

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from tutorial_check.exercises import check, conversation
+from tutorial_check.course import check
+from tutorial_check.exercises import conversation
 from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL, PACKAGE, drive
 from tutorial_check.model import Note, Wrong
 from tutorial_check.scripts import check_end, check_file, find_script, odd_node

@@ -10,7 +10,8 @@ import shlex
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Callable
 
-from tutorial_check.exercises import check, launch_facts
+from tutorial_check.course import check
+from tutorial_check.exercises import launch_facts
 from tutorial_check.exercises.driving import PACKAGE
 from tutorial_check.exercises.joy2twist import NAME
 from tutorial_check.exercises.launch_text import attribute, parse_error, space_hint

@@ -7,7 +7,7 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from tutorial_check.exercises import check
+from tutorial_check.course import check
 from tutorial_check.exercises.driving import PACKAGE
 from tutorial_check.exercises.launch_files import BAG, JOY_HINT, STICK, LaunchFile, copy_bag
 from tutorial_check.exercises.launch_text import attribute

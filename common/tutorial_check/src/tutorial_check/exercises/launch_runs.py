@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Callable
 
 from tutorial_check import student_files
-from tutorial_check.exercises import check
+from tutorial_check.course import check
 from tutorial_check.exercises.driving import CMD_VEL, JOY, PACKAGE
 from tutorial_check.exercises.launch_files import BAG, STICK, LaunchFile
 from tutorial_check.exercises.launch_nodes import (

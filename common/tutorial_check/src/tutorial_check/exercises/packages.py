@@ -8,7 +8,7 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from tutorial_check.exercises import check
+from tutorial_check.course import check
 from tutorial_check.launch_xml import place_of, read
 from tutorial_check.manifests import unreadable
 from tutorial_check.model import Wrong

@@ -7,7 +7,7 @@ import shlex
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Iterable, Sequence
 
-from tutorial_check.exercises import check
+from tutorial_check.course import check
 from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL, PACKAGE
 from tutorial_check.exercises.joy2twist import main_script
 from tutorial_check.exercises.mapping import ANGULAR, LINEAR

@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any
 
-from tutorial_check.exercises import check, launch_nodes, launch_runs
+from tutorial_check.course import check
+from tutorial_check.exercises import launch_nodes, launch_runs
 from tutorial_check.exercises.driving import CMD_VEL, JOY, PACKAGE
 from tutorial_check.exercises.launch_files import JOY_HINT, REAL, TURTLEBOT, check_file
 from tutorial_check.exercises.robot import held, rest

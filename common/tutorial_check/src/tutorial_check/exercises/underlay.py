@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Sequence
 
 from tutorial_check import place
-from tutorial_check.exercises import check
+from tutorial_check.course import check
 from tutorial_check.exercises.packages import WANTED
 from tutorial_check.model import Note, Wrong
 from tutorial_check.workspace import underlays

@@ -6,18 +6,16 @@ import math
 import re
 from typing import TYPE_CHECKING, Any
 
-from tutorial_check.exercises import check
+from tutorial_check.course import check
 from tutorial_check.exercises.talking import PACKAGE
-from tutorial_check.model import CannotCheck, Wrong
-from tutorial_check.scripts import check_file, crash, find_script
-from tutorial_check.stage import START_S
+from tutorial_check.model import Wrong
+from tutorial_check.scripts import crash, program_of
+from tutorial_check.simulated_robot import BUMPER, TRUTH, SimulatedRobot
 
 if TYPE_CHECKING:
     from tutorial_check.session import Session
-    from tutorial_check.stage import Stage
 
 
-BUMPER, TRUTH = "/mobile_base/events/bumper", "/base_pose_ground_truth"
 SIDES = ("left", "center", "right")  # kobuki_msgs/BumperEvent: 0, 1, 2
 ANSWER_S = 2.0  # for a line on the screen
 STAMP = re.compile(r"\[[^\]]*\]")  # what rospy.loginfo puts before a text
@@ -25,22 +23,14 @@ STAMP = re.compile(r"\[[^\]]*\]")  # what rospy.loginfo puts before a text
 START_X, WALL_X, RADIUS_M = 2.9, 4.0, 0.178
 SPEEDS = (0.1, 0.3, 0.6)  # [m/s]
 LEAST_GAP_M, MOST_GAP_M = 0.3, 0.5
-REST_S, LONGEST_DRIVE_S = 1.0, 20.0
 WANDER_S, LONGEST_PUSH_S = 60.0, 1.0
 LEAST_WAY_M, LEAST_WIDTH_M = 3.0, 1.0
-
-
-def program_of(session: Session, name: str) -> str:
-    """Return the path of a program of the lesson. Raises Wrong if it cannot be run."""
-    script = find_script(session, PACKAGE, name)
-    check_file(session, PACKAGE, script)
-    return script
 
 
 @check("C35", "the bumper is read", "7", "C2", look="rosrun beginner_tutorials bumper.py")
 def reads_bumper(session: Session) -> str:
     """Press each bumper, and look for its name, or its number, on the screen."""
-    script = program_of(session, "bumper.py")
+    script = program_of(session, PACKAGE, "bumper.py")
     with session.stage() as stage:
         stage.call("advertise", BUMPER, "BumperEvent")
         program = stage.start(PACKAGE, script)
@@ -77,7 +67,7 @@ def reads_bumper(session: Session) -> str:
        " rosrun beginner_tutorials stop_before_wall.py _speed:=0.3")  # fmt: skip
 def stops(session: Session) -> str:
     """Let it drive to a wall with three speeds."""
-    script = program_of(session, "stop_before_wall.py")
+    script = program_of(session, PACKAGE, "stop_before_wall.py")
     gaps = [_gap(session, script, speed) for speed in SPEEDS]
     return ", ".join(f"{gap:.2f} m at {speed} m/s" for gap, speed in zip(gaps, SPEEDS))
 
@@ -85,21 +75,14 @@ def stops(session: Session) -> str:
 def _gap(session: Session, script: str, speed: float) -> float:
     """Return how far [m] before the wall it stops. Raises Wrong."""
     with session.stage() as stage:
-        _start_robot(stage, f"_initial_x:={START_X}")
+        robot = SimulatedRobot(stage, "_world:=room", f"_initial_x:={START_X}")
         program = stage.start(PACKAGE, script, f"_speed:={speed}")
-
-        def moves() -> bool:
-            return any(value[5] for _, _, value in stage.call("heard", TRUTH)[-50:])
-
-        stage.wait(lambda: program.ended or moves(), START_S)
-        if program.ended or not moves():
-            hint = "it publishes on cmd_vel for each LaserScan on scan"
-            expected = f"the robot drives towards the wall with _speed:={speed}"
-            raise crash(session, PACKAGE, program, expected, hint)
-        stage.wait(lambda: program.ended or not moves(), LONGEST_DRIVE_S)
-        path = [value for _, _, value in stage.call("heard", TRUTH)]
-        pressed, ended = bool(stage.call("count", BUMPER)), program.ended
-    fastest, gap = max(value[5] for value in path), WALL_X - RADIUS_M - path[-1][1]
+        path = robot.drive(
+            session, PACKAGE, program, f"the robot drives towards the wall with _speed:={speed}",
+            "it publishes on cmd_vel for each LaserScan on scan",
+        )  # fmt: skip
+        pressed, ended = bool(robot.bumps), program.ended
+    fastest, gap = max(sample.v for sample in path), WALL_X - RADIUS_M - path[-1].x
     expected = f"a stop {LEAST_GAP_M} to {MOST_GAP_M} m before the wall, with _speed:={speed}"
     if ended:
         raise crash(session, PACKAGE, program, expected)
@@ -108,7 +91,7 @@ def _gap(session: Session, script: str, speed: float) -> float:
         raise Wrong(f"{speed} m/s with _speed:={speed}", f"{fastest:.2f} m/s", script, hint)
     if pressed:
         seen = "it drives into the wall"
-    elif path[-1][5]:
+    elif path[-1].v:
         seen = f"it still drives, {gap:.2f} m before it"
     elif LEAST_GAP_M <= gap <= MOST_GAP_M:
         return gap
@@ -123,16 +106,16 @@ def _gap(session: Session, script: str, speed: float) -> float:
        " rosrun beginner_tutorials wander.py")  # fmt: skip
 def wanders(session: Session) -> str:
     """Let it wander for a minute."""
-    script = program_of(session, "wander.py")
+    script = program_of(session, PACKAGE, "wander.py")
     with session.stage() as stage:
-        _start_robot(stage)
+        robot = SimulatedRobot(stage, "_world:=room")
         program = stage.start(PACKAGE, script)
 
         def longest_push() -> float:
             return push_of(stage.call("heard", BUMPER), stage.call("heard", TRUTH)[-1][0])
 
         stage.wait(lambda: program.ended or longest_push() > LONGEST_PUSH_S, WANDER_S)
-        path = [value[1:3] for _, _, value in stage.call("heard", TRUTH)]
+        path = [(sample.x, sample.y) for sample in robot.path]
         push, ended = longest_push(), program.ended
     way = sum(math.dist(a, b) for a, b in zip(path, path[1:]))
     width = max(max(place[axis] for place in path) - min(place[axis] for place in path)
@@ -147,16 +130,6 @@ def wanders(session: Session) -> str:
         hint = "ahead while min(scan.ranges) is large enough, else turn until it is"
         raise Wrong(expected, f"{way:.1f} m in a place {width:.1f} m wide", script, hint)
     return f"{way:.1f} m"
-
-
-def _start_robot(stage: Stage, *arguments: str) -> None:
-    """Start the simulated robot in the room. Raises CannotCheck."""
-    stage.call("listen", TRUTH, "Odometry")
-    stage.call("listen", BUMPER, "BumperEvent")
-    robot = stage.start_ours("fake_turtlebot_sim", "fake_turtlebot.py", "_world:=room", *arguments)
-    stage.wait(lambda: robot.ended or stage.call("count", TRUTH), START_S)
-    if robot.ended or not stage.call("count", TRUTH):
-        raise CannotCheck(f"the simulated robot does not start: {robot.output[-200:]}")
 
 
 def push_of(events: Any, now: float) -> float:

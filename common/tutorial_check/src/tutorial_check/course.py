@@ -1,0 +1,161 @@
+"""A course: a folder with course.yaml and Python files, whose functions @check makes checks."""
+
+from __future__ import annotations
+
+import functools
+import importlib
+import sys
+import traceback
+import types
+from dataclasses import dataclass, field, fields, replace
+from pathlib import Path
+from typing import Any, Callable, TypeVar
+
+import yaml
+
+from tutorial_check.model import CannotCheck, Check
+
+FILE = "course.yaml"
+OURS = Path(__file__).resolve().with_name("exercises")
+# The modules of a course, which may lie anywhere, are those of a package of this name.
+PACKAGE = "tutorial_course"
+
+_Function = TypeVar("_Function", bound=Callable[..., Any])
+_checks: list[Check] = []  # of all courses that were loaded
+
+
+@dataclass(frozen=True)
+class Exercise:
+    """One exercise. document: in which its sections are. points: for all of it; 0: one a check."""
+
+    title: str
+    document: str = ""
+    points: float = 0.0
+    by_default: bool = True  # checked if no exercise is named
+
+
+@dataclass(frozen=True)
+class Course:
+    """What course.yaml says. exercises: in their order, by the number that the student knows."""
+
+    folder: Path
+    title: str = ""
+    document: str = "task"
+    exercises: dict[str, Exercise] = field(default_factory=dict)
+
+    @property
+    def by_default(self) -> list[str]:
+        """The exercises that are checked if none is named."""
+        return [name for name, exercise in self.exercises.items() if exercise.by_default]
+
+    def meant(self, word: str) -> list[str]:
+        """Return the exercises of a word: 4 is all of 4.2 to 4.5, and 5.1, a section of it, is 5."""
+        section = f"{word.rstrip('.')}."
+        inner = [each for each in self.exercises if each.startswith(section)]
+        whole = [each for each in self.exercises if section.startswith(f"{each}.")]
+        return inner or whole or [word]
+
+
+def check(
+    name: str, title: str, section: str, needs: str = "", *, look: str = "", timeless: bool = False
+) -> Callable[[_Function], _Function]:
+    """Make a function of a session a check: one line of the report. See model.Check."""
+
+    def keep(function: _Function) -> _Function:
+        about = (name, "", title, section, tuple(needs.split()), look, timeless)
+        _checks.append(Check(*about, function))
+        return function
+
+    return keep
+
+
+@functools.lru_cache(maxsize=None)
+def read_course(folder: str | Path = OURS) -> Course:
+    """Return the Course of a folder. Raises CannotCheck."""
+    file = Path(folder).resolve() / FILE
+    try:
+        given = yaml.safe_load(file.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise CannotCheck(f"{file}: {error.strerror}; a course is a folder with {FILE}") from None
+    except (UnicodeDecodeError, yaml.YAMLError) as error:
+        raise CannotCheck(f"{file}: no YAML: {' '.join(str(error).split())}") from None
+    try:
+        about = _known(Course, given, ("folder",))
+        named = about.pop("exercises", None)
+        if not isinstance(named, dict) or not named:
+            raise ValueError('exercises: {"1": TITLE, ...} is missing')
+        course = Course(folder=file.parent, **about)
+        for number, what in named.items():
+            if not isinstance(number, str):
+                raise ValueError(f'exercise {number}: write "{number}", in quotes')
+            words = _known(Exercise, what if isinstance(what, dict) else {"title": what})
+            exercise = Exercise(**{"document": course.document, **words})
+            course.exercises[number] = exercise
+    except (TypeError, ValueError) as error:
+        raise CannotCheck(f"{file}: {error}") from None
+    return course
+
+
+def _known(kind: type, given: Any, but: tuple[str, ...] = ()) -> dict[str, Any]:
+    """Return the fields of a dataclass that are given. Raises ValueError."""
+    known = {one.name: one for one in fields(kind) if one.name not in but}
+    if not isinstance(given, dict):
+        raise ValueError(f"a map of {', '.join(known)} is wanted, and not {given!r}")
+    for name, value in given.items():
+        if name not in known:
+            raise ValueError(f"{name} is not known; known are {', '.join(known)}")
+        allowed = {"str": ("str",), "bool": ("bool",), "float": ("int", "float")}
+        kinds = allowed.get(str(known[name].type), ())
+        if kinds and type(value).__name__ not in kinds:
+            raise ValueError(f"{name}: {value!r} is no {kinds[-1]}")
+    return given
+
+
+def checks_of(course: Course) -> list[Check]:
+    """Load the Python files of a course; return their checks, in its order. Raises CannotCheck."""
+    package = f"{__package__}.exercises" if course.folder == OURS else PACKAGE
+    if course.folder != OURS:
+        for name in [each for each in sys.modules if f"{each}.".startswith(f"{PACKAGE}.")]:
+            del sys.modules[name]  # of another course
+        _checks[:] = [one for one in _checks if not one.function.__module__.startswith(PACKAGE)]
+        sys.modules[PACKAGE] = types.ModuleType(PACKAGE)
+        sys.modules[PACKAGE].__path__ = [str(course.folder)]
+    names = [f"{package}.{path.stem}" for path in sorted(course.folder.glob("*.py"))]
+    for name in names:
+        try:
+            importlib.import_module(name)
+        except Exception as error:
+            raise CannotCheck(f"{_place(error, course.folder)}: {error}") from None
+    order = list(course.exercises)
+    found: dict[str, Check] = {}
+    for one in _checks:
+        if one.function.__module__ not in names:
+            continue
+        inside = [each for each in order if f"{one.section}.".startswith(f"{each}.")]
+        if not inside:
+            raise CannotCheck(f"{one.id}: section {one.section} is of no exercise of {FILE}")
+        if one.id in found:
+            raise CannotCheck(f"two checks are {one.id}; each needs a name of its own")
+        exercise = max(inside, key=len)
+        document = f"{course.exercises[exercise].document} {one.section}"
+        found[one.id] = replace(one, exercise=exercise, section=document)
+    for one in found.values():
+        lost = set(one.needs) - found.keys()
+        if lost:
+            raise CannotCheck(f"{one.id} needs {', '.join(sorted(lost))}, which is no check")
+    return sorted(found.values(), key=lambda one: (order.index(one.exercise), _number(one.id)))
+
+
+def _number(check_id: str) -> int:
+    """Return the number at the end of C12."""
+    digits = "".join(each for each in check_id if each.isdigit())
+    return int(digits or 0)
+
+
+def _place(error: Exception, folder: Path) -> str:
+    """Return FILE:LINE of a course where an exception came from."""
+    if isinstance(error, SyntaxError):
+        return f"{Path(error.filename or '').name}:{error.lineno}"
+    frames = traceback.extract_tb(error.__traceback__)
+    own = [frame for frame in frames if Path(frame.filename).parent == folder]
+    return f"{Path(own[-1].filename).name}:{own[-1].lineno}" if own else type(error).__name__

@@ -1,0 +1,135 @@
+"""A professor's own course: what is read, what is refused in one line, and which check is where."""
+
+import pytest
+
+from tutorial_check.course import check, checks_of, read_course
+from tutorial_check.examination import Outcome
+from tutorial_check.model import OK, UNREACHED, WRONG, CannotCheck, Result
+from tutorial_check.self_test import complaint_of, solutions
+
+YAML = 'title: T\ndocument: sheet\nexercises: {"2": two, "1": {title: one, points: 3}}\n'
+CHECKS = """
+from tutorial_check.course import check
+from tutorial_course.other import WORD
+@check("S2", "b", "1.1", "S1")
+def b(session): return WORD
+@check("S1", "a", "1")
+def a(session): pass
+@check("S10", "c", "2", timeless=True)
+def c(session): pass
+"""
+
+
+@pytest.fixture
+def course(tmp_path):
+    """course(yaml, checks): the checks of a course with these texts."""
+
+    def make(text=YAML, checks=CHECKS):
+        folder = tmp_path / str(len(list(tmp_path.iterdir())))
+        folder.mkdir()
+        (folder / "course.yaml").write_text(text)
+        (folder / "checks.py").write_text(checks)
+        (folder / "other.py").write_text("WORD = 'from beside'\n")
+        return read_course(folder)
+
+    return make
+
+
+def test_a_course_and_its_checks_in_its_order(course):
+    one = course()
+    assert [(n, e.title, e.points, e.document) for n, e in one.exercises.items()] == [
+        ("2", "two", 0.0, "sheet"),
+        ("1", "one", 3, "sheet"),
+    ]
+    found = checks_of(one)
+    assert [(each.id, each.exercise, each.section) for each in found] == [
+        ("S10", "2", "sheet 2"),
+        ("S1", "1", "sheet 1"),
+        ("S2", "1", "sheet 1.1"),
+    ]
+    assert found[2].function(None) == "from beside"
+    # Another course of the same process has its own.
+    assert [each.id for each in checks_of(course(checks="X = 1\n"))] == []
+
+
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        ("", "a map of title, document, exercises is wanted"),
+        ("title: [", "no YAML"),
+        ("title: T\n", "exercises: "),
+        ("points: 3\n", "points is not known; known are title, document, exercises"),
+        ("title: 3\nexercises: {'1': a}\n", "title: 3 is no str"),
+        ("exercises: {1: a}\n", 'exercise 1: write "1", in quotes'),
+        ("exercises: {'1': {title: a, points: many}}\n", "points: 'many' is no float"),
+        ("exercises: {'1': {title: a, point: 1}}\n", "point is not known; known are title"),
+        ("exercises: {'1': {points: 1}}\n", "title"),
+    ],
+)
+def test_a_wrong_file_is_one_line(course, text, why):
+    with pytest.raises(CannotCheck, match=r"course\.yaml: ") as error:
+        course(text)
+    assert why in str(error.value) and "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("checks", "why"),
+    [
+        ("def\n", "checks.py:1: "),
+        ("\nX = unknown\n", "checks.py:2: name 'unknown' is not defined"),
+        (CHECKS.replace('"1.1"', '"3"'), "S2: section 3 is of no exercise"),
+        (CHECKS.replace('"S10"', '"S1"'), "two checks are S1"),
+        (CHECKS.replace('"1.1", "S1"', '"1.1", "S7"'), "S2 needs S7, which is no check"),
+    ],
+)
+def test_wrong_checks_are_one_line(course, checks, why):
+    with pytest.raises(CannotCheck) as error:
+        checks_of(course(checks=checks))
+    assert why in str(error.value) and "\n" not in str(error.value)
+
+
+def test_a_folder_without_a_course(tmp_path):
+    with pytest.raises(CannotCheck, match=r"a course is a folder with course\.yaml"):
+        read_course(tmp_path)
+
+
+def test_check_leaves_a_function_as_it_is():
+    assert check("Z1", "z", "1")(len) is len
+
+
+# ------------------------------------------------------------------------------------ self-test
+
+BAD = Result("S2", WRONG, "b", seen="crooked")
+BLOCKED = Result("S3", UNREACHED, "c", seen="first mend S2")
+
+
+@pytest.mark.parametrize(
+    ("named", "results", "why"),
+    [
+        ("", [Result("S1", OK, "a")], ""),
+        ("", [Result("S1", OK, "a"), BAD], "S2 is wrong: crooked"),
+        ("S2", [Result("S1", OK, "a"), BAD, BLOCKED], ""),
+        ("S3", [BAD, BLOCKED], "S3 should be the first that is wrong, and S2 is: crooked"),
+        ("S3", [Result("S3", OK, "c")], "S3 should be wrong, and nothing is"),
+    ],
+)
+def test_a_solution_and_what_it_should_come_to(named, results, why):
+    assert complaint_of(named, [Outcome("1", results, done=True)]) == why
+    trouble = Outcome("1", results, done=True, trouble="no space")
+    assert complaint_of(named, [trouble]) == "could not be checked: 1: no space"
+
+
+def test_the_solutions_of_a_course(course):
+    one = course()
+    with pytest.raises(CannotCheck, match="a self-test needs a right solution"):
+        list(solutions(one))
+    for name in ("right", "right_other", "wrong_S2_crooked"):
+        (one.folder / "solutions" / name).mkdir(parents=True)
+    assert [(name, at, len(folders)) for name, at, folders in solutions(one)] == [
+        ("right", "", 1),
+        ("right_other", "", 1),
+        ("wrong_S2_crooked", "S2", 2),
+    ]
+    (one.folder / "solutions" / "odd").mkdir()
+    with pytest.raises(CannotCheck, match="call it right_WHAT, or wrong_CHECK_WHAT"):
+        list(solutions(one))
