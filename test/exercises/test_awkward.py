@@ -17,6 +17,7 @@ from edits import JOY2TWIST, TALKER, B, J, apply, chmod, move, put
 
 from tutorial_check.course import read_course
 from tutorial_check.examination import examine
+from tutorial_check.hints import LATER
 from tutorial_testing.processes import Program, command_line, descendants, lives
 from tutorial_testing.waiting import wait_for
 
@@ -70,8 +71,12 @@ def test_wrong_is_exit_code_1(literal, underlay):
     chmod(TALKER, 0o644)(literal)
     code, out, _ = check(underlay, "--in", literal.parent, "3")
     assert code == 1
-    assert f"hint:     chmod +x {literal}/{TALKER}\n" in out
-    assert f"yourself: ls -l {literal}/{TALKER}\n" in out
+    assert f"hint:     {LATER}\n" in out
+    again = check(underlay, "--in", literal.parent, "3")[1]
+    assert f"hint:     chmod +x {literal}/{TALKER}\n" in again
+    code, out, error = check(underlay, "--in", literal.parent, "--solution", "3")
+    assert (code, out) == (2, "") and "3 is not done yet" in error
+    assert f"yourself: ls -l {literal}/{TALKER}\n" in again
     assert "hint" not in check(underlay, "--in", literal.parent, "3", "--no-hints")[1]
 
 
@@ -104,7 +109,7 @@ def test_a_home_folder_with_a_package_deep_below(literal, tmp_path, underlay):
 
 def test_packages_outside_of_src(literal, underlay):
     move(B, f"../{B}")(literal)
-    code, out, _ = check(underlay, "--in", literal.parent, "2")
+    code, out, _ = check(underlay, "--in", literal.parent, "2", "--hints", "2")
     assert code == 1
     assert f"hint:     mv {literal.parent}/{B} {literal}\n" in out
 
@@ -211,6 +216,9 @@ def test_watch(literal, underlay, tmp_path):
     env = environment(PYTHONUNBUFFERED="1")
     with subprocess.Popen(words, stdout=subprocess.PIPE, text=True, env=env) as process:
         try:
+            first = itertools.takewhile(lambda line: not line.startswith("waiting"), process.stdout)
+            assert f"hint:     {LATER}" in "".join(first)
+            (workspace / "src" / TALKER).touch()
             first = itertools.takewhile(lambda line: not line.startswith("waiting"), process.stdout)
             assert "chmod +x" in "".join(first)
             chmod(TALKER, 0o755)(workspace / "src")

@@ -49,6 +49,16 @@ URLS = {f"{name}_URL": f"https://git.example/{name}" for name in ("COMMIT", "REL
 GIVEN = {"CLASSROOM": "ros", "ASSIGNMENT": "joy", "SUBMISSION_TAG": "submit/1", **URLS}
 
 
+def test_the_points_of_a_course():
+    two = Outcome("1", [Result("S1", OK, "a"), Result("S2", WRONG, "b")], done=True, points=3.0)
+    tests = json.loads(as_gradescope([two, GOOD]))["tests"]
+    assert [(one["score"], one["max_score"]) for one in tests] == [
+        (1.5, 1.5), (0.0, 1.5), (1.0, 1.0), (1.0, 1.0),
+    ]  # fmt: skip
+    found = json.loads(as_classroom([two, GOOD], {}))
+    assert (found["score"], found["max-score"]) == (1, 4.0)
+
+
 def test_json():
     found = json.loads(as_json([GOOD, BAD, NO_VERDICT, EMPTY]))
     assert (found["passed"], found["total"]) == (1, 4)

@@ -31,7 +31,7 @@ def group(tmp_path, monkeypatch):
 
 def check_all(group, out=None):
     """Return the exit code and the rows of the table."""
-    about = {"jobs": 1, "no_hints": False, "underlay": "", "exercises": ["2"]}
+    about = {"jobs": 1, "hints": 2, "underlay": "", "exercises": ["2"]}
     options = SimpleNamespace(all=str(group), out=out, course=read_course(), **about)
     code = professor.check_all(options)
     with (group / "check" / "table.csv").open(newline="", encoding="utf-8") as table:

@@ -26,12 +26,16 @@ _checks: list[Check] = []  # of all courses that were loaded
 
 @dataclass(frozen=True)
 class Exercise:
-    """One exercise. document: in which its sections are. points: for all of it; 0: one a check."""
+    """One exercise. document: in which its sections are. points: for all of it; 0: one a check.
+
+    solution: files from the course's folder, shown when the exercise is done.
+    """
 
     title: str
     document: str = ""
     points: float = 0.0
     by_default: bool = True  # checked if no exercise is named
+    solution: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -57,12 +61,19 @@ class Course:
 
 
 def check(
-    name: str, title: str, section: str, needs: str = "", *, look: str = "", timeless: bool = False
+    name: str,
+    title: str,
+    section: str,
+    needs: str = "",
+    *,
+    look: str = "",
+    timeless: bool = False,
+    eager: bool = False,
 ) -> Callable[[_Function], _Function]:
     """Make a function of a session a check: one line of the report. See model.Check."""
 
     def keep(function: _Function) -> _Function:
-        about = (name, "", title, section, tuple(needs.split()), look, timeless)
+        about = (name, "", title, section, tuple(needs.split()), look, timeless, eager)
         _checks.append(Check(*about, function))
         return function
 
@@ -105,6 +116,7 @@ def _known(kind: type, given: Any, but: tuple[str, ...] = ()) -> dict[str, Any]:
         if name not in known:
             raise ValueError(f"{name} is not known; known are {', '.join(known)}")
         allowed = {"str": ("str",), "bool": ("bool",), "float": ("int", "float")}
+        allowed["tuple[str, ...]"] = ("list",)
         kinds = allowed.get(str(known[name].type), ())
         if kinds and type(value).__name__ not in kinds:
             raise ValueError(f"{name}: {value!r} is no {kinds[-1]}")

@@ -15,17 +15,17 @@ from typing import Any, Callable, Sequence
 
 import rosgraph
 import rospy
-from geometry_msgs.msg import Twist
+from geometry_msgs.msg import Twist, Vector3
 from kobuki_msgs.msg import BumperEvent
 from nav_msgs.msg import Odometry
-from sensor_msgs.msg import Joy
+from sensor_msgs.msg import Joy, LaserScan
 from std_msgs.msg import String
 
 from node_kit.careful_connections import connect_once
 
 NAME = "tutorial_check"
 ECHO = f"/{NAME}/echo"  # topic of the Echo
-KINDS = {each.__name__: each for each in (BumperEvent, Joy, Odometry, String, Twist)}
+KINDS = {each.__name__: each for each in (BumperEvent, Joy, LaserScan, Odometry, String, Twist)}
 MOST_KEPT = 20_000  # messages of a topic
 
 
@@ -34,6 +34,10 @@ def _joy(values: tuple[Sequence[float], Sequence[int]]) -> Joy:
     joy = Joy(axes=axes, buttons=buttons)
     joy.header.stamp = rospy.Time.now()
     return joy
+
+
+def _twist(velocity: Sequence[float]) -> Twist:
+    return Twist(Vector3(*velocity[:3]), Vector3(*velocity[3:]))
 
 
 def _plain(message: Any) -> Any:
@@ -48,6 +52,8 @@ def _plain(message: Any) -> Any:
         place, turn = pose.position, pose.orientation
         velocity = (twist.linear.x, twist.angular.z)
         return (message.header.stamp.to_sec(), place.x, place.y, turn.z, turn.w, *velocity)
+    if isinstance(message, LaserScan):
+        return tuple(message.ranges)
     if isinstance(message, BumperEvent):
         return (message.bumper, message.state)
     return message.data
@@ -126,6 +132,11 @@ class Driver:
         """Return how many publishers our subscriber is connected to."""
         return int(self._subscribers[topic].get_num_connections())
 
+    def ends_of(self, topic: str) -> list[str]:
+        """Return the methods that count the other ends of a topic of ours."""
+        ours = {"listeners": self._publishers, "speakers": self._subscribers}
+        return [method for method, topics in ours.items() if topic in topics]
+
     def heard(self, topic: str, since: int = 0) -> list[tuple[float, str, Any]]:
         return self._heard[topic][since:]
 
@@ -133,9 +144,9 @@ class Driver:
         return len(self._heard[topic])
 
     def send(self, topic: str, values: Any) -> float:
-        """Publish one message, (axes, buttons), (bumper, state) or text; return when."""
+        """Publish one message, (axes, buttons), (bumper, state), 6 velocities or text; return when."""
         publisher = self._publishers[topic]
-        make = {Joy: _joy, BumperEvent: lambda both: BumperEvent(*both)}
+        make = {Joy: _joy, BumperEvent: lambda both: BumperEvent(*both), Twist: _twist}
         publisher.publish(make.get(publisher.data_class, publisher.data_class)(values))
         return time.monotonic()
 

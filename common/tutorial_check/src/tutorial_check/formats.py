@@ -9,7 +9,7 @@ import re
 import xml.etree.ElementTree as ET
 from dataclasses import replace
 from pathlib import Path
-from typing import Callable, Mapping, Sequence
+from typing import Any, Callable, Mapping, Sequence
 
 from tutorial_check.examination import Outcome
 from tutorial_check.model import NOTE, OK, UNREACHED, WRONG, CannotCheck
@@ -86,13 +86,20 @@ def _legal(text: str) -> str:
     return re.sub("[^\n\t\x20-\ufffd\U00010000-\U0010ffff]", "", text)
 
 
+def points_of(outcome: Outcome) -> float:
+    """Return the points of one check: those of the exercise, divided by its checks, or one."""
+    return outcome.points / len(outcome.results) if outcome.points else 1.0
+
+
 def as_gradescope(outcomes: Sequence[Outcome]) -> str:
-    """Return Gradescope's results.json: one point a check; on top, on what there is no verdict."""
+    """Return Gradescope's results.json: the points of a course, or one a check; on top, on what there
+    is no verdict.
+    """
     tests = [
         {
             "name": f"{outcome.id} {result.id}: {result.title}",
-            "score": float(result.status in (OK, NOTE)),
-            "max_score": 1.0,
+            "score": points_of(outcome) * (result.status in (OK, NOTE)),
+            "max_score": points_of(outcome),
             "output": "\n".join(line.strip() for line in lines_of(result)),
             "visibility": "visible",
         }
@@ -107,16 +114,23 @@ def as_gradescope(outcomes: Sequence[Outcome]) -> str:
 
 
 def as_classroom(outcomes: Sequence[Outcome], environment: Mapping[str, str] = os.environ) -> str:
-    """Return Classroom 50's result: one point an exercise. environment: it names the submission."""
-    tests = [
-        {"test-name": heading(one), "passed": one.passed, "score": int(one.passed), "max-score": 1}
+    """Return Classroom 50's result: the points of each exercise, or one. environment: it names the
+    submission.
+    """
+    tests: list[dict[str, Any]] = [
+        {
+            "test-name": heading(one),
+            "passed": one.passed,
+            "score": (one.points or 1) * one.passed,
+            "max-score": one.points or 1,
+        }
         for one in outcomes
     ]
     given = [(field, environment.get(name)) for field, name in SUBMISSION.items()]
     about = {field: value for field, value in given if value}
     if "commit" in about:
         about.setdefault("review", about["commit"])
-    score = {"score": sum(outcome.passed for outcome in outcomes), "max-score": len(outcomes)}
+    score = {name: sum(one[name] for one in tests) for name in ("score", "max-score")}
     result = {"schema": "classroom50/result/v1", **about, **score, "tests": tests}
     return json.dumps(result, indent=1)
 

@@ -26,6 +26,7 @@ class Result:
     section: str = ""
     look: str = ""  # a command that shows it
     empty: bool = False  # a note that there was nothing to be checked
+    eager: bool = False  # its hint is no answer, and shown at once
 
 
 @dataclass(frozen=True)
@@ -86,10 +87,12 @@ class Check:
     needs: tuple[str, ...] = ()  # ids of the checks without which this one says nothing
     look: str = ""
     timeless: bool = False  # it reads files alone: no machine is too busy for that
+    eager: bool = False  # its hint is about the set-up, and shown at once
     function: Callable[[Any], Any] = lambda session: None  # returns a text, a Note or None
 
     def result(self, status: str, **more: Any) -> Result:
-        about = {"title": self.title, "section": self.section, "look": self.look, **more}
+        names = ("title", "section", "look", "eager")
+        about = {**{name: getattr(self, name) for name in names}, **more}
         return Result(self.id, status, **about)
 
 

@@ -152,7 +152,7 @@ def _check(student: Student, out: Path, options: argparse.Namespace) -> Student:
             own=False,
             course=options.course.folder,
         )
-        student.outcomes = without_hints(outcomes) if options.no_hints else outcomes
+        student.outcomes = without_hints(outcomes) if options.hints == 0 else outcomes
     except Exception as error:
         student.trouble = fault(error)
     student.seconds = time.monotonic() - began_s

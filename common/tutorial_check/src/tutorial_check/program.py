@@ -14,6 +14,7 @@ from tutorial_check import bubblewrap
 from tutorial_check.course import OURS, read_course
 from tutorial_check.examination import Outcome, examine
 from tutorial_check.formats import FORMATS, clear, without_hints, write
+from tutorial_check.hints import AGAIN, ALWAYS, Memory, show_solution
 from tutorial_check.model import CannotCheck, fault
 from tutorial_check.report import Terminal, summary
 from tutorial_check.self_test import self_test
@@ -57,7 +58,10 @@ def _parser() -> Parser:
     add("--course", type=path, default=str(OURS), metavar="FOLDER", help=what)
     what = "check the solutions that lie in the course, right ones and wrong ones"
     where.add_argument("--self-test", action="store_true", help=what)
-    add("--no-hints", action="store_true", help="say what is wrong, not how to mend it")
+    what = "0: say what is wrong, never how to mend it; 1: when the same is wrong again; 2: always"
+    add("--hints", type=int, choices=(0, 1, 2), help=f"{what} (1; with --all 2)")
+    add("--no-hints", action="store_const", const=0, dest="hints", help="the same as --hints 0")
+    add("--solution", action="store_true", help="show ours, of exercises that are done")
     add("--watch", action="store_true", help="check again whenever a file is saved")
     for name, what in FILES.items():
         add(f"--{name}", type=path, metavar="FILE", help=f"write {what}")
@@ -88,6 +92,8 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     _refuse_idle(parser, options)
     if options.jobs is None:
         options.jobs = 2
+    if options.hints is None:
+        options.hints = ALWAYS if options.all else AGAIN
     if not options.underlay:
         parser.error("--underlay is missing; ./tutorial check gives it")
     # In the course's order, whatever theirs.
@@ -101,6 +107,10 @@ def _refuse_idle(parser: argparse.ArgumentParser, options: argparse.Namespace) -
     files = [f"--{name}" for name in FORMATS if getattr(options, name)]
     if options.watch and options.all:
         parser.error("--watch is for one workspace")
+    if options.solution and (options.all or options.watch or options.self_test):
+        parser.error("--solution is for one workspace, and checks nothing")
+    if options.solution and not options.exercises:
+        parser.error("--solution of which exercise? For example: --solution 4.3")
     if files and options.all:
         parser.error(f"{files[0]} is for one workspace; --all writes a .json of each student")
     if files and options.watch:
@@ -132,15 +142,20 @@ def check_one(options: argparse.Namespace) -> int:
     files = {name: getattr(options, name) for name in FORMATS if getattr(options, name)}
     for file in files.values():
         clear(file)
-    terminal = Terminal(hints=not options.no_hints)
+    memory = Memory(options.workspace, options.course, options.hints)
+    if options.solution:
+        show_solution(options.course, options.exercises, memory)
+        return 0
+    terminal = Terminal(memory.hint_of)
     terminal.busy("copying and preparing ...")
     outcomes = examine(
         options.workspace, options.underlay, options.exercises, terminal.result,
         course=options.course.folder,
     )  # fmt: skip
     terminal.done()
+    memory.keep(outcomes)
     print(f"{summary(outcomes)} in {os.path.abspath(options.workspace)}")
-    write_files(files, without_hints(outcomes) if options.no_hints else outcomes)
+    write_files(files, without_hints(outcomes) if options.hints == 0 else outcomes)
     troubles = [outcome for outcome in outcomes if outcome.trouble]
     for one in troubles:
         print(f"check: {one.id}: no verdict: {one.trouble}", file=sys.stderr)

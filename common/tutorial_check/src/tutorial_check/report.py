@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 import sys
-from typing import TYPE_CHECKING, Sequence, TextIO
+from dataclasses import replace
+from typing import TYPE_CHECKING, Callable, Sequence, TextIO
 
 from tutorial_check.model import NOTE, OK, UNREACHED, WRONG, Result
 
@@ -16,7 +17,7 @@ COLOURS = {OK: "32", WRONG: "1;31", NOTE: "33", UNREACHED: "2"}
 MARGIN = " " * 11
 
 
-def lines_of(result: Result, hints: bool = True) -> list[str]:
+def lines_of(result: Result) -> list[str]:
     head = f"  {WORDS[result.status]:<6} {result.id:<4}{result.title}"
     if result.status == OK:
         return [head + (f"  ({result.seen})" if result.seen else "")]
@@ -27,7 +28,7 @@ def lines_of(result: Result, hints: bool = True) -> list[str]:
         lines.insert(1, f"{MARGIN}expected: {result.expected}")
     if result.where:
         lines.append(f"{MARGIN}where:    {result.where}")
-    if hints and result.hint:
+    if result.hint:
         lines.append(f"{MARGIN}hint:     {result.hint}")
     if result.status == WRONG:
         see = f"; see it yourself: {result.look}" if result.look else ""
@@ -59,9 +60,12 @@ def text_of(outcomes: Sequence[Outcome]) -> str:
 class Terminal:
     """Prints results as they come, with a line of what is done now where there is a terminal."""
 
-    def __init__(self, hints: bool = True, out: TextIO | None = None) -> None:
+    def __init__(
+        self, hint_of: Callable[[Result], str] = lambda one: one.hint, out: TextIO | None = None
+    ) -> None:
+        """hint_of: what to show as the hint of a Result."""
         self._out = out or sys.stdout
-        self._hints = hints
+        self._hint_of = hint_of
         self._heading = ""
         self.is_terminal = self._out.isatty()
         self._has_colour = self.is_terminal and "NO_COLOR" not in os.environ
@@ -79,7 +83,7 @@ class Terminal:
         if self._heading != outcome.id:
             self._heading = outcome.id
             print(heading(outcome), file=self._out)
-        first, *rest = lines_of(result, self._hints)
+        first, *rest = lines_of(replace(result, hint=self._hint_of(result)))
         if self._has_colour:
             first = f"\x1b[{COLOURS[result.status]}m{first}\x1b[0m"
         print("\n".join([first, *rest]), file=self._out, flush=True)

@@ -90,6 +90,20 @@ class Stage:
         """Wait until programs are as far as the condition says, or do nothing more."""
         return self.wait(condition, deadline_s, or_idle=True)
 
+    def meet(self, program: Program, *topics: str) -> bool:
+        """Return whether a program has connected to ours on these topics; wait for that, or its end."""
+
+        def has_met() -> bool:
+            counts = [
+                self.call(method, topic)
+                for topic in topics
+                for method in self.call("ends_of", topic)
+            ]
+            return all(counts)
+
+        self.wait_for_start(lambda: program.ended or has_met())
+        return not program.ended and has_met()
+
     def end(self) -> None:
         self.box.clear()
         for helper in reversed(self._helpers):

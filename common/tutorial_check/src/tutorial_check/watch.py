@@ -6,8 +6,10 @@ import argparse
 import contextlib
 import os
 import time
+from dataclasses import replace
 
 from tutorial_check.examination import examine
+from tutorial_check.hints import Memory
 from tutorial_check.model import WRONG, CannotCheck
 from tutorial_check.report import Terminal, lines_of, summary
 
@@ -50,7 +52,7 @@ def watch(options: argparse.Namespace) -> int:
 
 
 def report_once(options: argparse.Namespace) -> None:
-    terminal = Terminal()
+    terminal, memory = Terminal(), Memory(options.workspace, options.course, options.hints)
     terminal.busy("copying and preparing ...")
     try:
         outcomes = examine(
@@ -68,9 +70,10 @@ def report_once(options: argparse.Namespace) -> None:
     terminal.done()
     for outcome in outcomes:
         for wrong in [result for result in outcome.results if result.status == WRONG][:1]:
-            print("\n".join(lines_of(wrong, not options.no_hints)))
+            print("\n".join(lines_of(replace(wrong, hint=memory.hint_of(wrong)))))
         if outcome.trouble:
             print(f"check: {outcome.id}: no verdict: {outcome.trouble}")
+    memory.keep(outcomes)
     done = ", ".join(one.id for one in outcomes if one.passed and not one.empty)
     all_passed = all(outcome.passed for outcome in outcomes)
     print(summary(outcomes) if all_passed else f"done: {done or 'none yet'}")

@@ -22,7 +22,7 @@ AGAIN = "in the workspace: rm -r build devel, then catkin_make"
 STAND_INS = ("joy", "rbx1_", "turtlebot_")
 
 
-@check("C1", "the workspace", "2.1", look="ls src devel", timeless=True)
+@check("C1", "the workspace", "2.1", look="ls src devel", timeless=True, eager=True)
 def workspace(session: Session) -> Note | str | None:
     """Look for a src, and whether what was built was built over the suite."""
     layout = session.layout

@@ -52,7 +52,7 @@ KINDS = {  # of tests
 }
 IN_WORDS = ("shell", "run", "doctor", "check")  # which know --in
 OWN_PARSER = {  # programs that read their options themselves, and those for completion
-    "check": ("--in", "--all", "--watch", "--no-hints"),
+    "check": ("--in", "--all", "--watch", "--hints", "--solution", "--course", "--self-test"),
     "cockpit": ("--port", "--lan"),
 }
 EPILOG = """\

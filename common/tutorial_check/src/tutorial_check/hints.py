@@ -1,0 +1,92 @@
+"""Graded hints: what is wrong comes first; how to mend it, when the same is wrong again.
+
+What was wrong and what was done is remembered in the cache, for each workspace, and not in it.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import re
+import tempfile
+from pathlib import Path
+from typing import Any, Sequence
+
+from tutorial_check.course import Course
+from tutorial_check.examination import Outcome
+from tutorial_check.model import WRONG, CannotCheck, Result
+
+NEVER, AGAIN, ALWAYS = 0, 1, 2  # --hints
+CACHE = Path(os.environ.get("XDG_CACHE_HOME") or "~/.cache", "ros1_tutorial", "checked.json")
+LATER = "check again for one; or with --hints 2"
+
+
+def cause_of(result: Result) -> str:
+    """Return what makes two failures the same: the check and its words, without their numbers."""
+    return f"{result.id} {re.sub('[0-9.]+', '#', result.seen)}"
+
+
+class Memory:
+    """What the last check of a workspace found."""
+
+    def __init__(self, workspace: str, course: Course, level: int, cache: Path = CACHE) -> None:
+        """level: NEVER, AGAIN or ALWAYS. A memory that cannot be read is empty."""
+        self._level, self._cache = level, cache.expanduser()
+        self._key = f"{os.path.realpath(workspace)}\n{course.title}"
+        self._all = self._read()
+        about = self._all.get(self._key, {})
+        about = about if isinstance(about, dict) else {}
+        self._wrong, self.done = about.get("wrong", []), about.get("done", [])
+
+    def hint_of(self, result: Result) -> str:
+        """Return the hint for a result, or when there will be one, or ""."""
+        if self._level == NEVER or not result.hint:
+            return ""
+        shown = self._level == ALWAYS or result.status != WRONG or result.eager
+        return result.hint if shown or cause_of(result) in self._wrong else LATER
+
+    def keep(self, outcomes: Sequence[Outcome]) -> None:
+        """Remember what these came to; what was not checked stays as it was."""
+        checked = {outcome.id for outcome in outcomes}
+        now = {cause_of(one) for each in outcomes for one in each.results if one.status == WRONG}
+        made = {one.id for each in outcomes for one in each.results}
+        before = [cause for cause in self._wrong if cause.split()[0] not in made]
+        self._wrong = sorted({*before, *now})
+        self.done = [each for each in self.done if each not in checked]
+        self.done += [one.id for one in outcomes if one.passed and not one.empty]
+        there = {
+            key: one for key, one in self._read().items() if os.path.exists(key.split("\n")[0])
+        }
+        self._all = {**there, self._key: {"wrong": self._wrong, "done": self.done}}
+        with contextlib.suppress(OSError):  # without a memory each failure is a first one
+            self._cache.parent.mkdir(parents=True, exist_ok=True)
+            with tempfile.NamedTemporaryFile(
+                "w", dir=self._cache.parent, delete=False, encoding="utf-8"
+            ) as file:
+                json.dump(self._all, file)
+            os.replace(file.name, self._cache)
+
+    def _read(self) -> dict[str, Any]:
+        with contextlib.suppress(OSError, ValueError):
+            found = json.loads(self._cache.read_text(encoding="utf-8"))
+            if isinstance(found, dict):
+                return found
+        return {}
+
+
+def show_solution(course: Course, exercises: Sequence[str], memory: Memory) -> None:
+    """Print the course's own solution of exercises that are done. Raises CannotCheck."""
+    for name in exercises:
+        files = course.exercises[name].solution
+        if not files:
+            raise CannotCheck(f"{name}: this course has no solution to show")
+        if name not in memory.done:
+            raise CannotCheck(f"{name} is not done yet: its solution is shown when its check is ok")
+        for file in files:
+            path = (course.folder / file).resolve()
+            try:
+                text = path.read_text(encoding="utf-8")
+            except OSError as error:
+                raise CannotCheck(f"{path}: {error.strerror}") from None
+            print(f"# {name}: {path}\n{text}")

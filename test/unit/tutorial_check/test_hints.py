@@ -1,0 +1,91 @@
+"""Graded hints: the first failure says what is wrong, the same one again how to mend it."""
+
+import json
+
+import pytest
+
+from tutorial_check.course import read_course
+from tutorial_check.examination import Outcome
+from tutorial_check.hints import AGAIN, ALWAYS, LATER, NEVER, Memory, show_solution
+from tutorial_check.model import NOTE, OK, WRONG, CannotCheck, Result
+
+WRONG_SIGN = Result("C16", WRONG, "axes", seen="angular.z = -1.00 * axes[0]", hint="no minus")
+WRONG_AXIS = Result("C16", WRONG, "axes", seen="axis 2 drives", hint="axes[1]")
+A_NOTE = Result("C2", NOTE, "a package", seen="odd", hint="rename it")
+
+
+@pytest.fixture
+def memory(tmp_path):
+    """memory(level, workspace): what a new run of the checker knows."""
+
+    def make(level=AGAIN, workspace="ws"):
+        (tmp_path / workspace).mkdir(exist_ok=True)
+        path = str(tmp_path / workspace)
+        return Memory(path, read_course(), level, tmp_path / "cache" / "checked.json")
+
+    return make
+
+
+def test_the_same_failure_again_shows_how_to_mend_it(memory):
+    first = memory()
+    assert first.hint_of(WRONG_SIGN) == LATER
+    first.keep([Outcome("4.3", [WRONG_SIGN])])
+    assert memory().hint_of(WRONG_SIGN) == "no minus"
+    again = Result(**{**vars(WRONG_SIGN), "seen": "angular.z = -0.98 * axes[0]"})
+    assert memory().hint_of(again) == "no minus"  # a measured number does not make it another one
+    assert memory().hint_of(WRONG_AXIS) == LATER
+    assert memory(workspace="other").hint_of(WRONG_SIGN) == LATER
+    # Another exercise, checked meanwhile, does not make it a first one; that it was right does.
+    memory().keep([Outcome("2", [Result("C1", OK, "one")], done=True)])
+    assert memory().hint_of(WRONG_SIGN) == "no minus"
+    memory().keep([Outcome("4.3", [Result("C16", OK, "axes")], done=True)])
+    assert memory().hint_of(WRONG_SIGN) == LATER
+
+
+def test_the_levels(memory):
+    assert [memory(level).hint_of(WRONG_SIGN) for level in (NEVER, ALWAYS)] == ["", "no minus"]
+    assert memory().hint_of(A_NOTE) == "rename it"
+    assert memory().hint_of(Result("C1", WRONG, "one")) == ""
+    assert memory().hint_of(Result("C1", WRONG, "one", hint="cd", eager=True)) == "cd"
+
+
+@pytest.mark.parametrize("text", ["", "[]", "{", '{"/ws": 3}', '{"/ws First": {"wrong": []}}'])
+def test_a_memory_that_cannot_be_read_is_empty(memory, tmp_path, text):
+    (tmp_path / "cache").mkdir()
+    (tmp_path / "cache/checked.json").write_text(text)
+    memory().keep([Outcome("4.3", [WRONG_SIGN])])
+    assert memory().hint_of(WRONG_SIGN) == "no minus"
+    assert isinstance(json.loads((tmp_path / "cache/checked.json").read_text()), dict)
+
+
+def test_a_workspace_that_is_gone_is_forgotten(memory, tmp_path):
+    memory(workspace="old").keep([Outcome("4.3", [WRONG_SIGN])])
+    (tmp_path / "old").rmdir()
+    memory().keep([Outcome("4.3", [WRONG_SIGN])])
+    kept = json.loads((tmp_path / "cache/checked.json").read_text())
+    assert [key.split("\n")[0] for key in kept] == [str(tmp_path / "ws")]
+
+
+def test_a_memory_that_cannot_be_written_is_no_fault(tmp_path):
+    (tmp_path / "cache").write_text("a file in its place")
+    one = Memory("/ws", read_course(), AGAIN, tmp_path / "cache" / "checked.json")
+    one.keep([Outcome("4.3", [WRONG_SIGN])])
+    assert one.hint_of(WRONG_SIGN) == "no minus"
+
+
+def test_a_solution_is_shown_when_its_exercise_is_done(memory, capsys):
+    course = read_course()
+    with pytest.raises(CannotCheck, match=r"4\.3 is not done yet"):
+        show_solution(course, ["4.3"], memory())
+    memory().keep([Outcome("4.3", [Result("C16", OK, "axes")], done=True)])
+    show_solution(course, ["4.3"], memory())
+    assert "publish_twist.py\n#!/usr/bin/" in capsys.readouterr().out
+    with pytest.raises(CannotCheck, match=r"4\.4: this course has no solution"):
+        show_solution(course, ["4.4"], memory())
+
+
+def test_each_solution_of_the_handout_is_there():
+    course = read_course()
+    named = [file for each in course.exercises.values() for file in each.solution]
+    assert len(named) > 9
+    assert all((course.folder / file).is_file() for file in named)
