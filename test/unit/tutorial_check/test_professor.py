@@ -2,7 +2,6 @@
 
 import csv
 import os
-import re
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -11,8 +10,9 @@ import pytest
 from tutorial_check import professor
 from tutorial_check.course import read_course
 from tutorial_check.examination import Outcome
+from tutorial_check.last_run import digest_of, digest_of_checks
 from tutorial_check.model import OK, UNREACHED, WRONG, CannotCheck, Result
-from tutorial_check.professor import Student, table_csv, table_html
+from tutorial_testing.waiting import wait_for
 
 WELL = Outcome("2", [Result("C1", OK, "one")], 1.0, True)
 BAD = Outcome("2", [Result("C1", WRONG, "one", seen="none", hint="mkdir src")], 1.0, True)
@@ -29,9 +29,9 @@ def group(tmp_path, monkeypatch):
     return tmp_path / "group"
 
 
-def check_all(group, out=None):
+def check_all(group, out=None, again=False):
     """Return the exit code and the rows of the table."""
-    about = {"jobs": 1, "hints": 2, "underlay": "", "exercises": ["2"]}
+    about = {"jobs": 1, "hints": 2, "again": again, "underlay": "", "exercises": ["2"]}
     options = SimpleNamespace(all=str(group), out=out, course=read_course(), **about)
     code = professor.check_all(options)
     with (group / "check" / "table.csv").open(newline="", encoding="utf-8") as table:
@@ -47,7 +47,7 @@ def test_a_folder_and_a_zip_of_one_name_have_each_a_report(group):
     assert (code, [row[0] for row in rows]) == (0, names)
     assert sorted(path.stem for path in (group / "check").glob("*.txt")) == names
     page = (group / "check/table.html").read_text()
-    assert all(f'<a href="{name}.txt">{name}</a>' in page for name in names)
+    assert all(f'<a href="./{name}.txt">{name}</a>' in page for name in names)
 
 
 def test_odd_names(group):
@@ -61,7 +61,7 @@ def test_odd_names(group):
     assert "File name too long" in rows[2][-1]
     assert {b"m\xfcller.txt", b"zoe.txt"} <= set(os.listdir(os.fsencode(group / "check")))
     page = (group / "check/table.html").read_text(encoding="utf-8")
-    assert '<a href="m%FCller.txt">m\\udcfcller</a>' in page
+    assert '<a href="./m%FCller.txt">m\\udcfcller</a>' in page
 
 
 def test_what_was_said_last_week_is_not_todays(group, monkeypatch):
@@ -70,7 +70,7 @@ def test_what_was_said_last_week_is_not_todays(group, monkeypatch):
     reports = [group / "check" / name for name in ("ada.json", "ada.txt")]
     assert all(file.exists() for file in reports)
     monkeypatch.setattr(professor, "examine", lambda *_, **__: [].pop())
-    assert check_all(group)[0] == 2
+    assert check_all(group, again=True)[0] == 2
     assert [file.exists() for file in reports] == [False, True]
     assert "could not be checked: IndexError" in reports[1].read_text()
 
@@ -121,29 +121,73 @@ def test_the_results_of_an_earlier_check_are_no_student(group, tmp_path, capsys)
     assert [row[0] for row in check_all(group)[1]] == ["ada"]
 
 
-@pytest.mark.parametrize("cell", ["=1", "\t=1", "\r=1", "x;=1", "x,\n+1", " -1", "a|@b"])
-def test_no_cell_is_a_formula(cell):
-    """Of whatever a spreadsheet takes for the end of a cell."""
-    table = table_csv([Student(cell, None, trouble=f"{cell}: no zip")], ["2"])
-    for written in re.split(r"[;,|\t\r\n]", table):
-        assert written.strip(' "')[:1] not in tuple("=+-@"), table
+def test_only_what_changed_is_checked_again(group, monkeypatch, capsys):
+    begun = []
+    monkeypatch.setattr(
+        professor, "examine", lambda path, *_, **__: begun.append(path.name) or [WELL]
+    )
+    for name in ("ada", "bob"):
+        (group / name).mkdir()
+        (group / name / "talker.py").write_text("1")
+    assert check_all(group)[0] == 0
+    (group / "bob" / "talker.py").write_text("2")
+    assert check_all(group) == (0, [[*row[:4], "0.0", *row[5:]] for row in check_all(group)[1]])
+    assert sorted(begun) == ["ada", "bob", "bob"]
+    assert "ada: 1 of 1 exercises done, unchanged since the last check" in capsys.readouterr().out
+    check_all(group, again=True)
+    assert sorted(begun) == ["ada", "ada", "bob", "bob", "bob"]
+    # Where there was no verdict there is nothing to keep.
+    undecided = Outcome("2", UNDECIDED.results, 1.0, True, "C1: no space")
+    monkeypatch.setattr(
+        professor, "examine", lambda *_, **__: begun.append("trouble") or [undecided]
+    )
+    check_all(group, again=True)
+    check_all(group)
+    assert begun.count("trouble") == 4
 
 
-def test_a_usual_name_is_as_it_was():
-    names = ["Anna-Lena (2)", "a = b - c", "o'neill_7@uni.example", "a=b"]
-    table = table_csv([Student(name, None) for name in names], ["2"])
-    assert [row[0] for row in csv.reader(table.splitlines())][1:] == names
+def test_the_page_can_be_read_while_it_is_made(group, monkeypatch):
+    pages = []
+
+    def examine(*_, **__):
+        page, left = group / "check/table.html", 2 - len(pages)
+        wait_for(lambda: page.read_text().count('">...</td>') == left, "page after the one before")
+        pages.append(page.read_text())
+        return [WELL]
+
+    monkeypatch.setattr(professor, "examine", examine)
+    for name in ("ada", "bob"):
+        (group / name).mkdir()
+    assert check_all(group)[0] == 0
+    assert [page.count('">...</td>') for page in pages] == [2, 1]
+    assert all('http-equiv="refresh"' in page for page in pages)
+    assert 'http-equiv="refresh"' not in (group / "check/table.html").read_text()
 
 
-def test_the_table_has_what_could_be_checked():
-    students = [
-        Student("ada", None, [WELL, NO_VERDICT]),
-        Student("=bob", None, [BAD, UNDECIDED]),
-        Student("eve", None, [WELL, EMPTY]),
-    ]
-    rows = list(csv.reader(table_csv(students, ["2", "5"]).splitlines()))
-    cells = [["ada", "ok", "?", "1"], ["'=bob", "C1", "-", "0"], ["eve", "ok", "not done", "1"]]
-    assert [row[:4] for row in rows[1:]] == cells
-    page = table_html(students, ["2", "5"], {"2": "a package", "5": "launch files"})
-    assert 'title="C21: no space">?</td>' in page and 'class="wrong"' in page
-    assert ">not done<" in page
+@pytest.mark.parametrize("text", ["", "[]", "{", '{"ada": 3}', '{"ada": {"outcomes": [{"x": 1}]}}'])
+def test_a_broken_state_is_none(group, text):
+    (group / "ada").mkdir()
+    (group / "check").mkdir()
+    (group / "check/.state.json").write_text(text)
+    assert check_all(group)[0] == 0
+
+
+def test_what_makes_two_submissions_the_same(tmp_path):
+    ada = tmp_path / "ada"
+    (ada / "build").mkdir(parents=True)
+    (ada / "talker.py").write_text("1")
+    os.mkfifo(ada / "pipe")
+    first = digest_of(ada, "checks")
+    (ada / "build" / "made").write_text("by catkin_make")
+    assert digest_of(ada, "checks") == first != digest_of(ada, "other checks")
+    (ada / "talker.py").chmod(0o755)
+    executable = digest_of(ada, "checks")
+    (ada / "link").symlink_to("/etc/passwd")
+    linked = digest_of(ada, "checks")
+    (ada / "link").unlink()
+    (ada / "link").symlink_to("/etc/group")
+    assert len({first, executable, linked, digest_of(ada, "checks")}) == 4
+    course = read_course()
+    asked = [(["2"], 2), (["3"], 2), (["2"], 0)]
+    assert len({digest_of_checks(course, *one) for one in asked}) == 3
+    assert digest_of(tmp_path / "gone", "checks") == ""

@@ -4,58 +4,22 @@ from __future__ import annotations
 
 import argparse
 import contextlib
-import csv
-import io
 import os
-import re
 import time
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor, as_completed
-from dataclasses import dataclass, field
-from html import escape
 from pathlib import Path
-from typing import Iterable, Mapping
-from urllib.parse import quote
 
-from tutorial_check.examination import Outcome, end_all, examine
+from tutorial_check.class_page import Student, table_csv, table_html
+from tutorial_check.examination import end_all, examine
 from tutorial_check.formats import as_json, clear, without_hints, write
-from tutorial_check.model import WRONG, CannotCheck, fault
-from tutorial_check.report import lines_of, summary, text_of
+from tutorial_check.last_run import LastRun, digest_of, digest_of_checks
+from tutorial_check.model import CannotCheck, fault
+from tutorial_check.report import summary, text_of
 
 ARCHIVES = (".zip", ".tar", ".tgz", ".gz", ".bz2", ".xz", ".7z", ".rar")
 TABLES = ("table.csv", "table.html")
 RESULTS = (".csv", ".html", ".txt", ".json")
-# Where a spreadsheet begins a cell, whatever it takes for what separates two; and then a formula.
-FORMULA = re.compile(r"(^|[;,|\t\r\n])(?=\s*[=+\-@])")
-STYLE = (
-    "body{font-family:sans-serif}td,th{padding:.2em .6em;border:1px solid #ccc}"
-    "table{border-collapse:collapse}.ok{background:#cfc}.wrong{background:#fcc}.no{color:#777}"
-)
-
-
-@dataclass
-class Student:
-    """One workspace, or zip."""
-
-    name: str
-    path: Path
-    outcomes: list[Outcome] = field(default_factory=list)
-    trouble: str = ""  # why nothing could be checked
-    seconds: float = 0.0
-
-    def cell(self, exercise: str) -> tuple[str, str]:
-        """Return a word and details for an exercise: ok, the check that is wrong, - or ?."""
-        if not self.outcomes:
-            return "?", self.trouble
-        outcome = next(each for each in self.outcomes if each.id == exercise)
-        if outcome.empty:
-            return "not done", "nothing to check"
-        if outcome.passed:
-            return "ok", ""
-        wrong = [result for result in outcome.results if result.status == WRONG]
-        if wrong:
-            return wrong[0].id, "\n".join(lines_of(wrong[0]))
-        return ("?", outcome.trouble) if outcome.trouble else ("-", "not reached")
 
 
 def find_students(folder: str | Path, out: str | Path) -> list[Student]:
@@ -103,16 +67,16 @@ def check_all(options: argparse.Namespace) -> int:
         out.mkdir(parents=True, exist_ok=True)
     if not (os.path.isdir(out) and os.access(out, os.W_OK | os.X_OK)):
         raise CannotCheck(f"{out}: no folder that may be written to; --out names another one")
+    last_run = LastRun(out)
     for student in students:  # what an earlier check said
+        student.before = last_run.outcomes(student.name)
         for ending in (".txt", ".json"):
             with contextlib.suppress(OSError):
                 (out / f"{student.name}{ending}").unlink()
     for name in TABLES:
         clear(out / name)
-    _check_each(students, out, options)
-    titles = {name: one.title for name, one in options.course.exercises.items()}
+    Check(students, out, options, last_run).run()
     write(out / TABLES[0], table_csv(students, options.exercises))
-    write(out / TABLES[1], table_html(students, options.exercises, titles))
     print(f"{out}/table.html, table.csv, and a report of each")
     outcomes = [outcome for student in students for outcome in student.outcomes]
     if any(one.trouble for one in students) or any(one.trouble for one in outcomes):
@@ -120,80 +84,78 @@ def check_all(options: argparse.Namespace) -> int:
     return 0 if all(outcome.passed for outcome in outcomes) else 1
 
 
-def _check_each(students: list[Student], out: Path, options: argparse.Namespace) -> None:
-    from tqdm import tqdm  # noqa: PLC0415  only here
+class Check:
+    """The checks of all students, some at a time; the page shows how far they are."""
 
-    with ThreadPoolExecutor(max(1, options.jobs)) as pool, tqdm(
-        total=len(students), unit="student", disable=None
-    ) as bar:
-        checks = [pool.submit(_check, student, out, options) for student in students]
+    def __init__(
+        self, students: list[Student], out: Path, options: argparse.Namespace, last_run: LastRun
+    ) -> None:
+        """Take the students, and what the last run found."""
+        self._students, self._out, self._options = students, out, options
+        self._last_run = last_run
+        self._checks = digest_of_checks(options.course, options.exercises, options.hints)
+        self._digests: dict[str, str] = {}
+        self._titles = {name: one.title for name, one in options.course.exercises.items()}
+
+    def run(self) -> None:
+        """Check all; write the page after each, and at the end what the next run needs."""
+        from tqdm import tqdm  # noqa: PLC0415  only here
+
+        self._show()
+        with ThreadPoolExecutor(max(1, self._options.jobs)) as pool, tqdm(
+            total=len(self._students), unit="student", disable=None
+        ) as bar:
+            checks = [pool.submit(self._check, student) for student in self._students]
+            try:
+                for student, remark in (done.result() for done in as_completed(checks)):
+                    bar.update()
+                    verdict = student.trouble or summary(student.outcomes)
+                    bar.write(f"{student.name}: {verdict}, {remark}")
+                    self._show()
+            except KeyboardInterrupt:  # the pool would go on to the last student
+                for check in checks:
+                    check.cancel()
+                end_all()
+                raise
+        self._last_run.keep((one, self._digests.get(one.name, "")) for one in self._students)
+
+    def _show(self) -> None:
+        """Write the page in one step: it may be open in a browser."""
+        page = table_html(self._students, self._options.exercises, self._titles)
+        write(self._out / f".{TABLES[1]}", page)
+        os.replace(self._out / f".{TABLES[1]}", self._out / TABLES[1])
+
+    def _check(self, student: Student) -> tuple[Student, str]:
+        """Check one and write the report; whatever happens must not spoil the others."""
+        began_s = time.monotonic()
+        remark = ""
         try:
-            for student in (done.result() for done in as_completed(checks)):
-                bar.update()
-                verdict = student.trouble or summary(student.outcomes)
-                bar.write(f"{student.name}: {verdict}, {student.seconds:.0f} s")
-        except KeyboardInterrupt:  # the pool would go on to the last student
-            for check in checks:
-                check.cancel()
-            end_all()
-            raise
+            remark = self._outcomes_of(student)
+        except Exception as error:
+            student.trouble = fault(error)
+        student.seconds = time.monotonic() - began_s
+        report = f"could not be checked: {student.trouble}\n" if student.trouble else ""
+        try:
+            text = f"{student.name}\n\n{report or text_of(student.outcomes)}"
+            write(self._out / f"{student.name}.txt", text)
+            if student.outcomes:
+                write(self._out / f"{student.name}.json", as_json(student.outcomes))
+        except Exception as error:
+            student.trouble = student.trouble or fault(error)
+        return student, remark or f"{student.seconds:.0f} s"
 
-
-def _check(student: Student, out: Path, options: argparse.Namespace) -> Student:
-    """Check one and write the report; whatever happens must not spoil the others."""
-    began_s = time.monotonic()
-    try:
+    def _outcomes_of(self, student: Student) -> str:
+        """Set the outcomes, which may be those of the last run; return a remark."""
         if student.path.is_symlink():  # it may lead to the files of another student
             raise CannotCheck("a link is not followed: put the folder or the archive itself here")
+        digest = self._digests[student.name] = digest_of(student.path, self._checks)
+        if not self._options.again and self._last_run.is_same(student.name, digest):
+            student.outcomes = student.before
+            return "unchanged since the last check"
+        options = self._options
         outcomes = examine(
-            student.path,
-            options.underlay,
-            options.exercises,
-            own=False,
+            student.path, options.underlay, options.exercises, own=False,
             course=options.course.folder,
-        )
+        )  # fmt: skip
         student.outcomes = without_hints(outcomes) if options.hints == 0 else outcomes
-    except Exception as error:
-        student.trouble = fault(error)
-    student.seconds = time.monotonic() - began_s
-    report = f"could not be checked: {student.trouble}\n" if student.trouble else ""
-    try:
-        text = f"{student.name}\n\n{report or text_of(student.outcomes)}"
-        write(out / f"{student.name}.txt", text)
-        if student.outcomes:
-            write(out / f"{student.name}.json", as_json(student.outcomes))
-    except Exception as error:
-        student.trouble = student.trouble or fault(error)
-    return student
-
-
-def table_csv(students: Iterable[Student], exercises: list[str]) -> str:
-    """Return one line a student, without what a spreadsheet would take for a formula."""
-    lines = io.StringIO()
-    table = csv.writer(lines)
-    table.writerow(["student", *exercises, "done", "seconds", "remark"])
-    for student in students:
-        cells = [student.cell(exercise)[0] for exercise in exercises]
-        name, remark = (FORMULA.sub(r"\1'", text) for text in (student.name, student.trouble))
-        table.writerow([name, *cells, cells.count("ok"), f"{student.seconds:.1f}", remark])
-    return lines.getvalue()
-
-
-def table_html(students: Iterable[Student], exercises: list[str], titles: Mapping[str, str]) -> str:
-    """Return the same as a page; what is wrong is shown where the pointer rests."""
-    rows = [
-        "student",
-        *(f"{each}<br><small>{escape(titles[each])}</small>" for each in exercises),
-    ]
-    rows = [f"<tr>{''.join(f'<th>{word}</th>' for word in (*rows, 'done', 'took'))}</tr>"]
-    for student in students:
-        link = quote(f"{student.name}.txt", errors="surrogateescape")  # a name may be no UTF-8
-        row = f'<td><a href="{link}">{escape(student.name)}</a></td>'
-        for exercise in exercises:
-            word, details = student.cell(exercise)
-            kind = {"ok": "ok", "-": "no", "?": "no", "not done": "no"}.get(word, "wrong")
-            row += f'<td class="{kind}" title="{escape(details)}">{escape(word)}</td>'
-        done = sum(outcome.passed and not outcome.empty for outcome in student.outcomes)
-        rows.append(f"<tr>{row}<td>{done}</td><td>{student.seconds:.0f} s</td></tr>")
-    head = f'<meta charset="utf-8"><title>Exercises</title><style>{STYLE}</style>'
-    return f'<!DOCTYPE html><html lang="en">{head}<table>{"".join(rows)}</table></html>\n'
+        return ""

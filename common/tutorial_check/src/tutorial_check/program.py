@@ -67,6 +67,7 @@ def _parser() -> Parser:
         add(f"--{name}", type=path, metavar="FILE", help=f"write {what}")
     what = "with --all: where the table and the reports go (FOLDER/check)"
     add("--out", type=path, metavar="FOLDER", help=what)
+    add("--again", action="store_true", help="with --all: also what is the same as last time")
     add("--jobs", type=int, help="with --all: how many at a time (2)")
     what = "setup.bash of what the exercises need"
     add("--underlay", type=path, default=os.environ.get(UNDERLAY), metavar="SETUP", help=what)
@@ -115,6 +116,8 @@ def _refuse_idle(parser: argparse.ArgumentParser, options: argparse.Namespace) -
         parser.error(f"{files[0]} is for one workspace; --all writes a .json of each student")
     if files and options.watch:
         parser.error(f"{files[0]} is for one check; leave --watch out")
+    if options.again and not options.all:
+        parser.error("--again is for --all")
     many = {"out": options.all, "jobs": options.all or options.self_test}
     for name, is_useful in many.items():
         if getattr(options, name) is not None and not is_useful:

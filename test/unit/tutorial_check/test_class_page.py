@@ -1,0 +1,125 @@
+"""The page and the table of a class: what a professor reads, and what nobody can put into it."""
+
+import csv
+import re
+
+import pytest
+
+from tutorial_check.class_page import (
+    POLICY,
+    Student,
+    causes,
+    changes,
+    failures,
+    table_csv,
+    table_html,
+)
+from tutorial_check.examination import Outcome
+from tutorial_check.model import NOTE, OK, UNREACHED, WRONG, Result
+
+WELL = Outcome("2", [Result("C1", OK, "one")], 1.0, True)
+BAD = Outcome("2", [Result("C1", WRONG, "one", seen="none", hint="mkdir src")], 1.0, True)
+UNDECIDED = Outcome("5", [Result("C21", UNREACHED, "two")], 1.0, True)
+NO_VERDICT = Outcome("5", UNDECIDED.results, 1.0, True, "C21: no space")
+EMPTY = Outcome("5", [Result("C21", OK, "two", empty=True)], done=True)
+TITLES = {"2": "a package", "5": "launch files"}
+HOSTILE = "<script>alert(1)</script>\"'><img src=x onerror=alert(1)>"
+
+
+@pytest.mark.parametrize("cell", ["=1", "\t=1", "\r=1", "x;=1", "x,\n+1", " -1", "a|@b"])
+def test_no_cell_is_a_formula(cell):
+    """Of whatever a spreadsheet takes for the end of a cell."""
+    table = table_csv([Student(cell, None, trouble=f"{cell}: no zip")], ["2"])
+    for written in re.split(r"[;,|\t\r\n]", table):
+        assert written.strip(' "')[:1] not in tuple("=+-@"), table
+
+
+def test_a_usual_name_is_as_it_was():
+    names = ["Anna-Lena (2)", "a = b - c", "o'neill_7@uni.example", "a=b"]
+    table = table_csv([Student(name, None) for name in names], ["2"])
+    assert [row[0] for row in csv.reader(table.splitlines())][1:] == names
+
+
+def test_the_table_has_what_could_be_checked():
+    students = [
+        Student("ada", None, [WELL, NO_VERDICT]),
+        Student("=bob", None, [BAD, UNDECIDED]),
+        Student("eve", None, [WELL, EMPTY]),
+    ]
+    rows = list(csv.reader(table_csv(students, ["2", "5"]).splitlines()))
+    cells = [["ada", "ok", "?", "1"], ["'=bob", "C1", "-", "0"], ["eve", "ok", "not done", "1"]]
+    assert [row[:4] for row in rows[1:]] == cells
+    page = table_html(students, ["2", "5"], {"2": "a package", "5": "launch files"})
+    assert 'title="C21: no space">?</td>' in page and 'class="wrong"' in page
+    assert ">not done<" in page
+
+
+def wrong(seen, check="C16", **more):
+    """Return an exercise that is wrong."""
+    return Outcome("5", [Result(check, WRONG, "axes", "a sign", seen, **more)], done=True)
+
+
+def test_how_many_fail_what_and_why():
+    students = [
+        Student("ada", None, [wrong("the sign of ada is wrong", hint="mend Ada's")]),
+        Student("bob", None, [wrong("angular.z = -0.98 * axes[0]")]),
+        Student("eve", None, [wrong("angular.z = -1.00 * axes[0]")]),
+        Student("zoe", None, [wrong("no file", "C12")]),
+    ]
+    assert failures(students) == [("C16", "axes", 3), ("C12", "axes", 1)]
+    found = causes(students)
+    assert [count for count, _ in found] == [2, 1, 1]
+    assert found[0][1].seen == "angular.z = -0.98 * axes[0]"
+    # An example does not say whose it is.
+    assert (found[1][1].seen, found[1][1].hint) == ("the sign of NAME is wrong", "mend NAME's")
+    page = table_html(students, ["5"], TITLES)
+    below = page[page.index("<h2>") :]
+    assert "ada" not in below and "<td>C16</td><td>axes</td><td>3</td>" in below
+    assert ">C16<small>angular.z = -0.98 * axes[0]</small></td>" in page
+
+
+def test_what_changed_since_the_last_run():
+    again = Student("ada", None, [wrong("b")], before=[wrong("a")])
+    mended = Student("bob", None, [Outcome("5", WELL.results, done=True)], before=[wrong("a")])
+    worse = Student("eve", None, [wrong("a")], before=[Outcome("5", WELL.results, done=True)])
+    another = Student("zoe", None, [wrong("a", "C17")], before=[wrong("a")])
+    assert changes(again)["stuck"] == ["C16 axes"]
+    assert (changes(mended)["now done"], changes(worse)["no more done"]) == (["5"], ["5"])
+    assert not any(changes(another).values())
+    page = table_html([again, mended, worse, another], ["5"], TITLES)
+    since = page[page.index("Since the last run") : page.index("Legend")]
+    assert [name in since for name in ("ada", "bob", "eve", "zoe")] == [True, True, True, False]
+    assert "Since the last run" not in table_html([Student("ada", None, [BAD])], ["2"], TITLES)
+
+
+def test_five_of_nine_and_the_notes():
+    noted = Outcome("2", [Result("C2", NOTE, "odd", seen="a name")], done=True)
+    page = table_html([Student("ada", None, [noted, wrong("a")])], ["2", "5"], TITLES)
+    assert "<td>1 of 2</td><td>1</td>" in page
+    row = list(
+        csv.reader(table_csv([Student("ada", None, [noted, wrong("=a")])], ["2", "5"]).splitlines())
+    )
+    assert row[1][:5] == ["ada", "ok", "C16", "1", "1"] and row[1][6] == "'=a"
+
+
+@pytest.mark.parametrize("field", ["name", "seen", "title", "where", "hint", "expected", "trouble"])
+def test_nothing_in_a_page_is_a_tag(field):
+    words = dict.fromkeys(("title", "expected", "seen", "where", "hint"), "x")
+    words.update({field: HOSTILE} if field in words else {})
+    outcome = Outcome("5", [Result("C16", WRONG, **words)], done=True)
+    student = Student(HOSTILE if field == "name" else "ada", None, [outcome])
+    if field == "trouble":
+        student = Student("ada", None, trouble=HOSTILE)
+    student.before = [outcome]
+    page = table_html([student], ["5"], TITLES)
+    tags = set(re.findall(r"<(\w+)", page))
+    assert not tags & {"script", "img"}
+    assert "&lt;script&gt;" in page and " onerror" not in re.sub(r"&lt;.*?&gt;", "", page)
+    assert POLICY.split(";")[0] == "default-src 'none'"
+    assert '<meta http-equiv="Content-Security-Policy"' in page
+
+
+@pytest.mark.parametrize("name", ["javascript:alert(1)", "?x", "#x"])
+def test_a_link_leads_to_a_report(name):
+    (link,) = re.findall('href="([^"]*)"', table_html([Student(name, None, [BAD])], ["2"], TITLES))
+    assert link.startswith("./") and not set(link) & set(":?#"), link
