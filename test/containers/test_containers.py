@@ -9,6 +9,7 @@ import subprocess
 import time
 import urllib.error
 import urllib.request
+import zipfile
 
 import pytest
 
@@ -217,3 +218,36 @@ def test_the_devcontainer_checks_a_workspace_and_serves_the_page():
             wait_for(lambda: "200" in run(*inside, "/usr/bin/python3", "-c", page), "page", START_S)
     finally:
         run("docker", "rm", "--force", up["containerId"])
+
+
+def test_gradescopes_autograder_as_the_service_runs_it(tmp_path):
+    """Its scripts, in its folders, as root, in an image that has the Debian packages already."""
+    autograder = tmp_path / "autograder"
+    for name in ("source", "results"):
+        (autograder / name).mkdir(parents=True)
+    file = tmp_path / "autograder.zip"
+    run(str(SOURCE / "tutorial"), "check", "--package", "gradescope", "--out", str(file), "2", "3")
+    with zipfile.ZipFile(file) as packed:
+        for about in packed.infolist():  # as unzip does it, with the rights
+            path = packed.extract(about, autograder / "source")
+            os.chmod(path, about.external_attr >> 16 & 0o777)
+    shutil.copytree(SOURCE / "test/exercises/literal", autograder / "submission")
+    talker = autograder / "submission/beginner_tutorials/scripts/talker.py"
+    inside = ("docker", "run", "--rm", "--user", "root", "--env", "HOME=/root")
+    inside += ("-v", f"{autograder}:/autograder", "ros1_tutorial", "bash", "-c")
+    results = autograder / "results/results.json"
+
+    def points():
+        found = json.loads(results.read_text())
+        results.unlink()
+        return [(one["name"].split(":")[0], one["score"]) for one in found["tests"]]
+
+    run(*inside, "/autograder/source/setup.sh && /autograder/source/run_autograder")
+    right = points()
+    assert len(right) > 8 and all(score == 1 for _, score in right), right
+    talker.write_text(talker.read_text().replace("rospy.init_node", "rospy.initnode"))
+    run(*inside, "/autograder/source/run_autograder")  # wrong is no fault of the autograder
+    assert 0 in [score for _, score in points()]
+    with pytest.raises(AssertionError):
+        run(*inside, "LIMIT_S=2 /autograder/source/run_autograder")
+    assert "it took too long" in results.read_text()

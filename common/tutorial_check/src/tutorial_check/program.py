@@ -16,6 +16,7 @@ from tutorial_check.examination import Outcome, examine
 from tutorial_check.formats import FORMATS, clear, without_hints, write
 from tutorial_check.hints import AGAIN, ALWAYS, Memory, show_solution
 from tutorial_check.model import CannotCheck, fault
+from tutorial_check.package import package
 from tutorial_check.report import Terminal, summary
 from tutorial_check.self_test import self_test
 
@@ -53,6 +54,8 @@ def _parser() -> Parser:
     )
     what = "for the professor: every workspace, or zip, in a folder"
     where.add_argument("--all", type=path, metavar="FOLDER", help=what)
+    what = "write what a service takes: gradescope, or github:OWNER/NAME (to --out)"
+    where.add_argument("--package", type=path, metavar="SERVICE", help=what)
     add("exercises", nargs="*", metavar="EXERCISE", help="all of the handout without one")
     what = "a folder with course.yaml and your own checks, in place of the handout"
     add("--course", type=path, default=str(OURS), metavar="FOLDER", help=what)
@@ -83,7 +86,7 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     except CannotCheck as error:
         parser.error(str(error))
     known = options.course.exercises
-    if not (options.workspace or options.all or options.self_test):
+    if not (options.workspace or options.all or options.self_test or options.package):
         words = " ".join(options.exercises)
         parser.error(f"which workspace? For example: --in ~/ros/hydro/catkin_ws {words}".rstrip())
     wanted = [name for each in options.exercises for name in options.course.meant(each)]
@@ -118,7 +121,7 @@ def _refuse_idle(parser: argparse.ArgumentParser, options: argparse.Namespace) -
         parser.error(f"{files[0]} is for one check; leave --watch out")
     if options.again and not options.all:
         parser.error("--again is for --all")
-    many = {"out": options.all, "jobs": options.all or options.self_test}
+    many = {"out": options.all or options.package, "jobs": options.all or options.self_test}
     for name, is_useful in many.items():
         if getattr(options, name) is not None and not is_useful:
             parser.error(f"--{name} is for --all")
@@ -153,7 +156,7 @@ def check_one(options: argparse.Namespace) -> int:
     terminal.busy("copying and preparing ...")
     outcomes = examine(
         options.workspace, options.underlay, options.exercises, terminal.result,
-        course=options.course.folder,
+        course=options.course.folder, own=not (options.gradescope or options.classroom),
     )  # fmt: skip
     terminal.done()
     memory.keep(outcomes)
@@ -182,6 +185,9 @@ def main() -> None:
             from tutorial_check.professor import check_all  # noqa: PLC0415
 
             code = check_all(options)
+        elif options.package:
+            print(package(options.package, options.course, options.exercises, options.out))
+            code = 0
         elif options.self_test:
             code = self_test(options.course, options.underlay, max(1, options.jobs))
         elif options.watch:

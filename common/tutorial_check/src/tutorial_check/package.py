@@ -1,0 +1,130 @@
+"""--package: what Gradescope and GitHub take to run the checks on their own machines."""
+
+from __future__ import annotations
+
+import re
+import shlex
+import subprocess
+import zipfile
+from pathlib import Path
+from typing import Iterator, Sequence
+
+from tutorial_check.course import OURS, Course
+from tutorial_check.examination import SUITE
+from tutorial_check.model import CannotCheck
+
+GRADESCOPE, GITHUB = "gradescope", "github"
+FILES = {GRADESCOPE: "autograder.zip", GITHUB: "check.yml"}
+LEFT_OUT = {".git", "__pycache__", ".mypy_cache", ".ruff_cache", ".pytest_cache", "build", "devel"}
+EXECUTABLE = 0o100755 << 16  # as a zip has it
+# Gradescope's default limit is 10 minutes; what is not done by then has no result there.
+LIMIT_S = 540
+
+# https://gradescope-autograders.readthedocs.io/en/latest/specs/: setup.sh makes the image, and
+# run_autograder is run for each submission. AUTOGRADER: another place of the same folders.
+SETUP = """#!/usr/bin/env bash
+# Makes the image: installs ROS and builds the suite.
+set -e
+export TUTORIAL_WITHOUT="test view" TUTORIAL_WORKSPACE="${AUTOGRADER:-/autograder}/workspace"
+cd "${AUTOGRADER:-/autograder}/source/suite"
+./tutorial setup
+"""
+RUN = """#!/usr/bin/env bash
+# Checks one submission. Right or wrong is in results.json; an exit code other than 0 is a fault.
+cd "${AUTOGRADER:-/autograder}" || exit 2
+export TUTORIAL_WITHOUT="test view" TUTORIAL_WORKSPACE="$PWD/workspace"
+timeout --kill-after 10 "${LIMIT_S:-@LIMIT@}" source/suite/tutorial check --in submission \\
+  --gradescope results/results.json @WORDS@
+code=$?
+if [ $code -le 1 ]; then exit 0; fi
+if [ $code -ge 124 ]; then why="it took too long"; else why="the checker could not work"; fi
+if [ ! -s results/results.json ]; then
+  echo '{"score": 0, "output": "No verdict, through no fault of yours: '"$why"'."}' \\
+    >results/results.json
+fi
+exit $code
+"""
+WORKFLOW = """# Checks a student's repository; to be put into .github/workflows of each, or of their template.
+name: check
+on: [push, workflow_dispatch]
+permissions: {contents: read}
+jobs:
+  check:
+    runs-on: ubuntu-latest
+    timeout-minutes: 30
+    container: debian:bookworm-slim
+    env: {TUTORIAL_WITHOUT: test view}
+    steps:
+      - uses: actions/checkout@v4
+        with: {path: submission}
+      - uses: actions/checkout@v4
+        with: {repository: @REPOSITORY@, ref: @COMMIT@, path: suite}
+      - name: check
+        run: suite/tutorial check --in submission --classroom result.json --junit report.xml @WORDS@
+      - uses: actions/upload-artifact@v4
+        if: always()
+        with: {name: report, path: report.xml}
+"""
+
+
+def package(what: str, course: Course, exercises: Sequence[str], out: str | None) -> str:
+    """Write the zip or the workflow; return its path. Raises CannotCheck.
+
+    what: gradescope, or github:OWNER/NAME of the suite's repository.
+    """
+    service, _, repository = what.partition(":")
+    if service not in FILES:
+        raise CannotCheck(f"--package {what}: there are {GRADESCOPE} and {GITHUB}:OWNER/NAME")
+    path = Path(out or FILES[service])
+    try:
+        if service == GRADESCOPE:
+            _gradescope(path, course, exercises)
+        else:
+            path.write_text(_workflow(repository, course, exercises), encoding="utf-8")
+    except OSError as error:
+        raise CannotCheck(f"{path}: {error.strerror}") from None
+    return str(path)
+
+
+def _words(exercises: Sequence[str], course: str = "") -> str:
+    return shlex.join([*(("--course", course) if course else ()), *exercises])
+
+
+def _gradescope(path: Path, course: Course, exercises: Sequence[str]) -> None:
+    is_ours = course.folder == OURS
+    words = _words(exercises, "" if is_ours else "source/course")
+    run = RUN.replace("@WORDS@", words).replace("@LIMIT@", str(LIMIT_S))
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as file:
+        for name, text in (("setup.sh", SETUP), ("run_autograder", run)):
+            about = zipfile.ZipInfo(name)
+            about.external_attr = EXECUTABLE
+            file.writestr(about, text)
+        for each, name in _files(SUITE):
+            if each.resolve() != path.resolve():
+                file.write(each, f"suite/{name}")
+        for each, name in () if is_ours else _files(course.folder):
+            if not name.startswith("solutions/"):
+                file.write(each, f"course/{name}")
+
+
+def _files(folder: Path) -> Iterator[tuple[Path, str]]:
+    for path in sorted(folder.rglob("*")):
+        name = path.relative_to(folder)
+        if path.is_file() and not LEFT_OUT.intersection(name.parts):
+            yield path, str(name)
+
+
+def _workflow(repository: str, course: Course, exercises: Sequence[str]) -> str:
+    if not re.fullmatch(r"[\w.-]+/[\w.-]+", repository):
+        raise CannotCheck(f"--package {GITHUB}:OWNER/NAME: the repository in which this suite is")
+    inside = ""
+    if course.folder != OURS:
+        if SUITE not in course.folder.parents:
+            raise CannotCheck(f"{course.folder}: put the course into the suite's repository")
+        inside = f"suite/{course.folder.relative_to(SUITE)}"
+    command = ["git", "-C", str(SUITE), "rev-parse", "HEAD"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    if done.returncode:
+        raise CannotCheck(f"{SUITE} is no clone of a repository: {done.stderr.strip()}")
+    text = WORKFLOW.replace("@REPOSITORY@", repository).replace("@COMMIT@", done.stdout.strip())
+    return text.replace("@WORDS@", _words(exercises, inside))

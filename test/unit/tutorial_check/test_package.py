@@ -1,0 +1,86 @@
+"""What --package writes for a service."""
+
+import subprocess
+import zipfile
+from pathlib import Path
+
+import pytest
+import yaml
+
+from tutorial_check.course import read_course
+from tutorial_check.model import CannotCheck
+from tutorial_check.package import package
+
+SQUARE = Path(__file__).resolve().parents[3] / "common/doc/square"
+
+
+def test_the_zip_has_scripts_suite_and_course_and_no_solutions(tmp_path):
+    path = package("gradescope", read_course(SQUARE), ["1"], str(tmp_path / "a.zip"))
+    with zipfile.ZipFile(path) as file:
+        names = file.namelist()
+        scripts = {name: file.read(name).decode() for name in ("setup.sh", "run_autograder")}
+        modes = [file.getinfo(name).external_attr >> 16 & 0o777 for name in scripts]
+        assert file.getinfo("suite/tutorial").external_attr >> 16 & 0o100
+    assert modes == [0o755, 0o755]
+    assert {"course/course.yaml", "course/square.py", "suite/tutorial"} <= set(names)
+    assert not [name for name in names if name.startswith(("course/solutions", "suite/.git/"))]
+    assert "--course source/course 1\n" in scripts["run_autograder"]
+    for text in scripts.values():
+        assert subprocess.run(["bash", "-n"], input=text, text=True, check=False).returncode == 0
+
+
+@pytest.mark.parametrize(
+    ("code", "results", "exits", "output"),
+    [(0, "{}", 0, "{}"), (1, "{}", 0, "{}"), (2, "", 2, "could not work"), (2, "{}", 2, "{}"),
+     ("sleep", "", 124, "it took too long")],
+)  # fmt: skip
+def test_the_exit_codes_that_the_service_wants(tmp_path, code, results, exits, output):
+    path = package("gradescope", read_course(), ["4.3"], str(tmp_path / "a.zip"))
+    for folder in ("source/suite", "submission", "results"):
+        (tmp_path / folder).mkdir(parents=True)
+    with zipfile.ZipFile(path) as file:
+        file.extract("run_autograder", tmp_path / "source")
+    ends = "exec sleep 60" if code == "sleep" else f"exit {code}"
+    tutorial = tmp_path / "source/suite/tutorial"
+    tutorial.write_text(
+        f"#!/bin/sh\necho $* >words\nprintf '{results}' >results/results.json\n{ends}\n"
+    )
+    tutorial.chmod(0o755)
+    done = subprocess.run(
+        ["bash", tmp_path / "source/run_autograder"], check=False,
+        env={"PATH": "/usr/bin:/bin", "AUTOGRADER": str(tmp_path), "LIMIT_S": "2"},
+    )  # fmt: skip
+    assert done.returncode == exits
+    assert output in (tmp_path / "results/results.json").read_text()
+    words = "check --in submission --gradescope results/results.json 4.3\n"
+    assert (tmp_path / "words").read_text() == words
+
+
+def test_the_workflow(tmp_path):
+    out = str(tmp_path / "check.yml")
+    assert package("github:lab/ros1_tutorial", read_course(SQUARE), ["1"], out) == out
+    steps = yaml.safe_load(Path(out).read_text())["jobs"]["check"]["steps"]
+    suite = steps[1]["with"]
+    assert (suite["repository"], len(suite["ref"])) == ("lab/ros1_tutorial", 40)
+    assert steps[2]["run"].endswith("--course suite/common/doc/square 1")
+
+
+@pytest.mark.parametrize(
+    ("what", "out", "why"),
+    [
+        ("moodle", "a", "there are gradescope and github:OWNER/NAME"),
+        ("github", "a", "the repository in which this suite is"),
+        ("github:no name", "a", "the repository in which this suite is"),
+        ("gradescope", "nowhere/a.zip", "No such file"),
+    ],
+)
+def test_what_cannot_be_packed_is_one_line(tmp_path, what, out, why):
+    with pytest.raises(CannotCheck) as error:
+        package(what, read_course(), ["2"], str(tmp_path / out))
+    assert why in str(error.value) and "\n" not in str(error.value)
+
+
+def test_a_course_elsewhere_has_no_workflow(tmp_path):
+    (tmp_path / "course.yaml").write_text('exercises: {"1": one}')
+    with pytest.raises(CannotCheck, match="put the course into the suite's repository"):
+        package("github:lab/x", read_course(tmp_path), ["1"], str(tmp_path / "a"))
