@@ -24,7 +24,7 @@ def test_a_minute_of_random_faults_violates_nothing(tutorial, tmp_path):
 
 
 def test_in_a_cell_nothing_pushes_or_falls(tutorial):
-    code, output = faults(tutorial, "--in-a-cell", "--for", "40")
+    code, output = faults(tutorial, "--in-a-cell", "--for", "25")
     trials, _, violations, _ = re.fullmatch(LAST_LINE, output.splitlines()[-1]).groups()
     assert (code, int(violations)) == (0, 0), output
     assert int(trials) > 0

@@ -9,7 +9,7 @@ from tutorial_check.simulated_robot import SimulatedRobot
 
 CORNERS = [(1, 0), (1, 1), (0, 1), (0, 0)]  # [m], to the left; to the right the y are negative
 NEAR_M = 0.1
-LONGEST_S = 40.0
+LONGEST_S = 25.0
 
 
 def drive(session):
