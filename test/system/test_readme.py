@@ -58,7 +58,10 @@ LEFT_OUT = {
     "roslaunch joy2twist student.launch name:=robot_7 virtual:=true": "as the line before",
     "docker ": "needs an engine; docker/check_bare_machine builds the Dockerfile without one",
 }
-ELSEWHERE = {"Two machines": "test_two_hosts.py runs it on two hosts"}
+ELSEWHERE = {
+    "Two machines": "test_two_hosts.py runs it on two hosts",
+    "Exercises of your own": "test/exercises/test_course.py runs it",
+}
 STUDENTS_SHELL = "./tutorial shell --in ~/catkin_ws"
 LONGEST_README = 270
 SECTIONS = [  # the handout's, and 7, which is ours

@@ -28,6 +28,7 @@ from tutorial_testing.waiting import wait_for
 AT_THE_WALL = 4.0 - 0.178  # x of the robot's middle [m]
 FLOAT32 = 1e-5  # of a range in a message [m]
 LONGEST_PUSH_S = 0.5
+REST_S = 0.7
 
 
 class WorldTest(unittest.TestCase):
@@ -127,6 +128,8 @@ class WorldTest(unittest.TestCase):
                 os.kill(pid, signal.SIGKILL)
 
         rospy.Subscriber("cmd_vel_mux/input/safety_controller", Twist, back_off)
+        rests = time.monotonic() + REST_S  # the multiplexer wants to see it, after test_3
+        self.drive(0.0, lambda: time.monotonic() > rests, "rest")
         self.drive(0.7, lambda: not lives(pid), "the wall, met for the last time")
         ended = time.monotonic()
         wait_for(lambda: time.monotonic() - max([ended, *heard]) > 1.0, "safety controller silent")

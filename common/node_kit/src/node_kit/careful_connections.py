@@ -62,6 +62,11 @@ def sender_of(message: Any) -> str:
     return message._connection_header.get("callerid", "")
 
 
+def has_sender(subscriber: Any) -> bool:
+    """Return whether a rospy.Subscriber is connected; rospy also counts what it tries to reach."""
+    return any(one.socket is not None for one in list(subscriber.impl.connections))
+
+
 def connection_of(message: Any) -> object:
     """Return an object that is the same (`is`) for the messages of one connection only."""
     return message._connection_header

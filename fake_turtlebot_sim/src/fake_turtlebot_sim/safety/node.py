@@ -13,7 +13,7 @@ from std_msgs.msg import Empty
 
 from fake_turtlebot_sim.safety.parameters import Parameters, parse_parameters
 from fake_turtlebot_sim.safety.reaction import Kind, Reaction
-from node_kit.careful_connections import report_bad_messages
+from node_kit.careful_connections import has_sender, report_bad_messages
 from node_kit.log import Log
 from node_kit.prompt_publisher import PromptPublisher
 from node_kit.start import run
@@ -58,7 +58,7 @@ class SafetyController:
         """Publish again and again while a sensor is active, until shut down."""
         while not rospy.is_shutdown():
             with self._lock:
-                if not any(sensor.get_num_connections() for sensor in self._sensors):
+                if not any(map(has_sender, self._sensors)):
                     self._reaction.reset()  # a base that has exited releases no sensor
                 self._publish()
             time.sleep(PERIOD_S)
