@@ -146,6 +146,25 @@ def test_only_what_changed_is_checked_again(group, monkeypatch, capsys):
     assert begun.count("trouble") == 4
 
 
+def test_a_run_that_was_interrupted_goes_on_where_it_was(group, monkeypatch):
+    begun = []
+
+    def examine(path, *_, **__):
+        begun.append(path.name)
+        if path.name == "bob" and len(begun) < 3:
+            raise KeyboardInterrupt
+        return [WELL]
+
+    monkeypatch.setattr(professor, "examine", examine)
+    monkeypatch.setattr(professor, "end_all", lambda: None)
+    for name in ("ada", "bob"):
+        (group / name).mkdir()
+    with pytest.raises(KeyboardInterrupt):
+        check_all(group)
+    assert check_all(group)[0] == 0
+    assert begun == ["ada", "bob", "bob"]
+
+
 def test_the_page_can_be_read_while_it_is_made(group, monkeypatch):
     pages = []
 

@@ -47,15 +47,14 @@ class LastRun:
         return same and not any(one.trouble for one in self.outcomes(name))
 
     def keep(self, students: Iterable[tuple[Student, str]]) -> None:
-        """Write (student, digest) of all for the next run."""
-        found = {
-            student.name: {
-                "digest": digest,
-                "outcomes": [dataclasses.asdict(one) for one in student.outcomes],
-            }
-            for student, digest in students
-            if student.outcomes
-        }
+        """Write (student, digest) of all for the next run; who is not checked yet stays as before."""
+        found = {}
+        for student, digest in students:
+            if student.outcomes:
+                outcomes = [dataclasses.asdict(one) for one in student.outcomes]
+                found[student.name] = {"digest": digest, "outcomes": outcomes}
+            elif student.name in self._found and not student.trouble:
+                found[student.name] = self._found[student.name]
         with contextlib.suppress(OSError):  # then all are checked again
             self._file.write_text(json.dumps(found), encoding="utf-8")
 

@@ -19,6 +19,7 @@ from tutorial_check.report import summary, text_of
 
 ARCHIVES = (".zip", ".tar", ".tgz", ".gz", ".bz2", ".xz", ".7z", ".rar")
 TABLES = ("table.csv", "table.html")
+QUICK_S = 0.05  # for the page of a class that is not large
 RESULTS = (".csv", ".html", ".txt", ".json")
 
 
@@ -95,6 +96,7 @@ class Check:
         self._last_run = last_run
         self._checks = digest_of_checks(options.course, options.exercises, options.hints)
         self._digests: dict[str, str] = {}
+        self._next_s = 0.0  # when the page may be written again
         self._titles = {name: one.title for name, one in options.course.exercises.items()}
 
     def run(self) -> None:
@@ -117,13 +119,23 @@ class Check:
                     check.cancel()
                 end_all()
                 raise
-        self._last_run.keep((one, self._digests.get(one.name, "")) for one in self._students)
+            finally:
+                self._show(is_last=True)
 
-    def _show(self) -> None:
-        """Write the page in one step: it may be open in a browser."""
+    def _show(self, is_last: bool = False) -> None:
+        """Write the page in one step, as it may be open in a browser, and what the next run needs.
+
+        That of a large class takes a while: at most a tenth of the time goes into it.
+        """
+        began_s = time.monotonic()
+        if began_s < self._next_s and not is_last:
+            return
         page = table_html(self._students, self._options.exercises, self._titles)
         write(self._out / f".{TABLES[1]}", page)
         os.replace(self._out / f".{TABLES[1]}", self._out / TABLES[1])
+        self._last_run.keep((one, self._digests.get(one.name, "")) for one in self._students)
+        took_s = time.monotonic() - began_s
+        self._next_s = began_s + 10 * took_s if took_s > QUICK_S else 0.0
 
     def _check(self, student: Student) -> tuple[Student, str]:
         """Check one and write the report; whatever happens must not spoil the others."""
