@@ -56,12 +56,26 @@ def test_the_exit_codes_that_the_service_wants(tmp_path, code, results, exits, o
     assert (tmp_path / "words").read_text() == words
 
 
-def test_the_workflow(tmp_path):
+@pytest.fixture
+def git(tmp_path, monkeypatch):
+    """git(script): the only program there is."""
+
+    def make(script):
+        (tmp_path / "bin").mkdir()
+        (tmp_path / "bin/git").write_text(f"#!/bin/sh\n{script}\n")
+        (tmp_path / "bin/git").chmod(0o755)
+
+    monkeypatch.setenv("PATH", str(tmp_path / "bin"))
+    return make
+
+
+def test_the_workflow(tmp_path, git):
+    git(f"echo {'0a1b' * 10}")
     out = str(tmp_path / "check.yml")
     assert package("github:lab/ros1_tutorial", read_course(SQUARE), ["1"], out) == out
     steps = yaml.safe_load(Path(out).read_text())["jobs"]["check"]["steps"]
     suite = steps[1]["with"]
-    assert (suite["repository"], len(suite["ref"])) == ("lab/ros1_tutorial", 40)
+    assert (suite["repository"], suite["ref"]) == ("lab/ros1_tutorial", "0a1b" * 10)
     assert steps[2]["run"].endswith("--course suite/common/doc/square 1")
 
 
@@ -84,3 +98,16 @@ def test_a_course_elsewhere_has_no_workflow(tmp_path):
     (tmp_path / "course.yaml").write_text('exercises: {"1": one}')
     with pytest.raises(CannotCheck, match="put the course into the suite's repository"):
         package("github:lab/x", read_course(tmp_path), ["1"], str(tmp_path / "a"))
+
+
+@pytest.mark.parametrize(
+    ("script", "why"),
+    [("", "git: No such file"), ("echo fatal: not a git repository >&2; exit 128", "is no clone")],
+)
+def test_without_git_or_a_clone_it_is_one_line(tmp_path, git, script, why):
+    if script:
+        git(script)
+    with pytest.raises(CannotCheck, match=why) as error:
+        package("github:lab/x", read_course(), ["2"], str(tmp_path / "check.yml"))
+    assert "\n" not in str(error.value)
+    assert not (tmp_path / "check.yml").exists()

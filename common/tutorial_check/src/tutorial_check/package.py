@@ -114,6 +114,18 @@ def _files(folder: Path) -> Iterator[tuple[Path, str]]:
             yield path, str(name)
 
 
+def _commit() -> str:
+    """Return the commit of this clone. Raises CannotCheck."""
+    command = ["git", "-C", str(SUITE), "rev-parse", "HEAD"]
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+    except OSError as error:
+        raise CannotCheck(f"git: {error.strerror}; it says which commit is meant") from None
+    if done.returncode:
+        raise CannotCheck(f"{SUITE} is no clone of a repository: {done.stderr.strip()}")
+    return done.stdout.strip()
+
+
 def _workflow(repository: str, course: Course, exercises: Sequence[str]) -> str:
     if not re.fullmatch(r"[\w.-]+/[\w.-]+", repository):
         raise CannotCheck(f"--package {GITHUB}:OWNER/NAME: the repository in which this suite is")
@@ -122,9 +134,5 @@ def _workflow(repository: str, course: Course, exercises: Sequence[str]) -> str:
         if SUITE not in course.folder.parents:
             raise CannotCheck(f"{course.folder}: put the course into the suite's repository")
         inside = f"suite/{course.folder.relative_to(SUITE)}"
-    command = ["git", "-C", str(SUITE), "rev-parse", "HEAD"]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    if done.returncode:
-        raise CannotCheck(f"{SUITE} is no clone of a repository: {done.stderr.strip()}")
-    text = WORKFLOW.replace("@REPOSITORY@", repository).replace("@COMMIT@", done.stdout.strip())
+    text = WORKFLOW.replace("@REPOSITORY@", repository).replace("@COMMIT@", _commit())
     return text.replace("@WORDS@", _words(exercises, inside))
