@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import pytest
 
+from tutorial_check.exercises.joystick_task import JoystickTask
 from tutorial_check.session import Session
 
 
@@ -17,7 +18,15 @@ def make_session(tmp_path):
         folder.mkdir(parents=True)
         (folder / "package.xml").write_text(f"<package><name>{package}</name></package>")
         box = SimpleNamespace(environment={"PATH": ""})
-        return Session(tmp_path, None, [exercise], box, underlay="", can_have_devices=False)
+        return Session(
+            tmp_path,
+            None,
+            [exercise],
+            box,
+            underlay="",
+            can_have_devices=False,
+            task=JoystickTask({}),
+        )
 
     return make
 

@@ -55,10 +55,10 @@ def test_a_course_and_its_checks_in_its_order(course):
 @pytest.mark.parametrize(
     ("text", "why"),
     [
-        ("", "a map of title, document, exercises is wanted"),
+        ("", "a map of title, document, sheet, exercises, variants is wanted"),
         ("title: [", "no YAML"),
         ("title: T\n", "exercises: "),
-        ("points: 3\n", "points is not known; known are title, document, exercises"),
+        ("points: 3\n", "points is not known; known are title, document, sheet, exercises"),
         ("title: 3\nexercises: {'1': a}\n", "title: 3 is no str"),
         ("exercises: {1: a}\n", 'exercise 1: write "1", in quotes'),
         ("exercises: {'1': {title: a, points: many}}\n", "points: 'many' is no float"),

@@ -22,6 +22,7 @@ PACKAGE = "tutorial_course"
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 _checks: list[Check] = []  # of all courses that were loaded
+_tasks: list[type] = []  # of the last one that has one of its own
 
 
 @dataclass(frozen=True)
@@ -39,13 +40,30 @@ class Exercise:
 
 
 @dataclass(frozen=True)
+class Value:
+    """A value that the task of a student may have in place of the course's. See common/doc/COURSES.md.
+
+    about: its line of the task sheet. allowed: [lowest, highest], or what a text has to fit. draw:
+    from what a seed draws it. unlike: another value, from which it differs.
+    """
+
+    about: str
+    allowed: Any
+    draw: tuple[Any, ...]
+    default: Any = None
+    unlike: str = ""
+
+
+@dataclass(frozen=True)
 class Course:
     """What course.yaml says. exercises: in their order, by the number that the student knows."""
 
     folder: Path
     title: str = ""
     document: str = "task"
+    sheet: str = ""  # what a task sheet is made from, if not variants.SHEET
     exercises: dict[str, Exercise] = field(default_factory=dict)
+    variants: dict[str, Value] = field(default_factory=dict)
 
     @property
     def by_default(self) -> list[str]:
@@ -80,6 +98,22 @@ def check(
     return keep
 
 
+def task(kind: type) -> type:
+    """Make a subclass of variants.Task that of the course: what its variants change."""
+    _tasks[:] = [kind]
+    return kind
+
+
+def task_of(course: Course) -> type | None:
+    """Return the class that @task has named, of a course whose checks are loaded; or None."""
+    package = _package_of(course)
+    return next((each for each in _tasks if each.__module__.startswith(f"{package}.")), None)
+
+
+def _package_of(course: Course) -> str:
+    return f"{__package__}.exercises" if course.folder == OURS else PACKAGE
+
+
 @functools.lru_cache(maxsize=None)
 def read_course(folder: str | Path = OURS) -> Course:
     """Return the Course of a folder. Raises CannotCheck."""
@@ -92,7 +126,7 @@ def read_course(folder: str | Path = OURS) -> Course:
         raise CannotCheck(f"{file}: no YAML: {' '.join(str(error).split())}") from None
     try:
         about = _known(Course, given, ("folder",))
-        named = about.pop("exercises", None)
+        named, varied = about.pop("exercises", None), about.pop("variants", {})
         if not isinstance(named, dict) or not named:
             raise ValueError('exercises: {"1": TITLE, ...} is missing')
         course = Course(folder=file.parent, **about)
@@ -102,6 +136,8 @@ def read_course(folder: str | Path = OURS) -> Course:
             words = _known(Exercise, what if isinstance(what, dict) else {"title": what})
             exercise = Exercise(**{"document": course.document, **words})
             course.exercises[number] = exercise
+        for name, what in varied.items():
+            course.variants[name] = Value(**_known(Value, what))
     except (TypeError, ValueError) as error:
         raise CannotCheck(f"{file}: {error}") from None
     return course
@@ -116,7 +152,7 @@ def _known(kind: type, given: Any, but: tuple[str, ...] = ()) -> dict[str, Any]:
         if name not in known:
             raise ValueError(f"{name} is not known; known are {', '.join(known)}")
         allowed = {"str": ("str",), "bool": ("bool",), "float": ("int", "float")}
-        allowed["tuple[str, ...]"] = ("list",)
+        allowed["tuple[str, ...]"] = allowed["tuple[Any, ...]"] = ("list",)
         kinds = allowed.get(str(known[name].type), ())
         if kinds and type(value).__name__ not in kinds:
             raise ValueError(f"{name}: {value!r} is no {kinds[-1]}")
@@ -125,7 +161,7 @@ def _known(kind: type, given: Any, but: tuple[str, ...] = ()) -> dict[str, Any]:
 
 def checks_of(course: Course) -> list[Check]:
     """Load the Python files of a course; return their checks, in its order. Raises CannotCheck."""
-    package = f"{__package__}.exercises" if course.folder == OURS else PACKAGE
+    package = _package_of(course)
     if course.folder != OURS:
         for name in [each for each in sys.modules if f"{each}.".startswith(f"{PACKAGE}.")]:
             del sys.modules[name]  # of another course

@@ -24,6 +24,7 @@ from std_msgs.msg import String
 from node_kit.careful_connections import connect_once
 
 NAME = "tutorial_check"
+JOY = "/joy"  # that it answers
 ECHO = f"/{NAME}/echo"  # topic of the Echo
 KINDS = {each.__name__: each for each in (BumperEvent, Joy, LaserScan, Odometry, String, Twist)}
 MOST_KEPT = 20_000  # messages of a topic
@@ -74,15 +75,16 @@ class _Warnings(logging.Handler):
 class Echo:
     """A right joy2twist of our own: no more can be asked of the student's on this machine."""
 
-    def __init__(self) -> None:
+    def __init__(self, joy: str, axis: int) -> None:
         connect_once()
+        self._axis = axis
         rospy.init_node(f"{NAME}_echo", disable_signals=True, disable_rosout=True)
         self._publisher = rospy.Publisher(ECHO, Twist, queue_size=1, tcp_nodelay=True)
-        rospy.Subscriber("/joy", Joy, self._answer)
+        rospy.Subscriber(joy, Joy, self._answer)
 
     def _answer(self, joy: Joy) -> None:
         twist = Twist()
-        twist.linear.x = joy.axes[1]
+        twist.linear.x = joy.axes[self._axis]
         self._publisher.publish(twist)
 
     def ready(self) -> bool:

@@ -17,7 +17,8 @@ import threading
 import time
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Callable, Iterable
+from types import MappingProxyType
+from typing import Any, Callable, Iterable, Mapping
 
 from tutorial_check import bubblewrap, place
 from tutorial_check import workspace as workspaces
@@ -71,12 +72,13 @@ def examine(
     only_first: bool = False,
     own: bool = True,
     course: Path = OURS,
+    variant: Mapping[str, Any] = MappingProxyType({}),
 ) -> list[Outcome]:
     """Return the Outcomes of a workspace; call report with each result as soon as it is there.
 
     underlay: setup.bash of the devel space with what students use and never write. only_first: end
     at the first check that is wrong. own: it is the caller's own workspace, whose links may lead
-    into the home folder. course: its folder. Raises CannotCheck.
+    into the home folder. course: its folder. variant: of the task; see variants.Variant. Raises CannotCheck.
     """
     if not os.path.isfile(underlay):
         raise CannotCheck(
@@ -100,6 +102,7 @@ def examine(
             "underlay": underlay,
             "exercises": list(exercises),
             "course": str(checks),
+            "variant": dict(variant),
             "folder": folder,
             "kept": kept,
             "number": next(NUMBERS),

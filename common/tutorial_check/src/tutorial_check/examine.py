@@ -70,14 +70,20 @@ def examine(orders: dict[str, Any], send: Send, result: int) -> None:
     os.environ.update(HOME=home, ROS_HOME=home, ROS_LOG_DIR=home, ROS_IP="127.0.0.1")
     os.environ.pop("ROS_HOSTNAME", None)
 
-    from tutorial_check import box, session  # noqa: PLC0415
-    from tutorial_check.course import checks_of, read_course  # noqa: PLC0415
+    from tutorial_check import (  # noqa: PLC0415
+        box,
+        session,
+        variants,
+    )
+    from tutorial_check.course import checks_of, read_course, task_of  # noqa: PLC0415
 
     uid = place.unused_user(orders["number"]) if os.geteuid() == 0 else None
     environment.prepare(scratch, uid)
     scratch.chmod(0o755)
     apart = orders["apart"]
     variables = environment.variables(scratch, orders["environment"])
+    course = read_course(orders["course"])
+    checks = checks_of(course)
     one = session.Session(
         scratch,
         layout,
@@ -86,10 +92,9 @@ def examine(orders: dict[str, Any], send: Send, result: int) -> None:
         underlay=orders["underlay"],
         can_have_devices=apart,
         needed=[*orders["kept"], Path(__file__)],
+        task=(task_of(course) or variants.Task)(orders["variant"]),
     )
-    run = Run(
-        checks_of(read_course(orders["course"])), one, one.second_look, one.box.patience.hopeless
-    )
+    run = Run(checks, one, one.second_look, one.box.patience.hopeless)
     if uid is not None:
         if not apart:  # then the suite may lie where that user cannot read
             importlib.import_module("rosbag")
@@ -103,7 +108,7 @@ def examine(orders: dict[str, Any], send: Send, result: int) -> None:
             began_s = time.monotonic()
 
             def report(found: Result, exercise: str = exercise) -> None:
-                send(exercise=exercise, result=as_sent(found))
+                send(exercise=exercise, result=as_sent(one.task.words(found)))
 
             results = run.exercise(exercise, report, orders["only_first"])
             seconds = round(time.monotonic() - began_s, 2)

@@ -10,12 +10,14 @@ from collections import Counter
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 
+from tutorial_check import variants
 from tutorial_check.class_page import Student, table_csv, table_html
 from tutorial_check.examination import end_all, examine
 from tutorial_check.formats import as_json, clear, without_hints, write
 from tutorial_check.last_run import LastRun, digest_of, digest_of_checks
 from tutorial_check.model import CannotCheck, fault
 from tutorial_check.report import summary, text_of
+from tutorial_check.variants import variant_of
 
 ARCHIVES = (".zip", ".tar", ".tgz", ".gz", ".bz2", ".xz", ".7z", ".rar")
 TABLES = ("table.csv", "table.html")
@@ -36,6 +38,7 @@ def find_students(folder: str | Path, out: str | Path) -> list[Student]:
         path
         for path in entries
         if (path.is_dir() or path.suffix.lower() in ARCHIVES or not path.exists())
+        and path.name != variants.FOLDER
         and not _has_results(path, out)
     ]
     if not paths:
@@ -160,14 +163,16 @@ class Check:
         """Set the outcomes, which may be those of the last run; return a remark."""
         if student.path.is_symlink():  # it may lead to the files of another student
             raise CannotCheck("a link is not followed: put the folder or the archive itself here")
-        digest = self._digests[student.name] = digest_of(student.path, self._checks)
+        variant = variant_of(self._options.course, self._options, student.name)
+        checks = f"{self._checks} {variant}"
+        digest = self._digests[student.name] = digest_of(student.path, checks)
         if not self._options.again and self._last_run.is_same(student.name, digest):
             student.outcomes = student.before
             return "unchanged since the last check"
         options = self._options
         outcomes = examine(
             student.path, options.underlay, options.exercises, own=False,
-            course=options.course.folder,
+            course=options.course.folder, variant=variant,
         )  # fmt: skip
         student.outcomes = without_hints(outcomes) if options.hints == 0 else outcomes
         return ""

@@ -19,6 +19,7 @@ from tutorial_check.model import CannotCheck, fault
 from tutorial_check.package import package
 from tutorial_check.report import Terminal, summary
 from tutorial_check.self_test import self_test
+from tutorial_check.variants import sheet, variant_of
 
 UNDERLAY = "TUTORIAL_UNDERLAY"  # environment variable: setup.bash of the underlay
 WORKSPACE = "TUTORIAL_IN"  # environment variable: the workspace of the shell that this is called in
@@ -31,6 +32,7 @@ def path(word: str) -> str:
     return word
 
 
+MODES = ("workspace", "all", "package", "self_test", "show_variant")
 FILES = {
     "json": "all results",
     "junit": "JUnit's XML",
@@ -64,6 +66,14 @@ def _parser() -> Parser:
     what = "0: say what is wrong, never how to mend it; 1: when the same is wrong again; 2: always"
     add("--hints", type=int, choices=(0, 1, 2), help=f"{what} (1; with --all 2)")
     add("--no-hints", action="store_const", const=0, dest="hints", help="the same as --hints 0")
+    what = "what differs from the course, as a YAML file; ./tutorial check --show-variant shows one"
+    add("--variant", type=path, metavar="FILE", help=what)
+    what = (
+        "with --all: draw each student's from a seed and the name; FOLDER/variants/NAME.yaml first"
+    )
+    add("--variants", metavar="SEED", help=what)
+    what = "print the task sheet of a student"
+    where.add_argument("--show-variant", type=path, metavar="NAME", help=what)
     add("--solution", action="store_true", help="show ours, of exercises that are done")
     add("--watch", action="store_true", help="check again whenever a file is saved")
     for name, what in FILES.items():
@@ -86,7 +96,7 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     except CannotCheck as error:
         parser.error(str(error))
     known = options.course.exercises
-    if not (options.workspace or options.all or options.self_test or options.package):
+    if not any(getattr(options, name) for name in MODES):
         words = " ".join(options.exercises)
         parser.error(f"which workspace? For example: --in ~/ros/hydro/catkin_ws {words}".rstrip())
     wanted = [name for each in options.exercises for name in options.course.meant(each)]
@@ -121,6 +131,10 @@ def _refuse_idle(parser: argparse.ArgumentParser, options: argparse.Namespace) -
         parser.error(f"{files[0]} is for one check; leave --watch out")
     if options.again and not options.all:
         parser.error("--again is for --all")
+    if options.variant and (options.package or options.self_test):
+        parser.error("--variant is for workspaces")
+    if options.variants is not None and not (options.all or options.show_variant):
+        parser.error("--variants is for --all and --show-variant")
     many = {"out": options.all or options.package, "jobs": options.all or options.self_test}
     for name, is_useful in many.items():
         if getattr(options, name) is not None and not is_useful:
@@ -157,6 +171,7 @@ def check_one(options: argparse.Namespace) -> int:
     outcomes = examine(
         options.workspace, options.underlay, options.exercises, terminal.result,
         course=options.course.folder, own=not (options.gradescope or options.classroom),
+        variant=variant_of(options.course, options, ""),
     )  # fmt: skip
     terminal.done()
     memory.keep(outcomes)
@@ -187,6 +202,10 @@ def main() -> None:
             code = check_all(options)
         elif options.package:
             print(package(options.package, options.course, options.exercises, options.out))
+            code = 0
+        elif options.show_variant:
+            name = options.show_variant
+            print(sheet(options.course, variant_of(options.course, options, name), name))
             code = 0
         elif options.self_test:
             code = self_test(options.course, options.underlay, max(1, options.jobs))

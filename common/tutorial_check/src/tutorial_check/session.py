@@ -6,6 +6,7 @@ import contextlib
 import os
 import re
 import shlex
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, Callable, Dict, Iterable, Iterator, Tuple
 
@@ -16,6 +17,7 @@ from tutorial_check.manifests import must_be_startable
 from tutorial_check.model import CannotCheck, Wrong, master_gone
 from tutorial_check.python_facts import PythonFacts, read_python
 from tutorial_check.stage import Stage
+from tutorial_check.variants import Task
 from tutorial_check.workspace import Layout, Package, packages_below
 
 SLOW_S = 120  # [s] for what needs a second, when the machine is very busy
@@ -53,8 +55,13 @@ class Session:
         underlay: str,
         can_have_devices: bool,
         needed: Iterable[str | Path] = (),
+        task: Any = None,
     ) -> None:
-        """underlay: its setup.bash; needed: what of the suite the student's launch files lead to."""
+        """underlay: its setup.bash; needed: what of the suite the student's launch files lead to.
+
+        task: of this student; see variants.Task.
+        """
+        self.task: Any = task or Task({})  # of the course
         self.folder = Path(folder)
         self.layout = layout
         self.exercises = frozenset(exercises)  # that are asked for
@@ -91,7 +98,11 @@ class Session:
 
     @property
     def packages(self) -> list[Package]:
-        return self.memo("packages", lambda: packages_below(self.source))
+        return self.memo("packages", self._packages)
+
+    def _packages(self) -> list[Package]:
+        found = packages_below(self.source)
+        return [replace(each, name=self.task.known_as(each.name)) for each in found]
 
     def package(self, name: str) -> Any:
         return next((each for each in self.packages if each.name == name), None)
@@ -233,18 +244,22 @@ class Session:
 
     def command(self, package: str, script: str) -> list[str]:
         """Return the command that starts a script as rosrun does: catkin's own copy, if there is one."""
-        installed = self.folder / "ws" / "devel" / "lib" / package / Path(script).name
+        own_name = self.task.named(package)
+        installed = self.folder / "ws" / "devel" / "lib" / own_name / Path(script).name
         self.environment  # noqa: B018  builds, if need be
         if installed.exists() and not Path(script).name.startswith("checked_"):
             return [str(installed)]
         return [str(self.package(package).folder / script)]
 
     @contextlib.contextmanager
-    def stage(self) -> Iterator[Stage]:
-        """Yield a Stage: a ROS master and a driver; all that was started on it ends with it."""
+    def stage(self, renamed: bool = True) -> Iterator[Stage]:
+        """Yield a Stage: a ROS master and a driver; all that was started on it ends with it.
+
+        renamed: whether topics have the names that the student's task gives them.
+        """
         must_be_startable(self)
         self.box.patience.begin()
-        stage = Stage(self)
+        stage = Stage(self, renamed)
         try:
             yield stage
         except (CannotCheck, Wrong, LookupError) as error:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Callable, Sequence
 from tutorial_check import forked
 from tutorial_check.box import Program
 from tutorial_check.model import CannotCheck, Wrong
+from tutorial_check.variants import UNASKED
 
 if TYPE_CHECKING:
     from tutorial_check.session import Session
@@ -21,13 +22,17 @@ START_S = 8.0  # a node of the student's has this long to appear
 class Stage:
     """A master, a driver, and the student's programs."""
 
-    def __init__(self, session: Session) -> None:
+    def __init__(self, session: Session, renamed: bool = True) -> None:
+        """Start a master and a driver. renamed: topics have the names of the student's task."""
         # ROS, for all that are forked from here on. Not every check needs it, and it takes its time.
         import rosmaster.master  # noqa: F401, PLC0415
 
         from tutorial_check import driver  # noqa: PLC0415
 
         self.session, self.box, self.wait = session, session.box, session.box.wait
+        self._topics = dict(session.task.topics) if renamed else {}
+        asked = {own: topic for topic, own in self._topics.items()}
+        self._known_as = {**{topic: f"{UNASKED}{topic}" for topic in self._topics}, **asked}
         with socket.socket() as probe:
             probe.bind(("127.0.0.1", 0))
             port = probe.getsockname()[1]
@@ -56,16 +61,18 @@ class Stage:
         self._helpers.append(helper)
         return helper
 
-    def echo(self) -> tuple[forked.Helper, str]:
-        """Return a Helper with an Echo, and the topic on which it answers."""
+    def echo(self, axis: int) -> tuple[forked.Helper, str]:
+        """Return a Helper with an Echo of an axis, and the topic on which it answers."""
         from tutorial_check import driver  # noqa: PLC0415
 
-        return self.help(driver.Echo), driver.ECHO
+        joy = self._topics.get(driver.JOY, driver.JOY)
+        return self.help(lambda: driver.Echo(joy, axis)), driver.ECHO
 
     def start_ours(self, package: str, program: str, *arguments: str) -> Program:
         """Start a program of the suite's. Without rosrun, which searches it for half a second."""
         path = Path(self.session.underlay).parent / "lib" / package / program
-        return self.launch([str(path), *arguments], trusted=True)
+        renamed = [f"{topic}:={own}" for topic, own in self._topics.items()]
+        return self.launch([str(path), *renamed, *arguments], trusted=True)
 
     def launch(self, command: Sequence[str], trusted: bool = False) -> Program:
         try:
@@ -79,7 +86,16 @@ class Stage:
 
     def call(self, method: str, *arguments: Any) -> Any:
         """Call a method of the driver. Without a master rospy tries without end: do not wait for that."""
-        return self._driver.call(method, *arguments, in_vain=lambda: not self.master_lives)
+        if arguments:
+            arguments = (self._topics.get(arguments[0], arguments[0]), *arguments[1:])
+        found = self._driver.call(method, *arguments, in_vain=lambda: not self.master_lives)
+        if method == "state":
+            return tuple(map(self._as_known, found))
+        return self._as_known(found) if method == "types" else found
+
+    def _as_known(self, topics: dict[str, Any]) -> dict[str, Any]:
+        """Return what is known of topics, by the names that the checks have for them."""
+        return {self._known_as.get(topic, topic): about for topic, about in topics.items()}
 
     @property
     def master_lives(self) -> bool:

@@ -12,6 +12,7 @@ from tutorial_check.examination import examine
 from tutorial_check.hints import Memory
 from tutorial_check.model import WRONG, CannotCheck
 from tutorial_check.report import Terminal, lines_of, summary
+from tutorial_check.variants import variant_of
 
 PERIOD_S = 0.5  # between two looks; editors save in several steps, so two must be the same
 IGNORED = {"build", "devel", ".git", "__pycache__"}
@@ -62,6 +63,7 @@ def report_once(options: argparse.Namespace) -> None:
             lambda outcome, _: terminal.busy(f"checking {outcome.id} ..."),
             only_first=True,
             course=options.course.folder,
+            variant=variant_of(options.course, options, ""),
         )
     except CannotCheck as error:
         terminal.done()

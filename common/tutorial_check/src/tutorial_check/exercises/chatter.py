@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 TALKS = "std_msgs/String on /chatter, about 10 times a second"
 LISTENS = "every text sent on /chatter, displayed once"
 GOES_ON = "it goes on until Ctrl-C"
+RATE_TOLERANCE = 0.2  # of a rate that is asked for
 FEW = 3  # Twists, of which no rate can be told
 
 
@@ -144,18 +145,25 @@ def talker(session: Session) -> Note | str:
         hint = "while not rospy.is_shutdown(): ..., rate.sleep() within it"
         raise crash(session, PACKAGE, half.program, GOES_ON, hint)
     times = [when for when, caller, _ in talk.heard if caller == talk.heard[0][1]]
-    if len(times) < FEW:
+    wanted = session.task.values.get("rate")
+    if len(times) < FEW and not wanted:
         return Note(f"{len(times)} messages in {LISTEN_S + 2:.0f} s: slower than 1 Hz")
-    rate = 1 / max(1e-6, statistics.median(b - a for a, b in zip(times, times[1:])))
+    steps = [b - a for a, b in zip(times, times[1:])] or [LISTEN_S]
+    rate = 1 / max(1e-6, statistics.median(steps))
     # Where we come late for some, they come at once; but not more of them than were sent.
     if min(rate, (len(times) - 1) / max(1e-6, times[-1] - times[0])) > 150:
         seen = f"{f'{rate:.0f}' if rate < 1000 else 'thousands of'} messages a second"
         where = f"{half.script}:{facts.loops[0]}" if facts.loops else half.script
         raise Wrong(TALKS, seen, where, "rate.sleep() is missing within the loop", sure=True)
+    if wanted and not abs(rate / wanted - 1) < RATE_TOLERANCE:
+        call = facts.first("Rate")
+        where = f"{half.script}:{call.line}" if call else half.script
+        raise Wrong(TALKS, f"{rate:.1f} times a second", where, f"rospy.Rate({wanted})")
     texts = {value for _, _, value in talk.heard}
     if len(texts) == 1:
         return Note(f"always the same text, {texts.pop()!r}; the handout's has the time in it")
-    return f"{rate:.1f} Hz" if 8 <= rate <= 12 else Note(f"{rate:.1f} Hz, the handout's is 10")
+    is_as_asked = wanted or 8 <= rate <= 12
+    return f"{rate:.1f} Hz" if is_as_asked else Note(f"{rate:.1f} Hz, the handout's is 10")
 
 
 @check("C7", "the listener displays what it hears", "3.1", "C5",

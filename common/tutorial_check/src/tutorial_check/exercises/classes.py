@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 from tutorial_check.class_facts import with_bases
 from tutorial_check.course import check
 from tutorial_check.exercises import conversation
-from tutorial_check.exercises.driving import PACKAGE, drive
+from tutorial_check.exercises.driving import drive
 from tutorial_check.exercises.joy2twist import NAME, check_manifest
+from tutorial_check.exercises.joystick_task import PACKAGE
 from tutorial_check.model import Note, Wrong
 from tutorial_check.rows import Row, demand
 from tutorial_check.scripts import check_file, must_be_one

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 from tutorial_check.exercises.dialogue import Conversation
 from tutorial_check.exercises.driving import CMD_VEL, COUNT, JOY
 from tutorial_check.exercises.mapping import judge
-from tutorial_check.exercises.probing import judge_probes
 from tutorial_check.model import Note, master_gone
 from tutorial_check.rows import Row, demand
 
@@ -174,7 +173,7 @@ def check_mapping(session: Session, seen: Drive) -> Note | None:
     one.complaint, one.hint = judge(seen.evidence)
     if not one.complaint:
         one.remark = one.hint
-        one.complaint, one.hint = judge_probes(seen.samples, seen.answers)
+        one.complaint, one.hint = seen.judge_probes()
     demand(ONCE, one, MAPS)
     return demand(RIGHT_RULE, one, MAPS)
 

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any, Iterable, Sequence
 
 from tutorial_check.causes import with_import
 from tutorial_check.exercises.changed_programs import unmasked
-from tutorial_check.exercises.driving import CMD_VEL, JOY, PACKAGE, drive
+from tutorial_check.exercises.driving import CMD_VEL, JOY, drive
+from tutorial_check.exercises.joystick_task import PACKAGE
 from tutorial_check.model import Wrong
 from tutorial_check.python_text import python_lines
 from tutorial_check.scripts import check_file, crash, silent_end
@@ -47,8 +48,8 @@ class Conversation:
         self.sleep = self._first(seen.sleep_lines)
         call = facts.first("Subscriber")
         self.wanted = call.words[1] if call and len(call.words) > 1 else "another type"
-        kind = seen.types.get(CMD_VEL)
-        refused = any("datatype" in line and CMD_VEL in line for line in seen.warnings)
+        kind, own = seen.types.get(CMD_VEL), session.task.topic(CMD_VEL)
+        refused = any("datatype" in line and own in line for line in seen.warnings)
         self.carried = kind if kind != "geometry_msgs/Twist" or refused else ""
         self.heard_on, self.sent_on = map(_other_topic, (seen.subscribers, seen.publishers))
         self.drivers = sorted(set(seen.publishers.get(CMD_VEL, ())))

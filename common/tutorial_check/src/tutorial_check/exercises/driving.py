@@ -8,7 +8,8 @@ import time
 from typing import TYPE_CHECKING, Any, Callable, Sequence
 
 from tutorial_check.box import GRACE_S
-from tutorial_check.exercises.mapping import LINEAR, Evidence, judge, rule_of
+from tutorial_check.exercises.joystick_task import PACKAGE
+from tutorial_check.exercises.mapping import LINEAR, RIGHT, Evidence, judge, rule_of
 from tutorial_check.exercises.probing import (
     AT_REST,
     NUMBER,
@@ -29,7 +30,6 @@ if TYPE_CHECKING:
     from tutorial_check.session import Session
 
 
-PACKAGE = "joy2twist"
 JOY, CMD_VEL = "/joy", "/cmd_vel"
 COUNT = 20
 RATE, STREAM_S = 50.0, 2.5
@@ -48,7 +48,7 @@ class Drive:
     """What came of starting a program and sending it Joy messages."""
 
     def __init__(self, session: Session, script: str, wants_twist: bool = True) -> None:
-        self.session, self.script = session, script
+        self.session, self.script, self._task = session, script, session.task
         self.samples: list[Any] = []
         self.first_samples: list[Any] = []  # of an earlier pass
         self.missing = self.unasked = self.shown = self.asked = 0
@@ -121,17 +121,17 @@ class Drive:
                     self._probe(joys)
         else:
             for joy in joys:
-                stage.call("send", JOY, joy)
+                stage.call("send", JOY, self._task.joy(joy))
             self.asked = COUNT
         self._wait(lambda: self._displayed() >= min(5, self.asked), 0.7)
         self.shown = self._displayed()
         goes = self.answers and not self.unanswered
-        goes = goes and not judge_probes(self.samples, self.answers)[0]
+        goes = goes and not self.judge_probes()[0]
         if goes and RATED & self.session.exercises and not self.program.ended:
             self._stream()
             if not self.is_prompt and not self.program.ended:
                 before = stage.call("listeners", JOY)
-                echo, answers = stage.echo()
+                echo, answers = stage.echo(self._task.axes[RIGHT[LINEAR]])
                 stage.call("listen", answers, "Twist")
                 stage.wait(
                     lambda: echo.call("ready") and stage.call("listeners", JOY) > before, START_S
@@ -187,7 +187,7 @@ class Drive:
     ) -> tuple[float, list[Any]]:
         """Return (when a Joy was sent, what came then). often: how many Twists are waited for."""
         before = self._count()
-        sent_s = self._stage.call("send", JOY, joy)
+        sent_s = self._stage.call("send", JOY, self._task.joy(joy))
         self._wait(lambda: self._count() - before >= often, longest_s if often == 1 else SETTLE_S)
         if settle_s:
             self._pause(settle_s)
@@ -218,7 +218,8 @@ class Drive:
     def _stream(self, beside: str | None = None) -> None:
         stage, count = self._stage, int(RATE * STREAM_S)
         before = self._count()
-        stage.call("stream", JOY, rising_joys(count), RATE, False)
+        joys = [self._task.joy(joy) for joy in rising_joys(count)]
+        stage.call("stream", JOY, joys, RATE, False)
         stage.wait(lambda: len(stage.call("sent", JOY)) >= count, STREAM_S + 3)
         stage.wait(lambda: self._count() - before >= count, 0.3)
         sent, heard = stage.call("sent", JOY), self._heard(before)
@@ -235,7 +236,11 @@ class Drive:
 
     @property
     def evidence(self) -> Evidence:
-        return Evidence(self.samples, self.first_samples, self.at_rest)
+        return Evidence(self.samples, self.first_samples, self.at_rest, self._task.factors)
+
+    def judge_probes(self) -> tuple[str, str]:
+        """Return what is wrong with the answers to the probes, and what to do; empty if nothing is."""
+        return judge_probes(self.samples, self.answers, self._task.factors, self._task.needs_button)
 
     @property
     def complaint(self) -> str:

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 from tutorial_check import student_files
 from tutorial_check.course import check
 from tutorial_check.exercises.classes import program
-from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL, PACKAGE
+from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL
+from tutorial_check.exercises.joystick_task import PACKAGE
 from tutorial_check.exercises.robot import ODOM, held
 from tutorial_check.manifests import must_be_launchable
 from tutorial_check.model import CannotCheck, Note, Wrong
@@ -72,7 +73,8 @@ class Endings:
             return self._stage.start(PACKAGE, self._script, f"__name:={name}")
         file = self._session.folder / "tmp" / "ended.launch"
         program_name = Path(self._script).name
-        text = LAUNCH_FILE.format(package=PACKAGE, program=program_name, name=name)
+        package = self._session.task.named(PACKAGE)
+        text = LAUNCH_FILE.format(package=package, program=program_name, name=name)
         student_files.put(self._session.folder, file, text)
         return self._stage.launch(["roslaunch", str(file)])
 
@@ -115,7 +117,7 @@ class Endings:
         stage.call("stream", JOY, [NEUTRAL], 50.0, True)
         stage.wait(lambda: one_has_ended() or have_sent(5, bool), 0.5)
         stage.call("end_stream", JOY)
-        stage.call("stream", JOY, [held(0.2, 0.3)], 50.0, True)
+        stage.call("stream", JOY, [held(self._session, 0.2, 0.3)], 50.0, True)
         stage.wait(
             lambda: one_has_ended() or (have_sent(10, moves) and not self._robot_stands()), 4.0
         )

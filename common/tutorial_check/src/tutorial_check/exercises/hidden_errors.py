@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 from tutorial_check.course import check
 from tutorial_check.exercises.changed_programs import without_name
 from tutorial_check.exercises.classes import program
-from tutorial_check.exercises.driving import JOY, PACKAGE
+from tutorial_check.exercises.driving import JOY
+from tutorial_check.exercises.joystick_task import PACKAGE
 from tutorial_check.model import Note, Wrong
 from tutorial_check.tracebacks import last_lines
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 from tutorial_check.course import check
 from tutorial_check.exercises import conversation
-from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL, PACKAGE, drive
+from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL, drive
+from tutorial_check.exercises.joystick_task import PACKAGE
 from tutorial_check.model import Note, Wrong
 from tutorial_check.scripts import check_end, check_file, find_script, odd_node
 from tutorial_check.stage import START_S
@@ -78,7 +80,15 @@ def displays(session: Session) -> Note | None:
 
 @check("C15", "/joy in, /cmd_vel out", "4.3", "C13", look="rosnode info NODE")
 def topics(session: Session) -> Note | str:
-    return conversation.check_topics(session, _seen(session))
+    seen = _seen(session)
+    about = conversation.check_topics(session, seen)
+    name, node = session.task.values.get("node"), seen.subscribers.get(JOY, [""])[0]
+    if name and not re.fullmatch(rf"/{name}(_\d+_\d+)?", node):
+        call = session.scripts(PACKAGE)[seen.script].first("init_node")
+        where = f"{seen.script}:{call.line}" if call else seen.script
+        expected, hint = "the name of the node that the task asks for", f"init_node('{name}')"
+        raise Wrong(expected, f"it is called {node}", where, hint)
+    return about
 
 
 @check("C16", "axis 1 drives forwards, axis 0 turns", "4.3", "C15", look="rostopic echo /cmd_vel")

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any, Callable
 
 from tutorial_check.course import check
 from tutorial_check.exercises import launch_facts
-from tutorial_check.exercises.driving import PACKAGE
 from tutorial_check.exercises.joy2twist import NAME
+from tutorial_check.exercises.joystick_task import PACKAGE
 from tutorial_check.exercises.launch_text import attribute, parse_error, space_hint
 from tutorial_check.launch_xml import line_of, place_of, read, unclosed_node
 from tutorial_check.manifests import must_be_launchable
@@ -140,6 +140,8 @@ def _read(session: Session) -> Any:
         raise Wrong("launch files that roslaunch can read", seen, hint=hint)
     lines = (line for line in program.output.splitlines() if line.startswith(launch_facts.MARK))
     told = [json.loads(line[len(launch_facts.MARK) :]) for line in lines]
+    for node in (node for one in told for node in one["nodes"]):
+        node["package"] = session.task.known_as(node["package"])
     found = {Path(one["path"]).name: one for one in told}
     if set(found) != set(paths):
         raise CannotCheck(f"launch files cannot be read: {last_lines(program.output)}")
@@ -240,9 +242,9 @@ def _check_own_node(session: Session, kind: str, place: str) -> None:
 
 def _check_finds(file: LaunchFile) -> None:
     """No $(find joy2twist) leads to a file that the student does not have."""
-    folder = file.session.package(PACKAGE).folder
+    folder, package = file.session.package(PACKAGE).folder, file.session.task.named(PACKAGE)
     for number, line in enumerate(file.text.splitlines(), 1):
-        for rest in re.findall(rf"\$\(find\s+{PACKAGE}\)([^\s\"'<>$]*)", line):
+        for rest in re.findall(rf"\$\(find\s+{package}\)([^\s\"'<>$]*)", line):
             if not rest.strip("/") or (folder / rest.strip("/")).exists():
                 continue
             name = Path(rest).name

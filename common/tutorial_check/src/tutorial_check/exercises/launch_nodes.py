@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tutorial_check.course import check
-from tutorial_check.exercises.driving import PACKAGE
+from tutorial_check.exercises.driving import CMD_VEL
+from tutorial_check.exercises.joystick_task import PACKAGE
 from tutorial_check.exercises.launch_files import BAG, JOY_HINT, STICK, LaunchFile, copy_bag
 from tutorial_check.exercises.launch_text import attribute
 from tutorial_check.exercises.robot import check_recording
@@ -94,8 +95,9 @@ def check_one_driver(file: LaunchFile) -> None:
 
 def _drives(session: Session, node: Node) -> bool:
     """Whether a program publishes Twist, and not on a topic of another name."""
-    is_renamed = any(source.strip("/") == "cmd_vel" for source, _ in node["remaps"])
-    if is_renamed or "cmd_vel:=" in node["args"]:
+    own = session.task.topic(CMD_VEL).strip("/")
+    renamed = {source.strip("/"): to.strip("/") for source, to in node["remaps"]}
+    if renamed.get(own, own) != "cmd_vel" or f"{own}:=" in node["args"]:
         return False
     return any(
         "Twist" in " ".join([*call.words, *call.names.values()])

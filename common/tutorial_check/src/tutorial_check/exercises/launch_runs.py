@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any, Callable
 
 from tutorial_check import student_files
 from tutorial_check.course import check
-from tutorial_check.exercises.driving import CMD_VEL, JOY, PACKAGE
+from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL
+from tutorial_check.exercises.joystick_task import PACKAGE
 from tutorial_check.exercises.launch_files import BAG, STICK, LaunchFile
 from tutorial_check.exercises.launch_nodes import (
     ROBOT_HINT,
@@ -19,7 +20,7 @@ from tutorial_check.exercises.launch_nodes import (
     is_player,
     is_viewer,
 )
-from tutorial_check.exercises.robot import ODOM, plug_in
+from tutorial_check.exercises.robot import ODOM, held, plug_in
 from tutorial_check.model import CannotCheck, Wrong
 from tutorial_check.scripts import cause_of
 from tutorial_check.tracebacks import first_traceback
@@ -122,7 +123,7 @@ class Launch:
         return [line for log in logs for line in log.splitlines()[-1:] if "INFO" not in line]
 
 
-def _own_bag(path: Path, length_s: float) -> None:
+def _own_bag(session: Session, path: Path, length_s: float) -> None:
     """Write a recording in place of the student's: rest with LB released, then forwards."""
     import rosbag  # noqa: PLC0415
     import rospy  # noqa: PLC0415
@@ -133,10 +134,8 @@ def _own_bag(path: Path, length_s: float) -> None:
     with rosbag.Bag(str(path), "w") as bag:
         for k in range(int(length_s * 20)):
             stamp = rospy.Time(1_600_000_000 + k / 20)
-            joy = Joy(
-                axes=[0.0, float(k > 4), 0.0, 0.0, 0.0, 0.0],
-                buttons=[0, 0, 0, 0, int(k > 4)] + [0] * 7,
-            )
+            axes, buttons = held(session, 0.0, 1.0) if k > 4 else NEUTRAL
+            joy = Joy(axes=axes, buttons=buttons)
             joy.header.stamp = stamp
             bag.write("/joy", joy, stamp)
     os.chmod(path, mode | 0o444)
@@ -151,8 +150,8 @@ def _bag_run(session: Session) -> Any:
     by_words = any(LOOP.fullmatch(word) for word in file.words_of(player))
     loops = by_words or player["respawn"]
     if replaced:
-        _own_bag(bag, BAG_S if loops else ONCE_S)
-    with session.stage() as stage:
+        _own_bag(session, bag, BAG_S if loops else ONCE_S)
+    with session.stage(renamed=False) as stage:
         launch = Launch(file, stage)
         # A robot that drives by another topic has not shown that /joy does it.
         drives = launch.wait(lambda: launch.moved() > 0.3) and bool(stage.call("count", JOY))
@@ -189,7 +188,7 @@ def bag_loops(session: Session) -> None:
 def stick_drives(session: Session) -> None:
     """Start launch_joy_node, push the stick and release it."""
     file = LaunchFile(session, STICK)
-    with session.stage() as stage:
+    with session.stage(renamed=False) as stage:
         pad = plug_in_for(file, stage)
         launch = Launch(file, stage)
         pushed = push_when_ready(stage, pad, launch)

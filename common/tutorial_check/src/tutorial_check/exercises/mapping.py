@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import Iterable, Sequence, Tuple
+from typing import Iterable, Mapping, Sequence, Tuple
 
 from tutorial_check.rows import Row, find
 
@@ -69,11 +69,15 @@ def rule_of(index: int, samples: Iterable[Sample]) -> Rule | None:
 
 @dataclass
 class Evidence:
-    """What a program answered; `again` to the same Joys sent earlier, `at_rest` to one with all axes 0."""
+    """What a program answered; `again` to the same Joys sent earlier, `at_rest` to one with all axes 0.
+
+    factors: those that are asked for, by the index of the field; without one any is right.
+    """
 
     samples: list[Sample]
     again: list[Sample] = field(default_factory=list)
     at_rest: Sequence[float] | None = None
+    factors: Mapping[int, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         twists = [twist for _, twist in self.samples]
@@ -102,7 +106,12 @@ class Field:
         self.across = [axes[1 - axis] for axes, _ in evidence.samples]
         self.pairs = list(zip(self.given, self.values))
         self.rule = evidence.rules[index]
+        self.wanted = evidence.factors.get(index)
         self.is_right = bool(self.rule and self.rule.axis == axis and self.rule.factor > 0)
+        # Rounded to two decimals a value is off by as much as 0.005.
+        near = self.rule and self.wanted and abs(self.rule.factor / self.wanted - 1) < 0.02
+        self.is_scaled = self.is_right and bool(self.wanted and not near)
+        self.is_right = self.is_right and not self.is_scaled
         self.is_still = index not in evidence.moving
         other = evidence.rules[ANGULAR if index == LINEAR else LINEAR]
         crossed = (1 - axis, axis)
@@ -197,6 +206,7 @@ BEFORE = (
 )  # fmt: skip
 # Of a field that does not follow its axis by a constant. The first row that applies counts.
 OF_A_FIELD = (
+    Row(lambda f: f.is_scaled, "{f.name} = {f.rule.factor:.2f} * axes[{f.axis}]", JUST),
     Row(lambda f: f.rule and f.rule.axis == f.axis,
         "{f.name} = {f.rule.factor:.2f} * axes[{f.axis}]: the sign is wrong",
         "pushed {f.sides[0]}, the robot goes {f.sides[1]}: leave the minus out"),
@@ -233,7 +243,7 @@ OF_A_FIELD = (
     Row(lambda f: f.steps,
         "{f.name} has steps, as {found}: it does not follow axes[{f.axis}] between them",
         JUST + ", without round(), and not one speed for many positions"),
-    Row(lambda f: not f.is_curve, "{f.name} is no constant times axes[{f.axis}]", JUST),
+    Row(lambda f: not f.is_curve or f.wanted, "{f.name} is no constant times axes[{f.axis}]", JUST),
 )  # fmt: skip
 AFTER = (
     Row(lambda e: e.extra, "{found}",
@@ -257,6 +267,6 @@ def _remark(evidence: Evidence) -> str:
     scaled = [
         f"{f.name} = {f.rule.factor:.2f} * axes[{f.axis}]"
         for f in evidence.fields
-        if f.rule and abs(f.rule.factor - 1) > 0.02
+        if f.rule and abs(f.rule.factor - 1) > 0.02 and not f.wanted
     ]
     return f"{', '.join(scaled)}; the handout's has no factor" if scaled else ""

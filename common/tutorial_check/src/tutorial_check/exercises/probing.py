@@ -6,8 +6,10 @@ import collections
 import math
 import re
 from dataclasses import dataclass
-from typing import Iterable, Sequence, Tuple
+from types import MappingProxyType
+from typing import Iterable, Mapping, Sequence, Tuple
 
+from tutorial_check.exercises.joystick_task import LB
 from tutorial_check.exercises.mapping import (
     AXES,
     FIELDS,
@@ -25,7 +27,6 @@ from tutorial_check.rows import Row, find
 Joy = Tuple[Tuple[float, ...], Tuple[int, ...]]  # (axes, buttons)
 Answer = Tuple[Joy, Sequence[float]]  # and the six values of its Twist
 
-LB = 4  # the dead-man button of the handout's memo
 BUTTONS = 12
 REST = (0.0,) * AXES
 FAST = (0.6, 0.7, *REST[2:])
@@ -197,10 +198,16 @@ REPLIES = (
 )  # fmt: skip
 
 
-def judge_probes(samples: Sequence[Sample], answers: Iterable[Answer]) -> tuple[str, str]:
+def judge_probes(
+    samples: Sequence[Sample],
+    answers: Iterable[Answer],
+    factors: Mapping[int, float] = MappingProxyType({}),
+    needs_button: bool = False,
+) -> tuple[str, str]:
     """Return (complaint, hint), as judge() does, about the answers to the probes.
 
-    samples: the numbered Joys, whose rule is right as far as they show.
+    samples: the numbered Joys, whose rule is right as far as they show. factors: see Evidence.
+    needs_button: whether LB must be held to drive.
     """
     answers = list(answers)
     odd = no_number([(axes, twist) for (axes, _), twist in answers])
@@ -226,7 +233,9 @@ def judge_probes(samples: Sequence[Sample], answers: Iterable[Answer]) -> tuple[
         if any(axes[axis] and not axes[1 - axis] and not any(twist) for axes, twist in held):
             seen = f"{FIELDS[field]} is 0 when axes[{axis}] alone is moved"
             return seen, f"{FIELDS[field]} = axes[{axis}], whatever the other axis is"
-    complaint, hint = judge(Evidence([*samples, *held]))
+    if needs_button and any(any(twist) for (_, buttons), twist in answers if not buttons[LB]):
+        return "the robot drives with LB released", "publish Twist(), all zero, unless LB is held"
+    complaint, hint = judge(Evidence([*samples, *held], factors=factors))
     return (complaint, hint) if complaint else ("", "")
 
 

@@ -8,8 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Iterable, Sequence
 
 from tutorial_check.course import check
-from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL, PACKAGE
+from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL
 from tutorial_check.exercises.joy2twist import main_script
+from tutorial_check.exercises.joystick_task import LB, PACKAGE
 from tutorial_check.exercises.mapping import ANGULAR, LINEAR
 from tutorial_check.exercises.pad import Pad
 from tutorial_check.model import CannotCheck, Note, Wrong
@@ -30,9 +31,10 @@ FASTEST = 0.7  # [m/s] the robot goes no faster, whatever it is told
 LOOKS = 3  # at the robot's speed: one stutter of a busy machine is none of the program's
 
 
-def held(left: float, forwards: float) -> Any:
-    """Return a Joy with LB held."""
-    return (left, forwards, 0.0, 0.0, 0.0, 0.0), (*NEUTRAL[1][:4], 1, *NEUTRAL[1][5:])
+def held(session: Session, left: float, forwards: float) -> Any:
+    """Return a Joy with LB held, as the student's task has it."""
+    buttons = (*NEUTRAL[1][:LB], 1, *NEUTRAL[1][LB + 1 :])
+    return session.task.joy(((left, forwards, 0.0, 0.0, 0.0, 0.0), buttons))
 
 
 def rest(stage: Stage, *topics: Iterable[str]) -> None:
@@ -130,8 +132,8 @@ def simulated(session: Session) -> Note | str | None:
     script = main_script(session)
     with session.stage() as stage:
         program = _beside_the_robot(session, stage, script)
-        straight, told = _driven(stage, held(0.0, FORWARDS), LINEAR)
-        turning, told_turn = _driven(stage, held(LEFT, 0.0), ANGULAR)
+        straight, told = _driven(stage, held(session, 0.0, FORWARDS), LINEAR)
+        turning, told_turn = _driven(stage, held(session, LEFT, 0.0), ANGULAR)
         session.box.end(program, 0.5)
     if not told or not told_turn:
         raise Wrong("Twists that the robot obeys", "none came")
@@ -194,7 +196,7 @@ def _driven(stage: Stage, joy: Any, field: Any) -> Any:
 def plug_in(session: Session, stage: Stage, device: str = "/dev/input/js0", mode: str = "D") -> Any:
     """Make a virtual F710 behind a device, or a FIFO where that cannot be; (Pad, path)."""
     path = Path(device) if session.can_have_devices else session.folder / "js0"
-    pad = stage.help(lambda: Pad(str(path), mode))
+    pad = stage.help(lambda: Pad(str(path), mode, session.task.joy))
     pad.call("connected")
     return pad, path
 
@@ -251,14 +253,15 @@ def _survives_eight_axes(stage: Stage, program: Any, speeds: Any) -> Any:
     def drive_backwards() -> None:
         """Only this does; once it shows, all that was sent before has been answered."""
         index = stage.call("count", CMD_VEL)
-        stage.call("send", JOY, held(0.1, -0.5))
+        stage.call("send", JOY, held(stage.session, 0.1, -0.5))
         stage.wait(lambda: min(speeds(index), default=0.0) < 0 or program.ended, SLOW_S)
 
     drive_backwards()
     before, failed = stage.call("count", CMD_VEL), program.output.count("Traceback")
     for k in range(5):
         axes = (0.1, 0.2 + 0.1 * k, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-        stage.call("send", JOY, (axes, (0,) * 4 + (1,) + (0,) * 6))
+        joy = axes, (0,) * LB + (1,) + (0,) * 6
+        stage.call("send", JOY, stage.session.task.joy(joy))
     drive_backwards()
     has_failed = program.ended or program.output.count("Traceback") != failed
     return not has_failed and max(speeds(before), default=0.0) > 0

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 from tutorial_check.course import check
 from tutorial_check.exercises import launch_nodes, launch_runs
-from tutorial_check.exercises.driving import CMD_VEL, JOY, PACKAGE
+from tutorial_check.exercises.driving import CMD_VEL, JOY
+from tutorial_check.exercises.joystick_task import PACKAGE
 from tutorial_check.exercises.launch_files import JOY_HINT, REAL, TURTLEBOT, check_file
 from tutorial_check.exercises.robot import held, rest
 from tutorial_check.model import CannotCheck, Wrong
@@ -21,8 +22,13 @@ if TYPE_CHECKING:
 
 
 TELEOP, ACTIVE = "/cmd_vel_mux/input/teleop", "/cmd_vel_mux/active"
-REMAP = '<remap from="/cmd_vel" to="/cmd_vel_mux/input/teleop"/>'
-EXPECTED = f"Twists on {TELEOP}, none on {CMD_VEL}"
+EXPECTED = f"Twists on {TELEOP}, none on any other topic"
+REMAP = "{f.remap}"  # in hints
+
+
+def remap_of(session: Session) -> str:
+    """Return the <remap> that is asked for."""
+    return f'<remap from="{session.task.topic(CMD_VEL)}" to="{TELEOP}"/>'
 
 
 class Remapped:
@@ -30,11 +36,13 @@ class Remapped:
 
     def __init__(self, file: LaunchFile) -> None:
         self.file = file
-        with file.session.stage() as stage:
-            stage.call("listen", CMD_VEL, "Twist")
+        self.twists = twists = file.session.task.topic(CMD_VEL)  # as the program has it
+        self.remap = remap_of(file.session)
+        with file.session.stage(renamed=False) as stage:
+            stage.call("listen", twists, "Twist")
             stage.call("advertise", JOY, "Joy")
             self.launch = launch = launch_runs.Launch(file, stage, TELEOP)
-            topics = (TELEOP, CMD_VEL)
+            topics = (TELEOP, twists)
             launch.wait(
                 lambda: (
                     stage.call("listeners", JOY) > 1  # one is ours
@@ -44,7 +52,7 @@ class Remapped:
                 )
             )
             rest(stage, *topics)
-            stage.call("stream", JOY, [held(0.2, 0.3)], 20.0, True)
+            stage.call("stream", JOY, [held(file.session, 0.2, 0.3)], 20.0, True)
 
             def moving(topic: str) -> bool:
                 return any(abs(value[0]) > 0.01 for _, _, value in stage.call("heard", topic))
@@ -59,15 +67,14 @@ class Remapped:
         self.where, self.at_remap = file.where, file.at("<remap", "joy2twist.py")
         self.at_param, self.at_type = file.at("<param"), file.at(file.own[0]["type"])
 
-    @staticmethod
-    def _others(stage: Stage) -> Any:
-        topics = (each for each in stage.call("state")[0] if each not in (TELEOP, CMD_VEL))
+    def _others(self, stage: Stage) -> Any:
+        topics = (each for each in stage.call("state")[0] if each not in (TELEOP, self.twists))
         return sorted(topic for topic in topics if re.search("vel|teleop|mux", topic))
 
     @property
     def is_right(self) -> Any:
         """Whether the velocities flow where they should, and there alone."""
-        return self.good and not self.bad and CMD_VEL not in self.publishers
+        return self.good and not self.bad and self.twists not in self.publishers
 
     @property
     def by_itself(self) -> Any:
@@ -85,21 +92,21 @@ class Remapped:
 NOT_REMAPPED = (
     Row(lambda r: r.has_failed, lambda r: r.failed()),
     Row(lambda r: r.bad and not r.remaps and re.search(r"<param\s+(from|name)=", r.file.text),
-        "Twists on /cmd_vel: a <param> renames nothing", REMAP, "{f.at_param}", sure=True),
+        "Twists on {f.twists}: a <param> renames nothing", REMAP, "{f.at_param}", sure=True),
     Row(lambda r: r.bad and not r.remaps and "<remap" in r.file.text,
-        "Twists on /cmd_vel: the <remap> stands outside of the node, and not before it",
+        "Twists on {f.twists}: the <remap> stands outside of the node, and not before it",
         "a <remap> holds for the node around it, and for those below it: put it between <node ...>"
         " and </node>", "{f.at_remap}", sure=True),
-    Row(lambda r: r.bad and any(to.strip("/") == "cmd_vel" for to in r.topics_meant),
-        "Twists on /cmd_vel: from and to are swapped",
-        f"from is the name in the program: {REMAP}", "{f.at_remap}", sure=True),
+    Row(lambda r: r.bad and any(f"/{to.strip('/')}" == r.twists for to in r.topics_meant),
+        "Twists on {f.twists}: from and to are swapped",
+        "from is the name in the program: " + REMAP, "{f.at_remap}", sure=True),
     Row(lambda r: (r.bad or set(r.others[:1]) & set(r.topics_meant)) and r.others,
         "it publishes on {found[0]}", REMAP, "{f.at_remap}", sure=True),
     Row(lambda r: r.others, "it publishes on {found[0]}", REMAP, "{f.at_remap}"),
     Row(lambda r: r.bad and r.remaps,
-        "Twists on /cmd_vel: the remap from {found[0][0]} fits no topic of the program", REMAP,
+        "Twists on {f.twists}: the remap from {found[0][0]} fits no topic of the program", REMAP,
         "{f.at_remap}", sure=True),
-    Row(lambda r: r.bad, "Twists on /cmd_vel: nothing is remapped", REMAP, "{f.at_remap}",
+    Row(lambda r: r.bad, "Twists on {f.twists}: nothing is remapped", REMAP, "{f.at_remap}",
         sure=True),
     Row(lambda r: JOY not in r.subscribers, "no node listens to /joy",
         "does the node start, and is /joy left as it is?", "{f.where}"),
@@ -107,7 +114,7 @@ NOT_REMAPPED = (
 )  # fmt: skip
 BY_ITSELF = (
     Row(lambda r: r.by_itself, f"{{found}} publishes on {TELEOP} by itself",
-        f'type="joy2twist.py", and in it {REMAP}', "{f.at_type}"),
+        'type="joy2twist.py", and in it ' + REMAP, "{f.at_type}"),
 )  # fmt: skip
 
 
@@ -131,7 +138,7 @@ def real_robot(session: Session) -> None:
     file = check_file(session, REAL)
     _check_items(file)
     has_base = any(node["type"] == "cmd_vel_mux.py" for node in file.nodes)
-    with session.stage() as stage:
+    with session.stage(renamed=False) as stage:
         stage.call("listen", ACTIVE, "String")
         pad, base = launch_runs.plug_in_for(file, stage), None
         if not has_base:
@@ -148,7 +155,7 @@ def real_robot(session: Session) -> None:
         active = {value for _, _, value in stage.call("heard", ACTIVE)}
     if not any("teleop" in each for each in active):
         seen = ", ".join(sorted(active)) or "nothing"
-        raise Wrong("cmd_vel_mux/active says teleop", seen, file.where, REMAP)
+        raise Wrong("cmd_vel_mux/active says teleop", seen, file.where, remap_of(session))
 
 
 def _check_items(file: LaunchFile) -> None:

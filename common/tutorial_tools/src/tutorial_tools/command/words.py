@@ -160,7 +160,7 @@ def plan_of_test(kind: str, rest: list[str]) -> Plan:
 def refuse(word: str, arguments: list[str]) -> None:
     """Refuse what would fail only after a set-up of minutes."""
     options = {argument.split("=")[0] for argument in arguments}
-    own = {"--in", "--all", "--self-test", "--package", "-h", "--help"}
+    own = {"--in", "--all", "--self-test", "--package", "--show-variant", "-h", "--help"}
     named = os.environ.get("TUTORIAL_IN") or options & own
     if word == "check" and not named:
         words = " ".join(["./tutorial check --in ~/ros/hydro/catkin_ws", *arguments])
