@@ -54,10 +54,10 @@ def _turned(text, values, is_turtlebot):
         for key in ("joy", "cmd_vel"):
             own = values.get(key, f"/{key}")
             text = re.sub(rf"(?<=['\"])/?{key}(?=['\"])", own, text)
-    if "package" in values:
-        text = re.sub(rf"(?<![\w/]){J}(?![\w.])", values["package"], text)
     if "node" in values:
         text = re.sub(r"(?<=init_node\(['\"])(listener|joy2twist|converter)", values["node"], text)
+    if "package" in values:
+        text = re.sub(rf"(?<![\w/]){J}(?![\w.])", values["package"], text)
     if "rate" in values:
         text = re.sub(r"Rate\(10\)|Duration\(0\.1\)", f"Rate({values['rate']})", text)
     return text

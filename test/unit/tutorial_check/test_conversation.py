@@ -8,6 +8,7 @@ from tutorial_check.exercises import chatter, joy2twist, talking
 from tutorial_check.exercises import conversation as c
 from tutorial_check.exercises.dialogue import Conversation, repetition
 from tutorial_check.exercises.driving import CMD_VEL, JOY, PACKAGE, Drive
+from tutorial_check.exercises.joystick_task import JoystickTask
 from tutorial_check.python_facts import read_python
 from tutorial_check.rows import find
 
@@ -58,7 +59,8 @@ def conversation(text, complaint="", **recorded):
     }  # fmt: skip
     facts = read_python(text)
     about["sleep_lines"] = facts.called_back.get("sleep", [])
-    session = SimpleNamespace(scripts=lambda _: {SCRIPT: facts}, text=lambda *_: text)
+    about_files = {"scripts": lambda _: {SCRIPT: facts}, "text": lambda *_: text}
+    session = SimpleNamespace(task=JoystickTask({}), **about_files)
     one = Conversation(session, SimpleNamespace(**{**about, **recorded}))
     one.complaint = complaint
     return one

@@ -32,7 +32,7 @@ def group(tmp_path, monkeypatch):
 def check_all(group, out=None, again=False):
     """Return the exit code and the rows of the table."""
     about = {"jobs": 1, "hints": 2, "again": again, "underlay": "", "exercises": ["2"]}
-    about |= {"variant": None, "variants": None}
+    about.update(variant=None, variants=None, cluster=None)
     options = SimpleNamespace(all=str(group), out=out, course=read_course(), **about)
     code = professor.check_all(options)
     with (group / "check" / "table.csv").open(newline="", encoding="utf-8") as table:

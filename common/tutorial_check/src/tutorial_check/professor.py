@@ -12,6 +12,7 @@ from pathlib import Path
 
 from tutorial_check import variants
 from tutorial_check.class_page import Student, table_csv, table_html
+from tutorial_check.cluster import MOST_AT_ONCE, Cluster, Gone
 from tutorial_check.examination import end_all, examine
 from tutorial_check.formats import as_json, clear, without_hints, write
 from tutorial_check.last_run import LastRun, digest_of, digest_of_checks
@@ -100,6 +101,8 @@ class Check:
         self._checks = digest_of_checks(options.course, options.exercises, options.hints)
         self._digests: dict[str, str] = {}
         self._next_s = 0.0  # when the page may be written again
+        self._cluster = Cluster(options.cluster) if options.cluster else None
+        self._at_once = MOST_AT_ONCE if self._cluster else max(1, options.jobs)
         self._titles = {name: one.title for name, one in options.course.exercises.items()}
 
     def run(self) -> None:
@@ -107,7 +110,7 @@ class Check:
         from tqdm import tqdm  # noqa: PLC0415  only here
 
         self._show()
-        with ThreadPoolExecutor(max(1, self._options.jobs)) as pool, tqdm(
+        with ThreadPoolExecutor(self._at_once) as pool, tqdm(
             total=len(self._students), unit="student", disable=None
         ) as bar:
             checks = [pool.submit(self._check, student) for student in self._students]
@@ -117,10 +120,12 @@ class Check:
                     verdict = student.trouble or summary(student.outcomes)
                     bar.write(f"{student.name}: {verdict}, {remark}")
                     self._show()
-            except KeyboardInterrupt:  # the pool would go on to the last student
+            except (KeyboardInterrupt, Gone):  # the pool would go on to the last student
                 for check in checks:
                     check.cancel()
                 end_all()
+                if self._cluster:
+                    self._cluster.close()
                 raise
             finally:
                 self._show(is_last=True)
@@ -146,6 +151,8 @@ class Check:
         remark = ""
         try:
             remark = self._outcomes_of(student)
+        except Gone:
+            raise
         except Exception as error:
             student.trouble = fault(error)
         student.seconds = time.monotonic() - began_s
@@ -170,9 +177,12 @@ class Check:
             student.outcomes = student.before
             return "unchanged since the last check"
         options = self._options
-        outcomes = examine(
-            student.path, options.underlay, options.exercises, own=False,
-            course=options.course.folder, variant=variant,
-        )  # fmt: skip
+        about = {"course": options.course.folder, "variant": variant}
+        if self._cluster:
+            outcomes = self._cluster.examine(student.path, options.exercises, **about)
+        else:
+            outcomes = examine(
+                student.path, options.underlay, options.exercises, own=False, **about
+            )
         student.outcomes = without_hints(outcomes) if options.hints == 0 else outcomes
         return ""

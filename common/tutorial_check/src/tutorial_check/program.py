@@ -81,6 +81,8 @@ def _parser() -> Parser:
     what = "with --all: where the table and the reports go (FOLDER/check)"
     add("--out", type=path, metavar="FOLDER", help=what)
     add("--again", action="store_true", help="with --all: also what is the same as last time")
+    what = "with --all: check on the workers of a Dask scheduler, as tcp://HOST:8786"
+    add("--cluster", type=path, metavar="ADDRESS", help=what)
     add("--jobs", type=int, help="with --all: how many at a time (2)")
     what = "setup.bash of what the exercises need"
     add("--underlay", type=path, default=os.environ.get(UNDERLAY), metavar="SETUP", help=what)
@@ -129,8 +131,9 @@ def _refuse_idle(parser: argparse.ArgumentParser, options: argparse.Namespace) -
         parser.error(f"{files[0]} is for one workspace; --all writes a .json of each student")
     if files and options.watch:
         parser.error(f"{files[0]} is for one check; leave --watch out")
-    if options.again and not options.all:
-        parser.error("--again is for --all")
+    for name in ("again", "cluster"):
+        if getattr(options, name) and not options.all:
+            parser.error(f"--{name} is for --all")
     if options.variant and (options.package or options.self_test):
         parser.error("--variant is for workspaces")
     if options.variants is not None and not (options.all or options.show_variant):

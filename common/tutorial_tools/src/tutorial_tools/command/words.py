@@ -24,6 +24,7 @@ PYPI = "python:test/requirements.txt"
 WORDS = {  # word: (arguments as the help shows them, what it does)
     "demo": ("[--for SECONDS] [NAME:=VALUE ...]", "a recorded joystick drives the simulated robot"),
     "check": ("--in WORKSPACE [EXERCISE ...]", "which exercises are done in your workspace"),
+    "worker": ("ADDRESS [--jobs N]", "check for the Dask scheduler of check --all --cluster"),
     "test": ("[KIND] [ARGUMENT ...]", "run the tests: all, or those of one kind"),
     "cockpit": ("[--port PORT] [--lan]", "see and drive the robots in a browser"),
     "join": ("HOST NAME [NAME:=VALUE ...]", "drive robot NAME of the classroom on HOST"),
@@ -50,10 +51,12 @@ KINDS = {  # of tests
     "faults": "random faults on the live system, --for SECONDS or --trials N: test/FAULTS.md",
     "mutation": "whether the unit tests notice small changes to the rules; hours",
 }
+CLUSTER = "--cluster"  # option of check --all, and of some kinds of tests
 IN_WORDS = ("shell", "run", "doctor", "check")  # which know --in
 OWN_PARSER = {  # programs that read their options themselves, and those for completion
     "check": ("--in", "--all", "--watch", "--hints", "--solution", "--course", "--self-test"),
     "cockpit": ("--port", "--lan"),
+    "worker": ("--jobs",),
 }
 EPILOG = """\
 --in WORKSPACE: your own catkin workspace in place of our beginner_tutorials and joy2twist, which
@@ -152,14 +155,21 @@ def plan_of_test(kind: str, rest: list[str]) -> Plan:
     if kind in ("lint", "docs"):
         made["builds"].append(f"pypi={kind}:test/requirements-{kind}.txt")
         return {**made, "command": [str(REPOSITORY / "test" / kind), *rest]}
+    if CLUSTER in options_of(rest):
+        made["sections"].append("cluster")
     if kind == "mutation":
         made["builds"].append("pypi=mutation:test/mutation/requirements.txt")
     return {**made, "command": [str(REPOSITORY / "test/run.py"), *filter(None, [kind]), *rest]}
 
 
+def options_of(arguments: list[str]) -> set[str]:
+    """Return the options among arguments, without their values."""
+    return {argument.split("=")[0] for argument in arguments if argument.startswith("-")}
+
+
 def refuse(word: str, arguments: list[str]) -> None:
     """Refuse what would fail only after a set-up of minutes."""
-    options = {argument.split("=")[0] for argument in arguments}
+    options = options_of(arguments)
     own = {"--in", "--all", "--self-test", "--package", "--show-variant", "-h", "--help"}
     named = os.environ.get("TUTORIAL_IN") or options & own
     if word == "check" and not named:
@@ -183,9 +193,10 @@ def plan(word: str, arguments: list[str]) -> Plan:
     made: Plan = {"sections": ["demo", "more"], "builds": ["workspace"]}
     if word in OWN_PARSER:
         refuse(word, arguments)
-        program = (
-            [PROGRAMS[word]] if word in PROGRAMS else ["/usr/bin/python3", "-m", "tutorial_check"]
-        )
+        module = {"check": "tutorial_check", "worker": "tutorial_check.cluster"}.get(word, "")
+        program = ["/usr/bin/python3", "-m", module] if module else [PROGRAMS[word]]
+        if word == "worker" or CLUSTER in options_of(arguments):
+            made["sections"].append("cluster")
         return {**made, "command": [*program, *arguments]}
     if word in ("bench", "lint", "docs"):
         parsed = parser_of(word).parse_known_args(arguments)

@@ -1,0 +1,159 @@
+"""Variants: what a file may say, what a seed draws, and the words of a task."""
+
+import dataclasses
+from types import SimpleNamespace
+
+import pytest
+import yaml
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tutorial_check.course import read_course
+from tutorial_check.exercises.joystick_task import JoystickTask, moved, order
+from tutorial_check.model import WRONG, CannotCheck, Result
+from tutorial_check.variants import drawn, read_variant, sheet, variant_of
+
+COURSE = read_course()
+ALL = {
+    "axis_linear": 3,
+    "axis_angular": 4,
+    "scale_linear": 0.5,
+    "joy": "/stick",
+    "cmd_vel": "/drive",
+    "package": "stick_drive",
+    "enable_button": 5,
+    "rate": 20,
+}
+
+
+def options(**given_ones):
+    return SimpleNamespace(**{"all": None, "variants": None, "variant": None, **given_ones})
+
+
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [
+        ("[3]", "a map of values is wanted"),
+        ("axis: 3", "axis is not known; known are: axis_linear, axis_angular"),
+        ("axis_linear: 9", "axis_linear: 9; allowed is 0 to 5"),
+        ("axis_linear: true", "axis_linear: True; allowed is 0 to 5"),
+        ("axis_linear: 1.0", "allowed is 0 to 5"),
+        ("axis_linear: 0", "axis_angular and axis_linear are both 0"),
+        ("scale_linear: .nan", "scale_linear: nan; allowed is 0.2 to 2.0"),
+        ("joy: stick", "joy: 'stick'; allowed is what fits /"),
+        ("joy: 3", "joy: 3; allowed"),
+        ("package: Stick Drive", "package: 'Stick Drive'; allowed"),
+        ("joy: /x\ncmd_vel: /x", "cmd_vel"),
+        ("a: [", "no YAML"),
+    ],
+)
+def test_a_wrong_file_is_one_line(text, why, tmp_path):
+    file = tmp_path / "v.yaml"
+    file.write_text(text)
+    with pytest.raises(CannotCheck) as error:
+        read_variant(COURSE, file)
+    assert why in str(error.value) and str(file) in str(error.value)
+    assert "\n" not in str(error.value)
+
+
+def test_no_file(tmp_path):
+    with pytest.raises(CannotCheck, match=r"v\.yaml: No such file"):
+        read_variant(COURSE, tmp_path / "v.yaml")
+
+
+@given(st.text(), st.text())
+def test_what_is_drawn_is_allowed_and_the_same_again(seed, name):
+    values = drawn(COURSE, seed, name)
+    assert values == drawn(COURSE, seed, name) and list(values) == list(COURSE.variants)
+    assert values["axis_linear"] != values["axis_angular"] and values["joy"] != values["cmd_vel"]
+
+
+def test_what_is_drawn_can_be_read(tmp_path):
+    file = tmp_path / "v.yaml"
+    for number in range(200):
+        values = drawn(COURSE, "seed", str(number))
+        file.write_text(yaml.safe_dump(values))
+        assert read_variant(COURSE, file) == values
+
+
+def test_what_a_seed_draws_does_not_change_with_python_or_machine():
+    assert drawn(COURSE, "7", "ada") == {
+        "axis_linear": 1,
+        "axis_angular": 4,
+        "scale_linear": 0.6,
+        "scale_angular": 0.5,
+        "joy": "/f710",
+        "cmd_vel": "/wheels",
+        "package": "stick_drive",
+        "node": "converter",
+        "enable_button": 7,
+        "rate": 20,
+    }
+
+
+def test_whose_variant_it_is(tmp_path):
+    """A file of the student's own, then what the seed draws, then the file for all, then none."""
+    for_all = tmp_path / "all.yaml"
+    for_all.write_text("rate: 5")
+    (tmp_path / "variants").mkdir()
+    (tmp_path / "variants/ada.yaml").write_text("rate: 25")
+    given_ones = options(all=str(tmp_path), variant=str(for_all), variants="7")
+    assert variant_of(COURSE, given_ones, "ada") == {"rate": 25}
+    assert variant_of(COURSE, given_ones, "bob") == drawn(COURSE, "7", "bob")
+    assert variant_of(COURSE, options(variant=str(for_all)), "bob") == {"rate": 5}
+    assert variant_of(COURSE, options(), "bob") == {}
+
+
+def test_a_task_sheet_has_all_values_and_the_file():
+    text = sheet(COURSE, ALL, "ada")
+    assert "the task of ada" in text and "axis 3 of the joystick drives forwards" in text
+    assert yaml.safe_load(text[text.rindex("axis_linear:") :]) == ALL
+    with pytest.raises(CannotCheck, match="no variant of ada"):
+        sheet(COURSE, {}, "ada")
+    own = dataclasses.replace(COURSE, sheet="{name}: {nonsense}")
+    with pytest.raises(CannotCheck, match="sheet: KeyError"):
+        sheet(own, ALL, "ada")
+
+
+@given(st.integers(0, 5), st.integers(0, 5))
+def test_an_order_loses_nothing(linear, angular):
+    if linear == angular:
+        return
+    values = moved(range(8), order({1: linear, 0: angular}))
+    assert sorted(values) == list(range(8)) and (values[linear], values[angular]) == (1, 0)
+
+
+def words(field, text, values=None, section="handout 4.3"):
+    result = Result("C16", WRONG, "", section=section)
+    task = JoystickTask(ALL if values is None else values)
+    return getattr(task.words(dataclasses.replace(result, **{field: text})), field)
+
+
+@pytest.mark.parametrize(
+    ("field", "text", "said"),
+    [
+        ("title", "axis 1, axis 0", "axes[axis_linear], axes[axis_angular]"),
+        ("expected", "x = axes[1]", "x = scale_linear * axes[axis_linear]"),
+        ("seen", "linear.x = 0.50 * axes[1]", "linear.x = 0.50 * axes[axis_linear]"),
+        ("seen", "linear.x follows axes[3]", "linear.x follows axes[1]"),
+        ("seen", "linear.x follows axes[2]", "linear.x follows axes[2]"),
+        ("hint", "linear.x = axes[1]", "linear.x = 0.5 * axes[3]"),
+        ("hint", "the topic is called /cmd_vel", "the topic is called /drive"),
+        ("seen", "it publishes on /unasked/cmd_vel", "it publishes on /cmd_vel"),
+        ("expected", "Twists on /cmd_vel", "Twists on <cmd_vel>"),
+        ("expected", "on /cmd_vel_mux/input/teleop", "on /cmd_vel_mux/input/teleop"),
+        ("seen", "a package called not_joy2twist", "a package called joy2twist"),
+        ("look", "rosrun joy2twist joy2twist.py", "rosrun <package> joy2twist.py"),
+        ("hint", 'pkg="joy2twist" type="joy2twist.py"', 'pkg="stick_drive" type="joy2twist.py"'),
+        ("seen", "it drives with LB released", "it drives with <enable_button> released"),
+        ("expected", "about 10 times a second", "as often as rate says"),
+        ("seen", "NameError   in: axes[1] on /joy", "NameError   in: axes[1] on /joy"),
+    ],
+)  # fmt: skip
+def test_words(field, text, said):
+    assert words(field, text) == said
+    assert words(field, text, {}) == text
+
+
+def test_launch_files_keep_the_topics_outside_of_the_program():
+    assert words("seen", "nothing on /joy", section="handout 5.1") == "nothing on /joy"
