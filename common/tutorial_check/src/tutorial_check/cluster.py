@@ -109,6 +109,9 @@ def _prepare(dask_scheduler: Any) -> None:
     dask_scheduler.WORKER_SATURATION = 1.0
 
 
+_prepare.__module__ = "__main__"  # sent as it is: a scheduler need not have this suite
+
+
 def _packed(parts: Mapping[str, Path]) -> bytes:
     """Return an archive of folders or files, without what catkin builds and what is no file."""
     data, left = io.BytesIO(), MOST_BYTES
