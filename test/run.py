@@ -183,6 +183,10 @@ def main():
     is_part = os.environ.pop(PART, "")  # the tests of ./tutorial test run others, which are whole
     noted = RESULTS / "failed"
     try:
+        if any(argument.split("=")[0] == "--cluster" for argument in arguments):
+            from tutorial_testing.in_parts import run_in_parts  # noqa: PLC0415
+
+            sys.exit(run_in_parts(kind, arguments))
         if kind in ("again", "faults", "bench") or is_part:
             sys.exit(KINDS[kind](arguments))
         noted.unlink(missing_ok=True)

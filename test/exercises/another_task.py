@@ -55,7 +55,8 @@ def _turned(text, values, is_turtlebot):
             own = values.get(key, f"/{key}")
             text = re.sub(rf"(?<=['\"])/?{key}(?=['\"])", own, text)
     if "node" in values:
-        text = re.sub(r"(?<=init_node\(['\"])(listener|joy2twist|converter)", values["node"], text)
+        text = re.sub(r"(?<=init_node\(['\"])(joy2twist|converter)", values["node"], text)
+        text = re.sub(r"(?<=['\"])listener(?=['\"])", values["node"], text)
     if "package" in values:
         text = re.sub(rf"(?<![\w/]){J}(?![\w.])", values["package"], text)
     if "rate" in values:

@@ -6,6 +6,8 @@ import re
 import pytest
 from another_task import can_be_turned, texts, turn
 from edits import apply
+from hypothesis import HealthCheck, Phase, assume, given, settings
+from hypothesis import strategies as st
 from test_mistakes import OF_HANDOUT, named
 
 from tutorial_check.course import read_course
@@ -14,10 +16,15 @@ from tutorial_check.report import lines_of
 from tutorial_check.variants import drawn
 
 COURSE = read_course()
+HYPOTHESIS = {
+    "max_examples": 60,
+    "derandomize": True,
+    "database": None,
+    "phases": [Phase.generate],
+    "suppress_health_check": list(HealthCheck),
+}
 TOPICS = {"joy", "cmd_vel"}  # a launch file with a mistake is not turned to others
 AXES = {key for key in COURSE.variants if key.startswith(("axis", "scale", "enable"))}
-ONCE = 24  # of how many rows one is checked where not all are asked for
-SAME = {"C13", "C14", "C16", "C18"}
 
 
 def task(number, leave_out=()):
@@ -63,12 +70,39 @@ def must_give_nothing_away(found, values, src):
         assert not given_away(one, values, own), "\n".join(lines_of(one))
 
 
-@pytest.mark.parametrize("number", range(40))
-def test_a_right_solution_of_a_task(number, literal):
-    """In CI all exercises of the first, and 4.3 of two others."""
-    values = task(number)
+def forty():
+    """Variants from all that is allowed, the extremes among them; the same each time."""
+    found = []
+    words = {
+        key: st.from_regex(COURSE.variants[key].allowed, fullmatch=True).filter(
+            lambda word: 3 < len(word) < 20
+        )
+        for key in ("joy", "cmd_vel", "package", "node")
+    }
+    scales = {
+        key: st.integers(20, int(100 * COURSE.variants[key].allowed[1])).map(lambda n: n / 100)
+        for key in ("scale_linear", "scale_angular")
+    }
+    numbers = {"enable_button": st.integers(0, 10), "rate": st.integers(2, 50)}
+    axes = st.none() | st.permutations(range(6)).map(lambda order: order[:2])
+
+    @settings(**HYPOTHESIS)
+    @given(st.fixed_dictionaries({}, optional={**words, **scales, **numbers}), axes)
+    def collect(values, both):
+        named = {"axis_linear": both[0], "axis_angular": both[1]} if both else {}
+        assume(values.get("joy") != values.get("cmd_vel") or "joy" not in values)
+        task = {**named, **values}
+        assume(len(task) > 3 and task not in found)
+        found.append(task)
+
+    collect()
+    return found[:40]
+
+
+@pytest.mark.parametrize("values", forty(), ids=str)
+def test_a_right_solution_of_a_task(values, literal):
     turn(literal, values)
-    exercises = COURSE.by_default if number % 20 == 0 else ["3", "4.3", "6.2"]
+    exercises = COURSE.by_default if len(values) > 7 else ["3", "4.3", "6.2"]
     found = results(literal, exercises, values)
     assert not [lines_of(one) for one in found if one.status in ("wrong", "unreached")]
     must_give_nothing_away(found, values, literal)

@@ -43,7 +43,7 @@ def check_manifest(session: Session, script: str) -> None:
     call = facts and facts.first("load_manifest")
     if not call or not call.words or call.words[0] in facts.names:
         return  # PKG = "joy2twist": what is in it shows when the program runs
-    if session.package(call.words[0]):
+    if session.package(session.task.known_as(call.words[0])):
         return
     found = session.box.start(["rospack", "find", call.words[0]], session.environment)
     session.box.wait(lambda: found.ended, 10.0)

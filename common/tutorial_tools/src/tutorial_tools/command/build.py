@@ -1,6 +1,6 @@
 """Set up what ./tutorial needs beside Debian packages: catkin workspaces, and what PyPI has.
 
-build.py WORKSPACE [workspace] [student=PATH] [pypi=NAME:FILE] [maybe=NAME:FILE]
+build.py WORKSPACE [workspace] [student=PATH] [pypi=NAME:FILE] [maybe=NAME:FILE] [alone=NAME:FILE]
 """
 
 from __future__ import annotations
@@ -36,6 +36,7 @@ OVERLAY = ("beginner_tutorials", "joy2twist", "test")  # the solutions
 # Commands of the shell, under these names.
 SCRIPTS = "common/tutorial_tools/scripts"
 COMMANDS = (f"{SCRIPTS}/rqt_graph", f"{SCRIPTS}/rqt_bag", "tutorial")
+FROM_PYPI = ("pypi", "maybe", "alone")  # alone: without Debian's packages
 WRONG = re.compile("rror|invalid|mismatched|not found")
 
 
@@ -222,7 +223,7 @@ def is_done(workspace: Path, part: str) -> bool:
     kind, _, value = part.partition("=")
     if kind == "workspace":
         return is_built(workspace)
-    if kind not in ("pypi", "maybe"):
+    if kind not in FROM_PYPI:
         return False
     name, requirements = value.split(":")
     return is_same(workspace / name / "installed", REPOSITORY / requirements)
@@ -233,18 +234,20 @@ def is_same(kept: Path, requirements: Path) -> bool:
     return kept.exists() and filecmp.cmp(requirements, kept, shallow=False)
 
 
-def install_from_pypi(workspace: Path, name: str, requirements: str, needed: bool) -> None:
+def install_from_pypi(workspace: Path, name: str, requirements: str, kind: str) -> None:
     """Make a virtual environment with what a file of requirements names.
 
-    needed: else a failure is reported once, as a shell does without.
+    kind: see FROM_PYPI; of a maybe a failure is reported once, as a shell does without.
     """
+    needed = kind != "maybe"
     folder, wanted, log = workspace / name, REPOSITORY / requirements, workspace / "pip.log"
     failed = workspace / "not_from_pypi"
     with one_at_a_time(workspace):
         if is_same(folder / "installed", wanted) or (not needed and is_same(failed, wanted)):
             return
         say(f"installing from PyPI what {requirements} names")
-        venv = ["/usr/bin/python3", "-m", "venv", "--clear", "--system-site-packages", str(folder)]
+        shared = [] if kind == "alone" else ["--system-site-packages"]
+        venv = ["/usr/bin/python3", "-m", "venv", "--clear", *shared, str(folder)]
         subprocess.run(venv, check=True)
         pip = [f"{folder}/bin/python", "-m", "pip", "install", "-q", "--disable-pip-version-check"]
         with open(log, "w", encoding="utf-8") as file:
@@ -277,7 +280,7 @@ def main() -> None:
                 build_student(workspace, Path(value))
             else:
                 name, requirements = value.split(":")
-                install_from_pypi(workspace, name, requirements, needed=kind == "pypi")
+                install_from_pypi(workspace, name, requirements, kind)
         except BuildError as error:
             sys.exit(f"tutorial: {error}")
 

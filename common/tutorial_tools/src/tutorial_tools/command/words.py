@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Dict, List, NoReturn, TextIO
 
 from node_kit.arguments import Parser, above_zero
+from tutorial_tools.command import ros2
 from tutorial_tools.command.build import REPOSITORY, is_done
 
 SCRIPTS = REPOSITORY / "common" / "tutorial_tools" / "scripts"
@@ -24,6 +25,7 @@ PYPI = "python:test/requirements.txt"
 WORDS = {  # word: (arguments as the help shows them, what it does)
     "demo": ("[--for SECONDS] [NAME:=VALUE ...]", "a recorded joystick drives the simulated robot"),
     "check": ("--in WORKSPACE [EXERCISE ...]", "which exercises are done in your workspace"),
+    "ros2": ("[--yes] [PROGRAM ...]", "a Python program with ROS 2, beside ROS 1"),
     "worker": ("ADDRESS [--jobs N]", "check for the Dask scheduler of check --all --cluster"),
     "test": ("[KIND] [ARGUMENT ...]", "run the tests: all, or those of one kind"),
     "cockpit": ("[--port PORT] [--lan]", "see and drive the robots in a browser"),
@@ -57,6 +59,7 @@ OWN_PARSER = {  # programs that read their options themselves, and those for com
     "check": ("--in", "--all", "--watch", "--hints", "--solution", "--course", "--self-test"),
     "cockpit": ("--port", "--lan"),
     "worker": ("--jobs",),
+    "ros2": ("--yes",),
 }
 EPILOG = """\
 --in WORKSPACE: your own catkin workspace in place of our beginner_tutorials and joy2twist, which
@@ -188,6 +191,18 @@ def refuse(word: str, arguments: list[str]) -> None:
             fail(f"docs: {folder}: must be a folder, which is made if it does not exist")
 
 
+def plan_of_ros2(workspace: Path, arguments: list[str]) -> Plan:
+    """Return the builds and the command of a program with ROS 2."""
+    options = ros2.options_of(arguments)
+    try:
+        command = ros2.command_of(workspace, options.program, options.rest)
+        ros2.must_be_possible(workspace, options.yes)
+    except ros2.Refused as error:
+        fail(f"ros2: {error}")
+    needed = [] if ros2.installed() else [ros2.BUILD]
+    return {"sections": ["demo", "more"], "builds": ["workspace", *needed], "command": command}
+
+
 def plan(word: str, arguments: list[str]) -> Plan:
     """Return the plan of a word."""
     made: Plan = {"sections": ["demo", "more"], "builds": ["workspace"]}
@@ -256,8 +271,9 @@ def main() -> None:
     elif arguments[:1] == ["--in"] and word not in IN_WORDS:
         fail(f"{word}: knows no --in; shell, run, doctor and check do")
     else:
-        made = plan(word, arguments)
-        made["builds"] = [part for part in made["builds"] if not is_done(Path(workspace), part)]
+        here = Path(workspace)
+        made = plan_of_ros2(here, arguments) if word == "ros2" else plan(word, arguments)
+        made["builds"] = [part for part in made["builds"] if not is_done(here, part)]
         lines = [f"word={word} student={shlex.quote(''.join(made.get('student', [])))}"]
         for name in ("sections", "programs", "builds", "command"):
             lines.append(f"{name}=({' '.join(map(shlex.quote, made.get(name, [])))})")

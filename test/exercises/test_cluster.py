@@ -1,0 +1,195 @@
+"""--cluster: the same results as alone, whatever ends meanwhile. Each worker on a host of its own."""
+
+import importlib.util
+import json
+import os
+import re
+import shutil
+import signal
+import time
+
+import pytest
+from edits import J, put, write
+from test_awkward import command, environment
+from test_mistakes import OF_HANDOUT
+from test_mistakes import apply as change
+
+from tutorial_check.examination import examine
+from tutorial_testing.processes import Program
+from tutorial_testing.two_hosts.network import Network
+from tutorial_testing.waiting import wait_for
+
+pytestmark = [
+    pytest.mark.skipif(
+        importlib.util.find_spec("distributed") is None,
+        reason="no Dask here: ./tutorial check --cluster installs it",
+    ),
+    pytest.mark.skipif(os.geteuid() != 0, reason="not root: no hosts of a network of their own"),
+]
+HOSTS = {"teacher": "10.66.0.1", "one": "10.66.0.2", "two": "10.66.0.3", "three": "10.66.0.4"}
+ADDRESS = f"tcp://{HOSTS['teacher']}:8786"
+EXERCISE = "4.3"
+LONGEST_S = 7200.0  # a thousand take an hour
+ENDS_WORKERS = "import os, signal\nfor pid in filter(str.isdigit, os.listdir('/proc')):\n    os.kill(int(pid), 9)\n"
+
+
+@pytest.fixture
+def network():
+    with Network(HOSTS) as found:
+        yield found
+
+
+@pytest.fixture
+def start(network):
+    """start(host, ...): a program on a host."""
+    running = []
+
+    def begin(host, *words):
+        program = Program(*network[host].command(*map(str, words)), **environment())
+        running.append(program)
+        return program
+
+    yield begin
+    for program in running:
+        program.__exit__()
+
+
+@pytest.fixture
+def scheduler(start):
+    return lambda: _up(
+        start("teacher", "/usr/bin/python3", "-m", "distributed.cli.dask_scheduler",
+              "--host", HOSTS["teacher"], "--no-dashboard")
+    )  # fmt: skip
+
+
+def _up(scheduler):
+    wait_for(lambda: "Scheduler at" in scheduler.output, "a scheduler", 60)
+    return scheduler
+
+
+@pytest.fixture
+def worker(start, underlay, monkeypatch):
+    monkeypatch.setenv("TUTORIAL_UNDERLAY", underlay)
+    words = "/usr/bin/python3", "-m", "tutorial_check.cluster", ADDRESS, "--jobs", "1"
+    return lambda host: start(host, *words)
+
+
+@pytest.fixture
+def client(start, underlay):
+    return lambda folder: start(
+        "teacher", *command(underlay, "--all", folder, EXERCISE, "--cluster", ADDRESS)
+    )
+
+
+def kill(program):
+    for pid in program.left_behind():
+        os.kill(pid, signal.SIGKILL)
+
+
+def hand_in(literal, folder, count):
+    """A class of so many, with the mistakes of all rows in turn; {name: index of the row}."""
+    step = max(1, len(OF_HANDOUT) // count)
+    rows = OF_HANDOUT[::step]
+    made = {}
+    for number in range(count):
+        name, index = f"student_{number:04}", number % len(rows)
+        path = folder / name
+        if number < len(rows):
+            shutil.copytree(literal.parent, path)
+            change(rows[index][2], path / "src")
+        else:
+            shutil.copytree(folder / f"student_{index:04}", path, symlinks=True)
+        made[name] = index
+    return made
+
+
+def plain(results):
+    """What is to be the same: all but times and other numbers that were measured."""
+    names = ("id", "status", "title", "expected", "where", "hint")
+    return [
+        (*(one[name] for name in names), re.sub(r"[0-9.]+", "#", one["seen"])) for one in results
+    ]
+
+
+def checked(folder):
+    return list((folder / "check").glob("student_*.json"))
+
+
+def alone(path, underlay):
+    """The results of a submission on this machine, as the JSON file has them."""
+    (outcome,) = examine(path, underlay, [EXERCISE], own=False)
+    return plain([vars(one) for one in outcome.results])
+
+
+def test_one_worker_is_killed_and_one_added(
+    literal, underlay, tmp_path, scheduler, worker, client, request
+):
+    """Also a scheduler that is killed: one line, and the next call goes on from there."""
+    folder = tmp_path / "class"
+    count = request.config.getoption("--submissions")
+    rows = hand_in(literal, folder, count)
+    first = scheduler()
+    workers = [worker("one"), worker("two")]
+    call = client(folder)
+    wait_for(lambda: len(checked(folder)) >= count // 4, "a quarter", LONGEST_S)
+    kill(workers[0])
+    workers.append(worker("three"))
+    wait_for(lambda: len(checked(folder)) >= count // 2, "half", LONGEST_S)
+    kill(first)
+    assert call.wait(120) == 2, call.output
+    lines = [line for line in call.output.splitlines() if line.startswith("check: ")]
+    assert lines == [f"check: no verdict: the scheduler at {ADDRESS} is gone; call again, and it goes on from here"]  # fmt: skip
+    assert "Traceback" not in call.output
+    done = len(checked(folder))
+    for each in workers[1:]:
+        kill(each)
+    scheduler()
+    workers = [worker("two"), worker("three")]
+    call = client(folder)
+    assert call.wait(LONGEST_S) == 1, call.output
+    assert call.output.count("unchanged since the last check") >= min(done, count // 2)
+    assert len(checked(folder)) == count
+    expected = {}
+    for name, index in rows.items():
+        if index not in expected:
+            expected[index] = alone(folder / name, underlay)
+        report = json.loads((folder / "check" / f"{name}.json").read_text())
+        assert plain(report["exercises"][0]["checks"]) == expected[index], name
+
+
+def test_a_submission_that_ends_workers_is_abandoned(literal, tmp_path, scheduler, worker, client):
+    """Killed each time it has begun to check it, as by the kernel when memory is short."""
+    folder = tmp_path / "class"
+    shutil.copytree(literal.parent, folder / "ada")
+    put(f"{J}/scripts/joy2twist.py", "rospy.spin()", "rospy.sleep(600)")(folder / "ada/src")
+    write(f"{J}/scripts/late.py", "")(folder / "ada/src")
+    scheduler()
+    call = client(folder)
+    for host in ("one", "two"):
+        each = worker(host)
+        begin_s = time.monotonic()
+        wait_for(lambda each=each: _examines(each), f"an examination, {begin_s}", 120)
+        kill(each)
+    assert call.wait(120) == 2, call.output
+    assert "abandoned: 2 workers have ended while they checked it" in call.output
+
+
+def _examines(worker):
+    """Whether an examination runs below a worker."""
+    lines = []
+    for pid in worker.left_behind():
+        try:
+            with open(f"/proc/{pid}/cmdline", "rb") as file:
+                lines.append(file.read())
+        except OSError:
+            continue
+    return any(b"tutorial_check.examine" in line for line in lines)
+
+
+def test_nobody_listens(literal, underlay, client, start):
+    call = client(literal.parent.parent)
+    assert call.wait(60) == 2
+    assert f"check: no verdict: no Dask scheduler at {ADDRESS}: " in call.output
+    call = start("one", "/usr/bin/python3", "-m", "tutorial_check.cluster", "127.0.0.1:1")
+    assert call.wait(60) == 1
+    assert call.output == "worker: no Dask scheduler at 127.0.0.1:1: Connection refused\n"
