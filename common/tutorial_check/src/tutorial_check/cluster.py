@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import importlib
 import io
+import logging
 import os
 import shutil
 import socket
@@ -63,6 +64,7 @@ class Cluster:
         why = _refused(address)
         if why:
             raise CannotCheck(why)
+        logging.disable(logging.CRITICAL)  # a lost connection is one line of ours, not Dask's many
         try:
             self._client = self._dask.Client(address, timeout=CONNECT_S, set_as_default=False)
             self._client.run_on_scheduler(_prepare)

@@ -25,7 +25,7 @@ OWN = REPOSITORY / "common" / "ros2_tutorials" / "ros2_tutorials"
 HIDDEN = ("PYTHONPATH", "CMAKE_PREFIX_PATH", "ROS_DISTRO", "ROS_VERSION", "ROS_PACKAGE_PATH")
 
 
-class Refused(Exception):
+class Refused(Exception):  # noqa: N818  as model.Wrong is
     """Why no program of ROS 2 can run here, in one line."""
 
 
