@@ -4,6 +4,7 @@ import re
 
 from edits import TURTLEBOT, J
 
+LB = 4  # the button that programs for the handout's task may wait for
 SCALES = {0: "scale_angular", 1: "scale_linear"}
 # What a text cannot be turned with: axes in an order of their own.
 ODD_AXES = re.compile(r"axes\[[^\d\]]|axes\[\d+:|[=*] *(data|joy|msg)\.axes\b(?!\[)")
@@ -45,6 +46,7 @@ def _turned(text, values, is_turtlebot):
             words.append(f"{before}buttons[{values['enable_button']}]")
         return words[0] if len(words) == 1 else f"({' * '.join(words)})"
 
+    text = text.replace(f"buttons[{LB}]", f"buttons[{values.get('enable_button', LB)}]")
     text = re.sub(r"((?:\w+\.)*)axes\[(\d)\]", axis, text)
     if "<launch" in text:
         text = _remapped(text, values, is_turtlebot)

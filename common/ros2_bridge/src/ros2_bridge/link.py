@@ -1,0 +1,109 @@
+"""The way between the two sides: frames over a Unix socket. No ROS; both sides' Python runs it.
+
+A frame that cannot be sent at once waits, of each topic so many as its depth says; of more the oldest
+are dropped, and topics take turns. So the newest velocity never waits behind old ones.
+"""
+
+from __future__ import annotations
+
+import collections
+import socket
+import struct
+import threading
+import time
+from dataclasses import dataclass
+from typing import Callable, Iterator
+
+HEAD = struct.Struct("<IdB")  # bytes that follow the head, when it was received [s], latched
+MOST_BYTES = 1 << 30
+BUFFER_BYTES = 1 << 16  # what the kernel keeps cannot be dropped any more
+
+
+@dataclass(frozen=True)
+class Frame:
+    """A message on its way. stamp_s: of the monotonic clock, which both sides share."""
+
+    topic: str
+    type: str  # as ROS 2 writes it: package/msg/Name
+    data: bytes
+    stamp_s: float
+    is_latched: bool = False
+
+    def packed(self) -> bytes:
+        """Return the frame as it is sent."""
+        names = f"{self.topic}\0{self.type}\0".encode()
+        head = HEAD.pack(len(names) + len(self.data), self.stamp_s, self.is_latched)
+        return b"".join((head, names, self.data))
+
+
+def frames(connection: socket.socket) -> Iterator[Frame]:
+    """Yield what comes, until the other side is gone."""
+    with connection.makefile("rb", buffering=1 << 18) as stream:
+        while True:
+            head = stream.read(HEAD.size)
+            if len(head) < HEAD.size:
+                return
+            size, stamp_s, is_latched = HEAD.unpack(head)
+            body = stream.read(size) if size <= MOST_BYTES else b""
+            if len(body) < size or size > MOST_BYTES:
+                return
+            topic, kind, data = body.split(b"\0", 2)
+            yield Frame(topic.decode(), kind.decode(), data, stamp_s, bool(is_latched))
+
+
+class Sender:
+    """Sends frames from a thread of its own; put() never waits."""
+
+    def __init__(self, connection: socket.socket, depth_of: Callable[[str], int]) -> None:
+        """depth_of: how many messages of a topic may wait."""
+        connection.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, BUFFER_BYTES)
+        self._connection, self._depth_of = connection, depth_of
+        self._waiting: collections.OrderedDict[str, collections.deque[Frame]] = (
+            collections.OrderedDict()
+        )
+        self._changed = threading.Condition()
+        self._has_ended = False
+        self.dropped: collections.Counter[str] = collections.Counter()
+        threading.Thread(target=self._send, daemon=True).start()
+
+    def put(self, frame: Frame) -> None:
+        """Send a frame as soon as possible."""
+        with self._changed:
+            waiting = self._waiting.get(frame.topic)
+            if waiting is None:
+                depth = self._depth_of(frame.topic)
+                waiting = self._waiting[frame.topic] = collections.deque(maxlen=depth)
+            if len(waiting) == waiting.maxlen:
+                self.dropped[frame.topic] += 1
+            waiting.append(frame)
+            self._changed.notify()
+
+    def end(self) -> None:
+        """Send nothing more."""
+        with self._changed:
+            self._has_ended = True
+            self._changed.notify()
+
+    def _next(self) -> Frame | None:
+        with self._changed:
+            while not self._has_ended:
+                for topic, waiting in self._waiting.items():
+                    if waiting:
+                        self._waiting.move_to_end(topic)
+                        return waiting.popleft()
+                self._changed.wait()
+        return None
+
+    def _send(self) -> None:
+        frame = self._next()
+        while frame:
+            try:
+                self._connection.sendall(frame.packed())
+            except OSError:
+                return  # the other side is gone; frames() ends, too
+            frame = self._next()
+
+
+def is_late(frame: Frame, longest_s: float) -> bool:
+    """Return whether a frame is older than it may be. longest_s: 0 allows any age."""
+    return bool(longest_s) and time.monotonic() - frame.stamp_s > longest_s

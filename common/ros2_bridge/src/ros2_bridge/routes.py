@@ -1,0 +1,71 @@
+"""Which topics are carried, and how: the YAML list. Pure."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, fields
+from typing import Any
+
+import yaml
+
+TO_ROS1, TO_ROS2, BOTH = "to_ros1", "to_ros2", "both"
+RELIABLE, BEST_EFFORT = "reliable", "best_effort"
+NAME = re.compile(r"(/[A-Za-z][A-Za-z0-9_]*)+")  # what both sides take for the name of a topic
+MOST_DEPTH = 10_000
+
+
+@dataclass(frozen=True)
+class Route:
+    """How a topic is carried; see config/bridge.yaml."""
+
+    topic: str
+    direction: str
+    depth: int = 100  # messages
+    longest_s: float = 0.0
+    reliability: str = RELIABLE
+
+    @property
+    def to_ros1(self) -> bool:
+        """Whether messages go from ROS 2 to ROS 1."""
+        return self.direction in (TO_ROS1, BOTH)
+
+    @property
+    def to_ros2(self) -> bool:
+        """Whether messages go from ROS 1 to ROS 2."""
+        return self.direction in (TO_ROS2, BOTH)
+
+
+def read_routes(text: str) -> list[Route]:
+    """Return the Routes of a YAML text. Raises ValueError with one line."""
+    try:
+        given = yaml.safe_load(text)
+    except yaml.YAMLError as error:
+        raise ValueError(f"no YAML: {' '.join(str(error).split())}") from None
+    if not isinstance(given, dict) or not isinstance(given.get("topics"), dict):
+        raise ValueError("a map with topics: {/joy: {direction: to_ros2}} is wanted")
+    defaults = given.get("defaults") or {}
+    return [_route(topic, defaults, about) for topic, about in given["topics"].items()]
+
+
+def _route(topic: Any, defaults: Any, about: Any) -> Route:
+    if not isinstance(topic, str) or not NAME.fullmatch(topic):
+        raise ValueError(f"{topic!r}: a topic is written as /name or /outer/name")
+    if not isinstance(about, dict) or not isinstance(defaults, dict):
+        raise ValueError(f"{topic}: a map such as {{direction: {TO_ROS2}}} is wanted")
+    values = {**defaults, **about}
+    known = [field.name for field in fields(Route)][1:]
+    for name in values:
+        if name not in known:
+            raise ValueError(f"{topic}: {name} is not known; known are {', '.join(known)}")
+    if "direction" not in values:
+        raise ValueError(f"{topic}: direction is missing: {TO_ROS1}, {TO_ROS2} or {BOTH}")
+    allowed = {"direction": (TO_ROS1, TO_ROS2, BOTH), "reliability": (RELIABLE, BEST_EFFORT)}
+    for name, words in allowed.items():
+        if values.get(name, words[0]) not in words:
+            raise ValueError(f"{topic}: {name}: {values[name]!r} is none of {', '.join(words)}")
+    depth, longest_s = values.get("depth", 1), values.get("longest_s", 0)
+    if type(depth) is not int or not 1 <= depth <= MOST_DEPTH:
+        raise ValueError(f"{topic}: depth: {depth!r}; allowed is 1 to {MOST_DEPTH}")
+    if type(longest_s) not in (int, float) or not 0 <= longest_s < float("inf"):
+        raise ValueError(f"{topic}: longest_s: {longest_s!r}; allowed are seconds, 0 or more")
+    return Route(topic, **values)
