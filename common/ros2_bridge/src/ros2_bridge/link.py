@@ -1,12 +1,14 @@
 """The way between the two sides: frames over a Unix socket. No ROS; both sides' Python runs it.
 
-A frame that cannot be sent at once waits, of each topic so many as its depth says; of more the oldest
+A frame that cannot be sent at once waits, as many of a topic as its depth says; of more the oldest
 are dropped, and topics take turns. So the newest velocity never waits behind old ones.
 """
 
 from __future__ import annotations
 
 import collections
+import ctypes
+import signal
 import socket
 import struct
 import threading
@@ -16,6 +18,7 @@ from typing import Callable, Iterator
 
 HEAD = struct.Struct("<IdB")  # bytes that follow the head, when it was received [s], latched
 MOST_BYTES = 1 << 30
+PR_SET_PDEATHSIG = 1  # linux/prctl.h
 BUFFER_BYTES = 1 << 16  # what the kernel keeps cannot be dropped any more
 
 
@@ -102,6 +105,11 @@ class Sender:
             except OSError:
                 return  # the other side is gone; frames() ends, too
             frame = self._next()
+
+
+def end_with_parent() -> None:
+    """Let this process end if the one that started it is killed."""
+    ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
 
 
 def is_late(frame: Frame, longest_s: float) -> bool:

@@ -26,7 +26,7 @@ PREFIX = os.environ.get("TUTORIAL_ROS", "")
 # The underlay: what a student uses and never writes; stand-ins only for what is not installed.
 UNDERLAY = (
     "common/cockpit", "common/gamepad", "common/node_kit", "common/tutorial_check",
-    "common/tutorial_tools", "fake_turtlebot_sim",
+    "common/ros2_bridge", "common/tutorial_tools", "fake_turtlebot_sim",
 )  # fmt: skip
 STAND_INS = (
     "joy", "kobuki_msgs", "rbx1_bringup", "rbx1_nav", "turtlebot_bringup",

@@ -1,18 +1,13 @@
-"""./tutorial ros2: a Python program with ROS 2, of PyPI's wheels or as it is installed here.
-
-ROS 1 and ROS 2 cannot share a process: both have a std_msgs. So the wheels have an environment of
-their own, which sees none of Debian's packages, and a program none of the suite's paths.
-"""
+"""./tutorial ros2: a Python program with ROS 2, of PyPI's wheels or as it is installed here."""
 
 from __future__ import annotations
 
 import argparse
-import os
 import platform
-import shlex
 import sys
 from pathlib import Path
 
+from node_kit.ros2_python import command, installed
 from tutorial_tools.command.build import REPOSITORY, is_done
 
 NAME, REQUIREMENTS = "ros2", "common/ros2_tutorials/requirements.txt"
@@ -21,18 +16,10 @@ SIZE = "180 MB"
 PYTHONS = ((3, 10), (3, 13))  # for which there are wheels, the first and the last
 MACHINE = "x86_64"
 OWN = REPOSITORY / "common" / "ros2_tutorials" / "ros2_tutorials"
-# What belongs to ROS 1: a path of its packages would hide those of ROS 2.
-HIDDEN = ("PYTHONPATH", "CMAKE_PREFIX_PATH", "ROS_DISTRO", "ROS_VERSION", "ROS_PACKAGE_PATH")
 
 
 class Refused(Exception):  # noqa: N818  as model.Wrong is
     """Why no program of ROS 2 can run here, in one line."""
-
-
-def installed() -> str:
-    """Return setup.bash of an installed ROS 2, the newest by its name; "" if there is none."""
-    found = sorted(Path("/opt/ros").glob("*/share/rclpy/package.xml"))
-    return str(found[-1].parents[2] / "setup.bash") if found else ""
 
 
 def options_of(arguments: list[str]) -> argparse.Namespace:
@@ -74,16 +61,7 @@ def must_be_possible(workspace: Path, yes: bool) -> None:
 def command_of(workspace: Path, program: str | None, rest: list[str]) -> list[str]:
     """Return the command line that runs a program with ROS 2. Raises Refused."""
     words = [] if program is None else [_path_of(program), *rest]
-    setup = installed()
-    environment = [word for name in HIDDEN for word in ("-u", name)]
-    if not os.environ.get(
-        "ROS_AUTOMATIC_DISCOVERY_RANGE"
-    ):  # this machine, until the user says more
-        environment.append("ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST")
-    if setup:
-        inner = f". {shlex.quote(setup)}; exec python3 {shlex.join(words)}"
-        return ["env", *environment, "bash", "-c", inner]
-    return ["env", *environment, str(workspace / NAME / "bin" / "python"), *words]
+    return command(words, str(workspace / NAME / "bin" / "python"))
 
 
 def _path_of(program: str) -> str:

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Dict, List, NoReturn, TextIO
 
 from node_kit.arguments import Parser, above_zero
+from node_kit.ros2_python import installed
 from tutorial_tools.command import ros2
 from tutorial_tools.command.build import REPOSITORY, is_done
 
@@ -199,7 +200,7 @@ def plan_of_ros2(workspace: Path, arguments: list[str]) -> Plan:
         ros2.must_be_possible(workspace, options.yes)
     except ros2.Refused as error:
         fail(f"ros2: {error}")
-    needed = [] if ros2.installed() else [ros2.BUILD]
+    needed = [] if installed() else [ros2.BUILD]
     return {"sections": ["demo", "more"], "builds": ["workspace", *needed], "command": command}
 
 

@@ -1,0 +1,57 @@
+"""Messages of any type as the bytes that go over the wire: subscribe and publish."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Callable
+
+import genpy
+import roslib.message
+import rospy
+
+
+@dataclass(frozen=True)
+class Raw:
+    """A message that came. type: package/Name. sender: name of its node."""
+
+    data: bytes
+    type: str
+    sender: str
+    is_latched: bool
+
+
+def subscribe(topic: str, callback: Callable[[Raw], object], depth: int) -> rospy.Subscriber:
+    """Call callback with each message of a topic, whatever its type. depth: how many may wait."""
+
+    def hear(message: Any) -> None:
+        about = message._connection_header
+        is_latched = about.get("latching") == "1"
+        callback(Raw(message._buff, about["type"], about.get("callerid", ""), is_latched))
+
+    options = {"queue_size": depth, "tcp_nodelay": True, "buff_size": 1 << 22}
+    return rospy.Subscriber(topic, rospy.AnyMsg, hear, **options)
+
+
+class RawPublisher:
+    """Publishes bytes as messages of a type that is known by its name."""
+
+    def __init__(self, topic: str, kind: str, depth: int, is_latched: bool) -> None:
+        """Take the type as package/Name. Raises LookupError if ROS 1 has no such type here."""
+        known = roslib.message.get_message_class(kind)
+        if known is None or not issubclass(known, genpy.Message):
+            raise LookupError(f"{kind}: ROS 1 has no such type here")
+        about = {each: getattr(known, each) for each in ("_type", "_md5sum", "_full_text")}
+        self._class = type("Raw", (rospy.AnyMsg,), about)
+        self._publisher = rospy.Publisher(
+            topic, self._class, queue_size=depth, latch=is_latched, tcp_nodelay=True
+        )
+
+    def publish(self, data: bytes) -> None:
+        """Send the bytes of a message."""
+        message = self._class()
+        message._buff = data
+        self._publisher.publish(message)
+
+    def end(self) -> None:
+        """Close all connections and unregister."""
+        self._publisher.unregister()

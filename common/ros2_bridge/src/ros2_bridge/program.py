@@ -1,0 +1,92 @@
+"""rosrun ros2_bridge bridge: starts both sides, and either one anew that has ended.
+
+Each side is a process of its own. This one holds no topic: it is no node.
+"""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from node_kit import ros2_python
+
+HERE = Path(__file__).resolve().parent
+AGAIN_S = 1.0  # a side is started anew no sooner than this after its last start
+LOOK_S = 0.1
+GONE_S = 3.0  # both sides have this long to end
+CANNOT_START = 1  # exit code of a node, with a line that says why
+
+
+class Side:
+    """A process that is started anew whenever it fails."""
+
+    def __init__(self, name: str, command: list[str]) -> None:
+        """Start it."""
+        self.name, self._command = name, command
+        self.has_run = False  # for longer than a start takes
+        self.start()
+
+    def start(self) -> None:
+        """Start it, anew."""
+        self._began_s = time.monotonic()
+        self.process = subprocess.Popen(self._command, stdin=subprocess.DEVNULL)
+
+    @property
+    def is_due(self) -> bool:
+        """Whether it has ended, and may be started anew."""
+        runs_s = time.monotonic() - self._began_s
+        ended = self.process.poll() is not None
+        self.has_run = self.has_run or (not ended and runs_s > AGAIN_S)
+        return ended and runs_s > AGAIN_S
+
+    def end(self) -> None:
+        """End it, by force if need be."""
+        self.process.terminate()
+        try:
+            self.process.wait(GONE_S)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            self.process.wait()
+
+
+def main() -> int:
+    """Run until a signal, or until the node of ROS 1 is shut down; return the exit code."""
+    if not ros2_python.is_there():
+        print("bridge: no ROS 2 here yet: ./tutorial ros2 --yes sets it up", file=sys.stderr)
+        return CANNOT_START
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, signal.default_int_handler)
+    with tempfile.TemporaryDirectory(prefix="ros2_bridge_") as folder:
+        ros1 = [sys.executable, "-m", "ros2_bridge.ros1_node", folder, *sys.argv[1:]]
+        ros2 = ros2_python.command([str(HERE / "ros2_side.py"), folder])
+        sides = [Side("ROS 1", ros1), Side("ROS 2", ros2)]
+        try:
+            return _watch(sides)
+        except KeyboardInterrupt:
+            return 0
+        finally:
+            for number in (signal.SIGINT, signal.SIGTERM):
+                signal.signal(number, signal.SIG_IGN)
+            for side in sides:
+                side.end()
+
+
+def _watch(sides: list[Side]) -> int:
+    """Start anew what ends; return an exit code once the node of ROS 1 is shut down."""
+    while True:
+        time.sleep(LOOK_S)
+        for side in sides:
+            if not side.is_due:
+                continue
+            code = side.process.returncode
+            is_node = side is sides[0]
+            if is_node and (code == 0 or (code == CANNOT_START and not side.has_run)):
+                return int(code)
+            how = f"signal {-code}" if code < 0 else f"exit code {code}"
+            line = f"bridge: the side of {side.name} has ended ({how}): it is started anew"
+            print(line, file=sys.stderr, flush=True)
+            side.start()

@@ -1,0 +1,224 @@
+"""The side of ROS 2, run by its Python: converts the bytes, subscribes and publishes.
+
+Needs rclpy and rosbags, and of the suite this folder alone: link.py and routes.py lie beside it.
+"""
+
+from __future__ import annotations
+
+import collections
+import hashlib
+import importlib
+import signal
+import socket
+import sys
+import threading
+import time
+from typing import Any, Callable
+
+import rclpy
+from link import Frame, Sender, end_with_parent, frames, is_late
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.signals import SignalHandlerOptions
+from rosbags.typesys import Stores, get_typestore
+from routes import Route, read_routes
+
+NAME = "ros2_bridge"
+LOOK_S = 0.5  # how often it looks which topics there are
+ECHO_S = 2.0  # how long what was published may take to come back to this node
+CONNECT_S = 10.0
+
+
+class Ros2Side:
+    """Subscribes and publishes in ROS 2."""
+
+    def __init__(self, routes: list[Route], connection: socket.socket) -> None:
+        """Make the publishers and subscriptions as they are needed. connection: to ROS 1."""
+        self.node = rclpy.create_node(NAME)
+        self._routes = {route.topic: route for route in routes}
+        self._store = get_typestore(Stores.LATEST)
+        self._sender = Sender(connection, lambda topic: self._routes[topic].depth)
+        self._publishers: dict[str, tuple[tuple[str, bool], Any]] = {}
+        self._subscriptions: dict[str, tuple[str, Any]] = {}
+        self._own: dict[str, collections.deque[tuple[float, bytes]]] = {}  # of both directions
+        self._said: set[str] = set()
+        self._lock = threading.Lock()
+        self.node.create_timer(LOOK_S, self._look)
+        self._look()
+
+    def _say(self, line: str) -> None:
+        """Report to the user, each line once."""
+        if line not in self._said:
+            self._said.add(line)
+            self.node.get_logger().warning(line)
+
+    # ---------------------------------------------------------------- from ROS 1
+
+    def carry(self, connection: socket.socket) -> None:
+        """Publish what comes, until the other side is gone."""
+        for frame in frames(connection):
+            route = self._routes.get(frame.topic)
+            if not route or is_late(frame, route.longest_s):
+                continue
+            try:
+                self._publish(frame, route)
+            except Exception as error:  # of a message, a type or a conversion: of this topic alone
+                why = " ".join(str(error).split())[:200] or type(error).__name__
+                self._say(f"{frame.topic} ({frame.type}) cannot be carried to ROS 2: {why}")
+
+    def _publish(self, frame: Frame, route: Route) -> None:
+        publisher = self._publisher(frame, route)
+        if publisher is None:
+            return
+        data = bytes(self._store.ros1_to_cdr(frame.data, frame.type))
+        if route.to_ros1:
+            with self._lock:
+                self._own.setdefault(frame.topic, collections.deque()).append(_mark(data))
+        publisher.publish(data)
+
+    def _publisher(self, frame: Frame, route: Route) -> Any:
+        kind, publisher = self._publishers.get(frame.topic, (None, None))
+        if kind == (frame.type, frame.is_latched):
+            return publisher
+        if kind and kind[0] != frame.type:
+            self._say(f"{frame.topic} is now {frame.type} in ROS 1, and no more {kind[0]}")
+        if publisher:
+            self.node.destroy_publisher(publisher)
+        cls = class_of(frame.type)
+        if cls is None:
+            self._say(
+                f"{frame.topic}: {frame.type}: ROS 2 has no such type here; it is not carried"
+            )
+            made = None
+        else:
+            made = self.node.create_publisher(cls, frame.topic, quality(route, frame.is_latched))
+        self._publishers[frame.topic] = (frame.type, frame.is_latched), made
+        return made
+
+    # ------------------------------------------------------------------ to ROS 1
+
+    def _look(self) -> None:
+        """Subscribe to what has come, and anew to what has another type."""
+        there = dict(self.node.get_topic_names_and_types())
+        for route in self._routes.values():
+            if not route.to_ros1:
+                continue
+            publishers = [
+                one
+                for one in self.node.get_publishers_info_by_topic(route.topic)
+                if one.node_name != NAME
+            ]
+            kinds = sorted({one.topic_type for one in publishers})
+            if len(kinds) > 1:
+                self._say(f"{route.topic} has several types in ROS 2: {', '.join(kinds)}")
+            known = self._subscriptions.get(route.topic, ("", None))
+            if kinds and route.topic in there and known[0] not in kinds:
+                self._subscribe(route, kinds[0], publishers, known)
+
+    def _subscribe(self, route: Route, kind: str, publishers: list[Any], known: Any) -> None:
+        if known[1]:
+            self.node.destroy_subscription(known[1])
+        self._subscriptions[route.topic] = kind, None
+        cls = class_of(kind)
+        if cls is None:
+            self._say(f"{route.topic}: {kind}: ROS 2 has no such type here; it is not carried")
+            return
+        latched = all(
+            one.qos_profile.durability == DurabilityPolicy.TRANSIENT_LOCAL for one in publishers
+        )
+        profile = quality(route, latched)
+        if any(one.qos_profile.reliability == ReliabilityPolicy.BEST_EFFORT for one in publishers):
+            profile.reliability = ReliabilityPolicy.BEST_EFFORT
+        made = self.node.create_subscription(
+            cls, route.topic, self._hearer(route, kind, latched), profile, raw=True
+        )
+        self._subscriptions[route.topic] = kind, made
+
+    def _hearer(self, route: Route, kind: str, is_latched: bool) -> Callable[[bytes], None]:
+        def hear(data: bytes) -> None:
+            now_s = time.monotonic()
+            if route.to_ros2 and self._is_own(route.topic, data):
+                return
+            try:
+                converted = bytes(self._store.cdr_to_ros1(data, kind))
+            except Exception as error:  # of this message alone
+                why = " ".join(str(error).split())[:200] or type(error).__name__
+                self._say(f"{route.topic} ({kind}) cannot be carried to ROS 1: {why}")
+                return
+            self._sender.put(Frame(route.topic, kind, converted, now_s, is_latched))
+
+        return hear
+
+    def _is_own(self, topic: str, data: bytes) -> bool:
+        """Return whether this node published these bytes a moment ago; each counts once."""
+        digest, now_s = hashlib.md5(data).digest(), time.monotonic()
+        with self._lock:
+            own = self._own.get(topic, collections.deque())
+            while own and now_s - own[0][0] > ECHO_S:
+                own.popleft()
+            for each in own:
+                if each[1] == digest:
+                    own.remove(each)
+                    return True
+        return False
+
+
+def _mark(data: bytes) -> tuple[float, bytes]:
+    return time.monotonic(), hashlib.md5(data).digest()
+
+
+def class_of(kind: str) -> Any:
+    """Return the class of package/msg/Name; None if it is not there."""
+    package, _, name = kind.partition("/msg/")
+    try:
+        return getattr(importlib.import_module(f"{package}.msg"), name, None)
+    except (ImportError, ValueError):
+        return None
+
+
+def quality(route: Route, is_latched: bool) -> QoSProfile:
+    """Return the quality of service of a route."""
+    kept = DurabilityPolicy.TRANSIENT_LOCAL if is_latched else DurabilityPolicy.VOLATILE
+    return QoSProfile(
+        depth=route.depth,
+        reliability=ReliabilityPolicy[route.reliability.upper()],
+        durability=kept,
+    )
+
+
+def connect(path: str) -> socket.socket:
+    """Return a connection to the other side, as soon as that is there. Raises OSError."""
+    deadline_s = time.monotonic() + CONNECT_S
+    while True:
+        connection = socket.socket(socket.AF_UNIX)
+        try:
+            connection.connect(path)
+            return connection
+        except OSError:
+            connection.close()
+            if time.monotonic() > deadline_s:
+                raise
+            time.sleep(0.05)  # it listens, or it does not: there is nothing to wait for
+
+
+def main() -> None:
+    """Carry messages between ROS 2 and the node of ROS 1, until one of them ends."""
+    end_with_parent()
+    folder = sys.argv[1]
+    connection = connect(f"{folder}/socket")
+    rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    with open(f"{folder}/topics.yaml", encoding="utf-8") as file:
+        routes = read_routes(file.read())
+    side = Ros2Side(routes, connection)
+    reader = threading.Thread(target=side.carry, args=(connection,), daemon=True)
+    reader.start()
+    try:
+        while reader.is_alive():
+            rclpy.spin_once(side.node, timeout_sec=0.2)
+    except KeyboardInterrupt:
+        return
+    sys.exit("the side of ROS 1 is gone")
+
+
+if __name__ == "__main__":
+    main()
