@@ -149,6 +149,7 @@ KINDS = {
     "kernel": lambda given: run(*PYTEST, KERNEL, *given),
     # Four times as many at a time: they wait more than they work.
     "exercises": lambda given: run(*QUIET, "-n", 4 * JOBS, "test/exercises", *given),
+    "ros2": lambda given: run(*QUIET, *with_folder("test/ros2", given)),
     "browser": lambda given: run(*QUIET, *with_folder("test/browser", given)),
     "containers": lambda given: run(REPOSITORY / "docker/check_containers", *given),
     "faults": lambda given: run("/usr/bin/python3", "-m", "tutorial_faults", *given),

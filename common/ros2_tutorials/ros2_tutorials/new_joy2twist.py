@@ -10,9 +10,7 @@ from rclpy.signals import SignalHandlerOptions
 from sensor_msgs.msg import Joy
 
 
-class NewJoy2Twist(Node):
-    """Turns every joy message into a velocity: axis 1 into linear.x, axis 0 into angular.z."""
-
+class NewJoy2Twist(Node):  # noqa: D101  see above
     def __init__(self):
         super().__init__("NewJoy2Twist")
         self.cmd_vel = self.create_publisher(Twist, "cmd_vel", 1)
@@ -36,7 +34,8 @@ def main():
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     node = NewJoy2Twist()
     try:
-        rclpy.spin(node)
+        while True:
+            rclpy.spin_once(node, timeout_sec=0.1)  # returns now and then, to notice Ctrl-C
     except KeyboardInterrupt:
         node.shutdown()
 

@@ -27,7 +27,6 @@ class Side:
     def __init__(self, name: str, command: list[str]) -> None:
         """Start it."""
         self.name, self._command = name, command
-        self.has_run = False  # for longer than a start takes
         self.start()
 
     def start(self) -> None:
@@ -38,10 +37,7 @@ class Side:
     @property
     def is_due(self) -> bool:
         """Whether it has ended, and may be started anew."""
-        runs_s = time.monotonic() - self._began_s
-        ended = self.process.poll() is not None
-        self.has_run = self.has_run or (not ended and runs_s > AGAIN_S)
-        return ended and runs_s > AGAIN_S
+        return self.process.poll() is not None and time.monotonic() - self._began_s > AGAIN_S
 
     def end(self) -> None:
         """End it, by force if need be."""
@@ -65,7 +61,7 @@ def main() -> int:
         ros2 = ros2_python.command([str(HERE / "ros2_side.py"), folder])
         sides = [Side("ROS 1", ros1), Side("ROS 2", ros2)]
         try:
-            return _watch(sides)
+            return _watch(sides, Path(folder, "socket"))
         except KeyboardInterrupt:
             return 0
         finally:
@@ -75,8 +71,11 @@ def main() -> int:
                 side.end()
 
 
-def _watch(sides: list[Side]) -> int:
-    """Start anew what ends; return an exit code once the node of ROS 1 is shut down."""
+def _watch(sides: list[Side], listens: Path) -> int:
+    """Start anew what ends; return an exit code once the node of ROS 1 is shut down.
+
+    listens: what is there as soon as that node has started once.
+    """
     while True:
         time.sleep(LOOK_S)
         for side in sides:
@@ -84,7 +83,7 @@ def _watch(sides: list[Side]) -> int:
                 continue
             code = side.process.returncode
             is_node = side is sides[0]
-            if is_node and (code == 0 or (code == CANNOT_START and not side.has_run)):
+            if is_node and (code == 0 or (code == CANNOT_START and not listens.exists())):
                 return int(code)
             how = f"signal {-code}" if code < 0 else f"exit code {code}"
             line = f"bridge: the side of {side.name} has ended ({how}): it is started anew"

@@ -204,7 +204,10 @@ def main() -> None:
     """Carry messages between ROS 2 and the node of ROS 1, until one of them ends."""
     end_with_parent()
     folder = sys.argv[1]
-    connection = connect(f"{folder}/socket")
+    try:
+        connection = connect(f"{folder}/socket")
+    except OSError:
+        sys.exit("ros2_bridge: the side of ROS 1 does not listen")
     rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     with open(f"{folder}/topics.yaml", encoding="utf-8") as file:
@@ -217,7 +220,7 @@ def main() -> None:
             rclpy.spin_once(side.node, timeout_sec=0.2)
     except KeyboardInterrupt:
         return
-    sys.exit("the side of ROS 1 is gone")
+    sys.exit(1)  # the side of ROS 1 is gone: this one is started anew
 
 
 if __name__ == "__main__":

@@ -16,6 +16,7 @@ SIZE = "180 MB"
 PYTHONS = ((3, 10), (3, 13))  # for which there are wheels, the first and the last
 MACHINE = "x86_64"
 OWN = REPOSITORY / "common" / "ros2_tutorials" / "ros2_tutorials"
+TOOLS = (REPOSITORY / "common" / "ros2_bridge" / "src" / "ros2_bridge" / "convert_bag.py",)
 
 
 class Refused(Exception):  # noqa: N818  as model.Wrong is
@@ -34,9 +35,10 @@ def options_of(arguments: list[str]) -> argparse.Namespace:
     return parser.parse_args(arguments)
 
 
-def programs() -> list[str]:
-    """Return the names of the programs of the tutorial."""
-    return sorted(path.stem for path in OWN.glob("*.py") if path.stem != "__init__")
+def programs() -> dict[str, Path]:
+    """Return {name: path} of the programs of the tutorial."""
+    paths = [*sorted(OWN.glob("[a-z]*.py")), *TOOLS]
+    return {path.stem: path for path in paths}
 
 
 def must_be_possible(workspace: Path, yes: bool) -> None:
@@ -68,5 +70,5 @@ def _path_of(program: str) -> str:
     if Path(program).is_file():
         return str(Path(program).resolve())
     if program in programs():
-        return str(OWN / f"{program}.py")
+        return str(programs()[program])
     raise Refused(f"{program}: no such file, and none of ours: {', '.join(programs())}")

@@ -49,6 +49,7 @@ KINDS = {  # of tests
     "again": "what failed of these, once more and alone",
     "kernel": "joy_node with a joystick of a real kernel; minutes",
     "exercises": "the tests of check itself",
+    "ros2": "the bridge and the programs of ROS 2, which this installs",
     "browser": "the cockpit's page in real browsers, which this installs",
     "containers": "docker/ on a Docker engine, which root starts if there is none; minutes",
     "faults": "random faults on the live system, --for SECONDS or --trials N: test/FAULTS.md",
@@ -161,6 +162,8 @@ def plan_of_test(kind: str, rest: list[str]) -> Plan:
         return {**made, "command": [str(REPOSITORY / "test" / kind), *rest]}
     if CLUSTER in options_of(rest):
         made["sections"].append("cluster")
+    if kind == "ros2" and not installed():
+        made["builds"].append(ros2.BUILD)
     if kind == "mutation":
         made["builds"].append("pypi=mutation:test/mutation/requirements.txt")
     return {**made, "command": [str(REPOSITORY / "test/run.py"), *filter(None, [kind]), *rest]}

@@ -1,0 +1,24 @@
+"""With ROS 2: answers on /reply what comes on /note, and says how large a picture is."""
+
+import rclpy
+from rclpy.qos import DurabilityPolicy, QoSProfile
+from sensor_msgs.msg import Image
+from std_msgs.msg import String
+
+LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+
+def main():
+    """Run until Ctrl-C."""
+    rclpy.init()
+    node = rclpy.create_node("peer")
+    reply = node.create_publisher(String, "/reply", LATCHED)
+    node.create_subscription(String, "/note", reply.publish, LATCHED)
+    node.create_subscription(
+        Image, "/picture", lambda image: print("picture", len(image.data), flush=True), LATCHED
+    )
+    rclpy.spin(node)
+
+
+if __name__ == "__main__":
+    main()

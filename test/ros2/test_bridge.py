@@ -1,0 +1,250 @@
+"""The bridge with the tutorial's class in ROS 2, on the simulated robot of ROS 1."""
+
+import os
+import signal
+import struct
+import threading
+import time
+from pathlib import Path
+
+import pytest
+import rospy
+from geometry_msgs.msg import Twist
+from kobuki_msgs.msg import BumperEvent
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import Image, Joy
+from std_msgs.msg import String
+
+from tutorial_testing.waiting import wait_for
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+CLASS = REPOSITORY / "common/ros2_tutorials/ros2_tutorials/new_joy2twist.py"
+PEER = Path(__file__).with_name("peer.py")
+BRIDGE = "/ros2_bridge"
+RATE = 50.0  # [Hz]
+TIMEOUT_S, PERIOD_S = 0.6, 0.02  # of the simulated base
+HOSTILE = "\u00e4 { } %s \\ \n <script>"  # without \0, which ends a text of ROS 2
+LATENESS_S = 0.4  # of programs on a busy machine
+
+
+def single(value):
+    """A number as a float32 of the wire."""
+    return struct.unpack("f", struct.pack("f", value))[0]
+
+
+class Stick:
+    """Publishes Joys of which no two are alike, at an even rate, until it is released."""
+
+    def __init__(self):
+        self.sent = []
+        self._publisher = rospy.Publisher("/joy", Joy, queue_size=10, tcp_nodelay=True)
+        self._ends = threading.Event()
+        self._thread = threading.Thread(target=self._push, daemon=True)
+
+    def wait_for_listener(self):
+        wait_for(self._publisher.get_num_connections, "a subscriber of /joy", 20)
+        return self
+
+    def begin(self):
+        self._thread.start()
+        return self
+
+    def _push(self):
+        due = time.monotonic()
+        while not self._ends.is_set():
+            number = len(self.sent)
+            axes = (0.3 + 0.0001 * (number % 1000), 0.2 + 0.0002 * (number % 1000), 0, 0, 0, 0)
+            self.sent.append((single(axes[1]), single(axes[0])))
+            self._publisher.publish(Joy(axes=axes, buttons=[0] * 12))
+            due += 1 / RATE
+            self._ends.wait(max(0.0, due - time.monotonic()))
+
+    def end(self):
+        """Stop publishing; return when."""
+        self._ends.set()
+        self._thread.join()
+        return time.monotonic()
+
+
+@pytest.fixture
+def stick():
+    made = Stick()
+    yield made
+    made.end()
+    made._publisher.unregister()
+
+
+@pytest.fixture
+def robot(start, ear):
+    """What the simulated robot's odometry says."""
+    odometry = ear("/odom", Odometry)
+    start("rosrun", "fake_turtlebot_sim", "fake_turtlebot.py")
+    wait_for(lambda: odometry.heard, "odometry", 20)
+    return odometry
+
+
+def moves(odometry):
+    return abs(odometry.last.twist.twist.linear.x) > 0.01
+
+
+def stands_after(odometry, since_s):
+    """Wait until the robot stands; return how long that took [s]."""
+    wait_for(lambda: not moves(odometry), "a robot that stands", 10)
+    still = next(
+        when
+        for when, _, message in reversed(odometry.heard)
+        if abs(message.twist.twist.linear.x) > 0.01
+    )
+    return still - since_s
+
+
+def heard_twists(ear_):
+    return [
+        (message.linear.x, message.angular.z)
+        for _, sender, message in ear_.heard
+        if sender == BRIDGE
+    ]
+
+
+@pytest.fixture
+def class_drives(bridge, start_ros2, robot, ear, stick):
+    """(bridge, the program of ROS 2, odometry, velocities, stick), and the robot drives."""
+    twists = ear("/cmd_vel", Twist)
+    made = bridge()
+    program = start_ros2(CLASS)
+    stick.wait_for_listener().begin()
+    begin_s = time.monotonic()
+    wait_for(lambda: moves(robot), "a robot that drives", 30)
+    assert time.monotonic() - begin_s < 5 + 10 * LATENESS_S
+    return made, program, robot, twists, stick
+
+
+def test_every_joy_becomes_one_twist_equal_to_the_bit_and_then_the_robot_rests(class_drives):
+    _, _, robot, twists, stick = class_drives
+    first = len(stick.sent)
+    wait_for(lambda: len(stick.sent) > first + int(RATE * SECONDS), "Joys", SECONDS + 10)
+    ended_s = stick.end()
+    assert stands_after(robot, ended_s) < TIMEOUT_S + PERIOD_S + LATENESS_S
+    heard = heard_twists(twists)
+    begun = stick.sent.index(heard[0])
+    assert heard == stick.sent[begun:]
+
+
+SECONDS = float(os.environ.get("TUTORIAL_ROS2_SECONDS", "8"))
+
+
+@pytest.mark.parametrize("side", ["ROS 1", "ROS 2"])
+def test_a_side_that_is_killed_stops_the_robot_and_comes_back(class_drives, side):
+    made, _, robot, _, _ = class_drives
+    pid = made.send(side, signal.SIGKILL)
+    killed_s = time.monotonic()
+    assert stands_after(robot, killed_s) < TIMEOUT_S + PERIOD_S + LATENESS_S
+    line = f"bridge: the side of {side} has ended (signal 9): it is started anew"
+    wait_for(lambda: line in made.output, "the line about it", 10)
+    assert made.process(side) != pid
+    wait_for(lambda: moves(robot), "a robot that drives again", 30)
+    assert "Traceback" not in made.output
+
+
+def test_a_program_that_is_killed_stops_the_robot(class_drives):
+    _, program, robot, _, _ = class_drives
+    os.kill(program.pid, signal.SIGKILL)
+    assert stands_after(robot, time.monotonic()) < TIMEOUT_S + PERIOD_S + LATENESS_S
+
+
+def test_ctrl_c_of_the_class_ends_with_zeros(class_drives):
+    _, program, robot, twists, _ = class_drives
+    program.interrupt()
+    assert program.wait(10) == 0, program.output
+    wait_for(lambda: heard_twists(twists)[-3:] == [(0.0, 0.0)] * 3, "three zeros", 5)
+    assert "Traceback" not in program.output
+    assert stands_after(robot, time.monotonic()) < LATENESS_S + TIMEOUT_S
+
+
+@pytest.mark.parametrize("side", ["ROS 1", "ROS 2"])
+def test_what_waited_for_a_side_that_was_suspended_is_not_driven(class_drives, side):
+    made, _, robot, twists, stick = class_drives
+    made.send(side, signal.SIGSTOP)
+    time.sleep(1.5)  # longer than a velocity or a Joy may be old; the robot stands by then
+    stick.end()
+    before = len(twists.heard)
+    made.send(side, signal.SIGCONT)
+    time.sleep(1.5)  # in which a late one would come
+    late = [pair for pair in heard_twists(twists)[before:] if any(pair)]
+    assert len(late) <= RATE * 0.5  # those of the last half second, which the Joys may be old
+    assert not moves(robot)
+
+
+def test_the_newest_is_carried_whatever_the_type(bridge, start_ros2, ear, tmp_path):
+    """Latched both ways, ten megabytes, a type that one side lacks, one that changes."""
+    list_ = tmp_path / "topics.yaml"
+    list_.write_text(
+        "topics:\n  /note: {direction: to_ros2}\n  /reply: {direction: to_ros1}\n"
+        "  /picture: {direction: to_ros2}\n  /bumper: {direction: to_ros2}\n"
+        "  /changing: {direction: to_ros2}\n"
+    )
+    note = rospy.Publisher("/note", String, queue_size=1, latch=True)
+    note.publish(HOSTILE)
+    made = bridge(list_)
+    bumper = rospy.Publisher("/bumper", BumperEvent, queue_size=1, latch=True)
+    bumper.publish(BumperEvent(1, 1))
+    wait_for(lambda: "ROS 2 has no such type here" in made.output, "a line", 20)
+    assert made.output.count("kobuki_msgs/msg/BumperEvent") == 1
+    peer = start_ros2(PEER)  # late: what was latched has been sent long ago
+    reply = ear("/reply", String)
+    wait_for(lambda: reply.heard, "the note, and back", 20)
+    assert reply.last.data == HOSTILE
+    assert reply.heard[0][1] == BRIDGE
+    picture = rospy.Publisher("/picture", Image, queue_size=1, latch=True)
+    picture.publish(Image(height=1, width=10_000_000, data=bytes(10_000_000)))
+    wait_for(lambda: "picture 10000000" in peer.output, "ten megabytes", 20)
+    changing = rospy.Publisher("/changing", String, queue_size=1, latch=True)
+    changing.publish("one")
+    wait_for(lambda: "changing" in str(rospy.get_published_topics()), "a topic", 10)
+    time.sleep(1.0)
+    changing.unregister()
+    other = rospy.Publisher("/changing", Twist, queue_size=1, latch=True)
+    other.publish(Twist())
+    wait_for(
+        lambda: "/changing is now geometry_msgs/msg/Twist in ROS 1" in made.output, "a line", 20
+    )
+    note.publish("and on")
+    wait_for(lambda: reply.last.data == "and on", "a note after all that", 10)
+    assert "Traceback" not in made.output
+
+
+def test_a_topic_of_both_directions_has_no_echo(bridge, start_ros2, ear):
+    bridge()
+    programs = REPOSITORY / "common/ros2_tutorials/ros2_tutorials"
+    start_ros2(programs / "talker.py")
+    listener = start_ros2(programs / "listener.py")
+    chatter = ear("/chatter", String)
+    publisher = rospy.Publisher("/chatter", String, queue_size=10)
+    wait_for(lambda: len(chatter.heard) > 20, "a talker of ROS 2", 20)
+    for number in range(20):
+        publisher.publish(f"from here {number}")
+        publisher.publish("the same again")
+        time.sleep(0.05)
+    wait_for(lambda: "from here 19" in listener.output, "what was said here", 10)
+    mine = [line for line in listener.output.splitlines() if "the same again" in line]
+    assert len(mine) == 20
+    own = [text.data for _, sender, text in chatter.heard if sender == BRIDGE]
+    assert len(own) == len(set(own)) and not [text for text in own if "here" in text]
+
+
+def test_without_ros2_it_is_one_line(start, monkeypatch):
+    monkeypatch.setenv("TUTORIAL_ROS2", "/nowhere/python")
+    program = start("rosrun", "ros2_bridge", "bridge")
+    assert program.wait(20) == 1
+    assert program.output == "bridge: no ROS 2 here yet: ./tutorial ros2 --yes sets it up\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "why"),
+    [("topics: 3", "a map with topics"), ("topics: {joy: {direction: up}}", "'joy': a topic is")],
+)
+def test_a_wrong_list_is_one_line(start, tmp_path, text, why):
+    (tmp_path / "topics.yaml").write_text(text)
+    program = start("rosrun", "ros2_bridge", "bridge", f"_topics:={tmp_path}/topics.yaml")
+    assert program.wait(20) == 1
+    assert f"topics.yaml: {why}" in program.output and "Traceback" not in program.output
