@@ -6,8 +6,11 @@ from dataclasses import dataclass
 from typing import Any, Callable
 
 import genpy
+import rosgraph
 import roslib.message
 import rospy
+
+from node_kit.questions import Answer, call
 
 
 @dataclass(frozen=True)
@@ -55,3 +58,15 @@ class RawPublisher:
     def end(self) -> None:
         """Close all connections and unregister."""
         self._publisher.unregister()
+
+
+def types_of_others() -> list[tuple[str, str]]:
+    """Return (topic, package/Name) of what other nodes publish; none if nobody answers."""
+    master = rosgraph.get_master_uri()
+    answer, state = call(master, "getSystemState")
+    known, types = call(master, "getTopicTypes")
+    if answer is not Answer.WELL or known is not Answer.WELL:
+        return []
+    own = rospy.get_name()
+    topics = {topic for topic, nodes in state[0] if set(nodes) - {own}}
+    return [(topic, kind) for topic, kind in types if topic in topics and kind != "*"]

@@ -16,7 +16,8 @@ import time
 from dataclasses import dataclass
 from typing import Callable, Iterator
 
-HEAD = struct.Struct("<IdB")  # bytes that follow the head, when it was received [s], latched
+HEAD = struct.Struct("<IdB")  # bytes that follow the head, when it was received [s], flags
+LATCHED, ANNOUNCES = 1, 2  # flags
 MOST_BYTES = 1 << 30
 PR_SET_PDEATHSIG = 1  # linux/prctl.h
 BUFFER_BYTES = 1 << 16  # what the kernel keeps cannot be dropped any more
@@ -24,18 +25,23 @@ BUFFER_BYTES = 1 << 16  # what the kernel keeps cannot be dropped any more
 
 @dataclass(frozen=True)
 class Frame:
-    """A message on its way. stamp_s: of the monotonic clock, which both sides share."""
+    """A message on its way. stamp_s: of the monotonic clock, which both sides share.
+
+    announces: it is no message, but says that some will come, so that subscribers find the topic.
+    """
 
     topic: str
     type: str  # as ROS 2 writes it: package/msg/Name
     data: bytes
     stamp_s: float
     is_latched: bool = False
+    announces: bool = False
 
     def packed(self) -> bytes:
         """Return the frame as it is sent."""
         names = f"{self.topic}\0{self.type}\0".encode()
-        head = HEAD.pack(len(names) + len(self.data), self.stamp_s, self.is_latched)
+        flags = LATCHED * self.is_latched | ANNOUNCES * self.announces
+        head = HEAD.pack(len(names) + len(self.data), self.stamp_s, flags)
         return b"".join((head, names, self.data))
 
 
@@ -46,12 +52,13 @@ def frames(connection: socket.socket) -> Iterator[Frame]:
             head = stream.read(HEAD.size)
             if len(head) < HEAD.size:
                 return
-            size, stamp_s, is_latched = HEAD.unpack(head)
+            size, stamp_s, flags = HEAD.unpack(head)
             body = stream.read(size) if size <= MOST_BYTES else b""
             if len(body) < size or size > MOST_BYTES:
                 return
             topic, kind, data = body.split(b"\0", 2)
-            yield Frame(topic.decode(), kind.decode(), data, stamp_s, bool(is_latched))
+            is_latched, announces = bool(flags & LATCHED), bool(flags & ANNOUNCES)
+            yield Frame(topic.decode(), kind.decode(), data, stamp_s, is_latched, announces)
 
 
 class Sender:

@@ -10,11 +10,12 @@ from typing import Callable
 
 import rospy
 
-from node_kit.raw_messages import Raw, RawPublisher, subscribe
+from node_kit.raw_messages import Raw, RawPublisher, subscribe, types_of_others
 from ros2_bridge.link import Frame, Sender, frames, is_late
 from ros2_bridge.routes import Route
 
 NAME = "ros2_bridge"
+LOOK_S = 0.5  # how often the master is asked which topics there are
 
 
 class Ros1Side:
@@ -42,7 +43,21 @@ class Ros1Side:
             if route.to_ros2:
                 self._subscribe(route)
         threading.Thread(target=self._serve, daemon=True).start()
+        threading.Thread(target=self._look, daemon=True).start()
         rospy.spin()
+
+    def _look(self) -> None:
+        """Announce to the other side what others publish, before a first message comes."""
+        announced: dict[str, tuple[Sender, str]] = {}  # to whom, and with which type
+        while not rospy.is_shutdown():
+            time.sleep(LOOK_S)
+            sender = self._sender
+            for topic, kind in types_of_others() if sender else ():
+                route = self._routes.get(topic)
+                if sender and route and route.to_ros2 and announced.get(topic) != (sender, kind):
+                    announced[topic] = sender, kind
+                    name, now_s = kind.replace("/", "/msg/"), time.monotonic()
+                    sender.put(Frame(topic, name, b"", now_s, announces=True))
 
     def _subscribe(self, route: Route) -> None:
         def hear(raw: Raw) -> None:
@@ -77,7 +92,7 @@ class Ros1Side:
         route = self._routes.get(frame.topic)
         if route and route.to_ros1 and not is_late(frame, route.longest_s):
             publisher = self._publisher(route, frame)
-            if publisher:
+            if publisher and not frame.announces:
                 publisher.publish(frame.data)
 
     def _publisher(self, route: Route, frame: Frame) -> RawPublisher | None:

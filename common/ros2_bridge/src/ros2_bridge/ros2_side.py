@@ -67,7 +67,7 @@ class Ros2Side:
 
     def _publish(self, frame: Frame, route: Route) -> None:
         publisher = self._publisher(frame, route)
-        if publisher is None:
+        if publisher is None or frame.announces:
             return
         data = bytes(self._store.ros1_to_cdr(frame.data, frame.type))
         if route.to_ros1:
@@ -77,7 +77,7 @@ class Ros2Side:
 
     def _publisher(self, frame: Frame, route: Route) -> Any:
         kind, publisher = self._publishers.get(frame.topic, (None, None))
-        if kind == (frame.type, frame.is_latched):
+        if kind == (frame.type, frame.is_latched) or (frame.announces and kind):
             return publisher
         if kind and kind[0] != frame.type:
             self._say(f"{frame.topic} is now {frame.type} in ROS 1, and no more {kind[0]}")
@@ -132,6 +132,8 @@ class Ros2Side:
             cls, route.topic, self._hearer(route, kind, latched), profile, raw=True
         )
         self._subscriptions[route.topic] = kind, made
+        now_s = time.monotonic()
+        self._sender.put(Frame(route.topic, kind, b"", now_s, latched, announces=True))
 
     def _hearer(self, route: Route, kind: str, is_latched: bool) -> Callable[[bytes], None]:
         def hear(data: bytes) -> None:

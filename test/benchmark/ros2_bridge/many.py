@@ -1,0 +1,45 @@
+"""With ROS 2: publishes odometry on /odom_of_ros2 at a rate, and counts what comes on /odom.
+
+many.py COUNT RATE: so many, after one on /odom; prints how many came, once none come any more.
+"""
+
+import sys
+import time
+
+import rclpy
+from nav_msgs.msg import Odometry
+
+QUIET_S = 2.0
+
+
+def main():
+    """Publish and count."""
+    count, rate = int(sys.argv[1]), float(sys.argv[2])
+    rclpy.init()
+    node = rclpy.create_node("many")
+    publisher = node.create_publisher(Odometry, "/odom_of_ros2", count)
+    came = []
+    node.create_subscription(
+        Odometry, "/odom", lambda odom: came.append(odom.pose.pose.position.x), count
+    )
+    print("ready", flush=True)
+    while not came:
+        rclpy.spin_once(node, timeout_sec=0.01)
+    message, begin_s, sent = Odometry(), time.monotonic(), 0
+    last_s, number = begin_s, 0
+    while sent < count or time.monotonic() - last_s < QUIET_S:
+        if sent < count and time.monotonic() >= begin_s + sent / rate:
+            message.pose.pose.position.x = float(sent)
+            publisher.publish(message)
+            sent += 1
+        rclpy.spin_once(node, timeout_sec=0.0 if sent < count else 0.1)
+        if len(came) > number:
+            last_s, number = time.monotonic(), len(came)
+    print(
+        f"sent {sent} in {rate:.0f} Hz, came {len(came)}, in order {came == sorted(came)}",
+        flush=True,
+    )
+
+
+if __name__ == "__main__":
+    main()
