@@ -62,6 +62,7 @@ ELSEWHERE = {
     "Two machines": "test_two_hosts.py runs it on two hosts",
     "Exercises of your own": "test/exercises/test_course.py runs it",
     "From here to ROS 2": "test/ros2 runs it, with 180 MB of PyPI",
+    "Both side by side": "test/ros2 runs it, with 180 MB of PyPI",
 }
 STUDENTS_SHELL = "./tutorial shell --in ~/catkin_ws"
 LONGEST_README = 270
