@@ -23,6 +23,7 @@ TOGETHER = ("ros", "system", "launch")  # of all; they mostly wait, so they run 
 ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 RUNNING = []  # in the background
 PART = "TUTORIAL_PART"  # environment variable: this is one kind of all, which another one sums up
+BRIDGE = "--bridge"  # of the faults
 KERNEL = "test/system/test_kernel_joystick.py"
 
 
@@ -132,6 +133,14 @@ def bench(arguments):
     return run(*PYTEST, "-q", "-s", f"test/benchmark/{package}", *rest)
 
 
+def faults(arguments):
+    """Hit the live system with random faults; with --bridge the one between ROS 1 and ROS 2."""
+    if BRIDGE not in arguments:
+        return run("/usr/bin/python3", "-m", "tutorial_faults", *arguments)
+    rest = [argument for argument in arguments if argument != BRIDGE]
+    return run(*QUIET, "-q", "-s", "test/ros2/test_faults.py", *rest)
+
+
 def mutation(arguments):
     """Run in the background of whatever else runs here: it takes hours."""
     python = RESULTS / "mutation/bin/python"
@@ -152,7 +161,7 @@ KINDS = {
     "ros2": lambda given: run(*QUIET, *with_folder("test/ros2", given)),
     "browser": lambda given: run(*QUIET, *with_folder("test/browser", given)),
     "containers": lambda given: run(REPOSITORY / "docker/check_containers", *given),
-    "faults": lambda given: run("/usr/bin/python3", "-m", "tutorial_faults", *given),
+    "faults": faults,
     "mutation": mutation,
     "bench": bench,
 }

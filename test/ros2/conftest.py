@@ -1,11 +1,12 @@
 """A master, the bridge, and programs with ROS 2; this process is a node of ROS 1."""
 
 import os
-import signal
 import time
 
 import pytest
 import rospy
+from drive import Stick
+from nav_msgs.msg import Odometry
 
 from node_kit import ros2_python
 from tutorial_testing.nodes import init_node
@@ -14,6 +15,12 @@ from tutorial_testing.processes import Program, command_line, descendants
 from tutorial_testing.waiting import wait_for
 
 SIDES = {"ROS 1": "ros2_bridge.ros1_node", "ROS 2": "ros2_side.py"}
+
+
+def pytest_addoption(parser):
+    """Of test_faults.py: how many trials, and the seed of the first."""
+    parser.addoption("--trials", type=int, default=3, metavar="N")
+    parser.addoption("--seed", type=int, default=1)
 
 
 @pytest.fixture(scope="session", autouse=True)
@@ -125,4 +132,18 @@ def ear():
         each.end()
 
 
-KILL, STOP, CONTINUE = signal.SIGKILL, signal.SIGSTOP, signal.SIGCONT
+@pytest.fixture
+def stick():
+    made = Stick()
+    yield made
+    made.end()
+    made._publisher.unregister()
+
+
+@pytest.fixture
+def robot(start, ear):
+    """What the simulated robot's odometry says."""
+    odometry = ear("/odom", Odometry)
+    start("rosrun", "fake_turtlebot_sim", "fake_turtlebot.py")
+    wait_for(lambda: odometry.heard, "odometry", 20)
+    return odometry

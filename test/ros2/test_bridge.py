@@ -2,100 +2,36 @@
 
 import os
 import signal
-import struct
-import threading
 import time
 from pathlib import Path
 
 import pytest
+import rosnode
 import rospy
+from drive import (
+    CLASS,
+    LATENESS_S,
+    PERIOD_S,
+    RATE,
+    REPOSITORY,
+    TIMEOUT_S,
+    moves,
+    stands_after,
+)  # fmt: skip
 from geometry_msgs.msg import Twist
 from kobuki_msgs.msg import BumperEvent
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Image, Joy
 from std_msgs.msg import String
 
+from tutorial_testing.processes import descendants
 from tutorial_testing.waiting import wait_for
 
-REPOSITORY = Path(__file__).resolve().parents[2]
-CLASS = REPOSITORY / "common/ros2_tutorials/ros2_tutorials/new_joy2twist.py"
+RECORDING = REPOSITORY / "common/gamepad/bag/joy.bag"
 PEER = Path(__file__).with_name("peer.py")
 BRIDGE = "/ros2_bridge"
-RATE = 50.0  # [Hz]
-TIMEOUT_S, PERIOD_S = 0.6, 0.02  # of the simulated base
+WITHOUT_SCREEN = ("rviz:=false", "cockpit:=false", "model:=false")
 HOSTILE = "\u00e4 { } %s \\ \n <script>"  # without \0, which ends a text of ROS 2
-LATENESS_S = 0.4  # of programs on a busy machine
-
-
-def single(value):
-    """A number as a float32 of the wire."""
-    return struct.unpack("f", struct.pack("f", value))[0]
-
-
-class Stick:
-    """Publishes Joys of which no two are alike, at an even rate, until it is released."""
-
-    def __init__(self):
-        self.sent = []
-        self._publisher = rospy.Publisher("/joy", Joy, queue_size=10, tcp_nodelay=True)
-        self._ends = threading.Event()
-        self._thread = threading.Thread(target=self._push, daemon=True)
-
-    def wait_for_listener(self):
-        wait_for(self._publisher.get_num_connections, "a subscriber of /joy", 20)
-        return self
-
-    def begin(self):
-        self._thread.start()
-        return self
-
-    def _push(self):
-        due = time.monotonic()
-        while not self._ends.is_set():
-            number = len(self.sent)
-            axes = (0.3 + 0.0001 * (number % 1000), 0.2 + 0.0002 * (number % 1000), 0, 0, 0, 0)
-            self.sent.append((single(axes[1]), single(axes[0])))
-            self._publisher.publish(Joy(axes=axes, buttons=[0] * 12))
-            due += 1 / RATE
-            self._ends.wait(max(0.0, due - time.monotonic()))
-
-    def end(self):
-        """Stop publishing; return when."""
-        self._ends.set()
-        self._thread.join()
-        return time.monotonic()
-
-
-@pytest.fixture
-def stick():
-    made = Stick()
-    yield made
-    made.end()
-    made._publisher.unregister()
-
-
-@pytest.fixture
-def robot(start, ear):
-    """What the simulated robot's odometry says."""
-    odometry = ear("/odom", Odometry)
-    start("rosrun", "fake_turtlebot_sim", "fake_turtlebot.py")
-    wait_for(lambda: odometry.heard, "odometry", 20)
-    return odometry
-
-
-def moves(odometry):
-    return abs(odometry.last.twist.twist.linear.x) > 0.01
-
-
-def stands_after(odometry, since_s):
-    """Wait until the robot stands; return how long that took [s]."""
-    wait_for(lambda: not moves(odometry), "a robot that stands", 10)
-    still = next(
-        when
-        for when, _, message in reversed(odometry.heard)
-        if abs(message.twist.twist.linear.x) > 0.01
-    )
-    return still - since_s
 
 
 def heard_twists(ear_):
@@ -104,6 +40,13 @@ def heard_twists(ear_):
         for _, sender, message in ear_.heard
         if sender == BRIDGE
     ]
+
+
+def doctor_says(start):
+    program = start("rosrun", "tutorial_tools", "doctor.py")
+    program.wait(20)
+    assert "Traceback" not in program.output
+    return program.output
 
 
 @pytest.fixture
@@ -119,7 +62,7 @@ def class_drives(bridge, start_ros2, robot, ear, stick):
     return made, program, robot, twists, stick
 
 
-def test_every_joy_becomes_one_twist_equal_to_the_bit_and_then_the_robot_rests(class_drives):
+def test_every_joy_becomes_one_twist_equal_to_the_bit_and_then_the_robot_rests(class_drives, start):
     _, _, robot, twists, stick = class_drives
     first = len(stick.sent)
     wait_for(lambda: len(stick.sent) > first + int(RATE * SECONDS), "Joys", SECONDS + 10)
@@ -128,6 +71,27 @@ def test_every_joy_becomes_one_twist_equal_to_the_bit_and_then_the_robot_rests(c
     heard = heard_twists(twists)
     begun = stick.sent.index(heard[0])
     assert heard == stick.sent[begun:]
+    assert "bridge    carries between ROS 1 and ROS 2" in doctor_says(start)
+
+
+def test_the_recording_drives_the_robot_one_twist_for_each_joy(
+    bridge, start, start_ros2, robot, ear
+):
+    """For TUTORIAL_ROS2_SECONDS; the bare machines have a minute of it."""
+    joys, twists = ear("/joy", Joy), ear("/cmd_vel", Twist)
+    bridge()
+    start_ros2(CLASS)
+    play = start("rosbag", "play", "--loop", "--quiet", RECORDING)
+    wait_for(lambda: joys.heard, "a first Joy", 20)
+    wait_for(lambda: moves(robot), "a robot that drives", 30)
+    begun = len(joys.heard)
+    wait_for(lambda: time.monotonic() - joys.heard[0][0] > SECONDS, "the recording", SECONDS + 10)
+    for pid in (*descendants(play.pid), play.pid):
+        os.kill(pid, signal.SIGKILL)
+    assert stands_after(robot, time.monotonic()) < TIMEOUT_S + PERIOD_S + LATENESS_S
+    sent = [(joy.axes[1], joy.axes[0]) for _, _, joy in joys.heard]
+    heard = heard_twists(twists)
+    assert len(heard) > len(sent) - begun and heard == sent[-len(heard) :]
 
 
 SECONDS = float(os.environ.get("TUTORIAL_ROS2_SECONDS", "8"))
@@ -146,6 +110,15 @@ def test_a_side_that_is_killed_stops_the_robot_and_comes_back(class_drives, side
     assert "Traceback" not in made.output
 
 
+def test_the_launch_file_has_the_bridge_in_place_of_joy2twist(start, ear):
+    """As the page of ROS 2 has it, with two commands."""
+    odometry = ear("/odom", Odometry)
+    start("roslaunch", "joy2twist", "launch_bag.launch", "ros2:=true", *WITHOUT_SCREEN)
+    start(REPOSITORY / "tutorial", "ros2", "new_joy2twist")
+    wait_for(lambda: odometry.heard and moves(odometry), "a robot that drives", 60)
+    assert "/myjoystick2twist" not in rosnode.get_node_names()
+
+
 def test_a_program_that_is_killed_stops_the_robot(class_drives):
     _, program, robot, _, _ = class_drives
     os.kill(program.pid, signal.SIGKILL)
@@ -162,11 +135,14 @@ def test_ctrl_c_of_the_class_ends_with_zeros(class_drives):
 
 
 @pytest.mark.parametrize("side", ["ROS 1", "ROS 2"])
-def test_what_waited_for_a_side_that_was_suspended_is_not_driven(class_drives, side):
+def test_what_waited_for_a_side_that_was_suspended_is_not_driven(class_drives, side, start):
     made, _, robot, twists, stick = class_drives
     made.send(side, signal.SIGSTOP)
     time.sleep(1.5)  # longer than a velocity or a Joy may be old; the robot stands by then
     stick.end()
+    if side == "ROS 2":
+        line = "bridge    the side of ROS 2 is missing: its terminal"
+        wait_for(lambda: line in doctor_says(start), "the doctor's line", 20)
     before = len(twists.heard)
     made.send(side, signal.SIGCONT)
     time.sleep(1.5)  # in which a late one would come
@@ -175,7 +151,7 @@ def test_what_waited_for_a_side_that_was_suspended_is_not_driven(class_drives, s
     assert not moves(robot)
 
 
-def test_the_newest_is_carried_whatever_the_type(bridge, start_ros2, ear, tmp_path):
+def test_the_newest_is_carried_whatever_the_type(bridge, start, start_ros2, ear, tmp_path):
     """Latched both ways, ten megabytes, a type that one side lacks, one that changes."""
     list_ = tmp_path / "topics.yaml"
     list_.write_text(
@@ -190,6 +166,7 @@ def test_the_newest_is_carried_whatever_the_type(bridge, start_ros2, ear, tmp_pa
     bumper.publish(BumperEvent(1, 1))
     wait_for(lambda: "ROS 2 has no such type here" in made.output, "a line", 20)
     assert made.output.count("kobuki_msgs/msg/BumperEvent") == 1
+    assert "/bumper: kobuki_msgs/msg/BumperEvent: ROS 2 has no such" in doctor_says(start)
     peer = start_ros2(PEER)  # late: what was latched has been sent long ago
     reply = ear("/reply", String)
     wait_for(lambda: reply.heard, "the note, and back", 20)

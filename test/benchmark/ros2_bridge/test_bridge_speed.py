@@ -14,9 +14,10 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Joy
 
 from node_kit import ros2_python
+from tutorial_faults.live.samples import complaints, growth, sample
 from tutorial_testing.nodes import init_node
 from tutorial_testing.ports import free_port
-from tutorial_testing.processes import Program, descendants
+from tutorial_testing.processes import Program, command_line, descendants
 from tutorial_testing.waiting import wait_for
 
 pytestmark = pytest.mark.skipif(
@@ -28,6 +29,7 @@ MANY = Path(__file__).with_name("many.py")
 COUNT, RATE = 1000, 50.0
 MOST_MS, MOST_LATE_MS = 3.0, 8.0  # median; of 99 in 100
 SECONDS, ODOMETRY_HZ = 20, 1000.0
+SIDES = {"ros1_node": "the side of ROS 1", "ros2_side": "the side of ROS 2"}
 TICKS = os.sysconf("SC_CLK_TCK")
 
 
@@ -151,3 +153,42 @@ def publish(publisher, count):
         message.pose.pose.position.x = float(number)
         publisher.publish(message)
         time.sleep(max(0.0, begin_s + (number + 1) / ODOMETRY_HZ - time.monotonic()))
+
+
+def test_nothing_grows(bridge, figure, request):
+    """Joys at an even rate for --hours: memory, threads and files of both sides."""
+    seconds = 3600 * request.config.getoption("--hours")
+    twists, sent, samples = [0], 0, []
+
+    def hear(_twist):
+        twists[0] += 1
+
+    subscriber = rospy.Subscriber("/cmd_vel", Twist, hear, tcp_nodelay=True)
+    publisher = rospy.Publisher("/joy", Joy, queue_size=10, tcp_nodelay=True)
+    with Program(*ros2_python.command([str(PROGRAM)])) as program:
+        wait_for(publisher.get_num_connections, "the bridge", 20)
+        sides = {
+            said: pid
+            for pid in descendants(bridge.pid)
+            for name, said in SIDES.items()
+            if name in command_line(pid)
+        }
+        begin_s = time.monotonic()
+        while time.monotonic() - begin_s < seconds:
+            if sent % int(2 * RATE) == 0:
+                now_s = time.monotonic() - begin_s
+                samples += [sample(now_s, side, pid) for side, pid in sides.items()]
+            publisher.publish(Joy(axes=[0.0, sent % 7 / 7], buttons=[0] * 12))
+            sent += 1
+            time.sleep(max(0.0, begin_s + sent / RATE - time.monotonic()))
+        program.interrupt()
+        program.wait()
+    subscriber.unregister()
+    publisher.unregister()
+    for side in sides:
+        memory, threads, files = growth(samples, side)
+        seen = f"{memory:+} kB, {threads:+} threads, {files:+} files"
+        figure(f"{side} in {seconds / 60:.0f} minutes", seen, "≤ 2 MB, 0, 0")
+    figure("meanwhile Twists for Joys", f"{twists[0]} of {sent}", "")
+    assert len(sides) == 2 and complaints(samples) == []
+    assert twists[0] >= 0.95 * sent  # it took a moment until both knew each other

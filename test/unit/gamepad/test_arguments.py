@@ -109,7 +109,7 @@ def test_a_robot():
 def test_only_arguments_with_a_rule_are_asked_for():
     assert set(RULES) == {
         "bag", "cockpit", "cockpit_port", "joy_config", "joy_pkg", "joystick", "lan", "loop",
-        "name", "rviz", "vigilance_timeout", "virtual",
+        "name", "ros2", "rviz", "vigilance_timeout", "virtual",
     }  # fmt: skip
 
 

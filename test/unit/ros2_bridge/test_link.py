@@ -32,6 +32,15 @@ def test_a_frame_arrives_as_it_was_sent(topic, kind, data, stamp_s, is_latched):
         assert list(frames(other)) == [frame, frame]
 
 
+def test_another_side_that_ends_before_it_has_read_all_is_gone_and_no_more(ends):
+    one, other = ends
+    frame = Frame("/a", "b/msg/C", b"1", 1.0)
+    one.sendall(frame.packed())
+    other.sendall(b"never read")
+    one.close()
+    assert list(frames(other)) in ([frame], [])
+
+
 @pytest.mark.parametrize("cut", [1, 12, 13, 20])
 def test_a_frame_that_was_cut_is_none(ends, cut):
     one, other = ends

@@ -185,6 +185,7 @@ def test_all_is_well():
         well(use_sim_time=True, clock_ticks=True, clocks={"robot": Offset(99.0, "/odom")}),
         well(nodes={name: WELL.nodes[name] for name in ("/joy_node", "/cmd_vel_mux")}),
         well(silent_s={"/joy_node": 12.3}),
+        well(bridge=[(True, "carries between ROS 1 and ROS 2")]),
     ],
 )
 def test_nothing_is_wrong(facts):
@@ -240,6 +241,14 @@ def test_several_lines():
     silent = replace(says(STILL), silent_s={"/joy_node": 12.3})
     seen = "the gamepad of /joy_node has been silent for 12 s: look at its battery"
     assert seen in lines(silent, "wrong")[-1]
+
+
+def test_a_bridge_to_ros2():
+    said = [(False, "the side of ROS 2 is missing"), (False, "/scan: a/msg/B: not carried")]
+    (missing,) = lines(well(bridge=said), "wrong")
+    (topic,) = lines(well(bridge=said), "unknown")
+    assert "the side of ROS 2 is missing: its terminal says why" in missing
+    assert topic.split() == ["unknown", "bridge", *said[1][1].split()]
 
 
 def test_a_robot_of_a_classroom_without_joystick():

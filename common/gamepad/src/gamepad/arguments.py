@@ -106,6 +106,7 @@ RULES = {
     "lan": true_or_false,
     "loop": true_or_false,
     "name": robot,
+    "ros2": true_or_false,
     "rviz": true_or_false,
     "vigilance_timeout": seconds_or_off,
     "virtual": true_or_false,

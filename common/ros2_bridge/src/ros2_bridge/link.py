@@ -13,6 +13,7 @@ import socket
 import struct
 import threading
 import time
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Callable, Iterator
 
@@ -28,6 +29,7 @@ class Frame:
     """A message on its way. stamp_s: of the monotonic clock, which both sides share.
 
     announces: it is no message, but says that some will come, so that subscribers find the topic.
+    Without a topic it is a sign of life; data: a line for each topic that cannot be carried.
     """
 
     topic: str
@@ -47,7 +49,8 @@ class Frame:
 
 def frames(connection: socket.socket) -> Iterator[Frame]:
     """Yield what comes, until the other side is gone."""
-    with connection.makefile("rb", buffering=1 << 18) as stream:
+    # Reset: it ended before it had read all that was sent to it.
+    with connection.makefile("rb", buffering=1 << 18) as stream, suppress(ConnectionResetError):
         while True:
             head = stream.read(HEAD.size)
             if len(head) < HEAD.size:

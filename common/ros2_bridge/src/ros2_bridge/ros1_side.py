@@ -9,13 +9,15 @@ import time
 from typing import Callable
 
 import rospy
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 
 from node_kit.raw_messages import Raw, RawPublisher, subscribe, types_of_others
 from ros2_bridge.link import Frame, Sender, frames, is_late
-from ros2_bridge.routes import Route
+from ros2_bridge.routes import Route, depth_of
 
 NAME = "ros2_bridge"
-LOOK_S = 0.5  # how often the master is asked which topics there are
+LOOK_S = 0.5  # how often the master is asked which topics there are; and the state is published
+SILENT_S = 2.0  # the other side gives a sign of life each half second
 
 
 class Ros1Side:
@@ -31,6 +33,8 @@ class Ros1Side:
         ] = {}  # by topic and sender, for a new other side
         self._publishers: dict[str, tuple[str, RawPublisher | None]] = {}  # by topic, with the type
         self._lock = threading.Lock()
+        self._unknown: dict[str, str] = {}  # by topic: which of its types is not known here
+        self._sign_s, self._wrong = -SILENT_S, ""  # last sign of life of the other side; its lines
         if os.path.exists(path):
             os.unlink(path)
         self._socket = socket.socket(socket.AF_UNIX)
@@ -49,8 +53,10 @@ class Ros1Side:
     def _look(self) -> None:
         """Announce to the other side what others publish, before a first message comes."""
         announced: dict[str, tuple[Sender, str]] = {}  # to whom, and with which type
+        state = rospy.Publisher("/diagnostics", DiagnosticArray, queue_size=1)
         while not rospy.is_shutdown():
             time.sleep(LOOK_S)
+            state.publish(self._state())
             sender = self._sender
             for topic, kind in types_of_others() if sender else ():
                 route = self._routes.get(topic)
@@ -58,6 +64,20 @@ class Ros1Side:
                     announced[topic] = sender, kind
                     name, now_s = kind.replace("/", "/msg/"), time.monotonic()
                     sender.put(Frame(topic, name, b"", now_s, announces=True))
+
+    def _state(self) -> DiagnosticArray:
+        """Return whether the other side is there, and what cannot be carried."""
+        lines = [(NAME, "carries between ROS 1 and ROS 2", DiagnosticStatus.OK)]
+        if time.monotonic() - self._sign_s > SILENT_S:
+            lines = [(NAME, "the side of ROS 2 is missing", DiagnosticStatus.ERROR)]
+        wrong = [*self._wrong.splitlines(), *self._unknown.values()]
+        lines += [(f"{NAME}: topic", line, DiagnosticStatus.WARN) for line in wrong]
+        array = DiagnosticArray()
+        array.header.stamp = rospy.Time.now()
+        array.status = [
+            DiagnosticStatus(name=name, message=line, level=level) for name, line, level in lines
+        ]
+        return array
 
     def _subscribe(self, route: Route) -> None:
         def hear(raw: Raw) -> None:
@@ -76,15 +96,18 @@ class Ros1Side:
     def _serve(self) -> None:
         while True:
             connection, _ = self._socket.accept()
-            sender = Sender(connection, lambda topic: self._routes[topic].depth)
+            sender = Sender(connection, lambda topic: depth_of(self._routes, topic))
             with self._lock:
                 for frame in self._latched.values():
                     sender.put(frame)
                 self._sender = sender
             for frame in frames(connection):
-                self._publish(frame)
+                if frame.topic:
+                    self._publish(frame)
+                else:
+                    self._sign_s, self._wrong = frame.stamp_s, frame.data.decode()
             with self._lock:
-                self._sender = None
+                self._sender, self._sign_s = None, -SILENT_S
             sender.end()
             connection.close()
 
@@ -103,10 +126,12 @@ class Ros1Side:
             self._warn(f"{frame.topic} is now {frame.type} in ROS 2, and no more {kind}")
             publisher.end()
             publisher = None
+        self._unknown.pop(frame.topic, None)
         try:
             name = frame.type.replace("/msg/", "/")
             publisher = RawPublisher(frame.topic, name, route.depth, frame.is_latched)
         except LookupError as error:
-            self._warn(f"{frame.topic}: {error}; it is not carried")
+            self._unknown[frame.topic] = f"{frame.topic}: {error}; it is not carried"
+            self._warn(self._unknown[frame.topic])
         self._publishers[frame.topic] = frame.type, publisher
         return publisher

@@ -17,10 +17,11 @@ from typing import Any, Callable
 
 import rclpy
 from link import Frame, Sender, end_with_parent, frames, is_late
+from rclpy.duration import Duration
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
 from rosbags.typesys import Stores, get_typestore
-from routes import Route, read_routes
+from routes import Route, depth_of, read_routes
 
 NAME = "ros2_bridge"
 LOOK_S = 0.5  # how often it looks which topics there are
@@ -36,17 +37,19 @@ class Ros2Side:
         self.node = rclpy.create_node(NAME)
         self._routes = {route.topic: route for route in routes}
         self._store = get_typestore(Stores.LATEST)
-        self._sender = Sender(connection, lambda topic: self._routes[topic].depth)
+        self._sender = Sender(connection, lambda topic: depth_of(self._routes, topic))
         self._publishers: dict[str, tuple[tuple[str, bool], Any]] = {}
         self._subscriptions: dict[str, tuple[str, Any]] = {}
         self._own: dict[str, collections.deque[tuple[float, bytes]]] = {}  # of both directions
         self._said: set[str] = set()
+        self._wrong: dict[str, str] = {}  # by topic: why it is not carried
         self._lock = threading.Lock()
         self.node.create_timer(LOOK_S, self._look)
         self._look()
 
-    def _say(self, line: str) -> None:
-        """Report to the user, each line once."""
+    def _say(self, topic: str, line: str) -> None:
+        """Report to the user, each line once, and to the other side, what is wrong with a topic."""
+        self._wrong[topic] = line
         if line not in self._said:
             self._said.add(line)
             self.node.get_logger().warning(line)
@@ -63,7 +66,8 @@ class Ros2Side:
                 self._publish(frame, route)
             except Exception as error:  # of a message, a type or a conversion: of this topic alone
                 why = " ".join(str(error).split())[:200] or type(error).__name__
-                self._say(f"{frame.topic} ({frame.type}) cannot be carried to ROS 2: {why}")
+                line = f"{frame.topic} ({frame.type}) cannot be carried to ROS 2: {why}"
+                self._say(frame.topic, line)
 
     def _publish(self, frame: Frame, route: Route) -> None:
         publisher = self._publisher(frame, route)
@@ -74,22 +78,24 @@ class Ros2Side:
             with self._lock:
                 self._own.setdefault(frame.topic, collections.deque()).append(_mark(data))
         publisher.publish(data)
+        self._wrong.pop(frame.topic, None)
 
     def _publisher(self, frame: Frame, route: Route) -> Any:
         kind, publisher = self._publishers.get(frame.topic, (None, None))
         if kind == (frame.type, frame.is_latched) or (frame.announces and kind):
             return publisher
         if kind and kind[0] != frame.type:
-            self._say(f"{frame.topic} is now {frame.type} in ROS 1, and no more {kind[0]}")
+            line = f"{frame.topic} is now {frame.type} in ROS 1, and no more {kind[0]}"
+            self._say(frame.topic, line)
         if publisher:
             self.node.destroy_publisher(publisher)
         cls = class_of(frame.type)
         if cls is None:
-            self._say(
-                f"{frame.topic}: {frame.type}: ROS 2 has no such type here; it is not carried"
-            )
+            line = f"{frame.topic}: {frame.type}: ROS 2 has no such type here; it is not carried"
+            self._say(frame.topic, line)
             made = None
         else:
+            self._wrong.pop(frame.topic, None)
             made = self.node.create_publisher(cls, frame.topic, quality(route, frame.is_latched))
         self._publishers[frame.topic] = (frame.type, frame.is_latched), made
         return made
@@ -98,6 +104,8 @@ class Ros2Side:
 
     def _look(self) -> None:
         """Subscribe to what has come, and anew to what has another type."""
+        wrong = "\n".join(list(self._wrong.values())).encode()
+        self._sender.put(Frame("", "", wrong, time.monotonic(), announces=True))
         there = dict(self.node.get_topic_names_and_types())
         for route in self._routes.values():
             if not route.to_ros1:
@@ -109,7 +117,8 @@ class Ros2Side:
             ]
             kinds = sorted({one.topic_type for one in publishers})
             if len(kinds) > 1:
-                self._say(f"{route.topic} has several types in ROS 2: {', '.join(kinds)}")
+                line = f"{route.topic} has several types in ROS 2: {', '.join(kinds)}"
+                self._say(route.topic, line)
             known = self._subscriptions.get(route.topic, ("", None))
             if kinds and route.topic in there and known[0] not in kinds:
                 self._subscribe(route, kinds[0], publishers, known)
@@ -120,8 +129,10 @@ class Ros2Side:
         self._subscriptions[route.topic] = kind, None
         cls = class_of(kind)
         if cls is None:
-            self._say(f"{route.topic}: {kind}: ROS 2 has no such type here; it is not carried")
+            line = f"{route.topic}: {kind}: ROS 2 has no such type here; it is not carried"
+            self._say(route.topic, line)
             return
+        self._wrong.pop(route.topic, None)
         latched = all(
             one.qos_profile.durability == DurabilityPolicy.TRANSIENT_LOCAL for one in publishers
         )
@@ -135,18 +146,22 @@ class Ros2Side:
         now_s = time.monotonic()
         self._sender.put(Frame(route.topic, kind, b"", now_s, latched, announces=True))
 
-    def _hearer(self, route: Route, kind: str, is_latched: bool) -> Callable[[bytes], None]:
-        def hear(data: bytes) -> None:
-            now_s = time.monotonic()
+    def _hearer(self, route: Route, kind: str, is_latched: bool) -> Callable[..., None]:
+        def hear(data: bytes, about: dict[str, int]) -> None:
+            # It may have waited for this side, which has just been started anew.
+            age_s = max(0.0, time.time() - 1e-9 * about["source_timestamp"])
+            sent_s = time.monotonic() - age_s
             if route.to_ros2 and self._is_own(route.topic, data):
                 return
             try:
                 converted = bytes(self._store.cdr_to_ros1(data, kind))
             except Exception as error:  # of this message alone
                 why = " ".join(str(error).split())[:200] or type(error).__name__
-                self._say(f"{route.topic} ({kind}) cannot be carried to ROS 1: {why}")
+                line = f"{route.topic} ({kind}) cannot be carried to ROS 1: {why}"
+                self._say(route.topic, line)
                 return
-            self._sender.put(Frame(route.topic, kind, converted, now_s, is_latched))
+            self._sender.put(Frame(route.topic, kind, converted, sent_s, is_latched))
+            self._wrong.pop(route.topic, None)
 
         return hear
 
@@ -182,6 +197,7 @@ def quality(route: Route, is_latched: bool) -> QoSProfile:
     kept = DurabilityPolicy.TRANSIENT_LOCAL if is_latched else DurabilityPolicy.VOLATILE
     return QoSProfile(
         depth=route.depth,
+        lifespan=Duration(seconds=route.longest_s),  # 0: for ever
         reliability=ReliabilityPolicy[route.reliability.upper()],
         durability=kept,
     )

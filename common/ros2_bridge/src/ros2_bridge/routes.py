@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, fields
-from typing import Any
+from typing import Any, Mapping
 
 import yaml
 
@@ -45,6 +45,11 @@ def read_routes(text: str) -> list[Route]:
         raise ValueError("a map with topics: {/joy: {direction: to_ros2}} is wanted")
     defaults = given.get("defaults") or {}
     return [_route(topic, defaults, about) for topic, about in given["topics"].items()]
+
+
+def depth_of(routes: Mapping[str, Route], topic: str) -> int:
+    """Return how many frames of a topic may wait; of signs of life, which have none, one."""
+    return routes[topic].depth if topic in routes else 1
 
 
 def _route(topic: Any, defaults: Any, about: Any) -> Route:

@@ -31,6 +31,7 @@ STAMPED = (
 )  # fmt: skip
 STAMPED_TOPICS = 6  # of each host
 STAMPED_MESSAGES = 20  # of each topic: the one that was fastest on its way counts
+BRIDGE = "/ros2_bridge"  # the node of ros2_bridge
 LISTEN_S = 2.5  # /diagnostics comes once a second
 Messages = List[Tuple[float, bytes]]  # (arrival [s], bytes)
 
@@ -155,7 +156,7 @@ def heard(uri: str, facts: Facts) -> dict[str, Any]:
             sent = [topic for topic in stamped if name in facts.publishers.get(topic, [])]
             far.setdefault(node.host, []).extend((name, t, STAMPED_MESSAGES) for t in sent)
     far = {host: jobs[:STAMPED_TOPICS] for host, jobs in far.items()}
-    speakers = {*facts.converters(), *drivers(facts)}
+    speakers = {*facts.converters(), *drivers(facts), *({BRIDGE} & set(well))}
     jobs = [job for several in far.values() for job in several]
     jobs += [(name, "/diagnostics", 1) for name in speakers]
     for topic in (*active, "/clock"):
@@ -182,6 +183,9 @@ def heard(uri: str, facts: Facts) -> dict[str, Any]:
             for status in said[name]
             if status.name == f"{name.strip('/')}: joystick"
         },
+        "bridge": [
+            (status.level == DiagnosticStatus.OK, status.message) for status in said.get(BRIDGE, [])
+        ],
         "silent_s": {
             name: float(pair.value)
             for name in drivers(facts)

@@ -134,6 +134,7 @@ class Facts:
     clocks: dict[str, Offset | None] = field(default_factory=dict)  # of the other hosts
     muxes: dict[str, Mux] = field(default_factory=dict)  # by the name of the node
     states: dict[str, tuple[bool, str]] = field(default_factory=dict)  # of joy2twist: well, text
+    bridge: list[tuple[bool, str]] = field(default_factory=list)  # to ROS 2: well, text
     silent_s: dict[str, float] = field(default_factory=dict)  # since a joy_node's gamepad moved
 
     def topics(self, kind: str) -> list[str]:

@@ -11,6 +11,7 @@ from tutorial_tools.doctor.facts import JOY, TWIST, Facts, Finding, Mux, ok, som
 
 SILENT_S = 2.0  # a gamepad in the hand is not still for so long
 IDLE = ("", "idle")  # what a multiplexer says when nobody drives
+MISSING = "is missing"  # what the bridge says of its other side
 NO_MESSAGE = re.compile("no message|waiting for the joystick")
 
 
@@ -137,6 +138,12 @@ def states(facts: Facts) -> Iterator[Finding]:
         todo = todo if NO_MESSAGE.search(text) else ""
         seen = f"{node} says: {text}"
         yield ok("state", seen) if well else wrong("state", seen, todo)
+    for well, text in facts.bridge:
+        if MISSING in text:
+            todo = "its terminal says why; ./tutorial ros2 talker tries ROS 2 alone"
+            yield wrong("bridge", text, todo)
+        else:  # of topics that are not carried one may need none
+            yield ok("bridge", text) if well else unknown("bridge", text)
     still = any("has not changed" in text for _, text in facts.states.values())
     for node, seconds in sorted(facts.silent_s.items()) if still else ():
         if seconds > SILENT_S:

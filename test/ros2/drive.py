@@ -1,0 +1,71 @@
+"""A stick that is held, and what the wheels say."""
+
+import struct
+import threading
+import time
+from pathlib import Path
+
+import rospy
+from sensor_msgs.msg import Joy
+
+from tutorial_testing.waiting import wait_for
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+CLASS = REPOSITORY / "common/ros2_tutorials/ros2_tutorials/new_joy2twist.py"
+RATE = 50.0  # [Hz]
+TIMEOUT_S, PERIOD_S = 0.6, 0.02  # of the simulated base
+LATENESS_S = 0.4  # of programs on a busy machine
+
+
+def single(value):
+    """A number as a float32 of the wire."""
+    return struct.unpack("f", struct.pack("f", value))[0]
+
+
+class Stick:
+    """Publishes Joys of which no two are alike, at an even rate, until it is released."""
+
+    def __init__(self):
+        self.sent = []
+        self._publisher = rospy.Publisher("/joy", Joy, queue_size=10, tcp_nodelay=True)
+        self._ends = threading.Event()
+        self._thread = threading.Thread(target=self._push, daemon=True)
+
+    def wait_for_listener(self):
+        wait_for(self._publisher.get_num_connections, "a subscriber of /joy", 20)
+        return self
+
+    def begin(self):
+        self._thread.start()
+        return self
+
+    def _push(self):
+        due = time.monotonic()
+        while not self._ends.is_set():
+            number = len(self.sent)
+            axes = (0.3 + 0.0001 * (number % 1000), 0.2 + 0.0002 * (number % 1000), 0, 0, 0, 0)
+            self.sent.append((single(axes[1]), single(axes[0])))
+            self._publisher.publish(Joy(axes=axes, buttons=[0] * 12))
+            due += 1 / RATE
+            self._ends.wait(max(0.0, due - time.monotonic()))
+
+    def end(self):
+        """Stop publishing; return when."""
+        self._ends.set()
+        self._thread.join()
+        return time.monotonic()
+
+
+def moves(odometry):
+    return abs(odometry.last.twist.twist.linear.x) > 0.01
+
+
+def stands_after(odometry, since_s):
+    """Wait until the robot stands; return how long that took [s]."""
+    wait_for(lambda: not moves(odometry), "a robot that stands", 10)
+    still = next(
+        when
+        for when, _, message in reversed(odometry.heard)
+        if abs(message.twist.twist.linear.x) > 0.01
+    )
+    return still - since_s
