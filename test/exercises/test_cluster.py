@@ -72,8 +72,8 @@ def _up(scheduler):
 @pytest.fixture
 def worker(start, underlay, monkeypatch):
     monkeypatch.setenv("TUTORIAL_UNDERLAY", underlay)
-    words = "/usr/bin/python3", "-m", "tutorial_check.cluster", ADDRESS, "--jobs", JOBS
-    return lambda host: start(host, *words)
+    words = "/usr/bin/python3", "-m", "tutorial_check.cluster", ADDRESS, "--jobs"
+    return lambda host, jobs=JOBS: start(host, *words, jobs)
 
 
 @pytest.fixture
@@ -170,6 +170,25 @@ def test_one_worker_is_killed_and_one_added(
     assert same >= 0.98 * count  # of a talker that ends at once the one message is heard, or not
 
 
+def test_a_client_that_is_killed_goes_on_where_it_was(literal, tmp_path, scheduler, worker, client):
+    folder = tmp_path / "class"
+    hand_in(literal, folder, 6)
+    scheduler()
+    for host in ("one", "two"):
+        worker(host)
+    call = client(folder)
+    wait_for(lambda: checked(folder), "a first report", LONGEST_S)
+    kill(call)
+    done = len(checked(folder))
+    assert done < 6
+    call = client(folder)
+    assert call.wait(LONGEST_S) == 1, call.output
+    assert (
+        call.output.count("unchanged since the last check") >= done - 1
+    )  # the last may be half written
+    assert len(checked(folder)) == 6 and "Traceback" not in call.output
+
+
 def test_a_submission_that_ends_workers_is_abandoned(literal, tmp_path, scheduler, worker, client):
     """Killed each time it has begun to check it, as by the kernel when memory is short."""
     folder = tmp_path / "class"
@@ -177,7 +196,7 @@ def test_a_submission_that_ends_workers_is_abandoned(literal, tmp_path, schedule
     scheduler()
     call = client(folder)
     for host in ("one", "two"):
-        each = worker(host)
+        each = worker(host, 1)  # of several, a second one may get it before that is killed, too
         wait_for(lambda each=each: _examines(each), "an examination", 120)
         kill(each)
     assert call.wait(120) == 2, call.output
