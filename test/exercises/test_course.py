@@ -108,10 +108,27 @@ rospy.spin()
 """
 
 
+# What a busy machine may do: rospy is connected long before it attaches the callback.
+LATE = """
+import time
+from rospy.topics import _SubscriberImpl
+attach = _SubscriberImpl.add_callback
+
+def attach_late(*arguments):
+    until_s = time.monotonic() + 0.2
+    while time.monotonic() < until_s:
+        pass
+    attach(*arguments)
+
+_SubscriberImpl.add_callback = attach_late
+"""
+
+
 def test_a_second_course_from_the_page_alone(tmp_path):
     course = tmp_path / "answers"
     for name, text in (
         ("right", SHOUT),
+        ("right_late", SHOUT.replace("import rospy\n", f"import rospy\n{LATE}", 1)),
         ("wrong_A1_as_it_came", SHOUT.replace(".upper()", "")),
         ("wrong_A1_ends", SHOUT.replace("rospy.spin()", "")),
         ("wrong_A2_half", SHOUT.replace(", -twist.angular.z", ", twist.angular.z")),
@@ -122,7 +139,8 @@ def test_a_second_course_from_the_page_alone(tmp_path):
         (package / "scripts/shout.py").chmod(0o755)
     for name in ("package.xml", "CMakeLists.txt"):
         text = (SQUARE / "solutions/right/square" / name).read_text().replace("square", "shout")
-        (course / "solutions/right/shout" / name).write_text(text)
+        for right in (course / "solutions").glob("right*"):
+            (right / "shout" / name).write_text(text)
     (course / "course.yaml").write_text(SHOUT_YAML)
     (course / "answers.py").write_text(SHOUT_CHECKS)
     code, output = check("--course", course, "--self-test")

@@ -17,7 +17,7 @@ from typing import Callable, Iterable, Iterator, Mapping, Sequence, TypeVar
 
 from tutorial_check import place
 from tutorial_check.model import Wrong
-from tutorial_check.patience import Patience, fields_of
+from tutorial_check.patience import Patience, Times, fields_of, is_ready, times_of
 
 GRACE_S = 3.0  # after Ctrl-C a program has this long to end by itself
 IDLE_S = 2.0  # programs that have done nothing for so long wait for what does not come; a talker may for 1 s
@@ -35,6 +35,7 @@ class Program:
         self.process, self.name = process, name
         self.was_stopped = False  # by us: then how it ended says nothing
         self._worked_s = 0.0
+        self._times: Times = {}  # of its threads, when rests() last looked
         self._first, self._last, self._printed = bytearray(), bytearray(), 0
 
     @property
@@ -53,6 +54,12 @@ class Program:
         if not self.ended:
             self.was_stopped = True
             self.signal(number)
+
+    def rests(self) -> bool:
+        """Return whether no thread of it has worked since the last call, nor wants to."""
+        pid = self.process.pid
+        before, self._times = self._times, times_of(pid)
+        return before == self._times and not any(is_ready(pid, thread) for thread in before)
 
     @property
     def spins(self) -> bool:

@@ -32,15 +32,22 @@ def fields_of(stat: str) -> list[bytes]:
 
 
 def times(proc: str = "/proc") -> Times:
-    found = {}
+    found: Times = {}
     for process in filter(str.isdigit, os.listdir(proc)):
-        with contextlib.suppress(OSError):  # ended meanwhile
-            for thread in os.listdir(f"{proc}/{process}/task"):
-                # It may have ended meanwhile, or the kernel does not count.
-                with contextlib.suppress(OSError, ValueError):
-                    with open(f"{proc}/{process}/task/{thread}/schedstat") as file:
-                        at_work, ready, _ = file.read().split()
-                    found[int(thread)] = int(process), int(at_work), int(ready)
+        found.update(times_of(int(process), proc))
+    return found
+
+
+def times_of(process: int, proc: str = "/proc") -> Times:
+    """Return the times of one process' threads; none if it has ended."""
+    found: Times = {}
+    with contextlib.suppress(OSError):  # ended meanwhile
+        for thread in os.listdir(f"{proc}/{process}/task"):
+            # It may have ended meanwhile, or the kernel does not count.
+            with contextlib.suppress(OSError, ValueError):
+                with open(f"{proc}/{process}/task/{thread}/schedstat") as file:
+                    at_work, ready, _ = file.read().split()
+                found[int(thread)] = process, int(at_work), int(ready)
     return found
 
 

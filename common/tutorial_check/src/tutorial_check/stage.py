@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from tutorial_check.session import Session
 
 START_S = 8.0  # a node of the student's has this long to appear
+SETTLE_S = 0.5  # once connected, a thread of it has this long to attach its callback
 
 
 class Stage:
@@ -107,7 +108,11 @@ class Stage:
         return self.wait(condition, deadline_s, or_idle=True)
 
     def meet(self, program: Program, *topics: str) -> bool:
-        """Return whether a program has connected to ours on these topics; wait for that, or its end."""
+        """Return whether a program has connected to ours on these topics; wait for that, or its end.
+
+        rospy connects before it attaches the callback, and counts a listener after that has been told:
+        what is sent in between is lost, so wait until all threads of the program wait.
+        """
 
         def has_met() -> bool:
             counts = [
@@ -118,6 +123,7 @@ class Stage:
             return all(counts)
 
         self.wait_for_start(lambda: program.ended or has_met())
+        self.wait(lambda: program.ended or program.rests(), SETTLE_S)
         return not program.ended and has_met()
 
     def end(self) -> None:

@@ -34,10 +34,10 @@ def reads_bumper(session: Session) -> str:
     with session.stage() as stage:
         stage.call("advertise", BUMPER, "BumperEvent")
         program = stage.start(PACKAGE, script)
-        stage.wait_for_start(lambda: stage.call("listeners", BUMPER) or program.ended)
+        connected = stage.meet(program, BUMPER)
         if program.ended:
             raise crash(session, PACKAGE, program, "bumper.py goes on until Ctrl-C")
-        if not stage.call("listeners", BUMPER):
+        if not connected:
             hint = "rospy.Subscriber('mobile_base/events/bumper', BumperEvent, callback)"
             raise Wrong(f"it subscribes to {BUMPER}", "it does not", script, hint)
         for number, side in enumerate(SIDES):
