@@ -3,12 +3,12 @@
 import pytest
 
 from fake_turtlebot_sim.safety.parameters import parse_parameters
-from fake_turtlebot_sim.safety.reaction import CENTER, LEFT, RIGHT, STOP, Kind, Reaction
+from fake_turtlebot_sim.safety.reaction import CENTER, LEFT, RIGHT, STOP, WHEEL_DROP, Reaction
 
 BACK = (-0.1, 0.0)
 
 
-@pytest.mark.parametrize("kind", [Kind.BUMPER, Kind.CLIFF])
+@pytest.mark.parametrize("kind", ["bumper", "cliff"])
 @pytest.mark.parametrize(
     ("sensors", "velocity"),
     [
@@ -29,10 +29,10 @@ def test_it_backs_off_and_turns_away(kind, sensors, velocity):
 
 def test_with_a_dropped_wheel_it_stands():
     reaction = Reaction(5.0)
-    reaction.event(Kind.BUMPER, CENTER, True, 0.0)
-    reaction.event(Kind.WHEEL_DROP, LEFT, True, 0.0)
+    reaction.event("bumper", CENTER, True, 0.0)
+    reaction.event(WHEEL_DROP, LEFT, True, 0.0)
     assert reaction.velocity(0.0) == STOP
-    reaction.event(Kind.WHEEL_DROP, LEFT, False, 1.0)
+    reaction.event(WHEEL_DROP, LEFT, False, 1.0)
     assert reaction.velocity(1.0) == BACK  # what is over for a wheel is over at once
 
 
@@ -40,12 +40,12 @@ def test_a_release_may_be_extended():
     reaction = Reaction(
         parse_parameters({"time_to_extend_bump_cliff_events": 2}).time_to_extend_bump_cliff_events
     )
-    reaction.event(Kind.CLIFF, RIGHT, False, 0.0)  # never seen as active
+    reaction.event("cliff", RIGHT, False, 0.0)  # never seen as active
     assert reaction.velocity(0.0) is None
-    reaction.event(Kind.CLIFF, RIGHT, True, 1.0)
-    reaction.event(Kind.CLIFF, RIGHT, False, 2.0)
+    reaction.event("cliff", RIGHT, True, 1.0)
+    reaction.event("cliff", RIGHT, False, 2.0)
     assert reaction.velocity(3.9) == (-0.1, 0.4)
     assert reaction.velocity(4.0) is None
-    reaction.event(Kind.CLIFF, RIGHT, True, 5.0)
+    reaction.event("cliff", RIGHT, True, 5.0)
     reaction.reset()
     assert reaction.velocity(5.0) is None

@@ -5,10 +5,11 @@ from math import asin, cos, hypot, inf, pi
 import numpy as np
 import pytest
 
+from fake_turtlebot_sim.simulator.differential_drive import composed
 from fake_turtlebot_sim.simulator.laser import Laser
 from fake_turtlebot_sim.simulator.occupancy import occupancy
 from fake_turtlebot_sim.simulator.parameters import Parameters, parse_parameters
-from fake_turtlebot_sim.simulator.ros_messages import between_frames, composed
+from fake_turtlebot_sim.simulator.ros_messages import between_frames
 from fake_turtlebot_sim.simulator.sensors import bumpers
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot, meet
 from fake_turtlebot_sim.simulator.world import World

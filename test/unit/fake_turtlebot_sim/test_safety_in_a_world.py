@@ -9,9 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from sensor_msgs.msg import Joy
 
+from fake_turtlebot_sim.kobuki_events import EVENTS
 from fake_turtlebot_sim.replay.bag_replay import read_commands
 from fake_turtlebot_sim.replay.command import velocity_of_joy
-from fake_turtlebot_sim.safety.reaction import Kind, Reaction
+from fake_turtlebot_sim.safety.reaction import Reaction
 from fake_turtlebot_sim.simulator.contact import gap
 from fake_turtlebot_sim.simulator.parameters import Parameters
 from fake_turtlebot_sim.simulator.sensors import Sensed
@@ -47,7 +48,7 @@ class Drive:
         self.cycle += 1
         self.robot.advance(round(self.cycle * PERIOD_S * 1e9))
         before, self.sensed = self.sensed, self.robot.sensed()
-        for kind, was, is_now in zip(Kind, before, self.sensed):
+        for (kind, _, _), was, is_now in zip(EVENTS, before, self.sensed):
             for sensor, (old, new) in enumerate(zip(was, is_now)):
                 if old != new:
                     self.reaction.event(kind, sensor, new, now)

@@ -8,11 +8,11 @@ from typing import Any
 
 import rospy
 from geometry_msgs.msg import Twist
-from kobuki_msgs.msg import BumperEvent, CliffEvent, WheelDropEvent
 from std_msgs.msg import Empty
 
+from fake_turtlebot_sim.kobuki_events import EVENTS, QUEUE
 from fake_turtlebot_sim.safety.parameters import Parameters, parse_parameters
-from fake_turtlebot_sim.safety.reaction import Kind, Reaction
+from fake_turtlebot_sim.safety.reaction import Reaction
 from node_kit.careful_connections import has_sender, report_bad_messages
 from node_kit.log import Log
 from node_kit.prompt_publisher import PromptPublisher
@@ -20,7 +20,6 @@ from node_kit.start import run
 
 NODE_NAME = "kobuki_safety_controller"
 PERIOD_S = 0.1  # as on the Kobuki; the mux waits for 0.2 s
-QUEUE = 30  # of events, none of which may be lost
 
 
 class SafetyController:
@@ -41,14 +40,10 @@ class SafetyController:
         self._publisher = PromptPublisher("~cmd_vel", Twist)
         self._sensors = [
             rospy.Subscriber(
-                f"~events/{kind.value}", message, self._on_event, callback_args=(kind, field),
+                f"~events/{kind}", message, self._on_event, callback_args=(kind, field),
                 queue_size=QUEUE, tcp_nodelay=True,
             )
-            for kind, message, field in (
-                (Kind.BUMPER, BumperEvent, "bumper"),
-                (Kind.CLIFF, CliffEvent, "sensor"),
-                (Kind.WHEEL_DROP, WheelDropEvent, "wheel"),
-            )
+            for kind, message, field in EVENTS
         ]  # fmt: skip
         rospy.Subscriber("~enable", Empty, self._enable, callback_args=True, queue_size=1)
         rospy.Subscriber("~disable", Empty, self._enable, callback_args=False, queue_size=1)
@@ -63,7 +58,7 @@ class SafetyController:
                 self._publish()
             time.sleep(PERIOD_S)
 
-    def _on_event(self, event: Any, about: tuple[Kind, str]) -> None:
+    def _on_event(self, event: Any, about: tuple[str, str]) -> None:
         kind, field = about
         with self._lock:
             sensor, is_active = getattr(event, field), bool(event.state)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from enum import Enum
 from math import inf
 from typing import Tuple
 
@@ -12,14 +11,7 @@ Velocity = Tuple[float, float]  # [m/s], [rad/s]
 BACK_M_S, TURN_RAD_S = -0.1, 0.4
 LEFT, CENTER, RIGHT = 0, 1, 2  # kobuki_msgs
 STOP: Velocity = (0.0, 0.0)
-
-
-class Kind(Enum):
-    """A kind of sensor."""
-
-    BUMPER = "bumper"
-    CLIFF = "cliff"
-    WHEEL_DROP = "wheel_drop"
+WHEEL_DROP = "wheel_drop"  # a kind of sensor; the others, bumper and cliff, are treated alike
 
 
 class Reaction:
@@ -32,20 +24,20 @@ class Reaction:
 
     def reset(self) -> None:
         """Forget all sensors."""
-        self._until: dict[tuple[Kind, int], float] = {}  # when each counts no more
+        self._until: dict[tuple[str, int], float] = {}  # when each counts no more
 
-    def event(self, kind: Kind, sensor: int, is_active: bool, now: float) -> None:
+    def event(self, kind: str, sensor: int, is_active: bool, now: float) -> None:
         """Take that a sensor became active, or is so no more."""
         key = (kind, sensor)
         if is_active:
             self._until[key] = inf
         elif key in self._until:
-            self._until[key] = now + (0.0 if kind is Kind.WHEEL_DROP else self._extend_s)
+            self._until[key] = now + (0.0 if kind == WHEEL_DROP else self._extend_s)
 
     def velocity(self, now: float) -> Velocity | None:
         """Return how the robot is to move (v [m/s], w [rad/s]); None: as it likes."""
         self._until = {key: until for key, until in self._until.items() if until > now}
-        if any(kind is Kind.WHEEL_DROP for kind, _ in self._until):
+        if any(kind == WHEEL_DROP for kind, _ in self._until):
             return STOP
         sides = {sensor for _, sensor in self._until}
         if not sides:

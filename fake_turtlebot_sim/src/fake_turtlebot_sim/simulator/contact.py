@@ -15,7 +15,8 @@ from fake_turtlebot_sim.simulator.differential_drive import Pose, Velocity, arc,
 
 TOUCH_M = 1e-11  # a gap that counts as none: some hundred times the rounding of a place in metres
 TANGENT = 1e-9  # the sine of an angle below which a motion leads along an obstacle, not into it
-STRAIGHT = 1e-12  # the turn [rad] of a path that is taken for straight
+STRAIGHT = 1e-12  # the turn [rad] of a path that bends to nothing
+LEAST_BEND = 1e-30  # [1/m] of a straight path, which so needs no formulas of its own
 
 Segment = Tuple[float, float, float, float]  # x1, y1, x2, y2 [m]
 Disc = Tuple[float, float, float]  # x, y, radius [m]
@@ -74,7 +75,7 @@ def first_contact(
 
 
 class _Motion:
-    """A circle or a line: the place x, y, a unit vector ahead, one to the side of the turn.
+    """A circle: the place x, y, a unit vector ahead, one to the side of the turn.
 
     After the way s the turn is a = bend s; the place has moved sin(a) / bend ahead and
     (1 - cos(a)) / bend to the side. A distance, or its square, then is given where
@@ -86,7 +87,7 @@ class _Motion:
         self.x, self.y, yaw = pose
         v, w = velocity
         self.speed = abs(v)
-        self.bend = abs(w) / self.speed  # [1/m]
+        self.bend = max(LEAST_BEND, abs(w) / self.speed)  # [1/m]
         sense = 1.0 if v > 0 else -1.0
         side = 1.0 if w > 0 else -1.0
         self.ahead = ux, uy = sense * cos(yaw), sense * sin(yaw)
@@ -100,31 +101,25 @@ class _Motion:
         free = distance - core - radius
         if free > longest:
             return None
-        is_straight = self.bend * longest < STRAIGHT
         least = 0.0
         if free <= TOUCH_M:
             if not distance:
                 return None  # both have one middle: every way leads out
             towards = (dx * self.ahead[0] + dy * self.ahead[1]) / distance
-            bends_to_it = dx * self.side[0] + dy * self.side[1] > 0.0 and not is_straight
+            bends = self.bend * longest >= STRAIGHT
+            bends_to_it = bends and dx * self.side[0] + dy * self.side[1] > 0.0
             if towards > TANGENT or (towards > -TANGENT and bends_to_it):
                 return 0.0
-            if is_straight:
-                return None
             if towards > -TANGENT:  # along it and away: not met again before half a circle
                 least = pi / self.bend
-        ways = []
         if len(obstacle) == 3:
-            ways += self._to_disc(px, py, core + radius, is_straight)
+            ways = self._to_disc(px, py, core + radius)
         else:
-            ways += self._to_wall(obstacle, radius, longest, is_straight)
-            ways += self._to_disc(*obstacle[:2], radius, is_straight)
-            ways += self._to_disc(*obstacle[2:], radius, is_straight)
+            ways = [*self._to_wall(obstacle, radius, longest)]
+            ways += self._to_disc(*obstacle[:2], radius) + self._to_disc(*obstacle[2:], radius)
         return min((way for way in ways if least <= way <= longest), default=None)
 
-    def _to_wall(
-        self, wall: Segment, radius: float, longest: float, is_straight: bool
-    ) -> Iterator[float]:
+    def _to_wall(self, wall: Segment, radius: float, longest: float) -> Iterator[float]:
         """Yield the ways [m] to touches of the inside of a wall, from either side."""
         x1, y1, x2, y2 = wall
         length = hypot(x2 - x1, y2 - y1)
@@ -135,27 +130,19 @@ class _Motion:
             away = (self.x - x1) * nx + (self.y - y1) * ny
             along = self.ahead[0] * nx + self.ahead[1] * ny
             aside = self.side[0] * nx + self.side[1] * ny
-            if is_straight:
-                ways = [(radius - away) / along] if along < 0 and away > radius else []
-            else:
-                ways = self._ways(along, aside, self.bend * _rounded(radius - away))
-            for way in ways:
-                if not way <= longest:
-                    continue
-                x, y = self._place(way)
-                if 0.0 <= (x - x1) * tx + (y - y1) * ty <= length:
-                    yield way
+            for way in self._ways(along, aside, self.bend * _rounded(radius - away)):
+                if way <= longest:
+                    x, y = self._place(way)
+                    if 0.0 <= (x - x1) * tx + (y - y1) * ty <= length:
+                        yield way
 
-    def _to_disc(self, px: float, py: float, reach: float, is_straight: bool) -> list[float]:
+    def _to_disc(self, px: float, py: float, reach: float) -> list[float]:
         """Return the ways [m] on which the middle comes within reach [m] of a point."""
         ex, ey = self.x - px, self.y - py
         along = ex * self.ahead[0] + ey * self.ahead[1]
         aside = ex * self.side[0] + ey * self.side[1]
         distance = hypot(ex, ey)
         outside = _rounded(distance - reach) * (distance + reach)
-        if is_straight:
-            room = reach * reach - aside * aside
-            return [-along - sqrt(room)] if along < 0 < room else []
         bend = self.bend
         return self._ways(bend * along, bend * aside + 1.0, -0.5 * bend * bend * outside)
 

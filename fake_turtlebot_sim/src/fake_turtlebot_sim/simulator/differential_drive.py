@@ -30,6 +30,13 @@ def wrap_angle(angle: float) -> float:
     return wrapped if wrapped > -pi else pi
 
 
+def composed(frame: Pose, pose: Pose) -> Pose:
+    """Return a pose that is given in a frame, in the frame in which that one is given."""
+    c, s = cos(frame[2]), sin(frame[2])
+    x, y = frame[0] + c * pose[0] - s * pose[1], frame[1] + s * pose[0] + c * pose[1]
+    return x, y, frame[2] + pose[2]
+
+
 def arc(pose: Pose, velocity: Velocity, dt: float) -> Pose:
     """Drive at constant velocity and return the new pose.
 

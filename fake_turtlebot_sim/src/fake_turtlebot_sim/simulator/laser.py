@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from math import cos, sin, tau
+from math import tau
 from typing import Any
 
 import numpy as np
 
 from fake_turtlebot_sim.simulator.beams import Scanner
-from fake_turtlebot_sim.simulator.differential_drive import Pose
+from fake_turtlebot_sim.simulator.differential_drive import Pose, composed
 from fake_turtlebot_sim.simulator.parameters import Parameters
 from fake_turtlebot_sim.simulator.world import World
 
@@ -33,12 +33,9 @@ class Laser:
         others: discs (n, 3) of x, y, radius [m] beside the world's. What is nearer than the least
         range is -inf, beyond the largest inf, as REP-117 has it.
         """
-        p, (x, y, yaw) = self._parameters, pose
-        c, s = cos(yaw), sin(yaw)
-        sensor = (x + c * p.scan_x - s * p.scan_y, y + s * p.scan_x + c * p.scan_y, yaw)
-        walls, posts = self._world.arrays
-        discs = np.concatenate((posts, others))
-        ranges: Any = self._scanner.ranges(sensor, walls, discs)
+        p, (walls, posts) = self._parameters, self._world.arrays
+        sensor = composed(pose, (p.scan_x, p.scan_y, 0.0))
+        ranges: Any = self._scanner.ranges(sensor, walls, np.concatenate((posts, others)))
         if self._noise is not None:
             ranges = ranges + self._noise.normal(0.0, p.scan_noise, p.scan_beams)
         ranges[ranges > p.scan_range_max] = np.inf

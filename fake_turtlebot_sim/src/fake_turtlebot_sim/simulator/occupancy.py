@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from fake_turtlebot_sim.simulator.world import Point, World
+from fake_turtlebot_sim.simulator.world import Point, World, is_inside
 
 MARGIN_M = 0.5  # of free cells around everything
 MOST_CELLS = 4_000_000
@@ -28,14 +28,11 @@ def occupancy(world: World, resolution: float = 0.05) -> tuple[Any, Point, float
     low, high = (corners.min(axis=0), corners.max(axis=0)) if len(corners) else (0.0, 0.0)
     low, high = np.zeros(2) + low - MARGIN_M, np.zeros(2) + high + MARGIN_M
     resolution = max(resolution, float(np.sqrt((high - low).prod() / MOST_CELLS)))
-    columns, rows = (ceil(size) for size in (high - low) / resolution)
+    columns, rows = np.ceil((high - low) / resolution).astype(int)
     cells = np.zeros((rows, columns), dtype=np.int8)
-    ys, xs = (
-        low[axis] + (np.arange(count) + 0.5) * resolution
-        for axis, count in ((1, rows), (0, columns))
-    )
+    xs, ys = (at + (np.arange(n) + 0.5) * resolution for at, n in zip(low, (columns, rows)))
     for cliff in world.cliffs:
-        cells[_inside(xs, ys[:, None], np.array(cliff))] = UNKNOWN
+        cells[is_inside(xs, ys[:, None], cliff)] = UNKNOWN
     for x1, y1, x2, y2 in segments:
         steps = ceil(4 * np.hypot(x2 - x1, y2 - y1) / resolution) + 1
         line = np.linspace((x1, y1), (x2, y2), steps)
@@ -47,13 +44,3 @@ def occupancy(world: World, resolution: float = 0.05) -> tuple[Any, Point, float
         disc = np.hypot(xs[near[1]] - x, ys[near[0], None] - y) <= reach
         cells[np.ix_(*near)] = np.where(disc, OCCUPIED, cells[np.ix_(*near)])
     return cells, (float(low[0]), float(low[1])), resolution
-
-
-def _inside(xs: Any, ys: Any, polygon: Any) -> Any:
-    """Return which points (x, y) are in a polygon: a ray crosses it an odd number of times."""
-    crossed = np.zeros(np.broadcast(xs, ys).shape, dtype=bool)
-    for (x1, y1), (x2, y2) in zip(polygon, np.roll(polygon, -1, axis=0)):
-        if y1 != y2:
-            crosses = ((y1 > ys) != (y2 > ys)) & (xs < x1 + (ys - y1) * (x2 - x1) / (y2 - y1))
-            crossed ^= crosses
-    return crossed

@@ -12,15 +12,10 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Empty
 from std_srvs import srv
 
-from fake_turtlebot_sim.simulator.differential_drive import Pose
+from fake_turtlebot_sim.simulator.differential_drive import Pose, composed
 from fake_turtlebot_sim.simulator.parameters import Parameters
 from fake_turtlebot_sim.simulator.ros_clock import Instant, Motion
-from fake_turtlebot_sim.simulator.ros_messages import (
-    RobotMessages,
-    between_frames,
-    composed,
-    pose_on_plane,
-)
+from fake_turtlebot_sim.simulator.ros_messages import RobotMessages, between_frames, pose_on_plane
 from fake_turtlebot_sim.simulator.simulated_robot import REST, SimulatedRobot, Verdict
 from node_kit.arming import Resumption
 from node_kit.prompt_publisher import PromptPublisher

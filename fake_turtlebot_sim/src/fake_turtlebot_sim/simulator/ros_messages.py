@@ -14,7 +14,7 @@ from geometry_msgs.msg import TransformStamped, Vector3
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import JointState
 
-from fake_turtlebot_sim.simulator.differential_drive import Pose
+from fake_turtlebot_sim.simulator.differential_drive import Pose, composed
 from fake_turtlebot_sim.simulator.parameters import Parameters
 from fake_turtlebot_sim.simulator.simulated_robot import RobotState, SimulatedRobot
 
@@ -94,17 +94,7 @@ def fill_odometry(odometry: Odometry, state: RobotState, stamp: Any) -> None:
 
 def between_frames(outer: Pose, inner: Pose) -> Pose:
     """Return the pose of the frame in which a body is at `inner`, where it is at `outer` itself."""
-    yaw = outer[2] - inner[2]
-    c, s = cos(yaw), sin(yaw)
-    x, y = outer[0] - (c * inner[0] - s * inner[1]), outer[1] - (s * inner[0] + c * inner[1])
-    return x, y, yaw
-
-
-def composed(frame: Pose, pose: Pose) -> Pose:
-    """Return a pose that is given in a frame, in the frame in which that one is given."""
-    c, s = cos(frame[2]), sin(frame[2])
-    x, y = frame[0] + c * pose[0] - s * pose[1], frame[1] + s * pose[0] + c * pose[1]
-    return x, y, frame[2] + pose[2]
+    return composed((outer[0], outer[1], outer[2] - inner[2]), (-inner[0], -inner[1], 0.0))
 
 
 def static_transform(frame: tuple[str, str, Place], stamp: Any) -> TransformStamped:

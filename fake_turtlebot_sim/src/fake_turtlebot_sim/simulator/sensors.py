@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from math import cos, pi, sin
+from math import pi
 from typing import NamedTuple, Tuple
 
-from fake_turtlebot_sim.simulator.differential_drive import Pose
+from fake_turtlebot_sim.simulator.differential_drive import Pose, composed
 from fake_turtlebot_sim.simulator.world import World
 
 Three = Tuple[bool, bool, bool]  # left, center, right
@@ -37,9 +37,6 @@ def cliffs(pose: Pose, world: World) -> Three:
     """Return which cliff sensors see no ground below a robot at a pose (x [m], y [m], yaw)."""
     if not world.cliffs:
         return (False, False, False)
-    x, y, yaw = pose
-    c, s = cos(yaw), sin(yaw)
-    left, center, right = (
-        world.is_cliff(x + c * px - s * py, y + s * px + c * py) for px, py in CLIFF_SENSORS
-    )
+    places = (composed(pose, (x, y, 0.0)) for x, y in CLIFF_SENSORS)
+    left, center, right = (world.is_cliff(x, y) for x, y, _ in places)
     return (left, center, right)

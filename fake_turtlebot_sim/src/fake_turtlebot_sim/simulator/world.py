@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import cos, hypot, pi, sin
+from math import hypot, pi
 from typing import Any, Sequence, Tuple
 
 import numpy as np
 
 from fake_turtlebot_sim.simulator.contact import Disc, Obstacle, Segment, first_contact, gap
-from fake_turtlebot_sim.simulator.differential_drive import Pose
+from fake_turtlebot_sim.simulator.differential_drive import Pose, composed
 
 BASE_RADIUS_M = 0.178  # kobuki.urdf.xacro
 Point = Tuple[float, float]  # x, y [m]
@@ -46,7 +46,7 @@ class World:
 
     def is_cliff(self, x: float, y: float) -> bool:
         """Return whether there is no floor at (x, y) [m]."""
-        return any(_is_inside(x, y, cliff) for cliff in self.cliffs)
+        return any(is_inside(x, y, cliff) for cliff in self.cliffs)
 
     def check_place(self, pose: Pose) -> None:
         """Raise ValueError if a robot cannot stand at a pose (x [m], y [m], yaw [rad])."""
@@ -63,42 +63,33 @@ class World:
 
         The first is the start, and all have its heading. Raises ValueError if there is no room.
         """
-        x, y, yaw = self.start
         self.check_place(self.start)
         around = Surroundings(self)
         found = {(0, 0): self.start}
-        for (row, column), (px, py, _) in _growing(found):
+        reached = [(0, 0)]
+        for row, column in reached:  # grows meanwhile
+            px, py, _ = found[row, column]
             for k, (dr, dc) in enumerate(((0, -1), (-1, 0), (0, 1), (1, 0))):
                 key = row + dr, column + dc
                 if len(found) >= count or key in found:
                     continue
-                way = px, py, yaw - (k + 1) * pi / 2
+                way = px, py, self.start[2] - (k + 1) * pi / 2
                 obstacles = [*around.near(px, py, REACH_M), *self.edges]
                 if first_contact(way, (1.0, 0.0), GRID_M, BASE_RADIUS_M, obstacles) is None:
-                    ahead, aside = GRID_M * key[0], GRID_M * key[1]
-                    found[key] = (
-                        x + ahead * cos(yaw) - aside * sin(yaw),
-                        y + ahead * sin(yaw) + aside * cos(yaw),
-                        yaw,
-                    )
+                    found[key] = composed(self.start, (GRID_M * key[0], GRID_M * key[1], 0.0))
+                    reached.append(key)
         if len(found) < count:
             raise ValueError(f"the world has room for {len(found)} robots")
         return list(found.values())
 
 
-def _growing(found: dict[Any, Any]) -> Any:
-    """Yield the items of a dictionary, those too that are added meanwhile."""
-    seen = 0
-    while seen < len(found):
-        yield from list(found.items())[seen : (seen := len(found))]
-
-
-def _is_inside(x: float, y: float, polygon: Sequence[Point]) -> bool:
-    """Return whether a ray from (x, y) along x crosses a polygon an odd number of times."""
+def is_inside(x: Any, y: Any, polygon: Sequence[Point]) -> Any:
+    """Return whether a ray from (x, y) [m], numbers or arrays, along x crosses a polygon oddly."""
     crossed = False
     for (x1, y1), (x2, y2) in zip(polygon, (*polygon[1:], polygon[0])):
-        if (y1 > y) != (y2 > y) and x < x1 + (y - y1) * (x2 - x1) / (y2 - y1):
-            crossed = not crossed
+        if y1 != y2:
+            crosses = ((y1 > y) != (y2 > y)) & (x < x1 + (y - y1) * (x2 - x1) / (y2 - y1))
+            crossed = crosses ^ crossed
     return crossed
 
 

@@ -4,19 +4,13 @@ from __future__ import annotations
 
 from math import cos, isfinite, sin
 from pathlib import Path
-from typing import Any
+from typing import Any, Callable
 
 import numpy as np
 import yaml
 
 from fake_turtlebot_sim.simulator.world import Point, World
 
-FIELDS = {
-    "walls": "a list of polylines [[x, y], [x, y], ...] in metres",
-    "posts": "a list of {x: ..., y: ..., radius: ...} in metres",
-    "cliffs": "a list of polygons [[x, y], [x, y], [x, y], ...] in metres",
-    "start": "{x: ..., y: ..., yaw: ...} in metres and radians",
-}
 LARGEST_MAP = 4_000_000  # cells
 MOST_WALLS = 20_000
 
@@ -62,17 +56,16 @@ def read_world(path: Path) -> World:
     if not isinstance(data, dict):
         raise WorldError(f"{path}: must be a map of {', '.join(FIELDS)}, or of map_server")
     lines = {key.value: key.start_mark.line + 1 for key, _ in node.value}
-    read = {"walls": _lines, "posts": _posts, "cliffs": _polygons, "start": _start}
     found = {}
     for name, value in data.items():
         if name not in FIELDS:
             allowed = f"is not known; known are {', '.join(FIELDS)}"
             raise WorldError(f"{path}, line {lines.get(name, 1)}: {name}: {allowed}")
         try:
-            found[name] = read[name](value)
+            found[name] = FIELDS[name][1](value)
         except (TypeError, ValueError, KeyError):
             where = f"{path}, line {lines[name]}"
-            raise WorldError(f"{where}: {name}: must be {FIELDS[name]}") from None
+            raise WorldError(f"{where}: {name}: must be {FIELDS[name][0]}") from None
     return World(**found)
 
 
@@ -94,10 +87,6 @@ def _lines(value: Any, least: int = 2) -> tuple[tuple[Point, ...], ...]:
     return found
 
 
-def _polygons(value: Any) -> tuple[tuple[Point, ...], ...]:
-    return _lines(value, 3)
-
-
 def _fields(value: Any, *names: str) -> tuple[float, ...]:
     if set(value) - set(names):
         raise ValueError
@@ -111,8 +100,15 @@ def _posts(value: Any) -> Any:
     return found
 
 
-def _start(value: Any) -> Any:
-    return _fields(value, "x", "y", "yaw")
+# What each must be, and what reads it.
+FIELDS: dict[str, tuple[str, Callable[[Any], Any]]] = {
+    "walls": ("a list of polylines [[x, y], [x, y], ...] in metres", _lines),
+    "posts": ("a list of {x: ..., y: ..., radius: ...} in metres", _posts),
+    "cliffs": ("a list of polygons [[x, y], [x, y], [x, y], ...] in metres",
+               lambda value: _lines(value, 3)),
+    "start": ("{x: ..., y: ..., yaw: ...} in metres and radians",
+              lambda value: _fields(value, "x", "y", "yaw")),
+}  # fmt: skip
 
 
 def _from_map(path: Path, about: dict[str, Any]) -> World:
