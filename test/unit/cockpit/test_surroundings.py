@@ -13,20 +13,19 @@ from tf2_msgs.msg import TFMessage
 
 from cockpit_server.graph import ODOMETRY, Graph
 from cockpit_server.surroundings import (
-    BUMPER,
-    MAP,
     MOST_CELLS,
     MOST_POINTS,
-    SCAN,
     Surroundings,
     map_shown,
     scan_points,
-)
+)  # fmt: skip
 from tutorial_testing.seat_room import page, serialised
 
 TYPES = {
-    "/map": MAP, "/tf_static": "tf2_msgs/TFMessage", "/ada/odom": ODOMETRY, "/ada/scan": SCAN,
-    "/ada/base_pose_ground_truth": "nav_msgs/Odometry", "/ada/mobile_base/events/bumper": BUMPER,
+    "/map": "nav_msgs/OccupancyGrid", "/tf_static": "tf2_msgs/TFMessage",
+    "/ada/odom": ODOMETRY, "/ada/base_pose_ground_truth": ODOMETRY,
+    "/ada/scan": "sensor_msgs/LaserScan",
+    "/ada/mobile_base/events/bumper": "kobuki_msgs/BumperEvent",
 }  # fmt: skip
 
 

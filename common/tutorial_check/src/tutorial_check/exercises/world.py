@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from tutorial_check.course import check
@@ -13,6 +14,7 @@ from tutorial_check.scripts import crash, program_of
 from tutorial_check.simulated_robot import BUMPER, TRUTH, SimulatedRobot
 
 if TYPE_CHECKING:
+    from tutorial_check.box import Program
     from tutorial_check.session import Session
 
 
@@ -34,32 +36,28 @@ def reads_bumper(session: Session) -> str:
     with session.stage() as stage:
         stage.call("advertise", BUMPER, "BumperEvent")
         program = stage.start(PACKAGE, script)
-        connected = stage.meet(program, BUMPER)
-        if program.ended:
-            raise crash(session, PACKAGE, program, "bumper.py goes on until Ctrl-C")
-        if not connected:
+        if not stage.meet(program, BUMPER) or program.ended:
             hint = "rospy.Subscriber('mobile_base/events/bumper', BumperEvent, callback)"
-            raise Wrong(f"it subscribes to {BUMPER}", "it does not", script, hint)
+            expected = f"it subscribes to {BUMPER}, and goes on until Ctrl-C"
+            raise crash(session, PACKAGE, program, expected, hint)
         for number, side in enumerate(SIDES):
-            before = len(program.output)
+            wanted = rf"(?i){side}|\b{number}\b" + "|centre" * (number == 1)
+            shown = partial(_shown, program, len(program.output))
             stage.call("send", BUMPER, (number, 1))
-            wanted = re.compile(rf"(?i){side}|\b{number}\b|{'centre' if number == 1 else side}")
-
-            def is_shown(before: int = before, wanted: re.Pattern[str] = wanted) -> bool:
-                return bool(wanted.search(STAMP.sub("", program.output[before:])))
-
-            stage.wait(lambda: program.ended or is_shown(), ANSWER_S)
-            if not is_shown():
+            stage.wait(lambda: program.ended or re.search(wanted, shown()), ANSWER_S)  # noqa: B023
+            if not re.search(wanted, shown()):
                 expected = f"the {side} bumper on the screen when it is pressed"
-                shown = STAMP.sub("", program.output[before:]).strip()
                 hint = f"event.bumper is {number} (BumperEvent.{side.upper()}), event.state 1"
-                raise (
-                    crash(session, PACKAGE, program, expected, hint)
-                    if (program.ended or "Traceback" in shown)
-                    else Wrong(expected, shown or "nothing", script, hint)
-                )
+                if program.ended or "Traceback" in shown():
+                    raise crash(session, PACKAGE, program, expected, hint)
+                raise Wrong(expected, shown() or "nothing", script, hint)
             stage.call("send", BUMPER, (number, 0))
     return ", ".join(SIDES)
+
+
+def _shown(program: Program, since: int) -> str:
+    """Return what a program has displayed since it had printed so many characters."""
+    return STAMP.sub("", program.output[since:]).strip()
 
 
 @check("C36", "it stops before a wall", "7", "C2",
