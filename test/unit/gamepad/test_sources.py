@@ -8,7 +8,7 @@ from gamepad.gamepads import F710_D, F710_X
 from gamepad.virtual.controls import Controls, positions
 from gamepad.virtual.keyboard import FIRST_HOLD_S, Keyboard
 from gamepad.virtual.moves import load_script
-from gamepad.virtual.sources import KeySource, UntouchedSource, recording_source, script_source
+from gamepad.virtual.sources import KeySource, recording_source, script_source
 
 
 def test_a_script_is_followed_in_time():
@@ -139,9 +139,3 @@ def test_keys_move_the_gamepad_until_they_quit():
     assert source.at(1.1) == (None, 1.0 + FIRST_HOLD_S)
     keyboard.press("q", 1.2)
     assert source.at(1.2) is None
-
-
-def test_an_untouched_gamepad_stays_so_for_ever():
-    source = UntouchedSource(F710_X)
-    rest = ((0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0), (0,) * 11)
-    assert source.at(0.0) == source.at(1e9) == (rest, math.inf)

@@ -1,11 +1,11 @@
-"""What roslaunch lets through in the arguments of launch files: a rule for each name (no ROS here).
+"""Check what roslaunch lets through in the arguments of launch files: a rule for each name.
 
     <param name="arguments_were_good" command="$(find gamepad)/check_arguments 'bag:=$(arg bag)'"/>
 
-roslaunch runs the command while it reads the file, and ends if it fails; it can only make a
+roslaunch runs the command while it reads the file, and exits if it fails; it can only make a
 parameter of it. (rosrun would need five times as long to find the command.) Without it "yes" counts
-as true here and is a mistake there, rosbag tells of a missing recording after all has started, and
-a robot's name that is none shows when nothing drives.
+as true here and is a mistake there, rosbag reports a missing recording after all has started, and
+a robot's name that does not exist shows when nothing drives.
 """
 
 from __future__ import annotations
@@ -13,14 +13,12 @@ from __future__ import annotations
 import re
 import sys
 from pathlib import Path
+from typing import Callable
+
+from node_kit.parameters import Check
 
 LONGEST_BAG_HEADER = 4096  # bytes; http://wiki.ros.org/Bags/Format/2.0
 INDEX = re.compile(rb"index_pos=(.{8})", re.DOTALL)
-
-
-def true_or_false(value: str) -> None:
-    if value.lower() not in ("true", "false", "1", "0"):
-        raise ValueError("must be true or false")
 
 
 def recording(value: str) -> None:
@@ -61,33 +59,6 @@ def robot(value: str) -> None:
         raise ValueError(f"must be a letter followed by letters, digits and underscores{meant}")
 
 
-def joystick(value: str) -> None:
-    """Check what moves the robot, unless a recording does."""
-    if value not in ("gamepad", "browser"):
-        raise ValueError("must be gamepad or browser")
-
-
-def true_false_or_auto(value: str) -> None:
-    if value != "auto":
-        try:
-            true_or_false(value)
-        except ValueError:
-            raise ValueError("must be true, false or auto") from None
-
-
-def port(value: str) -> None:
-    if not re.fullmatch(r"\d{1,5}", value) or not 1 <= int(value) <= 65535:
-        raise ValueError("must be a port, a number from 1 to 65535")
-
-
-def seconds_or_off(value: str) -> None:
-    """Check for a ~vigilance_timeout of joy2twist."""
-    if not re.fullmatch(r"\d+(\.\d*)?", value) or not (
-        float(value) == 0 or 1 <= float(value) <= 60
-    ):
-        raise ValueError("must be a number from 1 to 60 s, or 0 for off")
-
-
 def preset(value: str) -> None:
     """Check for the path of a preset of joy2twist."""
     path = Path(value)
@@ -96,19 +67,31 @@ def preset(value: str) -> None:
         raise ValueError(f"there is none of this name; there are {names}")
 
 
-RULES = {
+def _is_port(value: str) -> bool:
+    return bool(re.fullmatch(r"\d{1,5}", value)) and 1 <= int(value) <= 65535
+
+
+def _is_timeout(value: str) -> bool:
+    number = float(value) if re.fullmatch(r"\d+(\.\d*)?", value) else -1
+    return number == 0 or 1 <= number <= 60
+
+
+true_or_false = Check("true or false", re.compile("(?i:true|false)|1|0").fullmatch)
+RULES: dict[str, Callable[[str], object]] = {
     "bag": recording,
-    "cockpit": true_false_or_auto,
-    "cockpit_port": port,
+    "cockpit": Check(
+        "true, false or auto", lambda value: value == "auto" or true_or_false.fits(value)
+    ),
+    "cockpit_port": Check("a port, a number from 1 to 65535", _is_port),
     "joy_config": preset,
     "joy_pkg": driver,
-    "joystick": joystick,
+    "joystick": Check("gamepad or browser", ("gamepad", "browser").__contains__),
     "lan": true_or_false,
     "loop": true_or_false,
     "name": robot,
     "ros2": true_or_false,
     "rviz": true_or_false,
-    "vigilance_timeout": seconds_or_off,
+    "vigilance_timeout": Check("a number from 1 to 60 s, or 0 for off", _is_timeout),
     "virtual": true_or_false,
 }
 

@@ -25,22 +25,19 @@ class Axis:
 
     def raw(self, position: float) -> int:
         """Return the raw value for a position in ROS' sense: from -1 to 1, left and up positive."""
-        return min(self.high, max(self.low, round(self._middle - position * self._half)))
+        half = (self.high - self.low) / 2
+        return min(self.high, max(self.low, round(self._middle - position * half)))
 
     def js_value(self, raw: int) -> int:
         """Return the value of the event for a raw value, as drivers/input/joydev.c does."""
-        # Integers as there: the middle rounded down, a shift that rounds down, and no flat part.
-        middle, half = int((self.high + self.low) / 2), (self.high - self.low) // 2
-        return min(FULL, max(-FULL, ((raw - middle) * ((1 << 29) // half)) >> 14))
+        # Integers as there: a shift that rounds down, and no flat part.
+        half = (self.high - self.low) // 2
+        return min(FULL, max(-FULL, ((raw - self._middle) * ((1 << 29) // half)) >> 14))
 
     @property
     def _middle(self) -> int:
         # Even ranges have no middle; the raw value that the kernel takes for it is the lower one.
         return int((self.high + self.low) / 2)
-
-    @property
-    def _half(self) -> float:
-        return (self.high - self.low) / 2
 
 
 @dataclass(frozen=True)
@@ -74,13 +71,6 @@ class Gamepad:
         return [
             raw - (raw > middle) + (raw < middle) if is_stick else raw
             for raw, middle, is_stick in zip(raws, middles, sticks)
-        ]
-
-    @property
-    def untouched(self) -> list[int]:
-        """The raw values of all axes of a gamepad at rest."""
-        return [
-            axis.low if i in self.triggers else axis.raw(0.0) for i, axis in enumerate(self.axes)
         ]
 
 

@@ -1,5 +1,7 @@
 """Opening and reading joystick devices."""
 
+from __future__ import annotations
+
 import array
 import errno
 import fcntl
@@ -12,8 +14,6 @@ from gamepad.driver.container import in_container
 from gamepad.driver.device_choice import DeviceError, choose_by_name, explain
 from gamepad.gamepads import trigger_axes
 from gamepad.js_event import EVENT_BYTES
-
-JOYSTICKS = "/dev/input/js*"
 
 # linux/joystick.h
 _JSIOCGAXES = 0x80016A11  # number of axes (u8)
@@ -28,28 +28,31 @@ class Device:
 
     path: where it was found. name: what it calls itself, "" if it cannot be asked. usb_id: as lsusb
     writes it, or "". triggers: numbers of the axes that are triggers, None if unknown.
-    kernel_device: whether it is a joystick of the kernel, and not a FIFO or a file.
+    kernel_device: whether it is a joystick of the kernel, and not a FIFO or a file. content: which
+    plain file it is and when that was written last, else None.
     """
 
-    def __init__(self, path):
+    def __init__(self, path: str) -> None:
         """Open it. Raises OSError, or DeviceError if it is no joystick."""
-        self.path = path
-        self.name, self.usb_id, self.triggers = "", "", None
+        self.path, self.name, self.usb_id = path, "", ""
+        self.triggers: tuple[int, ...] | None = None
         # Not blocking: opening a FIFO would wait for its other end.
         self._fd = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
-        self._status = os.fstat(self._fd)
-        mode = self._status.st_mode
-        self.kernel_device = stat.S_ISCHR(mode)
+        status = os.fstat(self._fd)
+        self.kernel_device = stat.S_ISCHR(status.st_mode)
+        self.content: tuple[int, ...] | None = None
         try:
             if self.kernel_device:
                 self._ask()
-            elif not (stat.S_ISFIFO(mode) or stat.S_ISREG(mode)):
+            elif stat.S_ISREG(status.st_mode):
+                self.content = (status.st_dev, status.st_ino, status.st_size, status.st_mtime_ns)
+            elif not stat.S_ISFIFO(status.st_mode):
                 raise DeviceError(f"{path} is no joystick: a device such as /dev/input/js0 is.")
         except BaseException:
             self.close()
             raise
 
-    def _ask(self):
+    def _ask(self) -> None:
         name, codes, count = bytearray(128), array.array("B", [0] * 64), bytearray(1)
         try:
             fcntl.ioctl(self._fd, _JSIOCGNAME_128, name)
@@ -63,28 +66,21 @@ class Device:
             ) from None
         self.name = name.split(b"\0")[0].decode(errors="replace")
         self.triggers = trigger_axes(codes[: count[0]])
-        number = os.path.basename(os.path.realpath(self.path))
-        folder = Path("/sys/class/input", number, "device", "id")
+        folder = Path("/sys/class/input", Path(self.path).resolve().name, "device", "id")
         ids = [folder / "vendor", folder / "product"]
         if all([path.exists() for path in ids]):  # a container may have no /sys
             self.usb_id = ":".join([path.read_text().strip() for path in ids])
 
     @property
-    def identity(self):
-        """What tells this gamepad from another model; the same after it was plugged in again."""
+    def identity(self) -> tuple[str, str]:
+        """Differs between models; the same after the gamepad was plugged in again."""
         return self.name, self.usb_id
 
-    @property
-    def recording(self):
-        """What tells a plain file from another and from itself after a change; else None."""
-        s = self._status
-        return (s.st_dev, s.st_ino, s.st_size, s.st_mtime_ns) if stat.S_ISREG(s.st_mode) else None
-
-    def fileno(self):
+    def fileno(self) -> int:
         """For select()."""
         return self._fd
 
-    def read(self):
+    def read(self) -> bytes:
         """Return the bytes that are there, maybe none. DeviceError if the gamepad is gone."""
         try:
             data = os.read(self._fd, _READ_BYTES)
@@ -96,7 +92,7 @@ class Device:
             raise DeviceError(f"Lost the joystick {self.path}: its other end was closed.")
         return data
 
-    def close(self):
+    def close(self) -> None:
         """Let go of it."""
         os.close(self._fd)
 
@@ -104,44 +100,36 @@ class Device:
 class Finder:
     """Opens the gamepad that the user asked for, and after a loss that one and no other."""
 
-    def __init__(self, dev, dev_name):
+    def __init__(self, dev: str, dev_name: str) -> None:
         """dev: path. dev_name: name or part of a name, by which it is looked for if not empty."""
-        self._name = dev_name
-        self.pattern = JOYSTICKS if dev_name else glob.escape(dev)  # where it will appear
-        self._dev = dev
-        self._identity = None  # of the gamepad that was opened first
-        self._recording = None  # what was opened last, if it was a plain file
+        self._dev, self._name = dev, dev_name
+        self._identity: tuple[str, str] | None = None  # of the gamepad that was opened first
+        self._content: tuple[int, ...] | None = None  # of the plain file that was opened last
 
-    def open(self):
-        """Open it; returns a Device. Raises DeviceError if it is not there."""
-        device = self._open_by_name() if self._name else self._open(self._dev)
-        if self._identity not in (None, device.identity):
-            device.close()
-            raise DeviceError(
-                f"{device.path} is now {device.name!r} ({device.usb_id}) and not "
-                f"{self._identity[0]!r} ({self._identity[1]}): plug that in again, or restart "
-                "this node to use another gamepad."
+    def open(self) -> Device:
+        """Open it. Raises DeviceError if it is not there."""
+        device = self._open_by_name() if self._name else _open(self._dev)
+        first, problem = self._identity, None
+        if first and first != device.identity:
+            problem = (
+                f"{device.path} is now {device.name!r} ({device.usb_id}) and not {first[0]!r} "
+                f"({first[1]}): plug that in again, or restart this node to use another gamepad."
             )
-        if device.recording and device.recording == self._recording:
+        elif device.content and device.content == self._content:
+            problem = f"{device.path} is a plain file, which has been read to its end."
+        if problem:
             device.close()
-            raise DeviceError(f"{device.path} is a plain file, which has been read to its end.")
-        self._identity, self._recording = device.identity, device.recording
+            raise DeviceError(problem)
+        self._identity, self._content = device.identity, device.content
         return device
 
-    def _open(self, path):
-        try:
-            return Device(path)
-        except OSError as error:
-            wsl = "microsoft" in os.uname().release.lower()
-            raise DeviceError(explain(path, error.errno, in_container(), wsl)) from None
-
-    def _open_by_name(self):
+    def _open_by_name(self) -> Device:
         # All are opened, and then all but one closed: a name read before opening might be that of
         # a gamepad that has left meanwhile.
         devices, errors = {}, []
-        for path in glob.glob(JOYSTICKS):
+        for path in glob.glob("/dev/input/js*"):
             try:
-                devices[path] = self._open(path)
+                devices[path] = _open(path)
             except DeviceError as error:
                 errors.append(str(error))
         try:
@@ -156,3 +144,11 @@ class Finder:
         finally:
             for device in devices.values():
                 device.close()
+
+
+def _open(path: str) -> Device:
+    try:
+        return Device(path)
+    except OSError as error:
+        wsl = "microsoft" in os.uname().release.lower()
+        raise DeviceError(explain(path, error.errno or 0, in_container(), wsl)) from None

@@ -1,19 +1,23 @@
 """The ROS node joy_node: a gamepad in, joy (sensor_msgs/Joy) out."""
 
+from __future__ import annotations
+
 import threading
 from time import monotonic
+from typing import Any, Iterable
 
 import diagnostic_updater
 import rospy
 from diagnostic_msgs.msg import DiagnosticStatus
 from sensor_msgs.msg import Joy
 
-from gamepad.driver.device import Finder
+from gamepad.driver.device import Device, Finder
 from gamepad.driver.device_choice import DeviceError
 from gamepad.driver.driver import Driver
-from gamepad.driver.parameters import load
+from gamepad.driver.parameters import DriverParameters, load
 from gamepad.driver.report import DriverReport
-from gamepad.driver.wake import AppearanceWatch, Wake
+from gamepad.driver.state import Message
+from gamepad.driver.wake import Wake
 from gamepad.gamepads import mode_hint
 from gamepad.trembling import Trembling
 from node_kit.log import Log
@@ -24,7 +28,7 @@ NODE_NAME = "joy_node"
 QUEUE_SIZE = 100  # a press and its release must both arrive
 # How long the end may wait for the last message, and then for its delivery [s].
 LONGEST_END_S, DELIVERY_TIME_S = 0.3, 0.1
-LOOK_S = 0.5  # how often a missing gamepad is looked for, beside what inotify tells
+LOOK_S = 0.1  # how often a missing gamepad is looked for
 
 
 class JoyNode:
@@ -32,13 +36,11 @@ class JoyNode:
 
     Publishes: joy (sensor_msgs/Joy; frame_id is the path of the device),
         /diagnostics (diagnostic_msgs/DiagnosticArray).
-    Parameters: ~dev /dev/input/js0, ~dev_name "", ~dev_ff "" (not used), ~deadzone 0.05,
-        ~autorepeat_rate 20.0, ~coalesce_interval 0.001, ~default_trig_val false,
-        ~sticky_buttons false, ~diagnostic_period 1.0
+    Private parameters with their defaults: DriverParameters, as a table in README.md.
     """
 
-    def __init__(self, parameters):
-        """parameters: driver_parameters.DriverParameters."""
+    def __init__(self, parameters: DriverParameters) -> None:
+        """Register topics; the node is initialised."""
         self.log = Log()
         self.wake = Wake()
         self.suspensions = Suspensions()
@@ -51,14 +53,13 @@ class JoyNode:
         self.finder = Finder(parameters.dev, parameters.dev_name)
         self.joy = rospy.Publisher("joy", Joy, queue_size=QUEUE_SIZE, tcp_nodelay=True)
         self.message = Joy()
-        self.message.header.frame_id = parameters.dev
         self.report = DriverReport(parameters, self.joy.resolved_name)
         self.diagnostics = diagnostic_updater.Updater()
         self.diagnostics.setHardwareID("none")
         self.diagnostics.add("Joystick Driver Status", self.diagnose)
 
-    def run(self):
-        """Open the gamepad, publish what it says, and again if it is lost, until shut down."""
+    def run(self) -> None:
+        """Open the gamepad, publish its state, and again if it is lost, until shut down."""
         try:
             while not self.is_ending.is_set():
                 device = self.wait_for_gamepad()
@@ -70,48 +71,43 @@ class JoyNode:
         finally:
             self.has_ended.set()
 
-    def end(self):
+    def end(self) -> None:
         """Release all sticks for those who listen, and publish nothing any more."""
         self.is_ending.set()
         self.wake.wake()
         if self.has_ended.wait(LONGEST_END_S):
             threading.Event().wait(DELIVERY_TIME_S)
 
-    def wait_for_gamepad(self):
+    def wait_for_gamepad(self) -> Device | None:
         """Return the Device, open, or None if the node is shut down."""
-        watch = AppearanceWatch(self.finder.pattern, self.wake.wake)
-        told = None
-        try:
-            while not self.is_ending.is_set():
-                watch.look()
-                if monotonic() >= self.driver.opens_at:
-                    try:
-                        return self.finder.open()
-                    except DeviceError as error:
-                        if str(error) != told:
-                            told = str(error)
-                            self.log.warn(told)
-                self.report_if_due()
-                self.wake.wait(self.report.look_at(monotonic(), LOOK_S, self.driver.opens_at))
-        finally:
-            watch.stop()
+        reported = ""
+        while not self.is_ending.is_set():
+            if monotonic() >= self.driver.opens_at:
+                try:
+                    return self.finder.open()
+                except DeviceError as error:
+                    if str(error) != reported:
+                        reported = str(error)
+                        self.log.warn(reported)
+            self.report_if_due()
+            self.wake.wait(monotonic() + LOOK_S)
         return None
 
-    def follow(self, device):
-        """Publish what an open gamepad says until it is lost or the node is shut down."""
+    def follow(self, device: Device) -> None:
+        """Publish the state of an open gamepad until it is lost or the node is shut down."""
         self.message.header.frame_id = device.path
         self.driver.opened(device.triggers, device.kernel_device)
         self.report.opened(device.path, device.name)
         try:
-            # Before a line is logged: what moves until the first read, joydev tells as part of the
-            # state at opening, which does not count as touched.
+            # Before a line is logged: joydev reports what moves until the first read as part of
+            # the state at opening, which does not count as touched.
             self.take_in(device, until=monotonic())
             self.log.info(f"Opened joystick {device.path} {device.name}")
             hint = mode_hint(device.usb_id)
             if hint:
                 self.log.info(hint)
             while not self.is_ending.is_set():
-                self.take_in(device, self.report.next_due(self.driver.due))
+                self.take_in(device, min(self.driver.due, self.report.next))
                 self.report_if_due()
             self.publish(self.driver.lost(monotonic()))
         except DeviceError as error:
@@ -121,7 +117,7 @@ class JoyNode:
         if self.driver.unknown_events:
             self.log.warn(f"{self.driver.unknown_events} events of unknown types came.")
 
-    def take_in(self, device, until):
+    def take_in(self, device: Device, until: float) -> None:
         """Wait for events until a time [s] at the latest; publish what is due. DeviceError."""
         readable = self.wake.wait(until, device)
         if self.suspensions.number() != self.suspended:
@@ -133,21 +129,21 @@ class JoyNode:
             raise DeviceError(f"Lost the joystick {device.path}: it gives no sign of life.")
         self.publish(self.driver.tick(monotonic()))
 
-    def publish(self, messages):
+    def publish(self, messages: Iterable[Message]) -> None:
         """Publish pairs of axes and buttons."""
         for axes, buttons in messages:
             self.message.header.stamp = rospy.Time.now()
-            shown = self.trembling.shown(axes) if self.driver.lives else axes
-            self.message.axes, self.message.buttons = shown, buttons
+            self.message.axes = self.trembling.shown(axes) if self.driver.lives else axes
+            self.message.buttons = buttons
             self.joy.publish(self.message)
             self.report.published += 1
 
-    def report_if_due(self):
+    def report_if_due(self) -> None:
         """Publish the diagnostics once in a period."""
         if self.report.due(monotonic()):
             self.diagnostics.force_update()
 
-    def diagnose(self, status):
+    def diagnose(self, status: Any) -> Any:
         """Fill in the diagnostic status, a DiagnosticStatusWrapper."""
         well, summary = self.report.summary()
         status.summary(DiagnosticStatus.OK if well else DiagnosticStatus.ERROR, summary)
@@ -157,6 +153,6 @@ class JoyNode:
         return status
 
 
-def main():
+def main() -> int:
     """Run the node until it is stopped; return its exit code."""
     return run(NODE_NAME, load, lambda parameters: JoyNode(parameters).run())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import inf
 from typing import Any
 
 from gamepad.driver.driver import Driver
@@ -15,43 +16,31 @@ class DriverReport:
 
     def __init__(self, parameters: DriverParameters, topic: str) -> None:
         """Take the full name of the topic."""
-        self._parameters = parameters
-        self._topic = topic
-        self._open = False
+        self._parameters, self._topic = parameters, topic
         self._path, self._name = parameters.dev, parameters.dev_name
+        self._is_open = False
         self.published = 0  # messages so far
-        self._next = -float("inf")
+        self.next = -inf  # when to report again [s]
         self._before: tuple[float, int, int] | None = None  # (time, events, messages) reported last
 
     def opened(self, path: str, name: str) -> None:
-        """Note that a gamepad was opened."""
-        self._open, self._path, self._name = True, path, name
-        self._next = -float("inf")  # report it at once
+        """Note that a gamepad was opened; this is reported at once."""
+        self._is_open, self._path, self._name, self.next = True, path, name, -inf
 
     def lost(self) -> None:
-        """Note that the gamepad is gone."""
-        self._open = False
-        self._next = -float("inf")
+        """Note that the gamepad is gone; this is reported at once."""
+        self._is_open, self.next = False, -inf
 
     def due(self, now: float) -> bool:
         """Return whether to report now; the next time is one period later."""
-        if now < self._next:
+        if now < self.next:
             return False
-        self._next = now + self._parameters.diagnostic_period
+        self.next = now + self._parameters.diagnostic_period
         return True
-
-    def next_due(self, other: float) -> float:
-        """Return the sooner of the next time to report and another time."""
-        return min(self._next, other)
-
-    def look_at(self, now: float, period: float, not_before: float) -> float:
-        """Return when to look for a missing gamepad again, or to report, whichever is sooner."""
-        look = not_before if not_before > now else now + period
-        return self.next_due(look)
 
     def summary(self) -> tuple[bool, str]:
         """Return (all is well, in a few words)."""
-        return (True, "OK") if self._open else (False, "Joystick not open.")
+        return (True, "OK") if self._is_open else (False, "Joystick not open.")
 
     def details(self, driver: Driver, subscribers: int, now: float) -> list[tuple[str, Any]]:
         """Return pairs of name and value."""
@@ -69,7 +58,7 @@ class DriverReport:
             ("coalesce interval (s)", p.coalesce_interval),
             ("recent joystick event rate (Hz)", (events - events_then) / seconds),
             ("recent publication rate (Hz)", (self.published - published_then) / seconds),
-            (SILENT_FOR, f"{now - driver.heard_at:.1f}" if self._open else "not open"),
+            (SILENT_FOR, f"{now - driver.heard_at:.1f}" if self._is_open else "not open"),
             ("subscribers", subscribers),
             ("default trig val", p.default_trig_val),
             ("sticky buttons", p.sticky_buttons),

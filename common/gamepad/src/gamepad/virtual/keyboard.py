@@ -42,22 +42,11 @@ _KEY = re.compile(r"\x1b(?:\[\[.|\[[0-?]*[ -/]*[@-~]|O.)|.", re.DOTALL)
 _BEGUN_KEY = re.compile(r"\x1b(?:\[\[|\[[0-?]*[ -/]*|O)?\Z")
 
 
-def split_keys(text: str) -> tuple[list[str], str]:
-    """Return (keys, the rest) of what a terminal sent: lower-case characters, arrows as they are.
-
-    The rest is the begin of a sequence that a slow line has cut, to be put before what comes next.
-    """
-    rest = _BEGUN_KEY.search(text)
-    whole = text[: rest.start()] if rest else text
-    keys = [key if key in DIRECTIONS else key.lower() for key in _KEY.findall(whole)]
-    return keys, text[len(whole) :]
-
-
 class Keyboard:
     """Keys and times in, Controls out. Times in seconds, of one clock that never jumps."""
 
     def __init__(self) -> None:
-        self._rest = ""  # of a sequence, so far
+        self._rest = ""  # the begin of a sequence that a slow line has cut
         self._held: set[str] = set()  # keys of directions and buttons
         self._released_at = 0.0
         self._deflection = 1.0
@@ -68,8 +57,11 @@ class Keyboard:
     def press(self, text: str, now: float) -> None:
         """Take in what the terminal sent at a time."""
         self._expire(now)
-        keys, self._rest = split_keys(self._rest + text)
-        for key in keys:
+        text = self._rest + text
+        begun = _BEGUN_KEY.search(text)
+        self._rest = begun.group() if begun else ""
+        for sent in _KEY.findall(text[: len(text) - len(self._rest)]):
+            key = sent if sent in DIRECTIONS else sent.lower()
             if key in QUIT:
                 self.quit = True
             elif key in DIRECTIONS or key in BUTTONS:

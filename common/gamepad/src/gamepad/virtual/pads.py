@@ -1,5 +1,7 @@
 """Virtual gamepads: made by the kernel, or served through a FIFO where the kernel cannot."""
 
+from __future__ import annotations
+
 import contextlib
 import fcntl
 import math
@@ -7,8 +9,11 @@ import os
 import select
 import stat
 import time
+from typing import Any, Callable, Mapping
 
+from gamepad.gamepads import Gamepad
 from gamepad.js_event import AXIS, BUTTON, INIT, SIGN_OF_LIFE_MS, JsEvent, pack
+from gamepad.virtual.controls import Controls, Position, positions
 
 UINPUT = "/dev/uinput"
 BUS_USB = 3  # linux/input.h
@@ -26,30 +31,34 @@ class PadError(Exception):
 class UinputPad:
     """A gamepad that the kernel shows to every program, as /dev/input/jsN and eventN."""
 
-    def __init__(self, gamepad):
-        """gamepad: gamepads.Gamepad. Raises PadError."""
+    connected = True  # whether a program may read; the kernel does not report it
+
+    def __init__(self, gamepad: Gamepad) -> None:
+        """Make it. Raises PadError."""
         try:
             import evdev  # noqa: PLC0415  a FIFO does not need it
         except ImportError:
             raise PadError("python3-evdev is missing: apt install python3-evdev") from None
         self._evdev = evdev
         self._gamepad = gamepad
-        self._device = None
-        self._raw = {}  # (type, code) -> value sent last
-        self._position, self._bent = None, False  # shown last; whether its sticks are one step off
+        self._raw: dict[tuple[int, int], int] = {}  # (type, code) -> value sent last
+        self._position: Position | None = None  # shown last
+        self._bent = False  # whether its sticks are one step off
+        self._device: Any = None
         self._plug_in()
 
-    def __enter__(self):
+    def __enter__(self) -> UinputPad:
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         self.show(None)
 
-    def _plug_in(self):
+    def _plug_in(self) -> None:
         pad = self._gamepad
+        axes, _ = positions(pad, Controls())
         info = [
-            (axis.code, self._evdev.AbsInfo(raw, axis.low, axis.high, 0, 0, 0))
-            for axis, raw in zip(pad.axes, pad.untouched)
+            (axis.code, self._evdev.AbsInfo(axis.raw(value), axis.low, axis.high, 0, 0, 0))
+            for axis, value in zip(pad.axes, axes)
         ]
         try:
             self._device = self._evdev.UInput(
@@ -63,7 +72,7 @@ class UinputPad:
                 "with _dev:=PATH"
             ) from None
 
-    def show(self, position):
+    def show(self, position: Position | None) -> None:
         """Move to (axes, buttons) as on /joy; None: unplugged.
 
         The same position once more: held sticks tremble, as a hand does.
@@ -90,25 +99,22 @@ class UinputPad:
             self._device.syn()
         self._raw = raw
 
-    connected = True  # whether somebody may read; nobody can tell
-
-    def watch(self, poll):
-        """Nothing to be watched; returns the longest time to wait [s]."""
+    def watch(self, poll: select.poll) -> float:
+        """Return the longest time to wait [s]; there is nothing to poll."""
         return TREMBLE_S
 
 
 class StreamPad:
     """The events of the joystick device, served through a FIFO to one reader after the other."""
 
-    def __init__(self, gamepad, path, clock=time.monotonic):
-        """gamepad: gamepads.Gamepad. path: of the FIFO, made if missing. clock: gives seconds.
-
-        Raises PadError.
-        """
+    def __init__(
+        self, gamepad: Gamepad, path: str, clock: Callable[[], float] = time.monotonic
+    ) -> None:
+        """Make the FIFO, if it is missing. clock: gives seconds. Raises PadError."""
         self._gamepad, self._path, self._clock = gamepad, path, clock
         self.gives_signs = True  # of life; the receiver of a radio gamepad gives none
-        self._fd = None
-        self._told = {}  # (type, number) -> value, as the reader knows them
+        self._fd: int | None = None
+        self._told: dict[tuple[int, int], int] = {}  # (type, number) -> value that the reader knows
         self._signed_at = -math.inf  # when the last sign of life was given
         try:
             self._made = not os.path.lexists(path)
@@ -119,51 +125,45 @@ class StreamPad:
         except OSError as error:
             raise PadError(f"cannot make the FIFO {path}: {error.strerror}") from None
 
-    def __enter__(self):
+    def __enter__(self) -> StreamPad:
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         self.show(None)
         if self._made:
             with contextlib.suppress(OSError):
                 os.unlink(self._path)
 
-    def show(self, position):
+    @property
+    def connected(self) -> bool:
+        """Whether a program reads."""
+        return self._fd is not None
+
+    def show(self, position: Position | None) -> None:
         """Move to (axes, buttons) as on /joy; None: unplugged. Raises PadError."""
-        if position is None:
+        if position is None or (self._fd is not None and _reader_left(self._fd)):
             self._close()
+        if position is None or not (self.connected or self._open()):
             return
-        if self._fd is not None and self._reader_left():
-            self._close()
-        if self._fd is None and not self._open():
-            return
-        axes, buttons = position
-        values = {(BUTTON, i): value for i, value in enumerate(buttons)}
-        for i, (axis, value) in enumerate(zip(self._gamepad.axes, axes)):
-            values[AXIS, i] = axis.js_value(axis.raw(value))
-        self._tell({key: value for key, value in values.items() if self._told.get(key) != value})
+        changes = self._events(position).items() - self._told.items()
+        self._tell(dict(sorted(changes)))
         is_due = self._clock() >= self._signed_at + SIGN_OF_LIFE_S
         if self._told and is_due and self.gives_signs:
             self._signed_at = self._clock()
             self._tell(dict(self._told), INIT, SIGN_OF_LIFE_MS)
 
-    def watch(self, poll):
-        """Have poll notice a reader that leaves; returns the longest time to wait [s]."""
+    def watch(self, poll: select.poll) -> float:
+        """Have poll notice a reader that leaves; return the longest time to wait [s]."""
         if self._fd is None:
             return LOOK_S
         poll.register(self._fd, 0)
         return SIGN_OF_LIFE_S
 
-    @property
-    def connected(self):
-        """Whether somebody reads."""
-        return self._fd is not None
-
-    def _open(self):
+    def _open(self) -> bool:
         try:
             self._fd = os.open(self._path, os.O_WRONLY | os.O_NONBLOCK | os.O_CLOEXEC)
         except OSError:
-            return False  # nobody reads
+            return False  # there is no reader
         try:
             fcntl.flock(self._fd, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError:
@@ -173,33 +173,41 @@ class StreamPad:
                 f"another virtual_joystick serves {self._path}: end it, or choose another path"
             ) from None
         # As the kernel does at opening: everything, untouched.
-        self._told = {}
-        untouched = {(BUTTON, i): 0 for i in range(len(self._gamepad.buttons))}
-        for i, (axis, raw) in enumerate(zip(self._gamepad.axes, self._gamepad.untouched)):
-            untouched[AXIS, i] = axis.js_value(raw)
-        self._tell(untouched, INIT)
+        self._tell(self._events(positions(self._gamepad, Controls())), INIT)
         self._signed_at = self._clock()
-        return self._fd is not None
+        return self.connected
 
-    def _reader_left(self):
-        poll = select.poll()
-        poll.register(self._fd, 0)  # tells of errors only
-        return bool(poll.poll(0))
+    def _events(self, position: Position) -> dict[tuple[int, int], int]:
+        """Return the value of each (type, number) in a position."""
+        axes, buttons = position
+        values = {(BUTTON, i): value for i, value in enumerate(buttons)}
+        for i, (axis, value) in enumerate(zip(self._gamepad.axes, axes)):
+            values[AXIS, i] = axis.js_value(axis.raw(value))
+        return values
 
-    def _tell(self, values, flag=0, time_ms=None):
+    def _tell(
+        self, values: Mapping[tuple[int, int], int], flag: int = 0, time_ms: int | None = None
+    ) -> None:
+        assert self._fd is not None
         if time_ms is None:
             time_ms = int(self._clock() * 1000) % SIGN_OF_LIFE_MS
         events = [JsEvent(time_ms, value, kind | flag, n) for (kind, n), value in values.items()]
-        data = b"".join(map(pack, events))
         try:
-            os.write(self._fd, data)  # less than PIPE_BUF: all of it, or nothing
+            # Less than PIPE_BUF: all of it, or nothing.
+            os.write(self._fd, b"".join(map(pack, events)))
             self._told.update(values)
         except BlockingIOError:
-            pass  # the reader is behind; what differs is told next time
+            pass  # the reader is behind; what differs is sent next time
         except OSError:
             self._close()
 
-    def _close(self):
+    def _close(self) -> None:
         if self._fd is not None:
             os.close(self._fd)
         self._fd, self._told = None, {}
+
+
+def _reader_left(fd: int) -> bool:
+    poll = select.poll()
+    poll.register(fd, 0)  # reports errors only
+    return bool(poll.poll(0))

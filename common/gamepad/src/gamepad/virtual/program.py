@@ -4,34 +4,31 @@ Made by the kernel (/dev/uinput), or with --stream served through a FIFO that jo
 device. Needs no ROS, but for --bag.
 """
 
+from __future__ import annotations
+
 import argparse
-import contextlib
 import math
 import os
 import select
 import signal
 import sys
 import time
+from typing import Sequence
 
 import yaml
 
-from gamepad.gamepads import F710
-from gamepad.virtual.controls import Controls, positions
+from gamepad.gamepads import F710, Gamepad
+from gamepad.virtual.controls import Controls, Position, positions
 from gamepad.virtual.keyboard import HELP, Keyboard
-from gamepad.virtual.moves import load_script
+from gamepad.virtual.moves import Script, load_script
 from gamepad.virtual.pads import UINPUT, PadError, StreamPad, UinputPad
-from gamepad.virtual.sources import (
-    KeySource,
-    UntouchedSource,
-    recording_source,
-    script_source,
-)
+from gamepad.virtual.sources import KeySource, TimedSource, recording_source, script_source
 from gamepad.virtual.terminal import REFRESH_S, Terminal
 
 NAME = "virtual_joystick"
 
 
-def parse(arguments):
+def parse(arguments: Sequence[str]) -> argparse.Namespace:
     """Return the command line; roslaunch's name:=value are left out."""
     parser = argparse.ArgumentParser(prog=NAME, description="A virtual Logitech F710 gamepad.")
     parser.add_argument("--mode", choices=sorted(F710), help="the switch of the gamepad")
@@ -44,8 +41,8 @@ def parse(arguments):
     return parser.parse_args([word for word in arguments if ":=" not in word])
 
 
-def read_script(path):
-    """Return the moves.Script in a YAML file. Raises ValueError, OSError."""
+def read_script(path: str) -> Script:
+    """Return the moves in a YAML file. Raises ValueError, OSError."""
     with open(path, encoding="utf-8") as file:
         try:
             return load_script(yaml.safe_load(file))
@@ -53,8 +50,8 @@ def read_script(path):
             raise ValueError(" ".join(str(error).split())) from None
 
 
-def read_bag(path, topic):
-    """[(time [s], (axes, buttons))] of a topic of a bag. Raises ValueError, OSError."""
+def read_bag(path: str, topic: str) -> list[tuple[float, Position]]:
+    """Return (time [s], position) of a topic of a bag. Raises ValueError, OSError."""
     import rosbag  # noqa: PLC0415  nothing else needs ROS
 
     try:
@@ -69,79 +66,75 @@ def read_bag(path, topic):
         raise ValueError(f"{topic} is no sensor_msgs/Joy") from None
 
 
-def make_source(options):
-    """(gamepad, source, keyboard or None). Raises ValueError, OSError."""
+def make_source(options: argparse.Namespace) -> tuple[Gamepad, KeySource | TimedSource]:
+    """Return the gamepad and what moves it. Raises ValueError, OSError."""
     if options.script:
         script = read_script(options.script)
         gamepad = F710[options.mode or script.mode]
-        return gamepad, script_source(gamepad, script, options.loop), None
+        return gamepad, script_source(gamepad, script, options.loop)
     gamepad = F710[options.mode or "D"]
     if options.bag:
         recorded = read_bag(options.bag, options.topic)
-        return gamepad, recording_source(gamepad, recorded, options.loop), None
-    if not sys.stdin.isatty():
-        return gamepad, UntouchedSource(gamepad), None
-    keyboard = Keyboard()
-    return gamepad, KeySource(gamepad, keyboard), keyboard
+        return gamepad, recording_source(gamepad, recorded, options.loop)
+    return gamepad, KeySource(gamepad, Keyboard())
 
 
-def play(pad, source, keyboard, terminal):
-    """Move the gamepad as the source says until its end. keyboard, terminal: both, or None."""
-    while True:
-        step = source.at(time.monotonic())
-        if step is None:
-            return
+def follow(pad: StreamPad | UinputPad, source: KeySource | TimedSource) -> None:
+    """Move the gamepad as the source says until its end."""
+    while step := source.at(time.monotonic()):
         position, until = step
         pad.show(position)
-        if terminal:
-            if not terminal.show(source.controls):
-                keyboard.release()
-                pad.show(source.at(time.monotonic())[0])
-            until = min(until, time.monotonic() + REFRESH_S)
-        if wait(pad, terminal, until):
+        wait(pad, None, until)
+
+
+def follow_keys(pad: StreamPad | UinputPad, source: KeySource, terminal: Terminal) -> None:
+    """Move the gamepad by the keys of a terminal until one of them quits."""
+    keyboard = source.keyboard
+    while step := source.at(time.monotonic()):
+        position, until = step
+        pad.show(position)
+        if not terminal.show(source.controls):
+            keyboard.release()
+            position, _ = source.at(time.monotonic()) or step
+            pad.show(position)
+        if wait(pad, terminal, min(until, time.monotonic() + REFRESH_S)):
             text = terminal.read()
             keyboard.press(text, time.monotonic())
             keyboard.quit = keyboard.quit or not text
 
 
-def wait_for_reader(pad, gamepad):
-    """Wait until a program reads: a script must not begin before."""
-    pad.show(positions(gamepad, Controls()))
-    while not pad.connected:
-        wait(pad, None, math.inf)
-        pad.show(positions(gamepad, Controls()))
-
-
-def wait(pad, terminal, until):
-    """Wait for a key, for a time [s], or for the gamepad's reader; returns whether a key came."""
+def wait(pad: StreamPad | UinputPad, terminal: Terminal | None, until: float) -> bool:
+    """Wait for a key, for a time [s], or for the gamepad's reader; return whether a key came."""
     poll = select.poll()
     if terminal:
         poll.register(terminal, select.POLLIN)
     timeout = min(until - time.monotonic(), pad.watch(poll))
-    ready = poll.poll(None if math.isinf(timeout) else max(0.0, timeout * 1000))
+    ready = poll.poll(max(0.0, timeout * 1000))
     return terminal is not None and terminal.fileno() in [fd for fd, _ in ready]
 
 
-def run(options):
+def run(options: argparse.Namespace) -> None:
     """Make the gamepad and move it."""
-    gamepad, source, keyboard = make_source(options)
+    gamepad, source = make_source(options)
     pad = StreamPad(gamepad, options.stream) if options.stream else UinputPad(gamepad)
-    with contextlib.ExitStack() as stack:
-        stack.enter_context(pad)
+    with pad:
         where = f"through the FIFO {options.stream}" if options.stream else "as a kernel device"
         print(f"{NAME}: {gamepad.name} ({gamepad.usb_id}), {where}", flush=True)
-        terminal = None
-        if keyboard:
+        if isinstance(source, KeySource) and sys.stdin.isatty():
             print(HELP, end="", flush=True)
-            terminal = stack.enter_context(Terminal())
-        elif isinstance(source, UntouchedSource):
+            with Terminal() as terminal:
+                follow_keys(pad, source, terminal)
+            return
+        if isinstance(source, KeySource):
             print(f"{NAME}: no terminal to read keys from; nobody moves the gamepad", flush=True)
-        if not keyboard:
-            wait_for_reader(pad, gamepad)
-        play(pad, source, keyboard, terminal)
+        pad.show(positions(gamepad, Controls()))
+        while not pad.connected:  # a script must not begin before a program reads
+            wait(pad, None, math.inf)
+            pad.show(positions(gamepad, Controls()))
+        follow(pad, source)
 
 
-def main():
+def main() -> None:
     """Run until the end, Q or a signal; exit code 1 and one line if it cannot start."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, lambda *_: sys.exit(0))  # through all __exit__, unlike a signal

@@ -8,7 +8,7 @@ never jumps. The first call of at() is the start.
 from __future__ import annotations
 
 import bisect
-import math
+import itertools
 from typing import Optional, Sequence, Tuple
 
 from gamepad.gamepads import Gamepad
@@ -30,26 +30,15 @@ class KeySource:
     """Follows a keyboard.Keyboard until it quits."""
 
     def __init__(self, gamepad: Gamepad, keyboard: Keyboard) -> None:
-        self._gamepad, self._keyboard = gamepad, keyboard
+        self._gamepad, self.keyboard = gamepad, keyboard
         self.controls = Controls()
 
     def at(self, now: float) -> At | None:
         """See the top of this file."""
-        if self._keyboard.quit:
+        if self.keyboard.quit:
             return None
-        self.controls, until = self._keyboard.at(now)
+        self.controls, until = self.keyboard.at(now)
         return _position(self._gamepad, self.controls), until
-
-
-class UntouchedSource:
-    """Leaves the gamepad at rest without end."""
-
-    def __init__(self, gamepad: Gamepad) -> None:
-        self._position = positions(gamepad, Controls())
-
-    def at(self, now: float) -> At | None:
-        """See the top of this file."""
-        return self._position, math.inf
 
 
 class TimedSource:
@@ -58,11 +47,7 @@ class TimedSource:
     def __init__(self, steps: Sequence[tuple[float, Position | None]], loop: bool) -> None:
         """Take pairs of a duration [s] and a position; loop: begin again at the end."""
         self._positions = [position for _, position in steps]
-        self._ends: list[float] = []
-        total = 0.0
-        for duration, _ in steps:
-            total += duration
-            self._ends.append(total)
+        self._ends = list(itertools.accumulate(duration for duration, _ in steps))
         self._loop = loop
         self._start: float | None = None
 
