@@ -59,7 +59,7 @@ SCRIPTS = [
 DEBIAN = {
     "cockpit_server": "cockpit", "joy_to_twist": "joy2twist", "PIL": "python3-pil",
     **{name: f"python3-{name}" for name in (
-        "evdev", "matplotlib", "numpy", "rospkg", "tornado", "tqdm", "watchdog", "yaml")},
+        "evdev", "matplotlib", "numpy", "rospkg", "tornado", "tqdm", "yaml")},
 }  # fmt: skip
 UNDECLARED = {"rosbags", "rclpy"}  # PyPI's, of which package.xml cannot speak
 
