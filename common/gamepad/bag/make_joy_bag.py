@@ -1,4 +1,4 @@
-"""Writes joy.bag: a Logitech F710 (D mode) whose left stick drives a closed tour.
+"""Write joy.bag: a Logitech F710 (D mode) whose left stick drives a closed tour.
 
     ./tutorial run python3 common/gamepad/bag/make_joy_bag.py [FILE]
 
@@ -13,6 +13,11 @@ every machine: no clock and no random number is read.
 import math
 import sys
 from pathlib import Path
+
+import numpy as np
+from rosbags.rosbag1 import Writer
+from rosbags.typesys import Stores, get_typestore
+from sensor_msgs.msg import Joy
 
 RATE_HZ = 50  # one message every 20 ms, as a hand that never rests gives
 START_S = 1372636800  # stamp of the first message: 2013-07-01, the month of the workshop
@@ -56,18 +61,18 @@ def spin(done):
     return 0.0, 2 * math.pi * done
 
 
-def back(done):
-    """(distance [m], heading [rad]) straight back."""
-    return -BACK_M * done, 0.0
-
-
-def forth(done):
-    """(distance [m], heading [rad]) straight ahead, as far as back went."""
-    return BACK_M * done, 0.0
+def straight(length_m):
+    """Return a move: (distance [m], heading [rad]) straight ahead, or back if negative."""
+    return lambda done: (length_m * done, 0.0)
 
 
 # The moves with their time and the time of their ramps, in seconds.
-TOUR = ((eight, 30.0, 2.0), (spin, 9.0, 1.5), (back, 5.0, 1.0), (forth, 5.0, 1.0))
+TOUR = (
+    (eight, 30.0, 2.0),
+    (spin, 9.0, 1.5),
+    (straight(-BACK_M), 5.0, 1.0),
+    (straight(BACK_M), 5.0, 1.0),
+)
 
 
 def sticks():
@@ -99,12 +104,6 @@ def axis(value, count):
 
 def write_bag(path):
     """Write the bag to a path that does not exist yet."""
-    # Only this script needs rosbags; node and launch files read joy.bag with ROS itself.
-    import numpy as np  # noqa: PLC0415
-    from rosbags.rosbag1 import Writer  # noqa: PLC0415
-    from rosbags.typesys import Stores, get_typestore  # noqa: PLC0415
-    from sensor_msgs.msg import Joy  # noqa: PLC0415
-
     store = get_typestore(Stores.ROS1_NOETIC)
     joy_type = "sensor_msgs/msg/Joy"
     make = store.types
@@ -127,13 +126,8 @@ def write_bag(path):
 
 def main():
     path = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).with_name("joy.bag")
-    try:
-        path.unlink(missing_ok=True)
-        write_bag(path)
-    except ImportError as error:
-        sys.exit(f"make_joy_bag: {error}; install it with: ./tutorial setup")
-    except OSError as error:
-        sys.exit(f"make_joy_bag: cannot write {path}: {error.strerror}")
+    path.unlink(missing_ok=True)
+    write_bag(path)
     print(f"{path}: {path.stat().st_size} bytes")
 
 

@@ -91,7 +91,7 @@ class MovesTest(unittest.TestCase):
         missing = os.path.join(self.folder, "none")
         self.refuse(f"cannot read {missing}: No such file", *stream, "--script", missing)
         self.refuse(f"cannot read {missing}: No such file", *stream, "--bag", missing)
-        self.refuse("it has no list `moves`", *stream, "--script", self.write("7"))
+        self.refuse("it has no list of moves", *stream, "--script", self.write("7"))
         self.refuse("moves.yaml: while ", *stream, "--script", self.write("moves: ]\n\t@"))
         self.refuse("moves.yaml: ", *stream, "--bag", self.write("no bag"))
         self.refuse("is there and is no FIFO", "--stream", self.write(""))

@@ -5,11 +5,23 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Tuple
 
-from gamepad.gamepads import F710, F710_X, Gamepad
-from node_kit.parameters import is_number
+from gamepad.gamepads import F710_X, Gamepad
+from node_kit.parameters import Check, is_number, parameter, switch
 
 # A stick moves the D-pad's axes, which know only -1, 0 and 1, from this deflection on.
 DIGITAL_THRESHOLD = 0.5
+
+
+def _two_numbers(low: float) -> Check:
+    def fits(value: object) -> bool:
+        numbers = value if isinstance(value, list) else []
+        return len(numbers) == 2 and all(is_number(one) and low <= one <= 1 for one in numbers)
+
+    return Check(f"two numbers from {low} to 1", fits, keep=tuple)
+
+
+def _are_names(value: object) -> bool:
+    return isinstance(value, list) and all(isinstance(one, str) for one in value)
 
 
 @dataclass(frozen=True)
@@ -21,13 +33,15 @@ class Controls:
     left stick and the D-pad are then swapped. plugged: whether the gamepad is there at all.
     """
 
-    left_stick: tuple[float, float] = (0.0, 0.0)
-    right_stick: tuple[float, float] = (0.0, 0.0)
-    dpad: tuple[float, float] = (0.0, 0.0)
-    triggers: tuple[float, float] = (0.0, 0.0)
-    held: frozenset[str] = frozenset()
-    mode_led: bool = False
-    plugged: bool = True
+    left_stick: tuple[float, float] = parameter((0.0, 0.0), _two_numbers(-1))
+    right_stick: tuple[float, float] = parameter((0.0, 0.0), _two_numbers(-1))
+    dpad: tuple[float, float] = parameter((0.0, 0.0), _two_numbers(-1))
+    triggers: tuple[float, float] = parameter((0.0, 0.0), _two_numbers(0))
+    held: frozenset[str] = parameter(
+        frozenset(), Check("a list of names of buttons", _are_names, keep=frozenset)
+    )
+    mode_led: bool = parameter(False, switch)
+    plugged: bool = parameter(True, switch)
 
 
 Position = Tuple[Tuple[float, ...], Tuple[int, ...]]  # axes and buttons
@@ -48,16 +62,3 @@ def positions(gamepad: Gamepad, controls: Controls) -> Position:
         pulled = [v > DIGITAL_THRESHOLD for v in controls.triggers]
         held.update(name for name, down in zip(("LT", "RT"), pulled) if down)
     return axes, tuple([int(name in held) for name in gamepad.buttons])
-
-
-def check_controls(controls: Controls, mode: str) -> None:
-    """Raise ValueError, one line, if a position is out of range or a button is not there."""
-    for name, low in (("left_stick", -1), ("right_stick", -1), ("dpad", -1), ("triggers", 0)):
-        value = getattr(controls, name)
-        numbers = [v for v in value if is_number(v) and low <= v <= 1]
-        if len(value) != 2 or len(numbers) != 2:
-            raise ValueError(f"{name} is {list(value)}; allowed are two numbers from {low} to 1")
-    buttons = F710[mode].buttons
-    for name in sorted(controls.held, key=str):
-        if name not in buttons:
-            raise ValueError(f"{name!r} is no button in {mode} mode: {', '.join(buttons)}")
