@@ -22,11 +22,6 @@ class GamepadHints:
         self._count: int | None = None  # the number of axes that was looked at last
         self._look_for_swap = False
 
-    @property
-    def finished(self) -> bool:
-        """Whether nothing more can be found as long as the gamepad is the same."""
-        return self._count is not None and not self._look_for_swap
-
     def hint(self, axes: Sequence[float]) -> str | None:
         """Return one line that says what to do, or None."""
         if len(axes) != self._count:
@@ -37,12 +32,12 @@ class GamepadHints:
                     f"The gamepad has {self._count} axes and not {self._expected}: "
                     "check the D/X switch of a Logitech F710, or choose another joy_config."
                 )
-        moved = {i for i, axis in enumerate(axes) if abs(axis) > NEUTRAL}
-        if not self._look_for_swap or not moved & (self._used | SWAPPED_STICK):
+        if not self._look_for_swap:
             return None
-        self._look_for_swap = False
-        if moved & self._used:
-            return None  # the stick is where it should be
+        moved = {i for i, axis in enumerate(axes) if abs(axis) > NEUTRAL}
+        self._look_for_swap = not moved & (self._used | SWAPPED_STICK)
+        if self._look_for_swap or moved & self._used:
+            return None  # nothing has moved so far, or the stick is where it should be
         # A D-pad moves these axes too, and the swapped stick gives no more than it: -1, 0 and 1.
         return (
             "Only axes 4 and 5 move: if that was the left stick of a Logitech F710, "

@@ -165,29 +165,22 @@ def _axes(values: dict[str, Any], kind: str, names: tuple[str, ...], first: int)
     As in the C++ node, an axis_* number stands for x or yaw and a scale_* number for every
     component. A turbo scale that is not given is that without turbo (in the C++ node perhaps 0).
     """
-    indices = values[f"axis_{kind}"]
+
+    def of_each(value: Any) -> dict[str, Any]:
+        return value if isinstance(value, dict) else dict.fromkeys(names, value)
+
+    indices, scale = values[f"axis_{kind}"], values[f"scale_{kind}"]
     if not isinstance(indices, dict):
         indices = {"x" if kind == "linear" else "yaw": indices}
     used = [name for name in names if indices.get(name, -1) >= 0]
-    normal = turbo = _scales(values, f"scale_{kind}", names, used, {})
-    if values[f"scale_{kind}_turbo"] is not None:
-        turbo = _scales(values, f"scale_{kind}_turbo", names, used, normal)
-    return [
-        Axis(first + names.index(name), indices[name], normal[name], turbo[name]) for name in used
-    ]
-
-
-def _scales(
-    values: dict[str, Any],
-    name: str,
-    names: tuple[str, ...],
-    used: list[str],
-    otherwise: dict[str, float],
-) -> dict[str, float]:
-    """Return the scale of every used component, by its name."""
-    value = values[name]
-    scales = {**otherwise, **(value if isinstance(value, dict) else dict.fromkeys(names, value))}
-    missing = [one for one in used if one not in scales]
+    normal, turbo = of_each(scale), values[f"scale_{kind}_turbo"]
+    missing = [name for name in used if name not in normal]
     if missing:
-        raise ValueError(f"~{name}: {value!r}: must be a map that has {', '.join(missing)} too")
-    return {one: float(scales[one]) for one in used}
+        raise ValueError(
+            f"~scale_{kind}: {scale!r}: must be a map that has {', '.join(missing)} too"
+        )
+    turbo = normal if turbo is None else {**normal, **of_each(turbo)}
+    return [
+        Axis(first + names.index(name), indices[name], float(normal[name]), float(turbo[name]))
+        for name in used
+    ]

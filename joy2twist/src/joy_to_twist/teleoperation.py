@@ -31,7 +31,6 @@ class Teleoperation:
         self.mapping = Mapping(parameters)
         self.safety = Safety(parameters, wake, warn)
         self._hints = GamepadHints(parameters)
-        self._knows_gamepad = False
         self._may_warn = Throttle(1.0 / WARNING_PERIOD_S)
         self._max_age_ns = round(parameters.max_joy_age * 1e9)
         self._unheard_since: float | None = None  # when velocities began to reach no subscriber
@@ -74,8 +73,9 @@ class Teleoperation:
             if self.mapping.resets(buttons):
                 self.safety.reset()
             return None
-        if not self._knows_gamepad:
-            self._look_at_gamepad(axes)
+        hint = self._hints.hint(axes)
+        if hint:
+            self._warn(hint)
         matters = self._parameters.arm_on_neutral or not self.safety.arming.armed
         rests = matters and self.mapping.rests(axes, velocity)
         return self.safety.drive(velocity, rests, now, sender, changed)
@@ -91,15 +91,8 @@ class Teleoperation:
         last, self._last = self._last, (axes, buttons)
         return last != self._last
 
-    def _look_at_gamepad(self, axes: Sequence[float]) -> None:
-        hint = self._hints.hint(axes)
-        if hint:
-            self._warn(hint)
-        self._knows_gamepad = self._hints.finished
-
     def left(self, now: float) -> Velocity | None:
         """Stop, as no node publishes joystick messages; return the velocity to send at once."""
-        self._knows_gamepad = False  # the next one may be another
         return self.safety.lost("the joystick node has left", now)
 
     def listeners(self, count: int, topic: str, now: float) -> None:
