@@ -7,110 +7,80 @@ import pytest
 from gamepad.virtual.controls import Controls
 from gamepad.virtual.keyboard import FIRST_HOLD_S, REPEAT_HOLD_S, Keyboard
 
+# A row: what is pressed at once; then where the left stick is, and the buttons that are held.
+PRESSED = [
+    ("", (0, 0), []),
+    *[(key, (0, 1), []) for key in ("w", "W", "\x1b[A", "\x1bOA")],
+    *[(key, (0, -1), []) for key in ("s", "S", "\x1b[B", "\x1bOB")],
+    *[(key, (1, 0), []) for key in ("a", "A", "\x1b[D", "\x1bOD")],
+    *[(key, (-1, 0), []) for key in ("d", "D", "\x1b[C", "\x1bOC")],
+    (" ", (0, 0), ["LB"]),
+    ("t", (0, 0), ["RB"]),
+    ("T w", (0, 1), ["LB", "RB"]),
+    *[(f"{digit}w", (0, digit / 10), []) for digit in range(1, 10)],
+    ("5w0", (0, 1), []),
+    ("5w\u00b2", (0, 0.5), []),  # a superscript, of French keyboards, is no digit
+    ("\u0130w", (0, 1), []),  # of Turkish keyboards: two letters when lower
+    ("5wa", (0.5, 0.5), []),  # directions add up
+    ("wad\x1bOB", (-1, -1), []),  # opposite ones replace each other
+    ("w\x1b[A", (0, 1), []),  # the same one, and not a second
+    ("w\x1b[Aaw", (1, 1), []),
+]
 
-def at(keyboard, now):
-    controls, _ = keyboard.at(now)
-    return controls.left_stick, sorted(controls.held)
 
-
-def test_a_key_that_is_not_repeated_is_released():
+@pytest.mark.parametrize(("keys", "stick", "held"), PRESSED, ids=repr)
+def test_keys(keys, stick, held):
     keyboard = Keyboard()
-    keyboard.press("w", 1.0)
-    assert keyboard.at(1.0)[1] == 1.0 + FIRST_HOLD_S
-    assert at(keyboard, 1.0 + FIRST_HOLD_S - 0.01) == ((0, 1), [])
-    assert at(keyboard, 1.0 + FIRST_HOLD_S) == ((0, 0), [])
-    assert keyboard.at(9.0)[1] == math.inf
+    keyboard.press(keys, 1.0)
+    controls, until = keyboard.at(1.0)
+    assert controls == Controls(left_stick=stick, held=frozenset(held))
+    assert until == (1.0 + FIRST_HOLD_S if any(stick) or held else math.inf)
+    assert not keyboard.quit
 
 
 @pytest.mark.parametrize(
-    ("keys", "stick"),
+    ("keys", "controls"),
     [
-        ("w W \x1b[A \x1bOA", (0, 1)),
-        ("s S \x1b[B \x1bOB", (0, -1)),
-        ("a A \x1b[D \x1bOD", (1, 0)),
-        ("d D \x1b[C \x1bOC", (-1, 0)),
+        ("m", Controls(mode_led=True)),
+        ("U", Controls(plugged=False)),
+        ("mumu", Controls()),
     ],
 )
-def test_every_key_of_a_direction(keys, stick):
-    for key in keys.split():
-        keyboard = Keyboard()
-        keyboard.press(key, 1.0)
-        assert at(keyboard, 1.0) == (stick, []), key
-
-
-@pytest.mark.parametrize(("key", "held"), [(" ", ["LB"]), ("t", ["RB"]), ("T", ["RB"])])
-def test_every_key_of_a_button(key, held):
+def test_mode_and_plug_are_switched(keys, controls):
     keyboard = Keyboard()
-    keyboard.press(key, 1.0)
-    assert at(keyboard, 1.0) == ((0, 0), held)
+    keyboard.press(keys, 0.0)
+    assert keyboard.at(0.0) == (controls, math.inf)
 
 
-@pytest.mark.parametrize("key", ["q", "Q", "\x03", "\x04"])
+@pytest.mark.parametrize("key", ["q", "Q", "\x03", "\x04", "xyz\x1b[9~q"])
 def test_every_key_that_quits(key):
     keyboard = Keyboard()
     keyboard.press(key, 1.0)
     assert keyboard.quit
 
 
-@pytest.mark.parametrize("digit", range(10))
-def test_every_digit(digit):
-    keyboard = Keyboard()
-    keyboard.press(f"{digit}w", 1.0)
-    assert at(keyboard, 1.0) == ((0, digit / 10 if digit else 1.0), [])
-
-
-def test_how_long_a_key_counts_as_held():
+def test_a_key_that_is_not_repeated_is_released():
     assert 0.66 < FIRST_HOLD_S < 1.0  # the slowest terminal waits that long
+    keyboard = Keyboard()
+    keyboard.press("w", 1.0)
+    assert keyboard.at(1.0 + FIRST_HOLD_S - 0.01)[0] == Controls(left_stick=(0, 1))
+    assert keyboard.at(1.0 + FIRST_HOLD_S) == (Controls(), math.inf)
+
+
+def test_the_dead_man_stays_held_while_a_later_key_repeats_and_all_are_released_together():
     assert 1 / 11 < REPEAT_HOLD_S < 0.5  # the slowest repetition; joy2twist's ~joy_timeout
-
-
-def test_a_second_m_and_a_second_u_undo_the_first():
-    keyboard = Keyboard()
-    keyboard.press("mumu", 0.0)
-    assert keyboard.at(0.0)[0] == Controls()
-
-
-def test_a_held_key_is_released_soon_after_its_last_repetition():
-    keyboard = Keyboard()
-    for repetition in range(20):
-        keyboard.press("\x1b[A", 1.0 + repetition * 0.04)
-        assert at(keyboard, 1.0 + repetition * 0.04) == ((0, 1), [])
-    assert at(keyboard, 1.76 + REPEAT_HOLD_S + 0.001) == ((0, 0), [])
-
-
-def test_the_dead_man_stays_held_while_a_later_key_repeats():
     keyboard = Keyboard()
     keyboard.press(" ", 0.0)
     for repetition in range(100):
-        keyboard.press("w", 0.5 + repetition * 0.04)
-    assert at(keyboard, 4.5) == ((0, 1), ["LB"])
-    assert at(keyboard, 4.46 + REPEAT_HOLD_S + 0.001) == ((0, 0), [])
-
-
-def test_two_directions_add_up_and_opposite_ones_replace_each_other():
-    keyboard = Keyboard()
-    keyboard.press("5wa", 0.0)
-    assert at(keyboard, 0.0) == ((0.5, 0.5), [])
-    keyboard.press("d\x1bOB", 0.1)
-    assert at(keyboard, 0.1) == ((-0.5, -0.5), [])
-    keyboard.press("0", 0.2)
-    assert at(keyboard, 0.2) == ((-1, -1), [])
-
-
-def test_mode_unplug_and_quit():
-    keyboard = Keyboard()
-    keyboard.press("MU", 0.0)
-    controls, _ = keyboard.at(0.0)
-    assert controls.mode_led and not controls.plugged
-    assert not keyboard.quit
-    keyboard.press("xyz\x1b[9~q", 0.0)
-    assert keyboard.quit
+        keyboard.press("\x1b[A", 0.5 + repetition * 0.04)
+    held = Controls(left_stick=(0, 1), held=frozenset(["LB"]))
+    assert keyboard.at(4.5) == (held, 4.46 + REPEAT_HOLD_S)
+    assert keyboard.at(4.46 + REPEAT_HOLD_S + 0.001)[0] == Controls()
 
 
 def test_released_keys_are_up_whatever_was_held():
     keyboard = Keyboard()
     keyboard.press(" w", 1.0)
-    assert keyboard.at(1.1)[0].held == {"LB"}
     keyboard.release()
     assert keyboard.at(1.1)[0] == Controls()
 
@@ -130,31 +100,16 @@ def test_all_other_keys_do_nothing():
     [
         *("\x1bOP", "\x1bOQ", "\x1bOS", "\x1b[[A", "\x1b[[D", "\x1b[15~"),  # F1 to F5
         *("\x1b[1;5A", "\x1b[1;2D", "\x1bOa", "\x1b[a"),  # arrows with Ctrl or Shift
-        *("\x1b[3~", "\x1b[Z"),  # Delete, Shift and Tab
+        *("\x1b[3~", "\x1b[Z", "\x1b[0 q"),  # Delete, Shift and Tab
     ],
 )
-def test_a_function_key_does_nothing_whatever_letters_it_sends(key):
-    """F4 drove backward, Ctrl with the arrow up to the left, and Delete changed the speed."""
-    keyboard = Keyboard()
-    keyboard.press(key, 1.0)
-    assert keyboard.at(1.0) == (Controls(), math.inf)
-    assert not keyboard.quit
-    keyboard.press(f"w{key}a", 1.0)
-    assert at(keyboard, 1.0) == ((1, 1), [])
-
-
-@pytest.mark.parametrize(
-    "key", ["\x1b[B", "\x1bOB", "\x1b[[D", "\x1b[15~", "\x1b[1;5A", "\x1b[0 q"]
-)
-def test_a_key_cut_in_two_is_read_as_in_one(key):
-    """Over a slow line an arrow's last letter came alone: down was A, to the left."""
-    whole = Keyboard()
-    whole.press(f"t{key}5", 1.0)
-    for cut in range(1, len(key)):
+def test_a_function_key_does_nothing_whatever_letters_it_sends_and_wherever_it_is_cut(key):
+    """F4 drove backward, and over a slow line an arrow's last letter came alone."""
+    for cut in range(1, len(key) + 1):
         keyboard = Keyboard()
-        keyboard.press(f"t{key[:cut]}", 1.0)
-        keyboard.press(f"{key[cut:]}5", 1.0)
-        assert keyboard.at(1.0) == whole.at(1.0), cut
+        keyboard.press(f"w{key[:cut]}", 1.0)
+        keyboard.press(f"{key[cut:]}a", 1.0)
+        assert keyboard.at(1.0)[0] == Controls(left_stick=(1, 1)), cut
         assert not keyboard.quit
 
 
@@ -164,47 +119,3 @@ def test_a_sequence_that_never_ends_holds_no_key_back(begun):
     keyboard.press(begun, 1.0)
     keyboard.press("\x03", 2.0)
     assert keyboard.quit
-
-
-def test_a_superscript_is_no_digit():
-    """A key of French keyboards; it ended the program."""
-    keyboard = Keyboard()
-    keyboard.press("5w\u00b2", 1.0)
-    assert at(keyboard, 1.0) == ((0, 0.5), [])
-
-
-def test_a_capital_that_becomes_two_letters_takes_no_other_key_along():
-    keyboard = Keyboard()
-    keyboard.press("\u0130w", 1.0)  # a key of Turkish keyboards
-    assert at(keyboard, 1.0) == ((0, 1), [])
-
-
-def test_a_direction_by_another_key_is_the_same_one_and_not_a_second():
-    keyboard = Keyboard()
-    keyboard.press("w\x1b[A", 1.0)
-    assert at(keyboard, 1.0) == ((0, 1), [])
-    keyboard.press("aw", 1.1)
-    assert at(keyboard, 1.1) == ((1, 1), [])
-
-
-def test_a_key_held_once_is_held_longer_than_one_that_repeats():
-    keyboard = Keyboard()
-    keyboard.press("a", 1.0)
-    assert keyboard.at(1.0)[1] == 1.0 + FIRST_HOLD_S
-    keyboard.press("a", 1.5)
-    assert keyboard.at(1.5)[1] == 1.5 + REPEAT_HOLD_S
-
-
-def test_at_first_the_stick_goes_all_the_way_and_nothing_is_held():
-    keyboard = Keyboard()
-    assert keyboard.at(0.0) == (Controls(), math.inf)
-    keyboard.press("d", 0.5)
-    assert at(keyboard, 0.5) == ((-1.0, 0), [])
-
-
-def test_m_swaps_and_u_unplugs_and_neither_does_the_others_work():
-    for key, expected in (("m", Controls(mode_led=True)), ("u", Controls(plugged=False))):
-        keyboard = Keyboard()
-        keyboard.press(key, 0.0)
-        assert keyboard.at(0.0) == (expected, math.inf)
-        assert not keyboard.quit
