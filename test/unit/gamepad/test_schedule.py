@@ -10,15 +10,6 @@ from gamepad.driver.schedule import Schedule
 from tutorial_testing.gamepad_events import AXIS, BUTTON, INIT, driver, events
 
 
-def test_axes_within_the_interval_go_out_together():
-    ours = driver(coalesce_interval=0.01)
-    assert ours.read(events((AXIS, 0, -32767)), now=1.0) == []
-    assert ours.read(events((AXIS, 1, 32767)), now=1.009) == []
-    assert ours.due == pytest.approx(1.01)  # counted from the first
-    assert ours.tick(1.009) == []
-    assert ours.tick(1.0101) == [((1.0, -1.0), ())]
-
-
 def test_a_button_goes_out_at_once_and_takes_waiting_axes_along():
     ours = driver(autorepeat_rate=0)
     ours.read(events((AXIS, 0, -32767)), now=1.0)
@@ -31,8 +22,7 @@ def test_a_button_goes_out_at_once_and_takes_waiting_axes_along():
 
 def test_the_first_state_waits_for_all_of_it():
     ours = driver()
-    first = events((BUTTON | INIT, 0, 0), (BUTTON | INIT, 1, 1), (AXIS | INIT, 1, -9000))
-    assert ours.read(first, now=0.0) == []
+    assert ours.read(events((BUTTON | INIT, 1, 1), (AXIS | INIT, 1, -9000)), now=0.0) == []
     assert ours.tick(0.001) == [((0.0, 0.0), (0, 1))]
 
 

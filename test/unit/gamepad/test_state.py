@@ -7,39 +7,12 @@ from hypothesis import strategies as st
 from tutorial_testing.gamepad_events import AXIS, BUTTON, INIT, driver, events, sign
 
 
-def after(*fields, **parameters):
-    """(axes, buttons) after events that come at one time."""
-    ours = driver(kernel_device=False, deadzone=0.0, **parameters)
-    messages = ours.read(events(*fields), now=0.0)
-    return (messages + ours.tick(1.0))[-1]
-
-
 def test_the_middle_reads_zero_without_a_sign():
     """-0.0 would be shown as such by rostopic."""
     for deadzone in (0.0, 0.05):
         ours = driver(deadzone=deadzone)
         ours.read(events((AXIS, 0, 0)), 0.0)
         assert repr(ours.tick(1.0)) == "[((0.0,), ())]"
-
-
-def test_every_value_but_zero_is_a_press():
-    for value, pressed in ((1, 1), (2, 1), (-1, 1), (-32768, 1), (0, 0)):
-        assert after((BUTTON, 0, value)) == ((), (pressed,))
-        assert after((BUTTON | INIT, 0, value)) == ((), (pressed,))
-
-
-def test_an_axis_is_zero_until_it_moves_unless_its_value_at_opening_is_wanted():
-    opening = (AXIS | INIT, 1, -32767)
-    assert after(opening) == ((0.0, 0.0), ())
-    assert after(opening, default_trig_val=True) == ((0.0, 1.0), ())
-    assert after(opening, (AXIS, 1, 32767)) == ((0.0, -1.0), ())
-    assert after((AXIS, 1, 32767), opening) == ((0.0, -1.0), ())
-
-
-def test_what_was_skipped_is_zero():
-    assert after((AXIS, 2, -32767)) == ((0.0, 0.0, 1.0), ())
-    assert after((BUTTON, 3, 1)) == ((), (0, 0, 0, 1))
-    assert after((BUTTON, 3, 1), (BUTTON, 1, 1)) == ((), (0, 1, 0, 1))
 
 
 @pytest.mark.parametrize("kind", [0, 3, 4, 0x42, 0x7F, 0x83, 0xFF])
@@ -70,19 +43,6 @@ def test_left_and_up_are_positive_and_the_deadzone_is_rescaled(value, deadzone, 
     ours.read(events((AXIS, 0, value)), now=0.0)
     [(axes, _)] = ours.tick(0.5)
     assert axes == (pytest.approx(axis, abs=1e-12),)
-
-
-def test_a_sticky_button_is_switched_off_by_the_second_press():
-    ours = driver(sticky_buttons=True)
-    shown = [ours.read(events((BUTTON, 1, value)), 0.1)[0][1] for value in (1, 0, 1, 0, 1)]
-    assert shown == [(0, 1), (0, 1), (0, 0), (0, 0), (0, 1)]
-
-
-def test_two_sticky_buttons_are_switched_apart():
-    ours = driver(sticky_buttons=True)
-    pressed = ((0, 1), (0, 0), (1, 1), (1, 0), (0, 1))
-    shown = [ours.read(events((BUTTON, *press)), 0.1)[0][1] for press in pressed]
-    assert shown == [(1,), (1,), (1, 1), (1, 1), (0, 1)]
 
 
 def upstream(sequence, deadzone, default_trig_val, sticky):
