@@ -38,13 +38,9 @@ def test_the_script_writes_the_same_bytes(tmp_path, monkeypatch):
 
 
 def test_rosbag_takes_it():
-    for words in (["check"], ["info", "--yaml", "--key=messages"]):
-        done = subprocess.run(
-            ["rosbag", *words, str(FOLDER / "joy.bag")],
-            capture_output=True, text=True, check=False, timeout=60,
-        )  # fmt: skip
-        assert done.returncode == 0, done.stderr
-        assert done.stdout.strip() in ("Bag file does not need any migrations.", "2760")
+    command = ["rosbag", "check", str(FOLDER / "joy.bag")]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=60)
+    assert done.stdout.strip() == "Bag file does not need any migrations."
 
 
 def test_a_held_stick_never_rests_for_long(messages):
@@ -66,13 +62,6 @@ def test_it_is_an_f710_in_d_mode_at_50_hz(messages):
         assert joy.header.stamp.sec * 10**9 + joy.header.stamp.nanosec == time_ns
 
 
-def test_every_stick_position_is_one_the_device_can_report(messages):
-    for _, joy in messages:
-        for value in joy.axes:
-            step = float(value) * STEPS_OF_THE_DEVICE
-            assert abs(step - round(step)) < 0.01  # what float32 leaves of it
-
-
 def test_it_starts_and_ends_neutral_and_moves_only_with_lb_held(messages):
     for _, joy in (messages[0], messages[-1]):
         assert not joy.axes.any()
@@ -80,6 +69,8 @@ def test_it_starts_and_ends_neutral_and_moves_only_with_lb_held(messages):
     for _, joy in messages:
         assert joy.buttons[LB] or not joy.axes.any()
         assert joy.buttons.sum() == joy.buttons[LB]
+        steps = joy.axes * STEPS_OF_THE_DEVICE
+        assert (abs(steps - steps.round()) < 0.01).all()  # what float32 leaves of it
 
 
 def test_it_stays_within_a_turtlebot_2_and_is_smooth(messages):

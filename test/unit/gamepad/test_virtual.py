@@ -1,14 +1,20 @@
-"""The virtual gamepad: which one it is, and the FIFO that it serves."""
+"""The virtual gamepad: which one it is, how a held stick trembles, and the FIFO that it serves."""
 
-import os
+import select
 import struct
 
 import pytest
 
+from gamepad.driver.device import Finder
+from gamepad.driver.device_choice import DeviceError
 from gamepad.gamepads import F710, F710_D, F710_X, mode_hint, trigger_axes
+from gamepad.js_event import SIGN_OF_LIFE_MS
 from gamepad.trembling import Trembling
 from gamepad.virtual.controls import Controls, positions
-from gamepad.virtual.pads import PadError, StreamPad
+from gamepad.virtual.pads import SIGN_OF_LIFE_S, PadError, StreamPad
+
+REST = positions(F710_D, Controls())
+PUSHED = positions(F710_D, Controls(left_stick=(0.0, 1.0), held=frozenset(["LB"])))
 
 
 def test_axes_and_buttons_of_both_modes():
@@ -17,20 +23,21 @@ def test_axes_and_buttons_of_both_modes():
     for pad in F710.values():
         assert (pad.buttons.index("LB"), pad.buttons.index("RB")) == (4, 5)
         assert len(pad.buttons) == len(pad.button_codes)
+    for usb_id, words in (("046d:c219", "D mode"), ("046d:c21f", "X mode")):
+        assert words in mode_hint(usb_id)
+    assert mode_hint("045e:028e") is None
 
 
 def test_triggers_are_told_from_the_right_stick():
-    assert F710_D.triggers == ()
-    assert F710_X.triggers == (2, 5)
+    assert (F710_D.triggers, F710_X.triggers) == ((), (2, 5))
     assert trigger_axes([0, 1, 3, 4, 2, 5]) == (4, 5)
 
 
 @pytest.mark.parametrize("pad", F710.values(), ids=F710)
 def test_the_ends_and_the_middle_of_every_axis(pad):
     for axis in pad.axes:
-        ends = [axis.js_value(axis.raw(position)) for position in (1.0, -1.0)]
-        assert ends == [-32767, 32767]
-        assert axis.js_value(axis.raw(0.0)) == 0
+        ends = [axis.js_value(axis.raw(position)) for position in (1.0, 0.0, -1.0)]
+        assert ends == [-32767, 0, 32767]
 
 
 def test_the_kernels_steps_between():
@@ -38,26 +45,6 @@ def test_the_kernels_steps_between():
     assert F710_D.axes[0].js_value(127 + 64) == 16513
     assert F710_D.axes[0].js_value(127 - 64) == -16514
     assert F710_X.axes[0].js_value(-16384) == -16384
-
-
-def test_hints_by_usb_id():
-    assert "D mode" in mode_hint("046d:c219")
-    assert "X mode" in mode_hint("046d:c21f")
-    assert mode_hint("045e:028e") is None
-
-
-def test_a_fifo_is_served_by_one_gamepad_only(tmp_path):
-    path = str(tmp_path / "fifo")
-    rest = positions(F710_D, Controls())
-    with StreamPad(F710_D, path) as first:
-        reader = os.open(path, os.O_RDONLY | os.O_NONBLOCK)
-        first.show(rest)
-        assert first.connected
-        with StreamPad(F710_D, path) as second, pytest.raises(PadError, match="another"):
-            second.show(rest)
-        assert os.path.exists(path)
-        os.close(reader)
-    assert not os.path.exists(path)
 
 
 @pytest.mark.parametrize("pad", F710.values(), ids=F710)
@@ -72,8 +59,78 @@ def test_a_held_stick_trembles_by_one_step_and_nothing_else_does(pad):
 def test_one_of_many_equal_messages_trembles_by_the_last_bit():
     trembling, held = Trembling(), (1.0, -0.5, 0.0)
     shown = [struct.pack("<3f", *trembling.shown(held)) for _ in range(20)]
-    told = [k for k, data in enumerate(shown) if data != struct.pack("<3f", *held)]
-    assert told == [7, 15]
+    changed = [k for k, data in enumerate(shown) if data != struct.pack("<3f", *held)]
+    assert changed == [7, 15]
     assert struct.unpack("<3f", shown[7]) == pytest.approx(held, rel=2e-7)
     assert struct.unpack("<3f", shown[7])[2] == 0.0
     assert trembling.shown((0.5, 0.0, 0.0)) == (0.5, 0.0, 0.0)
+
+
+# ------------------------------------------------------------------------------------------- FIFO
+
+
+def events(device):
+    """Read (time, value, type, number) of what has come."""
+    return list(struct.iter_unpack("=IhBB", device.read()))
+
+
+def test_a_fifo_has_the_state_at_opening_then_the_changes_and_signs_of_life(tmp_path):
+    path, clock = tmp_path / "pad", [5.0]
+    with StreamPad(F710_D, str(path), clock=lambda: clock[0]) as pad:
+        pad.show(REST)
+        assert not pad.connected
+        for _ in range(2):  # a second reader gets everything, too
+            device = Finder(str(path), "").open()
+            pad.show(REST)
+            first = events(device)
+            assert [kind for _, _, kind, _ in first] == [0x81] * 12 + [0x82] * 6
+            assert not any(value for _, value, _, _ in first)
+            pad.show(PUSHED)
+            assert sorted(event[1:] for event in events(device)) == [(-32767, 2, 1), (1, 1, 4)]
+            clock[0] += SIGN_OF_LIFE_S - 0.01
+            pad.show(PUSHED)
+            assert device.read() == b""  # nothing new, and not the end
+            assert pad.watch(select.poll()) <= SIGN_OF_LIFE_S
+            for _ in range(3):
+                clock[0] += SIGN_OF_LIFE_S + 0.01
+                pad.show(PUSHED)
+                signs = events(device)
+                # The whole state, for a reader that has just come; the time says what it is.
+                pushed = sorted(event[1:] for event in signs if event[1])
+                assert pushed == [(-32767, 0x82, 1), (1, 0x81, 4)]
+                assert len(signs) == 18
+                assert {event[0] for event in signs} == {SIGN_OF_LIFE_MS}
+            device.close()
+            pad.show(PUSHED)
+            assert not pad.connected
+        device = Finder(str(path), "").open()
+        pad.show(PUSHED)
+        device.read()
+        pad.show(None)
+        with pytest.raises(DeviceError, match="Lost"):
+            device.read()
+        device.close()
+    assert not path.exists()
+
+
+def test_a_fifo_is_served_by_one_gamepad_only(tmp_path):
+    path = tmp_path / "pad"
+    with StreamPad(F710_D, str(path)) as first:
+        device = Finder(str(path), "").open()
+        first.show(REST)
+        assert first.connected
+        with StreamPad(F710_D, str(path)) as second, pytest.raises(PadError, match="another"):
+            second.show(REST)
+        assert path.exists()
+        device.close()
+    assert not path.exists()
+
+
+def test_a_path_that_is_no_fifo_is_refused_and_left_alone(tmp_path):
+    path = tmp_path / "notes"
+    path.write_text("mine")
+    with pytest.raises(PadError, match="is no FIFO"):
+        StreamPad(F710_D, str(path))
+    assert path.read_text() == "mine"
+    with pytest.raises(PadError, match="cannot make the FIFO"):
+        StreamPad(F710_D, str(tmp_path / "none" / "pad"))
