@@ -67,14 +67,6 @@ def test_velocity(about, given, axes, buttons, expected):
     assert velocity == (None if expected is None else pytest.approx(expected)), about
 
 
-def test_speed_limits_hold_for_the_length_of_the_vector():
-    given = {**HOLONOMIC, "max_linear_speed": 0.5, "max_angular_speed": 0.2}
-    mapping = Mapping(load(given))
-    # (0.6, 0.2 * 4) has the length 1: halved.
-    assert mapping.velocity((0.1, 0.6, 0.2), (1,)) == pytest.approx((0.3, 0.4, 0, 0, 0, 0.2))
-    assert mapping.velocity((0.05, 0.1, 0.0), (1,)) == pytest.approx((0.1, 0, 0, 0, 0, 0.15))
-
-
 @pytest.mark.parametrize(
     ("given", "axes", "buttons", "words"),
     [
@@ -94,17 +86,19 @@ def test_a_bad_message_is_named(given, axes, buttons, words):
     assert words in str(error.value)
 
 
-def test_a_rest_looks_only_at_the_axes_in_use():
-    mapping = Mapping(load({}))
-    assert mapping.rests((0.05, -0.1, 1.0, -1.0), (0,) * 6)  # triggers rest at the end
-    assert not mapping.rests((0.0, 0.11, 0.0, 0.0), (0,) * 6)
-    assert not mapping.rests((-0.2, 0.0, 0.0, 0.0), (0,) * 6)
-
-
-def test_a_rest_needs_a_released_dead_man():
-    mapping = Mapping(load({"enable_button": 0}))
-    assert mapping.rests((0.0, 0.0), mapping.velocity((0.0, 0.0), (0,)))
-    assert not mapping.rests((0.0, 0.0), mapping.velocity((0.0, 0.0), (1,)))
+@pytest.mark.parametrize(
+    ("given", "axes", "buttons", "rests"),
+    [
+        ({}, (0.05, -0.1, 1.0, -1.0), (0,), True),  # triggers that rest at an end are not in use
+        ({}, (0.0, 0.11, 0.0, 0.0), (0,), False),
+        ({}, (-0.2, 0.0, 0.0, 0.0), (0,), False),
+        ({"enable_button": 0}, (0.0, 0.0), (0,), True),
+        ({"enable_button": 0}, (0.0, 0.0), (1,), False),
+    ],
+)
+def test_a_rest_is_released_sticks_in_use_and_a_released_dead_man(given, axes, buttons, rests):
+    mapping = Mapping(load(given))
+    assert mapping.rests(axes, mapping.velocity(axes, buttons)) is rests
 
 
 @pytest.mark.parametrize(
@@ -139,21 +133,14 @@ def test_the_stop_button_counts_in_a_message_that_is_cut_and_wins_over_reset():
         (TURBO, "axis 1 -> linear.x at 1 m/s (turbo: 1 m/s); hold button 0 for turbo"),
         ({"axis_linear": -1, "axis_angular": -1},
          "no axis drives the robot: ~axis_linear and ~axis_angular are -1"),
+        ({"axis_linear": -1, "axis_angular": -1, "stop_button": 1, "stop_reset_button": 2},
+         "button 1 stops, until button 2"),
+        ({"vigilance_timeout": 3.0, "arm_on_neutral": True},
+         "no change of the joystick for 3 s stops the robot"),
     ],
 )  # fmt: skip
 def test_the_mapping_in_words(given, line):
-    assert Mapping(load(given)).describe()[0] == line
-
-
-def test_the_stop_and_the_vigilance_in_words():
-    given = {
-        "enable_button": 4, "stop_button": 1, "stop_reset_button": 2, "arm_on_neutral": True,
-        "vigilance_timeout": 3.0,
-    }  # fmt: skip
-    assert Mapping(load(given)).describe()[2:] == [
-        "button 1 stops, until button 2",
-        "no change of the joystick for 3 s stops the robot",
-    ]
+    assert line in Mapping(load(given)).describe()
 
 
 velocities = st.tuples(*[st.floats(-1e9, 1e9)] * 6)

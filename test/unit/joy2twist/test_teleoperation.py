@@ -10,8 +10,10 @@ from hypothesis import strategies as st
 
 from joy_to_twist.parameters import load
 from joy_to_twist.teleoperation import Teleoperation
+from tutorial_testing.over_time import over_time
 
 NAN, INF = float("nan"), float("inf")
+HELD, RELEASED = ((0.0, 1.0), (1, 0, 0)), ((0.0, 0.0), (0, 0, 0))
 
 
 def teleoperation(**given):
@@ -43,28 +45,20 @@ def test_driving_that_reaches_no_subscriber_is_reported_once_until_there_is_one(
     assert "No node subscribes to /carl/cmd_vel" in warnings[0]
 
 
-def test_what_came_while_this_node_was_suspended_is_not_driven():
-    machine, warnings = teleoperation(arm_on_neutral=True, enable_button=0)
-    drive, release = ((0.0, 1.0), (1,)), ((0.0, 0.0), (0,))
-    machine.joy(*release, 0.0)
-    assert machine.joy(*drive, 0.1)[0] == 1.0
+@pytest.mark.parametrize("arms", [True, False])
+def test_what_came_while_this_node_was_suspended_is_not_driven(arms):
+    machine, warnings = teleoperation(arm_on_neutral=arms, enable_button=0)
+    machine.joy(*RELEASED, 0.0)
+    assert machine.joy(*HELD, 0.1)[0] == 1.0
     assert machine.suspended(0, 0.12) is None
     assert machine.suspended(1, 0.30) == (0,) * 6
     assert machine.suspended(1, 0.31) is None  # the same one
     assert "suspended" in warnings[0]
-    assert machine.joy(*release, 0.35) is None  # old: it arms nothing
-    assert machine.joy(*drive, 0.40) is None
-    assert machine.joy(*drive, 0.60) is None  # not armed
-    machine.joy(*release, 0.62)
-    assert machine.joy(*drive, 0.64)[0] == 1.0
-
-
-def test_without_arming_it_drives_on_when_all_that_is_old_is_read():
-    machine, _ = teleoperation()
-    machine.joy((0.0, 1.0), (), 0.1)
-    assert machine.suspended(1, 0.3) == (0,) * 6
-    assert machine.joy((0.0, 1.0), (), 0.5) is None
-    assert machine.joy((0.0, 1.0), (), 0.6)[0] == 1.0
+    assert machine.joy(*RELEASED, 0.35) is None  # old: it arms nothing
+    assert machine.joy(*HELD, 0.40) is None
+    assert (machine.joy(*HELD, 0.60) is None) is arms  # all that is old was read
+    machine.joy(*RELEASED, 0.62)
+    assert machine.joy(*HELD, 0.64)[0] == 1.0
 
 
 @pytest.mark.parametrize(
@@ -93,9 +87,6 @@ def test_a_hint_on_the_gamepad_is_given_once_for_each_connection():
     assert len(warnings) == 2
 
 
-HELD, RELEASED = ((0.0, 1.0), (1, 0, 0)), ((0.0, 0.0), (0, 0, 0))
-
-
 @pytest.mark.parametrize("step", [0.0, 2.0**-15])
 def test_a_stick_held_for_eight_seconds_is_stopped_unless_it_trembles(step):
     """step: of 65,536 in the whole way of an axis, one."""
@@ -118,19 +109,26 @@ def test_the_stop_button_stops_until_it_is_reset_and_all_is_released(arms):
     machine.joy(*RELEASED, 0.0)
     assert machine.joy(*HELD, 0.1)[0] == 1.0
     assert machine.joy((NAN,), (1, 1), 0.2) == (0,) * 6  # in whatever message
-    assert "stop button" in warnings[0]
+    assert machine.joy((0.0, 0.0), (0, 1, 0), 0.25) is None
+    assert machine.safety.state.startswith("stopped: the stop button")
+    assert "press button 2" in machine.safety.state and "stop button" in warnings[0]
     assert machine.joy(*HELD, 0.3) is None
+    assert machine.left(0.35) is None
     assert machine.joy((NAN, 1.0), (1, 0, 1), 0.4) is None  # a bad message resets nothing
     machine.joy(*RELEASED, 0.5)
     assert machine.joy(*HELD, 0.6) is None
-    assert machine.safety.tick(0.7) == (0,) * 6
-    machine.joy((0.0, 0.0), (0, 1, 1), 0.8)  # both buttons: no reset
-    assert machine.joy(*HELD, 0.9) is None
-    machine.joy((0.0, 1.0), (1, 0, 1), 1.0)
-    machine.safety.tick(1.05)
-    assert machine.joy(*HELD, 1.1) is None  # reset, but not released
-    machine.joy(*RELEASED, 1.2)
-    assert machine.joy(*HELD, 1.3)[0] == 1.0
+    # Zeros at ~output_rate, so that no other source of a multiplexer drives meanwhile.
+    zeros = over_time(machine.safety, 0.6, 10.6)
+    assert len(zeros) > 190 and {velocity for _, velocity in zeros} == {(0,) * 6}
+    machine.joy((0.0, 0.0), (0, 1, 1), 10.8)  # both buttons: no reset
+    assert machine.joy(*HELD, 10.9) is None
+    machine.joy((0.0, 1.0), (1, 0, 1), 11.0)
+    over_time(machine.safety, 11.0, 11.05)
+    assert over_time(machine.safety, 11.05, 20.0) == []
+    assert machine.joy(*HELD, 20.0) is None  # reset, but not released
+    machine.joy(*RELEASED, 20.2)
+    assert machine.joy(*HELD, 20.3)[0] == 1.0
+    assert sum("stop button" in line for line in warnings) == 1
 
 
 def test_a_stop_that_was_pressed_during_a_suspension_counts():
