@@ -26,8 +26,7 @@ METRES_PER_S, RADIANS_PER_S = 0.35, 1.2  # at full deflection: config/f710_d.yam
 NEAR_M, NEAR_RAD = 0.25, 0.3  # on a busy machine each move may be some hundredths of a second off
 SCRIPT_S = 60.0  # more than it takes
 
-# A package named joy, as in ROS Noetic. Its node pushes the stick with LB held, after a neutral
-# message.
+# A package in place of joy. Its node pushes the stick with LB held, after a neutral message.
 PACKAGE = """<package format="2"><name>other_joy</name><version>1.0.0</version>
 <description>A stand-in.</description><maintainer email="a@b.cd">a</maintainer>
 <license>BSD</license></package>"""
@@ -56,11 +55,11 @@ class LaunchTest(unittest.TestCase):
         self.folder = Path(folder.name)
         self.device = str(self.folder / "js0")
         self.states, self.odometry = [], []
-        self.subscribe("/diagnostics", DiagnosticArray, self.keep_state)
-        self.subscribe("odom", Odometry, self.odometry.append)
-
-    def subscribe(self, topic, message_type, callback):
-        self.addCleanup(rospy.Subscriber(topic, message_type, callback).unregister)
+        for subscriber in (
+            rospy.Subscriber("/diagnostics", DiagnosticArray, self.keep_state),
+            rospy.Subscriber("odom", Odometry, self.odometry.append),
+        ):
+            self.addCleanup(subscriber.unregister)
 
     def keep_state(self, message):
         self.states += [s.message for s in message.status if s.name.startswith("myjoystick2twist")]

@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 """virtual_joystick through a FIFO: a script of moves and a recording arrive on /joy."""
 
-import os
 import sys
 import tempfile
 import unittest
+from pathlib import Path
 
 import rosbag
 import rospkg
@@ -25,32 +25,29 @@ moves:
   - {for: 0.5, held: [RB]}
 """
 FULL = 32767
+JOYSTICK = (node_path("gamepad", "virtual_joystick"),)
 
 
 class MovesTest(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
-        self.folder = folder.name
-        self.device = os.path.join(folder.name, "js0")
+        self.folder = Path(folder.name)
+        self.device = str(self.folder / "js0")
         self.log = JoyLog()
         self.addCleanup(self.log.stop)
 
     def start(self, *arguments, deadzone=0.05):
         """virtual_joystick, and a driver that reads its FIFO."""
-        program = Program(
-            node_path("gamepad", "virtual_joystick"), "--stream", self.device, *arguments
-        )
+        program = Program(*JOYSTICK, "--stream", self.device, *arguments)
         self.addCleanup(program.__exit__)
-        reader = driver(self.device, f"deadzone:={deadzone}")
-        self.addCleanup(reader.__exit__)
+        self.addCleanup(driver(self.device, f"deadzone:={deadzone}").__exit__)
         return program
 
     def write(self, text):
-        path = os.path.join(self.folder, "moves.yaml")
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(text)
-        return path
+        path = self.folder / "moves.yaml"
+        path.write_text(text, encoding="utf-8")
+        return str(path)
 
     def test_a_script_is_followed(self):
         program = self.start("--script", self.write(SCRIPT))
@@ -62,39 +59,36 @@ class MovesTest(unittest.TestCase):
             state = (axes[1], axes[5], [n for n, held in enumerate(joy.buttons) if held])
             if state not in states[-1:]:
                 states.append(state)
-        self.assertIn((1.0, -1.0, [4]), states)  # stick up, RT pulled, LB held
-        after = states[states.index((1.0, -1.0, [4])) + 1 :]
-        self.assertEqual(after[0], (0.0, 1.0, []))  # unplugged: RT at rest
-        self.assertIn([5], [held for _, _, held in after])
-        self.assertEqual(after[-1][2], [])
+        pushed = states.index((1.0, -1.0, [4]))  # stick up, RT pulled, LB held
+        self.assertEqual(states[pushed + 1], (0.0, 1.0, []))  # unplugged: RT at rest
+        self.assertIn([5], [held for _, _, held in states[pushed + 1 :]])
 
     def test_the_recording_arrives_in_the_steps_of_the_gamepad(self):
-        path = os.path.join(rospkg.RosPack().get_path("joy2twist"), "bag", "joy.bag")
+        path = f"{rospkg.RosPack().get_path('gamepad')}/bag/joy.bag"
         axis = F710_D.axes[1]
         with rosbag.Bag(path) as bag:
-            recorded = [joy.axes[1] for _, joy, _ in bag.read_messages()]
-        steps = {round(-axis.js_value(axis.raw(position))) for position in recorded}
+            steps = {-axis.js_value(axis.raw(joy.axes[1])) for _, joy, _ in bag.read_messages()}
         self.start("--bag", path, deadzone=0.0)
         wait_for(lambda: len({joy.axes[1] for joy in self.log.messages}) > 30, "moving stick")
         seen = {round(joy.axes[1] * FULL) for joy in self.log.messages}
         self.assertLessEqual(seen, steps)
         self.assertTrue(any(joy.buttons[4] for joy in self.log.messages))
 
-    def refuse(self, line, *arguments):
-        with Program(node_path("gamepad", "virtual_joystick"), *arguments) as program:
-            self.assertEqual(program.wait(), 1)
-            self.assertIn(line, program.output)
-            self.assertEqual(program.output.count("\n"), 1, program.output)
-
     def test_mistakes_get_one_line(self):
-        stream = ("--stream", self.device)
-        missing = os.path.join(self.folder, "none")
-        self.refuse(f"cannot read {missing}: No such file", *stream, "--script", missing)
-        self.refuse(f"cannot read {missing}: No such file", *stream, "--bag", missing)
-        self.refuse("it has no list of moves", *stream, "--script", self.write("7"))
-        self.refuse("moves.yaml: while ", *stream, "--script", self.write("moves: ]\n\t@"))
-        self.refuse("moves.yaml: ", *stream, "--bag", self.write("no bag"))
-        self.refuse("is there and is no FIFO", "--stream", self.write(""))
+        stream, missing = ("--stream", self.device), str(self.folder / "none")
+        for line, option, content in (
+            (f"cannot read {missing}: No such file", "--script", None),
+            (f"cannot read {missing}: No such file", "--bag", None),
+            ("moves.yaml: it has no list of moves", "--script", "7"),
+            ("moves.yaml: while ", "--script", "moves: ]\n\t@"),
+            ("moves.yaml: ", "--bag", "no bag"),
+            ("is there and is no FIFO", "--stream", ""),
+        ):
+            path = missing if content is None else self.write(content)
+            with Program(*JOYSTICK, *stream, option, path) as program:
+                self.assertEqual(program.wait(), 1)
+                self.assertIn(line, program.output)
+                self.assertEqual(program.output.count("\n"), 1, program.output)
 
 
 if __name__ == "__main__":
