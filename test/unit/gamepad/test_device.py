@@ -1,18 +1,14 @@
 """Choosing, opening and losing devices: files and FIFOs here, the kernel's in test/system."""
 
 import errno
-import threading
-import time
 
 import pytest
 
 from gamepad.driver.device import Finder
 from gamepad.driver.device_choice import DeviceError, choose_by_name, explain
-from gamepad.driver.wake import Wake
 
 JS0 = "/dev/input/js0"
 NAMES = {JS0: "Pad F710", "/dev/input/js1": "Pad F310", "/dev/input/js2": "Pad"}
-DEADLINE_S = 10.0
 
 
 @pytest.mark.parametrize(
@@ -72,12 +68,3 @@ def test_a_plain_file_is_read_once_until_it_changes(tmp_path):
         device.close()
         with pytest.raises(DeviceError, match="read to its end"):
             finder.open()
-
-
-def test_a_call_from_another_thread_ends_the_wait():
-    wake = Wake()
-    threading.Thread(target=wake.wake).start()
-    began = time.monotonic()
-    assert not wake.wait(began + DEADLINE_S)
-    assert time.monotonic() < began + DEADLINE_S
-    wake.wait(0.0)  # nothing is left over, and a time that is past does not wait

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import select
 import threading
 from time import monotonic
 from typing import Any, Iterable
@@ -17,7 +18,6 @@ from gamepad.driver.driver import Driver
 from gamepad.driver.parameters import DriverParameters, load
 from gamepad.driver.report import DriverReport
 from gamepad.driver.state import Message
-from gamepad.driver.wake import Wake
 from gamepad.gamepads import mode_hint
 from gamepad.trembling import Trembling
 from node_kit.log import Log
@@ -28,7 +28,7 @@ NODE_NAME = "joy_node"
 QUEUE_SIZE = 100  # a press and its release must both arrive
 # How long the end may wait for the last message, and then for its delivery [s].
 LONGEST_END_S, DELIVERY_TIME_S = 0.3, 0.1
-LOOK_S = 0.1  # how often a missing gamepad is looked for
+LOOK_S = 0.1  # how often a missing gamepad is looked for, and whether the node is to end
 
 
 class JoyNode:
@@ -42,7 +42,6 @@ class JoyNode:
     def __init__(self, parameters: DriverParameters) -> None:
         """Register topics; the node is initialised."""
         self.log = Log()
-        self.wake = Wake()
         self.suspensions = Suspensions()
         self.suspended = 0  # how often that was taken into account
         self.is_ending = threading.Event()
@@ -74,7 +73,6 @@ class JoyNode:
     def end(self) -> None:
         """Release all sticks for those who listen, and publish nothing any more."""
         self.is_ending.set()
-        self.wake.wake()
         if self.has_ended.wait(LONGEST_END_S):
             threading.Event().wait(DELIVERY_TIME_S)
 
@@ -90,7 +88,7 @@ class JoyNode:
                         reported = str(error)
                         self.log.warn(reported)
             self.report_if_due()
-            self.wake.wait(monotonic() + LOOK_S)
+            self.is_ending.wait(LOOK_S)
         return None
 
     def follow(self, device: Device) -> None:
@@ -118,8 +116,10 @@ class JoyNode:
             self.log.warn(f"{self.driver.unknown_events} events of unknown types came.")
 
     def take_in(self, device: Device, until: float) -> None:
-        """Wait for events until a time [s] at the latest; publish what is due. DeviceError."""
-        readable = self.wake.wait(until, device)
+        """Wait for events until a time [s], or for a moment; publish what is due. DeviceError."""
+        # Not poll(), which counts in whole milliseconds.
+        timeout = max(0.0, min(until - monotonic(), LOOK_S))
+        readable, _, _ = select.select([device], (), (), timeout)
         if self.suspensions.number() != self.suspended:
             self.suspended = self.suspensions.number()
             raise DeviceError("This node was suspended, and knows no more where the sticks are.")
