@@ -1,7 +1,6 @@
 #!/usr/bin/python3
 """joy2twist as a program: how it starts, what it shows and how it ends."""
 
-import re
 import sys
 import time
 import unittest
@@ -16,7 +15,6 @@ from tutorial_testing.processes import Program
 from tutorial_testing.waiting import BUSY_S, wait_for
 
 LONGEST_EXIT_S = 1.5 + BUSY_S
-LINE = r"\[INFO\] \[[\d.]+\]: /NewJoy2Twist: Get from Joy \[0\.00, 0\.50, -0\.25\]\n"
 NOWHERE = "http://localhost:9"  # the port named "discard": no master lives there
 
 
@@ -87,41 +85,21 @@ class RunningTest(unittest.TestCase):
         lines = [f": /NewJoy2Twist: Get from Joy [{axes}]\n" for axes in values]
         wait_for(lambda: all(node.output.count(line) == 1 for line in lines), "100 lines")
 
-    def test_no_more_lines_than_log_rate_are_displayed(self):
-        node = self.start("_log_rate:=10")
-        begin = time.monotonic()
-        for _ in range(500):
-            self.forward()
-            time.sleep(1 / 250)
-        took_s = time.monotonic() - begin
-        node.interrupt()
-        node.wait()
-        lines = len(re.findall(LINE, node.output))
-        self.assertGreaterEqual(lines, 10 * (took_s - 1))
-        self.assertLessEqual(lines, 10 * (took_s + 5))
-
 
 class StartTest(unittest.TestCase):
-    def check_line(self, node, *words):
-        self.assertEqual(node.wait(), 1)
-        (line,) = node.output.splitlines()
-        for word in words:
-            self.assertIn(word, line)
-
-    def test_a_wrong_parameter_on_the_server_is_one_line(self):
+    def test_a_mistake_and_a_missing_master_get_one_line(self):
         rospy.set_param("/wrong/joy_timeout", -1)
-        with joy2twist("__name:=wrong") as node:
-            self.check_line(node, "~joy_timeout", "-1", "0 to 60 s", "/wrong")
-
-    def test_a_parameter_that_is_no_yaml_is_one_line(self):
-        with joy2twist("_axis_linear:=[") as node:
-            self.check_line(node, "command-line")
-
-    def test_no_master_is_one_line(self):
-        with joy2twist(ROS_MASTER_URI=NOWHERE) as node:
-            self.check_line(node, NOWHERE, "roscore")
-        with joy2twist(ROS_MASTER_URI="nonsense") as node:
-            self.check_line(node, "'nonsense'", "http://localhost:11311")
+        for node, words in (
+            (joy2twist("__name:=wrong"), ("~joy_timeout", "-1", "0 to 60 s", "/wrong")),
+            (joy2twist("_axis_linear:=["), ("command-line",)),
+            (joy2twist(ROS_MASTER_URI=NOWHERE), (NOWHERE, "roscore")),
+            (joy2twist(ROS_MASTER_URI="nonsense"), ("'nonsense'", "http://localhost:11311")),
+        ):
+            with node:
+                self.assertEqual(node.wait(), 1)
+                (line,) = node.output.splitlines()
+                for word in words:
+                    self.assertIn(word, line)
 
     def test_the_mapping_is_said_in_words(self):
         with joy2twist("_scale_linear:=0.7", "_enable_button:=4", "__name:=words") as node:

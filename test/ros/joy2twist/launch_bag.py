@@ -1,10 +1,11 @@
 #!/usr/bin/python3
-"""What runs on the topics while launch_bag.launch does."""
+"""launch_bag.launch: one velocity for every joystick message, and after Ctrl-C a standing robot."""
 
+import os
 import sys
 import unittest
 
-import rosnode
+import rospkg
 import rospy
 import rostest
 from geometry_msgs.msg import Twist
@@ -13,70 +14,81 @@ from sensor_msgs.msg import JointState, Joy
 from tf2_msgs.msg import TFMessage
 
 from tutorial_testing.nodes import init_node
+from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
+from tutorial_tools.demo.program import NODES, RVIZ_NODE
 
 RATE_HZ = 50  # of joy.bag and of the simulation
 SAMPLE_S = 6.0  # how much is looked at; the tour begins with a second of rest
 
 
-class Recorder:
-    """Keeps the messages of a topic."""
-
-    def __init__(self, topic, message_type):
-        self.messages = []
-        self.subscriber = rospy.Subscriber(topic, message_type, self.messages.append)
-
-
 class LaunchBagTest(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.cmd_vel = Recorder("/cmd_vel", Twist)
-        cls.odom = Recorder("/odom", Odometry)
-        cls.tf = Recorder("/tf", TFMessage)
-        cls.joints = Recorder("/joint_states", JointState)
-        wait_for(lambda: cls.odom.messages and cls.cmd_vel.messages, "first messages")
-        cls.joy = Recorder("/joy", Joy)  # last: every joy below has its cmd_vel above
-        wait_for(
-            lambda: any(abs(odom.twist.twist.linear.x) > 0.1 for odom in cls.odom.messages),
-            "moving robot",
-        )
-        wait_for(lambda: len(cls.joy.messages) > SAMPLE_S * RATE_HZ, "joystick messages")
-        cls.joy.subscriber.unregister()
-        # What is still under way: the newest joystick message must have its answer.
-        last = cls.joy.messages[-1]
-        wait_for(
-            lambda: any(t.linear.x == last.axes[1] for t in cls.cmd_vel.messages[-RATE_HZ:]),
-            "velocity for the last joystick message",
-        )
-        for recorder in (cls.cmd_vel, cls.odom, cls.tf, cls.joints):
-            recorder.subscriber.unregister()
+    def record(self, topic, message_type):
+        """Return a list of the messages of a topic, which grows."""
+        messages = []
+        subscriber = rospy.Subscriber(topic, message_type, messages.append)
+        self.addCleanup(subscriber.unregister)
+        return messages
 
-    def test_the_nodes_have_the_names_of_the_handout(self):
-        for node in ("/fake_turtlebot", "/myjoystick2twist", "/rosbag", "/robot_state_publisher"):
-            self.assertIn(node, rosnode.get_node_names())
-        self.assertNotIn("/my_rviz", rosnode.get_node_names())  # rviz:=false
+    def test_it_drives_until_ctrl_c(self):
+        cmd_vel, odom = self.record("/cmd_vel", Twist), self.record("/odom", Odometry)
+        tf, joints = self.record("/tf", TFMessage), self.record("/joint_states", JointState)
+        folder = os.path.join(rospkg.RosPack().get_path("joy2twist"), "launch")
+        command = f"cd '{folder}' && exec roslaunch launch_bag.launch rviz:=false"
+        with Program("sh", "-c", command) as launch:
+            wait_for(lambda: odom and cmd_vel, "first messages")
+            joy = self.record("/joy", Joy)  # last: every joy below has its cmd_vel above
+            wait_for(lambda: any(m.twist.twist.linear.x > 0.1 for m in odom), "moving robot")
+            wait_for(lambda: len(joy) > SAMPLE_S * RATE_HZ, "joystick messages")
+            sample = joy[:]
+            self.check_velocities(sample, cmd_vel)
+            self.check_model(joints, tf)
+            wait_for(lambda: cmd_vel[-1].linear.x > 0.1, "driving robot")
+            launch.interrupt()
+            self.assertEqual(launch.wait(), 0)
+            wait_for(lambda: not launch.left_behind(), "end of every process")
+            wait_for(lambda: cmd_vel[-1] == Twist(), "zero as the last velocity")
+            self.assertNotIn("Traceback", launch.output)
+            # Where a node has not ended after 15 s, roslaunch says so, and kills it.
+            self.assertNotIn("escalating", launch.output)
 
-    def test_one_velocity_for_every_joystick_message_with_its_values(self):
-        expected = [(joy.axes[1], joy.axes[0]) for joy in self.joy.messages]
-        sent = [(twist.linear.x, twist.angular.z) for twist in self.cmd_vel.messages]
+    def check_velocities(self, joy, cmd_vel):
+        """Find the messages in the velocities, one for one and with their values."""
+        expected = [(message.axes[1], message.axes[0]) for message in joy]
         self.assertGreater(len(set(expected)), RATE_HZ)
-        starts = [
-            start
-            for start in range(len(sent) - len(expected) + 1)
-            if sent[start : start + len(expected)] == expected
-        ]
-        self.assertTrue(starts, "the velocities are not those of the joystick, one for one")
-        for twist in self.cmd_vel.messages:
+
+        def found():
+            sent = [(twist.linear.x, twist.angular.z) for twist in cmd_vel]
+            starts = range(len(sent) - len(expected) + 1)
+            return any(sent[start : start + len(expected)] == expected for start in starts)
+
+        wait_for(found, "velocities of the joystick, one for one")
+        for twist in cmd_vel:
             others = (twist.linear.y, twist.linear.z, twist.angular.x, twist.angular.y)
             self.assertEqual(others, (0, 0, 0, 0))
 
-    def test_the_wheels_turn_and_the_model_is_published(self):
-        first, last = self.joints.messages[0], self.joints.messages[-1]
-        self.assertEqual(set(last.name), {"wheel_left_joint", "wheel_right_joint"})
-        for before, after in zip(first.position, last.position):
+    def check_model(self, joints, tf):
+        self.assertEqual(set(joints[-1].name), {"wheel_left_joint", "wheel_right_joint"})
+        for before, after in zip(joints[0].position, joints[-1].position):
             self.assertGreater(after - before, 1.0)  # [rad]: some 0.04 m of way and more
-        children = {t.child_frame_id for message in self.tf.messages for t in message.transforms}
+        children = {t.child_frame_id for message in tf for t in message.transforms}
         self.assertLessEqual({"wheel_left_link", "wheel_right_link"}, children)
+
+    def nodes(self, *arguments, **environment):
+        """The names of the nodes that launch_bag.launch would start."""
+        command = ("roslaunch", "--nodes", "joy2twist", "launch_bag.launch", *arguments)
+        with Program(*command, **environment) as listing:
+            self.assertEqual(listing.wait(), 0, listing.output)
+            return listing.output.split()
+
+    def test_rviz_opens_where_there_is_a_screen_or_where_it_is_asked_for(self):
+        for display, asked, opens in (
+            (":99", (), True), ("", (), False), ("", ["rviz:=true"], True),
+            (":99", ["rviz:=false"], False),
+        ):  # fmt: skip
+            nodes = self.nodes("cockpit:=false", *asked, DISPLAY=display)
+            # The demonstration knows them, too.
+            self.assertEqual(sorted(nodes), sorted([*NODES, *[RVIZ_NODE] * opens]))
 
 
 if __name__ == "__main__":

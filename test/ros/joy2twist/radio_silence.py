@@ -1,11 +1,10 @@
 #!/usr/bin/python3
-"""launch_joy_node.launch with a gamepad that falls silent, trembles, or is a recording."""
+"""launch_joy_node.launch with a gamepad that falls silent; what trembles is for unit tests."""
 
 import sys
 import time
 import unittest
 
-import rospkg
 import rospy
 import rostest
 from nav_msgs.msg import Odometry
@@ -17,15 +16,7 @@ from tutorial_testing.waiting import wait_for
 
 VIGILANCE_S = 3.0  # of the launch file
 LIMIT_S = VIGILANCE_S + 0.6 + 0.02  # the base's own timeout, and one period of its odometry
-TREMBLING_S, STEP_S = 8.0, 0.1
 FULL, LB, FORWARD = 32767, 4, 1
-BAG = rospkg.RosPack().get_path("joy2twist") + "/bag/joy.bag"
-SPIN = ("-s", "31", "-u", "12")  # [s] of joy.bag: a release, then a turn on the spot, held for 6 s
-
-
-def hand(held, forward):
-    """The events of a hand on the gamepad."""
-    return (BUTTON, LB, int(held)), (AXIS, FORWARD, -forward)
 
 
 class RadioSilenceTest(unittest.TestCase):
@@ -49,7 +40,7 @@ class RadioSilenceTest(unittest.TestCase):
     def show(self, held, forward):
         """Move the hand, and wait until joy_node has published it; when it was moved [s]."""
         seen, now = len(self.log.messages), time.time()
-        self.stream.send(*hand(held, forward))
+        self.stream.send((BUTTON, LB, int(held)), (AXIS, FORWARD, -forward))
         wait_for(lambda: len(self.log.messages) > seen + 1, "messages of joy_node")
         return now
 
@@ -87,28 +78,6 @@ class RadioSilenceTest(unittest.TestCase):
         wait_for(lambda: len(self.odometry) > stood + 50, "odometry")
         self.assertFalse(any(m.twist.twist.linear.x for m in self.odometry[stood:]))
         self.drive()
-
-    def test_a_stick_that_trembles_by_one_step_is_not_stopped(self):
-        self.stream.plug_in()
-        self.drive()
-        begin = len(self.odometry)
-        end = time.monotonic() + TREMBLING_S
-        while time.monotonic() < end:
-            self.stream.send((AXIS, FORWARD, -FULL + round(time.monotonic() / STEP_S) % 2))
-            time.sleep(STEP_S)
-        speeds = [m.twist.twist.linear.x for m in self.odometry[begin:]]
-        self.assertGreater(len(speeds), TREMBLING_S * 25)
-        self.assertGreater(min(speeds), 0.34)
-
-    def test_rosbag_play_of_our_recording_is_not_stopped(self):
-        with Program("rosbag", "play", "--wait-for-subscribers", *SPIN, BAG) as player:
-            self.assertEqual(player.wait(), 0)
-        turning = [m for m in self.odometry if m.twist.twist.angular.z > 0]
-        stamps = [m.header.stamp.to_sec() for m in turning]
-        longest_s = max(after - before for before, after in zip(stamps, stamps[1:]))
-        self.assertGreater(stamps[-1] - stamps[0], 8.0)
-        self.assertLess(longest_s, 0.5)  # it turned without a break
-        self.assertNotIn("does not change", self.launch.output)
 
 
 if __name__ == "__main__":

@@ -103,24 +103,23 @@ class WorkstationTest(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         return folder.name
 
-    def view(self, *arguments):
-        """How RViz is called when it is a program that writes down its arguments."""
+    def test_the_view_of_the_suite_opens_or_the_one_that_the_user_names(self):
         folder = self.folder()
-        rviz, given = Path(folder, "rviz"), Path(folder, "given")
+        rviz, given = Path(folder, "rviz"), Path(folder, "given")  # writes down its arguments
         rviz.write_text(f'#!/bin/sh\necho "$@" > {given}.new; mv {given}.new {given}; sleep 600\n')
         rviz.chmod(0o755)
-        launch = self.start("rviz:=true", *arguments, PATH=f"{folder}:{os.environ['PATH']}")
-        wait_for(lambda: given.exists() or launch.ended, "view")
-        self.assertFalse(launch.ended, launch.output)
-        return given.read_text().split()
-
-    def test_the_view_of_the_suite_opens_where_there_is_no_other(self):
-        words = self.view()
-        self.assertTrue(words[1].endswith("fake_turtlebot_sim/rviz/sim.rviz"), words)
-        self.assertIn("__name:=my_rviz", words)
-
-    def test_the_view_that_the_user_names_opens(self):
-        self.assertEqual(self.view("rviz_config:=/my.rviz")[:2], ["-d", "/my.rviz"])
+        for arguments, file in (
+            ([], f"{rospkg.RosPack().get_path('fake_turtlebot_sim')}/rviz/sim.rviz"),
+            (["rviz_config:=/my.rviz"], "/my.rviz"),
+        ):
+            path = f"{folder}:{os.environ['PATH']}"
+            launch = self.start("rviz:=true", "cockpit:=false", *arguments, PATH=path)
+            wait_for(lambda: given.exists() or launch.ended, "view")  # noqa: B023
+            words = given.read_text().split()
+            self.assertEqual(words[:2], ["-d", file])
+            self.assertIn("__name:=my_rviz", words)
+            self.end(launch)
+            given.unlink()
 
     def test_the_view_of_the_turtlebot_opens_where_it_is_installed(self):
         folder = self.folder()
