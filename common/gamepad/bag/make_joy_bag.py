@@ -2,7 +2,7 @@
 
     ./tutorial run python3 common/gamepad/bag/make_joy_bag.py [FILE]
 
-FILE is joy.bag beside this script unless told.
+The default FILE is joy.bag beside this script.
 
 The tour: a figure of eight, a turn on the spot, a way back and forth. It ends where it began, so
 that `rosbag play --loop` traces it again and again. Driven at scale 1, as the handout's node does,

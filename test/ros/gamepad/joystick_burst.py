@@ -32,8 +32,8 @@ def send(count, *paths):
 
 
 def follow(interval_s, path):
-    """Tell the newest value an interval after the first that was not told."""
-    told, newest, due = [], None, None
+    """Print the newest value an interval after the first that is not printed yet."""
+    printed, newest, due = [], None, None
     with open(path, "rb", buffering=0) as fifo:
         while True:
             timeout = None if due is None else max(0.0, due - time.monotonic())
@@ -44,9 +44,9 @@ def follow(interval_s, path):
                 newest = list(struct.iter_unpack("=IhBB", data))[-1][1]
                 due = due or time.monotonic() + float(interval_s)
             if due and time.monotonic() >= due:
-                told += [time.time(), newest]
+                printed += [time.time(), newest]
                 due = None
-    print(*told)
+    print(*printed)
 
 
 if __name__ == "__main__":

@@ -78,7 +78,7 @@ class DriverTest(unittest.TestCase):
         back = time.time()
         self.stream.plug_in(axes=8)
         self.assertLess(time.time() - back, 1.0 + BUSY_S)
-        # Silent until somebody touches it: what is told at opening may be made up.
+        # Silent until it is touched: the state at opening may be made up.
         self.stream.send((AXIS, 1, -FULL), (BUTTON, 4, 1))
         wait_for(lambda: len(self.log.messages) > count, "message")
         first = self.log.messages[count]

@@ -63,9 +63,9 @@ class LoadTest(unittest.TestCase):
                 self.assertEqual(sender.wait(), 0, sender.output)
                 sent = [float(time_s) for time_s in sender.output.split()]
             self.assertEqual(reference.wait(), 0, reference.output)
-            told = [float(word) for word in reference.output.split()]
+            printed = [float(word) for word in reference.output.split()]
         wait_for(lambda: step_of(self.log.messages[-1]) == BURST_EVENTS, "newest state")
-        possible = delays(zip(told[::2], told[1::2]), sent)
+        possible = delays(zip(printed[::2], printed[1::2]), sent)
         ours = delays([(m.header.stamp.to_sec(), step_of(m)) for m in self.log.messages], sent)
         for name, found in (("joy_node", ours), ("a bare loop beside it", possible)):
             median_ms = 1e3 * statistics.median(found)
@@ -82,15 +82,15 @@ def step_of(joy):
 
 
 def delays(states, sent):
-    """How long the oldest event that a state is the first to tell had to wait [s], for each.
+    """How long the oldest event that a state is the first to show has waited [s], for each.
 
     states: pairs of a time [s] and a number of events. sent: the time [s] of each event.
     """
-    found, told = [], 0
+    found, shown = [], 0
     for time_s, step in states:
-        if step > told:
-            found.append(time_s - sent[told])
-            told = int(step)
+        if step > shown:
+            found.append(time_s - sent[shown])
+            shown = int(step)
     return found
 
 

@@ -1,4 +1,4 @@
-"""Whether this runs in a container: an engine's mark, and namespaces of its own."""
+"""A container has an engine's mark and other namespaces than the machine."""
 
 import pytest
 

@@ -48,7 +48,7 @@ class Simulated:
     def __init__(self, **parameters):
         self.driver = driver(deadzone=0.0, **parameters)
         self.now, self.sent = 0, 0
-        self.untold = []  # when the changes were read that no message has told yet
+        self.untold = []  # when the changes were read that no message has shown yet
         self.ages = []  # of the oldest untold change, for each message
 
     def change(self, after, pressed=False):

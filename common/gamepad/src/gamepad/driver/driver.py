@@ -14,8 +14,8 @@ from gamepad.js_event import INIT, SIGN_OF_LIFE_MS, Decoder
 # joy2twist's ~joy_timeout) must have noticed, however quick the hand that plugs it in again.
 SHORTEST_SILENCE_S = 0.6
 # A source that has once given a sign of life and gives none for this time [s] is lost: three signs
-# of our virtual gamepad, and less than joy2twist's ~joy_timeout. So is one that makes noise and
-# gives none: somebody lost a byte of it, and whatever comes after it would be noise for ever.
+# of our virtual gamepad, and less than joy2twist's ~joy_timeout. So is one that sends noise and no
+# sign: a byte of it was lost, and everything after that would be noise.
 LONGEST_LIFELESS_S = 0.45
 
 

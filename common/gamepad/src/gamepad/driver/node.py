@@ -71,7 +71,7 @@ class JoyNode:
             self.has_ended.set()
 
     def end(self) -> None:
-        """Release all sticks for those who listen, and publish nothing any more."""
+        """Publish released sticks, and nothing after that."""
         self.is_ending.set()
         if self.has_ended.wait(LONGEST_END_S):
             threading.Event().wait(DELIVERY_TIME_S)

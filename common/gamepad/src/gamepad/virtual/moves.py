@@ -2,7 +2,7 @@
 
     mode: D                 # the switch of the F710: D or X
     moves:
-      - {for: 1.0}                                              # nobody touches it, for 1 s
+      - {for: 1.0}                                              # untouched for 1 s
       - {for: 2.0, held: [LB], left_stick: [0.0, 0.5]}          # half speed ahead
       - {for: 1.0, plugged: false}
 

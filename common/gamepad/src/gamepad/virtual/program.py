@@ -126,7 +126,7 @@ def run(options: argparse.Namespace) -> None:
                 follow_keys(pad, source, terminal)
             return
         if isinstance(source, KeySource):
-            print(f"{NAME}: no terminal to read keys from; nobody moves the gamepad", flush=True)
+            print(f"{NAME}: no terminal to read keys from; the gamepad stays untouched", flush=True)
         pad.show(positions(gamepad, Controls()))
         while not pad.connected:  # a script must not begin before a program reads
             wait(pad, None, math.inf)
