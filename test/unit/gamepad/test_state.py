@@ -45,6 +45,13 @@ def test_left_and_up_are_positive_and_the_deadzone_is_rescaled(value, deadzone, 
     assert axes == (pytest.approx(axis, abs=1e-12),)
 
 
+def test_sticky_buttons_are_switched_by_each_press():
+    ours = driver(sticky_buttons=True)
+    pressed = ((1, 1), (1, 0), (1, 1), (1, 0), (1, 1), (0, 1))
+    shown = [ours.read(events((BUTTON, *press)), 0.1)[0][1] for press in pressed]
+    assert shown == [(0, 1), (0, 1), (0, 0), (0, 0), (0, 1), (1, 1)]
+
+
 def upstream(sequence, deadzone, default_trig_val, sticky):
     """The messages of ROS Noetic's joy_node, if it publishes after each event, written plainly."""
     axes, buttons, before, switched = {}, {}, {}, {}

@@ -97,8 +97,6 @@ class Keyboard:
         repeated = key in self._held
         if key in DIRECTIONS:  # the other way, or the same way by another key: only the new one
             axis = DIRECTIONS[key].index(0)
-            for other in [k for k in self._held if k in DIRECTIONS]:
-                if DIRECTIONS[other].index(0) == axis:
-                    self._held.remove(other)
+            self._held -= {other for other, way in DIRECTIONS.items() if way.index(0) == axis}
         self._held.add(key)
         self._released_at = now + (REPEAT_HOLD_S if repeated else FIRST_HOLD_S)
