@@ -35,7 +35,7 @@ def test_an_event_of_another_type_changes_nothing_and_is_counted(kind):
         (-16384, 0.0, 16384 / 32767),
         (-16384, 0.05, (16384 / 32767 - 0.05) / 0.95),
         (29490, 1.0, 0.0),  # capped at 0.9
-        (32767, 1.0, -1.0),
+        (-29818, 1.0, (29818 / 32767 - 0.9) / 0.1),
     ],
 )
 def test_left_and_up_are_positive_and_the_deadzone_is_rescaled(value, deadzone, axis):
