@@ -20,6 +20,9 @@ def test_without_parameters_it_is_the_node_of_the_tutorial():
         # A number stands for x and yaw.
         ({"axis_linear": 4, "scale_linear": 0.7, "axis_angular": 3, "scale_angular": 0.4},
          [Axis(LINEAR_X, 4, 0.7, 1.0), Axis(YAW, 3, 0.4, 0.4)]),
+        # With a map and no turbo scale, turbo changes nothing.
+        ({"axis_linear": {"x": 1}, "scale_linear": {"x": 0.7}, "axis_angular": -1},
+         [Axis(LINEAR_X, 1, 0.7, 0.7)]),
         ({"axis_linear": {"x": 1, "y": 2, "z": -1}, "scale_linear": {"x": 0.7, "y": 0.5, "z": 9},
           "scale_linear_turbo": {"x": 1.5}, "axis_angular": {"roll": 4, "pitch": 5, "yaw": 0},
           "scale_angular": {"roll": 3, "pitch": 2.0, "yaw": 1.0}},
