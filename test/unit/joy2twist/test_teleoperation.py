@@ -107,11 +107,11 @@ def test_the_stop_button_stops_until_it_is_reset_and_all_is_released(arms):
     assert machine.joy(*HELD, 0.1)[0] == 1.0
     assert machine.joy((NAN,), (1, 1), 0.2) == (0,) * 6  # in whatever message
     assert machine.joy((0.0, 0.0), (0, 1, 0), 0.25) is None
-    assert machine.safety.state.startswith("stopped: the stop button")
-    assert "press button 2" in machine.safety.state and "stop button" in warnings[0]
     assert machine.joy(*HELD, 0.3) is None
     assert machine.left(0.35) is None
     assert machine.joy((NAN, 1.0), (1, 0, 1), 0.4) is None  # a bad message resets nothing
+    assert machine.safety.state.startswith("stopped: the stop button")
+    assert "press button 2" in machine.safety.state and "stop button" in warnings[0]
     machine.joy(*RELEASED, 0.5)
     assert machine.joy(*HELD, 0.6) is None
     # Zeros at ~output_rate, so that no other source of a multiplexer drives meanwhile.
