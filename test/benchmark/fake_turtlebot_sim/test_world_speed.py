@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from live import FAKE_TURTLEBOT, HERE, lost_periods, master, observe, topics_of
 
-from fake_turtlebot_sim.simulator.beams import Scanner
+from fake_turtlebot_sim.simulator.laser import Scanner
 from fake_turtlebot_sim.simulator.parameters import Parameters
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot, meet
 from fake_turtlebot_sim.simulator.world import World

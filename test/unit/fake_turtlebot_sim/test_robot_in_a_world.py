@@ -7,18 +7,18 @@ import pytest
 
 from fake_turtlebot_sim.simulator.differential_drive import composed
 from fake_turtlebot_sim.simulator.laser import Laser
-from fake_turtlebot_sim.simulator.occupancy import occupancy
 from fake_turtlebot_sim.simulator.parameters import Parameters, parse_parameters
 from fake_turtlebot_sim.simulator.ros_messages import between_frames
 from fake_turtlebot_sim.simulator.sensors import bumpers
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot, meet
 from fake_turtlebot_sim.simulator.world import World
 from fake_turtlebot_sim.simulator.world_files import read_world, shipped_worlds
+from fake_turtlebot_sim.simulator.world_messages import world_map
 
 R = 0.178
 EXACT = 1e-9
 PERIOD_NS = 20_000_000
-NOBODY = np.empty((0, 3))
+NOBODY = np.empty((0, 5))
 SQUARE = ((-2.0, -2.0), (2.0, -2.0), (2.0, 2.0), (-2.0, 2.0), (-2.0, -2.0))
 EDGE = World(cliffs=(((1.0, -3.0), (3.0, -3.0), (3.0, 3.0), (1.0, 3.0)),))
 
@@ -149,7 +149,7 @@ def test_ranges_begin_at_the_camera_and_end_as_rep_117_has_it():
     assert right == pytest.approx(2.087 / cos(half), abs=EXACT)
     near = laser.measure((1.8, 0.0, 0.0), NOBODY)
     assert near[1] == -inf  # 0.287 m
-    seen = laser.measure((-1.5, 0.0, 0.0), np.array([[0.5, 0.0125, 0.2]]))
+    seen = laser.measure((-1.5, 0.0, 0.0), np.array([[0.5, 0.0125, 0.5, 0.0125, 0.2]]))
     assert seen[1] == pytest.approx(2.087 - 0.2, abs=EXACT)
     empty = Laser(Parameters(scan_beams=3), World())
     assert empty.measure((0.0, 0.0, 0.0), NOBODY) == [inf, inf, inf]
@@ -173,12 +173,13 @@ def test_a_scan_of_a_whole_turn_has_no_beam_twice():
 
 def test_a_map_has_its_walls_posts_and_edges():
     world = World((SQUARE,), ((0.0, 0.0, 0.3),), (((1.0, 1.0), (1.5, 1.0), (1.5, 1.5)),))
-    cells, (x, y), resolution = occupancy(world, 0.1)
+    grid = world_map(world, "map", None, 0.1)
+    info, corner = grid.info, grid.info.origin.position
 
     def at(px, py):
-        return cells[int((py - y) / resolution), int((px - x) / resolution)]
+        return grid.data[int((py - corner.y) / 0.1) * info.width + int((px - corner.x) / 0.1)]
 
-    assert (x, y) == (-2.5, -2.5) and cells.shape == (50, 50)
+    assert (corner.x, corner.y, info.height, info.width) == (-2.5, -2.5, 50, 50)
     assert [at(*one) for one in ((2.0, 0.3), (-1.7, 2.0), (0.2, 0.1), (1.3, 1.0))] == [100] * 4
     assert [at(*one) for one in ((1.8, 0.0), (0.5, 0.0), (-2.3, -2.3))] == [0] * 3
 
@@ -198,7 +199,7 @@ def test_robots_are_lined_up_where_they_can_drive_to():
 def test_each_world_of_the_package_has_room_for_a_class(name):
     world = read_world(shipped_worlds()[name])
     assert len(world.places(10)) == 10
-    assert (world.segments or world.posts) and occupancy(world)[0].any()
+    assert world.obstacles and any(world_map(world, "map", None).data)
 
 
 @pytest.mark.parametrize(

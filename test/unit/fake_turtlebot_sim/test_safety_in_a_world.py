@@ -77,7 +77,7 @@ def test_ten_minutes_of_random_sticks_in_the_room(seed):
         drive.step(stick)
         x, y, yaw = drive.robot.true_pose
         assert isfinite(x + y + yaw)
-        nearest = min(gap(x, y, BASE_RADIUS_M, one) for one in (*ROOM.segments, *ROOM.posts))
+        nearest = min(gap(x, y, BASE_RADIUS_M, one) for one in ROOM.obstacles)
         assert nearest > -EXACT
         way, last = way + hypot(x - last[0], y - last[1]), (x, y)
     assert drive.longest_push * PERIOD_S <= LONGEST_PUSH_S
@@ -116,7 +116,7 @@ def test_ten_minutes_of_the_recording_in_the_room():
             k += 1
         drive.step(commands[k][1])
         x, y, _ = drive.robot.true_pose
-        nearest = min(gap(x, y, BASE_RADIUS_M, one) for one in (*ROOM.segments, *ROOM.posts))
+        nearest = min(gap(x, y, BASE_RADIUS_M, one) for one in ROOM.obstacles)
         assert nearest > -EXACT
     assert drive.longest_push * PERIOD_S <= LONGEST_PUSH_S
 

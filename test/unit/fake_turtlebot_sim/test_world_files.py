@@ -23,7 +23,7 @@ def world_of(tmp_path, text):
 
 def test_a_world_of_ours(tmp_path):
     world = world_of(tmp_path, OURS)
-    assert world.segments == ((0, 0, 4, 0), (4, 0, 4, 3))
+    assert world.segments == ((0, 0, 4, 0, 0), (4, 0, 4, 3, 0))
     assert world.posts == ((1, 1, 0.2),)
     assert world.start == (0.5, 0.5, 1.57)
     assert world.is_cliff(2.9, 2.5) and not world.is_cliff(2.1, 2.9) and not world.is_cliff(1, 1)
@@ -57,7 +57,7 @@ def test_a_map_has_walls_around_its_occupied_cells(tmp_path):
         picture.putpixel(cell, 0)
     picture.save(tmp_path / "map.pgm")
     world = world_of(tmp_path, "image: map.pgm\nresolution: 0.5\norigin: [-1, 2, 0]")
-    assert {frozenset((wall[:2], wall[2:])) for wall in world.segments} == {
+    assert {frozenset((wall[:2], wall[2:4])) for wall in world.segments} == {
         frozenset(ends)
         for ends in (
             ((-0.5, 2.5), (0.5, 2.5)), ((-0.5, 3.0), (0.5, 3.0)),
@@ -68,6 +68,6 @@ def test_a_map_has_walls_around_its_occupied_cells(tmp_path):
 
 def test_what_is_near_is_found_anew_after_a_long_way(tmp_path):
     around = Surroundings(world_of(tmp_path, OURS))
-    assert list(around.near(0.0, 0.9, 0.5)) == [(0, 0, 4, 0), (1, 1, 0.2)]
-    assert (4, 0, 4, 3) in around.near(3.6, 2.0, 0.5)
+    assert list(around.near(0.0, 0.9, 0.5)) == [(0, 0, 4, 0, 0), (1, 1, 1, 1, 0.2)]
+    assert (4, 0, 4, 3, 0) in around.near(3.6, 2.0, 0.5)
     assert len(around.near(3.6, 2.0, 50.0)) == 3

@@ -1,15 +1,16 @@
 """When a round robot on its arc touches something, in closed form (pure).
 
-The robot is a disc; walls are segments, posts and other robots are discs. Everything is in one
-frame, in metres, radians and seconds. The robot drives its arc until it touches; while it pushes it
-turns on the spot, as its wheels can, until its heading leads along the obstacle or away. It never
-slides.
+The robot is a disc. An obstacle is a segment with a radius: a wall has the radius 0, a post or
+another robot the length 0. The robot drives its arc until it touches; while it pushes it turns on
+the spot, as its wheels can, until its heading leads along the obstacle or away. It never slides.
+All is in one frame, in metres, radians and seconds.
 """
 
 from __future__ import annotations
 
-from math import atan2, cos, hypot, inf, pi, sin, sqrt, tau
-from typing import Iterable, Iterator, NamedTuple, Sequence, Tuple, Union
+from cmath import rect
+from math import atan, atan2, cos, hypot, inf, pi, sin, sqrt, tau
+from typing import Iterable, Iterator, NamedTuple, Sequence, Tuple
 
 from fake_turtlebot_sim.simulator.differential_drive import Pose, Velocity, arc, between, drive
 
@@ -18,9 +19,7 @@ TANGENT = 1e-9  # the sine of an angle below which a motion leads along an obsta
 STRAIGHT = 1e-12  # the turn [rad] of a path that bends to nothing
 LEAST_BEND = 1e-30  # [1/m] of a straight path, which so needs no formulas of its own
 
-Segment = Tuple[float, float, float, float]  # x1, y1, x2, y2 [m]
-Disc = Tuple[float, float, float]  # x, y, radius [m]
-Obstacle = Union[Segment, Disc]
+Obstacle = Tuple[float, float, float, float, float]  # x1, y1, x2, y2, radius [m]
 
 
 class Piece(NamedTuple):
@@ -32,27 +31,25 @@ class Piece(NamedTuple):
     is_blocked: bool = False  # something is in the way: the robot only turns
 
 
-def nearest(x: float, y: float, obstacle: Obstacle) -> tuple[float, float, float]:
-    """Return the point of an obstacle's core that is nearest to (x, y), and its radius [m]."""
-    if len(obstacle) == 3:
-        return obstacle
-    x1, y1, x2, y2 = obstacle
+def nearest(x: float, y: float, obstacle: Obstacle) -> tuple[float, float]:
+    """Return the point of an obstacle's segment that is nearest to (x, y) [m]."""
+    x1, y1, x2, y2, _ = obstacle
     dx, dy = x2 - x1, y2 - y1
     length2 = dx * dx + dy * dy
     share = ((x - x1) * dx + (y - y1) * dy) / length2 if length2 else 0.0
     share = min(1.0, max(0.0, share))
-    return x1 + share * dx, y1 + share * dy, 0.0
+    return x1 + share * dx, y1 + share * dy
 
 
 def gap(x: float, y: float, radius: float, obstacle: Obstacle) -> float:
     """Return the distance [m] between a robot and an obstacle; negative inside of it."""
-    px, py, core = nearest(x, y, obstacle)
-    return hypot(px - x, py - y) - radius - core
+    px, py = nearest(x, y, obstacle)
+    return hypot(px - x, py - y) - radius - obstacle[4]
 
 
 def direction_to(pose: Pose, obstacle: Obstacle) -> float:
     """Return the direction [rad] in which an obstacle lies from a pose, in the frame of both."""
-    px, py, _ = nearest(pose[0], pose[1], obstacle)
+    px, py = nearest(pose[0], pose[1], obstacle)
     return atan2(py - pose[1], px - pose[0])
 
 
@@ -75,76 +72,67 @@ def first_contact(
 
 
 class _Motion:
-    """A circle: the place x, y, a unit vector ahead, one to the side of the turn.
+    """A circle, seen from the robot: it leaves 0 towards 1 and bends towards 1j.
 
-    After the way s the turn is a = bend s; the place has moved sin(a) / bend ahead and
-    (1 - cos(a)) / bend to the side. A distance, or its square, then is given where
-    A sin(a) + B (1 - cos(a)) = C: a quadratic in tan(a / 2), which keeps its digits as bend
-    goes to zero.
+    After the way s the turn is a = bend s, and the place (sin(a) + 1j (1 - cos(a))) / bend. A
+    distance, or its square, then is given where A sin(a) + B (1 - cos(a)) = C: a quadratic in
+    tan(a / 2), which keeps its digits as bend goes to zero.
     """
 
     def __init__(self, pose: Pose, velocity: Velocity) -> None:
-        self.x, self.y, yaw = pose
+        x, y, yaw = pose
         v, w = velocity
         self.speed = abs(v)
-        self.bend = max(LEAST_BEND, abs(w) / self.speed)  # [1/m]
-        sense = 1.0 if v > 0 else -1.0
-        side = 1.0 if w > 0 else -1.0
-        self.ahead = ux, uy = sense * cos(yaw), sense * sin(yaw)
-        self.side = -side * uy, side * ux
+        self._bend = max(LEAST_BEND, abs(w) / self.speed)  # [1/m]
+        self._middle = complex(x, y)
+        self._turn = rect(1.0 if v > 0 else -1.0, -yaw)
+        self._is_mirrored = w < 0
+
+    def _seen(self, x: float, y: float) -> complex:
+        seen = (complex(x, y) - self._middle) * self._turn
+        return seen.conjugate() if self._is_mirrored else seen
 
     def way_to(self, obstacle: Obstacle, radius: float, longest: float) -> float | None:
         """Return the way [m] to the first touch within longest [m], or None."""
-        px, py, core = nearest(self.x, self.y, obstacle)
-        dx, dy = px - self.x, py - self.y
-        distance = hypot(dx, dy)
-        free = distance - core - radius
-        if free > longest:
+        reach = radius + obstacle[4]
+        near = self._seen(*nearest(self._middle.real, self._middle.imag, obstacle))
+        distance = abs(near)
+        if distance - reach > longest:
             return None
         least = 0.0
-        if free <= TOUCH_M:
+        if distance - reach <= TOUCH_M:
             if not distance:
                 return None  # both have one middle: every way leads out
-            towards = (dx * self.ahead[0] + dy * self.ahead[1]) / distance
-            bends = self.bend * longest >= STRAIGHT
-            bends_to_it = bends and dx * self.side[0] + dy * self.side[1] > 0.0
+            towards = near.real / distance
+            bends_to_it = self._bend * longest >= STRAIGHT and near.imag > 0.0
             if towards > TANGENT or (towards > -TANGENT and bends_to_it):
                 return 0.0
             if towards > -TANGENT:  # along it and away: not met again before half a circle
-                least = pi / self.bend
-        if len(obstacle) == 3:
-            ways = self._to_disc(px, py, core + radius)
-        else:
-            ways = [*self._to_wall(obstacle, radius, longest)]
-            ways += self._to_disc(*obstacle[:2], radius) + self._to_disc(*obstacle[2:], radius)
+                least = pi / self._bend
+        one, other = self._seen(*obstacle[:2]), self._seen(*obstacle[2:4])
+        ways = self._to_disc(one, reach)
+        if one != other:
+            ways += [*self._to_disc(other, reach), *self._to_wall(one, other - one, reach)]
         return min((way for way in ways if least <= way <= longest), default=None)
 
-    def _to_wall(self, wall: Segment, radius: float, longest: float) -> Iterator[float]:
+    def _to_wall(self, start: complex, wall: complex, reach: float) -> Iterator[float]:
         """Yield the ways [m] to touches of the inside of a wall, from either side."""
-        x1, y1, x2, y2 = wall
-        length = hypot(x2 - x1, y2 - y1)
-        if not length:
-            return
-        tx, ty = (x2 - x1) / length, (y2 - y1) / length
-        for nx, ny in ((-ty, tx), (ty, -tx)):
-            away = (self.x - x1) * nx + (self.y - y1) * ny
-            along = self.ahead[0] * nx + self.ahead[1] * ny
-            aside = self.side[0] * nx + self.side[1] * ny
-            for way in self._ways(along, aside, self.bend * _rounded(radius - away)):
-                if way <= longest:
-                    x, y = self._place(way)
-                    if 0.0 <= (x - x1) * tx + (y - y1) * ty <= length:
-                        yield way
+        length = abs(wall)
+        along = wall / length
+        for out in (1j * along, -1j * along):
+            away = -(start * out.conjugate()).real
+            for way in self._ways(out.real, out.imag, self._bend * _rounded(reach - away)):
+                half = 0.5 * self._bend * way
+                place = rect(way * (sin(half) / half if half else 1.0), half)
+                if 0.0 <= ((place - start) * along.conjugate()).real <= length:
+                    yield way
 
-    def _to_disc(self, px: float, py: float, reach: float) -> list[float]:
-        """Return the ways [m] on which the middle comes within reach [m] of a point."""
-        ex, ey = self.x - px, self.y - py
-        along = ex * self.ahead[0] + ey * self.ahead[1]
-        aside = ex * self.side[0] + ey * self.side[1]
-        distance = hypot(ex, ey)
+    def _to_disc(self, middle: complex, reach: float) -> list[float]:
+        """Return the ways [m] on which the robot comes within reach [m] of a point."""
+        bend, distance = self._bend, abs(middle)
         outside = _rounded(distance - reach) * (distance + reach)
-        bend = self.bend
-        return self._ways(bend * along, bend * aside + 1.0, -0.5 * bend * bend * outside)
+        wanted = -0.5 * bend * bend * outside
+        return self._ways(-bend * middle.real, 1.0 - bend * middle.imag, wanted)
 
     def _ways(self, along: float, aside: float, wanted: float) -> list[float]:
         """Return where along sin(a) + aside (1 - cos(a)) falls to wanted, as ways [m] from 0 on."""
@@ -152,20 +140,10 @@ class _Motion:
         if room <= 0.0:
             return []
         sum_ = along + sqrt(room) if along >= 0 else along - sqrt(room)
-        tangents = ((wanted, sum_), (-sum_, 2 * aside - wanted))
-        halves = [atan2(up, low) if low > 0 else atan2(-up, -low) for up, low in tangents]
-        turns = [2 * half if half >= 0 else 2 * half + tau for half in halves]
+        tangents = ((wanted, sum_), (-sum_, 2 * aside - wanted))  # of half the turn
+        turns = [2 * (atan(up / low) if low else pi / 2) % tau for up, low in tangents]
         falls = (turn for turn in turns if along * cos(turn) + aside * sin(turn) < 0.0)
-        return [turn / self.bend for turn in falls]
-
-    def _place(self, way: float) -> tuple[float, float]:
-        half = 0.5 * self.bend * way
-        chord = way * (sin(half) / half if half else 1.0)
-        ahead, aside = chord * cos(half), chord * sin(half)
-        return (
-            self.x + ahead * self.ahead[0] + aside * self.side[0],
-            self.y + ahead * self.ahead[1] + aside * self.side[1],
-        )
+        return [turn / self._bend for turn in falls]
 
 
 def _rounded(gap_m: float) -> float:
@@ -188,21 +166,21 @@ def drive_among(
     """
     if velocity != end_velocity:
         return _ramp_among(pose, velocity, end_velocity, dt, radius, obstacles)
-    w = velocity[1]
+    turn = 0.0, velocity[1]
     pieces, left = [], dt
     for _ in range(2 * len(obstacles) + 2):  # each may be met, and turned away from, once or twice
         met = first_contact(pose, velocity, left, radius, obstacles)
         free = met[0] if met else left
         pose = arc(pose, velocity, free)
-        left -= free
         pieces.append(Piece(velocity, velocity, free))
         if met is None:
             return pieces, None
         contact = direction_to(pose, met[1])
+        left -= free
         turning = min(left, _time_to_turn_away(pose[2], velocity, contact))
-        pose = arc(pose, (0.0, w), turning)
+        pose = arc(pose, turn, turning)
+        pieces.append(Piece(turn, turn, turning, True))
         left -= turning
-        pieces.append(Piece((0.0, w), (0.0, w), turning, True))
         if left <= 0.0:
             break
     return pieces, contact
@@ -235,12 +213,10 @@ def _ramp_among(
     fastest = max(abs(velocity[0]), abs(end_velocity[0]))
     after, place, now = 0.0, pose, velocity
     while after < dt and fastest and obstacles:
-        near = min(obstacles, key=lambda one: gap(place[0], place[1], radius, one))
-        free = gap(place[0], place[1], radius, near)
+        free, near = min((gap(*place[:2], radius, one), one) for one in obstacles)
         if free <= TOUCH_M and first_contact(place, now, dt, radius, [near]):
-            contact = direction_to(place, near)
             turns = Piece((0.0, now[1]), (0.0, end_velocity[1]), dt - after, True)
-            return [Piece(velocity, now, after), turns], contact
+            return [Piece(velocity, now, after), turns], direction_to(place, near)
         after = min(dt, after + max(free, TOUCH_M) / fastest)
         now = between(velocity, end_velocity, after / dt)
         place = drive(pose, velocity, now, after)

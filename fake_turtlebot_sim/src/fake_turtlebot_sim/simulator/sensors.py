@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from math import pi
-from typing import NamedTuple, Tuple
+from math import inf, pi
+from typing import NamedTuple, Sequence, Tuple
 
-from fake_turtlebot_sim.simulator.differential_drive import Pose, composed
+from fake_turtlebot_sim.simulator.contact import TOUCH_M, Obstacle, drive_among
+from fake_turtlebot_sim.simulator.differential_drive import Pose, Velocity, composed
 from fake_turtlebot_sim.simulator.world import World
 
-Three = Tuple[bool, bool, bool]  # left, center, right
+Two, Three = Tuple[bool, bool], Tuple[bool, bool, bool]  # left, (center,) right
 
 # Half of the center bumper, and where those at its sides end (kobuki_gazebo_plugins).
 CENTER_RAD, SIDE_RAD = pi / 6, pi / 2
@@ -18,19 +19,18 @@ CLIFF_SENSORS = ((0.08734, 0.13601), (0.156, 0.0), (0.085, -0.13601))
 
 
 class Sensed(NamedTuple):
-    """bumpers: pressed; cliffs: no ground below; wheels: dropped, (left, right)."""
+    """bumpers: pressed; cliffs: no ground below; wheels: dropped."""
 
     bumpers: Three = (False, False, False)
     cliffs: Three = (False, False, False)
-    wheels: tuple[bool, bool] = (False, False)
+    wheels: Two = (False, False)
 
 
 def bumpers(contact: float | None) -> Three:
     """Return which bumpers a push in a direction [rad, ahead is 0, left positive] presses."""
     if contact is None or abs(contact) > SIDE_RAD:
         return (False, False, False)  # there is none behind
-    is_ahead = abs(contact) <= CENTER_RAD
-    return (contact > CENTER_RAD, is_ahead, contact < -CENTER_RAD)
+    return (contact > CENTER_RAD, abs(contact) <= CENTER_RAD, contact < -CENTER_RAD)
 
 
 def cliffs(pose: Pose, world: World) -> Three:
@@ -40,3 +40,28 @@ def cliffs(pose: Pose, world: World) -> Three:
     places = (composed(pose, (x, y, 0.0)) for x, y in CLIFF_SENSORS)
     left, center, right = (world.is_cliff(x, y) for x, y, _ in places)
     return (left, center, right)
+
+
+def first_drop(
+    pose: Pose,
+    velocity: Velocity,
+    end_velocity: Velocity,
+    dt: float,
+    wheel_separation: float,
+    edges: Sequence[Obstacle],
+) -> tuple[float, Two] | None:
+    """Return after which time [s] within dt which wheels drop over an edge, in closed form.
+
+    The place where a wheel touches the ground drives an arc of its own around the same middle as
+    the robot; it meets an edge as a disc without a radius meets a wall. The velocity goes linearly
+    to end_velocity.
+    """
+    times = []
+    for aside in (0.5 * wheel_separation, -0.5 * wheel_separation):
+        wheel = composed(pose, (0.0, aside, 0.0))
+        begin, end = ((v - w * aside, w) for v, w in (velocity, end_velocity))
+        pieces, met = drive_among(wheel, begin, end, dt, 0.0, edges)
+        times.append(pieces[0].dt if met is not None or len(pieces) > 1 else inf)
+    first, speed = min(times), max(abs(velocity[0]), abs(end_velocity[0]), 1e-3)
+    left, right = (time - first <= TOUCH_M / speed for time in times)
+    return (first, (left, right)) if first <= dt else None

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple, Sequence, Tuple
 
 import numpy as np
 
-from fake_turtlebot_sim.simulator.contact import Disc, Obstacle, Piece, drive_among
+from fake_turtlebot_sim.simulator.contact import Obstacle, Piece, drive_among
 from fake_turtlebot_sim.simulator.differential_drive import (
     Pose,
     Velocity,
@@ -24,10 +24,9 @@ from fake_turtlebot_sim.simulator.differential_drive import (
     wheel_rates,
     wrap_angle,
 )
-from fake_turtlebot_sim.simulator.falling import fall
 from fake_turtlebot_sim.simulator.odometry_errors import OdometryErrors
 from fake_turtlebot_sim.simulator.parameters import Parameters
-from fake_turtlebot_sim.simulator.sensors import Sensed, bumpers, cliffs
+from fake_turtlebot_sim.simulator.sensors import Sensed, bumpers, cliffs, first_drop
 from fake_turtlebot_sim.simulator.world import BASE_RADIUS_M, Surroundings
 
 REST: Velocity = (0.0, 0.0)
@@ -170,9 +169,9 @@ class SimulatedRobot:
         return None if self._contact is None else wrap_angle(self._contact - self.true_pose[2])
 
     @property
-    def disc(self) -> Disc:
+    def disc(self) -> Obstacle:
         """Return the robot as others meet it."""
-        return (*self.true_pose[:2], BASE_RADIUS_M)
+        return (*self.true_pose[:2], *self.true_pose[:2], BASE_RADIUS_M)
 
     def sensed(self) -> Sensed:
         """Return what the robot's sensors feel at the time of the last advance()."""
@@ -254,10 +253,11 @@ class SimulatedRobot:
         world = self._parameters.world
         if world is None or not world.edges:
             return False
-        fallen = fall(self.true_pose, *piece[:3], self._parameters.wheel_separation, world.edges)
-        if fallen is None:
+        separation = self._parameters.wheel_separation
+        drop = first_drop(self.true_pose, *piece[:3], separation, world.edges)
+        if drop is None:
             return False
-        dt, self._dropped = fallen
+        dt, self._dropped = drop
         share = dt / piece.dt if piece.dt else 0.0
         to = between(piece.velocity, piece.end_velocity, share)
         self._roll(begin, between(begin, end, share), (piece.velocity, to), dt)

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from math import cos, isfinite, sin
+from math import cos, sin
 from pathlib import Path
 from typing import Any, Callable
 
 import numpy as np
 import yaml
 
-from fake_turtlebot_sim.simulator.world import Point, World
+from fake_turtlebot_sim.simulator.world import World
+from node_kit.parameters import is_number
 
 LARGEST_MAP = 4_000_000  # cells
 MOST_WALLS = 20_000
@@ -47,67 +48,57 @@ def read_world(path: Path) -> World:
     except OSError as error:
         raise WorldError(f"{path}: cannot be read: {error.strerror}") from None
     except (UnicodeDecodeError, yaml.YAMLError) as error:
-        mark = getattr(error, "problem_mark", None)
+        mark, why = (getattr(error, name, None) for name in ("problem_mark", "problem"))
         where = f", line {mark.line + 1}" if mark else ""
-        why = getattr(error, "problem", None) or "no text"
-        raise WorldError(f"{path}{where}: no YAML: {why}") from None
-    if isinstance(data, dict) and "image" in data:
-        return _from_map(path, data)
+        raise WorldError(f"{path}{where}: no YAML: {why or 'no text'}") from None
     if not isinstance(data, dict):
         raise WorldError(f"{path}: must be a map of {', '.join(FIELDS)}, or of map_server")
-    lines = {key.value: key.start_mark.line + 1 for key, _ in node.value}
+    if "image" in data:
+        return _from_map(path, data)
     found = {}
-    for name, value in data.items():
+    for key, _ in node.value:
+        name, where = key.value, f"{path}, line {key.start_mark.line + 1}: {key.value}"
         if name not in FIELDS:
-            allowed = f"is not known; known are {', '.join(FIELDS)}"
-            raise WorldError(f"{path}, line {lines.get(name, 1)}: {name}: {allowed}")
+            raise WorldError(f"{where}: is not known; known are {', '.join(FIELDS)}")
+        allowed, read = FIELDS[name]
         try:
-            found[name] = FIELDS[name][1](value)
+            found[name] = read(data[name])
         except (TypeError, ValueError, KeyError):
-            where = f"{path}, line {lines[name]}"
-            raise WorldError(f"{where}: {name}: must be {FIELDS[name][0]}") from None
+            raise WorldError(f"{where}: must be {allowed}") from None
     return World(**found)
 
 
-def _number(value: Any) -> float:
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not isfinite(value):
+def _numbers(values: Any, count: int) -> Any:
+    """Return as many numbers, as floats. Raises ValueError."""
+    if len(values) != count or not all(map(is_number, values)):
         raise ValueError
-    return float(value)
+    return tuple(map(float, values))
 
 
-def _point(value: Any) -> Point:
-    x, y = value
-    return _number(x), _number(y)
-
-
-def _lines(value: Any, least: int = 2) -> tuple[tuple[Point, ...], ...]:
-    found = tuple(tuple(map(_point, line)) for line in value)
-    if any(len(line) < least for line in found):
+def _lines(value: Any, least: int) -> Any:
+    if any(len(line) < least for line in value):
         raise ValueError
-    return found
+    return tuple(tuple(_numbers(point, 2) for point in line) for line in value)
 
 
-def _fields(value: Any, *names: str) -> tuple[float, ...]:
-    if set(value) - set(names):
-        raise ValueError
-    return tuple(_number(value[name]) for name in names)
+def _named(value: Any, *names: str) -> Any:
+    return _numbers([value[name] for name in names], len(value))
 
 
 def _posts(value: Any) -> Any:
-    found = tuple(_fields(post, "x", "y", "radius") for post in value)
-    if any(radius <= 0 for _, _, radius in found):
+    if any(post["radius"] <= 0 for post in value):
         raise ValueError
-    return found
+    return tuple(_named(post, "x", "y", "radius") for post in value)
 
 
 # What each must be, and what reads it.
 FIELDS: dict[str, tuple[str, Callable[[Any], Any]]] = {
-    "walls": ("a list of polylines [[x, y], [x, y], ...] in metres", _lines),
+    "walls": ("a list of polylines [[x, y], [x, y], ...] in metres", lambda v: _lines(v, 2)),
     "posts": ("a list of {x: ..., y: ..., radius: ...} in metres", _posts),
     "cliffs": ("a list of polygons [[x, y], [x, y], [x, y], ...] in metres",
-               lambda value: _lines(value, 3)),
+               lambda v: _lines(v, 3)),
     "start": ("{x: ..., y: ..., yaw: ...} in metres and radians",
-              lambda value: _fields(value, "x", "y", "yaw")),
+              lambda v: _named(v, "x", "y", "yaw")),
 }  # fmt: skip
 
 
@@ -117,10 +108,9 @@ def _from_map(path: Path, about: dict[str, Any]) -> World:
 
     image = path.parent / str(about["image"])
     try:
-        resolution = _number(about["resolution"])
-        x, y, yaw = map(_number, about["origin"])
-        threshold = _number(about.get("occupied_thresh", 0.65))
-        is_negative = bool(about.get("negate", 0))
+        x, y, yaw = _numbers(about["origin"], 3)
+        scales = about["resolution"], about.get("occupied_thresh", 0.65)
+        resolution, threshold = _numbers(scales, 2)
     except (TypeError, ValueError, KeyError):
         needs = "resolution [m], origin [x, y, yaw] and occupied_thresh, as map_server has them"
         raise WorldError(f"{path}: a map needs {needs}") from None
@@ -131,23 +121,22 @@ def _from_map(path: Path, about: dict[str, Any]) -> World:
             shades = np.asarray(picture.convert("L"), dtype=float)[::-1]
     except (OSError, SyntaxError, ValueError, Image.DecompressionBombError) as error:
         raise WorldError(f"{image}: cannot be read as an image: {error}") from None
-    occupied = (shades if is_negative else 255.0 - shades) / 255.0 > threshold
-    ends = np.array(_outlines(occupied), dtype=float).reshape(-1, 2) * resolution
-    if len(ends) > 2 * MOST_WALLS:
+    occupied = (shades if about.get("negate") else 255.0 - shades) / 255.0 > threshold
+    walls = _outlines(occupied) * resolution
+    if len(walls) > MOST_WALLS:
         raise WorldError(f"{image}: its outlines have more than {MOST_WALLS} pieces")
-    turned = ends @ np.array([[cos(yaw), sin(yaw)], [-sin(yaw), cos(yaw)]]) + (x, y)
-    points = [(float(px), float(py)) for px, py in turned]
-    return World(tuple(zip(points[::2], points[1::2])))
+    turned = walls @ np.array([[cos(yaw), sin(yaw)], [-sin(yaw), cos(yaw)]]) + (x, y)
+    return World(tuple(((*one,), (*other,)) for one, other in turned.tolist()))
 
 
-def _outlines(occupied: Any) -> list[tuple[int, int, int, int]]:
-    """Return the edges between occupied and free cells, x1, y1, x2, y2, joined where in line."""
+def _outlines(occupied: Any) -> Any:
+    """Return the edges between occupied and free cells, joined where in line: (n, 2, 2)."""
     found = []
     for is_upright in (False, True):
         cells = occupied.T if is_upright else occupied
         edge = np.diff(np.pad(cells, ((1, 1), (0, 0))).astype(np.int8), axis=0) != 0
         steps = np.diff(np.pad(edge, ((0, 0), (1, 1))).astype(np.int8), axis=1)
-        for (row, begin), (_, end) in zip(np.argwhere(steps > 0), np.argwhere(steps < 0)):
-            line = (begin, row, end, row)
-            found.append((row, begin, row, end) if is_upright else line)
-    return found
+        (rows, begins), (_, ends) = np.nonzero(steps > 0), np.nonzero(steps < 0)
+        lines = np.array([[begins, rows], [ends, rows]]).transpose(2, 0, 1)
+        found.append(lines[..., ::-1] if is_upright else lines)
+    return np.concatenate(found)

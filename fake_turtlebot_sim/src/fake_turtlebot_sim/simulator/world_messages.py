@@ -2,36 +2,59 @@
 
 from __future__ import annotations
 
-from math import cos, hypot, sin
+from math import ceil, cos, hypot, sin
 from typing import Any
 
-from geometry_msgs.msg import Point, Quaternion
+import numpy as np
+from geometry_msgs.msg import Point, Quaternion, Vector3
 from nav_msgs.msg import OccupancyGrid
 from std_msgs.msg import ColorRGBA
 from visualization_msgs.msg import Marker
 
-from fake_turtlebot_sim.simulator.occupancy import occupancy
 from fake_turtlebot_sim.simulator.sensors import CENTER_RAD, SIDE_RAD, Three
-from fake_turtlebot_sim.simulator.world import BASE_RADIUS_M, World
+from fake_turtlebot_sim.simulator.world import BASE_RADIUS_M, World, gaps, is_inside
 
-WALL_M = 0.3  # how high walls and posts are drawn
-LINE_M = 0.02
-GREY, RED = ColorRGBA(0.45, 0.42, 0.38, 1.0), ColorRGBA(0.85, 0.1, 0.1, 1.0)
-BUMPERS = ((SIDE_RAD, CENTER_RAD), (CENTER_RAD, -CENTER_RAD), (-CENTER_RAD, -SIDE_RAD))
+OCCUPIED, UNKNOWN = 100, -1  # nav_msgs/OccupancyGrid; 0: free
+MARGIN_M = 0.5  # of free cells around everything
+MOST_CELLS = 4_000_000
+WALL_M, LINE_M = 0.3, 0.02  # how high walls and posts are drawn, and how thick lines
 BUMPER_M = 0.05  # above the ground
+GREY, RED = ColorRGBA(0.45, 0.42, 0.38, 1.0), ColorRGBA(0.85, 0.1, 0.1, 1.0)
 
 
-def world_map(world: World, frame: str, stamp: Any) -> OccupancyGrid:
-    """Return the OccupancyGrid of a world, in the frame."""
-    cells, (x, y), resolution = occupancy(world)
-    grid = OccupancyGrid()
-    grid.header.frame_id, grid.header.stamp = frame, stamp
-    grid.info.map_load_time = stamp
-    grid.info.resolution = resolution
-    grid.info.height, grid.info.width = cells.shape
-    grid.info.origin.position.x, grid.info.origin.position.y = x, y
+def world_map(world: World, frame: str, stamp: Any, resolution: float = 0.05) -> OccupancyGrid:
+    """Return the OccupancyGrid of a world, in the frame.
+
+    Occupied is a cell with its middle within half a cell of a wall, a post or the edge of a cliff;
+    unknown, one over a cliff. A world too large for MOST_CELLS of the resolution [m] gets larger
+    ones.
+    """
+    obstacles = (*world.obstacles, *world.edges)
+    table = np.array(obstacles or [(0.0,) * 5])
+    ends, radii = table[:, :4].reshape(-1, 2, 2), table[:, 4:]
+    low = (ends.min(axis=1) - radii).min(axis=0) - MARGIN_M
+    size = (ends.max(axis=1) + radii).max(axis=0) + MARGIN_M - low
+    resolution = max(resolution, float(np.sqrt(size.prod() / MOST_CELLS)))
+    half = 0.5 * resolution + 1e-6
+    xs, ys = (
+        at + (np.arange(ceil(length / resolution)) + 0.5) * resolution
+        for at, length in zip(low, size)
+    )
+    cells = np.zeros((len(ys), len(xs)), dtype=np.int8)
+    for cliff in world.cliffs:
+        cells[is_inside(xs, ys[:, None], cliff)] = UNKNOWN
+    for obstacle in obstacles:
+        x1, y1, x2, y2, radius = obstacle
+        reach = radius + half
+        columns = slice(*np.searchsorted(xs, (min(x1, x2) - reach, max(x1, x2) + reach)))
+        rows = slice(*np.searchsorted(ys, (min(y1, y2) - reach, max(y1, y2) + reach)))
+        is_near = gaps(xs[columns], ys[rows, None], obstacle) <= half
+        cells[rows, columns][is_near] = OCCUPIED
+    grid = OccupancyGrid(data=cells.ravel().tolist())
+    grid.header.frame_id, grid.header.stamp, grid.info.map_load_time = frame, stamp, stamp
+    grid.info.resolution, (grid.info.height, grid.info.width) = resolution, cells.shape
+    grid.info.origin.position = Point(float(low[0]), float(low[1]), 0.0)
     grid.info.origin.orientation.w = 1.0
-    grid.data = cells.ravel().tolist()
     return grid
 
 
@@ -49,15 +72,14 @@ def world_markers(world: World, frame: str) -> list[Marker]:
     found = []
     if world.segments:
         walls = marker("walls", 0, Marker.TRIANGLE_LIST, frame, GREY)
-        walls.scale.x = walls.scale.y = walls.scale.z = 1.0
-        for x1, y1, x2, y2 in world.segments:
+        walls.scale = Vector3(1.0, 1.0, 1.0)
+        for x1, y1, x2, y2, _ in world.segments:
             walls.points += wall_side(x1, y1, x2, y2) + wall_side(x2, y2, x1, y1)
         found.append(walls)
     for number, (x, y, radius) in enumerate(world.posts):
         post = marker("posts", number, Marker.CYLINDER, frame, GREY)
         post.pose.position = Point(x, y, 0.5 * WALL_M)
-        post.scale.x = post.scale.y = 2 * radius
-        post.scale.z = WALL_M
+        post.scale = Vector3(2 * radius, 2 * radius, WALL_M)
         found.append(post)
     for number, cliff in enumerate(world.cliffs):
         edge = marker("cliffs", number, Marker.LINE_STRIP, frame, RED)
@@ -78,12 +100,12 @@ def wall_side(x1: float, y1: float, x2: float, y2: float) -> list[Point]:
 def bumper_markers(pressed: Three, frame: str) -> list[Marker]:
     """Return a red arc for each pressed bumper, left, center and right; none for the others."""
     found = []
-    for number, (is_pressed, (begin, end)) in enumerate(zip(pressed, BUMPERS)):
+    ends = (SIDE_RAD, CENTER_RAD, -CENTER_RAD, -SIDE_RAD)
+    for number, (is_pressed, begin, end) in enumerate(zip(pressed, ends, ends[1:])):
         arc = marker("bumpers", number, Marker.LINE_STRIP, frame, RED)
         arc.action = Marker.ADD if is_pressed else Marker.DELETE
         arc.scale.x = 2 * LINE_M
-        for k in range(9):
-            angle = begin + (end - begin) * k / 8
+        for angle in np.linspace(begin, end, 9).tolist():
             x, y = BASE_RADIUS_M * cos(angle), BASE_RADIUS_M * sin(angle)
             arc.points.append(Point(x, y, BUMPER_M))
         found.append(arc)

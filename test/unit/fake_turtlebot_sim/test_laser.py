@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from shapely.geometry import LineString, MultiLineString, Point
 
-from fake_turtlebot_sim.simulator.beams import Scanner
+from fake_turtlebot_sim.simulator.laser import Scanner
 
 EXACT = 1e-9
 FAR = 100.0  # [m]
