@@ -6,7 +6,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from fake_turtlebot_sim.simulator.contact import drive_among, first_contact, gap
+from fake_turtlebot_sim.simulator.contact import Piece, drive_among, first_contact, gap
 from fake_turtlebot_sim.simulator.differential_drive import arc
 from fake_turtlebot_sim.simulator.parameters import Parameters
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
@@ -15,6 +15,10 @@ from fake_turtlebot_sim.simulator.world import World
 R = 0.178
 WALL = (1.0, -5.0, 1.0, 5.0, 0.0)  # x = 1
 EXACT = 1e-9
+
+
+def post(x, y, radius):
+    return x, y, x, y, radius
 
 
 # Pose, velocity, obstacle, and when they touch [s], worked out by hand.
@@ -29,10 +33,10 @@ CASES = {
     # y = 2 (1 - cos t) = 3 - R, on the way around that circle.
     "a wall across": ((0, 0, 0), (2, 1), (-9.0, 3.0, 9.0, 3.0, 0.0), acos(1 - (3 - R) / 2)),
     "a corner by its end": ((0, 0, 0), (1, 0), (1.0, 0.1, 1.0, 3.0, 0.0), 1 - sqrt(R**2 - 0.1**2)),
-    "a post": ((0, 0, 0), (1, 0), (2.0, 0.2, 2.0, 0.2, 0.3), 2 - sqrt((R + 0.3) ** 2 - 0.2**2)),
-    "another robot": ((0, 0, 0), (0.7, 0), (1.0, 0.0, 1.0, 0.0, R), (1 - 2 * R) / 0.7),
+    "a post": ((0, 0, 0), (1, 0), post(2.0, 0.2, 0.3), 2 - sqrt((R + 0.3) ** 2 - 0.2**2)),
+    "another robot": ((0, 0, 0), (0.7, 0), post(1.0, 0.0, R), (1 - 2 * R) / 0.7),
     # On the circle around (0, 1), a chord of R + 0.1 before (1, 1).
-    "a post on an arc": ((0, 0, 0), (1, 1), (1.0, 1.0, 1.0, 1.0, 0.1), pi / 2 - 2 * asin((R + 0.1) / 2)),
+    "a post on an arc": ((0, 0, 0), (1, 1), post(1.0, 1.0, 0.1), pi / 2 - 2 * asin((R + 0.1) / 2)),
     "nothing": ((0, 0, 0), (1, 0), (5.0, 1.0, 5.0, 2.0, 0.0), inf),
 }
 
@@ -46,7 +50,7 @@ def test_the_time_of_contact_is_the_closed_forms(name):
 
 places = st.floats(-2, 2)
 walls = st.tuples(places, places, places, places, st.just(0.0))
-posts = st.tuples(places, places, st.floats(0.0, 0.4)).map(lambda p: (*p[:2], *p))
+posts = st.builds(post, places, places, st.floats(0.0, 0.4))
 velocities = st.tuples(
     st.floats(-1, 1) | st.sampled_from([0.7, -0.7, 0.0]),
     st.floats(-3, 3) | st.sampled_from([0.0, 1e-9, pi]),
@@ -63,7 +67,7 @@ def test_a_robot_is_never_inside_and_stops_only_where_it_touches(obstacles, pose
     clear = lambda x, y: min(gap(x, y, R, one) for one in obstacles)  # noqa: E731
     assume(clear(*pose[:2]) > 0.0)
     for velocity, dt in commands:
-        pieces, contact = drive_among(pose, velocity, velocity, dt, R, obstacles)
+        pieces, contact = drive_among(pose, Piece(velocity, velocity, dt), R, obstacles)
         for piece in pieces:
             for part in range(1, 20):
                 x, y, _ = arc(pose, piece.velocity, piece.dt * part / 20)

@@ -9,7 +9,7 @@ All is in one frame, in metres, radians and seconds.
 from __future__ import annotations
 
 from cmath import rect
-from math import atan, atan2, cos, hypot, inf, pi, sin, sqrt, tau
+from math import atan, atan2, copysign, cos, hypot, inf, pi, sin, sqrt, tau
 from typing import Iterable, Iterator, NamedTuple, Sequence, Tuple
 
 from fake_turtlebot_sim.simulator.differential_drive import Pose, Velocity, arc, between, drive
@@ -29,6 +29,11 @@ class Piece(NamedTuple):
     end_velocity: Velocity
     dt: float
     is_blocked: bool = False  # something is in the way: the robot only turns
+
+    def until(self, dt: float) -> Piece:
+        """Return its part before a time [s]."""
+        end = between(self.velocity, self.end_velocity, dt / self.dt if self.dt else 0.0)
+        return self._replace(end_velocity=end, dt=dt)
 
 
 def nearest(x: float, y: float, obstacle: Obstacle) -> tuple[float, float]:
@@ -152,37 +157,35 @@ def _rounded(gap_m: float) -> float:
 
 
 def drive_among(
-    pose: Pose,
-    velocity: Velocity,
-    end_velocity: Velocity,
-    dt: float,
-    radius: float,
-    obstacles: Sequence[Obstacle],
+    pose: Pose, whole: Piece, radius: float, obstacles: Sequence[Obstacle]
 ) -> tuple[list[Piece], float | None]:
     """Split a drive into Pieces without a touch and turns on the spot.
 
-    Returns them with the direction [rad] of what the robot pushes at the end, or None. Its velocity
-    goes linearly to end_velocity.
+    Returns them with the direction [rad] of what the robot pushes at the end, or None. Once it
+    pushes while its velocity changes, it only turns for the rest.
     """
-    if velocity != end_velocity:
-        return _ramp_among(pose, velocity, end_velocity, dt, radius, obstacles)
-    turn = 0.0, velocity[1]
-    pieces, left = [], dt
+    velocity, end_velocity, left, _ = whole
+    is_ramp = velocity != end_velocity
+    pieces, now = [], velocity
     for _ in range(2 * len(obstacles) + 2):  # each may be met, and turned away from, once or twice
-        met = first_contact(pose, velocity, left, radius, obstacles)
+        if is_ramp:
+            met = _contact_on_ramp(pose, whole, radius, obstacles)
+            now = between(velocity, end_velocity, met[0] / left) if met else end_velocity
+        else:
+            met = first_contact(pose, velocity, left, radius, obstacles)
         free = met[0] if met else left
-        pose = arc(pose, velocity, free)
-        pieces.append(Piece(velocity, velocity, free))
+        pieces.append(Piece(velocity, now, free))
         if met is None:
             return pieces, None
+        pose = drive(pose, velocity, now, free)
         contact = direction_to(pose, met[1])
         left -= free
-        turning = min(left, _time_to_turn_away(pose[2], velocity, contact))
-        pose = arc(pose, turn, turning)
-        pieces.append(Piece(turn, turn, turning, True))
+        turning = left if is_ramp else min(left, _time_to_turn_away(pose[2], velocity, contact))
+        pieces.append(Piece((0.0, now[1]), (0.0, end_velocity[1]), turning, True))
         left -= turning
         if left <= 0.0:
             break
+        pose = arc(pose, (0.0, velocity[1]), turning)
     return pieces, contact
 
 
@@ -192,32 +195,25 @@ def _time_to_turn_away(yaw: float, velocity: Velocity, direction: float) -> floa
     if not w:
         return inf
     ahead = yaw if v > 0 else yaw + pi
-    sense = 1.0 if w > 0 else -1.0
-    side = ((direction - ahead) * sense + pi) % tau - pi  # positive: it is yet to be passed
+    side = (copysign(1.0, w) * (direction - ahead) + pi) % tau - pi  # positive: yet to be passed
     return max(0.0, side + pi / 2) / abs(w)
 
 
-def _ramp_among(
-    pose: Pose,
-    velocity: Velocity,
-    end_velocity: Velocity,
-    dt: float,
-    radius: float,
-    obstacles: Sequence[Obstacle],
-) -> tuple[list[Piece], float | None]:
-    """Do as drive_among() where the velocity changes, and the path has no closed form.
+def _contact_on_ramp(
+    pose: Pose, whole: Piece, radius: float, obstacles: Sequence[Obstacle]
+) -> tuple[float, Obstacle] | None:
+    """Do as first_contact() where the velocity changes, and the path has no closed form.
 
-    The robot goes on by its gap to the nearest obstacle, again and again, which never leads into
-    one. Once it pushes, it only turns for the rest of dt.
+    Going on by the gap to the nearest obstacle, again and again, never leads into one.
     """
+    velocity, end_velocity, dt, _ = whole
     fastest = max(abs(velocity[0]), abs(end_velocity[0]))
     after, place, now = 0.0, pose, velocity
     while after < dt and fastest and obstacles:
         free, near = min((gap(*place[:2], radius, one), one) for one in obstacles)
         if free <= TOUCH_M and first_contact(place, now, dt, radius, [near]):
-            turns = Piece((0.0, now[1]), (0.0, end_velocity[1]), dt - after, True)
-            return [Piece(velocity, now, after), turns], direction_to(place, near)
+            return after, near
         after = min(dt, after + max(free, TOUCH_M) / fastest)
         now = between(velocity, end_velocity, after / dt)
         place = drive(pose, velocity, now, after)
-    return [Piece(velocity, end_velocity, dt)], None
+    return None

@@ -5,11 +5,12 @@ from __future__ import annotations
 from math import inf, pi
 from typing import NamedTuple, Sequence, Tuple
 
-from fake_turtlebot_sim.simulator.contact import TOUCH_M, Obstacle, drive_among
-from fake_turtlebot_sim.simulator.differential_drive import Pose, Velocity, composed
+from fake_turtlebot_sim.simulator.contact import TOUCH_M, Obstacle, Piece, drive_among
+from fake_turtlebot_sim.simulator.differential_drive import Pose, composed
 from fake_turtlebot_sim.simulator.world import World
 
-Two, Three = Tuple[bool, bool], Tuple[bool, bool, bool]  # left, (center,) right
+Two = Tuple[bool, bool]  # left, right
+Three = Tuple[bool, bool, bool]  # left, center, right
 
 # Half of the center bumper, and where those at its sides end (kobuki_gazebo_plugins).
 CENTER_RAD, SIDE_RAD = pi / 6, pi / 2
@@ -43,25 +44,21 @@ def cliffs(pose: Pose, world: World) -> Three:
 
 
 def first_drop(
-    pose: Pose,
-    velocity: Velocity,
-    end_velocity: Velocity,
-    dt: float,
-    wheel_separation: float,
-    edges: Sequence[Obstacle],
+    pose: Pose, piece: Piece, wheel_separation: float, edges: Sequence[Obstacle]
 ) -> tuple[float, Two] | None:
-    """Return after which time [s] within dt which wheels drop over an edge, in closed form.
+    """Return after which time [s] within a Piece which wheels drop over an edge, in closed form.
 
     The place where a wheel touches the ground drives an arc of its own around the same middle as
-    the robot; it meets an edge as a disc without a radius meets a wall. The velocity goes linearly
-    to end_velocity.
+    the robot; it meets an edge as a disc without a radius meets a wall.
     """
+    if not edges:
+        return None
     times = []
     for aside in (0.5 * wheel_separation, -0.5 * wheel_separation):
         wheel = composed(pose, (0.0, aside, 0.0))
-        begin, end = ((v - w * aside, w) for v, w in (velocity, end_velocity))
-        pieces, met = drive_among(wheel, begin, end, dt, 0.0, edges)
+        begin, end = ((v - w * aside, w) for v, w in piece[:2])
+        pieces, met = drive_among(wheel, Piece(begin, end, piece.dt), 0.0, edges)
         times.append(pieces[0].dt if met is not None or len(pieces) > 1 else inf)
-    first, speed = min(times), max(abs(velocity[0]), abs(end_velocity[0]), 1e-3)
+    first, speed = min(times), max(abs(piece.velocity[0]), abs(piece.end_velocity[0]), 1e-3)
     left, right = (time - first <= TOUCH_M / speed for time in times)
-    return (first, (left, right)) if first <= dt else None
+    return (first, (left, right)) if first <= piece.dt else None

@@ -212,61 +212,47 @@ class SimulatedRobot:
 
     def _drive(self, end_velocity: Velocity, dt: float) -> None:
         """Drive for dt [s] while the velocity changes linearly to end_velocity."""
-        velocity = self._velocity
-        if dt == 0.0 or velocity == end_velocity == REST:
+        if dt == 0.0 or self._velocity == end_velocity == REST:
             return
+        wheels = true = self._velocity, end_velocity
         self._velocity = end_velocity
-        errors = self._errors
-        true = velocity, end_velocity
-        if errors:
-            true = errors.true_velocity(velocity), errors.true_velocity(end_velocity)
+        if self._errors:
+            true = self._errors.true_velocity(wheels[0]), self._errors.true_velocity(end_velocity)
         if self._surroundings is None:
-            self._roll(velocity, end_velocity, true, dt)
-            return
-        if self._dropped != ON_ITS_WHEELS:
+            self._roll(wheels, true, dt)
+        elif self._dropped == ON_ITS_WHEELS:
+            self._drive_in_world(self._surroundings, Piece(*wheels, dt), Piece(*true, dt))
+        else:
             self._velocity = REST  # it lies there until it is lifted
-            return
-        near = self._near(BASE_RADIUS_M + dt * max(abs(true[0][0]), abs(true[1][0])))
-        pieces, self._contact = drive_among(self.true_pose, *true, dt, BASE_RADIUS_M, near)
-        after = 0.0
-        for piece in pieces:
-            before, after = after, after + piece.dt
-            begin = between(velocity, end_velocity, before / dt)
-            end = between(velocity, end_velocity, after / dt)
-            if piece.is_blocked:  # the wheels, too, only turn the robot
-                begin, end = (0.0, begin[1]), (0.0, end[1])
-            if self._falls(begin, end, piece):
-                return
-            self._roll(begin, end, piece[:2], piece.dt)
-        if self._contact is not None:
-            self._velocity = 0.0, end_velocity[1]
 
-    def _near(self, reach: float) -> Sequence[Obstacle]:
-        """Return at least what is within reach [m] of the robot's middle."""
+    def _drive_in_world(self, around: Surroundings, wheels: Piece, true: Piece) -> None:
+        """Drive until something is in the way, or a wheel drops."""
         x, y, _ = self.true_pose
-        near = self._surroundings.near(x, y, reach) if self._surroundings else ()
-        others = [robot.disc for robot in self.company]
-        return [*near, *others] if others else near
+        reach = BASE_RADIUS_M + true.dt * max(abs(true.velocity[0]), abs(true.end_velocity[0]))
+        near = around.near(x, y, reach)
+        if self.company:
+            near = [*near, *(robot.disc for robot in self.company)]
+        pieces, self._contact = drive_among(self.true_pose, true, BASE_RADIUS_M, near)
+        separation, after = self._parameters.wheel_separation, 0.0
+        for piece in pieces:
+            turned = wheels.until(after)[1], wheels.until(after + piece.dt)[1]
+            after += piece.dt
+            if piece.is_blocked:  # the wheels, too, only turn the robot
+                turned = (0.0, turned[0][1]), (0.0, turned[1][1])
+            drop = first_drop(self.true_pose, piece, separation, around.world.edges)
+            if drop is not None:
+                dt, self._dropped = drop
+                turned = Piece(*turned, piece.dt).until(dt)[:2]
+                self._roll(turned, piece.until(dt)[:2], dt)
+                self._velocity, self._contact = REST, None
+                return
+            self._roll(turned, piece[:2], piece.dt)
+        if self._contact is not None:
+            self._velocity = 0.0, wheels.end_velocity[1]
 
-    def _falls(self, begin: Velocity, end: Velocity, piece: Piece) -> bool:
-        """Return whether a wheel drops within a Piece; if so, drive it so far."""
-        world = self._parameters.world
-        if world is None or not world.edges:
-            return False
-        separation = self._parameters.wheel_separation
-        drop = first_drop(self.true_pose, *piece[:3], separation, world.edges)
-        if drop is None:
-            return False
-        dt, self._dropped = drop
-        share = dt / piece.dt if piece.dt else 0.0
-        to = between(piece.velocity, piece.end_velocity, share)
-        self._roll(begin, between(begin, end, share), (piece.velocity, to), dt)
-        self._velocity, self._contact = REST, None
-        return True
-
-    def _roll(self, velocity: Velocity, end_velocity: Velocity, true: Change, dt: float) -> None:
-        """Let the wheels turn for dt [s], while the robot's own velocity changes as true says."""
-        mean = velocity if velocity == end_velocity else between(velocity, end_velocity, 0.5)
+    def _roll(self, wheels: Change, true: Change, dt: float) -> None:
+        """Let the wheels turn for dt [s] as for a velocity, while the robot has the true one."""
+        mean = wheels[0] if wheels[0] == wheels[1] else between(*wheels, 0.5)
         if self.odometry_differs:
             self._true_pose = drive(self._true_pose, *true, dt)
         if self._errors and self._errors.wheel_noise and dt:
@@ -275,6 +261,6 @@ class SimulatedRobot:
             self._pose = drive(before, mean, mean, dt)
             self._errors.grow(before, self._pose, mean, dt)
         else:
-            self._pose = drive(self._pose, velocity, end_velocity, dt)
+            self._pose = drive(self._pose, *wheels, dt)
         left, right = self._wheel_rates(mean)
         self._wheels = (self._wheels[0] + left * dt, self._wheels[1] + right * dt)

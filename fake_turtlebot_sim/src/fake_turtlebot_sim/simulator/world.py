@@ -74,11 +74,12 @@ class World:
             obstacles = [*around.near(px, py, REACH_M), *self.edges]
             for k, (dr, dc) in enumerate(((0, -1), (-1, 0), (0, 1), (1, 0))):
                 key = row + dr, column + dc
+                if len(found) >= count or key in found:
+                    continue
                 way = px, py, self.start[2] - (k + 1) * pi / 2
-                if len(found) < count and key not in found:
-                    if first_contact(way, (1.0, 0.0), GRID_M, BASE_RADIUS_M, obstacles) is None:
-                        found[key] = composed(self.start, (GRID_M * key[0], GRID_M * key[1], 0.0))
-                        reached.append(key)
+                if first_contact(way, (1.0, 0.0), GRID_M, BASE_RADIUS_M, obstacles) is None:
+                    found[key] = composed(self.start, (GRID_M * key[0], GRID_M * key[1], 0.0))
+                    reached.append(key)
         if len(found) < count:
             raise ValueError(f"the world has room for {len(found)} robots")
         return list(found.values())
@@ -111,17 +112,17 @@ class Surroundings:
     """The obstacles of a World within REACH_M of one robot."""
 
     def __init__(self, world: World) -> None:
-        self._world = world
+        self.world = world
         self._at: Point | None = None
         self._near: list[Obstacle] = []
 
     def near(self, x: float, y: float, reach: float) -> Sequence[Obstacle]:
         """Return at least all obstacles within reach [m] of (x, y)."""
-        obstacles = self._world.obstacles
+        obstacles = self.world.obstacles
         if reach > REACH_M:
             return obstacles
         if self._at is None or hypot(x - self._at[0], y - self._at[1]) + reach > REACH_M:
             self._at = x, y
-            is_near = gaps(x, y, self._world.array) <= REACH_M
+            is_near = gaps(x, y, self.world.array) <= REACH_M
             self._near = [obstacles[i] for i in np.flatnonzero(is_near)]
         return self._near
