@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import base64
-import threading
+import struct
 import time
 from contextlib import suppress
 from math import isfinite
@@ -26,6 +26,7 @@ MOST_POINTS = 160  # of a scan as pages get it
 LONGEST_SCAN = 200_000  # bytes
 DIGITS = 3  # of metres
 TRUTH, SCAN, EVENT = "base_pose_ground_truth", "scan", "mobile_base/events/bumper"  # of a robot
+EVENT_TYPE = "kobuki_msgs/BumperEvent"
 BUMPERS, BUMPER_BYTES = 3, 2  # of an event: which one, and whether it is pressed
 
 
@@ -40,26 +41,26 @@ class Surroundings(Source):
         self._newest: dict[str, tuple[float, bytes]] = {}
         self._mounts: dict[str, tuple[float, float]] = {}  # frame -> x, y [m] on the robot
         self._pressed: dict[str, set[int]] = {}  # topic -> numbers of bumpers
-        self._lock = threading.Lock()  # of the pressed ones
 
     def prepare(self, clients: Sequence[Client], now: float) -> None:
-        types, looks = self._graphs.graph.types, {c.watch.look for c in clients if c.watch.robots}
-        robots = self._graphs.graph.robots() if looks else set()
-        wanted = {
-            ("/map", OccupancyGrid._type): self._hear_map,
-            ("/tf_static", TFMessage._type): self._hear_frames,
-            **{(topic_of(robot, TRUTH), ODOMETRY): self._keep for robot in robots},
-            **{(topic_of(robot, SCAN), LaserScan._type): self._keep for robot in looks & robots},
-        }
-        there = {t: hear for (t, kind), hear in wanted.items() if looks and types.get(t) == kind}
-        if "/map" not in there:
+        graph, looks = self._graphs.graph, {c.watch.look for c in clients if c.watch.robots}
+        robots = graph.robots() if looks else set()
+
+        def there(wanted: dict[str, tuple[str, Any]]) -> dict[str, Any]:
+            types = graph.types if looks else {}
+            return {topic: hear for topic, (kind, hear) in wanted.items() if types.get(topic) == kind}
+
+        newest = there({
+            "/map": (OccupancyGrid._type, self._hear_map),
+            "/tf_static": (TFMessage._type, self._hear_frames),
+            **{topic_of(robot, TRUTH): (ODOMETRY, self._keep) for robot in robots},
+            **{topic_of(robot, SCAN): (LaserScan._type, self._keep) for robot in looks & robots},
+        })  # fmt: skip
+        events = there({topic_of(robot, EVENT): (EVENT_TYPE, self._hear_bumper) for robot in robots})
+        if "/map" not in newest:
             self._map = {}
-        self._feeds.want((self, "newest"), there, every=False)
-        events = {topic_of(robot, EVENT) for robot in robots}
-        pressing = {
-            t: self._hear_bumper for t in events if types.get(t) == "kobuki_msgs/BumperEvent"
-        }
-        self._feeds.want((self, "events"), pressing, every=True)
+        self._feeds.want((self, "newest"), newest, every=False)
+        self._feeds.want((self, "events"), events, every=True)
         around = {robot: self._around(robot) for robot in sorted(robots)} if self._map else {}
         self._text = encoded("around", robots=around)
 
@@ -77,11 +78,11 @@ class Surroundings(Source):
 
     def _around(self, robot: str) -> dict[str, Any]:
         found: dict[str, Any] = {"bumpers": sorted(self._pressed.get(topic_of(robot, EVENT), ()))}
-        _, data = self._newest.get(topic_of(robot, TRUTH), (0.0, b""))
-        place = motion(data) if data else None
-        if place and is_somewhere(place):
-            x, y, yaw = round(place.x, DIGITS), round(place.y, DIGITS), round(place.yaw, 4)
-            found.update(x=x, y=y, yaw=yaw)
+        with suppress(struct.error):
+            place = motion(self._newest.get(topic_of(robot, TRUTH), (0.0, b""))[1])
+            if is_somewhere(place):
+                x, y = round(place.x, DIGITS), round(place.y, DIGITS)
+                found.update(x=x, y=y, yaw=round(place.yaw, 4))
         return found
 
     def _hear_map(self, message: Any, _topic: str) -> None:
@@ -91,8 +92,7 @@ class Surroundings(Source):
             self._version += 1
 
     def _hear_frames(self, message: Any, _topic: str) -> None:
-        frames = read(TFMessage, message.data, LARGEST_MAP)
-        for one in frames.transforms if frames else ():
+        for one in (read(TFMessage, message.data, LARGEST_MAP) or TFMessage()).transforms:
             place = one.transform.translation
             self._mounts[one.child_frame_id] = (place.x, place.y)
 
@@ -100,12 +100,9 @@ class Surroundings(Source):
         self._newest[topic] = (time.monotonic(), message.data)
 
     def _hear_bumper(self, message: Any, topic: str) -> None:
-        if len(message.data) != BUMPER_BYTES or message.data[0] >= BUMPERS:
-            return
-        with self._lock:
-            pressed = set(self._pressed.get(topic, ()))
+        if len(message.data) == BUMPER_BYTES and message.data[0] < BUMPERS:
+            pressed = self._pressed.setdefault(topic, set())
             (pressed.add if message.data[1] else pressed.discard)(message.data[0])
-            self._pressed[topic] = pressed
 
 
 def read(kind: Any, data: bytes, longest: int) -> Any:

@@ -87,14 +87,10 @@ def _gap(session: Session, script: str, speed: float) -> float:
     if abs(fastest - speed) > 0.2 * speed:
         hint = 'rospy.get_param("~speed", 0.3) is the speed [m/s]'
         raise Wrong(f"{speed} m/s with _speed:={speed}", f"{fastest:.2f} m/s", script, hint)
-    if pressed:
-        seen = "it drives into the wall"
-    elif path[-1].v:
-        seen = f"it still drives, {gap:.2f} m before it"
-    elif LEAST_GAP_M <= gap <= MOST_GAP_M:
+    if not pressed and not path[-1].v and LEAST_GAP_M <= gap <= MOST_GAP_M:
         return gap
-    else:
-        seen = f"{gap:.2f} m"
+    seen = f"it still drives, {gap:.2f} m before it" if path[-1].v else f"{gap:.2f} m"
+    seen = "it drives into the wall" if pressed else seen
     hint = "ranges begin at the camera, 0.087 m behind the middle of the robot, whose radius is"
     raise Wrong(expected, seen, script, f"{hint} {RADIUS_M} m; too near is -inf")
 
@@ -116,8 +112,7 @@ def wanders(session: Session) -> str:
         path = [(sample.x, sample.y) for sample in robot.path]
         push, ended = longest_push(), program.ended
     way = sum(math.dist(a, b) for a, b in zip(path, path[1:]))
-    width = max(max(place[axis] for place in path) - min(place[axis] for place in path)
-                for axis in (0, 1))  # fmt: skip
+    width = max(max(places) - min(places) for places in zip(*path))
     expected = f"it drives about for {WANDER_S:.0f} s and pushes nothing for {LONGEST_PUSH_S:.0f} s"
     if ended:
         raise crash(session, PACKAGE, program, expected, "does it loop, or rospy.spin()?")
@@ -134,10 +129,8 @@ def push_of(events: Any, now: float) -> float:
     """Return how long [s] a bumper was pressed at a time, at most; events: heard of BUMPER."""
     pressed: set[int] = set()
     longest = began = 0.0
-    for when, _, (number, state) in events:
-        if state and not pressed:
-            began = when
+    for when, _, (number, state) in [*events, (now, 0, (-1, 0))]:
+        longest = max(longest, when - began if pressed else 0.0)
+        began = began if pressed else when
         (pressed.add if state else pressed.discard)(number)
-        longest = max(longest, when - began) if began else longest
-        began = began if pressed else 0.0
-    return max(longest, now - began) if pressed else longest
+    return longest
