@@ -35,19 +35,6 @@ def test_open_arc_in_steps_of_50_hz():
     assert pose == pytest.approx(circle(0.7, pi, 0.5), rel=0, abs=1e-9)
 
 
-def test_straight_ahead_and_backwards():
-    assert arc((1.0, 2.0, 0.0), (0.5, 0.0), 2.0) == (2.0, 2.0, 0.0)
-    assert arc((1.0, 2.0, 0.0), (-0.5, 0.0), 2.0) == (0.0, 2.0, 0.0)
-
-
-def test_turn_on_the_spot_keeps_the_place():
-    assert arc((1.0, 2.0, 0.0), (0.0, 1.0), 1.0) == (1.0, 2.0, 1.0)
-
-
-def test_a_whole_circle_in_one_step_ends_where_it_began():
-    assert arc(ORIGIN, (0.7, 1.0), 2 * pi) == pytest.approx((0, 0, 0), abs=1e-15)
-
-
 @pytest.mark.parametrize("exponent", range(-13, -2))
 @pytest.mark.parametrize("sign", [1, -1])
 def test_slow_turns_keep_their_digits(sign, exponent):
@@ -121,23 +108,11 @@ def test_wheels_roll_the_path_and_the_turn(velocity):
     assert 0.035 * (right - left) / 0.230 == pytest.approx(velocity[1], abs=1e-14)
 
 
-@given(velocity=VELOCITY, dt=st.floats(0, 2))
-def test_a_ramp_between_equal_velocities_is_the_arc(velocity, dt):
-    ramped, exact = ramp(ORIGIN, velocity, velocity, dt), arc(ORIGIN, velocity, dt)
-    assert ramped[:2] == pytest.approx(exact[:2], abs=1e-12)
-    assert wrap_angle(ramped[2] - exact[2]) == pytest.approx(0, abs=1e-12)
-
-
-def test_a_ramp_from_rest_follows_the_circle_of_its_curvature():
-    # v and w grow alike, so the path is the circle of radius v / w, half as far as at full speed.
-    ramped = ramp(ORIGIN, (0.0, 0.0), (0.7, 2.0), 3.0)
-    assert ramped == pytest.approx(circle(0.7, 2.0, 1.5), abs=1e-12)
-
-
 @pytest.mark.parametrize(("w", "dt"), [(1.0, 1.0), (-0.1, 10.0), (40.0, 10.0), (-100.0, 0.05)])
 def test_a_ramp_is_exact_however_far_it_turns(w, dt):
     x, y, yaw = ramp(ORIGIN, (0.0, 0.0), (0.7, w), dt)
-    # As above. In a piece of 1 rad, seven nodes in place of eight are 5e-14 m off.
+    # v and w grow alike, so the path is the circle of radius v / w. In a piece of 1 rad, seven nodes
+    # in place of eight are 5e-14 m off.
     turned = 0.5 * w * dt
     chord = 0.7 / w * 2.0 * sin(0.5 * turned)
     expected = (chord * cos(0.5 * turned), chord * sin(0.5 * turned))
@@ -153,9 +128,7 @@ def test_a_straight_ramp_is_driven_at_its_mean_velocity():
 def test_one_velocity_drives_the_arc_and_two_the_ramp_between():
     pose, slow, fast = (1.0, 2.0, 0.5), (0.25, 0.5), (0.75, 1.5)
     assert drive(pose, slow, slow, 0.5) == arc(pose, slow, 0.5)
-    assert drive(pose, slow, fast, 0.5) == ramp(pose, slow, fast, 0.5)
-    assert drive(pose, fast, slow, 0.5) == ramp(pose, fast, slow, 0.5)
-    assert ramp(pose, slow, fast, 0.5) != arc(pose, slow, 0.5)
+    assert drive(pose, slow, fast, 0.5) == ramp(pose, slow, fast, 0.5) != arc(pose, slow, 0.5)
 
 
 def test_a_ramp_is_the_limit_of_many_short_arcs():
@@ -172,15 +145,11 @@ KOBUKI = (0.7, pi)
 @pytest.mark.parametrize(
     ("asked", "given_"),
     [
-        ((-0.7, pi), (-0.7, pi)),
         ((0.3, -1.0), (0.3, -1.0)),
         ((1.4, 1.0), (0.7, 0.5)),
-        ((-1.4, 1.0), (-0.7, 0.5)),
-        ((0.5, 2 * pi), (0.25, pi)),
         ((0.5, 1.25 * pi), (0.4, pi)),
         ((1.4, 1.25 * pi), (0.7, 0.625 * pi)),  # within the limit of w once v is
         ((7.0, 20 * pi), (0.35, pi)),
-        ((1e300, 0.0), (0.7, 0.0)),
         ((1e300, -1e300), (0.7, -0.7)),
         ((0.0, -1e300), (0.0, -pi)),
     ],
@@ -200,9 +169,6 @@ def test_the_curvature_is_kept(v, w):
 
 def test_between_two_velocities():
     assert between((0.0, 2.0), (1.0, -2.0), 0.25) == (0.25, 1.0)
-    assert between((0.5, 1.5), (-1.0, 4.5), 0.25) == (0.125, 2.25)
-    assert between((0.5, 1.5), (-1.0, 4.5), 0.0) == (0.5, 1.5)
-    assert between((0.5, 1.5), (-1.0, 4.5), 1.0) == (-1.0, 4.5)
 
 
 @pytest.mark.parametrize(
@@ -211,7 +177,6 @@ def test_between_two_velocities():
         ((0.7, -pi), (-0.7, pi), (0.0, 0.0), 0.0),
         ((0.0, 0.0), (0.5, 1.0), (0.5, 2.0), 1.0),
         ((0.0, 1.0), (0.5, -3.0), (0.5, 2.0), 2.0),
-        ((0.25, 5.0), (0.625, -5.0), (0.5, 0.0), 0.75),
         ((0.25, 0.0), (-0.5, 0.0), (0.5, 0.0), 1.5),
         ((5.0, 0.25), (-5.0, 1.5), (0.0, 2.0), 0.625),
     ],

@@ -1,6 +1,5 @@
 """The parameters of cmd_vel_mux: a TurtleBot's own file works, every mistake is one clear line."""
 
-from math import inf, nan
 from pathlib import Path
 
 import pytest
@@ -56,8 +55,6 @@ def test_our_own_file():
     ("given", "parts"),
     [
         ({}, ["~subscribers: missing", "input/teleop"]),
-        ({"subscribers": []}, ["~subscribers: []", "list of inputs"]),
-        ({"subscribers": "teleop"}, ["~subscribers: 'teleop'", "list of inputs"]),
         ({"subscribers": TELEOP}, ["~subscribers: {'name': 'teleop'", "list of inputs"]),
         ({"subscribers": ["teleop"]}, ["entry 1: 'teleop'", "must be as in"]),
         ({"subscriber": [TELEOP]}, ["~subscriber: [", "did you mean ~subscribers?"]),
@@ -67,38 +64,21 @@ def test_our_own_file():
         (with_teleop(topic="input/navi"), ["topic: 'input/navi'", "twice"]),
         (with_teleop(priority=5), ["priority: 5", "twice"]),
         (with_teleop(name=None), ["entry 1: name: missing"]),
-        (with_teleop(topic=None), ["entry 1: topic: missing"]),
-        (with_teleop(timeout=None), ["entry 1: timeout: missing"]),
-        (with_teleop(priority=None), ["entry 1: priority: missing"]),
-        (with_teleop(name=7), ["entry 1: name: 7", "must be a name"]),
         (with_teleop(name=" "), ["entry 1: name: ' '", "must be a name"]),
         (with_teleop(name="idle"), ["entry 1: name: 'idle'", "none is active"]),
-        (with_teleop(topic=7), ["entry 1: topic: 7", "name of a topic"]),
         (with_teleop(topic="input teleop"), ["entry 1: topic: 'input teleop'"]),
         (with_teleop(topic="~teleop"), ["entry 1: topic: '~teleop'"]),
         (with_teleop(topic="input/"), ["entry 1: topic: 'input/'"]),
         (with_teleop(priority=-1), ["entry 1: priority: -1", "whole number"]),
-        (with_teleop(priority=7.5), ["entry 1: priority: 7.5", "whole number"]),
-        (with_teleop(priority=True), ["entry 1: priority: True", "whole number"]),
-        (with_teleop(priority="high"), ["entry 1: priority: 'high'", "whole number"]),
         (with_teleop(short_desc=7), ["entry 1: short_desc: 7", "text"]),
         (with_teleop(rearm_on_zero="yes"), ["entry 1: rearm_on_zero: 'yes'", "true or false"]),
-        (with_teleop(rearm_on_zero=1), ["entry 1: rearm_on_zero: 1", "true or false"]),
         (with_teleop(time_out=1.0), ["entry 1: time_out: 1.0", "did you mean timeout?"]),
-        (
-            with_teleop(colour="red"),
-            ["entry 1: colour: 'red'", "allowed: name, priority, "],
-        ),
         ({"subscribers": [TELEOP], "publisher": ""}, ["~publisher: ''", "name of a topic"]),
-        ({"subscribers": [TELEOP], "publisher": 7}, ["~publisher: 7", "name of a topic"]),
         (
             {"subscribers": [TELEOP], "publisher": "input/teleop"},
             ["~publisher: 'input/teleop'", "topic of an input"],
         ),
-        *(
-            (with_teleop(timeout=bad), [f"entry 1: timeout: {bad!r}", "from 0.02 to 60 s"])
-            for bad in (-1.0, 0, 0.01, 61, nan, inf, "1.0", True, [1.0])
-        ),
+        (with_teleop(timeout=0.01), ["entry 1: timeout: 0.01", "from 0.02 to 60 s"]),
     ],
 )
 def test_a_mistake_is_named_with_its_value_and_what_is_allowed(given, parts):

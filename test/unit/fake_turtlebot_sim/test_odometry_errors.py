@@ -129,12 +129,6 @@ def test_noise_does_not_touch_the_truth():
     )
 
 
-def test_the_wheels_measure_what_the_odometry_says():
-    robot, _ = noisy_drive(1)
-    turned = 0.035 * (robot.state().right_angle - robot.state().left_angle) / SEPARATION
-    assert turned == pytest.approx(robot.state().yaw, abs=1e-9)
-
-
 def test_at_rest_nothing_drifts():
     robot, _ = noisy_drive(1)
     robot.command((0.0, 0.0), 6 * SECOND)

@@ -1,7 +1,7 @@
 """Bags in, bags out: the library bag_replay and the command around it."""
 
 from io import BytesIO
-from math import cos, hypot, inf, nan, pi, remainder, sin
+from math import cos, hypot, inf, pi, remainder, sin
 from pathlib import Path
 
 import pytest
@@ -98,16 +98,6 @@ def test_after_the_last_command_the_timeout_stops_the_robot(tmp_path):
     assert result.path[-1].x == pytest.approx(0.42, abs=1e-9)
     assert result.path[-1].v == 0.0
     assert result.seconds == pytest.approx(0.6)
-    ramping = Parameters(max_linear_acceleration=1.0)
-    result = bag_replay.replay(recorded, tmp_path / "ramping.bag", ramping)
-    assert result.path[-1].v == 0.0
-
-
-def test_a_picture_of_the_path(commands, tmp_path):
-    picture = tmp_path / "path.png"
-    arguments = [str(commands), str(tmp_path / "out.bag"), "--picture", str(picture)]
-    assert replay_command.main(arguments) == 0
-    assert picture.read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
 
 
 def test_the_recorded_joystick_of_the_tutorial_comes_home(tmp_path, capsys):
@@ -165,13 +155,7 @@ def test_mistakes_are_one_clear_line_and_leave_nothing_behind(commands, tmp_path
 
 @pytest.mark.parametrize(
     ("axes", "velocity"),
-    [
-        ([0.3, 0.5, 1.0], (0.5, 0.3)),
-        ([0.3], (0.0, 0.0)),
-        ([], (0.0, 0.0)),
-        ([nan, 0.5], (0.0, 0.0)),
-        ([0.3, inf], (0.0, 0.0)),
-    ],
+    [([0.3, 0.5, 1.0], (0.5, 0.3)), ([0.3], (0.0, 0.0)), ([0.3, inf], (0.0, 0.0))],
 )
 def test_a_joystick_drives_as_the_tutorials_node_does(axes, velocity):
     assert replay_command.velocity_of_joy(Joy(axes=axes)) == velocity

@@ -48,7 +48,7 @@ class Surroundings(Source):
 
         def there(wanted: dict[str, tuple[str, Any]]) -> dict[str, Any]:
             types = graph.types if looks else {}
-            return {topic: hear for topic, (kind, hear) in wanted.items() if types.get(topic) == kind}
+            return {t: hear for t, (kind, hear) in wanted.items() if types.get(t) == kind}
 
         newest = there({
             "/map": (OccupancyGrid._type, self._hear_map),
@@ -56,11 +56,11 @@ class Surroundings(Source):
             **{topic_of(robot, TRUTH): (ODOMETRY, self._keep) for robot in robots},
             **{topic_of(robot, SCAN): (LaserScan._type, self._keep) for robot in looks & robots},
         })  # fmt: skip
-        events = there({topic_of(robot, EVENT): (EVENT_TYPE, self._hear_bumper) for robot in robots})
+        events = {topic_of(robot, EVENT): (EVENT_TYPE, self._hear_bumper) for robot in robots}
         if "/map" not in newest:
             self._map = {}
         self._feeds.want((self, "newest"), newest, every=False)
-        self._feeds.want((self, "events"), events, every=True)
+        self._feeds.want((self, "events"), there(events), every=True)
         around = {robot: self._around(robot) for robot in sorted(robots)} if self._map else {}
         self._text = encoded("around", robots=around)
 
