@@ -7,6 +7,7 @@ setup(
             "fake_turtlebot_sim",
             "fake_turtlebot_sim.mux",
             "fake_turtlebot_sim.replay",
+            "fake_turtlebot_sim.safety",
             "fake_turtlebot_sim.simulator",
         ],
         package_dir={"": "src"},

@@ -18,15 +18,14 @@ def nodes(name):
 
 
 class NamesTest(unittest.TestCase):
-    def run_two(self, script, *switch):
+    def run_two(self, name, *switch):
         """Start a node, and when it is there a second one; return both."""
-        name = script[: -len(".py")]
-        first = Program(node_path("beginner_tutorials", script), *switch)
-        self.addCleanup(first.__exit__)
-        wait_for(lambda: nodes(name), f"first {name}")
-        second = Program(node_path("beginner_tutorials", script), *switch)
-        self.addCleanup(second.__exit__)
-        return first, second
+        programs = []
+        for _ in range(2):
+            programs.append(Program(node_path("beginner_tutorials", f"{name}.py"), *switch))
+            self.addCleanup(programs[-1].__exit__)
+            wait_for(lambda: nodes(name), f"first {name}")
+        return programs
 
     def stop(self, *programs):
         for program in programs:
@@ -35,14 +34,14 @@ class NamesTest(unittest.TestCase):
             self.assertNotIn("Traceback", program.output)
 
     def check_anonymous(self, name):
-        first, second = self.run_two(f"{name}.py")
+        first, second = self.run_two(name)
         wait_for(lambda: len(nodes(f"{name}_")) == 2, f"two {name}s")
         self.assertFalse(first.ended)
         self.stop(first, second)
         wait_for(lambda: not nodes(name), f"end of both {name}s")
 
     def check_unique(self, name):
-        first, second = self.run_two(f"{name}.py", "--unique")
+        first, second = self.run_two(name, "--unique")
         self.assertEqual(first.wait(), 0)
         self.assertNotIn("Traceback", first.output)
         self.assertIn("new node registered with same name", first.output)

@@ -91,10 +91,10 @@ class LateTest(unittest.TestCase):
 
     def test_ctrl_c_in_the_middle_of_a_motion_leaves_the_robot_standing(self):
         driven = []
-        teleop = {"name": "teleop", "topic": "input", "timeout": 60.0, "priority": 1}
-        rospy.set_param("/ctrl_c/subscribers", [teleop])
-        rospy.Subscriber("/ctrl_c/output", Twist, lambda twist: driven.append(twist.linear.x))
-        stick = rospy.Publisher("/ctrl_c/input", Twist, queue_size=1)
+        teleop = {"name": "teleop", "topic": "/stick", "timeout": 60.0, "priority": 1}
+        rospy.set_param("/ctrl_c", {"subscribers": [teleop], "publisher": "base/cmd_vel"})
+        rospy.Subscriber("/ctrl_c/base/cmd_vel", Twist, lambda m: driven.append(m.linear.x))
+        stick = rospy.Publisher("/stick", Twist, queue_size=1)
         mux = node_path("fake_turtlebot_sim", "cmd_vel_mux.py")
         with Program(mux, "__name:=ctrl_c") as node:
             wait_for(lambda: stick.publish(twist(0.2)) or driven, "a command that goes through")

@@ -46,17 +46,6 @@ class RobotsTest(unittest.TestCase):
             self.assertEqual(commands, [])
             self.assertNotEqual((state.x, state.y), self.parameters.robots[name][:2])
 
-    def test_one_stale_robot_stops_alone(self):
-        stale, *driven = self.names
-        for name in self.names:
-            self.world.command(self.robots[name], 0.3, 0.1)
-        for k in range(25):
-            for name in driven:
-                self.world.command(self.robots[name], 0.3, 0.11 + 0.001 * k)
-        self.assertEqual(self.robots[stale].velocity(), (0.0, 0.0))
-        for name in driven:
-            self.assertEqual(self.robots[name].velocity()[0], 0.3)
-
 
 if __name__ == "__main__":
     init_node("fake_turtlebot_robots")

@@ -3,12 +3,14 @@
 
 import sys
 import unittest
+from math import nan
 
 import rosgraph
 import rospy
 import rostest
-from geometry_msgs.msg import Twist
+from geometry_msgs.msg import Twist, Vector3
 from nav_msgs.msg import Odometry
+from rosgraph_msgs.msg import Log
 from std_msgs.msg import Empty, String
 
 from node_kit.questions import call
@@ -57,7 +59,9 @@ class MinimalTest(unittest.TestCase):
         self.assertNotIn("/cmd_vel", dict(master.getTopicTypes()))
 
     def test_driving(self):
-        active, odometry = [], []
+        active, odometry, commands, log = [], [], [], []
+        rospy.Subscriber("mobile_base/commands/velocity", Twist, commands.append)
+        rospy.Subscriber("/rosout", Log, log.append)
         rospy.Subscriber("cmd_vel_mux/active", String, lambda m: active.append(m.data))
         rospy.Subscriber("odom", Odometry, odometry.append)
         teleop, safety = (
@@ -77,12 +81,13 @@ class MinimalTest(unittest.TestCase):
         def place():
             return odometry[-1].pose.pose.position.x
 
-        forwards, backwards = Twist(), Twist()
-        forwards.linear.x, backwards.linear.x = 0.3, -0.1
+        forwards = Twist(Vector3(0.3, 0.01, 0.02), Vector3(0.03, 0.04, 0.05))
+        backwards = Twist(linear=Vector3(-0.1, 0.0, 0.0))
 
         self.assertEqual(place(), 0.0)
         wait_for(lambda: teleop.publish(forwards) or is_driven("teleop", 0.3), "teleop")
         wait_for(lambda: teleop.publish(forwards) or place() > 0.1, "way forwards")
+        self.assertEqual(commands[-1], forwards)  # all six numbers, unchanged
 
         def both():
             teleop.publish(forwards)
@@ -91,6 +96,12 @@ class MinimalTest(unittest.TestCase):
         wait_for(lambda: both() or is_driven("safety_controller", -0.1), "safety_controller")
         farthest = place()
         wait_for(lambda: both() or place() < farthest - 0.05, "way back")
+        backwards.linear.x = nan  # neither obeyed nor a sign of life, and reported
+
+        def is_reported():
+            return any("safety_controller: a command is not a finite" in one.msg for one in log)
+
+        wait_for(lambda: both() or (is_driven("teleop", 0.3) and is_reported()), "teleop again")
         wait_for(lambda: is_driven("idle", 0.0), "robot that stands")
 
         reset.publish()

@@ -27,6 +27,19 @@ STORIES = {
         (1.9, None, None, STOP, IDLE),
         (2.0, None, None, None, IDLE),
     ],
+    "an input that fell silent while it was outranked is not fallen back to": [
+        (0.0, "navi", 0.1, THROUGH, "navi"),
+        (0.5, "teleop", 0.2, THROUGH, "teleop"),
+        (1.4, "teleop", 0.2, THROUGH, "teleop"),
+        (2.3, None, None, None, "teleop"),
+        (2.4, None, None, STOP, IDLE),
+    ],
+    "after the last fall-back the stop of the robot still comes": [
+        (0.0, "safety", -0.1, THROUGH, "safety"),
+        (0.1, "navi", 0.1, DROPPED, "safety"),
+        (0.2, None, None, None, "navi"),
+        (1.1, None, None, STOP, IDLE),
+    ],
     "a command that is not finite neither goes through nor keeps an input active": [
         (0.0, "navi", 0.1, THROUGH, "navi"),
         (0.9, "navi", nan, Verdict.REJECTED, "navi"),
@@ -93,6 +106,50 @@ def test_silence_of_all_leaves_the_robot_standing(events):
             last = speed
     assert arbiter.must_stop(now + 1.0) is (last != 0.0)
     assert not arbiter.must_stop(now + 1.0)
+
+
+# The same for one sender whose commands may be late: lines of (time [s], velocity, may it move).
+LATE_STORIES = {
+    "a network is restored: of the commands of meanwhile not one moves the robot": [
+        (0.0, 0.2, True),
+        (5.0, 0.2, False),
+        (5.0, 0.3, False),
+        (5.01, 0.3, False),
+        (5.1, 0.3, False),  # this one is of now, but who can tell
+    ],
+    "a zero among the late commands does not set the rest of them free": [
+        (0.0, 0.2, True),
+        (5.0, 0.2, False),
+        (5.0, 0.0, True),
+        (5.0, 0.3, False),
+        (5.001, 0.0, True),
+        (5.002, 0.3, False),
+    ],
+    "after a rest it moves again": [
+        (0.0, 0.2, True),
+        (5.0, 0.2, False),
+        (5.0, 0.0, True),
+        (5.3, 0.0, True),
+        (5.6, 0.2, True),
+        (5.7, 0.2, True),
+    ],
+    "a rest that is too short is none, and begins anew": [
+        (0.0, 0.2, True),
+        (5.0, 0.0, True),
+        (5.4, 0.2, False),
+        (5.5, 0.0, True),
+        (5.9, 0.2, False),
+        (6.0, 0.0, True),
+        (6.6, 0.2, True),
+    ],
+}
+
+
+@pytest.mark.parametrize("story", LATE_STORIES.values(), ids=LATE_STORIES)
+def test_late_commands(story):
+    sender = Arming(rest_s=REARM_S)
+    for now, speed, moves in story:
+        assert admits(sender, (speed, 0.0), now) is moves, now
 
 
 @given(st.lists(st.tuples(st.floats(0.0, 1.0), SPEEDS)))

@@ -111,8 +111,8 @@ def test_wheels_roll_the_path_and_the_turn(velocity):
 @pytest.mark.parametrize(("w", "dt"), [(1.0, 1.0), (-0.1, 10.0), (40.0, 10.0), (-100.0, 0.05)])
 def test_a_ramp_is_exact_however_far_it_turns(w, dt):
     x, y, yaw = ramp(ORIGIN, (0.0, 0.0), (0.7, w), dt)
-    # v and w grow alike, so the path is the circle of radius v / w. In a piece of 1 rad, seven nodes
-    # in place of eight are 5e-14 m off.
+    # v and w grow alike, so the path is the circle of radius v / w. In a piece of 1 rad, seven
+    # nodes in place of eight are 5e-14 m off.
     turned = 0.5 * w * dt
     chord = 0.7 / w * 2.0 * sin(0.5 * turned)
     expected = (chord * cos(0.5 * turned), chord * sin(0.5 * turned))

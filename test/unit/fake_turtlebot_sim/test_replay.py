@@ -1,7 +1,7 @@
 """Bags in, bags out: the library bag_replay and the command around it."""
 
 from io import BytesIO
-from math import cos, hypot, inf, pi, remainder, sin
+from math import hypot, inf, pi
 from pathlib import Path
 
 import pytest
@@ -14,7 +14,6 @@ from tf2_msgs.msg import TFMessage
 from fake_turtlebot_sim.replay import bag_replay
 from fake_turtlebot_sim.replay import command as replay_command
 from fake_turtlebot_sim.simulator.parameters import Parameters
-from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
 
 START_NS = 1_400_000_000 * 10**9
 JOY_BAG = Path(__file__).parents[3] / "joy2twist" / "bag" / "joy.bag"
@@ -159,28 +158,6 @@ def test_mistakes_are_one_clear_line_and_leave_nothing_behind(commands, tmp_path
 )
 def test_a_joystick_drives_as_the_tutorials_node_does(axes, velocity):
     assert replay_command.velocity_of_joy(Joy(axes=axes)) == velocity
-
-
-def test_an_hour_of_laps_closes_where_the_first_one_says():
-    """Each lap begins where the last one closed, and takes the same way from there."""
-    with Reader(JOY_BAG) as reader:
-        joys = [(at, Joy().deserialize(data)) for _, at, data in reader.messages()]
-    robot = SimulatedRobot(Parameters())
-    begin_ns, lap_ns = joys[0][0], joys[-1][0] - joys[0][0] + 20_000_000
-    laps = round(3600e9 / lap_ns)
-    closed = []
-    for lap in range(laps):
-        for at_ns, joy in joys:
-            robot.command((joy.axes[1], joy.axes[0]), lap * lap_ns + at_ns - begin_ns)
-        robot.advance((lap + 1) * lap_ns)
-        closed.append(robot.state()[:3])
-    x, y, yaw = closed[0]
-    expected = (0.0, 0.0, 0.0)
-    for pose in closed:
-        c, s = cos(expected[2]), sin(expected[2])
-        expected = (expected[0] + c * x - s * y, expected[1] + s * x + c * y, expected[2] + yaw)
-        assert hypot(pose[0] - expected[0], pose[1] - expected[1]) < 1e-6
-        assert abs(remainder(pose[2] - expected[2], 2 * pi)) < 1e-6
 
 
 def test_a_recording_in_a_room_meets_its_column_and_a_wall(tmp_path, capsys):

@@ -56,19 +56,14 @@ def test_nothing_is_felt_without_a_push():
 
 
 @pytest.mark.parametrize(
-    ("velocity", "distance", "which"),
-    [
-        ((0.5, 0.0), 1.0, (True, True)),  # both wheels reach the edge at once
-        ((-0.5, 0.0), None, (False, False)),
-    ],
+    ("velocity", "limits"), [((0.5, 0.0), {}), ((0.7, 0.0), {"max_linear_acceleration": 0.3})]
 )
-def test_a_wheel_drops_exactly_at_the_edge(velocity, distance, which):
-    robot = driven(SimulatedRobot(Parameters(world=EDGE)), velocity, 5)
-    assert robot.sensed().wheels == which
-    if distance:
-        assert robot.true_pose[0] == pytest.approx(distance, abs=EXACT)
-        assert robot.state()[3:5] == (0.0, 0.0)  # it lies there
-        assert driven(robot, (-0.5, 0.0), 1, 5).true_pose[0] == pytest.approx(distance, abs=EXACT)
+def test_both_wheels_drop_exactly_at_the_edge(velocity, limits):
+    robot = driven(SimulatedRobot(Parameters(world=EDGE, **limits)), velocity, 5)
+    assert robot.sensed().wheels == (True, True)
+    assert robot.true_pose[0] == pytest.approx(1.0, abs=EXACT)
+    assert robot.state()[3:5] == (0.0, 0.0)  # it lies there
+    assert driven(robot, (-0.5, 0.0), 1, 5).true_pose[0] == pytest.approx(1.0, abs=EXACT)
 
 
 def test_on_an_arc_the_outer_wheel_drops_first():
@@ -81,13 +76,6 @@ def test_on_an_arc_the_outer_wheel_drops_first():
     robot.place((0.0, 0.0, 0.0))
     assert robot.sensed().wheels == (False, False)
     assert driven(robot, (0.1, 0.0), 1, 5).state().x > 0.05
-
-
-def test_a_ramp_ends_at_the_edge_too():
-    parameters = Parameters(world=EDGE, max_linear_acceleration=0.3)
-    robot = driven(SimulatedRobot(parameters), (0.7, 0.0), 5)
-    assert robot.true_pose[0] == pytest.approx(1.0, abs=EXACT)
-    assert robot.sensed().wheels == (True, True)
 
 
 def test_the_cliff_sensors_are_ahead_of_the_wheels():

@@ -111,15 +111,6 @@ def test_the_wheels_have_rolled_the_path_and_the_turn():
     )
 
 
-def test_an_hour_at_rest_changes_no_bit():
-    start = (0.1, -0.2, 3.0)
-    robot = SimulatedRobot(KOBUKI, start)
-    robot.command((0.0, 0.0), 0)
-    for k in range(3600 * 50):
-        robot.advance(k * PERIOD)
-    assert robot.state()[:3] == start
-
-
 @pytest.mark.parametrize("way", [1, -1], ids=["forward", "backward"])
 def test_the_wheels_follow_a_ramp_up_and_down(way):
     robot = SimulatedRobot(RAMPING)
