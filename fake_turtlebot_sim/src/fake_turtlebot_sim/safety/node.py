@@ -7,7 +7,7 @@ import time
 from typing import Any
 
 import rospy
-from geometry_msgs.msg import Twist
+from geometry_msgs.msg import Twist, Vector3
 from std_msgs.msg import Empty
 
 from fake_turtlebot_sim.kobuki_events import EVENTS, QUEUE
@@ -45,9 +45,8 @@ class SafetyController:
             )
             for kind, message, field in EVENTS
         ]  # fmt: skip
-        rospy.Subscriber("~enable", Empty, self._enable, callback_args=True, queue_size=1)
-        rospy.Subscriber("~disable", Empty, self._enable, callback_args=False, queue_size=1)
-        rospy.Subscriber("~reset", Empty, self._on_reset, queue_size=1)
+        for topic in ("enable", "disable", "reset"):
+            rospy.Subscriber(f"~{topic}", Empty, self._on_empty, callback_args=topic, queue_size=1)
 
     def spin(self) -> None:
         """Publish again and again while a sensor is active, until shut down."""
@@ -67,19 +66,16 @@ class SafetyController:
 
     def _publish(self) -> None:
         velocity = self._reaction.velocity(time.monotonic())
-        if velocity is None or not self._is_enabled:
-            return
-        twist = Twist()
-        twist.linear.x, twist.angular.z = velocity
-        self._publisher.publish(twist)
+        if velocity is not None and self._is_enabled:
+            v, w = velocity
+            self._publisher.publish(Twist(Vector3(v, 0.0, 0.0), Vector3(0.0, 0.0, w)))
 
-    def _enable(self, _message: Any, is_enabled: bool) -> None:
+    def _on_empty(self, _message: Any, topic: str) -> None:
         with self._lock:
-            self._is_enabled = is_enabled
-
-    def _on_reset(self, _message: Any) -> None:
-        with self._lock:
-            self._reaction.reset()
+            if topic == "reset":
+                self._reaction.reset()
+            else:
+                self._is_enabled = topic == "enable"
 
 
 def main() -> int:

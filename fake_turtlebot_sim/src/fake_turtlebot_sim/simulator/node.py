@@ -16,7 +16,6 @@ from fake_turtlebot_sim.simulator.parameters import Parameters, parse_parameters
 from fake_turtlebot_sim.simulator.robot_topics import RobotTopics
 from fake_turtlebot_sim.simulator.ros_clock import Instant, Motion
 from fake_turtlebot_sim.simulator.ros_messages import ORIGIN, Place, static_transform
-from fake_turtlebot_sim.simulator.world import World
 from fake_turtlebot_sim.simulator.world_topics import WorldTopics
 from node_kit.careful_connections import report_bad_messages
 from node_kit.log import Log
@@ -58,12 +57,16 @@ class FakeTurtlebot:
         self._transforms = TFMessage()
         if parameters.publish_tf:
             self._transforms.transforms = [topics.messages.transform for topics in self._topics]
+            if parameters.world:
+                self._transforms.transforms += [topics.messages.in_map for topics in self._topics]
         self._world: WorldTopics | None = None
+        frames = [(parameters.world_frame, one.odom_frame, ORIGIN) for one in self._topics]
         if parameters.world:
-            self._show_world(parameters, parameters.world)
-        elif parameters.publish_tf and parameters.robots:
-            world_frame = parameters.world_frame
-            self._lay(*((world_frame, topics.odom_frame, ORIGIN) for topics in self._topics))
+            robots = {topics.name: topics.robot for topics in self._topics}
+            self._world = WorldTopics(parameters, parameters.world, robots)
+            frames = self._world.frames()
+        if parameters.publish_tf and (parameters.world or parameters.robots):
+            self._lay(frames)
         self._cycles = self._missed = self._reported_rejected = 0  # since the last report
         self._cycle_number = 0
         self._diagnostics = diagnostic_updater.Updater()
@@ -105,20 +108,11 @@ class FakeTurtlebot:
                 self._tf.publish(self._transforms)
         return now
 
-    def _lay(self, *frames: tuple[str, str, Place]) -> None:
+    def _lay(self, frames: list[tuple[str, str, Place]]) -> None:
         """Publish where frames lie for good: (parent, child, place [m] in the parent)."""
         stamp = rospy.Time.now()
         self._tf_static = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
-        transforms = [static_transform(one, stamp) for one in frames]
-        self._tf_static.publish(TFMessage(transforms))
-
-    def _show_world(self, parameters: Parameters, world: World) -> None:
-        """Publish the world, and where it is in the frames."""
-        robots = {topics.name: topics.robot for topics in self._topics}
-        self._world = WorldTopics(parameters, world, robots)
-        if parameters.publish_tf:
-            self._transforms.transforms += [topics.messages.in_map for topics in self._topics]
-            self._lay(*self._world.frames())
+        self._tf_static.publish(TFMessage([static_transform(one, stamp) for one in frames]))
 
     def _end(self) -> None:
         """Leave the robots standing, and have it seen that they do."""

@@ -9,16 +9,8 @@ from typing import Any, Mapping
 
 from fake_turtlebot_sim.simulator.differential_drive import Pose
 from fake_turtlebot_sim.simulator.world import World
-from fake_turtlebot_sim.simulator.world_files import WorldError, find_world, read_world
-from node_kit.parameters import (
-    checked,
-    is_number,
-    number,
-    parameter,
-    switch,
-    text,
-    whole_number,
-)
+from fake_turtlebot_sim.simulator.world_files import find_world, read_world
+from node_kit.parameters import checked, is_number, number, parameter, switch, text, whole_number
 
 MOST_ROBOTS = 1000
 
@@ -71,12 +63,7 @@ def _world(value: Any) -> World | None:
     """Read a world: the path of a file, or the name of one of this package; "" is none."""
     if not isinstance(value, str):
         raise ValueError("must be a file, or the name of a world of this package")
-    if not value:
-        return None
-    try:
-        return read_world(find_world(value))
-    except WorldError as error:
-        raise ValueError(str(error)) from None
+    return read_world(find_world(value)) if value else None
 
 
 @dataclass(frozen=True)
@@ -124,10 +111,7 @@ class Parameters:
         "world", _FRAME, "in which the odometry frames of several robots lie"
     )
     world: World | None = parameter(
-        None,
-        _world,
-        "what to drive in: `room`, `maze`, `table`, or a file; none: an empty plane",
-        '""',
+        None, _world, "to drive in: `room`, `maze`, `table`, or a file; none: an empty plane", '""'
     )
     map_frame: str = parameter("map", _FRAME, "that of the world")
     robots_meet: bool = parameter(True, switch, "in a world robots touch and see each other")

@@ -16,7 +16,7 @@ LARGEST_MAP = 4_000_000  # cells
 MOST_WALLS = 20_000
 
 
-class WorldError(Exception):
+class WorldError(ValueError):
     """Why a file is no world: one line, with the line of the file and what is allowed."""
 
 
@@ -117,7 +117,7 @@ def _from_map(path: Path, about: dict[str, Any]) -> World:
     try:
         with Image.open(image) as picture:
             if picture.width * picture.height > LARGEST_MAP:
-                raise WorldError(f"{image}: more than {LARGEST_MAP} cells")
+                raise ValueError(f"more than {LARGEST_MAP} cells")
             shades = np.asarray(picture.convert("L"), dtype=float)[::-1]
     except (OSError, SyntaxError, ValueError, Image.DecompressionBombError) as error:
         raise WorldError(f"{image}: cannot be read as an image: {error}") from None

@@ -48,7 +48,7 @@ class WorldTopics:
         self._shown = shown.getvalue()
 
     def frames(self) -> list[tuple[str, str, Place]]:
-        """Return which frames lie where for good: (parent, child, place [m] in the parent)."""
+        """Return where frames lie for good: (parent, child, place [m] in the parent)."""
         p = self._parameters
         place = p.scan_x, p.scan_y, SCAN_Z
         found = [(one.base_frame, one.scan_frame, place) for one in self._sensors]
