@@ -1,6 +1,6 @@
 """Where and when a round robot touches walls, posts and other robots."""
 
-from math import acos, asin, cos, hypot, inf, pi, sin, sqrt
+from math import acos, asin, cos, inf, pi, sqrt
 
 import pytest
 from hypothesis import assume, given, settings
@@ -8,9 +8,6 @@ from hypothesis import strategies as st
 
 from fake_turtlebot_sim.simulator.contact import Piece, drive_among, first_contact, gap
 from fake_turtlebot_sim.simulator.differential_drive import arc
-from fake_turtlebot_sim.simulator.parameters import Parameters
-from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
-from fake_turtlebot_sim.simulator.world import World
 
 R = 0.178
 WALL = (1.0, -5.0, 1.0, 5.0, 0.0)  # x = 1
@@ -78,52 +75,3 @@ def test_a_robot_is_never_inside_and_stops_only_where_it_touches(obstacles, pose
         if contact is not None:  # it drives towards what it touches: backing off is never kept
             ahead = pose[2] if velocity[0] > 0 else pose[2] + pi
             assert cos(contact - ahead) > -EXACT
-
-
-WALL = World((((1.0, -5.0), (1.0, 5.0)),))
-
-
-def robot_at_the_wall(velocity, seconds=4, **parameters):
-    robot = SimulatedRobot(Parameters(world=WALL, **parameters))
-    for cycle in range(50 * seconds):
-        robot.command(velocity, cycle * 20_000_000)
-        robot.advance((cycle + 1) * 20_000_000)
-    return robot
-
-
-def test_at_a_wall_the_wheels_stall_and_odometry_says_so():
-    robot = robot_at_the_wall((0.5, 0.0))
-    state = robot.state()
-    assert (state.x, state.v, state.left_rate) == (pytest.approx(1 - R, abs=EXACT), 0.0, 0.0)
-    assert robot.contact == pytest.approx(0.0, abs=EXACT)
-    assert state.left_angle == pytest.approx((1 - R) / 0.035)  # of a wheel of 35 mm
-    robot.command((-0.5, 0.0), 4_000_000_000)
-    robot.advance(4_500_000_000)
-    assert robot.state().x == pytest.approx(1 - R - 0.25, abs=EXACT)
-    assert robot.contact is None
-
-
-def test_with_a_turn_it_pushes_until_it_leads_along_the_wall():
-    robot = robot_at_the_wall((0.5, 0.4), seconds=8)
-    # On the spot from asin(0.6576) to pi / 2, then on a circle of 1.25 m away from the wall.
-    turned = pi / 2 / 0.4  # [s], as turning goes on in any case
-    x = 1 - R - 1.25 * (1 - cos(0.4 * (8 - turned)))
-    assert robot.state().x == pytest.approx(x, abs=EXACT)
-
-
-def test_a_ramp_ends_at_the_wall_too():
-    robot = robot_at_the_wall((0.7, 0.0), max_linear_acceleration=0.5)
-    assert robot.state().x == pytest.approx(1 - R, abs=EXACT)
-    assert robot.state().v == 0.0 and robot.contact is not None
-
-
-def test_a_robot_with_errors_touches_with_its_true_body():
-    robot = SimulatedRobot(Parameters(world=WALL, wheel_radius_ratio=1.02, wheel_noise=0.01))
-    for cycle in range(200):
-        robot.command((0.5, 0.0), cycle * 20_000_000)
-        robot.advance((cycle + 1) * 20_000_000)
-        true = robot.true_state()
-        assert true.x <= 1 - R + EXACT
-    assert hypot(true.x - 1 + R, 0.0) < EXACT
-    assert robot.state().v == 0.0
-    assert sin(robot.contact) != 0.0  # its heading has gone astray, the wall has not

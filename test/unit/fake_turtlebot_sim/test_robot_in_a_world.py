@@ -1,6 +1,6 @@
 """A robot in a world: sensors, edges, other robots, and where it is put."""
 
-from math import asin, cos, hypot, inf, pi
+from math import asin, cos, hypot, inf, pi, sin
 
 import numpy as np
 import pytest
@@ -20,6 +20,7 @@ EXACT = 1e-9
 PERIOD_NS = 20_000_000
 NOBODY = np.empty((0, 5))
 SQUARE = ((-2.0, -2.0), (2.0, -2.0), (2.0, 2.0), (-2.0, 2.0), (-2.0, -2.0))
+WALL = World((((1.0, -5.0), (1.0, 5.0)),))  # x = 1
 EDGE = World(cliffs=(((1.0, -3.0), (3.0, -3.0), (3.0, 3.0), (1.0, 3.0)),))
 
 
@@ -34,6 +35,40 @@ def drive(robot, velocity, seconds, begin=0.0):
 def driven(robot, velocity, seconds, begin=0.0):
     *_, last = drive(robot, velocity, seconds, begin)
     return last
+
+
+def test_at_a_wall_the_wheels_stall_and_odometry_says_so():
+    robot = driven(SimulatedRobot(Parameters(world=WALL)), (0.5, 0.0), 4)
+    state = robot.state()
+    assert (state.x, state.v, state.left_rate) == (pytest.approx(1 - R, abs=EXACT), 0.0, 0.0)
+    assert robot.contact == pytest.approx(0.0, abs=EXACT)
+    assert state.left_angle == pytest.approx((1 - R) / 0.035)  # of a wheel of 35 mm
+    assert driven(robot, (-0.5, 0.0), 0.5, 4).state().x == pytest.approx(1 - R - 0.25, abs=EXACT)
+    assert robot.contact is None
+
+
+def test_with_a_turn_it_pushes_until_it_leads_along_the_wall():
+    robot = driven(SimulatedRobot(Parameters(world=WALL)), (0.5, 0.4), 8)
+    # On the spot from asin(0.6576) to pi / 2, then on a circle of 1.25 m away from the wall.
+    turned = pi / 2 / 0.4  # [s], as turning goes on in any case
+    x = 1 - R - 1.25 * (1 - cos(0.4 * (8 - turned)))
+    assert robot.state().x == pytest.approx(x, abs=EXACT)
+
+
+def test_a_ramp_ends_at_the_wall_too():
+    parameters = Parameters(world=WALL, max_linear_acceleration=0.5)
+    robot = driven(SimulatedRobot(parameters), (0.7, 0.0), 4)
+    assert robot.state().x == pytest.approx(1 - R, abs=EXACT)
+    assert robot.state().v == 0.0 and robot.contact is not None
+
+
+def test_a_robot_with_errors_touches_with_its_true_body():
+    parameters = Parameters(world=WALL, wheel_radius_ratio=1.02, wheel_noise=0.01)
+    for robot in drive(SimulatedRobot(parameters), (0.5, 0.0), 4):
+        assert robot.true_pose[0] <= 1 - R + EXACT
+    assert robot.true_pose[0] == pytest.approx(1 - R, abs=EXACT)
+    assert robot.state().v == 0.0
+    assert sin(robot.contact) != 0.0  # its heading has gone astray, the wall has not
 
 
 @pytest.mark.parametrize(
