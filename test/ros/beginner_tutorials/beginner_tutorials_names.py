@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Anonymous nodes live side by side; of two with one name the older ends, cleanly."""
+"""Of two nodes with one name the older ends, cleanly; without a master Ctrl-C ends each."""
 
 import sys
 import unittest
@@ -19,11 +19,11 @@ def nodes(name):
 
 
 class NamesTest(unittest.TestCase):
-    def run_two(self, name, *switch):
+    def run_two(self, name):
         """Start a node, and when it is there a second one; return both."""
         programs = []
         for _ in range(2):
-            programs.append(Program(node_path("beginner_tutorials", f"{name}.py"), *switch))
+            programs.append(Program(node_path("beginner_tutorials", f"{name}.py"), "--unique"))
             self.addCleanup(programs[-1].__exit__)
             wait_for(lambda: nodes(name), f"first {name}")
         return programs
@@ -32,20 +32,12 @@ class NamesTest(unittest.TestCase):
         self.assertEqual(program.wait(), 0)
         self.assertNotIn("Traceback", program.output)
 
-    def stop(self, *programs):
-        for program in programs:
-            program.interrupt()
-            self.ends(program)
-
-    def check_anonymous(self, name):
-        first, second = self.run_two(name)
-        wait_for(lambda: len(nodes(f"{name}_")) == 2, f"two {name}s")
-        self.assertFalse(first.ended)
-        self.stop(first, second)
-        wait_for(lambda: not nodes(name), f"end of both {name}s")
+    def stop(self, program):
+        program.interrupt()
+        self.ends(program)
 
     def check_unique(self, name):
-        first, second = self.run_two(name, "--unique")
+        first, second = self.run_two(name)
         self.ends(first)
         self.assertIn("new node registered with same name", first.output)
         wait_for(lambda: nodes(name) == [f"/{name}"], f"second {name}")
@@ -63,7 +55,7 @@ class NamesTest(unittest.TestCase):
 
 if __name__ == "__main__":
     init_node("names_test")
-    for check in ("anonymous", "unique", "without_master"):
+    for check in ("unique", "without_master"):
         for name in ("talker", "listener"):
             test = partialmethod(getattr(NamesTest, f"check_{check}"), name)
             setattr(NamesTest, f"test_{name}_{check}", test)

@@ -33,7 +33,7 @@ class Piece(NamedTuple):
     def until(self, dt: float) -> Piece:
         """Return its part before a time [s]."""
         end = between(self.velocity, self.end_velocity, dt / self.dt if self.dt else 0.0)
-        return self._replace(end_velocity=end, dt=dt)
+        return Piece(self.velocity, end, dt)
 
 
 def nearest(x: float, y: float, obstacle: Obstacle) -> tuple[float, float]:
@@ -85,29 +85,29 @@ class _Motion:
     """
 
     def __init__(self, pose: Pose, velocity: Velocity) -> None:
-        x, y, yaw = pose
+        self.x, self.y, yaw = pose
         v, w = velocity
         self.speed = abs(v)
         self._bend = max(LEAST_BEND, abs(w) / self.speed)  # [1/m]
-        self._middle = complex(x, y)
         self._turn = rect(1.0 if v > 0 else -1.0, -yaw)
         self._is_mirrored = w < 0
 
     def _seen(self, x: float, y: float) -> complex:
-        seen = (complex(x, y) - self._middle) * self._turn
+        seen = complex(x - self.x, y - self.y) * self._turn
         return seen.conjugate() if self._is_mirrored else seen
 
     def way_to(self, obstacle: Obstacle, radius: float, longest: float) -> float | None:
         """Return the way [m] to the first touch within longest [m], or None."""
         reach = radius + obstacle[4]
-        near = self._seen(*nearest(self._middle.real, self._middle.imag, obstacle))
-        distance = abs(near)
+        px, py = nearest(self.x, self.y, obstacle)
+        distance = hypot(px - self.x, py - self.y)
         if distance - reach > longest:
             return None
         least = 0.0
         if distance - reach <= TOUCH_M:
             if not distance:
                 return None  # both have one middle: every way leads out
+            near = self._seen(px, py)
             towards = near.real / distance
             bends_to_it = self._bend * longest >= STRAIGHT and near.imag > 0.0
             if towards > TANGENT or (towards > -TANGENT and bends_to_it):

@@ -6,6 +6,7 @@ which its ends are seen; only for these pairs is a distance computed. Points are
 
 from __future__ import annotations
 
+from cmath import rect
 from math import tau
 from typing import Any
 
@@ -30,13 +31,15 @@ class Scanner:
 
         walls: an array (n, 4) of x1, y1, x2, y2 [m]; discs: (m, 3) of x, y, radius [m].
         """
-        sensor, turn = complex(*pose[:2]), np.exp(-1j * pose[2])
+        sensor, turn = complex(*pose[:2]), rect(1.0, -pose[2])
         one, other, middles = (
             (of[:, k] + 1j * of[:, k + 1] - sensor) * turn
             for of, k in ((walls, 0), (walls, 2), (discs, 0))
         )
-        found = self._to_walls(one, other), self._to_discs(middles, discs[:, 2])
-        beams, ranges = (np.concatenate(parts) for parts in zip(*found))
+        beams, ranges = self._to_walls(one, other)
+        if len(discs):
+            found = (beams, ranges), self._to_discs(middles, discs[:, 2])
+            beams, ranges = (np.concatenate(parts) for parts in zip(*found))
         nearest = np.full(self._count, np.inf)
         if len(beams):
             order = np.argsort(beams, kind="stable")  # of small integers: linear

@@ -235,8 +235,10 @@ class SimulatedRobot:
         pieces, self._contact = drive_among(self.true_pose, true, BASE_RADIUS_M, near)
         separation, after = self._parameters.wheel_separation, 0.0
         for piece in pieces:
-            turned = wheels.until(after)[1], wheels.until(after + piece.dt)[1]
-            after += piece.dt
+            turned = wheels[:2]
+            if len(pieces) > 1:
+                turned = wheels.until(after)[1], wheels.until(after + piece.dt)[1]
+                after += piece.dt
             if piece.is_blocked:  # the wheels, too, only turn the robot
                 turned = (0.0, turned[0][1]), (0.0, turned[1][1])
             drop = first_drop(self.true_pose, piece, separation, around.world.edges)
