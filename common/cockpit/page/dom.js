@@ -1,4 +1,4 @@
-/** The few words in which the views build their elements. */
+/** The few functions with which the tabs build their elements. */
 
 export const byId = (id) => document.getElementById(id);
 
@@ -19,14 +19,14 @@ export const row = (...cells) => element("tr", {}, ...cells.map((cell) => elemen
 /** Let a <select> offer these [value, text] pairs, and keep what is chosen if it is still there. */
 export function offer(select, choices) {
   const wanted = JSON.stringify(choices);
-  if (select.dataset.choices === wanted) return; // an open list is left alone
+  if (select.dataset.choices === wanted) return; // an open list stays as it is
   const chosen = select.value;
   select.dataset.choices = wanted;
-  select.replaceChildren(...choices.map(([value, text]) => new Option(text, value)));
+  select.replaceChildren(...choices.map(([value, text = value]) => new Option(text, value)));
   if (choices.some(([value]) => value === chosen)) select.value = chosen;
 }
 
-/** Set a text, if it is another one: what reads the page aloud speaks of changes only. */
+/** Set a text only if it differs: screen readers read each change aloud. */
 export function say(target, text) {
   if (target.textContent !== text) target.textContent = text;
 }

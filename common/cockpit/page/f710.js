@@ -2,8 +2,8 @@
  * The Logitech F710 as /joy shows it, and what hands do on it (pure).
  *
  * Hands are {left, right, dpad: [x, y] from -1 to 1, left and up positive as on /joy; triggers:
- * [LT, RT] from 0 (released) to 1; held: names of buttons}. It is what gamepads.py and controls.py
- * of the package gamepad have in Python.
+ * [LT, RT] from 0 (released) to 1; held: names of buttons}. gamepads.py and controls.py of the
+ * package gamepad have the same in Python.
  */
 
 export const REST = Object.freeze({
@@ -18,18 +18,24 @@ const STANDARD = [
   "up", "down", "left", "right", "LOGITECH",
 ];
 
+const digital = (v) => (v > DIGITAL) - (v < -DIGITAL);
+
+/** The names of all buttons that are held, with the triggers that are pressed. */
+export function heldBy({ held, triggers }) {
+  return new Set([...held, ...["LT", "RT"].filter((_, i) => triggers[i] > DIGITAL)]);
+}
+
 /** {axes, buttons} as on /joy. mode: "D" or "X"; names: of that mode's buttons, in their order. */
 export function positions(mode, names, hands) {
-  const dpad = hands.dpad.map((v) => (v > DIGITAL) - (v < -DIGITAL));
-  const [lt, rt] = hands.triggers;
-  const held = new Set(hands.held);
-  if (lt > DIGITAL) held.add("LT");
-  if (rt > DIGITAL) held.add("RT");
-  const axes =
-    mode === "X"
-      ? [...hands.left, 1 - 2 * lt, ...hands.right, 1 - 2 * rt, ...dpad]
-      : [...hands.left, ...hands.right, ...dpad];
-  return { axes: axes.map((v) => Math.max(-1, Math.min(1, v)) + 0), buttons: names.map((name) => Number(held.has(name))) };
+  const { left, right, triggers } = hands;
+  const dpad = hands.dpad.map(digital);
+  const [lt, rt] = triggers.map((v) => 1 - 2 * v);
+  const axes = mode === "X" ? [...left, lt, ...right, rt, ...dpad] : [...left, ...right, ...dpad];
+  const held = heldBy(hands);
+  return {
+    axes: axes.map((v) => Math.max(-1, Math.min(1, v)) + 0), // + 0: no -0
+    buttons: names.map((name) => Number(held.has(name))),
+  };
 }
 
 /** What hands do, from {axes, buttons} of /joy; the opposite of positions(). */
@@ -42,38 +48,37 @@ export function handsOf(mode, names, axes, buttons) {
     : { left: [lx, ly], right: [a, b], dpad: [c, d], triggers: [pressed("LT"), pressed("RT")], held };
 }
 
-export function isAtRest(hands) {
-  const all = [...hands.left, ...hands.right, ...hands.dpad, ...hands.triggers];
-  return hands.held.length === 0 && all.every((v) => Math.abs(v) < 1e-6);
+export function isAtRest({ left, right, dpad, triggers, held }) {
+  return !held.length && [left, right, dpad, triggers].flat().every((v) => Math.abs(v) < 1e-6);
 }
 
 /** What hands do on a Gamepad of the browser. names: {D, X: names of the buttons of that mode}. */
-export function handsOfGamepad(gamepad, names) {
-  const values = gamepad.buttons.map((button) => button.value);
-  const pressed = gamepad.buttons.map((button) => button.pressed);
-  const ros = gamepad.axes.map((v) => -v); // there right and down are positive
-  let hands;
-  if (gamepad.mapping === "standard") {
-    const value = (name) => values[STANDARD.indexOf(name)] ?? 0;
-    hands = {
-      left: ros.slice(0, 2),
-      right: ros.slice(2, 4),
-      dpad: [value("left") - value("right"), value("up") - value("down")],
-      triggers: [value("LT"), value("RT")],
-      held: STANDARD.filter((name, i) => pressed[i] && name === name.toUpperCase()),
-    };
-    hands.held = hands.held.filter((name) => name !== "LT" && name !== "RT"); // they are above
-  } else {
-    // As the kernel numbers them: 8 axes are an F710 at X, 6 one at D.
-    const mode = ros.length >= 8 ? "X" : "D";
-    hands = handsOf(mode, names[mode], [...ros, 0, 0, 0, 0, 0, 0], pressed);
-  }
+export function handsOfGamepad({ mapping, axes, buttons }, names) {
+  const pressed = buttons.map((button) => button.pressed);
+  const ros = axes.map((v) => -v); // there right and down are positive
+  // Without the standard mapping as the kernel numbers them: an F710 has 8 axes at X, 6 at D.
+  const mode = ros.length >= 8 ? "X" : "D";
+  const hands = mapping === "standard"
+    ? handsOfStandard(ros, buttons, pressed)
+    : handsOf(mode, names[mode], [...ros, 0, 0, 0, 0, 0, 0], pressed);
   return {
     left: hands.left.map(outOfDeadzone),
     right: hands.right.map(outOfDeadzone),
-    dpad: hands.dpad.map((v) => (v > DIGITAL) - (v < -DIGITAL)),
+    dpad: hands.dpad.map(digital),
     triggers: hands.triggers.map((v) => (v < DEADZONE ? 0 : Math.min(1, v))),
     held: hands.held,
+  };
+}
+
+function handsOfStandard(ros, buttons, pressed) {
+  const value = (name) => buttons[STANDARD.indexOf(name)]?.value ?? 0;
+  const isButton = (name) => name === name.toUpperCase() && name !== "LT" && name !== "RT";
+  return {
+    left: ros.slice(0, 2),
+    right: ros.slice(2, 4),
+    dpad: [value("left") - value("right"), value("up") - value("down")],
+    triggers: [value("LT"), value("RT")],
+    held: STANDARD.filter((name, i) => pressed[i] && isButton(name)),
   };
 }
 

@@ -7,9 +7,14 @@ const TRAIL_STEP_M = 0.02; // between two points of a trail
 const TRAIL_POINTS = 3000;
 const SCALE = { least: 4, start: 110, most: 1500 }; // [pixel/m]
 const GRID_PX = 45; // least distance of two lines of the grid
+const PAN = { ArrowLeft: [40, 0], ArrowRight: [-40, 0], ArrowUp: [0, 40], ArrowDown: [0, -40] };
+const ZOOM = { "+": 1.25, "-": 0.8 };
+
+const overlap = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+const area = ({ left, top, right, bottom }) => Math.max(0, right - left) * Math.max(0, bottom - top);
 
 export class Floor {
-  #centre = [0, 0]; // [m] in the middle of the canvas
+  #centre = [0, 0]; // [m] in the middle of the free part of the canvas
   #scale = SCALE.start;
   #trails = new Map(); // name -> [[x, y], ...]
   #robots = {};
@@ -17,20 +22,20 @@ export class Floor {
   #due = false;
   #free = { left: 0, top: 0, right: 0, bottom: 0 }; // the part of the canvas on which nothing lies [pixel]
 
-  /** above(): the elements that lie on the canvas: robots are shown beside them, and nothing is written under them. */
+  /** above(): the elements that lie on the canvas. Robots and texts are drawn beside them. */
   constructor(canvas, above) {
     this.canvas = canvas;
     this.above = above;
     this.follow = true;
     this.look = ""; // the robot that is followed
-    this.onUnfollow = () => {};
+    this.onFollow = () => {};
     this.around = new Surroundings(() => this.#drawSoon());
     new ResizeObserver(() => this.#drawSoon()).observe(canvas);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.#drawSoon());
     this.#listen();
   }
 
-  /** robots: {name: {x, y, yaw, v, w}} [m, rad]; one without a place is nowhere to be seen. */
+  /** robots: {name: {x, y, yaw, v, w}} [m, rad]; one without a place is not drawn. */
   show(robots) {
     const placed = Object.entries(robots)
       .map(([name, robot]) => [name, this.around.placed(name, robot)])
@@ -59,56 +64,63 @@ export class Floor {
     this.#drawSoon();
   }
 
-  zoom(factor, [px, py] = this.#middle()) {
-    const before = this.#toFloor(px, py);
+  /** Keep the chosen robot in the middle, or leave the view where it is. */
+  setFollow(on) {
+    this.follow = on;
+    this.onFollow(on);
+  }
+
+  zoom(factor, at = this.#middle()) {
+    const before = this.#toFloor(at);
     this.#scale = Math.min(SCALE.most, Math.max(SCALE.least, this.#scale * factor));
-    const after = this.#toFloor(px, py);
+    const after = this.#toFloor(at);
     if (!this.follow) this.#centre = this.#centre.map((c, i) => c + before[i] - after[i]);
     this.#drawSoon();
   }
 
   pan(dx, dy) {
-    this.follow = false;
-    this.onUnfollow();
+    this.setFollow(false);
     this.#centre = [this.#centre[0] - dx / this.#scale, this.#centre[1] + dy / this.#scale];
     this.#drawSoon();
   }
 
   /** Move and zoom until every robot and trail is seen. */
   showAll() {
-    const points = [...this.#trails.values()].flat();
-    points.push(...Object.values(this.#robots).map(({ x, y }) => [x, y]));
-    points.push(...this.around.corners());
+    const robots = Object.values(this.#robots).map(({ x, y }) => [x, y]);
+    const points = [...[...this.#trails.values()].flat(), ...robots, ...this.around.corners()];
     if (points.length === 0) return;
+    // A loop: there are more points than a function takes as arguments.
     const range = (i) => points.reduce(
       ([low, high], p) => [Math.min(low, p[i]), Math.max(high, p[i])], [Infinity, -Infinity]);
     const [[west, east], [south, north]] = [range(0), range(1)];
-    const { left, top, right, bottom } = this.#findFree();
+    this.#findFree();
+    const { left, top, right, bottom } = this.#free;
     const scale = Math.min((right - left) / (east - west + 1), (bottom - top) / (north - south + 1));
     this.#scale = Math.min(SCALE.start * 2, Math.max(SCALE.least, scale));
-    this.follow = false;
-    this.onUnfollow();
     this.#centre = [(west + east) / 2, (south + north) / 2];
+    this.setFollow(false);
     this.#drawSoon();
   }
 
-  /** Of each element that lies on the canvas, the strip beside it is left that is larger than the other ones. */
-  #findFree() {
+  /** The boxes of what lies on the canvas, in its pixels. */
+  #boxes() {
     const corner = this.canvas.getBoundingClientRect();
-    const free = { left: 0, top: 0, right: corner.width, bottom: corner.height };
-    for (const one of this.above()) {
-      const box = one.getBoundingClientRect();
-      const [left, right, top, bottom] = [
-        box.left - corner.left, box.right - corner.left, box.top - corner.top, box.bottom - corner.top];
-      if (!box.width || right <= free.left || left >= free.right || bottom <= free.top || top >= free.bottom) continue;
-      const cuts = [{ left: right }, { right: left }, { top: bottom }, { bottom: top }];
-      const area = (cut) => {
-        const rest = { ...free, ...cut };
-        return Math.max(0, rest.right - rest.left) * Math.max(0, rest.bottom - rest.top);
-      };
-      Object.assign(free, cuts.reduce((best, cut) => (area(cut) > area(best) ? cut : best)));
+    const boxes = this.above().map((one) => one.getBoundingClientRect());
+    return boxes
+      .filter(({ width }) => width) // it is shown
+      .map(({ x, y, width, height }) => new DOMRect(x - corner.x, y - corner.y, width, height));
+  }
+
+  /** Of the four strips beside each box keep the largest. */
+  #findFree() {
+    const { clientWidth: right, clientHeight: bottom } = this.canvas;
+    this.#free = { left: 0, top: 0, right, bottom };
+    for (const box of this.#boxes()) {
+      if (!overlap(box, this.#free)) continue;
+      const cuts = [{ left: box.right }, { right: box.left }, { top: box.bottom }, { bottom: box.top }];
+      const strips = cuts.map((cut) => ({ ...this.#free, ...cut }));
+      this.#free = strips.reduce((best, strip) => (area(strip) > area(best) ? strip : best));
     }
-    return (this.#free = free);
   }
 
   #middle() {
@@ -116,7 +128,7 @@ export class Floor {
     return [(left + right) / 2, (top + bottom) / 2];
   }
 
-  #toFloor(px, py) {
+  #toFloor([px, py]) {
     const [mx, my] = this.#middle();
     const [cx, cy] = this.#centre;
     return [cx + (px - mx) / this.#scale, cy - (py - my) / this.#scale];
@@ -129,17 +141,18 @@ export class Floor {
   }
 
   #listen() {
-    const canvas = this.canvas;
+    const { canvas } = this;
+    const on = (kind, act) => canvas.addEventListener(kind, act, { passive: false });
     const at = (event) => [event.offsetX, event.offsetY];
-    canvas.addEventListener("wheel", (event) => {
+    on("wheel", (event) => {
       event.preventDefault();
       this.zoom(Math.exp(-event.deltaY / 400), at(event));
-    }, { passive: false });
-    canvas.addEventListener("pointerdown", (event) => {
+    });
+    on("pointerdown", (event) => {
       canvas.setPointerCapture(event.pointerId);
       this.#pointers.set(event.pointerId, at(event));
     });
-    canvas.addEventListener("pointermove", (event) => {
+    on("pointermove", (event) => {
       const before = this.#pointers.get(event.pointerId);
       if (!before) return;
       const now = at(event);
@@ -153,13 +166,11 @@ export class Floor {
       this.#pointers.set(event.pointerId, now);
     });
     for (const kind of ["pointerup", "pointercancel", "lostpointercapture"]) {
-      canvas.addEventListener(kind, (event) => this.#pointers.delete(event.pointerId));
+      on(kind, (event) => this.#pointers.delete(event.pointerId));
     }
-    const STEP = { ArrowLeft: [40, 0], ArrowRight: [-40, 0], ArrowUp: [0, 40], ArrowDown: [0, -40] };
-    canvas.addEventListener("keydown", (event) => {
-      if (event.key in STEP) this.pan(...STEP[event.key]);
-      else if (event.key === "+") this.zoom(1.25);
-      else if (event.key === "-") this.zoom(0.8);
+    on("keydown", (event) => {
+      if (event.key in PAN) this.pan(...PAN[event.key]);
+      else if (event.key in ZOOM) this.zoom(ZOOM[event.key]);
       else return;
       event.preventDefault();
     });
@@ -179,102 +190,91 @@ export class Floor {
     const { clientWidth: width, clientHeight: height } = canvas;
     if (!width || !height) return; // another tab is shown
     const ratio = devicePixelRatio || 1;
-    if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
-      canvas.width = Math.round(width * ratio);
-      canvas.height = Math.round(height * ratio);
-    }
+    const size = { width: Math.round(width * ratio), height: Math.round(height * ratio) };
+    if (canvas.width !== size.width || canvas.height !== size.height) Object.assign(canvas, size);
     this.#findFree();
     const followed = this.#robots[this.look];
     if (this.follow && followed) this.#centre = [followed.x, followed.y];
+    const pen = canvas.getContext("2d");
     const colours = getComputedStyle(canvas);
     const colour = (name) => colours.getPropertyValue(name).trim();
-    const pen = canvas.getContext("2d");
+    const paper = { pen, colour, toPixels: (point) => this.#toPixels(point) };
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     pen.fillStyle = colour("--floor");
     pen.fillRect(0, 0, width, height);
-    this.#drawGrid(pen, width, height, colour);
-    const toPixels = (point) => this.#toPixels(point);
-    this.around.drawMap(pen, toPixels, this.#scale, colour);
-    this.around.drawScan(pen, toPixels, this.look, colour);
-    for (const [name, trail] of this.#trails) this.#drawTrail(pen, trail, name, colour);
-    for (const [name, robot] of Object.entries(this.#robots)) this.#drawRobot(pen, name, robot, colour);
+    this.#drawGrid(paper, width, height);
+    this.around.draw(paper, this.look);
+    for (const [name, trail] of this.#trails) this.#drawTrail(paper, name, trail);
+    for (const [name, robot] of Object.entries(this.#robots)) this.#drawRobot(paper, name, robot);
   }
 
-  #drawGrid(pen, width, height, colour) {
+  #drawGrid(paper, width, height) {
+    const { pen, colour } = paper;
     // Lines every metre; where they would be too close, every 2, 5, 10 ...
     const step = [1, 2, 5, 10, 20, 50].find((m) => m * this.#scale >= GRID_PX) ?? 100;
-    const [west, north] = this.#toFloor(0, 0);
-    const [east, south] = this.#toFloor(width, height);
-    pen.font = "12px system-ui, sans-serif";
-    pen.lineWidth = 1;
-    const corner = this.canvas.getBoundingClientRect();
-    const boxes = this.above().map((one) => one.getBoundingClientRect());
-    const write = (text, x, y) => {
-      const [left, low] = [corner.left + x, corner.top + y];
-      const right = left + pen.measureText(text).width;
-      const isHidden = boxes.some((box) =>
-        box.left < right && left < box.right && box.top < low && low - 12 < box.bottom);
-      pen.fillStyle = colour("--muted");
-      if (!isHidden) pen.fillText(text, x, y);
-    };
-    // Counted in whole numbers: far away, x + step is x again, and the loop would not end.
+    const [west, north] = this.#toFloor([0, 0]);
+    const [east, south] = this.#toFloor([width, height]);
+    // Whole numbers are counted: far away x + step equals x, and a loop over x would not end.
     const multiples = (from, to) => {
       const first = Math.ceil(from / step);
       return Array.from({ length: Math.floor(to / step) - first + 1 }, (_, i) => (first + i) * step);
     };
+    const boxes = this.#boxes();
+    pen.font = "12px system-ui, sans-serif";
+    pen.lineWidth = 1;
+    const draw = (metres, ends, left, bottom) => {
+      stroke(paper, ends, metres === 0 ? "--axis" : "--grid");
+      const text = `${metres} m`;
+      const box = new DOMRect(left, bottom - 12, pen.measureText(text).width, 12);
+      pen.fillStyle = colour("--muted");
+      if (!boxes.some((one) => overlap(one, box))) pen.fillText(text, left, bottom);
+    };
     for (const x of multiples(west, east)) {
-      this.#line(pen, [x, north], [x, south], colour(x === 0 ? "--axis" : "--grid"));
-      write(`${x} m`, this.#toPixels([x, 0])[0] + 3, height - 6);
+      draw(x, [[x, north], [x, south]], this.#toPixels([x, 0])[0] + 3, height - 6);
     }
     for (const y of multiples(south, north)) {
-      this.#line(pen, [west, y], [east, y], colour(y === 0 ? "--axis" : "--grid"));
-      write(`${y} m`, 4, this.#toPixels([0, y])[1] - 4);
+      draw(y, [[west, y], [east, y]], 4, this.#toPixels([0, y])[1] - 4);
     }
   }
 
-  #line(pen, from, to, style) {
-    pen.strokeStyle = style;
-    pen.beginPath();
-    pen.moveTo(...this.#toPixels(from));
-    pen.lineTo(...this.#toPixels(to));
-    pen.stroke();
-  }
-
-  #drawTrail(pen, trail, name, colour) {
-    pen.strokeStyle = colour(name === this.look ? "--accent" : "--muted");
-    pen.lineWidth = name === this.look ? 2 : 1;
-    pen.lineJoin = "round";
-    pen.beginPath();
-    for (const point of trail) pen.lineTo(...this.#toPixels(point));
+  #drawTrail(paper, name, trail) {
+    const isChosen = name === this.look;
     const robot = this.#robots[name];
-    if (robot) pen.lineTo(...this.#toPixels([robot.x, robot.y]));
-    pen.stroke();
+    paper.pen.lineWidth = isChosen ? 2 : 1;
+    paper.pen.lineJoin = "round";
+    const points = robot ? [...trail, [robot.x, robot.y]] : trail;
+    stroke(paper, points, isChosen ? "--accent" : "--muted");
   }
 
-  #drawRobot(pen, name, { x, y, yaw, age, bumpers }, colour) {
+  #drawRobot(paper, name, { x, y, yaw, age, bumpers }) {
+    const { pen, colour } = paper;
+    const isChosen = name === this.look;
     const [px, py] = this.#toPixels([x, y]);
     const radius = Math.max(5, BODY_RADIUS_M * this.#scale);
-    pen.globalAlpha = age > 1 ? 0.4 : 1; // it says nothing any more
-    pen.fillStyle = colour(name === this.look ? "--accent" : "--muted");
+    pen.globalAlpha = age > 1 ? 0.4 : 1; // no news
+    pen.fillStyle = colour(isChosen ? "--accent" : "--muted");
     pen.beginPath();
     pen.arc(px, py, radius, 0, 2 * Math.PI);
     pen.fill();
-    pen.strokeStyle = colour("--floor");
     pen.fillStyle = colour("--floor");
-    const ahead = (angle, share) => [
-      px + radius * share * Math.cos(yaw + angle), py - radius * share * Math.sin(yaw + angle)];
     pen.beginPath();
-    pen.moveTo(...ahead(0, 0.85));
-    pen.lineTo(...ahead(2.4, 0.6));
-    pen.lineTo(...ahead(Math.PI, 0.2));
-    pen.lineTo(...ahead(-2.4, 0.6));
-    pen.closePath();
+    for (const [angle, share] of [[0, 0.85], [2.4, 0.6], [Math.PI, 0.2], [-2.4, 0.6]]) { // an arrow ahead
+      pen.lineTo(
+        px + radius * share * Math.cos(yaw + angle), py - radius * share * Math.sin(yaw + angle));
+    }
     pen.fill();
     pen.globalAlpha = 1;
-    drawBumpers(pen, [px, py], yaw, radius, bumpers ?? [], colour);
-    if (!name) return;
+    drawBumpers(paper, [px, py], yaw, radius, bumpers ?? []);
     pen.fillStyle = colour("--text");
-    pen.font = `${name === this.look ? "bold " : ""}13px system-ui, sans-serif`;
+    pen.font = `${isChosen ? "bold " : ""}13px system-ui, sans-serif`;
     pen.fillText(name, px + radius + 4, py + 4);
   }
+}
+
+/** Draw a line along points [m]. */
+function stroke({ pen, colour, toPixels }, points, name) {
+  pen.strokeStyle = colour(name);
+  pen.beginPath();
+  for (const point of points) pen.lineTo(...toPixels(point));
+  pen.stroke();
 }

@@ -1,6 +1,6 @@
 /** The F710 drawn as the gamepad that it is, its sticks and buttons as /joy has them. */
 
-import { handsOf } from "./f710.js";
+import { handsOf, heldBy } from "./f710.js";
 
 const PICTURE = `
 <svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 320 204" role="img">
@@ -38,17 +38,14 @@ export class GamepadPicture {
     const svg = new DOMParser().parseFromString(PICTURE.trim(), "image/svg+xml").documentElement;
     root.replaceChildren(document.importNode(svg, true));
     this.svg = root.firstChild;
-    this.show({ D: [], X: [] }, [], []);
+    this.show();
   }
 
   /** names: {D, X: names of the buttons of that mode}. axes, buttons: as on /joy, of either mode. */
-  show(names, axes, buttons) {
+  show(names = { D: [], X: [] }, axes = [0, 0], buttons = []) {
     const mode = axes.length === 8 ? "X" : "D";
-    const hands = handsOf(mode, names[mode], axes.length ? axes : [0, 0], buttons);
-    const [lt, rt] = hands.triggers;
-    const held = new Set(hands.held);
-    if (lt > 0.5) held.add("LT");
-    if (rt > 0.5) held.add("RT");
+    const hands = handsOf(mode, names[mode], axes, buttons);
+    const held = heldBy(hands);
     for (const part of this.svg.querySelectorAll("[data-name]")) {
       part.classList.toggle("held", held.has(part.dataset.name));
     }
@@ -66,6 +63,5 @@ export class GamepadPicture {
     const words = [...held, ...hands.left.map((v) => v.toFixed(2))].join(" ");
     this.svg.setAttribute("aria-label", `F710 at ${mode}; held and left stick: ${words}`);
     this.svg.dataset.held = [...held].join(" ");
-    this.svg.dataset.axes = axes.join(" ");
   }
 }

@@ -3,73 +3,52 @@
 import { REST } from "./f710.js";
 
 export class Glass {
-  #held = new Map(); // name of a button -> the pointer that holds it
-  #thumb = null; // the pointer on the stick
+  #pointers = new Map(); // button or stick -> the pointer that holds it
   #left = [0, 0];
 
   /** root: the element with buttons [data-button], #stick and #knob. onLost(why): a pointer was lost. */
   constructor(root, onChange, onLost) {
+    Object.assign(this, { onChange, onLost });
     this.stick = root.querySelector("#stick");
     this.knob = root.querySelector("#knob");
     this.buttons = [...root.querySelectorAll("[data-button]")];
-    this.onChange = onChange;
-    this.onLost = onLost;
-    for (const button of this.buttons) {
-      const name = button.dataset.button;
-      this.#listen(button, {
-        down: (event) => this.#held.set(name, event.pointerId),
-        move: () => {},
-        up: () => this.#held.delete(name),
-        holds: (event) => this.#held.get(name) === event.pointerId,
-      });
-    }
-    this.#listen(this.stick, {
-      down: (event) => {
-        this.#thumb = event.pointerId;
-        this.#left = this.#deflection(event);
-      },
-      move: (event) => (this.#left = this.#deflection(event)),
-      up: () => {
-        this.#thumb = null;
-        this.#left = [0, 0];
-      },
-      holds: (event) => this.#thumb === event.pointerId,
-    });
+    for (const target of [this.stick, ...this.buttons]) this.#listen(target);
   }
 
   get hands() {
-    return { ...REST, left: this.#left, held: [...this.#held.keys()] };
+    const held = this.buttons.filter((button) => this.#pointers.has(button));
+    return { ...REST, left: this.#left, held: held.map((button) => button.dataset.button) };
   }
 
   /** Let go of everything. */
   clear() {
-    this.#held.clear();
-    this.#thumb = null;
+    this.#pointers.clear();
     this.#left = [0, 0];
     this.show(REST);
   }
 
-  #listen(element, { down, move, up, holds }) {
-    element.addEventListener("pointerdown", (event) => {
+  #listen(target) {
+    const holds = (event) => this.#pointers.get(target) === event.pointerId;
+    const move = (event) => {
+      if (target === this.stick) this.#left = holds(event) ? this.#deflection(event) : [0, 0];
+      this.onChange();
+    };
+    target.addEventListener("pointerdown", (event) => {
       if (event.button !== 0) return;
       event.preventDefault();
-      element.setPointerCapture(event.pointerId);
-      down(event);
-      this.onChange();
-    });
-    element.addEventListener("pointermove", (event) => {
-      if (!holds(event)) return;
+      target.setPointerCapture(event.pointerId);
+      this.#pointers.set(target, event.pointerId);
       move(event);
-      this.onChange();
     });
-    element.addEventListener("pointerup", (event) => {
+    target.addEventListener("pointermove", (event) => holds(event) && move(event));
+    target.addEventListener("pointerup", (event) => {
       if (!holds(event)) return;
-      up(event);
-      this.onChange();
+      this.#pointers.delete(target);
+      move(event);
     });
-    // Of a pointer that is lifted the capture is lost as well, but only after pointerup.
+    // A lifted pointer loses its capture as well, but only after pointerup.
     for (const kind of ["pointercancel", "lostpointercapture"]) {
-      element.addEventListener(kind, (event) => holds(event) && this.onLost("the browser took the pointer"));
+      target.addEventListener(kind, (event) => holds(event) && this.onLost("the browser took the pointer"));
     }
   }
 

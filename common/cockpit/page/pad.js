@@ -4,17 +4,16 @@ import { handsOfGamepad, isAtRest, REST } from "./f710.js";
 
 export class Pad {
   #index = null; // of the gamepad in use
-  #wasAtRest = false; // since it was plugged in; a stick that is held when it comes moves nothing
+  #wasAtRest = false; // since it was plugged in; a stick that is held then moves nothing
 
   /** onLost(why): the gamepad was unplugged. */
   constructor(onLost) {
     this.onLost = onLost;
   }
 
-  /** {hands, timestamp, name} of the first gamepad, or null. names: as handsOfGamepad() has it. */
+  /** {hands, timestamp} of the first gamepad, or null. names: see handsOfGamepad(). */
   read(names) {
-    const all = typeof navigator.getGamepads === "function" ? [...navigator.getGamepads()] : [];
-    const gamepad = all.find((one) => one?.connected && one.axes.length >= 2);
+    const gamepad = [...(navigator.getGamepads?.() ?? [])].find((one) => one?.connected && one.axes.length >= 2);
     if (this.#index !== null && gamepad?.index !== this.#index) {
       this.#index = null;
       this.onLost("the gamepad was unplugged");
@@ -24,11 +23,6 @@ export class Pad {
     this.#index = gamepad.index;
     const hands = handsOfGamepad(gamepad, names);
     this.#wasAtRest ||= isAtRest(hands);
-    return {
-      hands: this.#wasAtRest ? hands : REST,
-      timestamp: gamepad.timestamp ?? null,
-      name: gamepad.id,
-      waits: !this.#wasAtRest,
-    };
+    return { hands: this.#wasAtRest ? hands : REST, timestamp: gamepad.timestamp ?? null };
   }
 }

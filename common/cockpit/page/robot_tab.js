@@ -5,7 +5,16 @@ import { Driver } from "./driver.js";
 import { Floor } from "./floor.js";
 import { GamepadPicture } from "./gamepad_picture.js";
 
-const STALE_S = 1; // after which what is shown is not news
+const STALE_S = 1; // older news is greyed
+const ON_FLOOR = ".toolbar button, #glass button, #stick";
+const NOBODY = { driver: null, yours: false };
+const NOT_CONNECTED = {
+  drivers: {}, who: "Not connected: the driver is unknown.", ready: "", how: "", again: "",
+};
+const ODOMETRY = [ // name, title, unit, digits
+  ["x", "x", " m", 2], ["y", "y", " m", 2], ["yaw", "heading", "°", 1],
+  ["v", "speed", " m/s", 2], ["w", "turning", " rad/s", 2], ["covered", "covered", " m", 2],
+];
 
 const number = (value, digits = 2) =>
   Number.isFinite(value) ? value.toFixed(digits).replace(/^-(0\.?0*)$/, "$1") : "–"; // no -0.00
@@ -54,13 +63,8 @@ const PANEL = `
     </div>
     <div class="card">
       <h2>Odometry</h2>
-      <dl id="odometry">
-        <div><dt>x</dt><dd><output data-value="x">–</output> m</dd></div>
-        <div><dt>y</dt><dd><output data-value="y">–</output> m</dd></div>
-        <div><dt>heading</dt><dd><output data-value="yaw">–</output>°</dd></div>
-        <div><dt>speed</dt><dd><output data-value="v">–</output> m/s</dd></div>
-        <div><dt>turning</dt><dd><output data-value="w">–</output> rad/s</dd></div>
-        <div><dt>covered</dt><dd><output data-value="covered">–</output> m</dd></div>
+      <dl id="odometry">${ODOMETRY.map(([name, title, unit]) => `
+        <div><dt>${title}</dt><dd><output data-value="${name}">–</output>${unit}</dd></div>`).join("")}
       </dl>
     </div>
     <div class="card" id="class" hidden>
@@ -75,20 +79,19 @@ export class RobotTab {
   static panel = PANEL;
   static watches = { robots: true, look: null };
 
-  #hello = null;
-  #seat = { driver: null, yours: false };
-  #drives = { drivers: {}, again: "" }; // the server's words: the driver, and what to do
-  #teleop = new Map(); // robot -> what its joy2twist says
+  #role = null; // "driver" or "viewer", once the server has said so
+  #seat = NOBODY;
+  #drives = NOT_CONNECTED; // the server's words: the driver, and what to do
+  #teleop = new Map(); // robot -> what its joy2twist reports
   #names = []; // of the robots
-  #look = null; // the name of the one that is looked at, once there is one
+  #look = null; // the name of the chosen robot, once there is one
   #rows = new Map(); // name -> its row in the table of all; rows stay, as a click takes its time
-  #onFloor = ""; // the names of those that say where they are, as JSON
+  #onFloor = ""; // the names of the robots with a place, as JSON
 
   /** link: the Link. watch(fields): what to ask the server for. page: see main.js. */
   constructor(link, watch, { notice }) {
     Object.assign(this, { link, watch, notice });
-    const onFloor = ".toolbar button, #glass button, #stick";
-    this.floor = new Floor(byId("floor"), () => [...byId("robot").querySelectorAll(onFloor)]);
+    this.floor = new Floor(byId("floor"), () => [...byId("robot").querySelectorAll(ON_FLOOR)]);
     this.picture = new GamepadPicture(byId("pad"));
     this.driver = new Driver(link, byId("glass"));
     this.driver.onLost = (why) => notice(`Stopped: ${why}. ${this.#drives.again}`);
@@ -98,7 +101,7 @@ export class RobotTab {
     link.on("map", (map) => {
       this.floor.around.showMap(map);
       this.floor.showAll();
-      if (this.#names.length < 2) this.#follow(true);
+      if (this.#names.length < 2) this.floor.setFollow(true);
     });
     link.on("around", ({ robots }) => this.floor.around.showRobots(robots));
     link.on("scan", (scan) => this.floor.showScan(scan));
@@ -117,38 +120,33 @@ export class RobotTab {
   /** The connection is open or lost. Without it nothing here is news, and nothing drives. */
   connect(isOpen) {
     byId("robot").classList.toggle("stale", !isOpen);
-    if (isOpen) this.#showButtons();
-    else {
-      this.#showSeat({ driver: null, yours: false });
-      this.#showDrives({ drivers: {}, who: "Not connected: the driver is unknown.", ready: "", how: "", again: "" });
+    if (isOpen) {
+      this.#showButtons();
+    } else {
+      this.#showSeat(NOBODY);
+      this.#showDrives(NOT_CONNECTED);
     }
   }
 
   #listen() {
     const { link, floor } = this;
-    const on = (id, act) => byId(id).addEventListener("click", act);
-    on("zoom-in", () => floor.zoom(1.25));
-    on("zoom-out", () => floor.zoom(0.8));
-    on("show-all", () => floor.showAll());
-    on("clear-trail", () => floor.clearTrails());
-    floor.onUnfollow = () => this.#follow(false);
-    on("follow", () => this.#follow(!floor.follow));
-    on("take", () => link.send("drive", { robot: this.look, mode: byId("mode").value }));
-    on("leave", () => this.#leave());
-    on("reset", () => {
+    byId("zoom-in").onclick = () => floor.zoom(1.25);
+    byId("zoom-out").onclick = () => floor.zoom(0.8);
+    byId("show-all").onclick = () => floor.showAll();
+    byId("clear-trail").onclick = () => floor.clearTrails();
+    byId("follow").onclick = () => floor.setFollow(!floor.follow);
+    floor.onFollow = (on) => byId("follow").setAttribute("aria-pressed", on);
+    byId("take").onclick = () => link.send("drive", { robot: this.look, mode: byId("mode").value });
+    byId("leave").onclick = () => this.#leave();
+    byId("reset").onclick = () => {
       this.notice("");
       link.send("reset", { robot: this.look });
-    });
-    on("give", () => link.send("hand_over", { to: Number(byId("heir").value) }));
-    byId("look").addEventListener("change", () => this.#lookAt(byId("look").value));
+    };
+    byId("give").onclick = () => link.send("hand_over", { to: Number(byId("heir").value) });
+    byId("look").onchange = () => this.#lookAt(byId("look").value);
     addEventListener("keydown", (event) => {
       if (event.key === "Escape" && this.driver.isDriving) this.#leave();
     });
-  }
-
-  #follow(yes) {
-    this.floor.follow = yes;
-    byId("follow").setAttribute("aria-pressed", String(yes));
   }
 
   #leave() {
@@ -157,10 +155,10 @@ export class RobotTab {
     this.link.send("leave");
   }
 
-  #meet(hello) {
-    this.#hello = hello;
-    say(byId("me"), `page ${hello.id}`);
-    this.#showNames(hello.robots);
+  #meet({ id, role, robots }) {
+    this.#role = role;
+    say(byId("me"), `page ${id}`);
+    this.#showNames(robots);
     this.#showButtons();
     if (this.#look !== null) this.#lookAt(this.#look);
   }
@@ -176,8 +174,8 @@ export class RobotTab {
 
   /** A chosen robot stays chosen: one that has gone may come back. */
   #offerRobots() {
-    const isGone = this.#look !== null && !this.#names.includes(this.#look);
     const choices = this.#names.map((name) => [name, name || "TurtleBot"]);
+    const isGone = this.#look !== null && !this.#names.includes(this.#look);
     if (isGone) choices.push([this.#look, `${this.#look || "TurtleBot"} (gone)`]);
     offer(byId("look"), choices);
     if (this.#look !== null) byId("look").value = this.#look;
@@ -187,7 +185,7 @@ export class RobotTab {
     this.#look = name;
     this.#offerRobots();
     this.floor.look = name;
-    this.picture.show({ D: [], X: [] }, [], []);
+    this.picture.show();
     say(byId("pad-age"), "no message yet");
     this.#showTeleop(this.#teleop.get(name) ?? { robot: name });
     this.watch({ look: name });
@@ -195,16 +193,15 @@ export class RobotTab {
 
   #showRobots(robots) {
     this.floor.show(robots);
-    const names = Object.keys(robots);
-    const isNew = names.length && JSON.stringify(names) !== this.#onFloor;
-    if (isNew && names.length > 1 && !this.#seat.yours) this.floor.showAll();
-    if (isNew) this.#onFloor = JSON.stringify(names);
+    const names = JSON.stringify(Object.keys(robots));
+    if (names !== this.#onFloor && names !== "[]") {
+      this.#onFloor = names;
+      if (Object.keys(robots).length > 1 && !this.#seat.yours) this.floor.showAll();
+    }
     const robot = robots[this.look] ?? {};
-    const degrees = (robot.yaw * 180) / Math.PI;
-    const digits = { x: 2, y: 2, yaw: 1, v: 2, w: 2, covered: 2 };
-    for (const [name, count] of Object.entries(digits)) {
-      const value = name === "yaw" ? degrees : robot[name];
-      say(document.querySelector(`#odometry [data-value=${name}]`), number(value, count));
+    const values = { ...robot, yaw: (robot.yaw * 180) / Math.PI };
+    for (const [name, , , digits] of ODOMETRY) {
+      say(document.querySelector(`#odometry [data-value=${name}]`), number(values[name], digits));
     }
     byId("odometry").classList.toggle("stale", !(robot.age < STALE_S));
     this.#showClass(robots);
@@ -213,8 +210,9 @@ export class RobotTab {
   #rowOf(name) {
     const line = row(name, "", "", "");
     line.dataset.robot = name;
-    // A driver sees the driven robot.
-    line.addEventListener("click", () => this.#seat.yours || name === this.#look || this.#lookAt(name));
+    line.onclick = () => {
+      if (!this.#seat.yours && name !== this.#look) this.#lookAt(name); // a driver sees the driven robot
+    };
     return line;
   }
 
@@ -230,9 +228,8 @@ export class RobotTab {
   }
 
   #showPad({ robot, axes, buttons, age }) {
-    if (robot !== this.look || !this.#hello) return;
-    const names = { D: this.#hello.pad.D.buttons, X: this.#hello.pad.X.buttons };
-    this.picture.show(names, axes, buttons);
+    if (robot !== this.look || !this.driver.names) return;
+    this.picture.show(this.driver.names, axes, buttons);
     say(byId("pad-age"), age > STALE_S ? `silent for ${number(age, 0)} s` : "");
     byId("pad").classList.toggle("stale", age > STALE_S);
   }
@@ -245,17 +242,22 @@ export class RobotTab {
   }
 
   #showSeat(seat) {
-    if (seat.yours && !this.#seat.yours) this.#follow(true); // a driver sees the driven robot
+    const { yours, armed, driver, robot } = seat;
+    if (yours && !this.#seat.yours) this.floor.setFollow(true); // a driver sees the driven robot
+    if (yours && robot !== this.#look) this.#lookAt(robot); // it was handed over
+    if (yours) this.driver.mode = byId("mode").value;
+    if (yours && armed) this.notice(""); // it may go on
     this.#seat = seat;
-    if (seat.yours && seat.robot !== this.#look) this.#lookAt(seat.robot); // it was handed over
-    if (seat.yours) this.driver.mode = byId("mode").value;
-    if (seat.yours && seat.how !== "bag") this.driver.start();
+    if (this.#isByHand) this.driver.start();
     else this.driver.stop();
-    byId("seat").dataset.armed = Boolean(seat.yours && seat.armed);
-    if (seat.yours && seat.armed) this.notice(""); // it may go on
-    byId("seat").dataset.state = seat.driver === null ? "free" : seat.yours ? "yours" : "taken";
-    byId("hand-over").hidden = !seat.yours || seat.how === "bag";
+    byId("seat").dataset.armed = Boolean(yours && armed);
+    byId("seat").dataset.state = driver === null ? "free" : yours ? "yours" : "taken";
     this.#showButtons();
+  }
+
+  /** Whether this page drives, by no recording. */
+  get #isByHand() {
+    return this.#seat.yours && this.#seat.how !== "bag";
   }
 
   #showDrives(drives) {
@@ -267,19 +269,18 @@ export class RobotTab {
   }
 
   #showButtons() {
-    const isViewer = this.#hello?.role === "viewer";
-    const mayDrive = this.link.isOpen && !isViewer;
     const { yours, driver } = this.#seat;
-    const held = document.activeElement === byId("take") || document.activeElement === byId("leave");
-    byId("take").hidden = yours;
-    byId("leave").hidden = !yours;
-    if (held) byId(yours ? "leave" : "take").focus(); // the keyboard stays where it was
-    byId("take").disabled = !mayDrive || (driver !== null && !yours);
+    const mayDrive = this.link.isOpen && this.#role !== "viewer";
+    const [take, leave] = [byId("take"), byId("leave")];
+    const hadKeyboard = [take, leave].includes(document.activeElement);
+    take.hidden = yours;
+    leave.hidden = !yours;
+    if (hadKeyboard) (yours ? leave : take).focus();
+    take.disabled = !mayDrive || (driver !== null && !yours);
     byId("reset").disabled = !mayDrive;
-    byId("glass").hidden = !yours || this.#seat.how === "bag";
-    byId("look").disabled = yours;
-    byId("mode").disabled = yours;
+    byId("hand-over").hidden = byId("glass").hidden = !this.#isByHand;
+    byId("look").disabled = byId("mode").disabled = yours;
     document.body.classList.toggle("driving", yours);
-    document.body.classList.toggle("by-hand", !byId("glass").hidden);
+    document.body.classList.toggle("by-hand", this.#isByHand);
   }
 }

@@ -1,14 +1,14 @@
-/** What is around the robots: the map, what the laser of one sees, bumpers that are pressed. */
+/** What is around the robots: the map, what one robot's laser sees, pressed bumpers. */
 
 const KINDS = [[1, "--wall"], [2, "--void"]]; // of the map's cells; 0 is free
 
 export class Surroundings {
-  #map = null; // {x, y, cell, rows, columns} [m] and its cells, a byte for each, the lowest row first
+  #map = null; // {x, y, cell, rows, columns} [m] and its bytes, one for each cell, the lowest row first
   #pictures = new Map(); // colours -> canvas, a pixel for each cell
-  #robots = {}; // name -> {x, y, yaw} in the map, and the numbers of the bumpers that are pressed
+  #robots = {}; // name -> {x, y, yaw} in the map, and the numbers of the pressed bumpers
   #scan = { name: null, points: [] }; // [m], of that robot
 
-  /** onChange(): called when something is to be drawn anew. */
+  /** onChange(): called when something must be drawn again. */
   constructor(onChange) {
     this.onChange = onChange;
   }
@@ -24,11 +24,11 @@ export class Surroundings {
     this.onChange();
   }
 
-  /** robot: where it is now; nothing if nobody knows. */
-  showScan({ robot: name, points }, robot) {
-    const { x: rx, y: ry, yaw } = robot ?? { x: NaN };
-    const [c, s] = [Math.cos(yaw), Math.sin(yaw)];
-    this.#scan = { name, points: points.map(([x, y]) => [rx + c * x - s * y, ry + s * x + c * y]) };
+  /** place: of the robot now; without one nothing is drawn. */
+  showScan({ robot: name, points }, place = { x: NaN }) {
+    const [c, s] = [Math.cos(place.yaw), Math.sin(place.yaw)];
+    const onFloor = ([x, y]) => [place.x + c * x - s * y, place.y + s * x + c * y];
+    this.#scan = { name, points: points.map(onFloor) };
     this.onChange();
   }
 
@@ -44,16 +44,24 @@ export class Surroundings {
     return [[x, y], [x + columns * cell, y + rows * cell]];
   }
 
-  drawMap(pen, toPixels, scale, colour) {
-    if (!this.#map) return;
-    const [[west], [, north]] = this.corners();
-    const [left, top] = toPixels([west, north]);
-    const { cell, rows, columns } = this.#map;
-    pen.imageSmoothingEnabled = false;
-    pen.drawImage(this.#picture(colour), left, top, columns * cell * scale, rows * cell * scale);
+  /** paper: see Floor. name: of the robot whose scan is drawn. */
+  draw(paper, name) {
+    if (this.#map) this.#drawMap(paper);
+    paper.pen.fillStyle = paper.colour("--scan");
+    for (const point of this.#scan.name === name ? this.#scan.points : []) {
+      const [x, y] = paper.toPixels(point);
+      paper.pen.fillRect(x - 1.5, y - 1.5, 3, 3);
+    }
   }
 
-  /** The highest row on top; what is free lets the grid be seen. */
+  #drawMap({ pen, toPixels, colour }) {
+    const [[west, south], [east, north]] = this.corners();
+    const [[left, top], [right, bottom]] = [toPixels([west, north]), toPixels([east, south])];
+    pen.imageSmoothingEnabled = false;
+    pen.drawImage(this.#picture(colour), left, top, right - left, bottom - top);
+  }
+
+  /** The highest row is on top; free cells are transparent, so that the grid is seen. */
   #picture(colour) {
     const styles = KINDS.map(([, name]) => colour(name)).join();
     if (!this.#pictures.has(styles)) {
@@ -70,26 +78,16 @@ export class Surroundings {
     }
     return this.#pictures.get(styles);
   }
-
-  /** name: of the robot that is looked at. */
-  drawScan(pen, toPixels, name, colour) {
-    if (this.#scan.name !== name) return;
-    pen.fillStyle = colour("--scan");
-    for (const point of this.#scan.points) {
-      const [px, py] = toPixels(point);
-      pen.fillRect(px - 1.5, py - 1.5, 3, 3);
-    }
-  }
 }
 
 /** Left (0), center (1) and right (2), each over a third of the front half. */
-export function drawBumpers(pen, [px, py], yaw, radius, pressed, colour) {
+export function drawBumpers({ pen, colour }, [x, y], yaw, radius, pressed) {
   pen.strokeStyle = colour("--bumper");
   pen.lineWidth = Math.max(3, radius / 5);
   for (const bumper of pressed) {
     const middle = -yaw - ((1 - bumper) * Math.PI) / 3;
     pen.beginPath();
-    pen.arc(px, py, radius + 1, middle - Math.PI / 6, middle + Math.PI / 6);
+    pen.arc(x, y, radius + 1, middle - Math.PI / 6, middle + Math.PI / 6);
     pen.stroke();
   }
 }
