@@ -36,27 +36,25 @@ export class BagTab {
 
   #bag = null; // as the server described it
   #looksOnly = false; // this page may not publish
-  #yours = false; // whether this page is the one that plays
+  #yours = false; // this page plays it
   #scrubbed = 0; // when the slider was last moved by hand
-  #hidden = new Set(); // curves that are not to be seen
+  #hidden = new Set(); // the names of hidden curves
 
   constructor(link, watch, page) {
     Object.assign(this, { link, watch, page });
     this.chart = new Chart(byId("bag-chart"));
     link.on("bags", ({ names }) => {
-      offer(byId("bag-name"), names.map((name) => [name, name]));
-      if (names.length === 1 && !this.#bag) this.#ask(); // there is nothing to choose
+      offer(byId("bag-name"), names.map((name) => [name]));
+      if (names.length === 1 && !this.#bag) this.#ask();
     });
     link.on("bag", (bag) => this.#open(bag));
     link.on("bag_at", (at) => this.#moveTo(at));
     link.on("hello", ({ role }) => {
       this.#looksOnly = role === "viewer";
       this.#tell(false);
-      if (this.#bag) link.send("bag_open", { name: this.#bag.path }); // the server knows this page no more
+      if (this.#bag) link.send("bag_open", { name: this.#bag.path }); // for the server this page is new
     });
-    link.on("seat", (seat) => {
-      this.#yours = seat.yours && seat.how === "bag";
-    });
+    link.on("seat", ({ yours, how }) => (this.#yours = yours && how === "bag"));
     this.#listen();
   }
 
@@ -66,17 +64,17 @@ export class BagTab {
   }
 
   #listen() {
-    byId("bag-open").addEventListener("click", () => this.#ask());
-    byId("bag-play").addEventListener("click", () => this.#play());
-    byId("bag-pause").addEventListener("click", () => this.link.send("bag_pause"));
-    byId("bag-position").addEventListener("input", () => {
+    const position = byId("bag-position");
+    byId("bag-open").onclick = () => this.#ask();
+    byId("bag-play").onclick = () => this.#play();
+    byId("bag-pause").onclick = () => this.link.send("bag_pause");
+    position.oninput = () => {
       this.#scrubbed = performance.now();
-      this.#seek(Number(byId("bag-position").value));
-    });
-    // What is changed while it plays counts at once.
-    for (const id of ["bag-rate", "bag-loop", "bag-topic"]) {
-      byId(id).addEventListener("change", () => this.#yours && this.#play());
-    }
+      this.#showPosition(Number(position.value));
+      this.link.send("bag_seek", { position: Number(position.value) });
+    };
+    // A change while it plays counts at once.
+    for (const id of ["bag-rate", "bag-loop", "bag-topic"]) byId(id).onchange = () => this.#yours && this.#play();
     byId("bag-chart").addEventListener("dblclick", () => this.chart.wholeRange());
   }
 
@@ -93,11 +91,6 @@ export class BagTab {
     });
   }
 
-  #seek(position) {
-    this.#showPosition(position);
-    this.link.send("bag_seek", { position });
-  }
-
   #showPosition(position) {
     say(byId("bag-at"), `${position.toFixed(1)} s`);
     this.chart.cursor = position;
@@ -110,10 +103,9 @@ export class BagTab {
     const when = bag.start > 0 ? `, recorded ${new Date(bag.start * 1000).toLocaleString()}` : "";
     say(byId("bag-about"), `${bag.path}: ${seconds.toFixed(1)} s${when}`);
     byId("bag-position").max = seconds;
-    byId("bag-topics").replaceChildren(...bag.topics.map(({ name, type, count }) =>
-      row(name, type, String(count))));
+    byId("bag-topics").replaceChildren(...bag.topics.map(({ name, type, count }) => row(name, type, String(count))));
     const playable = bag.topics.filter(({ type }) => type === "sensor_msgs/Joy");
-    offer(byId("bag-topic"), playable.map(({ name }) => [name, name]));
+    offer(byId("bag-topic"), playable.map(({ name }) => [name]));
     byId("bag-play").disabled = this.#looksOnly || playable.length === 0;
     this.#tell(false);
     this.#draw();
@@ -124,10 +116,10 @@ export class BagTab {
     this.chart.show(this.#bag.curves);
     byId("bag-curves").replaceChildren(...Object.keys(this.#bag.curves).map((name, i) => {
       const box = element("input", { type: "checkbox", checked: !this.#hidden.has(name) });
-      box.addEventListener("change", () => {
+      box.onchange = () => {
         this.#hidden[box.checked ? "delete" : "add"](name);
         this.chart.setVisible(i, box.checked);
-      });
+      };
       this.chart.setVisible(i, box.checked);
       return element("label", { "data-curve": name }, box, this.chart.sample(i), name);
     }));

@@ -4,26 +4,21 @@ import { element } from "./dom.js";
 
 // Distinct on light and dark backgrounds, and for most colour-blind readers.
 const COLOURS = ["#2b83d6", "#d9700a", "#1f9e6e", "#c2438f", "#8a6fd1", "#a38712", "#d6403a", "#3fa9b5"];
-// Where the colours begin again, lines are broken: lengths of strokes and gaps [px], and their name in CSS.
-const STROKES = [null, [7, 3], [2, 3]];
-const BORDERS = ["solid", "dashed", "dotted"];
+// Where the colours begin again, lines are broken: strokes and gaps [px], and their name in CSS.
+const STROKES = [[null, "solid"], [[7, 3], "dashed"], [[2, 3], "dotted"]];
 
-let library = null;
+/** How the line of series i is drawn. */
+function style(i) {
+  const [pattern, border] = STROKES[Math.floor(i / COLOURS.length) % STROKES.length];
+  return { colour: COLOURS[i % COLOURS.length], pattern, border };
+}
 
 /** Load dygraphs once it is needed; a phone that only drives does without. */
-function loadLibrary() {
-  library ??= new Promise((resolve) => {
-    const script = document.createElement("script");
-    script.onload = () => {
-      // Its legend, which is not used, writes style attributes, which the page's policy forbids.
-      const { Dygraph } = globalThis;
-      Dygraph.PLUGINS = Dygraph.PLUGINS.filter((plugin) => plugin !== Dygraph.Plugins.Legend);
-      resolve();
-    };
-    script.src = "/lib/dygraph.min.js";
-    document.head.append(script);
-  });
-  return library;
+async function loadLibrary() {
+  await import("/lib/dygraph.min.js");
+  // Its legend, which is not used, writes style attributes, which the page's policy forbids.
+  const { Dygraph } = globalThis;
+  Dygraph.PLUGINS = Dygraph.PLUGINS.filter((plugin) => plugin !== Dygraph.Plugins.Legend);
 }
 
 export class Chart {
@@ -31,7 +26,7 @@ export class Chart {
   #wanted = null; // what is to be shown once the library is there
   #labels = [];
   #cursor = null;
-  #window = null; // [from, to], as the page itself has set it last
+  #window = []; // from, to: as the page itself has set it last
 
   /** root: the element. options: of dygraphs, beside those below. */
   constructor(root, options = {}) {
@@ -40,25 +35,16 @@ export class Chart {
     new ResizeObserver(() => this.#graph?.resize()).observe(root);
   }
 
-  colour(i) {
-    return COLOURS[i % COLOURS.length];
-  }
-
-  #stroke(i) {
-    return Math.floor(i / COLOURS.length) % STROKES.length;
-  }
-
   /** An element that looks as the line of a series. */
   sample(i) {
     const made = element("i", { className: "sample" });
-    made.style.borderTop = `4px ${BORDERS[this.#stroke(i)]} ${this.colour(i)}`;
+    made.style.borderTop = `4px ${style(i).border} ${style(i).colour}`;
     return made;
   }
 
-  /** Whether a person chose what is shown. dygraphs calls it zoomed, too, when the page has set the window. */
+  /** Whether a person chose what is shown. For dygraphs a window that the page has set is zoomed, too. */
   get isZoomed() {
-    const [from, to] = this.#graph?.xAxisRange() ?? [];
-    return Boolean(this.#graph?.isZoomed("x")) && !(from === this.#window?.[0] && to === this.#window?.[1]);
+    return Boolean(this.#graph?.isZoomed("x")) && this.#graph.xAxisRange().join() !== this.#window.join();
   }
 
   wholeRange() {
@@ -75,25 +61,25 @@ export class Chart {
     }
     const labels = Object.keys(series);
     const rows = merged(Object.values(series));
-    if (!labels.length || !rows.length) {
-      this.#graph?.destroy();
-      this.#graph = null;
-      return;
-    }
-    const same = JSON.stringify(labels) === JSON.stringify(this.#labels);
+    const isSame = rows.length && JSON.stringify(labels) === JSON.stringify(this.#labels);
     const range = window && !this.isZoomed ? { dateWindow: window } : {};
     if (range.dateWindow) this.#window = [...window];
-    if (this.#graph && same) {
+    if (this.#graph && isSame) {
       this.#graph.updateOptions({ file: rows, ...range });
       return;
     }
     this.#graph?.destroy();
     this.#labels = labels;
-    this.#graph = new globalThis.Dygraph(this.root, rows, {
+    this.#graph = rows.length ? this.#make(labels, rows, range) : null;
+  }
+
+  #make(labels, rows, range) {
+    const patterns = labels.map((label, i) => [label, { strokePattern: style(i).pattern }]);
+    return new globalThis.Dygraph(this.root, rows, {
       labels: ["time [s]", ...labels],
       xlabel: "time [s]",
-      colors: labels.map((_, i) => this.colour(i)),
-      series: Object.fromEntries(labels.map((label, i) => [label, { strokePattern: STROKES[this.#stroke(i)] }])),
+      colors: labels.map((_, i) => style(i).colour),
+      series: Object.fromEntries(patterns),
       connectSeparatedPoints: true,
       axisLineColor: "#8888",
       gridLineColor: "#8883",
@@ -109,11 +95,11 @@ export class Chart {
     this.#graph?.setVisibility(i, on);
   }
 
-  /** A line at a time, or none (null). */
+  /** A line at a time [s]. */
   set cursor(t) {
     if (t === this.#cursor) return;
     this.#cursor = t;
-    this.#graph?.updateOptions({}); // draws anew
+    this.#graph?.updateOptions({}); // draws again
   }
 
   #drawCursor(pen, area, graph) {
@@ -127,44 +113,45 @@ export class Chart {
   picture() {
     const { clientWidth: width, clientHeight: height } = this.root;
     const ratio = devicePixelRatio || 1;
-    const canvas = document.createElement("canvas");
-    canvas.width = width * ratio;
-    canvas.height = (height + 24) * ratio;
+    const canvas = element("canvas", { width: width * ratio, height: (height + 24) * ratio });
     const pen = canvas.getContext("2d");
-    const style = getComputedStyle(document.body);
-    pen.fillStyle = style.backgroundColor;
-    pen.fillRect(0, 0, canvas.width, canvas.height);
+    const { backgroundColor, color } = getComputedStyle(document.body);
     pen.scale(ratio, ratio);
+    pen.fillStyle = backgroundColor;
+    pen.fillRect(0, 0, width, height + 24);
     for (const layer of this.root.querySelectorAll("canvas")) pen.drawImage(layer, 0, 0, width, height);
     pen.font = "12px system-ui, sans-serif";
     pen.textBaseline = "middle";
     pen.textAlign = "center";
-    pen.fillStyle = style.color;
+    pen.fillStyle = color;
     const corner = this.root.getBoundingClientRect();
     for (const label of this.root.querySelectorAll(".dygraph-axis-label, .dygraph-xlabel")) {
       const box = label.getBoundingClientRect();
-      const [x, y] = [box.left + box.width / 2 - corner.left, box.top + box.height / 2 - corner.top];
-      pen.fillText(label.textContent, x, y);
+      pen.fillText(label.textContent, box.x + box.width / 2 - corner.x, box.y + box.height / 2 - corner.y);
     }
+    this.#drawLegend(pen, height + 12);
+    return canvas;
+  }
+
+  #drawLegend(pen, y) {
     pen.textAlign = "left";
+    pen.lineWidth = 3;
     let x = 8;
     this.#labels.forEach((label, i) => {
-      pen.fillStyle = pen.strokeStyle = this.colour(i);
-      pen.lineWidth = 3;
-      pen.setLineDash(STROKES[this.#stroke(i)] ?? []);
+      pen.fillStyle = pen.strokeStyle = style(i).colour;
+      pen.setLineDash(style(i).pattern ?? []);
       pen.beginPath();
-      pen.moveTo(x, height + 12);
-      pen.lineTo(x + 18, height + 12);
+      pen.moveTo(x, y);
+      pen.lineTo(x + 18, y);
       pen.stroke();
-      pen.fillText(label, x + 22, height + 12);
+      pen.fillText(label, x + 22, y);
       x += pen.measureText(label).width + 38;
     });
-    return canvas;
   }
 }
 
 /** Rows [t, value or null of each series] in the order of time, from [[[t, value], ...], ...]. */
-export function merged(all) {
+function merged(all) {
   const rows = new Map();
   all.forEach((points, i) => {
     for (const [t, value] of points) {

@@ -19,15 +19,15 @@ export class DoctorTab {
   #asked = false;
   #shown = false;
 
-  constructor(link, _watch) {
+  constructor(link) {
     this.link = link;
     link.on("hello", () => {
-      this.#asked = false; // and the one that ran may have ended with its server
+      this.#asked = false; // a run may have ended with its server
       byId("doctor-run").disabled = false;
       this.show(this.#shown);
     });
     link.on("doctor", (found) => this.#show(found));
-    byId("doctor-run").addEventListener("click", () => this.#ask());
+    byId("doctor-run").onclick = () => this.#ask();
   }
 
   show(on) {
@@ -37,14 +37,12 @@ export class DoctorTab {
 
   #ask() {
     this.#asked = this.link.send("doctor");
-    if (!this.#asked) return;
-    say(byId("doctor-state"), "Checking …");
+    if (this.#asked) say(byId("doctor-state"), "Checking …");
   }
 
   #show({ lines, running }) {
     const wrong = lines.filter(({ level }) => level === "wrong").length;
-    const looking = lines.length ? "Checking …" : "Checking …";
-    say(byId("doctor-state"), running ? looking : wrong ? `${wrong} wrong` : "No problem found");
+    say(byId("doctor-state"), running ? "Checking …" : wrong ? `${wrong} wrong` : "No problem found");
     byId("doctor-run").disabled = running;
     byId("doctor-lines").replaceChildren(...lines.map(({ level, subject, text }) =>
       element("li", { className: level, "data-level": level },

@@ -51,11 +51,11 @@ function curve(boxes) {
   return path;
 }
 
-/** Each item one layer after the last of those that lead to it; of a loop, the way back does not count. */
+/** Each item one layer after the last of those that lead to it; in a loop, the way back does not count. */
 function layers(items, edges) {
   const after = Object.fromEntries(items.map((item) => [item, []]));
   for (const { from, to } of edges) after[from].push(to);
-  const order = [];
+  const order = []; // each item before those that follow it
   const state = {};
   const back = new Set();
   const visit = (item) => {
@@ -67,13 +67,13 @@ function layers(items, edges) {
     state[item] = "done";
     order.unshift(item);
   };
-  const isReached = new Set(edges.map(({ to }) => to));
-  const starts = items.filter((item) => !isReached.has(item));
+  const reached = new Set(edges.map(({ to }) => to));
+  const starts = items.filter((item) => !reached.has(item));
   for (const item of [...starts, ...items]) if (!state[item]) visit(item);
   const layer = Object.fromEntries(items.map((item) => [item, 0]));
   for (const item of order) {
-    for (const next of after[item]) {
-      if (!back.has(`${item}>${next}`)) layer[next] = Math.max(layer[next], layer[item] + 1);
+    for (const next of after[item].filter((one) => !back.has(`${item}>${one}`))) {
+      layer[next] = Math.max(layer[next], layer[item] + 1);
     }
   }
   return layer;
@@ -81,17 +81,18 @@ function layers(items, edges) {
 
 /** Order each column by the mean place of its neighbours, a few times, so that few arrows cross. */
 function untangle(columns, edges) {
+  const place = {};
+  const note = (column) => column.forEach((item, i) => (place[item] = i - column.length / 2));
+  const mean = (item) => {
+    const near = edges.flatMap(({ from, to }) => (from === item ? [to] : to === item ? [from] : []));
+    return near.length ? near.reduce((sum, other) => sum + place[other], 0) / near.length : 0;
+  };
+  columns.forEach(note);
   for (let turn = 0; turn < 6; turn += 1) {
-    const place = {};
-    for (const column of columns) column.forEach((item, i) => (place[item] = i - column.length / 2));
     for (const column of columns) {
-      const mean = (item) => {
-        const near = edges.flatMap(({ from, to }) => (from === item ? [to] : to === item ? [from] : []));
-        return near.length ? near.reduce((sum, other) => sum + place[other], 0) / near.length : 0;
-      };
       const means = Object.fromEntries(column.map((item) => [item, mean(item)]));
       column.sort((a, b) => means[a] - means[b] || (a < b ? -1 : 1));
-      column.forEach((item, i) => (place[item] = i - column.length / 2));
+      note(column);
     }
   }
 }

@@ -36,7 +36,7 @@ export class GraphTab {
     this.picture = byId("graph-picture");
     this.details = byId("graph-details");
     link.on("graph", (graph) => this.#draw(graph));
-    byId("graph-all").addEventListener("change", () => this.#draw(this.#graph));
+    byId("graph-all").onchange = () => this.#draw(this.#graph);
     link.on("topic", (topic) => this.#chosen === `topic ${topic.name}` && this.#showTopic(topic));
     link.on("node", (node) => this.#chosen === `node ${node.name}` && this.#showNode(node));
   }
@@ -46,8 +46,8 @@ export class GraphTab {
   }
 
   #asked(item) {
-    const [kind, name] = (item ?? "").split(" ");
-    return { topic: kind === "topic" ? name : null, node: kind === "node" ? name : null };
+    const [kind, name] = item?.split(" ") ?? [];
+    return { topic: null, node: null, ...(kind && { [kind]: name }) };
   }
 
   #choose(item) {
@@ -58,12 +58,9 @@ export class GraphTab {
   }
 
   #mark() {
-    for (const part of this.picture.querySelectorAll("[data-item]")) {
-      part.classList.toggle("chosen", part.dataset.item === this.#chosen);
-    }
-    for (const arrow of this.picture.querySelectorAll("path[data-from]")) {
-      const { from, to } = arrow.dataset;
-      arrow.classList.toggle("chosen", this.#chosen === from || this.#chosen === to);
+    for (const part of this.picture.querySelectorAll("[data-item], [data-from]")) {
+      const { item, from, to } = part.dataset;
+      part.classList.toggle("chosen", this.#chosen !== null && [item, from, to].includes(this.#chosen));
     }
   }
 
@@ -75,15 +72,14 @@ export class GraphTab {
     this.#drawn = wanted;
     const focused = document.activeElement?.dataset?.item;
     const { width, height, boxes, arrows } = layout(items, graph.edges);
+    const tip = { id: "tip", viewBox: "0 0 8 8", refX: 7, refY: 4, markerUnits: "userSpaceOnUse",
+      markerWidth: 10, markerHeight: 10, orient: "auto" };
     const picture = svg("svg", { width, height, viewBox: `0 0 ${width} ${height}`, role: "group" },
-      svg("defs", {}, svg("marker", { id: "tip", viewBox: "0 0 8 8", refX: 7, refY: 4,
-        markerUnits: "userSpaceOnUse", markerWidth: 10, markerHeight: 10, orient: "auto" }, svg("path", { d: "M0 0 L8 4 L0 8 Z" }))));
+      svg("defs", {}, svg("marker", tip, svg("path", { d: "M0 0 L8 4 L0 8 Z" }))),
+      ...arrows.map(({ from, to, path }) => svg("path", { d: path, class: "arrow", "data-from": from,
+        "data-to": to, "marker-end": "url(#tip)" })),
+      ...items.map((item) => this.#box(item, boxes[item])));
     picture.style.minWidth = `${width * LEAST_SCALE}px`;
-    for (const { from, to, path } of arrows) {
-      picture.append(svg("path", { d: path, class: "arrow", "data-from": from, "data-to": to,
-        "marker-end": "url(#tip)" }));
-    }
-    for (const item of items) picture.append(this.#box(item, boxes[item]));
     this.picture.replaceChildren(items.length ? picture : element("p", { className: "hint" }, "No node is running."));
     this.#mark();
     if (focused) this.picture.querySelector(`[data-item="${CSS.escape(focused)}"]`)?.focus();
@@ -93,45 +89,40 @@ export class GraphTab {
   #items({ nodes, topics, edges }) {
     const items = [...nodes.map(({ name }) => `node ${name}`), ...topics.map(({ name }) => `topic ${name}`)];
     if (byId("graph-all").checked) return items;
-    const spoken = new Set(edges.map(({ to }) => to));
+    const published = new Set(edges.map(({ to }) => to));
     return items.filter((item) =>
-      !DEBUG.includes(item) && (item.startsWith("node ") || spoken.has(item)));
+      !DEBUG.includes(item) && (item.startsWith("node ") || published.has(item)));
   }
 
   #box(item, { x, y, w, h }) {
     const [kind, name] = item.split(" ");
+    const [cx, cy] = [x + w / 2, y + h / 2];
     const shape = kind === "node"
-      ? svg("ellipse", { cx: x + w / 2, cy: y + h / 2, rx: w / 2, ry: h / 2 })
+      ? svg("ellipse", { cx, cy, rx: w / 2, ry: h / 2 })
       : svg("rect", { x, y, width: w, height: h, rx: 3 });
-    const label = svg("text", { x: x + w / 2, y: y + h / 2 + 5 }, name);
-    const box = svg("g", { class: kind, "data-item": item, role: "button", tabindex: 0,
-      "aria-label": item }, shape, label);
-    box.addEventListener("click", () => this.#choose(item));
-    box.addEventListener("keydown", (event) => {
+    const box = svg("g", { class: kind, "data-item": item, role: "button", tabindex: 0, "aria-label": item },
+      shape, svg("text", { x: cx, y: cy + 5 }, name));
+    box.onclick = () => this.#choose(item);
+    box.onkeydown = (event) => {
       if (event.key !== "Enter" && event.key !== " ") return;
       event.preventDefault();
       this.#choose(item);
-    });
+    };
     return box;
   }
 
   #fill(kind, name, entries) {
-    const list = element("dl", { className: "details" });
-    for (const [title, key, value] of entries) {
-      list.append(element("div", {},
-        element("dt", {}, title), element("dd", { "data-value": key }, ...[value].flat())));
-    }
-    this.details.replaceChildren(element("h2", {}, `${kind} ${name}`), list);
+    const list = entries.map(([title, key, value]) => element("div", {},
+      element("dt", {}, title), element("dd", { "data-value": key }, ...[value].flat())));
+    this.details.replaceChildren(
+      element("h2", {}, `${kind} ${name}`), element("dl", { className: "details" }, ...list));
   }
 
   /** Buttons that choose other nodes or topics, or a dash. */
   #links(kind, names) {
     if (!names?.length) return "–";
-    return names.map((name) => {
-      const button = element("button", { className: "link", type: "button" }, name);
-      button.addEventListener("click", () => this.#choose(`${kind} ${name}`));
-      return button;
-    });
+    const choose = (name) => () => this.#choose(`${kind} ${name}`);
+    return names.map((name) => element("button", { className: "link", onclick: choose(name) }, name));
   }
 
   #showTopic({ name, type, rate, publishers, subscribers, last }) {

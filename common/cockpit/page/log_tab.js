@@ -1,6 +1,6 @@
-/** The tab Log: what all nodes say on /rosout. */
+/** The tab Log: what all nodes log on /rosout. */
 
-import { byId, element, say } from "./dom.js";
+import { byId, element, offer, row, say } from "./dom.js";
 
 const LEVELS = ["DEBUG", "INFO", "WARN", "ERROR", "FATAL"];
 const MOST = 1000; // lines that are kept
@@ -9,8 +9,7 @@ const NOTHING = `No line yet. What nodes log with rospy.loginfo() and the like c
 
 const PANEL = `
   <div class="card row">
-    <label>From level <select id="log-level"><option>DEBUG</option><option selected>INFO</option><option>WARN</option>
-      <option>ERROR</option><option>FATAL</option></select></label>
+    <label>From level <select id="log-level"></select></label>
     <label class="grow">Filter <input type="search" id="log-filter" placeholder="node or text" autocomplete="off"></label>
     <span id="log-count" class="hint"></span>
   </div>
@@ -29,22 +28,23 @@ export class LogTab {
   constructor(link, watch) {
     this.watch = watch;
     this.lines = byId("log-lines");
-    link.on("hello", () => {
-      this.#entries = [];
-      this.#showAll();
-    });
+    link.on("hello", () => this.#begin());
     link.on("log", ({ entries }) => this.#add(entries));
-    byId("log-level").addEventListener("change", () => this.#showAll());
-    byId("log-filter").addEventListener("input", () => this.#showAll());
+    offer(byId("log-level"), LEVELS.map((level) => [level]));
+    byId("log-level").value = "INFO";
+    byId("log-level").onchange = byId("log-filter").oninput = () => this.#showAll();
   }
 
   show(on) {
-    if (on && !this.#shown) {
-      this.#entries = []; // the server begins with the last ones again
-      this.#showAll();
-    }
+    if (on && !this.#shown) this.#begin();
     this.#shown = on;
     this.watch({ log: on });
+  }
+
+  /** Forget all lines: the server sends the last ones again. */
+  #begin() {
+    this.#entries = [];
+    this.#showAll();
   }
 
   #passes({ level, node, text }) {
@@ -68,10 +68,9 @@ export class LogTab {
     const scroll = byId("log-scroll");
     const atEnd = scroll.scrollHeight - scroll.scrollTop - scroll.clientHeight < 40;
     this.lines.append(...entries.map(({ time, level, node, text }) => {
-      const clock = new Date(time * 1000).toTimeString().slice(0, 8);
-      const line = element("tr", { className: level.toLowerCase(), "data-level": level },
-        element("td", {}, clock), element("td", {}, level), element("td", {}, node),
-        element("td", {}, text));
+      const line = row(new Date(time * 1000).toTimeString().slice(0, 8), level, node, text);
+      line.className = level.toLowerCase();
+      line.dataset.level = level;
       return line;
     }));
     while (this.lines.childElementCount > MOST) this.lines.firstChild.remove();

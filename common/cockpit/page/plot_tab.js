@@ -1,22 +1,19 @@
 /** The tab Plot: any numeric field of any topic over time. */
 
 import { Chart } from "./chart.js";
-import { byId, element, save, say } from "./dom.js";
+import { byId, element, offer, save, say } from "./dom.js";
 
 const MOST = 20; // fields at a time, as the server has it
 const LISTED = 200; // of the fields that are found
-const KEEP_S = 600; // longest window, which index.html offers, too
+const WINDOWS = [[10, "10 s"], [30, "30 s"], [120, "2 min"], [600, "10 min"]];
+const KEEP_S = 600; // the longest window
 const DRAW_MS = 100;
 const SET_BACK_S = 1; // by so much and more
 
 /** The index of the first of [[t, value], ...] since time was set back, as by a bag that loops, or -1. */
 function setBack(points, last) {
-  let first = -1;
-  points.forEach(([t], i) => {
-    if (t < last - SET_BACK_S) first = i;
-    last = t;
-  });
-  return first;
+  const times = [last, ...points.map(([t]) => t)];
+  return points.findLastIndex(([t], i) => t < times[i] - SET_BACK_S);
 }
 
 const PANEL = `
@@ -25,8 +22,7 @@ const PANEL = `
       <button id="plot-pause" aria-pressed="false">Pause</button>
       <button id="plot-zoom">Whole range</button>
       <button id="plot-clear">Clear</button>
-      <label>Last <select id="plot-window"><option value="10">10 s</option><option value="30" selected>30 s</option>
-        <option value="120">2 min</option><option value="600">10 min</option></select></label>
+      <label>Last <select id="plot-window"></select></label>
       <button id="plot-csv">Save CSV</button>
       <button id="plot-png">Save PNG</button>
     </div>
@@ -54,24 +50,22 @@ export class PlotTab {
 
   constructor(link, watch) {
     this.watch = watch;
-    this.chart = new Chart(byId("plot-chart"), {
-      labelsKMB: false,
-      zoomCallback: () => (this.#fresh = true),
-    });
+    this.chart = new Chart(byId("plot-chart"), { labelsKMB: false, zoomCallback: () => (this.#fresh = true) });
     link.on("fields", ({ fields }) => {
       if (fields.join() === this.#all.join()) return; // a list in use is left alone
       this.#all = fields;
       this.#list();
     });
     link.on("plot", ({ samples }) => this.#take(samples));
-    byId("plot-search").addEventListener("input", () => this.#list());
-    byId("plot-pause").addEventListener("click", () => this.#pause(!this.#paused));
-    byId("plot-window").addEventListener("change", () => this.#showLast(byId("plot-window").value));
-    byId("plot-zoom").addEventListener("click", () => this.#showLast(KEEP_S));
-    byId("plot-clear").addEventListener("click", () => this.#clear());
-    byId("plot-csv").addEventListener("click", () => this.#saveCsv());
-    byId("plot-png").addEventListener("click", () =>
-      this.chart.picture().toBlob((blob) => save(blob, "plot.png")));
+    offer(byId("plot-window"), WINDOWS);
+    byId("plot-window").value = 30;
+    byId("plot-window").onchange = () => this.#showLast(byId("plot-window").value);
+    byId("plot-search").oninput = () => this.#list();
+    byId("plot-pause").onclick = () => this.#pause(!this.#paused);
+    byId("plot-zoom").onclick = () => this.#showLast(KEEP_S);
+    byId("plot-clear").onclick = () => this.#clear();
+    byId("plot-csv").onclick = () => this.#saveCsv();
+    byId("plot-png").onclick = () => this.chart.picture().toBlob((blob) => save(blob, "plot.png"));
     setInterval(() => this.#draw(), DRAW_MS);
   }
 
@@ -89,7 +83,7 @@ export class PlotTab {
     const wanted = Object.entries(samples).filter(([field]) => this.#samples[field]);
     const newest = (field) => (this.#samples[field].at(-1)?.[0] ?? -Infinity) + this.#zero;
     const begins = wanted.map(([field, points]) => setBack(points, newest(field)));
-    if (begins.some((i) => i >= 0)) this.#clear(); // what was before is of another time, of all fields
+    if (begins.some((i) => i >= 0)) this.#clear(); // all earlier samples are of another time
     for (const [field, points] of wanted) {
       const kept = this.#samples[field];
       for (const [t, value] of points.slice(Math.max(0, begins.shift()))) {
@@ -111,8 +105,8 @@ export class PlotTab {
     const from = Math.max(0, newest - seconds);
     const whole = this.chart.isZoomed;
     const cut = (points) => (whole ? points : points.filter(([t]) => t >= from));
-    const seen = Object.entries(this.#samples).map(([field, points]) => [field, cut(points)]);
-    this.chart.show(Object.fromEntries(seen), [from, Math.max(newest, from + 1)]);
+    const shown = Object.entries(this.#samples).map(([field, points]) => [field, cut(points)]);
+    this.chart.show(Object.fromEntries(shown), [from, Math.max(newest, from + 1)]);
     byId("plot-values").replaceChildren(...this.fields.map((field, i) => {
       const value = this.#samples[field].at(-1)?.[1];
       return element("span", { "data-field": field }, this.chart.sample(i), `${field} `,
@@ -122,15 +116,21 @@ export class PlotTab {
 
   #list() {
     const words = byId("plot-search").value.toLowerCase().split(/\s+/).filter(Boolean);
-    const chosen = new Set(this.fields);
     const found = this.#all.filter((field) => words.every((word) => field.toLowerCase().includes(word)));
-    const listed = [...this.fields, ...found.filter((field) => !chosen.has(field))].slice(0, LISTED);
+    const listed = [...new Set([...this.fields, ...found])].slice(0, LISTED); // the chosen ones first
     byId("plot-fields").replaceChildren(...listed.map((field) => {
-      const box = element("input", { type: "checkbox", checked: chosen.has(field), value: field });
-      box.disabled = !box.checked && chosen.size >= MOST;
-      box.addEventListener("change", () => this.#choose(field, box.checked));
+      const checked = field in this.#samples;
+      const box = element("input", { type: "checkbox", checked, value: field });
+      box.onchange = () => this.#choose(field, box.checked);
       return element("li", {}, element("label", {}, box, ` ${field}`));
     }));
+    this.#limit();
+  }
+
+  #limit() {
+    for (const box of byId("plot-fields").querySelectorAll("input")) {
+      box.disabled = !box.checked && this.fields.length >= MOST;
+    }
   }
 
   #choose(field, on) {
@@ -139,9 +139,7 @@ export class PlotTab {
     if (!this.fields.length) this.#zero = null;
     this.watch({ fields: this.fields });
     this.#fresh = true;
-    for (const box of byId("plot-fields").querySelectorAll("input:not(:checked)")) {
-      box.disabled = this.fields.length >= MOST;
-    }
+    this.#limit();
   }
 
   /** Show the last seconds, however the chart was zoomed. */

@@ -3,35 +3,32 @@
 /** onChoose(name) is called with the name of the view that is shown: "robot", "graph" ... */
 export function makeTabs(tablist, onChoose) {
   const tabs = [...tablist.querySelectorAll("[role=tab]")];
-  const names = tabs.map((tab) => tab.getAttribute("aria-controls"));
+  const nameOf = (tab) => tab.getAttribute("aria-controls");
 
-  function choose(tab, focus) {
-    for (const other of tabs) {
-      const chosen = other === tab;
-      other.setAttribute("aria-selected", String(chosen));
-      other.tabIndex = chosen ? 0 : -1;
-      document.getElementById(other.getAttribute("aria-controls")).hidden = !chosen;
+  function choose(chosen) {
+    for (const tab of tabs) {
+      tab.setAttribute("aria-selected", tab === chosen);
+      tab.tabIndex = tab === chosen ? 0 : -1;
+      document.getElementById(nameOf(tab)).hidden = tab !== chosen;
     }
-    if (focus) tab.focus();
-    const name = tab.getAttribute("aria-controls");
-    history.replaceState(null, "", `${location.pathname}${location.search}#${name}`);
-    onChoose(name);
+    history.replaceState(null, "", `${location.pathname}${location.search}#${nameOf(chosen)}`);
+    onChoose(nameOf(chosen));
   }
 
-  for (const tab of tabs) tab.addEventListener("click", () => choose(tab, false));
+  for (const tab of tabs) tab.onclick = () => choose(tab);
   tablist.addEventListener("keydown", (event) => {
-    const now = tabs.indexOf(document.activeElement);
-    const last = tabs.length - 1;
+    const [now, last] = [tabs.indexOf(document.activeElement), tabs.length - 1];
     const next = { ArrowRight: now === last ? 0 : now + 1, ArrowLeft: now <= 0 ? last : now - 1,
       Home: 0, End: last }[event.key];
     if (next === undefined || now < 0) return;
     event.preventDefault();
-    choose(tabs[next], true);
+    choose(tabs[next]);
+    tabs[next].focus();
   });
-  const fromAddress = () => {
+  const chooseByAddress = () => {
     const name = location.hash.slice(1).toLowerCase();
-    choose(tabs[Math.max(0, names.indexOf(name))], false);
+    choose(tabs.find((tab) => nameOf(tab) === name) ?? tabs[0]);
   };
-  addEventListener("hashchange", fromAddress);
-  fromAddress();
+  addEventListener("hashchange", chooseByAddress);
+  chooseByAddress();
 }
