@@ -1,22 +1,23 @@
 /**
  * The connection to the server: JSON messages both ways, and its return after a loss.
  *
- * Silence is a loss, which is shown at once; but a silent server may only be busy, or the Wi-Fi weak for
- * a moment. So the connection is kept for a while: with it goes the driver's seat.
+ * Silence is shown at once as a loss. But the server may only be busy, or the Wi-Fi weak for a moment,
+ * and a closed connection costs the driver's seat: so it stays open for a while.
  */
 
 const RETRY_MS = 500;
-const CONNECT_MS = 3000; // after which an attempt is given up: a cut network answers nothing
-const QUIET_MS = 1000; // the robots' places come 20 times a second, so that silence is a loss
-const GONE_MS = 4000; // of silence; as long as the server waits for a page that does not answer
-const HOPE_MS = 6000; // of attempts in vain; then a person has to do something
+const QUIET_MS = 1000; // of silence are a loss: the robots' places come 20 times a second
+const GIVE_UP_MS = {
+  [WebSocket.CONNECTING]: 3000, // a cut network answers nothing
+  [WebSocket.OPEN]: 4000, // the server waits as long for a silent page
+};
+const HOPE_MS = 6000; // of attempts in vain; then a person has to act
 const FULL = 4096; // [byte] waiting to be sent: what is added now would come late
 
 export class Link {
   #socket = null;
   #handlers = new Map();
-  #lastHeard = 0;
-  #attempt = 0;
+  #lastHeard = 0; // or when the connection was begun
   #lostAt = 0;
   #state = "connecting";
 
@@ -32,11 +33,10 @@ export class Link {
   }
 
   connect() {
-    this.#attempt = performance.now();
-    const scheme = location.protocol === "https:" ? "wss" : "ws";
+    this.#lastHeard = performance.now();
     const token = new URLSearchParams(location.search).get("token");
     const query = token === null ? "" : `?token=${encodeURIComponent(token)}`;
-    const socket = new WebSocket(`${scheme}://${location.host}/ws${query}`);
+    const socket = new WebSocket(`${location.origin.replace("http", "ws")}/ws${query}`);
     this.#socket = socket;
     socket.onopen = () => {
       this.#lastHeard = performance.now();
@@ -50,7 +50,7 @@ export class Link {
     return this.#state === "open" && this.#socket.readyState === WebSocket.OPEN;
   }
 
-  /** Send a message, or drop it: nothing waits for a better time. Returns whether it was sent. */
+  /** Send a message now, or drop it. Returns whether it was sent. */
   send(kind, fields = {}) {
     if (!this.isOpen || this.#socket.bufferedAmount > FULL) return false;
     this.#socket.send(JSON.stringify({ kind, ...fields }));
@@ -73,16 +73,15 @@ export class Link {
 
   #watch() {
     const now = performance.now();
-    const state = this.#socket?.readyState;
+    const state = this.#socket?.readyState; // undefined between two attempts
     const silence = now - this.#lastHeard;
     if (this.#state === "lost" && now - this.#lostAt > HOPE_MS) this.#become("gone");
     if (document.hidden) {
       this.#lastHeard = now; // timers and messages of a hidden page come late, which is no loss
-    } else if (state === WebSocket.OPEN && silence > QUIET_MS) {
-      if (silence > GONE_MS) this.#lose(this.#socket);
-      else this.#become("lost");
-    } else if (state === WebSocket.CONNECTING && now - this.#attempt > CONNECT_MS) {
+    } else if (silence > GIVE_UP_MS[state]) {
       this.#lose(this.#socket);
+    } else if (state === WebSocket.OPEN && silence > QUIET_MS) {
+      this.#become("lost");
     }
   }
 

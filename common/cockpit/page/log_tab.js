@@ -1,6 +1,6 @@
 /** The tab Log: what all nodes log on /rosout. */
 
-import { byId, element, offer, row, say } from "./dom.js";
+import { byId, offer, row, say } from "./dom.js";
 
 const LEVELS = ["DEBUG", "INFO", "WARN", "ERROR", "FATAL"];
 const MOST = 1000; // lines that are kept
