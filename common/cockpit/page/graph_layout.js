@@ -34,15 +34,15 @@ function wayOf({ from, to }, number, layerOf, columns) {
   return [left, ...bends, right];
 }
 
-/** An SVG path along boxes, whichever way they follow each other. */
+/** An SVG path along boxes, to the right or to the left. */
 function curve(boxes) {
   const ahead = boxes.at(-1).x > boxes[0].x;
-  const points = boxes.flatMap(({ x, y, w, h }, i) => {
-    const [near, far] = ahead ? [x, x + w] : [x + w, x];
-    const tip = ahead ? -3 : 3;
-    const ends = [[near + (i === boxes.length - 1 ? tip : 0), y + h / 2], [far, y + h / 2]];
-    return i === 0 ? [ends[1]] : i === boxes.length - 1 ? [ends[0]] : ends;
+  const sides = boxes.flatMap(({ x, y, w, h }) => {
+    const [left, right] = [[x, y + h / 2], [x + w, y + h / 2]];
+    return ahead ? [left, right] : [right, left];
   });
+  const points = sides.slice(1, -1); // from the far side of the first box to the near side of the last
+  points.at(-1)[0] += ahead ? -3 : 3; // for the tip
   let path = `M${points[0]}`;
   for (let i = 1; i < points.length; i += 1) {
     const middle = (points[i - 1][0] + points[i][0]) / 2;
@@ -51,30 +51,23 @@ function curve(boxes) {
   return path;
 }
 
-/** Each item one layer after the last of those that lead to it; in a loop, the way back does not count. */
+/** Each item one layer after the last of those that lead to it; an arrow that closes a loop does not count. */
 function layers(items, edges) {
-  const after = Object.fromEntries(items.map((item) => [item, []]));
-  for (const { from, to } of edges) after[from].push(to);
-  const order = []; // each item before those that follow it
-  const state = {};
-  const back = new Set();
-  const visit = (item) => {
-    state[item] = "open";
-    for (const next of after[item]) {
-      if (state[next] === "open") back.add(`${item}>${next}`);
-      else if (!state[next]) visit(next);
-    }
-    state[item] = "done";
-    order.unshift(item);
-  };
   const reached = new Set(edges.map(({ to }) => to));
   const starts = items.filter((item) => !reached.has(item));
-  for (const item of [...starts, ...items]) if (!state[item]) visit(item);
-  const layer = Object.fromEntries(items.map((item) => [item, 0]));
+  const seen = new Set();
+  const order = []; // each item before those that follow it
+  const visit = (item) => {
+    if (seen.has(item)) return;
+    seen.add(item);
+    for (const { from, to } of edges) if (from === item) visit(to);
+    order.unshift(item);
+  };
+  for (const item of [...starts, ...items]) visit(item);
+  const layer = {};
   for (const item of order) {
-    for (const next of after[item].filter((one) => !back.has(`${item}>${one}`))) {
-      layer[next] = Math.max(layer[next], layer[item] + 1);
-    }
+    const before = edges.filter(({ from, to }) => to === item && from in layer);
+    layer[item] = 1 + Math.max(-1, ...before.map(({ from }) => layer[from]));
   }
   return layer;
 }
