@@ -1,7 +1,8 @@
-"""What the tests in browsers share: a robot with a cockpit, browsers, the table of the ways."""
+"""What the tests in browsers share: robots with a cockpit, browsers, the table of times."""
 
 import re
 from collections import defaultdict
+from pathlib import Path
 
 import pytest
 
@@ -10,8 +11,8 @@ from tutorial_testing.cockpit.world import World
 
 
 def pytest_addoption(parser):
-    told = "lose the operator in each way so often (1)"
-    parser.addoption("--trials", type=int, default=1, metavar="N", help=told)
+    trials = "how often the operator is lost in each way (1)"
+    parser.addoption("--trials", type=int, default=1, metavar="N", help=trials)
     parser.addoption("--picture", action="store_true", help="make common/cockpit/doc/cockpit.webp")
 
 
@@ -34,13 +35,7 @@ def pytest_terminal_summary(terminalreporter, config):
 
 @pytest.fixture(scope="session")
 def world():
-    """The simulated robot, joy2twist and a cockpit, for whoever leaves them as they were."""
-    with World() as world:
-        yield world
-
-
-@pytest.fixture
-def own_world():
+    """The simulated robot, joy2twist and a cockpit, for tests that leave them as they were."""
     with World() as world:
         yield world
 
@@ -59,12 +54,12 @@ def shared_browser():
 
 @pytest.fixture
 def page(world, shared_browser):
-    """A Chromium with the page of the world, opened anew; the console must be clean at the end."""
+    """The shared browser with the page opened anew; the test fails if its console has errors."""
     shared_browser.open(world.address)
     yield shared_browser
-    complaints = shared_browser.errors()
+    errors = shared_browser.errors()
     shared_browser.driver.get("about:blank")  # it drives no more
-    assert complaints == []
+    assert errors == []
 
 
 @pytest.fixture
@@ -77,3 +72,8 @@ def ros(world):
             return re.sub(r"\x1b\[[0-9;]*m", "", program.output)
 
     return ask
+
+
+@pytest.fixture
+def recording():
+    return str(Path(__file__).resolve().parents[2] / "common/gamepad/bag/joy.bag")

@@ -1,4 +1,4 @@
-"""A person at the page drives the simulated robot, in each of the three ways."""
+"""A person at the page drives the simulated robot with keys, thumbs or a gamepad."""
 
 import pytest
 
@@ -36,27 +36,26 @@ def test_held_it_moves_and_released_it_stops(world, kind):
 
 
 def both_shifts(page):
-    """Of two that are let go of one release is told; the other one seems to be held."""
+    """Release one of two Shifts: Windows reports no release of the other."""
     page.key("rawKeyDown", "ShiftRight")
     page.key("keyUp", "ShiftLeft")
 
 
-ASK_ALL_THE_SAME = """const b = document.getElementById('take'); b.disabled = false; b.click()"""
-NOT_HEARD = {
-    "Shift, as the mouse tells": lambda page: page.mouse("mouseMoved", "#teleop"),
+UNREPORTED = {
+    "Shift, before the mouse moves": lambda page: page.mouse("mouseMoved", "#teleop"),
     "one Shift of two": both_shifts,
     "keys beside Cmd": lambda page: page.key("rawKeyDown", "MetaLeft"),
     "all, in an open list": lambda page: page.mouse("mousePressed", "#bag-rate", "left", True),
 }
 
 
-@pytest.mark.parametrize("name", NOT_HEARD)
-def test_a_release_that_is_not_heard_stops_all_the_same(world, page, name):
+@pytest.mark.parametrize("name", UNREPORTED)
+def test_a_release_that_no_keyup_reports_stops_the_robot(world, page, name):
     hands = Keys(page)
     hands.drive(world)
-    if "list" in name:  # of a tab whose lists are open to who drives
+    if "list" in name:  # of a tab whose lists a driver may open
         page.driver.execute_script("document.getElementById('tab-bag').click()")
-    NOT_HEARD[name](page)
+    UNREPORTED[name](page)
     world.wait_for_rest()
     assert world.stays_at_rest()
     for code in ("ShiftLeft", "ShiftRight", "MetaLeft"):
@@ -67,7 +66,7 @@ def test_a_release_that_is_not_heard_stops_all_the_same(world, page, name):
     hands.release()
 
 
-def test_no_menu_opens_where_a_page_drives(world, page):
+def test_no_menu_opens_where_a_page_drives(page):
     event = "new Event('contextmenu', {cancelable: true, bubbles: true})"
     script = f"document.body.dispatchEvent({event})"
     assert page.ask(script) is True
@@ -76,43 +75,27 @@ def test_no_menu_opens_where_a_page_drives(world, page):
     assert page.ask(script) is False
 
 
-def test_without_the_dead_man_nothing_moves(world, page):
-    page.click("Drive from this page")
-    page.wait_for_text("#ready", "Hold LB")
-    page.key("rawKeyDown", "ArrowUp")
-    assert world.stays_at_rest()
-    page.key("keyUp", "ArrowUp")
-
-
 def test_esc_stops_driving(world, page):
-    page.click("Drive from this page")
-    hands = Keys(page)
-    hands.drive(world)
+    Keys(page).drive(world)
     page.key("rawKeyDown", "Escape")
     world.wait_for_rest()
     page.wait_for_text("#seat", "Nobody drives")
     assert world.stays_at_rest()  # although all is still held
 
 
-def test_a_second_page_is_refused_and_told_who_drives(world, page):
+FORCED = "const take = document.getElementById('take'); take.disabled = false; take.click()"
+
+
+def test_a_second_page_is_refused_until_the_first_hands_over(world, page):
     with Chromium() as second:
         second.open(world.address)  # first: a browser that starts may hold up the other one
-        page.click("Drive from this page")
+        Keys(page).drive(world)
         second.wait_for_text("#seat", "drives the robot")
         assert not second.by_role("button", "Drive from this page").is_enabled()
-        second.driver.execute_script(ASK_ALL_THE_SAME)
+        second.driver.execute_script(FORCED)
         second.wait_for_text("#notice", "drive:")
         page.wait_for_text("#seat", "You drive")
-
-
-def test_a_driver_hands_over(world, page):
-    with Chromium() as second:
-        second.open(world.address)
-        number = second.text("#me").split()[-1]
-        page.click("Drive from this page")
-        hands = Keys(page)
-        hands.drive(world)
-        page.one("#heir").send_keys(number)
+        page.one("#heir").send_keys(second.text("#me").split()[-1])
         page.click("Hand over")
         world.wait_for_rest()
         second.wait_for_text("#seat", "You drive")
@@ -123,44 +106,19 @@ def test_a_driver_hands_over(world, page):
         assert second.errors() == []
 
 
-def recording():
-    import rospkg  # noqa: PLC0415  of the workspace, which is there once the tests run
-
-    return f"{rospkg.RosPack().get_path('gamepad')}/bag/joy.bag"
-
-
-def test_a_recording_beside_the_page_is_called_what_drives(own_world, browser):
-    browser.open(own_world.address)
-    browser.wait_for_text("#seat", "Nobody drives.")
-    with own_world.run("rosbag", "play", "--loop", recording(), "__name:=player"):
-        browser.wait_for_text("#teleop", "driving")
-        browser.wait_for_text("#seat", "/player drives the robot.")
-        browser.click("Drive from this page")
-        browser.wait_for_text("#notice", "drive: /player publishes the joystick topic")
-        with Chromium() as second:
-            second.open(own_world.address)
-            second.wait_for_text("#seat", "/player drives the robot.")
-            assert second.text("#ready") == ""  # what stopped nothing is no last stop
-    browser.wait_for_text("#seat", "Nobody drives.")
-    wait_for(lambda: browser.text("#teleop") != "driving", "joy2twist that drives no longer")
-    assert browser.text("#ready") == ""
-    assert browser.errors() == []
-
-
-def test_no_button_is_asked_for_where_a_recording_is_played(world, page):
-    page.tab("Bag")
-    page.wait_for_text("#bag-about", "joy.bag")
-    page.click("Publish")
-    page.tab("Robot")
-    page.wait_for_text("#seat", "You play a recording to the robot.")
-    wait_for(lambda: "LB" not in page.one("#drive").text, "hint that is gone")
-    page.click("Stop driving")
+def test_a_recording_beside_the_page_is_shown_as_the_driver(world, page, recording):
     page.wait_for_text("#seat", "Nobody drives.")
-    page.wait_for_text("#how", "Hold LB")
+    with world.run("rosbag", "play", "--loop", recording, "__name:=player"):
+        page.wait_for_text("#teleop", "driving")
+        page.wait_for_text("#seat", "/player drives the robot.")
+        page.click("Drive from this page")
+        page.wait_for_text("#notice", "drive: /player publishes the joystick topic")
+    page.wait_for_text("#seat", "Nobody drives.")
+    wait_for(lambda: page.text("#teleop") != "driving", "joy2twist that drives no longer")
     world.wait_for_rest()
 
 
-def test_the_reason_of_a_stop_is_told_once_the_robot_was_stopped(world, page):
+def test_the_reason_of_a_stop_is_shown_once_the_robot_was_stopped(world, page):
     hands = Keys(page)
     hands.drive(world)
     page.driver.execute_script("dispatchEvent(new Event('blur'))")
@@ -169,6 +127,4 @@ def test_the_reason_of_a_stop_is_told_once_the_robot_was_stopped(world, page):
         "Stopped: the window lost the focus. Release LB and the stick, then hold LB again.",
     )
     hands.release()
-    page.click("Stop driving")
-    page.wait_for_text("#seat", "Nobody drives.")
     world.wait_for_rest()

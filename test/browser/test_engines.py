@@ -18,7 +18,7 @@ TABS = ("graph", "bag", "plot", "log", "doctor", "robot")
 
 
 class WebKit:
-    """WebKitGTK's MiniBrowser, with what is used of Firefox."""
+    """WebKitGTK's MiniBrowser, with the methods of Firefox that are used here."""
 
     def __init__(self, driver):
         self.driver = driver

@@ -1,31 +1,24 @@
-"""The page's F710 is the suite's: the same axes and buttons as gamepad.virtual.controls has."""
+"""The page's F710 gives the same axes and buttons as gamepad.virtual.controls."""
 
 import pytest
 
 from gamepad.gamepads import F710
 from gamepad.virtual.controls import Controls, positions
 
+NAMES = {mode: list(pad.buttons) for mode, pad in F710.items()}
 CASES = (
     Controls(),
     Controls(left_stick=(0.5, -1.0), held=frozenset({"LB", "A"})),
     Controls(right_stick=(-0.25, 1.0), triggers=(1.0, 0.0), held=frozenset({"RB", "START"})),
     Controls(dpad=(1.0, -1.0), triggers=(0.25, 1.0), held=frozenset({"LEFT"})),
 )
-NAMES = {mode: list(pad.buttons) for mode, pad in F710.items()}
-CALL = """const [name, values, done] = [arguments[0], arguments[1], arguments[2]];
-import('/page/f710.js').then((module) => done(module[name](...values)));"""
 
 
 def call(page, name, *values):
-    """What a function of the page's f710.js returns."""
-    return page.driver.execute_async_script(CALL, name, values)
-
-
-def hands_of(controls):
-    return {
-        "left": controls.left_stick, "right": controls.right_stick, "dpad": controls.dpad,
-        "triggers": controls.triggers, "held": sorted(controls.held),
-    }  # fmt: skip
+    """Return what a function of the page's f710.js returns."""
+    script = """const [name, values, done] = arguments;
+        import('/page/f710.js').then((module) => done(module[name](...values)));"""
+    return page.driver.execute_async_script(script, name, values)
 
 
 def button(pressed):
@@ -35,9 +28,12 @@ def button(pressed):
 @pytest.mark.parametrize("mode", F710)
 def test_hands_give_the_same_message(page, mode):
     for controls in CASES:
-        axes, buttons = positions(F710[mode], controls)
-        said = call(page, "positions", mode, NAMES[mode], hands_of(controls))
-        assert (tuple(said["axes"]), tuple(said["buttons"])) == (axes, buttons)
+        hands = {
+            "left": controls.left_stick, "right": controls.right_stick, "dpad": controls.dpad,
+            "triggers": controls.triggers, "held": sorted(controls.held),
+        }  # fmt: skip
+        shown = call(page, "positions", mode, NAMES[mode], hands)
+        assert (tuple(shown["axes"]), tuple(shown["buttons"])) == positions(F710[mode], controls)
 
 
 @pytest.mark.parametrize("mode", F710)
@@ -46,21 +42,21 @@ def test_a_gamepad_as_the_kernel_numbers_it(page, mode):
     for controls in CASES:
         axes, buttons = positions(F710[mode], controls)
         raw = {"mapping": "", "axes": [-v for v in axes], "buttons": [button(b) for b in buttons]}
-        said = call(page, "positions", mode, NAMES[mode], call(page, "handsOfGamepad", raw, NAMES))
-        assert said["axes"] == pytest.approx(axes, abs=0.05)  # the deadzone is rescaled
-        assert tuple(said["buttons"]) == buttons
+        hands = call(page, "handsOfGamepad", raw, NAMES)
+        shown = call(page, "positions", mode, NAMES[mode], hands)
+        assert shown["axes"] == pytest.approx(axes, abs=0.05)  # the dead zone is rescaled
+        assert tuple(shown["buttons"]) == buttons
 
 
 def test_a_gamepad_of_the_standard_mapping(page):
     pressed = [number in (0, 4, 12) for number in range(17)]  # A, LB, and the D-pad up
     pad = {"mapping": "standard", "axes": [-1, 1, 0.02, 0], "buttons": [button(b) for b in pressed]}
-    hands = call(page, "handsOfGamepad", pad, NAMES)
-    assert hands == {
+    assert call(page, "handsOfGamepad", pad, NAMES) == {
         "left": [1, -1], "right": [0, 0], "dpad": [0, 1], "triggers": [0, 0], "held": ["A", "LB"],
     }  # fmt: skip
 
 
-def test_a_gamepad_that_is_held_when_it_comes_moves_nothing(page):
+def test_a_gamepad_that_is_held_when_it_is_plugged_in_moves_nothing(page):
     script = """const done = arguments[0];
     const held = {id: "fake", index: 0, connected: true, mapping: "standard", timestamp: 1,
         axes: [0, -1, 0, 0], buttons: Array(17).fill({pressed: true, value: 1})};

@@ -1,10 +1,10 @@
-"""The README's picture of the page, `--picture`: the robot on its figure of eight."""
+"""Make the README's picture of the page, `--picture`: the robot on its figure of eight."""
 
 from pathlib import Path
 
 import pytest
 
-from tutorial_testing.cockpit.chromium import LONG_S, Chromium
+from tutorial_testing.cockpit.chromium import LONG_S
 from tutorial_testing.cockpit.world import World
 from tutorial_testing.waiting import wait_for
 
@@ -12,18 +12,15 @@ PICTURE = Path(__file__).resolve().parents[2] / "common/cockpit/doc/cockpit.webp
 LARGEST = 50_000  # bytes
 
 
-def test_picture(request, tmp_path):
+def test_picture(request, browser, tmp_path):
     if not request.config.getoption("--picture"):
         pytest.skip("the README's picture is made only with --picture")
-    robot = ("fake_turtlebot_sim", "fake_turtlebot.launch")
-    with World(*robot) as world, Chromium(1280, 800) as browser:
+    with World("fake_turtlebot_sim", "fake_turtlebot.launch") as world:
         world.run("rosrun", "joy2twist", "joy2twist.py")  # at the scale of launch_bag.launch
         browser.open(world.address)
         browser.tab("Graph")
         wait_for(lambda: browser.all('[data-item="topic /cmd_vel"]'), "joy2twist", LONG_S)
         browser.tab("Bag")
-        browser.wait_for_text("#bag-name", "joy.bag")
-        browser.click("Open")
         browser.wait_for_text("#bag-about", "joy.bag")
         browser.click("Publish")
         browser.tab("Robot")
@@ -32,7 +29,6 @@ def test_picture(request, tmp_path):
         wait_for(lambda: world.now.v == 0 and world.now.w, "turn on the spot", LONG_S)
         browser.click("Show all")
         browser.save_picture(tmp_path / "cockpit.webp")
-    drawn = (tmp_path / "cockpit.webp").read_bytes()
-    assert len(drawn) < LARGEST
-    PICTURE.parent.mkdir(exist_ok=True)
-    PICTURE.write_bytes(drawn)
+    picture = (tmp_path / "cockpit.webp").read_bytes()
+    assert len(picture) < LARGEST
+    PICTURE.write_bytes(picture)

@@ -1,0 +1,180 @@
+"""What the tabs make of rare messages: the test is their server."""
+
+import pytest
+
+# A tab of its own beside that of the page. hear() is a message of the server; `sent` is what the
+# tab asks for.
+TAB = """const [given, done] = arguments, sent = [], handlers = {};
+const watch = (fields) => sent.push(["watch", fields]);
+const link = {isOpen: true, send(kind, fields) { return sent.push([kind, fields]); },
+              on(kind, handler) { handlers[kind] = handler; }};
+const hear = (kind, message) => handlers[kind]({kind, ...message});
+const byId = (id) => document.getElementById(id);
+import('/page/%s').then((tabs) => { %s });"""
+ROBOT_TAB = """const look = byId("look"), take = byId("take").cloneNode(), pad = {D: {}, X: {}};
+byId("take").replaceWith(take);
+byId("robots").replaceChildren();
+const hello = (robots) => hear("hello", {id: 1, role: "driver", robots, pad});
+const options = () => [...look.options].map((one) => one.text);
+const choose = (name) => { look.value = name; look.dispatchEvent(new Event("change")); };
+const drive = () => { take.click(); return sent.at(-1)[1].robot; };
+const rowOf = (name) => document.querySelector(`#robots [data-robot=${name}]`);
+const tab = new tabs.RobotTab(link, watch, {notice: () => {}});
+take.disabled = false;
+"""
+TWO = ["robot_1", "robot_2"]
+
+
+def run(page, module, script, given=TWO):
+    return page.driver.execute_async_script(TAB % (module, script), given)
+
+
+def run_robot_tab(page, script, robots=TWO):
+    return run(page, "robot_tab.js", ROBOT_TAB + script, robots)
+
+
+@pytest.mark.parametrize("robots", [[""], TWO])
+def test_a_server_that_starts_again_may_know_the_robots_later(page, robots):
+    script = """const begin = () => {
+      hello([]);
+      hear("names", {names: []});
+      hear("names", {names: given});
+    };
+    begin();
+    choose(given.at(-1));
+    begin();
+    done([look.options.length, look.value, tab.look]);"""
+    assert run_robot_tab(page, script, robots) == [len(robots), robots[-1], robots[-1]]
+
+
+def test_the_chosen_robot_stays_chosen_while_it_is_gone(page):
+    script = """hello(given);
+    choose("robot_2");
+    hear("names", {names: ["robot_1"]});
+    hear("robots", {robots: {robot_1: {}}});
+    const gone = [options(), look.value, drive()];
+    hear("names", {names: given});
+    done([gone, [options(), look.value, drive()]]);"""
+    gone, back = run_robot_tab(page, script)
+    assert gone == [["robot_1", "robot_2 (gone)"], "robot_2", "robot_2"]
+    assert back == [TWO, "robot_2", "robot_2"]
+
+
+def test_a_row_of_the_table_stays_while_its_numbers_change(page):
+    script = """hello(given);
+    const move = (x) => hear("robots", {robots: {robot_1: {x, y: 0}, robot_2: {x, y: 1}}});
+    move(1);
+    const pressed = rowOf("robot_2");
+    move(2);
+    const same = [rowOf("robot_2") === pressed, pressed.cells[1].textContent];
+    pressed.click();
+    const hidden = [byId("class").hidden];
+    hear("names", {names: ["robot_2"]});
+    done([same, tab.look, [...hidden, byId("class").hidden]]);"""
+    assert run_robot_tab(page, script) == [[True, "2.00, 1.00"], "robot_2", [False, True]]
+
+
+def test_a_driver_who_is_handed_a_robot_looks_at_no_other(page):
+    script = """hello(given);
+    const seat = {driver: 1, name: "x", robot: "robot_2", how: "page", armed: false, why: ""};
+    hear("seat", {...seat, yours: false});
+    const before = tab.look;
+    hear("seat", {...seat, yours: true});
+    const watched = sent.filter(([kind]) => kind === "watch").at(-1)[1];
+    hear("robots", {robots: {robot_1: {}, robot_2: {}}});
+    rowOf("robot_1").click();
+    const driving = [tab.look, tab.floor.look, watched.look];
+    tab.driver.stop();
+    hear("seat", {...seat, driver: null, yours: false});
+    rowOf("robot_1").click();
+    done([before, driving, tab.look]);"""
+    assert run_robot_tab(page, script) == ["robot_1", ["robot_2"] * 3, "robot_1"]
+
+
+def test_a_new_connection_opens_the_recording_again_and_publishes_nothing(page):
+    script = """const tab = new tabs.BagTab(link, watch, {look: () => ""});
+    const state = () => byId("bag-state").textContent;
+    hear("hello", {});
+    const before = sent.length;
+    hear("bags", {names: ["joy.bag", "other.bag"]});
+    byId("bag-name").value = "other.bag";
+    byId("bag-open").click();
+    const opened = sent.at(-1)[1].name;
+    hear("bag", {path: "joy.bag", start: 0, end: 2, curves: {},
+                 topics: [{name: "/joy", type: "sensor_msgs/Joy", count: 1}]});
+    hear("bag_at", {position: 1, playing: true, topic: "/joy"});
+    const playing = state();
+    hear("hello", {});
+    done([before, opened, playing, sent.at(-1), state(), byId("bag-pause").disabled]);"""
+    before, opened, playing, asked, state, pause = run(page, "bag_tab.js", script)
+    assert (before, opened, "Publishing /joy" in playing) == (0, "other.bag", True)
+    assert (asked, state, pause) == (["bag_open", {"name": "joy.bag"}], "", True)
+
+
+def test_a_new_connection_asks_the_doctor_again_only_while_its_tab_is_shown(page):
+    script = """const tab = new tabs.DoctorTab(link), counts = [], button = byId("doctor-run");
+    const count = () => counts.push(sent.length);
+    hear("hello", {});
+    count();
+    tab.show(true);
+    count();
+    hear("doctor", {lines: [], running: true});
+    const running = button.disabled;
+    hear("hello", {});
+    count();
+    const returned = button.disabled;
+    tab.show(false);
+    hear("hello", {});
+    count();
+    done([...counts, running, returned]);"""
+    assert run(page, "doctor_tab.js", script) == [0, 1, 2, 2, True, False]
+
+
+def test_the_log_stays_where_its_tab_is_chosen_again(page):
+    script = """const tab = new tabs.LogTab(link, watch), counts = [];
+    const log = (times) => hear("log", {entries: Array(times).fill(
+      {time: 0, level: "WARN", node: "/x", text: "a"})});
+    const count = () => counts.push(byId("log-lines").childElementCount);
+    tab.show(true);
+    log(1);
+    tab.show(true);
+    count();
+    tab.show(false);
+    tab.show(true);
+    count();
+    log(1);
+    hear("hello", {});
+    count();
+    log(900);
+    log(900);
+    count();
+    done(counts);"""
+    assert run(page, "log_tab.js", script) == [1, 0, 0, 1000]
+
+
+def test_the_plot_forgets_samples_of_another_time(page):
+    script = """import('/page/chart.js').then(({Chart}) => {
+      let drawn = null;
+      Chart.prototype.show = (curves) => (drawn = curves);
+      const tab = new tabs.PlotTab(link, watch), shown = [];
+      const next = (samples, then) => {
+        hear("plot", {samples});
+        drawn = null;
+        const wait = () => {
+          if (drawn === null) return setTimeout(wait, 20);
+          shown.push(drawn);
+          then();
+        };
+        wait();
+      };
+      hear("fields", {fields: ["a", "b"]});
+      for (const box of document.querySelectorAll("#plot-fields input")) box.click();
+      tab.show(true);
+      next({a: [[100, 1]], b: [[100.5, 5]]}, () =>
+        next({a: [[101, 1], [50, 2]], b: [[51, 7]]}, () =>
+          next({a: [[1000, 3]]}, () => done(shown))));
+    });"""
+    both, set_back, later = run(page, "plot_tab.js", script)
+    assert both == {"a": [[0, 1]], "b": [[0.5, 5]]}
+    assert set_back == {"a": [[0, 2]], "b": [[1, 7]]}
+    assert later == {"a": [[950, 3]], "b": []}  # of the last 30 s
