@@ -35,6 +35,7 @@ def test_robot_shows_the_odometry(world, page, ros):
 def test_graph_shows_the_nodes_and_their_topics(page, ros):
     page.tab("Graph")
     wait_for(lambda: page.all("#graph g.node"), "nodes", LONG_S)
+    assert page.one("#graph-picture").rect["width"] > 1000  # of 1280: the whole page
     nodes = {one.get_attribute("data-item").split()[1] for one in page.all("#graph g.node")}
     assert {"/fake_turtlebot", "/myjoystick2twist"} <= nodes <= set(ros("rosnode", "list").split())
     page.one('[data-item="topic /cmd_vel"]').click()
