@@ -1,12 +1,15 @@
 """Recordings on pages: opened, looked at, and played, which takes the place of the driver."""
 
+from __future__ import annotations
+
 import time
 from concurrent.futures import ThreadPoolExecutor
-from typing import ClassVar
+from typing import Any, ClassVar, Sequence
 
-from cockpit_server.clients import Source
+from cockpit_server.clients import Client, Source
+from cockpit_server.graph import JOY
 from cockpit_server.player import Player
-from cockpit_server.recording import JOY, RecordingError, Shelf, recordings
+from cockpit_server.recording import Recording, RecordingError, Shelf, recordings
 from cockpit_server.schema import number, switch, text
 from cockpit_server.seat import BAG, RefusedError
 
@@ -16,7 +19,7 @@ LOOK_S = 2.0  # how often the folder is looked at for recordings, while a page s
 class Opened:
     """What one page has opened. message: not sent yet."""
 
-    def __init__(self, name, recording, message):
+    def __init__(self, name: str, recording: Recording, message: str) -> None:
         self.name, self.recording, self.message = name, recording, message
         self.position, self.rate, self.loop, self.topic = 0.0, 1.0, False, ""
 
@@ -34,16 +37,18 @@ class Bags(Source):
         "bag_seek": {"position": number(0, 1e6)},
     }
 
-    def __init__(self, hub):
+    def __init__(self, hub: Any) -> None:
         self._hub = hub
         self._reader = ThreadPoolExecutor(1, thread_name_prefix="recordings")
         self._shelf = Shelf()
-        self._reading = set()  # numbers of the clients that wait for one
-        self._names, self._next_look = {}, 0.0  # whether it may drive -> names; when [s]
-        self._opened = {}  # client's number -> Opened
-        self._player, self._owner = None, None
+        self._reading: set[int] = set()  # numbers of the clients that wait for one
+        self._names: dict[bool, list[str]] = {}  # for pages that may drive, and for others
+        self._next_look = 0.0  # [s]
+        self._opened: dict[int, Opened] = {}  # by client's number
+        self._player: Player | None = None
+        self._owner = 0  # number of the client that plays
 
-    def prepare(self, clients, now):
+    def prepare(self, clients: Sequence[Client], now: float) -> None:
         numbers = {client.number for client in clients}
         self._opened = {n: opened for n, opened in self._opened.items() if n in numbers}
         self._shelf.in_use = tuple(opened.recording for opened in self._opened.values())
@@ -51,10 +56,10 @@ class Bags(Source):
             self._next_look = now + LOOK_S
             self._reader.submit(self._look)
 
-    def _look(self):
+    def _look(self) -> None:
         self._names = {may_drive: sorted(recordings(may_drive)) for may_drive in (False, True)}
 
-    def give(self, client, now):
+    def give(self, client: Client, now: float) -> None:
         names = self._names.get(client.drives)
         if client.watch.bag and names and client.lacks("bags", names):
             client.send("bags", names=names)
@@ -64,47 +69,49 @@ class Bags(Source):
             opened.message = ""
         if not client.watch.bag or opened is None:
             return
-        playing = self._plays(client.number)
-        if playing:
-            opened.position = self._player.position(now)
-        at = (round(opened.position, 3), playing, opened.rate, opened.loop, opened.topic)
+        player = self._playing(client.number)
+        if player:
+            opened.position = player.position(now)
+        at = {
+            "position": round(opened.position, 3), "playing": player is not None,
+            "rate": opened.rate, "loop": opened.loop, "topic": opened.topic,
+        }  # fmt: skip
         if client.lacks("bag_at", at):
-            names = ("position", "playing", "rate", "loop", "topic")
-            client.send("bag_at", **dict(zip(names, at)))
+            client.send("bag_at", **at)
 
-    def on_bag_open(self, client, _now, name):
+    def on_bag_open(self, client: Client, now: float, name: str) -> None:
         if client.number in self._reading:
             raise RefusedError("a recording is being opened for this page: wait for it")
-        if self._plays(client.number):
-            self._hub.stand_up(client)
+        self.on_bag_pause(client, now)
         self._reading.add(client.number)
         self._reader.submit(self._read, client, name)
 
-    def _read(self, client, name):
+    def _read(self, client: Client, name: str) -> None:
+        opened, why = None, ""
         try:
             path = recordings(client.drives).get(name)
             if path is None:
                 raise RecordingError(f"{name!r} is none of the recordings that may be opened here")
-            recording, message = self._shelf.take(path)
+            opened = Opened(name, *self._shelf.take(path))
+        except RecordingError as error:
+            why = str(error)
         except Exception as error:  # whatever is in the file, the page gets the reason
-            known = isinstance(error, RecordingError)
-            why = str(error) if known else f"{name}: {type(error).__name__}: {error}"
-            self._hub.soon(lambda: self._refuse(client, why))
+            why = f"{name}: {type(error).__name__}: {error}"
+        self._hub.soon(lambda: self._show(client, opened, why))
+
+    def _show(self, client: Client, opened: Opened | None, why: str) -> None:
+        now = time.monotonic()
+        self._reading.discard(client.number)
+        if opened is None:
+            client.refuse("bag_open", why, now)
             return
-        self._hub.soon(lambda: self._show(client, Opened(name, recording, message)))
-
-    def _refuse(self, client, why):
-        self._reading.discard(client.number)
-        client.refuse("bag_open", why, time.monotonic())
-
-    def _show(self, client, opened):
-        self._reading.discard(client.number)
-        if self._plays(client.number):
-            self._hub.stand_up(client)  # it was begun meanwhile, and is not what is shown
+        self.on_bag_pause(client, now)  # what was begun meanwhile is not what is shown
         self._opened[client.number] = opened
         client.seen.pop("bag_at", None)
 
-    def on_bag_play(self, client, now, *, topic, rate, loop, robot):
+    def on_bag_play(
+        self, client: Client, now: float, *, topic: str, rate: float, loop: bool, robot: str
+    ) -> None:
         opened = self._must_be_open(client)
         kind = opened.recording.topics.get(topic, ("",))[0]
         if not kind:
@@ -118,38 +125,39 @@ class Bags(Source):
         self._player.seek(opened.position, now)
         self._owner = client.number
 
-    def on_bag_pause(self, client, now):
-        if self._plays(client.number):
-            self._opened[client.number].position = self._player.position(now)
+    def on_bag_pause(self, client: Client, now: float) -> None:
+        player = self._playing(client.number)
+        if player:
+            self._opened[client.number].position = player.position(now)
             self._hub.stand_up(client)
 
-    def on_bag_seek(self, client, now, position):
+    def on_bag_seek(self, client: Client, now: float, position: float) -> None:
         opened = self._must_be_open(client)
         opened.position = min(position, opened.recording.duration)
-        if self._plays(client.number):
-            self._player.seek(opened.position, now)
+        player = self._playing(client.number)
+        if player:
+            player.seek(opened.position, now)
 
-    def _must_be_open(self, client):
+    def _must_be_open(self, client: Client) -> Opened:
         opened = self._opened.get(client.number)
         if opened is None:
             raise RefusedError("open a recording first")
         return opened
 
-    def _plays(self, number):
+    def _playing(self, number: int) -> Player | None:
+        """Return what a client plays, if anything."""
         seat = self._hub.seat
-        return self._player is not None and number == self._owner == seat.driver and seat.how == BAG
+        return self._player if number == self._owner == seat.driver and seat.how == BAG else None
 
-    def play(self, now):
+    def play(self, now: float) -> None:
         """Publish the messages that are due."""
-        if self._player is None:
-            return
-        if not self._plays(self._owner):
-            self._player = None  # the seat was lost
+        player = self._player = self._playing(self._owner)
+        if player is None:
             return
         client = self._hub.clients[self._owner]
-        for axes, buttons in self._player.due(now):
+        for axes, buttons in player.due(now):
             self._hub.seat.play(axes, buttons)
-        if self._player.is_over(now):
+        if player.is_over(now):
             self._opened[self._owner].position = 0.0
             self._hub.stand_up(client)
         elif client.is_cut():

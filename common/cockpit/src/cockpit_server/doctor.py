@@ -1,5 +1,7 @@
 """The doctor's lines, as pages get them while it runs."""
 
+from __future__ import annotations
+
 import math
 import subprocess
 import sys
@@ -10,21 +12,20 @@ from typing import ClassVar
 
 import rospkg
 
-from cockpit_server.clients import Source
+from cockpit_server.clients import Client, Source
 from cockpit_server.logs import without_folders
 
-LEVELS = {"ok": "ok", "wrong": "wrong"}  # what else it says is a note
 LONGEST_RUN_S = 60.0
 FRESH_S = 10.0  # a viewer gets lines of this age, without a new run
 
 
-def shown(line):
+def shown(line: str) -> dict[str, str]:
     """Return a line of the doctor as pages get it."""
     level, subject, text = [*line.split(maxsplit=2), "", "", ""][:3]
     if level not in ("ok", "wrong", "unknown"):
         subject, text = "", line
-    text = without_folders(text.strip())
-    return {"level": LEVELS.get(level, "note"), "subject": subject, "text": text}
+    level = level if level in ("ok", "wrong") else "note"
+    return {"level": level, "subject": subject, "text": without_folders(text.strip())}
 
 
 class Doctor(Source):
@@ -32,15 +33,16 @@ class Doctor(Source):
 
     messages: ClassVar = {"doctor": {}}
 
-    def __init__(self):
-        self._lines, self._running, self._version = [], False, 0
+    def __init__(self) -> None:
+        self._lines: list[dict[str, str]] = []
+        self._running, self._version = False, 0
         self._ended_at = -math.inf  # of the last run [s]
 
-    def give(self, client, _now):
+    def give(self, client: Client, now: float) -> None:
         if self._version and client.lacks("doctor", self._version):
             client.send("doctor", lines=self._lines, running=self._running)
 
-    def on_doctor(self, client, now):
+    def on_doctor(self, client: Client, now: float) -> None:
         may = client.drives or now - self._ended_at > FRESH_S
         if not may:
             client.seen.pop("doctor", None)
@@ -49,7 +51,7 @@ class Doctor(Source):
             self._version += 1
             threading.Thread(target=self._run, daemon=True).start()
 
-    def _run(self):
+    def _run(self) -> None:
         try:
             self._listen()
         except Exception as error:  # whatever keeps it from running; the next run may go well
@@ -58,7 +60,7 @@ class Doctor(Source):
             self._running, self._ended_at = False, time.monotonic()
             self._version += 1
 
-    def _listen(self):
+    def _listen(self) -> None:
         script = Path(rospkg.RosPack().get_path("tutorial_tools")) / "scripts" / "doctor.py"
         with subprocess.Popen(
             ["nice", sys.executable, str(script)], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
@@ -66,7 +68,7 @@ class Doctor(Source):
         ) as program:  # fmt: skip
             too_late = threading.Timer(LONGEST_RUN_S, program.kill)
             too_late.start()
-            for line in program.stdout:
+            for line in program.stdout or ():
                 self._lines = [*self._lines, shown(line)]
                 self._version += 1
             too_late.cancel()

@@ -1,26 +1,30 @@
 """Subscribes to what is looked at, and to nothing else, without ever waiting for the master.
 
-A node of rospy has one subscription for a topic, whatever it wants it for: here it is of raw
-messages, which each listener decodes as far as needed.
+A node of rospy has one subscription for a topic, for all its uses: here it is of raw messages,
+which each listener decodes as far as needed.
 """
+
+from __future__ import annotations
 
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
+from typing import Any, Callable, Hashable, Mapping
 
 import rospy
 
 from cockpit_server.guard import Guard
 
 PERIOD_S = 0.05  # how often a topic is read of which only the newest message is wanted
+Hear = Callable[[Any, str], None]  # gets a message, and its topic
 # One thread for all questions to the master that may wait: they are asked one after the other.
 _worker = ThreadPoolExecutor(1, thread_name_prefix="to_the_master")
 
 
-def later(action, *arguments):
+def later(action: Callable[..., Any], *arguments: Any) -> None:
     """Do something that may wait for the master, in another thread; log a failure."""
 
-    def do():
+    def do() -> None:
         try:
             action(*arguments)
         except Exception as error:  # whatever the master or a node answered; the next one is asked
@@ -32,16 +36,16 @@ def later(action, *arguments):
 class OnceLater:
     """An action for later(), queued once however often it is requested."""
 
-    def __init__(self, action):
+    def __init__(self, action: Callable[[], Any]) -> None:
         self._action = action
         self._waits = threading.Event()
 
-    def __call__(self):
+    def __call__(self) -> None:
         if not self._waits.is_set():
             self._waits.set()
             later(self._do)
 
-    def _do(self):
+    def _do(self) -> None:
         self._waits.clear()
         self._action()
 
@@ -49,7 +53,7 @@ class OnceLater:
 class Raw(rospy.AnyMsg):
     """A message of any type, not deserialized."""
 
-    def deserialize(self, data):
+    def deserialize(self, data: bytes) -> Raw:
         self.data = data
         return self
 
@@ -57,22 +61,24 @@ class Raw(rospy.AnyMsg):
 class Feeds:
     """The topics that are wanted now. Used by one thread, except for the messages."""
 
-    def __init__(self, tell):
+    def __init__(self, tell: Callable[[str], None]) -> None:
         self._guard = Guard(tell)
-        self._wants = {}  # owner -> ({topic: hear}, whether every message is wanted)
-        self._listeners = {}  # topic -> functions to call
-        self._wanted = frozenset()  # (topic, whether every message is wanted)
-        self._subscribers = {}
+        # owner -> ({topic: hear}, whether every message is wanted)
+        self._wants: dict[Hashable, tuple[Mapping[str, Hear], bool]] = {}
+        self._listeners: dict[str, list[Hear]] = {}
+        self._wanted: frozenset[tuple[str, bool]] = frozenset()  # as in _wants
+        self._subscribers: dict[tuple[str, bool], Any] = {}
         self._adjust_later = OnceLater(self._adjust)
 
-    def want(self, owner, hears, every):
+    def want(self, owner: Hashable, hears: Mapping[str, Hear], every: bool) -> None:
         """Have hear(message, topic) called for these topics, {topic: hear}, and for no others that
         the owner wanted before. every: for every message, or only for the newest, now and then.
         """
         if self._wants.get(owner) == (hears, every):
             return
         self._wants[owner] = (hears, every)
-        listeners, complete = {}, set()
+        listeners: dict[str, list[Hear]] = {}
+        complete: set[str] = set()
         for wanted, wants_all in self._wants.values():
             for topic, hear in wanted.items():
                 listeners.setdefault(topic, []).append(hear)
@@ -81,7 +87,7 @@ class Feeds:
         self._wanted = frozenset((topic, topic in complete) for topic in listeners)
         self._adjust_later()
 
-    def _adjust(self):
+    def _adjust(self) -> None:
         wanted = self._wanted
         # One that rospy refuses must not keep the others away, by which a rival is noticed, too.
         for key in set(self._subscribers) - wanted:
@@ -89,18 +95,15 @@ class Feeds:
         for key in wanted - set(self._subscribers):
             self._guard(repr(key[0]), self._subscribe, *key)
 
-    def _subscribe(self, topic, every):
-        if every:
-            subscriber = rospy.Subscriber(topic, Raw, self._hear, topic)
-        else:
-            subscriber = rospy.Subscriber(topic, Raw, self._hear_now_and_then, topic, 1)
-        self._subscribers[topic, every] = subscriber
+    def _subscribe(self, topic: str, every: bool) -> None:
+        hear, queue_size = (self._hear, None) if every else (self._hear_now_and_then, 1)
+        self._subscribers[topic, every] = rospy.Subscriber(topic, Raw, hear, topic, queue_size)
 
-    def _hear(self, message, topic):
+    def _hear(self, message: Any, topic: str) -> None:
         for hear in self._listeners.get(topic, ()):
             hear(message, topic)
 
-    def _hear_now_and_then(self, message, topic):
+    def _hear_now_and_then(self, message: Any, topic: str) -> None:
         # While this sleeps, rospy does not read: the kernel keeps what comes, and of that rospy
         # gives the newest. Thirty robots at 50 Hz would keep a processor busy otherwise.
         self._hear(message, topic)

@@ -29,38 +29,23 @@ class Graph:
         return sorted(topic for topic, nodes in self.publishers.items() if nodes)
 
     def robots_with_odometry(self) -> set[str]:
-        return {
-            robot_of(topic)
-            for topic in self.published
-            if topic.endswith("/odom") and self.types.get(topic) == ODOMETRY
-        }
+        return self._robots_with("/odom", ODOMETRY, self.publishers)
 
     def robots(self) -> set[str]:
         """Return all robots, which have an odometry or hear a /joy; "" has no namespace."""
-        driven = {
-            robot_of(topic)
-            for topic, nodes in self.subscribers.items()
-            if nodes and topic.endswith("/joy") and self.types.get(topic) == JOY
-        }
-        return self.robots_with_odometry() | driven
+        return self.robots_with_odometry() | self._robots_with("/joy", JOY, self.subscribers)
+
+    def _robots_with(self, end: str, kind: str, column: Column) -> set[str]:
+        topics = [topic for topic, nodes in column.items() if nodes and topic.endswith(end)]
+        return {robot_of(topic) for topic in topics if self.types.get(topic) == kind}
 
     def parts(self) -> dict[str, Any]:
         """Return nodes, topics and edges as pages get them."""
-        edges = [
-            edge
-            for topic in sorted(set(self.publishers) | set(self.subscribers))
-            for edge in self._edges(topic)
-        ]
+        nodes, topics = sorted(self.nodes), sorted({*self.publishers, *self.subscribers})
         return {
-            "nodes": [
-                {"name": name, "machine": self.machines.get(name, "")}
-                for name in sorted(self.nodes)
-            ],
-            "topics": [
-                {"name": name, "type": self.types.get(name, "")}
-                for name in sorted(set(self.publishers) | set(self.subscribers))
-            ],
-            "edges": edges,
+            "nodes": [{"name": name, "machine": self.machines.get(name, "")} for name in nodes],
+            "topics": [{"name": name, "type": self.types.get(name, "")} for name in topics],
+            "edges": [edge for topic in topics for edge in self._edges(topic)],
         }
 
     def _edges(self, topic: str) -> Iterator[dict[str, str]]:

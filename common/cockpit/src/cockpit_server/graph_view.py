@@ -1,13 +1,17 @@
 """The tab Graph: nodes and topics, and what a click on one of them brings."""
 
+from __future__ import annotations
+
 import math
 import time
-from typing import ClassVar
+from typing import Any, ClassVar, Sequence
 
 import rosgraph
 
-from cockpit_server.clients import Source, encoded
-from cockpit_server.feeds import later
+from cockpit_server.clients import Client, Source, encoded
+from cockpit_server.feeds import Feeds, later
+from cockpit_server.graph import Graph
+from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.plots import class_of
 from cockpit_server.schema import full_name, or_null, switch
 from node_kit.questions import Answer, call
@@ -23,35 +27,31 @@ class GraphView(Source):
 
     watches: ClassVar = {"graph": (switch, False), "node": (or_null(full_name), None)}
 
-    def __init__(self, graph_watch):
+    def __init__(self, graph_watch: GraphWatch) -> None:
         self._graphs = graph_watch
-        self._written, self._text = None, ""  # a version, and its message
-        self._pids, self._pids_of = {}, None  # node -> process, in a version of the graph
+        self._version, self._text = -1, ""  # of the graph, and its message to pages
+        self._pids: dict[str, int | None] = {}  # node -> process, in that version
 
-    def prepare(self, clients, _now):
-        watched = any(client.watch.graph for client in clients)
-        if watched and self._written != self._graphs.version:
+    def prepare(self, clients: Sequence[Client], now: float) -> None:
+        if self._version != self._graphs.version:
             # The version first: what changes meanwhile is written down again.
-            self._written = self._graphs.version
+            self._version, self._text, self._pids = self._graphs.version, "", {}
+        if not self._text and any(client.watch.graph for client in clients):
             self._text = encoded("graph", **self._graphs.graph.parts())
-        if self._pids_of != self._graphs.version:
-            self._pids, self._pids_of = {}, self._graphs.version
         for node in {client.watch.node for client in clients} - set(self._pids) - {None}:
             if node in self._graphs.graph.nodes:
                 self._pids[node] = None
                 later(self._ask_pid, node)
 
-    def give(self, client, _now):
-        if client.watch.graph and self._text and client.lacks("graph", self._written):
+    def give(self, client: Client, now: float) -> None:
+        if client.watch.graph and self._text and client.lacks("graph", self._version):
             client.write(self._text)
-        node = client.watch.node
-        if node and client.lacks("node", (node, self._graphs.version, self._pids.get(node))):
+        node, pid = client.watch.node, self._pids.get(client.watch.node)
+        if node and client.lacks("node", (node, self._graphs.version, pid)):
             about = self._graphs.graph.about_node(node)
-            if self._pids.get(node):
-                about["pid"] = self._pids[node]
-            client.send("node", **about)
+            client.send("node", **about, **({"pid": pid} if pid else {}))
 
-    def _ask_pid(self, node):
+    def _ask_pid(self, node: str) -> None:
         answer, uri = call(rosgraph.get_master_uri(), "lookupNode", node)
         if answer is Answer.WELL:
             answer, pid = call(uri, "getPid")
@@ -61,15 +61,18 @@ class GraphView(Source):
 class Topic:
     """The messages of one topic."""
 
-    def __init__(self):
-        self.count, self.newest = 0, None
+    def __init__(self) -> None:
+        self.count = 0
+        self.newest: bytes | None = None
+        self.shown_at = -math.inf  # [s]
+        self.shown: dict[str, Any] = {}  # what pages are sent since then
         self._marks = [(time.monotonic(), 0)]  # (when, count until then)
 
-    def hear(self, message, _topic):
+    def hear(self, message: Any, _topic: str) -> None:
         self.newest = message.data
         self.count += 1
 
-    def rate(self, now):
+    def rate(self, now: float) -> float:
         """Return messages per second [Hz]; call about once a PERIOD_S."""
         self._marks.append((now, self.count))
         while len(self._marks) > 2 and self._marks[1][0] <= now - WINDOW_S:
@@ -77,7 +80,7 @@ class Topic:
         (since, before) = self._marks[0]
         return (self.count - before) / (now - since) if now > since else 0.0
 
-    def text(self, type_name):
+    def text(self, type_name: str) -> str:
         """Return the newest message as text."""
         data = self.newest
         if data is None:
@@ -99,38 +102,35 @@ class Topics(Source):
 
     watches: ClassVar = {"topic": (or_null(full_name), None)}
 
-    def __init__(self, feeds, graph_watch):
+    def __init__(self, feeds: Feeds, graph_watch: GraphWatch) -> None:
         self._feeds, self._graphs = feeds, graph_watch
-        self._topics = {}
-        self._shown = {}  # name -> (since when [s], what pages are sent of it)
+        self._topics: dict[str, Topic] = {}
 
-    def prepare(self, clients, now):
-        graph = self._graphs.graph
+    def prepare(self, clients: Sequence[Client], now: float) -> None:
         looked_at = {client.watch.topic for client in clients} - {None}
         self._topics = {name: self._topics.get(name) or Topic() for name in looked_at}
-        there = {n: one.hear for n, one in self._topics.items() if n in graph.types}
+        types = self._graphs.graph.types
+        there = {name: one.hear for name, one in self._topics.items() if name in types}
         self._feeds.want(self, there, every=True)
-        self._shown = {n: about for n, about in self._shown.items() if n in looked_at}
 
-    def _about(self, graph, name, now):
-        topic = self._topics[name]
-        type_name = graph.types.get(name, "")
-        return {
-            "name": name,
-            "type": type_name,
-            "rate": round(topic.rate(now), 2),
-            "publishers": sorted(graph.publishers.get(name, ())),
-            "subscribers": sorted(graph.subscribers.get(name, ())),
-            "last": topic.text(type_name),
-        }
-
-    def give(self, client, now):
+    def give(self, client: Client, now: float) -> None:
         name = client.watch.topic
-        if name not in self._topics:
+        topic = self._topics.get(name)
+        if topic is None:
             return
-        since, about = self._shown.get(name, (-math.inf, None))
-        if now - since >= PERIOD_S:
-            since, about = now, self._about(self._graphs.graph, name, now)
-            self._shown[name] = since, about
-        if client.lacks("topic", (name, since)):
-            client.send("topic", **about)
+        if now - topic.shown_at >= PERIOD_S:
+            topic.shown_at, topic.shown = now, _about(self._graphs.graph, name, topic, now)
+        if client.lacks("topic", (name, topic.shown_at)):
+            client.send("topic", **topic.shown)
+
+
+def _about(graph: Graph, name: str, topic: Topic, now: float) -> dict[str, Any]:
+    type_name = graph.types.get(name, "")
+    return {
+        "name": name,
+        "type": type_name,
+        "rate": round(topic.rate(now), 2),
+        "publishers": sorted(graph.publishers.get(name, ())),
+        "subscribers": sorted(graph.subscribers.get(name, ())),
+        "last": topic.text(type_name),
+    }

@@ -1,12 +1,15 @@
 """Asks the master for the graph, once a second."""
 
+from __future__ import annotations
+
 import threading
 import time
+from typing import Callable
 from urllib.parse import urlsplit
 
 import rosgraph
 
-from cockpit_server.graph import JOY, Graph, topic_of, without
+from cockpit_server.graph import JOY, Column, Graph, topic_of, without
 from node_kit.questions import Answer, call
 
 PERIOD_S = 1.0
@@ -15,36 +18,36 @@ PERIOD_S = 1.0
 class GraphWatch:
     """The newest Graph, without this node except as a joystick; version grows with each change."""
 
-    def __init__(self, own_name):
+    def __init__(self, own_name: str) -> None:
         self._own_name = own_name
         self._uri = rosgraph.get_master_uri()
         self.graph, self.version = Graph(), 0
         self._is_lost = False
-        self._pid = None  # of the master, once known
+        self._pid: int | None = None  # of the master, once known
         self.look()
 
-    def joysticks(self, robot):
+    def joysticks(self, robot: str) -> tuple[str, ...]:
         """Return the names of the other nodes that publish a robot's joystick."""
         return tuple(sorted(self._others(self.graph.publishers, robot)))
 
-    def joystick_listeners(self, robot):
+    def joystick_listeners(self, robot: str) -> frozenset[str]:
         """Return the names of the other nodes that subscribe to a robot's joystick."""
         return self._others(self.graph.subscribers, robot)
 
-    def _others(self, column, robot):
+    def _others(self, column: Column, robot: str) -> frozenset[str]:
         return column.get(topic_of(robot, "joy"), frozenset()) - {self._own_name}
 
-    def start(self, lost):
+    def start(self, lost: Callable[[], None]) -> None:
         """Look once a second, in a thread. lost: called when the master has gone."""
         threading.Thread(target=self._run, args=(lost,), daemon=True).start()
 
-    def _run(self, lost):
+    def _run(self, lost: Callable[[], None]) -> None:
         while not self._is_lost:
             time.sleep(PERIOD_S)
             self.look()
         lost()
 
-    def look(self):
+    def look(self) -> None:
         answer, state = call(self._uri, "getSystemState", caller=self._own_name)
         if answer is Answer.SILENT:
             return
@@ -68,6 +71,6 @@ class GraphWatch:
             self.graph = graph
             self.version += 1
 
-    def _machine(self, node):
+    def _machine(self, node: str) -> str:
         answer, uri = call(self._uri, "lookupNode", node, caller=self._own_name)
         return (urlsplit(uri).hostname or "") if answer is Answer.WELL else ""

@@ -1,13 +1,18 @@
 """Joins the pages with what they look at and what they drive. All of it runs in one thread."""
 
+from __future__ import annotations
+
+import itertools
 import time
 from collections import deque
-from typing import ClassVar
+from typing import Any, Callable, ClassVar, Sequence
 
 from cockpit_server import budget, schema
 from cockpit_server.budget import SHARE, Budget
+from cockpit_server.clients import Client, Source
 from cockpit_server.drives import lost_text
 from cockpit_server.feeds import OnceLater
+from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.guard import Guard
 from cockpit_server.seat import PAGE, Input, RefusedError, Seat
 from gamepad.gamepads import F710
@@ -20,10 +25,9 @@ CONNECT_S = 2.0  # after which a node that is registered is not waited for any l
 RIVAL_S = 1.0  # another joystick that was heard within that has the first say
 
 
-class Hub:
+class Hub(Source):
     """The pages that are open, which of them drives, and what each is sent."""
 
-    watches: ClassVar = {}
     messages: ClassVar = {
         "drive": {"robot": schema.text, "mode": schema.one_of(*schema.MODES)},
         "leave": {},
@@ -32,38 +36,39 @@ class Hub:
         "release": {"why": schema.text},
     }
 
-    def __init__(self, soon, graph_watch, joysticks, pads, tell):
+    def __init__(
+        self, soon: Callable[[Callable[[], Any]], Any], graph_watch: GraphWatch, joysticks: Any,
+        pads: Any, tell: Callable[[str], None],
+    ) -> None:  # fmt: skip
         """soon: runs an action in this thread. tell: reports a failure at once."""
         self._guard = Guard(tell)
         self.soon, self._graphs, self._joysticks, self._pads = soon, graph_watch, joysticks, pads
-        self._named, self._player = [], None  # the sources with their names
-        self.clients = {}
-        self._next_number, self._beats = 1, 0
+        self._sources: tuple[Source, ...] = ()
+        self.clients: dict[int, Client] = {}
+        self._numbers, self._beats = itertools.count(1), 0
         self._messages = Budget(budget.ALL_BURST_S)  # of all pages but the one that drives
-        self._requests = {}  # address -> Budget of its HTTP requests
-        self._due = deque()  # pages whose turn it is to be sent something
+        self._requests: dict[str, Budget] = {}  # address -> of its HTTP requests
+        self._due: deque[int] = deque()  # pages whose turn it is to be sent something
         self._may_beat = Throttle(1 / BEAT_S, burst=1.5)  # even, though the ticks are not
-        self._modes = ()  # of the gamepad that may drive
+        self._modes: tuple[str, ...] = ()  # of the gamepad that may drive
         self._seat_version = 0
-        self._advertised = None  # the robot for which a joystick is to be advertised
+        self._advertised: str | None = None  # the robot for which a joystick is to be advertised
         self._advertise = OnceLater(lambda: joysticks.keep(self._advertised))
         self._sat_at = 0.0
         self.seat = Seat(joysticks.send, self._on_lost)
 
-    def add(self, sources, player):
-        """Take in the sources (clients.Source) and the player, the one that plays recordings."""
-        self._player = player
-        self._schema = schema.Schema([self, *sources])
+    def add(self, sources: Sequence[Source], player: Any) -> None:
+        """Take in the sources and the player, the one that plays recordings."""
+        self._player, self._sources = player, (self, *sources)
+        self._schema = schema.Schema(self._sources)
         self._handlers = {schema.WATCH: self.on_watch}
-        for one in (self, *sources):
+        for one in self._sources:
             self._handlers.update({kind: getattr(one, f"on_{kind}") for kind in one.messages})
-        self._named = [(type(one).__name__, one) for one in sources]
 
-    def number(self):
-        self._next_number += 1
-        return self._next_number - 1
+    def number(self) -> int:
+        return next(self._numbers)
 
-    def join(self, client):
+    def join(self, client: Client) -> None:
         self.clients[client.number] = client
         client.spoke_at = time.monotonic()
         client.watch = self._schema.watch()
@@ -73,11 +78,11 @@ class Hub:
             robots=sorted(self._graphs.graph.robots()),
         )  # fmt: skip
 
-    def leave(self, client):
+    def leave(self, client: Client) -> None:
         self.clients.pop(client.number, None)
         self._change(lambda: self.seat.gone(client.number))
 
-    def wait_s(self, client):
+    def wait_s(self, client: Client) -> float:
         """Return how long [s] the next message of a page waits, for what the page has cost."""
         if client.number == self.seat.driver:
             return 0.0
@@ -88,7 +93,7 @@ class Hub:
         self._messages.spend(budget.MESSAGE_S)
         return wait_s
 
-    def request_wait_s(self, address):
+    def request_wait_s(self, address: str) -> float:
         """Return how long [s] an HTTP request has to wait, for what its address has cost."""
         now, rate = time.monotonic(), SHARE / max(2, len(self._requests))
         if address not in self._requests:
@@ -100,11 +105,11 @@ class Hub:
         return wait_s
 
     @property
-    def _rate(self):
+    def _rate(self) -> float:
         """The share of each page [s/s]."""
         return SHARE / max(1, len(self.clients))
 
-    def hear(self, client, data):
+    def hear(self, client: Client, data: Any) -> None:
         if client.number not in self.clients:
             return  # it waited, and is gone
         began_s, now = time.thread_time(), time.monotonic()
@@ -115,7 +120,7 @@ class Hub:
         if client.number != self.seat.driver:
             self._messages.spend(cost_s)
 
-    def _hear(self, client, data, now):
+    def _hear(self, client: Client, data: Any, now: float) -> None:
         if not client.allows(now):
             client.refuse("messages", "too many messages in a second: some were dropped", now)
             return
@@ -126,21 +131,21 @@ class Hub:
         except (ValueError, RefusedError) as error:
             client.refuse(kind, str(error), now)
 
-    def on_watch(self, client, _now, **fields):
-        # Resend everything but log lines, which the page has already.
+    def on_watch(self, client: Client, _now: float, **fields: Any) -> None:
+        # Resend everything except log lines, which the page already has.
         watch = self._schema.watch(**fields)
         goes_on = client.watch.log and watch.log and "log" in client.seen
         client.seen = {"log": client.seen["log"]} if goes_on else {}
         client.watch = watch
 
-    def on_drive(self, client, now, robot, mode):
+    def on_drive(self, client: Client, now: float, robot: str, mode: str) -> None:
         self.sit_down(client, robot, PAGE, now)
         self._modes = (mode,)
 
-    def on_leave(self, client, _now):
+    def on_leave(self, client: Client, _now: float) -> None:
         self.stand_up(client)
 
-    def on_hand_over(self, client, now, to):
+    def on_hand_over(self, client: Client, now: float, to: int) -> None:
         other = self.clients.get(to)
         if other is None or not other.drives:
             raise RefusedError("that page is closed, or may not drive")
@@ -148,7 +153,9 @@ class Hub:
         self._modes = schema.MODES  # the other hand may hold another gamepad
         self._sat_at = now
 
-    def on_input(self, client, now, *, axes, buttons, source, **more):
+    def on_input(
+        self, client: Client, now: float, *, axes: Any, buttons: Any, source: str, **more: Any
+    ) -> None:
         client.must_drive()
         if client.number != self.seat.driver:
             return  # it was on its way when the seat was lost
@@ -157,16 +164,16 @@ class Hub:
         may_arm = self.seat.armed or self._is_heard(now)
         self._change(lambda: self.seat.input(client.number, said, now, may_arm))
 
-    def _is_heard(self, now):
+    def _is_heard(self, now: float) -> bool:
         """Return whether all subscribers of this joystick hear it; some may never answer."""
         listeners = self._graphs.joystick_listeners(self.seat.robot)
         connected = listeners <= self._joysticks.listeners(self.seat.robot)
         return connected or now - self._sat_at > CONNECT_S
 
-    def on_release(self, client, _now, why):
+    def on_release(self, client: Client, _now: float, why: str) -> None:
         self._change(lambda: self.seat.release(client.number, why))
 
-    def sit_down(self, client, robot, how, now):
+    def sit_down(self, client: Client, robot: str, how: str, now: float) -> None:
         """Let a client drive a robot. Raises RefusedError."""
         client.must_drive()
         if robot not in self._graphs.graph.robots():
@@ -177,13 +184,13 @@ class Hub:
         self._change(lambda: self.seat.take(client.number, robot, how, now))
         self._sat_at = now
 
-    def stand_up(self, client):
+    def stand_up(self, client: Client) -> None:
         self._change(lambda: self.seat.leave(client.number))
 
-    def lose(self, why):
+    def lose(self, why: str) -> None:
         self._change(lambda: self.seat.lose(why))
 
-    def _change(self, action):
+    def _change(self, action: Callable[[], None]) -> None:
         """Change the seat, and note the change for all pages."""
         before = self.seat.state
         action()
@@ -193,39 +200,43 @@ class Hub:
             self._advertise()
 
     @property
-    def driven(self):
+    def driven(self) -> str | None:
         """The robot that is driven from a page, or None."""
         return self.seat.robot if self.seat.driver is not None else None
 
-    def _on_lost(self, number, why):
+    def _on_lost(self, number: int, why: str) -> None:
         if number in self.clients:
             keeps = number == self.seat.driver
             again = keeps and self.seat.how == PAGE
             self.clients[number].send("lost", why=why, text=lost_text(why, keeps), again=again)
 
-    def _give_seat(self, client):
+    def give(self, client: Client, now: float) -> None:
+        """Send who drives."""
         if client.lacks("seat", self._seat_version):
             seat = self.seat
-            driver = self.clients.get(seat.driver)
+            name = self.clients[seat.driver].name if seat.driver in self.clients else ""
             client.send(
-                "seat", driver=seat.driver, name=driver.name if driver else "", robot=seat.robot,
-                how=seat.how, yours=seat.driver == client.number, armed=seat.armed,
+                "seat", driver=seat.driver, name=name, robot=seat.robot, how=seat.how,
+                yours=seat.driver == client.number, armed=seat.armed,
             )  # fmt: skip
 
-    def tick(self):
+    def tick(self) -> None:
         now = time.monotonic()
         self._change(lambda: self.seat.tick(now))
         self._guard("the player of recordings", self._player.play, now)
         if self._may_beat.ready(now):
             self._beat(now)
             clients = list(self.clients.values())
-            for name, source in self._named:
-                self._guard(name, source.prepare, clients, now)
+            self._each("prepare", clients, now)
             waiting = set(self._due)
             self._due.extend(number for number in self.clients if number not in waiting)
         self._give(now)
 
-    def _give(self, now):
+    def _each(self, method: str, *arguments: Any) -> None:
+        for source in self._sources:
+            self._guard(type(source).__name__, getattr(source, method), *arguments)
+
+    def _give(self, now: float) -> None:
         """Send what pages lack, one page after the other, for a while."""
         end_s = time.thread_time() + GIVE_S
         began_s = time.thread_time()
@@ -234,14 +245,12 @@ class Hub:
             # One that is behind gets the newest once it has read, one in debt when that is paid.
             if client is None or client.is_behind() or client.budget.wait_s(now, self._rate):
                 continue
-            self._guard("the seat", self._give_seat, client)
-            for name, source in self._named:
-                self._guard(name, source.give, client, now)
+            self._each("give", client, now)
             ended_s = time.thread_time()
             client.budget.spend(ended_s - began_s)
             began_s = ended_s
 
-    def _beat(self, now):
+    def _beat(self, now: float) -> None:
         self._pads.driven = self.driven
         if self.seat.driver is None:
             return
@@ -254,6 +263,3 @@ class Hub:
         self.seat.beat(self._beats, now)
         if not driver.is_behind():
             driver.send("beat", n=self._beats, time=round(time.time(), 3), input=self.seat.newest)
-
-    def end(self):
-        self.seat.end()

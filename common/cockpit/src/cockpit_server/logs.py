@@ -1,16 +1,19 @@
 """The newest lines that nodes have logged."""
 
+from __future__ import annotations
+
 import itertools
 import re
 from collections import deque
 from functools import lru_cache
 from pathlib import Path
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from genpy import DeserializationError
 from rosgraph_msgs.msg import Log
 
-from cockpit_server.clients import Source
+from cockpit_server.clients import Client, Source
+from cockpit_server.feeds import Feeds
 from cockpit_server.schema import switch
 
 KEPT = 500  # lines
@@ -21,7 +24,7 @@ LEVELS = {
 }  # fmt: skip
 
 
-def without_folders(text, home=None, here=None):
+def without_folders(text: str, home: str | None = None, here: str | None = None) -> str:
     """Return a text with the working directory as "." and the home directory as "~"."""
     folders = ((here or str(Path.cwd()), "."), (home or str(Path.home()), "~"))
     for folder, short in folders:
@@ -31,7 +34,7 @@ def without_folders(text, home=None, here=None):
 
 
 @lru_cache(maxsize=KEPT)
-def shown(data):
+def shown(data: bytes) -> dict[str, Any] | None:
     """Return a line as pages get it, or None if the bytes are no Log."""
     try:
         log = Log().deserialize(data)
@@ -50,15 +53,15 @@ class Logs(Source):
 
     watches: ClassVar = {"log": (switch, False)}
 
-    def __init__(self, feeds):
+    def __init__(self, feeds: Feeds) -> None:
         """Subscribe for as long as the node runs: to /rosout, where each node's last line is
         latched, and not to /rosout_agg, which sends nothing that was logged before.
         """
-        self._lines = deque(maxlen=KEPT)  # (number, bytes)
+        self._lines: deque[tuple[int, bytes]] = deque(maxlen=KEPT)  # numbered
         self._numbers = itertools.count(1)
         feeds.want(self, {"/rosout": self._hear}, every=True)
 
-    def give(self, client, _now):
+    def give(self, client: Client, now: float) -> None:
         if not client.watch.log:
             return
         known = client.seen.get("log", 0)
@@ -68,6 +71,6 @@ class Logs(Source):
             entries = [entry for entry in (shown(data) for _, data in lines) if entry]
             client.send("log", entries=entries)
 
-    def _hear(self, message, _topic):
+    def _hear(self, message: Any, _topic: str) -> None:
         if all(data != message.data for _, data in list(self._lines)):  # latched, heard again
             self._lines.append((next(self._numbers), message.data))

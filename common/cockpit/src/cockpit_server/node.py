@@ -94,5 +94,5 @@ class Cockpit:
         self._soon(self._ended.set)
 
     def _rest(self):
-        self._hub.end()
+        self._hub.seat.end()
         self._has_ended.set()

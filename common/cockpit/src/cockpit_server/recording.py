@@ -1,17 +1,20 @@
 """Recordings: what is in them, and the joystick messages of each topic. Each is read once."""
 
+from __future__ import annotations
+
 import stat
-from collections import OrderedDict
 from math import isfinite
 from pathlib import Path
-from typing import Dict, List, NamedTuple, Tuple
+from typing import Any, List, NamedTuple, Sequence
 
 import rosbag
 import rospkg
 
 from cockpit_server.clients import encoded
+from cockpit_server.graph import JOY
+from cockpit_server.player import Message
 
-JOY = "sensor_msgs/Joy"
+Point = List[float]  # of a curve: time [s], value
 LARGEST = 200_000_000  # bytes
 MOST_MESSAGES = 500_000  # of joysticks; at 100 Hz more than an hour
 MOST_POINTS = 3000  # of a curve
@@ -30,23 +33,23 @@ class Recording(NamedTuple):
 
     start: float
     end: float
-    topics: Dict[str, Tuple[str, int]]
-    joys: Dict[str, List[tuple]]
+    topics: dict[str, tuple[str, int]]
+    joys: dict[str, list[Message]]
 
     @property
-    def duration(self):
+    def duration(self) -> float:
         return self.end - self.start
 
     @property
-    def messages(self):
+    def messages(self) -> int:
         return sum(map(len, self.joys.values()))
 
 
-def read(path):
+def read(path: Path) -> Recording:
     """Return the Recording of a file. Raises RecordingError, which names no folder."""
-    name = Path(path).name
+    name = path.name
     try:
-        about = Path(path).stat()
+        about = path.stat()
         if not stat.S_ISREG(about.st_mode):
             raise RecordingError(f"{name}: not a file")  # nothing ever comes from some of these
         if about.st_size > LARGEST:
@@ -64,13 +67,13 @@ def read(path):
         raise RecordingError(f"{name}: not a bag that can be read: {why}") from None
 
 
-def _read(bag, name):
+def _read(bag: Any, name: str) -> Recording:
     info = bag.get_type_and_topic_info().topics
-    topics = {name: (one.msg_type, one.message_count) for name, one in info.items()}
+    topics = {topic: (one.msg_type, one.message_count) for topic, one in info.items()}
     if not topics:
         raise RecordingError(f"{name}: is empty")
-    joys = {name: [] for name, (kind, _) in sorted(topics.items()) if kind == JOY}
-    if sum(topics[name][1] for name in joys) > MOST_MESSAGES:
+    joys: dict[str, list[Message]] = {t: [] for t in sorted(topics) if topics[t][0] == JOY}
+    if sum(topics[topic][1] for topic in joys) > MOST_MESSAGES:
         raise RecordingError(f"{name}: too long: use rosbag play")
     start = bag.get_start_time()
     for topic, joy, stamp in bag.read_messages(topics=list(joys)) if joys else ():
@@ -78,24 +81,24 @@ def _read(bag, name):
     return Recording(start, bag.get_end_time(), topics, joys)
 
 
-def curves(joys):
+def curves(joys: dict[str, list[Message]]) -> dict[str, list[Point]]:
     """Return {"/joy/axes[0]": [[time [s], value], ...], ...}, finite values only."""
     found = {}
     for topic, messages in joys.items():
         step = len(messages) // MOST_POINTS + 1
-        for kind, part in (("axes", 1), ("buttons", 2)):
-            count = min((len(message[part]) for message in messages), default=0)
-            for i in range(count):
+        axes, buttons = [(t, a) for t, a, _ in messages], [(t, b) for t, _, b in messages]
+        for kind, series in (("axes", axes), ("buttons", buttons)):
+            for i in range(min((len(values) for _, values in series), default=0)):
                 points = [
-                    [round(message[0], 3), round(float(message[part][i]), 4)]
-                    for message in messages[::step]
-                    if isfinite(message[part][i])
+                    [round(t, 3), round(float(values[i]), 4)]
+                    for t, values in series[::step]
+                    if isfinite(values[i])
                 ]
                 found[f"{topic}/{kind}[{i}]"] = corners(points)
     return found
 
 
-def corners(points):
+def corners(points: list[Point]) -> list[Point]:
     """Return the points without those inside a horizontal line."""
     inner = [
         point
@@ -105,7 +108,7 @@ def corners(points):
     return [*points[:1], *inner, *points[1:][-1:]]
 
 
-def recordings(may_drive):
+def recordings(may_drive: bool) -> dict[str, Path]:
     """Return {name: path} of the suite's recording and, for drivers, those of this folder."""
     ours = Path(rospkg.RosPack().get_path("gamepad")) / "bag" / "joy.bag"
     here = sorted(filter(Path.is_file, Path.cwd().glob("*.bag"))) if may_drive else []
@@ -115,36 +118,26 @@ def recordings(may_drive):
 class Shelf:
     """The recordings that were read. Used by one thread, except in_use."""
 
-    def __init__(self):
-        self._read = OrderedDict()  # what the file is -> (Recording, message of it to pages)
-        self.in_use = ()  # Recordings that pages have open; set anew, never changed
+    def __init__(self) -> None:
+        # what the file is -> (Recording, message of it to pages); the last one was taken last
+        self._read: dict[Any, tuple[Recording, str]] = {}
+        self.in_use: Sequence[Recording] = ()  # that pages have open; set anew, never changed
 
-    def take(self, path):
+    def take(self, path: Path) -> tuple[Recording, str]:
         """Return (Recording, message) of a file. Raises RecordingError."""
         try:
             about = path.stat()
         except OSError as error:
             raise RecordingError(f"{path.name}: cannot be read: {error.strerror}") from None
         key = (path, about.st_mtime_ns, about.st_size)
-        if key not in self._read:
-            self._read[key] = self._taken(path)
-        self._read.move_to_end(key)
-        self._make_room(self._read[key][0])
-        return self._read[key]
-
-    def _taken(self, path):
-        recording = read(path)
-        topics = [
-            {"name": topic, "type": kind, "count": count}
-            for topic, (kind, count) in sorted(recording.topics.items())
-        ]
         # Before anything changes: what cannot be shown is not opened.
-        return recording, encoded(
-            "bag", path=path.name, start=recording.start, end=recording.end, topics=topics,
-            curves=curves(recording.joys),
-        )  # fmt: skip
+        taken = self._read.get(key) or _with_message(read(path), path.name)
+        self._read.pop(key, None)
+        self._read[key] = taken
+        self._make_room(taken[0])
+        return taken
 
-    def _make_room(self, newest):
+    def _make_room(self, newest: Recording) -> None:
         used = {id(one) for one in (*self.in_use, newest)}
         unused = [key for key, (one, _) in self._read.items() if id(one) not in used]
         while unused and (len(self._read) > MOST_KEPT or self._has_too_many()):
@@ -153,5 +146,16 @@ class Shelf:
             self._read.popitem()
             raise RecordingError("other pages have long recordings open: close one of them")
 
-    def _has_too_many(self):
+    def _has_too_many(self) -> bool:
         return sum(one.messages for one, _ in self._read.values()) > MOST_MESSAGES
+
+
+def _with_message(recording: Recording, name: str) -> tuple[Recording, str]:
+    topics = [
+        {"name": topic, "type": kind, "count": count}
+        for topic, (kind, count) in sorted(recording.topics.items())
+    ]
+    return recording, encoded(
+        "bag", path=name, start=recording.start, end=recording.end, topics=topics,
+        curves=curves(recording.joys),
+    )  # fmt: skip

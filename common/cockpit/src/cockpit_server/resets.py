@@ -1,18 +1,22 @@
 """Puts a robot back to where it started, by its service."""
 
+from __future__ import annotations
+
 import threading
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import rospy
 from std_srvs.srv import Empty
 
-from cockpit_server.clients import Source
-from cockpit_server.graph import topic_of
+from cockpit_server.clients import Client, Source
+from cockpit_server.drives import Drives
+from cockpit_server.graph import Graph, topic_of
+from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.schema import text
 from cockpit_server.seat import RefusedError
 
 
-def reset_service(graph, robot):
+def reset_service(graph: Graph, robot: str) -> str:
     """Return the service that resets this robot and no other. Raises RefusedError."""
     own = topic_of(robot, "reset")
     if own in graph.services:
@@ -30,11 +34,11 @@ class Resets(Source):
 
     messages: ClassVar = {"reset": {"robot": text}}
 
-    def __init__(self, hub, graph_watch, drives):
+    def __init__(self, hub: Any, graph_watch: GraphWatch, drives: Drives) -> None:
         self._hub, self._graphs, self._drives = hub, graph_watch, drives
-        self._asked = set()  # names of services that have not answered yet
+        self._asked: set[str] = set()  # names of services that have not answered yet
 
-    def on_reset(self, client, _now, robot):
+    def on_reset(self, client: Client, _now: float, robot: str) -> None:
         client.must_drive()
         if robot == self._hub.driven and client.number != self._hub.seat.driver:
             raise RefusedError("another page drives this robot: only that page may reset it")
@@ -48,7 +52,7 @@ class Resets(Source):
         # A thread of its own: a robot that hangs does not answer, and other robots go on.
         threading.Thread(target=self._call, args=(name,), daemon=True).start()
 
-    def _call(self, name):
+    def _call(self, name: str) -> None:
         try:
             rospy.ServiceProxy(name, Empty)()
         except rospy.ServiceException as error:

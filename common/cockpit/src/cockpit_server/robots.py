@@ -1,23 +1,25 @@
 """The robots: where they are, by their odometry, and what moves them, by their joystick."""
 
+from __future__ import annotations
+
 import struct
 import time
 from math import isfinite
-from typing import ClassVar
+from typing import Any, ClassVar, Sequence
 
 from genpy import DeserializationError
 from sensor_msgs.msg import Joy
 
-from cockpit_server.clients import Source, encoded
+from cockpit_server.clients import Client, Source, encoded
+from cockpit_server.feeds import Feeds
 from cockpit_server.graph import topic_of
-from cockpit_server.motion import covered, is_somewhere, motion
+from cockpit_server.graph_watch import GraphWatch
+from cockpit_server.motion import Motion, covered, is_somewhere, motion
 from cockpit_server.schema import or_null, switch, text
 from node_kit.careful_connections import sender_of
 
 DIGITS = 4  # of metres: a tenth of a millimetre
-# [byte]; a gamepad's message has some 100. The thread that reads them, and sends each to all pages,
-# also watches over the driver, and a huge one would hold it up.
-LONGEST_JOY = 4000
+LONGEST_JOY = 4000  # bytes; a gamepad's message has some 100, a huge one would hold up the driver
 FRESH_S, LEAST_SPEED = 1.0, 0.01  # of odometry that says that a robot moves [m/s, rad/s]
 
 
@@ -26,13 +28,14 @@ class Robots(Source):
 
     watches: ClassVar = {"robots": (switch, False)}
 
-    def __init__(self, feeds, graph_watch):
+    def __init__(self, feeds: Feeds, graph_watch: GraphWatch) -> None:
         self._feeds, self._graphs = feeds, graph_watch
-        self._newest = {}  # topic -> (bytes, when they came [s])
-        self._states = {}  # robot -> (Motion, when it came [s], distance covered [m])
+        self._newest: dict[str, tuple[bytes, float]] = {}  # topic -> (bytes, when they came [s])
+        # robot -> (Motion, when it came [s], distance covered [m])
+        self._states: dict[str, tuple[Motion, float, float]] = {}
         self._text = ""
 
-    def prepare(self, clients, now):
+    def prepare(self, clients: Sequence[Client], now: float) -> None:
         watched = any(client.watch.robots for client in clients)
         known = self._graphs.graph.robots_with_odometry() if watched else ()
         topics = {topic_of(robot, "odom"): robot for robot in known}
@@ -45,7 +48,7 @@ class Robots(Source):
         robots = {r: shown(*state, now) for r, state in self._states.items() if r in known}
         self._text = encoded("robots", stamp=round(time.time(), 3), robots=robots)
 
-    def give(self, client, _now):
+    def give(self, client: Client, now: float) -> None:
         if not client.watch.robots:
             return
         names = sorted(self._graphs.graph.robots())
@@ -53,28 +56,25 @@ class Robots(Source):
             client.send("names", names=names)
         client.write(self._text)
 
-    def moves(self, robot, now):
+    def moves(self, robot: str, now: float) -> bool:
         """Return whether the newest odometry says so; known while a page shows robots."""
-        state, came, _ = self._states.get(robot, (None, 0.0, 0.0))
-        fresh = state is not None and now - came < FRESH_S
-        return fresh and max(abs(state.v), abs(state.w)) > LEAST_SPEED
+        state, came, _ = self._states.get(robot, (Motion(0, 0, 0, 0, 0), 0.0, 0.0))
+        return now - came < FRESH_S and max(abs(state.v), abs(state.w)) > LEAST_SPEED
 
-    def _hear(self, message, topic):
+    def _hear(self, message: Any, topic: str) -> None:
         self._newest[topic] = (message.data, time.monotonic())
 
-    def _read(self, topic, robot):
-        data, came = self._newest.pop(topic, (None, 0.0))
-        if data is None:
-            return
+    def _read(self, topic: str, robot: str) -> None:
+        data, came = self._newest.pop(topic, (b"", 0.0))
         try:
             new = motion(data)
-        except struct.error:
+        except struct.error:  # nothing new, or malformed
             return
         last, _, so_far = self._states.get(robot, (new, 0.0, 0.0))
         self._states[robot] = (new, came, covered(last, new, so_far))
 
 
-def shown(state, came, way, now):
+def shown(state: Motion, came: float, way: float, now: float) -> dict[str, float]:
     """Return a robot's state as pages get it, without values that are not finite."""
     values = {**state._asdict(), "covered": way, "age": max(0.0, now - came)}
     if not is_somewhere(state):
@@ -83,7 +83,7 @@ def shown(state, came, way, now):
     return {name: round(value, DIGITS) for name, value in values.items() if isfinite(value)}
 
 
-def joy_shown(data):
+def joy_shown(data: bytes) -> dict[str, Any] | None:
     """Return {axes, buttons} of the bytes of a Joy, or None if malformed or too long."""
     if len(data) > LONGEST_JOY:
         return None
@@ -100,43 +100,34 @@ class Pads(Source):
 
     watches: ClassVar = {"look": (or_null(text), None)}
 
-    def __init__(self, feeds, graph_watch, own_name):
+    def __init__(self, feeds: Feeds, graph_watch: GraphWatch, own_name: str) -> None:
         self._feeds, self._graphs, self._own_name = feeds, graph_watch, own_name
-        self.driven = None  # the robot that is driven from a page
-        self._newest = {}  # topic -> (bytes, when they came [s])
-        self._shown = {}  # topic -> (when it came [s], what pages get of it or None)
-        self._rivals = {}  # topic -> (name of the node, when it last spoke [s])
+        self.driven: str | None = None  # the robot that is driven from a page
+        # topic -> (when its newest message came [s], what pages get of it)
+        self._newest: dict[str, tuple[float, dict[str, Any] | None]] = {}
+        self._rivals: dict[str, tuple[str, float]] = {}  # topic -> (node, when it last spoke [s])
 
-    def prepare(self, clients, _now):
+    def prepare(self, clients: Sequence[Client], now: float) -> None:
         looked_at = {client.watch.look for client in clients} & self._graphs.graph.robots()
-        robots = (looked_at | {self.driven}) - {None}
+        robots = {robot for robot in (*looked_at, self.driven) if robot is not None}
         hears = {topic_of(robot, "joy"): self._hear for robot in robots}
         self._feeds.want(self, hears, every=False)
         self._newest = {topic: self._newest[topic] for topic in hears if topic in self._newest}
-        before = self._shown
-        self._shown = {
-            topic: before[topic]
-            if before.get(topic, (None,))[0] == came
-            else (came, joy_shown(data))
-            for topic, (data, came) in self._newest.items()
-        }
 
-    def give(self, client, now):
+    def give(self, client: Client, now: float) -> None:
         robot = client.watch.look
-        if robot is None:
-            return
-        came, joy = self._shown.get(topic_of(robot, "joy"), (0.0, None))
-        if joy and client.lacks("pad", (robot, came)):
+        came, joy = self._newest.get(topic_of(robot or "", "joy"), (0.0, None))
+        if robot is not None and joy and client.lacks("pad", (robot, came)):
             client.send("pad", robot=robot, age=round(max(0.0, now - came), 3), **joy)
 
-    def rival(self, robot, since):
+    def rival(self, robot: str, since: float) -> str | None:
         """Return the other node that sent on the robot's topic since a time [s], or None."""
         name, spoke = self._rivals.get(topic_of(robot, "joy"), ("", 0.0))
         return name if spoke >= since and name else None
 
-    def _hear(self, message, topic):
+    def _hear(self, message: Any, topic: str) -> None:
         now = time.monotonic()
-        self._newest[topic] = (message.data, now)
+        self._newest[topic] = (now, joy_shown(message.data))
         sender = sender_of(message)
         if sender != self._own_name:
             self._rivals[topic] = (sender, now)

@@ -24,47 +24,41 @@ WATCH = "watch"
 Check = Callable[[Any], Any]
 
 
-def whole(value: Any) -> Any:
-    if not is_whole(value) or not 0 <= value <= LARGEST:
-        raise ValueError("must be a whole number from 0")
-    return value
+def that(fits: Callable[[Any], bool], must: str) -> Check:
+    """Return a check that takes a value that fits. must: what it has to be, for the refusal."""
 
-
-def number(least: float, most: float) -> Check:
-    def check(value: Any) -> float:
-        if not is_number(value) or not least <= value <= most:
-            raise ValueError(f"must be a number from {least:g} to {most:g}")
-        return float(value)
-
-    return check
-
-
-def text(value: Any) -> str:
-    if not isinstance(value, str) or len(value) > LONGEST_TEXT or not value.isprintable():
-        raise ValueError(f"must be a text of at most {LONGEST_TEXT} characters")
-    return value
-
-
-def full_name(value: Any) -> str:
-    """Check a name of the graph: rospy would put a relative one beside the cockpit."""
-    if not text(value).startswith("/"):
-        raise ValueError("must begin with /")
-    return str(value)
-
-
-def switch(value: Any) -> bool:
-    if not isinstance(value, bool):
-        raise ValueError("must be true or false")
-    return value
-
-
-def one_of(*values: str) -> Check:
     def check(value: Any) -> Any:
-        if value not in values or not isinstance(value, str):
-            raise ValueError(f"must be {', '.join(values)}")
+        if not fits(value):
+            raise ValueError(f"must {must}")
         return value
 
     return check
+
+
+whole = that(lambda v: is_whole(v) and 0 <= v <= LARGEST, "be a whole number from 0")
+pressed = that(lambda v: is_whole(v) and v in (0, 1), "be 0 or 1")
+switch = that(lambda v: isinstance(v, bool), "be true or false")
+text = that(
+    lambda v: isinstance(v, str) and len(v) <= LONGEST_TEXT and v.isprintable(),
+    f"be a text of at most {LONGEST_TEXT} characters",
+)
+begins_at_root = that(lambda v: v.startswith("/"), "begin with /")
+
+
+def full_name(value: Any) -> Any:
+    """Check a name of the graph: rospy would put a relative one beside the cockpit."""
+    return begins_at_root(text(value))
+
+
+def number(least: float, most: float) -> Check:
+    check = that(
+        lambda v: is_number(v) and least <= v <= most, f"be a number from {least:g} to {most:g}"
+    )
+    return lambda value: float(check(value))
+
+
+def one_of(*values: str) -> Check:
+    return that(lambda v: isinstance(v, str) and v in values, f"be {', '.join(values)}")
 
 
 def or_null(check: Check) -> Check:
@@ -72,18 +66,8 @@ def or_null(check: Check) -> Check:
 
 
 def list_of(check: Check, most: int) -> Check:
-    def check_all(value: Any) -> tuple[Any, ...]:
-        if not isinstance(value, list) or len(value) > most:
-            raise ValueError(f"must be a list of at most {most}")
-        return tuple([check(one) for one in value])
-
-    return check_all
-
-
-def pressed(value: Any) -> Any:
-    if value not in (0, 1) or not is_whole(value):
-        raise ValueError("must be 0 or 1")
-    return value
+    is_list = that(lambda v: isinstance(v, list) and len(v) <= most, f"be a list of at most {most}")
+    return lambda value: tuple([check(one) for one in is_list(value)])
 
 
 MILLISECONDS = number(0, 1e15)
@@ -128,24 +112,19 @@ class Schema:
             raise ValueError('a message must be an object with "kind"')
         kind = given.pop("kind")
         if kind not in self.messages:
-            raise ValueError(f"no such kind of message: {_shown(kind)}")
-        return kind, self._values(kind, given)
-
-    def _values(self, kind: str, given: dict[str, Any]) -> dict[str, Any]:
+            raise ValueError(f"no such kind of message: {kind[:40]!r}")
         checks = self.messages[kind]
-        for name in given:
-            if name not in checks:
-                raise ValueError(f"{kind} has no field {_shown(name)}")
         for name in checks:
             if name not in given and kind != WATCH:
                 raise ValueError(f"{kind} lacks {name}")
-        values = {}
         for name, value in given.items():
+            if name not in checks:
+                raise ValueError(f"{kind} has no field {name[:40]!r}")
             try:
-                values[name] = checks[name](value)
+                given[name] = checks[name](value)
             except ValueError as error:
                 raise ValueError(f"{kind}: {name} {error}") from None
-        return values
+        return kind, given
 
 
 def check_lengths(modes: Sequence[str], axes: Sequence[float], buttons: Sequence[int]) -> None:
@@ -154,7 +133,3 @@ def check_lengths(modes: Sequence[str], axes: Sequence[float], buttons: Sequence
     if (len(axes), len(buttons)) not in allowed.values():
         has = [f"{mode} mode has {a} axes and {b} buttons" for mode, (a, b) in allowed.items()]
         raise ValueError(f"input: {' and '.join(has)}")
-
-
-def _shown(word: str) -> str:
-    return repr(word[:40])

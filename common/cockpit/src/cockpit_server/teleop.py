@@ -1,11 +1,15 @@
 """What the joy2twist of each robot says of itself on /diagnostics."""
 
-import time
+from __future__ import annotations
 
-from diagnostic_msgs.msg import DiagnosticArray
+import time
+from typing import Any, Sequence
+
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from genpy import DeserializationError
 
-from cockpit_server.clients import Source
+from cockpit_server.clients import Client, Source
+from cockpit_server.feeds import Feeds
 from cockpit_server.graph import robot_of
 from node_kit.arming import DRIVING
 
@@ -16,7 +20,7 @@ UNKNOWN = "it reports once a second"  # what is shown meanwhile
 DEADMAN = "Dead-man button"  # key of the value that names it, or "none"
 
 
-def said(data):
+def said(data: bytes) -> list[tuple[str, dict[str, Any]]]:
     """Return [(robot, {state, why, level, deadman})] of the bytes of a DiagnosticArray."""
     if MARK.encode() not in data:
         return []
@@ -28,47 +32,42 @@ def said(data):
     return [(robot_of(f"/{one.name[: -len(MARK)]}"), report_of(one)) for one in found]
 
 
-def report_of(status):
+def report_of(status: DiagnosticStatus) -> dict[str, Any]:
     """Return a status as pages get it. deadman: number, "none", or None if not reported."""
     state = status.message.partition(":")[0].partition(" ")[0]
     button = {pair.key: pair.value for pair in status.values}.get(DEADMAN)
-    return {
-        "state": state,
-        "why": status.message,
-        "level": int(status.level),
-        "deadman": button,
-    }
+    level = int(status.level)
+    return {"state": state, "why": status.message, "level": level, "deadman": button}
 
 
 class Teleop(Source):
     """The newest report of joy2twist about each robot."""
 
-    def __init__(self, feeds):
-        self._states = {}  # robot -> its report
-        self._heard = {}  # robot -> when it spoke last [s]
+    def __init__(self, feeds: Feeds) -> None:
+        self._states: dict[str, dict[str, Any]] = {}  # robot -> its report
+        self._heard: dict[str, float] = {}  # robot -> when it spoke last [s]
         feeds.want(self, {"/diagnostics": self._hear}, every=True)
 
-    def prepare(self, clients, now):
+    def prepare(self, clients: Sequence[Client], now: float) -> None:
         for robot, heard in list(self._heard.items()):
             if now - heard > SILENT_S:
                 self._states[robot] = SILENT
 
-    def newest(self, robot):
+    def newest(self, robot: str) -> dict[str, Any] | None:
         return self._states.get(robot)
 
-    def outdate(self, robot):
+    def outdate(self, robot: str) -> None:
         """Forget that joy2twist was driving: the driver of the robot has left."""
         state = self._states.get(robot)
         if state and state["state"] == DRIVING:
             self._states[robot] = {**state, "state": "unknown", "why": UNKNOWN, "level": 1}
 
-    def give(self, client, _now):
+    def give(self, client: Client, now: float) -> None:
         for robot, state in list(self._states.items()):
-            if (client.watch.robots or client.watch.look == robot) and client.lacks(
-                f"teleop {robot}", state
-            ):
+            is_shown = client.watch.robots or client.watch.look == robot
+            if is_shown and client.lacks(f"teleop {robot}", state):
                 client.send("teleop", robot=robot, **state)
 
-    def _hear(self, message, _topic):
+    def _hear(self, message: Any, _topic: str) -> None:
         for robot, state in said(message.data):
             self._heard[robot], self._states[robot] = time.monotonic(), state
