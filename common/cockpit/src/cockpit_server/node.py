@@ -1,12 +1,16 @@
 """The node: rospy's threads on one side, tornado's loop in the main thread on the other."""
 
+from __future__ import annotations
+
 import asyncio
 import sys
 import threading
+from typing import Any, Callable
 
 import rospy
 from tornado.ioloop import PeriodicCallback
 
+from cockpit_server.access import Access
 from cockpit_server.bags import Bags
 from cockpit_server.doctor import Doctor
 from cockpit_server.drives import Drives
@@ -42,7 +46,7 @@ class Cockpit:
     Calls: mobile services of type std_srvs/Empty that end in /reset
     """
 
-    def __init__(self, sockets, access):
+    def __init__(self, sockets: list[Any], access: Access) -> None:
         self._sockets = sockets
         name = rospy.get_name()
         graphs = self._graphs = GraphWatch(name)
@@ -59,18 +63,15 @@ class Cockpit:
         )  # fmt: skip
         hub.add(sources, player=bags)
         self._server = server(self._hub, access)
-        self._loop = None
         self.has_lost_master = False
         self._has_ended = threading.Event()
-        self._ended = None
 
-    def run(self):
+    def run(self) -> None:
         sys.setswitchinterval(SWITCH_S)
         asyncio.run(self._serve())
 
-    async def _serve(self):
-        self._loop = asyncio.get_running_loop()
-        self._ended = asyncio.Event()
+    async def _serve(self) -> None:
+        self._loop, self._ended = asyncio.get_running_loop(), asyncio.Event()
         self._graphs.start(self._lose_master)
         self._server.add_sockets(self._sockets)
         ticks = PeriodicCallback(self._hub.tick, 1000 * TICK_S)
@@ -79,20 +80,20 @@ class Cockpit:
         await self._ended.wait()
         ticks.stop()
 
-    def _lose_master(self):
+    def _lose_master(self) -> None:
         self.has_lost_master = True
         rospy.signal_shutdown("the master has gone")
 
-    def _soon(self, action):
+    def _soon(self, action: Callable[[], Any]) -> None:
         self._loop.call_soon_threadsafe(action)
 
-    def _end(self):
+    def _end(self) -> None:
         """Leave the robot at rest; rospy's other threads wait for this."""
         self._soon(self._rest)
         if self._has_ended.wait(LONGEST_END_S):
             threading.Event().wait(DELIVERY_S)
         self._soon(self._ended.set)
 
-    def _rest(self):
+    def _rest(self) -> None:
         self._hub.seat.end()
         self._has_ended.set()

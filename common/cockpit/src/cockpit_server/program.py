@@ -1,5 +1,7 @@
 """The command: checks, waits for a master, and prints the address of the page."""
 
+from __future__ import annotations
+
 import argparse
 import errno
 import os
@@ -9,6 +11,7 @@ import socket
 import subprocess
 import sys
 import time
+from typing import Any, NoReturn
 from urllib.parse import urlsplit
 
 import rosgraph
@@ -28,14 +31,14 @@ TOKENS = "COCKPIT_TOKENS"  # environment variable, which only this user can read
 PUBLISHED, PEERS = "COCKPIT_PUBLISHED", "COCKPIT_PEERS"
 
 
-def port(text):
+def port(text: str) -> int:
     """Return the TCP port of --port."""
     if not text.isdigit() or not 1 <= int(text) <= 65535:
         raise argparse.ArgumentTypeError(f"{text}: not a port, a number from 1 to 65535")
     return int(text)
 
 
-def parse(argv):
+def parse(argv: list[str]) -> argparse.Namespace:
     parser = Parser(
         prog="cockpit", description="Shows the robots in a browser, and lets one page drive."
     )
@@ -45,30 +48,28 @@ def parse(argv):
     return parser.parse_args(argv)
 
 
-def fail(line):
+def fail(line: str) -> NoReturn:
     sys.exit(f"cockpit: {line}")
 
 
-def report(line):
+def report(line: str) -> None:
     print(f"cockpit: {line}", flush=True)
 
 
-def listening(port, lan):
+def listening(port: int, lan: bool) -> list[socket.socket]:
     """Return sockets that listen, or exit with a line if the port is taken."""
-    one = socket.socket()
-    one.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-    one.setblocking(False)
     try:
-        one.bind(("" if lan else "127.0.0.1", port))
-        one.listen(128)
+        one = socket.create_server(("" if lan else "127.0.0.1", port), backlog=128)
     except OSError as error:
         if error.errno == errno.EADDRINUSE:
             leave_to_other(port, lan)
-        fail(f"cannot listen on port {port}: {error.strerror}; take another: --port 8080")
+        why = os.strerror(error.errno or 0)
+        fail(f"cannot listen on port {port}: {why}; take another: --port 8080")
+    one.setblocking(False)
     return [one]
 
 
-def leave_to_other(port, lan):
+def leave_to_other(port: int, lan: bool) -> NoReturn:
     """Exit, with 0 if a cockpit of the same master has the port and serves the purpose."""
     page = address(rosgraph.get_master_uri())
     if not page or urlsplit(page).port != port:
@@ -82,7 +83,7 @@ def leave_to_other(port, lan):
     sys.exit()
 
 
-def wait_for_master():
+def wait_for_master() -> None:
     uri, is_reported = rosgraph.get_master_uri(), False
     while call(uri, "getPid")[0] is Answer.REFUSED:
         if not is_reported:
@@ -91,7 +92,7 @@ def wait_for_master():
         time.sleep(LOOK_S)
 
 
-def own_address():
+def own_address() -> str:
     """Return the address at which other machines may find this one."""
     try:
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
@@ -101,7 +102,7 @@ def own_address():
         return socket.gethostname()
 
 
-def main():
+def main() -> int:
     try:
         from cockpit_server.node import Cockpit  # noqa: PLC0415  tornado may be missing
     except ModuleNotFoundError as error:
@@ -111,13 +112,11 @@ def main():
     options = parse(rosgraph.myargv()[1:])
     published = PUBLISHED in os.environ and not options.lan
     sockets = listening(options.port, options.lan or published)
-    if options.lan:
-        access = new_access()
-    else:
-        access = Access(peers=peers() if published else None, origins=codespace(options.port))
+    here = Access(peers=peers() if published else None, origins=codespace(options.port))
+    access = new_access() if options.lan else here
     wait_for_master()
 
-    def spin(_parameters):
+    def spin(_parameters: Any) -> None:
         tell(options.port, access)
         uri, page = rosgraph.get_master_uri(), f"http://127.0.0.1:{options.port}/"
         before = call(uri, "getParam", PARAMETER)[1]
@@ -137,7 +136,7 @@ def main():
     return run(NODE_NAME, no_parameters, spin, keeps_name=True)
 
 
-def begin_anew(access):
+def begin_anew(access: Access) -> NoReturn:
     """Replace this process, with the same tokens: rospy knows one master."""
     report("the ROS master has gone")
     if access.driver_token:
@@ -145,21 +144,21 @@ def begin_anew(access):
     os.execv(sys.executable, [sys.executable, *sys.argv])
 
 
-def new_access():
+def new_access() -> Access:
     """Return an Access for other machines, with new tokens or those from begin_anew()."""
     host = socket.gethostname().lower()
-    tokens = os.environ.pop(TOKENS, "").split()
-    tokens = tokens or [secrets.token_urlsafe(TOKEN_BYTES) for _ in range(2)]
-    return Access(("localhost", host, f"{host}.local"), *tokens)
+    kept = os.environ.pop(TOKENS, "").split()
+    driver, viewer = kept or [secrets.token_urlsafe(TOKEN_BYTES) for _ in range(2)]
+    return Access(("localhost", host, f"{host}.local"), driver, viewer)
 
 
-def peers():
+def peers() -> tuple[str, ...]:
     """Return the addresses from which requests through a container's published port come."""
     with open("/proc/net/route", encoding="ascii") as routes:
         return (*gateways(routes.read()), *os.environ.get(PEERS, "").split())
 
 
-def codespace(port):
+def codespace(port: int) -> tuple[str, ...]:
     """Return the origin under which GitHub forwards a port of a Codespace; () elsewhere."""
     # docs.github.com: "Default environment variables for your codespace"
     name, domain = map(
@@ -168,19 +167,19 @@ def codespace(port):
     return (f"https://{name}-{port}.{domain}",) if name and domain else ()
 
 
-def no_parameters(given):
+def no_parameters(given: dict[str, Any]) -> None:
     for name in given:
         raise ValueError(f"~{name}: no such parameter; the port is --port, other machines --lan")
 
 
-def where(page):
+def where(page: str) -> str:
     """Return what to open, where the page of this address is for this machine only."""
     if PUBLISHED in os.environ:
         return f"open http://localhost:{os.environ[PUBLISHED]}/ on the container's host"
     return f"open {page} on this machine"
 
 
-def tell(port, access):
+def tell(port: int, access: Access) -> None:
     """Print the page's address; a token is shown nowhere else."""
     if access.driver_token is None:
         report(where(f"http://127.0.0.1:{port}/"))
@@ -191,7 +190,7 @@ def tell(port, access):
     show_code(f"{page}{access.driver_token}")
 
 
-def show_code(text):
+def show_code(text: str) -> None:
     """Print the address as a QR code. Not by an argument, which all users see."""
     if not shutil.which("qrencode"):
         report("(for a QR code: apt install qrencode)")

@@ -1,10 +1,13 @@
 """HTTP and WebSocket: rights and bounds of requests."""
 
+from __future__ import annotations
+
 import asyncio
 import logging
 import socket
 import time
 from pathlib import Path
+from typing import Any, Awaitable
 
 import rospkg
 from tornado.httpserver import HTTPServer
@@ -12,9 +15,10 @@ from tornado.iostream import StreamClosedError
 from tornado.web import Application, RequestHandler, StaticFileHandler
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
-from cockpit_server.access import without_token
+from cockpit_server.access import Access, without_token
 from cockpit_server.admission import Page, connection_to_close, page_to_close
 from cockpit_server.clients import Client, name_of
+from cockpit_server.hub import Hub
 from cockpit_server.schema import LONGEST_MESSAGE
 from node_kit.newest_only import CUT_AFTER_RESENDS, resends
 
@@ -51,52 +55,44 @@ POLICY = (
 )
 
 
-class _Limited(RequestHandler):
-    """Delays a request by what its address has cost; answers only addresses that may come."""
+class _Guarded(RequestHandler):
+    """Answers who may come, names this machine and is of no other page; delays what costs much."""
 
-    async def prepare(self):
-        wait_s = self.settings["hub"].request_wait_s(self.request.remote_ip)
-        if wait_s:
-            await asyncio.sleep(wait_s)
-        address = self.request.remote_ip
-        if not self.settings["access"].may_come(address):
-            self.refuse(403, NOT_PUBLISHED.format(address=address))
+    def set_default_headers(self) -> None:
+        for name, value in HEADERS.items():
+            self.set_header(name, value)
+
+    async def prepare(self) -> None:
+        host, access = self.request.host, self.settings["access"]
+        await asyncio.sleep(self.settings["hub"].request_wait_s(self.address))
+        if not access.may_come(self.address):
+            self.refuse(403, NOT_PUBLISHED.format(address=self.address))
+        elif not access.may_request(host, self.request.headers.get("Origin")):
+            self.refuse(403, "not an address of the cockpit: open the one that it printed")
+        else:
+            self.set_header("Content-Security-Policy", POLICY.format(host=host))
 
     @property
-    def role(self):
+    def address(self) -> str:
+        return str(self.request.remote_ip)
+
+    @property
+    def role(self) -> Any:
         return self.settings["access"].role(self.get_query_argument("token", None))
 
-    def refuse(self, status, why):
+    def refuse(self, status: int, why: str) -> None:
         self.set_status(status)
         self.set_header("Content-Type", "text/plain; charset=utf-8")
         self.finish(f"{why}\n")
 
-    def write_error(self, status_code, **_):
+    def write_error(self, status_code: int, **_: Any) -> None:
         self.refuse(status_code, f"{status_code}: nothing here")
-
-
-class _Guarded(_Limited):
-    """Answers requests that name this machine and come from no other page."""
-
-    def set_default_headers(self):
-        for name, value in HEADERS.items():
-            self.set_header(name, value)
-
-    async def prepare(self):
-        await super().prepare()
-        host = self.request.host
-        if self._finished:
-            return
-        if not self.settings["access"].may_request(host, self.request.headers.get("Origin")):
-            self.refuse(403, "not an address of the cockpit: open the one that it printed")
-            return
-        self.set_header("Content-Security-Policy", POLICY.format(host=host))
 
 
 class _Page(_Guarded):
     """The page, for a valid token if one is needed."""
 
-    def get(self):
+    def get(self) -> None:
         if self.role is None:
             self.refuse(403, NO_TOKEN)
             return
@@ -105,24 +101,26 @@ class _Page(_Guarded):
 
 
 class _Nothing(_Guarded):
-    async def prepare(self):
+    async def prepare(self) -> None:
         await super().prepare()
         if not self._finished:
             self.refuse(404, "nothing here")
 
 
 class _Files(_Guarded, StaticFileHandler):
-    def set_extra_headers(self, path):
+    def set_extra_headers(self, path: str) -> None:
         self.set_header("Cache-Control", "no-cache")
 
 
-class _Socket(_Limited, WebSocketHandler):
+class _Socket(_Guarded, WebSocketHandler):
     """The connection between a page and the Hub."""
 
-    client = None
+    client: Any = None
+    stream: Any
+    ws_connection: Any
     pings = fragments = 0
 
-    async def get(self, *_, **__):
+    async def get(self, *_: Any, **__: Any) -> None:
         origin = self.request.headers.get("Origin")
         if not self.settings["access"].may_connect(self.request.host, origin):
             self.refuse(403, "only this cockpit's own page may connect")
@@ -133,13 +131,13 @@ class _Socket(_Limited, WebSocketHandler):
         else:
             await super().get()
 
-    def has_room(self, hub):
+    def has_room(self, hub: Hub) -> bool:
         """Return whether one more page may be opened, for which a viewer may be closed."""
         clients, now = list(hub.clients.values()), time.monotonic()
         if len(clients) < MOST_CLIENTS:
             return True
         pages = [Page(one.number, one.role, one.address, now - one.spoke_at) for one in clients]
-        page = page_to_close(pages, self.role, self.request.remote_ip)
+        page = page_to_close(pages, self.role, self.address)
         if page is None:
             return False
         closed = hub.clients[page.number]
@@ -147,28 +145,28 @@ class _Socket(_Limited, WebSocketHandler):
         closed.close()
         return True
 
-    def check_origin(self, origin):
+    def check_origin(self, origin: str) -> bool:
         return True  # get() has looked at it
 
-    def open(self, *_, **__):
+    def open(self, *_: Any, **__: Any) -> None:
         self.set_nodelay(True)
         self.stream = self.ws_connection.stream
         self.stream.socket.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SEND_BUFFER)
         self.settings["pages"].add(self.stream)
         self.limit_fragments(self.ws_connection)
-        hub, address = self.settings["hub"], self.request.remote_ip
-        name = name_of(self.request.headers.get("User-Agent", ""), address)
+        hub = self.settings["hub"]
+        name = name_of(self.request.headers.get("User-Agent", ""), self.address)
         self.client = Client(
             hub.number(), self.role, name, self.send, self.stream.writing, self.is_cut,
-            self.stream.close, address,
+            self.stream.close, self.address,
         )  # fmt: skip
         hub.join(self.client)
 
-    def limit_fragments(self, connection):
+    def limit_fragments(self, connection: Any) -> None:
         """Close a page whose message never ends: tornado reports only whole ones."""
         receive = connection._receive_frame
 
-        async def receive_frame():
+        async def receive_frame() -> None:
             await receive()
             is_whole = getattr(connection, "_fragmented_message_buffer", None) is None
             self.fragments = 0 if is_whole else self.fragments + 1
@@ -177,40 +175,40 @@ class _Socket(_Limited, WebSocketHandler):
 
         connection._receive_frame = receive_frame
 
-    def send(self, text):
+    def send(self, text: str) -> None:
         try:
             self.write_message(text)
         except (WebSocketClosedError, StreamClosedError):
             pass  # on_close() comes
 
-    def is_cut(self):
+    def is_cut(self) -> bool:
         return not self.stream.closed() and resends(self.stream.socket) >= CUT_AFTER_RESENDS
 
-    def on_message(self, message):
+    def on_message(self, message: Any) -> Awaitable[None] | None:
         hub = self.settings["hub"]
         wait_s = hub.wait_s(self.client)
         if not wait_s:
             return hub.hear(self.client, message)
         return self.hear_later(wait_s, message)
 
-    async def hear_later(self, wait_s, message):
+    async def hear_later(self, wait_s: float, message: Any) -> None:
         # Meanwhile tornado reads nothing more of this page: TCP holds the sender up.
         await asyncio.sleep(wait_s)
         self.settings["hub"].hear(self.client, message)
 
-    def on_pong(self, data):
+    def on_pong(self, data: bytes) -> Awaitable[None] | None:  # type: ignore[override]
         # Nobody asked for most of them, if they are many; a message costs as much.
         wait_s = self.settings["hub"].wait_s(self.client)
         return asyncio.sleep(wait_s) if wait_s else None
 
-    def on_ping(self, data):
+    def on_ping(self, data: bytes) -> None:
         # Tornado has answered already. A page's script can send no ping, and a program that sends
         # many may leave the answers unread: they would pile up here.
         self.pings += 1
         if self.pings > MOST_PINGS:
             self.stream.close()
 
-    def on_close(self):
+    def on_close(self) -> None:
         self.settings["pages"].discard(self.stream)
         if self.client:
             self.settings["hub"].leave(self.client)
@@ -219,12 +217,12 @@ class _Socket(_Limited, WebSocketHandler):
 class _Server(HTTPServer):
     """Bounds the connections; closes one that is not used for a new one."""
 
-    def initialize(self, application, **more):
+    def initialize(self, application: Application, **more: Any) -> None:  # type: ignore[override]
         super().initialize(application, **more)
         self._pages = application.settings["pages"]
-        self._streams = {}  # stream -> its address, the oldest first
+        self._streams: dict[Any, str] = {}  # stream -> its address, the oldest first
 
-    def handle_stream(self, stream, address):
+    def handle_stream(self, stream: Any, address: tuple[str, int]) -> None:
         self._streams = {one: its for one, its in self._streams.items() if not one.closed()}
         if len(self._streams) >= MOST_CONNECTIONS:
             unused = [pair for pair in self._streams.items() if pair[0] not in self._pages]
@@ -238,7 +236,7 @@ class _Server(HTTPServer):
         super().handle_stream(stream, address)
 
 
-def server(hub, access):
+def server(hub: Hub, access: Access) -> HTTPServer:
     """Return the HTTP server; it does not listen yet."""
     for name in ("tornado.access", "tornado.general"):
         logging.getLogger(name).setLevel(logging.CRITICAL)  # whatever strangers send is no news
@@ -271,6 +269,6 @@ def server(hub, access):
     )
 
 
-def _hide_token(record):
+def _hide_token(record: logging.LogRecord) -> bool:
     record.msg, record.args = without_token(record.getMessage()), None
     return True
