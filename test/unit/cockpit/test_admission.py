@@ -1,12 +1,14 @@
-"""Which connection or page is closed when all places are taken: nobody locks out a class."""
+"""Who makes room, and what pages may cost: nobody locks out a class. Times are numbers."""
 
 import pytest
 
 from cockpit_server.access import DRIVER, VIEWER
 from cockpit_server.admission import IDLE_S, Page, connection_to_close, page_to_close
+from cockpit_server.budget import Budget
 
-ADA, BOB = "10.0.0.1", "10.0.0.2"
+ADA, BOB, CY = "10.0.0.1", "10.0.0.2", "10.0.0.3"
 LONG = IDLE_S + 1
+RATE = 0.25  # s/s
 
 
 @pytest.mark.parametrize(
@@ -17,20 +19,18 @@ def test_the_oldest_connection_of_the_fullest_address_is_closed(unused, closed):
     assert connection_to_close(unused) == closed
 
 
+HERE = (DRIVER, ADA, LONG)
+
+
 @pytest.mark.parametrize(
     ("pages", "role", "address", "closed"),
     [
         # a driver replaces the idlest viewer of the fullest address
-        (
-            [(DRIVER, ADA, LONG), (VIEWER, ADA, 1), (VIEWER, BOB, 2), (VIEWER, BOB, 1)],
-            DRIVER,
-            BOB,
-            2,
-        ),
-        ([(DRIVER, ADA, LONG), (VIEWER, ADA, 1)], DRIVER, ADA, 1),
-        ([(DRIVER, ADA, LONG)], DRIVER, BOB, None),
+        ([HERE, (VIEWER, ADA, 1), (VIEWER, BOB, 2), (VIEWER, BOB, 1)], DRIVER, BOB, 2),
+        ([HERE, (VIEWER, ADA, 1)], DRIVER, ADA, 1),
+        ([HERE], DRIVER, BOB, None),
         # a viewer replaces one of an address that has more
-        ([(VIEWER, ADA, 1), (VIEWER, ADA, 2), (VIEWER, BOB, 3)], VIEWER, "10.0.0.3", 1),
+        ([(VIEWER, ADA, 1), (VIEWER, ADA, 2), (VIEWER, BOB, 3)], VIEWER, CY, 1),
         ([(VIEWER, ADA, 1), (VIEWER, ADA, 2), (VIEWER, BOB, 3)], VIEWER, BOB, None),
         # of one address, one that is idle; else two pages would replace each other again and again
         ([(VIEWER, ADA, 1), (VIEWER, ADA, LONG), (VIEWER, ADA, LONG + 1)], VIEWER, ADA, 2),
@@ -38,6 +38,24 @@ def test_the_oldest_connection_of_the_fullest_address_is_closed(unused, closed):
     ],
 )
 def test_the_viewer_that_is_closed_for_a_new_page(pages, role, address, closed):
-    pages = [Page(number, *page) for number, page in enumerate(pages)]
-    page = page_to_close(pages, role, address)
+    page = page_to_close([Page(n, *page) for n, page in enumerate(pages)], role, address)
     assert (page and page.number) == closed
+
+
+def test_a_burst_is_there_at_once_and_what_is_more_is_waited_for():
+    budget = Budget(1.0)
+    assert budget.wait_s(100.0, RATE) == 0.0
+    budget.spend(1.0)
+    assert budget.wait_s(100.0, RATE) == 0.0
+    budget.spend(0.5)
+    for now, rate, wait_s in (
+        (100.0, RATE, 2.0),
+        (100.0, RATE, 2.0),  # a clock that stands still gives nothing
+        (101.0, RATE, 1.0),
+        (101.0, 2 * RATE, 0.5),
+        (102.0, RATE, 0.0),
+        (1000.0, RATE, 0.0),
+    ):
+        assert budget.wait_s(now, rate) == wait_s
+    budget.spend(1.5)  # nobody saves more than a burst
+    assert budget.wait_s(1000.0, RATE) == pytest.approx(2.0)

@@ -1,5 +1,7 @@
 """Subscriptions to what is looked at."""
 
+import pytest
+
 from cockpit_server import feeds
 
 
@@ -9,30 +11,33 @@ class Subscriber:
     def __init__(self, topic, *_):
         if not topic.startswith("/"):
             raise ValueError("no topic")
-        self.topic = topic
 
     def unregister(self):
         raise OSError("the master")
 
 
-def test_a_topic_that_is_refused_keeps_no_other_away(monkeypatch):
-    told = []
+@pytest.fixture
+def waiting(monkeypatch):
+    """What waits for the master's thread."""
+    actions = []
     monkeypatch.setattr(feeds.rospy, "Subscriber", Subscriber)
-    monkeypatch.setattr(feeds, "later", lambda action: action())
+    monkeypatch.setattr(feeds, "later", actions.append)
+    return actions
+
+
+def test_a_topic_that_is_refused_keeps_no_other_away(waiting):
+    told = []
     all_feeds = feeds.Feeds(told.append)
     topics = ["", *(f"/t{i}" for i in range(20)), "x"]  # in a set, so that some come after ""
     for every in (True, False, True):
         all_feeds.want("page", dict.fromkeys(topics, print), every=every)
-        held = {(topic, every) for topic in topics if topic.startswith("/")}
-        assert set(all_feeds._subscribers) == held
+        waiting.pop()()
+        assert set(all_feeds._subscribers) == {(topic, every) for topic in topics[1:-1]}
     assert len(told) == len(topics)  # of each once: two are refused, the others do not end well
     assert sum("ValueError" in line for line in told) == 2
 
 
-def test_however_often_pages_change_their_minds_one_adjustment_waits(monkeypatch):
-    waiting = []
-    monkeypatch.setattr(feeds.rospy, "Subscriber", Subscriber)
-    monkeypatch.setattr(feeds, "later", waiting.append)
+def test_however_often_pages_change_their_minds_one_adjustment_waits(waiting):
     all_feeds = feeds.Feeds(print)
     for number in range(1000):
         all_feeds.want("page", {f"/t{number}": print}, every=True)

@@ -1,47 +1,38 @@
 """When which recorded message is due."""
 
+import pytest
+
 from cockpit_server.player import Player
 
 MESSAGES = [(0.0, "a", 0), (0.5, "b", 0), (1.0, "c", 0)]
 
 
-def player(position=0.0, rate=1.0, loop=False):
-    one = Player(MESSAGES, 1.2, rate, loop)
-    one.seek(position, 10.0)
-    return one
+# After seek(position, 10.0): what is due at these times, one after the other.
+@pytest.mark.parametrize(
+    ("position", "rate", "loop", "due"),
+    [
+        (0.0, 1.0, False, {10.01: "a", 10.49: "", 10.51: "b", 11.3: "c"}),
+        (0.0, 2.0, False, {10.3: "ab"}),
+        (0.0, 0.5, False, {10.9: "a"}),
+        (0.5, 1.0, False, {10.1: "b"}),
+        (5.0, 1.0, False, {10.1: "a"}),  # beyond the end: from the beginning
+        (0.0, 1.0, True, {11.19: "abc", 11.21: "", 11.22: "a"}),
+        (0.0, 1.0, True, {10.6: "ab", 11.21: "c", 11.22: "a"}),
+    ],
+)
+def test_each_message_is_due_once_at_its_time(position, rate, loop, due):
+    player = Player(MESSAGES, 1.2, rate, loop)
+    player.seek(position, 10.0)
+    for now, names in due.items():
+        assert "".join(axes for axes, _ in player.due(now)) == names
 
 
-def names(due):
-    return "".join(axes for axes, _ in due)
-
-
-def test_each_message_once_at_its_time():
-    one = player()
-    assert names(one.due(10.01)) == "a"
-    assert names(one.due(10.49)) == ""
-    assert names(one.due(10.51)) == "b"
-    assert names(one.due(11.3)) == "c"
-    assert one.is_over(11.3) and not one.is_over(11.1)
-    assert one.position(10.75) == 0.75
-
-
-def test_faster_and_slower():
-    assert names(player(rate=2.0).due(10.3)) == "ab"
-    assert names(player(rate=0.5).due(10.9)) == "a"
-
-
-def test_from_a_position_on():
-    assert names(player(position=0.5).due(10.1)) == "b"
-    one = player()
-    one.due(10.1)
-    one.seek(0.9, 10.1)
-    assert names(one.due(10.25)) == "c"
-
-
-def test_the_end_begins_anew():
-    one = player(loop=True)
-    assert names(one.due(11.19)) == "abc"
-    assert names(one.due(11.21)) == ""
-    assert names(one.due(11.22)) == "a"
-    assert not one.is_over(100.0)
-    assert names(player(position=5.0).due(10.1)) == "a"  # beyond the end: from the beginning
+def test_where_it_is_and_when_it_is_over():
+    player = Player(MESSAGES, 1.2, 1.0, loop=False)
+    player.seek(0.0, 10.0)
+    assert [player.position(now) for now in (10.75, 12.0)] == [0.75, 1.2]
+    assert [player.is_over(now) for now in (11.1, 11.3)] == [False, True]
+    player.due(10.1)
+    player.seek(0.9, 10.1)
+    assert player.due(10.25) == [("c", 0)]
+    assert not Player(MESSAGES, 1.2, 1.0, loop=True).is_over(100.0)

@@ -1,47 +1,46 @@
 """Curves: when what is drawn was."""
 
-from io import BytesIO
 from types import SimpleNamespace
 
 import pytest
 import rospy
 from sensor_msgs.msg import Joy
-from std_msgs.msg import Float64
+from std_msgs.msg import Float64, Header
 
 from cockpit_server import plots
 from cockpit_server.graph import Graph
+from tutorial_testing.seat_room import page, serialised
 
 NOW = 1000.0
 
 
-def sample(monkeypatch, kind, message):
-    monkeypatch.setattr(plots.rospy, "get_time", lambda: NOW)
-    field = "/x/axes[0]" if kind == "sensor_msgs/Joy" else "/x/data"
-    graph = Graph(publishers={"/x": {"/n"}}, types={"/x": kind})
-    feeds = SimpleNamespace(want=lambda *_, **__: None)
-    one = plots.Plots(feeds, SimpleNamespace(graph=graph))
-    watch = SimpleNamespace(fields=(field,), field_list=False)
-    client = SimpleNamespace(watch=watch, seen={"plot": 0}, send=None)
-    one.prepare([client], 0.0)
-    data = BytesIO()
-    message.serialize(data)
-    one._hear(SimpleNamespace(data=data.getvalue()), "/x")
-    sent = []
-    client.send = lambda _kind, samples: sent.extend(samples[field])
-    one.give(client, 0.0)
-    (found,) = sent
-    return found
+def joy(stamp):
+    return Joy(Header(stamp=rospy.Time.from_sec(stamp)), [2.5], [])
 
 
 @pytest.mark.parametrize(
-    ("stamp", "t"),
-    [(NOW - 1.0, NOW - 1.0), (NOW + 1.0, NOW + 1.0), (NOW - 1.1, NOW), (NOW + 1.1, NOW), (0, NOW)],
+    ("message", "field", "t"),
+    [
+        (joy(NOW - 1.0), "axes[0]", NOW - 1.0),
+        (joy(NOW + 1.0), "axes[0]", NOW + 1.0),
+        (joy(NOW - 1.1), "axes[0]", NOW),
+        (joy(NOW + 1.1), "axes[0]", NOW),
+        (joy(0), "axes[0]", NOW),
+        (Float64(2.5), "data", NOW),
+    ],
 )
-def test_a_stamp_of_another_clock_is_none(monkeypatch, stamp, t):
-    joy = Joy(axes=[0.5])
-    joy.header.stamp = rospy.Time.from_sec(stamp)
-    assert sample(monkeypatch, "sensor_msgs/Joy", joy) == [t, 0.5]
-
-
-def test_what_has_no_stamp_is_of_now(monkeypatch):
-    assert sample(monkeypatch, "std_msgs/Float64", Float64(2.5)) == [NOW, 2.5]
+def test_a_stamp_that_is_missing_or_of_another_clock_is_now(monkeypatch, message, field, t):
+    monkeypatch.setattr(plots.rospy, "get_time", lambda: NOW)
+    graph = Graph(publishers={"/x": {"/n"}}, types={"/x": message._type})
+    feeds = SimpleNamespace(want=lambda *_, **__: None)
+    source = plots.Plots(feeds, SimpleNamespace(graph=graph))
+    client, sent = page(fields=(f"/x/{field}",), field_list=True)
+    client.seen["plot"] = 0
+    source.prepare([client], 0.0)
+    for data in (serialised(message), b"short"):
+        source._hear(SimpleNamespace(data=data), "/x")
+    source.give(client, 0.0)
+    assert f"/x/{field}" in sent[0]["fields"]
+    assert sent[1]["samples"] == {f"/x/{field}": [[t, 2.5]]}
+    source.give(client, 0.0)
+    assert len(sent) == 2

@@ -1,15 +1,17 @@
-"""What pages are sent of robots and of their joysticks."""
+"""What pages are sent of robots, of their joysticks and of topics."""
 
-from math import inf
+from math import inf, nan
 from types import SimpleNamespace
 
+import pytest
 from sensor_msgs.msg import Joy
-from std_msgs.msg import String
+from std_msgs.msg import Header, String
 
 from cockpit_server import robots as robots_module
 from cockpit_server.graph import JOY, ODOMETRY, Graph
 from cockpit_server.graph_view import LONGEST_MESSAGE, Topic
-from cockpit_server.robots import LONGEST_JOY, Pads, Robots, joy_shown
+from cockpit_server.motion import Motion
+from cockpit_server.robots import LONGEST_JOY, Pads, Robots, joy_shown, shown
 from tutorial_testing.seat_room import page, serialised
 
 
@@ -27,28 +29,37 @@ def graph(*robots):
     )
 
 
-def test_the_names_of_robots_come_when_they_change():
+def test_the_names_of_robots_come_when_they_change_to_pages_that_look_at_them():
     graphs = SimpleNamespace(graph=graph("robot_2", "robot_1"))
-    robots, (one, sent) = Robots(Feeds(), graphs), page(robots=True)
+    robots, (one, sent), (other, nothing) = Robots(Feeds(), graphs), page(robots=True), page()
 
     def names():
         sent.clear()
-        robots.prepare([one], 0.0)
+        robots.prepare([one, other], 0.0)
         robots.give(one, 0.0)
+        robots.give(other, 0.0)
         return [message["names"] for message in sent if message["kind"] == "names"]
 
     assert names() == [["robot_1", "robot_2", "robot_9"]]
     assert names() == []
     graphs.graph = graph("robot_1")
     assert names() == [["robot_1", "robot_9"]]
+    assert nothing == []
 
 
-def test_who_does_not_look_at_robots_is_sent_none():
-    one, sent = page()
-    robots = Robots(Feeds(), SimpleNamespace(graph=graph("robot_1")))
-    robots.prepare([one], 0.0)
-    robots.give(one, 0.0)
-    assert sent == []
+@pytest.mark.parametrize(
+    ("wrong", "left_out"),
+    [
+        ({}, set()),
+        *[(wrong, {"x", "y", "yaw"}) for wrong in ({"x": nan}, {"y": inf}, {"yaw": nan})],
+        *[(wrong, {"x", "y", "yaw"}) for wrong in ({"x": 1e6 + 1}, {"y": -1e300})],
+        ({"w": nan}, {"w"}),
+    ],
+)
+def test_a_place_that_is_none_is_left_out(wrong, left_out):
+    state = Motion(1.0, -1e6, 0.5, 0.25, -0.5)._replace(**wrong)
+    everything = {"x", "y", "yaw", "v", "w", "covered", "age"}
+    assert set(shown(state, 1.0, 2.0, 3.0)) == everything - left_out
 
 
 def test_a_joystick_as_pages_get_it():
@@ -58,7 +69,7 @@ def test_a_joystick_as_pages_get_it():
     joy = Joy(buttons=[0] * ((LONGEST_JOY - 24) // 4))  # beside header and two lengths
     assert len(serialised(joy)) == LONGEST_JOY == 4000
     assert joy_shown(serialised(joy)) == {"axes": [], "buttons": joy.buttons}
-    joy.header.frame_id = "x"
+    joy.header = Header(frame_id="x")
     assert joy_shown(serialised(joy)) is None
 
 
@@ -68,24 +79,21 @@ def test_a_joystick_message_is_read_once_for_all_pages(monkeypatch):
     monkeypatch.setattr(robots_module, "sender_of", lambda message: "/other")
     feeds = Feeds()
     pads = Pads(feeds, SimpleNamespace(graph=graph("robot_1")), "/cockpit")
-    pages = [page(look="robot_1") for _ in range(3)]
+    pages = [page(look=robot) for robot in ("robot_1", "robot_1", "no/such/robot")]
 
     def tick():
-        clients = [one for one, _ in pages]
-        pads.prepare(clients, 0.0)
-        for one in clients:
+        pads.prepare([one for one, _ in pages], 0.0)
+        for one, _ in pages:
             pads.give(one, 0.0)
 
     tick()
+    assert set(feeds.hears) == {"/robot_1/joy"}
     for data in (b"1", b"2"):
         feeds.hears["/robot_1/joy"](SimpleNamespace(data=data), "/robot_1/joy")
         tick()
         tick()
     assert read == [b"1", b"2"]
-    assert [len(sent) for _, sent in pages] == [2, 2, 2]
-    pages.append(page(look="no/such/robot"))
-    tick()
-    assert set(feeds.hears) == {"/robot_1/joy"}
+    assert [len(sent) for _, sent in pages] == [2, 2, 0]
 
 
 def test_the_text_of_a_long_message_is_not_made():
