@@ -16,11 +16,14 @@ from cockpit_server.seat import BAG, RefusedError
 from tutorial_testing.seat_room import page as new_page
 
 
-class Hub:
+class Page:
+    """A page and its recordings; the hub is this, too."""
+
     def __init__(self):
-        self.soon = queue.Queue().put
-        self.wait = self.soon.__self__.get
-        self.seat = SimpleNamespace(driver=None, how="")
+        self.done = queue.Queue()
+        self.soon, self.seat = self.done.put, SimpleNamespace(driver=None, how="")
+        self.bags = bags.Bags(self)
+        self.client, self.sent = new_page()
 
     def sit_down(self, client, _robot, how, _now):
         self.seat = SimpleNamespace(driver=client.number, how=how)
@@ -28,28 +31,16 @@ class Hub:
     def stand_up(self, _client):
         self.seat = SimpleNamespace(driver=None, how="")
 
-
-class Page:
-    def __init__(self):
-        self.hub = Hub()
-        self.bags = bags.Bags(self.hub)
-        self.client, self.sent = new_page()
-
     def say(self, kind, **fields):
         getattr(self.bags, f"on_{kind}")(self.client, 0.0, **fields)
 
+    def show(self):
+        self.done.get(timeout=60)()
+        self.bags.give(self.client, 0.0)
+
     def open(self, name):
         self.say("bag_open", name=name)
-        done = self.hub.wait(timeout=60)
-
-        def show():
-            done()
-            self.bags.give(self.client, 0.0)
-
-        return show
-
-    def play(self):
-        self.say("bag_play", topic="/joy", rate=1.0, loop=False, robot="")
+        self.show()
 
 
 @pytest.fixture
@@ -65,7 +56,7 @@ def page(monkeypatch, tmp_path):
 
 
 def test_what_is_not_finite_is_left_out_of_curves(page):
-    page.open("odd.bag")()
+    page.open("odd.bag")
     assert page.sent[-1]["path"] == "odd.bag"
     assert page.sent[-1]["curves"] == {
         "/joy/axes[0]": [[0.0, 0.25], [2.0, 0.25]],
@@ -77,21 +68,21 @@ def test_what_is_not_finite_is_left_out_of_curves(page):
 
 @pytest.mark.parametrize("broken", ["read", "encoded"])
 def test_what_cannot_be_shown_is_refused_and_not_opened(page, monkeypatch, broken):
-    page.open("good.bag")()
+    page.open("good.bag")
     monkeypatch.setattr(recording, broken, lambda *_, **__: [].pop())
-    page.open("odd.bag")()
+    page.open("odd.bag")
     assert page.sent[-1]["kind"] == "refused"
     assert page.sent[-1]["why"].startswith("odd.bag: IndexError")
     assert page.bags._opened[7].name == "good.bag"
 
 
 def test_what_plays_when_another_is_shown_is_ended(page):
-    page.open("good.bag")()
-    show = page.open("odd.bag")
-    page.play()
-    assert page.hub.seat.how == BAG
-    show()
-    assert page.hub.seat.driver is None
+    page.open("good.bag")
+    page.say("bag_open", name="odd.bag")
+    page.say("bag_play", topic="/joy", rate=1.0, loop=False, robot="")
+    assert page.seat.how == BAG
+    page.show()
+    assert page.seat.driver is None
     assert page.sent[-1]["path"] == "odd.bag"
 
 
@@ -99,8 +90,8 @@ def test_a_page_opens_one_recording_at_a_time(page):
     page.say("bag_open", name="good.bag")
     with pytest.raises(RefusedError, match="is being opened"):
         page.say("bag_open", name="odd.bag")
-    page.hub.wait(timeout=60)()
-    page.open("odd.bag")()
+    page.show()
+    page.open("odd.bag")
     assert page.sent[-1]["path"] == "odd.bag"
 
 
@@ -109,19 +100,19 @@ def test_a_recording_is_read_once_for_all_pages(page, monkeypatch):
     monkeypatch.setattr(recording, "read", lambda path: read_so_far.append(path.name) or read(path))
     for _ in range(3):
         for name in ("good.bag", "odd.bag"):
-            page.open(name)()
+            page.open(name)
     assert read_so_far == ["good.bag", "odd.bag"]
 
 
 def test_all_recordings_together_are_bounded(page, monkeypatch):
     monkeypatch.setattr(recording, "MOST_MESSAGES", 5)  # of 3 messages each there is room for one
-    page.open("good.bag")()
+    page.open("good.bag")
     page.bags.prepare([page.client], 0.0)
-    page.open("odd.bag")()
+    page.open("odd.bag")
     assert page.sent[-1]["why"] == "other pages have long recordings open: close one of them"
     assert page.bags._opened[7].name == "good.bag"
     page.bags.prepare([], 0.0)  # the page is gone
-    page.open("odd.bag")()
+    page.open("odd.bag")
     assert page.bags._opened[7].name == "odd.bag"
 
 

@@ -4,19 +4,9 @@ from types import SimpleNamespace
 
 import pytest
 
+from cockpit_server import drives
 from cockpit_server.access import DRIVER, VIEWER
-from cockpit_server.drives import (
-    LOOKS_ONLY,
-    NO_ROBOT,
-    About,
-    Drives,
-    again,
-    driver,
-    how_to,
-    lost_text,
-    ready,
-    who,
-)
+from cockpit_server.drives import LOOKS_ONLY, NO_ROBOT, About, Drives
 from cockpit_server.graph import Graph
 from cockpit_server.resets import Resets
 from cockpit_server.seat import BAG, PAGE, RefusedError, Seat
@@ -50,62 +40,57 @@ WHO = {
 @pytest.mark.parametrize("case", WHO)
 def test_who_drives(case):
     about, said = WHO[case]
-    assert who(about, "ada", ANNA) == said
-    assert who(about, "", ANNA) == said.replace("ada", "the robot")
-    assert (driver(about) == "") == said.startswith(("Nobody", "No joystick"))
+    assert drives.who(about, "ada", ANNA) == said
+    assert drives.who(about, "", ANNA) == said.replace("ada", "the robot")
+    assert (drives.driver(about) == "") == said.startswith(("Nobody", "No joystick"))
 
 
 UNHEARD = "No node subscribes to /ada/joy: nothing moves before you start joy2twist for ada."
-READY = {
-    "drives": (SEAT, "Hold LB, then move the stick."),
-    "sits down": (SEAT._replace(armed=False), "Release LB and the stick first."),
+BY_LB = "Hold LB (a thumb, a gamepad's button, the key Shift), then move the stick (or arrow keys)."
+BY_77 = "Hold button 77 (a gamepad's button), then move the stick (or arrow keys)."
+FREELY = "Move the stick (a thumb, a gamepad, the arrow keys)."
+RB, ODD = ({"state": "armed", "deadman": button} for button in ("5", "77"))
+READY = {  # -> why it stands and what to do now; how it is driven, without "Esc: stop."
+    "drives": (SEAT, "Hold LB, then move the stick.", BY_LB),
+    "sits down": (SEAT._replace(armed=False), "Release LB and the stick first.", BY_LB),
     "was stopped": (SEAT._replace(armed=False, why="hidden"),
-        "Stopped: hidden. Release LB and the stick, then hold LB again."),
-    "no button": (SEAT._replace(said=FREE), "Move the stick: this robot needs no button held."),
-    "no button, sits down": (SEAT._replace(said=FREE, armed=False), "Release the stick first."),
+        "Stopped: hidden. Release LB and the stick, then hold LB again.", BY_LB),
+    "no button": (SEAT._replace(said=FREE),
+        "Move the stick: this robot needs no button held.", FREELY),
+    "no button, sits down": (
+        SEAT._replace(said=FREE, armed=False), "Release the stick first.", FREELY),
     "no button, was stopped": (SEAT._replace(said=FREE, armed=False, why="hidden"),
-        "Stopped: hidden. Release the stick, then move it again."),
-    "RB": (SEAT._replace(said={"state": "armed", "deadman": "5"}), "Hold RB, then move the stick."),
-    "plays": (SEAT._replace(how=BAG, why=""), ""),
-    "looks on": (About(said=ARMED), ""),
-    "it stopped": (About(said=ARMED, why="the network is down"), "Stopped: the network is down."),
-    "without joy2twist": (SEAT._replace(is_heard=False, armed=False), UNHEARD),
-    "without joy2twist, looks on": (About(is_heard=False), UNHEARD),
-    "without joy2twist, stopped": (About(is_heard=False, why="it"), f"Stopped: it. {UNHEARD}"),
+        "Stopped: hidden. Release the stick, then move it again.", FREELY),
+    "RB": (SEAT._replace(said=RB), "Hold RB, then move the stick.", BY_LB.replace(
+        "LB (a thumb, a gamepad's button, the key Shift)", "RB (a gamepad's button)")),
+    "a button without a name": (
+        SEAT._replace(said=ODD), "Hold button 77, then move the stick.", BY_77),
+    "plays": (SEAT._replace(how=BAG), "", ""),
+    "looks on": (About(said=ARMED), "", BY_LB),
+    "another page drives": (SEAT._replace(driver=BOB), "", ""),
+    "a node drives": (About(said=MOVING), "", ""),
+    "it stopped": (
+        About(said=ARMED, why="the network is down"), "Stopped: the network is down.", BY_LB),
+    "without joy2twist": (SEAT._replace(is_heard=False, armed=False), UNHEARD, ""),
+    "without joy2twist, looks on": (About(is_heard=False), UNHEARD, ""),
+    "without joy2twist, stopped": (About(is_heard=False, why="it"), f"Stopped: it. {UNHEARD}", ""),
 }  # fmt: skip
 
 
 @pytest.mark.parametrize("case", READY)
 def test_why_it_stands_and_what_to_do(case):
-    about, said = READY[case]
-    assert ready(about, "ada", ANNA, may_drive=True) == said
-
-
-def test_a_page_that_may_only_look_says_why():
-    assert ready(About(), "ada", ANNA, may_drive=False) == LOOKS_ONLY
-    assert how_to(About(), ANNA, may_drive=False) == ""
-    stopped = ready(About(why="hidden"), "ada", ANNA, may_drive=False)
-    assert stopped == f"Stopped: hidden. {LOOKS_ONLY}"
-
-
-def test_how_to_drive_names_the_button_that_is_needed_and_no_other():
-    assert how_to(SEAT, ANNA, True).startswith("Hold LB (a thumb, a gamepad's button, the key S")
-    assert "Hold" not in how_to(SEAT._replace(said=FREE), ANNA, True)
-    for other in (
-        SEAT._replace(how=BAG),
-        SEAT._replace(is_heard=False),
-        SEAT._replace(driver=BOB),
-        About(said=MOVING),
-    ):
-        assert how_to(other, ANNA, True) == ""
-    other = SEAT._replace(said={"state": "armed", "deadman": "77"})
-    assert "Hold button 77 " in how_to(other, ANNA, True)
-    assert again(SEAT._replace(said=FREE)) == "Release the stick, then move it again."
+    about, said, how = READY[case]
+    assert drives.ready(about, "ada", ANNA, may_drive=True) == said
+    assert drives.how_to(about, ANNA, may_drive=True) == f"{how} Esc: stop." * bool(how)
+    assert drives.how_to(about, ANNA, may_drive=False) == ""
+    if about.driver is None:
+        viewed = drives.ready(about, "ada", ANNA, may_drive=False)
+        assert viewed == f"{said} {LOOKS_ONLY}".strip()
 
 
 def test_a_refusal_is_not_called_a_stop():
-    assert lost_text("hidden", keeps_seat=True) == "Stopped: hidden."
-    assert lost_text("it ended", keeps_seat=False) == "This page no longer drives: it ended."
+    assert drives.lost_text("hidden", keeps_seat=True) == "Stopped: hidden."
+    assert drives.lost_text("it ended", keeps_seat=False) == "This page no longer drives: it ended."
 
 
 class Room:
@@ -142,6 +127,8 @@ def test_a_page_is_sent_the_words_when_they_change():
     room.seat.leave(ANNA)
     assert room.look()["who"] == "Nobody drives." and room.sent[-1]["drivers"] == {"ada": ""}
     assert room.outdated == ["ada"]  # that joy2twist was driving is no longer true
+    room.listeners = set()
+    assert room.look()["ready"] == UNHEARD
 
 
 def test_a_stop_is_old_once_a_recording_drives():
@@ -152,12 +139,6 @@ def test_a_stop_is_old_once_a_recording_drives():
     assert room.look()["who"] == "/rosbag_play drives ada."
     room.report, room.senders = ARMED, ()
     assert (room.look()["who"], room.look()["ready"]) == ("Nobody drives.", "")
-
-
-def test_a_robot_without_joy2twist_is_said_to_stand():
-    room = Room()
-    room.listeners = set()
-    assert room.look()["ready"] == UNHEARD
 
 
 def test_a_robot_is_not_reset_while_a_node_drives_it():

@@ -18,7 +18,7 @@ from cockpit_server.surroundings import (
     Surroundings,
     map_shown,
     scan_points,
-)  # fmt: skip
+)
 from tutorial_testing.seat_room import page, serialised
 
 TYPES = {
@@ -37,14 +37,8 @@ def grid(rows, columns, data, cell=0.5):
 
 
 def scan(ranges, **fields):
-    fields = {
-        "angle_min": -0.5,
-        "angle_increment": 0.5,
-        "range_min": 0.4,
-        "range_max": 9.0,
-        **fields,
-    }
-    message = LaserScan(ranges=ranges, **fields)
+    limits = {"angle_min": -0.5, "angle_increment": 0.5, "range_min": 0.4, "range_max": 9.0}
+    message = LaserScan(ranges=ranges, **{**limits, **fields})
     message.header.frame_id = "ada/camera"
     return message
 
