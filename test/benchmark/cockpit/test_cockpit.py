@@ -1,8 +1,6 @@
 """What a page costs: time of an input, and of a processor for thirty robots on five pages."""
 
 import json
-import os
-import statistics
 import subprocess
 import sys
 import time
@@ -33,6 +31,7 @@ FLOOD = flood_program.__file__
 FLOODERS, FLOOD_S, INPUTS_PER_S = 30, 60, 50
 MOST_FLOODED_S, MOST_MORE_KB = 0.05, 20_000
 LEAST_FRAMES = 15  # in a second, of 20, on a busy machine
+READ = {"stdout": subprocess.PIPE, "text": True}
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -45,7 +44,7 @@ def start_cockpit(stack, *options):
     """(process, port, tokens) of a cockpit that serves its page; with --lan: to look, to drive."""
     port = free_port()
     command = [node_path("cockpit", "cockpit.py"), "--port", str(port), *options]
-    process = stack.enter_context(running(command, stdout=subprocess.PIPE, text=True))
+    process = stack.enter_context(running(command, **READ))
     lines = [process.stdout.readline() for _ in range(2 if "--lan" in options else 1)]
     return process, port, [line.partition("token=")[2].strip() for line in lines]
 
@@ -58,8 +57,21 @@ def percentile(values, share):
     return sorted(values)[min(len(values) - 1, int(share * len(values)))]
 
 
-def told(*command):
-    return subprocess.run(command, check=False, capture_output=True, text=True).stdout
+def program(name, *arguments):
+    return [sys.executable, str(HERE / name), *map(str, arguments)]
+
+
+def start_viewers(stack, port, *looks):
+    """Viewers that look for so many seconds, or that read nothing ("stalled"), once all look."""
+    commands = [program("viewer.py", port, look) for look in looks]
+    viewers = [stack.enter_context(running(one, **READ)) for one in commands]
+    wait_for_ready(viewers)
+    return viewers
+
+
+def wait_for_ready(programs):
+    for one in programs:
+        assert one.stdout.readline() == "ready\n"
 
 
 def start_drive(stack):
@@ -68,13 +80,15 @@ def start_drive(stack):
     joy2twist = ["rosrun", "joy2twist", "joy2twist.py", "_arm_on_neutral:=true", "_log_rate:=0"]
     stack.enter_context(running(joy2twist))
     echo_port = free_port()
-    stack.enter_context(running([sys.executable, str(HERE / "echo.py"), str(echo_port)]))
-    wait_for(lambda: "NewJoy2Twist" in told("rostopic", "info", "/joy"), "joy2twist", START_S)
+    stack.enter_context(running(program("echo.py", echo_port)))
+    info = ["rostopic", "info", "/joy"]
+    told = lambda: subprocess.run(info, check=False, capture_output=True).stdout  # noqa: E731
+    wait_for(lambda: b"NewJoy2Twist" in told(), "joy2twist", START_S)
     return echo_port
 
 
 def drive(port, echo_port, count, *token):
-    probe = [sys.executable, str(HERE / "probe.py"), str(port), str(echo_port), str(count), *token]
+    probe = program("probe.py", port, echo_port, count, *token)
     done = subprocess.run(probe, stdout=subprocess.PIPE, text=True, check=True, timeout=300)
     return json.loads(done.stdout)
 
@@ -84,23 +98,20 @@ def test_an_input_until_the_velocity(figure):
         echo_port = start_drive(stack)
         _, port, _ = start_cockpit(stack)
         heard = drive(port, echo_port, INPUTS)
-    medians = {name: statistics.median(heard[name]) for name in ("input", "echo")}
-    worst = {name: percentile(heard[name], 0.99) for name in ("input", "echo")}
-    for name, times, most in (
-        ("median", medians, MEDIAN_MORE_S),
-        ("99 of 100", worst, WORST_MORE_S),
-    ):
-        more = times["input"] - times["echo"]
+    excess = []
+    for name, share, most in (("median", 0.5, MEDIAN_MORE_S), ("99 of 100", 0.99, WORST_MORE_S)):
+        input_s, echo_s = (percentile(heard[kind], share) for kind in ("input", "echo"))
+        more = milliseconds(input_s - echo_s)
         figure(
             f"an input in the page until /cmd_vel / a bare WebSocket echo, {name}",
-            f"{milliseconds(times['input'])} / {milliseconds(times['echo'])}: {milliseconds(more)}",
+            f"{milliseconds(input_s)} / {milliseconds(echo_s)}: {more}",
             f"≤ {milliseconds(most)} more",
         )
+        excess.append(input_s - echo_s - most)
     # On a busy machine the operator is lost now and then, and what is held then is not driven.
     figure("velocities for inputs", f"{len(heard['input'])} of {INPUTS}", "all, on an idle machine")
     assert len(heard["input"]) > INPUTS / 2
-    assert medians["input"] - medians["echo"] <= MEDIAN_MORE_S
-    assert worst["input"] - worst["echo"] <= WORST_MORE_S
+    assert max(excess) <= 0
 
 
 def test_a_flood_of_viewers(figure):
@@ -112,8 +123,8 @@ def test_a_flood_of_viewers(figure):
         alone = drive(port, echo_port, INPUTS, to_drive)
         before_kb = sample(0.0, "server", process.pid).memory_kb
         command = [sys.executable, FLOOD, str(port), to_look, str(FLOODERS), str(FLOOD_S)]
-        flood = stack.enter_context(running(command, stdout=subprocess.PIPE, text=True))
-        assert flood.stdout.readline() == "ready\n"
+        flood = stack.enter_context(running(command, **READ))
+        wait_for_ready([flood])
         began_s, used_s = time.monotonic(), processor_time(process.pid)
         heard = drive(port, echo_port, FLOOD_S * INPUTS_PER_S, to_drive)
         share = (processor_time(process.pid) - used_s) / (time.monotonic() - began_s)
@@ -158,9 +169,7 @@ def test_thirty_robots_on_five_pages(figure, world):
         stack.enter_context(running([*robots, *([f"_world:={world}"] * bool(world))]))
         process, port, _ = start_cockpit(stack)
         shares, frames, longest = measure_viewers(stack, process, port)
-        stalled = [sys.executable, str(HERE / "viewer.py"), str(port), "stalled"]
-        idle = stack.enter_context(running(stalled, stdout=subprocess.PIPE, text=True))
-        assert idle.stdout.readline() == "ready\n"
+        start_viewers(stack, port, "stalled")
         shares2, frames2, longest2 = measure_viewers(stack, process, port)
     figure(
         f"{ROBOTS} robots{' in the ' * bool(world)}{world} on {VIEWERS} pages: processor time"
@@ -180,10 +189,11 @@ def test_thirty_robots_on_five_pages(figure, world):
 
 def simulate(stack, seconds):
     """(simulator, observer) of 30 robots on the master that ROS_MASTER_URI names."""
-    simulator = [node_path("fake_turtlebot_sim", "fake_turtlebot.py"), f"_robots:={ROBOTS}"]
     observer = [sys.executable, str(LIVE / "observer.py"), str(seconds), *WATCHED]
-    options = {"stdout": subprocess.PIPE, "text": True}
-    return [stack.enter_context(one) for one in (running(simulator), running(observer, **options))]
+    simulator = running(
+        [node_path("fake_turtlebot_sim", "fake_turtlebot.py"), f"_robots:={ROBOTS}"]
+    )
+    return [stack.enter_context(one) for one in (simulator, running(observer, **READ))]
 
 
 def test_nothing_grows(figure, request, monkeypatch):
@@ -200,12 +210,8 @@ def test_nothing_grows(figure, request, monkeypatch):
             other.setenv("ROS_MASTER_URI", "")  # which master() sets, and this puts back
             stack.enter_context(master())
             _, observer_alone = simulate(stack, seconds)
-        looks = [str(seconds)] * VIEWERS + ["stalled"]
-        programs = [[sys.executable, str(HERE / "viewer.py"), str(port), one] for one in looks]
-        options = {"stdout": subprocess.PIPE, "text": True}
-        *viewers, _ = (stack.enter_context(running(one, **options)) for one in programs)
-        for one in (*viewers, observer, observer_alone):
-            assert one.stdout.readline() == "ready\n"
+        *viewers, _ = start_viewers(stack, port, *[seconds] * VIEWERS, "stalled")
+        wait_for_ready([observer, observer_alone])
         samples, began_s = [], time.monotonic()
         while time.monotonic() - began_s < seconds:
             for name, pid in (("server", process.pid), ("simulator", robots.pid)):
@@ -236,11 +242,7 @@ def test_nothing_grows(figure, request, monkeypatch):
 
 def measure_viewers(stack, process, port):
     """(processor time of the server [s/s], frames of each page [1/s], longest gaps [s])."""
-    command = [sys.executable, str(HERE / "viewer.py"), str(port), str(SECONDS)]
-    options = {"stdout": subprocess.PIPE, "text": True, "env": dict(os.environ)}
-    viewers = [stack.enter_context(running(command, **options)) for _ in range(VIEWERS)]
-    for viewer in viewers:
-        assert viewer.stdout.readline() == "ready\n"
+    viewers = start_viewers(stack, port, *[SECONDS] * VIEWERS)
     began_s, used_s = time.monotonic(), processor_time(process.pid)
     heard = [json.loads(viewer.stdout.readline()) for viewer in viewers]
     share = (processor_time(process.pid) - used_s) / (time.monotonic() - began_s)

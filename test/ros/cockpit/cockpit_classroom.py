@@ -4,7 +4,9 @@
 import time
 import unittest
 
+import rospy
 import rostest
+from nav_msgs.msg import Odometry
 
 from node_kit.arming import DRIVING
 from tutorial_testing.cockpit_rig import CockpitRig
@@ -12,13 +14,14 @@ from tutorial_testing.nodes import init_node
 from tutorial_testing.waiting import wait_for
 
 OURS, OTHERS = "robot_2", ("robot_1", "robot_3")
+NEAR_M = 0.05  # at 0.35 m/s within a tenth of a second
 
 
 class Classroom(unittest.TestCase):
     def test_one_robot_of_three(self):
         with CockpitRig(robot=OURS) as rig, rig.page() as page:
             self.assertEqual(page.wait_for("hello")["robots"], sorted([OURS, *OTHERS]))
-            page.watch(robots=True)
+            page.watch(robots=True, look=OURS)
 
             def seen():
                 return page.of("robots")[-1]["robots"]
@@ -30,6 +33,12 @@ class Classroom(unittest.TestCase):
             page.wait_for("teleop", lambda told: [told["robot"], told["state"]] == [OURS, DRIVING])
             page.say("leave")
             rig.rest_after(time.time())
+            at = rospy.wait_for_message(f"/{OURS}/odom", Odometry).pose.pose.position
+            wait_for(lambda: abs(seen()[OURS]["x"] - at.x) < 0.001, "place of its odometry")
+            self.assertAlmostEqual(seen()[OURS]["y"], at.y, delta=0.001)
+            self.assertAlmostEqual(seen()[OURS]["covered"], at.x, delta=NEAR_M)
+            self.assertEqual(page.of("pad")[-1]["axes"], [0.0] * 6)
+            page.wait_for("teleop", lambda told: [told["state"], told["level"]] == ["stopped", 1])
             for robot in OTHERS:
                 self.assertEqual(seen()[robot]["x"], start[robot]["x"])
             page.say("reset", robot=OURS)
