@@ -94,6 +94,12 @@ def test_a_joystick_message_is_read_once_for_all_pages(monkeypatch):
         tick()
     assert read == [b"1", b"2"]
     assert [len(sent) for _, sent in pages] == [2, 2, 0]
+    monkeypatch.setattr(robots_module, "joy_shown", lambda data: [].pop())
+    monkeypatch.setattr(robots_module, "sender_of", lambda message: "/rival")
+    with pytest.raises(IndexError):
+        feeds.hears["/robot_1/joy"](SimpleNamespace(data=b""), "/robot_1/joy")
+    assert pads.rival("robot_1", 0.0) == "/rival"  # whatever is in its message
+    assert pads.rival("robot_1", inf) is None
 
 
 def test_the_text_of_a_long_message_is_not_made():

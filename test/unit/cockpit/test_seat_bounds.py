@@ -87,25 +87,25 @@ def test_a_clock_that_is_slow_by_less_than_a_thousandth_is_no_delay(room, share,
     assert room.seat.newest == taken
 
 
-def held(*pads, now=10.0):
+def held(*pads, now=0.0):
     """Hold the stick still while the gamepad's own time is this."""
     return [(now, STICK, pad) for pad in pads]
 
 
 def moved(*pads):
-    return [(10.0, ((0.0, 0.5 + pad / 100, 0.0, 0.0, 0.0, 0.0), DRIVE[1]), pad) for pad in pads]
+    return [(0.0, ((0.0, 0.5 + pad / 100, 0.0, 0.0, 0.0, 0.0), DRIVE[1]), pad) for pad in pads]
 
 
 def still(pad):
-    """Hold it until a fifth of a second after 10, and for a moment longer."""
-    return held(pad, now=10.2) + held(pad, now=10.201)
+    """Hold it for a fifth of a second, and for a moment longer."""
+    return held(pad, now=0.2) + held(pad, now=0.201)
 
 
 PADS = {  # (time, position, the gamepad's own time) -> whether it is frozen at the last, not before
     "it went on 7 times": (held(*range(8)) + still(7), False),
     "8 times": (held(*range(9)) + still(8), True),
     "another gamepad, with an earlier time": (
-        held(*range(1000, 1009)) + held(5, now=10.15) + held(5, now=10.25), False),
+        held(*range(1000, 1009)) + held(5, now=0.15) + held(5, now=0.25), False),
     "7 times after it stood still": (held(*range(8), 7, *range(8, 15)) + still(14), False),
     "8 times after it stood still": (held(*range(8), 7, *range(8, 16)) + still(15), True),
     "while it moved": (moved(*range(20)) + still(19), False),
@@ -115,14 +115,17 @@ PADS = {  # (time, position, the gamepad's own time) -> whether it is frozen at 
 }  # fmt: skip
 
 
+@pytest.mark.parametrize("begin", [0.0, 10.0])
 @pytest.mark.parametrize("case", PADS)
-def test_a_gamepad_whose_time_went_on_eight_times_is_frozen_after_a_fifth_of_a_second(room, case):
+def test_a_gamepad_whose_time_went_on_eight_times_is_frozen_after_a_fifth_of_a_second(
+    room, case, begin
+):
     inputs, is_frozen = PADS[case]
-    sit(room, 10.0)
-    hand(room, 1, 10.0)
+    sit(room, begin)
+    hand(room, 1, begin)
     for n, (now, position, pad) in enumerate(inputs, 2):
         assert room.lost == []
-        room.seat.beat(n, now)
-        hand(room, n, now, position, beat=n, pad=pad)
+        room.seat.beat(n, begin + now)
+        hand(room, n, begin + now, position, beat=n, pad=pad)
     assert room.lost == [(ANNA, FROZEN)] * is_frozen
     assert room.sent[-1] == ("ada", *(REST if is_frozen else inputs[-1][1]))

@@ -2,7 +2,7 @@
 
 A page of somewhere else can have a browser of this network send us requests: under our address,
 with its own Origin, or under a name of its own that it lets point to us (DNS rebinding). So the
-Host must be ours, and the Origin the same. Nobody can let an address in numbers point elsewhere.
+Host must be ours, and the Origin the same. An address in numbers cannot be made to point elsewhere.
 """
 
 from __future__ import annotations

@@ -61,8 +61,8 @@ class Raw(rospy.AnyMsg):
 class Feeds:
     """The topics that are wanted now. Used by one thread, except for the messages."""
 
-    def __init__(self, tell: Callable[[str], None]) -> None:
-        self._guard = Guard(tell)
+    def __init__(self, report: Callable[[str], None]) -> None:
+        self._guard = Guard(report)
         # owner -> ({topic: hear}, whether every message is wanted)
         self._wants: dict[Hashable, tuple[Mapping[str, Hear], bool]] = {}
         self._listeners: dict[str, list[Hear]] = {}
@@ -89,7 +89,7 @@ class Feeds:
 
     def _adjust(self) -> None:
         wanted = self._wanted
-        # One that rospy refuses must not keep the others away, by which a rival is noticed, too.
+        # A topic that rospy refuses must not hold up the others, which also show a rival.
         for key in set(self._subscribers) - wanted:
             self._guard(repr(key[0]), self._subscribers.pop(key).unregister)
         for key in wanted - set(self._subscribers):

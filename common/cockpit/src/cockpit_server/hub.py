@@ -38,10 +38,10 @@ class Hub(Source):
 
     def __init__(
         self, soon: Callable[[Callable[[], Any]], Any], graph_watch: GraphWatch, joysticks: Any,
-        pads: Any, tell: Callable[[str], None],
+        pads: Any, report: Callable[[str], None],
     ) -> None:  # fmt: skip
-        """soon: runs an action in this thread. tell: reports a failure at once."""
-        self._guard = Guard(tell)
+        """soon: runs an action in this thread. report: reports a failure at once."""
+        self._guard = Guard(report)
         self.soon, self._graphs, self._joysticks, self._pads = soon, graph_watch, joysticks, pads
         self._sources: tuple[Source, ...] = ()
         self.clients: dict[int, Client] = {}

@@ -117,7 +117,7 @@ def main() -> int:
     wait_for_master()
 
     def spin(_parameters: Any) -> None:
-        tell(options.port, access)
+        print_address(options.port, access)
         uri, page = rosgraph.get_master_uri(), f"http://127.0.0.1:{options.port}/"
         before = call(uri, "getParam", PARAMETER)[1]
         rospy.set_param(PARAMETER, page)
@@ -131,12 +131,12 @@ def main() -> int:
                 if before != page and accepts(str(before)):
                     call(uri, "setParam", PARAMETER, before)
         if cockpit.has_lost_master:
-            begin_anew(access)
+            restart(access)
 
     return run(NODE_NAME, no_parameters, spin, keeps_name=True)
 
 
-def begin_anew(access: Access) -> NoReturn:
+def restart(access: Access) -> NoReturn:
     """Replace this process, with the same tokens: rospy knows one master."""
     report("the ROS master has gone")
     if access.driver_token:
@@ -145,7 +145,7 @@ def begin_anew(access: Access) -> NoReturn:
 
 
 def new_access() -> Access:
-    """Return an Access for other machines, with new tokens or those from begin_anew()."""
+    """Return an Access for other machines, with new tokens or those from restart()."""
     host = socket.gethostname().lower()
     kept = os.environ.pop(TOKENS, "").split()
     driver, viewer = kept or [secrets.token_urlsafe(TOKEN_BYTES) for _ in range(2)]
@@ -179,7 +179,7 @@ def where(page: str) -> str:
     return f"open {page} on this machine"
 
 
-def tell(port: int, access: Access) -> None:
+def print_address(port: int, access: Access) -> None:
     """Print the page's address; a token is shown nowhere else."""
     if access.driver_token is None:
         report(where(f"http://127.0.0.1:{port}/"))

@@ -121,7 +121,7 @@ class Shelf:
     def __init__(self) -> None:
         # what the file is -> (Recording, message of it to pages); the last one was taken last
         self._read: dict[Any, tuple[Recording, str]] = {}
-        self.in_use: Sequence[Recording] = ()  # that pages have open; set anew, never changed
+        self.in_use: Sequence[Recording] = ()  # that pages have open; replaced, never changed
 
     def take(self, path: Path) -> tuple[Recording, str]:
         """Return (Recording, message) of a file. Raises RecordingError."""

@@ -126,8 +126,7 @@ class Pads(Source):
         return name if spoke >= since and name else None
 
     def _hear(self, message: Any, topic: str) -> None:
-        now = time.monotonic()
-        self._newest[topic] = (now, joy_shown(message.data))
-        sender = sender_of(message)
+        now, sender = time.monotonic(), sender_of(message)
         if sender != self._own_name:
             self._rivals[topic] = (sender, now)
+        self._newest[topic] = (now, joy_shown(message.data))

@@ -24,8 +24,8 @@ WATCH = "watch"
 Check = Callable[[Any], Any]
 
 
-def that(fits: Callable[[Any], bool], must: str) -> Check:
-    """Return a check that takes a value that fits. must: what it has to be, for the refusal."""
+def require(fits: Callable[[Any], bool], must: str) -> Check:
+    """Return a check of one rule. must: the rule in words, such as "be 0 or 1"."""
 
     def check(value: Any) -> Any:
         if not fits(value):
@@ -35,14 +35,14 @@ def that(fits: Callable[[Any], bool], must: str) -> Check:
     return check
 
 
-whole = that(lambda v: is_whole(v) and 0 <= v <= LARGEST, "be a whole number from 0")
-pressed = that(lambda v: is_whole(v) and v in (0, 1), "be 0 or 1")
-switch = that(lambda v: isinstance(v, bool), "be true or false")
-text = that(
+whole = require(lambda v: is_whole(v) and 0 <= v <= LARGEST, "be a whole number from 0")
+pressed = require(lambda v: is_whole(v) and v in (0, 1), "be 0 or 1")
+switch = require(lambda v: isinstance(v, bool), "be true or false")
+text = require(
     lambda v: isinstance(v, str) and len(v) <= LONGEST_TEXT and v.isprintable(),
     f"be a text of at most {LONGEST_TEXT} characters",
 )
-begins_at_root = that(lambda v: v.startswith("/"), "begin with /")
+begins_at_root = require(lambda v: v.startswith("/"), "begin with /")
 
 
 def full_name(value: Any) -> Any:
@@ -51,14 +51,14 @@ def full_name(value: Any) -> Any:
 
 
 def number(least: float, most: float) -> Check:
-    check = that(
+    check = require(
         lambda v: is_number(v) and least <= v <= most, f"be a number from {least:g} to {most:g}"
     )
     return lambda value: float(check(value))
 
 
 def one_of(*values: str) -> Check:
-    return that(lambda v: isinstance(v, str) and v in values, f"be {', '.join(values)}")
+    return require(lambda v: isinstance(v, str) and v in values, f"be {', '.join(values)}")
 
 
 def or_null(check: Check) -> Check:
@@ -66,7 +66,9 @@ def or_null(check: Check) -> Check:
 
 
 def list_of(check: Check, most: int) -> Check:
-    is_list = that(lambda v: isinstance(v, list) and len(v) <= most, f"be a list of at most {most}")
+    is_list = require(
+        lambda v: isinstance(v, list) and len(v) <= most, f"be a list of at most {most}"
+    )
     return lambda value: tuple([check(one) for one in is_list(value)])
 
 

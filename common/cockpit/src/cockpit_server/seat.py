@@ -2,8 +2,8 @@
 
 Every method is given the time `now` [s] of one clock that never jumps; nothing here reads a clock.
 
-The rule for every loss: one neutral message, then silence, and nothing but silence until all
-buttons and sticks were seen released. A page that is still there keeps the seat.
+The rule for every loss: one neutral message, then silence until all buttons and sticks were seen
+released. A page that is still there keeps the seat.
 """
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ class Seat:
         """send: called with (robot, axes, buttons) for each message to publish. lost: called with
         (client, why) when a client has lost its robot.
         """
-        self._send, self._tell_lost = send, lost
+        self._send, self._report_lost = send, lost
         self._has_ended = False
         self._beats: dict[int, float] = {}  # number -> when it was sent
         self.driver: int | None = None
@@ -180,7 +180,7 @@ class Seat:
         self._keep(why)
         self._rest()
         self.armed = False
-        self._tell_lost(self.driver, why)
+        self._report_lost(self.driver, why)
         if self.how == BAG:
             self._clear()
 
@@ -192,7 +192,7 @@ class Seat:
         self._keep(why)
         self._rest()
         self._clear()
-        self._tell_lost(driver, why)
+        self._report_lost(driver, why)
 
     def _keep(self, why: str) -> None:
         """Keep the reason of a stop, if the robot moved until now."""

@@ -106,13 +106,13 @@ class Surroundings(Source):
 
 
 def read(kind: Any, data: bytes, longest: int) -> Any:
-    """Return a message of a kind from at most so many bytes; None if it is none."""
+    """Return a message of a kind from at most so many bytes; None if malformed."""
     with suppress(DeserializationError):
         return kind().deserialize(data) if len(data) <= longest else None
 
 
 def map_shown(data: bytes) -> dict[str, Any]:
-    """Return the map as pages get it, from the bytes of an OccupancyGrid; {} if it is none.
+    """Return the map as pages get it, from the bytes of an OccupancyGrid; {} if malformed.
 
     x, y: its corner [m]; cell: its size [m]; rows and columns; cells: base64, a byte for each from
     the lowest row on: 0 free, 1 occupied, 2 unknown.

@@ -56,7 +56,7 @@ POLICY = (
 
 
 class _Guarded(RequestHandler):
-    """Answers who may come, names this machine and is of no other page; delays what costs much."""
+    """Answers requests that come from this page and name this machine; slows busy addresses."""
 
     def set_default_headers(self) -> None:
         for name, value in HEADERS.items():
@@ -197,7 +197,7 @@ class _Socket(_Guarded, WebSocketHandler):
         self.settings["hub"].hear(self.client, message)
 
     def on_pong(self, data: bytes) -> Awaitable[None] | None:  # type: ignore[override]
-        # Nobody asked for most of them, if they are many; a message costs as much.
+        # Most of many pongs were not asked for; each costs as much as a message.
         wait_s = self.settings["hub"].wait_s(self.client)
         return asyncio.sleep(wait_s) if wait_s else None
 

@@ -67,11 +67,11 @@ def markers(robot: str, base_frame: str) -> list[Marker]:
 
 @dataclass(frozen=True)
 class Parameters:
-    """There are none."""
+    """The node has none."""
 
 
 class ClassroomBodies:
-    """Publishes the bodies again and again: RViz drops a marker that comes before its frame.
+    """Publishes the bodies once a second: RViz drops a marker that comes before its frame.
 
     Subscribers: /tf_static and, until all robots were seen, /tf (tf2_msgs/TFMessage)
     Publishers: classroom_bodies (visualization_msgs/MarkerArray)
@@ -103,7 +103,7 @@ class ClassroomBodies:
         self._moving |= pairs(message)
         bases = base_frames(static, self._moving)
         if self._tf is not None and set(bases) == robots(static | self._moving):
-            self._tf.unregister()  # fifty messages a second, which say nothing new
+            self._tf.unregister()  # fifty messages a second without news
             self._tf = None
             self._bodies = MarkerArray([m for name in bases for m in markers(name, bases[name])])
 
