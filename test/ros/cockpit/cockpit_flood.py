@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Who sends, connects or asks as much as they can locks nobody out; the driver goes on."""
+"""Floods of messages, connections and requests: the driver goes on, and others come in."""
 
 import contextlib
 import json
@@ -76,7 +76,7 @@ class Flood(WithCockpit):
             self.assertEqual(page.of("seat")[-1]["driver"], number)
             wait_for(lambda: self.memory_kb() - before_kb <= MOST_MORE_KB, "memory as before")
 
-    def test_pings_whose_answers_nobody_reads(self):
+    def test_pings_whose_answers_are_not_read(self):
         made = self.upgraded()
         before_kb = self.memory_kb()
         with contextlib.suppress(ConnectionError):
@@ -89,7 +89,7 @@ class Flood(WithCockpit):
         self.assertLess(answers, PINGS)
         self.assertLessEqual(self.memory_kb() - before_kb, MOST_MORE_KB)
 
-    def test_pongs_that_nobody_asked_for(self):
+    def test_pongs_that_were_not_asked_for(self):
         made = self.upgraded()
         made.settimeout(5)
         with self.assertRaises(OSError):  # they are read as slowly as messages are

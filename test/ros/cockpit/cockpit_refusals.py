@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Who is not to be let in, and what is not to be said."""
+"""Clients and messages that are refused."""
 
 import contextlib
 import http.client
@@ -18,7 +18,7 @@ OVERSIZED = 100_000  # bytes
 
 
 class Refused(WithCockpit):
-    """A cockpit for other machines, a robot, and those who may not drive it."""
+    """A cockpit for other machines, a robot, and clients that may not drive it."""
 
     options = ("--lan",)
 
@@ -28,7 +28,7 @@ class Refused(WithCockpit):
         cls.tokens = cls.rig.token("drive"), cls.rig.token("look")
 
     def tearDown(self):
-        """Whatever came: nothing moved, no token was told, and the right one may still drive."""
+        """Nothing moved, no token was printed again, and the driver may still drive."""
         self.assertEqual([speed for _, speed in self.rig.speeds if speed], [])
         with self.rig.page() as page:
             self.rig.drive(page)
@@ -39,7 +39,7 @@ class Refused(WithCockpit):
         output = self.rig.program.output
         self.assertNotIn("Traceback", output)
         for token in self.tokens:
-            self.assertEqual(output.count(token), 1, output)  # where it was told in the beginning
+            self.assertEqual(output.count(token), 1, output)  # printed at the start
 
     def get(self, path, **headers):
         connection = http.client.HTTPConnection("127.0.0.1", self.rig.port, timeout=20)
@@ -71,7 +71,7 @@ class Refused(WithCockpit):
         for path in ("/page/../package.xml", "/page/%2e%2e/package.xml", "/lib/dygraph.js", "/x"):
             self.assertIn(self.get(f"{path}?token={self.tokens[0]}")[0], (403, 404), path)
 
-    def test_a_socket_of_somebody_else(self):
+    def test_a_socket_of_another_page(self):
         driver, port = self.tokens[0], self.rig.port
         for token, headers in (
             (None, {}),

@@ -1,4 +1,4 @@
-"""Who may look and who may drive."""
+"""The right to look and to drive."""
 
 import pytest
 
@@ -37,7 +37,7 @@ def test_the_origin_must_be_the_same(origin, is_same):
     assert HERE.may_connect(host, origin) == HERE.may_request(host, origin) == is_same
 
 
-def test_who_types_the_address_sends_no_origin_and_a_page_that_opens_a_websocket_does():
+def test_a_websocket_needs_an_origin_and_a_typed_address_does_not():
     assert HERE.may_request("127.0.0.1:8080", None)
     assert not HERE.may_connect("127.0.0.1:8080", None)
 
@@ -49,14 +49,14 @@ def test_a_codespace_has_an_address_of_its_own():
     assert not page.may_connect("evil.example", CODESPACE)
 
 
-def test_tokens_give_roles_and_on_this_machine_everybody_drives():
+def test_tokens_give_roles_and_without_tokens_every_page_drives():
     assert HERE.role(None) == HERE.role("x") == LAN.role("drive-token") == DRIVER
     assert LAN.role("view-token") == VIEWER
     for token in (None, "", "x", "drive-token ", "DRIVE-TOKEN", "ü"):
         assert LAN.role(token) is None
 
 
-def test_a_token_is_never_logged():
+def test_a_token_is_not_logged():
     assert "secret" not in without_token("/?token=secret")
     assert without_token("/ws?a=1&TOKEN=s&b=2") == "/ws?a=1&TOKEN=...&b=2"
 

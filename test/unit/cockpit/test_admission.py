@@ -1,4 +1,4 @@
-"""Who makes room, and what pages may cost: nobody locks out a class. Times are numbers."""
+"""Which page makes room, and what pages may cost. Times are numbers."""
 
 import pytest
 
@@ -42,7 +42,7 @@ def test_the_viewer_that_is_closed_for_a_new_page(pages, role, address, closed):
     assert (page and page.number) == closed
 
 
-def test_a_burst_is_there_at_once_and_what_is_more_is_waited_for():
+def test_a_budget_allows_a_burst_and_then_makes_pages_wait():
     budget = Budget(1.0)
     assert budget.wait_s(100.0, RATE) == 0.0
     budget.spend(1.0)
@@ -57,5 +57,5 @@ def test_a_burst_is_there_at_once_and_what_is_more_is_waited_for():
         (1000.0, RATE, 0.0),
     ):
         assert budget.wait_s(now, rate) == wait_s
-    budget.spend(1.5)  # nobody saves more than a burst
+    budget.spend(1.5)  # no more than a burst is saved
     assert budget.wait_s(1000.0, RATE) == pytest.approx(2.0)

@@ -55,7 +55,7 @@ def page(monkeypatch, tmp_path):
     return Page()
 
 
-def test_what_is_not_finite_is_left_out_of_curves(page):
+def test_curves_leave_out_values_that_are_not_finite(page):
     page.open("odd.bag")
     assert page.sent[-1]["path"] == "odd.bag"
     assert page.sent[-1]["curves"] == {
@@ -67,7 +67,7 @@ def test_what_is_not_finite_is_left_out_of_curves(page):
 
 
 @pytest.mark.parametrize("broken", ["read", "encoded"])
-def test_what_cannot_be_shown_is_refused_and_not_opened(page, monkeypatch, broken):
+def test_a_recording_that_cannot_be_shown_is_refused(page, monkeypatch, broken):
     page.open("good.bag")
     monkeypatch.setattr(recording, broken, lambda *_, **__: [].pop())
     page.open("odd.bag")
@@ -76,7 +76,7 @@ def test_what_cannot_be_shown_is_refused_and_not_opened(page, monkeypatch, broke
     assert page.bags._opened[7].name == "good.bag"
 
 
-def test_what_plays_when_another_is_shown_is_ended(page):
+def test_opening_a_recording_ends_the_one_that_plays(page):
     page.open("good.bag")
     page.say("bag_open", name="odd.bag")
     page.say("bag_play", topic="/joy", rate=1.0, loop=False, robot="")
@@ -104,7 +104,7 @@ def test_a_recording_is_read_once_for_all_pages(page, monkeypatch):
     assert read_so_far == ["good.bag", "odd.bag"]
 
 
-def test_all_recordings_together_are_bounded(page, monkeypatch):
+def test_the_messages_of_all_open_recordings_are_bounded(page, monkeypatch):
     monkeypatch.setattr(recording, "MOST_MESSAGES", 5)  # of 3 messages each there is room for one
     page.open("good.bag")
     page.bags.prepare([page.client], 0.0)
@@ -116,7 +116,7 @@ def test_all_recordings_together_are_bounded(page, monkeypatch):
     assert page.bags._opened[7].name == "odd.bag"
 
 
-def test_what_is_no_file_is_refused_at_once_and_no_folder_is_named(tmp_path, monkeypatch):
+def test_a_refused_file_is_named_without_its_folder(tmp_path, monkeypatch):
     os.mkfifo(tmp_path / "pipe.bag")
     (tmp_path / "text.bag").write_text("no bag")
     for name in ("pipe.bag", "text.bag", "none.bag"):

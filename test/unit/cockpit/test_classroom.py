@@ -16,7 +16,7 @@ STATIC = {
 MOVING = {("ada/odom", "ada/base_footprint"), ("ada/base_link", "ada/wheel_left_link")}
 
 
-def test_a_robot_that_was_not_seen_yet_has_no_base():
+def test_a_robot_has_a_base_once_it_was_seen_to_move():
     assert robots(STATIC) == robots(STATIC | MOVING) == {"ada", "robot_2"}
     assert base_frames(STATIC, MOVING) == {"ada": "ada/base_footprint"}
     both = base_frames(STATIC, MOVING | {("robot_2/odom", "robot_2/base")})

@@ -78,7 +78,7 @@ READY = {  # -> why it stands and what to do now; how it is driven, without "Esc
 
 
 @pytest.mark.parametrize("case", READY)
-def test_why_it_stands_and_what_to_do(case):
+def test_the_page_says_why_the_robot_stands_and_what_to_do(case):
     about, said, how = READY[case]
     assert drives.ready(about, "ada", ANNA, may_drive=True) == said
     assert drives.how_to(about, ANNA, may_drive=True) == f"{how} Esc: stop." * bool(how)
@@ -131,7 +131,7 @@ def test_a_page_is_sent_the_words_when_they_change():
     assert room.look()["ready"] == UNHEARD
 
 
-def test_a_stop_is_old_once_a_recording_drives():
+def test_the_reason_of_a_stop_is_dropped_once_a_recording_drives():
     room = Room()
     room.seat.why, room.seat.stopped = "the network is down", "ada"
     assert room.look()["ready"] == "Stopped: the network is down."

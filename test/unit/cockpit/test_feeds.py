@@ -25,7 +25,7 @@ def waiting(monkeypatch):
     return actions
 
 
-def test_a_topic_that_is_refused_keeps_no_other_away(waiting):
+def test_a_refused_topic_does_not_hold_up_the_others(waiting):
     told = []
     all_feeds = feeds.Feeds(told.append)
     topics = ["", *(f"/t{i}" for i in range(20)), "x"]  # in a set, so that some come after ""
@@ -37,7 +37,7 @@ def test_a_topic_that_is_refused_keeps_no_other_away(waiting):
     assert sum("ValueError" in line for line in told) == 2
 
 
-def test_however_often_pages_change_their_minds_one_adjustment_waits(waiting):
+def test_many_changes_queue_one_adjustment(waiting):
     all_feeds = feeds.Feeds(print)
     for number in range(1000):
         all_feeds.want("page", {f"/t{number}": print}, every=True)

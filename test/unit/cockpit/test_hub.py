@@ -1,4 +1,4 @@
-"""What the hub sends and hears: one that fails, floods or is slow holds up no other."""
+"""What the hub sends and hears; a failure, a flood or a slow page does not hold up others."""
 
 import json
 from time import monotonic
@@ -54,7 +54,7 @@ def kinds(sent):
     return [message["kind"] for message in sent]
 
 
-def test_what_fails_holds_up_no_other_source_and_no_page():
+def test_a_failure_does_not_hold_up_other_sources_and_pages():
     hub, told = made(Broken(), Well(), player=Broken())
     (unwritable, _), *others = [join(hub) for _ in range(3)]
     unwritable.write = None
@@ -63,7 +63,7 @@ def test_what_fails_holds_up_no_other_source_and_no_page():
     assert len(told) == 4  # of each once: the player, the source, and of that page two
 
 
-def test_a_failure_is_told_once_of_each_thing():
+def test_a_failure_is_reported_once_for_each_thing():
     told, done = [], []
     guard = Guard(told.append)
     for _ in range(3):
@@ -77,7 +77,7 @@ def test_a_failure_is_told_once_of_each_thing():
     assert len(told) == MOST_REPORTED
 
 
-def test_a_page_in_debt_waits_and_the_one_that_drives_does_not():
+def test_a_page_in_debt_waits_unless_it_drives():
     hub, _ = made(Well())
     (guest, to_guest), (_, to_other), (driver, _) = [join(hub) for _ in range(3)]
     hub.seat.take(driver.number, "ada", PAGE, monotonic())
@@ -90,7 +90,7 @@ def test_a_page_in_debt_waits_and_the_one_that_drives_does_not():
     assert "well" in kinds(to_other)
 
 
-def test_what_a_page_asks_for_is_on_its_account(monkeypatch):
+def test_a_message_costs_the_page_that_sent_it(monkeypatch):
     time = SimpleNamespace(monotonic=lambda: 100.0, thread_time=iter(range(9)).__next__)
     monkeypatch.setattr(hub_module, "time", time)  # each message takes a second
     hub, _ = made()
@@ -101,7 +101,7 @@ def test_what_a_page_asks_for_is_on_its_account(monkeypatch):
     assert other.budget.wait_s(100.0, 1.0) == 0.0
 
 
-def test_requests_of_one_address_wait_and_of_another_do_not():
+def test_many_requests_delay_only_their_own_address():
     hub, _ = made()
     waits = [hub.request_wait_s("10.0.0.1") for _ in range(1000)]
     assert waits[25] == 0.0  # a page loads as many files
@@ -109,7 +109,7 @@ def test_requests_of_one_address_wait_and_of_another_do_not():
     assert hub.request_wait_s("10.0.0.2") == 0.0
 
 
-def test_pages_whose_turn_does_not_come_in_a_tick_get_theirs_in_the_next(monkeypatch):
+def test_pages_that_one_tick_does_not_reach_come_next(monkeypatch):
     class Slow(Source):
         def give(self, client, now):
             clock[0] += 1.1 * GIVE_S
@@ -130,7 +130,7 @@ def test_pages_whose_turn_does_not_come_in_a_tick_get_theirs_in_the_next(monkeyp
     ("hears", "after_s", "is_heard"),
     [((), CONNECT_S, False), (("/joy2twist",), 0.0, True), ((), CONNECT_S + 0.1, True)],
 )
-def test_a_page_drives_once_all_that_are_registered_hear_it_or_never_answer(
+def test_a_page_drives_once_all_subscribers_are_connected_or_after_a_while(
     hears, after_s, is_heard
 ):
     hub, _ = made()
@@ -139,7 +139,7 @@ def test_a_page_drives_once_all_that_are_registered_hear_it_or_never_answer(
     assert hub._is_heard(after_s) == is_heard
 
 
-def test_who_watches_the_log_gets_each_line_once():
+def test_a_page_that_watches_the_log_gets_each_line_once():
     wanted = []
     logs = Logs(SimpleNamespace(want=lambda _, hears, every: wanted.extend(hears)))
     hub, _ = made(logs)

@@ -27,7 +27,7 @@ def test_each_message_is_due_once_at_its_time(position, rate, loop, due):
         assert "".join(axes for axes, _ in player.due(now)) == names
 
 
-def test_where_it_is_and_when_it_is_over():
+def test_the_position_and_the_end_of_a_recording():
     player = Player(MESSAGES, 1.2, 1.0, loop=False)
     player.seek(0.0, 10.0)
     assert [player.position(now) for now in (10.75, 12.0)] == [0.75, 1.2]

@@ -1,4 +1,4 @@
-"""Questions to the master and to the doctor that are not answered well."""
+"""Questions to the master and to the doctor, and bad answers."""
 
 import pytest
 
@@ -41,14 +41,14 @@ def test_a_master_that_is_silent_is_asked_again(master, question):
         ("getPid", (Answer.WELL, 8)),  # another master
     ],
 )
-def test_a_master_that_is_gone_is_lost(master, question, answer):
+def test_a_master_that_has_gone_is_noticed(master, question, answer):
     watch = graph_watch.GraphWatch("/cockpit")
     master[question] = answer
     watch.look()
     assert watch._is_lost
 
 
-def test_a_doctor_that_cannot_run_says_so_and_may_be_called_again(monkeypatch):
+def test_a_doctor_that_cannot_run_is_reported_and_may_run_again(monkeypatch):
     one, (client, sent) = doctor.Doctor(), page()
 
     def has_ended():

@@ -56,7 +56,7 @@ def test_the_names_of_robots_come_when_they_change_to_pages_that_look_at_them():
         ({"w": nan}, {"w"}),
     ],
 )
-def test_a_place_that_is_none_is_left_out(wrong, left_out):
+def test_an_impossible_place_is_left_out(wrong, left_out):
     state = Motion(1.0, -1e6, 0.5, 0.25, -0.5)._replace(**wrong)
     everything = {"x", "y", "yaw", "v", "w", "covered", "age"}
     assert set(shown(state, 1.0, 2.0, 3.0)) == everything - left_out
@@ -102,7 +102,7 @@ def test_a_joystick_message_is_read_once_for_all_pages(monkeypatch):
     assert pads.rival("robot_1", inf) is None
 
 
-def test_the_text_of_a_long_message_is_not_made():
+def test_a_long_message_is_shown_by_its_length():
     topic = Topic()
     for length, text in ((LONGEST_MESSAGE - 4, 'data: "xxx'), (LONGEST_MESSAGE, "(20004 bytes)")):
         topic.hear(SimpleNamespace(data=serialised(String("x" * length))), "/x")

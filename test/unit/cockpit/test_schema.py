@@ -53,7 +53,7 @@ def taken(kind, name, value):
 
 
 @pytest.mark.parametrize("kind", SCHEMA.messages)
-def test_each_field_is_needed_and_has_bounds_and_no_other_is_taken(kind):
+def test_each_field_is_required_and_has_bounds_and_others_are_refused(kind):
     assert SCHEMA.check(say(kind, **GOOD[kind]))[0] == kind
     with pytest.raises(ValueError, match="has no field 'more'"):
         SCHEMA.check(say(kind, **GOOD[kind], more=1))
@@ -65,7 +65,7 @@ def test_each_field_is_needed_and_has_bounds_and_no_other_is_taken(kind):
         assert sum(refused) >= len(WRONG) / 2, name
 
 
-def test_what_a_page_does_not_watch_is_not_shown():
+def test_a_page_is_shown_only_what_it_watches():
     watch = SCHEMA.watch(**SCHEMA.check(say("watch", log=True))[1])
     assert watch.log is True and watch.fields == () and watch.look is None and not watch.robots
 
@@ -81,13 +81,13 @@ def test_the_longest_message_is_taken():
         say("leave").ljust(8193), '{"kind": ["leave"]}', '"leave"', say("x" * 5000),
     ],
 )  # fmt: skip
-def test_what_is_no_message_is_refused(data):
+def test_a_malformed_message_is_refused(data):
     with pytest.raises(ValueError, match="message") as caught:
         SCHEMA.check(data)
     assert len(str(caught.value)) < 100
 
 
-def test_random_changes_are_taken_or_refused_and_nothing_else():
+def test_random_changes_are_taken_or_refused():
     dice = random.Random(1)
     for _ in range(3000):
         kind = dice.choice(list(GOOD))
@@ -128,14 +128,14 @@ WHOLE, UP_TO = "must be a whole number from 0", "must be a number from"
         ("drive mode", ["D", "X"], ["d", "", "DX"], "must be D, X"),
     ],
 )  # fmt: skip
-def test_the_bounds_are_taken_and_nothing_beyond_them(field, good, bad, why):
+def test_values_at_the_bounds_are_taken_and_beyond_them_refused(field, good, bad, why):
     kind, name = field.split()
     kept = [taken(kind, name, value) for value in good]
     assert kept == good and str(kept) == str(good)  # a number is a float, a count stays whole
     assert {taken(kind, name, value) for value in bad} == {f"{kind}: {name} {why}"}
 
 
-def test_as_many_axes_and_buttons_as_the_gamepad_has():
+def test_axes_and_buttons_must_be_as_many_as_the_gamepad_has():
     for modes, axes, buttons in (("D", 6, 12), ("X", 8, 11), ("DX", 8, 11)):
         check_lengths(tuple(modes), (0,) * axes, (0,) * buttons)
     both = "input: D mode has 6 axes and 12 buttons and X mode has 8 axes and 11 buttons"

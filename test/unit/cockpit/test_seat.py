@@ -16,7 +16,7 @@ def room():
     return Room()
 
 
-def test_every_fresh_input_of_the_driver_is_published_at_once_and_once(room):
+def test_each_fresh_input_of_the_driver_is_published_once(room):
     room.drive()
     for _ in range(3):
         room.say(DRIVE)
@@ -48,7 +48,7 @@ LOSSES = {
 
 
 @pytest.mark.parametrize("case", LOSSES)
-def test_after_a_loss_one_neutral_message_and_silence_until_all_was_released(room, case):
+def test_a_loss_sends_one_neutral_message_and_then_nothing_until_all_is_released(room, case):
     lose, why = LOSSES[case]
     room.drive()
     lose(room)
@@ -79,7 +79,7 @@ ENDS = {
 
 
 @pytest.mark.parametrize("case", ENDS)
-def test_whatever_ends_a_drive_leaves_the_robot_at_rest(room, case):
+def test_the_end_of_a_drive_leaves_the_robot_at_rest(room, case):
     end, driver, lost = ENDS[case]
     room.drive()
     end(room.seat, room.now)
@@ -92,7 +92,7 @@ def test_whatever_ends_a_drive_leaves_the_robot_at_rest(room, case):
     assert room.lost == [(ANNA, why) for why in lost]
 
 
-def test_the_new_hand_drives_once_all_was_released(room):
+def test_after_a_hand_over_the_new_page_drives_once_all_is_released(room):
     room.drive()
     room.seat.hand_over(ANNA, BOB, room.now)
     room.n = 0
@@ -101,13 +101,13 @@ def test_the_new_hand_drives_once_all_was_released(room):
     assert room.sent[1:] == [("ada", *REST), ("ada", *DRIVE)]
 
 
-def test_after_the_end_nobody_sits_down(room):
+def test_a_seat_that_has_ended_cannot_be_taken(room):
     room.seat.end()
     with pytest.raises(RefusedError, match="shut down"):
         room.seat.take(ANNA, "ada", PAGE, room.now)
 
 
-def test_a_seat_that_nobody_took(room):
+def test_a_free_seat_sends_nothing(room):
     assert room.seat.state == NOBODY
     room.say(DRIVE)
     room.seat.tick(1000.0)
@@ -118,7 +118,7 @@ def test_a_seat_that_nobody_took(room):
 
 
 @pytest.mark.parametrize("other", [0, BOB])
-def test_who_does_not_sit_there_has_no_say(room, other):
+def test_other_clients_change_nothing(room, other):
     room.drive()
     room.seat.leave(other)
     room.seat.release(other, "hidden")
@@ -157,7 +157,7 @@ def test_a_recording_that_ends_before_its_first_message_sends_nothing(room):
 
 
 @pytest.mark.parametrize("lost", [lambda seat: seat.free("a rival"), lambda seat: seat.lose("x")])
-def test_what_stopped_nothing_is_not_why_a_robot_stands(room, lost):
+def test_a_loss_at_rest_is_not_the_reason_why_a_robot_stands(room, lost):
     for is_released in (False, True):
         room.seat.take(ANNA, "ada", PAGE, room.now)
         if is_released:
@@ -167,7 +167,7 @@ def test_what_stopped_nothing_is_not_why_a_robot_stands(room, lost):
         assert (room.seat.why, room.seat.stopped) == ("", None)
 
 
-def test_why_a_robot_stands_is_old_once_anything_moves_it(room):
+def test_the_reason_of_a_stop_is_dropped_once_the_robot_moves(room):
     room.drive()
     room.seat.release(ANNA, "hidden")
     room.seat.gone(ANNA)  # it stands for the first reason
@@ -177,7 +177,7 @@ def test_why_a_robot_stands_is_old_once_anything_moves_it(room):
     assert (room.seat.why, room.seat.stopped) == ("", None)
 
 
-def test_nobody_drives_before_those_who_hear_it_saw_that_all_is_released(room):
+def test_the_seat_arms_once_the_subscribers_can_see_the_release(room):
     room.seat.take(ANNA, "ada", PAGE, room.now)
     for n, (position, may_arm) in enumerate([(REST, False), (DRIVE, True), (REST, True)], 1):
         room.beat()
@@ -186,7 +186,7 @@ def test_nobody_drives_before_those_who_hear_it_saw_that_all_is_released(room):
     assert room.seat.armed and room.sent == [("ada", *REST)]
 
 
-def test_neutral_of_x_mode_has_its_triggers_at_one():
+def test_neutral_has_the_triggers_of_x_mode_at_one():
     axes, buttons = neutral_of((0.0, 1.0, 1.0, 0.0, 0.0, -1.0, 0.0, 0.0), (1,) * 11)
     assert (axes, buttons) == ((0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0), (0,) * 11)
     assert is_neutral(axes, buttons)

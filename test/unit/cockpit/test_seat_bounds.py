@@ -79,7 +79,7 @@ def test_of_the_beats_the_newest_sixteen_of_this_driver_count(room):
 
 
 @pytest.mark.parametrize(("share", "taken"), [(0.9e-3, 100), (2.0e-3, 26)])  # 25 times 4 ms: 0.1 s
-def test_a_clock_that_is_slow_by_less_than_a_thousandth_is_no_delay(room, share, taken):
+def test_a_page_clock_may_be_slow_by_a_thousandth(room, share, taken):
     sit(room)
     for n in range(1, taken + 1 + (taken < 100)):
         room.seat.beat(n, 4.0 * n)

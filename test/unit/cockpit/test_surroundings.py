@@ -88,14 +88,14 @@ def test_a_page_gets_the_map_the_place_in_it_and_the_scan_when_they_change():
     assert list(seen.look()) == ["around"]
 
 
-def test_who_looks_elsewhere_is_sent_nothing():
+def test_a_page_that_does_not_watch_robots_is_sent_nothing():
     seen = Seen(robots=False)
     assert seen.hears == {}
     assert seen.look() == {}
 
 
 @pytest.mark.parametrize("data", [b"", b"\1", b"\3\1", b"\0\1\1"])
-def test_a_bumper_that_is_none_is_left_out(data):
+def test_a_malformed_bumper_event_is_left_out(data):
     seen = Seen()
     seen.hear("/map", serialised(grid(1, 1, [0])))
     seen.hear("/ada/mobile_base/events/bumper", data)
@@ -109,7 +109,7 @@ def test_a_bumper_that_is_none_is_left_out(data):
         grid(1, 1, [0], cell=inf),
     ],
 )  # fmt: skip
-def test_a_map_that_is_none_is_left_out(message):
+def test_a_malformed_map_is_left_out(message):
     assert map_shown(serialised(message)) == {}
 
 

@@ -48,7 +48,7 @@ def test_a_number_by_its_name(field, value):
 @pytest.mark.parametrize(
     "field", ["", "a b", "a//b", "a[-1]", "a[1", "a.b", "/".join("a" * 9), "__class__"]
 )
-def test_what_is_no_field(field):
+def test_a_malformed_field_is_refused(field):
     with pytest.raises(ValueError, match="is no field"):
         parts_of(field)
 
@@ -98,7 +98,7 @@ def test_robots_have_an_odometry_or_hear_a_joystick():
     assert GRAPH.robots() == {"", "robot_1", "real"}
 
 
-def test_a_node_and_whom_it_speaks_to():
+def test_a_node_and_its_neighbours():
     about = GRAPH.about_node("/sim")
     assert about["speaks_to"] == ["/rviz"]
     assert (about["publishes"], about["services"]) == (["/odom"], ["/sim/reset"])
@@ -118,7 +118,7 @@ def test_a_reset_is_of_one_robot():
         reset_service(GRAPH, "robot_1")  # the node's own would reset both
 
 
-def test_what_joy2twist_says():
+def test_reports_of_joy2twist():
     stopped = "stopped: not armed, release the sticks"
     statuses = [
         DiagnosticStatus(name=name, message=words, level=1, values=values)
