@@ -127,9 +127,10 @@ def main() -> int:
         finally:
             # Another cockpit, under a name of its own, may have put its own there, then or before.
             if call(uri, "getParam", PARAMETER) == (Answer.WELL, page):
-                call(uri, "deleteParam", PARAMETER)
                 if before != page and accepts(str(before)):
                     call(uri, "setParam", PARAMETER, before)
+                else:
+                    call(uri, "deleteParam", PARAMETER)
         if cockpit.has_lost_master:
             restart(access)
 
