@@ -6,6 +6,7 @@ shared folder. Dask does the rest: distribution, TLS, and another try if a worke
 
 from __future__ import annotations
 
+import contextlib
 import importlib
 import io
 import logging
@@ -25,7 +26,7 @@ from tutorial_check.course import OURS, read_course
 from tutorial_check.examination import SUITE, Outcome, examine
 from tutorial_check.last_run import MOST_BYTES, digest_of_checks
 from tutorial_check.model import CannotCheck
-from tutorial_check.watch import IGNORED
+from tutorial_check.workspace import IGNORED
 
 MOST_AT_ONCE = 1000  # submissions that the scheduler knows of
 TRIES = 2  # a submission that ends so many workers is abandoned
@@ -45,14 +46,19 @@ def _dask() -> Any:
         raise CannotCheck("no Dask here; ./tutorial installs it with --cluster") from None
 
 
-def _refused(address: str) -> str:
-    """Return why nothing listens at tcp://HOST:PORT, tls://HOST:PORT or HOST:PORT; or ""."""
-    place = urlsplit(address if "//" in address else f"//{address}")
+def _connect(address: str) -> str:
+    """Return our address on the way to tcp://HOST:PORT, tls://HOST:PORT or HOST:PORT.
+
+    Raises CannotCheck if nothing listens there.
+    """
     try:
-        with socket.create_connection((place.hostname or "", place.port or PORT), CONNECT_S):
-            return ""
+        place = urlsplit(address if "//" in address else f"//{address}")
+        there = place.hostname or "", place.port or PORT
+        with socket.create_connection(there, CONNECT_S) as connection:
+            return str(connection.getsockname()[0])
     except (OSError, ValueError) as error:
-        return f"no Dask scheduler at {address}: {getattr(error, 'strerror', None) or error}"
+        why = getattr(error, "strerror", None) or error
+        raise CannotCheck(f"no Dask scheduler at {address}: {why}") from None
 
 
 class Cluster:
@@ -61,9 +67,7 @@ class Cluster:
     def __init__(self, address: str) -> None:
         """Connect. Raises CannotCheck."""
         self._dask, self._address = _dask(), address
-        why = _refused(address)
-        if why:
-            raise CannotCheck(why)
+        _connect(address)
         logging.disable(logging.CRITICAL)  # a lost connection is one line of ours, not Dask's many
         try:
             self._client = self._dask.Client(address, timeout=CONNECT_S, set_as_default=False)
@@ -84,20 +88,21 @@ class Cluster:
         except CannotCheck:
             raise
         except BaseException as error:
-            if self._client.status == "running" and not _refused(self._address):
-                raise
+            with contextlib.suppress(CannotCheck):
+                _connect(self._address)
+                if self._client.status == "running":
+                    raise
             why = f"the scheduler at {self._address} is gone; call again, and it goes on from here"
             raise Gone(why) from error
 
-    def examine(self, workspace: Path, exercises: Sequence[str], course: Path, variant: Mapping[str, Any]) -> list[Outcome]:  # fmt: skip
+    def examine(
+        self, workspace: Path, exercises: Sequence[str], course: Path, variant: Mapping[str, Any]
+    ) -> list[Outcome]:
         """Return the Outcomes of a submission, as examination.examine does. Raises CannotCheck."""
-        parts = {"submission": workspace}
-        if course != OURS:
-            parts["course"] = course
+        parts = {"submission": workspace, **({} if course == OURS else {"course": course})}
         version = digest_of_checks(read_course(course), exercises, 2)
-        found: list[Outcome] = self.call(
-            _examine, _packed(parts), exercises, dict(variant), version
-        )
+        about = _packed(parts), exercises, dict(variant), version
+        found: list[Outcome] = self.call(_examine, *about)
         return found
 
     def close(self) -> None:
@@ -132,7 +137,9 @@ def _packed(parts: Mapping[str, Path]) -> bytes:
     return data.getvalue()
 
 
-def _examine(packed: bytes, exercises: Sequence[str], variant: Mapping[str, Any], version: str) -> list[Outcome]:  # fmt: skip
+def _examine(
+    packed: bytes, exercises: Sequence[str], variant: Mapping[str, Any], version: str
+) -> list[Outcome]:
     """Check a submission on this machine. Raises CannotCheck."""
     underlay = os.environ["TUTORIAL_UNDERLAY"]
     with tempfile.TemporaryDirectory(prefix="tutorial_worker_") as folder:
@@ -140,8 +147,8 @@ def _examine(packed: bytes, exercises: Sequence[str], variant: Mapping[str, Any]
         with tarfile.open(fileobj=io.BytesIO(packed)) as archive:
             archive.extractall(folder)
         (submission,) = Path(folder).glob("submission*")
-        course = Path(folder, "course")
-        course = course if course.is_dir() else OURS
+        own = Path(folder, "course")
+        course = own if own.is_dir() else OURS
         if digest_of_checks(read_course(course), exercises, 2) != version:
             raise CannotCheck(f"worker {socket.gethostname()} has another version of this suite")
         return examine(submission, underlay, exercises, own=False, course=course, variant=variant)
@@ -157,15 +164,7 @@ def tutorial(words: Sequence[str]) -> tuple[int, str]:
 def work(address: str, jobs: int) -> None:
     """Make this process a worker; it does not return. Raises CannotCheck."""
     _dask()
-    why = _refused(address)
-    if why:
-        raise CannotCheck(why)
-    place = urlsplit(address if "//" in address else f"//{address}")
-    with socket.socket(
-        socket.AF_INET, socket.SOCK_DGRAM
-    ) as probe:  # on the way to it, and no other
-        probe.connect((place.hostname or "", place.port or PORT))
-        host = probe.getsockname()[0]
+    host = _connect(address)
     folder = tempfile.mkdtemp(prefix="tutorial_worker_")  # which Dask empties at its end
     words = [address, "--host", host, "--nworkers", jobs, "--nthreads", 1, "--memory-limit", 0]
     words += ["--no-dashboard", "--local-directory", folder, "--death-timeout", 60]

@@ -20,6 +20,11 @@ OURS = Path(__file__).resolve().with_name("exercises")
 # The modules of a course, which may lie anywhere, are those of a package of this name.
 PACKAGE = "tutorial_course"
 
+# Of what YAML gives, by the type of a field; of others anything.
+KINDS: dict[str, tuple[type, ...]] = {
+    "str": (str,), "bool": (bool,), "float": (int, float), "tuple": (list,)
+}  # fmt: skip
+
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 _checks: list[Check] = []  # of all courses that were loaded
 _tasks: list[type] = []  # of the last one that has one of its own
@@ -114,16 +119,21 @@ def _package_of(course: Course) -> str:
     return f"{__package__}.exercises" if course.folder == OURS else PACKAGE
 
 
+def read_yaml(file: str | Path, what: str = "") -> Any:
+    """Return what a YAML file says. Raises CannotCheck; what: added where there is no such file."""
+    try:
+        return yaml.safe_load(Path(file).read_text(encoding="utf-8"))
+    except OSError as error:
+        raise CannotCheck(f"{file}: {error.strerror}{what}") from None
+    except (UnicodeDecodeError, yaml.YAMLError) as error:
+        raise CannotCheck(f"{file}: no YAML: {' '.join(str(error).split())}") from None
+
+
 @functools.lru_cache(maxsize=None)
 def read_course(folder: str | Path = OURS) -> Course:
     """Return the Course of a folder. Raises CannotCheck."""
     file = Path(folder).resolve() / FILE
-    try:
-        given = yaml.safe_load(file.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise CannotCheck(f"{file}: {error.strerror}; a course is a folder with {FILE}") from None
-    except (UnicodeDecodeError, yaml.YAMLError) as error:
-        raise CannotCheck(f"{file}: no YAML: {' '.join(str(error).split())}") from None
+    given = read_yaml(file, f"; a course is a folder with {FILE}")
     try:
         about = _known(Course, given, ("folder",))
         named, varied = about.pop("exercises", None), about.pop("variants", {})
@@ -134,8 +144,7 @@ def read_course(folder: str | Path = OURS) -> Course:
             if not isinstance(number, str):
                 raise ValueError(f'exercise {number}: write "{number}", in quotes')
             words = _known(Exercise, what if isinstance(what, dict) else {"title": what})
-            exercise = Exercise(**{"document": course.document, **words})
-            course.exercises[number] = exercise
+            course.exercises[number] = Exercise(**{"document": course.document, **words})
         for name, what in varied.items():
             course.variants[name] = Value(**_known(Value, what))
     except (TypeError, ValueError) as error:
@@ -145,17 +154,17 @@ def read_course(folder: str | Path = OURS) -> Course:
 
 def _known(kind: type, given: Any, but: tuple[str, ...] = ()) -> dict[str, Any]:
     """Return the fields of a dataclass that are given. Raises ValueError."""
-    known = {one.name: one for one in fields(kind) if one.name not in but}
+    known = {
+        one.name: str(one.type).partition("[")[0] for one in fields(kind) if one.name not in but
+    }
     if not isinstance(given, dict):
         raise ValueError(f"a map of {', '.join(known)} is wanted, and not {given!r}")
     for name, value in given.items():
         if name not in known:
             raise ValueError(f"{name} is not known; known are {', '.join(known)}")
-        allowed = {"str": ("str",), "bool": ("bool",), "float": ("int", "float")}
-        allowed["tuple[str, ...]"] = allowed["tuple[Any, ...]"] = ("list",)
-        kinds = allowed.get(str(known[name].type), ())
-        if kinds and type(value).__name__ not in kinds:
-            raise ValueError(f"{name}: {value!r} is no {kinds[-1]}")
+        kinds = KINDS.get(known[name], ())
+        if kinds and type(value) not in kinds:
+            raise ValueError(f"{name}: {value!r} is no {kinds[-1].__name__}")
     return given
 
 
@@ -191,13 +200,7 @@ def checks_of(course: Course) -> list[Check]:
         lost = set(one.needs) - found.keys()
         if lost:
             raise CannotCheck(f"{one.id} needs {', '.join(sorted(lost))}, which is no check")
-    return sorted(found.values(), key=lambda one: (order.index(one.exercise), _number(one.id)))
-
-
-def _number(check_id: str) -> int:
-    """Return the number at the end of C12."""
-    digits = "".join(each for each in check_id if each.isdigit())
-    return int(digits or 0)
+    return sorted(found.values(), key=lambda one: (order.index(one.exercise), one.number))
 
 
 def _place(error: Exception, folder: Path) -> str:

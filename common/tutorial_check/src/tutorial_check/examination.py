@@ -24,7 +24,7 @@ from tutorial_check import bubblewrap, place
 from tutorial_check import workspace as workspaces
 from tutorial_check.course import FILE, OURS, read_course
 from tutorial_check.environment import environment_of
-from tutorial_check.model import CannotCheck, Result, passed
+from tutorial_check.model import WRONG, CannotCheck, Result, passed
 
 # All exercises take 90 s on two quiet processors. Ten times as long is enough: where programs have less
 # than a seventh of the time, there is no verdict anyway (patience.HOPELESS), and a student waits.
@@ -58,6 +58,16 @@ class Outcome:
     def empty(self) -> bool:
         """Whether there was nothing to check: nothing is wrong, and nothing done."""
         return self.passed and bool(self.results) and all(each.empty for each in self.results)
+
+    @property
+    def solved(self) -> bool:
+        """Whether it passed and there was something to check."""
+        return self.passed and not self.empty
+
+    @property
+    def wrong(self) -> list[Result]:
+        """The checks that are wrong, in their order."""
+        return [each for each in self.results if each.status == WRONG]
 
 
 Report = Callable[[Outcome, Result], None]

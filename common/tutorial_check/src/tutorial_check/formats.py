@@ -41,15 +41,15 @@ def as_json(outcomes: Sequence[Outcome]) -> str:
     exercises = [
         {
             "id": outcome.id,
-            "passed": outcome.passed and not outcome.empty,
+            "passed": outcome.solved,
             "nothing_to_check": outcome.empty,
             "trouble": outcome.trouble,
             "checks": [{name: getattr(one, name) for name in FIELDS} for one in outcome.results],
         }
         for outcome in outcomes
     ]
-    done = sum(outcome.passed and not outcome.empty for outcome in outcomes)
-    return json.dumps({"exercises": exercises, "passed": done, "total": len(outcomes)}, indent=1)
+    solved = sum(outcome.solved for outcome in outcomes)
+    return json.dumps({"exercises": exercises, "passed": solved, "total": len(outcomes)}, indent=1)
 
 
 def as_junit(outcomes: Sequence[Outcome]) -> str:
@@ -92,9 +92,7 @@ def points_of(outcome: Outcome) -> float:
 
 
 def as_gradescope(outcomes: Sequence[Outcome]) -> str:
-    """Return Gradescope's results.json: the points of a course, or one a check; on top, on what there
-    is no verdict.
-    """
+    """Return Gradescope's results.json: the points of a course, or one a check; above them, what has no verdict."""
     tests = [
         {
             "name": f"{outcome.id} {result.id}: {result.title}",
@@ -108,15 +106,13 @@ def as_gradescope(outcomes: Sequence[Outcome]) -> str:
     ]
     seconds = round(sum(each.seconds for each in outcomes), 1)
     why = "no verdict on exercise {0.id}, through no fault of yours: {0.trouble}"
-    remarks = "\n".join(why.format(one) for one in outcomes if one.trouble)
-    whole = {"tests": tests, "execution_time": seconds, **({"output": remarks} if remarks else {})}
-    return json.dumps(whole, indent=1)
+    remarks = [why.format(one) for one in outcomes if one.trouble]
+    output = {"output": "\n".join(remarks)} if remarks else {}
+    return json.dumps({"tests": tests, "execution_time": seconds, **output}, indent=1)
 
 
 def as_classroom(outcomes: Sequence[Outcome], environment: Mapping[str, str] = os.environ) -> str:
-    """Return Classroom 50's result: the points of each exercise, or one. environment: it names the
-    submission.
-    """
+    """Return Classroom 50's result: points of each exercise, or one; the environment names the submission."""
     tests: list[dict[str, Any]] = [
         {
             "test-name": heading(one),

@@ -27,6 +27,24 @@ def cause_of(result: Result) -> str:
     return f"{result.id} {re.sub('[0-9.]+', '#', result.seen)}"
 
 
+def read_state(file: Path) -> dict[str, Any]:
+    """Return what write_state has written; empty if it is not there or broken."""
+    with contextlib.suppress(OSError, ValueError):
+        found = json.loads(file.read_text(encoding="utf-8"))
+        if isinstance(found, dict):
+            return found
+    return {}
+
+
+def write_state(file: Path, state: dict[str, Any]) -> None:
+    """Write a file in one step, if it can be written."""
+    with contextlib.suppress(OSError):
+        file.parent.mkdir(parents=True, exist_ok=True)
+        with tempfile.NamedTemporaryFile("w", dir=file.parent, delete=False) as written:
+            json.dump(state, written)
+        os.replace(written.name, file)
+
+
 class Memory:
     """What the last check of a workspace found."""
 
@@ -34,8 +52,7 @@ class Memory:
         """level: NEVER, AGAIN or ALWAYS. A memory that cannot be read is empty."""
         self._level, self._cache = level, cache.expanduser()
         self._key = f"{os.path.realpath(workspace)}\n{course.title}"
-        self._all = self._read()
-        about = self._all.get(self._key, {})
+        about = read_state(self._cache).get(self._key, {})
         about = about if isinstance(about, dict) else {}
         self._wrong, self.done = about.get("wrong", []), about.get("done", [])
 
@@ -49,30 +66,17 @@ class Memory:
     def keep(self, outcomes: Sequence[Outcome]) -> None:
         """Remember what these came to; what was not checked stays as it was."""
         checked = {outcome.id for outcome in outcomes}
-        now = {cause_of(one) for each in outcomes for one in each.results if one.status == WRONG}
+        now = {cause_of(one) for each in outcomes for one in each.wrong}
         made = {one.id for each in outcomes for one in each.results}
         before = [cause for cause in self._wrong if cause.split()[0] not in made]
         self._wrong = sorted({*before, *now})
         self.done = [each for each in self.done if each not in checked]
-        self.done += [one.id for one in outcomes if one.passed and not one.empty]
-        there = {
-            key: one for key, one in self._read().items() if os.path.exists(key.split("\n")[0])
-        }
-        self._all = {**there, self._key: {"wrong": self._wrong, "done": self.done}}
-        with contextlib.suppress(OSError):  # without a memory each failure is a first one
-            self._cache.parent.mkdir(parents=True, exist_ok=True)
-            with tempfile.NamedTemporaryFile(
-                "w", dir=self._cache.parent, delete=False, encoding="utf-8"
-            ) as file:
-                json.dump(self._all, file)
-            os.replace(file.name, self._cache)
-
-    def _read(self) -> dict[str, Any]:
-        with contextlib.suppress(OSError, ValueError):
-            found = json.loads(self._cache.read_text(encoding="utf-8"))
-            if isinstance(found, dict):
-                return found
-        return {}
+        self.done += [one.id for one in outcomes if one.solved]
+        known = read_state(self._cache)
+        there = {key: known[key] for key in known if os.path.exists(key.split("\n")[0])}
+        about = {"wrong": self._wrong, "done": self.done}
+        # Without a memory each failure is a first one.
+        write_state(self._cache, {**there, self._key: about})
 
 
 def show_solution(course: Course, exercises: Sequence[str], memory: Memory) -> None:

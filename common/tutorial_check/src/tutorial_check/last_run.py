@@ -8,13 +8,14 @@ import hashlib
 import json
 import os
 from pathlib import Path
-from typing import Any, Iterable, Iterator
+from typing import Iterable
 
 from tutorial_check.class_page import Student
 from tutorial_check.course import FILE, Course
 from tutorial_check.examination import Outcome
+from tutorial_check.hints import read_state, write_state
 from tutorial_check.model import Result
-from tutorial_check.watch import IGNORED
+from tutorial_check.workspace import all_below
 
 STATE = ".state.json"  # beside the table, out of reach of what is checked
 MOST_BYTES = 200_000_000  # of a student; of a larger one nothing is remembered
@@ -26,10 +27,7 @@ class LastRun:
     def __init__(self, out: Path) -> None:
         """out: the folder of the results."""
         self._file = out / STATE
-        self._found: dict[str, Any] = {}
-        with contextlib.suppress(OSError, ValueError):
-            found = json.loads(self._file.read_text(encoding="utf-8"))
-            self._found = found if isinstance(found, dict) else {}
+        self._found = read_state(self._file)
 
     def outcomes(self, name: str) -> list[Outcome]:
         """Return what came of a student in the last run; empty if there is nothing."""
@@ -42,9 +40,9 @@ class LastRun:
 
     def is_same(self, name: str, digest: str) -> bool:
         """Return whether the last run checked the same, and came to a verdict."""
-        about = self._found.get(name)
-        same = isinstance(about, dict) and bool(digest) and about.get("digest") == digest
-        return same and not any(one.trouble for one in self.outcomes(name))
+        outcomes = self.outcomes(name)
+        same = bool(digest and outcomes) and self._found[name].get("digest") == digest
+        return same and not any(one.trouble for one in outcomes)
 
     def keep(self, students: Iterable[tuple[Student, str]]) -> None:
         """Write (student, digest) of all for the next run; who is not checked yet stays as before."""
@@ -55,8 +53,7 @@ class LastRun:
                 found[student.name] = {"digest": digest, "outcomes": outcomes}
             elif student.name in self._found and not student.trouble:
                 found[student.name] = self._found[student.name]
-        with contextlib.suppress(OSError):  # then all are checked again
-            self._file.write_text(json.dumps(found), encoding="utf-8")
+        write_state(self._file, found)  # or all are checked again
 
 
 def digest_of_checks(course: Course, exercises: Iterable[str], hints: int) -> str:
@@ -72,11 +69,10 @@ def digest_of(path: Path, checks: str) -> str:
     """Return a digest of what a student handed in, and of what checks it; empty if it has none."""
     digest, left = hashlib.sha256(checks.encode()), MOST_BYTES
     try:
-        for file in _files(path):
+        for file in all_below(path) if path.is_dir() else [str(path)]:
             about = os.lstat(file)
-            digest.update(
-                f"{os.path.relpath(file, path)} {about.st_mode}\0".encode("utf-8", "replace")
-            )
+            name = f"{os.path.relpath(file, path)} {about.st_mode}\0"
+            digest.update(name.encode("utf-8", "replace"))
             if os.path.islink(file):
                 digest.update(os.fsencode(os.readlink(file)))
             elif os.path.isfile(file):  # no pipe, which would never end
@@ -87,12 +83,3 @@ def digest_of(path: Path, checks: str) -> str:
     except OSError:
         return ""
     return digest.hexdigest()
-
-
-def _files(path: Path) -> Iterator[str]:
-    if not path.is_dir():
-        yield str(path)
-    for here, folders, files in os.walk(path):
-        folders[:] = sorted(each for each in folders if each not in IGNORED)
-        # A folder may be a link.
-        yield from (os.path.join(here, name) for name in sorted((*files, *folders)))

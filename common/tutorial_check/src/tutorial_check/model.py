@@ -90,10 +90,14 @@ class Check:
     eager: bool = False  # its hint is about the set-up, and shown at once
     function: Callable[[Any], Any] = lambda session: None  # returns a text, a Note or None
 
+    @property
+    def number(self) -> int:
+        """That of the id: 12 of C12."""
+        return int(re.sub(r"\D", "", self.id) or 0)
+
     def result(self, status: str, **more: Any) -> Result:
-        names = ("title", "section", "look", "eager")
-        about = {**{name: getattr(self, name) for name in names}, **more}
-        return Result(self.id, status, **about)
+        about = {"title": self.title, "section": self.section, "look": self.look}
+        return Result(self.id, status, eager=self.eager, **{**about, **more})
 
 
 class Run:
@@ -155,8 +159,10 @@ class Run:
 
     def trouble(self, exercise: str) -> str:
         """Return why a check of the exercise could not be made, though nothing is wrong with it."""
-        own = [check.id for check in self._of(exercise) if check.id in self._troubles]
-        return f"{own[0]}: {self._troubles[own[0]]}" if own else ""
+        for check in self._of(exercise):
+            if check.id in self._troubles:
+                return f"{check.id}: {self._troubles[check.id]}"
+        return ""
 
     def _of(self, exercise: str) -> list[Check]:
         return [check for check in self._checks.values() if check.exercise == exercise]
@@ -205,13 +211,13 @@ class Run:
     def _call(self, check: Check) -> Any:
         try:
             return check.function(self._session)
-        except (Wrong, CannotCheck) as error:
-            explained = False
-            if isinstance(error, Wrong):
-                if error.sure or check.timeless or self._same_cause(error):
-                    raise
-                explained = bool(LINE.search(error.where))
-            if not self._second_look(explained):
+        except CannotCheck:
+            if not self._second_look(False):
+                raise
+        except Wrong as wrong:
+            if wrong.sure or check.timeless or self._same_cause(wrong):
+                raise
+            if not self._second_look(bool(LINE.search(wrong.where))):
                 raise
         try:
             return check.function(self._session)

@@ -20,6 +20,7 @@ from tutorial_check.package import package
 from tutorial_check.report import Terminal, summary
 from tutorial_check.self_test import self_test
 from tutorial_check.variants import sheet, variant_of
+from tutorial_check.watch import watch
 
 UNDERLAY = "TUTORIAL_UNDERLAY"  # environment variable: setup.bash of the underlay
 WORKSPACE = "TUTORIAL_IN"  # environment variable: the workspace of the shell that this is called in
@@ -106,8 +107,7 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     if unknown:
         parser.error(f"no exercise {unknown[0]}; there are {', '.join(known)}")
     _refuse_idle(parser, options)
-    if options.jobs is None:
-        options.jobs = 2
+    options.jobs = 2 if options.jobs is None else options.jobs
     if options.hints is None:
         options.hints = ALWAYS if options.all else AGAIN
     if not options.underlay:
@@ -118,43 +118,42 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     return options
 
 
-def _refuse_idle(parser: argparse.ArgumentParser, options: argparse.Namespace) -> None:
+def _refuse_idle(parser: argparse.ArgumentParser, given: argparse.Namespace) -> None:
     """End with a line if an option would do nothing."""
-    files = [f"--{name}" for name in FORMATS if getattr(options, name)]
-    if options.watch and options.all:
-        parser.error("--watch is for one workspace")
-    if options.solution and (options.all or options.watch or options.self_test):
-        parser.error("--solution is for one workspace, and checks nothing")
-    if options.solution and not options.exercises:
-        parser.error("--solution of which exercise? For example: --solution 4.3")
-    if files and options.all:
-        parser.error(f"{files[0]} is for one workspace; --all writes a .json of each student")
-    if files and options.watch:
-        parser.error(f"{files[0]} is for one check; leave --watch out")
-    for name in ("again", "cluster"):
-        if getattr(options, name) and not options.all:
-            parser.error(f"--{name} is for --all")
-    if options.variant and (options.package or options.self_test):
-        parser.error("--variant is for workspaces")
-    if options.variants is not None and not (options.all or options.show_variant):
-        parser.error("--variants is for --all and --show-variant")
-    many = {"out": options.all or options.package, "jobs": options.all or options.self_test}
-    for name, is_useful in many.items():
-        if getattr(options, name) is not None and not is_useful:
-            parser.error(f"--{name} is for --all")
+    file = next((f"--{name}" for name in FORMATS if getattr(given, name)), "")
+    checks_many = given.all or given.self_test
+    rows = (
+        (given.watch and given.all, "--watch is for one workspace"),
+        (given.solution and (checks_many or given.watch),
+         "--solution is for one workspace, and checks nothing"),
+        (given.solution and not given.exercises,
+         "--solution of which exercise? For example: --solution 4.3"),
+        (file and given.all, f"{file} is for one workspace; --all writes a .json of each student"),
+        (file and given.watch, f"{file} is for one check; leave --watch out"),
+        (given.again and not given.all, "--again is for --all"),
+        (given.cluster and not given.all, "--cluster is for --all"),
+        (given.out is not None and not (given.all or given.package), "--out is for --all"),
+        (given.jobs is not None and not checks_many, "--jobs is for --all"),
+        (given.variant and (given.package or given.self_test), "--variant is for workspaces"),
+        (given.variants is not None and not (given.all or given.show_variant),
+         "--variants is for --all and --show-variant"),
+    )  # fmt: skip
+    for is_idle, why in rows:
+        if is_idle:
+            parser.error(why)
 
 
 def write_files(files: dict[str, str], outcomes: list[Outcome]) -> None:
     """Write the files, each though another cannot be written. Raises CannotCheck."""
     faults = []
     for name, file in files.items():
-        if name == "classroom" and any(outcome.trouble for outcome in outcomes):
-            # It has no word for this. Without a file it reports an error, and no points.
-            why = "not every exercise has a verdict"
-            print(f"check: {file} is not written: {why}", file=sys.stderr)
-            continue
         try:
-            write(file, FORMATS[name](outcomes))
+            if name == "classroom" and any(outcome.trouble for outcome in outcomes):
+                # It has no word for this. Without a file it reports an error, and no points.
+                why = "not every exercise has a verdict"
+                print(f"check: {file} is not written: {why}", file=sys.stderr)
+            else:
+                write(file, FORMATS[name](outcomes))
         except CannotCheck as error:
             faults.append(str(error))
     if faults:
@@ -176,7 +175,7 @@ def check_one(options: argparse.Namespace) -> int:
         course=options.course.folder, own=not (options.gradescope or options.classroom),
         variant=variant_of(options.course, options, ""),
     )  # fmt: skip
-    terminal.done()
+    terminal.busy("")
     memory.keep(outcomes)
     print(f"{summary(outcomes)} in {os.path.abspath(options.workspace)}")
     write_files(files, without_hints(outcomes) if options.hints == 0 else outcomes)
@@ -186,6 +185,27 @@ def check_one(options: argparse.Namespace) -> int:
     if troubles:
         return 2
     return 0 if all(outcome.passed for outcome in outcomes) else 1
+
+
+def _run(options: argparse.Namespace) -> int:
+    """Do what was asked for; return the exit code. Raises CannotCheck."""
+    course = options.course
+    if options.all:
+        from tutorial_check.professor import check_all  # noqa: PLC0415  takes its time
+
+        return check_all(options)
+    if options.self_test:
+        return self_test(course, options.underlay, max(1, options.jobs))
+    if options.watch:
+        watch(options)
+    if options.package:
+        print(package(options.package, course, options.exercises, options.out))
+    elif options.show_variant:
+        name = options.show_variant
+        print(sheet(course, variant_of(course, options, name), name))
+    else:
+        return check_one(options)
+    return 0
 
 
 def main() -> None:
@@ -199,25 +219,7 @@ def main() -> None:
     for line in bubblewrap.lacking():
         print(f"check: {line}", file=sys.stderr, flush=True)
     try:
-        if options.all:
-            from tutorial_check.professor import check_all  # noqa: PLC0415
-
-            code = check_all(options)
-        elif options.package:
-            print(package(options.package, options.course, options.exercises, options.out))
-            code = 0
-        elif options.show_variant:
-            name = options.show_variant
-            print(sheet(options.course, variant_of(options.course, options, name), name))
-            code = 0
-        elif options.self_test:
-            code = self_test(options.course, options.underlay, max(1, options.jobs))
-        elif options.watch:
-            from tutorial_check.watch import watch  # noqa: PLC0415
-
-            code = watch(options)
-        else:
-            code = check_one(options)
+        code = _run(options)
     except CannotCheck as error:
         print(f"\ncheck: no verdict: {error}", file=sys.stderr)
         code = 2

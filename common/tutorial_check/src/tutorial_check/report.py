@@ -23,13 +23,8 @@ def lines_of(result: Result) -> list[str]:
         return [head + (f"  ({result.seen})" if result.seen else "")]
     if result.status == UNREACHED:
         return [f"{head}: not reached; {result.seen}"]
-    lines = [head, f"{MARGIN}seen:     {result.seen}"]
-    if result.expected:
-        lines.insert(1, f"{MARGIN}expected: {result.expected}")
-    if result.where:
-        lines.append(f"{MARGIN}where:    {result.where}")
-    if result.hint:
-        lines.append(f"{MARGIN}hint:     {result.hint}")
+    words = ((name, getattr(result, name)) for name in ("expected", "seen", "where", "hint"))
+    lines = [head, *(f"{MARGIN}{name + ':':<9} {text}" for name, text in words if text)]
     if result.status == WRONG:
         see = f"; see it yourself: {result.look}" if result.look else ""
         lines.append(f"{MARGIN}{result.section}{see}")
@@ -41,19 +36,16 @@ def heading(outcome: Outcome) -> str:
 
 
 def summary(outcomes: Sequence[Outcome]) -> str:
-    passed = [outcome for outcome in outcomes if outcome.passed]
-    empty = [outcome.id for outcome in passed if outcome.empty]
-    rest = f" ({', '.join(empty)}: nothing to check)" if empty else ""
-    return f"{len(passed) - len(empty)} of {len(outcomes)} exercises done{rest}"
+    empty = ", ".join(outcome.id for outcome in outcomes if outcome.empty)
+    rest = f" ({empty}: nothing to check)" if empty else ""
+    return f"{sum(one.solved for one in outcomes)} of {len(outcomes)} exercises done{rest}"
 
 
 def text_of(outcomes: Sequence[Outcome]) -> str:
     """Return the whole report without colours."""
     lines = []
     for outcome in outcomes:
-        lines.append(heading(outcome))
-        for result in outcome.results:
-            lines += lines_of(result)
+        lines += [heading(outcome), *(line for one in outcome.results for line in lines_of(one))]
     return "\n".join([*lines, summary(outcomes)]) + "\n"
 
 
@@ -71,15 +63,12 @@ class Terminal:
         self._has_colour = self.is_terminal and "NO_COLOR" not in os.environ
 
     def busy(self, words: str) -> None:
-        """Show a line that the next one replaces."""
+        """Show a line that the next one replaces; without words remove it."""
         if self.is_terminal:
             print(f"\r\x1b[K{words}", end="", file=self._out, flush=True)
 
-    def done(self) -> None:
-        self.busy("")
-
     def result(self, outcome: Outcome, result: Result) -> None:
-        self.done()
+        self.busy("")
         if self._heading != outcome.id:
             self._heading = outcome.id
             print(heading(outcome), file=self._out)

@@ -10,7 +10,7 @@ from typing import Iterator
 
 from tutorial_check.course import Course
 from tutorial_check.examination import Outcome, examine
-from tutorial_check.model import WRONG, CannotCheck, Result
+from tutorial_check.model import CannotCheck
 
 SOLUTIONS, RIGHT, WRONG_OF = "solutions", "right", "wrong_"
 
@@ -42,9 +42,9 @@ def self_test(course: Course, underlay: str, jobs: int) -> int:
         for (name, check, _), outcomes in zip(each, examined):
             complaint = complaint_of(check, outcomes)
             failed += bool(complaint)
-            seen = next((one.seen for one in wrong_of(outcomes) if one.id == check), "passes")
+            seen = [one.seen for outcome in outcomes for one in outcome.wrong if one.id == check]
             word = "FAILED" if complaint else "ok"
-            print(f"{word:<7}{name}: {complaint or seen}", flush=True)
+            print(f"{word:<7}{name}: {complaint or [*seen, 'passes'][0]}", flush=True)
     print(f"{failed} of the solutions failed" if failed else f"all solutions of {course.title}")
     return int(bool(failed))
 
@@ -56,20 +56,16 @@ def _examined(course: Course, underlay: str, folders: list[Path]) -> list[Outcom
         return examine(scratch, underlay, list(course.exercises), own=False, course=course.folder)
 
 
-def wrong_of(outcomes: list[Outcome]) -> list[Result]:
-    """Return all results that are wrong, in their order."""
-    return [one for outcome in outcomes for one in outcome.results if one.status == WRONG]
-
-
 def complaint_of(check: str, outcomes: list[Outcome]) -> str:
     """Return what is wrong with the outcomes of a solution that must fail at a check, or ""."""
-    trouble = next((f"{one.id}: {one.trouble}" for one in outcomes if one.trouble), "")
-    wrong = wrong_of(outcomes)
-    if trouble:
-        return f"could not be checked: {trouble}"
+    for one in outcomes:
+        if one.trouble:
+            return f"could not be checked: {one.id}: {one.trouble}"
+    wrong = [result for outcome in outcomes for result in outcome.wrong]
     if not check:
         return f"{wrong[0].id} is wrong: {wrong[0].seen}" if wrong else ""
     if not wrong:
         return f"{check} should be wrong, and nothing is"
-    first = f"{check} should be the first that is wrong, and {wrong[0].id} is: {wrong[0].seen}"
-    return "" if wrong[0].id == check else first
+    if wrong[0].id != check:
+        return f"{check} should be the first that is wrong, and {wrong[0].id} is: {wrong[0].seen}"
+    return ""

@@ -10,7 +10,7 @@ from typing import Any, Dict, Mapping
 
 import yaml
 
-from tutorial_check.course import Course, Value
+from tutorial_check.course import Course, Value, read_yaml
 from tutorial_check.model import CannotCheck, Result
 
 FOLDER = "variants"  # beside what the students of --all handed in: NAME.yaml
@@ -44,41 +44,33 @@ class Task:
 
 def read_variant(course: Course, file: str | Path) -> Variant:
     """Return the Variant of a file. Raises CannotCheck."""
-    try:
-        values = yaml.safe_load(Path(file).read_text(encoding="utf-8"))
-    except OSError as error:
-        raise CannotCheck(f"{file}: {error.strerror}") from None
-    except (UnicodeDecodeError, yaml.YAMLError) as error:
-        raise CannotCheck(f"{file}: no YAML: {' '.join(str(error).split())}") from None
+    values = read_yaml(file)
     known = ", ".join(course.variants) or "none in this course"
     if not isinstance(values, dict):
         raise CannotCheck(f"{file}: a map of values is wanted; known are: {known}")
     for name, value in values.items():
         if name not in course.variants:
             raise CannotCheck(f"{file}: {name} is not known; known are: {known}")
-        one = course.variants[name]
-        if not _is_allowed(value, one):
-            raise CannotCheck(f"{file}: {name}: {value!r}; allowed is {_range(one)}")
+        allowed = _misses(value, course.variants[name])
+        if allowed:
+            raise CannotCheck(f"{file}: {name}: {value!r}; allowed is {allowed}")
+    whole = {name: values.get(name, one.default) for name, one in course.variants.items()}
     for name, one in course.variants.items():
-        both = {
-            values.get(each, course.variants[each].default) for each in (name, one.unlike or name)
-        }
-        if one.unlike and len(both) == 1:
-            raise CannotCheck(f"{file}: {name} and {one.unlike} are both {both.pop()!r}: name both")
+        if one.unlike and whole[name] == whole[one.unlike]:
+            both = f"{name} and {one.unlike} are both {whole[name]!r}"
+            raise CannotCheck(f"{file}: {both}: name both")
     return values
 
 
-def _is_allowed(value: Any, one: Value) -> bool:
+def _misses(value: Any, one: Value) -> str:
+    """Return what is allowed in place of a value; empty if it is allowed."""
     if isinstance(one.allowed, str):
-        return isinstance(value, str) and bool(re.fullmatch(one.allowed, value))
-    kinds = (int,) if isinstance(one.allowed[0], int) else (int, float)
+        fits = isinstance(value, str) and re.fullmatch(one.allowed, value)
+        return "" if fits else f"what fits {one.allowed}"
     lowest, highest = one.allowed
-    return type(value) in kinds and lowest <= value <= highest
-
-
-def _range(one: Value) -> str:
-    is_text = isinstance(one.allowed, str)
-    return f"what fits {one.allowed}" if is_text else f"{one.allowed[0]} to {one.allowed[1]}"
+    kinds = (int,) if isinstance(lowest, int) else (int, float)
+    fits = type(value) in kinds and lowest <= value <= highest
+    return "" if fits else f"{lowest} to {highest}"
 
 
 def drawn(course: Course, seed: str, name: str) -> Variant:

@@ -5,29 +5,29 @@ from __future__ import annotations
 import argparse
 import contextlib
 import os
+import stat
 import time
 from dataclasses import replace
+from typing import NoReturn
 
 from tutorial_check.examination import examine
 from tutorial_check.hints import Memory
-from tutorial_check.model import WRONG, CannotCheck
+from tutorial_check.model import CannotCheck
 from tutorial_check.report import Terminal, lines_of, summary
 from tutorial_check.variants import variant_of
+from tutorial_check.workspace import all_below
 
 PERIOD_S = 0.5  # between two looks; editors save in several steps, so two must be the same
-IGNORED = {"build", "devel", ".git", "__pycache__"}
+OF_EDITORS = ("~", ".swp")
 
 
 def stamps(folder: str) -> dict[str, tuple[int, int]]:
     """Return {path: (time of the last change, also of its rights; size)} of the student's files in a folder."""
     found = {}
-    for here, folders, files in os.walk(folder):
-        folders[:] = [each for each in folders if each not in IGNORED]
-        for path in (
-            os.path.join(here, name) for name in files if not name.endswith(("~", ".swp"))
-        ):
-            with contextlib.suppress(OSError):  # removed meanwhile
-                about = os.stat(path)
+    for path in all_below(folder):
+        with contextlib.suppress(OSError):  # removed meanwhile
+            about = os.stat(path)
+            if not (stat.S_ISDIR(about.st_mode) or path.endswith(OF_EDITORS)):
                 found[path] = about.st_ctime_ns, about.st_size
     return found
 
@@ -40,7 +40,7 @@ def wait_for_change(folder: str, before: dict[str, tuple[int, int]]) -> None:
         last, now = now, stamps(folder)
 
 
-def watch(options: argparse.Namespace) -> int:
+def watch(options: argparse.Namespace) -> NoReturn:
     """Until Ctrl-C: examine, report the first that is wrong, wait for a change. Raises CannotCheck."""
     if not os.path.isdir(options.workspace):
         raise CannotCheck(f"{options.workspace}: no folder, and --watch is for one")
@@ -66,16 +66,16 @@ def report_once(options: argparse.Namespace) -> None:
             variant=variant_of(options.course, options, ""),
         )
     except CannotCheck as error:
-        terminal.done()
+        terminal.busy("")
         print(f"check: {error}")  # half-saved, or a folder that is just being moved
         return
-    terminal.done()
+    terminal.busy("")
     for outcome in outcomes:
-        for wrong in [result for result in outcome.results if result.status == WRONG][:1]:
+        for wrong in outcome.wrong[:1]:
             print("\n".join(lines_of(replace(wrong, hint=memory.hint_of(wrong)))))
         if outcome.trouble:
             print(f"check: {outcome.id}: no verdict: {outcome.trouble}")
     memory.keep(outcomes)
-    done = ", ".join(one.id for one in outcomes if one.passed and not one.empty)
+    solved = ", ".join(one.id for one in outcomes if one.solved)
     all_passed = all(outcome.passed for outcome in outcomes)
-    print(summary(outcomes) if all_passed else f"done: {done or 'none yet'}")
+    print(summary(outcomes) if all_passed else f"done: {solved or 'none yet'}")

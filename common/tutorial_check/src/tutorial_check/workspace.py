@@ -23,7 +23,8 @@ MOST_FILES = 20_000
 COPY = "handed_in"  # folder of the copy of what was handed in
 # The words of a launch file, and in one of them what a node of the exercises reads.
 BETWEEN_WORDS, WHOLE_PATH = re.compile(r"[\s\"'<>$]+"), re.compile(r"/.+\.(?:bag|rviz)\b")
-LEFT_OUT = {".git", "build", "devel", "install", "__pycache__", ".catkin_tools", "logs"}
+IGNORED = {"build", "devel", ".git", "__pycache__"}  # folders that no student writes
+LEFT_OUT = {*IGNORED, "install", ".catkin_tools", "logs"}  # of a workspace's sources
 
 
 @dataclass
@@ -205,6 +206,14 @@ def named_outside(source: Path) -> list[str]:
         WHOLE_PATH.match(word, 0 if word[:1] == "/" else word.find("=/") + 1) for word in words
     }
     return sorted(each[0] for each in named if each and os.path.isfile(each[0]))
+
+
+def all_below(folder: str | Path) -> Iterator[str]:
+    """Yield the path of all that is in a folder, in order, without what is IGNORED."""
+    for here, folders, files in os.walk(folder):
+        folders[:] = sorted(set(folders) - IGNORED)
+        # A folder may be a link.
+        yield from (os.path.join(here, name) for name in sorted((*files, *folders)))
 
 
 def packages_below(folder: str | Path) -> list[Package]:
