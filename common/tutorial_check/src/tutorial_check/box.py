@@ -170,12 +170,9 @@ class Box:
             if value or is_over:
                 return value
             if self._is_crowded():
-                raise Wrong(
-                    "a program that is one process, or a few",
-                    f"it starts itself again and again: more than {MOST_PROCESSES} processes",
-                    hint="where does it call os.fork, or start programs?",
-                    sure=True,
-                )
+                seen = f"it starts itself again and again: more than {MOST_PROCESSES} processes"
+                hint = "where does it call os.fork, or start programs?"
+                raise Wrong("a program that is one process, or a few", seen, "", hint, sure=True)
             self._pump(max(0.01, 2 * (time.monotonic() - asked_s)))  # asking takes others' time
 
     def _is_crowded(self) -> bool:
@@ -224,16 +221,13 @@ class Box:
             return len(took_s) == len(programs)
 
         self.wait(all_ended, grace_s)
-        self._kill(programs)
-        return [took_s.get(program) for program in programs]
-
-    def _kill(self, programs: Iterable[Program]) -> None:
-        """Kill their groups, also what a program that has ended left behind; read what is left."""
-        for program in programs:
+        for program in programs:  # with what one that has ended left behind in its group
             program.signal(signal.SIGKILL)
             program.process.wait()
-        for descriptor in [each for each, one in self._reading.items() if one in programs]:
-            self._read(descriptor)  # at most a pipe's size is left, which is read at once
+        for descriptor, program in list(self._reading.items()):
+            if program in programs:
+                self._read(descriptor)  # at most a pipe's size is left, which is read at once
+        return [took_s.get(program) for program in programs]
 
     def clear(self) -> None:
         """End all that is left, whatever it is called and whatever started it."""
@@ -241,10 +235,8 @@ class Box:
             program.stop(signal.SIGKILL)
         for _ in range(100):
             stopped: set[int] = set()
-            while True:  # one that forks without end comes to the limit of its processes
-                new = set(self._strays()) - stopped
-                if not new:
-                    break
+            # One that forks without end comes to the limit of its processes.
+            while new := set(self._strays()) - stopped:
                 _signal(new, signal.SIGSTOP)
                 stopped |= new
             if not stopped:
@@ -267,15 +259,14 @@ class Box:
 
     def _strays(self) -> list[int]:
         """Return the ids of the living below this process, whose children orphans become."""
-        found, below = list(processes()), {os.getpid()}
-        more = below
-        while more:
-            more = {pid for pid, _, parent, _ in found if parent in below} - below
+        found, ours = list(processes()), {os.getpid()}
+        below: set[int] = set()
+        while more := {pid for pid, _, parent, _ in found if parent in below | ours} - below:
             below |= more
         return [
             pid
             for pid, state, _, session in found
-            if pid in below - {os.getpid()} and state not in ENDED and session not in self.trusted
+            if pid in below and state not in ENDED and session not in self.trusted
         ]
 
 

@@ -15,7 +15,7 @@ import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 from subprocess import DEVNULL, PIPE
-from typing import Iterable, Sequence
+from typing import Any, Iterable, Sequence
 
 SCRATCH_MB = 600  # for the copy, its build, logs and what the programs write
 # Of /etc not all: the checker, which is root there, may follow a link, and may read more.
@@ -90,15 +90,9 @@ def _closed_user_namespace() -> int:
 
 def _fault(command: Sequence[str], descriptors: tuple[int, ...] = ()) -> str:
     """Return why a command fails; empty if it does not."""
+    about: dict[str, Any] = {"stdin": DEVNULL, "stderr": PIPE, "stdout": DEVNULL, "timeout": 60}
     try:
-        tried = subprocess.run(
-            command,
-            stdin=DEVNULL,
-            capture_output=True,
-            timeout=60,
-            check=False,
-            pass_fds=descriptors,
-        )
+        tried = subprocess.run(command, check=False, pass_fds=descriptors, **about)
     except (OSError, subprocess.TimeoutExpired) as error:
         return str(error)
     words = tried.stderr.decode(errors="replace").split()

@@ -43,9 +43,7 @@ def _twist(velocity: Sequence[float]) -> Twist:
 
 def _plain(message: Any) -> Any:
     if isinstance(message, Twist):
-        return tuple(
-            getattr(part, axis) for part in (message.linear, message.angular) for axis in "xyz"
-        )
+        return tuple(getattr(v, axis) for v in (message.linear, message.angular) for axis in "xyz")
     if isinstance(message, Joy):
         return (tuple(message.axes), tuple(message.buttons))
     if isinstance(message, Odometry):
@@ -194,23 +192,17 @@ class Driver:
         _in_thread(self._ask, node, lambda proxy: proxy.shutdown(f"/{NAME}", "user request"))
 
     def _ask(self, node: str, question: Callable[[Any], Any]) -> Any:
-        errors = (OSError, rosgraph.MasterException, xmlrpc.client.Error)  # it is gone already
-        with contextlib.suppress(*errors), self._proxy(node) as proxy:
+        gone = contextlib.suppress(OSError, rosgraph.MasterException, xmlrpc.client.Error)
+        with gone, xmlrpc.client.ServerProxy(self._master.lookupNode(node)) as proxy:
             return question(proxy)
-
-    def _proxy(self, node: str) -> xmlrpc.client.ServerProxy:
-        return xmlrpc.client.ServerProxy(self._master.lookupNode(node))
 
     def set_parameter(self, name: str, value: Any) -> None:
         rospy.set_param(name, value)
 
 
 def _others(topics: Sequence[tuple[str, list[str]]]) -> dict[str, list[str]]:
-    found = {
-        topic: [node for node in nodes if not node.startswith(f"/{NAME}")]
-        for topic, nodes in topics
-    }
-    return {topic: nodes for topic, nodes in found.items() if nodes}
+    found = ((topic, [n for n in nodes if not n.startswith(f"/{NAME}")]) for topic, nodes in topics)
+    return {topic: nodes for topic, nodes in found if nodes}
 
 
 def _in_thread(function: Callable[..., Any], *arguments: Any) -> None:

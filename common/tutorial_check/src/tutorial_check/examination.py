@@ -91,9 +91,8 @@ def examine(
     into the home folder. course: its folder. variant: of the task; see variants.Variant. Raises CannotCheck.
     """
     if not os.path.isfile(underlay):
-        raise CannotCheck(
-            f"{underlay}: no such file, or may not be read; ./tutorial setup builds it"
-        )
+        why = "no such file, or may not be read; ./tutorial setup builds it"
+        raise CannotCheck(f"{underlay}: {why}")
     folder = tempfile.mkdtemp(prefix="tutorial_check_")
     # If this process is killed; isolated, an examination does not reach the folder itself.
     words = ["sh", "-c", 'read -r _; rm -rf -- "$1"', "sh", folder]
@@ -136,20 +135,15 @@ def _environment(underlay: str) -> dict[str, str]:
     """Return what a shell has that has sourced setup.bash, and nothing else. Raises CannotCheck."""
     words = ["bash", "-c", '. "$1" >/dev/null && env -0', "bash", underlay]
     bare = {"PATH": "/usr/bin:/bin", "LANG": "C.UTF-8"}
+    about: dict[str, Any] = {"env": bare, "capture_output": True, "timeout": 120, "text": True}
     try:
-        done = subprocess.run(
-            words, env=bare, capture_output=True, check=True, timeout=120, text=True
-        )
-    except subprocess.CalledProcessError as error:
-        raise CannotCheck(f"{underlay} cannot be sourced: {error.stderr[-200:]}") from None
-    except (OSError, subprocess.TimeoutExpired) as error:
-        raise CannotCheck(f"{underlay} cannot be sourced: {error}") from None
+        done = subprocess.run(words, check=True, **about)
+    except (OSError, subprocess.SubprocessError) as error:
+        why = (getattr(error, "stderr", "") or str(error))[-200:]
+        raise CannotCheck(f"{underlay} cannot be sourced: {why}") from None
     # rospy loads numpy, which starts a thread for each processor; none is needed here.
-    return {
-        **environment_of(done.stdout.split("\0")),
-        **_given(OF_SUITE),
-        "OPENBLAS_NUM_THREADS": "1",
-    }
+    found = environment_of(done.stdout.split("\0"))
+    return {**found, **_given(OF_SUITE), "OPENBLAS_NUM_THREADS": "1"}
 
 
 def _given(names: Iterable[str]) -> dict[str, str]:
@@ -165,10 +159,10 @@ def _compile() -> None:
 def _kept(underlay: str) -> list[str]:
     """Return the folders that the programs need: the underlay and its sources, this package among them."""
     devel = Path(underlay).parent
-    with_sources = devel / ".catkin"
-    sources = with_sources.read_text().split(";") if with_sources.is_file() else []
-    links = [link for source in filter(None, sources) for link in Path(source).glob("*")]
-    return [str(devel.parent), *(str(link.resolve()) for link in links if link.is_dir())]
+    names = devel / ".catkin"
+    sources = filter(None, names.read_text().split(";") if names.is_file() else [])
+    links = [link for source in sources for link in Path(source).glob("*") if link.is_dir()]
+    return [str(devel.parent), *(str(link.resolve()) for link in links)]
 
 
 def _course_within(folder: Path, course: Path) -> Path:
@@ -198,12 +192,8 @@ def _hand_in(workspace: str, folder: Path, own: bool) -> tuple[workspaces.Layout
 def _examine(orders: dict[str, Any], wrapper: list[str], report: Report) -> list[Outcome]:
     if not wrapper:
         place.keep_to_itself()  # and the end of the socket
-    environment = {
-        **orders["environment"],
-        **_given(("HOME", "LANG")),
-        "PATH": "/usr/bin:/bin:/usr/sbin:/sbin",
-        "PYTHONDONTWRITEBYTECODE": "1",
-    }
+    environment = {**orders["environment"], **_given(("HOME", "LANG"))}
+    environment.update(PATH="/usr/bin:/bin:/usr/sbin:/sbin", PYTHONDONTWRITEBYTECODE="1")
     # No pipe, which a path in /proc would open: a program could plant a link to that.
     ours, theirs = socket.socketpair()
     known = read_course(orders["course"]).exercises
@@ -241,8 +231,8 @@ def _examine(orders: dict[str, Any], wrapper: list[str], report: Report) -> list
         log.seek(0)
         logged = log.read()
     if ending is None:
-        last = [line for line in logged[-2000:].splitlines() if line.strip()][-1:]
-        ending = f"the examination ended without a result: {''.join(last)}"
+        last = ["", *filter(str.strip, logged[-2000:].splitlines())][-1]
+        ending = f"the examination ended without a result: {last}"
     found = list(outcomes.values())
     if ending and (_no_more.is_set() or not any(outcome.results for outcome in found)):
         raise CannotCheck(ending)
@@ -268,9 +258,8 @@ def _listen(ours: socket.socket, outcomes: dict[str, Outcome], report: Report) -
             if "exercise" not in word:
                 return str(word.get("cannot", ""))
             _note(word, outcomes, report)
-    return (
-        f"the examination took longer than {LONGEST_S:.0f} s: the machine has too much else to do"
-    )
+    why = "the machine has too much else to do"
+    return f"the examination took longer than {LONGEST_S:.0f} s: {why}"
 
 
 def _note(word: dict[str, Any], outcomes: dict[str, Outcome], report: Report) -> None:

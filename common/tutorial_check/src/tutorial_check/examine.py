@@ -70,11 +70,7 @@ def examine(orders: dict[str, Any], send: Send, result: int) -> None:
     os.environ.update(HOME=home, ROS_HOME=home, ROS_LOG_DIR=home, ROS_IP="127.0.0.1")
     os.environ.pop("ROS_HOSTNAME", None)
 
-    from tutorial_check import (  # noqa: PLC0415
-        box,
-        session,
-        variants,
-    )
+    from tutorial_check import box, session, variants  # noqa: PLC0415
     from tutorial_check.course import checks_of, read_course, task_of  # noqa: PLC0415
 
     uid = place.unused_user(orders["number"]) if os.geteuid() == 0 else None
@@ -129,12 +125,11 @@ def _paths_of_the_student(
     root = f"{shlex.quote(str(layout.root))}/" if is_known else ""
 
     def as_sent(result: Result) -> dict[str, Any]:
-        return {
-            name: words.replace(copied, root if name in ("hint", "look") else "")
-            if isinstance(words, str)
-            else words
-            for name, words in vars(result).items()
-        }
+        found = dict(vars(result))
+        for name, words in found.items():
+            if isinstance(words, str):
+                found[name] = words.replace(copied, root if name in ("hint", "look") else "")
+        return found
 
     return as_sent
 

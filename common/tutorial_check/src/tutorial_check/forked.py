@@ -5,7 +5,6 @@ from __future__ import annotations
 import multiprocessing
 import os
 import signal
-import sys
 import threading
 import time
 from multiprocessing.connection import Connection
@@ -27,7 +26,7 @@ class Helper:
     def __init__(self, make: Callable[[], Any], environment: Mapping[str, str]) -> None:
         """make(): the object, called in the new process, in that environment."""
         self._line, theirs = FORK.Pipe()
-        self._trouble = ""
+        self._trouble = ""  # why it is asked no more
         about = (make, environment, theirs, self._line)
         self._process = FORK.Process(target=_serve, args=about, daemon=True)
         self._process.start()
@@ -77,9 +76,9 @@ def _serve(
     ours.close()  # so that the end of the checker is the end of this line
     place.restore_rights()
     os.setsid()
-    sys.stdout = sys.stderr = open(os.devnull, "w")  # noqa: SIM115  for the life of the process
+    nowhere = os.open(os.devnull, os.O_RDWR)
     for stream in (0, 1, 2):
-        os.dup2(sys.stdout.fileno(), stream)
+        os.dup2(nowhere, stream)
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, signal.SIG_IGN)
     os.environ.clear()

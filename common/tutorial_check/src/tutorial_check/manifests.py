@@ -18,15 +18,12 @@ if TYPE_CHECKING:
 # What catkin says of a package.xml, the word that it means, what to do.
 WANTS = (
     ("replace <run_depend>", "<run_depend", "run_depend is of format 1: write exec_depend"),
-    (
-        "replace <exec_depend>",
-        "<exec_depend",
-        'exec_depend is of format 2: write <package format="2">',
-    ),
+    ("replace <exec_depend>", "<exec_depend",
+     'exec_depend is of format 2: write <package format="2">'),
     ("format version '|invalid literal", "<package", 'write <package format="2">'),
     ("condition", "condition=", 'a condition compares by two =, as in "$ROS_VERSION == 1"'),
     ("", "", "its tags are well formed, but catkin wants what is named here"),
-)
+)  # fmt: skip
 
 
 def unreadable(package: Package) -> Any:
@@ -41,13 +38,8 @@ def unreadable(package: Package) -> Any:
         _, word, hint = next(each for each in WANTS if re.search(each[0], package.error))
         where = place_of(where, read(file), word) if word else where
     so = "no node of the workspace starts" if package.malformed else "roslaunch starts nothing"
-    return Wrong(
-        "a package.xml that can be read",
-        package.error,
-        where=where,
-        hint=f"{hint}. Until then catkin_make fails, and {so}",
-        sure=True,
-    )
+    hint += f". Until then catkin_make fails, and {so}"
+    return Wrong("a package.xml that can be read", package.error, where, hint, sure=True)
 
 
 def must_be_startable(session: Session) -> None:
@@ -72,11 +64,7 @@ def must_be_launchable(session: Session) -> None:
         places.setdefault(package.name, []).append(package.inside)
     for name, folders in places.items():
         if len(folders) > 1:
-            raise Wrong(
-                f"one package {name} in src",
-                f"{len(folders)}: {', '.join(folders)}",
-                where=folders[1],
-                hint="remove the copy from src, or put an empty file CATKIN_IGNORE into it: with"
-                " both of them roslaunch starts nothing",
-                sure=True,
-            )
+            seen = f"{len(folders)}: {', '.join(folders)}"
+            hint = "remove the copy from src, or put an empty file CATKIN_IGNORE into it"
+            hint += ": with both of them roslaunch starts nothing"
+            raise Wrong(f"one package {name} in src", seen, folders[1], hint, sure=True)

@@ -86,13 +86,9 @@ def package(what: str, course: Course, exercises: Sequence[str], out: str | None
     return str(path)
 
 
-def _words(exercises: Sequence[str], course: str = "") -> str:
-    return shlex.join([*(("--course", course) if course else ()), *exercises])
-
-
 def _gradescope(path: Path, course: Course, exercises: Sequence[str]) -> None:
     is_ours = course.folder == OURS
-    words = _words(exercises, "" if is_ours else "source/course")
+    words = shlex.join([*(() if is_ours else ("--course", "source/course")), *exercises])
     run = RUN.replace("@WORDS@", words).replace("@LIMIT@", str(LIMIT_S))
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as file:
         for name, text in (("setup.sh", SETUP), ("run_autograder", run)):
@@ -129,10 +125,10 @@ def _commit() -> str:
 def _workflow(repository: str, course: Course, exercises: Sequence[str]) -> str:
     if not re.fullmatch(r"[\w.-]+/[\w.-]+", repository):
         raise CannotCheck(f"--package {GITHUB}:OWNER/NAME: the repository in which this suite is")
-    inside = ""
+    words = list(exercises)
     if course.folder != OURS:
         if SUITE not in course.folder.parents:
             raise CannotCheck(f"{course.folder}: put the course into the suite's repository")
-        inside = f"suite/{course.folder.relative_to(SUITE)}"
+        words = ["--course", f"suite/{course.folder.relative_to(SUITE)}", *words]
     text = WORKFLOW.replace("@REPOSITORY@", repository).replace("@COMMIT@", _commit())
-    return text.replace("@WORDS@", _words(exercises, inside))
+    return text.replace("@WORDS@", shlex.join(words))

@@ -20,9 +20,8 @@ HOPELESS = 0.86  # it says nothing
 REACH_S = 30.0  # the kernel counts how long a thread waited only when that is over
 STARVED_S = 0.5  # ready, and without a turn
 
-Times = Dict[
-    int, Tuple[int, int, int]
-]  # thread: (its process, ns at work, ns ready without a turn)
+# {thread: (its process, ns at work, ns ready without a turn)}
+Times = Dict[int, Tuple[int, int, int]]
 
 
 def fields_of(stat: str) -> list[bytes]:
@@ -53,10 +52,9 @@ def times_of(process: int, proc: str = "/proc") -> Times:
 
 def is_ready(process: int, thread: int) -> bool:
     """Return whether a thread would work if it had a processor, or waits for the disk."""
-    try:
+    with contextlib.suppress(OSError, IndexError):  # ended meanwhile
         return fields_of(f"/proc/{process}/task/{thread}/stat")[0] in (b"R", b"D")
-    except (OSError, IndexError):
-        return False  # ended meanwhile
+    return False
 
 
 class Patience:

@@ -10,7 +10,6 @@ from collections import Counter
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 
-from tutorial_check import variants
 from tutorial_check.class_page import Student, table_csv, table_html
 from tutorial_check.cluster import MOST_AT_ONCE, Cluster, Gone
 from tutorial_check.examination import end_all, examine
@@ -18,7 +17,7 @@ from tutorial_check.formats import as_json, clear, without_hints, write
 from tutorial_check.last_run import LastRun, digest_of, digest_of_checks
 from tutorial_check.model import CannotCheck, fault
 from tutorial_check.report import summary, text_of
-from tutorial_check.variants import variant_of
+from tutorial_check.variants import FOLDER, variant_of
 
 ARCHIVES = (".zip", ".tar", ".tgz", ".gz", ".bz2", ".xz", ".7z", ".rar")
 TABLES = ("table.csv", "table.html")
@@ -39,7 +38,7 @@ def find_students(folder: str | Path, out: str | Path) -> list[Student]:
         path
         for path in entries
         if (path.is_dir() or path.suffix.lower() in ARCHIVES or not path.exists())
-        and path.name != variants.FOLDER
+        and path.name != FOLDER
         and not _has_results(path, out)
     ]
     if not paths:
@@ -72,45 +71,42 @@ def check_all(options: argparse.Namespace) -> int:
         out.mkdir(parents=True, exist_ok=True)
     if not (os.path.isdir(out) and os.access(out, os.W_OK | os.X_OK)):
         raise CannotCheck(f"{out}: no folder that may be written to; --out names another one")
-    last_run = LastRun(out)
     for student in students:  # what an earlier check said
-        student.before = last_run.outcomes(student.name)
         for ending in (".txt", ".json"):
             with contextlib.suppress(OSError):
                 (out / f"{student.name}{ending}").unlink()
     for name in TABLES:
         clear(out / name)
-    Check(students, out, options, last_run).run()
+    Check(students, out, options).run()
     write(out / TABLES[0], table_csv(students, options.exercises))
     print(f"{out}/table.html, table.csv, and a report of each")
     outcomes = [outcome for student in students for outcome in student.outcomes]
-    if any(one.trouble for one in students) or any(one.trouble for one in outcomes):
+    if any([*(one.trouble for one in students), *(one.trouble for one in outcomes)]):
         return 2
-    return 0 if all(outcome.passed for outcome in outcomes) else 1
+    return int(not all(outcome.passed for outcome in outcomes))
 
 
 class Check:
     """The checks of all students, some at a time; the page shows how far they are."""
 
-    def __init__(
-        self, students: list[Student], out: Path, options: argparse.Namespace, last_run: LastRun
-    ) -> None:
-        """Take the students, and what the last run found."""
+    def __init__(self, students: list[Student], out: Path, options: argparse.Namespace) -> None:
+        """Read what the last run found. out: the folder of the results."""
         self._students, self._out, self._options = students, out, options
-        self._last_run = last_run
+        self._last_run = LastRun(out)
+        for student in students:
+            student.before = self._last_run.outcomes(student.name)
         self._checks = digest_of_checks(options.course, options.exercises, options.hints)
         self._digests: dict[str, str] = {}
         self._next_s = 0.0  # when the page may be written again
         self._cluster = Cluster(options.cluster) if options.cluster else None
-        self._at_once = MOST_AT_ONCE if self._cluster else max(1, options.jobs)
-        self._titles = {name: one.title for name, one in options.course.exercises.items()}
 
     def run(self) -> None:
         """Check all; write the page after each, and at the end what the next run needs."""
         from tqdm import tqdm  # noqa: PLC0415  only here
 
         self._show()
-        with ThreadPoolExecutor(self._at_once) as pool, tqdm(
+        at_once = MOST_AT_ONCE if self._cluster else max(1, self._options.jobs)
+        with ThreadPoolExecutor(at_once) as pool, tqdm(
             total=len(self._students), unit="student", disable=None
         ) as bar:
             checks = [pool.submit(self._check, student) for student in self._students]
@@ -138,7 +134,8 @@ class Check:
         began_s = time.monotonic()
         if began_s < self._next_s and not is_last:
             return
-        page = table_html(self._students, self._options.exercises, self._titles)
+        titles = {name: one.title for name, one in self._options.course.exercises.items()}
+        page = table_html(self._students, self._options.exercises, titles)
         write(self._out / f".{TABLES[1]}", page)
         os.replace(self._out / f".{TABLES[1]}", self._out / TABLES[1])
         self._last_run.keep((one, self._digests.get(one.name, "")) for one in self._students)
@@ -170,19 +167,18 @@ class Check:
         """Set the outcomes, which may be those of the last run; return a remark."""
         if student.path.is_symlink():  # it may lead to the files of another student
             raise CannotCheck("a link is not followed: put the folder or the archive itself here")
-        variant = variant_of(self._options.course, self._options, student.name)
-        checks = f"{self._checks} {variant}"
-        digest = self._digests[student.name] = digest_of(student.path, checks)
-        if not self._options.again and self._last_run.is_same(student.name, digest):
+        options = self._options
+        variant = variant_of(options.course, options, student.name)
+        digest = digest_of(student.path, f"{self._checks} {variant}")
+        self._digests[student.name] = digest
+        if not options.again and self._last_run.is_same(student.name, digest):
             student.outcomes = student.before
             return "unchanged since the last check"
-        options = self._options
         about = {"course": options.course.folder, "variant": variant}
+        path, exercises = student.path, options.exercises
         if self._cluster:
-            outcomes = self._cluster.examine(student.path, options.exercises, **about)
+            outcomes = self._cluster.examine(path, exercises, **about)
         else:
-            outcomes = examine(
-                student.path, options.underlay, options.exercises, own=False, **about
-            )
+            outcomes = examine(path, options.underlay, exercises, own=False, **about)
         student.outcomes = without_hints(outcomes) if options.hints == 0 else outcomes
         return ""

@@ -30,13 +30,12 @@ class PythonFacts:
     def __init__(self, text: str) -> None:
         self.error, self.error_line, self.error_text = "", 0, ""
         self._text = text
-        tree: ast.Module = ast.Module([], [])
+        tree = ast.Module([], [])
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")
-                parsed = ast.parse(text)
-                compile(parsed, "program", "exec")  # refuses more: a late `global`, a lone `return`
-            tree = parsed
+                compile(text, "program", "exec")  # refuses more: a late `global`, a lone `return`
+                tree = ast.parse(text)
         except (SyntaxError, ValueError, RecursionError) as error:
             self.error = getattr(error, "msg", None) or str(error)
             self.error_line = getattr(error, "lineno", 0) or 0

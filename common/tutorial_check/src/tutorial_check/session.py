@@ -27,7 +27,7 @@ NEEDS_BUILD = re.compile(
     r"|add_executable|catkin_install_python)\s*\(",
     re.MULTILINE,
 )
-Memory = Dict[object, Tuple[Any, Any]]
+Memory = Dict[object, Tuple[Any, Any]]  # {key: (value, what was raised in place of one)}
 
 
 def _once(memory: Memory, key: object, make: Callable[[], Any]) -> Any:
@@ -62,11 +62,9 @@ class Session:
         task: of this student; see variants.Task.
         """
         self.task: Any = task or Task({})  # of the course
-        self.folder = Path(folder)
-        self.layout = layout
-        self.exercises = frozenset(exercises)  # that are asked for
+        self.folder, self.layout, self.box = Path(folder), layout, box
         self.source = self.folder / "ws" / "src"
-        self.box = box
+        self.exercises = frozenset(exercises)  # that are asked for
         self.underlay, self.underlay_environment = underlay, box.environment
         self.can_have_devices = can_have_devices
         self._needed = [Path(each) for each in needed]
@@ -98,11 +96,13 @@ class Session:
 
     @property
     def packages(self) -> list[Package]:
-        return self.memo("packages", self._packages)
+        """In the order of their paths, by the names that the checks know."""
 
-    def _packages(self) -> list[Package]:
-        found = packages_below(self.source)
-        return [replace(each, name=self.task.known_as(each.name)) for each in found]
+        def found() -> list[Package]:
+            every = packages_below(self.source)
+            return [replace(each, name=self.task.known_as(each.name)) for each in every]
+
+        return self.memo("packages", found)
 
     def package(self, name: str) -> Any:
         return next((each for each in self.packages if each.name == name), None)
@@ -151,10 +151,10 @@ class Session:
 
     # ------------------------------------------------------------------------- environment
 
-    def _ended(self, command: list[str], deadline_s: float = SLOW_S) -> tuple[Program, bool]:
+    def _ended(self, *command: str) -> tuple[Program, bool]:
         """Return a program that was run, and whether it ended by itself."""
         program = self.box.start(command)
-        ended = self.box.wait(lambda: program.ended, deadline_s)
+        ended = self.box.wait(lambda: program.ended, SLOW_S)
         self.box.end(program)
         return program, ended
 
@@ -163,13 +163,8 @@ class Session:
         return self.memo("built", self._build)
 
     def _build(self) -> tuple[int | None, str]:
-        make = [
-            "catkin_make",
-            "-C",
-            str(self.folder / "ws"),
-            "-DPYTHON_EXECUTABLE=/usr/bin/python3",
-        ]
-        program, ended = self._ended(make)
+        python = "-DPYTHON_EXECUTABLE=/usr/bin/python3"
+        program, ended = self._ended("catkin_make", "-C", str(self.folder / "ws"), python)
         if program.process.returncode != 0:
             self.must_reach_underlay()
         return (program.process.returncode if ended else None), program.output
@@ -184,27 +179,24 @@ class Session:
         except OSError as error:
             why = str(error.strerror)
         if why:
-            raise CannotCheck(
-                f"no program can be started in {self.folder.parent} ({why}): set TMPDIR to a"
-                " folder that others may enter, and that is not mounted noexec"
-            )
+            how = "set TMPDIR to a folder that others may enter, and that is not mounted noexec"
+            raise CannotCheck(f"no program can be started in {self.folder.parent} ({why}): {how}")
 
     def must_reach_underlay(self) -> None:
         """Raise CannotCheck if the student's programs cannot read what is the suite's."""
-        for folder in dict.fromkeys(
-            f for one in self._needed for f in (*reversed(one.parents), one)
-        ):
-            with contextlib.suppress(NotADirectoryError, FileNotFoundError):
-                try:
-                    os.stat(f"{folder}/.")
-                except PermissionError:
-                    # What lies below a needed one is as closed; but a home folder is opened no further.
-                    is_needed = set(self._needed) & {folder, *folder.parents}
-                    how = "chmod -R o+rX" if is_needed else "chmod o+x"
-                    raise CannotCheck(
-                        f"{folder} is closed to others, as one of whom the programs run: {how} {folder},"
-                        " or keep this suite, and TUTORIAL_WORKSPACE, where others may enter"
-                    ) from None
+        for folder in (f for one in self._needed for f in (*reversed(one.parents), one)):
+            try:
+                os.stat(f"{folder}/.")
+            except (NotADirectoryError, FileNotFoundError):
+                continue
+            except PermissionError:
+                # What lies below a needed one is as closed; but a home folder is opened no further.
+                is_needed = set(self._needed) & {folder, *folder.parents}
+                how = f"{'chmod -R o+rX' if is_needed else 'chmod o+x'} {folder}"
+                raise CannotCheck(
+                    f"{folder} is closed to others, as one of whom the programs run: {how},"
+                    " or keep this suite, and TUTORIAL_WORKSPACE, where others may enter"
+                ) from None
 
     def _needs_build(self) -> bool:
         files = [each.folder / "CMakeLists.txt" for each in self.packages]
@@ -236,7 +228,7 @@ class Session:
         """Return the environment after a setup.bash, which runs like a program of the student's."""
         # What is printed before the first \0 is no variable.
         source = '. "$1" >/dev/null && printf "\\0" && env -0'
-        program, _ = self._ended(["bash", "-c", source, "bash", str(setup)])
+        program, _ = self._ended("bash", "-c", source, "bash", str(setup))
         printed, *variables = program.output.split("\0")
         if program.process.returncode != 0 or not variables:
             raise CannotCheck(f"{setup} cannot be sourced: {' '.join(printed[-200:].split())}")

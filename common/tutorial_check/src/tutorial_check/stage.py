@@ -115,12 +115,8 @@ class Stage:
         """
 
         def has_met() -> bool:
-            counts = [
-                self.call(method, topic)
-                for topic in topics
-                for method in self.call("ends_of", topic)
-            ]
-            return all(counts)
+            ends = [(end, topic) for topic in topics for end in self.call("ends_of", topic)]
+            return all([self.call(end, topic) for end, topic in ends])
 
         self.wait_for_start(lambda: program.ended or has_met())
         self.wait(lambda: program.ended or program.rests(), SETTLE_S)

@@ -122,7 +122,7 @@ def _only_child(folder: Path) -> Iterator[Path]:
         inner = [each for each in inner if each.name != "__MACOSX"]
         if len(inner) != 1:
             return
-        folder = inner[0]
+        (folder,) = inner
         yield folder
 
 
@@ -202,10 +202,9 @@ def named_outside(source: Path) -> list[str]:
     files = [each for each in source.rglob("*.launch") if each.is_file()]
     texts = [each.read_text(errors="replace") for each in files]
     words = {word for text in texts for word in BETWEEN_WORDS.split(text)}
-    named = {
-        WHOLE_PATH.match(word, 0 if word[:1] == "/" else word.find("=/") + 1) for word in words
-    }
-    return sorted(each[0] for each in named if each and os.path.isfile(each[0]))
+    # A path, or a parameter's as _file:=/a/path.
+    named = (WHOLE_PATH.match(one, 0 if one[:1] == "/" else one.find("=/") + 1) for one in words)
+    return sorted({each[0] for each in named if each and os.path.isfile(each[0])})
 
 
 def all_below(folder: str | Path) -> Iterator[str]:
@@ -220,9 +219,7 @@ def packages_below(folder: str | Path) -> list[Package]:
     """Return every package in a folder, with what is wrong with it, in the order of their paths."""
     found = []
     for here, folders, files in os.walk(folder):
-        folders[:] = sorted(
-            each for each in folders if each not in LEFT_OUT and not each.startswith(".")
-        )
+        folders[:] = sorted(each for each in {*folders} - LEFT_OUT if each[0] != ".")
         if "CATKIN_IGNORE" in files:
             folders.clear()
         elif "package.xml" in files and os.path.isfile(f"{here}/package.xml"):
