@@ -11,43 +11,54 @@ from tutorial_check import professor
 from tutorial_check.course import read_course
 from tutorial_check.examination import Outcome
 from tutorial_check.last_run import digest_of, digest_of_checks
-from tutorial_check.model import OK, UNREACHED, WRONG, CannotCheck, Result
+from tutorial_check.model import OK, UNREACHED, CannotCheck, Result
 from tutorial_testing.waiting import wait_for
 
 WELL = Outcome("2", [Result("C1", OK, "one")], 1.0, True)
-BAD = Outcome("2", [Result("C1", WRONG, "one", seen="none", hint="mkdir src")], 1.0, True)
-UNDECIDED = Outcome("5", [Result("C21", UNREACHED, "two")], 1.0, True)
-NO_VERDICT = Outcome("5", UNDECIDED.results, 1.0, True, "C21: no space")
-EMPTY = Outcome("5", [Result("C21", OK, "two", empty=True)], done=True)
+NO_VERDICT = Outcome("2", [Result("C1", UNREACHED, "one")], 1.0, True, "C1: no space")
+
+
+class Group:
+    """A folder of students, all of whom are right; begun: whose check has begun."""
+
+    def __init__(self, folder):
+        self.folder, self.check, self.begun = folder, folder / "check", []
+        self.come_to = lambda name: [WELL]
+        folder.mkdir()
+
+    def examine(self, path, *_, **__):
+        self.begun.append(path.name)
+        return self.come_to(path.name)
+
+    def check_all(self, out=None, again=False):
+        """Return the exit code and the rows of the table."""
+        about = {"jobs": 1, "hints": 2, "again": again, "underlay": "", "exercises": ["2"]}
+        about.update(variant=None, variants=None, cluster=None)
+        options = SimpleNamespace(all=str(self.folder), out=out, course=read_course(), **about)
+        code = professor.check_all(options)
+        with (self.check / "table.csv").open(newline="", encoding="utf-8") as table:
+            return code, list(csv.reader(table))[1:]
+
+    def add(self, *names):
+        for name in names:
+            (self.folder / name).touch() if "." in name else (self.folder / name).mkdir()
 
 
 @pytest.fixture
 def group(tmp_path, monkeypatch):
-    """A folder for students, all of whom are right."""
-    monkeypatch.setattr(professor, "examine", lambda *_, **__: [WELL])
-    (tmp_path / "group").mkdir()
-    return tmp_path / "group"
-
-
-def check_all(group, out=None, again=False):
-    """Return the exit code and the rows of the table."""
-    about = {"jobs": 1, "hints": 2, "again": again, "underlay": "", "exercises": ["2"]}
-    about.update(variant=None, variants=None, cluster=None)
-    options = SimpleNamespace(all=str(group), out=out, course=read_course(), **about)
-    code = professor.check_all(options)
-    with (group / "check" / "table.csv").open(newline="", encoding="utf-8") as table:
-        return code, list(csv.reader(table))[1:]
+    """A Group without students yet."""
+    made = Group(tmp_path / "group")
+    monkeypatch.setattr(professor, "examine", made.examine)
+    return made
 
 
 def test_a_folder_and_a_zip_of_one_name_have_each_a_report(group):
-    (group / "anna").mkdir()
-    for name in ("anna.zip", "anna.zip.zip", "bob.zip"):
-        (group / name).touch()
+    group.add("anna", "anna.zip", "anna.zip.zip", "bob.zip")
     names = ["anna", "anna.zip", "anna.zip.zip", "bob"]
-    code, rows = check_all(group)
+    code, rows = group.check_all()
     assert (code, [row[0] for row in rows]) == (0, names)
-    assert sorted(path.stem for path in (group / "check").glob("*.txt")) == names
-    page = (group / "check/table.html").read_text()
+    assert sorted(path.stem for path in group.check.glob("*.txt")) == names
+    page = (group.check / "table.html").read_text()
     assert all(f'<a href="./{name}.txt">{name}</a>' in page for name in names)
 
 
@@ -55,23 +66,23 @@ def test_odd_names(group):
     """One is no UTF-8; the report of another cannot be written."""
     longest = "n" * 255
     for name in (b"anna", b"m\xfcller", longest.encode(), b"zoe"):
-        os.mkdir(os.path.join(os.fsencode(group), name))
-    code, rows = check_all(group)
+        os.mkdir(os.path.join(os.fsencode(group.folder), name))
+    code, rows = group.check_all()
     names = ["anna", "m\\udcfcller", longest, "zoe"]
     assert (code, [row[:2] for row in rows]) == (2, [[name, "ok"] for name in names])
     assert "File name too long" in rows[2][-1]
-    assert {b"m\xfcller.txt", b"zoe.txt"} <= set(os.listdir(os.fsencode(group / "check")))
-    page = (group / "check/table.html").read_text(encoding="utf-8")
+    assert {b"m\xfcller.txt", b"zoe.txt"} <= set(os.listdir(os.fsencode(group.check)))
+    page = (group.check / "table.html").read_text(encoding="utf-8")
     assert '<a href="./m%FCller.txt">m\\udcfcller</a>' in page
 
 
-def test_what_was_said_last_week_is_not_todays(group, monkeypatch):
-    (group / "ada").mkdir()
-    assert check_all(group)[0] == 0
-    reports = [group / "check" / name for name in ("ada.json", "ada.txt")]
+def test_what_was_said_last_week_is_not_todays(group):
+    group.add("ada")
+    assert group.check_all()[0] == 0
+    reports = [group.check / name for name in ("ada.json", "ada.txt")]
     assert all(file.exists() for file in reports)
-    monkeypatch.setattr(professor, "examine", lambda *_, **__: [].pop())
-    assert check_all(group, again=True)[0] == 2
+    group.come_to = lambda name: [].pop()
+    assert group.check_all(again=True)[0] == 2
     assert [file.exists() for file in reports] == [False, True]
     assert "could not be checked: IndexError" in reports[1].read_text()
 
@@ -80,25 +91,20 @@ def test_what_was_said_last_week_is_not_todays(group, monkeypatch):
     ("blocked", "out", "why"),
     [("check/table.html/", None, "Is a directory"), ("file", "file", "--out names another")],
 )
-def test_results_that_cannot_be_written_are_found_before_the_work(
-    group, monkeypatch, blocked, out, why
-):
-    (group / "ada").mkdir()
-    path = group / blocked
+def test_results_that_cannot_be_written_are_found_before_the_work(group, blocked, out, why):
+    group.add("ada")
+    path = group.folder / blocked
     path.mkdir(parents=True) if blocked.endswith("/") else path.touch()
-    begun = []
-    monkeypatch.setattr(professor, "examine", lambda *_, **__: begun.append(1))
     with pytest.raises(CannotCheck, match=why):
-        check_all(group, out and group / out)
-    assert not begun
+        group.check_all(out and group.folder / out)
+    assert not group.begun
 
 
 def test_what_is_no_folder_and_no_zip_has_a_row_all_the_same(group):
-    for name in ("ADA.ZIP", "bob.tar.gz", "carl.7z", "dora.zip", "dora.ZIP", "README.md", "a.csv"):
-        (group / name).touch()
-    (group / "emma").symlink_to(group / "nowhere")
-    (group / "loop").symlink_to(group / "loop")
-    names = [one.name for one in professor.find_students(group, group / "check")]
+    group.add("ADA.ZIP", "bob.tar.gz", "carl.7z", "dora.zip", "dora.ZIP", "README.md", "a.csv")
+    (group.folder / "emma").symlink_to(group.folder / "nowhere")
+    (group.folder / "loop").symlink_to(group.folder / "loop")
+    names = [one.name for one in professor.find_students(group.folder, group.check)]
     assert names == ["ADA", "bob.tar.gz", "carl.7z", "dora.ZIP", "dora.zip", "emma", "loop"]
 
 
@@ -106,90 +112,73 @@ def test_what_is_no_folder_and_no_zip_has_a_row_all_the_same(group):
 def test_a_link_is_not_followed(group, tmp_path, name):
     (tmp_path / "outside" / "src").mkdir(parents=True)
     (tmp_path / "outside.zip").touch()
-    (group / name).symlink_to(tmp_path / f"outside{Path(name).suffix}")
-    check_all(group)
-    assert "checked: a link is not followed" in (group / "check" / "ada.txt").read_text()
+    (group.folder / name).symlink_to(tmp_path / f"outside{Path(name).suffix}")
+    group.check_all()
+    assert "checked: a link is not followed" in (group.check / "ada.txt").read_text()
 
 
 def test_the_results_of_an_earlier_check_are_no_student(group, tmp_path, capsys):
-    (group / "ada").mkdir()
-    check_all(group)
-    assert [row[0] for row in check_all(group, tmp_path / "elsewhere")[1]] == ["ada"]
+    group.add("ada")
+    group.check_all()
+    assert [row[0] for row in group.check_all(tmp_path / "elsewhere")[1]] == ["ada"]
     assert "check" not in (tmp_path / "elsewhere" / "table.csv").read_text()
     assert "check: left out: the results of an earlier check\n" in capsys.readouterr().out
     for name in ("table.csv", "table.html", "package.xml"):  # a student's, who names files so
-        (group / "ada" / name).touch()
-    assert [row[0] for row in check_all(group)[1]] == ["ada"]
+        (group.folder / "ada" / name).touch()
+    assert [row[0] for row in group.check_all()[1]] == ["ada"]
 
 
-def test_only_what_changed_is_checked_again(group, monkeypatch, capsys):
-    begun = []
-    monkeypatch.setattr(
-        professor, "examine", lambda path, *_, **__: begun.append(path.name) or [WELL]
-    )
-    for name in ("ada", "bob"):
-        (group / name).mkdir()
-        (group / name / "talker.py").write_text("1")
-    assert check_all(group)[0] == 0
-    (group / "bob" / "talker.py").write_text("2")
-    assert check_all(group) == (0, [[*row[:4], "0.0", *row[5:]] for row in check_all(group)[1]])
-    assert sorted(begun) == ["ada", "bob", "bob"]
+def test_only_what_changed_or_had_no_verdict_is_checked_again(group, capsys):
+    group.add("ada", "bob")
+    assert group.check_all()[0] == 0
+    (group.folder / "bob" / "talker.py").write_text("2")
+    first = group.check_all()
+    assert group.check_all() == (0, [[*row[:4], "0.0", *row[5:]] for row in first[1]])
+    assert group.begun == ["ada", "bob", "bob"]
     assert "ada: 1 of 1 exercises done, unchanged since the last check" in capsys.readouterr().out
-    check_all(group, again=True)
-    assert sorted(begun) == ["ada", "ada", "bob", "bob", "bob"]
-    # Where there was no verdict there is nothing to keep.
-    undecided = Outcome("2", UNDECIDED.results, 1.0, True, "C1: no space")
-    monkeypatch.setattr(
-        professor, "examine", lambda *_, **__: begun.append("trouble") or [undecided]
-    )
-    check_all(group, again=True)
-    check_all(group)
-    assert begun.count("trouble") == 4
+    group.come_to = lambda name: [NO_VERDICT]
+    group.check_all(again=True)
+    group.check_all()
+    assert group.begun[3:] == ["ada", "bob"] * 2
 
 
 def test_a_run_that_was_interrupted_goes_on_where_it_was(group, monkeypatch):
-    begun = []
-
-    def examine(path, *_, **__):
-        begun.append(path.name)
-        if path.name == "bob" and len(begun) < 3:
+    def interrupted_once(name):
+        if name == "bob" and len(group.begun) < 3:
             raise KeyboardInterrupt
         return [WELL]
 
-    monkeypatch.setattr(professor, "examine", examine)
+    group.come_to = interrupted_once
     monkeypatch.setattr(professor, "end_all", lambda: None)
-    for name in ("ada", "bob"):
-        (group / name).mkdir()
+    group.add("ada", "bob")
     with pytest.raises(KeyboardInterrupt):
-        check_all(group)
-    assert check_all(group)[0] == 0
-    assert begun == ["ada", "bob", "bob"]
+        group.check_all()
+    assert group.check_all()[0] == 0
+    assert group.begun == ["ada", "bob", "bob"]
 
 
-def test_the_page_can_be_read_while_it_is_made(group, monkeypatch):
+def test_the_page_can_be_read_while_it_is_made(group):
     pages = []
 
-    def examine(*_, **__):
-        page, left = group / "check/table.html", 2 - len(pages)
+    def look(name):
+        page, left = group.check / "table.html", 2 - len(pages)
         wait_for(lambda: page.read_text().count('">...</td>') == left, "page after the one before")
         pages.append(page.read_text())
         return [WELL]
 
-    monkeypatch.setattr(professor, "examine", examine)
-    for name in ("ada", "bob"):
-        (group / name).mkdir()
-    assert check_all(group)[0] == 0
-    assert [page.count('">...</td>') for page in pages] == [2, 1]
+    group.come_to = look
+    group.add("ada", "bob")
+    assert group.check_all()[0] == 0
     assert all('http-equiv="refresh"' in page for page in pages)
-    assert 'http-equiv="refresh"' not in (group / "check/table.html").read_text()
+    assert 'http-equiv="refresh"' not in (group.check / "table.html").read_text()
 
 
-@pytest.mark.parametrize("text", ["", "[]", "{", '{"ada": 3}', '{"ada": {"outcomes": [{"x": 1}]}}'])
+@pytest.mark.parametrize("text", ["", "[]", '{"ada": 3}', '{"ada": {"outcomes": [{"x": 1}]}}'])
 def test_a_broken_state_is_none(group, text):
-    (group / "ada").mkdir()
-    (group / "check").mkdir()
-    (group / "check/.state.json").write_text(text)
-    assert check_all(group)[0] == 0
+    group.add("ada")
+    group.check.mkdir()
+    (group.check / ".state.json").write_text(text)
+    assert group.check_all()[0] == 0
 
 
 def test_what_makes_two_submissions_the_same(tmp_path):

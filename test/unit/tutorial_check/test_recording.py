@@ -10,58 +10,38 @@ from std_msgs.msg import String
 from tutorial_check.exercises.robot import recording
 from tutorial_check.model import Note, Wrong
 
-JOY, CHATTER = ("/joy", Joy(axes=[0.0] * 6)), ("/chatter", String())
+JOY, CHATTER, BROKEN = ("/joy", Joy(axes=[0.0] * 6)), ("/chatter", String()), None
+TALK = "beginner_tutorials/chatter.bag"
 
 
-@pytest.fixture
-def session(tmp_path):
-    """A workspace of both packages, without a recording."""
+@pytest.mark.parametrize(
+    ("bags", "kind", "where"),
+    [
+        ({}, Note, ""),
+        ({TALK: CHATTER}, Note, TALK),
+        ({"joy2twist/joy.bag": CHATTER}, Note, "joy2twist/joy.bag"),
+        ({TALK: BROKEN}, Note, None),  # it is of another exercise
+        ({TALK: CHATTER, "joy.bag": BROKEN}, Wrong, "joy.bag"),
+        ({TALK: CHATTER, "joy2twist/figure.bag": BROKEN}, Wrong, "joy2twist/figure.bag"),
+        ({TALK: CHATTER, "joy2twist/a.bag": CHATTER, "joy.bag": JOY}, str, "joy.bag"),
+        ({TALK: BROKEN, "joy2twist/a.bag": BROKEN, "joy2twist/b.bag": JOY}, str, "joy2twist/b.bag"),
+    ],
+)
+def test_the_recording_of_joy_counts(tmp_path, bags, kind, where):
     names = ("beginner_tutorials", "joy2twist")
     packages = {name: SimpleNamespace(folder=tmp_path / name) for name in names}
     for each in packages.values():
         each.folder.mkdir()
-    return SimpleNamespace(source=tmp_path, package=packages.get)
-
-
-def record(session, path, said=None):
-    """Make a recording; without a message it is none."""
-    file = session.source / path
-    file.write_text("none")
-    if said:
-        with rosbag.Bag(str(file), "w") as bag:
-            bag.write(*said)
-
-
-def test_none_is_no_mistake(session):
-    assert isinstance(recording(session), Note)
-
-
-@pytest.mark.parametrize("name", ["joy2twist/joy.bag", "joy.bag"])
-@pytest.mark.parametrize("said", [None, CHATTER])
-def test_the_one_of_joy_counts(session, name, said):
-    record(session, "beginner_tutorials/chatter.bag", said)
-    record(session, "joy2twist/a.bag", said)
-    record(session, name, JOY)
-    assert recording(session) == f"{name}: /joy"
-
-
-@pytest.mark.parametrize("name", ["beginner_tutorials/chatter.bag", "joy2twist/joy.bag"])
-def test_one_of_something_else_is_no_mistake(session, name):
-    record(session, name, CHATTER)
-    note = recording(session)
-    assert note.seen == "no recording of /joy; topics: /chatter"
-    assert note.where == name
-
-
-@pytest.mark.parametrize("name", ["joy2twist/figure.bag", "joy.bag"])
-def test_one_that_cannot_be_read(session, name):
-    record(session, "beginner_tutorials/chatter.bag", CHATTER)
-    record(session, name)
-    with pytest.raises(Wrong) as raised:
-        recording(session)
-    assert raised.value.where == name
-
-
-def test_one_of_another_exercise_that_cannot_be_read(session):
-    record(session, "beginner_tutorials/chatter.bag")
-    assert isinstance(recording(session), Note)
+    for path, message in bags.items():
+        (tmp_path / path).write_text("no recording")
+        if message:
+            with rosbag.Bag(str(tmp_path / path), "w") as bag:
+                bag.write(*message)
+    try:
+        found = recording(SimpleNamespace(source=tmp_path, package=packages.get))
+    except Wrong as wrong:
+        found = wrong
+    assert isinstance(found, kind)
+    assert found == f"{where}: /joy" if kind is str else where in (None, found.where)
+    if bags and kind is Note and where:
+        assert found.seen == "no recording of /joy; topics: /chatter"

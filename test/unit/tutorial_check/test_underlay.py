@@ -8,62 +8,50 @@ from tutorial_check.exercises.underlay import workspace
 from tutorial_check.model import Wrong
 from tutorial_check.workspace import Layout, Package
 
+THIS, OTHER, MINE = "{0}/this/lower/devel", "{0}/other/lower/devel", "{0}/ws/devel"
+
 
 @pytest.fixture
 def session(tmp_path):
     """A workspace whose devel folder is still empty, and the underlay of this copy of the suite."""
     for folder in ("ws/src", "ws/devel", "this/lower/devel", "other/lower/devel"):
         (tmp_path / folder).mkdir(parents=True)
-    underlay = tmp_path / "this/lower/devel/setup.bash"
-    root = tmp_path / "ws"
-    return SimpleNamespace(
-        layout=Layout(root, root / "src", True), underlay=str(underlay), packages=[]
-    )
+    layout = Layout(tmp_path / "ws", tmp_path / "ws/src", True)
+    underlay = str(tmp_path / "this/lower/devel/setup.bash")
+    return SimpleNamespace(layout=layout, underlay=underlay, packages=[])
 
 
-def build(session, *below):
+def build(tmp_path, below):
     """What catkin_make writes, as far as C1 reads it."""
-    devel = session.layout.root / "devel"
-    paths = ";".join(map(str, below))
-    (devel / "_setup_util.py").write_text(f"    CMAKE_PREFIX_PATH = r'{paths}'.split(';')\n")
+    devel = tmp_path / "ws/devel"
+    (devel / "_setup_util.py").write_text(f"    CMAKE_PREFIX_PATH = r'{below}'.split(';')\n")
     (devel / "setup.sh").write_text(f": ${{_CATKIN_SETUP_DIR:={devel}}}\n")
     (devel / "setup.bash").write_text("# as catkin has it\n")
-    return devel
 
 
-def test_over_this_suite(session, tmp_path):
-    build(session, tmp_path / "this/lower/devel")
-    assert "on top of this suite" in workspace(session)
-
-
-def test_over_another_copy_of_the_suite(session, tmp_path):
-    other = tmp_path / "other/lower/devel"
-    devel = session.layout.root / "devel"
-    build(session, devel, other)
+@pytest.mark.parametrize(
+    ("below", "gone", "seen", "hint"),
+    [
+        (THIS, "", "", ""),
+        (f"{MINE};{OTHER}", "", f"another copy of the suite, {OTHER};", ""),
+        (f"{MINE};/opt/ros/one", "", "built over /opt/ros/one", "without ./tutorial shell"),
+        (THIS, "setup.bash", "not whole", "rm -r build devel, then catkin_make"),
+        (THIS, "_setup_util.py", "not whole", "rm -r build devel"),
+        (THIS, "setup.sh", "not whole", "rm -r build devel"),
+    ],
+)
+def test_what_devel_was_built_over(session, tmp_path, below, gone, seen, hint):
+    build(tmp_path, below.format(tmp_path))
+    if gone:
+        (tmp_path / "ws/devel" / gone).unlink()
+        (tmp_path / "ws/devel/setup.bash").touch()
+    if not seen:
+        assert "on top of this suite" in workspace(session)
+        return
     with pytest.raises(Wrong) as wrong:
         workspace(session)
-    assert f"another copy of the suite, {other};" in wrong.value.seen
-    assert str(devel) not in wrong.value.seen
-
-
-def test_over_nothing_of_a_suite(session):
-    build(session, session.layout.root / "devel", "/opt/ros/noetic")
-    with pytest.raises(Wrong) as wrong:
-        workspace(session)
-    assert wrong.value.seen == "devel was built over /opt/ros/noetic"
-    assert "without ./tutorial shell" in wrong.value.hint
-
-
-@pytest.mark.parametrize("gone", ["setup.bash", "_setup_util.py", "setup.sh"])
-def test_not_whole(session, tmp_path, gone):
-    devel = build(session, tmp_path / "this/lower/devel")
-    (devel / gone).unlink()
-    (devel / "setup.bash").touch()
-    with pytest.raises(Wrong) as wrong:
-        workspace(session)
-    assert "not whole" in wrong.value.seen
-    assert gone in wrong.value.seen
-    assert wrong.value.hint == "in the workspace: rm -r build devel, then catkin_make"
+    assert seen.format(tmp_path) in wrong.value.seen and gone in wrong.value.seen
+    assert hint in wrong.value.hint
 
 
 @pytest.mark.parametrize(
