@@ -79,35 +79,27 @@ def test_the_workflow(tmp_path, git):
     assert steps[2]["run"].endswith("--course suite/common/doc/square 1")
 
 
+NO_CLONE = "echo fatal: not a git repository >&2; exit 128"
+
+
 @pytest.mark.parametrize(
-    ("what", "out", "why"),
+    ("what", "out", "script", "why"),
     [
-        ("moodle", "a", "there are gradescope and github:OWNER/NAME"),
-        ("github", "a", "the repository in which this suite is"),
-        ("github:no name", "a", "the repository in which this suite is"),
-        ("gradescope", "nowhere/a.zip", "No such file"),
+        ("moodle", "a", "", "there are gradescope and github:OWNER/NAME"),
+        ("github", "a", "", "the repository in which this suite is"),
+        ("github:no name", "a", "", "the repository in which this suite is"),
+        ("gradescope", "nowhere/a.zip", "", "No such file"),
+        ("github:lab/x", "a", "", "git: No such file"),
+        ("github:lab/x", "a", NO_CLONE, "is no clone"),
+        ("github:lab/x", "a", "elsewhere", "put the course into the suite's repository"),
     ],
 )
-def test_what_cannot_be_packed_is_one_line(tmp_path, what, out, why):
-    with pytest.raises(CannotCheck) as error:
-        package(what, read_course(), ["2"], str(tmp_path / out))
-    assert why in str(error.value) and "\n" not in str(error.value)
-
-
-def test_a_course_elsewhere_has_no_workflow(tmp_path):
-    (tmp_path / "course.yaml").write_text('exercises: {"1": one}')
-    with pytest.raises(CannotCheck, match="put the course into the suite's repository"):
-        package("github:lab/x", read_course(tmp_path), ["1"], str(tmp_path / "a"))
-
-
-@pytest.mark.parametrize(
-    ("script", "why"),
-    [("", "git: No such file"), ("echo fatal: not a git repository >&2; exit 128", "is no clone")],
-)
-def test_without_git_or_a_clone_it_is_one_line(tmp_path, git, script, why):
-    if script:
+def test_what_cannot_be_packed_is_one_line(tmp_path, git, what, out, script, why):
+    (tmp_path / "course.yaml").write_text('exercises: {"2": one}')
+    course = read_course(tmp_path) if script == "elsewhere" else read_course()
+    if script == NO_CLONE:
         git(script)
-    with pytest.raises(CannotCheck, match=why) as error:
-        package("github:lab/x", read_course(), ["2"], str(tmp_path / "check.yml"))
-    assert "\n" not in str(error.value)
-    assert not (tmp_path / "check.yml").exists()
+    with pytest.raises(CannotCheck) as error:
+        package(what, course, ["2"], str(tmp_path / out))
+    assert why in str(error.value) and "\n" not in str(error.value)
+    assert not (tmp_path / out).exists()

@@ -1,5 +1,6 @@
 """Users, rights and limits of programs, and how surely they end."""
 
+import contextlib
 import os
 import subprocess
 import sys
@@ -76,15 +77,14 @@ class Keeper:
 @pytest.fixture
 def keep():
     """keep(uid, ...): a Helper with a Keeper."""
-    helpers = []
+    with contextlib.ExitStack() as stack:
 
-    def make(*words):
-        helpers.append(Helper(lambda: Keeper(*words), {}))
-        return helpers[-1]
+        def make(*words):
+            helper = Helper(lambda: Keeper(*words), {})
+            stack.callback(helper.end)
+            return helper
 
-    yield make
-    for helper in helpers:
-        helper.end()
+        yield make
 
 
 @pytest.mark.parametrize(

@@ -107,10 +107,8 @@ def test_a_link_stays_one_and_so_does_a_pipe(main, tmp_path):
     (tmp_path / "link").symlink_to(tmp_path / "file")
     os.mkfifo(tmp_path / "pipe")
     reader = os.open(tmp_path / "pipe", os.O_RDONLY | os.O_NONBLOCK)
-    assert (
-        main(lambda *_, **__: [WELL], "--json", tmp_path / "link", "--junit", tmp_path / "pipe")
-        == 0
-    )
+    files = "--json", tmp_path / "link", "--junit", tmp_path / "pipe"
+    assert main(lambda *_, **__: [WELL], *files) == 0
     assert (tmp_path / "link").is_symlink() and (tmp_path / "file").stat().st_size
     assert b"testsuites" in os.read(reader, 1000)
     os.close(reader)

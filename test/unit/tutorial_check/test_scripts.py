@@ -1,5 +1,7 @@
 """What can be said of a program before it is run."""
 
+import contextlib
+
 import pytest
 
 from tutorial_check.exercises.joy2twist import check_manifest
@@ -50,23 +52,21 @@ def test_load_manifest_of_a_variable_is_not_judged(session):
 
 
 @pytest.mark.parametrize(
-    "first",
+    ("first", "is_one"),
     [
-        "/usr/bin/env -S python3 -u",
-        "/usr/bin/env -S PYTHONUNBUFFERED=1 python3",
-        "/usr/bin/env python",
-        "/usr/bin/python3 -u",
+        ("/usr/bin/env -S python3 -u", True),
+        ("/usr/bin/env -S PYTHONUNBUFFERED=1 python3", True),
+        ("/usr/bin/env python", True),
+        ("/usr/bin/python3 -u", True),
+        ("/usr/bin/env -S pythn3 -u", False),
+        ("/usr/bin/env -S", False),
+        ("/bin/sh", False),
     ],
 )
-def test_interpreters(session, first):
+def test_interpreters(session, first, is_one):
     write(session, f"#!{first}\n")
-    check_file(session, PACKAGE, SCRIPT)
-
-
-@pytest.mark.parametrize("first", ["/usr/bin/env -S pythn3 -u", "/usr/bin/env -S", "/bin/sh"])
-def test_no_interpreters(session, first):
-    write(session, f"#!{first}\n")
-    with pytest.raises(Wrong, match="an interpreter that exists"):
+    refused = pytest.raises(Wrong, match="an interpreter that exists")
+    with contextlib.nullcontext() if is_one else refused:
         check_file(session, PACKAGE, SCRIPT)
 
 
@@ -77,14 +77,13 @@ FAILED = """Traceback (most recent call last):
 """
 
 
-@pytest.mark.parametrize("error", ["ImportError: x", "ModuleNotFoundError: No module named 'a'"])
 @pytest.mark.parametrize(
-    ("cmake", "exit_code", "is_said"),
+    ("error", "cmake", "exit_code", "is_said"),
     [
-        ("catkin_python_setup()", 1, True),
-        ("catkin_python_setup()", None, True),
-        ("catkin_python_setup()", 0, False),
-        ("catkin_package()", 1, False),
+        ("ImportError: x", "catkin_python_setup()", 1, True),
+        ("ModuleNotFoundError: No module named 'a'", "catkin_python_setup()", None, True),
+        ("ImportError: x", "catkin_python_setup()", 0, False),
+        ("ImportError: x", "catkin_package()", 1, False),
     ],
 )
 def test_an_import_may_want_what_is_not_built(session, error, cmake, exit_code, is_said):

@@ -96,20 +96,17 @@ def test_a_second_look(make_session, strained, explained, is_worth_it):
     assert again == [2 if is_worth_it else 0, 1]
 
 
-@pytest.mark.parametrize("planted", ["scripts/talker.py", "scripts"])
-def test_a_planted_link_is_not_read_through(make_session, tmp_path, planted):
+@pytest.mark.parametrize("planted", ["scripts/talker.py", "scripts", "a pipe"])
+def test_a_planted_link_or_pipe_is_not_read(make_session, tmp_path, planted):
     one = make_session("a", "2")
     (tmp_path / "outside").mkdir()
     (tmp_path / "outside" / "talker.py").write_text("secret")
-    link = one.package("a").folder / planted
-    link.parent.mkdir(exist_ok=True)
-    link.symlink_to(tmp_path / "outside" / ("talker.py" if planted.endswith(".py") else ""))
+    folder = one.package("a").folder
+    if planted == "scripts":
+        (folder / "scripts").symlink_to(tmp_path / "outside")
+    else:
+        (folder / "scripts").mkdir()
+        file = folder / "scripts/talker.py"
+        os.mkfifo(file) if "pipe" in planted else file.symlink_to(tmp_path / "outside/talker.py")
     with pytest.raises(CannotCheck, match="is not as it was: a program changed it"):
         one.text("a", "scripts/talker.py")
-
-
-def test_a_pipe_in_place_of_a_script_is_not_waited_for(make_session):
-    one = make_session("a", "2")
-    os.mkfifo(one.package("a").folder / "talker.py")
-    with pytest.raises(CannotCheck, match="no regular file"):
-        one.text("a", "talker.py")

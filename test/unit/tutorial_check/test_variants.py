@@ -1,6 +1,8 @@
 """Variants: what a file may say, what a seed draws, and the words of a task."""
 
 import dataclasses
+import itertools
+import tempfile
 from types import SimpleNamespace
 
 import pytest
@@ -14,16 +16,10 @@ from tutorial_check.model import WRONG, CannotCheck, Result
 from tutorial_check.variants import drawn, read_variant, sheet, variant_of
 
 COURSE = read_course()
-ALL = {
-    "axis_linear": 3,
-    "axis_angular": 4,
-    "scale_linear": 0.5,
-    "joy": "/stick",
-    "cmd_vel": "/drive",
-    "package": "stick_drive",
-    "enable_button": 5,
-    "rate": 20,
-}
+ALL = yaml.safe_load(
+    "{axis_linear: 3, axis_angular: 4, scale_linear: 0.5, joy: /stick, cmd_vel: /drive,"
+    " package: stick_drive, enable_button: 5, rate: 20}"
+)
 
 
 def options(**given_ones):
@@ -56,39 +52,21 @@ def test_a_wrong_file_is_one_line(text, why, tmp_path):
     assert "\n" not in str(error.value)
 
 
-def test_no_file(tmp_path):
-    with pytest.raises(CannotCheck, match=r"v\.yaml: No such file"):
-        read_variant(COURSE, tmp_path / "v.yaml")
-
-
 @given(st.text(), st.text())
-def test_what_is_drawn_is_allowed_and_the_same_again(seed, name):
+def test_what_is_drawn_is_allowed(seed, name):
     values = drawn(COURSE, seed, name)
-    assert values == drawn(COURSE, seed, name) and list(values) == list(COURSE.variants)
-    assert values["axis_linear"] != values["axis_angular"] and values["joy"] != values["cmd_vel"]
-
-
-def test_what_is_drawn_can_be_read(tmp_path):
-    file = tmp_path / "v.yaml"
-    for number in range(200):
-        values = drawn(COURSE, "seed", str(number))
-        file.write_text(yaml.safe_dump(values))
-        assert read_variant(COURSE, file) == values
+    assert list(values) == list(COURSE.variants)
+    with tempfile.NamedTemporaryFile("w") as file:
+        yaml.safe_dump(values, file)
+        file.flush()
+        assert read_variant(COURSE, file.name) == values
 
 
 def test_what_a_seed_draws_does_not_change_with_python_or_machine():
-    assert drawn(COURSE, "7", "ada") == {
-        "axis_linear": 1,
-        "axis_angular": 4,
-        "scale_linear": 0.6,
-        "scale_angular": 0.5,
-        "joy": "/f710",
-        "cmd_vel": "/wheels",
-        "package": "stick_drive",
-        "node": "converter",
-        "enable_button": 7,
-        "rate": 20,
-    }
+    numbers = "axis_linear: 1, axis_angular: 4, scale_linear: 0.6, scale_angular: 0.5"
+    names = "joy: /f710, cmd_vel: /wheels, package: stick_drive, node: converter"
+    text = f"{{{numbers}, {names}, enable_button: 7, rate: 20}}"
+    assert drawn(COURSE, "7", "ada") == yaml.safe_load(text)
 
 
 def test_whose_variant_it_is(tmp_path):
@@ -115,10 +93,8 @@ def test_a_task_sheet_has_all_values_and_the_file():
         sheet(own, ALL, "ada")
 
 
-@given(st.integers(0, 5), st.integers(0, 5))
+@pytest.mark.parametrize(("linear", "angular"), itertools.permutations(range(6), 2))
 def test_an_order_loses_nothing(linear, angular):
-    if linear == angular:
-        return
     values = moved(range(8), order({1: linear, 0: angular}))
     assert sorted(values) == list(range(8)) and (values[linear], values[angular]) == (1, 0)
 
