@@ -33,5 +33,5 @@ def make_session(tmp_path):
 
 @pytest.fixture(scope="session")
 def stranger():
-    """A user's number that nobody else has, whatever runs beside this; None if not root."""
+    """A uid that no other process of this machine uses; None if not root."""
     return 2_000_000 + os.getpid() if os.geteuid() == 0 else None

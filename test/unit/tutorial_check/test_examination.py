@@ -1,4 +1,4 @@
-"""An examination that comes to no end: what it found until then is told all the same."""
+"""An examination that does not finish: what it found until then is reported."""
 
 from types import SimpleNamespace
 

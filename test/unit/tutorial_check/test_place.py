@@ -96,12 +96,11 @@ def keep():
         ("env -i setsid sleep 3600", b"S", True),  # with no variable that it was started with
     ],
 )
-def test_of_orphans_none_is_left(keep, stranger, what):
+def test_no_orphan_is_left(keep, stranger, what):
     assert keep(stranger).call("left", *what) == []
 
 
 def test_a_program_neither_reaches_the_result_nor_gains_rights(keep, stranger):
-    """Of any mode: it has no more than its user."""
     printed = keep(stranger).call("run", sys.executable, "-c", LOOK)
     assert printed.split() == ["1", "0" * 16, "closed"]
 

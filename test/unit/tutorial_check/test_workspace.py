@@ -183,7 +183,7 @@ def test_only_what_lies_right_beside_src_is_beside_it(tmp_path):
     "target",
     ["../../../secret", "{0}/secret", "/etc/passwd", "{0}/bob/src/joy2twist", "{0}/ada_too/secret"],
 )
-def test_of_others_no_link_leads_out_of_what_they_handed_in(tmp_path, target):
+def test_no_link_of_another_student_leads_out_of_what_was_handed_in(tmp_path, target):
     """Whatever the rights of the user that checks them."""
     package(tmp_path / "bob/src/joy2twist")
     for name in ("secret", "ada_too/secret"):
@@ -199,7 +199,7 @@ def test_of_others_no_link_leads_out_of_what_they_handed_in(tmp_path, target):
 
 
 @pytest.mark.parametrize("link", ["src", "src/joy2twist", "src/joy2twist/scripts"])
-def test_nor_does_a_folder_that_is_a_link(tmp_path, link):
+def test_no_folder_that_is_a_link_leads_out_of_it(tmp_path, link):
     (package(tmp_path / "bob/src/joy2twist") / "scripts").mkdir()
     (tmp_path / "bob/src/joy2twist/scripts/joy2twist.py").touch()
     (tmp_path / "ada" / link).parent.mkdir(parents=True)
@@ -240,7 +240,7 @@ def test_a_zip_with_broken_bytes(tmp_path, pack):
 
 @pytest.mark.parametrize("text", ["=/", "/a", ".bag/", "\n"])
 def test_a_launch_file_or_cmakelists_of_any_text_is_read_at_once(tmp_path, text):
-    """Not in the square of its length, which takes minutes."""
+    """In time linear in its length; quadratic time would be minutes."""
     (tmp_path / "a.launch").write_text(text * 99_999)
     began_s = time.process_time()
     assert workspace.named_outside(tmp_path) == []

@@ -1,7 +1,7 @@
-"""Programs of others: started with limits, listened to with a limit, ended for certain.
+"""Programs of others: started with limits, read with a limit, and always ended.
 
-One thread does it all: each wait also reads what the programs print, so that none of them ever waits
-for us, and output without end costs no more than the reading.
+One thread does it all: each wait also reads what the programs print, so that no program blocks on its
+output, and endless output costs only the reading.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ import signal
 import subprocess
 import sys
 import time
+from subprocess import DEVNULL, PIPE, STDOUT
 from typing import Callable, Iterable, Iterator, Mapping, Sequence, TypeVar
 
 from tutorial_check import place
@@ -121,9 +122,9 @@ class Box:
         process = subprocess.Popen(
             command,
             bufsize=0,
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
+            stdin=DEVNULL,
+            stdout=PIPE,
+            stderr=STDOUT,
             cwd=self.environment["HOME"],
             env={**self.environment, **(environment or {})},
             start_new_session=True,  # with a group that Ctrl-C reaches, as in a terminal
@@ -263,11 +264,8 @@ class Box:
         below: set[int] = set()
         while more := {pid for pid, _, parent, _ in found if parent in below | ours} - below:
             below |= more
-        return [
-            pid
-            for pid, state, _, session in found
-            if pid in below and state not in ENDED and session not in self.trusted
-        ]
+        living = [one for one in found if one[0] in below and one[1] not in ENDED]
+        return [pid for pid, _, _, session in living if session not in self.trusted]
 
 
 def _signal(pids: Iterable[int], number: int) -> None:
@@ -277,7 +275,7 @@ def _signal(pids: Iterable[int], number: int) -> None:
 
 
 def processes() -> Iterator[tuple[int, bytes, int, int]]:
-    """Yield id, state, parent, session of each process that can be seen."""
+    """Yield id, state, parent, session of each visible process."""
     for pid in filter(str.isdigit, os.listdir("/proc")):
         with contextlib.suppress(OSError):  # ended meanwhile
             state, parent, _, session = fields_of(f"/proc/{pid}/stat")[:4]

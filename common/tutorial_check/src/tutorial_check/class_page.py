@@ -17,7 +17,7 @@ from tutorial_check.hints import cause_of
 from tutorial_check.model import NOTE, Result
 from tutorial_check.report import lines_of
 
-# Where a spreadsheet begins a cell, whatever it takes for what separates two; and then a formula.
+# Where a spreadsheet may see the start of a cell, with any separator, followed by a formula.
 FORMULA = re.compile(r"(^|[;,|\t\r\n])(?=\s*[=+\-@])")
 LEGEND = {
     "ok": "all checks of the exercise hold",
@@ -32,7 +32,7 @@ LONGEST = 70  # characters of a cause in a cell
 MOST_CAUSES = 10
 BAR = "\u2588"  # of one student
 WORDS = ("expected", "seen", "where", "hint")  # of a Result, in its order
-# No script, no picture, nothing from elsewhere: whatever stands in a name or in an output.
+# No script, picture or other content can load, whatever a name or an output contains.
 POLICY = "default-src 'none'; style-src 'unsafe-inline'"
 STYLE = """
 body{font-family:sans-serif}td,th{padding:.2em .6em;border:1px solid #ccc;vertical-align:top}

@@ -1,4 +1,4 @@
-"""--cluster: checks on the workers of a Dask scheduler, each ./tutorial worker on a machine of its own.
+"""--cluster: checks on the workers of a Dask scheduler, each a ./tutorial worker on its machine.
 
 What a student handed in is sent as an archive; a worker needs this suite, in the same version, and no
 shared folder. Dask does the rest: distribution, TLS, and another try if a worker dies.
@@ -111,7 +111,7 @@ class Cluster:
 
 
 def _prepare(dask_scheduler: Any) -> None:
-    """Let a worker have one task at a time, so that its end is the fault of no other."""
+    """Give a worker one task at a time, so that only that task can have ended it."""
     dask_scheduler.allowed_failures = TRIES - 1
     dask_scheduler.WORKER_SATURATION = 1.0
 
@@ -143,7 +143,7 @@ def _examine(
     """Check a submission on this machine. Raises CannotCheck."""
     underlay = os.environ["TUTORIAL_UNDERLAY"]
     with tempfile.TemporaryDirectory(prefix="tutorial_worker_") as folder:
-        # It was packed by the client, whom a worker obeys anyway.
+        # The client packed it, and a worker runs whatever its client sends.
         with tarfile.open(fileobj=io.BytesIO(packed)) as archive:
             archive.extractall(folder)
         (submission,) = Path(folder).glob("submission*")

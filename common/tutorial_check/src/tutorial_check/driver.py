@@ -59,7 +59,7 @@ def _plain(message: Any) -> Any:
 
 
 class _Warnings(logging.Handler):
-    """Keeps what rospy says of its connections: it names a topic whose types do not fit."""
+    """Keeps rospy's warnings: they name a topic whose types do not match."""
 
     def __init__(self) -> None:
         super().__init__(logging.WARNING)
@@ -71,7 +71,7 @@ class _Warnings(logging.Handler):
 
 
 class Echo:
-    """A right joy2twist of our own: no more can be asked of the student's on this machine."""
+    """Our own correct joy2twist: the student's need not answer faster than this on this machine."""
 
     def __init__(self, joy: str, axis: int) -> None:
         connect_once()
@@ -110,15 +110,13 @@ class Driver:
         return self._warnings.lines
 
     def advertise(self, topic: str, kind: str) -> None:
-        self._publishers[topic] = rospy.Publisher(
-            topic, KINDS[kind], queue_size=1000, tcp_nodelay=True
-        )
+        about = {"queue_size": 1000, "tcp_nodelay": True}
+        self._publishers[topic] = rospy.Publisher(topic, KINDS[kind], **about)
 
     def listen(self, topic: str, kind: str) -> None:
         self._heard[topic] = []
-        self._subscribers[topic] = rospy.Subscriber(
-            topic, KINDS[kind], self._keep, topic, tcp_nodelay=True
-        )
+        about = topic, KINDS[kind], self._keep, topic
+        self._subscribers[topic] = rospy.Subscriber(*about, tcp_nodelay=True)
 
     def _keep(self, message: Any, topic: str) -> None:
         if len(self._heard[topic]) < MOST_KEPT:

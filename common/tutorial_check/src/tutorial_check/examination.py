@@ -56,7 +56,7 @@ class Outcome:
 
     @property
     def empty(self) -> bool:
-        """Whether there was nothing to check: nothing is wrong, and nothing done."""
+        """Whether it passed because there was nothing to check."""
         return self.passed and bool(self.results) and all(each.empty for each in self.results)
 
     @property
@@ -242,7 +242,7 @@ def _examine(orders: dict[str, Any], wrapper: list[str], report: Report) -> list
 
 
 def _listen(ours: socket.socket, outcomes: dict[str, Outcome], report: Report) -> str | None:
-    """Return why the examination cannot go on, empty at its end; None if it ends without a last word."""
+    """Return why the examination cannot go on, empty at its end; None if it ends without a final message."""
     end = time.monotonic() + LONGEST_S
     buffer = ""
     while time.monotonic() < end:

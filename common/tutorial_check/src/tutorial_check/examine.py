@@ -50,7 +50,7 @@ def main() -> None:
     try:
         examine(orders, send, line.fileno())
         send(end=True)
-    except Exception as error:  # whatever it is, it is no fault of the student's
+    except Exception as error:  # not the student's fault, whatever it is
         if not isinstance(error, CannotCheck):
             traceback.print_exc()
         send(cannot=fault(error))

@@ -97,7 +97,7 @@ def _serve(
 
 
 class MasterProcess:
-    """A ROS master, in the process of a Helper, which ends with it: rosmaster asks for shutdown so."""
+    """A ROS master in the process of a Helper; the process ends when rosmaster is asked to shut down."""
 
     def __init__(self, port: int) -> None:
         from rosmaster.master import Master  # noqa: PLC0415  only where a master is wanted

@@ -30,7 +30,7 @@ SUBMISSION = {
 
 
 def without_hints(outcomes: Sequence[Outcome]) -> list[Outcome]:
-    """Return the same without a word on how to mend it."""
+    """Return the same outcomes without hints."""
     return [
         replace(one, results=[replace(each, hint="") for each in one.results]) for one in outcomes
     ]
@@ -142,7 +142,7 @@ FORMATS: dict[str, Callable[[Sequence[Outcome]], str]] = {
 def clear(path: str | Path) -> None:
     """Remove a file of an earlier check. Raises CannotCheck if none can be written there.
 
-    Leave alone what is no file, as a pipe, and what may be written, not removed.
+    Keep what is not a file, as a pipe, and what may be written but not removed.
     """
     if os.path.isfile(path) or os.path.isdir(path) or not os.path.exists(path):
         write(path, "")
@@ -151,7 +151,7 @@ def clear(path: str | Path) -> None:
 
 
 def write(path: str | Path, text: str) -> None:
-    """Write a file; a name in it that is no UTF-8 as Python shows such a name. Raises CannotCheck."""
+    """Write a file; escape names in it that are not UTF-8. Raises CannotCheck."""
     try:
         with open(path, "w", encoding="utf-8", errors="backslashreplace", newline="") as file:
             file.write(text)

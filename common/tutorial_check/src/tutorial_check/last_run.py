@@ -45,7 +45,7 @@ class LastRun:
         return same and not any(one.trouble for one in outcomes)
 
     def keep(self, students: Iterable[tuple[Student, str]]) -> None:
-        """Write (student, digest) of all for the next run; who is not checked yet stays as before."""
+        """Write (student, digest) of all for the next run; students not checked yet keep what they had."""
         found = {}
         for student, digest in students:
             if student.outcomes:

@@ -98,7 +98,6 @@ def _not_closed(text: str) -> tuple[int | None, str]:
 
 def unclosed_node(text: str, child: str) -> int | None:
     """Return the line of the first <node> with such a tag in it, which roslaunch ignores there; or None."""
-    found = re.search(
-        rf"<node\b[^<>]*(?<!/)>(?:(?!</node>).)*?<{child}\b", without_comments(text), re.DOTALL
-    )
+    node = rf"<node\b[^<>]*(?<!/)>(?:(?!</node>).)*?<{child}\b"
+    found = re.search(node, without_comments(text), re.DOTALL)
     return line_of(text, found.start()) if found else None

@@ -1,8 +1,7 @@
-"""How much of the time that passes is the programs' own: Linux's /proc/*/task/*/schedstat.
+"""The clock of the programs: real time without their waits for a processor (/proc/*/task/*/schedstat).
 
-On a busy machine a program waits for a processor, which is no fault of its author's. So deadlines go
-by a clock that nearly stops meanwhile; and a program that has done nothing for a while, although it
-could have, is not waited for any longer.
+On a busy machine a program waits for a processor, and its author is not to blame. So deadlines use a
+clock that nearly stops during such waits. A program that does nothing although it could ends a wait.
 """
 
 from __future__ import annotations
@@ -15,8 +14,8 @@ from typing import Callable, Dict, Iterator, Tuple
 SLOWEST = 0.05  # of real time: a deadline is at most twenty times as long
 LOOKING = 0.05  # of the time at most goes into looking
 IDLE = 0.1  # of one processor; programs that use less only wait
-STRAINED = 0.15  # of the time spent waiting for a processor: what came late says little
-HOPELESS = 0.86  # it says nothing
+STRAINED = 0.15  # of the time spent waiting for a processor: a late answer proves little
+HOPELESS = 0.86  # it proves nothing
 REACH_S = 30.0  # the kernel counts how long a thread waited only when that is over
 STARVED_S = 0.5  # ready, and without a turn
 
@@ -125,16 +124,16 @@ class Patience:
         return len({process for process, _, _ in self._last.values()} - self._ours)
 
     def begin(self) -> None:
-        """Let strained() be about what begins now, too."""
+        """Let strained() judge what begins now on its own, too."""
         self.now()
         self._part = self._clock(), self._lost_s
 
     def strained(self) -> bool:
-        """Return whether the machine was so busy that what came late says little: ever, or just now."""
+        """Return whether a late answer proves little, as the machine was busy: since the start, or begin()."""
         return max(self._lost_share(*self._whole), self._lost_share(*self._part)) > STRAINED
 
     def hopeless(self) -> bool:
-        """Return whether it was so busy that what came late says nothing."""
+        """Return whether a late answer proves nothing: the machine was too busy."""
         return self._lost_share(*self._whole) > HOPELESS
 
     def _lost_share(self, began_s: float, lost_s: float) -> float:

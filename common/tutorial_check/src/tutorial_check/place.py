@@ -60,7 +60,7 @@ def restore_rights() -> None:
 
 @contextlib.contextmanager
 def own_rights() -> Iterator[None]:
-    """Let this process open files as itself for once: only what no student's program can change."""
+    """Let this process open files as itself for a moment: only files that no student's program can change."""
     libc = ctypes.CDLL(None)
     user, group = libc.setfsuid(-1), libc.setfsgid(-1)
     restore_rights()
@@ -100,7 +100,7 @@ def limit(limits: dict[int, int]) -> None:
 
 
 def _threads_of_this_user() -> int:
-    """Return at least as many: RLIMIT_NPROC counts, and /proc does not show, those outside of a container."""
+    """Return an upper bound, also of threads outside of a container: /proc hides them, RLIMIT_NPROC counts them."""
     threads, starts_one_more = MOST_THREADS, ["sh", "-c", "(:); :"]
     while threads < MOST_PIDS:
         tried = ["prlimit", f"--nproc={threads}", *starts_one_more]

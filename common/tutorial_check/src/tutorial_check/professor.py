@@ -34,13 +34,7 @@ def find_students(folder: str | Path, out: str | Path) -> list[Student]:
         entries = [path for path in sorted(Path(folder).iterdir()) if path.name[0] != "."]
     except OSError as error:
         raise CannotCheck(f"{folder}: {error.strerror}") from None
-    paths = [
-        path
-        for path in entries
-        if (path.is_dir() or path.suffix.lower() in ARCHIVES or not path.exists())
-        and path.name != FOLDER
-        and not _has_results(path, out)
-    ]
+    paths = [path for path in entries if _is_handed_in(path) and not _has_results(path, out)]
     if not paths:
         raise CannotCheck(f"{folder}: no workspace and no zip in it")
     short = [path.stem if path.suffix.lower() == ".zip" else path.name for path in paths]
@@ -48,6 +42,11 @@ def find_students(folder: str | Path, out: str | Path) -> list[Student]:
     return [
         Student(name if claims[name] == 1 else path.name, path) for name, path in zip(short, paths)
     ]
+
+
+def _is_handed_in(path: Path) -> bool:
+    is_folder = path.is_dir() and path.name != FOLDER
+    return is_folder or path.suffix.lower() in ARCHIVES or not path.exists()
 
 
 def _has_results(path: Path, out: str | Path) -> bool:

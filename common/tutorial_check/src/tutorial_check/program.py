@@ -223,7 +223,7 @@ def main() -> None:
     except CannotCheck as error:
         print(f"\ncheck: no verdict: {error}", file=sys.stderr)
         code = 2
-    except Exception as error:  # whatever it is, it is no fault of the student's
+    except Exception as error:  # not the student's fault, whatever it is
         print(f"\ncheck: {fault(error)}", file=sys.stderr)
         print("check: this is a fault of the check, not of your exercises", file=sys.stderr)
         code = 2

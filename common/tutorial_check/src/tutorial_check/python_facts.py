@@ -46,9 +46,8 @@ class PythonFacts:
         self._nodes = list(ast.walk(tree))
         self._functions = self._of(ast.FunctionDef)
         self.functions = {node.name: node.lineno for node in self._functions}
-        self.inner_names = {  # that functions make, or are given
-            name for function in self._functions for _, name in _made(ast.walk(function))
-        }
+        inner = [node for function in self._functions for node in ast.walk(function)]
+        self.inner_names = {name for _, name in _made(inner)}  # that functions make, or are given
         self.has_main = any(map(_is_main, self._nodes))
         self.loops = [node.lineno for node in self._of(ast.While)]
         self.globals = [node.lineno for node in self._of(ast.Global)]
@@ -119,12 +118,9 @@ class PythonFacts:
     @property
     def attributes(self) -> dict[str, tuple[int, str]]:
         """{"msg.linear.x": (first line, what it is set to)}."""
-        found = [
-            (node.lineno, text_of(target), text_of(node.value))
-            for node in self._of(ast.Assign)
-            for target in node.targets
-            if isinstance(target, ast.Attribute)
-        ]
+        pairs = [(target, node.value) for node in self._of(ast.Assign) for target in node.targets]
+        pairs = [both for both in pairs if isinstance(both[0], ast.Attribute)]
+        found = [(target.lineno, text_of(target), text_of(value)) for target, value in pairs]
         return {name: (line, value) for line, name, value in sorted(found, reverse=True)}
 
     @property
@@ -146,16 +142,14 @@ class PythonFacts:
     def called_back(self) -> dict[str, list[int]]:
         """{name: lines} of what callbacks call, and what these call."""
         subscribers = self.calls.get("Subscriber", [])
-        return self._called_by(
-            (one.words[2:3] or [one.names.get("callback", "")])[0] for one in subscribers
-        )
+        given = (one.words[2:3] or [one.names.get("callback", "")] for one in subscribers)
+        return self._called_by(words[0] for words in given)
 
     @property
     def at_end(self) -> dict[str, list[int]]:
         """{name: lines} of what a function given to on_shutdown calls."""
-        return self._called_by(
-            w for one in self.calls.get("on_shutdown", []) for w in one.words[:1]
-        )
+        given = [one.words[:1] for one in self.calls.get("on_shutdown", [])]
+        return self._called_by(words[0] for words in given if words)
 
     def _called_by(self, given: Iterable[str]) -> dict[str, list[int]]:
         functions = {node.name: node for node in self._functions}

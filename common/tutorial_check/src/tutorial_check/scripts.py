@@ -22,10 +22,6 @@ if TYPE_CHECKING:
 
 # env -S takes arguments
 INTERPRETER = re.compile(rb"#!\s*(\S+)(?:\s+(?:-S\s*)?(?:\w+=\S*\s+)*(\S+))?")
-WITHOUT = (
-    "without #! in the very first line the shell tries to run the Python lines itself"
-    " (import: command not found)"
-)
 
 
 def find_script(session: Session, package: str, name: str) -> str:
@@ -137,7 +133,8 @@ OF_A_TEXT = (
          "{f.script}:{f.facts.error_line}")),
     (f"{PYTHON3} as the first line", "head -3 {whole}",
      Row(lambda t: not t.first.startswith(b"#!"), "the first line is {f.first_line!r}{f.further}",
-         WITHOUT, "{f.script}:1")),
+         "without #! in the very first line the shell tries to run the Python lines itself"
+         " (import: command not found)", "{f.script}:1")),
     (f"an interpreter that exists: {PYTHON3}", "head -1 {whole}",
      Row(lambda t: not t.interpreter, "{f.first_line}", f"{PYTHON3}, or #!/usr/bin/python3",
          "{f.script}:1")),
@@ -208,7 +205,7 @@ def cause_of(session: Session, package: str, name: str, trace: Traceback) -> tup
         return file or f"{script}:{line}", hides
     if re.match("ImportError|ModuleNotFoundError", trace.error) and session.lacks_build:
         fails = "catkin_make, which may have to make it, fails: exercise 2 says why"
-        hint = f"{hint}; {fails}" if hint else fails
+        hint = "; ".join(filter(None, (hint, fails)))
     return f"{script}:{line}" if line else "", hint
 
 

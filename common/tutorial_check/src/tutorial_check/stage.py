@@ -86,7 +86,7 @@ class Stage:
             ) from None
 
     def call(self, method: str, *arguments: Any) -> Any:
-        """Call a method of the driver. Without a master rospy tries without end: do not wait for that."""
+        """Call a method of the driver. Stop waiting if the master has ended: rospy would retry without end."""
         if arguments:
             arguments = (self._topics.get(arguments[0], arguments[0]), *arguments[1:])
         found = self._driver.call(method, *arguments, in_vain=lambda: not self.master_lives)

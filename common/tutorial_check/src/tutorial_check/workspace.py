@@ -230,12 +230,9 @@ def packages_below(folder: str | Path) -> list[Package]:
 @own_rights()
 def packages_beside(layout: Layout) -> list[Package]:
     """Return the packages in a workspace right beside its src; deeper ones may be another student's."""
-    beside = sorted(layout.root.iterdir()) if layout.is_workspace else []
-    return [
-        read_package(each, layout.root)
-        for each in beside
-        if each != layout.source and os.path.isfile(each / "package.xml")
-    ]
+    every = set(layout.root.iterdir()) - {layout.source} if layout.is_workspace else ()
+    beside = [each for each in sorted(every) if os.path.isfile(each / "package.xml")]
+    return [read_package(each, layout.root) for each in beside]
 
 
 def read_package(place: Path, root: str | Path) -> Package:
