@@ -114,21 +114,14 @@ def test_a_link_stays_one_and_so_does_a_pipe(main, tmp_path):
     os.close(reader)
 
 
-@pytest.mark.parametrize("when", ["before", "meanwhile"])
-def test_a_file_that_cannot_be_written(main, tmp_path, capsys, when):
-    """It is found before the work, if it can be; and others are written all the same."""
-    begun = []
-
-    def examine(*_, **__):
-        begun.append(1)
-        (tmp_path / "json").mkdir()
-        return [WELL]
-
-    if when == "before":
-        (tmp_path / "json").mkdir()
-    assert main(examine, "--json", tmp_path / "json", "--junit", tmp_path / "junit") == 2
-    assert f"check: no verdict: {tmp_path / 'json'}: Is a directory" in capsys.readouterr().err
-    assert bool(begun) == (tmp_path / "junit").exists() == (when == "meanwhile")
+def test_a_file_that_cannot_be_written(main, tmp_path, capsys):
+    """The other files are written; a fault that is known before the work prevents the work."""
+    files = "--json", tmp_path / "json", "--junit", tmp_path / "junit"
+    assert main(lambda *_, **__: (tmp_path / "json").mkdir() or [WELL], *files) == 2
+    assert (tmp_path / "junit").exists()
+    assert main(lambda *_, **__: pytest.fail("begun"), *files) == 2
+    why = f"check: no verdict: {tmp_path / 'json'}: Is a directory"
+    assert capsys.readouterr().err.count(why) == 2
 
 
 def test_a_name_that_is_no_utf_8_is_reported(main, tmp_path, monkeypatch):
