@@ -29,15 +29,14 @@ def environment_of(words: Iterable[str]) -> dict[str, str]:
 
 def variables(folder: Path, environment: Mapping[str, str]) -> dict[str, str]:
     """Return an environment, of a shell that sourced the underlay, with the folders of a session."""
-    home = folder / "home"
     return {
         **environment,
-        "PATH": f"{folder / 'bin'}:{environment['PATH']}",
-        "HOME": str(home),
-        "TMPDIR": str(folder / "tmp"),
+        "PATH": f"{folder}/bin:{environment['PATH']}",
+        "HOME": f"{folder}/home",
+        "TMPDIR": f"{folder}/tmp",
         "ROS_IP": "127.0.0.1",
-        "ROS_HOME": str(home / ".ros"),
-        "ROS_LOG_DIR": str(home / ".ros" / "log"),
+        "ROS_HOME": f"{folder}/home/.ros",
+        "ROS_LOG_DIR": f"{folder}/home/.ros/log",
         "DISPLAY": ":99",  # whatever is there: for RViz stands a program that only waits
         "PYTHONUNBUFFERED": "1",
         "PYTHONDONTWRITEBYTECODE": "1",

@@ -40,16 +40,16 @@ def as_json(outcomes: Sequence[Outcome]) -> str:
     """Return one object with all exercises and checks."""
     exercises = [
         {
-            "id": outcome.id,
-            "passed": outcome.solved,
-            "nothing_to_check": outcome.empty,
-            "trouble": outcome.trouble,
-            "checks": [{name: getattr(one, name) for name in FIELDS} for one in outcome.results],
+            "id": one.id,
+            "passed": one.solved,
+            "nothing_to_check": one.empty,
+            "trouble": one.trouble,
+            "checks": [{name: getattr(each, name) for name in FIELDS} for each in one.results],
         }
-        for outcome in outcomes
+        for one in outcomes
     ]
-    solved = sum(outcome.solved for outcome in outcomes)
-    return json.dumps({"exercises": exercises, "passed": solved, "total": len(outcomes)}, indent=1)
+    passed = sum(outcome.solved for outcome in outcomes)
+    return json.dumps({"exercises": exercises, "passed": passed, "total": len(outcomes)}, indent=1)
 
 
 def as_junit(outcomes: Sequence[Outcome]) -> str:

@@ -40,9 +40,10 @@ def write_state(file: Path, state: dict[str, Any]) -> None:
     """Write a file in one step, if it can be written."""
     with contextlib.suppress(OSError):
         file.parent.mkdir(parents=True, exist_ok=True)
-        with tempfile.NamedTemporaryFile("w", dir=file.parent, delete=False) as written:
+        descriptor, name = tempfile.mkstemp(file.suffix, dir=file.parent)
+        with open(descriptor, "w", encoding="utf-8") as written:
             json.dump(state, written)
-        os.replace(written.name, file)
+        os.replace(name, file)
 
 
 class Memory:

@@ -28,12 +28,11 @@ def find(rows: Iterable[Row], facts: Any, expected: str = "") -> Wrong | Note | 
             continue
         if not isinstance(row.seen, str):
             return row.seen(facts)
-        seen, where, hint = (
-            text.format(f=facts, found=found) for text in (row.seen, row.where, row.hint)
-        )
+        formats = (row.seen, row.where, row.hint)
+        seen, where, hint = (text.format(f=facts, found=found) for text in formats)
         if row.note:
             return Note(seen, where, hint)
-        return Wrong(expected, seen, where=where, hint=hint, sure=row.sure)
+        return Wrong(expected, seen, where, hint, row.sure)
     return None
 
 

@@ -218,7 +218,7 @@ def crash(session: Session, package: str, program: Any, expected: str, hint: str
         return Wrong(expected, seen, place, cause or hint, sure=True)
     code = program.process.returncode if program.ended and not program.was_stopped else None
     if code is not None and code < 0:
-        return Wrong(expected, f"the program was ended by signal {-code}", hint=hint)
+        return Wrong(expected, f"the program was ended by signal {-code}", "", hint)
     if program.spins:
         seen = f"{program.name} works all the time and gets nowhere"
         hint = "a loop without end? In the callback, and before rospy.init_node, there is none"

@@ -36,10 +36,10 @@ def solutions(course: Course) -> Iterator[tuple[str, str, list[Path]]]:
 
 def self_test(course: Course, underlay: str, jobs: int) -> int:
     """Check all solutions of a course, a line each; return 0 if all come to what they should."""
-    failed, each = 0, list(solutions(course))
+    failed, every = 0, list(solutions(course))
     with ThreadPoolExecutor(jobs) as pool:
-        examined = pool.map(lambda one: _examined(course, underlay, one[2]), each)
-        for (name, check, _), outcomes in zip(each, examined):
+        examined = pool.map(lambda one: _examined(course, underlay, one[2]), every)
+        for (name, check, _), outcomes in zip(every, examined):
             complaint = complaint_of(check, outcomes)
             failed += bool(complaint)
             seen = [one.seen for outcome in outcomes for one in outcome.wrong if one.id == check]

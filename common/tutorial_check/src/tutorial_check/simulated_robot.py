@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, Sequence
 
 from tutorial_check.model import CannotCheck
 from tutorial_check.scripts import crash
@@ -48,14 +48,14 @@ class SimulatedRobot:
     @property
     def path(self) -> list[Sample]:
         """All that it did so far, 50 samples a second."""
-        return [_sample(value) for _, _, value in self._stage.call("heard", self._poses)]
+        return [_sample(heard) for heard in self._stage.call("heard", self._poses)]
 
     @property
     def moves(self) -> bool:
         """Whether it moved within the last second."""
         count = self._stage.call("count", self._poses)
         newest = self._stage.call("heard", self._poses, max(0, count - NEWEST))
-        return any(sample.v or sample.w for sample in (_sample(value) for *_, value in newest))
+        return any(one.v or one.w for one in map(_sample, newest))
 
     @property
     def bumps(self) -> int:
@@ -83,6 +83,6 @@ class SimulatedRobot:
         return self.path
 
 
-def _sample(value: tuple[float, ...]) -> Sample:
-    at_s, x, y, sine, cosine, v, w = value
+def _sample(heard: tuple[float, str, Sequence[float]]) -> Sample:
+    at_s, x, y, sine, cosine, v, w = heard[2]
     return Sample(at_s, x, y, 2.0 * math.atan2(sine, cosine), v, w)
