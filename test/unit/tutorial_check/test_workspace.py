@@ -126,15 +126,6 @@ def test_a_package_xml_that_catkin_cannot_read_has_a_reason(tmp_path, old, new, 
     assert found.malformed == (reason == "mismatched tag")
 
 
-@pytest.mark.parametrize("target", ["../../src", "nowhere", "link"])
-def test_a_link_to_above_to_nowhere_or_to_itself_ends(tmp_path, target):
-    (package(tmp_path / "src" / "joy2twist") / "link").symlink_to(target)
-    found = copied(tmp_path, tmp_path) / "joy2twist"
-    assert (found / "package.xml").exists()
-    assert not (found / "link" / "joy2twist" / "link" / "joy2twist").exists()
-    assert not (found / "link").is_symlink()
-
-
 @pytest.mark.parametrize("name", ["../evil.txt", "/evil.txt", "a/../../evil.txt", "..\\evil.txt"])
 def test_a_zip_with_a_path_outside(tmp_path, name):
     with pytest.raises(CannotCheck, match="outside"):
@@ -179,46 +170,54 @@ def test_only_what_lies_right_beside_src_is_beside_it(tmp_path):
     assert workspace.packages_beside(workspace.Layout(tmp_path, tmp_path, False)) == []
 
 
+PACKAGE, SCRIPT = "joy2twist/package.xml", "joy2twist/scripts/joy2twist.py"
+J = "ada/src/joy2twist"
+BOB = ("bob/src/joy2twist/package.xml", "bob/src/joy2twist/scripts/joy2twist.py", "ada_too/secret")
+
+
+def make(folder, *entries):
+    """Make files, of which "a -> b" is a link and "a |" a pipe."""
+    for entry in entries:
+        name, _, target = entry.partition(" -> ")
+        path = folder / name.rstrip("| ")
+        path.parent.mkdir(parents=True, exist_ok=True)
+        if target:
+            path.symlink_to(target.format(folder))
+        else:
+            os.mkfifo(path) if "|" in name else path.write_text(XML.format("joy2twist"))
+
+
 @pytest.mark.parametrize(
-    "target",
-    ["../../../secret", "{0}/secret", "/etc/passwd", "{0}/bob/src/joy2twist", "{0}/ada_too/secret"],
-)
-def test_no_link_of_another_student_leads_out_of_what_was_handed_in(tmp_path, target):
-    """Whatever the rights of the user that checks them."""
-    package(tmp_path / "bob/src/joy2twist")
-    for name in ("secret", "ada_too/secret"):
-        (tmp_path / name).parent.mkdir(exist_ok=True)
-        (tmp_path / name).write_text("secret")
-    own = package(tmp_path / "ada/src/joy2twist")
-    (own / "link").symlink_to(target.format(tmp_path))
-    (own / "inside").symlink_to("../../src/joy2twist/package.xml")
+    ("entries", "of_others", "own"),
+    [
+        ([f"{J}/link -> ../../src"], [PACKAGE], [PACKAGE]),  # to above, to nowhere, to itself
+        ([f"{J}/link -> nowhere"], [PACKAGE], [PACKAGE]),
+        ([f"{J}/link -> link"], [PACKAGE], [PACKAGE]),
+        ([f"{J}/in -> ../../src/{PACKAGE}"], ["joy2twist/in", PACKAGE], ["joy2twist/in", PACKAGE]),
+        ([f"{J}/out -> ../../../ada_too/secret"], [PACKAGE], ["joy2twist/out", PACKAGE]),
+        ([f"{J}/out -> {{}}/ada_too/secret"], [PACKAGE], ["joy2twist/out", PACKAGE]),
+        ([f"{J}/scripts -> {{}}/bob/src/joy2twist/scripts"], [PACKAGE], [PACKAGE, SCRIPT]),
+        (["ada/src/other -> {}/bob/src/joy2twist"], [PACKAGE],
+         [PACKAGE, *(each.replace("joy2twist/", "other/", 1) for each in (PACKAGE, SCRIPT))]),
+        ([f"{J}/pipe |"], [PACKAGE], [PACKAGE]),
+    ],
+)  # fmt: skip
+def test_which_links_are_followed(tmp_path, entries, of_others, own):
+    """Those that lead out of what was handed in: only for a workspace of one's own."""
+    make(tmp_path, f"{J}/package.xml", *BOB, *entries)
     layout, inside = hand_in(tmp_path / "ada", tmp_path / "scratch")
-    found = copy(layout, tmp_path / "copy", inside) / "joy2twist"
-    assert sorted(path.name for path in found.iterdir()) == ["inside", "package.xml"]
-    assert not (found / "inside").is_symlink()
+    for only, expected in ((inside, of_others), (None, own)):
+        found = copy(layout, tmp_path / f"copy of {only is None}", only)
+        every = [path for path in found.rglob("*") if not path.is_dir()]
+        assert sorted(str(path.relative_to(found)) for path in every) == sorted(expected)
+        assert not any(path.is_symlink() for path in every)
 
 
-@pytest.mark.parametrize("link", ["src", "src/joy2twist", "src/joy2twist/scripts"])
-def test_no_folder_that_is_a_link_leads_out_of_it(tmp_path, link):
-    (package(tmp_path / "bob/src/joy2twist") / "scripts").mkdir()
-    (tmp_path / "bob/src/joy2twist/scripts/joy2twist.py").touch()
-    (tmp_path / "ada" / link).parent.mkdir(parents=True)
-    (tmp_path / "ada" / link).symlink_to(tmp_path / "bob" / link)
+def test_a_src_that_is_a_link_or_a_manifest_that_is_a_pipe_is_not_read(tmp_path):
+    make(tmp_path, *BOB, "ada/src -> {}/bob/src", "eve/src/joy2twist/package.xml |")
     layout, inside = hand_in(tmp_path / "ada", tmp_path / "scratch")
-    assert not [*copy(layout, tmp_path / "others", inside).rglob("*.*")]
-    assert [*copy(layout, tmp_path / "own").rglob("*.*")]
-
-
-@pytest.mark.parametrize("file", ["package.xml", "scripts/joy2twist.py"])
-def test_a_pipe_is_left_out(tmp_path, file):
-    own = package(tmp_path / "ada/src/joy2twist")
-    (own / "scripts").mkdir()
-    (own / file).unlink(missing_ok=True)
-    os.mkfifo(own / file)
-    layout, inside = hand_in(tmp_path / "ada", tmp_path / "scratch")
-    found = copy(layout, tmp_path / "copy", inside)
-    assert not (found / "joy2twist" / file).exists()
-    assert len(packages_below(layout.root)) == (file != "package.xml")
+    assert not [*copy(layout, tmp_path / "copy", inside).iterdir()]
+    assert packages_below(tmp_path / "eve") == []
 
 
 @pytest.mark.parametrize("file", ["_setup_util.py", "setup.sh"])
