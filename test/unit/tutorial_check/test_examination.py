@@ -64,8 +64,8 @@ def test_no_verdict_if_nothing_was_found_or_it_is_no_longer_wanted(examine, monk
         examine(lines)
 
 
-def test_what_holds_in_a_shell_of_the_suite(examine, tmp_path, monkeypatch):
-    name = "ROS_ETC_DIR"
+@pytest.mark.parametrize("name", ["ROS_ETC_DIR", "CMAKE_POLICY_VERSION_MINIMUM"])
+def test_what_holds_in_a_shell_of_the_suite(examine, tmp_path, monkeypatch, name):
     (tmp_path / "setup.bash").write_text(f"export {name}=of_the_system\n")
     monkeypatch.setenv(name, "of_the_suite")
     outcomes = examine([RESULT], f"""printf '{{"cannot": "%s"}}\\n' "${name}" """)

@@ -80,3 +80,10 @@ def test_a_solution_is_shown_when_its_exercise_is_done(memory, capsys):
     assert "publish_twist.py\n#!/usr/bin/" in capsys.readouterr().out
     with pytest.raises(CannotCheck, match=r"4\.4: this course has no solution"):
         show_solution(course, ["4.4"], memory())
+
+
+def test_each_solution_of_the_handout_is_there():
+    course = read_course()
+    named = [file for each in course.exercises.values() for file in each.solution]
+    assert len(named) > 9
+    assert all((course.folder / file).is_file() for file in named)

@@ -29,21 +29,21 @@ def fields_of(stat: str) -> list[bytes]:
         return file.read().rsplit(b")", 1)[1].split()
 
 
-def times(proc: str = "/proc") -> Times:
+def times() -> Times:
     found: Times = {}
-    for process in filter(str.isdigit, os.listdir(proc)):
-        found.update(times_of(int(process), proc))
+    for process in filter(str.isdigit, os.listdir("/proc")):
+        found.update(times_of(int(process)))
     return found
 
 
-def times_of(process: int, proc: str = "/proc") -> Times:
+def times_of(process: int) -> Times:
     """Return the times of one process' threads; none if it has ended."""
     found: Times = {}
     with contextlib.suppress(OSError):  # ended meanwhile
-        for thread in os.listdir(f"{proc}/{process}/task"):
+        for thread in os.listdir(f"/proc/{process}/task"):
             # It may have ended meanwhile, or the kernel does not count.
             with contextlib.suppress(OSError, ValueError):
-                with open(f"{proc}/{process}/task/{thread}/schedstat") as file:
+                with open(f"/proc/{process}/task/{thread}/schedstat") as file:
                     at_work, ready, _ = file.read().split()
                 found[int(thread)] = process, int(at_work), int(ready)
     return found

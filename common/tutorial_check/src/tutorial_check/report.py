@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from dataclasses import replace
-from typing import TYPE_CHECKING, Callable, Sequence, TextIO
+from typing import TYPE_CHECKING, Callable, Sequence
 
 from tutorial_check.model import NOTE, OK, UNREACHED, WRONG, Result
 
@@ -52,28 +52,24 @@ def text_of(outcomes: Sequence[Outcome]) -> str:
 class Terminal:
     """Prints results as they come, with a line of what is done now where there is a terminal."""
 
-    def __init__(
-        self, hint_of: Callable[[Result], str] = lambda one: one.hint, out: TextIO | None = None
-    ) -> None:
+    def __init__(self, hint_of: Callable[[Result], str]) -> None:
         """hint_of: what to show as the hint of a Result."""
-        self._out = out or sys.stdout
-        self._hint_of = hint_of
-        self._heading = ""
-        self.is_terminal = self._out.isatty()
-        self._has_colour = self.is_terminal and "NO_COLOR" not in os.environ
+        self._hint_of, self._heading = hint_of, ""
+        self._is_terminal = sys.stdout.isatty()
+        self._has_colour = self._is_terminal and "NO_COLOR" not in os.environ
 
     def busy(self, words: str) -> None:
         """Show a line that the next one replaces; without words remove it."""
-        if self.is_terminal:
-            print(f"\r\x1b[K{words}", end="", file=self._out, flush=True)
+        if self._is_terminal:
+            print(f"\r\x1b[K{words}", end="", flush=True)
 
     def result(self, outcome: Outcome, result: Result) -> None:
         self.busy("")
         if self._heading != outcome.id:
             self._heading = outcome.id
-            print(heading(outcome), file=self._out)
+            print(heading(outcome))
         first, *rest = lines_of(replace(result, hint=self._hint_of(result)))
         if self._has_colour:
             first = f"\x1b[{COLOURS[result.status]}m{first}\x1b[0m"
-        print("\n".join([first, *rest]), file=self._out, flush=True)
+        print("\n".join([first, *rest]), flush=True)
         self.busy(f"  checking {outcome.id} ...")

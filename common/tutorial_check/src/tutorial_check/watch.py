@@ -6,6 +6,7 @@ import argparse
 import contextlib
 import os
 import stat
+import sys
 import time
 from dataclasses import replace
 from typing import NoReturn
@@ -46,14 +47,15 @@ def watch(options: argparse.Namespace) -> NoReturn:
         raise CannotCheck(f"{options.workspace}: no folder, and --watch is for one")
     while True:
         before = stamps(options.workspace)
-        print("\x1b[2J\x1b[H" if Terminal().is_terminal else "", end="")
+        print("\x1b[2J\x1b[H" if sys.stdout.isatty() else "", end="")
         report_once(options)
         print(f"waiting for a change in {options.workspace} (Ctrl-C ends)", flush=True)
         wait_for_change(options.workspace, before)
 
 
 def report_once(options: argparse.Namespace) -> None:
-    terminal, memory = Terminal(), Memory(options.workspace, options.course, options.hints)
+    memory = Memory(options.workspace, options.course, options.hints)
+    terminal = Terminal(memory.hint_of)
     terminal.busy("copying and preparing ...")
     try:
         outcomes = examine(
