@@ -1,4 +1,4 @@
-"""C29 and C30: the program as a class."""
+"""C29, C30 and C33: the program as a class."""
 
 from __future__ import annotations
 
@@ -9,12 +9,14 @@ from typing import TYPE_CHECKING, Any
 from tutorial_check.class_facts import with_bases
 from tutorial_check.course import check
 from tutorial_check.exercises import conversation
-from tutorial_check.exercises.driving import drive
+from tutorial_check.exercises.changed_programs import without_name
+from tutorial_check.exercises.driving import JOY, drive
 from tutorial_check.exercises.joy2twist import NAME, check_manifest
 from tutorial_check.exercises.joystick_task import PACKAGE
 from tutorial_check.model import Note, Wrong
 from tutorial_check.rows import Row, demand
-from tutorial_check.scripts import check_file, must_be_one
+from tutorial_check.scripts import check_file, misnamed_init, must_be_one
+from tutorial_check.tracebacks import last_lines
 
 if TYPE_CHECKING:
     from tutorial_check.class_facts import ClassFacts
@@ -22,8 +24,13 @@ if TYPE_CHECKING:
     from tutorial_check.session import Session
 
 
-def _class_files(session: Session) -> Any:
-    """{path: ClassFacts} of the classes that deal with ROS; of several the likeliest first."""
+ALONE_S = 1.5  # without a joystick
+NAMES_IT = re.compile(r"not defined|NameError")  # what the lack of the import leads to
+REPORTS = re.compile(r"Traceback|Error\b|Exception|not defined|exceeded|\[(?:ERROR|FATAL|WARN)\]")
+
+
+def _class_files(session: Session) -> dict[str, ClassFacts]:
+    """Return {path: ClassFacts} of the classes that deal with ROS; of several the likeliest first."""
     scripts = session.scripts(PACKAGE)
     owned = [(path, one) for path, facts in scripts.items() for one in facts.classes]
     bases = {base.rpartition(".")[2] for _, one in owned for base in one.bases}
@@ -90,7 +97,7 @@ class Form:
         """What was meant to be __init__, or "no __init__"; empty if there is one, maybe of a base."""
         if "__init__" in self.one.methods:
             return ""
-        odd = next((each for each in self.one.methods if re.fullmatch(r"_*init_*", each)), "")
+        odd = misnamed_init(self.one.methods)
         if odd:
             return f"`def {odd}`: Python calls `__init__`"
         return "" if self.one.bases else f"{self.one.name} has no __init__"
@@ -190,3 +197,35 @@ def behaves(session: Session) -> Note | str | None:
         conversation.check_rate(session, seen),
     ]
     return next((note for note in notes if isinstance(note, Note)), None)
+
+
+@check("C33", "its errors are seen", "6.2", "C30",
+       look="rosrun joy2twist THE_CLASS, without a joystick")  # fmt: skip
+def errors_are_seen(session: Session) -> Note | str | None:
+    """Start it without a joystick; and a copy that lacks the import of Joy."""
+    script, path, _ = program(session)
+    text = without_name(session.text(PACKAGE, script), "Joy")
+    with session.stage() as stage:
+        alone, broken = stage.start(PACKAGE, script), None
+        if text:
+            key = "broken", script
+            copy = session.memo(key, lambda: session.sibling(PACKAGE, script, text))
+            broken = stage.start(PACKAGE, copy, "__name:=broken")
+        stage.wait_for_start(lambda: alone.ended or JOY in stage.call("state")[1])
+        stage.wait(lambda: alone.ended, ALONE_S)
+        stage.wait_for_start(lambda: broken is None or broken.ended)
+        has_ended, broken_ended = alone.ended, broken is not None and broken.ended
+    excepts = session.scripts(PACKAGE)[path].broad_excepts
+    where = f"{path}:{excepts[0]}" if excepts else path
+    if has_ended and not REPORTS.search(alone.output):
+        seen = f"nobody publishes on /joy, and it ends; it printed: {last_lines(alone.output) or 'nothing'}"
+        hint = "a Subscriber waits by itself, for as long as it takes; what an except catches, it should show"
+        raise Wrong(
+            "without a joystick it waits for one, or says what it misses", seen, where, hint
+        )
+    if not NAMES_IT.search(broken.output) if broken and broken_ended else excepts:
+        seen = "except: hides every mistake, a misspelt name as well as Ctrl-C"
+        return Note(seen, where, "except rospy.ROSInterruptException:")
+    if has_ended:
+        return Note(f"without a joystick it ends: {last_lines(alone.output, 1)}", where)
+    return None

@@ -20,9 +20,10 @@ from tutorial_check.exercises.launch_nodes import (
     is_player,
     is_viewer,
 )
-from tutorial_check.exercises.robot import ODOM, held, plug_in
+from tutorial_check.exercises.robot import held, plug_in
 from tutorial_check.model import CannotCheck, Wrong
 from tutorial_check.scripts import cause_of
+from tutorial_check.simulated_robot import ODOM
 from tutorial_check.tracebacks import first_traceback
 
 if TYPE_CHECKING:
@@ -35,6 +36,7 @@ ONCE_S = 60.0  # and of one that is not: like the student's it lasts until the o
 LOOP = re.compile(r"--l(oop|oo|o)?|-[a-z]*l[a-z]*")  # of rosbag play, as it may be written
 START_S = 20.0  # for all nodes of a launch on a busy machine
 UP_S = 6.0  # for what they are there for, once all of them are
+ERRORS = re.compile(r"^(?!.*(?:rviz|INFO)).*(?:ERROR|died|Invalid|cannot|Unable)", re.MULTILINE)
 
 
 class Launch:
@@ -48,25 +50,25 @@ class Launch:
         self.program = stage.launch(["roslaunch", str(file.path)])
 
     def wait(self, condition: Callable[[], Any]) -> Any:
-        """condition(), as soon as it is true, the launch is over, or its nodes have had their time."""
+        """Return condition(), as soon as it is true, the launch is over, or its nodes had their time."""
         self.stage.wait(lambda: condition() or self.is_over() or self._is_up(), START_S)
         self.stage.wait(lambda: condition() or self.is_over(), UP_S)
         return condition()
 
-    def is_over(self) -> Any:
-        """Whether it has come to its end, or a node of it."""
+    def is_over(self) -> bool:
+        """Return whether it has come to its end, or a node of it."""
         return self.program.ended or self.has_died
 
     @property
     def has_died(self) -> bool:
-        """Whether roslaunch said that a node has died; RViz, or rqt_graph, needs a screen, and may."""
+        """Return whether roslaunch said that a node has died; RViz, or rqt_graph, needs a screen, and may."""
         return any(
             "has died" in line and "rviz" not in line and "rqt" not in line
             for line in self.program.output.splitlines()
         )
 
     def _is_up(self) -> bool:
-        """Whether the master knows all of its nodes; each has /rosout."""
+        """Return whether the master knows all of its nodes; each has /rosout."""
         there = self.stage.call("state")[0].get("/rosout", [])
         return all(
             node["namespace"] + node["name"] in there
@@ -74,12 +76,12 @@ class Launch:
             if not is_viewer(node)
         )
 
-    def moved(self) -> Any:
-        """How far the robot drove [m], along its way."""
-        path = [value for _, _, value in self.stage.call("heard", ODOM)]
-        return sum(math.hypot(b[1] - a[1], b[2] - a[2]) for a, b in zip(path, path[1:]))
+    def moved(self) -> float:
+        """Return how far the robot drove [m], along its way."""
+        path = [value[1:3] for _, _, value in self.stage.call("heard", ODOM)]
+        return sum(map(math.dist, path, path[1:]))
 
-    def traced(self, expected: str) -> Any:
+    def traced(self, expected: str) -> Wrong | None:
         """Return the Wrong for the first traceback that was printed, or None."""
         session = self.file.session
         output = re.sub(r"\x1b\[[0-9;]*m|\x1b\][^\x07]*\x07", "", self.program.output)
@@ -89,31 +91,25 @@ class Launch:
         where, hint = cause_of(session, PACKAGE, Path(trace.where.rpartition(":")[0]).name, trace)
         return Wrong(expected, trace.error, where, hint)
 
-    def wrong(self, expected: str) -> Any:
+    def wrong(self, expected: str) -> Wrong:
         """Return the Wrong for a launch that does not do what it should, with the first cause there is."""
         traced = self.traced(expected)
         if traced:
             return traced
-        counts = {topic: self.stage.call("count", topic) for topic in (JOY, self.twists, ODOM)}
-        silent = [topic for topic, count in counts.items() if not count]
-        bad = re.compile(
-            r"^(?!.*(?:rviz|INFO)).*(?:ERROR|died|Invalid|cannot|Unable)", re.MULTILINE
-        )
-        errors = [found[0] for found in bad.finditer(self.program.output)] or self._last_words()
-        seen = f"the robot moved {self.moved():.2f} m"
-        if silent:
-            seen = f"nothing on {', '.join(silent)}"
-        if errors:
-            seen += f"; {errors[0].strip()[:200]}"
         hints = {
             JOY: "does the recording, or joy_node, run? rostopic hz /joy",
             self.twists: f"does joy2twist run, and publish on {self.twists}? rosnode list",
             ODOM: f"does the simulated robot run? {ROBOT_HINT}",
         }
-        hint = hints[silent[0]] if silent else "rostopic echo /cmd_vel"
+        silent = [topic for topic in hints if not self.stage.call("count", topic)]
+        seen, hint = f"the robot moved {self.moved():.2f} m", "rostopic echo /cmd_vel"
+        if silent:
+            seen, hint = f"nothing on {', '.join(silent)}", hints[silent[0]]
+        for error in (ERRORS.findall(self.program.output) or self._last_words())[:1]:
+            seen += f"; {error.strip()[:200]}"
         return Wrong(expected, seen, f"launch/{self.file.name}", hint)
 
-    def _last_words(self) -> Any:
+    def _last_words(self) -> list[str]:
         """Return the last lines that nodes without output="screen" wrote."""
         folder = Path(self.stage.environment["ROS_LOG_DIR"])
         logs = (
@@ -154,8 +150,7 @@ def _bag_run(session: Session) -> Any:
     with session.stage(renamed=False) as stage:
         launch = Launch(file, stage)
         # A robot that drives by another topic has not shown that /joy does it.
-        drives = launch.wait(lambda: launch.moved() > 0.3) and bool(stage.call("count", JOY))
-        if not drives:
+        if not launch.wait(lambda: launch.moved() > 0.3) or not stage.call("count", JOY):
             expected = "/joy, /cmd_vel and /odom flow, and the robot drives more than 0.3 m"
             return launch.wrong(expected), loops
         if by_words and replaced:
@@ -191,13 +186,14 @@ def stick_drives(session: Session) -> None:
     with session.stage(renamed=False) as stage:
         pad = plug_in_for(file, stage)
         launch = Launch(file, stage)
-        pushed = push_when_ready(stage, pad, launch)
-        stage.wait(lambda: launch.moved() > 0.15 or launch.is_over(), 4.0 if pushed else 0.0)
-        if launch.moved() <= 0.15:
+        if not drives_forwards(stage, pad, launch):
             raise launch.wrong("the robot moves with the stick")
         pad.call("release")
-        stage.wait(lambda: abs(stage.call("heard", ODOM)[-1][2][5]) < 0.01, 3.0)
-        if abs(stage.call("heard", ODOM)[-1][2][5]) > 0.01:
+
+        def stands() -> bool:
+            return abs(stage.call("heard", ODOM, -1)[0][2][5]) <= 0.01
+
+        if not stage.wait(stands, 3.0):
             raise Wrong("released, the robot stands", "it drives on", f"launch/{STICK}")
 
 
@@ -215,32 +211,28 @@ def plug_in_for(file: LaunchFile, stage: Stage) -> Any:
     return pad
 
 
-def push_when_ready(stage: Stage, pad: Any, launch: Launch, *signs: str) -> bool:
-    """Push the stick forwards once everything runs; whether it came to that.
+def drives_forwards(stage: Stage, pad: Any, launch: Launch, *signs: str) -> bool:
+    """Push the stick forwards once everything runs; return whether the robot moves.
 
     signs: topics, listened to, on which a message comes as soon as their node works.
     """
-    topics = (JOY, launch.twists, ODOM)
 
-    def ready() -> Any:
-        return (
-            pad.call("connected")
-            and all(stage.call("speakers", topic) for topic in topics)
-            and all(stage.call("count", topic) for topic in signs)
-        )
+    def ready() -> bool:
+        topics = (JOY, launch.twists, ODOM)
+        counts = [stage.call("speakers", topic) for topic in topics]
+        return pad.call("connected") and all(counts + [stage.call("count", each) for each in signs])
+
+    def moves() -> bool:
+        return launch.moved() > 0.15
 
     launch.wait(ready)
     # LB alone, touched and let go: a joy_node with autorepeat_rate 0 is silent while nothing moves.
-    before = 0
-
-    def is_heard() -> bool:
-        return bool(launch.is_over() or stage.call("count", JOY) > before)
-
     for lb in (("push", 0.0, 0.0), ("release",)):
         before = stage.call("count", JOY)
         pad.call(*lb)
-        stage.wait(is_heard, 1.0)
+        stage.wait(lambda n=before: launch.is_over() or stage.call("count", JOY) > n, 1.0)
     # A robot that has only just come obeys once it was told to rest for a while; so do we.
     stage.wait(launch.is_over, 0.6)
     pad.call("push", 0.0, 1.0)
-    return bool(ready())
+    stage.wait(lambda: moves() or launch.is_over(), 4.0 if ready() else 0.0)
+    return moves()

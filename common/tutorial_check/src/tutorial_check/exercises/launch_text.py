@@ -37,14 +37,29 @@ ATTRIBUTES = {
     "include": 'an include has file="$(find PACKAGE)/launch/FILE"',
     "remap": '<remap from="name in the program" to="name on the robot"/>',
 }
+# Other errors: (what roslaunch says, words of the line to blame, what to do). The first that fits counts.
+SAID = (
+    (r"requires the '(\w+)' arg", ('name="{0}"', "$(arg {0})", "<include"),
+     'give it a value: <arg name="{0}" default="..."/>, or value="..." in the <include>'),
+    (r"\[(?= |[^\]]* \])( *([^\]]*?) *)\] is not a valid ROS name", ('"{0}"', "'{0}'", "{0}"),
+     'a blank stands between the quotes: "{1}"'),
+    (r"\[([^\]]*)\] is not a valid ROS name", ('"{0}"', "'{0}'", "{0}"),
+     "a name has letters, digits, _ and / only"),
+    (r"Unknown substitution command \[rospack ([^\]]*)\]", ("$(rospack",),
+     "in a launch file it is $({0}), without rospack"),
+    (r"Unknown substitution command \[(\S+)", ("$({0}",),
+     "there is no $({0} ...): look at its spelling, as in $(find PACKAGE)"),
+    (r"\$\(arg", ("$(arg",), 'each $(arg x) needs an <arg name="x" default="..."/>'),
+    ("", (), "roslaunch --nodes FILE shows the same"),
+)  # fmt: skip
 
 
-def attribute(name: str, value: str) -> Any:
-    """How it may be written, for place_of."""
+def attribute(name: str, value: str) -> tuple[str, ...]:
+    """Return how it may be written, for place_of."""
     return f'{name}="{value}"', f"{name}='{value}'", value
 
 
-def space_hint(text: str) -> Any:
+def space_hint(text: str) -> tuple[str, str]:
     """Return (what has a space that should be an underscore, what to do); empty if there is none."""
     for pattern in GAPS:
         found = re.search(pattern, text)
@@ -54,7 +69,7 @@ def space_hint(text: str) -> Any:
     return "", ""
 
 
-def parse_error(error: str, where: str, text: str) -> Any:
+def parse_error(error: str, where: str, text: str) -> Wrong:
     """Return the Wrong for a file that roslaunch cannot read. text: with its comments."""
     expected = "a launch file that roslaunch can read"
     if re.search(NOT_XML, error):
@@ -82,50 +97,33 @@ def parse_error(error: str, where: str, text: str) -> Any:
     return Wrong(expected, error[:250], *_place_and_hint(error, where, text))
 
 
-def _place_and_hint(error: str, where: str, text: str) -> Any:
-    """Return the same for what says neither file nor package."""
-    arg = re.search(r"requires the '(\w+)' arg", error)
-    if arg:
-        return (
-            place_of(where, text, f'name="{arg[1]}"', f"$(arg {arg[1]})", "<include"),
-            f'give it a value: <arg name="{arg[1]}" default="..."/>, or value="..." in the <include>',
-        )
-    name = re.search(r"\[([^\]]*)\] is not a valid ROS name", error)
-    if name:
-        hint = "a name has letters, digits, _ and / only"
-        if name[1] != name[1].strip():
-            hint = f'a blank stands between the quotes: "{name[1].strip()}"'
-        return place_of(where, text, f'"{name[1]}"', f"'{name[1]}'", name[1]), hint
-    command = re.search(r"Unknown substitution command \[(\S+)([^\]]*)\]", error)
-    if command:
-        hint = f"there is no $({command[1]} ...): look at its spelling, as in $(find PACKAGE)"
-        if command[1] == "rospack":
-            hint = f"in a launch file it is $({command[2].strip()}), without rospack"
-        return place_of(where, text, f"$({command[1]}"), hint
+def _place_and_hint(error: str, where: str, text: str) -> tuple[str, str]:
+    """Return (where, what to do) for what names neither file nor package."""
     twice = re.search(r"multiple nodes named \[(?:.*/)?([^/\]]+)\]", error)
     if twice:
-        called = re.escape(twice[1])
-        found = list(re.finditer(rf"<node\b[^<>]*\bname\s*=\s*[\"']{called}[\"']", text))
-        place = f"{where}:{line_of(text, found[:2][-1].end())}" if found else where
+        named = rf"<node\b[^<>]*\bname\s*=\s*[\"']{re.escape(twice[1])}[\"']"
+        ends = [each.end() for each in re.finditer(named, text)]
+        place = f"{where}:{line_of(text, ends[:2][-1])}" if ends else where
         return place, "each node has a name of its own, those of included files as well"
-    about = error.split(" xml is ", maxsplit=1)[
-        0
-    ]  # without the tag itself, in which there may be any word
+    about = error.partition(" xml is ")[0]  # without the tag itself, in which any word may stand
     lacks = re.search(r"<(\w+)> tag is missing", about)
     tag = "include" if error == "'file'" else lacks[1] if lacks else ""
     if tag:
         names = re.findall(r"'(\w+)'|(\w+)/(\w+) attr", about)
         place = _tag_without(where, text, tag, names)
         return place, ATTRIBUTES.get(tag, "look at the names of its attributes")
-    if "$(arg" in about:
-        return place_of(
-            where, text, "$(arg"
-        ), 'each $(arg x) needs an <arg name="x" default="..."/>'
-    return where, "roslaunch --nodes FILE shows the same"
+    for pattern, words, hint in SAID:
+        found = re.search(pattern, about)
+        if found:
+            parts = found.groups()
+            return place_of(where, text, *(each.format(*parts) for each in words)), hint.format(
+                *parts
+            )
+    return where, ""
 
 
-def _tag_without(where: str, text: str, tag: str, attributes: Any) -> Any:
-    """FILE:LINE of the first such tag that lacks an attribute. attributes: as re.findall has them."""
+def _tag_without(where: str, text: str, tag: str, attributes: Any) -> str:
+    """Return FILE:LINE of the first such tag that lacks an attribute. attributes: as re.findall has them."""
     names = [name for found in attributes for name in found if name]
     for found in re.finditer(rf"<{tag}\b[^<>]*", text):
         if not all(re.search(rf"\b{name}\s*=", found[0]) for name in names):
@@ -133,7 +131,7 @@ def _tag_without(where: str, text: str, tag: str, attributes: Any) -> Any:
     return place_of(where, text, f"<{tag}")
 
 
-def _no_file(expected: str, name: str, where: str, text: str) -> Any:
+def _no_file(expected: str, name: str, where: str, text: str) -> Wrong:
     path = Path(name)
     seen, place = f"no such file: {path}", place_of(where, text, path.name)
     if not path.is_absolute():

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 import shlex
+import statistics
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Iterable, Sequence
+from typing import TYPE_CHECKING, Any
 
 from tutorial_check.course import check
 from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL
@@ -15,20 +16,25 @@ from tutorial_check.exercises.mapping import ANGULAR, LINEAR
 from tutorial_check.exercises.pad import Pad
 from tutorial_check.model import CannotCheck, Note, Wrong
 from tutorial_check.scripts import crash
+from tutorial_check.simulated_robot import ODOM, SimulatedRobot
 from tutorial_check.stage import START_S
 
 if TYPE_CHECKING:
+    from tutorial_check.box import Program
     from tutorial_check.session import Session
     from tutorial_check.stage import Stage
 
 
 FORWARDS, LEFT = 0.5, 0.8  # positions of the stick
-ODOM = "/odom"
 COPY_BAG = 'cp "$(rospack find gamepad)/bag/joy.bag" .'
 SLOW_S = 4.0  # for a program that sleeps in its callback to answer what has gathered
 REST_S = 0.5  # for a Twist at rest; not every program sends one
-FASTEST = 0.7  # [m/s] the robot goes no faster, whatever it is told
-LOOKS = 3  # at the robot's speed: one stutter of a busy machine is none of the program's
+FASTEST = {
+    LINEAR: 0.7,
+    ANGULAR: math.pi,
+}  # [m/s, rad/s] the robot is no faster, whatever it is told
+LOOKS = 3  # at the robot's speed: a busy machine may stutter once
+SAMPLES, SAMPLES_S = 40, 4.0  # of odometry for one look, 50 a second; and how long they may take
 
 
 def held(session: Session, left: float, forwards: float) -> Any:
@@ -37,10 +43,10 @@ def held(session: Session, left: float, forwards: float) -> Any:
     return session.task.joy(((left, forwards, 0.0, 0.0, 0.0, 0.0), buttons))
 
 
-def rest(stage: Stage, *topics: Iterable[str]) -> None:
+def rest(stage: Stage, *topics: str) -> None:
     """Send Joys at rest until a Twist answers, or for a while: some programs drive only after it.
 
-    A single Joy may be lost to a Subscriber with queue_size=1 that was still busy: so, several.
+    A Subscriber with queue_size=1 that is still busy may lose one; so, several.
     """
     stage.call("stream", JOY, [NEUTRAL], 20.0, True)
     stage.wait(lambda: any(stage.call("count", topic) for topic in topics), REST_S)
@@ -58,11 +64,8 @@ def recording(session: Session) -> Note | str | None:
     bags = session.source.rglob("*.bag") if ours or session.package("beginner_tutorials") else []
     bags = sorted(bags, key=lambda each: (each.name != "joy.bag", each))
     if not bags:
-        return Note(
-            "no bag in the workspace; look at /joy with rosbag play and rostopic echo /joy",
-            hint=f"the recording: {COPY_BAG}",
-            empty=True,
-        )
+        seen = "no bag in the workspace; look at /joy with rosbag play and rostopic echo /joy"
+        return Note(seen, hint=f"the recording: {COPY_BAG}", empty=True)
     spoilt: list[Wrong] = []
     others: list[Wrong] = []
     for bag in bags:
@@ -84,45 +87,32 @@ def check_recording(bag: Any, name: str) -> Any:
     try:
         with rosbag.Bag(str(bag)) as opened:
             topics = opened.get_type_and_topic_info().topics
-            joys = [
-                message
-                for _, (_, message, _) in zip(range(5), opened.read_messages(topics=[JOY, "joy"]))
-            ]
+            _, joy, _ = next(opened.read_messages(topics=[JOY, "joy"]), (None, None, None))
     except (rosbag.ROSBagException, OSError, ValueError, KeyError, EOFError) as error:
         seen = str(error) or type(error).__name__
         hint = f"copy it anew: {COPY_BAG[:-1]}{shlex.quote(str(bag))}"
         raise Wrong("a recording that rosbag can read", seen, name, hint) from None
-    if not joys:
+    if joy is None:
         seen = f"topics: {', '.join(topics) or 'none'}"
         hint = f"rosbag record /joy; or copy ours: {COPY_BAG}"
         raise NoJoy("sensor_msgs/Joy on /joy", seen, name, hint)
-    axes = len(getattr(joys[0], "axes", ()))
+    axes = len(getattr(joy, "axes", ()))
     if axes < 2:
         raise Wrong("at least two axes", f"{axes}", name)
     return list(topics)
 
 
-def _yaw(odom: Sequence[float]) -> Any:
-    return 2 * math.atan2(odom[3], odom[4])
+def _speeds(stage: Stage, robot: SimulatedRobot) -> tuple[float, float]:
+    """Return (speed [m/s], rate of turn [rad/s]) of the robot in a while of even driving."""
+    begun = stage.call("count", ODOM)
+    stage.wait(lambda: stage.call("count", ODOM) >= begun + SAMPLES, SAMPLES_S)
+    path = robot.path[begun:]
+    mean = statistics.fmean if path else lambda _: 0.0
+    return mean([sample.v for sample in path]), mean([sample.w for sample in path])
 
 
-def steady(stage: Stage, how_long_s: float = 0.8) -> Any:
-    """(speed over ground, rate of turn) by the robot's own stamps, over a while of even driving."""
-
-    def since(stamp: float) -> Any:
-        return [value for _, _, value in stage.call("heard", ODOM) if value[0] > stamp]
-
-    start = stage.call("heard", ODOM)[-1][2]
-    stage.wait(lambda: since(start[0] + how_long_s), how_long_s + 3)
-    path = [start, *since(start[0])]
-    length = sum(math.hypot(b[1] - a[1], b[2] - a[2]) for a, b in zip(path, path[1:]))
-    turned = sum(math.remainder(_yaw(b) - _yaw(a), math.tau) for a, b in zip(path, path[1:]))
-    took = path[-1][0] - start[0]
-    return (length / took, turned / took) if took > 0 else (0.0, 0.0)
-
-
-def _agree(measured: float, told: float) -> Any:
-    return told > 0 and abs(measured - told) <= 0.1 * told
+def _agree(measured: float, told: float, most: float) -> bool:
+    return told > 0 and abs(measured - min(told, most)) <= 0.1 * min(told, most)
 
 
 @check("C19", "the simulated robot follows", "4.4", "C16",
@@ -131,66 +121,61 @@ def simulated(session: Session) -> Note | str | None:
     """Drive the simulated robot forwards, then turn it, and compare with what was told."""
     script = main_script(session)
     with session.stage() as stage:
-        program = _beside_the_robot(session, stage, script)
-        straight, told = _driven(stage, held(session, 0.0, FORWARDS), LINEAR)
-        turning, told_turn = _driven(stage, held(session, LEFT, 0.0), ANGULAR)
+        program, robot = _beside_the_robot(session, stage, script)
+        (v, _), told_v = _driven(stage, robot, held(session, 0.0, FORWARDS), LINEAR)
+        (_, w), told_w = _driven(stage, robot, held(session, LEFT, 0.0), ANGULAR)
         session.box.end(program, 0.5)
-    if not told or not told_turn:
+    if told_v is None or told_w is None:
         raise Wrong("Twists that the robot obeys", "none came")
-    v, w = told[LINEAR], told_turn[ANGULAR]
-    seen = f"{straight:.2f} m/s, then {turning:.2f} rad/s"
-    if not _agree(straight, min(v, FASTEST)) or not _agree(turning, min(w, math.pi)):
-        expected = f"forwards with {v:.2f} m/s, then turning left with {w:.2f} rad/s"
+    seen = f"{v:.2f} m/s, then {w:.2f} rad/s"
+    if not _agree(v, told_v, FASTEST[LINEAR]) or not _agree(w, told_w, FASTEST[ANGULAR]):
+        expected = f"forwards with {told_v:.2f} m/s, then turning left with {told_w:.2f} rad/s"
         hint = "linear.x = axes[1], angular.z = axes[0], for every Joy"
         raise Wrong(expected, seen, script, hint)
     return seen
 
 
-def _beside_the_robot(session: Session, stage: Stage, script: str) -> Any:
-    """Return the program, started beside the simulated robot, which it alone drives. Raises Wrong."""
-    for topic, kind in ((CMD_VEL, "Twist"), (ODOM, "Odometry")):
-        stage.call("listen", topic, kind)
+def _beside_the_robot(
+    session: Session, stage: Stage, script: str
+) -> tuple[Program, SimulatedRobot]:
+    """Return the program and the simulated robot, which it alone drives. Raises Wrong."""
+    stage.call("listen", CMD_VEL, "Twist")
     stage.call("advertise", JOY, "Joy")
-    robot = stage.start_ours("fake_turtlebot_sim", "fake_turtlebot.py")
     program = stage.start(PACKAGE, script)
-
-    def is_ready() -> Any:
-        return program.ended or (stage.call("listeners", JOY) and stage.call("count", ODOM))
-
-    ready = stage.wait(is_ready, START_S)
+    robot = SimulatedRobot(stage)
+    ready = stage.wait(lambda: program.ended or stage.call("listeners", JOY), START_S)
     rest(stage, CMD_VEL)
     # Its Publisher may be made in the callback.
     ready = ready and stage.wait(lambda: program.ended or stage.call("speakers", CMD_VEL), START_S)
-    publishers = stage.call("state")[0].get(CMD_VEL, [])
-    if robot.ended or not stage.call("count", ODOM):
-        raise CannotCheck(f"the simulated robot does not start: {robot.output[-200:]}")
     if not ready or program.ended:
         raise crash(session, PACKAGE, program, "the node runs beside the simulated robot")
+    publishers = stage.call("state")[0].get(CMD_VEL, [])
     if len(set(publishers)) != 1:
         seen = f"{len(set(publishers))}: {', '.join(publishers)}"
-        raise Wrong(
-            "one node publishes on /cmd_vel", seen, "", "end the older version: rosnode list"
-        )
-    return program
+        hint = "end the older version: rosnode list"
+        raise Wrong("one node publishes on /cmd_vel", seen, hint=hint)
+    return program, robot
 
 
-def _driven(stage: Stage, joy: Any, field: Any) -> Any:
-    """(speed of the robot, the last Twist or None) after driving for a while. field: which counts."""
+def _driven(
+    stage: Stage, robot: SimulatedRobot, joy: Any, field: int
+) -> tuple[tuple[float, float], float | None]:
+    """Return (speed and rate of turn of the robot, what the last Twist has in a field) in a drive."""
     before = stage.call("count", CMD_VEL)
 
-    def heard() -> Any:
-        return [value for _, _, value in stage.call("heard", CMD_VEL, before)]
+    def told() -> list[float]:
+        return [value[field] for _, _, value in stage.call("heard", CMD_VEL, before)]
 
     stage.call("stream", JOY, [joy], 20.0, True)
-    stage.wait(lambda: any(abs(value[field]) > 0.01 for value in heard()), 3.0)
+    stage.wait(lambda: any(abs(value) > 0.01 for value in told()), 3.0)
     moving = stage.call("count", ODOM)
     stage.wait(lambda: stage.call("count", ODOM) > moving + 8, 3.0)
     for _ in range(LOOKS):
-        measured, told = steady(stage)[field == ANGULAR], next(iter(heard()[-1:]), None)
-        if told and _agree(measured, min(told[field], FASTEST if field == LINEAR else math.pi)):
+        speeds, last = _speeds(stage, robot), next(iter(told()[-1:]), None)
+        if last is not None and _agree(speeds[field == ANGULAR], last, FASTEST[field]):
             break
     stage.call("end_stream", JOY)
-    return measured, told
+    return speeds, last
 
 
 def plug_in(session: Session, stage: Stage, device: str = "/dev/input/js0", mode: str = "D") -> Any:
@@ -212,17 +197,17 @@ def joystick(session: Session) -> Note | str | None:
         node = stage.start_ours("gamepad", "joy_node", f"_dev:={path}", "_autorepeat_rate:=20")
         program = stage.start(PACKAGE, script)
 
-        def has_ended() -> Any:
+        def has_ended() -> bool:
             return program.ended or node.ended
 
-        def speeds(since: int = 0) -> Any:
+        def speeds(since: int = 0) -> list[float]:
             return [value[0] for _, _, value in stage.call("heard", CMD_VEL, since)]
 
         def drives() -> bool:
             return any(abs(speed) > 0.01 for speed in speeds())
 
-        def is_up() -> Any:
-            return stage.call("count", JOY) and stage.call("speakers", CMD_VEL)
+        def is_up() -> bool:
+            return bool(stage.call("count", JOY) and stage.call("speakers", CMD_VEL))
 
         stage.wait(lambda: is_up() or has_ended(), START_S)
         pad.call("push", 0.0, 0.6)

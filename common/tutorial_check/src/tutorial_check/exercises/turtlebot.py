@@ -43,14 +43,13 @@ class Remapped:
             stage.call("advertise", JOY, "Joy")
             self.launch = launch = launch_runs.Launch(file, stage, TELEOP)
             topics = (TELEOP, twists)
-            launch.wait(
-                lambda: (
-                    stage.call("listeners", JOY) > 1  # one is ours
-                    and (
-                        any(stage.call("speakers", each) for each in topics) or self._others(stage)
-                    )
-                )
-            )
+
+            def is_up() -> bool:
+                speak = any(stage.call("speakers", each) for each in topics)
+                # One of the listeners is ours.
+                return stage.call("listeners", JOY) > 1 and bool(speak or self._others(stage))
+
+            launch.wait(is_up)
             rest(stage, *topics)
             stage.call("stream", JOY, [held(file.session, 0.2, 0.3)], 20.0, True)
 
@@ -145,11 +144,10 @@ def real_robot(session: Session) -> None:
             command = ["roslaunch", "fake_turtlebot_sim", "minimal.launch", "model:=false"]
             base = stage.launch(command, trusted=True)
         launch = launch_runs.Launch(file, stage, TELEOP)
-        pushed = launch_runs.push_when_ready(stage, pad, launch, ACTIVE)
-        stage.wait(lambda: launch.moved() > 0.15 or launch.is_over(), 4.0 if pushed else 0.0)
+        drives = launch_runs.drives_forwards(stage, pad, launch, ACTIVE)
         if base and base.ended:
             raise CannotCheck(f"the simulated TurtleBot does not start: {base.output[-200:]}")
-        if launch.moved() <= 0.15:
+        if not drives:
             expected = "cmd_vel_mux lets teleop through, and the robot moves with the stick"
             raise launch.wrong(expected)
         active = {value for _, _, value in stage.call("heard", ACTIVE)}
