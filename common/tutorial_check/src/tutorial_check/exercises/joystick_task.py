@@ -38,10 +38,8 @@ def order(places: Mapping[int, int]) -> dict[int, int]:
 
 def moved(values: Sequence[Any], places: Mapping[int, int]) -> tuple[Any, ...]:
     """Return the values, each at its place."""
-    found = list(values)
-    for index, value in enumerate(values):
-        found[places.get(index, index)] = value
-    return tuple(found)
+    found = {places.get(index, index): value for index, value in enumerate(values)}
+    return tuple(found[index] for index in range(len(values)))
 
 
 @task
@@ -80,14 +78,12 @@ class JoystickTask(Task):
         if not self.values:
             return result
         launches = result.section.startswith(LAUNCHES)
-        return replace(
-            result,
-            title=self._translated(result.title, self._name, launches),
-            expected=self._translated(result.expected, self._scaled_name, launches),
-            seen=self._translated(result.seen, self._name, launches),
-            look=self._translated(result.look, self._name, launches),
-            hint=self._translated(result.hint, self._value, launches),
-        )
+        ways = {"expected": self._scaled_name, "hint": self._value}
+        texts: dict[str, Any] = {
+            name: self._translated(getattr(result, name), ways.get(name, self._name), launches)
+            for name in ("title", "expected", "seen", "look", "hint")
+        }
+        return replace(result, **texts)
 
     def _translated(self, text: str, say: Callable[[str], str], launches: bool) -> str:
         """Return a text in which say(name of a value) stands for what the handout has."""

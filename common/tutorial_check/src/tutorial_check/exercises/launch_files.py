@@ -123,10 +123,10 @@ def _read(session: Session) -> Any:
     must_be_launchable(session)
     session.must_reach_underlay()
     folder = session.package(PACKAGE).folder
-    paths = {}
-    for name in ALL:
-        for path in sorted(each for each in folder.rglob(name) if each.is_file())[:1]:
-            paths[name] = str(path)
+    files = (path for name in ALL for path in sorted(folder.rglob(name)) if path.is_file())
+    paths: dict[str, str] = {}
+    for path in files:
+        paths.setdefault(path.name, str(path))
     if not paths:
         return {}
     command = ["/usr/bin/python3", launch_facts.__file__, *paths.values()]
@@ -222,16 +222,15 @@ def _check_node(file: LaunchFile, node: Node) -> None:
 
 
 def _check_own_node(session: Session, kind: str, place: str) -> None:
-    folder = session.package(PACKAGE).folder
-    names = {path.name: path for path in sorted(folder.rglob("*")) if path.is_file()}
-    found = [path for path in folder.rglob("*") if path.name == kind and path.is_file()]
+    files = [path for path in session.package(PACKAGE).folder.rglob("*") if path.is_file()]
+    found = [path for path in files if path.name == kind]
     if kind == "joy_node":
         seen = 'pkg="joy2twist" has no joy_node: your package hides ours'
         raise Wrong("joy_node of package joy", seen, place, JOY_HINT)
     if not found and kind == NAME:
         find_script(session, PACKAGE, NAME)  # which says what is there in its place
     if not found:
-        near = difflib.get_close_matches(kind, names, 1, 0.7)
+        near = difflib.get_close_matches(kind, sorted(path.name for path in files), 1, 0.7)
         hint = f'type="{near[0]}"' if near else "type is the name of the file, with .py"
         seen = f"Cannot locate node of type [{kind}]"
         raise Wrong(f"a program {kind} in {PACKAGE}", seen, place, hint)

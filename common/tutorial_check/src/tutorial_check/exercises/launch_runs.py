@@ -225,12 +225,15 @@ def drives_forwards(stage: Stage, pad: Any, launch: Launch, *signs: str) -> bool
     def moves() -> bool:
         return launch.moved() > 0.15
 
+    def touch(*how: Any) -> None:
+        before = stage.call("count", JOY)
+        pad.call(*how)
+        stage.wait(lambda: launch.is_over() or stage.call("count", JOY) > before, 1.0)
+
     launch.wait(ready)
     # LB alone, touched and let go: a joy_node with autorepeat_rate 0 is silent while nothing moves.
-    for lb in (("push", 0.0, 0.0), ("release",)):
-        before = stage.call("count", JOY)
-        pad.call(*lb)
-        stage.wait(lambda n=before: launch.is_over() or stage.call("count", JOY) > n, 1.0)
+    touch("push", 0.0, 0.0)
+    touch("release")
     # A robot that has only just come obeys once it was told to rest for a while; so do we.
     stage.wait(launch.is_over, 0.6)
     pad.call("push", 0.0, 1.0)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from typing import Iterable, Mapping, Sequence, Tuple
+from typing import Iterable, Mapping, NamedTuple, Sequence, Tuple
 
 from tutorial_check.rows import Row, find
 
@@ -17,8 +17,7 @@ SMALL = 1e-4
 AXES = 6
 
 
-@dataclass(frozen=True)
-class Rule:
+class Rule(NamedTuple):
     """field = factor * axes[axis], of all samples."""
 
     axis: int
@@ -117,8 +116,8 @@ class Field:
         crossed = (1 - axis, axis)
         self.is_swapped = self.rule and other and (self.rule.axis, other.axis) == crossed
         strange = [each for each in evidence.moving if each not in RIGHT]
-        followers = [FIELDS[each] for each in strange if _axis(evidence.rules[each]) == axis]
-        self.misplaced = "".join(followers[:1])
+        rules = {FIELDS[each]: evidence.rules[each] for each in strange}
+        self.misplaced = next((n for n, rule in rules.items() if rule and rule.axis == axis), "")
         self.at_rest = evidence.at_rest[index] if evidence.at_rest else 0.0
         earlier = {tuple(axes): twist[index] for axes, twist in evidence.again}
         keys = [tuple(axes) for axes, _ in evidence.samples]
@@ -180,21 +179,19 @@ class Field:
         return _rises(values) and signs and min(values[-1], -values[0]) > 0.05
 
 
-def _axis(rule: Rule | None) -> int | None:
-    return rule.axis if rule else None
-
-
 def _rises(values: Sequence[float]) -> bool:
     return all(after >= before - SMALL for before, after in zip(values, values[1:]))
 
 
 def no_number(samples: Iterable[Sample]) -> str:
     """Return what is said of a value that is infinite or no number; empty if all are numbers."""
-    for _, twist in samples:
-        for name, value in zip(FIELDS, twist):
-            if not math.isfinite(value):
-                return f"{name} is {value}, which is no number"
-    return ""
+    values = ((name, value) for _, twist in samples for name, value in zip(FIELDS, twist))
+    odd = (
+        f"{name} is {value}, which is no number"
+        for name, value in values
+        if not math.isfinite(value)
+    )
+    return next(odd, "")
 
 
 JUST = "{f.name} = axes[{f.axis}]"

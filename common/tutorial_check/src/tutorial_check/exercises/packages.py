@@ -20,7 +20,6 @@ if TYPE_CHECKING:
     from tutorial_check.session import Session
 
 
-NAMES = ("beginner_tutorials", "joy2twist")
 WANTED = {
     "beginner_tutorials": ("std_msgs", "rospy", "roscpp"),
     "joy2twist": ("rospy", "std_msgs", "sensor_msgs", "geometry_msgs"),
@@ -35,15 +34,14 @@ CMAKE_HINTS = (
 )
 
 
-def _similar(name: str, packages: Any) -> Any:
+def _similar(name: str, packages: list[Package]) -> Package | None:
     """Return a package that was meant to be the one of that name, or None."""
-    plain = re.sub(r"[^a-z0-9]", "", name)
-    for each in packages:
-        for word in (each.name, each.folder.name):
-            bare = re.sub(r"[^a-z0-9]", "", word.lower())
-            if bare == plain or difflib.SequenceMatcher(None, bare, plain).ratio() > 0.8:
-                return each
-    return None
+
+    def is_near(word: str) -> bool:
+        bare, plain = (re.sub(r"[^a-z0-9]", "", each.lower()) for each in (word, name))
+        return difflib.SequenceMatcher(None, bare, plain).ratio() > 0.8
+
+    return next((p for p in packages if is_near(p.name) or is_near(p.folder.name)), None)
 
 
 def _package(session: Session, name: str) -> Any:
@@ -120,31 +118,21 @@ def _dependencies(session: Session, name: str) -> Any:
     raise Wrong(f"dependencies on {', '.join(wanted)}", seen, place, hint)
 
 
-@check(
-    "C2", "package beginner_tutorials", "2.1", look="rospack find beginner_tutorials", timeless=True
-)
+@check("C2", "package beginner_tutorials", "2.1", look="rospack find beginner_tutorials",
+       timeless=True)  # fmt: skip
 def beginner(session: Session) -> Note | str | None:
-    """Package beginner_tutorials."""
     return f"src/{_package(session, 'beginner_tutorials').inside}"
 
 
-@check(
-    "C3", "its dependencies", "2.1", "C2", look="rospack depends1 beginner_tutorials", timeless=True
-)
+@check("C3", "its dependencies", "2.1", "C2", look="rospack depends1 beginner_tutorials",
+       timeless=True)  # fmt: skip
 def beginner_dependencies(session: Session) -> None:
-    """Its dependencies."""
     _dependencies(session, "beginner_tutorials")
 
 
-@check(
-    "C12",
-    "package joy2twist and its dependencies",
-    "4.3",
-    look="rospack find joy2twist",
-    timeless=True,
-)
+@check("C12", "package joy2twist and its dependencies", "4.3", look="rospack find joy2twist",
+       timeless=True)  # fmt: skip
 def joy2twist(session: Session) -> Note | str | None:
-    """Package joy2twist and its dependencies."""
     package = _dependencies(session, "joy2twist")
     text = _cmake(package)
     found = re.search(r"find_package\s*\(\s*catkin\b[^)]*\bCOMPONENTS\b([^)]*)\)", text)
@@ -211,12 +199,9 @@ def _build_error(session: Session, output: str) -> Any:
     return Wrong("catkin_make without an error", words[:300], where, hint)
 
 
-def _missing_in(output: str) -> Any:
+def _missing_in(output: str) -> list[str]:
     """Return the packages that catkin_make said it could not find."""
-    return re.findall(
-        r"[Cc]ould not find .*?(?:package configuration file provided by |component )?\"([^\"]+)\"",
-        output,
-    )
+    return re.findall(r'[Cc]ould not find .*?"([^"]+)"', output)
 
 
 def _not_found(session: Session, name: str) -> Any:

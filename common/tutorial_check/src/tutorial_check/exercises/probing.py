@@ -5,9 +5,8 @@ from __future__ import annotations
 import collections
 import math
 import re
-from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Iterable, Mapping, Sequence, Tuple
+from typing import Iterable, Mapping, NamedTuple, Sequence, Tuple
 
 from tutorial_check.exercises.joystick_task import LB
 from tutorial_check.exercises.mapping import (
@@ -34,8 +33,8 @@ BACK = tuple(-axis for axis in FAST)
 SLOWEST = 0.25  # an axis below this may be in a dead zone, and is no measure of a factor
 
 
-def _pressed(*pressed: int, buttons: int = BUTTONS) -> tuple[int, ...]:
-    return tuple(int(index in pressed) for index in range(buttons))
+def _pressed(*pressed: int) -> tuple[int, ...]:
+    return tuple(int(index in pressed) for index in range(BUTTONS))
 
 
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e-?\d+)?")
@@ -44,7 +43,7 @@ EARLY_S = 0.06  # by which a Twist may seem to come before its Joy
 AT_REST: Joy = (REST, _pressed(LB))
 
 
-def numbered_joys(count: int, buttons: int = BUTTONS) -> list[Joy]:
+def numbered_joys(count: int) -> list[Joy]:
     """Return Joys of which no two are alike, nor any two axes, with LB held.
 
     Signs change, so that a rule which is right only forwards or to the left is found out. In the
@@ -56,7 +55,7 @@ def numbered_joys(count: int, buttons: int = BUTTONS) -> list[Joy]:
         left = (0.25 + 0.017 * k if k != count - 2 else 1.0) * (1 if k % 4 < 2 else -1)
         # In an order of their own, so that none of them is by chance in proportion to these two.
         rest = [0.03 + 0.05 * (index - 2) + 0.002 * (7 * k % 20) for index in range(2, AXES)]
-        joys.append(((left, forwards, *rest), _pressed(LB, buttons=buttons)))
+        joys.append(((left, forwards, *rest), _pressed(LB)))
     return joys
 
 
@@ -106,8 +105,7 @@ def _other_button(buttons: Sequence[int]) -> str:
     return next((f"buttons[{index}]" for index in pressed), "")
 
 
-@dataclass(frozen=True)
-class Silence:
+class Silence(NamedTuple):
     """A Joy that no Twist answered, the one before it, and the last Twist that came."""
 
     joy: Joy
@@ -147,8 +145,7 @@ def silence(joy: Joy, before: Joy, last: Sequence[float] = (1.0,)) -> tuple[str,
     return wrong.seen, wrong.hint
 
 
-@dataclass(frozen=True)
-class Reply:
+class Reply(NamedTuple):
     """One field of an answer, beside that to the Joy before, and to the same Joy when it came first."""
 
     name: str
