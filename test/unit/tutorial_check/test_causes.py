@@ -14,17 +14,13 @@ FORMAT = "TypeError: not enough arguments for format string"
     ("error", "line", "word"),
     [
         ("ModuleNotFoundError: No module named 'std_msg'", "", "std_msgs.msg"),
-        ("TypeError: Twist.serialize() missing 1 required positional argument", "", "Twist()"),
         ("TypeError: unsupported operand type(s) for +: 'function' and 'str'", "", "() is missing"),
-        ("TypeError: unsupported operand type(s) for +: 'int' and 'str'", "", "do not add"),
         ('TypeError: can only concatenate str (not "function") to str', "", "() is missing"),
         ('TypeError: can only concatenate str (not "float") to str', "", "do not add"),
         ("cannot import name 'Twist' from 'geometry_msgs' (/x)", "", "in .msg: from g"),
         ("ImportError: cannot import name 'Joy' from 'std_msgs.msg' (/x)", "", "Joy is in sensor"),
         ("NameError: name 'Twist' is not defined. Did you mean: 'twist'?", "", "not imported"),
-        (FORMAT, 'rospy.loginfo("%.2f %.2f" % data.axes)', "as many %.2f as there are axes"),
         (FORMAT, 'rospy.loginfo("%.2f %.2f" % data.axes[0])', "leave [ ] out"),
-        (FORMAT, 'rospy.loginfo("I heard", data.data)', "one % for each value"),
     ],
 )
 def test_causes(error, line, word):
@@ -94,7 +90,6 @@ NO_DATA = "name 'data' is not defined"
         (FALLEN, 9, NO_DATA, 9, ""),
         (CLASS, 7, "name 'self' is not defined", 7, "outside of c"),
         (CLASS, 6, "name 'pub' is not defined", 6, "within a class it is self.pub"),
-        (VECTOR.format("data.axes[1]"), 4, NO_X, 3, "msg.linear has three parts"),
         (VECTOR.format("Vector3(data.axes[1], 0, 0)"), 4, NO_X, 4, ""),
     ],
 )
@@ -115,9 +110,6 @@ def test_what_the_text_says_of_an_error(text, line, error, blamed, word):
         ("def f(pub):\n    global pub\n", 2, "needs no `global pub`"),
         ("def f():\n    x = 1\nreturn x\n", 3, "return stands outside"),
         ("while True:\n    pass\nbreak\n", 3, "break stands outside"),
-        ("def f()\n    pass", 1, "ends with :"),
-        ("f(\n", 1, "bracket"),
-        ("x = 1\n  y = 2", 2, "indent"),
         ("x y", 1, "cannot read"),
     ],
 )
@@ -141,7 +133,6 @@ ENDS = """def listener():
 @pytest.mark.parametrize(
     ("spin", "margin", "where", "word"),
     [
-        ("rospy.spin", "", "x.py:3", "rospy.spin()"),
         ("pass", "", "x.py", "is missing"),
         ("rospy.spin()", "    ", "x.py:4", "stands within listener(): move it"),
         ("rospy.spin()", "", "x.py", "in the last line"),

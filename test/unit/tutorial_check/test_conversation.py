@@ -37,7 +37,6 @@ while not rospy.is_shutdown():
 """
 TWO = 2 * 'rospy.Subscriber("/joy", Joy, lambda data: publish(data))\n'
 DEAF = 'rospy.Subscriber("/joy", Joy)\n'
-SILENT = "rospy.Subscriber('/joy', Joy, callback)\ndef callback(data):\n    pass\n"
 LATCHED = "from sensor_msgs.msg import Joy\npub = rospy.Publisher('/cmd_vel', Twist, latch=True)\n"
 
 
@@ -72,45 +71,24 @@ JOY_NEEDED = "callback), and at the top: from sensor_msgs.msg import Joy"
 @pytest.mark.parametrize(
     "row",
     [
-        ("CONNECTED", PROGRAM, {"master_alive": False}, "has ended it", "", ""),
         ("CONNECTED", PROGRAM.replace("Joy,", "Twist,"), {"connected": False}, "wants Twist",
          ":10", JOY_NEEDED),
-        ("CONNECTED", DEAF, {"samples": []}, "no callback", ":1", "callback"),
         ("NOT_CONNECTED", PROGRAM, {"subscribers": {}, "publishers": {JOY: 1},
          "types": {JOY: "T"}}, "PUBLISHES on /joy (T)", ":10", ""),
-        ("NOT_CONNECTED", PROGRAM, {"subscribers": {"/rosout": 1, "/Joy": 1}},
-         "subscribes to /Joy", ":10", ""),
         ("NOT_CONNECTED", "", {"subscribers": {}}, "subscribes to nothing", "",
          "before rospy.spin()"),
         ("DISPLAYED", PROGRAM, {"shown": 3}, "3 of 20 were displayed", None, ""),
-        ("DISPLAYED", PROGRAM, {"naps": True, "waits": [0.5] * 3}, "0.5 s from one", ":7",
-         "no sleep"),
         ("DISPLAYED", "rospy.loginfo_throttle(1, x)", {"shows_numbers": True}, "now and then",
          ":1", "in place"),
-        ("NOT_DISPLAYED", "", {"output": "0.10 0.20"}, "2 of the six values", "", "all six"),
         ("NOT_DISPLAYED", "rospy.Publisher()\nrospy.logdebug(1)", {}, "level debug", None, ""),
         ("NOT_DISPLAYED", "", {}, "not one value", "", "data.axes in the callback"),
-        ("TOPICS", PROGRAM, {"publishers": {JOY: ["/a"]}}, "on /joy itself (/a)", ":6", ""),
         ("TOPICS", PROGRAM, {"types": {CMD_VEL: "T"}}, "/cmd_vel carries T", ":6", "import Twist"),
         ("TOPICS", "", {"publishers": {CMD_VEL: ["/a", "/b"]}}, "several do: /a, /b", "", ""),
         ("TOPICS", PROGRAM, {}, "the Publisher is made in the callback", ":6", "make it once"),
-        ("NO_TOPIC", PROGRAM, {"publishers": {"/cmdvel": 1}}, "publishes on /cmdvel", ":6",
-         "is called /cmd_vel"),
         ("NO_TOPIC", PROGRAM, {"publishers": {"/cmd_vel_mux/a": 1}}, "_mux/a", ":6", "a <remap>"),
         ("NO_TOPIC", PROGRAM, {"publishers": {}}, "it publishes nothing", ":6", "publish(msg) in"),
-        ("NO_TOPIC", SILENT, {"publishers": {}}, "there is no rospy.Publisher", "",
-         "publish(msg) in"),
-        ("ANSWERED", LOOP, {"samples": [], "came": 4}, "4 Twists for 20 Joys", ":3",
-         "for every message"),
-        ("ANSWERED", LOOP, {"samples": []}, "no Twist came", ":3", "called in the callback"),
-        ("ONCE", LOOP, {"strays": 3}, "zeros come between", ":7", "in the callback alone"),
         ("ONCE", LOOP, {"twists": each(ZERO), "has_clock": True, "complaint": "odd"},
          "zeros come between", ":7", ""),
-        ("ONCE", LOOP, {"repeats": True}, "by a clock of its own", ":7", "once for every Joy"),
-        ("ONCE", PROGRAM, {"twists": each(ZERO)}, "2 Twists for each Joy, and they differ", ":6",
-         ""),
-        ("ONCE", PROGRAM, {"twists": each(ZERO), "samples": [((), ZERO)] * 20},
-         "the second is zero", ":6", "second publish"),
         ("RIGHT_RULE", LOOP, {"unanswered": 1, "silence": ("no Twist", "always")}, "no Twist",
          ":3", "always"),
         ("RIGHT_RULE", "msg.linear.x = data.buttons[1]", {"complaint": "linear.x is 0"},
@@ -118,7 +96,6 @@ JOY_NEEDED = "callback), and at the top: from sensor_msgs.msg import Joy"
         ("RIGHT_RULE", TWO, {"twists": sorted(2 * ANSWERS)}, "2 Twists for each Joy", ":2",
          "one is enough"),
         ("RIGHT_RULE", LATCHED, {}, "latch=True", None, "leave latch out"),
-        ("RATE", PROGRAM, {}, "50 for 125", ":7", "no sleep"),
         ("RATE", "rospy.sleep(1)", {}, "50 for 125", "", "takes so long"),
     ],
 )  # fmt: skip
@@ -133,7 +110,6 @@ def test_diagnosis(row):
 @pytest.mark.parametrize(
     ("rows", "text", "recorded"),
     [
-        ("CONNECTED", PROGRAM, {}),
         ("CONNECTED", DEAF, {"shown": 3}),
         ("TOPICS", LATCHED, {}),
         ("ONCE", LOOP, {"strays": 2}),  # of a machine that stuttered
@@ -150,12 +126,8 @@ def test_no_diagnosis(rows, text, recorded):
     "twists, expected",
     [
         ([], (1, False)),  # there was no second pass
-        (each(), (1, False)),
         ([*each(), ZERO], (1, False)),  # a late one of before
-        (each(ZERO), (2, True)),
         (each(ZERO, ZERO), (3, True)),
-        ([twist for answer in ANSWERS for twist in (answer, ZERO)], (2, True)),
-        (sorted(2 * ANSWERS), (2, False)),
         (sorted(2 * ANSWERS)[1:], (2, False)),  # each of the second ones late
         (sorted(3 * ANSWERS), (3, False)),
         ([*each(), *10 * [ZERO]], (1, False)),  # by now and then

@@ -1,5 +1,7 @@
 """Who drives, of what a launch file starts."""
 
+import contextlib
+
 import pytest
 
 from tutorial_check.exercises import launch_nodes
@@ -48,10 +50,9 @@ def given(session):
     return make
 
 
-@pytest.mark.parametrize("kind", ["class.py", "joy2twist.py"])
-def test_two_drive(given, kind):
-    file = given(FIRST, node(kind))
-    with pytest.raises(Wrong, match=f"2, joy2twist.py and {kind}: all would drive") as caught:
+def test_two_drive(given):
+    file = given(FIRST, node("class.py"))
+    with pytest.raises(Wrong, match=r"2, joy2twist\.py and class\.py: all would drive") as caught:
         launch_nodes.check_one_driver(file)
     assert caught.value.where == f"{BAG}:3"
 
@@ -60,16 +61,15 @@ def test_two_drive(given, kind):
     "other",
     [
         node("first.py"),  # the handout's first version
-        node("shows.py"),
         node("class.py", remaps=[["/cmd_vel", "/elsewhere"]]),
+        node("shows.py"),
         node("class.py", args="cmd_vel:=/elsewhere"),
         node("class.py", namespace="/robot2/"),
         node("made_of.cpp"),
     ],
 )
 def test_one_drives(given, other):
-    file = given(FIRST, other)
-    launch_nodes.check_one_driver(file)
+    launch_nodes.check_one_driver(given(FIRST, other))
 
 
 def test_a_joystick_beside_the_recording(session, given, monkeypatch):
@@ -85,7 +85,7 @@ def test_a_joystick_beside_the_recording(session, given, monkeypatch):
         launch_nodes.bag_nodes(session)
 
 
-@pytest.mark.parametrize("word", ["-loop", "\u2013loop", "\u2014clock"])
+@pytest.mark.parametrize("word", ["-loop", "\u2014clock"])
 def test_an_option_with_one_dash(session, given, word):
     text = f'<launch>\n<node args="{word}"/>\n</launch>'
     given({**node("play"), "package": "rosbag", "args": f"{word} /a.bag"}, text=text)
@@ -107,9 +107,7 @@ def test_where_the_joys_go(given, to, own, is_right):
     joystick = {**node("joy_node", remaps=[["/joy", to]]), "package": "joy"}
     text = "<launch>\n<remap from='joy' to='/joystick'/>"
     file = given(node("joy2twist.py", remaps=own), joystick, text=text)
-    if is_right:
+    wrong = pytest.raises(Wrong, match="joy_node sends them on /joystick")
+    with contextlib.nullcontext() if is_right else wrong as caught:
         launch_nodes.check_joy(file, joystick)
-        return
-    with pytest.raises(Wrong, match="joy_node sends them on /joystick") as caught:
-        launch_nodes.check_joy(file, joystick)
-    assert caught.value.where == f"{BAG}:2"
+    assert is_right or caught.value.where == f"{BAG}:2"

@@ -40,10 +40,8 @@ NO_FROM = (
         ("rbx1_nav)", "rbx1_nav", "[Errno 2] No such file", "needs its )"),
         ("$(find", "$(rospack find", "Unknown substitution command [rospack find rbx1_nav].",
          "$(find rbx1_nav), without rospack"),
-        ("$(find", "$(finde", "Unknown substitution command [finde rbx1_nav]", "no $(finde ...)"),
         ("-d", "$(arg)", "$(arg var) must specify a variable name [arg]", "<arg name="),
         ("-d", "$(arg d)", D_IS_MISSING, 'name="d" default='),
-        ("<node", '<arg name="d"/><node', D_IS_MISSING, 'name="d" default='),
         (' type="rviz"', "", "<node> tag is missing required attribute: 'type'", "pkg=, type= and"),
         ("/>", '><remap name="/cmd_vel" to="/x"/></node>', NO_FROM, '<remap from="'),
         ("<node", "<include/><node", "'file'", "an include has file="),
@@ -68,10 +66,7 @@ def test_two_nodes_of_one_name(other):
 
 def test_a_file_that_is_not_there(tmp_path):
     (tmp_path / "sim.launch").touch()
-    for path, word in (
-        (tmp_path / "simm.launch", "is sim.launch meant?"),
-        ("simm.launch", "whole"),
-    ):
+    for path, word in ((tmp_path / "simm.launch", "is sim"), ("simm.launch", "whole")):
         error = f"[Errno 2] No such file or directory: '{path}'"
         wrong = parse_error(error, "a.launch", '<launch>\n<include file="simm.launch"/>')
         assert word in wrong.hint
@@ -82,22 +77,16 @@ def test_a_file_that_is_not_there(tmp_path):
     ("text", "line", "words"),
     [
         ("", None, "begins with <launch>"),
-        (f"<launch>\n{NODE}", 1, "the <launch> of line 1 is never closed"),
         (f'<launch>\n{NODE}  <node pkg="x">\n{NODE}</launch>\n', 3,
          "the <node> of line 3 is never closed: /> at its end, or </node> below"),
-        (f"<launch>\n{NODE}  </node>\n</launch>\n", 3,
-         "</node> closes nothing: open is the <launch>"),
         ('<launch>\n  <node pkg="x">\n  </nod>\n</launch>\n', 3, "open is the <node> of line 2"),
         (f"<launch>\n<!--\n{NODE}-->\n</launch>\n", 3, "no --"),
         (f"<launch>\n<!-- rosbag --->\n{NODE}</launch>\n", 2, "no --"),
         (f"<launch>\n{NODE}<!-- rosbag\n</launch>\n", 3, "needs its -->"),
-        ('<launch>\n<node pkg="a type="b"/>\n</launch>\n', 2, QUOTES),
         (f'<launch>\n<node pkg="a" type="b/>\n{NODE}</launch>\n', 2, QUOTES),
-        (f"<launch>\n{NODE}<node pkg=a/>\n</launch>\n", 3, QUOTES),
         (f'<launch>\n{NODE}<node pkg="a/>\n', 3, QUOTES),
         ('<launch>\n<node pkg="ä" type="ö>\n</launch>\n', 2, QUOTES),
         ('<launch>\n<node\xa0pkg="a"/>\n</launch>\n', 2, "came from the PDF"),
-        ("<launch>\n<node pkg=“a”/>\n</launch>\n", 2, "curly quotes"),
         (f"<launch>\n</launch>\n{NODE}", 3, "before"),
         ('<launch>\n<node pkg="a"/\n</launch>\n', 2, "> or />"),
     ],
@@ -115,7 +104,6 @@ def test_a_file_that_is_no_xml(text, line, words):
     [
         (f"<launch>\n{NODE}<node>\n<remap/>\n<include/>\n</node></launch>", 3),
         ("<launch>\n<!-- <node> -->\n<node>\n</node>\n<include/></launch>", None),
-        (f"<launch>\n{NODE}<include/></launch>", None),
     ],
 )
 def test_a_tag_within_a_node(text, line):
@@ -131,7 +119,6 @@ PARAMS = {"/joy_node/dev": SimpleNamespace(value="/dev/input/js2")}
         ("_autorepeat_rate:=20 _dev:='/dev/input/js1'", PARAMS, "/dev/input/js1"),
         ("", PARAMS, "/dev/input/js2"),
         ("_dev:='/dev/input/js1", {}, ""),
-        (None, {}, ""),
     ],
 )
 def test_the_device_of_a_joystick(args, params, device):

@@ -44,12 +44,8 @@ def test_a_low_limit_is_right(limit):
 @pytest.mark.parametrize(
     ("linear", "angular", "remark"),
     [
-        ("a[1]", "a[0]", ""),
-        ("a[1] if abs(a[1]) > 0.35 else 0.0", "a[0]", ""),
-        ("max(-0.5, min(0.5, a[1]))", "a[0]", ""),
         ("0.5 * a[1]", "2.0 * a[0]", "linear.x = 0.50 * axes[1], angular.z = 2.00 * axes[0]"),
         ("a[1] ** 3", "a[0]", "linear.x is a curve of"),
-        ("a[1] ** 3", "a[0] ** 3", "linear.x and angular.z are curves"),
         ("a[1] if a[1] > 0 else 0.5 * a[1]", "a[0]", "linear.x is a curve"),
     ],
 )
@@ -61,29 +57,13 @@ def test_right(linear, angular, remark):
 @pytest.mark.parametrize(
     ("fields", "words"),
     [
-        (("a[0]", "a[1]"), "swapped"),
-        (("a[1]", "-a[0]"), "angular.z = -1.00 * axes[0]"),
-        (("-a[1]", "a[0]"), "linear.x = -1.00 * axes[1]"),
-        (("a[2]", "a[0]"), "axes[2]"),
-        (("0.0", "a[0]"), "linear.x is always 0"),
-        (("0.0", "0.0"), "every Twist is zero"),
         (("abs(a[1])", "a[0]"), "lost the sign"),
-        (("max(0.0, a[1])", "a[0]"), "linear.x is 0 wherever axes[1] is below 0"),
         (("a[1]", "min(0.0, a[0])"), "angular.z is 0 wherever axes[0] is above 0"),
         (("max(0.0, a[1]) ** 2", "a[0]"), "linear.x is 0 wherever axes[1] is below"),
-        (("a[1] ** 2", "a[0]"), "lost the sign"),
-        (("float(int(a[1]))", "float(int(a[0]))"), "linear.x has whole numbers only"),
-        (("a[1]", "float(int(a[0]))"), "angular.z has whole numbers only"),
-        (("a[1]", "a[0] if a[1] > 0 else -a[0]"), "angular.z changes sign when axes[1] is"),
         (("float(int(3 * a[1]))", "a[0]"), "whole numbers"),
-        (("a[1] + 0.1", "a[0]"), "+ 0.10"),
-        (("a[1] + a[0]", "a[0]"), "no constant"),
         (("round(a[1], 1)", "a[0]"), "linear.x has steps, as 0.30, 0.40, 0.50"),
-        (("a[1]", "int(10 * a[0]) / 10"), "angular.z has steps, as 0.20"),
         (("0.7 if a[1] > 0 else -0.7", "a[0]"), "linear.x has steps, as 0.70"),
         (("a[1]", "0.0", "a[0]"), "linear.y follows axes[0], angular.z stays 0"),
-        (("a[1]", "a[0]", "a[0]"), "linear.y follows axes[0]"),
-        (("a[1]", "NAN if a[0] < 0 else a[0]"), "angular.z is nan, which is no number"),
         (("a[1]", "-INF if a[0] < 0 else a[0]"), "angular.z is -inf, which is no number"),
     ],
 )
@@ -95,12 +75,6 @@ def test_wrong(fields, words):
 @pytest.mark.parametrize("count", [1, 2, 3])
 def test_few_samples_are_judged(count):
     assert judge(Evidence(samples("a[1] + a[0]", "a[0]")[:count]))[0]
-
-
-def test_one_message_late():
-    right = samples("a[1]", "a[0]")
-    late = [(axes, before[1]) for (axes, _), before in zip(right[1:], right)]
-    assert "message late" in judge(Evidence(late))[0]
 
 
 @pytest.mark.parametrize(
@@ -139,37 +113,21 @@ def cruise(button, lets_go=False):
     return convert
 
 
-def faster(_, axes, buttons, scale=[1.0]):  # noqa: B006  it is kept, as a mistake
-    """A factor that grows with each Joy for which a button is pressed."""
-    scale[0] *= 1.1 if buttons[5] else 1.0
-    return scale[0] * axes[1], axes[0]
-
-
 @pytest.mark.parametrize(
     ("convert", "words"),
     [
         ("a[1], a[0]", ""),
-        ("a[1] if abs(a[1]) > 0.35 else 0.0, 0.5 * a[0]", ""),
-        ("max(-0.5, min(0.5, a[1])), a[0]", ""),
-        ("a[1] ** 3, a[0]", ""),
         ("b[4] * a[1], b[4] * a[0]", ""),
         ("(1.0 if b[4] else 0.5) * a[1], a[0]", ""),
         ("(2.0 if b[5] else 0.3 if b[7] else 1.0) * a[1], a[0]", ""),
-        ("(0.0, 0.0) if b[1] else (a[1], a[0])", ""),
         ("a[1] if abs(a[1]) > 0.02 else 0.0, a[0] if abs(a[0]) > 0.1 else 0.0", ""),
         ("round(0.5 * a[1], 2), round(0.5 * a[0], 2)", ""),
-        ("a[1] or my.x, a[0]", "linear.x stays 0.70 when axes[1] is 0.00"),
-        ("a[1], a[0] if abs(a[0]) > 0.1 else my.z", "angular.z stays 0.60"),
-        ("(a[1], a[0]) if b[4] else (my.x, my.z)", "and LB released"),
-        ("(a[1], a[0]) if a[1] else (0.0, 0.0)", "axes[0] alone"),
         ("a[1] if any(a) else NAN, a[0]", "linear.x is nan"),
         ("a[1] * (1 + (my.x > 0.69)), a[0]", "linear.x depends on earlier Joys"),
-        ("a[1] if abs(a[1]) > 0.1 or a[1] == 0 else my.x, a[0]", "x stays 0.70 when axes[1] is"),
         ("a[1] if abs(a[1] - my.x) > 0.05 else my.x, a[0]", "x stays 0.06 when axes[1] is 0.03"),
         ("a[1] if abs(a[1] - my.x) > 0.2 else my.x, a[0]", "depends on earlier Joys"),
         (cruise(0), "linear.x stays 0.70 when axes[1] is 0.00 and buttons[0] pressed"),
         (cruise(5, lets_go=True), "linear.x stays -0.70 when axes[1] is 0.00"),
-        (faster, "the same Joy gives linear.x = 0.70 and, once buttons[5] was pressed, 0.93"),
     ],
 )  # fmt: skip
 def test_what_came_before_does_not_matter(convert, words):
@@ -184,11 +142,8 @@ def test_what_came_before_does_not_matter(convert, words):
 @pytest.mark.parametrize(
     ("convert", "words"),
     [
-        ("my.x + a[1], my.z + a[0]", "linear.x depends on earlier Joys: it grows"),
         ("my.x + 0.1 * a[1], a[0]", "linear.x depends on earlier Joys: it grows"),
-        ("0.8 * my.x + 0.2 * a[1], a[0]", "linear.x depends on earlier Joys: the"),
         ("a[1], 0.5 * (my.z + a[0])", "angular.z depends on earlier Joys: the"),
-        ("max(0.2, a[1]), a[0]", "linear.x is 0.20 at rest, all axes 0"),
         ("a[1], max(a[0], -0.1) + 0.3", "angular.z is 0.30 at rest"),
     ],
 )
@@ -204,9 +159,6 @@ FIRST, SECOND, HELD, FREE = AXES[0], AXES[1], JOYS[0][1], (0,) * 12
 @pytest.mark.parametrize(
     ("axes", "buttons", "before", "words"),
     [
-        ((0.0,) * 6, HELD, (FIRST, HELD), "at rest"),
-        (FIRST, HELD, (FIRST, HELD), "the same Joy again"),
-        (FIRST, (0, 1, 0, 0, 1, *(0,) * 7), (FIRST, HELD), "buttons[1] pressed: the robot drives"),
         (FIRST, FREE, (FIRST, HELD), "LB released"),
         (SECOND, FREE, (FIRST, FREE), "LB released"),
         ((0.5, *(0.0,) * 5), HELD, (FIRST, HELD), "with axes[1] = 0"),
