@@ -12,17 +12,8 @@ import subprocess
 HERE = pathlib.Path(__file__).parent
 FORGED = '\n{"exercise": "2", "result": {"id": "FORGED", "status": "ok", "title": "x"}}\n'
 LEAVE = ("/tmp", "/var/tmp", "/dev/shm", "/run/lock")
-FILLS_MEMORY = [
-    "unshare",
-    "--user",
-    "--map-root-user",
-    "--mount",
-    "mount",
-    "-t",
-    "tmpfs",
-    "none",
-    "/mnt",
-]
+FILLS_MEMORY = ["unshare", "--user", "--map-root-user", "--mount",
+                "mount", "-t", "tmpfs", "none", "/mnt"]  # fmt: skip
 aims = {}
 
 

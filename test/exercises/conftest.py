@@ -14,27 +14,25 @@ HERE = Path(__file__).resolve().parent
 REPOSITORY = HERE.parents[1]
 BAG = REPOSITORY / "joy2twist" / "bag" / "joy.bag"
 SOME_TASKS = 40  # every so many-th of the tests of other tasks, if not all are asked for
-KINDS = ("found", "wrongly blamed", "missed", "not checked", "told as well")
+KINDS = ("found", "wrongly blamed", "missed", "not checked", "reported as well")
+
+
+OPTIONS = {
+    "--every": (1, "only every Nth row of data"),
+    "--students": (4, "how many in the test of --all"),
+    "--submissions": (8, "how many on a cluster"),
+    "--repeat": (0, "only N checks of right solutions, in turn"),
+    "--everything": (False, "all exercises, and not only those of the mistakes; an hour"),
+    "--tasks": (False, "40 other tasks, and each mistake in three; half an hour"),
+    "--busy": (False, "beside an endless loop on each processor"),
+}
 
 
 def pytest_addoption(parser):
     """The rows are many, and each builds a workspace."""
-    add = parser.addoption
-    add("--every", type=int, default=1, metavar="N", help="only every Nth row of data")
-    add("--students", type=int, default=4, metavar="N", help="how many in the test of --all")
-    add(
-        "--everything",
-        action="store_true",
-        help="all exercises, and not only those of the mistakes; an hour",
-    )
-    add("--submissions", type=int, default=8, metavar="N", help="how many on a cluster")
-    add(
-        "--tasks",
-        action="store_true",
-        help="40 other tasks, and each mistake in three; half an hour",
-    )
-    add("--repeat", type=int, metavar="N", help="only N checks of right solutions, in turn")
-    add("--busy", action="store_true", help="beside an endless loop on each processor")
+    for name, (default, what) in OPTIONS.items():
+        kind = {"action": "store_true"} if default is False else {"type": int, "metavar": "N"}
+        parser.addoption(name, default=default, help=what, **kind)
 
 
 def pytest_configure(config):
@@ -73,11 +71,7 @@ def pytest_collection_modifyitems(config, items):
         many = [item for item in of_tasks if "test_each_value" not in item.name]
         left_out = {item for at, item in enumerate(many) if at % SOME_TASKS}
         items[:] = [item for item in items if item not in left_out]
-    rows = [
-        item
-        for item in items
-        if {"row", "variant"} & set(getattr(getattr(item, "callspec", None), "params", ()))
-    ]
+    rows = [item for item in items if {"row", "variant"} & set(getattr(item, "fixturenames", ()))]
     left_out = {item for at, item in enumerate(rows) if at % config.getoption("--every")}
     items[:] = [item for item in items if item not in left_out]
 

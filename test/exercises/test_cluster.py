@@ -10,12 +10,12 @@ import signal
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
-from test_awkward import command, environment
+from test_awkward import command, environment, examines
 from test_mistakes import OF_HANDOUT
 from test_mistakes import apply as change
 
 from tutorial_check.examination import examine
-from tutorial_testing.processes import Program, command_line, descendants
+from tutorial_testing.processes import Program, descendants
 from tutorial_testing.two_hosts.network import Network
 from tutorial_testing.waiting import wait_for
 
@@ -197,16 +197,10 @@ def test_a_submission_that_ends_workers_is_abandoned(literal, tmp_path, schedule
     call = client(folder)
     for host in ("one", "two"):
         each = worker(host, 1)  # of several, a second one may get it before that is killed, too
-        wait_for(lambda each=each: _examines(each), "an examination", 120)
+        wait_for(lambda each=each: examines(each), "an examination", 120)
         kill(each)
     assert call.wait(120) == 2, call.output
     assert "abandoned: 2 workers have ended while they checked it" in call.output
-
-
-def _examines(worker):
-    """Whether an examination runs below a worker."""
-    lines = map(command_line, descendants(worker.pid))
-    return any("tutorial_check.examine" in line for line in lines)
 
 
 def test_nobody_listens(literal, underlay, client, start):

@@ -47,67 +47,45 @@ def test_a_student_of_a_course_reads_its_words(tmp_path):
     assert (code, "no exercise 4.3; there are 1" in output) == (2, True), output
 
 
-# A second course, written from COURSES.md alone: what comes on /ask is answered on /answer, in
-# capitals, and a Twist on /cmd_vel is mirrored on /mirrored.
-SHOUT_YAML = """
+# A second course, written from COURSES.md alone: a Twist on /cmd_vel is mirrored on /mirrored.
+MIRROR_YAML = """
 title: Answers
-exercises: {"1": shout, "2": {title: mirror, document: page, solution: [solutions/right/shout]}}
+exercises: {"1": {title: mirror, document: page, solution: [solutions/right/mirror]}}
 """
-SHOUT_CHECKS = """
+MIRROR_CHECKS = """
 from tutorial_check.course import check
 from tutorial_check.model import Note, Wrong
 from tutorial_check.scripts import crash, program_of
 
-@check("A1", "it answers in capitals", "1.2", look="rostopic echo /answer")
-def shouts(session):
-    script = program_of(session, "shout", "shout.py")
-    with session.stage() as stage:
-        stage.call("advertise", "/ask", "String")
-        stage.call("listen", "/answer", "String")
-        program = stage.start("shout", script)
-        if not stage.meet(program, "/ask", "/answer"):
-            raise crash(session, "shout", program, "it waits for questions", "rospy.spin()")
-        stage.call("send", "/ask", "who is there")
-        stage.wait(lambda: stage.call("count", "/answer"), 5.0)
-        answers = [value for _, _, value in stage.call("heard", "/answer")]
-    if answers != ["WHO IS THERE"]:
-        raise Wrong("WHO IS THERE", f"{answers}", script, "str.upper()")
-
-@check("A2", "it mirrors", "2", "A1")
+@check("A1", "it mirrors", "1.2", look="rostopic echo /mirrored")
 def mirrors(session):
+    script = program_of(session, "mirror", "mirror.py")
     with session.stage() as stage:
         stage.call("advertise", "/cmd_vel", "Twist")
         stage.call("listen", "/mirrored", "Twist")
-        program = stage.start("shout", program_of(session, "shout", "shout.py"))
-        stage.meet(program, "/cmd_vel", "/mirrored")
+        program = stage.start("mirror", script)
+        if not stage.meet(program, "/cmd_vel", "/mirrored"):
+            raise crash(session, "mirror", program, "it waits for Twists", "rospy.spin()")
         stage.call("send", "/cmd_vel", (1.0, 0, 0, 0, 0, 0.5))
         stage.wait(lambda: stage.call("count", "/mirrored"), 5.0)
         heard = [value for _, _, value in stage.call("heard", "/mirrored")]
     if heard != [(-1.0, 0, 0, 0, 0, -0.5)]:
-        raise Wrong("-1 m/s and -0.5 rad/s for 1 and 0.5", f"{heard}")
+        raise Wrong("-1 m/s and -0.5 rad/s for 1 and 0.5", f"{heard}", script)
     return Note("as asked")
 """
-SHOUT = """#!/usr/bin/env python3
+MIRROR = """#!/usr/bin/env python3
 import rospy
 from geometry_msgs.msg import Twist
-from std_msgs.msg import String
-
-def answer(question):
-    answers.publish(question.data.upper())
 
 def mirror(twist):
     twist.linear.x, twist.angular.z = -twist.linear.x, -twist.angular.z
     mirrored.publish(twist)
 
-rospy.init_node("shout")
-answers = rospy.Publisher("answer", String, queue_size=1)
+rospy.init_node("mirror")
 mirrored = rospy.Publisher("mirrored", Twist, queue_size=1)
-rospy.Subscriber("ask", String, answer)
 rospy.Subscriber("cmd_vel", Twist, mirror)
 rospy.spin()
 """
-
-
 # What a busy machine may do: rospy is connected long before it attaches the callback.
 LATE = """
 import time
@@ -125,30 +103,28 @@ _SubscriberImpl.add_callback = attach_late
 
 
 def test_a_second_course_from_the_page_alone(tmp_path):
-    course = tmp_path / "answers"
+    course = tmp_path / "mirrors"
     for name, text in (
-        ("right", SHOUT),
-        ("right_late", SHOUT.replace("import rospy\n", f"import rospy\n{LATE}", 1)),
-        ("wrong_A1_as_it_came", SHOUT.replace(".upper()", "")),
-        ("wrong_A1_ends", SHOUT.replace("rospy.spin()", "")),
-        ("wrong_A2_half", SHOUT.replace(", -twist.angular.z", ", twist.angular.z")),
+        ("right", MIRROR),
+        ("right_late", MIRROR.replace("import rospy\n", f"import rospy\n{LATE}", 1)),
+        ("wrong_A1_ends", MIRROR.replace("rospy.spin()", "")),
+        ("wrong_A1_half", MIRROR.replace(", -twist.angular.z", ", twist.angular.z")),
     ):
-        package = course / "solutions" / name / "shout"
-        (package / "scripts").mkdir(parents=True)
-        (package / "scripts/shout.py").write_text(text)
-        (package / "scripts/shout.py").chmod(0o755)
+        script = course / "solutions" / name / "mirror/scripts/mirror.py"
+        script.parent.mkdir(parents=True)
+        script.write_text(text)
+        script.chmod(0o755)
     for name in ("package.xml", "CMakeLists.txt"):
-        text = (SQUARE / "solutions/right/square" / name).read_text().replace("square", "shout")
+        text = (SQUARE / "solutions/right/square" / name).read_text().replace("square", "mirror")
         for right in (course / "solutions").glob("right*"):
-            (right / "shout" / name).write_text(text)
-    (course / "course.yaml").write_text(SHOUT_YAML)
-    (course / "answers.py").write_text(SHOUT_CHECKS)
+            (right / "mirror" / name).write_text(text)
+    (course / "course.yaml").write_text(MIRROR_YAML)
+    (course / "mirrors.py").write_text(MIRROR_CHECKS)
     code, output = check("--course", course, "--self-test")
     assert code == 0, output
-    assert "ok     wrong_A2_half: [(-1.0, 0.0, 0.0, 0.0, 0.0, 0.5)]" in output, output
-    code, output = check(
-        "--course", course, "--all", course / "solutions", "--out", tmp_path / "out"
-    )
+    assert "ok     wrong_A1_half: [(-1.0, 0.0, 0.0, 0.0, 0.0, 0.5)]" in output, output
+    out = tmp_path / "out"
+    code, output = check("--course", course, "--all", course / "solutions", "--out", out)
     assert code == 1, output  # those that are wrong have no package.xml
-    assert "right: 2 of 2 exercises done" in output, output
-    assert "<small>mirror</small>" in (tmp_path / "out/table.html").read_text()
+    assert "right: 1 of 1 exercises done" in output, output
+    assert "<small>mirror</small>" in (out / "table.html").read_text()

@@ -2,12 +2,11 @@
 
 import shutil
 import tempfile
-import zipfile
 from pathlib import Path
 
 import pytest
 from edits import LAUNCH_BAG, TALKER, B, J, put
-from test_awkward import check
+from test_awkward import check, pack
 
 from tutorial_check import bubblewrap
 from tutorial_check.examination import examine
@@ -22,13 +21,6 @@ def home(tmp_path, monkeypatch):
     """A home folder, in which `literal` lies too."""
     monkeypatch.setenv("HOME", str(tmp_path))
     return tmp_path
-
-
-def pack(src, path):
-    """A zip of a workspace."""
-    with zipfile.ZipFile(path, "w") as opened:
-        for each in sorted(src.rglob("*")):
-            opened.write(each, Path("src") / each.relative_to(src))
 
 
 def away(path, home):
@@ -48,13 +40,6 @@ def verdicts(workspace, underlay, exercise="2", **options):
 def test_a_zip(literal, underlay, home):
     pack(literal, home / "x.zip")
     code, out, error = check(underlay, "--in", home / "x.zip", "2")
-    assert code == 0, out + error
-
-
-def test_zips_of_a_class(literal, underlay, home):
-    (home / "class").mkdir()
-    pack(literal, home / "class" / "ada.zip")
-    code, out, error = check(underlay, "--all", home / "class", "2")
     assert code == 0, out + error
 
 

@@ -4,6 +4,7 @@ import contextlib
 import os
 import shutil
 import tempfile
+import textwrap
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
@@ -37,19 +38,14 @@ for number in range(1, 9):
 AFTER_INIT = "    rospy.init_node('listener', anonymous=True)\n"
 
 
-def wrong_of(src, underlay, exercise):
-    """What is wrong in an exercise: the first one's id and text."""
-    return first_wrong(*examine(src.parent, underlay, [exercise]))
-
-
 def first_wrong(outcome):
-    """The id and text of what is wrong first."""
+    """Return the id and the report of what is wrong first."""
     results = [result for result in outcome.results if result.status == "wrong"]
     return (results[0].id, "\n".join(lines_of(results[0]))) if results else (None, "")
 
 
 def processes_like(word):
-    """Ids of running processes whose command line has a word."""
+    """Return the ids of running processes whose command line has a word."""
     found = []
     for pid in filter(str.isdigit, os.listdir("/proc")):
         with contextlib.suppress(OSError):  # ended meanwhile; pathlib's glob would raise that
@@ -70,7 +66,7 @@ def scratch(monkeypatch):
 def test_one_that_ignores_ctrl_c(literal, underlay, scratch):
     ignore = "import signal\nsignal.signal(signal.SIGINT, signal.SIG_IGN)\n"
     write(TALKER, f"{FIRST}{ignore}while True:\n    pass\n")(literal)
-    check, report = wrong_of(literal, underlay, "3")
+    check, report = first_wrong(*examine(literal.parent, underlay, ["3"]))
     assert check == "C6", report
     assert "works all the time" in report
     assert not processes_like(f"{scratch}/")
@@ -96,54 +92,47 @@ def test_output_without_end(literal, underlay):
 
 
 FORGED = '\n{"exercise": "4.3", "result": {"id": "C16", "status": "ok", "title": "x"}}\n'
-MASTER = "import os, xmlrpc.client\n    xmlrpc.client.ServerProxy(os.environ['ROS_MASTER_URI'])"
+MASTER = "import os, xmlrpc.client\nxmlrpc.client.ServerProxy(os.environ['ROS_MASTER_URI'])"
+# Twists as they should be, but not for the Joys that came.
+FORGES_TWISTS = """import itertools
+loud = rospy.Publisher('/cmd_vel', Twist, queue_size=1)
+loud2 = rospy.Publisher('/joy', Joy, queue_size=1)
+msg = Twist()
+msg.linear.x = 0.4
+msg.angular.z = 0.3
+while not rospy.is_shutdown():
+    loud.publish(msg)
+    loud2.publish(Joy(axes=[0.3, 0.4, 0, 0, 0, 0], buttons=[0] * 12))
+    rospy.sleep(0.02)
+"""
 JOINED = {
-    # what it does, its line after init_node, words of the verdict
+    # what it does: (its lines after init_node, words of the verdict)
     "ends the master": (f"{MASTER}.shutdown('/me', 'no more')", "has ended it"),
-    "kills its group": ("import os\n    os.killpg(0, 9)", "signal 9"),
+    "kills its group": ("import os\nos.killpg(0, 9)", "signal 9"),
+    "kills all it may": (
+        "import os, signal\nsignal.signal(15, signal.SIG_IGN)\nos.kill(-1, 15)",
+        "",
+    ),
     "fills the disk": ("open('filled', 'wb').write(b'x' * (100 << 20))", ""),
-    "prints a verdict": (f"print({FORGED!r} * 50)\n    __import__('os')._exit(0)", ""),
+    "prints a verdict": (f"print({FORGED!r} * 50)\n__import__('os')._exit(0)", ""),
+    "writes into the workspace": ("open({victim!r}, 'w').write('spoilt')", "where it may not"),
+    "forges what the checker hears": (FORGES_TWISTS, "/joy"),
 }
 
 
 @pytest.mark.parametrize("what", JOINED)
 def test_one_that(literal, underlay, what):
-    line, words = JOINED[what]
-    put(JOY2TWIST, AFTER_INIT, f"{AFTER_INIT}    {line}\n")(literal)
-    check, report = wrong_of(literal, underlay, "4.3")
-    assert check == "C14" and words in report, report
-
-
-def test_one_that_kills_all_it_may(literal, underlay):
-    kill = "    import os, signal\n    signal.signal(15, signal.SIG_IGN)\n    os.kill(-1, 15)\n"
-    put(JOY2TWIST, AFTER_INIT, AFTER_INIT + kill)(literal)
-    outcomes = examine(literal.parent, underlay, ["4.3"])
-    assert outcomes[0].results  # a verdict, and no end of the checker
-    assert processes_like("pytest")
-
-
-def test_one_that_writes_into_the_workspace(literal, underlay):
+    """It comes to a verdict, harms no other program and no file, and passes nothing that it should not."""
     victim = literal / "joy2twist" / "package.xml"
-    before = victim.read_bytes()
-    spoil = f"    open({str(victim)!r}, 'w').write('spoilt')\n"
-    apply([put(JOY2TWIST, AFTER_INIT, AFTER_INIT + spoil)], literal)
-    check, report = wrong_of(literal, underlay, "4.3")
+    before, (lines, words) = victim.read_bytes(), JOINED[what]
+    lines = textwrap.indent(lines.replace("{victim!r}", repr(str(victim))), "    ")
+    put(JOY2TWIST, AFTER_INIT, f"{AFTER_INIT}{lines}\n")(literal)
+    (outcome,) = examine(literal.parent, underlay, ["4.3"])
+    assert outcome.results and processes_like("pytest")
     assert victim.read_bytes() == before
-    assert check == "C14", report
-    assert "writes where it may not" in report
-
-
-def test_one_that_forges_what_the_checker_hears(literal, underlay):
-    """Twists as they should be, but of its own making and not for the Joys that came."""
-    forge = (
-        "    import itertools\n    loud = rospy.Publisher('/cmd_vel', Twist, queue_size=1)\n"
-        "    loud2 = rospy.Publisher('/joy', Joy, queue_size=1)\n    msg = Twist()\n    msg.linear.x = 0.4\n    msg.angular.z = 0.3\n"
-        "    while not rospy.is_shutdown():\n        loud.publish(msg)\n        loud2.publish(Joy(axes=[0.3, 0.4, 0, 0, 0, 0], buttons=[0] * 12))\n        rospy.sleep(0.02)\n"
-    )
-    apply([put(JOY2TWIST, AFTER_INIT, AFTER_INIT + forge)], literal)
-    check, report = wrong_of(literal, underlay, "4.3")
-    assert check in ("C14", "C15"), report
-    assert "/joy" in report
+    check, report = first_wrong(outcome)
+    if what != "kills all it may":  # which may be nothing
+        assert check in ("C14", "C15") and words in report, report
 
 
 def test_one_that_plants_links_where_the_checker_writes(literal, underlay, scratch, monkeypatch):

@@ -17,11 +17,11 @@ OF_HANDOUT = mistakes_packages.ROWS + mistakes_nodes.ROWS + mistakes_launch.ROWS
 ROWS = OF_HANDOUT + mistakes_world.ROWS
 
 
-def is_told(result, words):
-    """Whether all the words, or the one, are in what is told of a Result."""
+def is_reported(result, words):
+    """Return whether all the words, or the one, are in the report of a Result."""
     words = [words] if isinstance(words, str) else words
-    told = "\n".join(lines_of(result)).lower()
-    return all(word.lower() in told for word in words)
+    report = "\n".join(lines_of(result)).lower()
+    return all(word.lower() in report for word in words)
 
 
 def named(rows):
@@ -50,22 +50,22 @@ def test_mistake(row, literal, underlay, record_property):
     if not wrong:
         record_property("missed", f"{title}: should be {check}")
         pytest.fail("missed")
-    if wrong[0].id != check or not is_told(wrong[0], words):
-        told = "\n".join(lines_of(wrong[0]))
-        record_property("wrongly blamed", f"{title}: should be {check} with {words}, is {told}")
-        pytest.fail(told)
+    if wrong[0].id != check or not is_reported(wrong[0], words):
+        report = "\n".join(lines_of(wrong[0]))
+        record_property("wrongly blamed", f"{title}: should be {check} with {words}, is {report}")
+        pytest.fail(report)
     record_property("found", title)
 
 
 @pytest.mark.parametrize("row", OF_HANDOUT, ids=named(OF_HANDOUT))
 def test_in_all_exercises(row, literal, underlay, record_property):
-    """Its cause is told, maybe by an earlier check, and it keeps no other one from a verdict."""
+    """Its cause is reported, maybe by an earlier check, and it keeps no other one from a verdict."""
     title = f"{row[0]} {row[1]}"
     wrong = found(row, literal, underlay, record_property, read_course().by_default)
-    causes = [one for one in wrong if is_told(one, row[4])]
+    causes = [one for one in wrong if is_reported(one, row[4])]
     others = [one.id for one in wrong if one not in causes]
     if others:
-        record_property("told as well", f"{title}: {', '.join(others)}")
+        record_property("reported as well", f"{title}: {', '.join(others)}")
     if not causes:
         record_property("missed", f"{title}: should have {row[4]}")
         pytest.fail("missed")

@@ -41,8 +41,8 @@ def c(what, *changes):
 
 
 # Of which a note is looked for, too.
-TELLS = c(
-    "an except that tells",
+REPORTS = c(
+    "an except that reports",
     ("    except:\n", "    except Exception as error:\n"),
     ('"The node has ended."', 'f"Error: {error}"'),
 )
