@@ -22,7 +22,7 @@ TALKS = "std_msgs/String on /chatter, about 10 times a second"
 LISTENS = "every text sent on /chatter, displayed once"
 GOES_ON = "it goes on until Ctrl-C"
 RATE_TOLERANCE = 0.2  # of a rate that is asked for
-FEW = 3  # Twists, of which no rate can be told
+FEW = 3  # messages: too few for a rate
 
 
 class Half:

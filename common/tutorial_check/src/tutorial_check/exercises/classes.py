@@ -131,12 +131,12 @@ class Given:
 
     @property
     def is_called(self) -> Any:
-        """Whether it is called at once."""
+        """Return whether it is called at once."""
         return self.name.endswith("()") and self.name[:-2] in self.form.facts.functions
 
     @property
     def is_unknown(self) -> Any:
-        """Whether the object surely has no such method; another's, or a base's, is not known here."""
+        """Return whether the object has no such method, as far as the text shows."""
         classes = self.form.facts.classes
         known = any(self.name in {*one.methods, *one.attributes} or one.bases for one in classes)
         return self.word == f"self.{self.name}" and not self.name.endswith("()") and not known
@@ -187,7 +187,7 @@ def is_class(session: Session) -> Note | str | None:
 
 @check("C30", "the class does what the functions did", "6.2", "C29", look="rostopic echo /cmd_vel")
 def behaves(session: Session) -> Note | str | None:
-    """As C14 to C17."""
+    """Ask of the class what C14 to C17 ask of the functions."""
     script, _, _ = program(session)
     seen = drive(session, script)
     notes = [

@@ -61,7 +61,7 @@ class Conversation:
 
     @property
     def first_version(self) -> str:
-        """The handout's first version in a file of its own, if that displays every Joy."""
+        """The separate file with the handout's first version, if that displays every Joy."""
         for other, facts in self.session.scripts(PACKAGE).items():
             is_first = "Subscriber" in facts.calls and "Publisher" not in facts.calls
             if other != self.script and is_first and "checked_" not in other:
@@ -79,12 +79,12 @@ class Conversation:
 
     @property
     def found_values(self) -> int:
-        """How many of the six values of one Joy were displayed."""
+        """Return how many of the six values of one Joy were displayed."""
         return sum(f"{abs(axis):.2f}" in self.seen.output for axis in self.seen.joys[3][0])
 
     @functools.cached_property
     def repeated(self) -> tuple[int, bool]:
-        """How many Twists came for each Joy, and whether they differ; see repetition()."""
+        """Return how many Twists came for each Joy, and whether they differ; see repetition()."""
         seen = self.seen
         if seen.has_clock or not seen.samples:
             return 1, False
@@ -92,7 +92,7 @@ class Conversation:
 
     @property
     def has_strays(self) -> bool:
-        """Whether zeros come between the answers; an odd answer may be such a zero."""
+        """Return whether zeros come between the answers; an odd answer may be such a zero."""
         seen = self.seen
         has_both = len({any(twist) for twist in seen.twists}) == 2
         return seen.strays > STRAYS or bool(self.complaint and seen.has_clock and has_both)

@@ -40,7 +40,7 @@ ANSWER_S = 1.0  # for one Twist, before it counts as missing
 SETTLE_S = 0.15  # after it, in which more of them may come
 QUIET_S = 0.25  # without a Joy, or longer for a slow one: a clock of its own makes itself heard
 SAME_S = 0.06  # in which several Twists answer one Joy
-NAP_S = 0.3  # for one Twist: none takes so long of whom nothing is wrong
+NAP_S = 0.3  # for one Twist: a correct program never takes this long
 COLOUR = re.compile(r"\x1b\[[0-9;]*m")
 
 
@@ -97,7 +97,7 @@ class Drive:
         self._wait(lambda: False, longest_s)
 
     def _count(self) -> int:
-        """How many Twists came."""
+        """Return how many Twists came."""
         return self._stage.call("count", CMD_VEL)
 
     def _heard(self, since: int) -> list[Any]:
@@ -249,7 +249,7 @@ class Drive:
 
     @property
     def silence(self) -> tuple[str, str]:
-        """(what is seen, what to do) for the first probe that was not answered."""
+        """Return (what is seen, what to do) for the first probe that was not answered."""
         joy, before = self.unanswered
         return silence(joy, before, self.answers[-1][1] if self.answers else (1.0,))
 
@@ -259,20 +259,20 @@ class Drive:
 
     @property
     def rate(self) -> str:
-        """How many Joys of the stream were answered, and how soon."""
+        """Return how many Joys of the stream were answered, and how soon."""
         late = f", {1000 * self.delay_s:.1f} ms late" if self.delay_s is not None else ""
         return f"{self.answered} Twists for {self.sent} Joys{late}"
 
     @property
     def is_prompt(self) -> bool:
-        """Whether enough Joys were answered, and soon, as far as the machine allows."""
+        """Return whether enough Joys were answered, and soon, as far as the machine allows."""
         if self.answered < self.enough * min(self.sent, self.possible or self.sent):
             return False
         return self.delay_s is None or self.delay_s < SOON_S + (self.unavoidable_s or 0.0)
 
     @property
     def naps(self) -> bool:
-        """Whether its callback sleeps, and so long that each Joy waits for the one before."""
+        """Return whether its callback sleeps, and so long that each Joy waits for the one before."""
         is_slow = len(self.waits) > 2 and statistics.median(self.waits[:5]) > NAP_S
         return bool(self.sleep_lines) and is_slow
 
@@ -282,7 +282,7 @@ class Drive:
 
     @property
     def shows_numbers(self) -> bool:
-        """Whether it prints lines with as many numbers as a Joy has axes."""
+        """Return whether it prints lines with as many numbers as a Joy has axes."""
         return any(len(NUMBER.findall(line)) >= 6 for line in self.output.splitlines())
 
     @property
@@ -290,7 +290,7 @@ class Drive:
         return "Traceback (most recent call last)" in self.output
 
     def _displayed(self) -> int:
-        """How many of the Joys were displayed, all six axes in a line."""
+        """Return how many of the Joys were displayed, all six axes in a line."""
         return len(displayed(self.joys, COLOUR.sub("", self.program.output)))
 
 

@@ -1,6 +1,6 @@
 """What launch files would start, read as roslaunch reads them and nothing started.
 
-A program of its own, with the student's rights: what a launch file names is read. Its arguments are
+A separate program with the student's rights, as it reads what a launch file names. Its arguments are
 launch files; it prints a line for each, MARK and a JSON object.
 """
 

@@ -51,23 +51,15 @@ class LaunchFile:
         self.where = os.path.relpath(self.path, session.package(PACKAGE).folder)
         self.text = read(self.path)
         self.facts = session.memo("launch facts", lambda: _read(session)).get(name)
+        self.nodes: list[Node] = self.facts["nodes"]  # that it starts
+        self.own = [node for node in self.nodes if node["package"] == PACKAGE]
 
-    @property
-    def nodes(self) -> Any:
-        """The nodes that it starts, as launch_facts has them."""
-        return self.facts["nodes"]
-
-    @property
-    def own(self) -> Any:
-        """Those of the student's package."""
-        return [node for node in self.nodes if node["package"] == PACKAGE]
-
-    def at(self, *words: str) -> Any:
-        """FILE:LINE of the first line with the first of the words that is there; else the file."""
+    def at(self, *words: str) -> str:
+        """Return FILE:LINE of the first line with the first of the words that is there; else the file."""
         return place_of(self.where, self.text, *words)
 
-    def at_node(self, node: Node) -> Any:
-        """FILE:LINE of a node."""
+    def at_node(self, node: Node) -> str:
+        """Return FILE:LINE of a node."""
         return self.at(*attribute("type", node["type"]), Path(node["type"]).name)
 
     def demand(self, what: str, test: Callable[[Node], bool], hint: str) -> Any:
@@ -119,7 +111,7 @@ def find_launch(session: Session, name: str) -> Any:
 
 
 def _read(session: Session) -> Any:
-    """{name: facts} of those of the four that are there."""
+    """Return {name: facts} of those of the four that are there."""
     must_be_launchable(session)
     session.must_reach_underlay()
     folder = session.package(PACKAGE).folder
@@ -139,10 +131,10 @@ def _read(session: Session) -> Any:
         seen, hint = "reading them does not end", "roslaunch --nodes FILE"
         raise Wrong("launch files that roslaunch can read", seen, hint=hint)
     lines = (line for line in program.output.splitlines() if line.startswith(launch_facts.MARK))
-    told = [json.loads(line[len(launch_facts.MARK) :]) for line in lines]
-    for node in (node for one in told for node in one["nodes"]):
+    facts = [json.loads(line[len(launch_facts.MARK) :]) for line in lines]
+    for node in (node for one in facts for node in one["nodes"]):
         node["package"] = session.task.known_as(node["package"])
-    found = {Path(one["path"]).name: one for one in told}
+    found = {Path(one["path"]).name: one for one in facts}
     if set(found) != set(paths):
         raise CannotCheck(f"launch files cannot be read: {last_lines(program.output)}")
     return found
@@ -186,7 +178,7 @@ def _check_text(file: LaunchFile) -> None:
 
 
 def _check_words(file: LaunchFile, said: str) -> None:
-    """Every tag and attribute is one that roslaunch knows, or Wrong."""
+    """Raise Wrong for a tag or attribute that roslaunch does not know."""
     pattern = r"unrecognized tag (\S+)|[Uu]nknown (?:<\w+> )?attribute '?([^\s']+)"
     odd = next((tag for tag in file.facts["tags"] if tag not in TAGS), "")
     unknown = re.search(pattern, said)
@@ -240,7 +232,7 @@ def _check_own_node(session: Session, kind: str, place: str) -> None:
 
 
 def _check_finds(file: LaunchFile) -> None:
-    """No $(find joy2twist) leads to a file that the student does not have."""
+    """Raise Wrong for a $(find joy2twist) of a file that the student does not have."""
     folder, package = file.session.package(PACKAGE).folder, file.session.task.named(PACKAGE)
     for number, line in enumerate(file.text.splitlines(), 1):
         for rest in re.findall(rf"\$\(find\s+{package}\)([^\s\"'<>$]*)", line):

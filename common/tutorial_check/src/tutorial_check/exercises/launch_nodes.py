@@ -31,34 +31,34 @@ LONG_OPTIONS = "loop|clock|rate|quiet|delay|start|pause|immediate|queue|hz|keep-
 
 
 def is_viewer(node: Node) -> Any:
-    """Whether RViz, or what starts it."""
+    """Return whether it is RViz, or starts it."""
     return node["type"] in ("rviz", "view_robot")
 
 
 def is_simulator(node: Node) -> Any:
-    """Whether the simulated robot."""
+    """Return whether it is the simulated robot."""
     is_ours = (node["package"], node["type"]) == ("fake_turtlebot_sim", "fake_turtlebot.py")
     return is_ours or node["package"].startswith("arbotix")
 
 
 def is_player(node: Node) -> Any:
-    """Whether it plays a recording."""
+    """Return whether it plays a recording."""
     return (node["package"], node["type"]) == ("rosbag", "play")
 
 
 def is_joystick(node: Node) -> Any:
-    """Whether a driver of joysticks."""
+    """Return whether it is a driver of joysticks."""
     is_driver = node["type"] in ("joy_node", "joy_node.py", "joystick.py")
     return is_driver and node["package"] != "rosbag"
 
 
 def is_own(node: Node) -> Any:
-    """Whether the student's joy2twist."""
+    """Return whether it is a program of the student's package."""
     return node["package"] == PACKAGE
 
 
 def check_viewer(file: LaunchFile) -> Note | None:
-    """RViz with a configuration that exists."""
+    """Return a Note about RViz, or None. Raises Wrong if its configuration does not exist."""
     node = file.demand("RViz", is_viewer, VIEWER_HINT)
     words = file.words_of(node)
     options = zip(words, words[1:])
@@ -83,7 +83,7 @@ def odd_name(file: LaunchFile) -> Note | None:
 
 
 def check_one_driver(file: LaunchFile) -> None:
-    """No two programs of the student's send velocities to the same place, or Wrong."""
+    """Raise Wrong if two programs of the student's send velocities to the same place."""
     drivers = [node for node in file.own if _drives(file.session, node)]
     drivers = [node for node in drivers if node["namespace"] == drivers[0]["namespace"]]
     if len(drivers) > 1:
@@ -94,7 +94,7 @@ def check_one_driver(file: LaunchFile) -> None:
 
 
 def _drives(session: Session, node: Node) -> bool:
-    """Whether a program publishes Twist, and not on a topic of another name."""
+    """Return whether a program publishes Twist, and not on a topic of another name."""
     own = session.task.topic(CMD_VEL).strip("/")
     renamed = {source.strip("/"): to.strip("/") for source, to in node["remaps"]}
     if renamed.get(own, own) != "cmd_vel" or f"{own}:=" in node["args"]:

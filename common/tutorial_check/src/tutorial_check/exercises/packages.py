@@ -143,7 +143,7 @@ def joy2twist(session: Session) -> Note | str | None:
 
 
 def _is_known(session: Session, name: str) -> bool:
-    """Whether find_package surely finds a package. If not, a build tells, which takes its time."""
+    """Return whether find_package surely finds a package. If not, a build tells, which takes its time."""
     prefixes = session.underlay_environment.get("CMAKE_PREFIX_PATH", "").split(":")
     if any(each.name == name for each in session.packages):
         return True
@@ -216,9 +216,9 @@ def _not_found(session: Session, name: str) -> Any:
 
 
 def _cmake_error(output: str) -> Any:
-    """(message, FILE:LINE of the student's) of CMake's first error, each perhaps empty.
+    """Return (message, FILE:LINE of the student's) of CMake's first error, each perhaps empty.
 
-    Where the error is met, it is often in a file of catkin's; the call stack tells who called that.
+    The error itself is often in a file of catkin's; the call stack names the student's line.
     """
     found = re.search(r"^CMake Error(?: at [^\n]*)?:\s(.*?)(?:\n\n\n|\Z)", output, re.M | re.S)
     if not found:
@@ -228,7 +228,7 @@ def _cmake_error(output: str) -> Any:
 
 
 def _place_in_cmake(session: Session, word: str) -> Any:
-    """(first line with a word in a CMakeLists.txt of the student's, its text); or empty."""
+    """Return (first line with a word in a CMakeLists.txt of the student's, its text); or empty."""
     for each in session.packages:
         name = f"{each.inside}/CMakeLists.txt"
         file = each.folder / "CMakeLists.txt"

@@ -252,7 +252,7 @@ def delays(
         if often[round(twist[0], 6)] > 1:
             continue  # at a limit, or repeated: that does not say which
         k = round((twist[0] / factor - SLOW) / STEP) if factor else -1
-        # No answer is older than its Joy: then the value tells of another one.
+        # No answer is older than its Joy: then the value answers another one.
         if 0 <= k < len(sent) and when > sent[k] - EARLY_S:
             found.append(when - sent[k])
     return found

@@ -230,7 +230,7 @@ def joystick(session: Session) -> Note | str | None:
 
 
 def _survives_eight_axes(stage: Stage, program: Any, speeds: Any) -> Any:
-    """Whether Joys as of the switch at X are answered. speeds(since): linear.x of the Twists."""
+    """Return whether Joys as of the switch at X are answered. speeds(since): linear.x of the Twists."""
     stage.call("advertise", JOY, "Joy")
     # Our own Subscriber is one of them.
     stage.wait(lambda: stage.call("listeners", JOY) > 1 or program.ended, START_S)

@@ -72,7 +72,7 @@ class Remapped:
 
     @property
     def is_right(self) -> Any:
-        """Whether the velocities flow where they should, and there alone."""
+        """Return whether the velocities flow where they should, and there alone."""
         return self.good and not self.bad and self.twists not in self.publishers
 
     @property

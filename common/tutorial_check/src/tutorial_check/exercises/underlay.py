@@ -76,13 +76,13 @@ def _check_below(session: Session, below: Sequence[str]) -> None:
 
 
 def _is_suite(devel: str | Path) -> Any:
-    """Whether a devel folder is the underlay of some copy of this suite; it may be hidden here."""
+    """Return whether a devel folder is the underlay of some copy of this suite; it may be hidden here."""
     is_there = any(os.path.isdir(os.path.join(devel, "share", name)) for name in SUITE)
     return is_there or Path(devel).parts[-2:] == ("lower", "devel")
 
 
 def _check_names(session: Session) -> None:
-    """No package has the name of one that the exercises stand on, or Wrong."""
+    """Raise Wrong for a package with the name of one that the exercises need."""
     share = Path(session.underlay).parent / "share"
     for each in session.packages:
         with place.own_rights():
