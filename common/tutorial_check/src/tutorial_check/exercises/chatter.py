@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import statistics
-from typing import TYPE_CHECKING, Any, Iterable
+from typing import TYPE_CHECKING, Any
 
 from tutorial_check.causes import with_import
 from tutorial_check.course import check
 from tutorial_check.exercises.changed_programs import flipped_anonymous
-from tutorial_check.exercises.talking import LISTEN_S, PACKAGE, TOPIC, scripts, talk_of
+from tutorial_check.exercises.talking import LISTEN_S, PACKAGE, TOPIC, other_topic, scripts, talk_of
 from tutorial_check.model import Note, Wrong, master_gone
 from tutorial_check.rows import Row, demand
 from tutorial_check.scripts import check_end, check_file, crash, odd_node, sunken_main
@@ -39,8 +39,8 @@ class Half:
         self.publisher = f"{script}:{made.line if made else 1}"
         self.subscriber = f"{script}:{asked.line}" if asked else script
         self.has_failed = "Traceback" in program.output or program.spins
-        self.sent_on = self._other(talk.publishers)
-        self.heard_on = TOPIC not in talk.subscribers and self._other(talk.subscribers)
+        self.sent_on = other_topic(talk.publishers, TOPIC)
+        self.heard_on = TOPIC not in talk.subscribers and other_topic(talk.subscribers, TOPIC)
         # The type that the Subscriber asks for, and that on /chatter, where it is no String.
         refused = [line for line in talk.warnings if "datatype" in line]
         kind = asked.words[1].rpartition(".")[2] if asked and len(asked.words) > 1 else "String"
@@ -54,25 +54,17 @@ class Half:
         self.times = [sum(text in line for line in lines) for text in talk.strings]
         self.found, self.total = sum(map(bool, self.times)), len(talk.strings)
 
-    @staticmethod
-    def _other(topics: Iterable[str]) -> str:
-        """Return another topic than the one asked for, or an empty text."""
-        return next(iter(sorted(set(topics) - {TOPIC, "/rosout"})), "")
-
     def crash(self, expected: str, hint: str = "") -> Wrong:
-        """Return the Wrong for a program that failed or ended."""
         place, meant = sunken_main(self.facts, self.script)
         wrong = crash(self.session, PACKAGE, self.program, expected, meant or hint)
         wrong.where = wrong.where or place
         return wrong
 
     def silent_talker(self) -> Wrong:
-        """Return the Wrong for a talker that publishes nothing and has failed or ended."""
         loops = ", and does it loop: while not rospy.is_shutdown()" if self.facts.has_main else ""
         return self.crash(TALKS, f"does the last line call talker(){loops}?")
 
     def ended_listener(self) -> Wrong:
-        """Return the Wrong for a listener that ended."""
         hint = "does the last line call listener()?"
         if "spin" not in self.facts.calls:
             hint = "rospy.spin() at the end of listener() keeps it alive"
@@ -169,7 +161,6 @@ def talker(session: Session) -> Note | str:
 @check("C7", "the listener displays what it hears", "3.1", "C5",
        look="rosrun beginner_tutorials listener.py")  # fmt: skip
 def listener(session: Session) -> Note | None:
-    """Check that every text that is sent appears in its output."""
     half = _half(session, is_talker=False)
     if half.talk.listener_ended:
         raise half.ended_listener()
@@ -184,7 +175,6 @@ def listener(session: Session) -> Note | None:
 @check("C8", "talker and listener are connected", "3.1", "C6 C7",
        look="rosnode info /rosout; rqt_graph")  # fmt: skip
 def graph(session: Session) -> str:
-    """Check the way from the one to the other."""
     talk = talk_of(session)
     if not talk.publishers.get(TOPIC) or not talk.subscribers.get(TOPIC):
         seen, hint = "no such way in the graph", "one name for the topic, in both"
@@ -246,7 +236,6 @@ def _second_ends_first(session: Session, script: str) -> bool:
 
 @check("C10", "Ctrl-C ends both", "3.1", "C6 C7", look="Ctrl-C in their terminals")
 def ctrl_c(session: Session) -> Note | str:
-    """Check how they end."""
     talk = _whole_talk(session)
     programs = talk.talkers[-1], talk.listener
     for script, program, taken_s in zip(scripts(session), programs, talk.taken.values()):

@@ -131,7 +131,6 @@ class Given:
 
     @property
     def is_called(self) -> Any:
-        """Return whether it is called at once."""
         return self.name.endswith("()") and self.name[:-2] in self.form.facts.functions
 
     @property
@@ -172,7 +171,6 @@ RIGHT_FORM = (
 @check("C29", "the program is a class", "6.2", "C12", look="rosrun joy2twist THE_CLASS",
        timeless=True)  # fmt: skip
 def is_class(session: Session) -> Note | str | None:
-    """Read the form of the class from its text."""
     script, path, one = program(session)
     must_be_one(session.package(PACKAGE).folder, Path(script).name)
     check_file(session, PACKAGE, script)

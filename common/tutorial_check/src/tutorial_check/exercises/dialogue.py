@@ -6,12 +6,13 @@ import collections
 import contextlib
 import functools
 import re
-from typing import TYPE_CHECKING, Any, Iterable, Sequence
+from typing import TYPE_CHECKING, Any, Sequence
 
 from tutorial_check.causes import with_import
 from tutorial_check.exercises.changed_programs import unmasked
 from tutorial_check.exercises.driving import CMD_VEL, JOY, drive
 from tutorial_check.exercises.joystick_task import PACKAGE
+from tutorial_check.exercises.talking import other_topic
 from tutorial_check.model import Wrong
 from tutorial_check.python_text import python_lines
 from tutorial_check.scripts import check_file, crash, silent_end
@@ -51,7 +52,8 @@ class Conversation:
         kind, own = seen.types.get(CMD_VEL), session.task.topic(CMD_VEL)
         refused = any("datatype" in line and own in line for line in seen.warnings)
         self.carried = kind if kind != "geometry_msgs/Twist" or refused else ""
-        self.heard_on, self.sent_on = map(_other_topic, (seen.subscribers, seen.publishers))
+        self.heard_on = other_topic(seen.subscribers, JOY)
+        self.sent_on = other_topic(seen.publishers, JOY)
         self.drivers = sorted(set(seen.publishers.get(CMD_VEL, ())))
         publishers = calls.get("Publisher", [])
         self.has_latch = any(call.names.get("latch") == "True" for call in publishers)
@@ -79,7 +81,6 @@ class Conversation:
 
     @property
     def found_values(self) -> int:
-        """Return how many of the six values of one Joy were displayed."""
         return sum(f"{abs(axis):.2f}" in self.seen.output for axis in self.seen.joys[3][0])
 
     @functools.cached_property
@@ -123,12 +124,10 @@ class Conversation:
 
     @functools.cached_property
     def hidden_crash(self) -> Wrong | None:
-        """The Wrong for an error that an except hides, or None."""
         wrong = self.crash() if self.facts.broad_excepts else None
         return wrong if wrong and wrong.where else None
 
     def end(self) -> Wrong:
-        """Return the Wrong for a program that ends at once without an error."""
         wrong = self.crash()
         place, hint = silent_end(self.facts, self.script)
         wrong.where, wrong.hint = wrong.where or place, wrong.hint or hint
@@ -148,11 +147,6 @@ class Conversation:
                 break
         sure = not (self.seen.missing or self.seen.unasked)
         return Wrong("", self.complaint, where, hint, sure)
-
-
-def _other_topic(topics: Iterable[str]) -> str:
-    """Return the first of the topics that is not the one asked for, or an empty text."""
-    return next(iter(sorted(set(topics) - {"/rosout", "/clock", JOY})), "")
 
 
 def repetition(answers: Sequence[Any], twists: Sequence[Any]) -> tuple[int, bool]:

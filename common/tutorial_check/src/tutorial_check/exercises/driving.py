@@ -97,7 +97,6 @@ class Drive:
         self._wait(lambda: False, longest_s)
 
     def _count(self) -> int:
-        """Return how many Twists came."""
         return self._stage.call("count", CMD_VEL)
 
     def _heard(self, since: int) -> list[Any]:
@@ -259,7 +258,6 @@ class Drive:
 
     @property
     def rate(self) -> str:
-        """Return how many Joys of the stream were answered, and how soon."""
         late = f", {1000 * self.delay_s:.1f} ms late" if self.delay_s is not None else ""
         return f"{self.answered} Twists for {self.sent} Joys{late}"
 

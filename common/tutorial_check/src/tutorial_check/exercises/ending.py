@@ -166,7 +166,6 @@ def _endings(session: Session) -> Any:
 @check("C31", "ended, it stops the robot", "6.2", "C30",
        look="rostopic echo /cmd_vel; Ctrl-C in the node's terminal")  # fmt: skip
 def stops(session: Session) -> Note | str | None:
-    """Judge whether it stops the robot at its end."""
     _, path, _ = program(session)
     endings, facts = _endings(session), session.scripts(PACKAGE)[path]
     call = facts.first("on_shutdown")

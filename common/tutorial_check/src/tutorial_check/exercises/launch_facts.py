@@ -22,7 +22,6 @@ Node = Dict[str, Any]  # about a node: package, type, name, args ...
 
 @functools.lru_cache(maxsize=None)
 def can_be_found(package: str, kind: str) -> bool:
-    """Return whether rosrun would find such a program."""
     import roslib.packages  # noqa: PLC0415
 
     try:

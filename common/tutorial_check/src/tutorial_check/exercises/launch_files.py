@@ -59,7 +59,6 @@ class LaunchFile:
         return place_of(self.where, self.text, *words)
 
     def at_node(self, node: Node) -> str:
-        """Return FILE:LINE of a node."""
         return self.at(*attribute("type", node["type"]), Path(node["type"]).name)
 
     def demand(self, what: str, test: Callable[[Node], bool], hint: str) -> Any:

@@ -30,30 +30,25 @@ VIEWER_HINT = '<node pkg="rviz" type="rviz" name="my_rviz" args="-d $(find rbx1_
 LONG_OPTIONS = "loop|clock|rate|quiet|delay|start|pause|immediate|queue|hz|keep-alive|topics"
 
 
-def is_viewer(node: Node) -> Any:
-    """Return whether it is RViz, or starts it."""
+def is_viewer(node: Node) -> bool:
     return node["type"] in ("rviz", "view_robot")
 
 
-def is_simulator(node: Node) -> Any:
-    """Return whether it is the simulated robot."""
+def is_simulator(node: Node) -> bool:
     is_ours = (node["package"], node["type"]) == ("fake_turtlebot_sim", "fake_turtlebot.py")
     return is_ours or node["package"].startswith("arbotix")
 
 
-def is_player(node: Node) -> Any:
-    """Return whether it plays a recording."""
+def is_player(node: Node) -> bool:
     return (node["package"], node["type"]) == ("rosbag", "play")
 
 
-def is_joystick(node: Node) -> Any:
-    """Return whether it is a driver of joysticks."""
+def is_joystick(node: Node) -> bool:
     is_driver = node["type"] in ("joy_node", "joy_node.py", "joystick.py")
     return is_driver and node["package"] != "rosbag"
 
 
-def is_own(node: Node) -> Any:
-    """Return whether it is a program of the student's package."""
+def is_own(node: Node) -> bool:
     return node["package"] == PACKAGE
 
 

@@ -56,7 +56,6 @@ def factor_of(values: Sequence[float], inputs: Sequence[float]) -> float | None:
 
 
 def rule_of(index: int, samples: Iterable[Sample]) -> Rule | None:
-    """Return the Rule that a field follows, or None."""
     samples = list(samples)
     values = [twist[index] for _, twist in samples]
     for axis in range(AXES):

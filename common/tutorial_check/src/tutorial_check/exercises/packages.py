@@ -165,7 +165,6 @@ def _cmake(package: Package) -> Any:
 
 @check("C4", "catkin_make builds", "2.1", "C2", look="catkin_make")
 def build(session: Session) -> None:
-    """Call catkin_make in a fresh copy."""
     for each in session.packages:
         _cmake(each)
     code, output = session.built()

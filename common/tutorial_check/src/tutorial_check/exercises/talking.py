@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Iterable
 
 from tutorial_check.scripts import find_script
 
@@ -18,7 +18,6 @@ STRINGS = [f"tutorial check {word} {number}" for word, number in zip("ABCDE", ra
 
 
 def scripts(session: Session) -> list[str]:
-    """Return the paths of the talker and of the listener."""
     return [find_script(session, PACKAGE, name) for name in ("talker.py", "listener.py")]
 
 
@@ -73,6 +72,11 @@ class Talk:
         stage.wait(lambda: len(_heard(stage)) > so_far + 2 or second.ended, 3.0)
         taken = session.box.end_all([second, self.listener])
         self.taken = dict(zip(("talker.py", "listener.py"), taken))
+
+
+def other_topic(topics: Iterable[str], asked_for: str) -> str:
+    """Return another topic than the one asked for, or an empty text."""
+    return min(set(topics) - {asked_for, "/rosout", "/clock"}, default="")
 
 
 def _heard(stage: Stage) -> list[Any]:

@@ -27,7 +27,6 @@ REMAP = "{f.remap}"  # in hints
 
 
 def remap_of(session: Session) -> str:
-    """Return the <remap> that is asked for."""
     return f'<remap from="{session.task.topic(CMD_VEL)}" to="{TELEOP}"/>'
 
 
@@ -83,7 +82,6 @@ class Remapped:
         return "" if is_named else self.file.own[0]["type"]
 
     def failed(self) -> Any:
-        """Return the Wrong for a launch of which a node has died."""
         said = last_lines(self.launch.program.output)
         return self.launch.traced(EXPECTED) or Wrong(EXPECTED, said, self.where)
 

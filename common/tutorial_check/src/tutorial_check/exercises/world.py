@@ -64,7 +64,6 @@ def _shown(program: Program, since: int) -> str:
        look="roslaunch fake_turtlebot_sim fake_turtlebot.launch world:=room;"
        " rosrun beginner_tutorials stop_before_wall.py _speed:=0.3")  # fmt: skip
 def stops(session: Session) -> str:
-    """Let it drive to a wall with three speeds."""
     script = program_of(session, PACKAGE, "stop_before_wall.py")
     gaps = [_gap(session, script, speed) for speed in SPEEDS]
     return ", ".join(f"{gap:.2f} m at {speed} m/s" for gap, speed in zip(gaps, SPEEDS))
@@ -99,7 +98,6 @@ def _gap(session: Session, script: str, speed: float) -> float:
        look="roslaunch fake_turtlebot_sim fake_turtlebot.launch world:=room;"
        " rosrun beginner_tutorials wander.py")  # fmt: skip
 def wanders(session: Session) -> str:
-    """Let it wander for a minute."""
     script = program_of(session, PACKAGE, "wander.py")
     with session.stage() as stage:
         robot = SimulatedRobot(stage, "_world:=room")
