@@ -26,6 +26,11 @@ NO_SCRIPT = """\x1b[31mCMake Error at /usr/share/catkin/cmake/install_python.cma
 Call Stack (most recent call first):
   beginner_tutorials/CMakeLists.txt:5 (catkin_install_python)
 \x1b[0m"""
+NO_SOURCE = """CMake Error at beginner_tutorials/CMakeLists.txt:5 (add_executable):
+  Cannot find source file:
+
+    src/talker.cpp
+"""
 OF_ALL = """CMake Error at /usr/share/catkin/cmake/catkin_workspace.cmake:100 (message):
   This workspace contains non-catkin packages in it.
 Call Stack (most recent call first):
@@ -37,6 +42,7 @@ Call Stack (most recent call first):
     ("error", "seen", "where", "hint"),
     [
         (NO_SCRIPT, "non-existing file '/ws/src/beginner_tutorials/scripts/taker.py'", 5, "path"),
+        (NO_SOURCE, "CMake: Cannot find source file: src/talker.cpp", 5, "path"),
         (OF_ALL, "CMake: This workspace contains non-catkin packages in it.", None, ""),
     ],
 )
