@@ -1,5 +1,6 @@
 """What changes a right solution into another one: the language of the rows. Pure but for files."""
 
+import shutil
 from pathlib import Path
 
 B, J = "beginner_tutorials", "joy2twist"
@@ -24,12 +25,17 @@ def put(path, old, new, count=-1):
     return edit
 
 
+def made(path):
+    """Return a path, whose folder is made if need be."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    return path
+
+
 def write(path, text, mode=0o755):
     """Write a file."""
 
     def edit(src):
-        (src / path).parent.mkdir(parents=True, exist_ok=True)
-        (src / path).write_text(text)
+        made(src / path).write_text(text)
         (src / path).chmod(mode)
 
     return edit
@@ -37,23 +43,12 @@ def write(path, text, mode=0o755):
 
 def move(old, new):
     """Rename or move; new may leave src."""
-
-    def edit(src):
-        (src / new).parent.mkdir(parents=True, exist_ok=True)
-        (src / old).rename(src / new)
-
-    return edit
+    return lambda src: (src / old).rename(made(src / new))
 
 
 def copy(old, new):
-    """A second one of a file, with its rights."""
-
-    def edit(src):
-        (src / new).parent.mkdir(parents=True, exist_ok=True)
-        (src / new).write_bytes((src / old).read_bytes())
-        (src / new).chmod((src / old).stat().st_mode & 0o777)
-
-    return edit
+    """Copy a file, with its rights."""
+    return lambda src: shutil.copy(src / old, made(src / new))
 
 
 def remove(path):
@@ -75,10 +70,9 @@ def latin1(path, after, text):
     """Add a line of text in Latin-1 after a line, which must be there."""
 
     def edit(src):
-        data = (src / path).read_bytes()
-        assert after.encode() in data, f"{after!r} is not in {path}"
-        added = f"{after}{text}\n".encode("latin-1")
-        (src / path).write_bytes(data.replace(after.encode(), added, 1))
+        put(path, after, f"{after}{text}\n", 1)(src)
+        file = src / path
+        file.write_bytes(file.read_text().encode("latin-1"))
 
     return edit
 

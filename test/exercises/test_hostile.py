@@ -93,6 +93,8 @@ def test_output_without_end(literal, underlay):
 
 FORGED = '\n{"exercise": "4.3", "result": {"id": "C16", "status": "ok", "title": "x"}}\n'
 MASTER = "import os, xmlrpc.client\nxmlrpc.client.ServerProxy(os.environ['ROS_MASTER_URI'])"
+KILLS_OTHERS = "import os, signal\nsignal.signal(15, signal.SIG_IGN)\nos.kill(-1, 15)"
+SPOILS = "open('VICTIM', 'w').write('spoilt')"
 # Twists as they should be, but not for the Joys that came.
 FORGES_TWISTS = """import itertools
 loud = rospy.Publisher('/cmd_vel', Twist, queue_size=1)
@@ -106,33 +108,29 @@ while not rospy.is_shutdown():
     rospy.sleep(0.02)
 """
 JOINED = {
-    # what it does: (its lines after init_node, words of the verdict)
-    "ends the master": (f"{MASTER}.shutdown('/me', 'no more')", "has ended it"),
-    "kills its group": ("import os\nos.killpg(0, 9)", "signal 9"),
-    "kills all it may": (
-        "import os, signal\nsignal.signal(15, signal.SIG_IGN)\nos.kill(-1, 15)",
-        "",
-    ),
-    "fills the disk": ("open('filled', 'wb').write(b'x' * (100 << 20))", ""),
-    "prints a verdict": (f"print({FORGED!r} * 50)\n__import__('os')._exit(0)", ""),
-    "writes into the workspace": ("open({victim!r}, 'w').write('spoilt')", "where it may not"),
-    "forges what the checker hears": (FORGES_TWISTS, "/joy"),
+    # what it does: (its lines after init_node, checks that may be wrong, words of the first)
+    "ends the master": (f"{MASTER}.shutdown('/me', 'no more')", "C14", "has ended it"),
+    "kills its group": ("import os\nos.killpg(0, 9)", "C14", "signal 9"),
+    "kills all it may": (KILLS_OTHERS, "", ""),  # it may have found none
+    "fills the disk": ("open('filled', 'wb').write(b'x' * (100 << 20))", "C14", ""),
+    "prints a verdict": (f"print({FORGED!r} * 50)\n__import__('os')._exit(0)", "C14", ""),
+    "writes into the workspace": (SPOILS, "C14", "writes where it may not"),
+    "forges what the checker hears": (FORGES_TWISTS, "C14 C15", "/joy"),
 }
 
 
 @pytest.mark.parametrize("what", JOINED)
 def test_one_that(literal, underlay, what):
-    """It comes to a verdict, harms no other program and no file, and passes nothing that it should not."""
+    """The checker comes to a verdict; no other program and no file is harmed."""
     victim = literal / "joy2twist" / "package.xml"
-    before, (lines, words) = victim.read_bytes(), JOINED[what]
-    lines = textwrap.indent(lines.replace("{victim!r}", repr(str(victim))), "    ")
+    before, (lines, checks, words) = victim.read_bytes(), JOINED[what]
+    lines = textwrap.indent(lines.replace("VICTIM", str(victim)), "    ")
     put(JOY2TWIST, AFTER_INIT, f"{AFTER_INIT}{lines}\n")(literal)
     (outcome,) = examine(literal.parent, underlay, ["4.3"])
     assert outcome.results and processes_like("pytest")
     assert victim.read_bytes() == before
     check, report = first_wrong(outcome)
-    if what != "kills all it may":  # which may be nothing
-        assert check in ("C14", "C15") and words in report, report
+    assert not checks or (check in checks.split() and words in report), report
 
 
 def test_one_that_plants_links_where_the_checker_writes(literal, underlay, scratch, monkeypatch):
