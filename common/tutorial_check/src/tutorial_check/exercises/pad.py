@@ -11,20 +11,21 @@ from typing import Any, Callable
 from gamepad.gamepads import F710
 from gamepad.virtual.pads import StreamPad
 
+MODE = F710["D"]  # as its switch stands
 PERIOD_S = 0.02  # how often it looks whether a driver has begun to read
 
 
 class Pad:
     """Stick and LB are where they were last put."""
 
-    def __init__(self, path: str, mode: str, arranged: Callable[[Any], Any]) -> None:
+    def __init__(self, path: str, arranged: Callable[[Any], Any]) -> None:
         """path: of the FIFO. arranged: the Joy of a task for one of the handout's."""
         os.makedirs(os.path.dirname(path), exist_ok=True)
         with contextlib.suppress(FileNotFoundError):
             os.unlink(path)
-        self._pad = StreamPad(F710[mode], path)
+        self._pad = StreamPad(MODE, path)
         os.chmod(path, 0o666)
-        self._mode, self._arranged = F710[mode], arranged
+        self._arranged = arranged
         self.release()
         threading.Thread(target=self._serve, daemon=True).start()
 
@@ -38,8 +39,8 @@ class Pad:
 
     def push(self, left: float, forwards: float, lb: int = 1) -> None:
         """Hold LB and put the stick there."""
-        axes = (left, forwards, *(0.0 for _ in self._mode.axes[2:]))
-        buttons = (0, 0, 0, 0, lb, *(0 for _ in self._mode.buttons[5:]))
+        axes = (left, forwards, *(0.0 for _ in MODE.axes[2:]))
+        buttons = (0, 0, 0, 0, lb, *(0 for _ in MODE.buttons[5:]))
         self._position = self._arranged((axes, buttons))
 
     def release(self) -> None:

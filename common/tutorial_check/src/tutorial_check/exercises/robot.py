@@ -29,10 +29,7 @@ FORWARDS, LEFT = 0.5, 0.8  # positions of the stick
 COPY_BAG = 'cp "$(rospack find gamepad)/bag/joy.bag" .'
 SLOW_S = 4.0  # for a program that sleeps in its callback to answer what has gathered
 REST_S = 0.5  # for a Twist at rest; not every program sends one
-FASTEST = {
-    LINEAR: 0.7,
-    ANGULAR: math.pi,
-}  # [m/s, rad/s] the robot is no faster, whatever it is told
+FASTEST = {LINEAR: 0.7, ANGULAR: math.pi}  # [m/s, rad/s] that the robot can do
 LOOKS = 3  # at the robot's speed: a busy machine may stutter once
 SAMPLES, SAMPLES_S = 40, 4.0  # of odometry for one look, 50 a second; and how long they may take
 
@@ -54,7 +51,7 @@ def rest(stage: Stage, *topics: str) -> None:
 
 
 class NoJoy(Wrong):
-    """For a recording of something else."""
+    """A recording of something else."""
 
 
 @check("C11", "a recording of /joy", "4.2", look="rosbag info joy.bag")
@@ -118,7 +115,7 @@ def _agree(measured: float, told: float, most: float) -> bool:
 @check("C19", "the simulated robot follows", "4.4", "C16",
        look="rostopic echo /odom/pose/pose/position")  # fmt: skip
 def simulated(session: Session) -> Note | str | None:
-    """Drive the simulated robot forwards, then turn it, and compare with what was told."""
+    """Drive the simulated robot forwards, then turn it, and compare with the Twists."""
     script = main_script(session)
     with session.stage() as stage:
         program, robot = _beside_the_robot(session, stage, script)
@@ -178,10 +175,10 @@ def _driven(
     return speeds, last
 
 
-def plug_in(session: Session, stage: Stage, device: str = "/dev/input/js0", mode: str = "D") -> Any:
+def plug_in(session: Session, stage: Stage, device: str = "/dev/input/js0") -> Any:
     """Make a virtual F710 behind a device, or a FIFO where that cannot be; (Pad, path)."""
     path = Path(device) if session.can_have_devices else session.folder / "js0"
-    pad = stage.help(lambda: Pad(str(path), mode, session.task.joy))
+    pad = stage.help(lambda: Pad(str(path), session.task.joy))
     pad.call("connected")
     return pad, path
 
