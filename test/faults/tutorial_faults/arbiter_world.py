@@ -11,14 +11,20 @@ from typing import NamedTuple, Tuple
 from fake_turtlebot_sim.mux.arbitration import REARM_S, Arbiter, Verdict
 from fake_turtlebot_sim.mux.parameters import Input
 from node_kit.arming import SETTLING_S, Arming, Resumption
-from tutorial_faults.events import Command, Through, Violation
-from tutorial_faults.explore import Moment, copy_of, key_of, until
-from tutorial_faults.invariants import REST_S, HighestSpeaks, NeverLate, WithinLimits, moves
+from tutorial_faults.events import Command, Through
+from tutorial_faults.explore import PASS, SUSPENDED, TICK, World, key_of, until
+from tutorial_faults.invariants import (
+    REST_S,
+    HighestSpeaks,
+    NeverLate,
+    WithinLimits,
+    judged,
+    moves,
+)
 
 HORIZON_S = REST_S + 1e-6  # the silence that counts is more than REST_S
 ZERO, FORWARD = (0.0,) * 6, (0.5,) + (0.0,) * 5
 NOT_FINITE = (math.nan,) + (0.0,) * 5
-PASS, LOOK, SUSPENDED = "time passes", "look", "suspended"
 
 
 class Configuration(NamedTuple):
@@ -36,7 +42,7 @@ class Configuration(NamedTuple):
             for name, sender in self.speakers
             for what, velocity in (("zero", ZERO), ("forward", FORWARD), ("NaN", NOT_FINITE))
         }
-        others = (PASS, LOOK, SUSPENDED) if self.is_suspended else (PASS, LOOK)
+        others = (PASS, TICK, SUSPENDED) if self.is_suspended else (PASS, TICK)
         return {**{name: name for name in others}, **commands}
 
 
@@ -57,16 +63,21 @@ CONFIGURATIONS = {
 }
 
 
-class ArbiterWorld:
+PARTS = {
+    "_arbiter": {"_expiry_s": {}, "_senders": {}}, "_resumption": {}, "_late": {},
+    "_speaks": {"spoke_s": {}},
+}  # fmt: skip
+
+
+class ArbiterWorld(World):
     """The real Arbiter, and the invariants that it must keep."""
 
     def __init__(self, configuration):
         """Take a Configuration."""
-        self._step_s = configuration.step_s
+        super().__init__(configuration.step_s, PARTS)
         self._inputs = {one.name: one for one in configuration.inputs}
         self._arbiter = Arbiter(configuration.inputs)
         self._resumption = Resumption()
-        self._now = Moment(0)
         self._sent = ZERO
         self._settled_s = -math.inf  # what comes before was sent during a suspension
         self._late = {}  # (input, sender) -> NeverLate
@@ -74,18 +85,6 @@ class ArbiterWorld:
             {one.name: (one.priority, one.timeout) for one in configuration.inputs}
         )
         self._limits = WithinLimits()
-
-    def copy(self):
-        """Return a copy that shares what does not change."""
-        new = copy_of(self)
-        new._arbiter = arbiter = copy_of(self._arbiter)
-        arbiter._expiry_s = dict(arbiter._expiry_s)
-        arbiter._senders = {key: copy_of(one) for key, one in arbiter._senders.items()}
-        new._resumption = copy_of(self._resumption)
-        new._late = {key: copy_of(one) for key, one in self._late.items()}
-        new._speaks = copy_of(self._speaks)
-        new._speaks.spoke_s = dict(self._speaks.spoke_s)
-        return new
 
     def key(self):
         """Return all that decides what follows."""
@@ -114,21 +113,17 @@ class ArbiterWorld:
             self._sent,
         )
 
-    def take(self, event):
-        """Let an event happen (a number: seconds pass); return the Violations."""
-        if event == PASS or isinstance(event, float):
-            self._now += self._step_s if event == PASS else event
-            return []
-        if event == LOOK:
-            return self._look()
-        if event == SUSPENDED:
-            assert self._resumption.notice(self._resumption._seen + 1, self._now)
-            self._sent, self._settled_s = ZERO, self._now + SETTLING_S
-            self._arbiter.lost()
-            for one in self._late.values():
-                one.lost(self._now)
-            return []
-        return self._command(event._replace(at_s=self._now))
+    def _happen(self, event):
+        if event == TICK:
+            return self._tick()
+        if event != SUSPENDED:
+            return self._command(event._replace(at_s=self._now))
+        assert self._resumption.notice(self._resumption._seen + 1, self._now)
+        self._sent, self._settled_s = ZERO, self._now + SETTLING_S
+        self._arbiter.lost()
+        for one in self._late.values():
+            one.lost(self._now)
+        return ()
 
     @property
     def _speaking(self):
@@ -139,24 +134,22 @@ class ArbiterWorld:
             if self._now < self._speaks.spoke_s[one.name] + one.timeout
         ]
 
-    def _look(self):
+    def _tick(self):
         if self._arbiter.must_stop(self._now):
             self._sent = ZERO
-        wrong = []
         if moves(self._sent) and not self._speaking:
-            wrong.append(("d", "no stop, though all inputs are silent"))
+            yield "d", "no stop, though all inputs are silent"
         lull_s = self._arbiter.lull(self._now)
         shortest_s = min(one.timeout for one in self._inputs.values())
         spoke_s = self._speaks.spoke_s
         ends_s = [spoke_s[one.name] + one.timeout - self._now for one in self._speaking]
         if not 0 < lull_s <= shortest_s or (moves(self._sent) and lull_s > max(ends_s, default=0)):
-            wrong.append(("d", f"asleep for {lull_s} s, and something is due sooner"))
-        return [Violation(letter, self._now, what) for letter, what in wrong]
+            yield "d", f"asleep for {lull_s} s, and something is due sooner"
 
     def _command(self, command):
         name, velocity, now = command.input, command.velocity, self._now
         if self._resumption.is_old(now):
-            return []
+            return
         verdict = self._arbiter.command(name, velocity, now, command.sender)
         counts = all(map(math.isfinite, velocity)) and not self._is_late(command)
         if counts:
@@ -164,14 +157,13 @@ class ArbiterWorld:
         if verdict is not Verdict.OBEYED:
             highest = max(self._speaking, key=lambda one: one.priority, default=None)
             if counts and highest.name == name:
-                return [Violation("e", now, f"{name} is the highest that speaks, and not obeyed")]
-            return []
+                yield "e", f"{name} is the highest that speaks, and not obeyed"
+            return
         self._sent = velocity
-        through = Through(now, name, velocity)
-        found = [self._limits.take(through), self._speaks.take(through)]
+        for violation in judged([Through(now, name, velocity)], self._limits, self._speaks):
+            yield violation.invariant, violation.what
         if moves(velocity) and (not counts or now < self._settled_s):
-            found.append(Violation("f", now, f"a late command of {command.sender} is obeyed"))
-        return [violation for violation in found if violation]
+            yield "f", f"a late command of {command.sender} is obeyed"
 
     def _is_late(self, command):
         if not self._inputs[command.input].rearm_on_zero:

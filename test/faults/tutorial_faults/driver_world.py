@@ -15,8 +15,7 @@ import struct
 from gamepad.driver.driver import LONGEST_LIFELESS_S, Driver
 from gamepad.driver.parameters import load
 from gamepad.js_event import AXIS, BUTTON, FULL, INIT, SIGN_OF_LIFE_MS
-from tutorial_faults.events import Violation
-from tutorial_faults.explore import Moment, copy_of, key_of, until
+from tutorial_faults.explore import PASS, TICK, World, key_of, until
 
 LARGEST = 1.0001  # a little beyond 1: a kernel never gives -32768, but others may
 STEP_S = 0.05  # 0.15 s for two clocks
@@ -47,7 +46,11 @@ NOT_IN_KEY = {
     "_parameters", "_state", "_schedule", "_decoder", "_triggers", "events", "unknown_events",
     "heard_at",
 }  # fmt: skip
-PASS, TICK, LOST = "time passes", "tick", "lost"
+PARTS = {
+    "_driver": {"_state": {"_axes": {}, "_buttons": {}}, "_schedule": {}, "_decoder": {}},
+    "_pad": {},
+}  # fmt: skip
+LOST = "lost"
 OPEN = {"open: of the kernel": True, "open: a virtual one": False}
 EVENTS = {**{name: name for name in (PASS, TICK, LOST, *OPEN)}, **BYTES}
 
@@ -87,30 +90,18 @@ class Gamepad:
         return changes, signed, noisy
 
 
-class DriverWorld:
+class DriverWorld(World):
     """The real Driver, and the invariants that it must keep."""
 
     def __init__(self):
         """Nothing was opened yet."""
+        super().__init__(STEP_S, PARTS)
         self._driver = Driver(load(GIVEN))
-        self._now = Moment(0)
         self._pad = None  # the open Gamepad
         self._is_mute = self._has_published = False
         self._since_s = math.inf  # the first change that was not published
         self._published_s = math.inf  # the last message of this gamepad
         self._sign_due_s = math.inf  # when a sign of life must have come
-
-    def copy(self):
-        """Return a copy that shares what does not change."""
-        new = copy_of(self)
-        new._driver = driver = copy_of(self._driver)
-        if driver._state is not None:
-            driver._state = state = copy_of(driver._state)
-            state._axes, state._buttons = list(state._axes), list(state._buttons)
-            driver._schedule = copy_of(driver._schedule)
-            driver._decoder = copy_of(driver._decoder)
-            new._pad = copy_of(self._pad)
-        return new
 
     def key(self):
         """Return all that decides what follows."""
@@ -132,23 +123,20 @@ class DriverWorld:
             until(now, self._sign_due_s),
         )
 
-    def take(self, event):
-        """Let an event happen (a number: seconds pass); return the Violations."""
+    def _happen(self, event):
         is_open = self._pad is not None
-        wrong = []
-        if event == PASS or isinstance(event, float):
-            self._now += STEP_S if event == PASS else event
-        elif event == TICK:
-            wrong = [*self._judge(self._driver.tick(self._now)), *self._must_be_called(True)]
+        if event == TICK:
+            yield from self._judge(self._driver.tick(self._now))
+            yield from self._must_be_called(True)
         elif event == LOST and is_open:
-            wrong = self._lose()
+            yield from self._lose()
         elif event in OPEN and not is_open and self._now >= self._driver.opens_at:
             self._driver.opened((), OPEN[event])
             self._pad = Gamepad(OPEN[event])
             self._since_s = self._published_s = self._sign_due_s = math.inf
         elif isinstance(event, bytes) and is_open:
-            wrong = [*self._read(event), *self._must_be_called()]
-        return [Violation(letter, self._now, what) for letter, what in wrong]
+            yield from self._read(event)
+            yield from self._must_be_called()
 
     def _lose(self):
         messages = self._driver.lost(self._now)

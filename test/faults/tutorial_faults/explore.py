@@ -1,8 +1,8 @@
 """Goes through every state that a machine can reach (pure): breadth first, over the real objects.
 
-A World holds real objects of the suite and the invariants that watch them. It can be copied, takes
-an event, and has a key: two Worlds with the same key behave alike from then on. When no event leads
-to a new key, every reachable state was seen, and each transition was judged.
+A World can be copied, takes an event, and has a key: two Worlds with the same key behave alike from
+then on. When no event leads to a new key, every reachable state was seen, and each transition was
+judged.
 
 What makes the states finite:
 
@@ -18,10 +18,11 @@ What makes the states finite:
 from __future__ import annotations
 
 import math
-from typing import Any, Collection, NamedTuple
+from typing import Any, Collection, Dict, Iterable, NamedTuple
 
 from tutorial_faults.events import Violation
 
+PASS, TICK, SUSPENDED = "time passes", "tick", "suspended"  # events; a TICK: the node looks
 LONG_AGO, OVER = "long ago", "over"
 SHOWN_EVENTS = 30  # of the way to a violation, at most, in the text
 
@@ -45,13 +46,6 @@ class Moment(int):
 
 
 PLAIN = (bool, int, float, str, tuple, type(None), Moment)
-
-
-def copy_of(one: Any) -> Any:
-    """Return a copy of an object, whose attributes are the same objects."""
-    new = object.__new__(type(one))
-    new.__dict__.update(one.__dict__)
-    return new
 
 
 def since(now: Any, then: Any, horizon_s: float) -> Any:
@@ -97,6 +91,54 @@ def key_of(
     return tuple(values)
 
 
+Parts = Dict[str, Any]  # from the name of an attribute to the Parts of that one
+
+
+def copy_of(one: Any, parts: Parts) -> Any:
+    """Return a copy of an object, whose attributes are the same objects but for these parts.
+
+    A list or dict, with the values of the dict, is copied, too.
+    """
+    if isinstance(one, dict):
+        return {key: copy_of(value, parts) for key, value in one.items()}
+    if not hasattr(one, "__dict__"):
+        return one.copy() if isinstance(one, list) else one
+    new = object.__new__(type(one))
+    new.__dict__.update(one.__dict__)
+    for name, parts_of_it in parts.items():
+        if name in one.__dict__:
+            new.__dict__[name] = copy_of(one.__dict__[name], parts_of_it)
+    return new
+
+
+class World:
+    """Real objects, the invariants that watch them, and a clock."""
+
+    def __init__(self, step_s: float, parts: Parts) -> None:
+        """step_s: in which time passes. parts: what no two copies share."""
+        self._step_s, self._parts = step_s, parts
+        self._now = Moment(0)
+
+    def copy(self) -> World:
+        """Return a copy that shares what does not change."""
+        return copy_of(self, self._parts)
+
+    def take(self, event: Any) -> list[Violation]:
+        """Let an event happen (a number: seconds pass); return the Violations."""
+        if event == PASS or isinstance(event, float):
+            self._now += self._step_s if event == PASS else event
+            return []
+        return [Violation(letter, self._now, what) for letter, what in self._happen(event)]
+
+    def key(self) -> Any:
+        """Return all that decides what follows."""
+        raise NotImplementedError
+
+    def _happen(self, event: Any) -> Iterable[tuple[str, str]]:
+        """Let an event happen; yield the letter of each invariant that is violated, and how."""
+        raise NotImplementedError
+
+
 class Explored(NamedTuple):
     """What was found on the way through all states."""
 
@@ -117,8 +159,8 @@ class Explored(NamedTuple):
 def explore(start: Any, events: dict[str, Any], most_states: int = 1_000_000) -> Explored:
     """Take every event in every reachable state, until there is no new one or a violation.
 
-    start: a World with copy(), key() and take(event), which returns a list of Violations. events:
-    from a name to the argument of take(). Raises RuntimeError when the states do not end.
+    start: a World. events: from a name to the argument of take(). Raises RuntimeError when the
+    states do not end.
     """
     frontier = [(start, start.key())]
     came_from: dict[Any, Any] = {frontier[0][1]: None}  # key -> (key before, name of the event)

@@ -3,6 +3,8 @@
 import math
 from typing import NamedTuple
 
+from tutorial_faults.explore import PASS, SUSPENDED, TICK
+
 OLD_S = 0.4  # more than max_joy_age
 BASE = {
     "enable_button": 0, "enable_turbo_button": 1, "scale_linear": 0.5, "joy_timeout": 0.5,
@@ -67,7 +69,7 @@ STOPS = {
     "reset with LB and stick": Message("ada", STICK, (1, 0, 0, 1)),
     "stop and reset": Message("ada", (0.0, 0.0), (0, 0, 1, 1)),
 }
-PASS, TICK, LEFT, SUSPENDED = "time passes", "tick", "left", "suspended"
+LEFT = "left"
 EVENTS = {**{name: name for name in (PASS, TICK, LEFT, SUSPENDED)}, **MESSAGES}
 # A ramp multiplies the states; what is no velocity takes the same way as without one.
 WITHOUT_RAMP = (
@@ -82,16 +84,11 @@ def events_of(name):
     """Return the events for one of the CONFIGURATIONS."""
     if name.startswith("vigilance"):
         return {**{event: EVENTS[event] for event in VIGILANT}, **TREMBLES}
-    if name.startswith("stop button"):
-        padded = {
-            event: what._replace(buttons=(*what.buttons, 0, 0))
-            if what in MESSAGES.values()
-            else what
-            for event, what in EVENTS.items()
-        }
-        return {**padded, **STOPS}
-    return {
-        event: what
-        for event, what in EVENTS.items()
-        if not (name.startswith("ramp") and event in WITHOUT_RAMP)
+    if name.startswith("ramp"):
+        return {event: EVENTS[event] for event in EVENTS if event not in WITHOUT_RAMP}
+    if not name.startswith("stop button"):
+        return EVENTS
+    padded = {
+        event: what._replace(buttons=(*what.buttons, 0, 0)) for event, what in MESSAGES.items()
     }
+    return {**EVENTS, **padded, **STOPS}

@@ -10,13 +10,14 @@ import math
 from joy_to_twist.parameters import load
 from joy_to_twist.teleoperation import Teleoperation
 from node_kit.arming import SETTLING_S, ZERO
-from tutorial_faults.events import Joy, Loss, Twist, Violation
-from tutorial_faults.explore import Moment, copy_of, key_of, until
-from tutorial_faults.invariants import HeldDeadMan, SeenReleased, WithinLimits, moves
+from tutorial_faults.events import Joy, Loss, Twist
+from tutorial_faults.explore import SUSPENDED, TICK, World, key_of, until
+from tutorial_faults.invariants import HeldDeadMan, SeenReleased, WithinLimits, judged, moves
 from tutorial_faults.meaning import Meaning
-from tutorial_faults.teleoperation_alphabet import LEFT, PASS, SUSPENDED, TICK, Message
+from tutorial_faults.teleoperation_alphabet import LEFT, Message
 
 STEP_S, VIGILANT_STEP_S = 0.0625, 0.05  # 0.25 s for three clocks, and for four
+PARTS = {"_machine": {"safety": {"arming": {}}, "_resumption": {}}, "_held": {}, "_armed": {}}
 # What is fixed, what is only for the user, and the parts that have keys of their own.
 NOT_IN_KEY = {
     "_parameters", "_warn", "mapping", "safety", "_hints", "_knows_gamepad", "_may_warn",
@@ -31,16 +32,16 @@ FIXED_IN_SAFETY = {
 FIXED_IN_RELEASED = {"_is_good", "_is_released", "settled_s"}  # Resumption's
 
 
-class TeleoperationWorld:
+class TeleoperationWorld(World):
     """The real Teleoperation, and the invariants that it must keep."""
 
     def __init__(self, **given):
         """given: private parameters of joy2twist."""
         p = self._parameters = load(given)
+        super().__init__(VIGILANT_STEP_S if p.vigilance_timeout else STEP_S, PARTS)
         self._ramps = p.max_linear_acceleration > 0 or p.max_angular_acceleration > 0
         self._woken = []  # of the transition that is made just now
         self._machine = Teleoperation(p, lambda line: None, lambda: self._woken.append(True))
-        self._now = Moment(0)
         self._sent = ZERO
         self._zeros = p.stop_messages  # sent since the last motion, as far as they count
         self._has_moved = False
@@ -50,21 +51,10 @@ class TeleoperationWorld:
             max_age_s=p.max_joy_age, stop=p.stop_button, reset=p.stop_reset_button,
         )  # fmt: skip
         self._held = HeldDeadMan(p.joy_timeout, meaning.holds, p.vigilance_timeout, meaning.is_good)
-        self._step_s = VIGILANT_STEP_S if p.vigilance_timeout else STEP_S
         self._latched = False  # the stop button was pressed, and not yet the reset button
         self._is_reset = True  # since then all was seen released after the reset button, too
         self._armed = SeenReleased(p.joy_timeout, meaning.is_good, meaning.is_released)
         self._limits = WithinLimits(p.max_linear_speed or math.inf, p.max_angular_speed or math.inf)
-
-    def copy(self):
-        """Return a copy that shares what does not change."""
-        new = copy_of(self)
-        new._machine = machine = copy_of(self._machine)
-        machine.safety = safety = copy_of(machine.safety)
-        safety.arming = copy_of(safety.arming)
-        machine._resumption = copy_of(machine._resumption)
-        new._held, new._armed = copy_of(self._held), copy_of(self._armed)
-        return new
 
     def key(self):
         """Return all that decides what follows; Resumption's _seen only counts suspensions."""
@@ -84,11 +74,7 @@ class TeleoperationWorld:
             (self._sent, self._zeros, self._has_moved, self._all_released),
         )  # fmt: skip
 
-    def take(self, event):
-        """Let an event happen (a number: seconds pass); return the Violations."""
-        if event == PASS or isinstance(event, float):
-            self._now += self._step_s if event == PASS else event
-            return []
+    def _happen(self, event):
         self._woken.clear()
         due, sent, was_late = self._machine.safety.due, self._sent, self._is_silent
         if event == TICK:
@@ -104,23 +90,19 @@ class TeleoperationWorld:
             answer = self._machine.suspended(self._machine._resumption._seen + 1, self._now)
         else:
             answer = self._hear(event)
-        found = []
         if answer is not None:
-            found += self._judge_velocity(answer, sent)
+            yield from self._judge_velocity(answer, sent)
             self._sent = answer
             self._zeros = (
                 0 if moves(answer) else min(self._zeros + 1, self._parameters.stop_messages)
             )
             self._has_moved = self._has_moved or moves(answer)
         is_rearmed = self._arms and self._armed.armed  # by this message, as silence disarms
-        is_late = was_late and not is_rearmed and moves(sent) and moves(answer or ZERO)
-        wrong = (
-            *([("f", "no stop before a message that is late")] if is_late else []),
-            *self._must_stand(event),
-            *self._must_watch(event, due, answer),
-            *self._must_go_on(event, answer, was_late),
-        )
-        return found + [Violation(letter, self._now, what) for letter, what in wrong]
+        if was_late and not is_rearmed and moves(sent) and moves(answer or ZERO):
+            yield "f", "no stop before a message that is late"
+        yield from self._must_stand(event)
+        yield from self._must_watch(event, due, answer)
+        yield from self._must_go_on(event, answer, was_late)
 
     @property
     def _is_silent(self):
@@ -153,12 +135,12 @@ class TeleoperationWorld:
     def _judge_velocity(self, velocity, before):
         twist = Twist(self._now, velocity)
         judges = (self._held, self._limits, *([self._armed] if self._arms else []))
-        found = [violation for one in judges for violation in [one.take(twist)] if violation]
+        for violation in judged([twist], *judges):
+            yield violation.invariant, violation.what
         change = math.hypot(*(new - old for new, old in zip(velocity[:3], before[:3])))
         most = (self._parameters.max_linear_acceleration or math.inf) / self._parameters.output_rate
         if moves(velocity) and change > most * (1 + 1e-9):
-            found.append(Violation("c", self._now, f"from {before[0]} to {velocity[0]} at once"))
-        return found
+            yield "c", f"from {before[0]} to {velocity[0]} at once"
 
     @property
     def _arms(self):

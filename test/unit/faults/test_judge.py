@@ -12,8 +12,12 @@ DT = 0.02
 HELD, LET_GO = [(0.0, "drive")], [(0.0, "drive"), (1.0, "released")]
 STOPS_AND_GOES = ((0.5, 0.3), (0.8, 0.0), (1.5, 0.3))
 FAST = Twist(0.5, (0.0, 0.0, 0.0, 0.0, 0.0, 2.1))
+NAN = Twist(0.5, (math.nan, 0.0, 0.0, 0.0, 0.0, 0.0))
 TELEOP, LOWER = Twist(1.0, (0.3, 0, 0, 0, 0, 0)), Twist(1.5, (0, 0.1, 0, 0, 0, 0))
 TWO = [Injury("stop:joy_node", 0.5, 2.0), Injury("stop:mux", 0.9, 2.0)]
+HUNG, UNPLUGGED = Injury("hang_master", 0.3, 0.9), Injury("unplug", 0.5, 2.0)
+CELL = {"is_safe": True, "bumpers": [(0.0, 0)], "drops": [(0.0, 0)]}
+FELL = {**CELL, "drops": [(0.0, 0), (1.0, 1)]}
 
 
 def wheels(*phases):
@@ -43,8 +47,8 @@ def turn(until):
         (LET_GO, [], turn(1.0 + LIMIT_S - DT), ""),
         (LET_GO, [], turn(1.0 + LIMIT_S + 2 * DT), "a"),
         ([(0.0, "drive"), (1.0, "stick")], [], turn(1.0 + LIMIT_S + 2 * DT), "a"),
-        (HELD, [Injury("unplug", 0.5, 2.0)], turn(1.0), ""),
-        (HELD, [Injury("unplug", 0.5, 2.0)], turn(0.5 + LIMIT_S + 2 * DT), "d"),
+        (HELD, [UNPLUGGED], turn(1.0), ""),
+        (HELD, [UNPLUGGED], turn(0.5 + LIMIT_S + 2 * DT), "d"),
         (HELD, [Injury("kill:joy_node", 0.5, 2.0)], turn(1.3), "d"),
         # A loss that is over before the limit stops nothing.
         (HELD, [Injury("stop:mux", 0.5, 0.9)], ((2.0, 0.3),), ""),
@@ -65,14 +69,49 @@ def turn(until):
          ((0.12, 0.3), (0.32, 0.0), (0.6, 0.3), (0.8, 0.0), (1.5, 0.3)), "b"),
         (HELD, [Injury("link_down", 0.3, 0.6)], STOPS_AND_GOES, "f"),
         # A fault elsewhere stops the robot; or another fault beside it may.
-        (HELD, [Injury("hang_master", 0.3, 0.9)], ((1.5, 0.3),), ""),
-        (HELD, [Injury("hang_master", 0.3, 0.9)], turn(0.5), "h"),
-        (HELD, [Injury("hang_master", 0.3, 0.9), Injury("stop:mux", 0.4, 1.5)], turn(0.5), ""),
+        (HELD, [HUNG], ((1.5, 0.3),), ""),
+        (HELD, [HUNG], turn(0.5), "h"),
+        (HELD, [HUNG, Injury("stop:mux", 0.4, 1.5)], turn(0.5), ""),
         (HELD, [], ((1.0, 0.8),), "c"),
     ],
 )  # fmt: skip
 def test_a_record_and_its_judgement(hands, injuries, phases, letters):
     assert found(hands, injuries, *phases) == letters
+
+
+def pushed(*changes):
+    return {**CELL, "bumpers": [(0.0, 0), *changes]}
+
+
+@pytest.mark.parametrize(
+    ("hands", "injuries", "phases", "more", "letters"),
+    [
+        # (c): not finite, or beyond the limit.
+        (HELD, [], ((1.0, 0.3),), {"commands": [NAN]}, "c"),
+        (HELD, [], ((1.0, 0.3),), {"asked": [FAST]}, "c"),
+        # (e): a lower input drives while teleop speaks. A mux that was restarted has heard nothing.
+        (HELD, [], ((2.0, 0.3),), {"commands": [TELEOP, LOWER]}, "e"),
+        (HELD, [], ((2.0, 0.3),), {"commands": [TELEOP, LOWER._replace(at_s=2.1)]}, ""),
+        (HELD, [Injury("kill:mux", 1.1, 1.4)], ((1.5, 0.3),), {"commands": [TELEOP, LOWER]}, ""),
+        # (i): a push that lasts, also to the end; a fall.
+        (HELD, [], ((1.5, 0.3),), pushed((0.5, 1), (0.9, 0)), ""),
+        (HELD, [], ((1.5, 0.3),), pushed((0.5, 1), (0.6, 2), (0.7, 1), (1.1, 0)), "i"),
+        (HELD, [], ((1.5, 0.3),), pushed((0.5, 1)), "i"),
+        (HELD, [], ((1.5, 0.3),), pushed((0.5, 1), (0.9, 0), (0.92, 1), (1.3, 0)), ""),
+        (HELD, [], ((1.5, 0.3),), FELL, "i"),
+        (HELD, [Injury("stop:joy_node", 0.5, 0.9)], ((1.5, 0.3),), FELL, "i"),
+        # Without mux or base nothing can back it off.
+        (HELD, [Injury("stop:mux", 0.5, 0.9)], ((1.5, 0.3),), FELL, ""),
+        # In a cell backing off is no violation, and driving on is.
+        (LET_GO, [], ((1.1, 0.3), (2.5, -0.1)), CELL, ""),
+        (LET_GO, [], ((2.5, 0.3),), CELL, "a"),
+        (HELD, [UNPLUGGED], ((1.0, 0.3), (1.2, -0.1), (2.5, 0.0)), CELL, ""),
+        (HELD, [UNPLUGGED], ((2.5, 0.3),), CELL, "d"),
+        (HELD, [HUNG], ((0.5, 0.3), (0.7, -0.1), (0.9, 0.3)), CELL, ""),
+    ],
+)
+def test_a_record_of_more_than_hands_and_wheels(hands, injuries, phases, more, letters):
+    assert found(hands, injuries, *phases, **more) == letters
 
 
 @pytest.mark.parametrize("kind", [kind.name for kind in KINDS.values() if not kind.rearms])
@@ -85,53 +124,9 @@ def test_the_time_to_rest():
     assert judge(record).rest_s == pytest.approx(0.5, abs=DT)
 
 
-def test_c_what_is_not_finite_or_beyond_the_limit():
-    nan = Twist(0.5, (math.nan, 0.0, 0.0, 0.0, 0.0, 0.0))
-    assert found(HELD, [], (1.0, 0.3), commands=[nan]) == "c"
-    assert found(HELD, [], (1.0, 0.3), asked=[FAST]) == "c"
-
-
 def test_h_odometry_that_falls_silent():
     gap = [one for one in wheels((1.5, 0.3)) if not 0.5 < one.at_s < 0.9]
-    record = Record(HELD, [Injury("hang_master", 0.3, 0.9)], gap)
-    assert [v.invariant for v in judge(record).violations] == ["h"]
-
-
-def test_e_a_lower_input_drives_while_teleop_speaks():
-    assert found(HELD, [], (2.0, 0.3), commands=[TELEOP, LOWER]) == "e"
-    assert found(HELD, [], (2.0, 0.3), commands=[TELEOP, LOWER._replace(at_s=2.1)]) == ""
-    # A mux that was restarted has heard no input.
-    killed = [Injury("kill:mux", 1.1, 1.4)]
-    assert found(HELD, killed, (1.5, 0.3), commands=[TELEOP, LOWER]) == ""
-
-
-@pytest.mark.parametrize(
-    ("injuries", "bumpers", "drops", "letters"),
-    [
-        ([], [(0.0, 0), (0.5, 1), (0.9, 0)], [(0.0, 0)], ""),
-        ([], [(0.0, 0), (0.5, 1), (0.6, 2), (0.7, 1), (1.1, 0)], [(0.0, 0)], "i"),
-        ([], [(0.0, 0), (0.5, 1)], [(0.0, 0)], "i"),  # to the end
-        ([], [(0.0, 0), (0.5, 1), (0.9, 0), (0.92, 1), (1.3, 0)], [(0.0, 0)], ""),
-        ([], [(0.0, 0)], [(0.0, 0), (1.0, 1)], "i"),
-        ([Injury("stop:joy_node", 0.5, 0.9)], [(0.0, 0)], [(0.0, 0), (1.0, 1)], "i"),
-        # Without mux or base nothing can back it off.
-        ([Injury("stop:mux", 0.5, 0.9)], [(0.0, 0)], [(0.0, 0), (1.0, 1)], ""),
-    ],
-)
-def test_i_pushes_and_falls(injuries, bumpers, drops, letters):
-    more = {"is_safe": True, "bumpers": bumpers, "drops": drops}
-    assert found(HELD, injuries, (1.5, 0.3), **more) == letters
-
-
-def test_in_a_world_backing_off_is_no_violation_and_driving_on_is():
-    more = {"is_safe": True, "bumpers": [(0.0, 0)], "drops": [(0.0, 0)]}
-    assert found(LET_GO, [], (1.1, 0.3), (2.5, -0.1), **more) == ""
-    assert found(LET_GO, [], (2.5, 0.3), **more) == "a"
-    unplugged = [Injury("unplug", 0.5, 2.0)]
-    assert found(HELD, unplugged, (1.0, 0.3), (1.2, -0.1), (2.5, 0.0), **more) == ""
-    assert found(HELD, unplugged, (2.5, 0.3), **more) == "d"
-    hung = [Injury("hang_master", 0.3, 0.9)]
-    assert found(HELD, hung, (0.5, 0.3), (0.7, -0.1), (0.9, 0.3), **more) == ""
+    assert [v.invariant for v in judge(Record(HELD, [HUNG], gap)).violations] == ["h"]
 
 
 def test_of_each_invariant_the_first_violation_and_those_that_were_reported():

@@ -5,7 +5,7 @@ import pytest
 from tutorial_faults.live import program
 from tutorial_faults.live.relay import LONGEST_QUEUE, Cable
 from tutorial_faults.live.report import Result, by_kind, last_line
-from tutorial_faults.live.samples import Sample, complaints
+from tutorial_faults.live.soak import Sample, findings
 
 RESULTS = [
     Result(1, ("unplug",), 0.1, ()),
@@ -20,7 +20,7 @@ RESULTS = [
         *((["--for", text], "not a number above 0") for text in ("-1", "0", "nan", "inf", "")),
         *((["--trials", text], "not a whole number") for text in ("-5", "0", "1.5", "many", "")),
         (["--for", "60", "--trials", "5"], "not allowed with argument --for"),
-        (["--table", "nodir/x.csv"], "nodir/x.csv: cannot be written: No such file"),
+        (["--table", "nodir/x.csv"], "can't open 'nodir/x.csv': [Errno 2] No such file"),
         (["--kinds", "lost"], "lost: is no kind of fault; there are "),
         (["--node", "joy2twist"], "joy2twist: not PACKAGE/TYPE"),
     ],
@@ -60,17 +60,23 @@ def samples(memory, threads=(5, 5), files=(9, 9)):
     ]
 
 
-def test_what_grows_is_named_and_what_comes_and_goes_does_not_grow():
-    steady = samples(lambda at_s: 50_000 + int(at_s) % 300)
-    steady[-3] = steady[-3]._replace(threads=6, files=10)
-    assert complaints(steady) == []
-    assert complaints(samples(lambda at_s: 50_000 + 10 * int(at_s))) == [
-        "/node: grew by 4800 kB, 0 threads, 0 files"
-    ]
-    assert complaints(samples(lambda at_s: 50_000, threads=(5, 6), files=(9, 10))) == [
-        "/node: grew by 0 kB, 1 threads, 1 files"
-    ]
-    assert complaints(steady[:3]) == ["/node: did not live for longer than 60 s"]
+STEADY = samples(lambda at_s: 50_000 + int(at_s) % 300)
+PEAK = [*STEADY[:-3], STEADY[-3]._replace(threads=6, files=10), *STEADY[-2:]]
+
+
+@pytest.mark.parametrize(
+    ("seen", "line", "is_bad"),
+    [
+        (PEAK, "5 threads, 9 files; grew by 180 kB, 0 threads, 0 files", False),
+        (samples(lambda at_s: 50_000 + 10 * int(at_s)), "grew by 4800 kB, 0 threads, 0", True),
+        (samples(lambda at_s: 50_000, threads=(5, 6)), "grew by 0 kB, 1 threads, 0 files", True),
+        (samples(lambda at_s: 50_000, files=(9, 10)), "grew by 0 kB, 0 threads, 1 files", True),
+        (STEADY[:3], "did not live for longer than 60 s", True),
+    ],
+)
+def test_what_grows_is_named_and_what_comes_and_goes_does_not_grow(seen, line, is_bad):
+    (found,), bad = findings(seen)
+    assert line in found and ("WRONG" in found) == bad == is_bad
 
 
 class Always:

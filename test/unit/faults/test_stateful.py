@@ -9,11 +9,12 @@ from hypothesis.stateful import RuleBasedStateMachine, initialize, rule
 
 from fake_turtlebot_sim.mux.parameters import Input
 from gamepad.js_event import AXIS, BUTTON, INIT, SIGN_OF_LIFE_MS
-from tutorial_faults import arbiter_world, driver_world
+from tutorial_faults import driver_world
 from tutorial_faults.arbiter_world import ArbiterWorld, Configuration
 from tutorial_faults.driver_world import DriverWorld
 from tutorial_faults.events import Command
-from tutorial_faults.teleoperation_alphabet import TICK, Message
+from tutorial_faults.explore import SUSPENDED, TICK
+from tutorial_faults.teleoperation_alphabet import LEFT, Message
 from tutorial_faults.teleoperation_world import TeleoperationWorld
 
 SETTINGS = settings(
@@ -100,7 +101,7 @@ class Teleoperation(World):
     def noise(self, axes, buttons):
         self.show(Message("ada", tuple(axes), tuple(buttons)))
 
-    @rule(what=st.sampled_from([TICK] * 4 + ["left", "suspended"]))
+    @rule(what=st.sampled_from([TICK] * 4 + [LEFT, SUSPENDED]))
     def other(self, what):
         self.show(what)
 
@@ -139,7 +140,7 @@ class Mux(World):
     def command(self, number, sender, velocity):
         self.show(Command(0.0, self.names[number % len(self.names)], velocity, sender))
 
-    @rule(what=st.sampled_from([arbiter_world.LOOK] * 4 + [arbiter_world.SUSPENDED]))
+    @rule(what=st.sampled_from([TICK] * 4 + [SUSPENDED]))
     def other(self, what):
         self.show(what)
 
@@ -151,7 +152,7 @@ class Driver(World):
     def start(self):
         self.world = DriverWorld()
 
-    @rule(what=st.sampled_from([driver_world.TICK] * 3 + [driver_world.LOST, *driver_world.OPEN]))
+    @rule(what=st.sampled_from([TICK] * 3 + [driver_world.LOST, *driver_world.OPEN]))
     def other(self, what):
         self.show(what)
 

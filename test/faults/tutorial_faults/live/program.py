@@ -13,7 +13,7 @@ from pathlib import Path
 from node_kit.arguments import above_zero
 from tutorial_faults.live import hosts
 from tutorial_faults.live.hunting import Hunt
-from tutorial_faults.live.kinds import KINDS, chosen
+from tutorial_faults.live.kinds import KINDS
 from tutorial_faults.live.report import by_kind, last_line
 from tutorial_faults.live.soak import soak
 
@@ -47,20 +47,11 @@ def node(text):
 
 def kind(text):
     """Return the name of a kind, or of a family. Raises argparse.ArgumentTypeError."""
-    try:
-        chosen([text], ())
-    except ValueError as error:
-        raise argparse.ArgumentTypeError(str(error)) from None
+    families = sorted({one.family for one in KINDS.values()})
+    if text not in KINDS and text not in families:
+        there_are = f"there are {', '.join(families)}"
+        raise argparse.ArgumentTypeError(f"{text}: is no kind of fault; {there_are}")
     return text
-
-
-def writable(path):
-    """Return the path of a file that can be written. Raises argparse.ArgumentTypeError."""
-    try:
-        with open(path, "a"):
-            return path
-    except OSError as error:
-        raise argparse.ArgumentTypeError(f"{path}: cannot be written: {error.strerror}") from error
 
 
 def parse(arguments):
@@ -78,7 +69,8 @@ def parse(arguments):
     add(
         "--in-a-cell", action="store_true", help="between walls and edges, with a safety controller"
     )
-    add("--table", type=writable, metavar="FILE", help="write each trial to FILE; print a table")
+    file = argparse.FileType("w", 1)
+    add("--table", type=file, metavar="FILE", help="write each trial to FILE; print a table")
     return parser.parse_args(arguments)
 
 
@@ -98,7 +90,7 @@ def hunt(options):
         for need, why in the_hosts.refused.items():
             kinds = ", ".join(kind.name for kind in KINDS.values() if kind.needs == need)
             print(f"faults: without {kinds}: {why}", flush=True)
-        table = csv.writer(stack.enter_context(open(options.table or os.devnull, "w", 1)))
+        table = csv.writer(options.table or stack.enter_context(open(os.devnull, "w")))
         table.writerow(("seed", "kinds", "rest_s", "violations"))
         the_hunt = stack.enter_context(Hunt(the_hosts, folder, options, command))
         with contextlib.suppress(KeyboardInterrupt):
