@@ -58,28 +58,28 @@ def master():
 
 
 class FaultsAtTheEnd(unittest.TestCase):
-    def check_end(self, rig, node, pid, number=signal.SIGINT):
-        """Check that the node exits in time, and that the robot comes to rest."""
+    def check_end(self, rig, node, pid, number):
+        """The node exits in time."""
         self.assertLess(rig.kill(node, number, pid), LONGEST_END_S, node)
-        wait_for(lambda: not rig.is_moving(), f"robot at rest after the end of {node}")
+
+    def check_each(self, rig, number, meanwhile):
+        """One after the other is driven and ended, in a context that meanwhile(node) returns."""
+        for node in rig.nodes:
+            rig.drive()
+            pid = rig.pid(node)
+            with meanwhile(node):
+                self.check_end(rig, node, pid, number)
+            wait_for(lambda: not rig.is_moving(), f"robot at rest after the end of {node}")
+            if node != BASE:
+                rig.start(node)
 
     def check_all(self, number):
-        """One after the other is driven and ended, on a held screen, then with suspended peers."""
+        """All exit on a held screen, and with suspended peers."""
         with held_screen() as screen, Rig(screen=screen) as rig:
-            for node in rig.nodes:
-                rig.drive()
-                self.check_end(rig, node, rig.pid(node), number)
-                if node != BASE:
-                    rig.start(node)
+            self.check_each(rig, number, lambda _: contextlib.nullcontext())
         with Rig() as rig:
-            for node in rig.nodes:
-                rig.drive()
-                pid = rig.pid(node)
-                with suspended([rig.pid(other) for other in rig.nodes if other != node]):
-                    self.assertLess(rig.kill(node, number, pid), LONGEST_END_S, node)
-                wait_for(lambda: not rig.is_moving(), "robot at rest")
-                if node != BASE:
-                    rig.start(node)
+            peers = lambda node: [rig.pid(one) for one in rig.nodes if one != node]  # noqa: E731
+            self.check_each(rig, number, lambda node: suspended(peers(node)))
 
     def test_sigint(self):
         self.check_all(signal.SIGINT)
@@ -87,23 +87,16 @@ class FaultsAtTheEnd(unittest.TestCase):
     def test_sigterm(self):
         self.check_all(signal.SIGTERM)
 
-    def check_hung_master(self, first, number):
-        """All nodes end under a master that does not answer, one of them first."""
-        with Rig() as rig:
-            rig.drive()
-            pids = {node: rig.pid(node) for node in rig.nodes}
-            with suspended(master()):
-                for node in (first, *(node for node in rig.nodes if node != first)):
-                    self.check_end(rig, node, pids[node], number)
-
-    def test_a_hung_master_and_the_joystick_first(self):
-        self.check_hung_master(JOYSTICK, signal.SIGTERM)
-
-    def test_a_hung_master_and_the_mux_first(self):
-        self.check_hung_master(MUX, signal.SIGINT)
-
-    def test_a_hung_master_and_the_base_first(self):
-        self.check_hung_master(BASE, signal.SIGINT)
+    def test_all_exit_under_a_hung_master_whichever_is_first(self):
+        ends = ((JOYSTICK, signal.SIGTERM), (MUX, signal.SIGINT), (BASE, signal.SIGINT))
+        for first, number in ends:
+            with Rig() as rig:
+                rig.drive()
+                pids = {node: rig.pid(node) for node in rig.nodes}
+                with suspended(master()):
+                    for node in (first, *(node for node in rig.nodes if node != first)):
+                        self.check_end(rig, node, pids[node], number)
+                        wait_for(lambda: not rig.is_moving(), "robot at rest")
 
     def test_a_warning_under_a_hung_master_makes_no_node_deaf(self):
         """NaN and a speed beyond the robot's bring a warning of the mux and of the base."""

@@ -1,0 +1,100 @@
+#!/usr/bin/python3
+"""Nodes are suspended, or killed and restarted, while LB is held: only a release lets it drive."""
+
+import itertools
+import sys
+import threading
+import unittest
+
+import rostest
+
+from tutorial_testing.nodes import init_node
+from tutorial_testing.rig import BASE, DRIVER, MUX, TIMEOUT_S, Rig, go_on, stop
+from tutorial_testing.waiting import wait_for
+
+DURATIONS_S = (0.2, 0.5, 1.0, 3.0)
+FEW_S = (0.5, 3.0)  # of two nodes, and without a mux; the hunt draws others
+PERIOD_S = 0.02
+# What a busy machine may add between a node and the next one, and to the stamps of this process.
+BUSY_S = 0.3
+WATCHED_S = 1.2  # after a node is back
+
+
+class LostNodes(unittest.TestCase):
+    def speeds_after(self, rig, back):
+        """Return (stamp, speed) of the odometry since a node is back [s], for WATCHED_S."""
+        wait_for(lambda: rig.since(back + WATCHED_S), "odometry")
+        return rig.since(back)
+
+    def check_suspension(self, rig, pids, duration_s):
+        """The robot comes to rest in time, and stays."""
+        what = f"{' and '.join(pids)} for {duration_s} s"
+        rig.drive()
+        began = stop(pids.values())
+        threading.Event().wait(duration_s)
+        ended = go_on(pids.values())
+        self.speeds_after(rig, ended)
+        rest = began + TIMEOUT_S + PERIOD_S + BUSY_S
+        if BASE in pids:
+            rest = max(rest, ended + BUSY_S)
+        moving = [stamp - began for stamp, speed in rig.since(rest) if speed]
+        self.assertEqual(moving, [], what)
+        speeds = itertools.dropwhile(lambda entry: entry[1], rig.since(began))
+        again = [stamp - began for stamp, speed in speeds if speed]
+        self.assertEqual(again, [], f"{what}: moved again")
+
+    def check_suspensions(self, with_mux, cases):
+        """cases: (how many nodes at once, how long [s])."""
+        with Rig(with_mux) as rig:
+            pids = {node: rig.pid(node) for node in rig.nodes}
+            for size, duration_s in cases:
+                for nodes in itertools.combinations(rig.nodes, size):
+                    self.check_suspension(rig, {node: pids[node] for node in nodes}, duration_s)
+            # No node was restarted, and all of them still do their work.
+            rig.drive()
+            self.assertEqual(pids, {node: rig.pid(node) for node in rig.nodes})
+
+    def test_every_node_and_every_pair_is_suspended(self):
+        alone = [(1, duration_s) for duration_s in DURATIONS_S]
+        self.check_suspensions(True, alone + [(2, duration_s) for duration_s in FEW_S])
+
+    def test_every_node_without_a_mux_is_suspended(self):
+        self.check_suspensions(False, [(1, duration_s) for duration_s in FEW_S])
+
+    def check_restarts(self, with_mux, nodes):
+        """The robot stands after each restart, although LB is held, until all is released."""
+        with Rig(with_mux) as rig:
+            for node in nodes:
+                rig.drive()
+                rig.kill(node)
+                rig.start(node)
+                rig.pid(node)
+                rig.wait_for_rest()
+                began = rig.speeds[-1][0]
+                moved = [stamp - began for stamp, speed in self.speeds_after(rig, began) if speed]
+                self.assertEqual(moved, [], node)
+            rig.drive()
+
+    def test_a_mux_or_robot_that_is_restarted_waits_for_the_release(self):
+        self.check_restarts(True, (MUX, BASE))
+
+    def test_joy2twist_or_a_robot_without_a_mux_that_is_restarted_waits_for_the_release(self):
+        self.check_restarts(False, (DRIVER, BASE))
+
+    def test_a_suspended_base_obeys_no_stale_command(self):
+        with Rig(with_mux=False) as rig:
+            rig.drive()
+            base, driver = rig.pid(BASE), rig.pid(DRIVER)
+            stop([base])
+            threading.Event().wait(1.0)
+            rig.kill(DRIVER, pid=driver)
+            threading.Event().wait(1.0)
+            ended = go_on([base])
+            # The first odometry may still be of the time before.
+            speeds = [entry for entry in self.speeds_after(rig, ended) if entry[0] > ended + 0.1]
+            self.assertEqual([stamp - ended for stamp, speed in speeds if speed], [])
+
+
+if __name__ == "__main__":
+    init_node("lost_nodes")
+    rostest.rosrun("ros1_tutorial_test", "lost_nodes", "__main__", sys.argv)
