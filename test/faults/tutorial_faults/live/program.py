@@ -10,7 +10,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from node_kit.arguments import above_zero
+from node_kit.arguments import Parser, above_zero
 from tutorial_faults.live import hosts
 from tutorial_faults.live.hunting import Hunt
 from tutorial_faults.live.kinds import KINDS
@@ -21,14 +21,6 @@ from tutorial_faults.live.soak import soak
 HANDOUT, LITERAL = "handout", "exercises/literal/joy2twist/scripts/new_joy2twist.py"
 FIRST_SEED = 1
 CANNOT = 2  # exit code
-
-
-class Parser(argparse.ArgumentParser):
-    """Reports an error in one line."""
-
-    def error(self, message):
-        """Exit with the message."""
-        self.exit(CANNOT, f"faults: {message}\n")
 
 
 def count(text):
