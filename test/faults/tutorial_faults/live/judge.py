@@ -38,24 +38,18 @@ class Injury:
 
 @dataclass
 class Record:
-    """All that was seen in a trial, each in the order of time.
+    """All that was seen in a trial, each in the order of time [s]."""
 
-    hands: (time, what they show). commands: at the base. asked: at the mux, by teleop. late: gaps
-    (time of their end, length) in which this machine did not run the hunt. reported: violations
-    that wheels and hands do not show. is_safe: in a world, with a safety controller; bumpers,
-    drops: (time, how many bumpers are pressed and wheels dropped from then on).
-    """
-
-    hands: list[tuple[float, str]] = field(default_factory=list)
+    hands: list[tuple[float, str]] = field(default_factory=list)  # what they show from then on
     injuries: list[Injury] = field(default_factory=list)
     wheels: list[Wheels] = field(default_factory=list)
-    commands: list[Twist] = field(default_factory=list)
-    asked: list[Twist] = field(default_factory=list)
-    late: list[tuple[float, float]] = field(default_factory=list)
-    reported: list[Violation] = field(default_factory=list)
-    is_safe: bool = False
-    bumpers: list[tuple[float, float]] = field(default_factory=list)
-    drops: list[tuple[float, float]] = field(default_factory=list)
+    commands: list[Twist] = field(default_factory=list)  # at the base
+    asked: list[Twist] = field(default_factory=list)  # at the mux, by teleop
+    late: list[tuple[float, float]] = field(default_factory=list)  # (end, length) of a gap
+    reported: list[Violation] = field(default_factory=list)  # by what wheels do not show
+    is_safe: bool = False  # in a world, with a safety controller
+    bumpers: list[tuple[float, float]] = field(default_factory=list)  # how many are pressed
+    drops: list[tuple[float, float]] = field(default_factory=list)  # how many wheels dropped
 
 
 @dataclass(frozen=True)
@@ -155,9 +149,9 @@ def _moved_again(record: Record) -> list[Violation]:
 
 def _released_within(changes: Sequence[tuple[float, str]], begin: float, end: float) -> bool:
     """Return whether all was released at some time between two."""
-    if shown_at(changes, begin)[0] == RELEASED:
-        return True
-    return any(begin <= at_s <= end and shows == RELEASED for at_s, shows in changes)
+    return shown_at(changes, begin)[0] == RELEASED or any(
+        begin <= at_s <= end and shows == RELEASED for at_s, shows in changes
+    )
 
 
 def _went_on(record: Record) -> list[Violation]:
