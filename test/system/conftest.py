@@ -2,12 +2,12 @@
 
 import os
 import shutil
-import subprocess
 from pathlib import Path
 
 import pytest
 
 from tutorial_testing.ports import free_port
+from tutorial_testing.processes import Program
 from tutorial_testing.screen import virtual_screen
 from tutorial_testing.two_hosts.scene import Scene
 from tutorial_testing.waiting import DEADLINE_S
@@ -31,6 +31,23 @@ def tutorial():
 
 
 @pytest.fixture(scope="session")
+def call(tutorial):
+    """A function that runs ./tutorial to its end, and returns (exit code, output)."""
+
+    def run(*words, deadline_s=DEADLINE_S, **environment):
+        with Program(tutorial, *words, **environment) as program:
+            return program.wait(deadline_s), program.output
+
+    return run
+
+
+@pytest.fixture(scope="session")
+def suite_workspace():
+    """The path of the workspace from which these tests run."""
+    return str(Path(os.environ["CMAKE_PREFIX_PATH"].split(":")[0]).parent)
+
+
+@pytest.fixture(scope="session")
 def clone(tmp_path_factory):
     """A copy of the repository as it is now, in a folder with a space in its name."""
     folder = tmp_path_factory.mktemp("clone") / "ros1 tutorial"
@@ -40,24 +57,20 @@ def clone(tmp_path_factory):
 
 
 @pytest.fixture
-def clean_environment(monkeypatch):
+def clean_environment(suite_workspace, monkeypatch):
     """The environment of a user who has sourced no ROS workspace."""
+    assert suite_workspace  # read from the environment before
     for name in ("CMAKE_PREFIX_PATH", "ROS_PACKAGE_PATH", "PYTHONPATH"):
         monkeypatch.delenv(name, raising=False)
-    return os.environ
 
 
 @pytest.fixture
-def own_workspace(tutorial, tmp_path, monkeypatch, clean_environment):
+def own_workspace(suite_workspace, tmp_path, monkeypatch, clean_environment):
     """A TUTORIAL_WORKSPACE of the test: built like ours, and with nothing else in it yet."""
-    workspace = subprocess.run(
-        [tutorial, "run", "bash", "-c", "dirname ${CMAKE_PREFIX_PATH%%:*}"],
-        env=clean_environment, check=True, capture_output=True, text=True, timeout=DEADLINE_S,
-    ).stdout.strip()  # fmt: skip
     own = tmp_path / "ws"
     own.mkdir()
     for name in ("built", "devel", "python"):
-        (own / name).symlink_to(f"{workspace}/{name}")
+        (own / name).symlink_to(f"{suite_workspace}/{name}")
     monkeypatch.setenv("TUTORIAL_WORKSPACE", str(own))
     return own
 

@@ -4,7 +4,6 @@ In its order; each row is the terminal, what is typed there, and what must be se
 solutions may be.
 """
 
-import os
 import re
 import shutil
 import subprocess
@@ -13,9 +12,10 @@ from pathlib import Path
 import pytest
 
 from tutorial_testing.two_hosts.network import Host
-from tutorial_testing.waiting import DEADLINE_S, wait_for
+from tutorial_testing.waiting import wait_for
 
 REPOSITORY = Path(__file__).resolve().parents[2]
+TUTORIAL = str(REPOSITORY / "tutorial")
 # Programs and launch files as the handout prints them: env python, load_manifest, absolute topics,
 # no queue_size, six axes in one format; but in our own words.
 LITERAL = REPOSITORY / "test" / "exercises" / "literal"
@@ -84,66 +84,47 @@ TURTLEBOT = [
 ]
 
 
-class Terminal:
-    """A shell of the suite over the student's workspace, in which lines are typed."""
-
-    def __init__(self, host, workspace, **environment):
-        command = (str(REPOSITORY / "tutorial"), "shell", "--in", str(workspace))
-        self._program = host.start(*command, stdin=subprocess.PIPE, **environment)
-        self.type("echo ready", "^ready")
-
-    def type(self, line, seen):
-        """Type a line and wait for what must be seen after it."""
-        begin = len(self._program.output)
-        self._program.type(line)
-        self._program.type("echo done-$((1000 + 7))")
-
-        def shown():
-            return re.search(seen or "done-1007", self.output[begin:], re.MULTILINE)
-
-        try:
-            wait_for(shown, f"{seen or 'its end'!r} after {line!r}", DEADLINE_S)
-        except AssertionError as error:
-            raise AssertionError(f"{error}:\n{self.output[begin:][-2000:]}") from None
-
-    @property
-    def output(self):
-        """All that was printed so far."""
-        return self._program.output
-
-    def close(self):
-        """Press Ctrl-C, and leave."""
-        for pid in self._program.left_behind():
-            if pid != self._program.pid:
-                subprocess.run(["kill", "-INT", str(pid)], check=False, capture_output=True)
-        self._program.__exit__()
-
-
 class Student:
-    """A home, a workspace in it, and terminals."""
+    """A home, a workspace in it, and terminals: shells in which lines are typed."""
 
-    def __init__(self, home, host):
-        self.home, self.host = home, host
-        self.workspace = home / WORKSPACE
+    def __init__(self, home, host, suite_workspace):
+        self.host, self.workspace = host, home / WORKSPACE
         self._environment = {
             "HOME": str(home),
-            # The suite's own workspace, which is built already, and not one of this home.
-            "TUTORIAL_WORKSPACE": str(Path(os.environ["CMAKE_PREFIX_PATH"].split(":")[0]).parent),
+            "TUTORIAL_WORKSPACE": suite_workspace,  # which is built already, and not of this home
             "ROS_MASTER_URI": "http://localhost:11311",
             "ROS_HOME": str(home / ".ros"),
         }
         self._terminals = {}
 
-    def terminal(self, name):
-        """A terminal, opened if it is not."""
+    def output(self, name):
+        """Return all that was printed in a terminal."""
+        return self._terminals[name].output
+
+    def type(self, name, line, seen):
+        """Type a line in a terminal, which is opened if it is not; wait for what must be seen."""
         if name not in self._terminals:
-            self._terminals[name] = Terminal(self.host, self.workspace, **self._environment)
-        return self._terminals[name]
+            shell = (TUTORIAL, "shell", "--in", str(self.workspace))
+            self._terminals[name] = self.host.start(
+                *shell, stdin=subprocess.PIPE, **self._environment
+            )
+            self.type(name, "echo ready", "^ready")
+        begin = len(self.output(name))
+        self._terminals[name].type(line)
+        self._terminals[name].type("echo done-$((1000 + 7))")
+
+        def shown():
+            return re.search(seen or "done-1007", self.output(name)[begin:], re.MULTILINE)
+
+        try:
+            wait_for(shown, f"{seen or 'its end'!r} after {line!r}")
+        except AssertionError as error:
+            raise AssertionError(f"{error}:\n{self.output(name)[begin:][-2000:]}") from None
 
     def close(self, *names):
         """End terminals, and what runs in them."""
         for name in names or list(self._terminals):
-            self._terminals.pop(name).close()
+            self._terminals.pop(name).__exit__()
 
     def do(self, rows):
         """Type the rows."""
@@ -156,34 +137,31 @@ class Student:
                     lambda line=line, seen=seen: seen in self.run(line), f"{seen} after {line}"
                 )
             else:
-                self.terminal(name).type(line, seen.format(workspace=self.workspace))
+                self.type(name, line, seen.format(workspace=self.workspace))
 
     def run(self, line):
-        """What a command prints in a terminal that has just been opened."""
-        tutorial = [str(REPOSITORY / "tutorial"), "run", "--in", str(self.workspace)]
-        done = subprocess.run(
-            self.host.command(*tutorial, "bash", "-c", line),
-            env={**os.environ, **self._environment},
-            capture_output=True, text=True, check=False, timeout=DEADLINE_S,
-        )  # fmt: skip
-        return done.stdout + done.stderr
+        """Return what a command prints in a terminal that has just been opened."""
+        command = (TUTORIAL, "run", "--in", str(self.workspace), "bash", "-c", line)
+        with self.host.start(*command, **self._environment) as program:
+            program.wait()
+            return program.output
 
 
 @pytest.fixture
-def student(tmp_path):
+def student(tmp_path, suite_workspace):
     """On a host of their own: roscore takes the port 11311 whatever ROS_MASTER_URI says."""
     try:
         host = Host()
     except PermissionError as error:
         pytest.skip(f"no network namespace for roscore's port 11311: {error}")
-    one = Student(tmp_path, host)
+    one = Student(tmp_path, host, suite_workspace)
     yield one
     one.close()
     host.close()
 
 
 def nothing_of_ours(student):
-    """No file or node of the solutions is found from the student's terminals."""
+    """Return whether no file of the solutions is found from the student's terminals."""
     solutions = (str(REPOSITORY / "joy2twist"), str(REPOSITORY / "beginner_tutorials"))
     for package in ("joy2twist", "beginner_tutorials"):
         found = student.run(f"rospack find {package}; catkin_find {package}")
@@ -206,14 +184,14 @@ def test_the_handout_from_its_first_command_to_its_last(student):
 
 def test_the_workspace_that_a_shell_has_made_and_built_can_be_checked(student, monkeypatch):
     monkeypatch.delenv("DISPLAY", raising=False)
-    student.run("true")
-    said = student.terminal("1").output
+    student.type("1", "true", "")
+    said = student.output("1")
     assert "no screen for RViz here" in said
     assert f"packages go into {student.workspace}/src" in said
     for package in ("beginner_tutorials", "joy2twist"):
         shutil.copytree(LITERAL / package, student.workspace / "src" / package)
     student.run("catkin_make -C ~/ros/hydro/catkin_ws")
-    said = student.run(f"{REPOSITORY}/tutorial check --in ~/ros/hydro/catkin_ws 2")
+    said = student.run(f"'{TUTORIAL}' check --in ~/ros/hydro/catkin_ws 2")
     assert re.search(r"ok +C1 .*on top of this suite", said), said
     assert "1 of 1 exercises done" in said
     assert "1 of 1 exercises done" in student.run("cd / && tutorial check 2")

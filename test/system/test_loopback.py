@@ -44,7 +44,7 @@ def nothing_set(monkeypatch):
 
 
 def said(host, *command):
-    """The lines that a command on a host prints."""
+    """Return the lines that a command on a host prints."""
     command = host.command(*command)
     return subprocess.run(
         command, check=True, capture_output=True, text=True, timeout=DEADLINE_S
@@ -52,42 +52,35 @@ def said(host, *command):
 
 
 def listening(host):
-    """The TCP ports on which anything listens on a host."""
+    """Return the TCP ports on which anything listens on a host."""
     tables = "\n".join(said(host, "cat", "/proc/net/tcp", "/proc/net/tcp6"))
     return {int(port, 16) for port in re.findall(r"^ *\d+: \w+:(\w+) \w+:0000 0A ", tables, re.M)}
 
 
 def reachable(scene):
-    """Those ports of the robot to which the workstation can connect."""
+    """Return those ports of the robot to which the workstation can connect."""
     ports = [str(port) for port in sorted(listening(scene.network[ROBOT]))]
     address = scene.address(ROBOT)
     found = said(scene.network[WORKSTATION], sys.executable, "-c", CONNECT, address, *ports)
     return {int(port) for port in found}
 
 
-def start_demo(scene, **environment):
-    """The demonstration on the robot, once it drives; and the XML-RPC port of each node."""
+@pytest.mark.parametrize("is_asked_for", [False, True])
+def test_an_address_is_reached_by_other_machines_only_if_it_is_asked_for(scene, is_asked_for):
     host = scene.network[ROBOT]
-    demo = host.start(str(REPOSITORY / "tutorial"), "demo", DISPLAY="", **environment)
-    wait_for(lambda: "first /odom" in demo.output or demo.ended, "demo that drives")
-    assert not demo.ended, demo.output
-    lines = said(host, "/usr/bin/python3", "-c", XML_RPC_PORTS)
-    return demo, {name: int(port) for name, port in map(str.split, lines)}
-
-
-def test_with_nothing_set_nobody_else_reaches_master_python_nodes_or_topics(scene):
-    demo, ports = start_demo(scene)
-    with demo:
+    environment = {"ROS_IP": scene.address(ROBOT)} if is_asked_for else {}
+    with host.start(str(REPOSITORY / "tutorial"), "demo", DISPLAY="", **environment) as demo:
+        wait_for(lambda: "first /odom" in demo.output or demo.ended, "demo that drives")
+        assert not demo.ended, demo.output
+        lines = said(host, "/usr/bin/python3", "-c", XML_RPC_PORTS)
+        ports = {name: int(port) for name, port in map(str.split, lines)}
         assert set(ports) > CPP_NODES
-        assert {MASTER_PORT, *ports.values()} < listening(scene.network[ROBOT])  # and topics
-        assert reachable(scene) <= {ports[name] for name in CPP_NODES}
-
-
-def test_an_address_that_is_asked_for_is_reached(scene):
-    """What the test above would find."""
-    demo, ports = start_demo(scene, ROS_IP=scene.address(ROBOT))
-    with demo:
-        assert {MASTER_PORT, *ports.values()} < reachable(scene)
+        known = {MASTER_PORT, *ports.values()}
+        assert known < listening(host)  # and topics
+        if is_asked_for:
+            assert known < reachable(scene)
+        else:
+            assert reachable(scene) <= {ports[name] for name in CPP_NODES}
 
 
 @pytest.mark.parametrize(
@@ -102,9 +95,5 @@ def test_an_address_that_is_asked_for_is_reached(scene):
         ({"ROS_HOSTNAME": "robot"}, ""),
     ],
 )
-def test_loopback_unless_the_user_names_an_address(tutorial, monkeypatch, variables, expected):
-    for name, value in variables.items():
-        monkeypatch.setenv(name, value)
-    command = [tutorial, "run", "sh", "-c", 'echo "$ROS_IP"']
-    done = subprocess.run(command, check=True, capture_output=True, text=True, timeout=DEADLINE_S)
-    assert done.stdout.strip() == expected
+def test_loopback_unless_the_user_names_an_address(call, variables, expected):
+    assert call("run", "sh", "-c", 'echo "$ROS_IP"', **variables) == (0, f"{expected}\n")

@@ -6,13 +6,12 @@ workspace.
 """
 
 import re
-import subprocess
 from pathlib import Path
 
 import pytest
 
 from tutorial_testing.processes import Program
-from tutorial_testing.waiting import DEADLINE_S, wait_for
+from tutorial_testing.waiting import wait_for
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 README = REPOSITORY / "README.md"
@@ -66,20 +65,8 @@ ELSEWHERE = {
 }
 STUDENTS_SHELL = "./tutorial shell --in ~/catkin_ws"
 LONGEST_README = 270
-SECTIONS = [  # the handout's, and 7, which is ours
-    "2",
-    "3",
-    "4",
-    "4.2",
-    "4.3",
-    "4.4",
-    "4.5",
-    "5",
-    "6",
-    "6.1",
-    "6.2",
-    "7",
-]
+# The handout's, and 7, which is ours.
+SECTIONS = ["2", "3", "4", "4.2", "4.3", "4.4", "4.5", "5", "6", "6.1", "6.2", "7"]
 WITHOUT_EXERCISE = ("4", "6")  # they only hold others
 
 
@@ -114,13 +101,9 @@ def roscore(tutorial, master_uri):
 
 @pytest.mark.parametrize("blocks", sections())
 @pytest.mark.usefixtures("roscore")
-def test_section(blocks, tutorial, screen, tmp_path):
+def test_section(blocks, tutorial, suite_workspace, screen, tmp_path):
     environment = {"DISPLAY": screen, "LIBGL_ALWAYS_SOFTWARE": "1", "HOME": str(tmp_path)}
-    workspace = subprocess.run(
-        [tutorial, "run", "sh", "-c", "echo ${CMAKE_PREFIX_PATH%%/devel:*}"],
-        check=True, capture_output=True, text=True, timeout=DEADLINE_S,
-    ).stdout.strip()  # fmt: skip
-    environment["TUTORIAL_WORKSPACE"] = workspace  # whatever HOME is
+    environment["TUTORIAL_WORKSPACE"] = suite_workspace  # whatever HOME is
     lasting = {}
 
     def run(script, *options):

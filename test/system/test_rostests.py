@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from tutorial_testing.processes import Program
-from tutorial_testing.waiting import DEADLINE_S, wait_for
+from tutorial_testing.waiting import wait_for
 
 TESTS = Path(__file__).resolve().parents[1]
 LONG_TESTS = tuple(
@@ -19,7 +19,7 @@ LONG_TESTS = tuple(
 
 
 def networks_of_nodes(program):
-    """The networks of the nodes that roslaunch has started below a program: a set, empty before."""
+    """Return the networks of the nodes that roslaunch has started below a program; a set."""
     networks = set()
     for pid in program.left_behind():
         with contextlib.suppress(OSError):  # it has just ended
@@ -28,23 +28,15 @@ def networks_of_nodes(program):
     return networks
 
 
-def test_each_rostest_has_a_network_of_its_own(tmp_path, monkeypatch):
-    monkeypatch.setenv("ROS_IP", "192.0.2.7")  # which no machine has, and which hinders no rostest
-    if subprocess.call(["unshare", "--net", "true"], stderr=subprocess.DEVNULL):
-        pytest.skip("the system grants no networks: rostests share the machine's, as they must")
-    command = [str(TESTS / "run_rostests"), "2", str(tmp_path / "results"), *LONG_TESTS]
-    with Program(*command) as rostests:
-        wait_for(lambda: len(networks_of_nodes(rostests)) >= len(LONG_TESTS), "two networks")
-        assert os.readlink("/proc/self/ns/net") not in networks_of_nodes(rostests)
-        os.kill(rostests.pid, signal.SIGTERM)
-        rostests.wait()
-
-
 @pytest.mark.parametrize("end", ["SIGINT", "SIGTERM", "SIGHUP"])
-def test_rostests_that_are_ended_leave_nothing(end, tmp_path):
+def test_each_has_a_network_of_its_own_and_leaves_nothing(end, tmp_path, monkeypatch):
+    monkeypatch.setenv("ROS_IP", "192.0.2.7")  # which no machine has, and which hinders no rostest
+    is_refused = subprocess.call(["unshare", "--net", "true"], stderr=subprocess.DEVNULL)
+    networks = 1 if is_refused else len(LONG_TESTS)  # where refused they share the machine's
     command = [str(TESTS / "run_rostests"), "2", str(tmp_path / "results"), *LONG_TESTS]
     with Program(*command) as rostests:
-        wait_for(lambda: networks_of_nodes(rostests), "nodes", DEADLINE_S)
+        wait_for(lambda: len(networks_of_nodes(rostests)) >= networks, "nodes")
+        assert is_refused or os.readlink("/proc/self/ns/net") not in networks_of_nodes(rostests)
         os.kill(rostests.pid, signal.Signals[end])
         assert rostests.wait() == -signal.SIGINT
         assert "rostests: interrupted" in rostests.output

@@ -61,17 +61,6 @@ def bare_system(tmp_path, monkeypatch, own_workspace):
     return tmp_path
 
 
-@pytest.fixture
-def call(tutorial):
-    """A function that runs ./tutorial to its end, and returns (exit code, output)."""
-
-    def run(*words, **environment):
-        with Program(tutorial, *words, **environment) as program:
-            return program.wait(), program.output
-
-    return run
-
-
 @pytest.mark.usefixtures("bare_system")
 def test_set_up_by_sudo_shows_how_far_it_is(call):
     code, output = call("setup", "system")

@@ -23,10 +23,10 @@ def test_a_mistake_gets_one_clear_line(tutorial, arguments, expected):
     assert expected in refuse(tutorial, *arguments)
 
 
-def test_completion_in_bash(tutorial):
+def test_completion_in_bash(tutorial, call):
     script = 'eval "$("$0" completion)"; COMP_WORDS=("$0" test ex) COMP_CWORD=2; _tutorial'
-    command = ["bash", "-ec", f"{script}; echo ${{COMPREPLY[*]}}", tutorial]
-    assert subprocess.check_output(command, text=True, timeout=DEADLINE_S) == "exercises\n"
+    done = call("run", "bash", "-ec", f"{script}; echo ${{COMPREPLY[*]}}", tutorial)
+    assert done == (0, "exercises\n")
 
 
 def test_a_port_taken_by_another_program_is_named(tutorial, monkeypatch):
@@ -37,39 +37,33 @@ def test_a_port_taken_by_another_program_is_named(tutorial, monkeypatch):
     assert f"port {port} of localhost is taken by a program that is not a ROS master" in line
 
 
-def test_a_check_that_cannot_be_set_up_blames_no_student(tutorial, tmp_path, monkeypatch):
-    monkeypatch.setenv("TUTORIAL_WORKSPACE", str(tmp_path / "with space"))
-    done = subprocess.run(
-        [tutorial, "check", "--in", str(tmp_path)],
-        capture_output=True, text=True, check=False, timeout=DEADLINE_S,
-    )  # fmt: skip
-    why, verdict = done.stderr.splitlines()
+def test_a_check_that_cannot_be_set_up_blames_no_student(call, tmp_path):
+    workspace = str(tmp_path / "with space")
+    code, output = call("check", "--in", str(tmp_path), TUTORIAL_WORKSPACE=workspace)
+    why, verdict = output.splitlines()
     assert "set TUTORIAL_WORKSPACE to a path without spaces" in why
     assert verdict == "check: nothing was checked; this says nothing about your exercises"
-    assert done.returncode == 2
+    assert code == 2
 
 
 @pytest.mark.parametrize("started_by", ["roscore", "roslaunch"])
-def test_a_master_has_what_rospy_would_ask_for_with_every_line(tutorial, master_uri, started_by):
+def test_a_master_has_what_rospy_would_ask_for_with_every_line(
+    tutorial, call, master_uri, started_by
+):
     port = master_uri.rsplit(":", 1)[1]
     launch = ["beginner_tutorials", "talker_listener.launch"] * (started_by == "roslaunch")
     with Program(tutorial, "run", started_by, "-p", port, *launch) as master:
         wait_for(lambda: "process[rosout-1]: started" in master.output, "rosout")
-        asked = ["rosparam", "get", "/rosout_disable_topics_generation"]
-        done = subprocess.run([tutorial, "run", *asked], capture_output=True, check=True, text=True)
-        assert done.stdout.strip() == "false"
+        asked = call("run", "rosparam", "get", "/rosout_disable_topics_generation")
+        assert asked == (0, "false\n")
         master.interrupt()
         master.wait()
 
 
-def test_shell_and_run_see_the_workspace_and_no_shell_file_is_touched(tutorial, tmp_path):
+def test_a_shell_sees_the_workspace_and_touches_no_file(tutorial, suite_workspace, tmp_path):
     home = tmp_path / "home"
     home.mkdir()
     (home / ".bashrc").write_text("alias mine=true\n")
-    workspace = subprocess.run(
-        [tutorial, "run", "bash", "-c", "dirname ${CMAKE_PREFIX_PATH%%:*}"],
-        check=True, capture_output=True, text=True, timeout=DEADLINE_S,
-    ).stdout.strip()  # fmt: skip
     shell = subprocess.run(
         [tutorial, "shell"],
         input="pwd; alias mine; roscd joy2twist/launch; pwd; echo $CMAKE_POLICY_VERSION_MINIMUM\n"
@@ -77,18 +71,14 @@ def test_shell_and_run_see_the_workspace_and_no_shell_file_is_touched(tutorial, 
         "COMP_WORDS=(rosrun joy2twist joy2) COMP_CWORD=2; _roscomplete_exe; echo ${COMPREPLY[0]}\n"
         "wget http://127.0.0.1:9/talker.py 2>&1 | tail -n 1\n"  # installed or not
         "exit 3\n",
-        env={
-            "HOME": str(home),
-            "PATH": "/usr/bin:/bin",
-            "TUTORIAL_WORKSPACE": workspace,
-        },
+        env={"HOME": str(home), "PATH": "/usr/bin:/bin", "TUTORIAL_WORKSPACE": suite_workspace},
         cwd=tmp_path, capture_output=True, text=True, check=False, timeout=DEADLINE_S,
     )  # fmt: skip
     assert shell.returncode == 3
     assert shell.stdout.splitlines() == [
         str(tmp_path),
         "alias mine='true'",
-        f"{workspace}/src/joy2twist/launch",
+        f"{suite_workspace}/src/joy2twist/launch",
         "3.5",
         "joy2twist.py",
         "nothing was downloaded: type talker.py and listener.py as the handout lists them at the "
@@ -105,14 +95,13 @@ def test_of_two_calls_at_once_one_builds_and_both_go_on(tutorial, tmp_path):
         assert (one.output + other.output).count("tutorial: building") == 1
 
 
-def test_a_broken_package_xml_is_named_before_everything_fails_over_it(tutorial, tmp_path):
+def test_a_broken_package_xml_is_named_before_everything_fails_over_it(call, tmp_path):
     package = tmp_path / "src" / "mine" / "package.xml"
-    command = [tutorial, "run", "--in", str(tmp_path), "true"]
-    assert subprocess.run(command, check=False).returncode == 0
+    command = ["run", "--in", str(tmp_path), "true"]
+    assert call(*command)[0] == 0
     package.parent.mkdir(parents=True)
     package.write_text("<package>\n<name>mine</nam>\n</package>")
-    said = subprocess.run(command, capture_output=True, text=True, check=True).stderr
-    assert said.count("\n") == 1 and f"{package}: mismatched tag: line 2" in said
-    doctor = [tutorial, "doctor", "--in", str(tmp_path)]
-    said = subprocess.run(doctor, capture_output=True, text=True, check=False).stdout
-    assert f"wrong    overlay   {package}: mismatched tag: line 2" in said
+    code, output = call(*command)
+    assert (code, output.count("\n")) == (0, 1) and f"{package}: mismatched tag: line 2" in output
+    _, output = call("doctor", "--in", str(tmp_path))
+    assert f"wrong    overlay   {package}: mismatched tag: line 2" in output
