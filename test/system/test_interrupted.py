@@ -38,9 +38,7 @@ def tests(clone, own_workspace, tmp_path):
     return copy / "test"
 
 
-@pytest.mark.parametrize(
-    ("words", "kind"), [([], "unit"), (["unit"], "unit"), (["system"], "system")]
-)
+@pytest.mark.parametrize(("words", "kind"), [([], "unit"), (["system"], "system")])
 def test_ctrl_c_in_pytest_ends_all(tests, own_workspace, words, kind):
     with Program(str(tests.parent / "tutorial"), "test", *words) as program:
         wait_for((tests / kind / "begun").exists, "test")

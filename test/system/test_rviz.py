@@ -4,6 +4,7 @@ The picture of the README, taken when most of the figure is drawn:
     TUTORIAL_PICTURE=$PWD/fake_turtlebot_sim/doc/rviz.png ./tutorial test system -k rviz_opens
 """
 
+import contextlib
 import math
 import os
 import re
@@ -18,7 +19,6 @@ from tutorial_testing.processes import Program
 from tutorial_testing.waiting import wait_for
 
 CONFIG = Path(__file__).resolve().parents[2] / "fake_turtlebot_sim" / "rviz" / "sim.rviz"
-CLASSROOM = CONFIG.parents[2] / "common" / "cockpit" / "rviz" / "classroom.rviz"
 START_S = 120.0  # RViz without a graphics card, on a busy machine
 TRAIL_PIXELS = 1200 if "TUTORIAL_PICTURE" in os.environ else 200
 TRAIL = (255, 85, 0)  # colour of the odometry's arrows in sim.rviz
@@ -32,18 +32,16 @@ ROBOT_RADIUS_M = 0.178
 def show(screen, tutorial, master_uri):
     """A function that starts launch_bag.launch with RViz on the virtual screen."""
     assert master_uri  # a master of our own
-    programs = []
+    with contextlib.ExitStack() as stack:
 
-    def start(config):
-        environment = {"DISPLAY": screen, "LIBGL_ALWAYS_SOFTWARE": "1"}
-        programs.append(Program(tutorial, "demo", f"rviz_config:={config}", **environment))
-        return programs[-1]
+        def start(config):
+            environment = {"DISPLAY": screen, "LIBGL_ALWAYS_SOFTWARE": "1"}
+            program = Program(tutorial, "demo", f"rviz_config:={config}", **environment)
+            for end in (program.__exit__, program.wait, program.interrupt):  # the last one first
+                stack.callback(end)
+            return program
 
-    yield start
-    for program in programs:
-        with program:
-            program.interrupt()
-            program.wait()
+        yield start
 
 
 def picture(screen):
@@ -70,24 +68,20 @@ def test_rviz_opens_by_itself_and_shows_the_trail(show, screen, tmp_path):
     assert not re.search(r"\[ERROR\]|\[FATAL\]|Traceback", launch.output)
 
 
-def drawn_slowly(path, folder, change=lambda manager: None):
-    """A copy of a configuration, changed; drawn less often, as there is no graphics card."""
-    config = yaml.safe_load(path.read_text())
-    config["Visualization Manager"]["Global Options"]["Frame Rate"] = 5
-    change(config["Visualization Manager"])
-    copy = folder / path.name
-    copy.write_text(yaml.safe_dump(config))
-    return copy
-
-
-def seen_from_above(manager):
-    """Change a configuration to the robot only, from above."""
+def robot_from_above(folder):
+    """Return a copy of the configuration: the robot only, from above, drawn less often."""
+    config = yaml.safe_load(CONFIG.read_text())
+    manager = config["Visualization Manager"]
     manager["Displays"] = [d for d in manager["Displays"] if d["Class"] == "rviz/RobotModel"]
-    manager["Global Options"]["Background Color"] = "; ".join(map(str, GROUND))
+    background = "; ".join(map(str, GROUND))
+    manager["Global Options"].update({"Frame Rate": 5, "Background Color": background})
     manager["Views"]["Current"] = {
         "Class": "rviz/TopDownOrtho", "Name": "Above", "Target Frame": "<Fixed Frame>",
         "Scale": SCALE, "X": 0, "Y": 0, "Angle": 0,
     }  # fmt: skip
+    copy = folder / CONFIG.name
+    copy.write_text(yaml.safe_dump(config))
+    return copy
 
 
 def robot_on(pixels):
@@ -107,7 +101,7 @@ def robot_on(pixels):
 
 
 def test_rviz_shows_the_robot_where_odom_says(show, screen, tutorial, tmp_path):
-    show(drawn_slowly(CONFIG, tmp_path, seen_from_above))
+    show(robot_from_above(tmp_path))
     wait_for(lambda: robot_on(picture(screen)), "robot on the screen", START_S)
     with Program(tutorial, "run", "rostopic", "echo", "-p", "/odom/pose/pose/position") as echo:
         wait_for(lambda: len(places(echo.output)) > LATENESS, "odometry", START_S)
