@@ -14,78 +14,57 @@ from pathlib import Path
 
 import pytest
 
+from tutorial_testing.kernel import machine
+from tutorial_testing.kernel.machine import makes_joysticks
 from tutorial_testing.processes import Program
-from tutorial_testing.waiting import wait_for
 
-KERNEL = Path(__file__).parents[1] / "src" / "tutorial_testing" / "kernel"
-from tutorial_testing.kernel.machine import (  # noqa: E402  the folder of this test
-    EXIT,
-    SHIFT,
-    MachineError,
-    NoKernelError,
-    command_of_machine,
-    kernel,
-    make_initramfs,
-    makes_joysticks,
-)
-
-# Without a new line of the program. Alone each of the two takes some minutes, the start of Chromium
-# more than one of them; how long beside other tests is theirs to say.
-SILENT_S = 900.0
+KERNEL = Path(machine.__file__).parent
+# Alone each of the two takes some minutes; beside other tests several times as long.
+LONGEST_S = 3600.0
 # A processor twice as fast as for nodes alone: 0.2 s after a beat the cockpit calls a page late.
 SHIFT_OF_PAGE = 0
 UDEVD, UDEV_RUNS = "/lib/systemd/systemd-udevd", Path("/run/udev/control")
 NOT_HERE = "no /dev/uinput and joydev here, and no machine in the machine"
 ROS_ENVIRONMENT = ("PATH", "PYTHONPATH", "CMAKE_PREFIX_PATH", "LD_LIBRARY_PATH", "PKG_CONFIG_PATH")
+OWN = ("ROS_IP", "ROS_LOG_DIR")  # of this machine alone
 
 
 def environment_of_guest():
-    names = [name for name in os.environ if name in ROS_ENVIRONMENT or name.startswith("ROS_")]
-    names = [name for name in names if name not in ("ROS_IP", "ROS_LOG_DIR")]
-    given = {name: os.environ[name] for name in names}
+    """Return what the guest's environment has of this one, as words of env."""
+    given = {
+        name: value
+        for name, value in os.environ.items()
+        if (name in ROS_ENVIRONMENT or name.startswith("ROS_")) and name not in OWN
+    }
     # A folder of the guest's own: QEMU, which another user than root runs, may not read root's.
     given.update(HOME="/run", ROS_HOSTNAME="localhost", PYTHONUNBUFFERED="1")
     given["ROS_MASTER_URI"] = "http://localhost:11311"
     return [f"{name}={value}" for name, value in given.items()]
 
 
-def start_here(command):
-    """(where it runs, the program)."""
-    return f"here, Linux {platform.release()}", Program(*command)
-
-
 def start_in_guest(command, tmp_path, shift):
-    """(where it runs, the program)."""
+    """Return (where it runs, the program)."""
     try:
-        image, tree = kernel()
-    except NoKernelError as error:
+        image, tree = machine.kernel()
+    except machine.NoKernelError as error:
         pytest.skip(f"{NOT_HERE}: {error}")
-    except MachineError as error:
+    except machine.MachineError as error:
         pytest.fail(f"{NOT_HERE}: {error}")
     command = ["/usr/bin/env", "-i", *environment_of_guest(), *command]
-    make_initramfs(tmp_path / "initramfs", tree, command)
+    machine.make_initramfs(tmp_path / "initramfs", tree, command)
     where = f"in QEMU, {image.name.replace('vmlinuz-', 'Linux ')}"
-    return where, Program(*command_of_machine(image, tmp_path / "initramfs", shift))
+    return where, Program(*machine.command_of_machine(image, tmp_path / "initramfs", shift))
 
 
-def wait_while_it_speaks(program):
-    """Wait for the end of a Program; return its exit code. AssertionError if it falls silent."""
-    while not program.ended:
-        said = len(program.output)
-        wait_for(
-            lambda: program.ended or len(program.output) > said,  # noqa: B023  called at once
-            f"further line, after:\n{program.output}",
-            SILENT_S,
-        )
-    return program.wait()
-
-
-def run(name, command, here, tmp_path, capsys, *, shift=SHIFT):
-    """Run a program to its end, and show what it tells; AssertionError unless it says "passed"."""
-    where, program = start_here(command) if here else start_in_guest(command, tmp_path, shift)
+def run(name, command, here, tmp_path, capsys, *, shift=machine.SHIFT):
+    """Run a program to its end, and show what it reports; AssertionError unless it passes."""
+    if here:
+        where, program = f"here, Linux {platform.release()}", Program(*command)
+    else:
+        where, program = start_in_guest(command, tmp_path, shift)
     with program:
         try:
-            status = wait_while_it_speaks(program)
+            status = program.wait(LONGEST_S)
         finally:
             output = program.output
             said = re.findall(r"^drive: .*?(?=\r?$)", output, re.MULTILINE)
@@ -93,7 +72,7 @@ def run(name, command, here, tmp_path, capsys, *, shift=SHIFT):
                 print(f"\n{name}, {where}:", *said, sep="\n  ")
             print(output)  # which pytest shows if this fails
     if not here:  # the exit code was that of QEMU
-        ended = re.search(f"{EXIT} (\\d+)", output)
+        ended = re.search(f"{machine.EXIT} (\\d+)", output)
         status = int(ended[1]) if ended else None
     assert status == 0
     assert said[-1] == "drive: passed"
