@@ -11,25 +11,25 @@ CLEAN = {
     "HOME": os.environ["HOME"],
     "ROS_HOSTNAME": "localhost",
 }  # no workspace sourced
-NODES = {
-    "beginner_tutorials": ["talker.py", "listener.py"],
-    "joy2twist": ["joy2twist.py", "display_joy.py", "publish_twist.py"],
-    "gamepad": ["joy_node", "virtual_joystick"],
-    "tutorial_tools": ["demo.py", "doctor.py", "draw_graph.py"],
-    "fake_turtlebot_sim": ["fake_turtlebot.py"],
-}
+NODES = [
+    ("beginner_tutorials", "talker.py"), ("beginner_tutorials", "listener.py"),
+    ("joy2twist", "joy2twist.py"), ("joy2twist", "display_joy.py"),
+    ("joy2twist", "publish_twist.py"), ("gamepad", "joy_node"), ("gamepad", "virtual_joystick"),
+    ("tutorial_tools", "demo.py"), ("tutorial_tools", "doctor.py"),
+    ("tutorial_tools", "draw_graph.py"), ("fake_turtlebot_sim", "fake_turtlebot.py"),
+]  # fmt: skip
+FILES = [
+    ("joy2twist", "bag/joy.bag"), ("joy2twist", "launch/launch_bag.launch"),
+    ("fake_turtlebot_sim", "rviz/sim.rviz"), ("fake_turtlebot_sim", "urdf/turtlebot.urdf"),
+]  # fmt: skip
 
 
 def shell(script, **environment):
     """Run a script with bash in the clean environment; return what it printed."""
     done = subprocess.run(
-        ["bash", "-ec", script],
-        env={**CLEAN, **environment},
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=300,
-    )
+        ["bash", "-ec", script], env={**CLEAN, **environment},
+        capture_output=True, text=True, check=False, timeout=300,
+    )  # fmt: skip
     assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
     return done.stdout
 
@@ -48,19 +48,13 @@ def workspace(clone, tmp_path_factory):
 
 @pytest.mark.parametrize("space", ["devel", "install"])
 def test_every_node_and_file_is_found(workspace, space):
-    enter = f"source '{workspace}/{space}/setup.bash'"
-    for package, nodes in NODES.items():
-        for node in nodes:
-            found = shell(f"{enter}; catkin_find --libexec {package} {node}").split()
-            assert len(found) == 1, node
-            assert Path(found[0]).read_text().startswith("#!/usr/bin/python3\n")
-    for package, name in (
-        ("joy2twist", "bag/joy.bag"),
-        ("joy2twist", "launch/launch_bag.launch"),
-        ("fake_turtlebot_sim", "rviz/sim.rviz"),
-        ("fake_turtlebot_sim", "urdf/turtlebot.urdf"),
-    ):
-        assert shell(f"{enter}; test -f $(rospack find {package})/{name} && echo there")
+    find = [f"source '{workspace}/{space}/setup.bash'"]
+    find += [f"catkin_find --libexec {package} {node}" for package, node in NODES]
+    nodes = shell("\n".join(find)).splitlines()
+    assert [Path(path).name for path in nodes] == [node for _, node in NODES]
+    assert all(Path(path).read_text().startswith("#!/usr/bin/python3\n") for path in nodes)
+    find[1:] = [f"test -f $(rospack find {package})/{name}" for package, name in FILES]
+    shell("\n".join(find))
 
 
 def test_the_installed_suite_drives(workspace, master_uri):
