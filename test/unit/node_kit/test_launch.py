@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from node_kit import launch
-from node_kit.launch import complaint, name_of, will_start
+from node_kit.launch import check_names, will_start
 
 KIT = Path(__file__).resolve().parents[3] / "common" / "node_kit"
 PYTHON = "/usr/bin/python3"
@@ -36,11 +36,13 @@ def test_only_roslaunch_starts_nodes(command, starts):
 def test_the_first_name_that_is_held_is_reported_with_what_to_do(monkeypatch):
     held = {"/robot_7/joy_node": ("http://here:1", "at http://here:1, process 5")}
     monkeypatch.setattr(launch, "holder", lambda _, name: held.get(name))
-    line = complaint(["/rosbag", "/robot_7//joy_node"], "http://localhost:11311")
-    assert line.startswith("/robot_7/joy_node runs already, at http://here:1, process 5: end it")
-    assert "rosnode kill /robot_7/joy_node" in line
-    assert "ROS_MASTER_URI=" in line
-    assert complaint(["rosbag"], "http://localhost:11311") is None
+    with pytest.raises(SystemExit) as end:
+        check_names(["/rosbag", "/robot_7//joy_node"], "http://localhost:11311")
+    name = "/robot_7/joy_node"
+    line = f"roslaunch: {name} runs already, at http://here:1, process 5: end it first"
+    assert end.value.code.startswith(line)
+    assert f"rosnode kill {name}" in end.value.code and "ROS_MASTER_URI=" in end.value.code
+    check_names(["rosbag"], "http://localhost:11311")
 
 
 def ends_launch(script):
@@ -64,8 +66,3 @@ def test_a_signal_ends_it_as_it_ends_the_node(number):
     assert node.stdout.readline() == "ready\n"
     os.killpg(node.pid, number)  # as roslaunch does
     assert (node.communicate(timeout=60)[0], node.returncode) == ("ended\n", 5)
-
-
-def test_the_name_that_roslaunch_gives():
-    assert name_of(["/usr/lib/rosbag/play", "a.bag", "__name:=rosbag"]) == "rosbag"
-    assert name_of(["play"]) == "play"

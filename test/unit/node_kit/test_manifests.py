@@ -3,7 +3,7 @@
 import pytest
 import rospkg
 
-from node_kit.manifests import broken_manifests, main
+from node_kit.manifests import broken_manifests
 
 GOOD = "<package><name>good</name></package>"
 
@@ -43,16 +43,3 @@ def test_what_rospkg_does_not_read_may_be_broken(tmp_path):
     assert rospkg.RosPack([str(tmp_path / "ignored"), str(tmp_path / "good")]).list() == ["good"]
     assert broken_manifests(tmp_path) == []
     assert broken_manifests(tmp_path / "nothing") == []
-
-
-def test_the_command_names_them(tmp_path, monkeypatch, capsys):
-    package(tmp_path / "bad", "")
-    for folder, code in ((tmp_path, True), (tmp_path / "nothing", False)):
-        monkeypatch.setattr("sys.argv", ["manifests", str(folder)])
-        with pytest.raises(SystemExit) as end:
-            main()
-        assert end.value.code == code
-    assert (
-        capsys.readouterr().out
-        == f"{tmp_path}/bad/package.xml: no element found: line 1, column 0\n"
-    )

@@ -2,7 +2,7 @@
 
 import select
 import socket
-import threading
+from types import SimpleNamespace
 
 import pytest
 
@@ -78,7 +78,7 @@ def test_a_side_that_has_gone_is_an_error_in_the_end(connection):
             select.select([], [near], [], DEADLINE_S)
 
 
-# At which number of resends what is done, and what then arrives. None: free() is called.
+# (number of resends, number of the message or None for free(), numbers of what then arrives)
 CUT = [
     (0, 1, [1]),
     (1, 2, [2]),  # one lost packet
@@ -93,12 +93,23 @@ CUT = [
     (0, None, []),
     (0, 11, [11]),
 ]
+HELD = [(0, 1, []), (0, 2, []), (0, None, []), (0, 3, [3]), (0, None, [])]
 
 
-def play_cut(near, far, steps, monkeypatch, **options):
-    """Do the steps; return what was reported meanwhile."""
+@pytest.mark.parametrize(
+    ("steps", "stop", "held", "reports"),
+    [
+        (CUT, STOP, False, [True, False, True, False]),
+        (HELD, STOP, True, [False]),
+        ([(100, 7, [7])], None, False, []),  # without a stop no connection counts as cut
+    ],
+)
+def test_a_cut_or_held_connection_is_driven_only_after_the_release(
+    connection, monkeypatch, steps, stop, held, reports
+):
+    near, far = connection
     reported = []
-    sender = NewestOnly(near, STOP, reported.append, **options)
+    sender = NewestOnly(near, stop, reported.append, held=held)
     for resends, number, arriving in steps:
         monkeypatch.setattr(newest_only, "resends", lambda _, count=resends: count)
         if number is None:
@@ -109,26 +120,7 @@ def play_cut(near, far, steps, monkeypatch, **options):
             data = far.recv(SIZE, socket.MSG_WAITALL)
             assert int.from_bytes(data[:4], "little") == expected
         assert not select.select([far], [], [], 0)[0], number
-    return reported
-
-
-def test_after_a_cut_nothing_is_driven_before_the_release(connection, monkeypatch):
-    assert play_cut(*connection, CUT, monkeypatch) == [True, False, True, False]
-
-
-def test_a_connection_that_is_held_from_the_start_is_free_after_the_release(
-    connection, monkeypatch
-):
-    steps = [(0, 1, []), (0, 2, []), (0, None, []), (0, 3, [3]), (0, None, [])]
-    assert play_cut(*connection, steps, monkeypatch, held=True) == [False]
-
-
-def test_without_a_stop_no_connection_is_taken_for_cut(connection, monkeypatch):
-    near, far = connection
-    monkeypatch.setattr(newest_only, "resends", lambda _: 100)
-    sender = NewestOnly(near)
-    sender.write(message(7))
-    assert far.recv(SIZE, socket.MSG_WAITALL) == message(7)
+    assert reported == reports
 
 
 class Answering:
@@ -160,28 +152,25 @@ def test_an_answer_that_is_short_or_cannot_be_right_is_no_cut(resends, infos):
         assert newest_only.resends(Answering(bytes(info))) == resends, info
 
 
-def test_a_connection_that_works_has_no_resends(connection):
+def test_a_new_connection_is_whole_prompt_and_has_the_buffer_that_was_asked_for(connection):
     near, far = connection
-    near.sendall(STOP)
-    far.recv(SIZE, socket.MSG_WAITALL)
+    NewestOnly(near, buffer_bytes=8192).write(STOP)
+    assert far.recv(SIZE, socket.MSG_WAITALL) == STOP
     assert newest_only.resends(near) == 0
+    assert near.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY)
+    assert near.getsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF) == 2 * 8192  # doubled by Linux
 
 
 FIRST, SECOND, THIRD, LAST = b"11111111", b"22222222", b"33333333", b"00000000"
+FULL = BlockingIOError()
 
 
 class Near:
     """A socket that takes what the test says: so many bytes, or an error; after that, all."""
 
     def __init__(self, real, *answers):
-        self._real, self._answers = real, list(answers)
-        self.options, self.sent = [], b""
-
-    def setsockopt(self, *option):
-        self.options.append(option)
-
-    def fileno(self):
-        return self._real.fileno()
+        self.fileno, self.setsockopt = real.fileno, real.setsockopt
+        self._answers, self.sent = list(answers), b""
 
     def send(self, data, flags):
         answer = self._answers.pop(0) if self._answers else len(data)
@@ -192,102 +181,66 @@ class Near:
 
 
 @pytest.fixture
-def real():
-    """One end of a connection, which takes more."""
-    near, far = socket.socketpair()
-    with near, far:
-        yield near
-
-
-@pytest.fixture
 def threads(monkeypatch):
-    """The threads that were started: not yet run, as (target, whether it is a daemon)."""
+    """The threads that were started, as functions that the test runs."""
     started = []
 
-    class Thread:
-        def __init__(self, target, daemon=False):
-            self._about = (target, daemon)
+    def thread(target, daemon):
+        assert daemon  # it keeps no program alive
+        return SimpleNamespace(start=lambda: started.append(target))
 
-        def start(self):
-            started.append(self._about)
-
-    monkeypatch.setattr(threading, "Thread", Thread)
+    monkeypatch.setattr(newest_only.threading, "Thread", thread)
     return started
 
 
-def test_a_message_waits_for_no_answer_and_the_buffer_is_as_asked_for(real):
-    near = Near(real)
-    NewestOnly(near, buffer_bytes=8192)
-    assert near.options == [
-        (socket.IPPROTO_TCP, socket.TCP_NODELAY, 1),
-        (socket.SOL_SOCKET, socket.SO_SNDBUF, 8192),
-    ]
-
-
-def test_one_thread_which_keeps_no_program_alive_sends_the_rest(real, threads):
-    near = Near(real, 3)
+@pytest.mark.parametrize(
+    ("answers", "before", "after", "sent", "count"),
+    [
+        ([3], [FIRST, SECOND, THIRD], [], FIRST + THIRD, 1),  # of those that wait the newest
+        ([], [FIRST], [SECOND], FIRST + SECOND, 0),  # what the kernel takes needs no thread
+        ([FULL, 1, FULL, 1, 6], [FIRST], [SECOND], FIRST + SECOND, 1),  # never torn
+        ([FULL, FULL, 3], [FIRST, SECOND], [], SECOND, 1),  # nothing of the first was taken
+        ([3, 5, 0], [FIRST], [SECOND], FIRST + SECOND, 2),  # behind again: a thread again
+    ],
+)
+def test_a_thread_sends_what_the_kernel_does_not_take(
+    connection, threads, answers, before, after, sent, count
+):
+    near = Near(connection[0], *answers)
     sender = NewestOnly(near)
-    for one in (FIRST, SECOND, THIRD):
+    for one in before:
         sender.write(one)
-    ((catch_up, is_daemon),) = threads
-    assert is_daemon
-    assert near.sent == FIRST[:3]
-    catch_up()
-    assert near.sent == FIRST + THIRD
-
-
-@pytest.mark.parametrize("answers", [(), (BlockingIOError(), 1, BlockingIOError(), 1, 6)])
-def test_a_message_is_never_torn(real, threads, answers):
-    near = Near(real, *answers)
-    sender = NewestOnly(near)
-    sender.write(FIRST)
-    assert len(threads) == (answers != ())  # what the kernel takes needs no thread
-    for catch_up, _ in threads:
+    done = len(threads)
+    assert done <= 1
+    for catch_up in threads:
         catch_up()
-    sender.write(SECOND)
-    assert near.sent == FIRST + SECOND
-
-
-def test_a_message_of_which_nothing_was_taken_gives_way_to_a_newer_one(real, threads):
-    near = Near(real, BlockingIOError(), BlockingIOError(), 3)
-    sender = NewestOnly(near)
-    sender.write(FIRST)
-    sender.write(SECOND)
-    threads[0][0]()
-    assert near.sent == SECOND
-
-
-def test_a_connection_that_is_behind_again_gets_a_thread_again(real, threads):
-    near = Near(real, 3, 5, 0)
-    sender = NewestOnly(near)
-    sender.write(FIRST)
-    threads[0][0]()
-    sender.write(SECOND)
-    assert len(threads) == 2
-    threads[1][0]()
-    assert near.sent == FIRST + SECOND
+    for one in after:
+        sender.write(one)
+    for catch_up in threads[done:]:
+        catch_up()
+    assert (near.sent, len(threads)) == (sent, count)
 
 
 def test_a_connection_that_is_cut_while_it_is_behind_gets_the_stop_alone(
-    real, threads, monkeypatch
+    connection, threads, monkeypatch
 ):
     monkeypatch.setattr(newest_only, "resends", lambda _: 0)
-    near = Near(real, 3)
+    near = Near(connection[0], 3)
     sender = NewestOnly(near, LAST)
     sender.write(FIRST)
     sender.write(SECOND)
     monkeypatch.setattr(newest_only, "resends", lambda _: 2)
     sender.write(THIRD)
     sender.write(THIRD)
-    threads[0][0]()
+    threads[0]()
     assert near.sent == FIRST + LAST
 
 
-def test_a_connection_that_is_closed_while_it_is_behind_ends_the_thread(real, threads):
-    near = Near(real, 3, OSError("closed"))
+def test_a_connection_that_is_closed_while_it_is_behind_ends_the_thread(connection, threads):
+    near = Near(connection[0], 3, OSError("closed"))
     sender = NewestOnly(near)
     sender.write(FIRST)
-    real.close()
-    threads[0][0]()
+    connection[0].close()
+    threads[0]()
     with pytest.raises(OSError, match="closed"):
         sender.write(SECOND)

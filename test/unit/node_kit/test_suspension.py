@@ -1,4 +1,4 @@
-"""Suspensions: noticed however short, and what was sent meanwhile is not obeyed."""
+"""A suspension is noticed however short, and what was sent meanwhile is not obeyed."""
 
 import signal
 import time
@@ -41,32 +41,21 @@ def clock(monkeypatch):
     signal.signal(signal.SIGCONT, before)
 
 
-def test_a_clock_that_jumps_is_one(clock):
+@pytest.mark.parametrize(
+    "steps",  # (time that passes [s], whether SIGCONT comes then, suspensions so far)
+    [
+        [(0.45, False, 0), (0.1, False, 1), (0.0, False, 1)],  # busy, then suspended
+        [(0.001, True, 1)],  # a stop by a signal, however short
+        [(3.0, False, 1), (0.01, True, 1), (0.2, True, 2)],  # clock and signal notice the same one
+    ],
+)
+def test_suspensions_are_counted_once(clock, steps):
     suspensions = Suspensions()
-    clock[0] += 0.45  # busy
-    assert suspensions.number() == 0
-    clock[0] += 0.1
-    assert suspensions.number() == 1
-    assert suspensions.number() == 1
-
-
-def test_a_stop_by_a_signal_is_noticed_however_short(clock):
-    suspensions = Suspensions()
-    clock[0] += 0.001
-    signal.raise_signal(signal.SIGCONT)
-    assert suspensions.number() == 1
-
-
-def test_the_clock_and_the_signal_are_one(clock):
-    suspensions = Suspensions()
-    clock[0] += 3.0
-    assert suspensions.number() == 1
-    clock[0] += 0.01
-    signal.raise_signal(signal.SIGCONT)
-    assert suspensions.number() == 1
-    clock[0] += 0.2
-    signal.raise_signal(signal.SIGCONT)
-    assert suspensions.number() == 2
+    for passed_s, is_continued, number in steps:
+        clock[0] += passed_s
+        if is_continued:
+            signal.raise_signal(signal.SIGCONT)
+        assert suspensions.number() == number
 
 
 def test_one_in_the_middle_of_a_look_is_noticed(clock, monkeypatch):

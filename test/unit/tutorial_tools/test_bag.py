@@ -1,10 +1,10 @@
-"""rqt_bag of this suite: the picture of a joystick, and its words about a file that is no bag."""
+"""rqt_bag of this suite: the picture of a joystick, and its line about a file that is no bag."""
 
 from xml.etree import ElementTree
 
 import pytest
 
-from tutorial_tools.bag import curves, read, svg
+from tutorial_tools.bag import curves, main, svg
 
 RECORDED = [(10.0, (0.0, 0.0, 1.0), (0, 0)), (11.0, (0.0, 0.5, 1.0), (0, 1)), (12.0, (0.0, -1.0, 1.0), (0, 0))]  # fmt: skip  # noqa: E501
 
@@ -41,13 +41,14 @@ def test_the_picture_is_well_formed_and_has_a_line_for_each():
         (b"#ROSBAG V2.0\n", "cut short; mend it with: rosbag reindex"),
     ],
 )
-def test_what_is_no_whole_bag(tmp_path, data, words):
+def test_a_file_that_is_no_whole_bag_is_one_line(tmp_path, monkeypatch, data, words):
     path = tmp_path / "joy.bag"
     if data == "folder":
         path.mkdir()
     elif data is not None:
         path.write_bytes(data)
+    monkeypatch.setattr("sys.argv", ["rqt_bag", str(path)])
     with pytest.raises(SystemExit) as end:
-        read(path)
+        main()
     (line,) = str(end.value).splitlines()
     assert words in line

@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from tutorial_tools.demo.launch import DemoError, DriveReport
+from tutorial_tools.bag import BagError
+from tutorial_tools.demo.launch import DriveReport
 from tutorial_tools.demo.program import check_bag, in_the_way, refusal
 from tutorial_tools.launch_arguments import launch_arguments
 
@@ -19,7 +20,7 @@ TOPICS = ("/joy", "/cmd_vel", "/odom")
 def test_a_truncated_bag_gets_one_clear_line(tmp_path, capfd, size):
     bag = tmp_path / "truncated.bag"
     bag.write_bytes((JOY2TWIST / "bag" / "joy.bag").read_bytes()[:size])
-    with pytest.raises(DemoError) as said:
+    with pytest.raises(BagError) as said:
         check_bag(str(bag))
     assert str(said.value).startswith(f"{bag}: ")
     assert len(str(said.value).splitlines()) == 1

@@ -30,13 +30,8 @@ ENDING = (signal.SIGINT, signal.SIGTERM)  # what roslaunch ends a node with
 LONGEST_END_S = 60.0  # roslaunch kills whatever still runs after some 20 s
 
 
-def reader() -> list[str]:
-    """Return the command line of the parent: of the program that reads the launch file."""
-    return Path(f"/proc/{os.getppid()}/cmdline").read_bytes().decode(errors="replace").split("\0")
-
-
 def will_start(command: list[str]) -> bool:
-    """Return whether the program of this command line starts nodes on the master of all.
+    """Return whether the program of this command line starts nodes on the user's master.
 
     rostest has a master of its own, roslaunch-check starts nothing.
     """
@@ -44,32 +39,29 @@ def will_start(command: list[str]) -> bool:
     return "roslaunch" in names and not any(map(ONLY_READS.match, command))
 
 
-def complaint(names: list[str], master_uri: str) -> str | None:
-    """Return one line about the first of the names that a node holds, or None."""
+def _parent_starts_nodes() -> bool:
+    """Return whether the program that reads the launch file starts its nodes."""
+    words = Path(f"/proc/{os.getppid()}/cmdline").read_bytes().decode(errors="replace")
+    return will_start(words.split("\0"))
+
+
+def check_names(names: list[str], master_uri: str) -> None:
+    """Exit with one line if a node holds one of the names."""
     for name in [re.sub("/+", "/", f"/{given}") for given in names]:
         held = holder(master_uri, name)
         if held:
-            return (
-                f"{name} runs already, {held[1]}: end it first (Ctrl-C in its terminal, or rosnode "
-                f"kill {name}), or have a master of your own (export "
-                "ROS_MASTER_URI=http://localhost:11312)"
+            sys.exit(
+                f"roslaunch: {name} runs already, {held[1]}: end it first (Ctrl-C in its terminal, "
+                f"or rosnode kill {name}), or have a master of your own "
+                "(export ROS_MASTER_URI=http://localhost:11312)"
             )
-    return None
 
 
 def names_free() -> None:
     """Check the names of the command line; the output becomes the value of the parameter."""
-    uri = os.environ.get("ROS_MASTER_URI") or DEFAULT_MASTER
-    line = complaint(sys.argv[1:], uri) if will_start(reader()) else None
-    if line:
-        sys.exit(f"roslaunch: {line}")
+    if _parent_starts_nodes():
+        check_names(sys.argv[1:], os.environ.get("ROS_MASTER_URI") or DEFAULT_MASTER)
     print("true")
-
-
-def name_of(command: list[str]) -> str:
-    """Return the name that roslaunch gives the node of a command line."""
-    names = [word.partition(":=")[2] for word in command if word.startswith("__name:=")]
-    return names[0] if names else command[0]
 
 
 def ends_launch() -> None:
@@ -79,9 +71,10 @@ def ends_launch() -> None:
         signal.signal(number, lambda *_: ended.set())
     code = subprocess.call(command)
     signal.pthread_sigmask(signal.SIG_BLOCK, ENDING)
-    if ended.is_set() or code != 0 or not will_start(reader()):
+    if ended.is_set() or code != 0 or not _parent_starts_nodes():
         sys.exit(code if code >= 0 else 128 - code)
-    print(f"roslaunch: {name_of(command)} has finished, which ends this launch", file=sys.stderr)
+    name = next((word[8:] for word in command if word.startswith("__name:=")), command[0])
+    print(f"roslaunch: {name} has finished, which ends this launch", file=sys.stderr)
     os.kill(os.getppid(), signal.SIGINT)
     # A node that exits before roslaunch has begun to end is reported as one that has died.
     signal.sigtimedwait(ENDING, LONGEST_END_S)

@@ -7,7 +7,6 @@ names no file.
 from __future__ import annotations
 
 import os
-import sys
 from pathlib import Path
 from typing import Iterator
 from xml.etree import ElementTree
@@ -42,15 +41,3 @@ def _complaint(path: Path) -> str:
     except (ElementTree.ParseError, OSError, ValueError, LookupError) as error:
         return str(error)
     return "" if name is not None else "it has no <name>"
-
-
-def main() -> None:
-    """Print those below the folder of the command line; exit code 1 if there are any."""
-    broken = broken_manifests(sys.argv[1])
-    for path, complaint in broken:
-        print(f"{path}: {complaint}")
-    sys.exit(bool(broken))
-
-
-if __name__ == "__main__":
-    main()

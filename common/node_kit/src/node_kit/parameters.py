@@ -60,13 +60,15 @@ def checked(
     for name, one in known.items():
         if name in given:
             values[name] = checked_value(f"{where}{name}", given[name], one.metadata["check"])
-        elif one.default_factory is not MISSING:
-            values[name] = one.default_factory()
-        elif one.default is MISSING:
-            raise ValueError(f"{where}{name}: missing; {example}")
         else:
-            values[name] = one.default
+            values[name] = _default(one)
+            if values[name] is MISSING:
+                raise ValueError(f"{where}{name}: missing; {example}")
     return values
+
+
+def _default(one: Field[Any]) -> Any:
+    return one.default if one.default_factory is MISSING else one.default_factory()
 
 
 def declared(kind: type) -> dict[str, Field[Any]]:
@@ -96,8 +98,7 @@ def table(kind: type, where: str = "~") -> str:
     """Return the Markdown table of the parameters that a dataclass declares; where: as above."""
     rows = ["| parameter | default | allowed | |", "|---|---|---|---|"]
     for name, one in declared(kind).items():
-        value = one.default if one.default_factory is MISSING else one.default_factory()
-        default = one.metadata["default"] or _as_yaml(value)
+        default = one.metadata["default"] or _as_yaml(_default(one))
         allowed = getattr(one.metadata["check"], "allowed", "")
         rows.append(f"| `{where}{name}` | {default} | {allowed} | {one.metadata['meaning']} |")
     return "\n".join(rows) + "\n"

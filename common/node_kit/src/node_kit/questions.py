@@ -29,6 +29,16 @@ class Answer(Enum):
     STRANGE = "is something else, and not of ROS"
 
 
+# The answer that an exception stands for: the first that fits.
+_MEANINGS = (
+    (ConnectionRefusedError, Answer.REFUSED),
+    (socket.gaierror, Answer.UNKNOWN_NAME),
+    (ConnectionError, Answer.STRANGE),
+    (OSError, Answer.SILENT),  # a timeout, or no way to that host
+    (Exception, Answer.STRANGE),  # whatever that program answered, it is not ROS
+)
+
+
 class _Transport(xmlrpc.client.Transport):
     def __init__(self, timeout_s: float) -> None:
         super().__init__()
@@ -51,41 +61,28 @@ def call(
     answer: list[tuple[Answer, Any]] = [(Answer.SILENT, None)]
 
     def ask() -> None:
-        answer[0] = _call(uri, method, arguments, caller or f"/question_{os.getpid()}", timeout_s)
+        try:
+            with xmlrpc.client.ServerProxy(uri, transport=_Transport(timeout_s)) as server:
+                name = caller or f"/question_{os.getpid()}"
+                code, _, value = getattr(server, method)(name, *arguments)
+                answer[0] = (Answer.WELL if code == 1 else Answer.STRANGE, value)
+        except Exception as error:
+            answer[0] = (next(a for kind, a in _MEANINGS if isinstance(error, kind)), None)
 
-    # Not only a timeout of the socket: another kind of server may send and send, and a look-up of a
-    # name has none.
+    # The timeout of a socket is not enough: another kind of server may keep sending, and the
+    # look-up of a name has none.
     thread = threading.Thread(target=ask, daemon=True)
     thread.start()
     thread.join(2 * timeout_s)
     return answer[0]
 
 
-def _call(
-    uri: str, method: str, arguments: tuple[Any, ...], caller: str, timeout_s: float
-) -> tuple[Answer, Any]:
-    try:
-        with xmlrpc.client.ServerProxy(uri, transport=_Transport(timeout_s)) as server:
-            code, _, value = getattr(server, method)(caller, *arguments)
-    except ConnectionRefusedError:
-        return Answer.REFUSED, None
-    except socket.gaierror:
-        return Answer.UNKNOWN_NAME, None
-    except ConnectionError:
-        return Answer.STRANGE, None
-    except OSError:  # a timeout, or no way to that host
-        return Answer.SILENT, None
-    except Exception:  # whatever that program answered, it is not ROS
-        return Answer.STRANGE, None
-    return (Answer.WELL, value) if code == 1 else (Answer.STRANGE, value)
-
-
 def holder(master_uri: str, name: str) -> tuple[str, str] | None:
     """Return where the node of a name runs, as (uri, words), or None if the name is free.
 
-    A name whose node is dead (its port refuses or belongs to another node, or its host is gone) is
-    free. One whose node accepts the connection but does not answer is not: it may be stopped, and
-    go on.
+    The name of a dead node is free: its port refuses or belongs to another node, or its host is
+    gone. The name of a node that accepts the connection but does not answer is not free: the node
+    may be stopped, and resume.
     """
     answer, uri = call(master_uri, "lookupNode", name)
     if answer is not Answer.WELL:

@@ -28,9 +28,8 @@ class Ros1Side:
         self._routes = {route.topic: route for route in routes}
         self._warn = warn
         self._sender: Sender | None = None
-        self._latched: dict[
-            tuple[str, str], Frame
-        ] = {}  # by topic and sender, for a new other side
+        # By topic and sender, for another side that starts anew.
+        self._latched: dict[tuple[str, str], Frame] = {}
         self._publishers: dict[str, tuple[str, RawPublisher | None]] = {}  # by topic, with the type
         self._lock = threading.Lock()
         self._unknown: dict[str, str] = {}  # by topic: which of its types is not known here

@@ -48,11 +48,26 @@ class Ros2Side:
         self._look()
 
     def _say(self, topic: str, line: str) -> None:
-        """Report to the user, each line once, and to the other side, what is wrong with a topic."""
+        """Report what is wrong with a topic: to the user, each line once, and to the other side."""
         self._wrong[topic] = line
         if line not in self._said:
             self._said.add(line)
             self.node.get_logger().warning(line)
+
+    def _say_lost(self, topic: str, kind: str, target: str, error: Exception) -> None:
+        why = " ".join(str(error).split())[:200] or type(error).__name__
+        self._say(topic, f"{topic} ({kind}) cannot be carried to {target}: {why}")
+
+    def _class(self, topic: str, kind: str) -> Any:
+        """Return the class of package/msg/Name; None, with a line, if it does not exist here."""
+        package, _, name = kind.partition("/msg/")
+        try:
+            found = getattr(importlib.import_module(f"{package}.msg"), name)
+        except (ImportError, ValueError, AttributeError):
+            self._say(topic, f"{topic}: {kind}: ROS 2 has no such type here; it is not carried")
+            return None
+        self._wrong.pop(topic, None)
+        return found
 
     # ---------------------------------------------------------------- from ROS 1
 
@@ -65,9 +80,7 @@ class Ros2Side:
             try:
                 self._publish(frame, route)
             except Exception as error:  # of a message, a type or a conversion: of this topic alone
-                why = " ".join(str(error).split())[:200] or type(error).__name__
-                line = f"{frame.topic} ({frame.type}) cannot be carried to ROS 2: {why}"
-                self._say(frame.topic, line)
+                self._say_lost(frame.topic, frame.type, "ROS 2", error)
 
     def _publish(self, frame: Frame, route: Route) -> None:
         publisher = self._publisher(frame, route)
@@ -75,8 +88,9 @@ class Ros2Side:
             return
         data = bytes(self._store.ros1_to_cdr(frame.data, frame.type))
         if route.to_ros1:
+            mark = time.monotonic(), hashlib.md5(data).digest()
             with self._lock:
-                self._own.setdefault(frame.topic, collections.deque()).append(_mark(data))
+                self._own.setdefault(frame.topic, collections.deque()).append(mark)
         publisher.publish(data)
         self._wrong.pop(frame.topic, None)
 
@@ -89,14 +103,8 @@ class Ros2Side:
             self._say(frame.topic, line)
         if publisher:
             self.node.destroy_publisher(publisher)
-        cls = class_of(frame.type)
-        if cls is None:
-            line = f"{frame.topic}: {frame.type}: ROS 2 has no such type here; it is not carried"
-            self._say(frame.topic, line)
-            made = None
-        else:
-            self._wrong.pop(frame.topic, None)
-            made = self.node.create_publisher(cls, frame.topic, quality(route, frame.is_latched))
+        cls, profile = self._class(frame.topic, frame.type), quality(route, frame.is_latched)
+        made = cls and self.node.create_publisher(cls, frame.topic, profile)
         self._publishers[frame.topic] = (frame.type, frame.is_latched), made
         return made
 
@@ -106,38 +114,30 @@ class Ros2Side:
         """Subscribe to what has come, and anew to what has another type."""
         wrong = "\n".join(list(self._wrong.values())).encode()
         self._sender.put(Frame("", "", wrong, time.monotonic(), announces=True))
-        there = dict(self.node.get_topic_names_and_types())
         for route in self._routes.values():
             if not route.to_ros1:
                 continue
-            publishers = [
-                one
-                for one in self.node.get_publishers_info_by_topic(route.topic)
-                if one.node_name != NAME
-            ]
+            publishers = self.node.get_publishers_info_by_topic(route.topic)
+            publishers = [one for one in publishers if one.node_name != NAME]
             kinds = sorted({one.topic_type for one in publishers})
             if len(kinds) > 1:
                 line = f"{route.topic} has several types in ROS 2: {', '.join(kinds)}"
                 self._say(route.topic, line)
-            known = self._subscriptions.get(route.topic, ("", None))
-            if kinds and route.topic in there and known[0] not in kinds:
-                self._subscribe(route, kinds[0], publishers, known)
+            kind, subscription = self._subscriptions.get(route.topic, ("", None))
+            if kinds and kind not in kinds:
+                if subscription:
+                    self.node.destroy_subscription(subscription)
+                offered = [one.qos_profile for one in publishers]
+                self._subscribe(route, kinds[0], offered)
 
-    def _subscribe(self, route: Route, kind: str, publishers: list[Any], known: Any) -> None:
-        if known[1]:
-            self.node.destroy_subscription(known[1])
+    def _subscribe(self, route: Route, kind: str, offered: list[QoSProfile]) -> None:
         self._subscriptions[route.topic] = kind, None
-        cls = class_of(kind)
+        cls = self._class(route.topic, kind)
         if cls is None:
-            line = f"{route.topic}: {kind}: ROS 2 has no such type here; it is not carried"
-            self._say(route.topic, line)
             return
-        self._wrong.pop(route.topic, None)
-        latched = all(
-            one.qos_profile.durability == DurabilityPolicy.TRANSIENT_LOCAL for one in publishers
-        )
+        latched = all(one.durability == DurabilityPolicy.TRANSIENT_LOCAL for one in offered)
         profile = quality(route, latched)
-        if any(one.qos_profile.reliability == ReliabilityPolicy.BEST_EFFORT for one in publishers):
+        if any(one.reliability == ReliabilityPolicy.BEST_EFFORT for one in offered):
             profile.reliability = ReliabilityPolicy.BEST_EFFORT
         made = self.node.create_subscription(
             cls, route.topic, self._hearer(route, kind, latched), profile, raw=True
@@ -156,9 +156,7 @@ class Ros2Side:
             try:
                 converted = bytes(self._store.cdr_to_ros1(data, kind))
             except Exception as error:  # of this message alone
-                why = " ".join(str(error).split())[:200] or type(error).__name__
-                line = f"{route.topic} ({kind}) cannot be carried to ROS 1: {why}"
-                self._say(route.topic, line)
+                self._say_lost(route.topic, kind, "ROS 1", error)
                 return
             self._sender.put(Frame(route.topic, kind, converted, sent_s, is_latched))
             self._wrong.pop(route.topic, None)
@@ -179,32 +177,19 @@ class Ros2Side:
         return False
 
 
-def _mark(data: bytes) -> tuple[float, bytes]:
-    return time.monotonic(), hashlib.md5(data).digest()
-
-
-def class_of(kind: str) -> Any:
-    """Return the class of package/msg/Name; None if it is not there."""
-    package, _, name = kind.partition("/msg/")
-    try:
-        return getattr(importlib.import_module(f"{package}.msg"), name, None)
-    except (ImportError, ValueError):
-        return None
-
-
 def quality(route: Route, is_latched: bool) -> QoSProfile:
     """Return the quality of service of a route."""
     kept = DurabilityPolicy.TRANSIENT_LOCAL if is_latched else DurabilityPolicy.VOLATILE
     return QoSProfile(
         depth=route.depth,
-        lifespan=Duration(seconds=route.longest_s),  # 0: for ever
+        lifespan=Duration(seconds=route.longest_s),  # 0: without a limit
         reliability=ReliabilityPolicy[route.reliability.upper()],
         durability=kept,
     )
 
 
 def connect(path: str) -> socket.socket:
-    """Return a connection to the other side, as soon as that is there. Raises OSError."""
+    """Return a connection to the other side, as soon as that listens. Raises OSError."""
     deadline_s = time.monotonic() + CONNECT_S
     while True:
         connection = socket.socket(socket.AF_UNIX)
@@ -215,7 +200,7 @@ def connect(path: str) -> socket.socket:
             connection.close()
             if time.monotonic() > deadline_s:
                 raise
-            time.sleep(0.05)  # it listens, or it does not: there is nothing to wait for
+            time.sleep(0.05)  # nothing reports when it begins to listen
 
 
 def main() -> None:

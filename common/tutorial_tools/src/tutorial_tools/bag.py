@@ -6,9 +6,10 @@ import argparse
 import os
 import shlex
 import sys
+from contextlib import contextmanager
 from html import escape
 from pathlib import Path
-from typing import Dict, List, NoReturn, Sequence, Tuple
+from typing import Dict, Iterator, List, NoReturn, Sequence, Tuple
 
 import rosbag
 import rosgraph
@@ -70,38 +71,50 @@ def fail(line: str) -> NoReturn:
     sys.exit(f"rqt_bag: {line}")
 
 
-def read(path: Path) -> tuple[float, Topics, list[Sample]]:
-    """Return (duration [s], topics, the recorded Joys of the first such topic)."""
+class BagError(Exception):
+    """Why a bag cannot be read, in one line for the user."""
+
+
+@contextmanager
+def opened(path: str | Path) -> Iterator[rosbag.Bag]:
+    """Open a bag. Raises BagError, also for what is wrong while it is read."""
     try:
         with rosbag.Bag(str(path)) as bag:
-            info = bag.get_type_and_topic_info().topics
-            topics = {name: (one.msg_type, one.message_count) for name, one in info.items()}
-            joys = [name for name in sorted(topics) if topics[name][0] == JOY][:1]
-            messages = bag.read_messages(topics=joys) if joys else ()
-            recorded = [(stamp.to_sec(), joy.axes, joy.buttons) for _, joy, stamp in messages]
-            return bag.get_end_time() - bag.get_start_time(), topics, recorded
-    except FileNotFoundError:
-        fail(f'{path}: no such file. For ours: cp "$(rospack find gamepad)/bag/joy.bag" .')
+            yield bag
     except OSError as error:
-        fail(f"{path}: cannot be read: {error.strerror}")
-    except rosbag.ROSBagUnindexedException:
-        fail(f"{path}: cut short; mend it with: rosbag reindex {path}")
+        raise BagError(f"{path}: cannot be read: {error.strerror}") from error
+    except rosbag.ROSBagUnindexedException as error:
+        raise BagError(f"{path}: cut short; mend it with: rosbag reindex {path}") from error
     except Exception as error:  # rosbag lets struct.error and more through from a damaged file
-        fail(f"{path}: not a bag that can be read: {error}")
+        raise BagError(f"{path}: not a bag that can be read: {error}") from error
+
+
+def read(path: Path) -> tuple[float, Topics, list[Sample]]:
+    """Return (duration [s], topics, the recorded Joys of the first such topic)."""
+    with opened(path) as bag:
+        info = bag.get_type_and_topic_info().topics
+        topics = {name: (one.msg_type, one.message_count) for name, one in info.items()}
+        joys = [name for name in sorted(topics) if topics[name][0] == JOY][:1]
+        messages = bag.read_messages(topics=joys) if joys else ()
+        recorded = [(stamp.to_sec(), joy.axes, joy.buttons) for _, joy, stamp in messages]
+        return bag.get_end_time() - bag.get_start_time(), topics, recorded
 
 
 def main() -> None:
     """Report what is in the bag, draw it, and say how to publish it."""
-    text = (
-        "Debian has no rqt for ROS 1. This draws a recorded joystick, and says how to play the bag."
-    )
+    text = "Debian has no rqt for ROS 1. This draws a recorded joystick, and shows how to play it."
     parser = argparse.ArgumentParser(prog="rqt_bag", description=text)
     parser.add_argument("bag", nargs="?", help="the recording, such as joy.bag")
     options = parser.parse_args()
     if not options.bag:
         fail("which bag? For example: rqt_bag joy.bag")
     path = Path(options.bag)
-    duration, topics, recorded = read(path)
+    if not path.exists():
+        fail(f'{path}: no such file. For ours: cp "$(rospack find gamepad)/bag/joy.bag" .')
+    try:
+        duration, topics, recorded = read(path)
+    except BagError as error:
+        fail(str(error))
     for name, (kind, count) in sorted(topics.items()):
         print(f"{name}  {kind}  {count} messages in {duration:.1f} s")
     if recorded:

@@ -15,7 +15,7 @@ import shutil
 import signal
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from node_kit.manifests import broken_manifests
@@ -36,7 +36,6 @@ OVERLAY = ("beginner_tutorials", "joy2twist", "test")  # the solutions
 # Commands of the shell, under these names.
 SCRIPTS = "common/tutorial_tools/scripts"
 COMMANDS = (f"{SCRIPTS}/rqt_graph", f"{SCRIPTS}/rqt_bag", "tutorial")
-FROM_PYPI = ("pypi", "maybe", "alone")  # alone: without Debian's packages
 WRONG = re.compile("rror|invalid|mismatched|not found")
 
 
@@ -84,27 +83,27 @@ def one_at_a_time(workspace: Path) -> Iterator[None]:
 
 
 def is_built(workspace: Path) -> bool:
-    """Return whether the workspaces are built of what is there now."""
+    """Return whether the workspaces were built from the present files."""
     built = workspace / "built"
     return built.exists() and built.read_text().strip() == stamp()
 
 
 def link_packages(workspace: Path, packages: list[str]) -> None:
     """Have exactly these packages in the src of a workspace, as links."""
-    links = {Path(package).name: REPOSITORY / package for package in packages}
-    src = workspace / "src"
-    if {path.name for path in src.glob("*")} - {"CMakeLists.txt"} != set(links):
+    src, names = workspace / "src", {Path(package).name for package in packages}
+    if {path.name for path in src.glob("*")} - {"CMakeLists.txt"} != names:
         remove_built(workspace)  # what a removed package left would still be found
-    src.mkdir(parents=True, exist_ok=True)
-    for name, target in links.items():
-        link(src / name, target)
+    link(src, packages)
 
 
-def link(path: Path, target: Path | str) -> None:
-    """Make a symbolic link, in place of another one."""
-    with contextlib.suppress(FileNotFoundError):
-        path.unlink()
-    path.symlink_to(target)
+def link(folder: Path, targets: Iterable[str]) -> None:
+    """Make links in a folder to these files of the repository, in place of older links."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for target in targets:
+        path = folder / Path(target).name
+        with contextlib.suppress(FileNotFoundError):
+            path.unlink()
+        path.symlink_to(REPOSITORY / target)
 
 
 def remove_built(workspace: Path) -> None:
@@ -138,10 +137,9 @@ def build_both(workspace: Path) -> None:
     if not (lower / "devel").exists():
         remove_built(workspace)  # a package may have moved between the two
     link_packages(workspace, list(OVERLAY))
-    (workspace / "bin").mkdir(exist_ok=True)
-    link(workspace / "bin" / "python", "/usr/bin/python3")  # for programs with "env python"
-    for command in COMMANDS:
-        link(workspace / "bin" / Path(command).name, REPOSITORY / command)
+    link(workspace / "bin", COMMANDS)
+    with contextlib.suppress(FileExistsError):  # for programs with "env python"
+        (workspace / "bin" / "python").symlink_to("/usr/bin/python3")
     log.write_text("")
     below = Path(PREFIX, "setup.bash") if PREFIX else None
     if not (
@@ -164,32 +162,28 @@ def _of_another(student: Path) -> str:
     return why
 
 
-def check_student(workspace: Path, student: Path) -> None:
-    """Raise BuildError if a folder cannot be a student's workspace."""
-    why = ""
+def why_no_workspace(workspace: Path, student: Path) -> str:
+    """Return why a folder cannot be a student's workspace; "" if it can, and has a src then."""
     if re.search(r"\s", str(student)):
-        raise BuildError(f"catkin cannot build in {student}: choose a path without spaces")
+        return "catkin cannot build in it: choose a path without spaces"
     if student.name == "src" and (student.parent / "devel").exists():
-        why = f"this is the src folder; give the workspace, {student.parent}"
-    elif (student / "package.xml").exists():
-        why = "this is a package; give the workspace that has it in src"
-    elif {REPOSITORY, workspace} & {student, *student.parents}:
-        why = "this is the suite's own; choose a folder of yours"
-    else:
-        try:
-            (student / "src").mkdir(parents=True, exist_ok=True)
-            is_writable = os.access(student, os.W_OK)
-        except OSError:
-            is_writable = False
-        if not is_writable:
-            why = _of_another(student) or "cannot be made: choose a folder of yours"
-    if why:
-        raise BuildError(f"--in {student}: {why}")
+        return f"this is the src folder; give the workspace, {student.parent}"
+    if (student / "package.xml").exists():
+        return "this is a package; give the workspace that has it in src"
+    if {REPOSITORY, workspace} & {student, *student.parents}:
+        return "this is the suite's own; choose a folder of yours"
+    with contextlib.suppress(OSError):
+        (student / "src").mkdir(parents=True, exist_ok=True)
+        if os.access(student, os.W_OK):
+            return ""
+    return _of_another(student) or "cannot be made: choose a folder of yours"
 
 
 def build_student(workspace: Path, student: Path) -> None:
-    """Make and build a student's workspace over the underlay. A mistake in it is only reported."""
-    check_student(workspace, student)
+    """Make and build a student's workspace over the underlay; only report a mistake in it."""
+    refused = why_no_workspace(workspace, student)
+    if refused:
+        raise BuildError(f"--in {student}: {refused}")
     with one_at_a_time(workspace):
         if not (student / "devel" / "setup.bash").exists():
             build_new(workspace, student)
@@ -219,12 +213,10 @@ def build_new(workspace: Path, student: Path) -> None:
 
 
 def is_done(workspace: Path, part: str) -> bool:
-    """Return whether a part of the command line has nothing to do, so that it need not start."""
+    """Return whether a part of the command line has nothing left to do."""
     kind, _, value = part.partition("=")
-    if kind == "workspace":
-        return is_built(workspace)
-    if kind not in FROM_PYPI:
-        return False
+    if kind in ("workspace", "student"):
+        return kind == "workspace" and is_built(workspace)
     name, requirements = value.split(":")
     return is_same(workspace / name / "installed", REPOSITORY / requirements)
 
@@ -237,7 +229,8 @@ def is_same(kept: Path, requirements: Path) -> bool:
 def install_from_pypi(workspace: Path, name: str, requirements: str, kind: str) -> None:
     """Make a virtual environment with what a file of requirements names.
 
-    kind: see FROM_PYPI; of a maybe a failure is reported once, as a shell does without.
+    kind: "pypi"; "alone", without Debian's packages; or "maybe", for a shell, which works without:
+    a failure is reported once.
     """
     needed = kind != "maybe"
     folder, wanted, log = workspace / name, REPOSITORY / requirements, workspace / "pip.log"

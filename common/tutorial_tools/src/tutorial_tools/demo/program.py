@@ -14,11 +14,11 @@ import sys
 import time
 from collections.abc import Iterable
 
-import rosbag
 import rosgraph
 import rospkg
 
 from node_kit.questions import Answer, accepts, address, call, holder
+from tutorial_tools.bag import BagError, opened
 from tutorial_tools.command.words import fail, parser_of
 from tutorial_tools.demo.launch import ENDING, TOPICS, DemoError, Launch
 from tutorial_tools.launch_arguments import launch_arguments
@@ -32,18 +32,11 @@ IN_TERMINAL = "in another terminal: ./tutorial run rostopic echo /odom/pose/pose
 
 
 def check_bag(path: str) -> None:
-    """Raise DemoError unless the file is a bag that can be played and holds joystick messages."""
-    try:
-        with rosbag.Bag(path) as bag:
-            count = bag.get_message_count("/joy")
-    except OSError as error:
-        raise DemoError(f"{path}: cannot be read: {error.strerror}") from error
-    except rosbag.ROSBagUnindexedException as error:
-        raise DemoError(f"{path}: cut short; mend it with: rosbag reindex {path}") from error
-    except Exception as error:  # rosbag lets struct.error and more through from a damaged file
-        raise DemoError(f"{path}: not a bag that can be played: {error}") from error
+    """Raise BagError unless the file is a bag that can be played and holds joystick messages."""
+    with opened(path) as bag:
+        count = bag.get_message_count("/joy")
     if not count:
-        raise DemoError(f"{path}: holds no message on /joy")
+        raise BagError(f"{path}: holds no message on /joy")
 
 
 def check_master(nodes: Iterable[str]) -> None:
@@ -159,7 +152,7 @@ def main() -> None:
             launch.watch(math.inf if options.duration_s is None else options.duration_s)
     except ValueError as error:
         fail(f"demo: {error}")
-    except DemoError as error:
+    except (BagError, DemoError) as error:
         sys.exit(f"demo: {error}")
     except KeyboardInterrupt:
         interrupted = True

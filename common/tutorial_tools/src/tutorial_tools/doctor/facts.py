@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from functools import partial
 from typing import NamedTuple
 
 from node_kit.questions import Answer
@@ -45,19 +46,9 @@ class Finding(NamedTuple):
         return f"{self.level:7}  {self.about:8}  {self.seen}{todo}"
 
 
-def ok(about: str, seen: str) -> Finding:
-    """Return a finding that nothing is wrong here."""
-    return Finding(OK, about, seen)
-
-
-def wrong(about: str, seen: str, todo: str = "") -> Finding:
-    """Return a finding that explains why nothing moves."""
-    return Finding(WRONG, about, seen, todo)
-
-
-def unknown(about: str, seen: str, todo: str = "") -> Finding:
-    """Return a finding that the doctor cannot judge."""
-    return Finding(UNKNOWN, about, seen, todo)
+ok = partial(Finding, OK)  # nothing is wrong here
+wrong = partial(Finding, WRONG)  # this explains why nothing moves
+unknown = partial(Finding, UNKNOWN)  # the doctor cannot judge this
 
 
 class Node(NamedTuple):

@@ -1,0 +1,72 @@
+"""Which node holds a name, asked of a master and of nodes that the test plays."""
+
+import socket
+import threading
+from xmlrpc.server import SimpleXMLRPCRequestHandler, SimpleXMLRPCServer
+
+import pytest
+
+from node_kit import questions
+from node_kit.questions import Answer, call, holder
+
+
+class Quiet(SimpleXMLRPCRequestHandler):
+    rpc_paths = ()
+
+    def log_message(self, *_):
+        pass
+
+
+@pytest.fixture
+def serve():
+    """Start an XML-RPC server with these methods; its URI."""
+    servers = []
+
+    def start(**methods):
+        server = SimpleXMLRPCServer(("127.0.0.1", 0), Quiet)
+        servers.append(server)
+        for name, method in methods.items():
+            server.register_function(method, name)
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        return f"http://127.0.0.1:{server.server_address[1]}"
+
+    yield start
+    for server in servers:
+        server.shutdown()
+        server.server_close()
+
+
+def answering(**values):
+    """The methods of a server that answer these values."""
+    return {name: lambda *_, value=value: (1, "", value) for name, value in values.items()}
+
+
+@pytest.mark.parametrize(
+    ("values", "held"),
+    [
+        ({"getPid": 77}, True),
+        ({"getPid": 77, "getName": "/robot"}, True),
+        ({"getPid": 77, "getName": "/joy2twist"}, False),  # the port is another node's by now
+    ],
+)
+def test_a_node_that_answers_under_its_name_holds_it(serve, values, held):
+    node = serve(**answering(**values))
+    found = (node, f"at {node}, process 77") if held else None
+    assert holder(serve(**answering(lookupNode=node)), "/robot") == found
+
+
+def test_an_unknown_name_and_that_of_a_dead_node_are_free(serve):
+    assert holder(serve(lookupNode=lambda *_: (-1, "unknown node", "")), "/other") is None
+    assert holder(serve(**answering(lookupNode="http://127.0.0.1:1")), "/robot") is None
+
+
+def test_a_node_that_accepts_the_connection_and_does_not_answer_holds_its_name(serve, monkeypatch):
+    monkeypatch.setattr(questions, "PATIENCE_S", 0.1)
+    with socket.create_server(("127.0.0.1", 0)) as silent:
+        uri = f"http://127.0.0.1:{silent.getsockname()[1]}"
+        found = holder(serve(**answering(lookupNode=uri)), "/robot")
+        assert found == (uri, f"at {uri}, but does not answer")
+
+
+def test_another_xml_rpc_server_is_no_master(serve):
+    assert call(serve(), "getPid")[0] is Answer.STRANGE
