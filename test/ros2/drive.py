@@ -15,6 +15,7 @@ CLASS = REPOSITORY / "common/ros2_tutorials/ros2_tutorials/new_joy2twist.py"
 RATE = 50.0  # [Hz]
 TIMEOUT_S, PERIOD_S = 0.6, 0.02  # of the simulated base
 LATENESS_S = 0.4  # of programs on a busy machine
+REST_S = TIMEOUT_S + PERIOD_S + LATENESS_S  # by then a robot without a driver stands
 
 
 def single(value):
@@ -63,9 +64,5 @@ def moves(odometry):
 def stands_after(odometry, since_s):
     """Wait until the robot stands; return how long that took [s]."""
     wait_for(lambda: not moves(odometry), "a robot that stands", 10)
-    still = next(
-        when
-        for when, _, message in reversed(odometry.heard)
-        if abs(message.twist.twist.linear.x) > 0.01
-    )
-    return still - since_s
+    moving = [when for when, _, odom in odometry.heard if abs(odom.twist.twist.linear.x) > 0.01]
+    return moving[-1] - since_s

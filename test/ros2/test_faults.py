@@ -12,7 +12,7 @@ import signal
 import time
 
 import rospy
-from drive import CLASS, LATENESS_S, PERIOD_S, TIMEOUT_S, Stick, moves
+from drive import CLASS, REST_S, Stick, moves
 from geometry_msgs.msg import Twist
 from sensor_msgs.msg import Joy
 
@@ -20,12 +20,11 @@ from tutorial_testing.waiting import wait_for
 
 BACK_S = 60.0  # until both sides and the program run and have found each other
 OLD_S = 0.5  # how old the list lets a Joy be, and a velocity
-REST_S = TIMEOUT_S + PERIOD_S + LATENESS_S
 LONG = 10 * (1 << 18)  # axes of a Joy of ten megabytes
 PROGRAM = "program"
 FAULTS = (
     "kill:ROS 1", "stop:ROS 1", "kill:ROS 2", "stop:ROS 2", "end:ROS 2", "kill:program",
-    "stop:program", "end:program", "strange:Joy", "strange:scan", "strange:chatter",
+    "stop:program", "end:program", "strange:joy", "strange:scan", "strange:chatter",
 )  # fmt: skip
 SIGNALS = {"kill": signal.SIGKILL, "end": signal.SIGTERM}
 
@@ -66,11 +65,9 @@ class Way:
 
 
 def speak(part, draw):
-    """Say as another program what cannot be used, or a little much, on a topic that is carried."""
-    topic, kind = {"Joy": ("/joy", Joy), "scan": ("/scan", Joy), "chatter": ("/chatter", Twist)}[
-        part
-    ]
-    publisher = rospy.Publisher(topic, kind, queue_size=1)
+    """Publish on a topic of the bridge, as another program, what is useless or too much."""
+    kind = Twist if part == "chatter" else Joy
+    publisher = rospy.Publisher(f"/{part}", kind, queue_size=1)
     message = kind()
     if kind is Joy:
         message.axes = [0.0] * draw.choice([0, 1, 3, LONG])

@@ -1,12 +1,18 @@
 """rqt_bag of this suite: the picture of a joystick, and its line about a file that is no bag."""
 
+from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
 
 from tutorial_tools.bag import curves, main, svg
 
-RECORDED = [(10.0, (0.0, 0.0, 1.0), (0, 0)), (11.0, (0.0, 0.5, 1.0), (0, 1)), (12.0, (0.0, -1.0, 1.0), (0, 0))]  # fmt: skip  # noqa: E501
+WHOLE = (Path(__file__).resolve().parents[3] / "common/gamepad/bag/joy.bag").read_bytes()
+RECORDED = [  # time [s], axes, buttons
+    (10.0, (0.0, 0.0, 1.0), (0, 0)),
+    (11.0, (0.0, 0.5, 1.0), (0, 1)),
+    (12.0, (0.0, -1.0, 1.0), (0, 0)),
+]
 
 
 def test_only_what_moves_is_drawn():
@@ -39,9 +45,10 @@ def test_the_picture_is_well_formed_and_has_a_line_for_each():
         (b"", "not a bag that can be read"),
         (b"no bag", "not a bag that can be read"),
         (b"#ROSBAG V2.0\n", "cut short; mend it with: rosbag reindex"),
+        *((WHOLE[:size], ": ") for size in (12, 30, 4096, 5000, 20_000, -4000, -1)),
     ],
 )
-def test_a_file_that_is_no_whole_bag_is_one_line(tmp_path, monkeypatch, data, words):
+def test_a_file_that_is_no_whole_bag_is_one_line(tmp_path, monkeypatch, capfd, data, words):
     path = tmp_path / "joy.bag"
     if data == "folder":
         path.mkdir()
@@ -51,4 +58,5 @@ def test_a_file_that_is_no_whole_bag_is_one_line(tmp_path, monkeypatch, data, wo
     with pytest.raises(SystemExit) as end:
         main()
     (line,) = str(end.value).splitlines()
-    assert words in line
+    assert line.startswith(f"rqt_bag: {path}: ") and words in line
+    assert capfd.readouterr() == ("", "")

@@ -202,11 +202,7 @@ def test_nothing_is_wrong(facts):
         (well(clocks={"robot": None}), "unknown", "robot sends no stamped message: compare: date"),
         (mux(None), "unknown", "rostopic echo /cmd_vel_mux/active"),
         (well(publishers={}, joysticks=[]), "unknown", "No joystick at /dev/input/js0: plug it in"),
-        (
-            Facts(joy2twist=""),
-            "unknown",
-            "no joy2twist is found here: call this through",
-        ),
+        (Facts(joy2twist=""), "unknown", "no joy2twist is found here: call this through"),
         (Facts(workspace="/ws", joy2twist=""), "unknown", "yet: make it in /ws/src"),
         (Facts(), "ok", "is the suite's: /suite/joy2twist"),
         (Facts(workspace="/w", joy2twist="/w/src/joy2twist"), "ok", "is yours: /w/src/joy2twist"),
@@ -221,12 +217,8 @@ def test_a_line_of_a_level(facts, level, words):
 
 def test_of_a_graph_that_was_not_seen_nothing_is_said():
     facts = well(master=Answer.REFUSED, called_back=None)
-    assert {finding.about for finding in judge(facts)} == {
-        "overlay",
-        "master",
-        "address",
-        "joystick",
-    }
+    abouts = {finding.about for finding in judge(facts)}
+    assert abouts == {"overlay", "master", "address", "joystick"}
     (line, *_) = lines(Facts(master=Answer.REFUSED, called_back=None), "wrong")
     assert ": start roscore; or" in line  # a master of this machine is to be started here
 

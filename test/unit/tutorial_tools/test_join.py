@@ -26,64 +26,62 @@ def test_an_unknown_name(monkeypatch):
         check_host("teacher")
 
 
-def answers(monkeypatch, value, answer=Answer.WELL, reached=True):
+ROBOT, DRIVEN = "/robot_1/cmd_vel", "/robot_2/cmd_vel"
+DRIVER = "/robot_2/myjoystick2twist"
+STATE = [[[DRIVEN, [DRIVER]]], [[ROBOT, ["/classroom"]], [DRIVEN, ["/classroom"]]], []]
+NONSENSE = (
+    5, [[], []], [[["/a"]], [], []], [[], [[5, ["/a"]]], []], [[], [[ROBOT, 5]], []],
+    [[[ROBOT, [5]]], [[ROBOT, []]], []], [[[ROBOT, ["\x1b[2J"]]], [[ROBOT, []]], []],
+    [[[["/a"], []]], [], []], {},
+)  # fmt: skip
+RUN_IDS = ("../../tmp", "a/b", "", "..", 5, ["a"], "a\x1b[2J", "\n")
+
+
+@pytest.fixture
+def answers(monkeypatch):
     """Let the master answer every question so."""
-    monkeypatch.setattr(join, "call", lambda *_: (answer, value))
-    monkeypatch.setattr(join, "is_called_back", lambda *_: reached)
+
+    def answer(value, answer=Answer.WELL, reached=True):
+        monkeypatch.setattr(join, "call", lambda *_: (answer, value))
+        monkeypatch.setattr(join, "is_called_back", lambda *_: reached)
+
+    return answer
 
 
 @pytest.mark.parametrize(
-    ("answer", "reached", "line"),
+    ("given", "line"),
     [
-        (Answer.REFUSED, True, "has the teacher started"),
-        (Answer.WELL, False, r"does not reach this machine at 10\.0\.0\.2"),
+        ((1, Answer.REFUSED), "has the teacher started"),
+        ((1, Answer.WELL, False), "does not reach this machine at 10.0.0.2"),
+        *(((run_id,), "has a /run_id that is no name") for run_id in RUN_IDS),  # a folder for logs
     ],
 )
-def test_no_master_or_one_behind_a_firewall(monkeypatch, answer, reached, line):
-    answers(monkeypatch, 1, answer, reached)
+def test_a_master_that_is_refused(answers, given, line):
+    answers(*given)
+    with pytest.raises(JoinError) as error:
+        check_master(URI, OWN)
+    assert line in str(error.value) and str(error.value).isprintable()
+
+
+@pytest.mark.parametrize(
+    ("state", "name", "line"),
+    [
+        (STATE, "robot_7", "there are robot_1, robot_2"),
+        (STATE, "robot_2", f"driven already, by {DRIVER}"),
+        *((state, "robot_1", "does not answer as one of ROS") for state in NONSENSE),
+    ],
+)
+def test_a_robot_that_is_refused(answers, state, name, line):
+    answers(state)
     with pytest.raises(JoinError, match=line):
-        check_master(URI, OWN)
+        check_robot(URI, name)
 
 
-@pytest.mark.parametrize("run_id", ["../../tmp", "a/b", "", "..", 5, ["a"], "a\x1b[2J", "\n"])
-def test_a_folder_for_logs_somewhere_else(monkeypatch, run_id):
-    answers(monkeypatch, run_id)
-    with pytest.raises(JoinError, match="/run_id that is no name") as error:
-        check_master(URI, OWN)
-    assert str(error.value).isprintable()
-    answers(monkeypatch, "6a5f-01")
+def test_a_master_and_a_robot_that_are_free(answers):
+    answers("6a5f-01")
     check_master(URI, OWN)
-
-
-def test_which_robots_there_are(monkeypatch):
-    publishers = [["/robot_2/cmd_vel", ["/robot_2/myjoystick2twist"]]]
-    subscribers = [["/robot_1/cmd_vel", ["/classroom"]], ["/robot_2/cmd_vel", ["/classroom"]]]
-    answers(monkeypatch, [publishers, subscribers, []])
+    answers(STATE)
     check_robot(URI, "robot_1")
-    with pytest.raises(JoinError, match="there are robot_1, robot_2"):
-        check_robot(URI, "robot_7")
-    with pytest.raises(JoinError, match="driven already, by /robot_2/myjoystick2twist"):
-        check_robot(URI, "robot_2")
-
-
-@pytest.mark.parametrize(
-    "state",
-    [
-        5,
-        [[], []],
-        [[["/a"]], [], []],
-        [[], [[5, ["/a"]]], []],
-        [[], [["/robot_1/cmd_vel", 5]], []],
-        [[["/robot_1/cmd_vel", [5]]], [["/robot_1/cmd_vel", []]], []],
-        [[["/robot_1/cmd_vel", ["\x1b[2J"]]], [["/robot_1/cmd_vel", []]], []],
-        [[[["/a"], []]], [], []],
-        {},
-    ],
-)
-def test_a_master_that_answers_nonsense(monkeypatch, state):
-    answers(monkeypatch, state)
-    with pytest.raises(JoinError, match="does not answer as one of ROS"):
-        check_robot(URI, "robot_1")
 
 
 @pytest.mark.parametrize(

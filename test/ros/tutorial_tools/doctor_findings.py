@@ -1,0 +1,131 @@
+#!/usr/bin/python3
+"""doctor.py as a user runs it: beside a drive in which all is well, and where something is broken."""
+
+import os
+import signal
+import socket
+import sys
+import time
+import unittest
+
+import rosgraph
+import rosnode
+import rospy
+import rostest
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import Joy
+from std_msgs.msg import String
+
+from tutorial_testing.nodes import init_node, node_path
+from tutorial_testing.processes import Program
+from tutorial_testing.waiting import wait_for
+
+LONGEST_S = 15.0
+NOBODYS = "192.0.2.7"  # an address for documentation (RFC 5737)
+
+
+class FindingsTest(unittest.TestCase):
+    def doctor(self, **environment):
+        """Return (exit code, {level: lines}) of a run that exits in time, without a traceback."""
+        began_s = time.monotonic()
+        with Program(node_path("tutorial_tools", "doctor.py"), **environment) as program:
+            code, output = program.wait(), program.output
+        self.assertLess(time.monotonic() - began_s, LONGEST_S)
+        *lines, summary = output.splitlines()
+        self.assertRegex(summary, r"^doctor: \d+ ok, \d+ wrong, \d+ unknown$", output)
+        levels = {"ok": [], "wrong": [], "unknown": []}
+        for line in lines:
+            self.assertRegex(line, r"^(ok|wrong|unknown) +(\w+) +\S.*$", output)
+            levels[line.split()[0]].append(line)
+        return code, levels
+
+    def wrong(self, *words, **environment):
+        """Check that one of the lines that are wrong has these words; return all of them."""
+        code, levels = self.doctor(**environment)
+        self.assertEqual(code, 1)
+        found = any(all(word in line for word in words) for line in levels["wrong"])
+        self.assertTrue(found, levels)
+        return levels["wrong"]
+
+    def subscribe(self, topic, kind, hear):
+        subscriber = rospy.Subscriber(topic, kind, hear)
+        self.addCleanup(subscriber.unregister)
+        return subscriber
+
+    def publish(self, topic, kind, **options):
+        publisher = rospy.Publisher(topic, kind, queue_size=1, **options)
+        self.addCleanup(publisher.unregister)
+        return publisher
+
+    def test_a_drive(self):
+        """All is well, and then one thing after the other is not."""
+        speeds = []
+        self.subscribe("/odom", Odometry, lambda odom: speeds.append(odom.twist.twist.linear.x))
+        launch = ("joy2twist", "launch_bag.launch", "cockpit:=false", "rviz:=false")
+        with Program("roslaunch", *launch) as drive:
+            wait_for(lambda: speeds and max(speeds) > 0.1, "moving robot")
+            code, levels = self.doctor()
+            self.assertEqual((code, levels["wrong"]), (0, []))
+            way = "/rosbag -> /joy -> /myjoystick2twist -> /cmd_vel -> /fake_turtlebot"
+            for words in (way, "says: driving"):
+                self.assertTrue(any(words in line for line in levels["ok"]), levels)
+
+            seen = f"ROS_IP={NOBODYS} is no address of this machine"
+            self.assertEqual(len(self.wrong(seen, ROS_IP=NOBODYS)), 1)
+            self.wrong("cannot be looked up", ROS_HOSTNAME="nobody.invalid")
+            self.publish("/cmd_vel", Twist)
+            self.wrong("/cmd_vel is sent by /doctor_findings, /myjoystick2twist at once")
+            rospy.set_param("/use_sim_time", True)
+            self.addCleanup(rospy.delete_param, "/use_sim_time")
+            self.wrong("no /clock arrives")
+            drive.interrupt()
+            drive.wait()
+
+    def test_no_master(self):
+        self.wrong("nothing listens", "start roscore", ROS_MASTER_URI="http://localhost:9")
+        self.wrong("looked up", ROS_MASTER_URI="http://robot.invalid:11311")
+        with socket.create_server(("localhost", 0)) as server:
+            port = server.getsockname()[1]
+            self.wrong("does not answer", ROS_MASTER_URI=f"http://localhost:{port}")
+
+    def test_a_node_that_died(self):
+        with Program(node_path("beginner_tutorials", "talker.py"), "--unique") as talker:
+            wait_for(lambda: "hello" in talker.output, "talker")
+            for pid in talker.left_behind():
+                os.kill(pid, signal.SIGKILL)
+            talker.wait()
+            self.wrong("/talker at http://", "has died", "rosnode cleanup")
+        rosnode.cleanup_master_blacklist(rosgraph.Master("/test"), ["/talker"])
+        self.assertNotIn("/talker", rosnode.get_node_names())
+
+    def register(self, uri):
+        master = rosgraph.Master("/far")
+        master.registerPublisher("/far", "std_msgs/Empty", uri)
+        self.addCleanup(master.unregisterPublisher, "/far", uri)
+
+    def test_a_node_on_an_unknown_machine_and_one_that_hangs(self):
+        self.register("http://robot.invalid:1234/")
+        self.wrong('/far at http://robot.invalid:1234/: "robot.invalid" cannot be looked up here')
+        with socket.create_server(("localhost", 0)) as server:
+            self.register(f"http://localhost:{server.getsockname()[1]}/")
+            self.wrong("/far at ", "does not answer")
+
+    def test_a_joystick_without_a_converter_and_a_mux_that_listens_to_another(self):
+        joystick = self.publish("joy", Joy)
+        self.wrong("nothing turns /joy into velocities")
+        with Program("roslaunch", "joy2twist", "joy2twist_turtlebot.launch") as driver:
+            wait_for(joystick.get_num_connections, "joy2twist")
+            self.wrong("nobody listens to /cmd_vel_mux/input/teleop of /myjoystick2twist")
+            base = self.subscribe("cmd_vel_mux/input/teleop", Twist, lambda _: None)
+            self.publish("cmd_vel_mux/active", String, latch=True).publish("Navigation")
+            wait_for(base.get_num_connections, "connection")
+            self.wrong('lets "Navigation" through, and not /cmd_vel_mux/input/teleop')
+            self.wrong("/myjoystick2twist says: waiting for the joystick")
+            driver.interrupt()
+            driver.wait()
+
+
+if __name__ == "__main__":
+    init_node("doctor_findings")
+    rostest.rosrun("ros1_tutorial_test", "doctor_findings", FindingsTest, sys.argv)
