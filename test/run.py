@@ -142,7 +142,7 @@ def faults(arguments):
 
 
 def mutation(arguments):
-    """Run in the background of whatever else runs here: it takes hours."""
+    """Run with the lowest priority, as it takes hours."""
     python = RESULTS / "mutation/bin/python"
     return run("nice", "-n", "19", python, "test/mutation/run.py", *arguments)
 

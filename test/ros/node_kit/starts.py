@@ -17,7 +17,7 @@ from tutorial_testing.nodes import init_node, node_path
 from tutorial_testing.processes import Program, suspend
 from tutorial_testing.waiting import wait_for
 
-# The last message of joy.bag, after which it begins anew: where all of this takes longer than it.
+# The number of joy.bag's last message, after which rosbag starts again.
 LAST_OF_BAG = 2759
 SIMULATOR = (node_path("fake_turtlebot_sim", "fake_turtlebot.py"),)
 

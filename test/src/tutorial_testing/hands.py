@@ -48,7 +48,7 @@ class Hands:
         self._wake.set()
 
     def new_record(self):
-        """Return a new list of (time [s], what is shown from then on), which goes on growing."""
+        """Return a new list of (time [s], what is shown from then on), which keeps growing."""
         with self._lock:
             self._changes = [(time.time(), self._shown)]
         return self._changes

@@ -28,7 +28,7 @@ def lives(pid):
 
 
 def descendants(pid):
-    """Return a process and its descendants, whatever their namespace and environment."""
+    """Return a process and its descendants, in any namespace and environment."""
     children = []
     with contextlib.suppress(OSError):  # ended meanwhile
         for each in Path(f"/proc/{pid}/task").glob("*/children"):  # each thread has its own
@@ -72,7 +72,7 @@ def _is_stopped(pid):
 class Program:
     """A program and all that it starts; its output, both streams together, is kept.
 
-    Use it as a context manager, so that nothing is left running whatever the test comes to.
+    Use it as a context manager, so that nothing keeps running after the test.
     """
 
     def __init__(self, *command, stdin=subprocess.DEVNULL, **environment):

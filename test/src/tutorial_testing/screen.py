@@ -9,7 +9,7 @@ import subprocess
 def virtual_screen(width, height):
     """Yield the name of a virtual screen of so many pixels, on a display number that Xvfb finds."""
     read, write = os.pipe()
-    # noreset: or it starts anew, and refuses for a moment, whenever its last client leaves.
+    # Without noreset it restarts when its last client leaves, and refuses others for a moment.
     command = ["Xvfb", "-displayfd", str(write), "-noreset", "-nolisten", "tcp"]
     command += ["-screen", "0", f"{width}x{height}x24"]
     with subprocess.Popen(command, pass_fds=[write], stderr=subprocess.DEVNULL) as server:

@@ -26,7 +26,7 @@ class Room:
         self.now, self.n, self.beats = 100.0, 0, 0
 
     def pass_time(self, seconds):
-        """Silence of the page, while the server goes on beating and looking at the time."""
+        """Let the page be silent, while the server keeps beating and looking at the time."""
         end = self.now + seconds
         while self.now < end - 1e-9:
             self.now = min(end, self.now + PERIOD_S / 5)

@@ -1,8 +1,8 @@
 """Parameters: one line for every mistake, which names the parameter, its value, what is allowed."""
 
-import sys
 from dataclasses import MISSING, dataclass
 from math import inf, nan
+from sys import float_info
 from typing import Dict
 
 import pytest
@@ -58,14 +58,11 @@ def test_nothing_given_is_the_defaults():
     assert checked(Parameters, {})["robots"] == {}
 
 
-LARGEST = sys.float_info.max
-
-
 @pytest.mark.parametrize(
     ("name", "good", "bad", "allowed"),
     [
         ("rate", [5, 1000, 5.0, 30],
-         [4.9, 1000.1, nan, inf, -inf, "50", True, None, [50.0], 10**400, -(10**400)],
+         [4.9, 1000.1, nan, inf, -inf, "50", True, None, [50.0], 10**400],
          "a number from 5 to 1000 Hz"),
         ("share", [0, 1], [2, -0.1], "a number from 0 to 1"),
         ("count", [1, 2, 9], [0, 10, 2.0, True, "3", None], "a whole number from 1 to 9"),
@@ -83,9 +80,10 @@ def test_what_is_allowed(name, good, bad, allowed):
         assert message_of({name: value}) == f"~{name}: {value!r}: must be {allowed}"
 
 
-def test_the_largest_numbers():
-    assert all(map(is_number, (LARGEST, -LARGEST, int(LARGEST), -int(LARGEST))))
-    assert not is_number(10**400)
+@pytest.mark.parametrize("sign", [1, -1])
+def test_a_number_is_one_that_a_float_holds(sign):
+    assert is_number(sign * float_info.max) and is_number(sign * int(float_info.max))
+    assert not is_number(sign * 10**400)
 
 
 def test_one_bound_of_a_whole_number_is_enough():

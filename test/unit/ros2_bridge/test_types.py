@@ -4,31 +4,22 @@ import importlib
 import io
 import random
 import struct
+from math import inf
 
 import genpy
 import pytest
 
 typesys = pytest.importorskip("rosbags.typesys", reason="no rosbags here: PyPI was not reached")
 STORE = typesys.get_typestore(typesys.Stores.LATEST)
-PACKAGES = [
-    "std_msgs",
-    "geometry_msgs",
-    "sensor_msgs",
-    "nav_msgs",
-    "diagnostic_msgs",
-    "tf2_msgs",
-    "trajectory_msgs",
-    "shape_msgs",
-    "stereo_msgs",
-    "visualization_msgs",
-    "actionlib_msgs",
-]
+PACKAGES = (
+    "std_msgs", "geometry_msgs", "sensor_msgs", "nav_msgs", "diagnostic_msgs", "tf2_msgs",
+    "trajectory_msgs", "shape_msgs", "stereo_msgs", "visualization_msgs", "actionlib_msgs",
+)  # fmt: skip
 BRIDGED = {
     "sensor_msgs/Joy", "geometry_msgs/Twist", "nav_msgs/Odometry", "tf2_msgs/TFMessage",
     "sensor_msgs/JointState", "sensor_msgs/LaserScan", "std_msgs/String",
     "diagnostic_msgs/DiagnosticArray",
 }  # fmt: skip
-RANGES = {f"{sign}int{bits}": bits for sign in ("", "u") for bits in (8, 16, 32, 64)}
 
 
 def fields_of(kind):
@@ -72,30 +63,35 @@ def types():
 TYPES = types()
 
 
-def value(kind, draw):  # noqa: PLR0911  one for each kind
-    """A value of a type, as genpy names it: extremes now and then."""
+def whole(low, high):
+    return lambda draw: draw.choice((low, high, draw.randint(low, high)))
+
+
+def real(draw):
+    return draw.choice((0.0, -0.0, inf, -inf, 1e-300, draw.uniform(-1e6, 1e6)))
+
+
+VALUES = {  # by genpy's names of types: a function that draws a value, extremes now and then
+    **{f"int{bits}": whole(-(2 ** (bits - 1)), 2 ** (bits - 1) - 1) for bits in (8, 16, 32, 64)},
+    **{f"uint{bits}": whole(0, 2**bits - 1) for bits in (8, 16, 32, 64)},
+    "byte": whole(-128, 127),
+    "char": whole(0, 255),
+    "bool": lambda draw: draw.random() < 0.5,
+    "float64": real,
+    "float32": lambda draw: struct.unpack("f", struct.pack("f", real(draw)))[0],
+    "string": lambda draw: draw.choice(("", "a", "\u00e4\u20ac{}%s\n", "x" * 1000)),
+    "time": lambda draw: genpy.Time(draw.randrange(2**31), draw.randrange(10**9)),
+    "duration": lambda draw: genpy.Duration(whole(-(2**31), 2**31 - 1)(draw), draw.randrange(10**9)),
+}
+
+
+def value(kind, draw):
+    """A value of a type, as genpy names it."""
     base, _, length = kind.partition("[")
     if length:
-        count = int(length[:-1] or draw.choice((0, 1, 3)))
-        values = [value(base, draw) for _ in range(count)]
+        values = [value(base, draw) for _ in range(int(length[:-1] or draw.choice((0, 1, 3))))]
         return bytes(values) if base in ("uint8", "char") else values
-    if "/" in base:
-        return filled(class_of(base), draw)
-    if base in RANGES or base in ("byte", "char"):
-        bits = RANGES.get(base, 8)
-        low = 0 if base.startswith("u") or base == "char" else -(2 ** (bits - 1))
-        return draw.choice((low, low + 2**bits - 1, draw.randrange(low, low + 2**bits)))
-    if base.startswith("float"):
-        numbers = (0.0, -0.0, float("inf"), float("-inf"), 1e-300, draw.uniform(-1e6, 1e6))
-        number = draw.choice(numbers)
-        return number if base == "float64" else struct.unpack("f", struct.pack("f", number))[0]
-    if base == "bool":
-        return draw.random() < 0.5
-    if base == "string":
-        return draw.choice(("", "a", "\u00e4\u20ac{}%s\n", "x" * 1000))
-    sign = 1 if base == "time" else draw.choice((1, -1))
-    kind = genpy.Time if base == "time" else genpy.Duration
-    return kind(sign * draw.randrange(2**31), draw.randrange(10**9))
+    return filled(class_of(base), draw) if "/" in base else VALUES[base](draw)
 
 
 def filled(kind, draw):

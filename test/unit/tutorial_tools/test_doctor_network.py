@@ -1,4 +1,4 @@
-"""Whatever is at the other end, an answer comes in time. No ROS runs here."""
+"""An answer comes in time, whatever the other end is. No ROS runs here."""
 
 import socket
 import struct

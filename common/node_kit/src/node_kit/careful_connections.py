@@ -1,9 +1,9 @@
-"""Three faults of rospy's connections, mended from outside.
+"""Mends three faults of rospy's connections from outside.
 
 A peer that connects and sends nothing holds up every other, since rospy greets one after the other.
 A message that cannot be read leaves its bytes in the buffer, so that the next connection counts as
-broken, too, and the node receives nothing more. So it is when rospy hears twice of a publisher and
-connects twice at once: the publisher may close one of the two, and the subscriber the other.
+broken, too, and the node receives nothing more. The same happens when rospy hears of a publisher
+twice and connects twice at once: the publisher may close one of the two, the subscriber the other.
 """
 
 from __future__ import annotations
@@ -76,7 +76,7 @@ def _greet_in_time(self: Any, sock: socket.socket, client_addr: Any) -> None:
     """In place of TCPROSServer's: greet each peer in another thread, which ends in time."""
 
     def greet() -> None:
-        # Not the socket's own timeout, which would begin anew with every byte, and stay set.
+        # Not the socket's own timeout, which restarts with every byte and stays set.
         too_late = threading.Timer(GREETING_S, _cut, [sock])
         too_late.daemon = True
         too_late.start()
@@ -111,7 +111,7 @@ def _read_messages(self: Any, buffer: Any, messages: list[Any], _sock: object) -
             self.incomplete_since = None
         else:
             _check_arrival(self, buffer)
-    except Exception as error:  # whatever the bytes made a message class do
+    except Exception as error:  # malformed bytes make message classes raise anything
         del messages[:]
         buffer.seek(0)
         buffer.truncate()

@@ -49,8 +49,8 @@ def end_in_time() -> None:
 def end_only_if_replaced() -> None:
     """Stay when a master takes this node for another; call before rospy.init_node().
 
-    A node that died stays registered. Once its name is used anew, the master asks the node that has
-    its port by then to shut down, even if its name or its master is another one.
+    A node that died stays registered. When its name is used again, the master asks the node that
+    has its port by then to shut down, even if that has another name or another master.
     """
     ROSHandler.shutdown = _end_if_meant
 

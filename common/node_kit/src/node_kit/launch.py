@@ -27,7 +27,7 @@ DEFAULT_MASTER = "http://localhost:11311"
 # With these roslaunch only prints what is in the file.
 ONLY_READS = re.compile(r"--(nodes|files|args|find-node|ros-args|dump-params)\b")
 ENDING = (signal.SIGINT, signal.SIGTERM)  # what roslaunch ends a node with
-LONGEST_END_S = 60.0  # roslaunch kills whatever still runs after some 20 s
+LONGEST_END_S = 60.0  # roslaunch kills what still runs after some 20 s
 
 
 def will_start(command: list[str]) -> bool:

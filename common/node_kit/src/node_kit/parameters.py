@@ -111,12 +111,12 @@ def _as_yaml(value: Any) -> str:
 
 
 def is_whole(value: object) -> bool:
-    """Return whether it is a whole number; YAML's true and false are none."""
+    """Return whether it is a whole number; YAML's true and false are not."""
     return isinstance(value, int) and not isinstance(value, bool)
 
 
 def is_number(value: Any) -> bool:
-    """Return whether it is a finite number; a whole one that is too large for a float is none."""
+    """Return whether it is a finite number that a float can hold."""
     return (isinstance(value, float) or is_whole(value)) and abs(value) <= float_info.max
 
 

@@ -35,7 +35,7 @@ _MEANINGS = (
     (socket.gaierror, Answer.UNKNOWN_NAME),
     (ConnectionError, Answer.STRANGE),
     (OSError, Answer.SILENT),  # a timeout, or no way to that host
-    (Exception, Answer.STRANGE),  # whatever that program answered, it is not ROS
+    (Exception, Answer.STRANGE),  # what that program answered is not ROS
 )
 
 

@@ -24,7 +24,7 @@ class Raw:
 
 
 def subscribe(topic: str, callback: Callable[[Raw], object], depth: int) -> rospy.Subscriber:
-    """Call callback with each message of a topic, whatever its type. depth: how many may wait."""
+    """Call callback with each message of a topic of any type. depth: how many may wait."""
 
     def hear(message: Any) -> None:
         about = message._connection_header
@@ -61,7 +61,7 @@ class RawPublisher:
 
 
 def types_of_others() -> list[tuple[str, str]]:
-    """Return (topic, package/Name) of what other nodes publish; none if nobody answers."""
+    """Return (topic, package/Name) of what other nodes publish; none without an answer."""
     master = rosgraph.get_master_uri()
     answer, state = call(master, "getSystemState")
     known, types = call(master, "getTopicTypes")

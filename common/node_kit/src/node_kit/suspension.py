@@ -39,7 +39,7 @@ class Suspensions:
                     self._counted = self._looked = now
 
     def _on_continue(self, _number: int, _frame: object) -> None:
-        # Without the lock: this comes in the middle of whatever the main thread does.
+        # Without the lock, which the interrupted main thread may hold.
         now = self._looked = _now()
         if now - self._counted > _SAME_S:
             self._number += 1
@@ -58,5 +58,5 @@ class Suspensions:
 
 
 def _now() -> float:
-    # Goes on while the whole machine sleeps, unlike time.monotonic().
+    # Runs while the whole machine sleeps, unlike time.monotonic().
     return time.clock_gettime(time.CLOCK_BOOTTIME)

@@ -23,7 +23,7 @@ STORE, STORE_1 = get_typestore(Stores.LATEST), get_typestore(Stores.ROS1_NOETIC)
 
 
 def convert(source: Path, target: Path) -> int:
-    """Write a recording anew; return the number of its messages. Raises as rosbags does."""
+    """Convert a recording; return the number of its messages. Raises what rosbags raises."""
     count = 0
     with Reader1(source) as reader, Writer(target, version=VERSION) as writer:
         made = {
@@ -64,7 +64,7 @@ def _same(one: Any, other: Any) -> bool:
 
 
 def main() -> None:
-    """Convert, compare, and say so in one line."""
+    """Convert, compare, and report the result in one line."""
     parser = argparse.ArgumentParser(prog="./tutorial ros2 convert_bag", description=__doc__)
     parser.add_argument("bag", type=Path, metavar="BAG", help="of ROS 1")
     parser.add_argument("folder", type=Path, metavar="FOLDER", help="of the new one; not there yet")

@@ -76,19 +76,15 @@ class Sender:
         )
         self._changed = threading.Condition()
         self._has_ended = False
-        self.dropped: collections.Counter[str] = collections.Counter()
         threading.Thread(target=self._send, daemon=True).start()
 
     def put(self, frame: Frame) -> None:
         """Send a frame as soon as possible."""
         with self._changed:
-            waiting = self._waiting.get(frame.topic)
-            if waiting is None:
+            if frame.topic not in self._waiting:
                 depth = self._depth_of(frame.topic)
-                waiting = self._waiting[frame.topic] = collections.deque(maxlen=depth)
-            if len(waiting) == waiting.maxlen:
-                self.dropped[frame.topic] += 1
-            waiting.append(frame)
+                self._waiting[frame.topic] = collections.deque(maxlen=depth)
+            self._waiting[frame.topic].append(frame)
             self._changed.notify()
 
     def end(self) -> None:
@@ -118,7 +114,7 @@ class Sender:
 
 
 def end_with_parent() -> None:
-    """Let this process end if the one that started it is killed."""
+    """Let this process exit when its parent is killed."""
     ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGTERM)
 
 

@@ -1,6 +1,6 @@
-"""rosrun ros2_bridge bridge: starts both sides, and either one anew that has ended.
+"""rosrun ros2_bridge bridge: starts both sides, and restarts the one that exits.
 
-Each side is a process of its own. This one holds no topic: it is no node.
+Each side is a separate process. This process has no topics: it is not a node.
 """
 
 from __future__ import annotations
@@ -15,14 +15,14 @@ from pathlib import Path
 from node_kit import ros2_python
 
 HERE = Path(__file__).resolve().parent
-AGAIN_S = 1.0  # a side is started anew no sooner than this after its last start
+AGAIN_S = 1.0  # a side is not restarted sooner than this after its last start
 LOOK_S = 0.1
 GONE_S = 3.0  # both sides have this long to end
 CANNOT_START = 1  # exit code of a node, with a line that says why
 
 
 class Side:
-    """A process that is started anew whenever it fails."""
+    """A process that can be restarted when it exits."""
 
     def __init__(self, name: str, command: list[str]) -> None:
         """Start it."""
@@ -30,13 +30,13 @@ class Side:
         self.start()
 
     def start(self) -> None:
-        """Start it, anew."""
+        """Start it, or restart it."""
         self._began_s = time.monotonic()
         self.process = subprocess.Popen(self._command, stdin=subprocess.DEVNULL)
 
     @property
     def is_due(self) -> bool:
-        """Whether it has ended, and may be started anew."""
+        """Whether it has exited and may be restarted."""
         return self.process.poll() is not None and time.monotonic() - self._began_s > AGAIN_S
 
     def end(self) -> None:
@@ -72,9 +72,9 @@ def main() -> int:
 
 
 def _watch(sides: list[Side], listens: Path) -> int:
-    """Start anew what ends; return an exit code once the node of ROS 1 is shut down.
+    """Restart what exits; return an exit code once the node of ROS 1 is shut down.
 
-    listens: what is there as soon as that node has started once.
+    listens: a file that exists once that node has started.
     """
     while True:
         time.sleep(LOOK_S)

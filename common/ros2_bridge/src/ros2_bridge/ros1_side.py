@@ -1,11 +1,11 @@
-"""The side of ROS 1: hands bytes on, whatever their type. It listens for the other side."""
+"""The side of ROS 1: forwards the bytes of any type. It listens for the other side."""
 
 from __future__ import annotations
 
-import os
 import socket
 import threading
 import time
+from pathlib import Path
 from typing import Callable
 
 import rospy
@@ -28,14 +28,13 @@ class Ros1Side:
         self._routes = {route.topic: route for route in routes}
         self._warn = warn
         self._sender: Sender | None = None
-        # By topic and sender, for another side that starts anew.
+        # By topic and sender, for the other side when it restarts.
         self._latched: dict[tuple[str, str], Frame] = {}
         self._publishers: dict[str, tuple[str, RawPublisher | None]] = {}  # by topic, with the type
         self._lock = threading.Lock()
         self._unknown: dict[str, str] = {}  # by topic: which of its types is not known here
         self._sign_s, self._wrong = -SILENT_S, ""  # last sign of life of the other side; its lines
-        if os.path.exists(path):
-            os.unlink(path)
+        Path(path).unlink(missing_ok=True)
         self._socket = socket.socket(socket.AF_UNIX)
         self._socket.bind(path)
         self._socket.listen(1)

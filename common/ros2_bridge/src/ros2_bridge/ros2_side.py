@@ -111,7 +111,7 @@ class Ros2Side:
     # ------------------------------------------------------------------ to ROS 1
 
     def _look(self) -> None:
-        """Subscribe to what has come, and anew to what has another type."""
+        """Subscribe to new topics, and again to those whose type has changed."""
         wrong = "\n".join(list(self._wrong.values())).encode()
         self._sender.put(Frame("", "", wrong, time.monotonic(), announces=True))
         for route in self._routes.values():
@@ -148,7 +148,7 @@ class Ros2Side:
 
     def _hearer(self, route: Route, kind: str, is_latched: bool) -> Callable[..., None]:
         def hear(data: bytes, about: dict[str, int]) -> None:
-            # It may have waited for this side, which has just been started anew.
+            # It may have waited for this side, which has just been restarted.
             age_s = max(0.0, time.time() - 1e-9 * about["source_timestamp"])
             sent_s = time.monotonic() - age_s
             if route.to_ros2 and self._is_own(route.topic, data):
@@ -223,7 +223,7 @@ def main() -> None:
             rclpy.spin_once(side.node, timeout_sec=0.2)
     except KeyboardInterrupt:
         return
-    sys.exit(1)  # the side of ROS 1 is gone: this one is started anew
+    sys.exit(1)  # the side of ROS 1 is gone: program.py restarts this one
 
 
 if __name__ == "__main__":

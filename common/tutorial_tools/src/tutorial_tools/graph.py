@@ -137,7 +137,7 @@ def main(arguments: list[str] | None = None) -> None:
     socket.setdefaulttimeout(TIMEOUT_S)
     try:
         state, machines = ask_master()
-    except Exception:  # whatever answers there, or does not, is no master
+    except Exception:  # no answer, or none of a master
         fail(f"no ROS master at {rosgraph.get_master_uri()}; start one with: roscore")
     text = dot_text(state, machines, options.all)
     if '"node ' not in text:

@@ -37,7 +37,7 @@ class Hands:
         """Before the page is opened."""
 
     def still_held(self):
-        """What goes on coming from hands that hold all, as after a return."""
+        """Repeat what hands send that still hold everything, as after a return to the page."""
 
     def drive(self, world, until=None):
         """Take the seat if it is free, and hold all, from all released, until the robot moves, or

@@ -85,7 +85,7 @@ class World:
         threading.Thread(target=read, daemon=True).start()
 
     def start_cockpit(self):
-        """Start the cockpit, or start it anew under the same address."""
+        """Start the cockpit, or restart it under the same address."""
         lan = ["--lan"] if self._host else []
         self.cockpit = self.run(node_path("cockpit", "cockpit.py"), "--port", str(self._port), *lan)
         shown = wait_for(lambda: re.search(r"to drive: \S+|open http\S+", self.cockpit.output),

@@ -182,17 +182,12 @@ def refuse(word: str, arguments: list[str]) -> None:
     if word == "check" and not named:
         words = " ".join(["./tutorial check --in ~/ros/hydro/catkin_ws", *arguments])
         fail(f"check: which workspace? For example: {words}")
-    if (
-        word == "bench"
-        and arguments
-        and not (REPOSITORY / "test/benchmark" / arguments[0]).is_dir()
-    ):
-        fail(f'bench: "{arguments[0]}" has no folder in test/benchmark')
-    for folder in arguments if word == "docs" else ():
-        if any(
-            path.exists() and not path.is_dir() for path in (Path(folder), *Path(folder).parents)
-        ):
-            fail(f"docs: {folder}: must be a folder, which is made if it does not exist")
+    for given in arguments[:1]:
+        if word == "bench" and not (REPOSITORY / "test/benchmark" / given).is_dir():
+            fail(f'bench: "{given}" has no folder in test/benchmark')
+        above = (Path(given), *Path(given).parents)
+        if word == "docs" and any(path.exists() and not path.is_dir() for path in above):
+            fail(f"docs: {given}: must be a folder, which is made if it does not exist")
 
 
 def plan_of_ros2(workspace: Path, arguments: list[str]) -> Plan:
@@ -232,9 +227,8 @@ def plan(word: str, arguments: list[str]) -> Plan:
     elif word in ("setup", "test"):
         made = plan_of_test(*((options.kind or "", options.rest) if word == "test" else ("", [])))
         if word == "setup":
-            made.update(
-                command=[], sections=[] if options.part == "workspace" else made["sections"]
-            )
+            made["command"] = []
+            made["sections"] = [] if options.part == "workspace" else made["sections"]
     else:
         rc = REPOSITORY / "common/tutorial_tools/etc/shellrc"
         shell = ["bash", "--rcfile", str(rc), "-i"]
@@ -253,8 +247,7 @@ def candidates(typed: list[str]) -> list[str]:
         actions = parser_of(word)._actions if word in WORDS else []  # noqa: SLF001 (argparse offers no other way)
         found = [option for action in actions for option in action.option_strings]
         found += OWN_PARSER.get(word, ())
-        more = {"test": list(KINDS), "setup": ["system", "workspace"]}
-        found += more.get(word, []) if not before else []
+        found += [] if before else [one for action in actions for one in action.choices or ()]
     return [each for each in found if each.startswith(last) and (last or each[0] != "-")]
 
 

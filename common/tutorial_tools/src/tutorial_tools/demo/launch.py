@@ -1,4 +1,4 @@
-"""A launch that runs: it is watched, counted, and ended as Ctrl-C ends it; and what it drove."""
+"""Runs a launch, counts its messages, ends it as Ctrl-C does, and reports what it drove."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ class DriveReport:
         self.pose: tuple[float, float, float] | None = None
 
     def add_pose(self, x_m: float, y_m: float, qz: float, qw: float) -> None:
-        """Go on to a new pose; qz and qw are the parts of a quaternion about the z axis."""
+        """Continue to a new pose; qz and qw are the parts of a quaternion about the z axis."""
         if self.pose is not None:
             self.distance_m += math.hypot(x_m - self.pose[0], y_m - self.pose[1])
         self.pose = (x_m, y_m, 2 * math.atan2(qz, qw))
@@ -125,7 +125,7 @@ class Launch:
 
     def watch(self, duration_s: float) -> None:
         """Count the messages for a time; however that ends, summary has the result."""
-        # Anew: on a busy machine seconds of /joy may come before the first /odom.
+        # A new report: on a busy machine seconds of /joy may precede the first /odom.
         self.report, began = DriveReport(TOPICS), time.monotonic()
         try:
             self.wait(began + duration_s)

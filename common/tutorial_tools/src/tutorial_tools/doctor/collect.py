@@ -1,4 +1,4 @@
-"""Look at this machine, the master and the nodes: all that Facts holds."""
+"""Looks at this machine, the master and the nodes, and fills in Facts."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ Messages = List[Tuple[float, bytes]]  # (arrival [s], bytes)
 
 
 def collect() -> Facts:
-    """Return the Facts, within some 15 s whatever the network does."""
+    """Return the Facts within some 15 s, even if the network is broken."""
     uri = rosgraph.get_master_uri()
     facts = {"master_uri": uri, "called_back": None, **this_machine()}
     try:
@@ -69,7 +69,7 @@ def this_machine() -> dict[str, Any]:
     folders = os.environ.get("ROS_PACKAGE_PATH", "").split(":")
     own = [folder for folder in folders if folder and not folder.startswith(("/usr/", "/opt/"))]
     joy2twist = ""
-    with contextlib.suppress(Exception):  # not found, or whatever a broken package.xml brings about
+    with contextlib.suppress(Exception):  # not found, or an error of a broken package.xml
         joy2twist = os.path.realpath(rospkg.RosPack().get_path("joy2twist"))
     return {
         "own_variable": set_variables[0] if set_variables else "",

@@ -101,7 +101,7 @@ def nodes(facts: Facts) -> Iterator[Finding]:
         at = f"{name} at {node.uri}"
         local = node.host == "localhost" or node.host.startswith("127.")
         if local and not alone:
-            # Seen from another machine this address is another program's, whatever answers.
+            # Seen from another machine, this address belongs to another program.
             bad[name] = node
             yield wrong("nodes", f"{at} can be reached from its own machine only", export)
         elif node.answer is Answer.UNKNOWN_NAME:

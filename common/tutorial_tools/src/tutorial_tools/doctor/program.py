@@ -15,7 +15,7 @@ def main() -> None:
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     try:
         findings = judge(collect())
-    except Exception as error:  # whatever the network held ready, no traceback
+    except Exception as error:  # one line in place of a traceback, whatever a network does
         sys.exit(f"doctor: cannot go on: {type(error).__name__}: {' '.join(str(error).split())}")
     for finding in findings:
         print(finding.line(), flush=True)

@@ -10,7 +10,7 @@ from node_kit.questions import Answer
 from tutorial_tools.doctor.facts import JOY, TWIST, Facts, Finding, Mux, ok, some, unknown, wrong
 
 SILENT_S = 2.0  # a gamepad in the hand is not still for so long
-IDLE = ("", "idle")  # what a multiplexer says when nobody drives
+IDLE = ("", "idle")  # what a multiplexer publishes when no input is active
 MISSING = "is missing"  # what the bridge says of its other side
 NO_MESSAGE = re.compile("no message|waiting for the joystick")
 
@@ -142,7 +142,7 @@ def states(facts: Facts) -> Iterator[Finding]:
         if MISSING in text:
             todo = "its terminal says why; ./tutorial ros2 talker tries ROS 2 alone"
             yield wrong("bridge", text, todo)
-        else:  # of topics that are not carried one may need none
+        else:  # the user may not need the topics that are not carried
             yield ok("bridge", text) if well else unknown("bridge", text)
     still = any("has not changed" in text for _, text in facts.states.values())
     for node, seconds in sorted(facts.silent_s.items()) if still else ():
