@@ -132,7 +132,7 @@ def test_ctrl_c_of_the_class_ends_with_zeros(class_drives):
 
 
 @pytest.mark.parametrize("side", ["ROS 1", "ROS 2"])
-def test_what_waited_for_a_side_that_was_suspended_is_not_driven(class_drives, side, start):
+def test_what_waited_for_a_suspended_side_does_not_move_the_robot(class_drives, side, start):
     made, _, robot, twists, stick = class_drives
     made.send(side, signal.SIGSTOP)
     time.sleep(1.5)  # longer than a velocity or a Joy may be old; the robot stands by then
@@ -148,11 +148,12 @@ def test_what_waited_for_a_side_that_was_suspended_is_not_driven(class_drives, s
     assert not moves(robot)
 
 
-def test_the_newest_is_carried_whatever_the_type(bridge, start, start_ros2, ear, tmp_path):
+def test_the_newest_message_of_any_type_is_carried(bridge, start, start_ros2, ear, tmp_path):
     """Latched both ways, ten megabytes, a type that one side lacks, one that changes."""
-    to_ros2 = dict.fromkeys(("/note", "/picture", "/bumper", "/changing"), {"direction": "to_ros2"})
+    topics = {f"/{name}": "to_ros2" for name in ("note", "picture", "bumper", "changing")}
+    topics["/reply"] = "to_ros1"
     list_ = tmp_path / "topics.yaml"
-    list_.write_text(json.dumps({"topics": {**to_ros2, "/reply": {"direction": "to_ros1"}}}))
+    list_.write_text(json.dumps({"topics": {one: {"direction": topics[one]} for one in topics}}))
     note = rospy.Publisher("/note", String, queue_size=1, latch=True)
     note.publish(HOSTILE)
     made = bridge(list_)
@@ -209,7 +210,7 @@ def test_a_topic_of_both_directions_has_no_echo(bridge, start_ros2, ear):
         (None, "topics: {joy: {direction: up}}", "topics.yaml: 'joy': a topic is"),
     ],
 )
-def test_what_it_cannot_start_with_is_one_line(start, monkeypatch, tmp_path, python, text, line):
+def test_a_failed_start_is_one_line(start, monkeypatch, tmp_path, python, text, line):
     if python:
         monkeypatch.setenv("TUTORIAL_ROS2", python)
     (tmp_path / "topics.yaml").write_text(text)

@@ -115,7 +115,7 @@ class StartsTest(unittest.TestCase):
             with Program(*SIMULATOR, "__name:=killed"):
                 sender.grows("/killed")
 
-    def test_a_robot_is_replaced_by_one_that_is_told_to(self):
+    def test_a_robot_is_replaced_by_one_with_take_over(self):
         with Program(*SIMULATOR, "__name:=replaced") as old:
             watch = self.watch("odom")
             with Program(*SIMULATOR, "__name:=replaced", "_take_over:=true"):
@@ -137,7 +137,7 @@ class StartsTest(unittest.TestCase):
             watch.grows("/alive")
             self.assertFalse(node.ended)
 
-    def test_a_robot_that_is_stopped_and_may_go_on_keeps_its_name(self):
+    def test_a_suspended_robot_keeps_its_name(self):
         with Program(*SIMULATOR, "__name:=stopped") as node:
             watch = self.watch("odom")
             pids = node.left_behind()

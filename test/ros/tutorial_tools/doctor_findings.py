@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""doctor.py as a user runs it: beside a drive in which all is well, and where something is broken."""
+"""doctor.py as a user runs it: where all is well, and where one thing after the other is not."""
 
 import os
 import signal

@@ -1,4 +1,4 @@
-"""What cannot be read: named, but not as often as it comes, and nothing of it stays behind."""
+"""Unreadable messages are reported once a second, and leave nothing in the buffer."""
 
 import io
 import threading
@@ -37,7 +37,7 @@ def read(monkeypatch):
     return read
 
 
-def test_a_sender_of_them_is_reported_once_a_second(read):
+def test_unreadable_messages_are_reported_once_a_second(read):
     for number in range(25):
         lines, messages = read(LIES, 0.1 * number)
         assert messages is None
@@ -45,7 +45,7 @@ def test_a_sender_of_them_is_reported_once_a_second(read):
     assert "/joy cannot be read" in lines[0]
 
 
-def test_a_message_that_does_not_end_is_named(read):
+def test_a_message_that_does_not_end_is_reported(read):
     buffer = io.BytesIO()
     begun = b"\0\0\1\0" + b"." * 20  # 65536 bytes, it says
     assert read(begun, 0.0, buffer) == ([], [])
@@ -55,8 +55,8 @@ def test_a_message_that_does_not_end_is_named(read):
     assert "65536 bytes" in lines[0]
 
 
-def test_one_publisher_is_connected_to_by_one_thread_at_a_time(monkeypatch):
-    """And another publisher, or another topic of the same one, meanwhile."""
+def test_one_thread_at_a_time_connects_to_a_publisher(monkeypatch):
+    """Other threads may connect to other publishers and other topics meanwhile."""
     now, most = {}, {}
     others, counting = threading.Barrier(3), threading.Lock()
 

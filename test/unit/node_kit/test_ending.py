@@ -1,4 +1,4 @@
-"""A node is asked to end because another one has its name: does it still have its name?"""
+"""A node that is asked to end because of another one ends only if it has lost its name."""
 
 from types import SimpleNamespace
 

@@ -1,4 +1,4 @@
-"""The programs for launch files: names_free, and ends_launch where no roslaunch has started it."""
+"""The programs for launch files: names_free, and ends_launch without a roslaunch."""
 
 import os
 import signal
@@ -33,7 +33,7 @@ def test_only_roslaunch_starts_nodes(command, starts):
     assert will_start(command) is starts
 
 
-def test_the_first_name_that_is_held_is_reported_with_what_to_do(monkeypatch):
+def test_the_first_name_in_use_is_reported_with_what_to_do(monkeypatch):
     held = {"/robot_7/joy_node": ("http://here:1", "at http://here:1, process 5")}
     monkeypatch.setattr(launch, "holder", lambda _, name: held.get(name))
     with pytest.raises(SystemExit) as end:
@@ -55,13 +55,13 @@ def ends_launch(script):
 
 
 @pytest.mark.parametrize(("script", "code"), [("true", 0), ("exit 3", 3), ("kill -9 $$", 137)])
-def test_its_exit_code_is_that_of_the_node(script, code):
+def test_ends_launch_returns_the_exit_code_of_the_node(script, code):
     node = ends_launch(script)
     assert (node.communicate(timeout=60)[0], node.returncode) == ("", code)
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_a_signal_ends_it_as_it_ends_the_node(number):
+def test_a_signal_reaches_the_node_and_ends_ends_launch(number):
     node = ends_launch("trap 'echo ended; exit 5' INT TERM; echo ready; while :; do read x; done")
     assert node.stdout.readline() == "ready\n"
     os.killpg(node.pid, number)  # as roslaunch does

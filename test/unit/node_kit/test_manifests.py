@@ -23,7 +23,7 @@ def package(folder, text):
         ('<?xml version="1.0" encoding="moon"?><package/>', "encoding"),
     ],
 )
-def test_what_rospkg_cannot_read_is_named(tmp_path, text, word):
+def test_a_file_that_rospkg_cannot_read_is_named(tmp_path, text, word):
     package(tmp_path / "src" / "good", GOOD)
     bad = package(tmp_path / "src" / "deep" / "bad", text)
     with pytest.raises(Exception):  # noqa: B017  rospkg's own, of several kinds
@@ -33,7 +33,7 @@ def test_what_rospkg_cannot_read_is_named(tmp_path, text, word):
     assert word in complaint
 
 
-def test_what_rospkg_does_not_read_may_be_broken(tmp_path):
+def test_a_file_that_rospkg_does_not_read_may_be_broken(tmp_path):
     package(tmp_path / "ignored", "")
     (tmp_path / "ignored" / "CATKIN_IGNORE").touch()
     package(tmp_path / "good", GOOD)

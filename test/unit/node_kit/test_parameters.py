@@ -47,7 +47,7 @@ def message_of(given, kind=Parameters, **more):
     return str(caught.value)
 
 
-def test_nothing_given_is_the_defaults():
+def test_the_defaults():
     values = checked(Parameters, {})
     assert values == {
         "rate": 50.0, "share": 0.5, "count": 3, "seed": 0, "works": True, "frame": "odom",

@@ -1,4 +1,4 @@
-"""What of the command line rospy is shown."""
+"""Which words of the command line are passed to rospy."""
 
 import pytest
 

@@ -32,7 +32,7 @@ def test_a_frame_arrives_as_it_was_sent(topic, kind, data, stamp_s, is_latched):
         assert list(frames(other)) == [frame, frame]
 
 
-def test_another_side_that_ends_before_it_has_read_all_is_gone_and_no_more(ends):
+def test_a_side_that_exits_before_it_has_read_all_ends_the_frames(ends):
     one, other = ends
     frame = Frame("/a", "b/msg/C", b"1", 1.0)
     one.sendall(frame.packed())
@@ -42,7 +42,7 @@ def test_another_side_that_ends_before_it_has_read_all_is_gone_and_no_more(ends)
 
 
 @pytest.mark.parametrize("cut", [1, 12, 13, 20])
-def test_a_frame_that_was_cut_is_none(ends, cut):
+def test_an_incomplete_frame_is_dropped(ends, cut):
     one, other = ends
     one.sendall(Frame("/a", "b/msg/C", b"12345678", 1.0).packed()[:cut])
     one.shutdown(socket.SHUT_WR)
@@ -50,7 +50,7 @@ def test_a_frame_that_was_cut_is_none(ends, cut):
 
 
 def test_the_newest_velocity_does_not_wait_behind_old_ones(ends):
-    """While nothing reads, of one topic the newest is kept, of another all; they take turns."""
+    """While nothing reads, one topic keeps the newest and another all; they take turns."""
     one, other = ends
     depths = {"/cmd_vel": 1, "/odom": 1000}
     sender = Sender(one, depths.__getitem__)
@@ -70,7 +70,7 @@ def test_the_newest_velocity_does_not_wait_behind_old_ones(ends):
     sender.end()
 
 
-def test_the_end_of_the_other_side_is_the_end(ends):
+def test_a_closed_connection_ends_the_frames(ends):
     one, other = ends
     other.close()
     sender = Sender(one, lambda topic: 1)

@@ -1,4 +1,4 @@
-"""The types of the tutorial, and a hundred others, to ROS 2 and back: nothing is lost."""
+"""Messages of a hundred types are converted to ROS 2 and back without a loss."""
 
 import importlib
 import io
@@ -81,7 +81,9 @@ VALUES = {  # by genpy's names of types: a function that draws a value, extremes
     "float32": lambda draw: struct.unpack("f", struct.pack("f", real(draw)))[0],
     "string": lambda draw: draw.choice(("", "a", "\u00e4\u20ac{}%s\n", "x" * 1000)),
     "time": lambda draw: genpy.Time(draw.randrange(2**31), draw.randrange(10**9)),
-    "duration": lambda draw: genpy.Duration(whole(-(2**31), 2**31 - 1)(draw), draw.randrange(10**9)),
+    "duration": lambda draw: genpy.Duration(
+        whole(-(2**31), 2**31 - 1)(draw), draw.randrange(10**9)
+    ),
 }
 
 
@@ -117,6 +119,6 @@ def test_a_type_is_carried_without_a_loss(name):
         assert bytes(STORE.cdr_to_ros1(cdr, kind)) == data, seed
 
 
-def test_all_of_the_list_and_a_hundred_more_are_tried():
+def test_the_bridged_types_and_a_hundred_in_all_are_tried():
     assert set(TYPES) >= BRIDGED
     assert len(TYPES) >= 100, sorted(TYPES)

@@ -62,7 +62,7 @@ def test_a_long_name_is_broken(name, label):
     assert f'"topic {name}" [label="{label}" shape=box]' in text
 
 
-def test_each_machine_has_its_frame_in_order_and_the_topic_between_them_none():
+def test_each_machine_has_a_frame_and_a_topic_between_machines_has_none():
     publishers = [["/joy", ["/joy_node"]], ["/cmd_vel", ["/joy2twist"]]]
     subscribers = [["/joy", ["/joy2twist"]], ["/cmd_vel", ["/robot"]]]
     machines = {"/robot": "robot", "/joy_node": "desk", "/joy2twist": "desk"}
@@ -76,7 +76,7 @@ def test_each_machine_has_its_frame_in_order_and_the_topic_between_them_none():
     assert dot_text(again, dict(reversed(machines.items()))) == text
 
 
-def test_one_machine_has_no_frame_nor_has_a_node_that_has_just_exited():
+def test_one_machine_and_a_node_that_has_exited_have_no_frame():
     # /rosout, which is not shown, does not count.
     machines = {"/talker": "here", "/listener": "here", "/rosout": "there"}
     assert not frames(dot_text(TALK, machines))

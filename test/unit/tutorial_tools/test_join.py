@@ -1,4 +1,4 @@
-"""What join reports before it starts anything."""
+"""What join reports before it starts a launch."""
 
 import pytest
 
