@@ -100,19 +100,26 @@ def examine(orders: dict[str, Any], send: Send, result: int) -> None:
     one.must_start_programs()
     as_sent = _paths_of_the_student(scratch, layout, orders["own"])
     try:
-        for exercise in orders["exercises"]:
-            began_s = time.monotonic()
-
-            def report(found: Result, exercise: str = exercise) -> None:
-                send(exercise=exercise, result=as_sent(one.task.words(found)))
-
-            results = run.exercise(exercise, report, orders["only_first"])
-            seconds = round(time.monotonic() - began_s, 2)
-            send(exercise=exercise, done=seconds, trouble=run.trouble(exercise))
-            if orders["only_first"] and not passed(results):
-                break
+        _run_exercises(run, orders, send, lambda found: as_sent(one.task.words(found)))
     finally:
         one.box.clear()  # a build, too, is ended; where no namespace is, nothing else does that
+
+
+def _run_exercises(
+    run: Run, orders: dict[str, Any], send: Send, as_sent: Callable[[Result], dict[str, Any]]
+) -> None:
+    """Send the results of each exercise as they come, then how long it took."""
+    for exercise in orders["exercises"]:
+        began_s = time.monotonic()
+
+        def report(found: Result, exercise: str = exercise) -> None:
+            send(exercise=exercise, result=as_sent(found))
+
+        results = run.exercise(exercise, report, orders["only_first"])
+        seconds = round(time.monotonic() - began_s, 2)
+        send(exercise=exercise, done=seconds, trouble=run.trouble(exercise))
+        if orders["only_first"] and not passed(results):
+            return
 
 
 def _paths_of_the_student(
