@@ -51,7 +51,7 @@ export class BagTab {
     link.on("bag_at", (at) => this.#moveTo(at));
     link.on("hello", ({ role }) => {
       this.#looksOnly = role === "viewer";
-      this.#tell(false);
+      this.#report(false);
       if (this.#bag) link.send("bag_open", { name: this.#bag.path }); // for the server this page is new
     });
     link.on("seat", ({ yours, how }) => (this.#yours = yours && how === "bag"));
@@ -107,7 +107,7 @@ export class BagTab {
     const playable = bag.topics.filter(({ type }) => type === "sensor_msgs/Joy");
     offer(byId("bag-topic"), playable.map(({ name }) => [name]));
     byId("bag-play").disabled = this.#looksOnly || playable.length === 0;
-    this.#tell(false);
+    this.#report(false);
     this.#draw();
   }
 
@@ -130,10 +130,10 @@ export class BagTab {
       byId("bag-position").value = position;
       this.#showPosition(position);
     }
-    this.#tell(playing, topic);
+    this.#report(playing, topic);
   }
 
-  #tell(playing, topic) {
+  #report(playing, topic) {
     byId("bag-pause").disabled = !playing;
     const looks = this.#looksOnly ? "This page was opened with the address for viewers: it may look, not publish." : "";
     const none = this.#bag && !byId("bag-topic").options.length ? "This recording has no joystick topic to publish." : "";

@@ -27,7 +27,7 @@ export class Driver {
     this.names = null; // {D, X: names of the buttons of that mode}
     this.periodMs = 50;
     this.onLost = () => {};
-    const changed = () => this.#tell();
+    const changed = () => this.#report();
     const lost = (why) => this.release(why);
     this.keys = new Keys(() => this.isDriving, changed);
     this.glass = new Glass(glass, changed, lost);
@@ -51,7 +51,7 @@ export class Driver {
     if (this.isDriving) return;
     this.#letGo();
     this.#beat = 0;
-    this.#timer = setInterval(() => this.#tell(), LOOK_MS);
+    this.#timer = setInterval(() => this.#report(), LOOK_MS);
   }
 
   stop() {
@@ -119,7 +119,7 @@ export class Driver {
     return { source: isAtRest(keys) ? "touch" : "keys", hands, stamp: null };
   }
 
-  #tell() {
+  #report() {
     if (!this.isDriving || this.#away) return;
     const { source, hands, stamp } = this.#hands();
     this.glass.show(hands);

@@ -173,7 +173,7 @@ def with_import(line: str, message: str, facts: PythonFacts) -> str:
 
 
 def traced(error: str, line: int, facts: PythonFacts) -> tuple[int, str]:
-    """Return (line to blame, what to do) as far as the program's text tells; else (line, "").
+    """Return (line to blame, what to do) as far as the program's text shows it; else (line, "").
 
     line: where the error came up, or 0.
     """

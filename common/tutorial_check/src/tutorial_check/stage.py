@@ -110,7 +110,7 @@ class Stage:
     def meet(self, program: Program, *topics: str) -> bool:
         """Return whether a program has connected to ours on these topics; wait for that, or its end.
 
-        rospy connects before it attaches the callback, and counts a listener after that has been told:
+        rospy connects before it attaches the callback, and counts a listener before that:
         what is sent in between is lost, so wait until all threads of the program wait.
         """
 

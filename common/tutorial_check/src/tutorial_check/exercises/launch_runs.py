@@ -234,7 +234,7 @@ def drives_forwards(stage: Stage, pad: Any, launch: Launch, *signs: str) -> bool
     # LB alone, touched and let go: a joy_node with autorepeat_rate 0 is silent while nothing moves.
     touch("push", 0.0, 0.0)
     touch("release")
-    # A robot that has only just come obeys once it was told to rest for a while; so do we.
+    # A new robot obeys only after a while of zero velocities; so does this check.
     stage.wait(launch.is_over, 0.6)
     pad.call("push", 0.0, 1.0)
     stage.wait(lambda: moves() or launch.is_over(), 4.0 if ready() else 0.0)

@@ -143,7 +143,7 @@ def joy2twist(session: Session) -> Note | str | None:
 
 
 def _is_known(session: Session, name: str) -> bool:
-    """Return whether find_package surely finds a package. If not, a build tells, which takes its time."""
+    """Return whether find_package surely finds a package. If not, only a build shows it, which takes long."""
     prefixes = session.underlay_environment.get("CMAKE_PREFIX_PATH", "").split(":")
     if any(each.name == name for each in session.packages):
         return True

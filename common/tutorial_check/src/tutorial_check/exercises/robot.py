@@ -108,8 +108,8 @@ def _speeds(stage: Stage, robot: SimulatedRobot) -> tuple[float, float]:
     return mean([sample.v for sample in path]), mean([sample.w for sample in path])
 
 
-def _agree(measured: float, told: float, most: float) -> bool:
-    return told > 0 and abs(measured - min(told, most)) <= 0.1 * min(told, most)
+def _agree(measured: float, wanted: float, most: float) -> bool:
+    return wanted > 0 and abs(measured - min(wanted, most)) <= 0.1 * min(wanted, most)
 
 
 @check("C19", "the simulated robot follows", "4.4", "C16",
@@ -160,15 +160,15 @@ def _driven(
     """Return (speed and rate of turn of the robot, what the last Twist has in a field) in a drive."""
     before = stage.call("count", CMD_VEL)
 
-    def told() -> list[float]:
+    def wanted() -> list[float]:
         return [value[field] for _, _, value in stage.call("heard", CMD_VEL, before)]
 
     stage.call("stream", JOY, [joy], 20.0, True)
-    stage.wait(lambda: any(abs(value) > 0.01 for value in told()), 3.0)
+    stage.wait(lambda: any(abs(value) > 0.01 for value in wanted()), 3.0)
     moving = stage.call("count", ODOM)
     stage.wait(lambda: stage.call("count", ODOM) > moving + 8, 3.0)
     for _ in range(LOOKS):
-        speeds, last = _speeds(stage, robot), next(iter(told()[-1:]), None)
+        speeds, last = _speeds(stage, robot), next(iter(wanted()[-1:]), None)
         if last is not None and _agree(speeds[field == ANGULAR], last, FASTEST[field]):
             break
     stage.call("end_stream", JOY)
