@@ -110,8 +110,8 @@ class Stage:
     def meet(self, program: Program, *topics: str) -> bool:
         """Return whether a program has connected to ours on these topics; wait for that, or its end.
 
-        rospy connects before it attaches the callback, and counts a listener before that:
-        what is sent in between is lost, so wait until all threads of the program wait.
+        rospy connects before it attaches the callback, and a publisher counts a subscriber from the
+        connection on: what is sent in between is lost, so wait until all threads of the program wait.
         """
 
         def has_met() -> bool:
