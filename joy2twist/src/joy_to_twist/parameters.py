@@ -2,7 +2,7 @@
 
 The YAML files of teleop_twist_joy, a C++ node, load unchanged. Two defaults differ, so that the
 bare node is the tutorial's: every scale is 1, and enable_button is -1 (no dead-man), not 0.
-`test/lint --fix` writes the README's table from these declarations.
+`./tutorial lint --fix` writes the README's table from these declarations.
 """
 
 from __future__ import annotations

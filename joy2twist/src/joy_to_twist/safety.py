@@ -143,7 +143,7 @@ class Safety:
         if self._stopping:
             self._stopping, self._next_output = False, math.inf
         if not self._gradual:
-            return self._send(velocity)
+            return self._answer(velocity)
         self._target = velocity
         # While the velocity changes, tick() sends it at a steady rate.
         return self._step(now) if self._next_output == math.inf else None
@@ -212,7 +212,7 @@ class Safety:
         if self._parameters.require_enable_button:
             return self._stop(now)
         self._next_output = math.inf
-        return self._send(ZERO)
+        return self._answer(ZERO)
 
     def _stop(self, now: float) -> Velocity | None:
         if self._stopping:
@@ -224,19 +224,19 @@ class Safety:
     def _repeat(self, now: float) -> Velocity:
         self._repeats -= 1
         self._schedule(now + self._period if self._repeats else math.inf)
-        return self._send(ZERO)
+        return self._answer(ZERO)
 
     def _step(self, now: float) -> Velocity:
         velocity = approach(self._sent, self._target, *self._changes)
         rests = velocity == self._target == ZERO
         self._schedule(math.inf if rests else now + self._period)
-        return self._send(velocity)
+        return self._answer(velocity)
 
     def _schedule(self, next_output: float) -> None:
         self._next_output = next_output
         self._wake()
 
-    def _send(self, velocity: Velocity) -> Velocity:
+    def _answer(self, velocity: Velocity) -> Velocity:
         before, self._sent = self._sent, velocity
         if self._watches_stillness and before == ZERO != velocity:
             self._wake()

@@ -1,8 +1,12 @@
 """Names, defaults and checks of the private parameters."""
 
-import pytest
+import re
 
-from joy_to_twist.parameters import Axis, load
+import pytest
+import yaml
+
+from joy_to_twist.parameters import Axis, Parameters, load
+from node_kit.parameters import declared
 
 LINEAR_X, LINEAR_Y, LINEAR_Z, ROLL, PITCH, YAW = range(6)
 
@@ -90,19 +94,19 @@ def test_an_error_names_parameter_value_and_what_is_allowed(name, values, words,
         assert str(error.value) == f"~{name}: {value!r}: {words}"
 
 
-# What is allowed at least and at most; a step beyond is refused.
-BOUNDS = {
-    "axis_curve": (1, 5), "joy_timeout": (0, 60), "max_joy_age": (0, 60), "stop_messages": (1, 100),
-    "output_rate": (1, 1000), "max_linear_speed": (0, 1000), "max_angular_speed": (0, 1000),
-    "max_linear_acceleration": (0, 1000), "max_angular_acceleration": (0, 1000),
-    "log_rate": (0, 1000), "diagnostic_period": (0.1, 60), "scale_linear": (-100, 100),
-}  # fmt: skip
+BOUNDS = {  # as the declarations, and so the README, state them
+    name: [yaml.safe_load(bound) for bound in found.groups()]
+    for name, one in declared(Parameters).items()
+    if (found := re.search(r"from (-?[\d.]+) to ([\d.]+)", one.metadata["check"].allowed))
+}
 
 
 @pytest.mark.parametrize("name", BOUNDS)
 def test_the_least_and_the_most_are_allowed_and_no_more(name):
     least, most = BOUNDS[name]
-    assert [getattr(load({name: value}), name) for value in (least, most)] == [least, most]
+    others = ARMED if name == "vigilance_timeout" else {}
+    for value in (least, most):
+        assert getattr(load({name: value, **others}), name) == value
     for value in (least - 0.5, most + 0.5, None, "1", False):
         with pytest.raises(ValueError, match=rf"^~{name}: {value!r}: must be a .*number"):
-            load({name: value})
+            load({name: value, **others})
