@@ -50,7 +50,7 @@ class World(RuleBasedStateMachine):
 
 @st.composite
 def parameters(draw):
-    """Private parameters of joy2twist that fit together, and with which a held stick moves the robot."""
+    """Private parameters of joy2twist that fit together; with all of them a held stick drives."""
     enable, turbo = draw(st.sampled_from([(-1, -1), (0, -1), (0, 1), (1, 0), (-1, 0)]))
     given = {
         "enable_button": enable,
