@@ -5,17 +5,13 @@ import random
 
 import pytest
 
-from cockpit_server.bags import Bags
-from cockpit_server.doctor import Doctor
-from cockpit_server.graph_view import GraphView, Topics
+import cockpit_server.node  # noqa: F401  which imports every source
+from cockpit_server.clients import Source
 from cockpit_server.hub import Hub
-from cockpit_server.logs import Logs
-from cockpit_server.plots import Plots
-from cockpit_server.resets import Resets
-from cockpit_server.robots import Pads, Robots
 from cockpit_server.schema import Schema, check_lengths
 
-SCHEMA = Schema([Hub, Robots, Pads, GraphView, Topics, Plots, Logs, Bags, Doctor, Resets])
+SOURCES = [one for one in Source.__subclasses__() if one.__module__.startswith("cockpit_server.")]
+SCHEMA = Schema([Hub, *SOURCES])
 GOOD = {
     "watch": {
         "robots": True, "look": None, "graph": False, "topic": "/odom", "node": None,
