@@ -15,7 +15,6 @@ from tutorial_testing.screen import virtual_screen
 from tutorial_testing.waiting import wait_for
 
 
-
 class WebKit:
     """WebKitGTK's MiniBrowser, with the methods of Firefox that are used here."""
 
@@ -81,7 +80,8 @@ def webkit(monkeypatch):
 def test_keys_drive_the_robot_and_every_tab_opens(world, engine, request):
     browser = request.getfixturevalue(engine)
     browser.open(world.address)
-    for name in browser.ask("[...document.querySelectorAll('[role=tabpanel]')].map((tab) => tab.id)"):
+    panels = "[...document.querySelectorAll('[role=tabpanel]')]"
+    for name in browser.ask(f"{panels}.map((panel) => panel.id)"):
         browser.click(f"#tab-{name}")
         assert browser.ask(f"document.getElementById('{name}').clientHeight > 0")
     browser.click("#tab-robot")
