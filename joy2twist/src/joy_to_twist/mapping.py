@@ -36,7 +36,6 @@ class Mapping:
         self._stop, self._reset = parameters.stop_button, parameters.stop_reset_button
         self._needed_buttons = 1 + max(self._enable, self._turbo, self._stop, self._reset)
         self._curve = parameters.axis_curve
-        self._reverse_scale = parameters.reverse_scale
         self._inverted_reverse = parameters.inverted_reverse
         self._max_linear = parameters.max_linear_speed or math.inf
         self._max_angular = parameters.max_angular_speed or math.inf
@@ -61,10 +60,8 @@ class Mapping:
             if self._curve != 1.0:
                 value = math.copysign(abs(value) ** self._curve, value)
             velocity[component] = value * (turbo_scale if turbo else scale)
-        if velocity[0] < 0:
-            velocity[0] *= self._reverse_scale
-            if self._inverted_reverse:
-                velocity[5] = -velocity[5]
+        if self._inverted_reverse and velocity[0] < 0:
+            velocity[5] = -velocity[5]
         return limit_speed(tuple(velocity), self._max_linear, self._max_angular)
 
     def rests(self, axes: Sequence[float], velocity: Velocity | None) -> bool:

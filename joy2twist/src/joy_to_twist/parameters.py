@@ -86,9 +86,6 @@ class Parameters:
     require_enable_button: bool = parameter(
         None, switch, "one of these two must be held", "true with `~enable_button`"
     )
-    reverse_scale: float = parameter(
-        1.0, number(0, 1, "(1: as fast as forwards)"), "factor of a negative linear.x"
-    )
     inverted_reverse: bool = parameter(False, switch, "while reversing, steer as a car does")
     axis_curve: float = parameter(
         1.0, number(1, 5, "(1: linear)"), "exponent of an axis: 2 or 3 is gentle near the middle"
