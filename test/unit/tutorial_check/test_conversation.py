@@ -75,6 +75,8 @@ JOY_NEEDED = "callback), and at the top: from sensor_msgs.msg import Joy"
          ":10", JOY_NEEDED),
         ("NOT_CONNECTED", PROGRAM, {"subscribers": {}, "publishers": {JOY: 1},
          "types": {JOY: "T"}}, "PUBLISHES on /joy (T)", ":10", ""),
+        ("NOT_CONNECTED", PROGRAM.replace("/joy", "/Joy"), {"subscribers": {"/Joy": ["/node"]}},
+         "subscribes to /Joy", ":10", "in lower case"),
         ("NOT_CONNECTED", "", {"subscribers": {}}, "subscribes to nothing", "",
          "before rospy.spin()"),
         ("DISPLAYED", PROGRAM, {"shown": 3}, "3 of 20 were displayed", None, ""),
