@@ -3,7 +3,7 @@
 from math import acos, asin, cos, inf, pi, sqrt
 
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from fake_turtlebot_sim.simulator.contact import Piece, drive_among, first_contact, gap
@@ -55,6 +55,10 @@ velocities = st.tuples(
 
 
 @settings(max_examples=500, deadline=None)
+@example(  # a circle of 0.1 um beside the end of a wall, whose gap is a rounding
+    [post(0.0, 0.0, 0.0), (0.0, 0.0, 0.0, -1.0, 0.0)], (-1.0, 0.0, 0.0),
+    [((1.0, 0.0), 1.0), ((-1.4901161193847696e-07, pi), 2.0)],
+)  # fmt: skip
 @given(
     st.lists(walls | posts, min_size=1, max_size=8),
     st.tuples(places, places, st.floats(-pi, pi)),

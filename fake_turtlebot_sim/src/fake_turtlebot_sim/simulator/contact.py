@@ -126,7 +126,7 @@ class _Motion:
         along = wall / length
         for out in (1j * along, -1j * along):
             away = -(start * out.conjugate()).real
-            for way in self._ways(out.real, out.imag, self._bend * _rounded(reach - away)):
+            for way in self._ways(out.real, out.imag, -self._bend * _rounded(away - reach)):
                 half = 0.5 * self._bend * way
                 place = rect(way * (sin(half) / half if half else 1.0), half)
                 if 0.0 <= ((place - start) * along.conjugate()).real <= length:
@@ -152,8 +152,8 @@ class _Motion:
 
 
 def _rounded(gap_m: float) -> float:
-    """Return 0 for a gap that counts as none: a robot that leaves may be inside by a rounding."""
-    return gap_m if abs(gap_m) > TOUCH_M else 0.0
+    """Return 0 for a gap below none: a robot that leaves may be inside by a rounding."""
+    return 0.0 if -TOUCH_M <= gap_m < 0.0 else gap_m
 
 
 def drive_among(
