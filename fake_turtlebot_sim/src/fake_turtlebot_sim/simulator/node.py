@@ -63,7 +63,7 @@ class FakeTurtlebot:
         frames = [(parameters.world_frame, one.odom_frame, ORIGIN) for one in self._topics]
         if parameters.world:
             robots = {topics.name: topics.robot for topics in self._topics}
-            self._world = WorldTopics(parameters, parameters.world, robots)
+            self._world = WorldTopics(parameters, parameters.world, robots, log.warn)
             frames = self._world.frames()
         if parameters.publish_tf and (parameters.world or parameters.robots):
             self._lay(frames)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cos, sin
+from math import cos, sin, tau
 from pathlib import Path
 from typing import Any, Callable
 
@@ -50,22 +50,33 @@ def read_world(path: Path) -> World:
     except (UnicodeDecodeError, yaml.YAMLError) as error:
         mark, why = (getattr(error, name, None) for name in ("problem_mark", "problem"))
         where = f", line {mark.line + 1}" if mark else ""
-        raise WorldError(f"{path}{where}: no YAML: {why or 'no text'}") from None
+        raise WorldError(f"{path}{where}: not YAML: {why or 'no text'}") from None
     if not isinstance(data, dict):
         raise WorldError(f"{path}: must be a map of {', '.join(FIELDS)}, or of map_server")
     if "image" in data:
         return _from_map(path, data)
     found = {}
-    for key, _ in node.value:
-        name, where = key.value, f"{path}, line {key.start_mark.line + 1}: {key.value}"
+    for key, items in node.value:
+        name, line = key.value, key.start_mark.line + 1
         if name not in FIELDS:
-            raise WorldError(f"{where}: is not known; known are {', '.join(FIELDS)}")
+            known = ", ".join(FIELDS)
+            raise WorldError(f"{path}, line {line}: {name}: is not known; known are {known}")
         allowed, read = FIELDS[name]
-        try:
-            found[name] = read(data[name])
-        except (TypeError, ValueError, KeyError):
-            raise WorldError(f"{where}: must be {allowed}") from None
+        found[name] = _read(read, data[name])
+        if found[name] is None:
+            if isinstance(data[name], list):  # the first of its items that is wrong
+                wrong = [_read(read, [item]) is None for item in data[name]].index(True)
+                line = items.value[wrong].start_mark.line + 1
+            raise WorldError(f"{path}, line {line}: {name}: must be {allowed}")
     return World(**found)
+
+
+def _read(read: Callable[[Any], Any], value: Any) -> Any:
+    """Return what a value means, or None if it is not allowed."""
+    try:
+        return read(value)
+    except (TypeError, ValueError, KeyError):
+        return None
 
 
 def _numbers(values: Any, count: int) -> Any:
@@ -91,14 +102,19 @@ def _posts(value: Any) -> Any:
     return tuple(_named(post, "x", "y", "radius") for post in value)
 
 
+def _start(value: Any) -> Any:
+    if abs(value["yaw"]) > tau:
+        raise ValueError
+    return _named(value, "x", "y", "yaw")
+
+
 # What each must be, and what reads it.
 FIELDS: dict[str, tuple[str, Callable[[Any], Any]]] = {
     "walls": ("a list of polylines [[x, y], [x, y], ...] in metres", lambda v: _lines(v, 2)),
-    "posts": ("a list of {x: ..., y: ..., radius: ...} in metres", _posts),
+    "posts": ("a list of {x: ..., y: ..., radius: ...} in metres, radius above 0", _posts),
     "cliffs": ("a list of polygons [[x, y], [x, y], [x, y], ...] in metres",
                lambda v: _lines(v, 3)),
-    "start": ("{x: ..., y: ..., yaw: ...} in metres and radians",
-              lambda v: _named(v, "x", "y", "yaw")),
+    "start": ("{x: ..., y: ..., yaw: ...} in metres and radians, yaw from -2 pi to 2 pi", _start),
 }  # fmt: skip
 
 

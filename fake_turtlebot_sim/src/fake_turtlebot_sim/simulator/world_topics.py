@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from typing import Any
+from typing import Any, Callable
 
 import numpy as np
 import rospy
@@ -33,11 +33,15 @@ class WorldTopics:
     """Publishers: map, latched, world_markers and the SensorTopics of each robot."""
 
     def __init__(
-        self, parameters: Parameters, world: World, robots: dict[str, SimulatedRobot]
+        self,
+        parameters: Parameters,
+        world: World,
+        robots: dict[str, SimulatedRobot],
+        warn: Callable[[str], None],
     ) -> None:
         """Take the robots by name and publish the map and the markers."""
         self._parameters, self._robots = parameters, list(robots.values())
-        self._sensors = [SensorTopics(name, parameters, world) for name in robots]
+        self._sensors = [SensorTopics(name, parameters, world, warn) for name in robots]
         self._map = rospy.Publisher("map", OccupancyGrid, queue_size=1, latch=True)
         self._map.publish(world_map(world, parameters.map_frame, rospy.Time.now()))
         self._markers = PromptPublisher("world_markers", MarkerArray)
@@ -77,8 +81,11 @@ class WorldTopics:
 class SensorTopics:
     """Publishers: mobile_base/events/bumper, cliff, wheel_drop, bumper_markers and scan."""
 
-    def __init__(self, name: str, parameters: Parameters, world: World) -> None:
+    def __init__(
+        self, name: str, parameters: Parameters, world: World, warn: Callable[[str], None]
+    ) -> None:
         """Take the name of the robot, empty for the only one."""
+        self._name, self._warn = name or "the robot", warn
         p, prefix = parameters, f"{name}/" if name else ""
         self.scan_frame, self.base_frame = prefix + p.scan_frame, prefix + p.base_frame
         self._sensed = self._published = Sensed()
@@ -122,5 +129,8 @@ class SensorTopics:
                 if is_on != was[k]:
                     bottom = {"bottom": BOTTOM[is_on]} if kind is CliffEvent else {}
                     publisher.publish(kind(state=int(is_on), **{field: k}, **bottom))
+        if any(after.wheels) and not any(before.wheels):
+            (x, y, _), todo = self._seen[0], "lift it with ~reset or initialpose"
+            self._warn(f"{self._name} fell over an edge at ({x:.2f}, {y:.2f}): {todo}")
         if before.bumpers != after.bumpers:
             self._markers.publish(MarkerArray(bumper_markers(after.bumpers, self.base_frame)))
