@@ -41,17 +41,17 @@ def asked(make_session):
 
 @pytest.mark.parametrize("row", [
     (chatter.talker, TALKER, {"master_alive": False}, "has ended it", "", ""),
-    (chatter.talker, SUNKEN, {"ended": True}, "ended at once", ":3", "within main()"),
+    (chatter.talker, SUNKEN, {"ended": True}, "it ended, exit code", ":3", "within main()"),
     (chatter.talker, TALKER + "while True: pass", {"heard": [(k / 1e4, "", "") for k in range(9)]},
      "thousands of messages", ":4", "rate.sleep()"),
-    (chatter.listener, SUNKEN, {"ended": True}, "ended at once", ":3", "within main()"),
+    (chatter.listener, SUNKEN, {"ended": True}, "it ended, exit code", ":3", "within main()"),
     (chatter.listener, SUBSCRIBER.replace("String", "Int32"), {}, "wants Int32", ":1",
      "at the top: from std_msgs.msg import String"),
     (chatter.listener, RIGHT, {"output": "A"}, "1 of 2 displayed", ":4", "does callback"),
     (chatter.graph, "", {}, "no such way in the graph", "", "one name"),
     # C9 and C10 look again, and talker and listener do not come as far as they did before.
     (chatter.anonymous, TALKER, {}, "not one message", "", "within the loop?"),
-    (chatter.ctrl_c, TALKER, {"ended": True}, "ended at once", "", "call talker()?"),
+    (chatter.ctrl_c, TALKER, {"ended": True}, "it ended, exit code", "", "call talker()?"),
 ])  # fmt: skip
 def test_diagnosis(asked, row):
     check, text, recorded, seen, where, hint = row

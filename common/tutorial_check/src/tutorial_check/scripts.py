@@ -223,7 +223,7 @@ def crash(session: Session, package: str, program: Any, expected: str, hint: str
         seen = f"{program.name} works all the time and gets nowhere"
         hint = "a loop without end? In the callback, and before rospy.init_node, there is none"
         return Wrong(expected, seen, hint=hint, sure=True)
-    ended = "it runs" if code is None else f"it ended at once, exit code {code}"
+    ended = "it runs" if code is None else f"it ended, exit code {code}"
     said = last_lines(program.output)
     said = f"; it printed: {said}" if said else ", and printed nothing"
     return Wrong(expected, ended + said, hint=hint)
