@@ -37,7 +37,7 @@ class Classroom(unittest.TestCase):
             wait_for(lambda: abs(seen()[OURS]["x"] - at.x) < 0.001, "place of its odometry")
             self.assertAlmostEqual(seen()[OURS]["y"], at.y, delta=0.001)
             self.assertAlmostEqual(seen()[OURS]["covered"], at.x, delta=NEAR_M)
-            self.assertEqual(page.of("pad")[-1]["axes"], [0.0] * 6)
+            wait_for(lambda: page.of("pad")[-1]["axes"] == [0.0] * 6, "sticks at rest")
             page.wait_for("teleop", lambda told: [told["state"], told["level"]] == ["stopped", 1])
             for robot in OTHERS:
                 self.assertEqual(seen()[robot]["x"], start[robot]["x"])
