@@ -81,7 +81,7 @@ def test_keys_drive_the_robot_and_every_tab_opens(world, engine, request):
     browser = request.getfixturevalue(engine)
     browser.open(world.address)
     panels = "[...document.querySelectorAll('[role=tabpanel]')]"
-    for name in browser.ask(f"{panels}.map((panel) => panel.id)"):
+    for name in browser.ask(f"{panels}.map((panel) => panel.id).join(' ')").split():
         browser.click(f"#tab-{name}")
         assert browser.ask(f"document.getElementById('{name}').clientHeight > 0")
     browser.click("#tab-robot")
