@@ -35,7 +35,7 @@ ROWS = [
     row("it ignores the bumper and the laser", WANDER, "if since_bump < BACK_S:", "if True:\n            twist.linear.x = SPEED\n        elif since_bump < BACK_S:", "C37", "it pushed"),
     row("it turns on the spot", WANDER, "min(scan.ranges) < FREE", "True", "C37", "turn until it is"),
     row("it stands before a wall", WANDER, "twist.angular.z = self.turn", "pass", "C37", "in a place"),
-    row("it circles blindly", WANDER, "if since_bump < BACK_S:", "if True:\n            twist.linear.x, twist.angular.z = 0.3, 0.4\n        elif since_bump < BACK_S:", "C37", "it"),
+    row("it circles blindly", WANDER, "if since_bump < BACK_S:", "if True:\n            twist.linear.x, twist.angular.z = 0.3, 0.4\n        elif since_bump < BACK_S:", "C37", "it pushed"),
     row("it stands after a while", WANDER, "if since_bump < BACK_S:", "self.began = getattr(self, 'began', rospy.get_time())\n        if rospy.get_time() - self.began > 25.0:\n            pass\n        elif since_bump < BACK_S:", "C37", "it stood for"),
     row("it ends", WANDER, "    rospy.spin()\n", "", "C37", "rospy.spin()"),
 ]  # fmt: skip

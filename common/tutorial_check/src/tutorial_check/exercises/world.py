@@ -62,7 +62,7 @@ def reads_bumper(session: Session) -> str:
             lines.add(shown())
     if len(lines) < len(SIDES):
         hint = "event.bumper says which one: BumperEvent.LEFT, CENTER or RIGHT"
-        raise Wrong("a line of its own for each bumper", f"for all: {lines.pop()}", script, hint)
+        raise Wrong("a different line for each bumper", f"for all: {lines.pop()}", script, hint)
     return ", ".join(SIDES)
 
 
