@@ -230,11 +230,8 @@ def test_each_world_of_the_package_has_room_for_a_class(name):
     [
         ({"world": 3}, "~world: 3: must be a file"),
         ({"world": "moon"}, "~world: 'moon': no world of this package has that name: take maze, "),
-        (
-            {"world": "./none.yaml"},
-            "~world: './none.yaml': none.yaml: cannot be read: No such file",
-        ),
-        ({"world": "maze", "robots": 500}, "~world: the world has room for"),
+        ({"world": "./none.yaml"}, "~world: './none.yaml': cannot be read: No such file"),
+        ({"world": "maze", "robots": 500}, "~world: 'maze': the world has room for"),
         ({"world": "maze", "robots": {"ada": [1.0, 1.0, 0.0]}}, "would be inside of a wall"),
         ({"scan_range_min": 11.0}, "~scan_range_min: must be less than ~scan_range_max"),
     ],

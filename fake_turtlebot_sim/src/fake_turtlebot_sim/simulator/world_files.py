@@ -17,7 +17,7 @@ MOST_WALLS = 20_000
 
 
 class WorldError(ValueError):
-    """Why a file is no world: one line, with the line of the file and what is allowed."""
+    """Why a file is no world: the line in it and what is allowed, in one line without its path."""
 
 
 def find_world(name: str) -> Path:
@@ -46,13 +46,13 @@ def read_world(path: Path) -> World:
         node = yaml.compose(text, Loader=yaml.SafeLoader)
         data = yaml.safe_load(text)
     except OSError as error:
-        raise WorldError(f"{path}: cannot be read: {error.strerror}") from None
+        raise WorldError(f"cannot be read: {error.strerror}") from None
     except (UnicodeDecodeError, yaml.YAMLError) as error:
         mark, why = (getattr(error, name, None) for name in ("problem_mark", "problem"))
-        where = f", line {mark.line + 1}" if mark else ""
-        raise WorldError(f"{path}{where}: not YAML: {why or 'no text'}") from None
+        where = f"line {mark.line + 1}: " if mark else ""
+        raise WorldError(f"{where}not YAML: {why or 'no text'}") from None
     if not isinstance(data, dict):
-        raise WorldError(f"{path}: must be a map of {', '.join(FIELDS)}, or of map_server")
+        raise WorldError(f"must be a map of {', '.join(FIELDS)}, or of map_server")
     if "image" in data:
         return _from_map(path, data)
     found = {}
@@ -60,14 +60,14 @@ def read_world(path: Path) -> World:
         name, line = key.value, key.start_mark.line + 1
         if name not in FIELDS:
             known = ", ".join(FIELDS)
-            raise WorldError(f"{path}, line {line}: {name}: is not known; known are {known}")
+            raise WorldError(f"line {line}: {name}: is not known; known are {known}")
         allowed, read = FIELDS[name]
         found[name] = _read(read, data[name])
         if found[name] is None:
             if isinstance(data[name], list):  # the first of its items that is wrong
                 wrong = [_read(read, [item]) is None for item in data[name]].index(True)
                 line = items.value[wrong].start_mark.line + 1
-            raise WorldError(f"{path}, line {line}: {name}: must be {allowed}")
+            raise WorldError(f"line {line}: {name}: must be {allowed}")
     return World(**found)
 
 
@@ -129,7 +129,7 @@ def _from_map(path: Path, about: dict[str, Any]) -> World:
         resolution, threshold = _numbers(scales, 2)
     except (TypeError, ValueError, KeyError):
         needs = "resolution [m], origin [x, y, yaw] and occupied_thresh, as map_server has them"
-        raise WorldError(f"{path}: a map needs {needs}") from None
+        raise WorldError(f"a map needs {needs}") from None
     try:
         with Image.open(image) as picture:
             if picture.width * picture.height > LARGEST_MAP:
