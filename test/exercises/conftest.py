@@ -19,6 +19,7 @@ KINDS = ("found", "wrongly blamed", "missed", "not checked", "reported as well")
 
 OPTIONS = {
     "--every": (1, "only every Nth row of data"),
+    "--first": (0, "the row with which --every begins"),
     "--students": (4, "how many in the test of --all"),
     "--submissions": (8, "how many on a cluster"),
     "--repeat": (0, "only N checks of right solutions, in turn"),
@@ -72,7 +73,8 @@ def pytest_collection_modifyitems(config, items):
         left_out = {item for at, item in enumerate(many) if at % SOME_TASKS}
         items[:] = [item for item in items if item not in left_out]
     rows = [item for item in items if {"row", "variant"} & set(getattr(item, "fixturenames", ()))]
-    left_out = {item for at, item in enumerate(rows) if at % config.getoption("--every")}
+    every, first = config.getoption("--every"), config.getoption("--first")
+    left_out = {item for at, item in enumerate(rows) if (at - first) % every}
     items[:] = [item for item in items if item not in left_out]
 
 
