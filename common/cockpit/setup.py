@@ -3,7 +3,7 @@ from setuptools import setup
 
 setup(
     **generate_distutils_setup(
-        packages=["cockpit_server", "cockpit_server.classroom"],
+        packages=["cockpit_server", "cockpit_server.classroom", "cockpit_server.sources"],
         package_dir={"": "src"},
     )
 )

@@ -10,9 +10,9 @@ import rosbag
 import rospy
 from sensor_msgs.msg import Joy
 
-from cockpit_server import bags, recording
-from cockpit_server.recording import RecordingError, curves, read
 from cockpit_server.seat import BAG, RefusedError
+from cockpit_server.sources import bags, recording
+from cockpit_server.sources.recording import RecordingError, curves, read
 from tutorial_testing.seat_room import page as new_page
 
 

@@ -8,8 +8,8 @@ from cockpit_server import drives
 from cockpit_server.access import DRIVER, VIEWER
 from cockpit_server.drives import LOOKS_ONLY, NO_ROBOT, About, Drives
 from cockpit_server.graph import Graph
-from cockpit_server.resets import Resets
 from cockpit_server.seat import BAG, PAGE, RefusedError, Seat
+from cockpit_server.sources.resets import Resets
 from tutorial_testing.seat_room import page
 
 ANNA, BOB = 1, 2

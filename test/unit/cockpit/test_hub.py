@@ -12,8 +12,8 @@ from cockpit_server.clients import Source
 from cockpit_server.graph import Graph
 from cockpit_server.guard import MOST_REPORTED, Guard
 from cockpit_server.hub import CONNECT_S, GIVE_S, Hub
-from cockpit_server.logs import Logs
 from cockpit_server.seat import PAGE
+from cockpit_server.sources.logs import Logs
 from tutorial_testing.seat_room import page, serialised
 
 

@@ -7,8 +7,8 @@ import rospy
 from sensor_msgs.msg import Joy
 from std_msgs.msg import Float64, Header
 
-from cockpit_server import plots
 from cockpit_server.graph import Graph
+from cockpit_server.sources import plots
 from tutorial_testing.seat_room import page, serialised
 
 NOW = 1000.0

@@ -2,8 +2,9 @@
 
 import pytest
 
-from cockpit_server import doctor, graph_watch
+from cockpit_server import graph_watch
 from cockpit_server.graph import ODOMETRY
+from cockpit_server.sources import doctor
 from node_kit.questions import Answer
 from tutorial_testing.seat_room import page
 from tutorial_testing.waiting import wait_for

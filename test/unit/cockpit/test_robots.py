@@ -7,11 +7,11 @@ import pytest
 from sensor_msgs.msg import Joy
 from std_msgs.msg import Header, String
 
-from cockpit_server import robots as robots_module
 from cockpit_server.graph import JOY, ODOMETRY, Graph
-from cockpit_server.graph_view import LONGEST_MESSAGE, Topic
 from cockpit_server.motion import Motion
-from cockpit_server.robots import LONGEST_JOY, Pads, Robots, joy_shown, shown
+from cockpit_server.sources import robots as robots_module
+from cockpit_server.sources.graph_view import LONGEST_MESSAGE, Topic
+from cockpit_server.sources.robots import LONGEST_JOY, Pads, Robots, joy_shown, shown
 from tutorial_testing.seat_room import page, serialised
 
 

@@ -12,7 +12,7 @@ from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
 from cockpit_server.graph import ODOMETRY, Graph
-from cockpit_server.surroundings import (
+from cockpit_server.sources.surroundings import (
     MOST_CELLS,
     MOST_POINTS,
     Surroundings,

@@ -11,16 +11,16 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Joy
 
 from cockpit_server.clients import LONGEST_FLOOD, encoded
-from cockpit_server.doctor import shown
 from cockpit_server.fields import parts_of, split, value_at
 from cockpit_server.graph import Graph, without
-from cockpit_server.logs import without_folders
 from cockpit_server.motion import Motion, covered, motion
-from cockpit_server.plots import fields_of
-from cockpit_server.recording import corners, curves
-from cockpit_server.resets import reset_service
 from cockpit_server.seat import RefusedError
-from cockpit_server.teleop import said
+from cockpit_server.sources.doctor import shown
+from cockpit_server.sources.logs import without_folders
+from cockpit_server.sources.plots import fields_of
+from cockpit_server.sources.recording import corners, curves
+from cockpit_server.sources.resets import reset_service
+from cockpit_server.sources.teleop import said
 from tutorial_testing.seat_room import page, serialised
 
 

@@ -11,20 +11,20 @@ import rospy
 from tornado.ioloop import PeriodicCallback
 
 from cockpit_server.access import Access
-from cockpit_server.bags import Bags
-from cockpit_server.doctor import Doctor
 from cockpit_server.drives import Drives
 from cockpit_server.feeds import Feeds
-from cockpit_server.graph_view import GraphView, Topics
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.hub import TICK_S, Hub
 from cockpit_server.joysticks import Joysticks
-from cockpit_server.logs import Logs
-from cockpit_server.plots import Plots
-from cockpit_server.resets import Resets
-from cockpit_server.robots import Pads, Robots
-from cockpit_server.surroundings import Surroundings
-from cockpit_server.teleop import Teleop
+from cockpit_server.sources.bags import Bags
+from cockpit_server.sources.doctor import Doctor
+from cockpit_server.sources.graph_view import GraphView, Topics
+from cockpit_server.sources.logs import Logs
+from cockpit_server.sources.plots import Plots
+from cockpit_server.sources.resets import Resets
+from cockpit_server.sources.robots import Pads, Robots
+from cockpit_server.sources.surroundings import Surroundings
+from cockpit_server.sources.teleop import Teleop
 from cockpit_server.web import server
 from node_kit.log import Log
 

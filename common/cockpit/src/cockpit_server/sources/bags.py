@@ -9,9 +9,9 @@ from typing import Any, ClassVar, Sequence
 from cockpit_server.clients import Client, Source
 from cockpit_server.graph import JOY
 from cockpit_server.player import Player
-from cockpit_server.recording import Recording, RecordingError, Shelf, recordings
 from cockpit_server.schema import number, switch, text
 from cockpit_server.seat import BAG, RefusedError
+from cockpit_server.sources.recording import Recording, RecordingError, Shelf, recordings
 
 LOOK_S = 2.0  # how often the folder is looked at for recordings, while a page shows them
 

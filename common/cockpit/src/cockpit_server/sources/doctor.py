@@ -13,7 +13,7 @@ from typing import ClassVar
 import rospkg
 
 from cockpit_server.clients import Client, Source
-from cockpit_server.logs import without_folders
+from cockpit_server.sources.logs import without_folders
 
 LONGEST_RUN_S = 60.0
 FRESH_S = 10.0  # a viewer gets lines of this age, without a new run

@@ -12,8 +12,8 @@ from cockpit_server.clients import Client, Source, encoded
 from cockpit_server.feeds import Feeds, later
 from cockpit_server.graph import Graph
 from cockpit_server.graph_watch import GraphWatch
-from cockpit_server.plots import class_of
 from cockpit_server.schema import full_name, or_null, switch
+from cockpit_server.sources.plots import class_of
 from node_kit.questions import Answer, call
 
 PERIOD_S = 0.5
