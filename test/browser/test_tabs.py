@@ -175,10 +175,3 @@ def test_doctor_shows_its_lines(page, ros):
     page.click("Run again")
     page.wait_for_text("#doctor-state", "Checking")
     wait_for(lambda: "Checking" not in page.text("#doctor-state"), "second run", LONG_S)
-
-
-def test_parameters_lists_those_of_the_master(page, ros):
-    page.tab("Parameters")
-    names = set(ros("rosparam", "list").split())
-    wait_for(lambda: page.all("#parameter-rows tr"), "rows", LONG_S)
-    assert {one.text for one in page.all("#parameter-rows td:first-child")} >= names - {"/cockpit"}

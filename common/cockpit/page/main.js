@@ -6,7 +6,6 @@ import { DoctorTab } from "./doctor_tab.js";
 import { GraphTab } from "./graph_tab.js";
 import { Link } from "./link.js";
 import { LogTab } from "./log_tab.js";
-import { ParametersTab } from "./parameters_tab.js";
 import { PlotTab } from "./plot_tab.js";
 import { RobotTab } from "./robot_tab.js";
 import { makeTabs } from "./tabs.js";
@@ -16,7 +15,7 @@ import { makeTabs } from "./tabs.js";
  * have show(on), called when it is chosen or left, and connect(isOpen). The robots' places are always
  * watched: they show that the server is there.
  */
-const TABS = [RobotTab, GraphTab, BagTab, PlotTab, LogTab, DoctorTab, ParametersTab];
+const TABS = [RobotTab, GraphTab, BagTab, PlotTab, LogTab, DoctorTab];
 const NOTICE_MS = 8000;
 const WORDS = { open: "Connected", lost: "Connection lost – trying again", gone: "No cockpit – trying again" };
 const GONE = `The cockpit has exited, or the network to it is down. Start it again, with the launch file or with

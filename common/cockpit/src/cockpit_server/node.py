@@ -20,7 +20,6 @@ from cockpit_server.sources.bags import Bags
 from cockpit_server.sources.doctor import Doctor
 from cockpit_server.sources.graph_view import GraphView, Topics
 from cockpit_server.sources.logs import Logs
-from cockpit_server.sources.parameter_list import ParameterList
 from cockpit_server.sources.plots import Plots
 from cockpit_server.sources.resets import Resets
 from cockpit_server.sources.robots import Pads, Robots
@@ -60,7 +59,7 @@ class Cockpit:
         sources = (
             robots, pads, teleop, drives, Resets(hub, graphs, drives),
             GraphView(graphs), Topics(feeds, graphs), Plots(feeds, graphs), Logs(feeds),
-            Doctor(), bags, Surroundings(feeds, graphs), ParameterList(),
+            Doctor(), bags, Surroundings(feeds, graphs),
         )  # fmt: skip
         hub.add(sources, player=bags)
         self._server = server(self._hub, access)
