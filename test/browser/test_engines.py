@@ -5,41 +5,12 @@ from pathlib import Path
 
 import pytest
 from selenium import webdriver
-from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys as Key
 from selenium.webdriver.webkitgtk.options import Options
 
-from tutorial_testing.cockpit.firefox import Firefox
-from tutorial_testing.cockpit.hands import LONG_S, Hands
+from tutorial_testing.cockpit.engines import Firefox, WebDriver
+from tutorial_testing.cockpit.hands import Hands
 from tutorial_testing.screen import virtual_screen
-from tutorial_testing.waiting import wait_for
-
-
-class WebKit:
-    """WebKitGTK's MiniBrowser, with the methods of Firefox that are used here."""
-
-    def __init__(self, driver):
-        self.driver = driver
-
-    def open(self, address):
-        self.driver.get(address)
-        self.wait_for_text("#connection", "Connected")
-
-    def ask(self, expression):
-        return self.driver.execute_script(f"return {expression}")
-
-    def click(self, css):
-        self.ask(f"document.querySelector('{css}').click()")
-
-    def wait_for_text(self, css, text):
-        expression = f"document.querySelector('{css}').textContent"
-        wait_for(lambda: text in self.ask(expression), text, LONG_S)
-
-    def keys(self, kind, *keys):
-        actions = ActionChains(self.driver)
-        for key in keys:
-            (actions.key_down if kind == "keyDown" else actions.key_up)(key)
-        actions.perform()
 
 
 class EngineHands(Hands):
@@ -72,7 +43,7 @@ def webkit(monkeypatch):
     with virtual_screen(1280, 800) as screen:
         monkeypatch.setenv("DISPLAY", screen)
         driver = webdriver.WebKitGTK(executable_path=program, options=options)
-        yield WebKit(driver)
+        yield WebDriver(driver)
         driver.quit()
 
 
@@ -82,14 +53,14 @@ def test_keys_drive_the_robot_and_every_tab_opens(world, engine, request):
     browser.open(world.address)
     panels = "[...document.querySelectorAll('[role=tabpanel]')]"
     for name in browser.ask(f"{panels}.map((panel) => panel.id).join(' ')").split():
-        browser.click(f"#tab-{name}")
+        browser.press(f"#tab-{name}")
         assert browser.ask(f"document.getElementById('{name}').clientHeight > 0")
-    browser.click("#tab-robot")
-    browser.click("#take")
+    browser.press("#tab-robot")
+    browser.press("#take")
     browser.wait_for_text("#seat", "You drive")
     hands = EngineHands(browser)
     hands.drive(world)
     hands.release()
     world.wait_for_rest()
-    browser.click("#leave")
+    browser.press("#leave")
     browser.wait_for_text("#seat", "Nobody drives")

@@ -2,7 +2,7 @@
 
 import pytest
 
-from tutorial_testing.cockpit.chromium import LONG_S, Chromium
+from tutorial_testing.cockpit.chromium import Chromium
 from tutorial_testing.cockpit.hands import Thumbs
 from tutorial_testing.cockpit.world import HERE, World
 from tutorial_testing.waiting import wait_for
@@ -34,13 +34,13 @@ def test_the_driven_one_of_two_robots_is_seen_beside_the_buttons(held):
     two = str(HERE / "two_robots.launch")
     with World(two) as world, Chromium(width, height, touch=True) as phone:
         phone.open(world.address)
-        wait_for(lambda: len(phone.all("#robots tr")) == 2, "two robots", LONG_S)
+        wait_for(lambda: len(phone.all("#robots tr")) == 2, "two robots")
         hands = Thumbs(phone)
         hands.drive(world, until=lambda: world.now.x > 1.0)  # where the other one is far away
         hands.release()
         world.wait_for_rest()
         phone.click("Clear trail")  # it has the robot's colour
-        count, x, y = wait_for(lambda: settled(phone), "robot on the floor", LONG_S)
+        count, x, y = wait_for(lambda: settled(phone), "robot on the floor")
         assert count > 60
         assert phone.ask(f"document.elementFromPoint({x}, {y}).id") == "floor"
         assert 0 <= x <= width and 0 <= y <= height

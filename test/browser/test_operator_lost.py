@@ -84,7 +84,7 @@ def freeze_gamepad(it):
 
 
 def end_server(it):
-    now = it.world.signal_cockpit(signal.SIGINT)
+    now = it.world.cockpit.signal(signal.SIGINT)
     it.world.cockpit.wait()
     return now
 
@@ -126,7 +126,7 @@ WAYS = {
     "right button of the mouse": Way(mouse("mousePressed"), mouse("mouseReleased")),
     "gamepad unplugged": Way(gamepad(plugged=False), gamepad(plugged=True), Gamepad),
     "gamepad frozen": Way(freeze_gamepad, gamepad(frozen=False), Gamepad),
-    "server killed with -9": Way(lambda it: it.world.kill_cockpit(), start_server),
+    "server killed with -9": Way(lambda it: it.world.cockpit.kill(), start_server),
     "server ended": Way(end_server, start_server),
     CUT: Way(pull_cable, plug_cable),
 }

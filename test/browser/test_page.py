@@ -84,12 +84,12 @@ def test_a_server_that_hangs_for_a_while_leaves_the_seat_to_its_page(world, page
     page.click("Drive from this page")
     page.wait_for_text("#seat", "You drive")
     number = page.text("#me")
-    world.signal_cockpit(signal.SIGSTOP)
+    world.cockpit.signal(signal.SIGSTOP)
     try:
         page.wait_for_text("#connection", "lost")
         assert not page.by_role("button", "Drive from this page").is_enabled()
     finally:
-        world.signal_cockpit(signal.SIGCONT)
+        world.cockpit.signal(signal.SIGCONT)
     page.wait_for_text("#connection", "Connected")
     page.wait_for_text("#seat", "You drive")
     assert page.text("#me") == number

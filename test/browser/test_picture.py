@@ -4,7 +4,6 @@ from pathlib import Path
 
 import pytest
 
-from tutorial_testing.cockpit.chromium import LONG_S
 from tutorial_testing.cockpit.world import World
 from tutorial_testing.waiting import wait_for
 
@@ -19,14 +18,14 @@ def test_picture(request, browser, tmp_path):
         world.run("rosrun", "joy2twist", "joy2twist.py")  # at the scale of launch_bag.launch
         browser.open(world.address)
         browser.tab("Graph")
-        wait_for(lambda: browser.all('[data-item="topic /cmd_vel"]'), "joy2twist", LONG_S)
+        wait_for(lambda: browser.all('[data-item="topic /cmd_vel"]'), "joy2twist")
         browser.tab("Bag")
         browser.wait_for_text("#bag-about", "joy.bag")
         browser.click("Publish")
         browser.tab("Robot")
         # The recording: a figure of eight, then a turn on the spot.
-        wait_for(lambda: world.now.v > 0, "figure of eight", LONG_S)
-        wait_for(lambda: world.now.v == 0 and world.now.w, "turn on the spot", LONG_S)
+        wait_for(lambda: world.now.v > 0, "figure of eight")
+        wait_for(lambda: world.now.v == 0 and world.now.w, "turn on the spot")
         browser.click("Show all")
         browser.save_picture(tmp_path / "cockpit.webp")
     picture = (tmp_path / "cockpit.webp").read_bytes()

@@ -4,7 +4,6 @@ import re
 
 import pytest
 
-from tutorial_testing.cockpit.chromium import LONG_S
 from tutorial_testing.cockpit.hands import Keys
 from tutorial_testing.nodes import node_path
 from tutorial_testing.ports import free_port
@@ -34,7 +33,7 @@ def test_robot_shows_the_odometry(world, page, ros):
 
 def test_graph_shows_the_nodes_and_their_topics(page, ros):
     page.tab("Graph")
-    wait_for(lambda: page.all("#graph g.node"), "nodes", LONG_S)
+    wait_for(lambda: page.all("#graph g.node"), "nodes")
     assert page.one("#graph-picture").rect["width"] > 1000  # of 1280: the whole page
     nodes = {one.get_attribute("data-item").split()[1] for one in page.all("#graph g.node")}
     assert {"/fake_turtlebot", "/myjoystick2twist"} <= nodes <= set(ros("rosnode", "list").split())
@@ -53,13 +52,13 @@ def test_bag_opens_the_only_recording_and_publishes_it(world, page, ros, recordi
     duration, messages = (re.search(rf"{key}: (\S+)", info)[1] for key in ("duration", "messages"))
     page.wait_for_text("#bag-about", f"joy.bag: {float(duration):.1f} s")
     page.wait_for_text("#bag-topics", messages)
-    wait_for(lambda: page.all("#bag-chart canvas"), "chart", LONG_S)
+    wait_for(lambda: page.all("#bag-chart canvas"), "chart")
     assert len(page.all("#bag-curves label")) >= 6
     page.click("Publish")
-    wait_for(lambda: world.now.moves, "robot that moves", LONG_S)
+    wait_for(lambda: world.now.moves, "robot that moves")
     page.wait_for_text("#seat", "You play a recording to the robot.")
     assert "LB" not in page.text("#drive")  # no button must be held
-    wait_for(lambda: shown(page, "#bag-at") > 1, "position after 1 s", LONG_S)
+    wait_for(lambda: shown(page, "#bag-at") > 1, "position after 1 s")
     page.click("Pause")
     world.wait_for_rest()
     assert world.stays_at_rest()
@@ -70,9 +69,7 @@ def viewers_address(world):
     port = str(free_port())
     script = node_path("cockpit", "cockpit.py")
     program = world.run(script, "--port", port, "--lan", "__name:=cockpit_for_viewers")
-    token = wait_for(
-        lambda: re.search(r"to look: .*(\?token=\S+)", program.output), "address", LONG_S
-    )
+    token = wait_for(lambda: re.search(r"to look: .*(\?token=\S+)", program.output), "address")
     yield f"http://127.0.0.1:{port}/{token[1]}"
     program.__exit__()
 
@@ -96,7 +93,7 @@ def plot(page):
     page.tab("Plot")
     page.one("#plot-search").send_keys(POSITION)
     found = f'#plot-fields input[value="{POSITION}"]'
-    wait_for(lambda: page.all(found), POSITION, LONG_S)
+    wait_for(lambda: page.all(found), POSITION)
     page.one(found).click()
     return page
 
@@ -112,9 +109,9 @@ def axis(page):
 
 def test_plot_shows_the_newest_value_and_saves_all(world, plot, tmp_path):
     value = f'[data-field="{POSITION}"] output'
-    wait_for(lambda: re.search(r"\d", plot.text(value)), "value", LONG_S)
+    wait_for(lambda: re.search(r"\d", plot.text(value)), "value")
     assert abs(shown(plot, value) - world.now.x) < 1e-3
-    wait_for(lambda: axis(plot)[-1] >= 1, "a second of the chart", LONG_S)
+    wait_for(lambda: axis(plot)[-1] >= 1, "a second of the chart")
     assert plot.text("#plot-chart .dygraph-xlabel") == "time [s]"
     plot.send("Browser.setDownloadBehavior", behavior="allow", downloadPath=str(tmp_path))
     plot.click("Save CSV")
@@ -130,18 +127,18 @@ def test_plot_shows_the_newest_value_and_saves_all(world, plot, tmp_path):
 
 def test_the_plot_moves_on_until_a_person_zooms_and_again_afterwards(world, plot):
     plot.one("#plot-window").send_keys("10 s")
-    wait_for(lambda: axis(plot)[-1] >= 3, "time axis that goes on", LONG_S)
-    wait_for(lambda: axis(plot)[0] >= 2, "time axis that leaves its beginning", LONG_S)
+    wait_for(lambda: axis(plot)[-1] >= 3, "time axis that goes on")
+    wait_for(lambda: axis(plot)[0] >= 2, "time axis that leaves its beginning")
     box = plot.one("#plot-chart").rect
     xs, y = [box["x"] + box["width"] * share for share in (0.4, 0.6)], box["y"] + 60
     for kind, x in (("mousePressed", xs[0]), ("mouseMoved", xs[1]), ("mouseReleased", xs[1])):
         plot.send("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1)
-    chosen = wait_for(lambda: axis(plot)[-1] - axis(plot)[0] < 5 and axis(plot), "zoom", LONG_S)
+    chosen = wait_for(lambda: axis(plot)[-1] - axis(plot)[0] < 5 and axis(plot), "zoom")
     count = len(world.odometry)
-    wait_for(lambda: len(world.odometry) > count + 100, "odometry", LONG_S)
+    wait_for(lambda: len(world.odometry) > count + 100, "odometry")
     assert axis(plot) == chosen
     plot.click("Whole range")
-    wait_for(lambda: axis(plot)[-1] > 11, "time axis that goes on again", LONG_S)
+    wait_for(lambda: axis(plot)[-1] > 11, "time axis that goes on again")
     assert axis(plot)[0] < 2  # all of it, and not the last 10 s
 
 
@@ -164,8 +161,8 @@ def test_log_shows_what_nodes_log_by_level_and_filter(world, page):
 
 def test_doctor_shows_its_lines(page, ros):
     page.tab("Doctor")
-    wait_for(lambda: page.all("#doctor-lines li"), "lines", LONG_S)
-    wait_for(lambda: "Checking" not in page.text("#doctor-state"), "end of it", LONG_S)
+    wait_for(lambda: page.all("#doctor-lines li"), "lines")
+    wait_for(lambda: "Checking" not in page.text("#doctor-state"), "end of it")
     *lines, _ = ros("rosrun", "tutorial_tools", "doctor.py").splitlines()
     shown_lines = [one.text for one in page.all("#doctor-lines li")]
     for line in lines:
@@ -174,4 +171,4 @@ def test_doctor_shows_its_lines(page, ros):
         assert page.all(f"#doctor-lines [data-level={level.replace('unknown', 'note')}]")
     page.click("Run again")
     page.wait_for_text("#doctor-state", "Checking")
-    wait_for(lambda: "Checking" not in page.text("#doctor-state"), "second run", LONG_S)
+    wait_for(lambda: "Checking" not in page.text("#doctor-state"), "second run")

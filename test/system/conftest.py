@@ -86,8 +86,7 @@ def screen():
 def scene():
     """Robot and workstation, two hosts with a cable between them: a two_hosts.scene.Scene."""
     try:
-        scene = Scene().__enter__()
+        with Scene() as scene:
+            yield scene
     except PermissionError as error:
         pytest.skip(f"network namespaces need root, or a kernel that grants them to users: {error}")
-    yield scene
-    scene.__exit__(None, None, None)

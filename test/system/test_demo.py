@@ -1,9 +1,7 @@
 """./tutorial demo as a user calls it: what it prints, its exit code, what it leaves behind."""
 
-import os
 import re
 import shutil
-import signal
 import subprocess
 import time
 from pathlib import Path
@@ -130,9 +128,7 @@ def test_demo_drives_beside_a_dead_node_and_counts_no_messages_of_others(tutoria
         wait_for(lambda: "started core service" in roscore.output, "roscore")
         with Program(tutorial, "run", "rosrun", "fake_turtlebot_sim", "fake_turtlebot.py") as robot:
             wait_for(robot_is_known, "robot")
-            for pid in robot.left_behind():
-                os.kill(pid, signal.SIGKILL)
-            robot.wait()
+            robot.kill()
         assert robot_is_known()
         with Program(tutorial, "demo", "--for", "6", *BARE) as demo:
             wait_for(lambda: "first /odom" in demo.output or demo.ended, "robot")

@@ -28,7 +28,7 @@ def test_stop_latency():
 
 def one_stop(scene):
     began = scene.tell("drive")
-    scene.moment(lambda m: m.time > began and m.v > 0, "driving robot")
+    scene.first(lambda m: m.stamp > began and m.v > 0, "driving robot")
     released = scene.tell("release")
-    stands = scene.moment(lambda m: m.time > released and m.v == 0, "robot at rest")
-    return stands.time - released
+    stands = scene.first(lambda m: m.stamp > released and m.v == 0, "robot at rest")
+    return stands.stamp - released

@@ -2,22 +2,20 @@
 """A classroom on one page: each robot where it is, one of them driven and put back."""
 
 import time
-import unittest
 
 import rospy
-import rostest
 from nav_msgs.msg import Odometry
 
 from node_kit.arming import DRIVING
 from tutorial_testing.cockpit_rig import CockpitRig
-from tutorial_testing.nodes import init_node
+from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
 OURS, OTHERS = "robot_2", ("robot_1", "robot_3")
 NEAR_M = 0.05  # at 0.35 m/s within a tenth of a second
 
 
-class Classroom(unittest.TestCase):
+class Classroom(RosTest):
     def test_one_robot_of_three(self):
         with CockpitRig(robot=OURS) as rig, rig.page() as page:
             self.assertEqual(page.wait_for("hello")["robots"], sorted([OURS, *OTHERS]))
@@ -32,7 +30,7 @@ class Classroom(unittest.TestCase):
             wait_for(lambda: seen()[OURS]["covered"] > 0.2, "way driven")
             page.wait_for("teleop", lambda told: [told["robot"], told["state"]] == [OURS, DRIVING])
             page.say("leave")
-            rig.rest_after(time.time())
+            rig.wait_for_rest(time.time())
             at = rospy.wait_for_message(f"/{OURS}/odom", Odometry).pose.pose.position
             wait_for(lambda: abs(seen()[OURS]["x"] - at.x) < 0.001, "place of its odometry")
             self.assertAlmostEqual(seen()[OURS]["y"], at.y, delta=0.001)
@@ -48,5 +46,4 @@ class Classroom(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    init_node("cockpit_classroom")
-    rostest.rosrun("ros1_tutorial_test", "cockpit_classroom", Classroom)
+    run()

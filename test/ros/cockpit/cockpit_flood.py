@@ -8,13 +8,11 @@ import sys
 import threading
 from concurrent.futures import ThreadPoolExecutor
 
-import rostest
-
 from tutorial_faults.live.samples import sample
 from tutorial_testing import flood
 from tutorial_testing.cockpit_rig import WithCockpit
-from tutorial_testing.nodes import init_node
 from tutorial_testing.processes import Program
+from tutorial_testing.rostests import run
 from tutorial_testing.socket_page import SocketPage
 from tutorial_testing.waiting import wait_for
 
@@ -155,5 +153,4 @@ class Flood(WithCockpit):
 
 
 if __name__ == "__main__":
-    init_node("cockpit_flood")
-    rostest.rosrun("ros1_tutorial_test", "cockpit_flood", Flood)
+    run()

@@ -3,18 +3,17 @@
 
 import socket
 import time
-import unittest
 from urllib.parse import urlsplit
 
 import rosgraph
 import rosnode
-import rostest
 
 from node_kit.questions import address
 from tutorial_testing.cockpit_rig import CockpitRig
-from tutorial_testing.nodes import init_node, node_path
+from tutorial_testing.nodes import node_path
 from tutorial_testing.ports import free_port
 from tutorial_testing.processes import Program
+from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
 
@@ -23,7 +22,6 @@ class Launched(CockpitRig):
         page = wait_for(lambda: address(rosgraph.get_master_uri()), "address of the page")
         self.port = urlsplit(page).port
         self.program = Program("true")
-        self.program.__enter__()
         wait_for(self.listens, "page of the cockpit")
 
     def listens(self):
@@ -31,13 +29,13 @@ class Launched(CockpitRig):
             return self.robot in page.wait_for("hello")["robots"]
 
 
-class BrowserJoystick(unittest.TestCase):
+class BrowserJoystick(RosTest):
     def test_the_page_drives(self):
         with Launched() as rig, rig.page() as page:
             self.assertNotIn("/joy_node", rosnode.get_node_names())
             rig.drive(page)
             page.close()
-            rig.rest_after(time.time())
+            rig.wait_for_rest(time.time())
             at = f"http://127.0.0.1:{rig.port}/"
             why = f"cockpit: a cockpit is already running: open {at} on this machine"
             self.second_says(rig.port, 0, f"{why}\n")
@@ -74,5 +72,4 @@ class BrowserJoystick(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    init_node("cockpit_launch")
-    rostest.rosrun("ros1_tutorial_test", "cockpit_launch", BrowserJoystick)
+    run()

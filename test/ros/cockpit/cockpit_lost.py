@@ -2,20 +2,18 @@
 """Ways to lose the operator, at the level of the protocol; the browser's own are test/browser's."""
 
 import contextlib
-import os
 import signal
 import statistics
 import time
 
-import rostest
-
 from cockpit_server.seat import is_neutral
-from tutorial_testing.cockpit_rig import ODOM_PERIOD_S, WithCockpit
-from tutorial_testing.nodes import init_node
+from tutorial_testing.cockpit_rig import WithCockpit
+from tutorial_testing.robot import PERIOD_S
+from tutorial_testing.rostests import run
 from tutorial_testing.socket_page import SocketPage
 from tutorial_testing.waiting import wait_for
 
-WITHIN_S = 0.5 + ODOM_PERIOD_S
+WITHIN_S = 0.5 + PERIOD_S
 ROUNDS = 3  # of each way; on a busy machine one may be late
 
 
@@ -34,11 +32,11 @@ class OperatorLost(WithCockpit):
             with contextlib.ExitStack() as stack:
                 page = stack.enter_context(self.rig.page())
                 self.rig.drive(page)
-                when = time.time()
+                when, count = time.time(), len(self.rig.joys)
                 lose(page)
-                took.append(self.rig.rest_after(when))
+                took.append(self.rig.wait_for_rest(when) - when)
                 self.assertTrue(self.rig.stays_at_rest())
-                last = [is_neutral(*joy) for came, *joy in self.rig.joys if came > when]
+                last = [is_neutral(joy.axes, joy.buttons) for joy in self.rig.joys[count:]]
                 self.assertEqual(sum(last), neutral, last)
                 self.assertTrue(not neutral or last[-1], last)
                 if regain:
@@ -47,7 +45,7 @@ class OperatorLost(WithCockpit):
                     page = stack.enter_context(self.page_anew())
                 self.assertTrue(self.rig.drives_only_once_released(page))
                 page.say("leave")
-                self.rig.rest_after(time.time())
+                self.rig.wait_for_rest(time.time())
         print(f"{self._testMethodName}: at rest after {', '.join(f'{t:.3f}' for t in took)} s")
         self.assertLessEqual(statistics.median(took), WITHIN_S)
 
@@ -73,8 +71,7 @@ class OperatorLost(WithCockpit):
         self.assert_stops(SocketPage.close)
 
     def end_server(self, number):
-        for pid in self.rig.program.left_behind():
-            os.kill(pid, number)
+        self.rig.program.signal(number)
         wait_for(lambda: self.rig.program.ended, "end of the cockpit")
         self.rig.start()
 
@@ -86,5 +83,4 @@ class OperatorLost(WithCockpit):
 
 
 if __name__ == "__main__":
-    init_node("cockpit_lost")
-    rostest.rosrun("ros1_tutorial_test", "cockpit_lost", OperatorLost)
+    run()

@@ -5,14 +5,12 @@ import contextlib
 import http.client
 import json
 
-import rostest
-
 from tutorial_testing.cockpit_rig import WithCockpit
-from tutorial_testing.nodes import init_node, node_path
+from tutorial_testing.nodes import node_path
 from tutorial_testing.ports import free_port
 from tutorial_testing.processes import Program
+from tutorial_testing.rostests import run
 from tutorial_testing.socket_page import DRIVE, SocketPage
-from tutorial_testing.waiting import wait_for
 
 OVERSIZED = 100_000  # bytes
 
@@ -29,13 +27,13 @@ class Refused(WithCockpit):
 
     def tearDown(self):
         """Nothing moved, no token was printed again, and the driver may still drive."""
-        self.assertEqual([speed for _, speed in self.rig.speeds if speed], [])
+        self.assertEqual([moment for moment in self.rig.odometry if moment.moves], [])
         with self.rig.page() as page:
             self.rig.drive(page)
             page.say("leave")
-            wait_for(lambda: not self.rig.moves, "robot at rest")
+            self.rig.wait_for_rest()
             self.assertTrue(self.rig.stays_at_rest())
-        self.rig.speeds.clear()
+        self.rig.odometry.clear()
         output = self.rig.program.output
         self.assertNotIn("Traceback", output)
         for token in self.tokens:
@@ -61,10 +59,8 @@ class Refused(WithCockpit):
 
     def test_a_second_cockpit_does_not_end_the_first(self):
         port = str(free_port())
-        with Program(node_path("cockpit", "cockpit.py"), "--port", port) as second:
-            self.assertEqual(second.wait(), 1)
-            self.assertIn("/cockpit runs already", second.output)
-            self.assertEqual(second.output.count("\n"), 1, second.output)
+        second = Program(node_path("cockpit", "cockpit.py"), "--port", port)
+        self.check_mistake(second, "/cockpit runs already")
         self.assertFalse(self.rig.program.ended)
 
     def test_nothing_else_is_served(self):
@@ -107,5 +103,4 @@ class Refused(WithCockpit):
 
 
 if __name__ == "__main__":
-    init_node("cockpit_refusals")
-    rostest.rosrun("ros1_tutorial_test", "cockpit_refusals", Refused)
+    run()

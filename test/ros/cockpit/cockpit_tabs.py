@@ -7,11 +7,10 @@ import time
 
 import rosgraph
 import rospy
-import rostest
 from sensor_msgs.msg import Joy
 
 from tutorial_testing.cockpit_rig import WithCockpit
-from tutorial_testing.nodes import init_node
+from tutorial_testing.rostests import run
 from tutorial_testing.socket_page import DRIVE, REST, SocketPage
 from tutorial_testing.waiting import wait_for
 
@@ -36,9 +35,7 @@ def joystick():
 
 class Tabs(WithCockpit):
     def setUp(self):
-        self.page = self.rig.page()
-        self.page.__enter__()
-        self.addCleanup(self.page.__exit__)
+        self.page = self.enter(self.rig.page())
 
     def test_a_hand_that_is_still_drives_for_as_long_as_it_is_held(self):
         """A real gamepad that is as still as that is taken to be out of reach."""
@@ -75,9 +72,8 @@ class Tabs(WithCockpit):
         self.page.watch(fields=[FIELD], field_list=True)
         self.assertIn(FIELD, self.page.wait_for("fields")["fields"])
         self.page.wait_for("plot")
-        count, begin = len(self.rig.speeds), len(self.page.of("plot"))
-        wait_for(lambda: len(self.rig.speeds) > count + 100, "odometry")
-        stamps = {round(stamp, 6) for stamp, _ in self.rig.speeds[count + 5 : count + 95]}
+        begin = len(self.page.of("plot"))
+        stamps = {round(moment.stamp, 6) for moment in self.rig.more(101)[5:95]}
         wait_for(lambda: len(self.page.of("plot")) > begin + 20, "plot")
         seen = {t for plot in self.page.of("plot") for t, _ in plot["samples"][FIELD]}
         self.assertEqual(stamps - seen, set())
@@ -98,7 +94,7 @@ class Tabs(WithCockpit):
         wait_for(lambda: self.rig.moves, "robot that follows the recording")
         when = time.time()
         self.page.say("bag_pause")
-        self.rig.rest_after(when)
+        self.rig.wait_for_rest(when)
         self.assertTrue(self.rig.stays_at_rest())
         position = self.page.of("bag_at")[-1]["position"]
         self.page.say("bag_seek", position=position + 1.0)
@@ -128,5 +124,4 @@ class Tabs(WithCockpit):
 
 
 if __name__ == "__main__":
-    init_node("cockpit_tabs")
-    rostest.rosrun("ros1_tutorial_test", "cockpit_tabs", Tabs)
+    run()

@@ -4,20 +4,18 @@
 import contextlib
 import os
 import signal
-import sys
 import time
-import unittest
 from xmlrpc.client import ServerProxy
 
 import rosgraph
 import rospy
-import rostest
 from geometry_msgs.msg import Twist
 from rosgraph_msgs.msg import Log
 from std_msgs.msg import String
 
-from tutorial_testing.nodes import init_node, node_path
+from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program, suspend
+from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
 TELEOP = "/cmd_vel_mux/input/teleop"
@@ -47,7 +45,7 @@ def cut_off(node):
         os.kill(pid, signal.SIGCONT)
 
 
-class LateTest(unittest.TestCase):
+class LateTest(RosTest):
     @classmethod
     def setUpClass(cls):
         cls.active, cls.driven, cls.log = [], [], []
@@ -107,5 +105,4 @@ class LateTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    init_node("cmd_vel_mux_late")
-    rostest.rosrun("ros1_tutorial_test", "cmd_vel_mux_late", LateTest, sys.argv)
+    run()

@@ -1,17 +1,14 @@
 #!/usr/bin/python3
 """Simulated time that pauses, jumps and is set back, as a bag played in a loop does to it."""
 
-import sys
-import unittest
 from math import hypot, isfinite
 
 import rospy
-import rostest
 from fake_turtlebot_stepping import PERIOD_NS, Robot, World, twist
 from rosgraph_msgs.msg import Log
 from tf2_msgs.msg import TFMessage
 
-from tutorial_testing.nodes import init_node
+from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
 SPEED = 0.7  # [m/s]
@@ -19,7 +16,7 @@ COAST = SPEED * 0.6  # [m] the farthest that a jump may carry the robot
 TEN_SECONDS_NS = 10 * 10**9
 
 
-class ClockTest(unittest.TestCase):
+class ClockTest(RosTest):
     @classmethod
     def setUpClass(cls):
         cls.robot = Robot()
@@ -89,5 +86,4 @@ class ClockTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    init_node("fake_turtlebot_clock")
-    rostest.rosrun("ros1_tutorial_test", "fake_turtlebot_clock", ClockTest, sys.argv)
+    run()

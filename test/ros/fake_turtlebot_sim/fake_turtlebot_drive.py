@@ -6,29 +6,26 @@
   expect: names from below with values, exact to 1e-9; warnings: a word of each, in their order
 """
 
-import sys
-import unittest
-from functools import partialmethod
 from math import atan2
 
 import rospy
-import rostest
 from fake_turtlebot_stepping import PERIOD_NS, Robot, World
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import JointState
 from tf2_msgs.msg import TFMessage
 
-from tutorial_testing.nodes import init_node
+from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
 
-class DriveTest(unittest.TestCase):
+class DriveTest(RosTest):
     """One test method for every case; one clock for all of them, which never goes back."""
 
     world_ns = PERIOD_NS
 
-    def drive(self, name, commands, expect):
+    def play(self, name, case):
+        commands, expect = case["commands"], case["expect"]
         robot = Robot(f"/{name}/")
         joints, truths, log, bases = [], [], [], set()
         rospy.Subscriber("/rosout", Log, log.append)
@@ -78,8 +75,4 @@ def twist_of(odometry):
 
 
 if __name__ == "__main__":
-    init_node("fake_turtlebot_drive")
-    for name, case in rospy.get_param("~cases").items():
-        test = partialmethod(DriveTest.drive, name, **case)
-        setattr(DriveTest, f"test_{name}", test)
-    rostest.rosrun("ros1_tutorial_test", "fake_turtlebot_drive", DriveTest, sys.argv)
+    run(DriveTest)

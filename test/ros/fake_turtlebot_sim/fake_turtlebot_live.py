@@ -2,18 +2,15 @@
 """In real time: the rate, the stamps, the transform, the timeout."""
 
 import statistics
-import sys
-import unittest
 
 import rospy
-import rostest
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import JointState
 from tf2_msgs.msg import TFMessage
 
-from tutorial_testing.nodes import init_node
+from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
 PERIOD_S = 0.02
@@ -21,7 +18,7 @@ SAMPLE = 500  # periods, 10 s
 SPEED = 0.7  # [m/s]
 
 
-class LiveTest(unittest.TestCase):
+class LiveTest(RosTest):
     @classmethod
     def setUpClass(cls):
         cls.odometry, cls.transforms, cls.joints, cls.log = [], [], [], []
@@ -83,5 +80,4 @@ class LiveTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    init_node("fake_turtlebot_live")
-    rostest.rosrun("ros1_tutorial_test", "fake_turtlebot_live", LiveTest, sys.argv)
+    run()

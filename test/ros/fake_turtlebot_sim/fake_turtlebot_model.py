@@ -1,14 +1,10 @@
 #!/usr/bin/python3
 """The model's links hang on the robot that they belong to, alone and in a classroom."""
 
-import sys
-import unittest
-
 import rospy
-import rostest
 from tf2_msgs.msg import TFMessage
 
-from tutorial_testing.nodes import init_node
+from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
 # Child: parent, both behind the name of the robot.
@@ -21,7 +17,7 @@ LINKS = {
 }
 
 
-class ModelTest(unittest.TestCase):
+class ModelTest(RosTest):
     def test_every_link_hangs_on_the_odometry_of_its_robot(self):
         parents = {}
 
@@ -37,5 +33,4 @@ class ModelTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    init_node("fake_turtlebot_model")
-    rostest.rosrun("ros1_tutorial_test", "fake_turtlebot_model", ModelTest, sys.argv)
+    run()

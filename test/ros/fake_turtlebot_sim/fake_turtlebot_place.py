@@ -1,12 +1,9 @@
 #!/usr/bin/python3
 """Putting the robot somewhere else: RViz's 2D Pose Estimate and the two resets."""
 
-import sys
-import unittest
 from math import cos, sin
 
 import rospy
-import rostest
 from fake_turtlebot_stepping import Robot, World
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from rosgraph_msgs.msg import Log
@@ -14,7 +11,7 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Empty
 from std_srvs.srv import Empty as EmptyService
 
-from tutorial_testing.nodes import init_node
+from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
 
@@ -26,7 +23,7 @@ def estimate(x, y, yaw, frame="odom"):
     return message
 
 
-class PlaceTest(unittest.TestCase):
+class PlaceTest(RosTest):
     @classmethod
     def setUpClass(cls):
         cls.robot, cls.joints, cls.log = Robot(), [], []
@@ -81,5 +78,4 @@ class PlaceTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    init_node("fake_turtlebot_place")
-    rostest.rosrun("ros1_tutorial_test", "fake_turtlebot_place", PlaceTest, sys.argv)
+    run()

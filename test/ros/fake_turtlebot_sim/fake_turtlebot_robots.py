@@ -2,19 +2,16 @@
 """Many robots in one node: each is, to the last bit, what it would be alone."""
 
 import random
-import sys
-import unittest
 
 import rospy
-import rostest
 from fake_turtlebot_stepping import Robot, World
 
 from fake_turtlebot_sim.simulator.parameters import parse_parameters
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
-from tutorial_testing.nodes import init_node
+from tutorial_testing.rostests import RosTest, run
 
 
-class RobotsTest(unittest.TestCase):
+class RobotsTest(RosTest):
     @classmethod
     def setUpClass(cls):
         cls.parameters = parse_parameters(rospy.get_param("/classroom"))
@@ -48,5 +45,4 @@ class RobotsTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    init_node("fake_turtlebot_robots")
-    rostest.rosrun("ros1_tutorial_test", "fake_turtlebot_robots", RobotsTest, sys.argv)
+    run()

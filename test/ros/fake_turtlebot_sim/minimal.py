@@ -1,20 +1,17 @@
 #!/usr/bin/python3
 """The whole of minimal.launch, seen from outside as a TurtleBot 2 is."""
 
-import sys
-import unittest
 from math import nan
 
 import rosgraph
 import rospy
-import rostest
 from geometry_msgs.msg import Twist, Vector3
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Log
 from std_msgs.msg import Empty, String
 
 from node_kit.questions import call
-from tutorial_testing.nodes import init_node
+from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
 # Topic: (type, node that publishes it, node that subscribes to it).
@@ -39,7 +36,7 @@ def mux_has_its_base():
     return any(link[4] == "/mobile_base/commands/velocity" for link in links)
 
 
-class MinimalTest(unittest.TestCase):
+class MinimalTest(RosTest):
     def test_topics_and_their_types(self):
         master = rosgraph.Master(rospy.get_name())
 
@@ -109,5 +106,4 @@ class MinimalTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    init_node("minimal")
-    rostest.rosrun("ros1_tutorial_test", "minimal", MinimalTest, sys.argv)
+    run()

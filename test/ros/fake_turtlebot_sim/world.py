@@ -4,14 +4,11 @@
 import contextlib
 import os
 import signal
-import sys
 import time
-import unittest
 from math import cos
 
 import rosgraph
 import rospy
-import rostest
 from geometry_msgs.msg import Twist
 from kobuki_msgs.msg import BumperEvent
 from nav_msgs.msg import OccupancyGrid, Odometry
@@ -21,8 +18,8 @@ from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import MarkerArray
 
 from node_kit.questions import call
-from tutorial_testing.nodes import init_node
 from tutorial_testing.processes import lives
+from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
 AT_THE_WALL = 4.0 - 0.178  # x of the robot's middle [m]
@@ -31,7 +28,7 @@ LONGEST_PUSH_S = 0.5
 REST_S = 0.7
 
 
-class WorldTest(unittest.TestCase):
+class WorldTest(RosTest):
     @classmethod
     def setUpClass(cls):
         cls.heard = {}
@@ -125,5 +122,4 @@ class WorldTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    init_node("world")
-    rostest.rosrun("ros1_tutorial_test", "world", WorldTest, sys.argv)
+    run()

@@ -5,21 +5,18 @@ import contextlib
 import math
 import os
 import signal
-import sys
 import tempfile
-import unittest
 from pathlib import Path
 
 import rosgraph
-import rospy
-import rostest
 from geometry_msgs.msg import Twist
-from nav_msgs.msg import Odometry
 
 from node_kit.questions import call
-from tutorial_testing.nodes import init_node, node_path
+from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.rig import BASE, JOYSTICK, MUX, Rig, go_on, stop
+from tutorial_testing.robot import Robot
+from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import BUSY_S, wait_for
 
 LONGEST_END_S = 1.5 + BUSY_S
@@ -57,8 +54,8 @@ def master():
     return [call(rosgraph.get_master_uri(), "getPid")[1]]
 
 
-class FaultsAtTheEnd(unittest.TestCase):
-    def check_end(self, rig, node, pid, number):
+class FaultsAtTheEnd(RosTest):
+    def check_exit(self, rig, node, pid, number):
         """The node exits in time."""
         self.assertLess(rig.kill(node, number, pid), LONGEST_END_S, node)
 
@@ -68,8 +65,8 @@ class FaultsAtTheEnd(unittest.TestCase):
             rig.drive()
             pid = rig.pid(node)
             with meanwhile(node):
-                self.check_end(rig, node, pid, number)
-            wait_for(lambda: not rig.is_moving(), f"robot at rest after the end of {node}")
+                self.check_exit(rig, node, pid, number)
+            wait_for(lambda: not rig.moves, f"robot at rest after the end of {node}")
             if node != BASE:
                 rig.start(node)
 
@@ -95,33 +92,29 @@ class FaultsAtTheEnd(unittest.TestCase):
                 pids = {node: rig.pid(node) for node in rig.nodes}
                 with suspended(master()):
                     for node in (first, *(node for node in rig.nodes if node != first)):
-                        self.check_end(rig, node, pids[node], number)
-                        wait_for(lambda: not rig.is_moving(), "robot at rest")
+                        self.check_exit(rig, node, pids[node], number)
+                        wait_for(lambda: not rig.moves, "robot at rest")
 
     def test_a_warning_under_a_hung_master_makes_no_node_deaf(self):
         """NaN and a speed beyond the robot's bring a warning of the mux and of the base."""
-        moving, command = [], Twist()
-        odom = rospy.Subscriber("odom", Odometry, lambda o: moving.append(o.twist.twist.linear.x))
-        pilot = rospy.Publisher("/cmd_vel_mux/input", Twist, queue_size=10)
-        self.addCleanup(odom.unregister)
-        self.addCleanup(pilot.unregister)
+        robot, command = self.enter(Robot()), Twist()
+        pilot = self.publisher("/cmd_vel_mux/input", Twist)
 
-        def speed(value):
-            command.linear.x = value
+        def moves(speed):
+            command.linear.x = speed
             pilot.publish(command)
-            return moving and moving[-1]
+            return robot.moves
 
         mux = node_path("fake_turtlebot_sim", "cmd_vel_mux.py")
         base = node_path("fake_turtlebot_sim", "fake_turtlebot.py")
         with Program(mux, f"_subscribers:={INPUTS}", "cmd_vel_mux/output:=cmd_vel"), Program(base):
-            wait_for(lambda: speed(0.2), "robot that moves")
+            wait_for(lambda: moves(0.2), "robot that moves")
             with suspended(master()):
                 for bad in (math.nan, 5.0, -5.0):
-                    speed(bad)
-                wait_for(lambda: speed(0.0) == 0.0, "robot that obeys zero")
-                wait_for(lambda: speed(0.2), "robot that obeys")
+                    moves(bad)
+                wait_for(lambda: not moves(0.0), "robot that obeys zero")
+                wait_for(lambda: moves(0.2), "robot that obeys")
 
 
 if __name__ == "__main__":
-    init_node("ends")
-    rostest.rosrun("ros1_tutorial_test", "ends", FaultsAtTheEnd, sys.argv)
+    run()

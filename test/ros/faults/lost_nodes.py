@@ -2,27 +2,23 @@
 """Nodes are suspended, or killed and restarted, while LB is held: only a release lets it drive."""
 
 import itertools
-import sys
 import threading
-import unittest
 
-import rostest
-
-from tutorial_testing.nodes import init_node
 from tutorial_testing.rig import BASE, DRIVER, MUX, TIMEOUT_S, Rig, go_on, stop
+from tutorial_testing.robot import PERIOD_S
+from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
 DURATIONS_S = (0.2, 0.5, 1.0, 3.0)
 FEW_S = (0.5, 3.0)  # of two nodes, and without a mux; the hunt draws others
-PERIOD_S = 0.02
 # What a busy machine may add between a node and the next one, and to the stamps of this process.
 BUSY_S = 0.3
 WATCHED_S = 1.2  # after a node is back
 
 
-class LostNodes(unittest.TestCase):
-    def speeds_after(self, rig, back):
-        """Return (stamp, speed) of the odometry since a node is back [s], for WATCHED_S."""
+class LostNodes(RosTest):
+    def odometry_after(self, rig, back):
+        """Return the odometry since a node is back [s], for WATCHED_S."""
         wait_for(lambda: rig.since(back + WATCHED_S), "odometry")
         return rig.since(back)
 
@@ -33,14 +29,14 @@ class LostNodes(unittest.TestCase):
         began = stop(pids.values())
         threading.Event().wait(duration_s)
         ended = go_on(pids.values())
-        self.speeds_after(rig, ended)
+        self.odometry_after(rig, ended)
         rest = began + TIMEOUT_S + PERIOD_S + BUSY_S
         if BASE in pids:
             rest = max(rest, ended + BUSY_S)
-        moving = [stamp - began for stamp, speed in rig.since(rest) if speed]
+        moving = [moment.stamp - began for moment in rig.since(rest) if moment.moves]
         self.assertEqual(moving, [], what)
-        speeds = itertools.dropwhile(lambda entry: entry[1], rig.since(began))
-        again = [stamp - began for stamp, speed in speeds if speed]
+        stood = itertools.dropwhile(lambda moment: moment.moves, rig.since(began))
+        again = [moment.stamp - began for moment in stood if moment.moves]
         self.assertEqual(again, [], f"{what}: moved again")
 
     def check_suspensions(self, with_mux, cases):
@@ -70,8 +66,8 @@ class LostNodes(unittest.TestCase):
                 rig.start(node)
                 rig.pid(node)
                 rig.wait_for_rest()
-                began = rig.speeds[-1][0]
-                moved = [stamp - began for stamp, speed in self.speeds_after(rig, began) if speed]
+                began = rig.now.stamp
+                moved = [m.stamp - began for m in self.odometry_after(rig, began) if m.moves]
                 self.assertEqual(moved, [], node)
             rig.drive()
 
@@ -91,10 +87,9 @@ class LostNodes(unittest.TestCase):
             threading.Event().wait(1.0)
             ended = go_on([base])
             # The first odometry may still be of the time before.
-            speeds = [entry for entry in self.speeds_after(rig, ended) if entry[0] > ended + 0.1]
-            self.assertEqual([stamp - ended for stamp, speed in speeds if speed], [])
+            moved = [m.stamp - ended for m in self.odometry_after(rig, ended) if m.moves]
+            self.assertEqual([late_s for late_s in moved if late_s > 0.1], [])
 
 
 if __name__ == "__main__":
-    init_node("lost_nodes")
-    rostest.rosrun("ros1_tutorial_test", "lost_nodes", "__main__", sys.argv)
+    run()

@@ -4,21 +4,17 @@
 import io
 import socket
 import struct
-import sys
-import unittest
 
 import rosgraph
-import rospy
-import rostest
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from rosgraph.network import encode_ros_handshake_header, read_ros_handshake_header
 from sensor_msgs.msg import Joy
 
 from node_kit.questions import call
-from tutorial_testing.nodes import init_node, node_path
-from tutorial_testing.processes import Program
+from tutorial_testing.nodes import node_path
 from tutorial_testing.rig import BASE, DRIVER, MUX
+from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import DEADLINE_S, wait_for
 
 NEUTRAL = Joy(axes=[0.0] * 6, buttons=[0] * 12)
@@ -63,26 +59,14 @@ def greeting(way, topic, kind):
         return read_ros_handshake_header(subscriber, io.BytesIO(), 4096)
 
 
-class FaultsOfThePeers(unittest.TestCase):
+class FaultsOfThePeers(RosTest):
     def setUp(self):
-        self.velocities = []
-        self.robot = rospy.Subscriber("cmd_vel", Twist, self.velocities.append)
-        self.addCleanup(self.robot.unregister)
-
-    def start(self, *command):
-        program = Program(*command)
-        self.addCleanup(program.__exit__)
-        return program
-
-    def publisher(self, kind=Joy):
-        publisher = rospy.Publisher("joy", kind, queue_size=10)
-        self.addCleanup(publisher.unregister)
-        return publisher
+        self.velocities = self.record("cmd_vel", Twist)
 
     def test_a_second_joystick_is_not_armed_by_the_first(self):
         joy2twist = node_path("joy2twist", "joy2twist.py")
         self.start(joy2twist, "_enable_button:=4", "_arm_on_neutral:=true")
-        first = self.publisher()
+        first = self.publisher("joy", Joy)
         wait_for(lambda: first.publish(NEUTRAL) or self.velocities, "zero of joy2twist")
         wait_for(lambda: first.publish(HELD) or self.velocities[-1].linear.x, "velocity")
         for _ in range(3):
@@ -90,8 +74,7 @@ class FaultsOfThePeers(unittest.TestCase):
         wait_for(lambda: not self.velocities[-1].linear.x, "zero")
         del self.velocities[:]
         held = []
-        joy = rospy.Subscriber("joy", Joy, lambda joy: held.extend(joy.buttons[LB : LB + 1]))
-        self.addCleanup(joy.unregister)
+        self.hear("joy", Joy, lambda joy: held.extend(joy.buttons[LB : LB + 1]))
         self.start("rostopic", "pub", "-r", "50", "/joy", "sensor_msgs/Joy", str(HELD))
         # The first one goes on, so that it is not its silence that disarms.
         wait_for(lambda: first.publish(NEUTRAL) or sum(held) >= 50, "second joystick")
@@ -99,7 +82,7 @@ class FaultsOfThePeers(unittest.TestCase):
 
     def test_a_message_that_cannot_be_read_makes_no_node_deaf(self):
         node = self.start(node_path("joy2twist", "joy2twist.py"))
-        bad = self.publisher(Wire)
+        bad = self.publisher("joy", Wire)
         good = Wire(raw=whole(HELD))
         wait_for(lambda: bad.publish(good) or self.velocities, "velocity")
         for raw in (
@@ -135,8 +118,8 @@ class FaultsOfThePeers(unittest.TestCase):
 
     def test_a_publisher_without_a_name_is_obeyed_by_the_mux(self):
         mux = self.start(*MUX_COMMAND, "cmd_vel_mux/output:=cmd_vel")
-        with Program("/usr/bin/python3", "-c", NAMELESS):
-            wait_for(lambda: self.velocities and self.velocities[-1].linear.x == 0.25, "velocity")
+        self.start("/usr/bin/python3", "-c", NAMELESS)
+        wait_for(lambda: self.velocities and self.velocities[-1].linear.x == 0.25, "velocity")
         self.assertNotIn("Traceback", mux.output)
 
 
@@ -158,5 +141,4 @@ while not rospy.is_shutdown():
 
 
 if __name__ == "__main__":
-    init_node("peers")
-    rostest.rosrun("ros1_tutorial_test", "peers", "__main__", sys.argv)
+    run()

@@ -3,14 +3,10 @@
 
 import os
 import re
-import sys
 import time
-import unittest
-
-import rostest
 
 from tutorial_testing.keys import KeyboardRig
-from tutorial_testing.nodes import init_node
+from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
 HELD_S = 8.0  # well above the launch file's vigilance_timeout
@@ -18,12 +14,10 @@ HINT = "  without LB: tap space, then this key at once"
 STATE = rf"^  left stick [+-]\d\.\d [+-]\d\.\d({HINT}|  LB|  RB|  MODE LED on|  unplugged)*$"
 
 
-class KeyboardTest(unittest.TestCase):
+class KeyboardTest(RosTest):
     def setUp(self):
-        self.rig = KeyboardRig()
+        self.rig = self.enter(KeyboardRig())
         self.terminal = self.rig.terminal
-        self.addCleanup(self.rig.close)
-        self.rig.wait_until_ready()
 
     def end_with(self, key):
         self.terminal.press(key)
@@ -42,17 +36,17 @@ class KeyboardTest(unittest.TestCase):
         shown = f"left stick +0.0 +1.0{HINT}"
         terminal.hold("w", lambda: shown in terminal.screen, "key on the screen")
         wait_for(lambda: "left stick +0.0 +0.0" in terminal.screen, "released key")
-        moved = [m for m in self.rig.odometry if m.twist.twist.linear.x]
+        moved = [moment for moment in self.rig.odometry if moment.moves]
         self.assertEqual(moved, [], "moved without LB")
 
         terminal.press("Space")
-        terminal.hold("Up", self.rig.moves, "moving robot")
+        terminal.hold("Up", self.rig.is_at_full_speed, "moving robot")
         self.assertIn("+1.0  LB", terminal.screen)
-        wait_for(self.rig.stands, "standing robot after the keys were released")
+        self.rig.wait_for_rest()  # after the keys were released
 
         self.rig.drive()
         terminal.press("u")
-        wait_for(self.rig.stands, "standing robot after unplugging")
+        self.rig.wait_for_rest()
         wait_for(lambda: "unplugged" in terminal.screen, "word on the screen")
         self.end_with("q")
         self.assertNotIn("died", self.terminal.history)  # a normal end does not look like a crash
@@ -67,8 +61,7 @@ class KeyboardTest(unittest.TestCase):
             return time.monotonic() > end
 
         self.terminal.hold("w", held, "end of the time")
-        speeds = [m.twist.twist.linear.x for m in self.rig.odometry[begin:]]
-        self.assertGreater(min(speeds), 0.34)
+        self.assertGreater(min(moment.v for moment in self.rig.odometry[begin:]), 0.34)
         self.assertNotIn("does not change", self.terminal.history)
 
     def test_ctrl_c_while_driving_ends_all_with_a_standing_robot(self):
@@ -78,5 +71,4 @@ class KeyboardTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    init_node("joystick_keyboard_test")
-    rostest.rosrun("ros1_tutorial_test", "joystick_keyboard", KeyboardTest, sys.argv)
+    run()

@@ -3,22 +3,18 @@
 
 import math
 import os
-import sys
-import tempfile
-import unittest
 from pathlib import Path
 
 import rospkg
 import rospy
-import rostest
 import yaml
-from diagnostic_msgs.msg import DiagnosticArray
-from nav_msgs.msg import Odometry
 
 from joy_to_twist.safety import WAITING
-from tutorial_testing.joystick_stream import JoyLog
-from tutorial_testing.nodes import init_node, node_path
+from tutorial_testing.joystick_stream import LAUNCH, JoystickTest
+from tutorial_testing.keys import DiagnosedRobot
+from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
+from tutorial_testing.rostests import run
 from tutorial_testing.waiting import wait_for
 
 SQUARE = ("config", "virtual_joystick", "square.yaml")  # in gamepad
@@ -48,71 +44,51 @@ while not rospy.is_shutdown():
 """
 
 
-class LaunchTest(unittest.TestCase):
+class LaunchTest(JoystickTest):
     def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-        self.device = str(self.folder / "js0")
-        self.states, self.odometry = [], []
-        for subscriber in (
-            rospy.Subscriber("/diagnostics", DiagnosticArray, self.keep_state),
-            rospy.Subscriber("odom", Odometry, self.odometry.append),
-        ):
-            self.addCleanup(subscriber.unregister)
-
-    def keep_state(self, message):
-        self.states += [s.message for s in message.status if s.name.startswith("myjoystick2twist")]
+        super().setUp()
+        self.robot = self.enter(DiagnosedRobot())
 
     def launch(self, *arguments, **environment):
-        command = ("roslaunch", "joy2twist", "launch_joy_node.launch")
-        command += ("rviz:=false", "cockpit:=false")
-        program = Program(*command, f"joy_dev:={self.device}", *arguments, **environment)
-        self.addCleanup(program.__exit__)
-        return program
+        device = f"joy_dev:={self.stream.path}"
+        return self.start(*LAUNCH, device, *arguments, **environment)
 
     def distance_to(self, place):
         """How near the robot has come to a pose (x, y [m], yaw [rad]): the least distance [m]."""
-        positions = [message.pose.pose.position for message in self.odometry]
-        return min(math.dist((p.x, p.y), place[:2]) for p in positions)
+        return min(math.dist((m.x, m.y), place[:2]) for m in self.robot.odometry)
 
     def test_the_script_of_the_square_is_driven(self):
         self.launch()
         # The script begins with its reader, and the robot must be ready then.
-        wait_for(lambda: self.odometry and WAITING in self.states, "joy2twist and robot")
+        self.robot.wait_for_state(WAITING)
         path = os.path.join(rospkg.RosPack().get_path("gamepad"), *SQUARE)
-        command = (node_path("gamepad", "virtual_joystick"), "--stream", self.device)
+        command = (node_path("gamepad", "virtual_joystick"), "--stream", self.stream.path)
         with Program(*command, "--script", path) as program:
             self.assertEqual(program.wait(SCRIPT_S), 0, program.output)
         places = closed_form(yaml.safe_load(Path(path).read_text(encoding="utf-8"))["moves"])
         self.assertGreater(max(math.hypot(x, y) for x, y, _ in places), 1.4)  # the far corner
         for place in places:
             self.assertLess(self.distance_to(place), NEAR_M, f"not near {place}")
-        last = self.odometry[-1]
-        self.assertEqual((last.twist.twist.linear.x, last.twist.twist.angular.z), (0.0, 0.0))
-        x, y, yaw = places[-1]
-        at, q = last.pose.pose.position, last.pose.pose.orientation
-        self.assertLess(math.dist((at.x, at.y), (x, y)), NEAR_M)
-        turned = math.remainder(2 * math.atan2(q.z, q.w) - yaw, math.tau)
-        self.assertLess(abs(turned), NEAR_RAD)
+        last, (x, y, yaw) = self.robot.now, places[-1]
+        self.assertFalse(last.moves)
+        self.assertLess(math.dist((last.x, last.y), (x, y)), NEAR_M)
+        self.assertLess(abs(math.remainder(last.yaw - yaw, math.tau)), NEAR_RAD)
 
     def test_joy_pkg_starts_the_node_of_another_package(self):
-        node = self.folder / "other_joy" / "joy_node"
+        folder = self.folder()
+        node = folder / "other_joy" / "joy_node"
         node.parent.mkdir()
         (node.parent / "package.xml").write_text(PACKAGE, encoding="utf-8")
         node.write_text(JOY_NODE, encoding="utf-8")
         node.chmod(0o755)
-        log = JoyLog()
-        self.addCleanup(log.stop)
-        path = f"{self.folder}:{os.environ['ROS_PACKAGE_PATH']}"
+        path = f"{folder}:{os.environ['ROS_PACKAGE_PATH']}"
         program = self.launch("joy_pkg:=other_joy", ROS_PACKAGE_PATH=path)
-        wait_for(lambda: log.last and log.last[1] == [4], "held LB")
-        self.assertEqual(log.messages[-1].header.frame_id, self.device)
-        self.assertEqual(rospy.get_param("/joy_node"), {"dev": self.device, "autorepeat_rate": 20})
-        wait_for(lambda: abs(self.odometry[-1].twist.twist.linear.x - METRES_PER_S) < 1e-6, "robot")
-        program.interrupt()
-        self.assertEqual(program.wait(), 0)
-        self.assertNotIn("Traceback", program.output)
+        wait_for(lambda: self.last and self.last[1] == [4], "held LB")
+        device = self.stream.path
+        self.assertEqual(self.joys[-1].header.frame_id, device)
+        self.assertEqual(rospy.get_param("/joy_node"), {"dev": device, "autorepeat_rate": 20})
+        self.robot.first(lambda moment: abs(moment.v - METRES_PER_S) < 1e-6, "full speed")
+        self.end(program)
 
 
 def closed_form(moves):
@@ -130,5 +106,4 @@ def closed_form(moves):
 
 
 if __name__ == "__main__":
-    init_node("joystick_launch_test")
-    rostest.rosrun("ros1_tutorial_test", "joystick_launch", LaunchTest, sys.argv)
+    run()

@@ -3,17 +3,13 @@
 
 import os
 import statistics
-import sys
 import time
-import unittest
 from pathlib import Path
 
-import rostest
-
 from gamepad.js_event import FULL
-from tutorial_testing.joystick_stream import JoyLog, Stream, driver
-from tutorial_testing.nodes import init_node
+from tutorial_testing.joystick_stream import JoystickTest
 from tutorial_testing.processes import Program
+from tutorial_testing.rostests import run
 from tutorial_testing.waiting import wait_for
 
 STILL_S = 5.0
@@ -26,23 +22,10 @@ SLACK_S = 0.005  # what the newest state may be older than the coalesce interval
 LATER_PART = 0.5
 
 
-class LoadTest(unittest.TestCase):
-    def setUp(self):
-        self.stream = Stream()
-        self.addCleanup(self.stream.remove)
-        self.log = JoyLog()
-        self.addCleanup(self.log.stop)
-
-    def start(self, *parameters):
-        program = driver(self.stream.path, *parameters)
-        self.addCleanup(program.__exit__)
-        wait_for(lambda: self.log.connected, "connection")
-        self.stream.plug_in()
-        wait_for(lambda: self.log.last, "first message")
-        return program
-
+class LoadTest(JoystickTest):
     def test_a_still_stick_costs_under_one_percent(self):
-        program = self.start("autorepeat_rate:=0")
+        program = self.start_driver("autorepeat_rate:=0")
+        self.plug_in()
         (pid,) = [
             pid
             for pid in program.left_behind()
@@ -55,7 +38,9 @@ class LoadTest(unittest.TestCase):
         self.assertLess(share, 0.01)
 
     def test_a_burst_is_coalesced_and_the_newest_state_is_fresh(self):
-        self.start(f"coalesce_interval:={COALESCE_S}", "deadzone:=0", "default_trig_val:=true")
+        coalesce = f"coalesce_interval:={COALESCE_S}"
+        self.start_driver(coalesce, "deadzone:=0", "default_trig_val:=true")
+        self.plug_in()
         fifo = os.path.join(os.path.dirname(self.stream.path), "reference")
         os.mkfifo(fifo)
         with Program(*BURST, "follow", str(COALESCE_S), fifo) as reference:
@@ -64,9 +49,9 @@ class LoadTest(unittest.TestCase):
                 sent = [float(time_s) for time_s in sender.output.split()]
             self.assertEqual(reference.wait(), 0, reference.output)
             printed = [float(word) for word in reference.output.split()]
-        wait_for(lambda: step_of(self.log.messages[-1]) == BURST_EVENTS, "newest state")
+        wait_for(lambda: step_of(self.joys[-1]) == BURST_EVENTS, "newest state")
         possible = delays(zip(printed[::2], printed[1::2]), sent)
-        ours = delays([(m.header.stamp.to_sec(), step_of(m)) for m in self.log.messages], sent)
+        ours = delays([(m.header.stamp.to_sec(), step_of(m)) for m in self.joys], sent)
         for name, found in (("joy_node", ours), ("a bare loop beside it", possible)):
             median_ms = 1e3 * statistics.median(found)
             print(f"the oldest event of a message of {name} waited {median_ms:.1f} ms (median)")
@@ -106,5 +91,4 @@ def processor_time_s(pid):
 
 
 if __name__ == "__main__":
-    init_node("joystick_load_test")
-    rostest.rosrun("ros1_tutorial_test", "joystick_load", LoadTest, sys.argv)
+    run()

@@ -22,21 +22,18 @@ After the last step nothing else may have been sent.
 """
 
 import collections
-import sys
 import time
-import unittest
 from math import inf
 
 import rosgraph
 import rospy
-import rostest
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Twist
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Joy
 
 from node_kit.questions import call
-from tutorial_testing.nodes import init_node
+from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
 COMPONENTS = [f"{kind}.{axis}" for kind in ("linear", "angular") for axis in "xyz"]
@@ -141,7 +138,9 @@ class Node:
 
     def _clock_s(self, clock_s):
         now, before = rospy.Time(clock_s), self._clock_bytes()
-        wait_for(lambda: clock.publish(Clock(now)) or rospy.Time.now() == now, "simulated time")
+        wait_for(
+            lambda: self.clock.publish(Clock(now)) or rospy.Time.now() == now, "simulated time"
+        )
         # The node, too: a stamp of another time would be too old for it.
         wait_for(lambda: self._clock_bytes() > before, "simulated time in the node")
 
@@ -159,35 +158,28 @@ class Node:
             if again:
                 self._last_joy.header.stamp = rospy.Time.now()
                 self._joystick.publish(self._last_joy)
-            return states.get(name, "").startswith(state)
+            return self.states.get(name, "").startswith(state)
 
         wait_for(reported, f"state {state} of {name}")
 
 
-class CasesTest(unittest.TestCase):
+class CasesTest(RosTest):
     """One test method for every case."""
 
+    @classmethod
+    def setUpClass(cls):
+        cls.nodes = {}  # by namespace
+        Node.states = {}  # of every node, by its name in /diagnostics
+        Node.clock = rospy.Publisher("/clock", Clock, queue_size=10)
+        keep = lambda array: Node.states.update((s.name, s.message) for s in array.status)  # noqa: E731
+        rospy.Subscriber("/diagnostics", DiagnosticArray, keep)
 
-def add_case(name, steps):
-    def play(_):
+    def play(self, _, steps):
         namespace = steps[0].get("node", "")
-        if namespace not in nodes:
-            nodes[namespace] = Node(namespace and f"/{namespace}")
-        nodes[namespace].play([step for step in steps if "node" not in step])
-
-    setattr(CasesTest, f"test_{name}", play)
+        if namespace not in self.nodes:
+            self.nodes[namespace] = Node(namespace and f"/{namespace}")
+        self.nodes[namespace].play([step for step in steps if "node" not in step])
 
 
 if __name__ == "__main__":
-    init_node("joy2twist_cases")
-    states = {}  # of every node, by its name in /diagnostics
-    rospy.Subscriber(
-        "/diagnostics",
-        DiagnosticArray,
-        lambda array: states.update((status.name, status.message) for status in array.status),
-    )
-    clock = rospy.Publisher("/clock", Clock, queue_size=10)
-    nodes = {}  # by namespace
-    for name, steps in rospy.get_param("~cases").items():
-        add_case(name, steps)
-    rostest.rosrun("ros1_tutorial_test", "joy2twist_cases", CasesTest, sys.argv)
+    run(CasesTest)

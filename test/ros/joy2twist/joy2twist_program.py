@@ -1,17 +1,15 @@
 #!/usr/bin/python3
 """joy2twist as a program: how it starts, what it shows and how it ends."""
 
-import sys
 import time
-import unittest
 
 import rospy
-import rostest
 from geometry_msgs.msg import Twist
 from sensor_msgs.msg import Joy
 
-from tutorial_testing.nodes import init_node, node_path
+from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
+from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import BUSY_S, wait_for
 
 LONGEST_EXIT_S = 1.5 + BUSY_S
@@ -22,61 +20,57 @@ def joy2twist(*parameters, **environment):
     return Program(node_path("joy2twist", "joy2twist.py"), *parameters, **environment)
 
 
-class RunningTest(unittest.TestCase):
+class RunningTest(RosTest):
     """The node runs; this process is its joystick and its robot."""
 
     def setUp(self):
         self.speeds = []
-        self.joystick = rospy.Publisher("joy", Joy, queue_size=1000)
-        self.robot = rospy.Subscriber("cmd_vel", Twist, lambda t: self.speeds.append(t.linear.x))
-        self.addCleanup(self.joystick.unregister)
-        self.addCleanup(self.robot.unregister)
+        self.joystick = self.publisher("joy", Joy)
+        self.robot = self.hear("cmd_vel", Twist, lambda t: self.speeds.append(t.linear.x))
 
     def forward(self):
         self.joystick.publish(Joy(axes=[0.0, 0.5, -0.25]))
 
-    def start(self, *parameters):
-        node = joy2twist(*parameters)
-        self.addCleanup(node.__exit__)
+    def drive(self, *parameters):
+        """Start the node, and push the stick until it drives."""
+        node = self.enter(joy2twist(*parameters))
         wait_for(lambda: self.forward() or self.speeds, "velocity")
         return node
 
-    def check_end(self, node):
+    def check_stop(self, node):
         """The stick stays forward, but the last velocity is zero, and the end comes in time."""
         begin = time.monotonic()
         wait_for(lambda: self.forward() or node.ended, "end")
         self.assertLess(time.monotonic() - begin, LONGEST_EXIT_S)
-        self.assertEqual(node.wait(), 0)
+        self.check_end(node)
         wait_for(lambda: self.robot.get_num_connections() == 0, "end of the connection")
         self.assertEqual(self.speeds[-1], 0.0)
         self.assertEqual(set(self.speeds[:-1]), {0.5})
         self.assertIn("Stopping the node", node.output)
-        self.assertNotIn("Traceback", node.output)
 
     def test_ctrl_c_stops_the_robot(self):
-        node = self.start()
+        node = self.drive()
         node.interrupt()
-        self.check_end(node)
+        self.check_stop(node)
 
     def test_rosnode_kill_stops_the_robot(self):
-        node = self.start()
+        node = self.drive()
         with Program("rosnode", "kill", "/NewJoy2Twist") as kill:
             wait_for(lambda: self.forward() or self.speeds[-1] == 0.0, "zero")
-            self.check_end(node)
+            self.check_stop(node)
             kill.wait()
 
     def test_a_newer_node_of_the_same_name_takes_over(self):
-        node = self.start()
+        node = self.drive()
         with joy2twist():
             wait_for(lambda: self.forward() or 0.0 in self.speeds, "zero of the older node")
             zeros = len(self.speeds)
-            self.assertEqual(node.wait(LONGEST_EXIT_S), 0)
-            self.assertNotIn("Traceback", node.output)
+            self.check_end(node, deadline_s=LONGEST_EXIT_S)
             wait_for(lambda: self.forward() or 0.5 in self.speeds[zeros:], "newer node")
 
     def test_every_message_of_a_bag_is_displayed_as_in_the_tutorial(self):
         # Ten times the default, as a busy machine may hold messages back and deliver some at once.
-        node = self.start("_log_rate:=500")
+        node = self.drive("_log_rate:=500")
         sent = [Joy(axes=[0.5] * (number % 9) + [number]) for number in range(100)]
         for joy in sent:
             self.joystick.publish(joy)
@@ -86,7 +80,7 @@ class RunningTest(unittest.TestCase):
         wait_for(lambda: all(node.output.count(line) == 1 for line in lines), "100 lines")
 
 
-class StartTest(unittest.TestCase):
+class StartTest(RosTest):
     def test_a_mistake_and_a_missing_master_get_one_line(self):
         rospy.set_param("/wrong/joy_timeout", -1)
         for node, words in (
@@ -95,11 +89,7 @@ class StartTest(unittest.TestCase):
             (joy2twist(ROS_MASTER_URI=NOWHERE), (NOWHERE, "roscore")),
             (joy2twist(ROS_MASTER_URI="nonsense"), ("'nonsense'", "http://localhost:11311")),
         ):
-            with node:
-                self.assertEqual(node.wait(), 1)
-                (line,) = node.output.splitlines()
-                for word in words:
-                    self.assertIn(word, line)
+            self.check_mistake(node, *words)
 
     def test_the_mapping_is_said_in_words(self):
         with joy2twist("_scale_linear:=0.7", "_enable_button:=4", "__name:=words") as node:
@@ -108,5 +98,4 @@ class StartTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    init_node("joy2twist_program")
-    rostest.rosrun("ros1_tutorial_test", "joy2twist_program", "__main__", sys.argv)
+    run()

@@ -2,17 +2,13 @@
 """The handout's three programs, in our words: what they display and send, and how they end."""
 
 import re
-import sys
-import unittest
 
 import rospkg
-import rospy
-import rostest
 from geometry_msgs.msg import Twist
 from sensor_msgs.msg import Joy
 
-from tutorial_testing.nodes import init_node, node_path
-from tutorial_testing.processes import Program
+from tutorial_testing.nodes import node_path
+from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
 LONGEST_LINES = 45
@@ -22,15 +18,13 @@ TOO_LATE = r"ROSException: (?:topic was closed during publish\(\)|publish\(\) to
 ABOVE = "During handling of the above exception"
 
 
-class StepsTest(unittest.TestCase):
+class StepsTest(RosTest):
     """A step runs; this process is its joystick and its robot."""
 
     def setUp(self):
         self.velocities = []
-        self.joystick = rospy.Publisher("joy", Joy, queue_size=1000)
-        self.robot = rospy.Subscriber("cmd_vel", Twist, self.heard, queue_size=1000)
-        self.addCleanup(self.joystick.unregister)
-        self.addCleanup(self.robot.unregister)
+        self.joystick = self.publisher("joy", Joy)
+        self.robot = self.hear("cmd_vel", Twist, self.heard)
 
     def heard(self, twist):
         self.velocities.append((twist.linear.x, twist.angular.z))
@@ -38,13 +32,13 @@ class StepsTest(unittest.TestCase):
     def send(self, *axes):
         self.joystick.publish(Joy(axes=axes))
 
-    def start(self, step):
-        node = Program(node_path("joy2twist", step))
-        self.addCleanup(node.__exit__)
+    def display(self, step):
+        """Start a step, and move the stick until it displays that."""
+        node = self.start(node_path("joy2twist", step))
         wait_for(lambda: self.send(0.25, 0.5, 0.125) or "0.25, 0.5" in node.output, "line")
         return node
 
-    def end(self, node, may_publish_too_late=False):
+    def stop(self, node, may_publish_too_late=False):
         """Press Ctrl-C, and go on with the stick as it is until the node is gone."""
         node.interrupt()
         wait_for(lambda: self.send(0.25, 0.5, 0.125) or node.ended, "end")
@@ -54,9 +48,9 @@ class StepsTest(unittest.TestCase):
         self.assertEqual(tracebacks, refused if may_publish_too_late else 0, node.output)
 
     def test_step_1_displays(self):
-        node = self.start("display_joy.py")
+        node = self.display("display_joy.py")
         self.assertRegex(node.output, r"/listener_\w+: Get from Joy \[0\.25, 0\.50, 0\.12\]")
-        self.end(node)
+        self.stop(node)
         self.assertEqual(self.velocities, [])
 
     def check_velocities(self):
@@ -64,17 +58,17 @@ class StepsTest(unittest.TestCase):
         self.assertEqual(set(self.velocities), {(0.5, 0.25)})
 
     def test_step_2_publishes(self):
-        node = self.start("publish_twist.py")
+        node = self.display("publish_twist.py")
         self.check_velocities()
         wait_for(lambda: self.send(1.0) or (0.0, 0.0) in self.velocities, "zero for too few axes")
         # rospy closes the topic while the callback goes on, which is what step 3 is about.
-        self.end(node, may_publish_too_late=True)
+        self.stop(node, may_publish_too_late=True)
 
     def test_step_3_publishes_and_leaves_the_robot_standing(self):
-        node = self.start("new_joy2twist.py")
+        node = self.display("new_joy2twist.py")
         self.assertIn("/NewJoy2Twist: Get from Joy", node.output)
         self.check_velocities()
-        self.end(node)
+        self.stop(node)
         self.assertIn("Stopping the node", node.output)
         self.assertEqual(self.velocities[-1], (0.0, 0.0))
         stop = self.velocities.index((0.0, 0.0))
@@ -89,5 +83,4 @@ class StepsTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    init_node("steps_test")
-    rostest.rosrun("ros1_tutorial_test", "joy2twist_steps", StepsTest, sys.argv)
+    run()

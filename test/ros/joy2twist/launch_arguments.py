@@ -1,22 +1,19 @@
 #!/usr/bin/python3
 """Arguments of the launch files: a mistake gets a line before a node starts, and nothing stays."""
 
-import sys
-import unittest
 from pathlib import Path
 
 import rosgraph
 import rosnode
 import rospkg
 import rospy
-import rostest
 import yaml
 from sensor_msgs.msg import Joy
 
 from node_kit.questions import address
-from tutorial_testing.nodes import init_node
 from tutorial_testing.ports import free_port
 from tutorial_testing.processes import Program
+from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
 BAGS = Path(rospkg.RosPack().get_path("joy2twist")) / "bag"
@@ -31,7 +28,7 @@ def known():
     return set(rosnode.get_node_names())
 
 
-class ArgumentsTest(unittest.TestCase):
+class ArgumentsTest(RosTest):
     def refused(self, package, file, argument, line):
         """A launch says a line, exits, and has started nothing."""
         before = known()
@@ -65,9 +62,7 @@ class ArgumentsTest(unittest.TestCase):
 
     def played(self, command, topic):
         """A launch plays a recording, by a path from the folder in which the user is."""
-        came = []
-        subscriber = rospy.Subscriber(topic, Joy, came.append)
-        self.addCleanup(subscriber.unregister)
+        came = self.record(topic, Joy)
         with Program("bash", "-c", f"cd '{BAGS}' && exec roslaunch joy2twist {command}") as launch:
             wait_for(lambda: came or launch.ended, "message")
             self.assertFalse(launch.ended, launch.output)
@@ -126,5 +121,4 @@ class ArgumentsTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    init_node("launch_arguments_test")
-    rostest.rosrun("ros1_tutorial_test", "launch_arguments", ArgumentsTest, sys.argv)
+    run()

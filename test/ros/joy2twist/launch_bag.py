@@ -2,19 +2,15 @@
 """launch_bag.launch: one velocity for every joystick message, and after Ctrl-C a standing robot."""
 
 import os
-import sys
-import unittest
 
 import rospkg
-import rospy
-import rostest
 from geometry_msgs.msg import Twist
-from nav_msgs.msg import Odometry
 from sensor_msgs.msg import JointState, Joy
 from tf2_msgs.msg import TFMessage
 
-from tutorial_testing.nodes import init_node
 from tutorial_testing.processes import Program
+from tutorial_testing.robot import Robot
+from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 from tutorial_tools.demo.program import NODES, RVIZ_NODE
 
@@ -22,33 +18,24 @@ RATE_HZ = 50  # of joy.bag and of the simulation
 SAMPLE_S = 6.0  # how much is looked at; the tour begins with a second of rest
 
 
-class LaunchBagTest(unittest.TestCase):
-    def record(self, topic, message_type):
-        """Return a list of the messages of a topic, which grows."""
-        messages = []
-        subscriber = rospy.Subscriber(topic, message_type, messages.append)
-        self.addCleanup(subscriber.unregister)
-        return messages
-
+class LaunchBagTest(RosTest):
     def test_it_drives_until_ctrl_c(self):
-        cmd_vel, odom = self.record("/cmd_vel", Twist), self.record("/odom", Odometry)
+        cmd_vel, robot = self.record("/cmd_vel", Twist), self.enter(Robot())
         tf, joints = self.record("/tf", TFMessage), self.record("/joint_states", JointState)
         folder = os.path.join(rospkg.RosPack().get_path("joy2twist"), "launch")
         command = f"cd '{folder}' && exec roslaunch launch_bag.launch rviz:=false"
         with Program("sh", "-c", command) as launch:
-            wait_for(lambda: odom and cmd_vel, "first messages")
+            wait_for(lambda: robot.odometry and cmd_vel, "first messages")
             joy = self.record("/joy", Joy)  # last: every joy below has its cmd_vel above
-            wait_for(lambda: any(m.twist.twist.linear.x > 0.1 for m in odom), "moving robot")
+            robot.first(lambda moment: moment.v > 0.1, "moving robot")
             wait_for(lambda: len(joy) > SAMPLE_S * RATE_HZ, "joystick messages")
             sample = joy[:]
             self.check_velocities(sample, cmd_vel)
             self.check_model(joints, tf)
             wait_for(lambda: cmd_vel[-1].linear.x > 0.1, "driving robot")
-            launch.interrupt()
-            self.assertEqual(launch.wait(), 0)
+            self.end(launch)
             wait_for(lambda: not launch.left_behind(), "end of every process")
             wait_for(lambda: cmd_vel[-1] == Twist(), "zero as the last velocity")
-            self.assertNotIn("Traceback", launch.output)
             # Where a node has not ended after 15 s, roslaunch says so, and kills it.
             self.assertNotIn("escalating", launch.output)
 
@@ -92,5 +79,4 @@ class LaunchBagTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    init_node("launch_bag_test")
-    rostest.rosrun("ros1_tutorial_test", "launch_bag", LaunchBagTest, sys.argv)
+    run()

@@ -1,17 +1,11 @@
 #!/usr/bin/python3
 """launch_joy_node.launch with a gamepad that falls silent; what trembles is for unit tests."""
 
-import sys
 import time
-import unittest
 
-import rospy
-import rostest
-from nav_msgs.msg import Odometry
-
-from tutorial_testing.joystick_stream import AXIS, BUTTON, JoyLog, Stream
-from tutorial_testing.nodes import init_node
-from tutorial_testing.processes import Program
+from tutorial_testing.joystick_stream import AXIS, BUTTON, LAUNCH, JoystickTest
+from tutorial_testing.robot import Robot
+from tutorial_testing.rostests import run
 from tutorial_testing.waiting import wait_for
 
 VIGILANCE_S = 3.0  # of the launch file
@@ -19,49 +13,33 @@ LIMIT_S = VIGILANCE_S + 0.6 + 0.02  # the base's own timeout, and one period of 
 FULL, LB, FORWARD = 32767, 4, 1
 
 
-class RadioSilenceTest(unittest.TestCase):
+class RadioSilenceTest(JoystickTest):
     def setUp(self):
-        self.stream, self.odometry = Stream(), []
-        self.addCleanup(self.stream.remove)
-        self.addCleanup(rospy.Subscriber("odom", Odometry, self.odometry.append).unregister)
-        self.log = JoyLog()
-        self.addCleanup(self.log.stop)
-        self.launch = Program(
-            "roslaunch", "joy2twist", "launch_joy_node.launch", f"joy_dev:={self.stream.path}",
-            "rviz:=false", "cockpit:=false",
-        )  # fmt: skip
-        self.addCleanup(self.launch.__exit__)
-        wait_for(lambda: self.odometry, "robot")
-
-    def moves(self):
-        twist = self.odometry[-1].twist.twist
-        return twist.linear.x != 0 or twist.angular.z != 0
+        super().setUp()
+        self.robot = self.enter(Robot())
+        self.launch = self.start(*LAUNCH, f"joy_dev:={self.stream.path}")
+        self.robot.wait_for_rest()
 
     def show(self, held, forward):
         """Move the hand, and wait until joy_node has published it; when it was moved [s]."""
-        seen, now = len(self.log.messages), time.time()
+        seen, now = len(self.joys), time.time()
         self.stream.send((BUTTON, LB, int(held)), (AXIS, FORWARD, -forward))
-        wait_for(lambda: len(self.log.messages) > seen + 1, "messages of joy_node")
+        wait_for(lambda: len(self.joys) > seen + 1, "messages of joy_node")
         return now
 
     def drive(self):
-        """Release everything, then hold LB and the stick until the robot moves."""
+        """Release everything, then hold LB and the stick until the robot moves; since when [s]."""
 
-        def once():
+        def hold():
             self.show(False, 0)
-            moved = self.show(True, FULL)
-            end = time.monotonic() + 2.0
-            while time.monotonic() < end and not self.moves():
-                time.sleep(0.01)
-            return self.moves() and moved
+            return self.show(True, FULL)
 
-        return wait_for(once, "moving robot")
+        return self.robot.drive_by(hold, try_s=2.0)
 
     def silence_s(self):
         """Drive, then fall silent: how long after the last event the robot moved [s]."""
         moved = self.drive()
-        wait_for(lambda: not self.moves(), "robot at rest")
-        return max(m.header.stamp.to_sec() for m in self.odometry if m.twist.twist.linear.x) - moved
+        return self.robot.wait_for_rest() - moved
 
     def test_out_of_reach_it_stops_and_back_in_reach_it_waits_for_the_release(self):
         self.stream.plug_in()
@@ -72,14 +50,13 @@ class RadioSilenceTest(unittest.TestCase):
         self.assertGreater(min(delays_s), VIGILANCE_S - 0.5)
         wait_for(lambda: "stops in 0.5 s" in self.launch.output, "warning")
 
-        stood = len(self.odometry)
+        stood = self.robot.now.stamp
         for forward in (FULL, FULL // 2, FULL):  # back in reach, LB and the stick still held
             self.show(True, forward)
-        wait_for(lambda: len(self.odometry) > stood + 50, "odometry")
-        self.assertFalse(any(m.twist.twist.linear.x for m in self.odometry[stood:]))
+        self.assertTrue(self.robot.stays_at_rest())
+        self.assertFalse(any(moment.moves for moment in self.robot.since(stood)))
         self.drive()
 
 
 if __name__ == "__main__":
-    init_node("radio_silence_test")
-    rostest.rosrun("ros1_tutorial_test", "radio_silence", RadioSilenceTest, sys.argv)
+    run()

@@ -2,9 +2,6 @@
 """launch_joy_node_realTurtlebot.launch: what drives the TurtleBot, and which view opens."""
 
 import os
-import sys
-import tempfile
-import unittest
 from pathlib import Path
 
 import rosbag
@@ -12,13 +9,11 @@ import rosgraph
 import rosnode
 import rospkg
 import rospy
-import rostest
 from geometry_msgs.msg import Twist
 
 from node_kit.questions import holder
 from tutorial_testing.joystick_stream import AXIS, BUTTON, Stream
-from tutorial_testing.nodes import init_node
-from tutorial_testing.processes import Program
+from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
 TELEOP = "/cmd_vel_mux/input/teleop"
@@ -36,28 +31,24 @@ PACKAGE = """
 VIEW = '<launch><param name="/view_of_the_turtlebot" value="open"/></launch>'
 
 
-class WorkstationTest(unittest.TestCase):
+class WorkstationTest(RosTest):
     def setUp(self):
         self.speeds = []
-        robot = rospy.Subscriber(TELEOP, Twist, lambda twist: self.speeds.append(twist.linear.x))
-        self.addCleanup(robot.unregister)
+        self.hear(TELEOP, Twist, lambda twist: self.speeds.append(twist.linear.x))
 
-    def start(self, *arguments, **environment):
-        launch = Program(
-            "roslaunch", "joy2twist", "launch_joy_node_realTurtlebot.launch", *arguments,
-            **environment,
-        )  # fmt: skip
-        self.addCleanup(self.end, launch)
+    def launch(self, *arguments, **environment):
+        file = ("joy2twist", "launch_joy_node_realTurtlebot.launch")
+        launch = self.start("roslaunch", *file, *arguments, **environment)
+        self.addCleanup(self.interrupt, launch)
         return launch
 
-    def end(self, launch):
-        with launch:
-            if not launch.ended:
-                launch.interrupt()
-            launch.wait()  # its nodes are no longer registered
+    def interrupt(self, launch):
+        if not launch.ended:
+            launch.interrupt()
+        launch.wait()  # its nodes are no longer registered
 
     def test_a_recording_drives_once_and_ends_the_launch(self):
-        short = os.path.join(self.folder(), "short.bag")
+        short = str(self.folder() / "short.bag")
         with rosbag.Bag(str(BAG)) as whole, rosbag.Bag(short, "w") as part:
             messages = [(joy, stamp) for _, joy, stamp in whole.read_messages()][:200]
             # At rest until all are connected: a later subscriber is held until the release.
@@ -67,7 +58,7 @@ class WorkstationTest(unittest.TestCase):
             for joy, stamp in messages:
                 part.write("/joy", joy, stamp)
         asked = {SPEED * joy.axes[1] for joy, _ in messages if joy.buttons[LB]}
-        launch = self.start(f"bag:={short}", "rviz:=false")
+        launch = self.launch(f"bag:={short}", "rviz:=false")
         wait_for(lambda: len(self.speeds) > 10, "velocities")
         self.assertIn("/myjoystick2twist", rosnode.get_node_names())
         # A driver of a test before may still be registered, on a machine too busy for its goodbye.
@@ -87,7 +78,7 @@ class WorkstationTest(unittest.TestCase):
     def test_a_gamepad_drives(self):
         gamepad = Stream()
         self.addCleanup(gamepad.remove)
-        launch = self.start(f"joy_dev:={gamepad.path}", "rviz:=false", "log_rate:=50")
+        launch = self.launch(f"joy_dev:={gamepad.path}", "rviz:=false", "log_rate:=50")
         wait_for(lambda: gamepad.path in launch.output, "driver that looks for the gamepad")
         gamepad.plug_in()
         gamepad.send((BUTTON, LB, 0))
@@ -98,14 +89,9 @@ class WorkstationTest(unittest.TestCase):
         wait_for(lambda: self.speeds[-1] == 0.0, "zero")
         self.assertEqual(set(self.speeds), {0.0, SPEED})
 
-    def folder(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        return folder.name
-
     def test_the_view_of_the_suite_opens_or_the_one_that_the_user_names(self):
         folder = self.folder()
-        rviz, given = Path(folder, "rviz"), Path(folder, "given")  # writes down its arguments
+        rviz, given = folder / "rviz", folder / "given"  # writes down its arguments
         rviz.write_text(f'#!/bin/sh\necho "$@" > {given}.new; mv {given}.new {given}; sleep 600\n')
         rviz.chmod(0o755)
         for arguments, file in (
@@ -113,25 +99,24 @@ class WorkstationTest(unittest.TestCase):
             (["rviz_config:=/my.rviz"], "/my.rviz"),
         ):
             path = f"{folder}:{os.environ['PATH']}"
-            launch = self.start("rviz:=true", "cockpit:=false", *arguments, PATH=path)
+            launch = self.launch("rviz:=true", "cockpit:=false", *arguments, PATH=path)
             wait_for(lambda: given.exists() or launch.ended, "view")  # noqa: B023
             words = given.read_text().split()
             self.assertEqual(words[:2], ["-d", file])
             self.assertIn("__name:=my_rviz", words)
-            self.end(launch)
+            self.interrupt(launch)
             given.unlink()
 
     def test_the_view_of_the_turtlebot_opens_where_it_is_installed(self):
         folder = self.folder()
-        package = Path(folder, "turtlebot_rviz_launchers")
+        package = folder / "turtlebot_rviz_launchers"
         (package / "launch").mkdir(parents=True)
         (package / "package.xml").write_text(PACKAGE)
         (package / "launch" / "view_robot.launch").write_text(VIEW)
         path = f"{folder}:{os.environ['ROS_PACKAGE_PATH']}"
-        self.start("rviz:=true", ROS_PACKAGE_PATH=path)
+        self.launch("rviz:=true", ROS_PACKAGE_PATH=path)
         wait_for(lambda: rospy.has_param("/view_of_the_turtlebot"), "view")
 
 
 if __name__ == "__main__":
-    init_node("turtlebot_workstation")
-    rostest.rosrun("ros1_tutorial_test", "turtlebot_workstation", WorkstationTest, sys.argv)
+    run()

@@ -1,20 +1,17 @@
 #!/usr/bin/python3
 """A start never harms what runs: a table of what runs, what is started, and what is left."""
 
-import os
 import shlex
 import signal
-import sys
-import unittest
 from xmlrpc.client import ServerProxy
 
 import rosgraph
 import rospy
-import rostest
 from rospy import AnyMsg
 
-from tutorial_testing.nodes import init_node, node_path
+from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program, suspend
+from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
 # The number of joy.bag's last message, after which rosbag starts again.
@@ -22,7 +19,7 @@ LAST_OF_BAG = 2759
 SIMULATOR = (node_path("fake_turtlebot_sim", "fake_turtlebot.py"),)
 
 
-def start(command):
+def started_by(command):
     """A Program, from a line of the table."""
     words = shlex.split(command)
     if words[0] == "rosrun":
@@ -33,12 +30,10 @@ def start(command):
 class Watch:
     """The messages of a topic, by their senders; their numbers show whether one was lost."""
 
-    def __init__(self, topic):
+    def __init__(self):
         self.numbers = {}  # sender -> the numbers of its messages
-        self._subscriber = rospy.Subscriber(topic, AnyMsg, self._on_message, queue_size=1000)
-        self.close = self._subscriber.unregister
 
-    def _on_message(self, message):
+    def hear(self, message):
         sender = message._connection_header["callerid"]
         # All of them begin with a Header, and that with the number.
         number = int.from_bytes(message._buff[:4], "little")
@@ -62,15 +57,15 @@ class Watch:
         wait_for(lambda: len(self.of(sender)) > count, f"a message of {sender}")
 
 
-class StartsTest(unittest.TestCase):
+class StartsTest(RosTest):
     def watch(self, topic):
-        watch = Watch(topic)
-        self.addCleanup(watch.close)
+        watch = Watch()
+        self.hear(topic, AnyMsg, watch.hear)
         wait_for(lambda: watch.numbers, f"messages on {topic}")
         return watch
 
     def check_refusal(self, command, words):
-        with start(command) as started:
+        with started_by(command) as started:
             code, said = started.wait(), started.output
         self.assertEqual(code, 1, f"{command}: {said}")
         lines = [line for line in said.splitlines() if words in line]
@@ -78,12 +73,12 @@ class StartsTest(unittest.TestCase):
         self.assertNotIn("Traceback (most", said)
 
     def check_company(self, command, topic):
-        with start(command) as started:
+        with started_by(command) as started:
             self.watch(topic)
             started.interrupt()
             started.wait()
 
-    def check_row(self, row):
+    def play(self, _, row):
         with Program(*shlex.split(row["run"])) as running:
             watches = [self.watch(topic) for topic in row["watch"]]
             senders = [next(iter(watch.numbers)) for watch in watches]
@@ -109,9 +104,7 @@ class StartsTest(unittest.TestCase):
     def test_a_name_whose_node_was_killed_is_free_at_once(self):
         with Program(*SIMULATOR, "__name:=killed") as node:
             sender = self.watch("odom")
-            for pid in node.left_behind():
-                os.kill(pid, signal.SIGKILL)
-            node.wait()
+            node.kill()
             with Program(*SIMULATOR, "__name:=killed"):
                 sender.grows("/killed")
 
@@ -140,22 +133,11 @@ class StartsTest(unittest.TestCase):
     def test_a_suspended_robot_keeps_its_name(self):
         with Program(*SIMULATOR, "__name:=stopped") as node:
             watch = self.watch("odom")
-            pids = node.left_behind()
-            suspend(pids)
+            suspend(node.left_behind())
             self.check_refusal(" ".join([*SIMULATOR, "__name:=stopped"]), "does not answer")
-            for pid in pids:
-                os.kill(pid, signal.SIGCONT)
+            node.signal(signal.SIGCONT)
             watch.grows("/stopped")
 
 
-def add_row(row):
-    """One test for each row of the table."""
-    name = "_".join(word.split(".")[0] for word in row["run"].split()[1:3])
-    setattr(StartsTest, f"test_{name}", lambda self: self.check_row(row))
-
-
 if __name__ == "__main__":
-    init_node("starts")
-    for one in rospy.get_param("~table"):
-        add_row(one)
-    rostest.rosrun("ros1_tutorial_test", "starts", StartsTest, sys.argv)
+    run(StartsTest)

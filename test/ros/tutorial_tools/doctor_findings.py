@@ -1,31 +1,27 @@
 #!/usr/bin/python3
 """doctor.py as a user runs it: where all is well, and where one thing after the other is not."""
 
-import os
-import signal
 import socket
-import sys
 import time
-import unittest
 
 import rosgraph
 import rosnode
 import rospy
-import rostest
 from geometry_msgs.msg import Twist
-from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Joy
 from std_msgs.msg import String
 
-from tutorial_testing.nodes import init_node, node_path
+from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
+from tutorial_testing.robot import Robot
+from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
 LONGEST_S = 15.0
 NOBODYS = "192.0.2.7"  # an address for documentation (RFC 5737)
 
 
-class FindingsTest(unittest.TestCase):
+class FindingsTest(RosTest):
     def doctor(self, **environment):
         """Return (exit code, {level: lines}) of a run that exits in time, without a traceback."""
         began_s = time.monotonic()
@@ -48,23 +44,12 @@ class FindingsTest(unittest.TestCase):
         self.assertTrue(found, levels)
         return levels["wrong"]
 
-    def subscribe(self, topic, kind, hear):
-        subscriber = rospy.Subscriber(topic, kind, hear)
-        self.addCleanup(subscriber.unregister)
-        return subscriber
-
-    def publish(self, topic, kind, **options):
-        publisher = rospy.Publisher(topic, kind, queue_size=1, **options)
-        self.addCleanup(publisher.unregister)
-        return publisher
-
     def test_a_drive(self):
         """All is well, and then one thing after the other is not."""
-        speeds = []
-        self.subscribe("/odom", Odometry, lambda odom: speeds.append(odom.twist.twist.linear.x))
+        robot = self.enter(Robot())
         launch = ("joy2twist", "launch_bag.launch", "cockpit:=false", "rviz:=false")
         with Program("roslaunch", *launch) as drive:
-            wait_for(lambda: speeds and max(speeds) > 0.1, "moving robot")
+            robot.first(lambda moment: moment.v > 0.1, "moving robot")
             code, levels = self.doctor()
             self.assertEqual((code, levels["wrong"]), (0, []))
             way = "/rosbag -> /joy -> /myjoystick2twist -> /cmd_vel -> /fake_turtlebot"
@@ -74,7 +59,7 @@ class FindingsTest(unittest.TestCase):
             seen = f"ROS_IP={NOBODYS} is no address of this machine"
             self.assertEqual(len(self.wrong(seen, ROS_IP=NOBODYS)), 1)
             self.wrong("cannot be looked up", ROS_HOSTNAME="nobody.invalid")
-            self.publish("/cmd_vel", Twist)
+            self.publisher("/cmd_vel", Twist)
             self.wrong("/cmd_vel is sent by /doctor_findings, /myjoystick2twist at once")
             rospy.set_param("/use_sim_time", True)
             self.addCleanup(rospy.delete_param, "/use_sim_time")
@@ -92,9 +77,7 @@ class FindingsTest(unittest.TestCase):
     def test_a_node_that_died(self):
         with Program(node_path("beginner_tutorials", "talker.py"), "--unique") as talker:
             wait_for(lambda: "hello" in talker.output, "talker")
-            for pid in talker.left_behind():
-                os.kill(pid, signal.SIGKILL)
-            talker.wait()
+            talker.kill()
             self.wrong("/talker at http://", "has died", "rosnode cleanup")
         rosnode.cleanup_master_blacklist(rosgraph.Master("/test"), ["/talker"])
         self.assertNotIn("/talker", rosnode.get_node_names())
@@ -112,13 +95,13 @@ class FindingsTest(unittest.TestCase):
             self.wrong("/far at ", "does not answer")
 
     def test_a_joystick_without_a_converter_and_a_mux_that_listens_to_another(self):
-        joystick = self.publish("joy", Joy)
+        joystick = self.publisher("joy", Joy)
         self.wrong("nothing turns /joy into velocities")
         with Program("roslaunch", "joy2twist", "joy2twist_turtlebot.launch") as driver:
             wait_for(joystick.get_num_connections, "joy2twist")
             self.wrong("nobody listens to /cmd_vel_mux/input/teleop of /myjoystick2twist")
-            base = self.subscribe("cmd_vel_mux/input/teleop", Twist, lambda _: None)
-            self.publish("cmd_vel_mux/active", String, latch=True).publish("Navigation")
+            base = self.hear("cmd_vel_mux/input/teleop", Twist, lambda _: None)
+            self.publisher("cmd_vel_mux/active", String, latch=True).publish("Navigation")
             wait_for(base.get_num_connections, "connection")
             self.wrong('lets "Navigation" through, and not /cmd_vel_mux/input/teleop')
             self.wrong("/myjoystick2twist says: waiting for the joystick")
@@ -127,5 +110,4 @@ class FindingsTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    init_node("doctor_findings")
-    rostest.rosrun("ros1_tutorial_test", "doctor_findings", FindingsTest, sys.argv)
+    run()

@@ -5,8 +5,7 @@ import os
 import subprocess
 from pathlib import Path
 
-from tutorial_testing.cockpit.world import HERE, World
-from tutorial_testing.processes import Program
+from tutorial_testing.robot import OBSERVER, Robot
 from tutorial_testing.waiting import wait_for
 
 SOURCE = Path(os.environ.get("CHECKED_SOURCE") or Path(__file__).resolve().parents[3])
@@ -50,30 +49,19 @@ class Compose:
         return self("ps", "-q", service).split()[-1]
 
 
-class RobotInside(World):
+class RobotInside(Robot):
     """The robot of a container, seen through its odometry."""
 
     def __init__(self, container):
-        super().__init__(host=self)
-        self._container, self.environment = container, {}
+        super().__init__()
+        inside = ("./tutorial", "run", "bash", "-c", WITH_TESTS, "-")
+        self._inside = ("docker", "exec", "-i", container, *inside)
 
-    def __enter__(self):
+    def begin(self):
         wait_for(self._answers, "the simulated robot in the container")
-        self._observe()
-        wait_for(lambda: self.odometry, "odometry")
-        return self
+        self.observe([*self._inside, *OBSERVER])
 
     def _answers(self):
-        command = self.command("rosnode", "ping", "-c", "1", "/fake_turtlebot")
+        command = [*self._inside, "rosnode", "ping", "-c", "1", "/fake_turtlebot"]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         return "time=" in done.stdout
-
-    def command(self, *command):
-        """Return a command of this machine that runs one in the container."""
-        here, inside = str(HERE), f"{INSIDE}/test/src/tutorial_testing/cockpit"
-        words = [word.replace(here, inside) for word in command]
-        inside = ["./tutorial", "run", "bash", "-c", WITH_TESTS, "-", *words]
-        return ["docker", "exec", "-i", self._container, *inside]
-
-    def start(self, *command, **_):
-        return Program(*self.command(*command))

@@ -11,8 +11,9 @@ import random
 import sys
 import time
 
-from tornado.httpclient import HTTPRequest
 from tornado.websocket import WebSocketClosedError, websocket_connect
+
+from tutorial_testing.socket_page import request
 
 TOPICS = ["/odom", "/joy", "/tf", "/diagnostics", "/rosout", "/no/such/topic"]
 FIELDS = [f"/odom/pose/covariance[{i}]" for i in range(12)] + ["/odom/x", "/nothing/y"]
@@ -51,14 +52,8 @@ def others(dice):
 
 class Flood:
     def __init__(self, port, token):
-        self.address = f"127.0.0.1:{port}"
-        self.query = f"?token={token}"
+        self.port, self.token = port, token
         self.counts = {"sent": 0, "received": 0, "closed": 0}
-
-    async def connect(self):
-        headers = {"Origin": f"http://{self.address}"}
-        request = HTTPRequest(f"ws://{self.address}/ws{self.query}", headers=headers)
-        return await websocket_connect(request)
 
     async def read(self, socket):
         while await socket.read_message() is not None:
@@ -75,7 +70,8 @@ class Flood:
                 await asyncio.sleep(0.01)
 
     async def run(self, viewers, seconds):
-        sockets = [await self.connect() for _ in range(viewers)]
+        requests = [request(self.port, self.token) for _ in range(viewers)]
+        sockets = [await websocket_connect(one) for one in requests]
         tasks = [self.read(one) for i, one in enumerate(sockets) if i % (READERS + 1) != READERS]
         readers = [asyncio.ensure_future(task) for task in tasks]
         print("ready", flush=True)

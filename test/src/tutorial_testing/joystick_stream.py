@@ -12,9 +12,11 @@ from sensor_msgs.msg import Joy
 from gamepad.js_event import AXIS, BUTTON, INIT, JsEvent, pack
 from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
+from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import wait_for
 
 AXES, BUTTONS = 6, 12  # of the F710 in D mode
+LAUNCH = ("roslaunch", "joy2twist", "launch_joy_node.launch", "rviz:=false", "cockpit:=false")
 
 
 class Stream:
@@ -55,31 +57,37 @@ class Stream:
         shutil.rmtree(self._folder)
 
 
-class JoyLog:
-    """Every message of /joy."""
-
-    def __init__(self):
-        self.messages = []
-        self._subscriber = rospy.Subscriber("joy", Joy, self.messages.append, queue_size=1000)
-        self.stop = self._subscriber.unregister
-
-    @property
-    def connected(self):
-        """Whether a node publishes here."""
-        return self._subscriber.get_num_connections() > 0
-
-    @property
-    def last(self):
-        """(axes, buttons held) of the newest message, or None."""
-        if not self.messages:
-            return None
-        joy = self.messages[-1]
-        return tuple(joy.axes), [n for n, held in enumerate(joy.buttons) if held]
-
-
 def driver(path, *parameters):
     """Start joy_node, reading a path; parameters as ~name:=value without the ~."""
     if rospy.has_param("/joy_node"):
         rospy.delete_param("/joy_node")  # of the test before: the master keeps them
     given = [f"_{parameter}" for parameter in (f"dev:={path}", *parameters)]
     return Program(node_path("gamepad", "joy_node"), *given)
+
+
+class JoystickTest(RosTest):
+    """A test case with a FIFO in place of a joystick, and every message of /joy."""
+
+    def setUp(self):
+        self.stream = Stream()
+        self.addCleanup(self.stream.remove)
+        self.joys = []
+        self._subscriber = self.hear("joy", Joy, self.joys.append)
+
+    def start_driver(self, *parameters):
+        """Start joy_node, which reads the FIFO."""
+        return self.enter(driver(self.stream.path, *parameters))
+
+    def plug_in(self, **axes):
+        """Plug the gamepad in once the driver is connected; wait for its first message."""
+        wait_for(self._subscriber.get_num_connections, "connection")
+        self.stream.plug_in(**axes)
+        wait_for(lambda: self.last, "first message")
+
+    @property
+    def last(self):
+        """(axes, buttons held) of the newest message, or None."""
+        if not self.joys:
+            return None
+        joy = self.joys[-1]
+        return tuple(joy.axes), [n for n, held in enumerate(joy.buttons) if held]

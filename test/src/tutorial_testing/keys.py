@@ -6,10 +6,11 @@ import uuid
 
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
-from nav_msgs.msg import Odometry
 
 from joy_to_twist.safety import ARMED
+from tutorial_testing.joystick_stream import LAUNCH
 from tutorial_testing.processes import lives
+from tutorial_testing.robot import Robot
 from tutorial_testing.waiting import wait_for
 
 SPEED = 0.35  # [m/s] at full deflection, config/f710_d.yaml
@@ -62,49 +63,47 @@ class Tmux:
         wait_for(lambda: not lives(self._pid), "end of what ran in the terminal")
 
 
-class KeyboardRig:
-    """The launch in its terminal, ready to be driven; close() it."""
+class DiagnosedRobot(Robot):
+    """The robot of launch_joy_node.launch, and the states of its joy2twist."""
 
     def __init__(self):
-        self.odometry, self._states = [], []
-        self._subscribers = [
-            rospy.Subscriber("odom", Odometry, self.odometry.append),
-            rospy.Subscriber("/diagnostics", DiagnosticArray, self._keep_state),
-        ]
-        self.device = f"/tmp/{uuid.uuid4()}"
-        arguments = f"virtual:=true rviz:=false cockpit:=false joy_dev:={self.device}"
-        self.terminal = Tmux(f"roslaunch joy2twist launch_joy_node.launch {arguments}")
+        super().__init__()
+        self._states = []
 
-    def wait_until_ready(self):
-        """Wait for joy2twist to see the gamepad released; a key before that would not drive."""
-        wait_for(lambda: "Opened joystick" in self.terminal.history, "driver")
-        wait_for(lambda: self.odometry, "robot")
-        wait_for(lambda: self._states and self._states[-1] == ARMED, "armed joy2twist")
+    def begin(self):
+        self.listen()
+        diagnostics = rospy.Subscriber("/diagnostics", DiagnosticArray, self._keep_state)
+        self._stack.callback(diagnostics.unregister)
 
     def _keep_state(self, message):
         self._states += [s.message for s in message.status if s.name.startswith("myjoystick2twist")]
 
-    @property
-    def speed(self):
-        """Of the newest odometry [m/s]."""
-        return self.odometry[-1].twist.twist.linear.x
+    def wait_for_state(self, state):
+        """Wait until the robot is there, and joy2twist reports a state."""
+        wait_for(lambda: self.odometry, "robot")
+        wait_for(lambda: self._states and self._states[-1] == state, f"joy2twist that is {state}")
 
-    def moves(self):
-        return abs(self.speed - SPEED) < 1e-6
 
-    def stands(self):
-        return self.speed == 0.0
+class KeyboardRig(DiagnosedRobot):
+    """The launch in its terminal, ready to be driven."""
+
+    def begin(self):
+        super().begin()
+        self.device = f"/tmp/{uuid.uuid4()}"
+        self.terminal = Tmux(" ".join([*LAUNCH, "virtual:=true", f"joy_dev:={self.device}"]))
+        self._stack.callback(self.terminal.close)
+        wait_for(lambda: "Opened joystick" in self.terminal.history, "driver")
+        # The gamepad was seen released; a key before that would not drive.
+        self.wait_for_state(ARMED)
+
+    def is_at_full_speed(self):
+        return abs(self.now.v - SPEED) < 1e-6
 
     def drive(self):
         """Hold LB and W until the robot moves; LB again and again, as W may come late."""
 
         def moves():
             self.terminal.press("Space")
-            return self.moves()
+            return self.is_at_full_speed()
 
         self.terminal.hold("w", moves, "moving robot")
-
-    def close(self):
-        for subscriber in self._subscribers:
-            subscriber.unregister()
-        self.terminal.close()

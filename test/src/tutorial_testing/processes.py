@@ -5,6 +5,7 @@ import os
 import signal
 import subprocess
 import tempfile
+import time
 import uuid
 from pathlib import Path
 
@@ -69,6 +70,29 @@ def _is_stopped(pid):
     return all(text.rsplit(")", 1)[1].split()[0] in "TtZ" for text in threads)
 
 
+class Started:
+    """A context manager: begin() starts what is needed, and what is on self._stack ends it.
+
+    It ends what has begun, too, if begin() fails.
+    """
+
+    def __init__(self):
+        self._stack = contextlib.ExitStack()
+
+    def begin(self):
+        """Start what is needed."""
+
+    def __enter__(self):
+        with contextlib.ExitStack() as attempt:
+            attempt.push(self)
+            self.begin()
+            attempt.pop_all()
+        return self
+
+    def __exit__(self, *_):
+        self._stack.close()
+
+
 class Program:
     """A program and all that it starts; its output, both streams together, is kept.
 
@@ -92,10 +116,7 @@ class Program:
         return self
 
     def __exit__(self, *_):
-        for pid in self.left_behind():
-            with contextlib.suppress(ProcessLookupError):
-                os.kill(pid, signal.SIGKILL)
-        self._process.wait()
+        self.kill()
         self._output.close()
         if self._process.stdin:
             self._process.stdin.close()
@@ -116,6 +137,21 @@ class Program:
     def ended(self):
         """Whether the program itself has ended."""
         return self._process.poll() is not None
+
+    def signal(self, number):
+        """Send a signal to all that comes from this program; return the time [s] just before."""
+        pids = self.left_behind()
+        now = time.time()
+        for pid in pids:
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(pid, number)
+        return now
+
+    def kill(self):
+        """End all of it as by a lack of memory; return the time [s] just before."""
+        now = self.signal(signal.SIGKILL)
+        self._process.wait()
+        return now
 
     def interrupt(self):
         """Press Ctrl-C: SIGINT to the group in the foreground."""

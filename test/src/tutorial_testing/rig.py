@@ -7,20 +7,19 @@ import json
 import os
 import signal
 import tempfile
-import threading
 import time
+from functools import partial
 from pathlib import Path
 
 import rosgraph
 import rospkg
-import rospy
 import yaml
-from nav_msgs.msg import Odometry
 
 from node_kit.questions import call
 from tutorial_testing.hands import DRIVE, RELEASED, Hands
 from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program, suspend
+from tutorial_testing.robot import Robot
 from tutorial_testing.waiting import wait_for
 
 JOYSTICK, DRIVER, MUX, BASE = "/joy_node", "/NewJoy2Twist", "/cmd_vel_mux", "/fake_turtlebot"
@@ -28,35 +27,12 @@ SAFETY = "/kobuki_safety_controller"
 EVENTS = ("bumper", "cliff", "wheel_drop")  # of the Kobuki
 TIMEOUT_S = 0.6  # of the base
 REST_S = 0.6  # for which a multiplexer wants to see a sender rest
-CYCLE_S = 5.0  # to release all and drive again, at least
 
 
-def given_to(node, device, with_mux=True, world="", **joy2twist):
-    """Return (package, program, parameters, remaps) of a node.
-
-    device: that joy_node reads. world: of the base. joy2twist: more parameters of joy2twist.
-    """
-
-    def config(package, name):
-        path = Path(rospkg.RosPack().get_path(package), "config", name)
-        return yaml.safe_load(path.read_text())
-
-    if node == JOYSTICK:
-        return "gamepad", "joy_node", {"dev": device}, {}
-    if node == DRIVER:
-        preset = {"arm_on_neutral": True, "log_rate": 0, **joy2twist}
-        remaps = {"cmd_vel": "cmd_vel_mux/input/teleop"} if with_mux else {}
-        return "joy2twist", "joy2twist.py", {**config("joy2twist", "f710_d.yaml"), **preset}, remaps
-    if node == MUX:
-        remaps = {"cmd_vel_mux/output": "cmd_vel"}
-        given = config("fake_turtlebot_sim", "cmd_vel_mux.yaml")
-        return "fake_turtlebot_sim", "cmd_vel_mux.py", given, remaps
-    if node == SAFETY:
-        topics = {f"~events/{kind}": f"mobile_base/events/{kind}" for kind in EVENTS}
-        remaps = {"~cmd_vel": "cmd_vel_mux/input/safety_controller", **topics}
-        remaps = {name.replace("~", f"{SAFETY}/"): to for name, to in remaps.items()}
-        return "fake_turtlebot_sim", "safety_controller.py", {}, remaps
-    return "fake_turtlebot_sim", "fake_turtlebot.py", {"world": world}, {}
+def config(package, name):
+    """Return what is in a file of a package's config/."""
+    path = Path(rospkg.RosPack().get_path(package), "config", name)
+    return yaml.safe_load(path.read_text())
 
 
 def arguments(parameters, remaps):
@@ -65,42 +41,62 @@ def arguments(parameters, remaps):
     return given + [f"{name}:={to}" for name, to in remaps.items()]
 
 
-class Rig:
+class Rig(Robot):
     """The nodes, each a program of its own; a context manager that ends them all."""
 
-    def __init__(self, with_mux=True, screen=None):
-        """screen: path of what the nodes write their lines to; None: they are kept."""
-        self.nodes = [JOYSTICK, DRIVER, *([MUX] if with_mux else []), BASE]  # from hand to wheel
-        self._screen = screen
-        self._folder = tempfile.TemporaryDirectory()
-        self._device = os.path.join(self._folder.name, "js0")
-        self._hands = Hands(self._device)
-        self.programs = {}
-        self.speeds = []  # (stamp [s], forward speed [m/s]) of every odometry
-        self._odom = None
+    def __init__(self, with_mux=True, screen=None, world="", **joy2twist):
+        """screen: path of what the nodes write their lines to; None: they are kept.
 
-    def __enter__(self):
-        self._hands.__enter__()
+        world: of the base. joy2twist: more parameters of joy2twist.
+        """
+        super().__init__()
+        self.nodes = [JOYSTICK, DRIVER, *([MUX] if with_mux else []), BASE]  # from hand to wheel
+        self._screen, self._world, self._joy2twist = screen, world, joy2twist
+        self._velocities = "cmd_vel_mux/input/teleop" if with_mux else "cmd_vel"
+        folder = self._stack.enter_context(tempfile.TemporaryDirectory())
+        self._device = os.path.join(folder, "js0")
+        self.hands = Hands(self._device)
+        self.programs = {}
+
+    def begin(self):
+        self._stack.enter_context(self.hands)
+        self._stack.callback(self._end_nodes)
         for node in self.nodes:
             self.start(node)
-        self._odom = rospy.Subscriber("odom", Odometry, self._on_odometry, queue_size=1000)
-        return self
+        self.listen()
 
-    def __exit__(self, *_):
+    def _end_nodes(self):
         for program in self.programs.values():
             program.__exit__()
-        self._hands.__exit__()
-        if self._odom:
-            self._odom.unregister()
-        self._folder.cleanup()
 
-    def start(self, node):
+    def given(self, node):
+        """Return (program, parameters, remaps) of a node."""
+        if node == JOYSTICK:
+            return [node_path("gamepad", "joy_node")], {"dev": self._device}, {}
+        if node == DRIVER:
+            preset = {**config("joy2twist", "f710_d.yaml"), "arm_on_neutral": True, "log_rate": 0}
+            program, remaps = node_path("joy2twist", "joy2twist.py"), {"cmd_vel": self._velocities}
+            return [program], {**preset, **self._joy2twist}, remaps
+        simulator = partial(node_path, "fake_turtlebot_sim")
+        if node == MUX:
+            given = config("fake_turtlebot_sim", "cmd_vel_mux.yaml")
+            return [simulator("cmd_vel_mux.py")], given, {"cmd_vel_mux/output": "cmd_vel"}
+        if node == SAFETY:
+            remaps = {f"{SAFETY}/events/{kind}": f"mobile_base/events/{kind}" for kind in EVENTS}
+            remaps[f"{SAFETY}/cmd_vel"] = "cmd_vel_mux/input/safety_controller"
+            return [simulator("safety_controller.py")], {}, remaps
+        return [simulator("fake_turtlebot.py")], {"world": self._world}, {}
+
+    def start(self, node, *prefix, **environment):
         """Start a node, or restart it."""
-        package, name, *given = given_to(node, self._device, MUX in self.nodes)
-        command = (node_path(package, name), *arguments(*given))
+        program, *given = self.given(node)
+        command = [*prefix, *program, *arguments(*given)]
         if self._screen:
-            command = ("bash", "-c", 'exec "$@" >"$0" 2>&1', self._screen, *command)
-        self.programs[node] = Program(*command)
+            command = ["bash", "-c", 'exec "$@" >"$0" 2>&1', self._screen, *command]
+        old = self.programs.get(node)
+        self.programs[node] = Program(*command, **environment)
+        if old:
+            old.__exit__()
 
     def pid(self, node):
         """Return the process of a node."""
@@ -119,38 +115,16 @@ class Rig:
         self.programs[node].wait()
         return time.monotonic() - began
 
-    def _on_odometry(self, odometry):
-        twist = odometry.twist.twist
-        speed = abs(twist.linear.x) + abs(twist.angular.z)
-        self.speeds.append((odometry.header.stamp.to_sec(), speed))
-
-    def is_moving(self):
-        """Return whether the newest odometry says so."""
-        return bool(self.speeds) and self.speeds[-1][1] > 0.0
+    def hold(self):
+        """Release all until the robot has rested, and hold LB and the stick."""
+        self.hands.show(RELEASED)
+        self.wait_for_rest()
+        time.sleep(REST_S)
+        self.hands.show(DRIVE)
 
     def drive(self):
         """Release all and hold LB and the stick, until the robot moves."""
-
-        def once():
-            self._hands.show(RELEASED)
-            self.wait_for_rest()
-            threading.Event().wait(REST_S)  # what a multiplexer wants to see
-            self._hands.show(DRIVE)
-            end = time.monotonic() + CYCLE_S
-            while time.monotonic() < end and not self.is_moving():
-                time.sleep(0.01)
-            return self.is_moving()
-
-        wait_for(once, "robot that drives")
-
-    def wait_for_rest(self):
-        """Wait until new odometry says that the robot stands."""
-        count = len(self.speeds)
-        wait_for(lambda: len(self.speeds) > count and not self.is_moving(), "robot at rest")
-
-    def since(self, stamp):
-        """Return (stamp, speed) of all odometry after a time [s]."""
-        return [entry for entry in list(self.speeds) if entry[0] > stamp]
+        self.drive_by(self.hold)
 
 
 def stop(pids):

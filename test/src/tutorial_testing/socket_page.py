@@ -9,6 +9,7 @@ import time
 from tornado.httpclient import HTTPClientError, HTTPRequest
 from tornado.websocket import WebSocketClosedError, websocket_connect
 
+from tutorial_testing.processes import Started
 from tutorial_testing.waiting import wait_for
 
 PERIOD_S = 0.05
@@ -16,13 +17,20 @@ REST = ([0.0] * 6, [0] * 12)
 DRIVE = ([0.0, 1.0, 0.0, 0.0, 0.0, 0.0], [0, 0, 0, 0, 1] + [0] * 7)
 
 
-class SocketPage:
+def request(port, token=None, **headers):
+    """Return that of a page for its WebSocket."""
+    address = f"127.0.0.1:{port}"
+    query = f"?token={token}" if token else ""
+    headers = {"Origin": f"http://{address}", **headers}
+    return HTTPRequest(f"ws://{address}/ws{query}", headers=headers)
+
+
+class SocketPage(Started):
     """A context manager; while hand is not None, that position is sent as a page does."""
 
     def __init__(self, port, token=None, **headers):
-        self._address = f"127.0.0.1:{port}"
-        self._query = f"?token={token}" if token else ""
-        self._headers = {"Origin": f"http://{self._address}", **headers}
+        super().__init__()
+        self._request = request(port, token, **headers)
         self.messages = []  # all that came but beats
         self.refusal = None  # HTTP status, where the WebSocket was refused
         self.hand = None
@@ -34,25 +42,20 @@ class SocketPage:
         self._loop = asyncio.new_event_loop()
         self._thread = threading.Thread(target=self._loop.run_forever, daemon=True)
 
-    def __enter__(self):
+    def begin(self):
         self._thread.start()
-        try:
-            asyncio.run_coroutine_threadsafe(self._connect(), self._loop).result(30)
-        except BaseException:
-            self.__exit__()
-            raise
-        return self
+        self._stack.callback(self._end)
+        asyncio.run_coroutine_threadsafe(self._connect(), self._loop).result(30)
 
-    def __exit__(self, *_):
+    def _end(self):
         self.close()
         self._loop.call_soon_threadsafe(self._loop.stop)
         self._thread.join()
         self._loop.close()  # a loop is three files, and a process may have only 1024
 
     async def _connect(self):
-        request = HTTPRequest(f"ws://{self._address}/ws{self._query}", headers=self._headers)
         try:
-            self._socket = await websocket_connect(request)
+            self._socket = await websocket_connect(self._request)
         except HTTPClientError as error:
             self.refusal = error.code
             return

@@ -79,9 +79,9 @@ def act(world, plan):
 class Hunt:
     """The trials, on a world that is replaced when it cannot be repaired. A context manager."""
 
-    def __init__(self, hosts, folder, options, node=()):
+    def __init__(self, hosts, options, node=()):
         """hosts: hosts.Hosts. options: of program.parse(). node: see world.World."""
-        self._hosts, self._folder, self._options, self._node = hosts, folder, options, node
+        self._hosts, self._options, self._node = hosts, options, node
         self._names = chosen(options.kinds, hosts.granted)
         self._world = None
         self._last_words = []
@@ -92,7 +92,7 @@ class Hunt:
 
     def __exit__(self, *_):
         if self._world:
-            self._world.__exit__(None, None, None)
+            self._world.__exit__()
         self._world = None
 
     def end(self):
@@ -128,7 +128,7 @@ class Hunt:
 
     def _attempt(self, plan):
         if not self._world:
-            world = World(self._hosts, self._folder, self._node, self._options.in_a_cell)
+            world = World(self._hosts, self._node, self._options.in_a_cell)
             self._world = world.__enter__()
         answer = run_trial(self._world, plan)
         self._last_words = self._world.last_words()

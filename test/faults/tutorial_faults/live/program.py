@@ -74,9 +74,7 @@ def hunt(options):
         literal = Path(__file__).resolve().parents[3] / LITERAL
         command = (str(literal),) if is_handout else ("rosrun", *options.node.split("/"))
     with contextlib.ExitStack() as stack:
-        folder = stack.enter_context(tempfile.TemporaryDirectory())
-        home = os.path.join(folder, "home")
-        os.mkdir(home)
+        home = stack.enter_context(tempfile.TemporaryDirectory())
         the_hosts = stack.enter_context(hosts.Hosts(home, options.seed))
         os.environ.update(the_hosts.robot_environment)
         for need, why in the_hosts.refused.items():
@@ -84,7 +82,7 @@ def hunt(options):
             print(f"faults: without {kinds}: {why}", flush=True)
         table = csv.writer(options.table or stack.enter_context(open(os.devnull, "w")))
         table.writerow(("seed", "kinds", "rest_s", "violations"))
-        the_hunt = stack.enter_context(Hunt(the_hosts, folder, options, command))
+        the_hunt = stack.enter_context(Hunt(the_hosts, options, command))
         with contextlib.suppress(KeyboardInterrupt):
             for result, lines in the_hunt.run():
                 table.writerow(result.row())

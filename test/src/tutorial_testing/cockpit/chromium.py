@@ -16,13 +16,12 @@ from selenium.webdriver.chrome.options import Options
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.by import By
 
-from tutorial_testing.waiting import wait_for
+from tutorial_testing.cockpit.engines import WebDriver
 
 ARGUMENTS = [
     "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
     "--disable-background-networking", "--disable-component-update", "--disable-sync",
 ]  # fmt: skip
-LONG_S = 60.0  # for a machine that is busy with much else
 # Key code -> name of the key and the number that Windows has for it.
 KEYS = {
     "ShiftLeft": ("Shift", 16), "ShiftRight": ("Shift", 16), "MetaLeft": ("Meta", 91),
@@ -33,7 +32,7 @@ KEYS = {
 META, SHIFT = 4, 8  # as the protocol has modifiers
 
 
-class Chromium:
+class Chromium(WebDriver):
     """One browser with one page. A context manager that leaves nothing behind."""
 
     def __init__(self, width=1280, height=800, touch=False):
@@ -46,14 +45,11 @@ class Chromium:
         options.add_argument(f"--user-data-dir={self._folder}")
         options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
         service = Service(shutil.which("chromedriver"))
-        self.driver = webdriver.Chrome(service=service, options=options)
+        super().__init__(webdriver.Chrome(service=service, options=options))
         metrics = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": touch}
         self.send("Emulation.setDeviceMetricsOverride", **metrics)
         if touch:
             self.send("Emulation.setTouchEmulationEnabled", enabled=True, maxTouchPoints=5)
-
-    def __enter__(self):
-        return self
 
     def __exit__(self, *_):
         self.kill()
@@ -61,34 +57,18 @@ class Chromium:
             self.driver.service.stop()
         shutil.rmtree(self._folder, ignore_errors=True)
 
-    def send(self, method, **parameters):
-        return self.driver.execute_cdp_cmd(method, parameters)
-
-    def open(self, address):
-        """Open the cockpit's page, and wait until it is connected."""
+    def go(self, address):
         self._shifts.clear()
         self.driver.get(address)
-        self.wait_for_text("#connection", "Connected")
+
+    def send(self, method, **parameters):
+        return self.driver.execute_cdp_cmd(method, parameters)
 
     def one(self, css):
         return self.driver.find_element(By.CSS_SELECTOR, css)
 
     def all(self, css):
         return self.driver.find_elements(By.CSS_SELECTOR, css)
-
-    def ask(self, expression):
-        return self.driver.execute_script(f"return {expression}")
-
-    def text(self, css):
-        """The text of an element, seen or not; "" if it is not there."""
-        script = "return document.querySelector(arguments[0])?.textContent ?? ''"
-        return self.driver.execute_script(script, css)
-
-    def wait_for_text(self, css, text):
-        try:
-            wait_for(lambda: text in self.text(css), text, LONG_S)
-        except AssertionError as error:
-            raise AssertionError(f"{error}; {css} says {self.text(css)!r}") from None
 
     def by_role(self, role, name):
         """The button or tab of a name, as a screen reader finds it."""

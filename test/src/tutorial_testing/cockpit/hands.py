@@ -4,10 +4,9 @@ import contextlib
 
 from selenium.common.exceptions import WebDriverException
 
+from tutorial_testing.robot import TRY_S
 from tutorial_testing.waiting import wait_for
 
-LONG_S = 90.0  # for a machine that is busy with much else
-TRY_S = 5.0  # for the seat, or until the robot moves, before all is released and held again
 SIT_DOWN = """document.getElementById("seat").dataset.state !== "yours"
   && document.getElementById("take").click()"""
 ARMED = "document.getElementById('seat').dataset.armed"
@@ -44,20 +43,17 @@ class Hands:
         until a condition(). On a machine that is busy with much else it may take more than one go:
         the server lets nobody drive whose page is late.
         """
-        until = until or (lambda: world.now.moves)
 
-        def once():
+        def hold():
             self.release()
             world.wait_for_rest()
             self.browser.ask(SIT_DOWN)
+            # The server has seen that nothing is held, and lets this page drive.
             with contextlib.suppress(AssertionError):
-                # The server has seen that nothing is held, and lets this page drive.
                 wait_for(lambda: self.browser.ask(ARMED) == "true", "all released", TRY_S)
                 self.hold()
-                return wait_for(until, "effect", TRY_S)
-            return False
 
-        wait_for(once, "robot that drives", LONG_S)
+        world.drive_by(hold, until)
 
 
 class Keys(Hands):

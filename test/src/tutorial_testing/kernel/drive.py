@@ -13,7 +13,6 @@ import time
 from pathlib import Path
 
 import rospy
-from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Joy
 
 from gamepad.gamepads import F710_D, F710_X
@@ -21,6 +20,7 @@ from gamepad.virtual.controls import Controls, positions
 from gamepad.virtual.pads import UinputPad
 from tutorial_testing.nodes import init_node
 from tutorial_testing.processes import Program
+from tutorial_testing.robot import PERIOD_S, Robot
 from tutorial_testing.waiting import wait_for
 
 DEVICE = Path("/dev/input/js0")
@@ -77,26 +77,19 @@ def scaled(value):
     return math.copysign(size, -value)
 
 
-class Robot:
-    """The messages of /joy and /odom, oldest first."""
+class Driven(Robot):
+    """The robot, and the messages of /joy, oldest first."""
 
-    def __init__(self):
-        self.joy, self.odometry = [], []
+    def begin(self):
+        self.joy = []
         rospy.Subscriber("joy", Joy, self.joy.append)
-        rospy.Subscriber("odom", Odometry, self.odometry.append)
-
-    @property
-    def speed(self):
-        """Of the newest odometry [m/s]."""
-        return self.odometry[-1].twist.twist.linear.x
+        self.listen()
 
     def check_stands(self, since, what):
         """The robot stood soon after a time [s]."""
-        wait(lambda: self.speed == 0.0, "standing robot")
-        moving = [m for m in self.odometry if m.twist.twist.linear.x]
-        took_s = moving[-1].header.stamp.to_sec() - since
+        took_s = self.wait_for_rest(since) - since
         report(f"{what}: the robot stands after {1e3 * took_s:.0f} ms")
-        assert took_s < PROMPT_S
+        assert took_s < PROMPT_S + PERIOD_S
 
 
 def check_positions(pad, raw, robot):
@@ -121,7 +114,7 @@ def drive(pad, robot):
     pad.show(positions(F710_D, Controls()))
     wait(lambda: not any((*robot.joy[-1].buttons, *robot.joy[-1].axes)), "released gamepad")
     pad.show(positions(F710_D, HELD))
-    wait(lambda: abs(robot.speed - METRES_PER_S) < 1e-6, f"speed {METRES_PER_S} m/s")
+    wait(lambda: abs(robot.now.v - METRES_PER_S) < 1e-6, f"speed {METRES_PER_S} m/s")
 
 
 def check_unplugged(pad, raw, launch, robot):
@@ -139,7 +132,7 @@ def check_unplugged(pad, raw, launch, robot):
         wait(DEVICE.exists, "other gamepad")
         other.show(positions(F710_X, HELD))
         wait(lambda: "is now" in launch.output, "refusal of the other gamepad")
-        assert robot.joy[-1] is neutral and robot.speed == 0.0
+        assert robot.joy[-1] is neutral and not robot.moves
     wait(lambda: not DEVICE.exists(), "end of the other gamepad")
     report("another gamepad in its place was not opened")
 
@@ -149,7 +142,7 @@ def check_unplugged(pad, raw, launch, robot):
     pad.show(positions(F710_D, Controls(left_stick=(0.0, 0.5), held=HELD.held)))
     wait(lambda: len(robot.joy) > count + 20, "messages")
     assert robot.joy[-1].axes[1] > 0 and robot.joy[-1].buttons[4]
-    assert all(m.twist.twist.linear.x == 0 for m in robot.odometry[-20:])
+    assert not any(moment.moves for moment in robot.odometry[-20:])
     report("plugged in with LB held and the stick pushed: nothing moves")
 
 
@@ -157,7 +150,7 @@ def check_all(pad, raw, launch):
     """Check what the launch file's nodes make of the gamepad."""
     wait(lambda: "Opened joystick" in launch.output, "driver")
     init_node("drive")
-    robot = Robot()
+    robot = Driven().__enter__()  # to the end of this program
     wait(lambda: robot.joy and robot.odometry, "joystick and robot")
     wait(lambda: "This is a Logitech F710 in D mode" in launch.output, "line on the mode")
     check_positions(pad, raw, robot)

@@ -1,17 +1,15 @@
 """The two machines of TWO_MACHINES.md: the robot with the master, and the workstation."""
 
-import contextlib
 import re
 import subprocess
 from pathlib import Path
-from typing import NamedTuple
 
+from tutorial_testing.robot import OBSERVER, Robot
 from tutorial_testing.waiting import wait_for
 
 from .network import Network
 
 HERE = Path(__file__).resolve().parent
-OBSERVER = HERE.parent / "cockpit" / "observer.py"
 REPOSITORY = HERE.parents[3]
 ROBOT, WORKSTATION = "robot", "workstation"
 
@@ -27,29 +25,13 @@ def page_blocks():
     }
 
 
-class Moment(NamedTuple):
-    """An odometry message: its stamp [s], v [m/s], x, y [m] of the frame odom."""
-
-    time: float
-    v: float
-    x: float
-    y: float
-
-
-class Scene:
+class Scene(Robot):
     """Both hosts and what runs on them. A context manager that leaves nothing behind."""
 
-    def __init__(self):
+    def begin(self):
         self._blocks = page_blocks()
-        self._stack = contextlib.ExitStack()
-
-    def __enter__(self):
         addresses = {host: self.address(host) for host in self._blocks}
         self.network = self._stack.enter_context(Network(addresses))
-        return self
-
-    def __exit__(self, *error):
-        self._stack.__exit__(*error)
 
     def address(self, host):
         """Return the IPv4 address of a host, as the page has it."""
@@ -67,8 +49,9 @@ class Scene:
         """Start the page's launch on the robot and watch its odometry."""
         self.robot = self.start(ROBOT, f"{self._blocks[ROBOT][2]} {arguments}")
         wait_for(lambda: "core service" in self.robot.output, "master of the robot")
-        self._observer = self.start(ROBOT, f"'{OBSERVER}'")
-        wait_for(lambda: self.odometry, "odometry of the robot")
+        address = self.address(ROBOT)
+        environment = {"ROS_MASTER_URI": f"http://{address}:11311", "ROS_IP": address}
+        self.observe(self.network[ROBOT].command(*OBSERVER), **environment)
 
     def launch_workstation(self, launch=None):
         """Start a launch on the workstation, by default the page's."""
@@ -88,14 +71,3 @@ class Scene:
 
     def _pilot_lines(self):
         return [line for line in self._pilot.output.splitlines(keepends=True) if line[-1] == "\n"]
-
-    @property
-    def odometry(self):
-        """All Moments so far."""
-        lines = self._observer.output.splitlines()[:-1]  # the last may be half written
-        moments = [line.split() for line in lines if line[0].isdigit()]
-        return [Moment(*map(float, (at, v, x, y))) for at, v, _, x, y in moments]
-
-    def moment(self, condition, what):
-        """Wait for an odometry message for which condition(Moment) holds; return the first one."""
-        return wait_for(lambda: next(filter(condition, self.odometry), None), what)

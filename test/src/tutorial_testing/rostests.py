@@ -1,0 +1,79 @@
+"""What rostests share: a test case that cleans up after itself, and how its program runs."""
+
+import sys
+import tempfile
+import unittest
+from functools import partialmethod
+from pathlib import Path
+
+import rospy
+import rostest
+
+from tutorial_testing.nodes import init_node
+from tutorial_testing.processes import Program
+
+
+class RosTest(unittest.TestCase):
+    """A test case whose programs, publishers, subscribers and folders end with each test."""
+
+    def enter(self, context):
+        """Enter a context that is left after the test; return what it gives."""
+        value = context.__enter__()
+        self.addCleanup(context.__exit__, None, None, None)
+        return value
+
+    def start(self, *command, **environment):
+        """Start a program: a processes.Program."""
+        return self.enter(Program(*command, **environment))
+
+    def folder(self):
+        """Return the path of a new folder."""
+        return Path(self.enter(tempfile.TemporaryDirectory()))
+
+    def publisher(self, topic, kind, **options):
+        """Return a publisher."""
+        publisher = rospy.Publisher(topic, kind, **{"queue_size": 1000, **options})
+        self.addCleanup(publisher.unregister)
+        return publisher
+
+    def hear(self, topic, kind, hear):
+        """Call hear() with each message of a topic; return the subscriber."""
+        subscriber = rospy.Subscriber(topic, kind, hear, queue_size=1000, tcp_nodelay=True)
+        self.addCleanup(subscriber.unregister)
+        return subscriber
+
+    def record(self, topic, kind):
+        """Return the list of the messages of a topic, which grows."""
+        messages = []
+        self.hear(topic, kind, messages.append)
+        return messages
+
+    def check_mistake(self, program, *words):
+        """Check that a Program exits with code 1 and one line, which has these words."""
+        with program:
+            self.assertEqual(program.wait(), 1)
+            self.assertEqual(program.output.count("\n"), 1, program.output)
+            for word in words:
+                self.assertIn(word, program.output)
+
+    def check_end(self, program, **deadline):
+        """Wait until a Program exits, with code 0 and without a traceback."""
+        self.assertEqual(program.wait(**deadline), 0, program.output)
+        self.assertNotIn("Traceback", program.output)
+
+    def end(self, program, **deadline):
+        """Press Ctrl-C, and wait for the end, as check_end() does."""
+        program.interrupt()
+        self.check_end(program, **deadline)
+
+
+def run(player=None):
+    """Run the tests of the program that calls this, as a node of its name.
+
+    player: a RosTest whose play(name, case) becomes a test of each of ~cases in the .test file.
+    """
+    program = Path(sys.argv[0]).stem
+    init_node(program)
+    for name, case in rospy.get_param("~cases").items() if player else ():
+        setattr(player, f"test_{name}", partialmethod(player.play, name, case))
+    rostest.rosrun("ros1_tutorial_test", program, "__main__", sys.argv)
