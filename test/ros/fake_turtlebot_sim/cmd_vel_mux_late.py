@@ -2,19 +2,16 @@
 """The mux when a network breaks, when a program is started anew, and at its own end."""
 
 import contextlib
-import os
-import signal
 import time
-from xmlrpc.client import ServerProxy
 
-import rosgraph
 import rospy
 from geometry_msgs.msg import Twist
 from rosgraph_msgs.msg import Log
 from std_msgs.msg import String
 
-from tutorial_testing.nodes import node_path
-from tutorial_testing.processes import Program, suspend
+from tutorial_testing.nodes import node_path, pid_of
+from tutorial_testing.processes import Program
+from tutorial_testing.rig import suspended
 from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
@@ -34,15 +31,10 @@ def twist(speed):
 @contextlib.contextmanager
 def cut_off(node):
     """Keep a node from reading: what is sent to it meanwhile waits in its connections."""
-    uri = rosgraph.Master(rospy.get_name()).lookupNode(node)
-    _, _, pid = ServerProxy(uri).getPid(rospy.get_name())
-    suspend([pid])
-    try:
+    with suspended([pid_of(node)]):
         ends_s = time.monotonic() + OUTAGE_S
         yield
         wait_for(lambda: time.monotonic() > ends_s, "end of the outage")
-    finally:
-        os.kill(pid, signal.SIGCONT)
 
 
 class LateTest(RosTest):

@@ -4,7 +4,7 @@
 from math import hypot, isfinite
 
 import rospy
-from fake_turtlebot_stepping import PERIOD_NS, Robot, World, twist
+from fake_turtlebot_stepping import PERIOD_NS, CommandedRobot, World, twist
 from rosgraph_msgs.msg import Log
 from tf2_msgs.msg import TFMessage
 
@@ -19,7 +19,7 @@ TEN_SECONDS_NS = 10 * 10**9
 class ClockTest(RosTest):
     @classmethod
     def setUpClass(cls):
-        cls.robot = Robot()
+        cls.robot = CommandedRobot().__enter__()
         cls.transforms, cls.log = [], []
         rospy.Subscriber("/tf", TFMessage, cls.transforms.append)
         rospy.Subscriber("/rosout", Log, cls.log.append)
@@ -29,11 +29,11 @@ class ClockTest(RosTest):
     def drive(self):
         """Get the robot going at full speed and return where it is."""
         self.robot.cmd_vel.publish(twist(SPEED, 0.0))
-        wait_for(lambda: self.world.step() or self.robot.velocity()[0] == SPEED, "moving robot")
-        return self.robot.position()
+        wait_for(lambda: self.world.step() or self.robot.now.v == SPEED, "moving robot")
+        return self.robot.now
 
     def assert_travelled(self, before, least, most):
-        after = self.robot.position()
+        after = self.robot.now
         self.assertTrue(isfinite(after.x) and isfinite(after.y))
         self.assertGreaterEqual(hypot(after.x - before.x, after.y - before.y), least - 1e-9)
         self.assertLessEqual(hypot(after.x - before.x, after.y - before.y), most + 1e-9)
@@ -42,17 +42,17 @@ class ClockTest(RosTest):
         before = self.drive()
         self.world.set_clock(self.world.now_ns + 4 * TEN_SECONDS_NS)
         self.assert_travelled(before, 0.0, COAST)
-        self.assertEqual(self.robot.velocity(), (0.0, 0.0))
+        self.assertEqual(self.robot.now.velocity, (0.0, 0.0))
         before = self.drive()
         for _ in range(3):
-            at = self.robot.position()
+            at = self.robot.now
             self.world.set_clock(self.world.now_ns - TEN_SECONDS_NS)  # answers with that very stamp
             self.assert_travelled(at, 0.0, 0.0)
             self.world.step(0.1)  # each period is published again
             self.assert_travelled(at, SPEED * 0.1, SPEED * 0.1)
         self.world.step(1.0)
         self.assert_travelled(before, 0.0, COAST)
-        self.assertEqual(self.robot.velocity(), (0.0, 0.0))
+        self.assertEqual(self.robot.now.velocity, (0.0, 0.0))
 
     def test_back_to_zero_and_on(self):
         before = self.drive()
@@ -60,7 +60,7 @@ class ClockTest(RosTest):
         self.world.tell()  # zero is ROS's "no time": nothing is to be published with it
         self.world.step(1.0)
         self.assert_travelled(before, 0.0, COAST)
-        self.assertTrue(all(odometry.header.stamp for odometry in self.robot.odometry))
+        self.assertTrue(all(moment.stamp for moment in self.robot.odometry))
 
     def test_a_pause(self):
         before, count = self.drive(), len(self.robot.odometry)
@@ -75,7 +75,7 @@ class ClockTest(RosTest):
         self.world.now_ns += PERIOD_NS // 3  # less than a period: no message
         self.world.tell()
         self.world.step(0.2)
-        last = self.robot.odometry[-1].header.stamp
+        last = self.robot.now.stamp
         stamps = [message.transforms[0].header.stamp for message in self.transforms]
         self.assertGreater(len(stamps), 20)
         repeated = [a for a, b in zip(stamps, stamps[1:]) if a == b]

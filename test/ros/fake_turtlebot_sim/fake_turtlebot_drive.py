@@ -6,15 +6,13 @@
   expect: names from below with values, exact to 1e-9; warnings: a word of each, in their order
 """
 
-from math import atan2
-
-import rospy
-from fake_turtlebot_stepping import PERIOD_NS, Robot, World
+from fake_turtlebot_stepping import PERIOD_NS, CommandedRobot, World
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import JointState
 from tf2_msgs.msg import TFMessage
 
+from tutorial_testing.robot import Moment
 from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
@@ -26,26 +24,33 @@ class DriveTest(RosTest):
 
     def play(self, name, case):
         commands, expect = case["commands"], case["expect"]
-        robot = Robot(f"/{name}/")
-        joints, truths, log, bases = [], [], [], set()
-        rospy.Subscriber("/rosout", Log, log.append)
-        rospy.Subscriber("/tf", TFMessage, lambda m: bases.add(m.transforms[0].child_frame_id))
-        rospy.Subscriber(f"/{name}/joint_states", JointState, joints.append)
-        rospy.Subscriber(f"/{name}/base_pose_ground_truth", Odometry, truths.append)
+        robot, bases = self.enter(CommandedRobot(f"/{name}/")), set()
+        self.hear("/tf", TFMessage, lambda m: bases.add(m.transforms[0].child_frame_id))
+        log = self.record("/rosout", Log)
+        joints = self.record(f"/{name}/joint_states", JointState)
+        told, truths = (
+            self.record(f"/{name}/{topic}", Odometry)
+            for topic in ("odom", "base_pose_ground_truth")
+        )
         world = World([robot], DriveTest.world_ns)
         for command in commands:
             v, w = command["send"]
             began_ns = world.command(robot, v, w, tuple(command.get("shown", (v, w))))
             world.step(command["wait"] - (world.now_ns - began_ns) * 1e-9)
         DriveTest.world_ns = world.now_ns
-        end = robot.odometry[-1]
-        wait_for(lambda: joints and joints[-1].header.stamp == end.header.stamp, "wheel joints")
-        result = dict(pose_of(end), **twist_of(end))
-        result.update(zip(("left_joint", "right_joint"), joints[-1].name))
+        stamp = robot.now.stamp
+
+        def newest(messages):
+            """Return the message of a topic that is of the end."""
+            is_there = lambda: messages and messages[-1].header.stamp.to_sec() == stamp  # noqa: E731
+            return wait_for(is_there, "message of the end") and messages[-1]
+
+        result, end = robot.now._asdict(), newest(told)
+        result.update(zip(("left_joint", "right_joint"), newest(joints).name))
         result.update(frame=end.header.frame_id, base_frame=end.child_frame_id)
         if any(key.startswith("true_") for key in expect):
-            wait_for(lambda: truths and truths[-1].header.stamp == end.header.stamp, "truth")
-            result.update({f"true_{key}": value for key, value in pose_of(truths[-1]).items()})
+            truth = Moment.of(newest(truths))._asdict()
+            result.update({f"true_{key}": value for key, value in truth.items()})
         wait_for(lambda: bases, "transforms of the other robots")
         self.assertNotIn("hull", bases)  # ~publish_tf is false
 
@@ -63,15 +68,6 @@ class DriveTest(RosTest):
                 self.assertEqual(result[key], value, key)
             else:
                 self.assertAlmostEqual(result[key], value, msg=key, delta=1e-9)
-
-
-def pose_of(odometry):
-    position, q = odometry.pose.pose.position, odometry.pose.pose.orientation
-    return {"x": position.x, "y": position.y, "yaw": 2 * atan2(q.z, q.w)}
-
-
-def twist_of(odometry):
-    return {"v": odometry.twist.twist.linear.x, "w": odometry.twist.twist.angular.z}
 
 
 if __name__ == "__main__":

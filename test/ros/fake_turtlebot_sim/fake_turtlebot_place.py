@@ -4,7 +4,7 @@
 from math import cos, sin
 
 import rospy
-from fake_turtlebot_stepping import Robot, World
+from fake_turtlebot_stepping import CommandedRobot, World
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import JointState
@@ -26,7 +26,7 @@ def estimate(x, y, yaw, frame="odom"):
 class PlaceTest(RosTest):
     @classmethod
     def setUpClass(cls):
-        cls.robot, cls.joints, cls.log = Robot(), [], []
+        cls.robot, cls.joints, cls.log = CommandedRobot().__enter__(), [], []
         rospy.Subscriber("joint_states", JointState, cls.joints.append)
         rospy.Subscriber("/rosout", Log, cls.log.append)
         cls.initialpose = rospy.Publisher("initialpose", PoseWithCovarianceStamped, queue_size=1)
@@ -40,18 +40,18 @@ class PlaceTest(RosTest):
         """Drive to some place other than the origin, and let the robot come to rest."""
         self.world.command(self.robot, 0.5, 0.5)
         self.world.step(1.0)
-        self.assertNotEqual(self.robot.pose(), (0.0, 0.0, 0.0))
+        self.assertNotEqual(self.robot.now.pose, (0.0, 0.0, 0.0))
 
     def reaches(self, pose):
         def is_there():
             self.world.step()
-            return max(abs(a - b) for a, b in zip(self.robot.pose(), pose)) < 1e-9
+            return max(abs(a - b) for a, b in zip(self.robot.now.pose, pose)) < 1e-9
 
         wait_for(is_there, f"robot at {pose}")
 
     def wheels(self):
-        stamp = self.robot.odometry[-1].header.stamp
-        wait_for(lambda: self.joints[-1].header.stamp == stamp, "wheel joints")
+        stamp = self.robot.now.stamp
+        wait_for(lambda: self.joints[-1].header.stamp.to_sec() == stamp, "wheel joints")
         return self.joints[-1].position
 
     def test_a_pose_estimate_moves_the_robot_and_leaves_the_wheels(self):
@@ -61,11 +61,11 @@ class PlaceTest(RosTest):
         self.assertEqual(self.wheels(), wheels)
 
     def test_a_pose_estimate_in_another_frame_is_refused_with_a_reason(self):
-        before = self.robot.pose()
+        before = self.robot.now.pose
         self.initialpose.publish(estimate(1.0, 1.0, 1.0, frame="map"))
         wait_for(lambda: any("'map'" in line.msg for line in self.log), "warning about the frame")
         self.world.step(0.1)
-        self.assertEqual(self.robot.pose(), before)
+        self.assertEqual(self.robot.now.pose, before)
 
     def test_the_topic_and_the_service_reset_zero_pose_and_wheels(self):
         rospy.wait_for_service("/fake_turtlebot/reset", timeout=30)

@@ -4,7 +4,7 @@
 import random
 
 import rospy
-from fake_turtlebot_stepping import Robot, World
+from fake_turtlebot_stepping import CommandedRobot, World
 
 from fake_turtlebot_sim.simulator.parameters import parse_parameters
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
@@ -16,7 +16,7 @@ class RobotsTest(RosTest):
     def setUpClass(cls):
         cls.parameters = parse_parameters(rospy.get_param("/classroom"))
         cls.names = list(cls.parameters.robots)
-        cls.robots = {name: Robot(f"{name}/") for name in cls.names}
+        cls.robots = {name: CommandedRobot(f"{name}/").__enter__() for name in cls.names}
         cls.world = World(list(cls.robots.values()))
 
     def test_each_robot_is_bitwise_what_it_would_be_alone(self):
@@ -29,17 +29,17 @@ class RobotsTest(RosTest):
         self.world.step()  # in which the last one shows, if it came as a step ended
         begin_ns = log[0][0]
         for name in self.names:
-            told = [o for o in self.robots[name].odometry if o.header.stamp.to_nsec() > begin_ns]
+            told = self.robots[name].since(rospy.Time(0, begin_ns).to_sec())
             alone = SimulatedRobot(self.parameters, self.parameters.robots[name], name)
             commands = [(at, velocity) for at, who, velocity in log if who == name]
-            for odometry in told:
-                now_ns = odometry.header.stamp.to_nsec()
+            for moment in told:
+                now_ns = round(moment.stamp * 1e9)
                 while commands and commands[0][0] < now_ns:
                     at, velocity = commands.pop(0)
                     alone.command(velocity, at - begin_ns)
                 alone.advance(now_ns - begin_ns)
-                position, state = odometry.pose.pose.position, alone.state()
-                self.assertEqual((position.x, position.y), (state.x, state.y))
+                state = alone.state()
+                self.assertEqual((moment.x, moment.y), (state.x, state.y))
             self.assertEqual(commands, [])
             self.assertNotEqual((state.x, state.y), self.parameters.robots[name][:2])
 

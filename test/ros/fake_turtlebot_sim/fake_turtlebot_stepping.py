@@ -4,40 +4,24 @@ The test is the source of /clock, so nothing here depends on how fast the machin
 over when the odometry with its stamp has come.
 """
 
-from math import atan2
-
 import rospy
 from geometry_msgs.msg import Twist
-from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
 
 from fake_turtlebot_sim.simulator.differential_drive import drive
+from tutorial_testing.robot import Robot
 from tutorial_testing.waiting import wait_for
 
 PERIOD_NS = 20_000_000
 
 
-class Robot:
+class CommandedRobot(Robot):
     """What one robot is told and what it answers."""
 
-    def __init__(self, namespace=""):
-        self.odometry = []
-        self.cmd_vel = rospy.Publisher(f"{namespace}cmd_vel", Twist, queue_size=10)
-        rospy.Subscriber(f"{namespace}odom", Odometry, self._on_odom)
-
-    def _on_odom(self, odometry):
-        self.odometry.append(odometry)
-
-    def velocity(self):
-        twist = self.odometry[-1].twist.twist
-        return twist.linear.x, twist.angular.z
-
-    def position(self):
-        return self.odometry[-1].pose.pose.position
-
-    def pose(self):
-        position, q = self.position(), self.odometry[-1].pose.pose.orientation
-        return position.x, position.y, 2 * atan2(q.z, q.w)
+    def begin(self):
+        self.cmd_vel = rospy.Publisher(f"{self.namespace}cmd_vel", Twist, queue_size=10)
+        self._stack.callback(self.cmd_vel.unregister)
+        self.listen()
 
 
 class World:
@@ -65,11 +49,9 @@ class World:
         """Set the clock, forwards or backwards, and wait until every robot has answered."""
         self.now_ns = now_ns
         self.tell()
-        stamp = rospy.Time(0, now_ns)
-        wait_for(
-            lambda: all(robot.odometry[-1].header.stamp == stamp for robot in self.robots),
-            f"odometry with the stamp {stamp.to_sec():.3f}",
-        )
+        stamp = rospy.Time(0, now_ns).to_sec()
+        all_answer = lambda: all(robot.now.stamp == stamp for robot in self.robots)  # noqa: E731
+        wait_for(all_answer, f"odometry with the stamp {stamp:.3f}")
 
     def step(self, seconds=0.02):
         """Let time go on in periods of 50 Hz."""
@@ -86,15 +68,15 @@ class World:
         before = []
 
         def shows():
-            before.append((robot.pose(), robot.velocity()))
+            before.append(robot.now)
             self.step()
-            error = [abs(a - b) for a, b in zip(robot.velocity(), shown or (v, w))]
+            error = [abs(a - b) for a, b in zip(robot.now.velocity, shown or (v, w))]
             return max(error) < 1e-9
 
         wait_for(shows, f"odometry with the velocity {shown or (v, w)}")
-        pose, velocity = before[-1]
-        went_on = drive(pose, velocity, velocity, PERIOD_NS * 1e-9)
-        error = max(abs(a - b) for a, b in zip(robot.pose(), went_on))
+        last = before[-1]
+        went_on = drive(last.pose, last.velocity, last.velocity, PERIOD_NS * 1e-9)
+        error = max(abs(a - b) for a, b in zip(robot.now.pose, went_on))
         return self.now_ns if error < 1e-9 else self.now_ns - PERIOD_NS
 
 

@@ -6,11 +6,11 @@ from math import nan
 import rosgraph
 import rospy
 from geometry_msgs.msg import Twist, Vector3
-from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Log
 from std_msgs.msg import Empty, String
 
 from node_kit.questions import call
+from tutorial_testing.robot import Robot
 from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
@@ -56,27 +56,25 @@ class MinimalTest(RosTest):
         self.assertNotIn("/cmd_vel", dict(master.getTopicTypes()))
 
     def test_driving(self):
-        active, odometry, commands, log = [], [], [], []
-        rospy.Subscriber("mobile_base/commands/velocity", Twist, commands.append)
-        rospy.Subscriber("/rosout", Log, log.append)
-        rospy.Subscriber("cmd_vel_mux/active", String, lambda m: active.append(m.data))
-        rospy.Subscriber("odom", Odometry, odometry.append)
+        robot, log = self.enter(Robot()), self.record("/rosout", Log)
+        commands = self.record("mobile_base/commands/velocity", Twist)
+        active = self.record("cmd_vel_mux/active", String)
         teleop, safety = (
-            rospy.Publisher(f"cmd_vel_mux/input/{name}", Twist, queue_size=1)
+            self.publisher(f"cmd_vel_mux/input/{name}", Twist, queue_size=1)
             for name in ("teleop", "safety_controller")
         )
-        reset = rospy.Publisher("mobile_base/commands/reset_odometry", Empty, queue_size=1)
+        reset = self.publisher("mobile_base/commands/reset_odometry", Empty)
         for publisher in (teleop, safety, reset):
             wait_for(publisher.get_num_connections, f"subscriber of {publisher.name}")
-        wait_for(lambda: odometry and active, "first messages")
+        wait_for(lambda: robot.odometry and active, "first messages")
         # Who comes in the middle of a motion would be held, and so would a base that starts late.
         wait_for(mux_has_its_base, "connection of mux and base")
 
         def is_driven(name, speed):
-            return active[-1] == name and odometry[-1].twist.twist.linear.x == speed
+            return active[-1].data == name and robot.now.v == speed
 
         def place():
-            return odometry[-1].pose.pose.position.x
+            return robot.now.x
 
         forwards = Twist(Vector3(0.3, 0.01, 0.02), Vector3(0.03, 0.04, 0.05))
         backwards = Twist(linear=Vector3(-0.1, 0.0, 0.0))

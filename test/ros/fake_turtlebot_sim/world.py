@@ -7,7 +7,6 @@ import signal
 import time
 from math import cos
 
-import rosgraph
 import rospy
 from geometry_msgs.msg import Twist
 from kobuki_msgs.msg import BumperEvent
@@ -17,7 +16,7 @@ from std_msgs.msg import Empty
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import MarkerArray
 
-from node_kit.questions import call
+from tutorial_testing.nodes import pid_of
 from tutorial_testing.processes import lives
 from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
@@ -105,8 +104,7 @@ class WorldTest(RosTest):
         wait_for(lambda: abs(self.frames["map", "odom"].x - before) < 1e-9, "odom in the map")
 
     def test_5_of_a_base_that_died_at_the_wall_no_bumper_stays_pressed(self):
-        uri = call(rosgraph.get_master_uri(), "lookupNode", "/mobile_base")[1]
-        pid, heard = call(uri, "getPid")[1], []
+        pid, heard = pid_of("/mobile_base"), []
 
         def back_off(_):  # the controller knows of the bumper by now
             heard.append(time.monotonic())

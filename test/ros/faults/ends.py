@@ -12,9 +12,9 @@ import rosgraph
 from geometry_msgs.msg import Twist
 
 from node_kit.questions import call
-from tutorial_testing.nodes import node_path
+from tutorial_testing.nodes import node_path, pid_of
 from tutorial_testing.processes import Program
-from tutorial_testing.rig import BASE, JOYSTICK, MUX, Rig, go_on, stop
+from tutorial_testing.rig import BASE, JOYSTICK, MUX, Rig, suspended
 from tutorial_testing.robot import Robot
 from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import BUSY_S, wait_for
@@ -40,16 +40,6 @@ def held_screen():
             os.close(descriptor)
 
 
-@contextlib.contextmanager
-def suspended(pids):
-    """Suspend processes for a while. A master takes connections then, and does not answer."""
-    stop(pids)
-    try:
-        yield
-    finally:
-        go_on(pids)
-
-
 def master():
     return [call(rosgraph.get_master_uri(), "getPid")[1]]
 
@@ -63,7 +53,7 @@ class FaultsAtTheEnd(RosTest):
         """One after the other is driven and ended, in a context that meanwhile(node) returns."""
         for node in rig.nodes:
             rig.drive()
-            pid = rig.pid(node)
+            pid = pid_of(node)
             with meanwhile(node):
                 self.check_exit(rig, node, pid, number)
             wait_for(lambda: not rig.moves, f"robot at rest after the end of {node}")
@@ -75,7 +65,7 @@ class FaultsAtTheEnd(RosTest):
         with held_screen() as screen, Rig(screen=screen) as rig:
             self.check_each(rig, number, lambda _: contextlib.nullcontext())
         with Rig() as rig:
-            peers = lambda node: [rig.pid(one) for one in rig.nodes if one != node]  # noqa: E731
+            peers = lambda node: [pid_of(one) for one in rig.nodes if one != node]  # noqa: E731
             self.check_each(rig, number, lambda node: suspended(peers(node)))
 
     def test_sigint(self):
@@ -89,7 +79,7 @@ class FaultsAtTheEnd(RosTest):
         for first, number in ends:
             with Rig() as rig:
                 rig.drive()
-                pids = {node: rig.pid(node) for node in rig.nodes}
+                pids = {node: pid_of(node) for node in rig.nodes}
                 with suspended(master()):
                     for node in (first, *(node for node in rig.nodes if node != first)):
                         self.check_exit(rig, node, pids[node], number)

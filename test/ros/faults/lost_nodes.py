@@ -4,6 +4,7 @@
 import itertools
 import threading
 
+from tutorial_testing.nodes import pid_of
 from tutorial_testing.rig import BASE, DRIVER, MUX, TIMEOUT_S, Rig, go_on, stop
 from tutorial_testing.robot import PERIOD_S
 from tutorial_testing.rostests import RosTest, run
@@ -42,13 +43,13 @@ class LostNodes(RosTest):
     def check_suspensions(self, with_mux, cases):
         """cases: (how many nodes at once, how long [s])."""
         with Rig(with_mux) as rig:
-            pids = {node: rig.pid(node) for node in rig.nodes}
+            pids = {node: pid_of(node) for node in rig.nodes}
             for size, duration_s in cases:
                 for nodes in itertools.combinations(rig.nodes, size):
                     self.check_suspension(rig, {node: pids[node] for node in nodes}, duration_s)
             # No node was restarted, and all of them still do their work.
             rig.drive()
-            self.assertEqual(pids, {node: rig.pid(node) for node in rig.nodes})
+            self.assertEqual(pids, {node: pid_of(node) for node in rig.nodes})
 
     def test_every_node_and_every_pair_is_suspended(self):
         alone = [(1, duration_s) for duration_s in DURATIONS_S]
@@ -64,7 +65,7 @@ class LostNodes(RosTest):
                 rig.drive()
                 rig.kill(node)
                 rig.start(node)
-                rig.pid(node)
+                pid_of(node)
                 rig.wait_for_rest()
                 began = rig.now.stamp
                 moved = [m.stamp - began for m in self.odometry_after(rig, began) if m.moves]
@@ -80,7 +81,7 @@ class LostNodes(RosTest):
     def test_a_suspended_base_obeys_no_stale_command(self):
         with Rig(with_mux=False) as rig:
             rig.drive()
-            base, driver = rig.pid(BASE), rig.pid(DRIVER)
+            base, driver = pid_of(BASE), pid_of(DRIVER)
             stop([base])
             threading.Event().wait(1.0)
             rig.kill(DRIVER, pid=driver)

@@ -2,10 +2,13 @@
 
 from functools import lru_cache
 
+import rosgraph
 import roslib.packages
 import rospy
 
 from node_kit.careful_connections import connect_once
+from node_kit.questions import call
+from tutorial_testing.waiting import wait_for
 
 
 @lru_cache(maxsize=None)
@@ -15,6 +18,16 @@ def node_path(package, name):
     rosrun finds the same, but works for half a second, about as long as the node itself to start.
     """
     return roslib.packages.find_node(package, name)[0]
+
+
+def pid_of(node):
+    """Wait for a node; return its process."""
+
+    def ask():
+        uri = call(rosgraph.get_master_uri(), "lookupNode", node)[1]
+        return uri and call(uri, "getPid")[1]
+
+    return wait_for(ask, f"process of {node}")
 
 
 def init_node(name, **options):

@@ -3,6 +3,7 @@
 a FIFO -> joy_node -> joy2twist [-> cmd_vel_mux] -> fake_turtlebot -> /odom
 """
 
+import contextlib
 import json
 import os
 import signal
@@ -11,16 +12,13 @@ import time
 from functools import partial
 from pathlib import Path
 
-import rosgraph
 import rospkg
 import yaml
 
-from node_kit.questions import call
 from tutorial_testing.hands import DRIVE, RELEASED, Hands
-from tutorial_testing.nodes import node_path
+from tutorial_testing.nodes import node_path, pid_of
 from tutorial_testing.processes import Program, suspend
 from tutorial_testing.robot import Robot
-from tutorial_testing.waiting import wait_for
 
 JOYSTICK, DRIVER, MUX, BASE = "/joy_node", "/NewJoy2Twist", "/cmd_vel_mux", "/fake_turtlebot"
 SAFETY = "/kobuki_safety_controller"
@@ -98,18 +96,9 @@ class Rig(Robot):
         if old:
             old.__exit__()
 
-    def pid(self, node):
-        """Return the process of a node."""
-
-        def ask():
-            uri = call(rosgraph.get_master_uri(), "lookupNode", node)[1]
-            return uri and call(uri, "getPid")[1]
-
-        return wait_for(ask, f"process of {node}")
-
     def kill(self, node, number=signal.SIGKILL, pid=None):
         """Send a signal to a node; return how long it took to exit [s]. pid: if it is known."""
-        pid = pid or self.pid(node)
+        pid = pid or pid_of(node)
         began = time.monotonic()
         os.kill(pid, number)
         self.programs[node].wait()
@@ -132,6 +121,16 @@ def stop(pids):
     now = time.time()
     suspend(pids)
     return now
+
+
+@contextlib.contextmanager
+def suspended(pids):
+    """Suspend processes for a while. A master takes connections then, and does not answer."""
+    stop(pids)
+    try:
+        yield
+    finally:
+        go_on(pids)
 
 
 def go_on(pids):

@@ -43,8 +43,16 @@ class Moment(NamedTuple):
         return cls(stamp, twist.linear.x, twist.angular.z, place.x, place.y, yaw)
 
     @property
+    def velocity(self):
+        return self.v, self.w
+
+    @property
+    def pose(self):
+        return self.x, self.y, self.yaw
+
+    @property
     def moves(self):
-        return bool(self.v or self.w)
+        return any(self.velocity)
 
 
 class Robot(Started):

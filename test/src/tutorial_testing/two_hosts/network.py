@@ -8,7 +8,7 @@ import ctypes
 import os
 import subprocess
 
-from tutorial_testing.processes import Program
+from tutorial_testing.processes import Program, Started
 
 AS_ROOT = os.geteuid() == 0
 CLONE_NEWNET = 0x40000000  # linux/sched.h
@@ -67,17 +67,18 @@ def _enter(namespace):
         raise OSError(ctypes.get_errno(), "setns")
 
 
-class Network:
+class Network(Started):
     """Two hosts, each with a cable to one switch. A context manager."""
 
     def __init__(self, addresses):
         """addresses: name of each host -> its IPv4 address, all in one /24."""
-        self._switch = Host()
+        super().__init__()
+        self._switch = self._host()
         self._hosts = {}
         self._switch.ip("link", "add", "bridge", "type", "bridge")
         self._switch.ip("link", "set", "bridge", "up")
         for name, address in addresses.items():
-            host = self._hosts[name] = Host(self._switch)
+            host = self._hosts[name] = self._host(self._switch)
             holder = str(host._holder.pid)
             end = ["peer", "name", "eth0", "netns", holder]
             self._switch.ip("link", "add", name, "type", "veth", *end)
@@ -89,12 +90,10 @@ class Network:
         """The Host of this name."""
         return self._hosts[name]
 
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        for host in [*self._hosts.values(), self._switch]:
-            host.close()
+    def _host(self, *first):
+        host = Host(*first)
+        self._stack.callback(host.close)
+        return host
 
     def pull_cable(self, name):
         """Pull the cable of a host out of the switch: the host sees that it has no carrier."""
