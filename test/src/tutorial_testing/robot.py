@@ -138,11 +138,13 @@ class Robot(Started):
         """Call hold(), which releases all first, until the robot moves, or until a condition().
 
         On a machine that is busy with much else it may take more than one go. Return what the last
-        hold() returned, or True.
+        hold() returned, or True; it returns False where it could not hold.
         """
 
         def once():
             held = hold()
+            if held is False:
+                return False
             with contextlib.suppress(AssertionError):
                 wait_for(until or (lambda: self.moves), "effect", try_s)
                 return held or True

@@ -52,6 +52,8 @@ class Hands:
             with contextlib.suppress(AssertionError):
                 wait_for(lambda: self.browser.ask(ARMED) == "true", "all released", TRY_S)
                 self.hold()
+                return True
+            return False
 
         world.drive_by(hold, until)
 
