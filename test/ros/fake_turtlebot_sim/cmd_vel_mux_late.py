@@ -80,17 +80,16 @@ class LateTest(RosTest):
             wait_for(lambda: self.active[-1] == "idle", "silence")
 
     def test_ctrl_c_in_the_middle_of_a_motion_leaves_the_robot_standing(self):
-        driven = []
+        driven = self.record("/ctrl_c/base/cmd_vel", Twist)
         teleop = {"name": "teleop", "topic": "/stick", "timeout": 60.0, "priority": 1}
         rospy.set_param("/ctrl_c", {"subscribers": [teleop], "publisher": "base/cmd_vel"})
-        rospy.Subscriber("/ctrl_c/base/cmd_vel", Twist, lambda m: driven.append(m.linear.x))
-        stick = rospy.Publisher("/stick", Twist, queue_size=1)
+        stick = self.publisher("/stick", Twist)
         mux = node_path("fake_turtlebot_sim", "cmd_vel_mux.py")
         with Program(mux, "__name:=ctrl_c") as node:
             wait_for(lambda: stick.publish(twist(0.2)) or driven, "a command that goes through")
             node.interrupt()
             self.assertEqual((node.wait(), node.output.strip()), (0, ""))
-        wait_for(lambda: driven[-1] == 0.0, "last zero")
+        wait_for(lambda: driven[-1].linear.x == 0.0, "last zero")
 
     def warnings(self):
         return [line.msg for line in self.log if "suspended" in line.msg]

@@ -15,6 +15,7 @@ from node_kit.questions import call
 from tutorial_testing.nodes import node_path
 from tutorial_testing.rig import BASE, DRIVER, MUX
 from tutorial_testing.rostests import RosTest, run
+from tutorial_testing.seat_room import serialised
 from tutorial_testing.waiting import DEADLINE_S, wait_for
 
 NEUTRAL = Joy(axes=[0.0] * 6, buttons=[0] * 12)
@@ -35,13 +36,6 @@ class Wire(Joy):
 
     def serialize(self, buff):
         buff.write(self.raw)
-
-
-def whole(message):
-    """Return the bytes of a message."""
-    buff = io.BytesIO()
-    message.serialize(buff)
-    return buff.getvalue()
 
 
 def way_to(node, topic):
@@ -83,13 +77,13 @@ class FaultsOfThePeers(RosTest):
     def test_a_message_that_cannot_be_read_makes_no_node_deaf(self):
         node = self.start(node_path("joy2twist", "joy2twist.py"))
         bad = self.publisher("joy", Wire)
-        good = Wire(raw=whole(HELD))
+        good = Wire(raw=serialised(HELD))
         wait_for(lambda: bad.publish(good) or self.velocities, "velocity")
         for raw in (
             b"",
-            whole(HELD)[:20],  # cut
-            whole(HELD)[:12] + struct.pack("<I", 10**6),  # a text that is not there
-            whole(HELD)[:16] + struct.pack("<I", 2**31),  # so many axes
+            serialised(HELD)[:20],  # cut
+            serialised(HELD)[:12] + struct.pack("<I", 10**6),  # a text that is not there
+            serialised(HELD)[:16] + struct.pack("<I", 2**31),  # so many axes
         ):
             said = node.output.count("cannot be read")
 
