@@ -5,12 +5,10 @@ from __future__ import annotations
 import os
 import sys
 from dataclasses import replace
-from typing import TYPE_CHECKING, Callable, Sequence
+from typing import Callable, Sequence
 
+from tutorial_check.examination import Outcome
 from tutorial_check.model import NOTE, OK, UNREACHED, WRONG, Result
-
-if TYPE_CHECKING:
-    from tutorial_check.examination import Outcome
 
 WORDS = {OK: "ok", WRONG: "WRONG", NOTE: "note", UNREACHED: "-"}
 COLOURS = {OK: "32", WRONG: "1;31", NOTE: "33", UNREACHED: "2"}

@@ -170,5 +170,7 @@ def parse_parameters(given: Mapping[str, Any]) -> Parameters:
             for pose in parameters.start_poses().values():
                 parameters.world.check_place(pose)
         except ValueError as error:
-            raise ValueError(f"~world: {given['world']!r}: {error}; give other start poses") from None
+            raise ValueError(
+                f"~world: {given['world']!r}: {error}; give other start poses"
+            ) from None
     return parameters

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import statistics
 import time
-from typing import TYPE_CHECKING, Any, Callable, Sequence
+from typing import Any, Callable, Sequence
 
 from tutorial_check.box import GRACE_S
 from tutorial_check.exercises.joystick_task import PACKAGE
@@ -13,6 +13,7 @@ from tutorial_check.exercises.mapping import LINEAR, RIGHT, Evidence, judge, rul
 from tutorial_check.exercises.probing import (
     AT_REST,
     NUMBER,
+    Joy,
     delays,
     displayed,
     judge_probes,
@@ -23,12 +24,8 @@ from tutorial_check.exercises.probing import (
     silence,
     small_and_button_probes,
 )
+from tutorial_check.session import Session
 from tutorial_check.stage import START_S
-
-if TYPE_CHECKING:
-    from tutorial_check.exercises.probing import Joy
-    from tutorial_check.session import Session
-
 
 JOY, CMD_VEL = "/joy", "/cmd_vel"
 COUNT = 20

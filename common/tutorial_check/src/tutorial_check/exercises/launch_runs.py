@@ -6,7 +6,7 @@ import math
 import os
 import re
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Callable
+from typing import Any, Callable
 
 from tutorial_check import student_files
 from tutorial_check.course import check
@@ -23,13 +23,10 @@ from tutorial_check.exercises.launch_nodes import (
 from tutorial_check.exercises.robot import held, plug_in
 from tutorial_check.model import CannotCheck, Wrong
 from tutorial_check.scripts import cause_of
+from tutorial_check.session import Session
 from tutorial_check.simulated_robot import ODOM
+from tutorial_check.stage import Stage
 from tutorial_check.tracebacks import first_traceback
-
-if TYPE_CHECKING:
-    from tutorial_check.session import Session
-    from tutorial_check.stage import Stage
-
 
 BAG_S = 1.2  # length of the recording that takes the place of the student's, and is played again
 ONCE_S = 60.0  # and of one that is not: like the student's it lasts until the others have started
