@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import pytest
 
 from tutorial_check.model import CannotCheck
-from tutorial_check.watch import stamps, wait_for_change, watch
+from tutorial_check.one_workspace import stamps, wait_for_change, watch
 
 
 @pytest.mark.parametrize("folder", ["ws", "build/ws", "me~/devel"])
