@@ -80,7 +80,6 @@ ROWS = [
     bag("rviz file that does not exist", "sim.rviz", "simm.rviz", "C22", "simm.rviz"),
     bag("bag without a path", "$(find joy2twist)/bag/joy.bag", "joy.bag", "C22", "whole path"),
     bag("cmd_vel remapped away", 'type="joy2twist.py">', 'type="joy2twist.py">\n  <remap from="/cmd_vel" to="/cmd"/>', "C23", "/cmd_vel"),
-    bag("--loop forgotten", "--loop ", "", "C24", "--loop"),
     joy("no joy_node", JOY, "", "C25", "joy_node"),
     joy("no robot for the joystick", ROBOT, "", "C25", "robot"),
     joy("a recording beside the joystick", JOY, JOY + '  <node name="rosbag" pkg="rosbag" type="play" args="--loop $(find joy2twist)/bag/joy.bag"/>\n', "C25", "both"),
@@ -120,7 +119,7 @@ ROWS = [
     bag("a package misspelt", "$(find rbx1_nav)", "$(find rbx1_nv)", "C21", ("launch_bag.launch:2", "rbx1_nav")),
     ("6.1", "the include misspelt", [put(REAL, "joy2twist_turtlebot", "joy2twist_turtelbot")], "C28", ("realTurtlebot.launch:3", "no such file: src/joy2twist", "is joy2twist_turtlebot.launch meant")),
     mux("remap after the node", f"    {REMAP}\n  </node>\n", f"  </node>\n  {REMAP}\n", "C27", ("turtlebot.launch:4", "between")),
-    ("5", "the line of --loop", [put(LAUNCH_BAG, "--loop ", "")], "C24", "launch_bag.launch:7"),
+    bag("--loop forgotten", "--loop ", "", "C24", ("launch_bag.launch:7", "rosbag play --loop")),
     ("5", "no recording", [remove(f"{J}/bag/joy.bag")], "C21", ("cp \"$(rospack find gamepad)/bag/joy.bag\" /", f"src/{J}/bag")),
     ("4.2", "a recording that is none", [write(f"{J}/bag/joy.bag", "none")], "C11", "rospack find gamepad"),
 ]  # fmt: skip
