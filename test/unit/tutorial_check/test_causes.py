@@ -13,7 +13,6 @@ FORMAT = "TypeError: not enough arguments for format string"
 @pytest.mark.parametrize(
     ("error", "line", "word"),
     [
-        ("ModuleNotFoundError: No module named 'std_msg'", "", "std_msgs.msg"),
         ("TypeError: unsupported operand type(s) for +: 'function' and 'str'", "", "() is missing"),
         ('TypeError: can only concatenate str (not "function") to str', "", "() is missing"),
         ('TypeError: can only concatenate str (not "float") to str', "", "do not add"),

@@ -4,7 +4,6 @@ import contextlib
 
 import pytest
 
-from tutorial_check.exercises.joy2twist import check_manifest
 from tutorial_check.model import Wrong
 from tutorial_check.scripts import cause_of, check_file
 from tutorial_check.tracebacks import first_traceback
@@ -26,29 +25,6 @@ def write(session, text, mode=0o755):
     path = session.package(PACKAGE).folder / SCRIPT
     path.write_bytes(text.encode())
     path.chmod(mode)
-
-
-def test_windows_line_ends_matter_in_the_first_line_alone(session):
-    write(session, f"{FIRST}import rospy\n# pasted\r\n")
-    check_file(session, PACKAGE, SCRIPT)
-    write(session, f"{FIRST}import rospy\n".replace("\n", "\r\n"))
-    with pytest.raises(Wrong, match="Windows line ends"):
-        check_file(session, PACKAGE, SCRIPT)
-
-
-def test_what_catkin_installs_need_not_be_executable(session, tmp_path):
-    write(session, FIRST, 0o644)
-    with pytest.raises(Wrong, match="not executable"):
-        check_file(session, PACKAGE, SCRIPT)
-    installed = tmp_path / "ws/devel/lib" / PACKAGE / "a.py"
-    installed.parent.mkdir(parents=True)
-    installed.touch()
-    check_file(session, PACKAGE, SCRIPT)
-
-
-def test_load_manifest_of_a_variable_is_not_judged(session):
-    write(session, f"{FIRST}PKG = 'joy2twist'\nroslib.load_manifest(PKG)\n")
-    check_manifest(session, SCRIPT)
 
 
 @pytest.mark.parametrize(
