@@ -40,9 +40,12 @@ def c(what, *changes):
     return (what, [put(CLASS, old, new) for old, new in changes], ["6.2"])
 
 
+ENDS = "        rospy.on_shutdown(self.shutdown)\n"
+MAKES = "        self.cmd_vel = rospy.Publisher('/cmd_vel', Twist)\n"
 # Of which a note is looked for, too.
 REPORTS = c(
-    "an except that reports",
+    "an except that reports, the publisher first",
+    (ENDS + MAKES, MAKES + ENDS),
     ("    except:\n", "    except Exception as error:\n"),
     ('"The node has ended."', 'f"Error: {error}"'),
 )

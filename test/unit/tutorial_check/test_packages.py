@@ -1,56 +1,8 @@
-"""From what catkin_make printed to the cause."""
-
-from types import SimpleNamespace
+"""C12: components of CMakeLists.txt that can be found."""
 
 import pytest
 
 from tutorial_check.exercises import packages
-from tutorial_check.exercises.packages import _build_error as build_error
-
-BEFORE = """-- ==> add_subdirectory(joy2twist)
-CMake Deprecation Warning at joy2twist/CMakeLists.txt:1 (cmake_minimum_required):
-  Compatibility with CMake < 2.8.12 will be removed from a future version of
-  CMake.
-
-
-"""
-AFTER = """
-
--- Configuring incomplete, errors occurred!
-Invoking "cmake" failed
-"""
-NO_SCRIPT = """\x1b[31mCMake Error at /usr/share/catkin/cmake/install_python.cmake:86 (message):
-  catkin_install_python() called with non-existing file
-  '/ws/src/beginner_tutorials/scripts/taker.py'.
-Call Stack (most recent call first):
-  beginner_tutorials/CMakeLists.txt:5 (catkin_install_python)
-\x1b[0m"""
-NO_SOURCE = """CMake Error at beginner_tutorials/CMakeLists.txt:5 (add_executable):
-  Cannot find source file:
-
-    src/talker.cpp
-"""
-OF_ALL = """CMake Error at /usr/share/catkin/cmake/catkin_workspace.cmake:100 (message):
-  This workspace contains non-catkin packages in it.
-Call Stack (most recent call first):
-  CMakeLists.txt:69 (catkin_workspace)
-"""
-
-
-@pytest.mark.parametrize(
-    ("error", "seen", "where", "hint"),
-    [
-        (NO_SCRIPT, "non-existing file '/ws/src/beginner_tutorials/scripts/taker.py'", 5, "path"),
-        (NO_SOURCE, "CMake: Cannot find source file: src/talker.cpp", 5, "path"),
-        (OF_ALL, "CMake: This workspace contains non-catkin packages in it.", None, ""),
-    ],
-)
-def test_an_error_of_cmakes(error, seen, where, hint):
-    wrong = build_error(SimpleNamespace(packages=[]), BEFORE + error + AFTER)
-    assert seen in wrong.seen
-    assert wrong.where == (f"beginner_tutorials/CMakeLists.txt:{where}" if where else "")
-    assert hint in wrong.hint
-    assert "Call Stack" not in wrong.seen and "Configuring" not in wrong.seen
 
 
 @pytest.fixture
