@@ -10,16 +10,10 @@ from typing import Any, Callable
 
 from tutorial_check import student_files
 from tutorial_check.course import check
+from tutorial_check.exercises import launch_nodes
 from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL
 from tutorial_check.exercises.joystick_task import PACKAGE
 from tutorial_check.exercises.launch_files import BAG, STICK, LaunchFile
-from tutorial_check.exercises.launch_nodes import (
-    ROBOT_HINT,
-    bag_of,
-    is_joystick,
-    is_player,
-    is_viewer,
-)
 from tutorial_check.exercises.robot import held, plug_in
 from tutorial_check.model import CannotCheck, Wrong
 from tutorial_check.scripts import cause_of
@@ -70,7 +64,7 @@ class Launch:
         return all(
             node["namespace"] + node["name"] in there
             for node in self.file.nodes
-            if not is_viewer(node)
+            if not launch_nodes.is_viewer(node)
         )
 
     def moved(self) -> float:
@@ -96,7 +90,7 @@ class Launch:
         hints = {
             JOY: "does the recording, or joy_node, run? rostopic hz /joy",
             self.twists: f"does joy2twist run, and publish on {self.twists}? rosnode list",
-            ODOM: f"does the simulated robot run? {ROBOT_HINT}",
+            ODOM: f"does the simulated robot run? {launch_nodes.ROBOT_HINT}",
         }
         silent = [topic for topic in hints if not self.stage.call("count", topic)]
         seen, hint = f"the robot moved {self.moved():.2f} m", "rostopic echo /cmd_vel"
@@ -136,10 +130,10 @@ def _own_bag(session: Session, path: Path, length_s: float) -> None:
 
 def _bag_run(session: Session) -> Any:
     """Return (what is wrong or None, whether the recording begins again)."""
-    bag, _ = bag_of(session)
+    bag, _ = launch_nodes.bag_of(session)
     file = LaunchFile(session, BAG)
     replaced = bag.startswith(str(session.source))
-    player = next(filter(is_player, file.nodes))
+    player = next(filter(launch_nodes.is_player, file.nodes))
     by_words = any(LOOP.fullmatch(word) for word in file.words_of(player))
     loops = by_words or player["respawn"]
     if replaced:
@@ -172,7 +166,7 @@ def bag_loops(session: Session) -> None:
     if not loops:
         expected = "/joy flows on after the end of the recording"
         hint = "rosbag play --loop: in args= of that node"
-        raise Wrong(expected, "it falls silent", bag_of(session)[1], hint)
+        raise Wrong(expected, "it falls silent", launch_nodes.bag_of(session)[1], hint)
 
 
 @check("C26", "launch_joy_node drives the robot", "5.1", "C25 C16",
@@ -196,7 +190,7 @@ def stick_drives(session: Session) -> None:
 
 def plug_in_for(file: LaunchFile, stage: Stage) -> Any:
     """Put a joystick where the joy_node of a launch file will look for it."""
-    nodes = list(filter(is_joystick, file.nodes))
+    nodes = list(filter(launch_nodes.is_joystick, file.nodes))
     named = [node["device"] for node in nodes if node["device"].startswith("/dev/input/")]
     session = file.session
     if named and not session.can_have_devices:
