@@ -1,10 +1,9 @@
-"""What the tests of the checker share: right workspaces to change, and the table at the end."""
+"""What the tests of the checker share: right workspaces to change."""
 
 import os
 import shutil
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -14,9 +13,6 @@ HERE = Path(__file__).resolve().parent
 REPOSITORY = HERE.parents[1]
 BAG = REPOSITORY / "joy2twist" / "bag" / "joy.bag"
 SOME_TASKS = 40  # every so many-th of the tests of other tasks, if not all are asked for
-KINDS = ("found", "wrongly blamed", "missed", "not checked", "reported as well")
-
-
 OPTIONS = {
     "--every": (1, "only every Nth row of data"),
     "--first": (0, "the row with which --every begins"),
@@ -38,7 +34,6 @@ def pytest_addoption(parser):
 
 def pytest_configure(config):
     """Keep the processors busy, if asked to; once, and not in each worker."""
-    config.began_s = time.monotonic()
     is_worker = hasattr(config, "workerinput")
     count = os.cpu_count() if config.getoption("--busy") and not is_worker else 0
     loop = [sys.executable, "-c", "while True: pass"]
@@ -101,37 +96,3 @@ def solutions(tmp_path):
     for name in ("beginner_tutorials", "joy2twist"):
         shutil.copytree(REPOSITORY / name, src / name)
     return src
-
-
-def properties(reports):
-    """{name: values} of what the tests have recorded."""
-    found = {}
-    for report in (each for kind in reports.values() for each in kind):
-        if getattr(report, "when", "") == "call":
-            for name, value in report.user_properties:
-                found.setdefault(name, []).append(value)
-    return found
-
-
-def pytest_terminal_summary(terminalreporter):
-    """Print the table of mistakes (found, wrongly blamed, missed), and the right solutions."""
-    found = properties(terminalreporter.stats)
-    write = terminalreporter.write_line
-    if set(KINDS) & set(found):
-        terminalreporter.section("mistakes")
-        for kind in KINDS:
-            rows = found.get(kind, [])
-            write(f"{kind:>15}: {len(rows)}")
-            for row in rows if kind != "found" else ():
-                write(f"{'':>17}{row}")
-    if "solution" in found:
-        terminalreporter.section("right solutions")
-        took_s = time.monotonic() - terminalreporter.config.began_s
-        alarms, undecided = found.get("alarm", []), found.get("no verdict", [])
-        write(
-            f"{len(found['solution'])} checks of right solutions ({sum(found.get('checks', []))} lines),"
-            f" {len(alarms)} false alarms, {len(undecided)} without a verdict;"
-            f" {took_s:.0f} s, load {os.getloadavg()[0]:.1f}"
-        )
-        for each in alarms + undecided:
-            write(f"  {each}")

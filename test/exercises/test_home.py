@@ -6,7 +6,6 @@ from pathlib import Path
 
 import pytest
 from edits import LAUNCH_BAG, TALKER, B, J, put
-from test_awkward import check, pack
 
 from tutorial_check import bubblewrap
 from tutorial_check.examination import examine
@@ -35,12 +34,6 @@ def verdicts(workspace, underlay, exercise="2", **options):
     """{check: result} of an exercise."""
     (outcome,) = examine(workspace, underlay, [exercise], **options)
     return {result.id: result for result in outcome.results}
-
-
-def test_a_zip(literal, underlay, home):
-    pack(literal, home / "x.zip")
-    code, out, error = check(underlay, "--in", home / "x.zip", "2")
-    assert code == 0, out + error
 
 
 def test_the_workspace_is_a_link(literal, underlay, home):

@@ -10,7 +10,6 @@ from edits import apply
 
 from tutorial_check.course import read_course
 from tutorial_check.examination import examine
-from tutorial_check.model import CannotCheck
 from tutorial_check.report import lines_of
 
 OF_HANDOUT = mistakes_packages.ROWS + mistakes_nodes.ROWS + mistakes_launch.ROWS + grammar.WRONG
@@ -28,48 +27,28 @@ def named(rows):
     return [f"{row[0]} {row[1]}" for row in rows]
 
 
-def found(row, literal, underlay, record_property, exercises):
+def wrong_in(literal, underlay, edits, exercises):
     """All results that are wrong, when these exercises are checked."""
-    apply(row[2], literal)
-    try:
-        outcomes = examine(literal.parent, underlay, exercises, only_first=len(exercises) == 1)
-        trouble = next((each.trouble for each in outcomes if each.trouble), "")
-    except CannotCheck as error:
-        trouble = str(error)
-    if trouble:
-        record_property("not checked", f"{row[0]} {row[1]}: {trouble}")
-        pytest.fail(trouble)
-    return [one for each in outcomes for one in each.results if one.status == "wrong"]
+    apply(edits, literal)
+    outcomes = examine(literal.parent, underlay, exercises, only_first=len(exercises) == 1)
+    assert not [each.trouble for each in outcomes if each.trouble]
+    return [one for each in outcomes for one in each.wrong]
 
 
 @pytest.mark.parametrize("row", ROWS, ids=named(ROWS))
-def test_mistake(row, literal, underlay, record_property):
-    exercise, what, _, check, words = row
-    title = f"{exercise} {what}"
-    wrong = found(row, literal, underlay, record_property, [exercise])
-    if not wrong:
-        record_property("missed", f"{title}: should be {check}")
-        pytest.fail("missed")
-    if wrong[0].id != check or not is_reported(wrong[0], words):
-        report = "\n".join(lines_of(wrong[0]))
-        record_property("wrongly blamed", f"{title}: should be {check} with {words}, is {report}")
-        pytest.fail(report)
-    record_property("found", title)
+def test_mistake(row, literal, underlay):
+    exercise, _, edits, check, words = row
+    wrong = wrong_in(literal, underlay, edits, [exercise])
+    assert wrong, f"missed: should be {check}"
+    report = "\n".join(lines_of(wrong[0]))
+    assert wrong[0].id == check and is_reported(wrong[0], words), f"should be {row[3:]}:\n{report}"
 
 
 @pytest.mark.parametrize("row", OF_HANDOUT, ids=named(OF_HANDOUT))
-def test_in_all_exercises(row, literal, underlay, record_property):
+def test_in_all_exercises(row, literal, underlay):
     """Its cause is reported, maybe by an earlier check, and it keeps no other one from a verdict."""
-    title = f"{row[0]} {row[1]}"
-    wrong = found(row, literal, underlay, record_property, read_course().by_default)
-    causes = [one for one in wrong if is_reported(one, row[4])]
-    others = [one.id for one in wrong if one not in causes]
-    if others:
-        record_property("reported as well", f"{title}: {', '.join(others)}")
-    if not causes:
-        record_property("missed", f"{title}: should have {row[4]}")
-        pytest.fail("missed")
-    record_property("found", title)
+    wrong = wrong_in(literal, underlay, row[2], read_course().by_default)
+    assert any(is_reported(one, row[4]) for one in wrong), [lines_of(one) for one in wrong]
 
 
 def test_there_are_enough():

@@ -40,9 +40,12 @@ def c(what, *changes):
     return (what, [put(CLASS, old, new) for old, new in changes], ["6.2"])
 
 
+ENDS = "        rospy.on_shutdown(self.shutdown)\n"
+MAKES = "        self.cmd_vel = rospy.Publisher('/cmd_vel', Twist)\n"
 # Of which a note is looked for, too.
 REPORTS = c(
-    "an except that reports",
+    "an except that reports, the publisher first",
+    (ENDS + MAKES, MAKES + ENDS),
     ("    except:\n", "    except Exception as error:\n"),
     ('"The node has ended."', 'f"Error: {error}"'),
 )
@@ -54,11 +57,12 @@ def part(name):
 
 
 ROWS = [
-    ("shebang /usr/bin/python3", [put(JOY2TWIST, "/usr/bin/env python", "/usr/bin/python3"), put(TALKER, "/usr/bin/env python", "/usr/bin/env python3")], ["3", "4.3"]),
+    ("shebang /usr/bin/python3", [put(JOY2TWIST, "/usr/bin/env python", "/usr/bin/python3 -u"), put(TALKER, "/usr/bin/env python", "/usr/bin/env python3")], ["3", "4.3"]),
     ("installed by catkin_install_python, without chmod", [chmod(JOY2TWIST, 0o644), chmod(CLASS, 0o644), put(f"{J}/CMakeLists.txt", "catkin_package()", "catkin_package()\ncatkin_install_python(PROGRAMS scripts/joy2twist.py scripts/new_joy2twist.py DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})")], ["4.3", "6.2"]),
     ("scripts in src", [move(JOY2TWIST, f"{J}/src/joy2twist.py"), move(TALKER, f"{B}/src/talker.py")], ["3", "4.3"]),
     ("scripts in nodes", [move(JOY2TWIST, f"{J}/nodes/joy2twist.py"), move(CLASS, f"{J}/nodes/NewJoy2Twist.py")], ["4.3", "6.2"]),
     ("scripts in the package's root", [move(JOY2TWIST, f"{J}/joy2twist.py"), move(LISTENER, f"{B}/listener.py")], ["3", "4.3"]),
+    ("load_manifest of a variable, and a Windows line end further down", [put(JOY2TWIST, "roslib.load_manifest('joy2twist')", "PKG = 'joy2twist'; roslib.load_manifest(PKG)\r")], ["4.3"]),
     ("no load_manifest", [put(JOY2TWIST, MANIFEST, ""), put(CLASS, MANIFEST, "")], ["4.3", "6.2"]),
     ("relative topics", [put(JOY2TWIST, "/joy", "joy"), put(JOY2TWIST, "/cmd_vel", "cmd_vel")], ["4.3", "6.1"]),
     ("three versions in three files", [move(JOY2TWIST, f"{J}/scripts/joy2twist_v2.py"), write(JOY2TWIST, '#!/usr/bin/env python3\nimport rospy\nfrom sensor_msgs.msg import Joy\n\n\ndef callback(data):\n    rospy.loginfo("%s", ",".join("%.2f" % a for a in data.axes))\n\n\nrospy.init_node("listener", anonymous=True)\nrospy.Subscriber("/joy", Joy, callback)\nrospy.spin()\n')], ["4.3"]),
@@ -88,6 +92,7 @@ ROWS = [
     ("talker with 5 Hz and another text", [put(TALKER, "Rate(10)", "Rate(5)"), put(TALKER, "good day at %s", "bonjour %s")], ["3"]),
     ("talker with a Timer", [write(TALKER, '#!/usr/bin/env python3\nimport rospy\nfrom std_msgs.msg import String\n\nrospy.init_node("talker", anonymous=True)\npub = rospy.Publisher("chatter", String, queue_size=10)\nrospy.Timer(rospy.Duration(0.1), lambda event: pub.publish("now %s" % rospy.get_time()))\nrospy.spin()\n')], ["3"]),
     ("listener with print", [put(LISTENER, 'rospy.loginfo(rospy.get_caller_id() + "I heard %s", data.data)', 'print("heard: " + data.data)')], ["3"]),
+    ("its own name and a comment among the components", [put(f"{J}/CMakeLists.txt", "geometry_msgs)", "geometry_msgs joy2twist # joystick\n)")], ["4.3"]),
     ("roscpp as well, which lies elsewhere", [put(f"{J}/CMakeLists.txt", "geometry_msgs)", "geometry_msgs roscpp)")], ["4.3"]),
     ("package.xml format 1", [write(f"{J}/package.xml", f"<package>\n<name>{J}</name>\n<version>0.0.0</version>\n<description>x</description>\n<maintainer email='s@u.example'>s</maintainer>\n<license>TODO</license>\n<buildtool_depend>catkin</buildtool_depend>\n" + "".join(f"<build_depend>{d}</build_depend>\n<run_depend>{d}</run_depend>\n" for d in ("rospy", "std_msgs", "sensor_msgs", "geometry_msgs")) + "</package>\n", 0o644)], ["4.3"]),
     ("package.xml format 3 with <depend>", [write(f"{B}/package.xml", f"<package format='3'>\n<name>{B}</name>\n<version>0.0.0</version>\n<description>x</description>\n<maintainer email='s@u.example'>s</maintainer>\n<license>TODO</license>\n<buildtool_depend>catkin</buildtool_depend>\n" + "".join(f"<depend>{d}</depend>\n" for d in ("rospy", "std_msgs", "roscpp", "sensor_msgs")) + "</package>\n", 0o644)], ["2"]),
@@ -112,7 +117,7 @@ ROWS = [
     c("throttled", ("rospy.loginfo(rospy.get_name()", "rospy.loginfo_throttle(1.0, rospy.get_name()")),
     c("a class named Joy2Twist, with main()", ("NewJoy2Twist", "Joy2Twist"), ("if __name__ == '__main__':\n    try:\n        Joy2Twist()\n" + END_OF_CLASS, "def main():\n    Joy2Twist()\n\n\nif __name__ == '__main__':\n    main()\n")),
     ("a node below a base class that calls rospy", [put(CLASS, "class NewJoy2Twist():", "class Node():"), put(CLASS, "\n\nif __name__", "\n\nclass NewJoy2Twist(Node):\n    speed = 1.0\n\n\nif __name__")], ["6.2"]),
-    ("env -S and an argument", [put(JOY2TWIST, "env python", "env -S python3 -u"), put(CLASS, "env python", "env -S python3 -u")], ["4.3", "6.2"]),
+    ("env -S and an argument", [put(JOY2TWIST, "env python", "env -S python3 -u"), put(CLASS, "env python", "env -S PYTHONUNBUFFERED=1 python3")], ["4.3", "6.2"]),
     ("the class in joy2twist.py", [move(CLASS, JOY2TWIST)], ["4.3", "6.2"]),
     ("two nodes of one class name, a helper class", [put(CLASS, "class NewJoy2Twist", "class Config():\n    speed = 1.0\n\n\nclass NewJoy2Twist")], ["6.2"]),
     ("a part of the suite in src, which hides nothing from the checker", [part("fake_turtlebot_sim"), part("gamepad")], ["4.4", "4.5"]),

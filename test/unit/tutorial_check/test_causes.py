@@ -13,7 +13,6 @@ FORMAT = "TypeError: not enough arguments for format string"
 @pytest.mark.parametrize(
     ("error", "line", "word"),
     [
-        ("ModuleNotFoundError: No module named 'std_msg'", "", "std_msgs.msg"),
         ("TypeError: unsupported operand type(s) for +: 'function' and 'str'", "", "() is missing"),
         ('TypeError: can only concatenate str (not "function") to str', "", "() is missing"),
         ('TypeError: can only concatenate str (not "float") to str', "", "do not add"),
@@ -28,24 +27,16 @@ def test_causes(error, line, word):
     assert explain("ZeroDivisionError: division by zero", line) == ""
 
 
-BESIDE = ("scripts/a.py", "scripts/rospy.py", "scripts/joy2twist.py", "src/std_msgs.py")
-
-
 @pytest.mark.parametrize(
-    ("error", "script", "file", "word"),
+    ("error", "script"),
     [
-        ("cannot import name 'Rate' from 'rospy' (/x/rospy.py)", BESIDE[0], BESIDE[1], "hides"),
-        ("partially initialized module 'rospy' has no attribute 'spin'", BESIDE[0], BESIDE[1], ""),
-        ("No module named 'joy2twist.a'; 'joy2twist' is not a package", BESIDE[2], "", "another"),
-        ("module 'rospy' has no attribute 'spin'", "a.py", "", ""),
-        ("module 'std_msgs' has no attribute 'msg'", "scripts/a.py", "", ""),
-        ("name 'rospy' is not defined", "scripts/a.py", "", ""),
+        ("module 'rospy' has no attribute 'spin'", "a.py"),
+        ("module 'std_msgs' has no attribute 'msg'", "scripts/a.py"),
+        ("name 'rospy' is not defined", "scripts/a.py"),
     ],
 )
-def test_a_file_that_hides_a_package(error, script, file, word):
-    found = hider(error, script, BESIDE)
-    assert found[0] == file
-    assert word in found[1]
+def test_a_file_elsewhere_hides_no_package(error, script):
+    assert hider(error, script, ("scripts/a.py", "scripts/rospy.py", "src/std_msgs.py")) == ("", "")
 
 
 @pytest.mark.parametrize(
@@ -165,11 +156,7 @@ During handling of the above exception, another exception occurred:
 """
 
 
-def test_the_students_own_line():
-    trace = first_traceback(OUTPUT, "/tmp/ws/joy2twist")
-    assert (trace.where, trace.text) == ("scripts/joy2twist.py:12", "msg.linear.x = data.axes(1)")
-    assert trace.error == "TypeError: 'tuple' object is not callable"
-    assert first_traceback("all is well", "/tmp") is None
+def test_the_last_lines_are_one():
     assert last_lines("\x1b[31ma\x1b[0m\n\nb\nc\nd\n") == "b / c / d"
 
 

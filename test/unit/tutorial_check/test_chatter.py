@@ -8,12 +8,12 @@ from tutorial_check.exercises import chatter
 from tutorial_check.exercises.talking import PACKAGE
 from tutorial_check.model import Wrong
 
-SUBSCRIBER = "rospy.Subscriber('chatter', String, callback)\n"
-CALLBACK = "from std_msgs.msg import String\ndef callback(data):\n    loginfo(data)\n"
-RIGHT = CALLBACK + SUBSCRIBER
-SUNKEN = "def main():\n    rospy.spin()\n    if __name__ == '__main__':\n        main()\n"
+RIGHT = """from std_msgs.msg import String
+def callback(data):
+    loginfo(data)
+rospy.Subscriber('chatter', String, callback)
+"""
 TALKER = "#!/usr/bin/env python3\nfrom std_msgs.msg import String\nrospy.init_node('talker')\n"
-TWICE = "I heard A\nI heard B\nI heard A\nI heard B\n"
 
 
 @pytest.fixture
@@ -41,12 +41,6 @@ def asked(make_session):
 
 @pytest.mark.parametrize("row", [
     (chatter.talker, TALKER, {"master_alive": False}, "has ended it", "", ""),
-    (chatter.talker, SUNKEN, {"ended": True}, "it ended, exit code", ":3", "within main()"),
-    (chatter.talker, TALKER + "while True: pass", {"heard": [(k / 1e4, "", "") for k in range(9)]},
-     "thousands of messages", ":4", "rate.sleep()"),
-    (chatter.listener, SUNKEN, {"ended": True}, "it ended, exit code", ":3", "within main()"),
-    (chatter.listener, SUBSCRIBER.replace("String", "Int32"), {}, "wants Int32", ":1",
-     "at the top: from std_msgs.msg import String"),
     (chatter.listener, RIGHT, {"output": "A"}, "1 of 2 displayed", ":4", "does callback"),
     (chatter.graph, "", {}, "no such way in the graph", "", "one name"),
     # C9 and C10 look again, and talker and listener do not come as far as they did before.
@@ -62,21 +56,5 @@ def test_diagnosis(asked, row):
     assert caught.value.where.endswith(where)
 
 
-@pytest.mark.parametrize(
-    ("text", "output", "seen"),
-    [
-        (RIGHT, "I heard A\nI heard B\nI heard A\n", None),
-        (CALLBACK + "    print(data)\n" + SUBSCRIBER, TWICE, ("2 times", "listener.py:4")),
-        (RIGHT + SUBSCRIBER, TWICE, ("2 times", "listener.py:5")),
-    ],
-)
-def test_a_text_that_is_displayed_twice(asked, text, output, seen):
-    note = asked(chatter.listener, text, output=output)
-    assert (note and (note.seen[-7:], note.where)) == seen
-
-
-@pytest.mark.parametrize(("hertz", "said"), [(10, "10.0 Hz"), (5, "5.0 Hz, the handout's is 10")])
-def test_the_rate(asked, hertz, said):
-    heard = [(k / hertz, "/talker", str(k)) for k in range(9)]
-    found = asked(chatter.talker, TALKER, heard=heard)
-    assert getattr(found, "seen", found) == said
+def test_a_text_of_which_one_is_displayed_twice(asked):
+    assert asked(chatter.listener, RIGHT, output="I heard A\nI heard B\nI heard A\n") is None

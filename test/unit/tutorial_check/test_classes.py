@@ -4,7 +4,6 @@ import pytest
 
 from tutorial_check.exercises import classes
 from tutorial_check.exercises.driving import PACKAGE
-from tutorial_check.model import Wrong
 
 CLASS = """#!/usr/bin/python3
 import rospy
@@ -27,10 +26,6 @@ if __name__ == '__main__':
     NewJoy2Twist()
 """
 NO_SHUTDOWN = CLASS.replace("        rospy.on_shutdown(self.shutdown)\n", "")
-IN_INIT = CLASS.replace("    def shutdown(self):\n        pass", "        def shutdown(self): pass")
-OUTSIDE = CLASS.replace("    def callback(self, data):\n        pass", "") + (
-    "\n\ndef callback(self, data):\n    pass\n"
-)
 ROBOT = """class Robot:
     def __init__(self):
         rospy.on_shutdown(self.stop)
@@ -88,7 +83,6 @@ def form(folder, session, monkeypatch):
     return check
 
 
-PUBLISHER = "        self.cmd_vel = rospy.Publisher('/cmd_vel', Twist)\n"
 BASE = CLASS.replace("NewJoy2Twist", "Node").split("\n\nif __name__")[0]
 BELOW = """class NewJoy2Twist(Node):
     def callback(self, data):
@@ -98,28 +92,6 @@ BELOW = """class NewJoy2Twist(Node):
 if __name__ == "__main__":
     NewJoy2Twist()
 """
-
-
-def test_a_backup_of_the_same_name_that_rosrun_would_find_as_well(folder, form):
-    write(folder, "old/new_joy2twist.py", CLASS)
-    with pytest.raises(Wrong, match=r"several: old/new_joy2twist\.py, scripts/new_joy2"):
-        form(CLASS)
-
-
-@pytest.mark.parametrize(("before", "where"), [("on_shutdown", ""), ("Subscriber", ":8")])
-def test_an_early_ctrl_c_finds_no_publisher(form, before, where):
-    line = f"        rospy.{before}"
-    said = form(CLASS.replace(line, PUBLISHER + line))
-    assert getattr(said, "where", "") == (where and f"scripts/new_joy2twist.py{where}")
-
-
-@pytest.mark.parametrize(
-    ("text", "line", "name"), [(IN_INIT, 14, "shutdown"), (OUTSIDE, 21, "callback")]
-)
-def test_what_is_no_method(form, text, line, name):
-    with pytest.raises(Wrong, match=f"`def {name}` in line {line} is no method") as raised:
-        form(text)
-    assert "like `def __init__`" in raised.value.hint
 
 
 @pytest.mark.parametrize(

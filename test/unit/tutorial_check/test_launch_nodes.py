@@ -21,8 +21,6 @@ def node(kind, name="second", **more):
 
 
 FIRST = node("joy2twist.py", "first")
-VIEWER = {**node("rviz"), "package": "rviz"}
-ROBOT = {**node("fake_turtlebot.py"), "package": "fake_turtlebot_sim"}
 
 
 @pytest.fixture
@@ -50,13 +48,6 @@ def given(session):
     return make
 
 
-def test_two_drive(given):
-    file = given(FIRST, node("class.py"))
-    with pytest.raises(Wrong, match=r"2, joy2twist\.py and class\.py: all would drive") as caught:
-        launch_nodes.check_one_driver(file)
-    assert caught.value.where == f"{BAG}:3"
-
-
 @pytest.mark.parametrize(
     "other",
     [
@@ -70,29 +61,6 @@ def test_two_drive(given):
 )
 def test_one_drives(given, other):
     launch_nodes.check_one_driver(given(FIRST, other))
-
-
-def test_a_joystick_beside_the_recording(session, given, monkeypatch):
-    recording = {**node("play"), "package": "rosbag", "args": f"{session.source}/joy.bag"}
-    joystick = {**node("joy_node"), "package": "joy"}
-    monkeypatch.setattr(launch_nodes, "check_recording", lambda *about: None)
-    (session.source).mkdir(parents=True, exist_ok=True)
-    (session.source / "joy.bag").write_text("")
-    given(VIEWER, ROBOT, FIRST, recording)
-    launch_nodes.bag_nodes(session)
-    given(VIEWER, ROBOT, FIRST, recording, joystick)
-    with pytest.raises(Wrong, match="it starts a joystick, too"):
-        launch_nodes.bag_nodes(session)
-
-
-@pytest.mark.parametrize("word", ["-loop", "\u2014clock"])
-def test_an_option_with_one_dash(session, given, word):
-    text = f'<launch>\n<node args="{word}"/>\n</launch>'
-    given({**node("play"), "package": "rosbag", "args": f"{word} /a.bag"}, text=text)
-    with pytest.raises(Wrong, match=f"{word}, which it does not") as caught:
-        launch_nodes.bag_of(session)
-    assert caught.value.where == f"{BAG}:2"
-    assert caught.value.hint.endswith(f"--{word[1:]}")
 
 
 @pytest.mark.parametrize(

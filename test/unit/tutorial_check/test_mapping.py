@@ -50,10 +50,8 @@ def test_no_two_joys_are_alike_and_lb_is_held():
         ("0.5 * a[1], 2.0 * a[0]", "", "linear.x = 0.50 * axes[1], angular.z = 2.00 * axes[0]"),
         ("a[1] ** 3, a[0]", "", "linear.x is a curve of"),
         ("a[1] if a[1] > 0 else 0.5 * a[1], a[0]", "", "linear.x is a curve"),
-        ("abs(a[1]), a[0]", "lost the sign", ""),
         ("a[1], min(0.0, a[0])", "angular.z is 0 wherever axes[0] is above 0", ""),
         ("max(0.0, a[1]) ** 2, a[0]", "linear.x is 0 wherever axes[1] is below", ""),
-        ("float(int(3 * a[1])), a[0]", "whole numbers", ""),
         ("round(a[1], 1), a[0]", "linear.x has steps, as 0.30, 0.40, 0.50", ""),
         ("0.7 if a[1] > 0 else -0.7, a[0]", "linear.x has steps, as 0.70", ""),
         ("a[1], 0.0, a[0]", "linear.y follows axes[0], angular.z stays 0", ""),
@@ -104,8 +102,6 @@ def cruise(button, lets_go=False):
 @pytest.mark.parametrize(
     ("convert", "words"),
     [
-        ("a[1], a[0]", ""),
-        ("b[4] * a[1], b[4] * a[0]", ""),
         ("(1.0 if b[4] else 0.5) * a[1], a[0]", ""),
         ("(2.0 if b[5] else 0.3 if b[7] else 1.0) * a[1], a[0]", ""),
         ("a[1] if abs(a[1]) > 0.02 else 0.0, a[0] if abs(a[0]) > 0.1 else 0.0", ""),
@@ -113,7 +109,6 @@ def cruise(button, lets_go=False):
         ("a[1] if any(a) else NAN, a[0]", "linear.x is nan"),
         ("a[1] * (1 + (my.x > 0.69)), a[0]", "linear.x depends on earlier Joys"),
         ("a[1] if abs(a[1] - my.x) > 0.05 else my.x, a[0]", "x stays 0.06 when axes[1] is 0.03"),
-        ("a[1] if abs(a[1] - my.x) > 0.2 else my.x, a[0]", "depends on earlier Joys"),
         (cruise(0), "linear.x stays 0.70 when axes[1] is 0.00 and buttons[0] pressed"),
         (cruise(5, lets_go=True), "linear.x stays -0.70 when axes[1] is 0.00"),
     ],
@@ -127,35 +122,9 @@ def test_what_came_before_does_not_matter(convert, words):
     assert words in complaint and bool(words) == bool(complaint)
 
 
-@pytest.mark.parametrize(
-    ("convert", "words"),
-    [
-        ("my.x + 0.1 * a[1], a[0]", "linear.x depends on earlier Joys: it grows"),
-        ("a[1], 0.5 * (my.z + a[0])", "angular.z depends on earlier Joys: the"),
-        ("a[1], max(a[0], -0.1) + 0.3", "angular.z is 0.30 at rest"),
-    ],
-)
-def test_what_a_second_pass_and_rest_show(convert, words):
-    answer = program(convert)
-    first, again = ([(a, answer(a)) for a in AXES] for _ in range(2))
-    assert words in judge(Evidence(again, first, answer((0.0,) * 6)))[0]
-
-
-FIRST, SECOND, HELD, FREE = AXES[0], AXES[1], JOYS[0][1], (0,) * 12
-
-
-@pytest.mark.parametrize(
-    ("axes", "buttons", "before", "words"),
-    [
-        (FIRST, FREE, (FIRST, HELD), "LB released"),
-        (SECOND, FREE, (FIRST, FREE), "LB released"),
-        ((0.5, *(0.0,) * 5), HELD, (FIRST, HELD), "with axes[1] = 0"),
-    ],
-)
-def test_silence_is_named(axes, buttons, before, words):
-    assert words in silence((axes, buttons), before, (0.3,))[0]
-    after_zero = silence((axes, buttons), before, (0.0,))[0]
-    assert ("only one zero after LB is released" in after_zero) == (before[1] == FREE)
+def test_silence_when_one_axis_alone_is_moved_is_named():
+    (axes, held), alone = JOYS[0], (0.5, *(0.0,) * 5)
+    assert "with axes[1] = 0" in silence((alone, held), (axes, held), (0.3,))[0]
 
 
 @pytest.mark.parametrize("shape", ["[" + "{:.2f}," * 6 + "]", "{:.4f} " * 6 + "buttons 0 1"])

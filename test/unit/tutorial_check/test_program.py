@@ -6,7 +6,7 @@ import sys
 
 import pytest
 
-from tutorial_check import program
+from tutorial_check import one_workspace, program
 from tutorial_check.examination import Outcome
 from tutorial_check.formats import FORMATS
 from tutorial_check.model import OK, UNREACHED, WRONG, Result
@@ -66,7 +66,7 @@ def main(monkeypatch):
     """main(examine, *words): the exit code."""
 
     def called(examine, *words):
-        monkeypatch.setattr(program, "examine", examine)
+        monkeypatch.setattr(one_workspace, "examine", examine)
         monkeypatch.setattr(sys, "argv", ["check", *BEFORE, "2", "5", *map(str, words)])
         with pytest.raises(SystemExit) as ended:
             program.main()

@@ -7,7 +7,6 @@ import sys
 import pytest
 
 from tutorial_check.exercises.changed_programs import flipped_anonymous, unmasked, without_name
-from tutorial_check.exercises.ending import _late_zero as late_zero
 from tutorial_check.python_facts import read_python
 from tutorial_check.python_text import unreadable
 
@@ -31,21 +30,6 @@ if __name__ == "__main__":
         pass
     rospy.spin
 """
-
-
-def test_facts():
-    facts = read_python(PROGRAM)
-    assert [one.name for one in facts.classes if one.is_node] == ["Node"]
-    assert facts.classes[0].instantiated
-    assert facts.classes[0].methods == ["__init__", "callback"]
-    assert facts.first("Subscriber").words == ["/joy", "Joy", "self.callback"]
-    assert facts.first("init_node").names == {"anonymous": "False"}
-    assert facts.called_back == {"send": [7], "publish": [10]}
-    assert facts.has_main
-    assert facts.broad_excepts == [14]
-    assert facts.bare_names == [(16, "rospy.spin")]
-    names = read_python("import rospy\ndef f(data):\n    msq = 1\n    msq = 2\n").names
-    assert names == {"rospy": 1, "f": 2, "data": 2, "msq": 3}
 
 
 def test_a_text_with_a_zero_is_no_python():
@@ -116,13 +100,6 @@ def test_a_name_of_which_ros_warns(name):
 @pytest.mark.parametrize(("size", "keeps"), [(1, True), (10, False)])
 def test_a_queue_of_one_keeps_the_newest(size, keeps):
     assert read_python(f"rospy.Publisher('/x', Twist, queue_size={size})").keeps_newest == keeps
-
-
-@pytest.mark.parametrize(("first", "line"), [("sleep(2)", 4), ("self.pub.publish(Twist())", 0)])
-def test_the_sleep_before_the_zero(first, line):
-    then = "self.pub.publish(Twist())" if line else "sleep(2)"
-    text = f"rospy.on_shutdown(self.stop)\n\ndef stop(self):\n    {first}\n    {then}\n"
-    assert late_zero(read_python(text)) == line
 
 
 @pytest.mark.parametrize("handler", ["", " Exception", " Exception as error"])

@@ -131,11 +131,12 @@ def as_classroom(outcomes: Sequence[Outcome], environment: Mapping[str, str] = o
     return json.dumps(result, indent=1)
 
 
-FORMATS: dict[str, Callable[[Sequence[Outcome]], str]] = {
-    "json": as_json,
-    "junit": as_junit,
-    "gradescope": as_gradescope,
-    "classroom": as_classroom,
+# {name of an option: (what it writes, the function that makes it)}
+FORMATS: dict[str, tuple[str, Callable[[Sequence[Outcome]], str]]] = {
+    "json": ("all results", as_json),
+    "junit": ("JUnit's XML", as_junit),
+    "gradescope": ("Gradescope's results.json", as_gradescope),
+    "classroom": ("Classroom 50's result", as_classroom),
 }
 
 

@@ -12,15 +12,13 @@ from typing import Sequence
 from node_kit.arguments import Parser
 from tutorial_check import bubblewrap
 from tutorial_check.course import OURS, read_course
-from tutorial_check.examination import Outcome, examine
-from tutorial_check.formats import FORMATS, clear, without_hints, write
-from tutorial_check.hints import AGAIN, ALWAYS, Memory, show_solution
+from tutorial_check.formats import FORMATS
+from tutorial_check.hints import AGAIN, ALWAYS
 from tutorial_check.model import CannotCheck, fault
+from tutorial_check.one_workspace import check_one, watch
 from tutorial_check.package import package
-from tutorial_check.report import Terminal, summary
 from tutorial_check.self_test import self_test
 from tutorial_check.variants import sheet, variant_of
-from tutorial_check.watch import watch
 
 UNDERLAY = "TUTORIAL_UNDERLAY"  # environment variable: setup.bash of the underlay
 WORKSPACE = "TUTORIAL_IN"  # environment variable: the workspace of the shell that this is called in
@@ -34,12 +32,6 @@ def path(word: str) -> str:
 
 
 MODES = ("workspace", "all", "package", "self_test", "show_variant")
-FILES = {
-    "json": "all results",
-    "junit": "JUnit's XML",
-    "gradescope": "Gradescope's results.json",
-    "classroom": "Classroom 50's result",
-}
 
 
 def _parser() -> Parser:
@@ -77,7 +69,7 @@ def _parser() -> Parser:
     where.add_argument("--show-variant", type=path, metavar="NAME", help=what)
     add("--solution", action="store_true", help="show ours, of exercises that are done")
     add("--watch", action="store_true", help="check again whenever a file is saved")
-    for name, what in FILES.items():
+    for name, (what, _) in FORMATS.items():
         add(f"--{name}", type=path, metavar="FILE", help=f"write {what}")
     what = "with --all: where the table and the reports go (FOLDER/check)"
     add("--out", type=path, metavar="FOLDER", help=what)
@@ -141,50 +133,6 @@ def _refuse_idle(parser: argparse.ArgumentParser, given: argparse.Namespace) -> 
     for is_idle, why in rows:
         if is_idle:
             parser.error(why)
-
-
-def write_files(files: dict[str, str], outcomes: list[Outcome]) -> None:
-    """Write the files, each though another cannot be written. Raises CannotCheck."""
-    faults = []
-    for name, file in files.items():
-        try:
-            if name == "classroom" and any(outcome.trouble for outcome in outcomes):
-                # It has no word for this. Without a file it reports an error, and no points.
-                why = "not every exercise has a verdict"
-                print(f"check: {file} is not written: {why}", file=sys.stderr)
-            else:
-                write(file, FORMATS[name](outcomes))
-        except CannotCheck as error:
-            faults.append(str(error))
-    if faults:
-        raise CannotCheck("; ".join(faults))
-
-
-def check_one(options: argparse.Namespace) -> int:
-    files = {name: getattr(options, name) for name in FORMATS if getattr(options, name)}
-    for file in files.values():
-        clear(file)
-    memory = Memory(options.workspace, options.course, options.hints)
-    if options.solution:
-        show_solution(options.course, options.exercises, memory)
-        return 0
-    terminal = Terminal(memory.hint_of)
-    terminal.busy("copying and preparing ...")
-    outcomes = examine(
-        options.workspace, options.underlay, options.exercises, terminal.result,
-        course=options.course.folder, own=not (options.gradescope or options.classroom),
-        variant=variant_of(options.course, options, ""),
-    )  # fmt: skip
-    terminal.busy("")
-    memory.keep(outcomes)
-    print(f"{summary(outcomes)} in {os.path.abspath(options.workspace)}")
-    write_files(files, without_hints(outcomes) if options.hints == 0 else outcomes)
-    troubles = [outcome for outcome in outcomes if outcome.trouble]
-    for one in troubles:
-        print(f"check: {one.id}: no verdict: {one.trouble}", file=sys.stderr)
-    if troubles:
-        return 2
-    return 0 if all(outcome.passed for outcome in outcomes) else 1
 
 
 def _run(options: argparse.Namespace) -> int:

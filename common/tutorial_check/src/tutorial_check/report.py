@@ -5,12 +5,10 @@ from __future__ import annotations
 import os
 import sys
 from dataclasses import replace
-from typing import TYPE_CHECKING, Callable, Sequence
+from typing import Callable, Sequence
 
+from tutorial_check.examination import Outcome
 from tutorial_check.model import NOTE, OK, UNREACHED, WRONG, Result
-
-if TYPE_CHECKING:
-    from tutorial_check.examination import Outcome
 
 WORDS = {OK: "ok", WRONG: "WRONG", NOTE: "note", UNREACHED: "-"}
 COLOURS = {OK: "32", WRONG: "1;31", NOTE: "33", UNREACHED: "2"}
@@ -52,9 +50,9 @@ def text_of(outcomes: Sequence[Outcome]) -> str:
 class Terminal:
     """Prints results as they come, with a line of what is done now where there is a terminal."""
 
-    def __init__(self, hint_of: Callable[[Result], str]) -> None:
-        """hint_of: what to show as the hint of a Result."""
-        self._hint_of, self._heading = hint_of, ""
+    def __init__(self, hint_of: Callable[[Result], str], only_first: bool = False) -> None:
+        """hint_of: what to show as the hint of a Result. only_first: show the first that is wrong."""
+        self._hint_of, self._only_first, self._heading = hint_of, only_first, ""
         self._is_terminal = sys.stdout.isatty()
         self._has_colour = self._is_terminal and "NO_COLOR" not in os.environ
 
@@ -65,6 +63,9 @@ class Terminal:
 
     def result(self, outcome: Outcome, result: Result) -> None:
         self.busy("")
+        if self._only_first and (self._heading or result.status != WRONG):
+            self.busy(f"  checking {outcome.id} ...")
+            return
         if self._heading != outcome.id:
             self._heading = outcome.id
             print(heading(outcome))

@@ -6,7 +6,7 @@ import difflib
 import re
 import shutil
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from tutorial_check import student_files
 from tutorial_check.causes import explain, hider, syntax_hint, traced
@@ -14,11 +14,8 @@ from tutorial_check.model import Note, Wrong
 from tutorial_check.python_facts import PythonFacts, read_python
 from tutorial_check.python_text import unreadable
 from tutorial_check.rows import Row, find
-from tutorial_check.tracebacks import first_traceback, last_lines
-
-if TYPE_CHECKING:
-    from tutorial_check.session import Session
-    from tutorial_check.tracebacks import Traceback
+from tutorial_check.session import Session
+from tutorial_check.tracebacks import Traceback, first_traceback, last_lines
 
 # env -S takes arguments
 INTERPRETER = re.compile(rb"#!\s*(\S+)(?:\s+(?:-S\s*)?(?:\w+=\S*\s+)*(\S+))?")

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple, Sequence
+from typing import NamedTuple, Sequence
 
+from tutorial_check.box import Program
 from tutorial_check.model import CannotCheck
 from tutorial_check.scripts import crash
-from tutorial_check.stage import START_S
-
-if TYPE_CHECKING:
-    from tutorial_check.box import Program
-    from tutorial_check.session import Session
-    from tutorial_check.stage import Stage
+from tutorial_check.session import Session
+from tutorial_check.stage import START_S, Stage
 
 BUMPER, TRUTH = "/mobile_base/events/bumper", "/base_pose_ground_truth"
 ODOM = "/odom"  # in an empty plane there is no other truth

@@ -3,20 +3,24 @@
 from __future__ import annotations
 
 import statistics
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from tutorial_check.causes import with_import
 from tutorial_check.course import check
 from tutorial_check.exercises.changed_programs import flipped_anonymous
-from tutorial_check.exercises.talking import LISTEN_S, PACKAGE, TOPIC, other_topic, scripts, talk_of
+from tutorial_check.exercises.talking import (
+    LISTEN_S,
+    PACKAGE,
+    TOPIC,
+    Talk,
+    other_topic,
+    scripts,
+    talk_of,
+)
 from tutorial_check.model import Note, Wrong, master_gone
 from tutorial_check.rows import Row, demand
 from tutorial_check.scripts import check_end, check_file, crash, odd_node, sunken_main
-
-if TYPE_CHECKING:
-    from tutorial_check.exercises.talking import Talk
-    from tutorial_check.session import Session
-
+from tutorial_check.session import Session
 
 TALKS = "std_msgs/String on /chatter, about 10 times a second"
 LISTENS = "every text sent on /chatter, displayed once"

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from tutorial_check.class_facts import with_bases
+from tutorial_check.class_facts import ClassFacts, with_bases
 from tutorial_check.course import check
 from tutorial_check.exercises import conversation
 from tutorial_check.exercises.changed_programs import without_name
@@ -14,15 +14,11 @@ from tutorial_check.exercises.driving import JOY, drive
 from tutorial_check.exercises.joy2twist import NAME, check_manifest
 from tutorial_check.exercises.joystick_task import PACKAGE
 from tutorial_check.model import Note, Wrong
+from tutorial_check.python_facts import Call
 from tutorial_check.rows import Row, demand
 from tutorial_check.scripts import check_file, misnamed_init, must_be_one
+from tutorial_check.session import Session
 from tutorial_check.tracebacks import last_lines
-
-if TYPE_CHECKING:
-    from tutorial_check.class_facts import ClassFacts
-    from tutorial_check.python_facts import Call
-    from tutorial_check.session import Session
-
 
 ALONE_S = 1.5  # without a joystick
 NAMES_IT = re.compile(r"not defined|NameError")  # what the lack of the import leads to

@@ -3,18 +3,13 @@
 from __future__ import annotations
 
 import statistics
-from typing import TYPE_CHECKING
 
 from tutorial_check.exercises.dialogue import Conversation
-from tutorial_check.exercises.driving import CMD_VEL, COUNT, JOY
+from tutorial_check.exercises.driving import CMD_VEL, COUNT, JOY, Drive
 from tutorial_check.exercises.mapping import judge
 from tutorial_check.model import Note, master_gone
 from tutorial_check.rows import Row, demand
-
-if TYPE_CHECKING:
-    from tutorial_check.exercises.driving import Drive
-    from tutorial_check.session import Session
-
+from tutorial_check.session import Session
 
 CONNECTS = "it subscribes to /joy, sensor_msgs/Joy"
 DISPLAYS = "every Joy displayed with its six axes, two decimals, in one line"

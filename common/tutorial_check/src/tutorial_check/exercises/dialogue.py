@@ -6,21 +6,17 @@ import collections
 import contextlib
 import functools
 import re
-from typing import TYPE_CHECKING, Any, Sequence
+from typing import Any, Sequence
 
 from tutorial_check.causes import with_import
 from tutorial_check.exercises.changed_programs import unmasked
-from tutorial_check.exercises.driving import CMD_VEL, JOY, drive
+from tutorial_check.exercises.driving import CMD_VEL, JOY, Drive, drive
 from tutorial_check.exercises.joystick_task import PACKAGE
 from tutorial_check.exercises.talking import other_topic
 from tutorial_check.model import Wrong
 from tutorial_check.python_text import python_lines
 from tutorial_check.scripts import check_file, crash, silent_end
-
-if TYPE_CHECKING:
-    from tutorial_check.exercises.driving import Drive
-    from tutorial_check.session import Session
-
+from tutorial_check.session import Session
 
 STRAYS = 2  # zeros in a row of Joys that may be
 

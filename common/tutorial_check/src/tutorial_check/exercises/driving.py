@@ -5,30 +5,14 @@ from __future__ import annotations
 import re
 import statistics
 import time
-from typing import TYPE_CHECKING, Any, Callable, Sequence
+from typing import Any, Callable, Sequence
 
 from tutorial_check.box import GRACE_S
+from tutorial_check.exercises import probing
 from tutorial_check.exercises.joystick_task import PACKAGE
 from tutorial_check.exercises.mapping import LINEAR, RIGHT, Evidence, judge, rule_of
-from tutorial_check.exercises.probing import (
-    AT_REST,
-    NUMBER,
-    delays,
-    displayed,
-    judge_probes,
-    low_joys,
-    numbered_joys,
-    probes,
-    rising_joys,
-    silence,
-    small_and_button_probes,
-)
+from tutorial_check.session import Session
 from tutorial_check.stage import START_S
-
-if TYPE_CHECKING:
-    from tutorial_check.exercises.probing import Joy
-    from tutorial_check.session import Session
-
 
 JOY, CMD_VEL = "/joy", "/cmd_vel"
 COUNT = 20
@@ -103,7 +87,7 @@ class Drive:
         return self._stage.call("heard", CMD_VEL, since)
 
     def _converse(self, wants_twist: bool) -> None:
-        stage, joys = self._stage, numbered_joys(COUNT)
+        stage, joys = self._stage, probing.numbered_joys(COUNT)
         self.joys = joys
         stage.call("send", JOY, NEUTRAL)
         if wants_twist:
@@ -137,10 +121,10 @@ class Drive:
                 )
                 self._stream(beside=answers)
 
-    def _ask_again(self, joys: Sequence[Joy]) -> None:
+    def _ask_again(self, joys: Sequence[probing.Joy]) -> None:
         """Ask the same with time: it has a clock of its own, publishes several, or is only slow."""
         is_plain = self.unasked <= 2
-        low = [] if self.missing else low_joys()
+        low = [] if self.missing else probing.low_joys()
         first, self.samples, self.missing = self.samples, [], 0
         self._pause(SETTLE_S)  # late ones belong to the first pass
         begun = self._count()
@@ -150,7 +134,7 @@ class Drive:
             first, self.samples = self.samples, first
         # Of several Twists for one Joy it is not known which of them answers it.
         self.first_samples = first if is_plain else []
-        heard = self._ask(AT_REST, SETTLE_S)[1]
+        heard = self._ask(probing.AT_REST, SETTLE_S)[1]
         self.at_rest = heard[-1][2] if heard else None
         self._ask(joys[-1], SETTLE_S)  # the last one moves the robot
 
@@ -163,13 +147,13 @@ class Drive:
         late = [twist for when, _, twist in unasked if when > begun_s + SAME_S]
         self.repeats = self.has_clock and any(map(any, late))
 
-    def _probe(self, joys: Sequence[Joy]) -> None:
+    def _probe(self, joys: Sequence[probing.Joy]) -> None:
         """Send the other Joys, each until it is answered; end at one that is not when asked again."""
         before, settle_s = joys[-1], SETTLE_S if self.twists else 0.0
         # By now it is known how many Twists one Joy gets: no time is needed to wait for more.
         times = max(1, round(len(self.twists) / len(self.samples)))
-        plan = [(joy, settle_s, 1) for joy in probes(joys)]
-        plan += [(joy, 0.0, times) for joy in small_and_button_probes()]
+        plan = [(joy, settle_s, 1) for joy in probing.probes(joys)]
+        plan += [(joy, 0.0, times) for joy in probing.small_and_button_probes()]
         for joy, wait_s, often in plan:
             _, heard = self._ask(joy, wait_s, often)
             if not heard and not self.program.ended:
@@ -182,7 +166,7 @@ class Drive:
             before = joy
 
     def _ask(
-        self, joy: Joy, settle_s: float, often: int = 1, longest_s: float = ANSWER_S
+        self, joy: probing.Joy, settle_s: float, often: int = 1, longest_s: float = ANSWER_S
     ) -> tuple[float, list[Any]]:
         """Return (when a Joy was sent, what came then). often: how many Twists are waited for."""
         before = self._count()
@@ -192,7 +176,7 @@ class Drive:
             self._pause(settle_s)
         return sent_s, self._heard(before)
 
-    def _one_by_one(self, joys: Sequence[Joy], settle_s: float) -> None:
+    def _one_by_one(self, joys: Sequence[probing.Joy], settle_s: float) -> None:
         begun, answered, unanswered = self._count(), len(self.samples), 0
         for joy in joys:
             sent_s, heard = self._ask(joy, settle_s)
@@ -217,21 +201,21 @@ class Drive:
     def _stream(self, beside: str | None = None) -> None:
         stage, count = self._stage, int(RATE * STREAM_S)
         before = self._count()
-        joys = [self._task.joy(joy) for joy in rising_joys(count)]
+        joys = [self._task.joy(joy) for joy in probing.rising_joys(count)]
         stage.call("stream", JOY, joys, RATE, False)
         stage.wait(lambda: len(stage.call("sent", JOY)) >= count, STREAM_S + 3)
         stage.wait(lambda: self._count() - before >= count, 0.3)
         sent, heard = stage.call("sent", JOY), self._heard(before)
         self.sent, self.answered = len(sent), len(heard)
         rule = rule_of(LINEAR, self.samples)
-        self.delays = delays(sent, heard, rule.factor if rule else None)
+        self.delays = probing.delays(sent, heard, rule.factor if rule else None)
         moving = [any(twist) for _, _, twist in heard]
         # All of these Joys move the robot, once the first does.
         self.strays = moving[moving.index(True) :].count(False) if any(moving) else 0
         if beside:
             echoed = stage.call("heard", beside)
             self.possible = len(echoed)
-            self.unavoidable_s = statistics.median(delays(sent, echoed, 1.0) or [0.0])
+            self.unavoidable_s = statistics.median(probing.delays(sent, echoed, 1.0) or [0.0])
 
     @property
     def evidence(self) -> Evidence:
@@ -239,7 +223,8 @@ class Drive:
 
     def judge_probes(self) -> tuple[str, str]:
         """Return what is wrong with the answers to the probes, and what to do; empty if nothing is."""
-        return judge_probes(self.samples, self.answers, self._task.factors, self._task.needs_button)
+        about = self._task.factors, self._task.needs_button
+        return probing.judge_probes(self.samples, self.answers, *about)
 
     @property
     def complaint(self) -> str:
@@ -250,7 +235,7 @@ class Drive:
     def silence(self) -> tuple[str, str]:
         """Return (what is seen, what to do) for the first probe that was not answered."""
         joy, before = self.unanswered
-        return silence(joy, before, self.answers[-1][1] if self.answers else (1.0,))
+        return probing.silence(joy, before, self.answers[-1][1] if self.answers else (1.0,))
 
     @property
     def delay_s(self) -> float | None:
@@ -281,7 +266,7 @@ class Drive:
     @property
     def shows_numbers(self) -> bool:
         """Return whether it prints lines with as many numbers as a Joy has axes."""
-        return any(len(NUMBER.findall(line)) >= 6 for line in self.output.splitlines())
+        return any(len(probing.NUMBER.findall(line)) >= 6 for line in self.output.splitlines())
 
     @property
     def trouble(self) -> bool:
@@ -289,7 +274,7 @@ class Drive:
 
     def _displayed(self) -> int:
         """Return how many of the Joys were displayed, all six axes in a line."""
-        return len(displayed(self.joys, COLOUR.sub("", self.program.output)))
+        return len(probing.displayed(self.joys, COLOUR.sub("", self.program.output)))
 
 
 def drive(session: Session, script: str, wants_twist: bool = True) -> Drive:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from tutorial_check import student_files
+from tutorial_check.box import Program
 from tutorial_check.course import check
 from tutorial_check.exercises.classes import program
 from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL
@@ -14,15 +15,11 @@ from tutorial_check.exercises.joystick_task import PACKAGE
 from tutorial_check.exercises.robot import held
 from tutorial_check.manifests import must_be_launchable
 from tutorial_check.model import CannotCheck, Note, Wrong
+from tutorial_check.python_facts import PythonFacts
 from tutorial_check.scripts import cause_of, crash
+from tutorial_check.session import Session
 from tutorial_check.simulated_robot import ODOM
 from tutorial_check.tracebacks import first_traceback
-
-if TYPE_CHECKING:
-    from tutorial_check.box import Program
-    from tutorial_check.python_facts import PythonFacts
-    from tutorial_check.session import Session
-
 
 CTRL_C, KILL, LAUNCH = "Ctrl-C", "rosnode kill", "the end of a launch"
 # One node for each way, all at once: each ends in its way, and the robot stands when all have gone.

@@ -3,20 +3,15 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
 
 from tutorial_check.course import check
 from tutorial_check.exercises import conversation
-from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL, drive
+from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL, Drive, drive
 from tutorial_check.exercises.joystick_task import PACKAGE
 from tutorial_check.model import Note, Wrong
 from tutorial_check.scripts import check_end, check_file, find_script, odd_node
+from tutorial_check.session import Session
 from tutorial_check.stage import START_S
-
-if TYPE_CHECKING:
-    from tutorial_check.exercises.driving import Drive
-    from tutorial_check.session import Session
-
 
 NAME = "joy2twist.py"
 STARTS = 10  # under load, all at once

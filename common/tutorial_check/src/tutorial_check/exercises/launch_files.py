@@ -8,24 +8,20 @@ import os
 import re
 import shlex
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Callable
+from typing import Any, Callable
 
 from tutorial_check.course import check
 from tutorial_check.exercises import launch_facts
 from tutorial_check.exercises.joy2twist import NAME
 from tutorial_check.exercises.joystick_task import PACKAGE
+from tutorial_check.exercises.launch_facts import Node
 from tutorial_check.exercises.launch_text import attribute, parse_error, space_hint
 from tutorial_check.launch_xml import line_of, place_of, read, unclosed_node
 from tutorial_check.manifests import must_be_launchable
-from tutorial_check.model import CannotCheck, Wrong
+from tutorial_check.model import CannotCheck, Note, Wrong
 from tutorial_check.scripts import find_script, is_runnable
+from tutorial_check.session import Session
 from tutorial_check.tracebacks import last_lines
-
-if TYPE_CHECKING:
-    from tutorial_check.exercises.launch_facts import Node
-    from tutorial_check.model import Note
-    from tutorial_check.session import Session
-
 
 BAG, STICK = "launch_bag.launch", "launch_joy_node.launch"
 TURTLEBOT, REAL = "joy2twist_turtlebot.launch", "launch_joy_node_realTurtlebot.launch"

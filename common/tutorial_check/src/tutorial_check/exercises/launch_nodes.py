@@ -5,20 +5,17 @@ from __future__ import annotations
 import os
 import re
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from tutorial_check.course import check
 from tutorial_check.exercises.driving import CMD_VEL
 from tutorial_check.exercises.joystick_task import PACKAGE
+from tutorial_check.exercises.launch_facts import Node
 from tutorial_check.exercises.launch_files import BAG, JOY_HINT, STICK, LaunchFile, copy_bag
 from tutorial_check.exercises.launch_text import attribute
 from tutorial_check.exercises.robot import check_recording
 from tutorial_check.model import Note, Wrong
-
-if TYPE_CHECKING:
-    from tutorial_check.exercises.launch_facts import Node
-    from tutorial_check.session import Session
-
+from tutorial_check.session import Session
 
 ROBOT_HINT = '<include file="$(find rbx1_bringup)/launch/fake_turtlebot.launch"/>'
 OWN_HINT = '<node pkg="joy2twist" type="joy2twist.py" name="myjoystick2twist"/>'

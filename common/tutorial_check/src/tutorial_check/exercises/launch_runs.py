@@ -6,30 +6,21 @@ import math
 import os
 import re
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Callable
+from typing import Any, Callable
 
 from tutorial_check import student_files
 from tutorial_check.course import check
+from tutorial_check.exercises import launch_nodes
 from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL
 from tutorial_check.exercises.joystick_task import PACKAGE
 from tutorial_check.exercises.launch_files import BAG, STICK, LaunchFile
-from tutorial_check.exercises.launch_nodes import (
-    ROBOT_HINT,
-    bag_of,
-    is_joystick,
-    is_player,
-    is_viewer,
-)
 from tutorial_check.exercises.robot import held, plug_in
 from tutorial_check.model import CannotCheck, Wrong
 from tutorial_check.scripts import cause_of
+from tutorial_check.session import Session
 from tutorial_check.simulated_robot import ODOM
+from tutorial_check.stage import Stage
 from tutorial_check.tracebacks import first_traceback
-
-if TYPE_CHECKING:
-    from tutorial_check.session import Session
-    from tutorial_check.stage import Stage
-
 
 BAG_S = 1.2  # length of the recording that takes the place of the student's, and is played again
 ONCE_S = 60.0  # and of one that is not: like the student's it lasts until the others have started
@@ -73,7 +64,7 @@ class Launch:
         return all(
             node["namespace"] + node["name"] in there
             for node in self.file.nodes
-            if not is_viewer(node)
+            if not launch_nodes.is_viewer(node)
         )
 
     def moved(self) -> float:
@@ -99,7 +90,7 @@ class Launch:
         hints = {
             JOY: "does the recording, or joy_node, run? rostopic hz /joy",
             self.twists: f"does joy2twist run, and publish on {self.twists}? rosnode list",
-            ODOM: f"does the simulated robot run? {ROBOT_HINT}",
+            ODOM: f"does the simulated robot run? {launch_nodes.ROBOT_HINT}",
         }
         silent = [topic for topic in hints if not self.stage.call("count", topic)]
         seen, hint = f"the robot moved {self.moved():.2f} m", "rostopic echo /cmd_vel"
@@ -139,10 +130,10 @@ def _own_bag(session: Session, path: Path, length_s: float) -> None:
 
 def _bag_run(session: Session) -> Any:
     """Return (what is wrong or None, whether the recording begins again)."""
-    bag, _ = bag_of(session)
+    bag, _ = launch_nodes.bag_of(session)
     file = LaunchFile(session, BAG)
     replaced = bag.startswith(str(session.source))
-    player = next(filter(is_player, file.nodes))
+    player = next(filter(launch_nodes.is_player, file.nodes))
     by_words = any(LOOP.fullmatch(word) for word in file.words_of(player))
     loops = by_words or player["respawn"]
     if replaced:
@@ -175,7 +166,7 @@ def bag_loops(session: Session) -> None:
     if not loops:
         expected = "/joy flows on after the end of the recording"
         hint = "rosbag play --loop: in args= of that node"
-        raise Wrong(expected, "it falls silent", bag_of(session)[1], hint)
+        raise Wrong(expected, "it falls silent", launch_nodes.bag_of(session)[1], hint)
 
 
 @check("C26", "launch_joy_node drives the robot", "5.1", "C25 C16",
@@ -199,7 +190,7 @@ def stick_drives(session: Session) -> None:
 
 def plug_in_for(file: LaunchFile, stage: Stage) -> Any:
     """Put a joystick where the joy_node of a launch file will look for it."""
-    nodes = list(filter(is_joystick, file.nodes))
+    nodes = list(filter(launch_nodes.is_joystick, file.nodes))
     named = [node["device"] for node in nodes if node["device"].startswith("/dev/input/")]
     session = file.session
     if named and not session.can_have_devices:

@@ -6,19 +6,15 @@ import difflib
 import os
 import re
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from tutorial_check.course import check
 from tutorial_check.launch_xml import place_of, read
 from tutorial_check.manifests import unreadable
-from tutorial_check.model import Wrong
+from tutorial_check.model import Note, Wrong
 from tutorial_check.place import own_rights
+from tutorial_check.session import Session
 from tutorial_check.workspace import Package, packages_beside
-
-if TYPE_CHECKING:
-    from tutorial_check.model import Note
-    from tutorial_check.session import Session
-
 
 WANTED = {
     "beginner_tutorials": ("std_msgs", "rospy", "roscpp"),

@@ -6,8 +6,9 @@ import math
 import shlex
 import statistics
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from tutorial_check.box import Program
 from tutorial_check.course import check
 from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL
 from tutorial_check.exercises.joy2twist import main_script
@@ -16,14 +17,9 @@ from tutorial_check.exercises.mapping import ANGULAR, LINEAR
 from tutorial_check.exercises.pad import Pad
 from tutorial_check.model import CannotCheck, Note, Wrong
 from tutorial_check.scripts import crash
+from tutorial_check.session import Session
 from tutorial_check.simulated_robot import ODOM, SimulatedRobot
-from tutorial_check.stage import START_S
-
-if TYPE_CHECKING:
-    from tutorial_check.box import Program
-    from tutorial_check.session import Session
-    from tutorial_check.stage import Stage
-
+from tutorial_check.stage import START_S, Stage
 
 FORWARDS, LEFT = 0.5, 0.8  # positions of the stick
 COPY_BAG = 'cp "$(rospack find gamepad)/bag/joy.bag" .'

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Iterable
+from typing import Any, Iterable
 
 from tutorial_check.scripts import find_script
-
-if TYPE_CHECKING:
-    from tutorial_check.session import Session
-    from tutorial_check.stage import Stage
-
+from tutorial_check.session import Session
+from tutorial_check.stage import Stage
 
 PACKAGE = "beginner_tutorials"
 LISTEN_S = 1.5  # to the talker

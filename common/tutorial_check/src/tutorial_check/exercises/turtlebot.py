@@ -3,23 +3,19 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from tutorial_check.course import check
 from tutorial_check.exercises import launch_nodes, launch_runs
 from tutorial_check.exercises.driving import CMD_VEL, JOY
 from tutorial_check.exercises.joystick_task import PACKAGE
-from tutorial_check.exercises.launch_files import JOY_HINT, REAL, TURTLEBOT, check_file
+from tutorial_check.exercises.launch_files import JOY_HINT, REAL, TURTLEBOT, LaunchFile, check_file
 from tutorial_check.exercises.robot import held, rest
 from tutorial_check.model import CannotCheck, Wrong
 from tutorial_check.rows import Row, demand
+from tutorial_check.session import Session
+from tutorial_check.stage import Stage
 from tutorial_check.tracebacks import last_lines
-
-if TYPE_CHECKING:
-    from tutorial_check.exercises.launch_files import LaunchFile
-    from tutorial_check.session import Session
-    from tutorial_check.stage import Stage
-
 
 TELEOP, ACTIVE = "/cmd_vel_mux/input/teleop", "/cmd_vel_mux/active"
 EXPECTED = f"Twists on {TELEOP}, none on any other topic"

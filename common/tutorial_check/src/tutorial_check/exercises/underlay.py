@@ -4,17 +4,14 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Sequence
+from typing import Any, Sequence
 
 from tutorial_check import place
 from tutorial_check.course import check
 from tutorial_check.exercises.packages import WANTED
 from tutorial_check.model import Note, Wrong
+from tutorial_check.session import Session
 from tutorial_check.workspace import underlays
-
-if TYPE_CHECKING:
-    from tutorial_check.session import Session
-
 
 SUITE = ("node_kit", "fake_turtlebot_sim")  # packages of the underlay
 AGAIN = "in the workspace: rm -r build devel, then catkin_make"

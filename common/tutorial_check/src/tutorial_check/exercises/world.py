@@ -5,21 +5,17 @@ from __future__ import annotations
 import math
 import re
 from functools import partial
-from typing import TYPE_CHECKING, Any, Sequence
+from typing import Any, Sequence
 
+from tutorial_check.box import Program
 from tutorial_check.course import check
 from tutorial_check.exercises.driving import CMD_VEL
 from tutorial_check.exercises.talking import PACKAGE
 from tutorial_check.model import Wrong
 from tutorial_check.scripts import crash, program_of
-from tutorial_check.simulated_robot import BUMPER, TRUTH, SimulatedRobot
-
-if TYPE_CHECKING:
-    from tutorial_check.box import Program
-    from tutorial_check.session import Session
-    from tutorial_check.simulated_robot import Sample
-    from tutorial_check.stage import Stage
-
+from tutorial_check.session import Session
+from tutorial_check.simulated_robot import BUMPER, TRUTH, Sample, SimulatedRobot
+from tutorial_check.stage import Stage
 
 PUBLISHES, SUBSCRIBES = "publishes on", "subscribes to"
 SIDES = ("left", "center", "right")  # kobuki_msgs/BumperEvent: 0, 1, 2
