@@ -63,6 +63,8 @@ ROWS = [
     ("scripts in nodes", [move(JOY2TWIST, f"{J}/nodes/joy2twist.py"), move(CLASS, f"{J}/nodes/NewJoy2Twist.py")], ["4.3", "6.2"]),
     ("scripts in the package's root", [move(JOY2TWIST, f"{J}/joy2twist.py"), move(LISTENER, f"{B}/listener.py")], ["3", "4.3"]),
     ("load_manifest of a variable, and a Windows line end further down", [put(JOY2TWIST, "roslib.load_manifest('joy2twist')", "PKG = 'joy2twist'; roslib.load_manifest(PKG)\r")], ["4.3"]),
+    ("catkin's components in a variable", [put(f"{J}/CMakeLists.txt", "find_package(catkin REQUIRED COMPONENTS rospy", "set(NEEDED rospy)\nfind_package(catkin REQUIRED COMPONENTS\n  ${NEEDED} # and no joystick\n ")], ["4.3"]),
+    ("catkin without components", [put(f"{J}/CMakeLists.txt", " COMPONENTS rospy std_msgs sensor_msgs geometry_msgs", "")], ["4.3"]),
     ("no load_manifest", [put(JOY2TWIST, MANIFEST, ""), put(CLASS, MANIFEST, "")], ["4.3", "6.2"]),
     ("relative topics", [put(JOY2TWIST, "/joy", "joy"), put(JOY2TWIST, "/cmd_vel", "cmd_vel")], ["4.3", "6.1"]),
     ("three versions in three files", [move(JOY2TWIST, f"{J}/scripts/joy2twist_v2.py"), write(JOY2TWIST, '#!/usr/bin/env python3\nimport rospy\nfrom sensor_msgs.msg import Joy\n\n\ndef callback(data):\n    rospy.loginfo("%s", ",".join("%.2f" % a for a in data.axes))\n\n\nrospy.init_node("listener", anonymous=True)\nrospy.Subscriber("/joy", Joy, callback)\nrospy.spin()\n')], ["4.3"]),

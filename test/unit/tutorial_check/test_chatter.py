@@ -41,6 +41,8 @@ def asked(make_session):
 
 @pytest.mark.parametrize("row", [
     (chatter.talker, TALKER, {"master_alive": False}, "has ended it", "", ""),
+    (chatter.talker, TALKER + "while True: pass", {"heard": [(k / 1e4, "", "") for k in range(9)]},
+     "thousands of messages", ":4", "rate.sleep()"),
     (chatter.listener, RIGHT, {"output": "A"}, "1 of 2 displayed", ":4", "does callback"),
     (chatter.graph, "", {}, "no such way in the graph", "", "one name"),
     # C9 and C10 look again, and talker and listener do not come as far as they did before.

@@ -94,6 +94,14 @@ if __name__ == "__main__":
 """
 
 
+@pytest.mark.parametrize(("before", "where"), [("on_shutdown", ""), ("Subscriber", ":8")])
+def test_an_early_ctrl_c_finds_no_publisher(form, before, where):
+    line = f"        rospy.{before}"
+    publisher = "        self.cmd_vel = rospy.Publisher('/cmd_vel', Twist)\n"
+    said = form(CLASS.replace(line, publisher + line))
+    assert getattr(said, "where", "") == (where and f"scripts/new_joy2twist.py{where}")
+
+
 @pytest.mark.parametrize(
     "text",
     [
