@@ -55,6 +55,15 @@ def refuse(*command):
     return lines[0]
 
 
+def signal_all(pids, number):
+    """Send a signal to processes as far as they live; return the time [s] just before."""
+    now = time.time()
+    for pid in pids:
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(pid, number)
+    return now
+
+
 def suspend(pids):
     """Stop processes as Ctrl-Z does; return when all of their threads are stopped."""
     for pid in pids:
@@ -140,12 +149,7 @@ class Program:
 
     def signal(self, number):
         """Send a signal to all that comes from this program; return the time [s] just before."""
-        pids = self.left_behind()
-        now = time.time()
-        for pid in pids:
-            with contextlib.suppress(ProcessLookupError):
-                os.kill(pid, number)
-        return now
+        return signal_all(self.left_behind(), number)
 
     def kill(self):
         """End all of it as by a lack of memory; return the time [s] just before."""

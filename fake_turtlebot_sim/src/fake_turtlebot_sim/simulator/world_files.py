@@ -17,7 +17,7 @@ MOST_WALLS = 20_000
 
 
 class WorldError(ValueError):
-    """Why a file is no world: the line in it and what is allowed, in one line without its path."""
+    """Why a file is no world: its line and what is allowed, in one line without the path."""
 
 
 def find_world(name: str) -> Path:

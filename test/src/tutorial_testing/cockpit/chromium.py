@@ -3,11 +3,9 @@
 import base64
 import contextlib
 import json
-import os
 import shutil
 import signal
 import tempfile
-import time
 from pathlib import Path
 
 from selenium import webdriver
@@ -17,6 +15,7 @@ from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.by import By
 
 from tutorial_testing.cockpit.engines import WebDriver
+from tutorial_testing.processes import signal_all
 
 ARGUMENTS = [
     "--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
@@ -135,12 +134,7 @@ class Chromium(WebDriver):
 
     def signal(self, number):
         """Send a signal to all of the browser; returns the time [s] just before."""
-        pids = self.pids
-        now = time.time()
-        for pid in pids:
-            with contextlib.suppress(ProcessLookupError):
-                os.kill(pid, number)
-        return now
+        return signal_all(self.pids, number)
 
     def kill(self):
         """kill -9; returns the time [s] just before."""

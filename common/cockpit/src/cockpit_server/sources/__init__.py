@@ -1,1 +1,1 @@
-"""What pages see: each module is a Source, most of them a tab. They may know ROS."""
+"""What pages see: the Sources, most of them for one tab, and their recordings. They may use ROS."""
