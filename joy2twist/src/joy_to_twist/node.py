@@ -94,8 +94,8 @@ class Joy2Twist:
         self.lock = threading.Lock()  # one velocity at a time, and none after the last zero
         self.stopped = threading.Event()
 
-        self.cmd_vel = VelocityPublisher("cmd_vel", self.console.warn)
         self.hold_new = parameters.arm_on_neutral
+        self.cmd_vel = VelocityPublisher("cmd_vel", self.console.warn, self.hold_new)
         rospy.on_shutdown(self.shutdown)
         self.diagnostics = diagnostic_updater.Updater()
         self.diagnostics.setHardwareID("none")

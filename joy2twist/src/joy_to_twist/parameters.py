@@ -92,7 +92,9 @@ class Parameters:
     )
     stop_button: int = parameter(-1, _BUTTON, "stops until the reset; needs the next")
     stop_reset_button: int = parameter(-1, _BUTTON, "ends the effect of the stop button")
-    joy_timeout: float = parameter(0.5, _TIMEOUT, "a longer silence stops the robot")
+    joy_timeout: float = parameter(
+        0.0, _TIMEOUT, "a longer silence stops the robot; for a gamepad 0.5, with autorepeat"
+    )
     max_joy_age: float = parameter(
         0.0, _TIMEOUT, "an older message is not driven; needs synchronised clocks"
     )

@@ -23,6 +23,7 @@ from node_kit.throttle import Throttle
 WAITING = "waiting for the joystick"
 NOT_ARMED = "stopped: not armed, release the sticks and the dead-man button once"
 ANOTHER = "another joystick node sends, whose sticks and dead-man button were not seen released"
+NO_AUTOREPEAT = "For a joystick without autorepeat, or a recording of one, set ~joy_timeout to 0."
 BAD_MESSAGE = "stopped: bad joystick message"
 ARMED = "armed: hold the dead-man button to drive"
 WARNS_BEFORE_S = 0.5  # before the stop, when a joystick does not change
@@ -133,7 +134,7 @@ class Safety:
         if not self._hears:
             self._hears = True
             self._wake()  # the watch over the silence begins
-        if not self.arming.hear(rests, now):
+        if not self.arming.hear(rests):
             return self._refuse(self._unarmed, now)
         if velocity is None:
             return self._refuse(ARMED, now)
@@ -180,6 +181,8 @@ class Safety:
         if why == self._stillness:
             self._unarmed = self.state
             self._warn(f"Stopped: {why}.")
+        if why == self._silence and self._sent != ZERO:
+            self._warn(f"Stopped: {why}. {NO_AUTOREPEAT}")
         if self._parameters.arm_on_neutral:
             self.arming.lose()
         # A robot that stands needs no zero, and its multiplexer no claim to drive it.

@@ -1,20 +1,20 @@
-"""Every state of the multiplexer's rules (Arbiter, Arming, Resumption), judged by (c) to (f).
+"""Every state of the multiplexer's rules (Arbiter, Sender), judged by (c) to (f).
 
-Clocks: when each input falls silent, one for each sender, the end of a suspension's settling.
-Thresholds: timeouts of 0.5 s and 0.25 s, REARM_S 0.5 s, SETTLING_S 0.25 s. They are asked in the
-order of the node.
+Clocks: when each input falls silent; each sender's last command, and its first after a silence.
+Thresholds: timeouts of 0.5 s and 0.25 s, SILENCE_S 0.5 s, SETTLING_S 0.25 s. TOGETHER_S lies
+between two steps of time. They are asked in the order of the node.
 """
 
 import math
 from typing import NamedTuple, Tuple
 
-from fake_turtlebot_sim.mux.arbitration import REARM_S, Arbiter, Verdict
+from fake_turtlebot_sim.mux.arbitration import Arbiter, Sender, Verdict
 from fake_turtlebot_sim.mux.parameters import Input
-from node_kit.arming import SETTLING_S, Arming, Resumption
 from tutorial_faults.events import Command, Through
-from tutorial_faults.explore import PASS, SUSPENDED, TICK, World, key_of, until
+from tutorial_faults.explore import PASS, TICK, World, key_of, until
 from tutorial_faults.invariants import (
-    REST_S,
+    AT_ONCE_S,
+    SILENCE_S,
     HighestSpeaks,
     NeverLate,
     WithinLimits,
@@ -22,7 +22,7 @@ from tutorial_faults.invariants import (
     moves,
 )
 
-HORIZON_S = REST_S + 1e-6  # the silence that counts is more than REST_S
+HORIZON_S = SILENCE_S + 1e-6  # the silence that counts is more than SILENCE_S
 ZERO, FORWARD = (0.0,) * 6, (0.5,) + (0.0,) * 5
 NOT_FINITE = (math.nan,) + (0.0,) * 5
 
@@ -32,8 +32,7 @@ class Configuration(NamedTuple):
 
     inputs: Tuple[Input, ...]
     speakers: Tuple[Tuple[str, str], ...]  # (input, sender)
-    step_s: float = 0.05  # in which time passes: 0.25 s for four clocks
-    is_suspended: bool = True  # now and then
+    step_s: float = 0.0625  # in which time passes: 0.25 s for three clocks
 
     def events(self):
         """Return the events, by name."""
@@ -42,31 +41,22 @@ class Configuration(NamedTuple):
             for name, sender in self.speakers
             for what, velocity in (("zero", ZERO), ("forward", FORWARD), ("NaN", NOT_FINITE))
         }
-        others = (PASS, TICK, SUSPENDED) if self.is_suspended else (PASS, TICK)
-        return {**{name: name for name in others}, **commands}
+        return {PASS: PASS, TICK: TICK, **commands}
 
 
-STICK = Input("stick", "stick", 0.5, 7, rearm_on_zero=True)
+STICK = Input("stick", "stick", 0.5, 7)
 PROGRAM = Input("program", "program", 0.5, 5)
-OTHER = Input("other", "other", 0.25, 1)
 CONFIGURATIONS = {
-    "a stick and a program": Configuration((STICK, PROGRAM), (("stick", "ada"), ("program", "-"))),
+    "a stick and a program": Configuration(
+        (STICK, PROGRAM), (("stick", "ada"), ("program", "-")), step_s=0.125
+    ),
     "two sticks on one input": Configuration(
-        (STICK,), (("stick", "ada"), ("stick", "bob")), step_s=0.125, is_suspended=False
+        (STICK,), (("stick", "ada"), ("stick", "bob")), step_s=0.125
     ),
-    "three programs": Configuration(
-        (Input("top", "top", 0.5, 9), PROGRAM, OTHER),
-        (("top", "-"), ("program", "-"), ("other", "-")),
-        step_s=0.0625,
-        is_suspended=False,
-    ),
+    "one sender": Configuration((STICK,), (("stick", "ada"),)),
 }
-
-
-PARTS = {
-    "_arbiter": {"_expiry_s": {}, "_senders": {}}, "_resumption": {}, "_late": {},
-    "_speaks": {"spoke_s": {}},
-}  # fmt: skip
+PAST, FUTURE = {"heard_s", "doubt_s", "last_s", "first_s"}, {"late_until_s"}
+PARTS = {"_arbiter": {"_expiry_s": {}, "_senders": {}}, "_late": {}, "_speaks": {"spoke_s": {}}}
 
 
 class ArbiterWorld(World):
@@ -77,9 +67,7 @@ class ArbiterWorld(World):
         super().__init__(configuration.step_s, PARTS)
         self._inputs = {one.name: one for one in configuration.inputs}
         self._arbiter = Arbiter(configuration.inputs)
-        self._resumption = Resumption()
         self._sent = ZERO
-        self._settled_s = -math.inf  # what comes before was sent during a suspension
         self._late = {}  # (input, sender) -> NeverLate
         self._speaks = HighestSpeaks(
             {one.name: (one.priority, one.timeout) for one in configuration.inputs}
@@ -89,13 +77,11 @@ class ArbiterWorld(World):
     def key(self):
         """Return all that decides what follows."""
         now, arbiter, known = self._now, self._arbiter, self._arbiter._senders
-        parts = {"_inputs", "_expiry_s", "_senders"}
         # Of two senders on one input it does not matter which is which.
-        new = Arming(rest_s=REARM_S)
-        past = {"since", "last_s", "rests_since_s"}
+        new = Sender()
 
         def sender_key(one):
-            return key_of(one, now, HORIZON_S, past=past, without={"_rest_s"})
+            return key_of(one, now, HORIZON_S, past=PAST, future=FUTURE)
 
         senders = [
             (key[0], sender_key(known.get(key, new)), sender_key(one))
@@ -103,27 +89,17 @@ class ArbiterWorld(World):
         ]
         spoke_s = self._speaks.spoke_s.items()
         return (
-            key_of(arbiter, now, without=parts),
+            key_of(arbiter, now, without={"_inputs", "_expiry_s", "_senders"}),
             *[until(now, time) for time in arbiter._expiry_s.values()],
             *[until(now, time + self._inputs[name].timeout) for name, time in spoke_s],
             tuple(sorted(senders, key=repr)),
-            until(now, self._resumption._settled_at),
-            until(now, self._settled_s),
-            self._resumption._needs_stop,
             self._sent,
         )
 
     def _happen(self, event):
         if event == TICK:
             return self._tick()
-        if event != SUSPENDED:
-            return self._command(event._replace(at_s=self._now))
-        assert self._resumption.notice(self._resumption._seen + 1, self._now)
-        self._sent, self._settled_s = ZERO, self._now + SETTLING_S
-        self._arbiter.lost()
-        for one in self._late.values():
-            one.lost(self._now)
-        return ()
+        return self._command(event._replace(at_s=self._now))
 
     @property
     def _speaking(self):
@@ -135,38 +111,57 @@ class ArbiterWorld(World):
         ]
 
     def _tick(self):
-        if self._arbiter.must_stop(self._now):
+        now = self._now
+        waiting = {
+            key: one.waiting
+            for key, one in self._arbiter._senders.items()
+            if one.waiting is not None and now - self._late[key].last_s >= AT_ONCE_S
+        }
+        for (name, sender), velocity in waiting.items():
+            self._speaks.take(Command(now, name, velocity, sender))
+        through = list(self._arbiter.waited(now))
+        for velocity, sender in through:
+            name = next(name for name, one in waiting if one == sender)
+            yield from self._through(Command(now, name, velocity, sender))
+        if any(name == one.name for name, _ in waiting for one in self._highest()) and not through:
+            yield "e", "the highest that speaks has waited, and does not go through"
+        if self._arbiter.must_stop(now):
             self._sent = ZERO
         if moves(self._sent) and not self._speaking:
             yield "d", "no stop, though all inputs are silent"
-        lull_s = self._arbiter.lull(self._now)
+        lull_s = self._arbiter.lull(now)
         shortest_s = min(one.timeout for one in self._inputs.values())
         spoke_s = self._speaks.spoke_s
-        ends_s = [spoke_s[one.name] + one.timeout - self._now for one in self._speaking]
+        ends_s = [spoke_s[one.name] + one.timeout - now for one in self._speaking]
         if not 0 < lull_s <= shortest_s or (moves(self._sent) and lull_s > max(ends_s, default=0)):
             yield "d", f"asleep for {lull_s} s, and something is due sooner"
 
+    def _highest(self):
+        return sorted(self._speaking, key=lambda one: one.priority)[-1:]
+
     def _command(self, command):
         name, velocity, now = command.input, command.velocity, self._now
-        if self._resumption.is_old(now):
-            return
         verdict = self._arbiter.command(name, velocity, now, command.sender)
-        counts = all(map(math.isfinite, velocity)) and not self._is_late(command)
-        if counts:
-            self._speaks.take(command)
-        if verdict is not Verdict.OBEYED:
-            highest = max(self._speaking, key=lambda one: one.priority, default=None)
-            if counts and highest.name == name:
-                yield "e", f"{name} is the highest that speaks, and not obeyed"
+        if not all(map(math.isfinite, velocity)):
+            if verdict is not Verdict.REJECTED:
+                yield "c", "a command that is not finite is not rejected"
             return
-        self._sent = velocity
-        for violation in judged([Through(now, name, velocity)], self._limits, self._speaks):
-            yield violation.invariant, violation.what
-        if moves(velocity) and (not counts or now < self._settled_s):
-            yield "f", f"a late command of {command.sender} is obeyed"
+        guard = self._late.setdefault((name, command.sender), NeverLate())
+        is_first = guard.take(velocity, now)
+        if moves(velocity) and (is_first or guard.late(now)):
+            if verdict is Verdict.OBEYED:
+                yield "f", f"a late command of {command.sender} is obeyed"
+            return
+        self._speaks.take(command)
+        if verdict is Verdict.OBEYED:
+            yield from self._through(command)
+        elif self._highest()[0].name == name:
+            yield "e", f"{name} is the highest that speaks, and not obeyed"
 
-    def _is_late(self, command):
-        if not self._inputs[command.input].rearm_on_zero:
-            return False
-        guard = self._late.setdefault((command.input, command.sender), NeverLate())
-        return guard.late(command.velocity, self._now)
+    def _through(self, command):
+        self._sent = command.velocity
+        through = Through(self._now, command.input, command.velocity)
+        for violation in judged([through], self._limits, self._speaks):
+            yield violation.invariant, violation.what
+        if moves(command.velocity) and self._late[command.input, command.sender].late(self._now):
+            yield "f", f"a late command of {command.sender} is obeyed"

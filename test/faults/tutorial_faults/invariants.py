@@ -13,8 +13,9 @@ from tutorial_faults.events import Command, Joy, Loss, Through, Twist, Velocity,
 
 # Silence after which a base stops by itself [s]: fake_turtlebot's ~cmd_vel_timeout and a Kobuki's.
 BASE_TIMEOUT_S = 0.6
-# A sender that fell silent while it drove must rest as long before it moves the robot again [s].
-REST_S = 0.5
+# A sender that is silent for longer while it drives may be cut off [s]. What the network then kept
+# arrives with less than this between two commands, and until this time after the first one [s].
+SILENCE_S, AT_ONCE_S, DELIVERED_S = 0.5, 0.02, 0.25
 ROUNDING = 1e-9  # of a float64, as part of a limit
 
 
@@ -161,29 +162,27 @@ class HighestSpeaks:
 
 
 class NeverLate:
-    """(f) No late command after a cut: a sender that fell silent in a motion rests first."""
+    """(f) No late command after a cut: of those that come at once after a silence none moves.
 
-    def __init__(self, rest_s: float = REST_S) -> None:
-        """rest_s: silent for longer [s], and so long nothing but zero before it moves again."""
-        self._rest_s = rest_s
-        self.held = self.moving = False
-        self.last_s = -math.inf  # the last command, if it was a motion
-        self.rests_since_s = math.inf  # the first zero after a motion
+    A command that comes alone may be a slow sender's.
+    """
 
-    def late(self, velocity: Velocity, now: float) -> bool:
-        """Take a command of one sender; return whether it must not go through."""
-        if self.moving and now - self.last_s > self._rest_s:
-            self.held = True
-        if moves(velocity):
-            self.held = self.held and now - self.rests_since_s < self._rest_s
-            self.rests_since_s = math.inf
-        elif self.moving:
-            self.rests_since_s = now
+    def __init__(self) -> None:
+        self.moving = False
+        self.last_s = self.first_s = -math.inf  # the last command; the first after a silence
+        self.is_backlog = False  # several came at once since then
+
+    def take(self, velocity: Velocity, now: float) -> bool:
+        """Take a command of one sender; return whether it is the first after a silence."""
+        since_s, self.last_s = now - self.last_s, now
+        is_first = self.moving and since_s > SILENCE_S
         self.moving = moves(velocity)
-        self.last_s = now if self.moving else -math.inf  # only a motion can be broken off
-        return self.held and self.moving
+        if is_first:
+            self.first_s, self.is_backlog = now, False
+        elif since_s < AT_ONCE_S and now - self.first_s < DELIVERED_S:
+            self.is_backlog = True
+        return is_first
 
-    def lost(self, now: float) -> None:
-        """Treat a suspended receiver as a sender that fell silent while it drove."""
-        self.held = self.moving = True
-        self.last_s, self.rests_since_s = now, math.inf
+    def late(self, now: float) -> bool:
+        """Return whether no motion of this sender may go through now."""
+        return self.is_backlog and now - self.first_s < DELIVERED_S

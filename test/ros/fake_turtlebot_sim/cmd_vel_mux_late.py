@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The mux when a network breaks, when a program is started anew, and at its own end."""
+"""The mux after a suspension, with programs of many rhythms, and at its own end."""
 
 import contextlib
 import time
@@ -16,8 +16,8 @@ from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
 TELEOP = "/cmd_vel_mux/input/teleop"
-OUTAGE_S = REST_S = 1.0  # twice the silence that tells, and the rest that is asked for
-# More than is read at once, with rests that were rests when they were sent.
+OUTAGE_S = 1.0
+# More than is read at once.
 BACKLOG = ([0.3] * 500 + [0.0] * 500) * 3 + [0.3] * 500  # [m/s]
 
 
@@ -62,13 +62,31 @@ class LateTest(RosTest):
             wait_for(lambda: not connection._queue, "end of sending")
         wait_for(self.warnings, "warning that it was suspended")
 
-        # A rest of now.
-        rested_s = time.monotonic() + REST_S
-        wait_for(lambda: teleop.publish(twist(0.0)) or time.monotonic() > rested_s, "end of rest")
         wait_for(lambda: teleop.publish(twist(0.4)) or self.driven[-1] == 0.4, "a command of now")
         # What was sent before it on the same connection was also received before it.
         self.assertEqual(set(self.driven), {0.2, 0.0, 0.4})
         self.assertEqual(len(self.warnings()), 1, self.warnings())
+
+    def test_programs_of_many_rhythms_are_obeyed(self):
+        """When each sends, one after the other: test_arbitration.py has more of them."""
+        teleop = self.publisher(TELEOP, Twist)
+        wait_for(teleop.get_num_connections, "subscriber of teleop")
+        rhythms = {
+            "1 Hz": [1.0] * 4,
+            "2 Hz": [0.5] * 6,
+            "10 Hz": [0.1] * 20,
+            "taps": [0.8] * 4,
+            **{f"a key held, {s} s": [s] + [1 / 30] * 20 for s in (0.25, 0.5, 0.66)},
+        }
+        for name, pauses_s in rhythms.items():
+            sent = [round(0.1 + number / 1000, 3) for number in range(len(pauses_s))]
+            for speed, pause_s in zip(sent, pauses_s):
+                teleop.publish(twist(speed))
+                time.sleep(pause_s)
+            obeyed = [speed for speed in self.driven if speed]
+            self.assertGreaterEqual(len(obeyed), 0.95 * len(sent), f"{name}: {obeyed}")
+            self.driven.clear()
+            wait_for(lambda: self.active[-1] == "idle", "silence")
 
     def test_a_program_that_is_started_anew_drives_at_once(self):
         command = ("rostopic", "pub", "-r", "10", TELEOP, "geometry_msgs/Twist")

@@ -1,8 +1,16 @@
 #!/usr/bin/python3
-"""Nodes are suspended, or killed and restarted, while LB is held: only a release lets it drive."""
+"""Nodes are suspended, or killed and restarted: while LB is held only a release lets it drive.
+
+A program that goes on sending is obeyed again.
+"""
 
 import itertools
+import os
 import threading
+import time
+
+import rospy
+from geometry_msgs.msg import Twist, Vector3
 
 from tutorial_testing.nodes import pid_of
 from tutorial_testing.rig import BASE, DRIVER, MUX, TIMEOUT_S, Rig, go_on, stop
@@ -15,6 +23,7 @@ FEW_S = (0.5, 3.0)  # of two nodes, and without a mux; the hunt draws others
 # What a busy machine may add between a node and the next one, and to the stamps of this process.
 BUSY_S = 0.3
 WATCHED_S = 1.2  # after a node is back
+BUSY_LOOP = ("/usr/bin/python3", "-c", "while True: pass")
 
 
 class LostNodes(RosTest):
@@ -90,6 +99,36 @@ class LostNodes(RosTest):
             # The first odometry may still be of the time before.
             moved = [m.stamp - ended for m in self.odometry_after(rig, ended) if m.moves]
             self.assertEqual([late_s for late_s in moved if late_s > 0.1], [])
+
+    def test_a_wanderer_that_never_sends_zero_drives_on_after_a_stall_on_a_busy_machine(self):
+        """At 10 Hz, both processors busy, the base stopped for 1.5 s: within 0.3 s of a command."""
+        for _ in range(os.cpu_count()):
+            self.start(*BUSY_LOOP)
+        with Rig(with_mux=False) as rig:
+            rig.kill(DRIVER)
+            cmd_vel, sent = self.publisher("cmd_vel", Twist, queue_size=1), []
+
+            def wander(_):
+                cmd_vel.publish(Twist(linear=Vector3(x=0.2)))
+                sent.append(time.time())
+
+            timer = rospy.Timer(rospy.Duration(0.1), wander)
+            self.addCleanup(timer.shutdown)
+            delays_s = []
+            for _ in range(3):  # the best of them: this process, too, waits for a processor
+                wait_for(lambda: rig.odometry and rig.now.moves, "robot that drives")
+                base = [pid_of(BASE)]
+                stop(base)
+                threading.Event().wait(1.5)
+                ended = go_on(base)
+                moves = lambda since=ended: [m for m in rig.since(since) if m.moves]  # noqa: E731
+                wait_for(lambda: any(not m.moves for m in rig.since(ended)), "robot that stood")
+                wait_for(lambda: moves()[-1:] == [rig.now], "robot that drives on")
+                first = next(
+                    m for m in itertools.dropwhile(lambda m: m.moves, rig.since(ended)) if m.moves
+                )
+                delays_s.append(first.stamp - next(at_s for at_s in sent if at_s > ended))
+            self.assertLess(min(delays_s), 0.3, delays_s)
 
 
 if __name__ == "__main__":

@@ -24,7 +24,8 @@ JOYSTICK, DRIVER, MUX, BASE = "/joy_node", "/NewJoy2Twist", "/cmd_vel_mux", "/fa
 SAFETY = "/kobuki_safety_controller"
 EVENTS = ("bumper", "cliff", "wheel_drop")  # of the Kobuki
 TIMEOUT_S = 0.6  # of the base
-REST_S = 0.6  # for which a multiplexer wants to see a sender rest
+LAUNCHED = {"arm_on_neutral": True, "joy_timeout": 0.5, "log_rate": 0}  # as the launch files have it
+REST_S = 0.6  # for which all is shown released, until each node has seen it
 
 
 def config(package, name):
@@ -72,7 +73,7 @@ class Rig(Robot):
         if node == JOYSTICK:
             return [node_path("gamepad", "joy_node")], {"dev": self._device}, {}
         if node == DRIVER:
-            preset = {**config("joy2twist", "f710_d.yaml"), "arm_on_neutral": True, "log_rate": 0}
+            preset = {**config("joy2twist", "f710_d.yaml"), **LAUNCHED}
             program, remaps = node_path("joy2twist", "joy2twist.py"), {"cmd_vel": self._velocities}
             return [program], {**preset, **self._joy2twist}, remaps
         simulator = partial(node_path, "fake_turtlebot_sim")

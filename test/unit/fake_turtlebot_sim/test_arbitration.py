@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fake_turtlebot_sim.mux.arbitration import IDLE, REARM_S, Arbiter, Verdict, admits
+from fake_turtlebot_sim.mux.arbitration import IDLE, TOGETHER_S, Arbiter, Verdict
 from fake_turtlebot_sim.mux.parameters import Input
-from node_kit.arming import Arming
+from node_kit.arming import SETTLING_S
 
 SAFETY = Input("safety", "input/safety", 0.2, 10)
 TELEOP = Input("teleop", "input/teleop", 1.0, 7)
@@ -22,17 +22,17 @@ STOP = "stop"  # a zero of the mux's own is due
 STORIES = {
     "one input drives, falls silent, and the robot is stopped once": [
         (0.0, "navi", 0.1, THROUGH, "navi"),
-        (0.9, "navi", 0.1, THROUGH, "navi"),
-        (1.8, None, None, None, "navi"),
-        (1.9, None, None, STOP, IDLE),
-        (2.0, None, None, None, IDLE),
+        (0.5, "navi", 0.1, THROUGH, "navi"),
+        (1.4, None, None, None, "navi"),
+        (1.5, None, None, STOP, IDLE),
+        (1.6, None, None, None, IDLE),
     ],
     "an input that fell silent while it was outranked is not fallen back to": [
         (0.0, "navi", 0.1, THROUGH, "navi"),
         (0.5, "teleop", 0.2, THROUGH, "teleop"),
-        (1.4, "teleop", 0.2, THROUGH, "teleop"),
-        (2.3, None, None, None, "teleop"),
-        (2.4, None, None, STOP, IDLE),
+        (1.0, "teleop", 0.2, THROUGH, "teleop"),
+        (1.9, None, None, None, "teleop"),
+        (2.0, None, None, STOP, IDLE),
     ],
     "after the last fall-back the stop of the robot still comes": [
         (0.0, "safety", -0.1, THROUGH, "safety"),
@@ -46,7 +46,7 @@ STORIES = {
         (1.0, "navi", inf, Verdict.REJECTED, IDLE),
         (1.0, None, None, STOP, IDLE),
         (1.1, "teleop", -inf, Verdict.REJECTED, IDLE),
-        (1.2, "navi", 0.1, THROUGH, "navi"),
+        (1.2, "navi", 0.1, Verdict.WAITS, IDLE),
     ],
 }
 
@@ -84,131 +84,146 @@ SPEEDS = st.sampled_from([0.0, 0.1, -0.1])
 NAMES = st.sampled_from([one.name for one in INPUTS])
 
 
-@given(st.lists(st.tuples(TIMES, NAMES, SPEEDS)))
-def test_who_drives_follows_from_who_spoke_when(events):
-    arbiter, now, spoke_s = Arbiter(INPUTS), 0.0, {}
-    for pause_s, name, speed in events:
-        now += pause_s
-        spoke_s[name] = now
-        verdict = arbiter.command(name, (speed,), now)
-        active = [one for one in INPUTS if now < spoke_s.get(one.name, -inf) + one.timeout]
-        expected = max(active, key=lambda one: one.priority).name
-        assert arbiter.active(now) == expected
-        assert (verdict is THROUGH) == (expected == name)
+class Running:
+    """An Arbiter that is looked at in time, as the node does; what goes through, and when."""
+
+    def __init__(self, inputs=(TELEOP,)):
+        self.arbiter, self.through, self.verdicts, self._now = Arbiter(inputs), [], [], 0.0
+
+    def until(self, now):
+        while self._now < now:
+            self._now = min(now, self._now + max(1e-9, self.arbiter.lull(self._now)))
+            self.through += [(v[0], self._now) for v, _ in self.arbiter.waited(self._now)]
+            self.arbiter.must_stop(self._now)
+
+    def send(self, speed, now, name="teleop", sender=""):
+        self.until(now)
+        self.verdicts.append(self.arbiter.command(name, (speed,), now, sender))
+        if self.verdicts[-1] is THROUGH:
+            self.through.append((speed, now))
 
 
-@given(st.lists(st.tuples(TIMES, NAMES, SPEEDS)))
+@given(st.lists(st.tuples(TIMES, NAMES, SPEEDS, st.integers(0, 9))))
 def test_silence_of_all_leaves_the_robot_standing(events):
-    arbiter, now, last = Arbiter(INPUTS), 0.0, 0.0
-    for pause_s, name, speed in events:
+    running, now = Running(INPUTS), 0.0
+    for pause_s, name, speed, sender in events:
         now += pause_s
-        if arbiter.command(name, (speed,), now) is THROUGH:
-            last = speed
-    assert arbiter.must_stop(now + 1.0) is (last != 0.0)
-    assert not arbiter.must_stop(now + 1.0)
+        running.send(speed, now, name, sender)
+    running.until(now + TOGETHER_S)
+    assert running.arbiter.must_stop(now + 2.0) is bool(
+        running.through
+        and running.through[-1][0] != 0.0
+        and running.arbiter.active(now + TOGETHER_S) != IDLE
+    )
+    assert not running.arbiter.must_stop(now + 2.0)
 
 
-# The same for one sender whose commands may be late: lines of (time [s], velocity, may it move).
+def key(delay_s, times=30, rate=30.0):
+    """Times [s] at which a held key sends: at once, after the delay, then repeated."""
+    return [0.0] + [delay_s + k / rate for k in range(times)]
+
+
+# When an ordinary program sends, and never a zero.
+PROGRAMS = {
+    "1 Hz": [float(k) for k in range(20)],
+    "2 Hz": [k / 2 for k in range(40)],
+    "10 Hz": [k / 10 for k in range(100)],
+    "10 Hz, and a pause": [k / 10 + 3.0 * (k > 50) for k in range(100)],
+    "10 Hz, a busy machine": [k / 10 + 0.7 * (k > 50) for k in range(100)],
+    "taps each 0.8 s": [0.8 * k for k in range(20)],
+    **{f"a key held, first repeat after {s} s": key(s) for s in (0.25, 0.5, 0.66)},
+    "a key tapped, then held": [0.0, 0.8] + [5.0 + s for s in key(0.66)],
+}
+
+
+@pytest.mark.parametrize("times", PROGRAMS.values(), ids=PROGRAMS)
+def test_a_program_is_obeyed_whose_network_is_whole(times):
+    running = Running()
+    for number, now in enumerate(times, start=1):
+        running.send(float(number), now)
+    running.until(times[-1] + 2 * TOGETHER_S)
+    assert [speed for speed, _ in running.through] == list(range(1, len(times) + 1))
+    assert all(s - times[int(n) - 1] <= TOGETHER_S + 1e-9 for n, s in running.through)
+
+
+# What one sender publishes when: lines of (time [s], speed, the Verdict).
+WAITS, LATE = Verdict.WAITS, Verdict.LATE
 LATE_STORIES = {
-    "a network is restored: of the commands of meanwhile not one moves the robot": [
-        (0.0, 0.2, True),
-        (5.0, 0.2, False),
-        (5.0, 0.3, False),
-        (5.01, 0.3, False),
-        (5.1, 0.3, False),  # this one is of now, but who can tell
+    "a network is restored: of what came meanwhile nothing moves the robot, the next does": [
+        (0.0, 0.2, THROUGH),
+        (5.0, 0.2, WAITS),
+        (5.0, 0.3, LATE),
+        (5.001, 0.3, LATE),
+        (5.2, 0.3, LATE),  # this one may be of now
+        (5.3, 0.4, THROUGH),
     ],
-    "a zero among the late commands does not set the rest of them free": [
-        (0.0, 0.2, True),
-        (5.0, 0.2, False),
-        (5.0, 0.0, True),
-        (5.0, 0.3, False),
-        (5.001, 0.0, True),
-        (5.002, 0.3, False),
+    "a zero among the late commands goes through and frees none of them": [
+        (0.0, 0.2, THROUGH),
+        (5.0, 0.2, WAITS),
+        (5.0, 0.0, THROUGH),
+        (5.0, 0.3, LATE),
+        (5.001, 0.0, THROUGH),
+        (5.002, 0.3, LATE),
     ],
-    "after a rest it moves again": [
-        (0.0, 0.2, True),
-        (5.0, 0.2, False),
-        (5.0, 0.0, True),
-        (5.3, 0.0, True),
-        (5.6, 0.2, True),
-        (5.7, 0.2, True),
+    "a zero is the first of the late commands": [
+        (0.0, 0.2, THROUGH),
+        (5.0, 0.0, THROUGH),
+        (5.0, 0.3, LATE),
     ],
-    "a rest that is too short is none, and begins anew": [
-        (0.0, 0.2, True),
-        (5.0, 0.0, True),
-        (5.4, 0.2, False),
-        (5.5, 0.0, True),
-        (5.9, 0.2, False),
-        (6.0, 0.0, True),
-        (6.6, 0.2, True),
+    "the first of them comes before the others": [
+        (0.0, 0.2, THROUGH),
+        (5.0, 0.2, WAITS),
+        (5.1, 0.3, THROUGH),
+        (5.101, 0.3, LATE),
+        (5.2, 0.3, LATE),
+    ],
+    "after a zero there is nothing that could be late": [
+        (0.0, 0.2, THROUGH),
+        (0.1, 0.0, THROUGH),
+        (5.0, 0.2, THROUGH),
+        (5.0, 0.3, THROUGH),
     ],
 }
 
 
 @pytest.mark.parametrize("story", LATE_STORIES.values(), ids=LATE_STORIES)
 def test_late_commands(story):
-    sender = Arming(rest_s=REARM_S)
-    for now, speed, moves in story:
-        assert admits(sender, (speed, 0.0), now) is moves, now
-
-
-@given(st.lists(st.tuples(st.floats(0.0, 1.0), SPEEDS)))
-def test_after_silence_in_a_motion_only_a_rest_sets_free(events):
-    sender, now, held = Arming(rest_s=REARM_S), 0.0, False
-    heard_s, speed_before, rest_s = -inf, 0.0, -inf  # rest_s: since when nothing but zero came
-    for pause_s, speed in events:
-        now += pause_s
-        if speed_before and now - heard_s > REARM_S:
-            held = True
-        if speed and not speed_before and now - rest_s >= REARM_S:
-            held = False
-        assert admits(sender, (speed,), now) is not (held and speed != 0.0)
-        if speed == 0.0 and speed_before:
-            rest_s = now
-        heard_s, speed_before = now, speed
+    running = Running()
+    for now, speed, verdict in story:
+        running.send(speed, now)
+        assert running.verdicts[-1] is verdict, now
 
 
 @given(
-    st.floats(REARM_S, 100.0, exclude_min=True), st.lists(st.tuples(st.floats(0.0, 0.49), SPEEDS))
+    st.floats(0.51, 100.0),
+    st.lists(st.tuples(st.floats(0.0, 0.9 * TOGETHER_S), SPEEDS), min_size=1, max_size=10),
 )
 def test_not_one_command_of_a_late_burst_moves(silence_s, burst):
-    """Whatever is in the burst and however it is spread over half a second."""
-    sender = Arming(rest_s=REARM_S)
-    admits(sender, (0.2,), 0.0)
-    late = [(silence_s + after_s, speed) for after_s, speed in sorted(burst)]
-    assert not any(admits(sender, (speed,), now) and speed for now, speed in late)
-
-
-def test_only_inputs_that_ask_for_it_must_rearm():
-    teleop = Input("teleop", "input/teleop", 1.0, 7, rearm_on_zero=True)
-    arbiter = Arbiter([teleop, NAVI])
-    for name, verdict in (("navi", THROUGH), ("teleop", Verdict.LATE)):
-        now = 10.0 * len(name)
-        assert arbiter.command(name, (0.2,), now) is THROUGH
-        assert arbiter.command(name, (0.2,), now + 5.0) is verdict
-    # A late command keeps nobody active, and who is outranked is watched all the same.
-    assert arbiter.active(now + 5.0) == IDLE
+    """Whatever is in the burst, as long as less than TOGETHER_S lies between two commands."""
+    running, now = Running(), silence_s
+    running.send(0.2, 0.0)
+    running.send(0.3, now)
+    for pause_s, speed in burst:
+        now += pause_s
+        running.send(speed, now)
+    running.until(silence_s + SETTLING_S)
+    assert not any(speed for speed, _ in running.through[1:])
 
 
 def test_what_one_sender_left_is_not_held_against_the_next():
     """Who ends a program in the middle of a motion and starts it anew drives at once."""
-    arbiter = Arbiter([Input("teleop", "input/teleop", 1.0, 7, rearm_on_zero=True)])
+    arbiter = Arbiter([TELEOP])
     assert arbiter.command("teleop", (0.2,), 0.0, "/rostopic_1") is THROUGH
     assert arbiter.command("teleop", (0.2,), 5.0, "/rostopic_2") is THROUGH
-    assert arbiter.command("teleop", (0.2,), 5.1, "/rostopic_1") is Verdict.LATE
+    assert arbiter.command("teleop", (0.2,), 5.1, "/rostopic_1") is WAITS
+    assert arbiter.active(9.0) == IDLE  # what waits, or is late, keeps nobody active
 
 
-@pytest.mark.parametrize("rested_before", [True, False])
-def test_after_the_robot_was_lost_a_sender_moves_it_only_after_a_rest(rested_before):
-    arbiter = Arbiter([Input("teleop", "input/teleop", 1.0, 7, rearm_on_zero=True), NAVI])
-    for name in ("teleop", "navi"):
-        arbiter.command(name, (0.0 if rested_before else 0.2,), 0.0)
-    arbiter.lost()
-    assert arbiter.command("teleop", (0.2,), 0.4) is Verdict.LATE
-    assert arbiter.command("teleop", (0.2,), 5.0) is Verdict.LATE  # silence is no rest
-    assert arbiter.command("teleop", (0.0,), 5.1) is THROUGH
-    assert arbiter.command("teleop", (0.2,), 5.1 + 0.99 * REARM_S) is Verdict.LATE
-    assert arbiter.command("teleop", (0.0,), 6.0) is THROUGH
-    assert arbiter.command("teleop", (0.2,), 6.0 + 1.01 * REARM_S) is THROUGH
-    # Who drives by itself, and not by a stick that is held, goes on.
-    assert arbiter.command("navi", (0.1,), 100.0) is THROUGH
+def test_what_waits_is_outranked_like_any_other():
+    arbiter = Arbiter(INPUTS)
+    for now in (0.0, 5.0):
+        arbiter.command("navi", (0.2,), now)
+    arbiter.command("teleop", (0.1,), 5.01)
+    assert list(arbiter.waited(5.01)) == []
+    assert list(arbiter.waited(5.02)) == []
+    assert arbiter.active(5.02) == "teleop"

@@ -34,20 +34,17 @@ def test_a_turtlebots_own_file():
     assert parameters.publisher == "output"
     assert parameters.subscribers[1] == Input("Teleoperation", "input/teleop", 1.0, 7)
     assert [one.timeout for one in parameters.subscribers] == [0.2, 1.0, 1.0, 1.0, 1.0]
-    assert not any(one.rearm_on_zero for one in parameters.subscribers)
 
 
 def test_our_own_file():
     given = yaml.safe_load((PACKAGE / "config/cmd_vel_mux.yaml").read_text())
     parameters = parse_mux_parameters(given)
     assert parameters.publisher == "output"
-    assert [
-        (one.topic, one.timeout, one.priority, one.rearm_on_zero) for one in parameters.subscribers
-    ] == [
-        ("input/safety_controller", 0.2, 10, False),
-        ("input/teleop", 1.0, 7, True),
-        ("input/switch", 1.0, 6, False),
-        ("input/navi", 1.0, 5, False),
+    assert [(one.topic, one.timeout, one.priority) for one in parameters.subscribers] == [
+        ("input/safety_controller", 0.2, 10),
+        ("input/teleop", 1.0, 7),
+        ("input/switch", 1.0, 6),
+        ("input/navi", 1.0, 5),
     ]
 
 
@@ -71,7 +68,6 @@ def test_our_own_file():
         (with_teleop(topic="input/"), ["entry 1: topic: 'input/'"]),
         (with_teleop(priority=-1), ["entry 1: priority: -1", "whole number"]),
         (with_teleop(short_desc=7), ["entry 1: short_desc: 7", "text"]),
-        (with_teleop(rearm_on_zero="yes"), ["entry 1: rearm_on_zero: 'yes'", "true or false"]),
         (with_teleop(time_out=1.0), ["entry 1: time_out: 1.0", "did you mean timeout?"]),
         ({"subscribers": [TELEOP], "publisher": ""}, ["~publisher: ''", "name of a topic"]),
         (

@@ -7,7 +7,7 @@ it. A defence is a method or a function, so that no edit of its lines changes a 
 import math
 
 from fake_turtlebot_sim.mux import arbitration
-from fake_turtlebot_sim.mux.arbitration import IDLE, Arbiter
+from fake_turtlebot_sim.mux.arbitration import IDLE, Arbiter, Sender, Verdict
 from gamepad.driver import driver
 from gamepad.driver.driver import Driver
 from gamepad.driver.schedule import Schedule
@@ -22,10 +22,10 @@ PLAIN, ARMING, FREE = "dead-man", "dead-man, arming", "no dead-man"
 STOP, STOP_ARMING, VIGILANCE, RAMP = (
     "stop button", "stop button, arming", "vigilance, arming", "ramp, arming",
 )  # fmt: skip
-MUX, PROGRAMS, PAD = "a stick and a program", "three programs", "driver"
+MUX, PAD = "a stick and a program", "driver"
 
 joy, velocity, latch = Teleoperation.joy, Mapping.velocity, Safety.latch
-hear, lost, lose, init = Arming.hear, Driver.lost, Arming.lose, Decoder.__init__
+lost, init = Driver.lost, Decoder.__init__
 
 
 def nothing(*_, **__):
@@ -38,6 +38,11 @@ def no(*_, **__):
 
 def yes(*_, **__):
     return True
+
+
+def obeyed(self, velocity, now):
+    self.heard_s, self.moves = now, any(velocity)
+    return Verdict.OBEYED
 
 
 def unwoken(self, next_output):
@@ -71,11 +76,6 @@ def made_up(self, now):
     return lost(self, now)
 
 
-def without_rest(self, rests, now):
-    self._rest_s = 0.0
-    return hear(self, rests, now)
-
-
 def from_the_last_change(self, now):
     self.due = now + self._interval
 
@@ -97,8 +97,6 @@ DEFENCES = [
     ("only the reset button resets", Mapping, "resets", yes, STOP),
     ("what is not armed is refused", Arming, "hear", yes, ARMING),
     ("a loss disarms", Arming, "lose", nothing, ARMING),
-    ("a loss forgets what was released", Arming, "lose",
-     lambda self: setattr(self, "armed", False), MUX),
     ("all must be released", Mapping, "rests", yes, ARMING),
     ("the sticks must be released", Mapping, "rests",
      lambda self, axes, velocity: velocity is None or self._free, ARMING),
@@ -115,14 +113,14 @@ DEFENCES = [
     ("a suspension stops", Teleoperation, "suspended", nothing, PLAIN),
     ("a joystick node that leaves stops", Teleoperation, "left", nothing, PLAIN),
     ("messages of a suspension are old", Resumption, "is_old", no, PLAIN),
-    ("commands of a suspension are old", Resumption, "is_old", no, MUX),
     ("a command must be finite", arbitration, "isfinite", yes, MUX),
-    ("a sender that was silent rests first", arbitration, "admits", yes, MUX),
-    ("a zero alone is no rest", Arming, "hear", without_rest, MUX),
-    ("a suspension disarms the senders", Arbiter, "lost", nothing, MUX),
+    ("a command after a silence waits", Sender, "judge", obeyed, MUX),
+    ("what waits for no other goes through", Arbiter, "waited", lambda self, now: (), MUX),
+    ("what comes at once is late", arbitration, "TOGETHER_S", 0.0, MUX),
+    ("and all that comes with it", arbitration, "SETTLING_S", 0.0, MUX),
     ("the highest drives", Arbiter, "active", lowest_first, MUX),
     ("silence of all inputs stops", Arbiter, "must_stop", no, MUX),
-    ("the silence is noticed in time", Arbiter, "lull", lambda self, now: 9.0, PROGRAMS),
+    ("the silence is noticed in time", Arbiter, "lull", lambda self, now: 9.0, MUX),
     ("a new gamepad is mute", Driver, "lost", mute_no_longer, PAD),
     ("a loss is published as released", Driver, "lost",
      lambda self, now: lost(self, now)[:0], PAD),

@@ -15,7 +15,7 @@ def test_without_parameters_it_is_the_node_of_the_tutorial():
     p = load({})
     assert p.axes == (Axis(LINEAR_X, 1, 1.0, 1.0), Axis(YAW, 0, 1.0, 1.0))
     assert (p.enable_button, p.enable_turbo_button, p.require_enable_button) == (-1, -1, False)
-    assert (p.joy_timeout, p.log_rate, p.arm_on_neutral) == (0.5, 50.0, False)
+    assert (p.joy_timeout, p.log_rate, p.arm_on_neutral) == (0.0, 50.0, False)
 
 
 @pytest.mark.parametrize(

@@ -17,7 +17,7 @@ LIMITS = {"max_linear_acceleration": 1.0, "output_rate": 10.0}  # 0.1 m/s in eac
 
 
 def safety(**given):
-    return Safety(load(given), wake=lambda: None)
+    return Safety(load({"joy_timeout": 0.5, **given}), wake=lambda: None)
 
 
 # What happens, by name. A stick may be pushed while the dead-man button is released.
@@ -222,7 +222,8 @@ class TestAccelerationLimits:
 
 def test_wake_is_called_when_something_becomes_due_sooner():
     woken = []
-    machine = Safety(load(DEAD_MAN), wake=lambda: woken.append(machine.due))
+    given = {**DEAD_MAN, "joy_timeout": 0.5}
+    machine = Safety(load(given), wake=lambda: woken.append(machine.due))
     for now in (0.0, 0.1):
         machine.drive(FORWARD, False, now)
         assert woken == [0.5]  # the watch over the silence

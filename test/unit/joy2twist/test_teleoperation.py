@@ -137,7 +137,7 @@ def test_a_stop_that_was_pressed_during_a_suspension_counts():
 
 
 def test_diagnostics():
-    machine, _ = teleoperation(enable_button=0)
+    machine, _ = teleoperation(enable_button=0, joy_timeout=0.5)
     assert machine.summary(0.0) == (
         False,
         "waiting for the joystick",

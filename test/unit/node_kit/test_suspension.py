@@ -14,20 +14,17 @@ def test_what_a_receiver_obeys_after_suspensions():
     resumption = Resumption()
     assert SETTLING_S == 0.25  # less than joy2twist's ~joy_timeout, more than a full socket takes
     assert not resumption.is_old(0.0)
-    steps = [  # (now, number of suspensions, new, old, a motion is held, a stop is held)
-        (5.0, 0, False, False, False, False),
-        (6.0, 3, True, True, True, False),
-        (6.1, 3, False, True, True, False),  # a stop is always obeyed, but this one is old
-        (6.25, 3, False, False, True, False),
-        (6.3, 3, False, False, False, False),  # that stop was new
-        (7.0, 1, True, True, True, False),  # any other number is new
-        (500.0, 1, False, False, True, False),
+    steps = [  # (now, number of suspensions, new, old)
+        (5.0, 0, False, False),
+        (6.0, 3, True, True),
+        (6.1, 3, False, True),
+        (6.25, 3, False, False),
+        (7.0, 1, True, True),  # any other number is new
+        (500.0, 1, False, False),
     ]
-    for now, number, new, old, holds_motion, holds_stop in steps:
+    for now, number, new, old in steps:
         assert resumption.notice(number, now) is new, now
         assert resumption.is_old(now) is old, now
-        assert resumption.holds(False, now) is holds_motion, now
-        assert resumption.holds(True, now) is holds_stop, now
 
 
 @pytest.fixture

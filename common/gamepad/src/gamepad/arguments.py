@@ -60,9 +60,9 @@ def robot(value: str) -> None:
 
 
 def preset(value: str) -> None:
-    """Check for the path of a preset of joy2twist."""
+    """Check for the path of a preset of joy2twist, or none."""
     path = Path(value)
-    if not path.is_file():
+    if value != "none" and not path.is_file():
         names = ", ".join(sorted(one.stem for one in path.parent.glob("*.yaml")))
         raise ValueError(f"there is none of this name; there are {names}")
 
@@ -71,9 +71,9 @@ def _is_port(value: str) -> bool:
     return bool(re.fullmatch(r"\d{1,5}", value)) and 1 <= int(value) <= 65535
 
 
-def _is_timeout(value: str) -> bool:
+def _is_timeout(value: str, least: float = 1.0) -> bool:
     number = float(value) if re.fullmatch(r"\d+(\.\d*)?", value) else -1
-    return number == 0 or 1 <= number <= 60
+    return number == 0 or least <= number <= 60
 
 
 true_or_false = Check("true or false", re.compile("(?i:true|false)|1|0").fullmatch)
@@ -85,6 +85,7 @@ RULES: dict[str, Callable[[str], object]] = {
     "cockpit_port": Check("a port, a number from 1 to 65535", _is_port),
     "joy_config": preset,
     "joy_pkg": driver,
+    "joy_timeout": Check("a number up to 60 s, or 0 for off", lambda v: _is_timeout(v, 0.0)),
     "joystick": Check("gamepad or browser", ("gamepad", "browser").__contains__),
     "lan": true_or_false,
     "loop": true_or_false,
@@ -117,8 +118,13 @@ def assignment(argument: str) -> tuple[str, str]:
 def main() -> None:
     """Check NAME:=VALUE ...; exit with code 1, with a line, at the first that will not do."""
     try:
-        for argument in sys.argv[1:]:
-            check(*assignment(argument))
+        given = dict(assignment(argument) for argument in sys.argv[1:])
+        for name, value in given.items():
+            check(name, value)
+        if "none" not in (given.get("bag", "none"), given.get("joy_config", "none")):
+            from gamepad.dead_man import check_recording  # noqa: PLC0415  rosbag takes a while
+
+            check_recording(given["bag"], given["joy_config"])
     except ValueError as error:
         sys.exit(f"roslaunch: {error}")
     print("true")  # roslaunch makes a parameter of it

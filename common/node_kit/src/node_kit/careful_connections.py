@@ -18,7 +18,8 @@ from typing import Any, Callable
 
 from rospy.exceptions import TransportException
 from rospy.impl.masterslave import ROSHandler
-from rospy.impl.tcpros_base import TCPROSServer
+from rospy.impl.tcpros import get_tcpros_handler
+from rospy.impl.tcpros_base import TCPROS, TCPROSServer
 from rospy.impl.tcpros_pubsub import TCPROSSub
 from rospy.msg import deserialize_messages
 
@@ -70,6 +71,27 @@ def has_sender(subscriber: Any) -> bool:
 def connection_of(message: Any) -> object:
     """Return an object that is the same (`is`) for the messages of one connection only."""
     return message._connection_header
+
+
+def header_of(message: Any) -> dict[str, str]:
+    """Return the header of the connection by which a message came: what its publisher declared."""
+    return message._connection_header
+
+
+def connections(subscriber: Any) -> list[object]:
+    """Return what connection_of() gives for messages that come to a rospy.Subscriber by now."""
+    return [one.header for one in list(subscriber.impl.connections)]
+
+
+def renew(subscriber: Any) -> None:
+    """Connect a rospy.Subscriber anew to each of its publishers; what waits to be read is lost."""
+    for one in list(subscriber.impl.connections):
+        if one.dest_address:
+            address = [TCPROS, *one.dest_address]
+            # rospy drops the old connection to the same publisher.
+            get_tcpros_handler().create_transport(
+                subscriber.resolved_name, one.endpoint_id, address
+            )
 
 
 def _greet_in_time(self: Any, sock: socket.socket, client_addr: Any) -> None:

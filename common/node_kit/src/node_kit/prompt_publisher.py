@@ -16,6 +16,7 @@ from geometry_msgs.msg import Twist
 from rospy.msg import serialize_message
 
 from node_kit.arming import ZERO, Velocity
+from node_kit.careful_connections import header_of
 from node_kit.newest_only import NewestOnly
 
 Peers = Dict[Any, NewestOnly]  # by rospy's connection
@@ -24,13 +25,20 @@ Peers = Dict[Any, NewestOnly]  # by rospy's connection
 class PromptPublisher(rospy.SubscribeListener):
     """Publishes messages of any type; a subscriber that is behind gets the newest only."""
 
-    def __init__(self, name: str, message_class: type) -> None:
-        """Take the name of the topic, relative, so that it can be remapped. Never latched."""
+    def __init__(
+        self, name: str, message_class: type, headers: dict[str, str] | None = None
+    ) -> None:
+        """Take the name of the topic, relative, so that it can be remapped. Never latched.
+
+        headers: what subscribers find in the header of the connection, besides ROS's own fields.
+        """
         super().__init__()
         self._peers: Peers = {}
         self._sequence = 0
         self._buffer = io.BytesIO()
-        self._publisher = rospy.Publisher(name, message_class, queue_size=1, latch=False)
+        self._publisher = rospy.Publisher(
+            name, message_class, queue_size=1, latch=False, headers=headers
+        )
         self._publisher.impl.set_queue_size(None)  # no threads; given late, it brings no warning
         self._publisher.impl.add_subscriber_listener(self)
         self._update_peers()  # those that subscribed before the listener was added
@@ -89,6 +97,15 @@ class PromptPublisher(rospy.SubscribeListener):
         return NewestOnly(connection.socket)
 
 
+# A field in the header of connections on which a person's hands drive, hold-to-run style.
+_HOLD_TO_RUN = "hold_to_run"
+
+
+def is_hold_to_run(message: Any) -> bool:
+    """Return whether a velocity came from a VelocityPublisher with hold_to_run."""
+    return header_of(message).get(_HOLD_TO_RUN) == "1"
+
+
 # A Twist on the wire, little-endian: the number of bytes that follow (uint32), then linear x, y, z
 # and angular x, y, z (float64). Packed here, because rospy's way takes several times as long.
 _TWIST = struct.Struct("<I6d")
@@ -109,11 +126,14 @@ class VelocityPublisher(PromptPublisher):
     that connects in the middle of a motion, such as a robot that was restarted.
     """
 
-    def __init__(self, name: str, warn: Callable[[str], object]) -> None:
-        """Take warn(line), called when a subscriber is held or free again; it must not wait."""
+    def __init__(self, name: str, warn: Callable[[str], object], hold_to_run: bool = False) -> None:
+        """Take warn(line), called when a subscriber is held or free again; it must not wait.
+
+        hold_to_run: tell a multiplexer that a person's hands drive, who can release the stick.
+        """
         self._warn = warn
         self._holds_new = False  # a new subscriber does not take part in the present motion
-        super().__init__(name, Twist)
+        super().__init__(name, Twist, {_HOLD_TO_RUN: "1"} if hold_to_run else None)
 
     def publish(
         self, velocity: Velocity | None, released: bool = False, hold_new: bool = False

@@ -9,15 +9,18 @@ from __future__ import annotations
 
 from enum import Enum
 from math import inf, isfinite
-from typing import Any, Iterable
+from typing import Any, Iterable, Iterator, Tuple
 
-from node_kit.arming import Arming, Velocity
+from node_kit.arming import SETTLING_S, Velocity
 
 IDLE = "idle"  # what is active when no input is
+Publisher = Tuple[str, bool]  # its name, and whether a person's hands drive, hold-to-run style
 ZERO = (0.0,) * 6  # linear x, y, z [m/s], angular x, y, z [rad/s]
-# After a longer silence in the middle of a motion a sender must rest for as long. The commands of
-# an outage arrive within milliseconds of each other.
-REARM_S = 0.5
+# After a longer silence in the middle of a motion, a command may be one that a broken network kept.
+SILENCE_S = 0.5
+# What a network kept arrives at once. No key repeats as fast (X11: 25 to 30 Hz); a program that
+# sends as fast is obeyed again after SETTLING_S.
+TOGETHER_S = 0.02
 
 
 class Verdict(Enum):
@@ -25,11 +28,41 @@ class Verdict(Enum):
 
     OBEYED = "goes through"
     OUTRANKED = "an input of higher priority is active"
+    WAITS = "goes through after TOGETHER_S, unless another one follows sooner"
     REJECTED = "a command is not a finite number; ignored"
-    LATE = (
-        "fell silent while it drove, so its commands may be late; obeyed again"
-        f" after it has sent nothing but zero for {REARM_S} s"
-    )
+    LATE = "commands that a broken network had kept are ignored; the next ones are obeyed again"
+
+
+class Sender:
+    """Tells the commands that a broken network kept from those of a slow sender.
+
+    When a cable is pulled, TCP keeps what is sent meanwhile and delivers all of it once the cable
+    is back. A Twist has no stamp; but of such commands several arrive at once after a silence.
+    """
+
+    def __init__(self) -> None:
+        self.heard_s = self.doubt_s = -inf  # the last command; the first one after a silence
+        self.late_until_s = -inf
+        self.moves = False  # the last command was not zero
+        self.waiting: Velocity | None = None  # the first command after a silence
+
+    def judge(self, velocity: Velocity, now: float) -> Verdict:
+        """Return the Verdict on a velocity that came now [s]; a zero is always OBEYED."""
+        since_s = now - self.heard_s
+        is_first = self.moves and since_s > SILENCE_S
+        self.heard_s, self.moves, self.waiting = now, any(velocity), None
+        if is_first:
+            self.doubt_s = now
+        elif since_s < TOGETHER_S and now - self.doubt_s < SETTLING_S:
+            self.late_until_s = self.doubt_s + SETTLING_S
+        if not self.moves:
+            return Verdict.OBEYED
+        if now < self.late_until_s:
+            return Verdict.LATE
+        if is_first:
+            self.waiting = velocity
+            return Verdict.WAITS
+        return Verdict.OBEYED
 
 
 class Arbiter:
@@ -39,34 +72,37 @@ class Arbiter:
         """Take parameters.Inputs, whose names and priorities differ."""
         self._inputs = {i.name: i for i in sorted(inputs, key=lambda i: i.priority, reverse=True)}
         self._expiry_s = dict.fromkeys(self._inputs, -inf)
-        self._senders: dict[tuple[str, object], Arming] = {}  # (input, sender) -> its Arming
+        self._senders: dict[tuple[str, Publisher], Sender] = {}  # the first: name of the input
         self._drives = False  # whether the last command that went through was not zero
 
-    def command(self, name: str, velocity: Velocity, now: float, sender: object = "") -> Verdict:
+    def command(
+        self, name: str, velocity: Velocity, now: float, sender: Publisher = ("", False)
+    ) -> Verdict:
         """Return the Verdict on a velocity (numbers, whatever their units) that came now [s].
 
-        sender: distinguishes the publishers of one input, each of which may be late by itself.
+        sender: each of the publishers of one input may be late by itself.
         """
         if not all(map(isfinite, velocity)):
             return Verdict.REJECTED  # and the timeout runs on
-        if self._inputs[name].rearm_on_zero:
-            speaks = self._senders.setdefault((name, sender), Arming(rest_s=REARM_S))
-            if not admits(speaks, velocity, now):
-                return Verdict.LATE  # and the timeout runs on
+        verdict = self._senders.setdefault((name, sender), Sender()).judge(velocity, now)
+        if verdict is not Verdict.OBEYED:
+            return verdict  # and the timeout runs on
+        return self._obey(name, velocity, now)
+
+    def _obey(self, name: str, velocity: Velocity, now: float) -> Verdict:
         self._expiry_s[name] = now + self._inputs[name].timeout
         if self.active(now) != name:
             return Verdict.OUTRANKED
         self._drives = any(velocity)
         return Verdict.OBEYED
 
-    def rearms(self, name: str) -> bool:
-        """Return whether an input must rest after an outage before it moves the robot again."""
-        return bool(self._inputs[name].rearm_on_zero)
-
-    def lost(self) -> None:
-        """Disarm all senders on inputs with rearm_on_zero: this node was suspended."""
-        for sender in self._senders.values():
-            sender.lose()
+    def waited(self, now: float) -> Iterator[tuple[Velocity, Publisher]]:
+        """Yield each command, with its sender, that waited for TOGETHER_S and goes through now."""
+        for (name, sender), one in self._senders.items():
+            if one.waiting is not None and now - one.heard_s >= TOGETHER_S:
+                velocity, one.waiting = one.waiting, None
+                if self._obey(name, velocity, now) is Verdict.OBEYED:
+                    yield velocity, sender
 
     def active(self, now: float) -> str:
         """Return the name of the active input at the time now [s], or IDLE."""
@@ -83,25 +119,12 @@ class Arbiter:
         return must_stop
 
     def lull(self, now: float) -> float:
-        """Return the time [s] until the active input expires, at most the shortest timeout.
+        """Return the time [s] until the active input expires or a command has waited.
 
-        A look after that time is late for no input, even for one that starts now.
+        It is at most the shortest timeout: a look after that is late for no input, even for one
+        that starts now.
         """
-        expiry_s = self._expiry_s.get(self.active(now), inf)
-        return min(expiry_s - now, *(i.timeout for i in self._inputs.values()))
-
-
-def admits(sender: Arming, velocity: Velocity, now: float) -> bool:
-    """Return whether a sender's velocity that came now [s] may go through; a zero always may.
-
-    When a network cable is pulled, TCP keeps what is sent meanwhile and delivers all of it once the
-    cable is back. A Twist has no stamp; what gives such commands away is the silence before them.
-    A zero among them must not set the rest free, hence a rest of REARM_S.
-    """
-    if not sender.rests and now - sender.since > REARM_S:
-        sender.lose()
-    is_zero = not any(velocity)
-    may_move = sender.hear(is_zero, now)
-    if not is_zero:
-        sender.since = now
-    return may_move or is_zero
+        waiting = (one.heard_s for one in self._senders.values() if one.waiting is not None)
+        due_s = min((heard_s + TOGETHER_S for heard_s in waiting), default=inf)
+        due_s = min(due_s, self._expiry_s.get(self.active(now), inf))
+        return max(0.0, min(due_s - now, *(i.timeout for i in self._inputs.values())))

@@ -10,19 +10,20 @@ import rospy
 from geometry_msgs.msg import Twist
 from std_msgs.msg import String
 
-from fake_turtlebot_sim.mux.arbitration import IDLE, ZERO, Arbiter, Verdict
+from fake_turtlebot_sim.mux.arbitration import IDLE, ZERO, Arbiter, Publisher, Verdict
 from fake_turtlebot_sim.mux.parameters import MuxParameters, parse_mux_parameters
-from node_kit.arming import Resumption, Velocity
+from node_kit.arming import Velocity
 from node_kit.careful_connections import report_bad_messages, sender_of
+from node_kit.fresh_only import FreshOnly
 from node_kit.log import Log
-from node_kit.prompt_publisher import VelocityPublisher
+from node_kit.prompt_publisher import VelocityPublisher, is_hold_to_run
 from node_kit.start import run
-from node_kit.suspension import Suspensions
 from node_kit.throttle import ThrottleEach
 
 NODE_NAME = "cmd_vel_mux"
 SHUTDOWN_CHECK_S = 0.1  # how long a shutdown may go unnoticed
 WARNING_PERIOD_S = 10.0  # how often the same is reported of an input, at most
+BURST = 100  # commands read at once, at most: that several come together shows that they are late
 
 
 class CmdVelMux:
@@ -41,8 +42,8 @@ class CmdVelMux:
         self._may_warn = ThrottleEach(1.0 / WARNING_PERIOD_S)
         self._lock = threading.Lock()  # one command at a time, and none after the last zero
         self._has_ended = False
-        self._suspensions = Suspensions()
-        self._resumption = Resumption()
+        self._fresh = FreshOnly()
+        self._wake = threading.Event()  # set when a command waits
         self._output = VelocityPublisher(_in_own_namespace(parameters.publisher), self._log.warn)
         # A state, unlike a velocity, may be latched; the queue holds a burst of changes.
         self._active = rospy.Publisher("~active", String, queue_size=10, latch=True)
@@ -50,50 +51,60 @@ class CmdVelMux:
         rospy.on_shutdown(self._end)
         self._look()
         for one in parameters.subscribers:
-            # Only the newest counts, so none may wait behind it.
-            rospy.Subscriber(
+            subscriber = rospy.Subscriber(
                 _in_own_namespace(one.topic), Twist, self._on_command, callback_args=one.name,
-                queue_size=1, tcp_nodelay=True,
+                queue_size=BURST, tcp_nodelay=True,
             )  # fmt: skip
+            self._fresh.watch(subscriber)
 
     def spin(self) -> None:
         """Notice inputs that fall silent, until shut down. The clock is one that nobody can set."""
         while not rospy.is_shutdown():
-            time.sleep(min(self._look(), SHUTDOWN_CHECK_S))
+            self._wake.wait(min(self._look(), SHUTDOWN_CHECK_S))
 
     def _on_command(self, twist: Any, name: str) -> None:
         linear, angular = twist.linear, twist.angular
         velocity: Velocity = (linear.x, linear.y, linear.z, angular.x, angular.y, angular.z)
-        sender = sender_of(twist)
+        sender = sender_of(twist), is_hold_to_run(twist)
         with self._lock:
             now = time.monotonic()
-            self._notice_suspension(now)
-            if self._resumption.is_old(now):
+            self._notice_suspension()
+            if self._fresh.is_old(twist):
                 return
             verdict = self._arbiter.command(name, velocity, now, sender)
-            if verdict is Verdict.OBEYED and not self._has_ended:
-                # A stick that is held does not move a robot that was lost or is new; a program
-                # that drives does.
-                is_stick = self._arbiter.rearms(name)
-                self._output.publish(velocity, velocity == ZERO or not is_stick, is_stick)
-            self._report(self._arbiter.active(now))
+            active = self._arbiter.active(now)
+            if verdict is Verdict.OBEYED:
+                self._drive(velocity, sender)
+            elif verdict is Verdict.LATE and active == name:
+                self._drive(ZERO, sender)  # the first of them may have gone through
+            elif verdict is Verdict.WAITS:
+                self._wake.set()
+            self._report(active)
         if verdict in (Verdict.REJECTED, Verdict.LATE):
             line = f"{name}: {verdict.value}"
             if self._may_warn.ready(line, now):
                 self._log.warn(line)
 
-    def _notice_suspension(self, now: float) -> None:
+    def _drive(self, velocity: Velocity, sender: Publisher) -> None:
+        """Publish; a stick that is held does not move a robot that was lost, a program does."""
+        if not self._has_ended:
+            _, is_stick = sender
+            self._output.publish(velocity, velocity == ZERO or not is_stick, is_stick)
+
+    def _notice_suspension(self) -> None:
         """Stop the robot if this process was suspended: what is in its sockets is old."""
-        if self._resumption.notice(self._suspensions.number(), now):
+        if self._fresh.notice():
             self._output.publish(ZERO)
-            self._arbiter.lost()
-            self._log.warn("This node was suspended. Who drives must release the sticks once.")
+            self._log.warn("This node was suspended. What was sent meanwhile is not obeyed.")
 
     def _look(self) -> float:
         """Act upon silence; return for how long [s] nothing will be due."""
+        self._wake.clear()
         with self._lock:
             now = time.monotonic()
-            self._notice_suspension(now)
+            self._notice_suspension()
+            for velocity, sender in self._arbiter.waited(now):
+                self._drive(velocity, sender)
             if self._arbiter.must_stop(now) and not self._has_ended:
                 self._output.publish(ZERO)
             self._report(self._arbiter.active(now))

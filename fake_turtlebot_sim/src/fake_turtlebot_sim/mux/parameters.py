@@ -10,7 +10,7 @@ from dataclasses import MISSING, dataclass
 from typing import Any, Mapping
 
 from fake_turtlebot_sim.mux.arbitration import IDLE
-from node_kit.parameters import checked, number, parameter, switch, text, whole_number
+from node_kit.parameters import checked, number, parameter, text, whole_number
 
 EXAMPLE = "as in subscribers: [{name: teleop, topic: input/teleop, timeout: 1.0, priority: 7}]"
 _TOPIC = text(
@@ -25,7 +25,7 @@ _NAME = text(
 
 @dataclass(frozen=True)
 class Input:
-    """A source of commands: one entry of ~subscribers. rearm_on_zero is a key of ours."""
+    """A source of commands: one entry of ~subscribers."""
 
     name: str = parameter(MISSING, _NAME, "what `~active` calls it")
     topic: str = parameter(MISSING, _TOPIC, "below the node's name, unless it begins with `/`")
@@ -40,7 +40,6 @@ class Input:
         "the highest wins; no two are the same",
     )
     short_desc: str = parameter("", text(), "for people")
-    rearm_on_zero: bool = parameter(False, switch, "see below; not a key of yocs_cmd_vel_mux")
 
 
 def _inputs(value: Any) -> tuple[Input, ...]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from math import pi, tau
+from math import inf, pi, tau
 from typing import Any, Mapping
 
 from fake_turtlebot_sim.simulator.differential_drive import Pose
@@ -72,15 +72,17 @@ class Parameters:
 
     rate: float = parameter(50.0, number(5, 1000, "Hz"), "of odometry, transform and wheels")
     cmd_vel_timeout: float = parameter(
-        0.6, number(0.02, 60.0, "s"), "after which a command counts no more"
+        0.6, number(0.02, 60.0, "s, or 0: never", off=0.0), "after which a command counts no more"
     )
     publish_tf: bool = parameter(
         True, switch, "false leaves the transform to another node, such as a filter"
     )
     wheel_separation: float = parameter(0.23, number(0.01, 10.0, "m"))
     wheel_radius: float = parameter(0.035, number(0.001, 5.0, "m"))
-    max_linear_speed: float = parameter(0.7, number(0.01, 100.0, "m/s"))
-    max_angular_speed: float = parameter(pi, number(0.01, 100.0, "rad/s"), "180 deg/s", "pi")
+    max_linear_speed: float = parameter(0.7, number(0.01, 100.0, "m/s, or 0: no limit", off=0.0))
+    max_angular_speed: float = parameter(
+        pi, number(0.01, 100.0, "rad/s, or 0: no limit", off=0.0), "180 deg/s", "pi"
+    )
     max_linear_acceleration: float = parameter(
         0.0, _ACCELERATION, "with a limit the robot also needs time to stop"
     )
@@ -137,6 +139,8 @@ class Parameters:
 
     def meeting_reach(self) -> float:
         """Return the distance [m] between two robots beyond which they do not meet in a step."""
+        if not (self.cmd_vel_timeout and self.max_linear_speed):
+            return inf
         longest_s = self.cmd_vel_timeout + 10.0 / self.rate  # as when the machine was busy
         return 1.0 + 2.0 * self.max_linear_speed * longest_s
 

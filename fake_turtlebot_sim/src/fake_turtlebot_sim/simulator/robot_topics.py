@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from typing import Any, Callable
 
 import rospy
@@ -17,7 +16,7 @@ from fake_turtlebot_sim.simulator.parameters import Parameters
 from fake_turtlebot_sim.simulator.ros_clock import Instant, Motion
 from fake_turtlebot_sim.simulator.ros_messages import RobotMessages, between_frames, pose_on_plane
 from fake_turtlebot_sim.simulator.simulated_robot import REST, SimulatedRobot, Verdict
-from node_kit.arming import Resumption
+from node_kit.fresh_only import FreshOnly
 from node_kit.prompt_publisher import PromptPublisher
 
 
@@ -37,10 +36,11 @@ class RobotTopics:
         self.name = name
         self._name = name or "the robot"
         self._motion = motion
-        self._resumption = Resumption()
+        self._fresh = FreshOnly(motion.suspensions)
         self._warn = warn
         self._reported: set[str] = set()
         self._has_ended = False
+        self._timeout_s = parameters.cmd_vel_timeout
         self.rejected = 0
         self.robot = SimulatedRobot(parameters, start_pose, name)
         self.odom_frame = prefix + parameters.odom_frame
@@ -63,13 +63,21 @@ class RobotTopics:
             ("mobile_base/commands/reset_odometry", Empty, self._on_reset_odometry),
         ):
             # Only the newest counts, so none may wait behind it.
-            rospy.Subscriber(prefix + topic, kind, callback, queue_size=1, tcp_nodelay=True)
+            subscriber = rospy.Subscriber(
+                prefix + topic, kind, callback, queue_size=1, tcp_nodelay=True
+            )
+            if kind is Twist:
+                self._fresh.watch(subscriber)
         if name:  # of a single robot the node's own does the same
             rospy.Service(f"{prefix}reset", srv.Empty, self._on_reset)
 
     def move(self, now: Instant) -> None:
         """Move the robot to the present and take its messages; call while the motion is held."""
-        self.robot.advance(now.motion_ns)
+        if self.robot.advance(now.motion_ns):
+            self._warn_once(
+                f"no command came for {self._timeout_s:g} s, so it stopped in the middle of a"
+                " motion; send more often, or set ~cmd_vel_timeout (0: never)"
+            )
         self.messages.fill(self.robot, now.stamp)
 
     def publish(self) -> None:
@@ -105,21 +113,24 @@ class RobotTopics:
 
     def _on_cmd_vel(self, twist: Any) -> None:
         with self._motion.hold() as now:
-            if self._has_ended or not self._takes(twist):
+            if self._has_ended or self._is_old(twist, now):
                 return
             verdict = self.robot.command((twist.linear.x, twist.angular.z), now.motion_ns)
             self.rejected += verdict is Verdict.REJECTED
-        if verdict is not Verdict.ACCEPTED and verdict.value not in self._reported:
-            self._reported.add(verdict.value)
-            self._warn(f"cmd_vel of {self._name}: {verdict.value}")
+        if verdict is not Verdict.ACCEPTED:
+            self._warn_once(verdict.value)
 
-    def _takes(self, twist: Any) -> bool:
-        """Return whether to obey: after a suspension nothing before a stop that is new."""
-        now = time.monotonic()
-        if self._resumption.notice(self._motion.suspensions.number(), now):
-            self._warn(f"{self._name} was suspended: it obeys again after a command to stand.")
-        stops = not (twist.linear.x or twist.angular.z)
-        return not self._resumption.holds(stops, now)
+    def _warn_once(self, what: str) -> None:
+        if what not in self._reported:
+            self._reported.add(what)
+            self._warn(f"cmd_vel of {self._name}: {what}")
+
+    def _is_old(self, twist: Any, now: Instant) -> bool:
+        """Return whether it was sent during a suspension, which stops the robot."""
+        if self._fresh.notice():
+            self.robot.command(REST, now.motion_ns)
+            self._warn(f"{self._name} was suspended. What was sent meanwhile is not obeyed.")
+        return self._fresh.is_old(twist)
 
     def _on_initialpose(self, message: Any) -> None:
         try:

@@ -8,7 +8,7 @@ timeout), so what it does depends on when commands came, not on how often it is 
 from __future__ import annotations
 
 from enum import Enum
-from math import isfinite
+from math import inf, isfinite
 from typing import Any, NamedTuple, Sequence, Tuple
 
 import numpy as np
@@ -67,7 +67,7 @@ class RobotState(NamedTuple):
 
 
 class SimulatedRobot:
-    """A robot that obeys its newest command until the timeout, then stops."""
+    """A robot that obeys its newest command until the timeout, if it has one, then stops."""
 
     def __init__(self, parameters: Parameters, start_pose: Pose = ORIGIN, name: str = "") -> None:
         """Put the robot at rest at start_pose, (x [m], y [m], yaw [rad]), at the time 0.
@@ -76,8 +76,9 @@ class SimulatedRobot:
         the Parameters' world, if there is one, and the odometry starts with it.
         """
         p = self._parameters = parameters
-        self._timeout_ns = round(p.cmd_vel_timeout * 1e9)
-        self._time_ns = self._expires_ns = 0
+        self._timeout_ns = round(p.cmd_vel_timeout * 1e9) if p.cmd_vel_timeout else inf
+        self._time_ns = 0
+        self._expires_ns: float = 0
         self._velocity = self._target = REST
         self._wheels = (0.0, 0.0)
         errors = (p.wheel_radius_ratio, p.track_ratio, p.wheel_noise)
@@ -99,7 +100,7 @@ class SimulatedRobot:
             return Verdict.REJECTED  # and the timeout runs on
         self.advance(now_ns)
         p = self._parameters
-        self._target = limit(velocity, p.max_linear_speed, p.max_angular_speed)
+        self._target = limit(velocity, p.max_linear_speed or inf, p.max_angular_speed or inf)
         self._expires_ns = self._time_ns + self._timeout_ns
         return Verdict.ACCEPTED if self._target == velocity else Verdict.LIMITED
 
@@ -134,13 +135,19 @@ class SimulatedRobot:
         self.place(self._start_pose)
         self._wheels = (0.0, 0.0)
 
-    def advance(self, to_ns: int) -> None:
-        """Move up to the time to_ns; a time already passed changes nothing."""
+    def advance(self, to_ns: int) -> bool:
+        """Move up to the time to_ns; a time already passed changes nothing.
+
+        Return whether the timeout ended a motion meanwhile.
+        """
+        has_timed_out = False
         if self._time_ns < self._expires_ns <= to_ns:
-            self._move(self._expires_ns)
+            self._move(int(self._expires_ns))
+            has_timed_out = self._target != REST
             self._target = REST
         if self._time_ns <= to_ns:
             self._move(to_ns)
+        return has_timed_out
 
     def state(self) -> RobotState:
         """Return the RobotState at the time of the last advance()."""

@@ -16,8 +16,8 @@ SAFETY = "safety_controller"  # in a world; itself it is not hit
 
 LINK, MOUNT = "network namespaces", "mounting"  # what a kind needs of the machine
 
-# A sender that fell silent for longer must rest before it moves the robot again (the mux's
-# REARM_S): so late may a packet arrive that TCP sends once more, and still count.
+# After a longer silence the mux lets no command through that comes together with others (its
+# SILENCE_S): so late may a packet arrive that TCP sends once more, and still count.
 RESENT_S = 0.5
 VIGILANCE_S = 1.0  # joy2twist's ~vigilance_timeout here, for more trials
 STARTS_S = 0.3  # a node that is restarted does nothing sooner: it loads rospy

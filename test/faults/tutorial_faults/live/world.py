@@ -87,7 +87,7 @@ class World(rig.Rig):
         program, parameters, remaps = super().given(NAMES[node])
         if node == JOY2TWIST and self._node:
             # The preset is that of teleop_twist_joy, too; arming and vigilance are ours.
-            ours = ("arm_on_neutral", "log_rate", "vigilance_timeout")
+            ours = {*rig.LAUNCHED, "vigilance_timeout"}
             parameters = {key: one for key, one in parameters.items() if key not in ours}
             remaps = {**remaps, "/cmd_vel": "/cmd_vel_mux/input/teleop"}
             return self._node, parameters, remaps
