@@ -20,9 +20,9 @@ class StopBeforeWall:
         rospy.Subscriber("scan", LaserScan, self.on_scan, queue_size=1)
 
     def on_scan(self, scan):
-        """Drive while the nearest thing ahead is far enough; -inf is too near to be measured."""
+        """Drive while nothing is near: -inf is too near; inf and NaN are not measured."""
         twist = Twist()
-        if min(scan.ranges) - TO_FRONT > GAP:
+        if not any(one < TO_FRONT + GAP for one in scan.ranges):
             twist.linear.x = self.speed
         self.cmd_vel.publish(twist)
 

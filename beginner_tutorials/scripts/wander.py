@@ -26,12 +26,12 @@ class Wander:
             self.turn = -TURN if event.bumper == BumperEvent.LEFT else TURN
 
     def on_scan(self, scan):
-        """Go back after a bump; turn where something is ahead; else drive."""
+        """Go back after a bump; turn where something is ahead; else, or at NaN, drive."""
         twist = Twist()
         since_bump = (rospy.Time.now() - self.bumped_at).to_sec()
         if since_bump < BACK_S:
             twist.linear.x = -SPEED / 2
-        elif since_bump < AWAY_S or min(scan.ranges) < FREE:
+        elif since_bump < AWAY_S or any(one < FREE for one in scan.ranges):
             twist.angular.z = self.turn
         else:
             twist.linear.x = SPEED

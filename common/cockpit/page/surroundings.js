@@ -3,7 +3,7 @@
 const KINDS = [[1, "--wall"], [2, "--void"]]; // of the map's cells; 0 is free
 
 export class Surroundings {
-  #map = null; // {x, y, cell, rows, columns} [m] and its bytes, one for each cell, the lowest row first
+  #map = null; // {x, y, yaw, cell, rows, columns} [m, rad] and its bytes, one for each cell, the lowest row first
   #pictures = new Map(); // colours -> canvas, a pixel for each cell
   #robots = {}; // name -> {x, y, yaw} in the map, and the numbers of the pressed bumpers
   #scan = { name: null, points: [] }; // [m], of that robot
@@ -37,11 +37,13 @@ export class Surroundings {
     return this.#map ? { ...robot, ...this.#robots[name] } : robot;
   }
 
-  /** Two corners of the map [m], or none. */
+  /** The corners of the map [m], counterclockwise from its origin on; or none. */
   corners() {
     if (!this.#map) return [];
-    const { x, y, cell, rows, columns } = this.#map;
-    return [[x, y], [x + columns * cell, y + rows * cell]];
+    const { x, y, yaw, cell, rows, columns } = this.#map;
+    const [c, s] = [cell * Math.cos(yaw), cell * Math.sin(yaw)];
+    const sides = [[0, 0], [columns, 0], [columns, rows], [0, rows]];
+    return sides.map(([column, row]) => [x + c * column - s * row, y + s * column + c * row]);
   }
 
   /** paper: see Floor. name: of the robot whose scan is drawn. */
@@ -55,10 +57,14 @@ export class Surroundings {
   }
 
   #drawMap({ pen, toPixels, colour }) {
-    const [[west, south], [east, north]] = this.corners();
-    const [[left, top], [right, bottom]] = [toPixels([west, north]), toPixels([east, south])];
+    const [origin, right, , top] = this.corners().map(toPixels);
+    const length = ([x, y]) => Math.hypot(x - origin[0], y - origin[1]);
+    pen.save();
+    pen.translate(...origin);
+    pen.rotate(-this.#map.yaw);
     pen.imageSmoothingEnabled = false;
-    pen.drawImage(this.#picture(colour), left, top, right - left, bottom - top);
+    pen.drawImage(this.#picture(colour), 0, -length(top), length(right), length(top));
+    pen.restore();
   }
 
   /** The highest row is on top; free cells are transparent, so that the grid is seen. */

@@ -5,7 +5,7 @@ import contextlib
 import os
 import signal
 import time
-from math import cos
+from math import cos, isfinite
 
 import rospy
 from geometry_msgs.msg import Twist
@@ -37,6 +37,8 @@ class WorldTest(RosTest):
             ("bumper_markers", MarkerArray),
         ):  # fmt: skip
             rospy.Subscriber(topic, kind, lambda m, topic=topic: cls.heard.update({topic: m}))
+        cls.unmeasured = set()  # ranges that are no numbers
+        rospy.Subscriber("scan", LaserScan, cls.on_scan)
         cls.frames, cls.events = {}, []
         for topic in ("/tf", "/tf_static"):
             rospy.Subscriber(topic, TFMessage, cls.on_tf)
@@ -50,6 +52,10 @@ class WorldTest(RosTest):
         wait_for(cls.reset.get_num_connections, "robot")
         topics = ("map", "world_markers", "scan", "odom", "base_pose_ground_truth")
         wait_for(lambda: all(topic in cls.heard for topic in topics), "first messages")
+
+    @classmethod
+    def on_scan(cls, scan):
+        cls.unmeasured |= {str(one) for one in scan.ranges if not isfinite(one)}
 
     @classmethod
     def on_tf(cls, message):
@@ -92,6 +98,7 @@ class WorldTest(RosTest):
         pushes = [off - on for (on, _), (off, _) in zip(self.events[::2], self.events[1::2])]
         self.assertLess(max(pushes), LONGEST_PUSH_S)
         self.assertIn("bumper_markers", self.heard)
+        self.assertEqual(self.unmeasured, {"nan"})  # at the wall, as on a real TurtleBot
         self.drive(-0.5, lambda: self.x() < 3.0, "way back, by the stick")
 
     def test_4_a_reset_of_the_odometry_does_not_move_the_robot(self):

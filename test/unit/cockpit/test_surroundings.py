@@ -113,6 +113,12 @@ def test_a_malformed_map_is_left_out(message):
     assert map_shown(serialised(message)) == {}
 
 
+def test_a_map_is_turned_as_its_origin_is():
+    turned = grid(1, 1, [0])
+    turned.info.origin.orientation.z = turned.info.origin.orientation.w = 0.5**0.5
+    assert map_shown(serialised(turned))["yaw"] == pytest.approx(pi / 2)
+
+
 def test_a_large_map_gets_larger_cells_and_keeps_its_walls():
     data = [0] * (1001 * 1200)
     data[500 * 1200 + 600] = 100

@@ -1,6 +1,6 @@
 """A robot in a world: sensors, edges, other robots, and where it is put."""
 
-from math import asin, cos, hypot, inf, pi, sin
+from math import asin, cos, hypot, inf, isnan, pi, sin
 
 import numpy as np
 import pytest
@@ -178,6 +178,14 @@ def test_ranges_begin_at_the_camera_and_end_as_rep_117_has_it():
     assert empty.measure((0.0, 0.0, 0.0), NOBODY) == [inf, inf, inf]
 
 
+def test_ranges_that_are_not_measured_may_be_nan_as_of_a_depth_camera():
+    given = {"scan_no_return": "nan", "scan_beams": 3, "scan_range_max": 2.2}
+    laser = Laser(parse_parameters(given), World((SQUARE,)))
+    right, ahead, _left = laser.measure((0.0, 0.0, 0.0), NOBODY)
+    assert ahead == pytest.approx(2.087, abs=EXACT) and isnan(right)  # too far
+    assert all(map(isnan, laser.measure((1.8, 0.0, 0.0), NOBODY)))  # too near
+
+
 def test_noise_is_drawn_from_the_seed_and_the_name():
     parameters = Parameters(world=World((SQUARE,)), scan_noise=0.02, scan_beams=1000)
     scans = [
@@ -233,6 +241,7 @@ def test_each_world_of_the_package_has_room_for_a_class(name):
         ({"world": "./none.yaml"}, "~world: './none.yaml': cannot be read: No such file"),
         ({"world": "maze", "robots": 500}, "~world: 'maze': the world has room for"),
         ({"world": "maze", "robots": {"ada": [1.0, 1.0, 0.0]}}, "would be inside of a wall"),
+        ({"scan_no_return": "0"}, "~scan_no_return: '0': must be inf or nan"),
         ({"scan_range_min": 11.0}, "~scan_range_min: must be less than ~scan_range_max"),
     ],
 )

@@ -16,6 +16,16 @@ start: {x: 0.5, y: 0.5, yaw: 1.57}
 """
 
 
+MAP = """\
+image: map.pgm
+resolution: 0.5
+origin: [-1, 2, 0]
+negate: 0
+occupied_thresh: 0.65
+free_thresh: 0.196
+"""
+
+
 def world_of(tmp_path, text):
     (tmp_path / "world.yaml").write_text(text)
     return read_world(tmp_path / "world.yaml")
@@ -43,8 +53,11 @@ def test_a_world_of_ours(tmp_path):
         ("posts: []\ncolour: red", "line 2: colour: is not known"),
         ("walls: [", "line 1: not YAML"),
         ("- 1", "must be a map of walls, posts"),
-        ("image: none.pgm", "a map needs resolution"),
-        ("image: none.pgm\nresolution: 1\norigin: [0, 0, 0]", "none.pgm: cannot be read"),
+        ("image: none.pgm", "a map needs resolution, origin [x, y, yaw]"),
+        (f"{MAP}negate: false", "free_thresh and mode"),
+        (f"{MAP}mode: binary", "('trinary', 'scale', 'raw') or none"),
+        (f"{MAP}start: {{x: 1, y: 2}}", "start: must be {x: ..., y: ..., yaw: ...}"),
+        (MAP, "map.pgm: cannot be read as an image: [Errno 2]"),
     ],
 )
 def test_a_mistake_is_one_line(tmp_path, text, said):
@@ -58,7 +71,7 @@ def test_a_map_has_walls_around_its_occupied_cells(tmp_path):
     for cell in ((1, 1), (2, 1)):  # x from the left, y from the top
         picture.putpixel(cell, 0)
     picture.save(tmp_path / "map.pgm")
-    world = world_of(tmp_path, "image: map.pgm\nresolution: 0.5\norigin: [-1, 2, 0]")
+    world = world_of(tmp_path, MAP)
     assert {frozenset((wall[:2], wall[2:4])) for wall in world.segments} == {
         frozenset(ends)
         for ends in (

@@ -120,10 +120,14 @@ def is_number(value: Any) -> bool:
     return (isinstance(value, float) or is_whole(value)) and abs(value) <= float_info.max
 
 
-def number(least: float, most: float, unit: str = "", off: float | None = None) -> Check:
+def number(least: float, most: float, unit: str = "", off: Any = None) -> Check:
     """Allow a number from least to most, both included, or off. unit: what follows in the text."""
     allowed = f"a number from {least:g} to {most:g} {unit}".rstrip()
-    return Check(allowed, lambda v: is_number(v) and (least <= v <= most or v == off), keep=float)
+    return Check(
+        allowed,
+        lambda v: (is_number(v) and (least <= v <= most or v == off)) or v == off == "",
+        lambda v: float(v) if is_number(v) else v,
+    )
 
 
 def whole_number(least: float = -inf, most: float = inf, allowed: str = "a whole number") -> Check:

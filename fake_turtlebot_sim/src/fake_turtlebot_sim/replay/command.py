@@ -125,11 +125,11 @@ def draw(path: Sequence[RobotState], target: Path, world: World | None = None) -
 
     matplotlib.use("Agg")
     from matplotlib import pyplot  # noqa: PLC0415
+    from matplotlib.collections import LineCollection  # noqa: PLC0415
 
     figure, axes = pyplot.subplots(figsize=(6, 6))
     if world:
-        for line in world.walls:
-            axes.plot(*zip(*line), color="black")
+        axes.add_collection(LineCollection(world.walls, colors="black"))
         for x, y, radius in world.posts:
             axes.add_patch(pyplot.Circle((x, y), radius, color="black"))
         for cliff in world.cliffs:

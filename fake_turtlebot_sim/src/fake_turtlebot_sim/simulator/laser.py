@@ -7,14 +7,14 @@ which its ends are seen; only for these pairs is a distance computed. Points are
 from __future__ import annotations
 
 from cmath import rect
-from math import tau
+from math import hypot, inf, nan, tau
 from typing import Any
 
 import numpy as np
 
 from fake_turtlebot_sim.simulator.differential_drive import Pose, composed
 from fake_turtlebot_sim.simulator.parameters import Parameters
-from fake_turtlebot_sim.simulator.world import World
+from fake_turtlebot_sim.simulator.world import REACH_M, World, gaps
 
 SLACK = 1e-9  # [rad] of the ends of a wall, so that no beam slips between two that meet
 
@@ -97,7 +97,8 @@ class Laser:
         gaps = p.scan_beams if p.scan_angle >= tau else max(1, p.scan_beams - 1)
         self.angle_min, self.increment = -0.5 * p.scan_angle, p.scan_angle / gaps
         self._scanner = Scanner(self.angle_min, self.increment, p.scan_beams)
-        self._walls, self._posts = np.split(world.array, [len(world.segments)])
+        self._obstacles, self._at = world.array, (nan, nan)
+        self._far, self._near = (nan, nan) if p.scan_no_return == "nan" else (inf, -inf)
         seed = [p.seed % 2**32, *name.encode()]
         self._noise = np.random.default_rng(seed) if p.scan_noise else None
 
@@ -105,15 +106,19 @@ class Laser:
         """Return the range of each beam [m] for a robot at a pose (x [m], y [m], yaw [rad]).
 
         others: an array (n, 5) of obstacles beside the world's. What is nearer than the least range
-        is -inf, beyond the largest inf, as REP-117 has it.
+        is -inf, beyond the largest inf, by REP-117; or both NaN, as depthimage_to_laserscan fills.
         """
         p = self._parameters
-        sensor = composed(pose, (p.scan_x, p.scan_y, 0.0))
+        x, y, _ = sensor = composed(pose, (p.scan_x, p.scan_y, 0.0))
+        if not hypot(x - self._at[0], y - self._at[1]) < REACH_M:  # choose anew what is in reach
+            self._at, reach = (x, y), p.scan_range_max + REACH_M
+            near = self._obstacles[gaps(x, y, self._obstacles) <= reach]
+            self._walls, self._posts = near[near[:, 4] == 0.0], near[near[:, 4] > 0.0]
         discs = np.concatenate((self._posts, others))[:, 2:]
         ranges: Any = self._scanner.ranges(sensor, self._walls, discs)
         if self._noise is not None:
             ranges = ranges + self._noise.normal(0.0, p.scan_noise, p.scan_beams)
-        ranges[ranges > p.scan_range_max] = np.inf
-        ranges[ranges < p.scan_range_min] = -np.inf
+        ranges[ranges > p.scan_range_max] = self._far
+        ranges[ranges < p.scan_range_min] = self._near
         measured: list[float] = ranges.tolist()
         return measured

@@ -45,6 +45,10 @@ class FakeTurtlebot:
         """Put the robots at their start poses; nothing is published before spin()."""
         log = Log()
         report_bad_messages(log.warn)
+        world = parameters.world
+        if world and world.grid and not world.start and None in parameters.given_poses().values():
+            x, y, _ = world.start_pose
+            log.info(f"the map has no start: took the free place nearest to (0, 0), ({x:g}, {y:g})")
         self._motion = Motion()
         self._period_ns = parameters.period_ns()
         self._rate = parameters.rate

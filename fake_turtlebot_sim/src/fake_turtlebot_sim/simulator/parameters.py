@@ -18,7 +18,7 @@ MOST_ROBOTS = 1000
 _FRAME = text(
     "a name without blanks and leading slash", lambda value: re.fullmatch(r"[^/\s]\S*", value)
 )
-_LENGTH = number(-1e6, 1e6, "m")
+_LENGTH = number(-1e6, 1e6, "m, or empty", off="")
 _ACCELERATION = number(0.0, 1000.0, "m/s2 (0: no limit)")
 _ANGULAR_ACCELERATION = number(0.0, 1000.0, "rad/s2 (0: no limit)")
 
@@ -87,9 +87,9 @@ class Parameters:
         0.0, _ACCELERATION, "with a limit the robot also needs time to stop"
     )
     max_angular_acceleration: float = parameter(0.0, _ANGULAR_ACCELERATION)
-    initial_x: float = parameter(0.0, _LENGTH, "start pose in the odometry frame")
-    initial_y: float = parameter(0.0, _LENGTH)
-    initial_yaw: float = parameter(0.0, number(-2 * pi, 2 * pi, "rad"))
+    initial_x: float | str = parameter("", _LENGTH, "start pose; all empty: the world's start")
+    initial_y: float | str = parameter("", _LENGTH)
+    initial_yaw: float | str = parameter("", number(-tau, tau, "rad, or empty", off=""))
     odom_frame: str = parameter("odom", _FRAME)
     base_frame: str = parameter("base_footprint", _FRAME)
     left_wheel_joint: str = parameter("wheel_left_joint", _FRAME)
@@ -127,8 +127,13 @@ class Parameters:
     scan_beams: int = parameter(
         640, whole_number(1, 10_000, "a whole number from 1 to 10000"), "over the angle"
     )
-    scan_range_min: float = parameter(0.45, number(0.0, 100.0, "m"), "nearer is reported as -inf")
-    scan_range_max: float = parameter(10.0, number(0.01, 1000.0, "m"), "farther is inf")
+    scan_range_min: float = parameter(0.45, number(0.0, 100.0, "m"), "nearer is -inf, or NaN")
+    scan_range_max: float = parameter(10.0, number(0.01, 1000.0, "m"), "farther is inf, or NaN")
+    scan_no_return: str = parameter(
+        "inf",
+        text("inf or nan", ("inf", "nan").__contains__),
+        "what a beam reads that measures nothing: by REP-117, or as on a real TurtleBot 2",
+    )
     scan_noise: float = parameter(
         0.0, number(0.0, 10.0, "m (standard deviation)"), "of each range, drawn from the seed"
     )
@@ -149,12 +154,16 @@ class Parameters:
 
         Raises ValueError if the world has no room.
         """
+        poses = self.given_poses()
+        count = list(poses.values()).count(None)
+        places = self.world.places(count) if self.world and count else line_up(count)
+        return {name: pose or places.pop(0) for name, pose in poses.items()}
+
+    def given_poses(self) -> Mapping[str, Pose | None]:
+        """Return the start poses that are given; None is one that is yet to be chosen."""
         initial = self.initial_x, self.initial_y, self.initial_yaw
-        if not self.robots:
-            return {"": self.world.start if self.world and initial == (0.0, 0.0, 0.0) else initial}
-        count = len(self.robots)
-        places = self.world.places(count) if self.world else line_up(count)
-        return {name: pose or places.pop(0) for name, pose in self.robots.items()}
+        x, y, yaw = (float(value or 0.0) for value in initial)
+        return self.robots or {"": (x, y, yaw) if set(initial) != {""} else None}
 
 
 def parse_parameters(given: Mapping[str, Any]) -> Parameters:

@@ -27,10 +27,9 @@ from fake_turtlebot_sim.simulator.differential_drive import (
 from fake_turtlebot_sim.simulator.odometry_errors import OdometryErrors
 from fake_turtlebot_sim.simulator.parameters import Parameters
 from fake_turtlebot_sim.simulator.sensors import Sensed, bumpers, cliffs, first_drop
-from fake_turtlebot_sim.simulator.world import BASE_RADIUS_M, Surroundings
+from fake_turtlebot_sim.simulator.world import BASE_RADIUS_M, ORIGIN, Surroundings
 
 REST: Velocity = (0.0, 0.0)
-ORIGIN: Pose = (0.0, 0.0, 0.0)
 ON_ITS_WHEELS = (False, False)
 Change = Tuple[Velocity, Velocity]  # of a velocity, linear in time: at its begin and at its end
 

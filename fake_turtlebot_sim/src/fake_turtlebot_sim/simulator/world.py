@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
 from math import hypot, pi
@@ -11,22 +12,37 @@ import numpy as np
 
 from fake_turtlebot_sim.simulator.contact import Obstacle, first_contact
 from fake_turtlebot_sim.simulator.differential_drive import Pose, composed
+from fake_turtlebot_sim.simulator.grid_map import Grid
 
 BASE_RADIUS_M = 0.178  # kobuki.urdf.xacro
 Point = Tuple[float, float]  # x, y [m]
 REACH_M = 1.0  # around a robot: what is farther away is looked at again only after so long a way
 INSIDE_M = 1e-9  # how deep in a wall a robot may be put
 GRID_M = 0.5  # between robots that are lined up
+ORIGIN: Pose = (0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True)
 class World:
-    """walls: polylines; posts: x, y, radius; cliffs: polygons; start: of a robot [m, rad]."""
+    """walls: polylines; posts: x, y, radius; cliffs: polygons; start [m, rad]; grid: its map."""
 
     walls: tuple[tuple[Point, ...], ...] = ()
     posts: tuple[tuple[float, float, float], ...] = ()
     cliffs: tuple[tuple[Point, ...], ...] = ()
-    start: Pose = (0.0, 0.0, 0.0)
+    start: Pose | None = None
+    grid: Grid | None = None
+
+    @cached_property
+    def start_pose(self) -> Pose:
+        """The start; else the origin or, in a map, the free place nearest to it. Or ValueError."""
+        if self.start or not self.grid:
+            return self.start or ORIGIN
+        x, y, _ = place = self.grid.free_place(BASE_RADIUS_M)
+        if hypot(x, y) < self.grid.resolution:  # of one cell, or nearly
+            with suppress(ValueError):
+                self.check_place(ORIGIN)
+                return ORIGIN
+        return place
 
     @cached_property
     def segments(self) -> tuple[Obstacle, ...]:
@@ -55,7 +71,8 @@ class World:
     def check_place(self, pose: Pose) -> None:
         """Raise ValueError if a robot cannot stand at a pose (x [m], y [m], yaw [rad])."""
         x, y, _ = pose
-        if (gaps(x, y, self.array) < BASE_RADIUS_M - INSIDE_M).any():
+        is_inside_of_cells = self.grid is not None and self.grid.is_occupied(x, y)
+        if is_inside_of_cells or (gaps(x, y, self.array) < BASE_RADIUS_M - INSIDE_M).any():
             raise ValueError(f"a robot at ({x:g}, {y:g}) would be inside of a wall")
         edges = np.array(self.edges).reshape(-1, 5)
         if self.is_cliff(x, y) or (gaps(x, y, edges) < BASE_RADIUS_M).any():
@@ -66,9 +83,10 @@ class World:
 
         The first is the start, and all have its heading. Raises ValueError if there is no room.
         """
-        self.check_place(self.start)
+        start = self.start_pose
+        self.check_place(start)
         around = Surroundings(self)
-        found = {(0, 0): self.start}
+        found = {(0, 0): start}
         for row, column in (reached := [(0, 0)]):  # grows meanwhile
             px, py, _ = found[row, column]
             obstacles = [*around.near(px, py, REACH_M), *self.edges]
@@ -76,9 +94,9 @@ class World:
                 key = row + dr, column + dc
                 if len(found) >= count or key in found:
                     continue
-                way = px, py, self.start[2] - (k + 1) * pi / 2
+                way = px, py, start[2] - (k + 1) * pi / 2
                 if first_contact(way, (1.0, 0.0), GRID_M, BASE_RADIUS_M, obstacles) is None:
-                    found[key] = composed(self.start, (GRID_M * key[0], GRID_M * key[1], 0.0))
+                    found[key] = composed(start, (GRID_M * key[0], GRID_M * key[1], 0.0))
                     reached.append(key)
         if len(found) < count:
             raise ValueError(f"the world has room for {len(found)} robots")

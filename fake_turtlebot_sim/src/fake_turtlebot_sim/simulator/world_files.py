@@ -2,22 +2,18 @@
 
 from __future__ import annotations
 
-from math import cos, sin, tau
+from math import tau
 from pathlib import Path
 from typing import Any, Callable
 
 import numpy as np
 import yaml
 
+from fake_turtlebot_sim.simulator.grid_map import WorldError, read_map
 from fake_turtlebot_sim.simulator.world import World
 from node_kit.parameters import is_number
 
-LARGEST_MAP = 4_000_000  # cells
-MOST_WALLS = 20_000
-
-
-class WorldError(ValueError):
-    """Why a file is no world: its line and what is allowed, in one line without the path."""
+MOST_WALLS = 200_000
 
 
 def find_world(name: str) -> Path:
@@ -119,40 +115,13 @@ FIELDS: dict[str, tuple[str, Callable[[Any], Any]]] = {
 
 
 def _from_map(path: Path, about: dict[str, Any]) -> World:
-    """Return the walls around the occupied cells of a map; its rows begin at the top."""
-    from PIL import Image  # noqa: PLC0415  a quarter of the node's start, and for maps alone
-
-    image = path.parent / str(about["image"])
-    try:
-        x, y, yaw = _numbers(about["origin"], 3)
-        scales = about["resolution"], about.get("occupied_thresh", 0.65)
-        resolution, threshold = _numbers(scales, 2)
-    except (TypeError, ValueError, KeyError):
-        needs = "resolution [m], origin [x, y, yaw] and occupied_thresh, as map_server has them"
-        raise WorldError(f"a map needs {needs}") from None
-    try:
-        with Image.open(image) as picture:
-            if picture.width * picture.height > LARGEST_MAP:
-                raise ValueError(f"more than {LARGEST_MAP} cells")
-            shades = np.asarray(picture.convert("L"), dtype=float)[::-1]
-    except (OSError, SyntaxError, ValueError, Image.DecompressionBombError) as error:
-        raise WorldError(f"{image}: cannot be read as an image: {error}") from None
-    occupied = (shades if about.get("negate") else 255.0 - shades) / 255.0 > threshold
-    walls = _outlines(occupied) * resolution
+    """Return the walls around the occupied cells of a map, and its start if it names one."""
+    start = _read(_start, about.get("start"))
+    if "start" in about and start is None:
+        raise WorldError(f"start: must be {FIELDS['start'][0]}")
+    grid = read_map(path, about)
+    walls = grid.outlines()
     if len(walls) > MOST_WALLS:
-        raise WorldError(f"{image}: its outlines have more than {MOST_WALLS} pieces")
-    turned = walls @ np.array([[cos(yaw), sin(yaw)], [-sin(yaw), cos(yaw)]]) + (x, y)
-    return World(tuple(((*one,), (*other,)) for one, other in turned.tolist()))
-
-
-def _outlines(occupied: Any) -> Any:
-    """Return the edges between occupied and free cells, joined where in line: (n, 2, 2)."""
-    found = []
-    for is_upright in (False, True):
-        cells = occupied.T if is_upright else occupied
-        edge = np.diff(np.pad(cells, ((1, 1), (0, 0))).astype(np.int8), axis=0) != 0
-        steps = np.diff(np.pad(edge, ((0, 0), (1, 1))).astype(np.int8), axis=1)
-        (rows, begins), (_, ends) = np.nonzero(steps > 0), np.nonzero(steps < 0)
-        lines = np.array([[begins, rows], [ends, rows]]).transpose(2, 0, 1)
-        found.append(lines[..., ::-1] if is_upright else lines)
-    return np.concatenate(found)
+        raise WorldError(f"{about['image']}: its outlines have more than {MOST_WALLS} pieces")
+    ends = np.stack((walls.real, walls.imag), axis=-1).tolist()
+    return World(tuple(((*one,), (*other,)) for one, other in ends), start=start, grid=grid)

@@ -11,19 +11,32 @@ from nav_msgs.msg import OccupancyGrid
 from std_msgs.msg import ColorRGBA
 from visualization_msgs.msg import Marker
 
+from fake_turtlebot_sim.simulator.grid_map import OCCUPIED, UNKNOWN, Grid
 from fake_turtlebot_sim.simulator.sensors import CENTER_RAD, SIDE_RAD, Three
 from fake_turtlebot_sim.simulator.world import BASE_RADIUS_M, World, gaps, is_inside
 
-OCCUPIED, UNKNOWN = 100, -1  # nav_msgs/OccupancyGrid; 0: free
 MARGIN_M = 0.5  # of free cells around everything
 MOST_CELLS = 4_000_000
+MOST_WALLS = 20_000  # as markers; of a map with more they are several MB each second
 WALL_M, LINE_M = 0.3, 0.02  # how high walls and posts are drawn, and how thick lines
 BUMPER_M = 0.05  # above the ground
 GREY, RED = ColorRGBA(0.45, 0.42, 0.38, 1.0), ColorRGBA(0.85, 0.1, 0.1, 1.0)
 
 
 def world_map(world: World, frame: str, stamp: Any, resolution: float = 0.05) -> OccupancyGrid:
-    """Return the OccupancyGrid of a world, in the frame.
+    """Return the OccupancyGrid of a world in the frame: a map as it is, others with cells drawn."""
+    drawn = world.grid or _drawn(world, resolution)
+    x, y, yaw = drawn.origin
+    grid = OccupancyGrid(data=drawn.cells.ravel().tolist())
+    grid.header.frame_id, grid.header.stamp, grid.info.map_load_time = frame, stamp, stamp
+    grid.info.resolution, (grid.info.height, grid.info.width) = drawn.resolution, drawn.cells.shape
+    grid.info.origin.position = Point(x, y, 0.0)
+    grid.info.origin.orientation = Quaternion(0.0, 0.0, sin(0.5 * yaw), cos(0.5 * yaw))
+    return grid
+
+
+def _drawn(world: World, resolution: float) -> Grid:
+    """Return a world as cells.
 
     Occupied is a cell with its middle within half a cell of a wall, a post or the edge of a cliff;
     unknown, one over a cliff. A world too large for MOST_CELLS of the resolution [m] gets larger
@@ -50,12 +63,7 @@ def world_map(world: World, frame: str, stamp: Any, resolution: float = 0.05) ->
         rows = slice(*np.searchsorted(ys, (min(y1, y2) - reach, max(y1, y2) + reach)))
         is_near = gaps(xs[columns], ys[rows, None], obstacle) <= half
         cells[rows, columns][is_near] = OCCUPIED
-    grid = OccupancyGrid(data=cells.ravel().tolist())
-    grid.header.frame_id, grid.header.stamp, grid.info.map_load_time = frame, stamp, stamp
-    grid.info.resolution, (grid.info.height, grid.info.width) = resolution, cells.shape
-    grid.info.origin.position = Point(float(low[0]), float(low[1]), 0.0)
-    grid.info.origin.orientation.w = 1.0
-    return grid
+    return Grid(cells, resolution, (float(low[0]), float(low[1]), 0.0))
 
 
 def marker(ns: str, number: int, kind: int, frame: str, colour: ColorRGBA) -> Marker:
@@ -70,7 +78,7 @@ def marker(ns: str, number: int, kind: int, frame: str, colour: ColorRGBA) -> Ma
 def world_markers(world: World, frame: str) -> list[Marker]:
     """Return walls (triangles, upright), posts (cylinders) and cliffs (lines)."""
     found = []
-    if world.segments:
+    if 0 < len(world.segments) <= MOST_WALLS:
         walls = marker("walls", 0, Marker.TRIANGLE_LIST, frame, GREY)
         walls.scale = Vector3(1.0, 1.0, 1.0)
         for x1, y1, x2, y2, _ in world.segments:

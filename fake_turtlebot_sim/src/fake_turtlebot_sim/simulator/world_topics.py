@@ -43,10 +43,12 @@ class WorldTopics:
         self._parameters, self._robots = parameters, list(robots.values())
         self._sensors = [SensorTopics(name, parameters, world, warn) for name in robots]
         self._map = rospy.Publisher("map", OccupancyGrid, queue_size=1, latch=True)
-        self._map.publish(world_map(world, parameters.map_frame, rospy.Time.now()))
+        # Serialised once: a map as large as a building takes a while.
+        shown = io.BytesIO()
+        world_map(world, parameters.map_frame, rospy.Time.now()).serialize(shown)
+        self._map.publish(rospy.AnyMsg().deserialize(shown.getvalue()))
         self._markers = PromptPublisher("world_markers", MarkerArray)
         self._cycles_per_markers = round(MARKERS_S * parameters.rate)
-        # Made once: a map as large as a building takes a while.
         shown = io.BytesIO()
         serialize_message(shown, 0, MarkerArray(world_markers(world, parameters.map_frame)))
         self._shown = shown.getvalue()

@@ -6,7 +6,7 @@ import base64
 import struct
 import time
 from contextlib import suppress
-from math import isfinite
+from math import atan2, isfinite
 from typing import Any, Sequence
 
 import numpy as np
@@ -107,19 +107,20 @@ class Surroundings(Source):
 
 def read(kind: Any, data: bytes, longest: int) -> Any:
     """Return a message of a kind from at most so many bytes; None if malformed."""
-    with suppress(DeserializationError):
-        return kind().deserialize(data) if len(data) <= longest else None
+    with suppress(DeserializationError, ValueError):  # numpy: a large map, or a scan, in one piece
+        return kind().deserialize_numpy(data, np) if len(data) <= longest else None
 
 
 def map_shown(data: bytes) -> dict[str, Any]:
     """Return the map as pages get it, from the bytes of an OccupancyGrid; {} if malformed.
 
-    x, y: its corner [m]; cell: its size [m]; rows and columns; cells: base64, a byte for each from
-    the lowest row on: 0 free, 1 occupied, 2 unknown.
+    x, y, yaw: its corner [m, rad]; cell: its size [m]; rows and columns; cells: base64, a byte for
+    each from the lowest row on: 0 free, 1 occupied, 2 unknown.
     """
     grid = read(OccupancyGrid, data, LARGEST_MAP) or OccupancyGrid()
     given, info, corner = np.array(grid.data, np.int8), grid.info, grid.info.origin.position
-    numbers = (corner.x, corner.y, info.resolution)
+    yaw = 2.0 * atan2(info.origin.orientation.z, info.origin.orientation.w)
+    numbers = (corner.x, corner.y, yaw, info.resolution)
     if not given.size or given.size != info.height * info.width or not all(map(isfinite, numbers)):
         return {}
     cells = np.where(given < 0, 2, given >= 50).astype(np.uint8).reshape(info.height, info.width)
@@ -129,7 +130,7 @@ def map_shown(data: bytes) -> dict[str, Any]:
         parts = padded.reshape(padded.shape[0] // factor, factor, -1, factor)
         cells = np.where((parts == 1).any(axis=(1, 3)), 1, parts.max(axis=(1, 3)))
     return {
-        "x": corner.x, "y": corner.y, "cell": info.resolution * factor,
+        "x": corner.x, "y": corner.y, "yaw": yaw, "cell": info.resolution * factor,
         "rows": cells.shape[0], "columns": cells.shape[1],
         "cells": base64.b64encode(cells.astype(np.uint8).tobytes()).decode(),
     }  # fmt: skip

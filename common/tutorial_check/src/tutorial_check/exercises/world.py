@@ -116,7 +116,7 @@ def _gap(session: Session, script: str, speed: float) -> float:
     seen = f"it still drives, {gap:.2f} m before it" if path[-1].v else f"{gap:.2f} m"
     seen = "it drives into the wall" if pressed else seen
     hint = "ranges begin at the camera, 0.087 m behind the middle of the robot, whose radius is"
-    raise Wrong(expected, seen, script, f"{hint} {RADIUS_M} m; too near is -inf")
+    raise Wrong(expected, seen, script, f"{hint} {RADIUS_M} m; too near is -inf, or NaN")
 
 
 @check("C37", "it wanders", "7", "C2",
