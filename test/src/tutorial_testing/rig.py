@@ -24,7 +24,8 @@ JOYSTICK, DRIVER, MUX, BASE = "/joy_node", "/NewJoy2Twist", "/cmd_vel_mux", "/fa
 SAFETY = "/kobuki_safety_controller"
 EVENTS = ("bumper", "cliff", "wheel_drop")  # of the Kobuki
 TIMEOUT_S = 0.6  # of the base
-LAUNCHED = {"arm_on_neutral": True, "joy_timeout": 0.5, "log_rate": 0}  # as the launch files have it
+# As the launch files have it.
+LAUNCHED = {"arm_on_neutral": True, "joy_timeout": 0.5, "log_rate": 0}
 REST_S = 0.6  # for which all is shown released, until each node has seen it
 
 
