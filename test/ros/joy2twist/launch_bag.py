@@ -3,7 +3,9 @@
 
 import os
 
+import rosbag
 import rospkg
+import rospy
 from geometry_msgs.msg import Twist
 from sensor_msgs.msg import JointState, Joy
 from tf2_msgs.msg import TFMessage
@@ -15,6 +17,9 @@ from tutorial_testing.waiting import wait_for
 from tutorial_tools.demo.program import NODES, RVIZ_NODE
 
 RATE_HZ = 50  # of joy.bag and of the simulation
+# A recording without autorepeat and without any button: time [s] and axes of each message.
+SPARSE = ((0.0, (0.0, 0.0)), (1.0, (0.0, 1.0)), (3.5, (0.0, 0.0)), (6.5, (0.0, 0.0)))
+SPARSE_M = 2.5  # the robot drives at 1 m/s between the second and the third
 SAMPLE_S = 6.0  # how much is looked at; the tour begins with a second of rest
 
 
@@ -38,6 +43,23 @@ class LaunchBagTest(RosTest):
             wait_for(lambda: cmd_vel[-1] == Twist(), "zero as the last velocity")
             # Where a node has not ended after 15 s, roslaunch says so, and kills it.
             self.assertNotIn("escalating", launch.output)
+
+    def test_a_recording_without_autorepeat_drives_all_the_while(self):
+        path = str(self.folder() / "sparse.bag")
+        with rosbag.Bag(path, "w") as bag:
+            for at_s, axes in SPARSE:
+                bag.write("/joy", Joy(axes=axes, buttons=[0] * 12), rospy.Time(1 + at_s))
+        bag = (f"bag:={path}", "rviz:=false", "cockpit:=false")
+        robot = self.enter(Robot())
+        with Program("roslaunch", "joy2twist", "launch_bag.launch", *bag) as launch:
+            robot.first(lambda moment: moment.moves, "moving robot")
+            robot.wait_for_rest()
+            self.assertAlmostEqual(robot.now.x, SPARSE_M, delta=0.05 * SPARSE_M)
+            self.end(launch)
+        with Program("roslaunch", "joy2twist", "launch_joy_node_realTurtlebot.launch", *bag) as none:
+            self.assertNotEqual(none.wait(), 0)
+            self.assertIn("LB (button 4) or RB (button 5), the dead-man button of", none.output)
+            self.assertNotIn("process[", none.output)
 
     def check_velocities(self, joy, cmd_vel):
         """Find the messages in the velocities, one for one and with their values."""

@@ -33,6 +33,8 @@ def refused(name, value):
          "joy_node is no longer there: leave joy_pkg out, or give joy or gamepad"),
         ("vigilance_timeout", ["0", "0.0", "1", "3.0", "60"], ["-1", "0.3", "61", "soon", ""],
          "must be a number from 1 to 60 s, or 0 for off"),
+        ("joy_timeout", ["0", "0.5", "60"], ["-1", "61", "soon"],
+         "must be a number up to 60 s, or 0 for off"),
         ("bag", ["none", str(JOY_BAG)], ["./joy.bag"], "must be a whole path, as $PWD is not set"),
         ("bag", [], ["/no/joy.bag"], "cannot be read: No such file or directory"),
         ("bag", [], ["/tmp"], "cannot be read: Is a directory"),
