@@ -12,22 +12,26 @@ import io
 import json
 import shlex
 import sys
+import traceback
 import xml.dom.minidom
 from pathlib import Path
 from typing import Any, Dict
+from xml.parsers import expat
 
 MARK = "launch facts: "
 Node = Dict[str, Any]  # about a node: package, type, name, args ...
 
 
 @functools.lru_cache(maxsize=None)
-def can_be_found(package: str, kind: str) -> bool:
+def can_be_found(package: str, kind: str) -> Any:
+    """Return whether there is a program; None if there is no such package, either."""
     import roslib.packages  # noqa: PLC0415
+    import rospkg  # noqa: PLC0415
 
     try:
         return bool(roslib.packages.find_node(package, kind))
-    except roslib.packages.ROSPkgException:
-        return False
+    except (roslib.packages.ROSPkgException, rospkg.ResourceNotFound):
+        return None
 
 
 def device_of(node: Any, params: Any) -> str:
@@ -39,6 +43,37 @@ def device_of(node: Any, params: Any) -> str:
     in_args = [word[len("_dev:=") :] for word in words if word.startswith("_dev:=")]
     in_file = params.get(f"{node.namespace}{node.name}/dev")
     return in_args[0] if in_args else str(in_file.value) if in_file else ""
+
+
+def place_of_tag(file: str, tag: Any) -> tuple[str, int]:
+    """Return (file, line) of a tag, which minidom knows by its order alone."""
+    lines: list[int] = []
+    parser = expat.ParserCreate()
+    parser.StartElementHandler = lambda *_: lines.append(parser.CurrentLineNumber)
+    parser.Parse(Path(file).read_bytes(), True)
+    return file, lines[tag.ownerDocument.getElementsByTagName("*").index(tag)]
+
+
+def fault_of(error: BaseException) -> dict[str, Any]:
+    """Return what led to an error of roslaunch's: its kind, its words, the tag, where it came up.
+
+    places: [file, line] of each tag that roslaunch was reading then, the outermost first.
+    """
+    chain = [error]
+    while chain[-1].__context__:
+        chain.append(chain[-1].__context__)
+    frames = [frame for one in chain for frame, _ in traceback.walk_tb(one.__traceback__)]
+    places, path, tag = [], "", ""
+    for about in (frame.f_locals for frame in frames if "xmlloader" in frame.f_code.co_filename):
+        path = about.get("filename", path)
+        if hasattr(about.get("tag"), "ownerDocument") and "context" in about:
+            places.append(place_of_tag(about["context"].filename, about["tag"]))
+            tag = about["tag"].tagName
+    cause = next((one for one in reversed(chain) if not isinstance(one, KeyError)), error)
+    if isinstance(cause, expat.ExpatError):
+        places.append((path, cause.lineno))
+    words = str(cause.args[0] if len(cause.args) == 1 else cause)  # without ROS's paths
+    return {"kind": type(cause).__name__, "words": words, "tag": tag, "places": places}
 
 
 def _node(node: Any, params: Any) -> Node:
@@ -57,8 +92,17 @@ def facts_of(path: str) -> dict[str, Any]:
     """Return what a launch file says; with an error, as far as roslaunch reads it."""
     import roslaunch.config  # noqa: PLC0415
     import roslaunch.loader  # noqa: PLC0415
+    import roslaunch.xmlloader  # noqa: PLC0415
 
     value_of = roslaunch.loader.Loader.param_value
+    node_of = roslaunch.xmlloader.XmlLoader._node_tag
+    places: dict[int, tuple[str, int]] = {}  # of the nodes, by id()
+
+    def with_place(self: Any, tag: Any, context: Any, *more: Any, **named: Any) -> Any:
+        node = node_of(self, tag, context, *more, **named)
+        if node is not None:
+            places[id(node)] = place_of_tag(context.filename, tag)
+        return node
 
     def without_command(self: Any, *about: Any) -> Any:
         """Do without what <param command=...> prints: wanted is only what would be started."""
@@ -66,22 +110,26 @@ def facts_of(path: str) -> dict[str, Any]:
         return value_of(self, *start, value if command is None else "", textfile, binfile, None)
 
     roslaunch.loader.Loader.param_value = without_command
+    roslaunch.xmlloader.XmlLoader._node_tag = with_place
     said = io.StringIO()
-    facts: dict[str, Any] = {"path": path, "error": "", "nodes": [], "files": [], "said": ""}
+    facts: dict[str, Any] = {"path": path, "fault": None, "nodes": [], "files": [], "said": ""}
     try:
         document = xml.dom.minidom.parse(path)
         facts["root"] = getattr(document.documentElement, "tagName", "")
         facts["tags"] = [each.tagName for each in document.getElementsByTagName("*")]
     except Exception as error:
-        return {**facts, "error": str(error)}
+        places = [(path, getattr(error, "lineno", 0))]
+        return {**facts, "fault": {**fault_of(error), "places": places}}
     try:
         with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
             config = roslaunch.config.load_config_default([path], 11311, verbose=False)
         facts["errors"] = [str(each) for each in config.config_errors]
-        facts["nodes"] = [_node(node, config.params) for node in config.nodes]
+        facts["nodes"] = [
+            {**_node(node, config.params), "place": places[id(node)]} for node in config.nodes
+        ]
         facts["files"] = sorted({str(Path(each).resolve()) for each in config.roslaunch_files})
     except (Exception, SystemExit) as error:
-        facts["error"] = " ".join(str(error).split())
+        facts["fault"] = fault_of(error)
     return {**facts, "said": said.getvalue()[-2000:]}
 
 

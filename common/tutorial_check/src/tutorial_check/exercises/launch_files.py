@@ -15,7 +15,16 @@ from tutorial_check.exercises import launch_facts
 from tutorial_check.exercises.joy2twist import NAME
 from tutorial_check.exercises.joystick_task import PACKAGE
 from tutorial_check.exercises.launch_facts import Node
-from tutorial_check.exercises.launch_text import attribute, parse_error, space_hint
+from tutorial_check.exercises.launch_text import (
+    UNSET,
+    Fault,
+    attribute,
+    blamed,
+    package_hint,
+    parse_error,
+    space_hint,
+)
+from tutorial_check.exercises.underlay import is_stand_in
 from tutorial_check.launch_xml import line_of, place_of, read, unclosed_node
 from tutorial_check.manifests import must_be_launchable
 from tutorial_check.model import CannotCheck, Note, Wrong
@@ -44,7 +53,7 @@ class LaunchFile:
         """Read the file. Raises Wrong if there is none."""
         self.session, self.name = session, name
         self.path = find_launch(session, name)
-        self.where = os.path.relpath(self.path, session.package(PACKAGE).folder)
+        self.where = shown(session, self.path)
         self.text = read(self.path)
         self.facts = session.memo("launch facts", lambda: _read(session)).get(name)
         self.nodes: list[Node] = self.facts["nodes"]  # that it starts
@@ -55,6 +64,10 @@ class LaunchFile:
         return place_of(self.where, self.text, *words)
 
     def at_node(self, node: Node) -> str:
+        """Return FILE:LINE of a node, which may be in an included file."""
+        path, line = node["place"]
+        if self.session.source in Path(path).parents:
+            return f"{shown(self.session, path)}:{line}"
         return self.at(*attribute("type", node["type"]), Path(node["type"]).name)
 
     def demand(self, what: str, test: Callable[[Node], bool], hint: str) -> Any:
@@ -72,6 +85,12 @@ class LaunchFile:
             expected, seen = "a second quote for each one in args", f"{node['args']} ({error})"
             hint = "leave the ' out: a path without spaces needs none"
             raise Wrong(expected, seen, self.at_node(node), hint) from None
+
+
+def shown(session: Session, path: str | Path) -> str:
+    """Return the path of a file within the student's package, or else within src."""
+    inside = os.path.relpath(path, session.package(PACKAGE).folder)
+    return os.path.relpath(path, session.source) if inside.startswith("..") else inside
 
 
 def copy_bag(session: Session) -> str:
@@ -155,8 +174,8 @@ def _check_text(file: LaunchFile) -> None:
     if root != "launch":
         hint = "roslaunch knows <launch> alone, in lower case"
         raise Wrong("<launch> around all", f"<{root}>", file.at(f"<{root}"), hint)
-    if one["error"]:
-        raise parse_error(one["error"], file.where, file.path.read_text(errors="replace"))
+    if one["fault"]:
+        raise _fault(file, Fault(**one["fault"]))
     said = one["said"] + " ".join(one.get("errors", []))
     _check_words(file, said)
     inside = re.search(r"unrecognized '(\w+)' child tag", said)
@@ -170,6 +189,21 @@ def _check_text(file: LaunchFile) -> None:
     gap, hint = space_hint(file.text)
     if gap:
         raise Wrong("names in one word", gap, file.at(gap), hint)
+
+
+def _fault(file: LaunchFile, fault: Fault) -> Wrong:
+    """Return the Wrong for what roslaunch cannot read, in this file or in an included one."""
+    session = file.session
+    found, line = blamed(fault, session.source)
+    path = Path(found or file.path)
+    wrong = parse_error(fault, shown(session, path), line, path.read_text(errors="replace"))
+    inner, number = fault.places[-1] if fault.places else (found, line)
+    if session.source not in Path(inner).parents and fault.kind != UNSET:
+        wrong.seen += f" (in {inner}:{number})"
+    hiding = (each for each in session.packages if each.folder in path.parents)
+    for name in (each.name for each in hiding if is_stand_in(each.name)):
+        wrong.hint += f"; or remove {name} from src: this suite has one that needs nothing else"
+    return wrong
 
 
 def _check_words(file: LaunchFile, said: str) -> None:
@@ -202,6 +236,7 @@ def _check_node(file: LaunchFile, node: Node) -> None:
         _check_own_node(file.session, kind, place)
     elif not node["found"] and (package, kind) != ("rviz", "rviz"):
         hint = "look at pkg= and type=: rosrun PACKAGE and Tab twice lists its programs"
+        hint = package_hint(package) if node["found"] is None else hint
         if difflib.get_close_matches(kind, ["joy_node"], 1, 0.8):
             hint = JOY_HINT
         seen = f"Cannot locate node of type [{kind}] in package [{package}]"

@@ -15,8 +15,8 @@ from tutorial_check.workspace import underlays
 
 SUITE = ("node_kit", "fake_turtlebot_sim")  # packages of the underlay
 AGAIN = "in the workspace: rm -r build devel, then catkin_make"
-# Of the suite's own these are stand-ins: the real ones may well lie in a student's src.
-STAND_INS = ("joy", "rbx1_", "turtlebot_")
+# The real ones may well lie in a student's src.
+STAND_INS = Path(__file__).resolve().parents[4] / "stand_ins"
 
 
 @check("C1", "the workspace", "2.1", look="ls src devel", timeless=True, eager=True)
@@ -78,13 +78,22 @@ def _is_suite(devel: str | Path) -> Any:
     return is_there or Path(devel).parts[-2:] == ("lower", "devel")
 
 
+@place.own_rights()
+def is_stand_in(name: str) -> bool:
+    """Return whether the suite's package of that name stands in for the one that Debian lacks."""
+    return (STAND_INS / name / "package.xml").is_file()
+
+
 def _check_names(session: Session) -> None:
     """Raise Wrong for a package with the name of one that the exercises need."""
     share = Path(session.underlay).parent / "share"
     for each in session.packages:
         with place.own_rights():
-            is_suite = (share / each.name).is_dir() and not each.name.startswith(STAND_INS)
-        if is_suite or any(each.name in names for names in WANTED.values()):
+            is_suite = (share / each.name).is_dir() and not is_stand_in(each.name)
+            brings = (each.folder / "msg", each.folder / "src" / each.name)
+        is_ros = any(each.name in names for names in WANTED.values())
+        # A clone of the real one is no package that catkin_create_pkg made by mistake.
+        if is_suite or (is_ros and not any(map(Path.is_dir, brings))):
             seen = f"a package {each.name}: it hides {'the suite' if is_suite else 'ROS'}'s own"
             hint = "remove it from src. If catkin_create_pkg made it: its first word is the name"
             hint += " of the new package, those after it what that depends on"
