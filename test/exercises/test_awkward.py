@@ -97,7 +97,15 @@ def test_a_home_folder_with_a_package_deep_below(literal, tmp_path, underlay):
     (tmp_path / "home" / "Documents").mkdir(parents=True)
     (tmp_path / "home" / "course").mkdir()
     literal.parent.rename(tmp_path / "home" / "course" / "anna")
-    code, out, _ = check(underlay, "--in", ".", "2", "4.2", cwd=tmp_path / "home")
+    code, out, _ = check(
+        underlay,
+        "--in",
+        ".",
+        "2",
+        "4.2",
+        cwd=tmp_path / "home",
+        env=environment(HOME=str(tmp_path / "home")),
+    )
     assert code == 1
     assert "is this your workspace? --in" in out
     assert "anna" not in out and "mv " not in out

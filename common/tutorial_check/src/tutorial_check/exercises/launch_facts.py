@@ -118,8 +118,8 @@ def facts_of(path: str) -> dict[str, Any]:
         facts["root"] = getattr(document.documentElement, "tagName", "")
         facts["tags"] = [each.tagName for each in document.getElementsByTagName("*")]
     except Exception as error:
-        places = [(path, getattr(error, "lineno", 0))]
-        return {**facts, "fault": {**fault_of(error), "places": places}}
+        where = (path, getattr(error, "lineno", 0))
+        return {**facts, "fault": {**fault_of(error), "places": [where]}}
     try:
         with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
             config = roslaunch.config.load_config_default([path], 11311, verbose=False)

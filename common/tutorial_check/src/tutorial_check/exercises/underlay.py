@@ -39,19 +39,18 @@ def workspace(session: Session) -> Note | str | None:
     if not layout.is_workspace:
         return Note("handed in as packages, without their workspace: built afresh here")
     devel = layout.root / "devel"
-    found = underlays(devel)
-    if setup_size is not None and (found is None or not setup_size):
-        gone = setup.name if found else "_setup_util.py or setup.sh"
+    made_for, below = underlays(devel)
+    if made_for and os.path.realpath(made_for) != os.path.realpath(devel):
+        return Note(f"its devel folder was made elsewhere ({made_for}); built afresh here")
+    if setup_size is not None and (not made_for or below is None or not setup_size):
+        gone = setup.name if made_for and below is not None else "_setup_util.py or setup.sh"
         seen = f"it is not whole: {gone} is missing or empty"
         raise Wrong("a devel folder as catkin_make makes it", seen, "devel", AGAIN)
-    if found is None and is_built_within:
+    if not made_for and is_built_within:
         hint = "catkin_make is called in the workspace: cd .., and remove src/build and src/devel"
         raise Wrong("build and devel beside src", "they are within src", hint=hint)
-    if found is None:
+    if below is None:
         return Note("never built here (no devel/setup.bash)", hint="catkin_make in the workspace")
-    made_for, below = found
-    if os.path.realpath(made_for) != os.path.realpath(devel):
-        return Note(f"its devel folder was made elsewhere ({made_for}); built afresh here")
     own = str(devel.resolve())
     _check_below(session, [each for each in below if os.path.realpath(each) != own])
     return "src and devel, on top of this suite"
