@@ -24,9 +24,8 @@ from tutorial_check.exercises.launch_text import (
     parse_error,
     space_hint,
 )
-from tutorial_check.exercises.underlay import is_stand_in
 from tutorial_check.launch_xml import line_of, place_of, read, unclosed_node
-from tutorial_check.manifests import must_be_launchable
+from tutorial_check.manifests import is_stand_in, must_be_launchable
 from tutorial_check.model import CannotCheck, Note, Wrong
 from tutorial_check.scripts import find_script, is_runnable
 from tutorial_check.session import Session

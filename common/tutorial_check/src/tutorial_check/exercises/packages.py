@@ -25,6 +25,9 @@ CREATE = {name: f"catkin_create_pkg {name} {' '.join(words)}" for name, words in
 # What a message of CMake's most often means here: (pattern, what to do). The first that fits counts.
 CMAKE_HINTS = (
     (r"does not match current PROJECT_NAME", "write the name that package.xml has into project()"),
+    (r"include dir '(?P<m>[^']+)' does not exist|directory not found: \S*?/ws/src/(?P<n>\S+)"
+     r"|source \"(?P<o>\w[^\"]*)\" which is not an existing",
+     "git keeps no empty folders: put a file into {f}, as .gitkeep, or take it out of the line"),
     (r"non-existing file|Cannot find source file", "look at the spelling of the file's path"),
     (r"Unknown CMake command", "look at the spelling of the command"),
 )
@@ -106,7 +109,9 @@ def _dependencies(session: Session, name: str) -> Any:
         seen = f"{near[missing[0]][0]}, which is no package"
     text = read(package.folder / "package.xml")
     place = place_of(where, text, "exec_depend>", "run_depend>", "depend>", "</package>")
-    hint = "add " + " and ".join(f"<depend>{each}</depend>" for each in missing)
+    # Format 1 knows no <depend>.
+    kinds = ("build_depend", "run_depend") if package.format == 1 else ("depend",)
+    hint = "add " + " and ".join(f"<{k}>{each}</{k}>" for each in missing for k in kinds)
     for each, (found,) in ((each, words) for each, words in near.items() if words):
         seen += f" (but {found})" if each not in package.depends else ""
         place = place_of(where, text, f">{found}<", found)
@@ -160,8 +165,8 @@ def _cmake(package: Package) -> Any:
 
 
 @check("C4", "catkin_make builds", "2.1", "C2", look="catkin_make")
-def build(session: Session) -> None:
-    for each in session.packages:
+def build(session: Session) -> Note | None:
+    for each in session.needed:
         _cmake(each)
     code, output = session.built()
     if code is None:
@@ -174,6 +179,12 @@ def build(session: Session) -> None:
     if listed and "beginner_tutorials" not in names:
         seen = f"it goes through {', '.join(names)}"
         raise Wrong("catkin_make goes through beginner_tutorials", seen)
+    if not session.unbuilt:
+        return None
+    wrong = _build_error(session, session.unbuilt)
+    seen = f"it builds what the exercises need; another package fails: {wrong.seen}"
+    hint = f"{wrong.hint}; or put an empty file CATKIN_IGNORE into that package"
+    return Note(seen, wrong.where, hint)
 
 
 def _build_error(session: Session, output: str) -> Any:
@@ -186,8 +197,9 @@ def _build_error(session: Session, output: str) -> Any:
     message, where = _cmake_error(output)
     if words.startswith("CMake Error") and message:
         words = f"CMake: {message}"
-    fits = (what for pattern, what in CMAKE_HINTS if re.search(pattern, message))
-    hint = next(fits, "read the first error of catkin_make: it names file and line")
+    hint = "read the first error of catkin_make: it names file and line"
+    for found, what in ((re.search(each, message), what) for each, what in CMAKE_HINTS[::-1]):
+        hint = what.format(f=found[found.lastindex or 0]) if found else hint
     if missing:
         words, place, hint = _not_found(session, missing[0])
         where = place or where
@@ -196,7 +208,8 @@ def _build_error(session: Session, output: str) -> Any:
 
 def _missing_in(output: str) -> list[str]:
     """Return the packages that catkin_make said it could not find."""
-    return re.findall(r'[Cc]ould not find .*?"([^"]+)"', output)
+    # CMake breaks long lines, and indents them.
+    return re.findall(r'[Cc]ould not find (?:[^"\n]|\n  (?=\S))*"([^"]+)"', output)
 
 
 def _not_found(session: Session, name: str) -> Any:

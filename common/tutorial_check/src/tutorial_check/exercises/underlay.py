@@ -9,14 +9,13 @@ from typing import Any, Sequence
 from tutorial_check import place
 from tutorial_check.course import check
 from tutorial_check.exercises.packages import WANTED
+from tutorial_check.manifests import is_stand_in
 from tutorial_check.model import Note, Wrong
 from tutorial_check.session import Session
 from tutorial_check.workspace import underlays
 
 SUITE = ("node_kit", "fake_turtlebot_sim")  # packages of the underlay
 AGAIN = "in the workspace: rm -r build devel, then catkin_make"
-# The real ones may well lie in a student's src.
-STAND_INS = Path(__file__).resolve().parents[4] / "stand_ins"
 
 
 @check("C1", "the workspace", "2.1", look="ls src devel", timeless=True, eager=True)
@@ -75,12 +74,6 @@ def _is_suite(devel: str | Path) -> Any:
     """Return whether a devel folder is the underlay of some copy of this suite; it may be hidden here."""
     is_there = any(os.path.isdir(os.path.join(devel, "share", name)) for name in SUITE)
     return is_there or Path(devel).parts[-2:] == ("lower", "devel")
-
-
-@place.own_rights()
-def is_stand_in(name: str) -> bool:
-    """Return whether the suite's package of that name stands in for the one that Debian lacks."""
-    return (STAND_INS / name / "package.xml").is_file()
 
 
 def _check_names(session: Session) -> None:
