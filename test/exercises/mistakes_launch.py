@@ -103,7 +103,7 @@ ROWS = [
     joy("no joy_node", JOY, "", "C25", "joy_node"),
     joy("no robot for the joystick", ROBOT, "", "C25", "robot"),
     joy("a recording beside the joystick", JOY, JOY + '  <node name="rosbag" pkg="rosbag" type="play" args="--loop $(find joy2twist)/bag/joy.bag"/>\n', "C25", "both"),
-    joy("/joy remapped away", 'type="joy_node">', 'type="joy_node">\n  <remap from="joy" to="joystick"/>', "C25", ("launch_joy_node.launch:8", "sends them on joystick")),
+    joy("/joy remapped away", 'type="joy_node">', 'type="joy_node">\n  <remap from="joy" to="joystick"/>', "C25", ("launch_joy_node.launch:8", "sends them on /joystick")),
     ("6.1", "no joy2twist_turtlebot.launch", [remove(TURTLEBOT)], "C27", "no such file"),
     mux("remap swapped", REMAP, '<remap from="/cmd_vel_mux/input/teleop" to="/cmd_vel"/>', "C27", "swapped"),
     mux("a blank at the end of to", 'teleop"', 'teleop "', "C27", ("turtlebot.launch:3", "blank")),

@@ -14,7 +14,7 @@ from tutorial_check.launch_xml import not_xml, place_of, without_comments
 from tutorial_check.model import Wrong
 
 # Those that a launch file of the exercises may name.
-PACKAGES = (
+PACKAGES = [
     "rbx1_nav",
     "rbx1_bringup",
     "turtlebot_rviz_launchers",
@@ -25,8 +25,8 @@ PACKAGES = (
     "joy",
     "rosbag",
     "rviz",
-)
-# What roslaunch says: kind and words of the error; what is seen, else those words; what to do.
+]
+# Kinds and words of errors, as roslaunch has them.
 UNSET, UNUSED = "ArgException", r"unused args \[(\w+).*\] for include of \[(.*)\]"
 NO_FILE = r"No such file or directory: '([^']+)'|file does not exist \[([^\]]*)\]"
 # Names in two words. (That of a node may have them, says roslaunch; that is worth a note.)
@@ -88,17 +88,20 @@ def space_hint(text: str) -> tuple[str, str]:
     return "", ""
 
 
+def debian_hint(name: str) -> str:
+    """Return what to do about a ROS package that Debian has, or is known to lack; or ""."""
+    debian, other = packages_of_ros(name), in_place_of(name)
+    lacks = f"Debian lacks {name}; {other}" if other else ""
+    return f"Debian has it: sudo apt install {debian}" if debian else lacks
+
+
 def package_hint(name: str) -> str:
     """Return what to do about a ROS package that is not there."""
     near = difflib.get_close_matches(name, PACKAGES, 1, 0.8)
     if near:
         return f"there is no package {name}; is {near[0]} meant?"
-    debian, other = packages_of_ros(name), in_place_of(name)
-    if debian:
-        return f"Debian has it: sudo apt install {debian}"
-    if other:
-        return f"Debian lacks {name}; {other}"
-    return f"there is no package {name}: look at the spelling in $(find {name}) or pkg="
+    spelling = f"there is no package {name}: look at the spelling in $(find {name}) or pkg="
+    return debian_hint(name) or spelling
 
 
 def blamed(fault: Fault, source: Path) -> tuple[str, int]:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from tutorial_check.course import check
+from tutorial_check.exercises.launch_text import debian_hint
 from tutorial_check.launch_xml import place_of, read
 from tutorial_check.manifests import unreadable
 from tutorial_check.model import Note, Wrong
@@ -25,9 +26,11 @@ CREATE = {name: f"catkin_create_pkg {name} {' '.join(words)}" for name, words in
 # What a message of CMake's most often means here: (pattern, what to do). The first that fits counts.
 CMAKE_HINTS = (
     (r"does not match current PROJECT_NAME", "write the name that package.xml has into project()"),
-    (r"include dir '(?P<m>[^']+)' does not exist|directory not found: \S*?/ws/src/(?P<n>\S+)"
-     r"|source \"(?P<o>\w[^\"]*)\" which is not an existing",
-     "git keeps no empty folders: put a file into {f}, as .gitkeep, or take it out of the line"),
+    (
+        r"include dir '(?P<m>[^']+)' does not exist|directory not found: \S*?/ws/src/(?P<n>\S+)"
+        r"|source \"(?P<o>\w[^\"]*)\" which is not an existing",
+        "git keeps no empty folders: put a file into {f}, as .gitkeep, or take it out of the line",
+    ),
     (r"non-existing file|Cannot find source file", "look at the spelling of the file's path"),
     (r"Unknown CMake command", "look at the spelling of the command"),
 )
@@ -217,7 +220,8 @@ def _not_found(session: Session, name: str) -> Any:
     place, text = _place_in_cmake(session, name)
     absent = {each for names in WANTED.values() for each in names if each not in text}
     near = difflib.get_close_matches(name, absent, 1, 0.65)
-    hint = f"is {name} spelt right in find_package of CMakeLists.txt, and without a comma?"
+    spelling = f"is {name} spelt right in find_package of CMakeLists.txt, and without a comma?"
+    hint = debian_hint(name) or spelling
     if near and "," not in name:
         hint = f"correct {name} to {near[0]} in CMakeLists.txt"
     return f"catkin cannot find {name}", place, hint
