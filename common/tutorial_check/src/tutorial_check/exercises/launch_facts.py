@@ -54,16 +54,13 @@ def place_of_tag(file: str, tag: Any) -> tuple[str, int]:
     return file, lines[tag.ownerDocument.getElementsByTagName("*").index(tag)]
 
 
-def fault_of(error: BaseException) -> dict[str, Any]:
-    """Return what led to an error of roslaunch's: its kind, its words, the tag, where it came up.
-
-    places: [file, line] of each tag that roslaunch was reading then, the outermost first.
-    """
+def fault_of(error: BaseException, path: str) -> dict[str, Any]:
+    """Return what led to an error of roslaunch's, as a launch_text.Fault has it. path: the launch file."""
     chain = [error]
     while chain[-1].__context__:
         chain.append(chain[-1].__context__)
     frames = [frame for one in chain for frame, _ in traceback.walk_tb(one.__traceback__)]
-    places, path, tag = [], "", ""
+    places, tag = [(path, 1)], ""
     for about in (frame.f_locals for frame in frames if "xmlloader" in frame.f_code.co_filename):
         path = about.get("filename", path)
         if hasattr(about.get("tag"), "ownerDocument") and "context" in about:
@@ -117,10 +114,6 @@ def facts_of(path: str) -> dict[str, Any]:
         document = xml.dom.minidom.parse(path)
         facts["root"] = getattr(document.documentElement, "tagName", "")
         facts["tags"] = [each.tagName for each in document.getElementsByTagName("*")]
-    except Exception as error:
-        where = (path, getattr(error, "lineno", 0))
-        return {**facts, "fault": {**fault_of(error), "places": [where]}}
-    try:
         with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
             config = roslaunch.config.load_config_default([path], 11311, verbose=False)
         facts["errors"] = [str(each) for each in config.config_errors]
@@ -129,7 +122,7 @@ def facts_of(path: str) -> dict[str, Any]:
         ]
         facts["files"] = sorted({str(Path(each).resolve()) for each in config.roslaunch_files})
     except (Exception, SystemExit) as error:
-        facts["fault"] = fault_of(error)
+        facts["fault"] = fault_of(error, path)
     return {**facts, "said": said.getvalue()[-2000:]}
 
 

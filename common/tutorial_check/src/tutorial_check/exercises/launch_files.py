@@ -11,19 +11,10 @@ from pathlib import Path
 from typing import Any, Callable
 
 from tutorial_check.course import check
-from tutorial_check.exercises import launch_facts
+from tutorial_check.exercises import launch_facts, launch_text
 from tutorial_check.exercises.joy2twist import NAME
 from tutorial_check.exercises.joystick_task import PACKAGE
 from tutorial_check.exercises.launch_facts import Node
-from tutorial_check.exercises.launch_text import (
-    UNSET,
-    Fault,
-    attribute,
-    blamed,
-    package_hint,
-    parse_error,
-    space_hint,
-)
 from tutorial_check.launch_xml import line_of, place_of, read, unclosed_node
 from tutorial_check.manifests import is_stand_in, must_be_launchable
 from tutorial_check.model import CannotCheck, Note, Wrong
@@ -67,7 +58,7 @@ class LaunchFile:
         path, line = node["place"]
         if self.session.source in Path(path).parents:
             return f"{shown(self.session, path)}:{line}"
-        return self.at(*attribute("type", node["type"]), Path(node["type"]).name)
+        return self.at(*launch_text.attribute("type", node["type"]), Path(node["type"]).name)
 
     def demand(self, what: str, test: Callable[[Node], bool], hint: str) -> Any:
         """Return the first node of which test() is true. Raises Wrong."""
@@ -174,7 +165,7 @@ def _check_text(file: LaunchFile) -> None:
         hint = "roslaunch knows <launch> alone, in lower case"
         raise Wrong("<launch> around all", f"<{root}>", file.at(f"<{root}"), hint)
     if one["fault"]:
-        raise _fault(file, Fault(**one["fault"]))
+        raise _fault(file, launch_text.Fault(**one["fault"]))
     said = one["said"] + " ".join(one.get("errors", []))
     _check_words(file, said)
     inside = re.search(r"unrecognized '(\w+)' child tag", said)
@@ -185,21 +176,21 @@ def _check_text(file: LaunchFile) -> None:
         hint = "the <node> of this line goes on to its </node>: close it first, with /> or </node>"
         seen = f"<{tag}> in it: ignored by roslaunch"
         raise Wrong(expected, seen, f"{file.where}:{line}", hint)
-    gap, hint = space_hint(file.text)
+    gap, hint = launch_text.space_hint(file.text)
     if gap:
         raise Wrong("names in one word", gap, file.at(gap), hint)
 
 
-def _fault(file: LaunchFile, fault: Fault) -> Wrong:
+def _fault(file: LaunchFile, fault: launch_text.Fault) -> Wrong:
     """Return the Wrong for what roslaunch cannot read, in this file or in an included one."""
     session = file.session
-    found, line = blamed(fault, session.source)
-    path = Path(found or file.path)
-    wrong = parse_error(fault, shown(session, path), line, path.read_text(errors="replace"))
-    inner, number = fault.places[-1] if fault.places else (found, line)
-    if session.source not in Path(inner).parents and fault.kind != UNSET:
+    path, line = launch_text.blamed(fault, session.source)
+    text = Path(path).read_text(errors="replace")
+    wrong = launch_text.parse_error(fault, shown(session, path), line, text)
+    inner, number = fault.places[-1]
+    if session.source not in Path(inner).parents and fault.kind != launch_text.UNSET:
         wrong.seen += f" (in {inner}:{number})"
-    hiding = (each for each in session.packages if each.folder in path.parents)
+    hiding = (each for each in session.packages if each.folder in Path(path).parents)
     for name in (each.name for each in hiding if is_stand_in(each.name)):
         wrong.hint += f"; or remove {name} from src: this suite has one that needs nothing else"
     return wrong
@@ -235,7 +226,7 @@ def _check_node(file: LaunchFile, node: Node) -> None:
         _check_own_node(file.session, kind, place)
     elif not node["found"] and (package, kind) != ("rviz", "rviz"):
         hint = "look at pkg= and type=: rosrun PACKAGE and Tab twice lists its programs"
-        hint = package_hint(package) if node["found"] is None else hint
+        hint = launch_text.package_hint(package) if node["found"] is None else hint
         if difflib.get_close_matches(kind, ["joy_node"], 1, 0.8):
             hint = JOY_HINT
         seen = f"Cannot locate node of type [{kind}] in package [{package}]"
@@ -245,14 +236,12 @@ def _check_node(file: LaunchFile, node: Node) -> None:
 def _check_own_node(session: Session, kind: str, place: str) -> None:
     files = [path for path in session.package(PACKAGE).folder.rglob("*") if path.is_file()]
     found = [path for path in files if path.name == kind]
-    if kind == "joy_node":
-        seen = 'pkg="joy2twist" has no joy_node: your package hides ours'
-        raise Wrong("joy_node of package joy", seen, place, JOY_HINT)
     if not found and kind == NAME:
         find_script(session, PACKAGE, NAME)  # which says what is there in its place
     if not found:
         near = difflib.get_close_matches(kind, sorted(path.name for path in files), 1, 0.7)
         hint = f'type="{near[0]}"' if near else "type is the name of the file, with .py"
+        hint = JOY_HINT if kind == "joy_node" else hint
         seen = f"Cannot locate node of type [{kind}]"
         raise Wrong(f"a program {kind} in {PACKAGE}", seen, place, hint)
     if not any(is_runnable(session, PACKAGE, path) for path in found):

@@ -45,10 +45,6 @@ def is_joystick(node: Node) -> bool:
     return is_driver and node["package"] != "rosbag"
 
 
-def sends_joys(node: Node) -> bool:
-    return is_joystick(node) or is_player(node)
-
-
 def is_own(node: Node) -> bool:
     return node["package"] == PACKAGE
 

@@ -36,8 +36,9 @@ class Launch:
     def __init__(self, file: LaunchFile, stage: Stage, twists: str = CMD_VEL) -> None:
         """twists: the topic on which the velocities should come."""
         self.file, self.stage, self.twists = file, stage, twists
-        senders = filter(launch_nodes.sends_joys, file.nodes)
-        self.joys = next((launch_nodes.topic_of(each, JOY) for each in senders), JOY)
+        kinds = (launch_nodes.is_joystick, launch_nodes.is_player)
+        senders = [node for node in file.nodes if any(is_one(node) for is_one in kinds)]
+        self.joys = launch_nodes.topic_of(senders[0], JOY) if senders else JOY
         for topic, kind in ((self.joys, "Joy"), (twists, "Twist"), (ODOM, "Odometry")):
             stage.call("listen", topic, kind)
         self.program = stage.launch(["roslaunch", str(file.path)])

@@ -14,18 +14,10 @@ from tutorial_check.launch_xml import not_xml, place_of, without_comments
 from tutorial_check.model import Wrong
 
 # Those that a launch file of the exercises may name.
-PACKAGES = [
-    "rbx1_nav",
-    "rbx1_bringup",
-    "turtlebot_rviz_launchers",
-    "turtlebot_bringup",
-    "fake_turtlebot_sim",
-    "joy2twist",
-    "gamepad",
-    "joy",
-    "rosbag",
-    "rviz",
-]
+PACKAGES = (
+    "rbx1_nav rbx1_bringup turtlebot_rviz_launchers turtlebot_bringup fake_turtlebot_sim joy2twist"
+    " gamepad joy rosbag rviz"
+)
 # Kinds and words of errors, as roslaunch has them.
 UNSET, UNUSED = "ArgException", r"unused args \[(\w+).*\] for include of \[(.*)\]"
 NO_FILE = r"No such file or directory: '([^']+)'|file does not exist \[([^\]]*)\]"
@@ -34,16 +26,16 @@ GAPS = (
     r"\$\(find\s+(\w+(?:[ \t]+\w+)+)\s*\)",
     r"\b(?:pkg|type)\s*=\s*[\"'](\w+(?:[ \t]+[\w.]+)+)[\"']",
 )
-# What roslaunch wants in a tag.
-ATTRIBUTES = {
-    "node": "a node has pkg=, type= and name=",
-    "include": 'an include has file="$(find PACKAGE)/launch/FILE"',
-    "remap": '<remap from="name in the program" to="name on the robot"/>',
-}
 # (what roslaunch says, what is seen, what to do); without the second its own words. The first that fits counts.
 SAID = (
-    (f"{UNSET}: (.*)", "the arg {0} has no value",
+    (f"{UNSET} .*?: (.*)", "the arg {0} has no value",
      'give it a value: <arg name="{0}" default="..."/>, or value="..." in the <include>'),
+    ("^KeyError <include>", "an <include> without file=",
+     'an include has file="$(find PACKAGE)/launch/FILE"'),
+    ("<node>: .*missing required", "", "a node has pkg=, type= and name="),
+    ("<remap>: .*missing required", "",
+     '<remap from="name in the program" to="name on the robot"/>'),
+    ("missing required", "", "look at the names of its attributes"),
     (r"environment variable b?'(\w+)' is not set", "",
      "export {0}=... in the terminal of roslaunch; or $(optenv {0} VALUE), which has a default"),
     ("node name cannot contain a namespace", 'a "/" in the name= of a node',
@@ -70,7 +62,7 @@ class Fault:
     kind: str
     words: str
     tag: str
-    places: Sequence[tuple[str, int]]  # (file, line) of each tag, the outermost first
+    places: Sequence[tuple[str, int]]  # (file, line) of each tag around it, the outermost first
 
 
 def attribute(name: str, value: str) -> tuple[str, ...]:
@@ -97,7 +89,7 @@ def debian_hint(name: str) -> str:
 
 def package_hint(name: str) -> str:
     """Return what to do about a ROS package that is not there."""
-    near = difflib.get_close_matches(name, PACKAGES, 1, 0.8)
+    near = difflib.get_close_matches(name, PACKAGES.split(), 1, 0.8)
     if near:
         return f"there is no package {name}; is {near[0]} meant?"
     spelling = f"there is no package {name}: look at the spelling in $(find {name}) or pkg="
@@ -105,17 +97,17 @@ def package_hint(name: str) -> str:
 
 
 def blamed(fault: Fault, source: Path) -> tuple[str, int]:
-    """Return (file, line) of the innermost tag below a folder, which is at fault; ("", 0): none.
+    """Return (file, line) of the innermost tag below a folder, which is at fault.
 
     An arg without a value is the fault of the <include>, where the included file declares it.
     """
     own = [place for place in fault.places if source in Path(place[0]).parents]
-    if fault.kind == UNSET and own:
+    if fault.kind == UNSET:
         file = own[-1][0]
         declared = rf"<arg\b[^<>]*\bname\s*=\s*[\"']{re.escape(fault.words)}[\"']"
         if re.search(declared, without_comments(Path(file).read_text(errors="replace"))):
             own = [place for place in own if place[0] != file] or own
-    return own[-1] if own else ("", 0)
+    return own[-1]
 
 
 def parse_error(fault: Fault, where: str, line: int, text: str) -> Wrong:
@@ -136,10 +128,6 @@ def parse_error(fault: Fault, where: str, line: int, text: str) -> Wrong:
         return Wrong(expected, f"{open_find[0][:-1]} without )", place, hint)
     if fault.kind == "ResourceNotFound":
         return Wrong(expected, f"package not found: {words}", place, package_hint(words))
-    if fault.kind == "KeyError" or "missing required" in words:
-        hint = ATTRIBUTES.get(fault.tag, "look at the names of its attributes")
-        about = words.partition(" xml is ")[0]
-        return Wrong(expected, f"<{fault.tag}> lacks an attribute: {about}", place, hint)
     file = re.search(NO_FILE, words)
     if file:
         return _no_file(expected, file[1] or file[2], place)
@@ -147,7 +135,7 @@ def parse_error(fault: Fault, where: str, line: int, text: str) -> Wrong:
     if unused:
         seen, hint = _unused(unused[1], Path(unused[2]))
         return Wrong(expected, seen, place, hint)
-    said = f"{fault.kind}: {words.partition(' xml is ')[0]}"
+    said = f"{fault.kind} <{fault.tag}>: {words.partition(' xml is ')[0]}"
     for pattern, seen, hint in SAID:
         found = re.search(pattern, said)
         if found:
