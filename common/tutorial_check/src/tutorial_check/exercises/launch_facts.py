@@ -13,7 +13,6 @@ import json
 import shlex
 import sys
 import traceback
-import xml.dom.minidom
 from pathlib import Path
 from typing import Any, Dict
 from xml.parsers import expat
@@ -111,9 +110,6 @@ def facts_of(path: str) -> dict[str, Any]:
     said = io.StringIO()
     facts: dict[str, Any] = {"path": path, "fault": None, "nodes": [], "files": [], "said": ""}
     try:
-        document = xml.dom.minidom.parse(path)
-        facts["root"] = getattr(document.documentElement, "tagName", "")
-        facts["tags"] = [each.tagName for each in document.getElementsByTagName("*")]
         with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
             config = roslaunch.config.load_config_default([path], 11311, verbose=False)
         facts["errors"] = [str(each) for each in config.config_errors]

@@ -160,10 +160,6 @@ def check_file(session: Session, name: str) -> Any:
 
 def _check_text(file: LaunchFile) -> None:
     one = file.facts
-    root = one.get("root", "launch")
-    if root != "launch":
-        hint = "roslaunch knows <launch> alone, in lower case"
-        raise Wrong("<launch> around all", f"<{root}>", file.at(f"<{root}"), hint)
     if one["fault"]:
         raise _fault(file, launch_text.Fault(**one["fault"]))
     said = one["said"] + " ".join(one.get("errors", []))
@@ -198,20 +194,19 @@ def _fault(file: LaunchFile, fault: launch_text.Fault) -> Wrong:
 
 def _check_words(file: LaunchFile, said: str) -> None:
     """Raise Wrong for a tag or attribute that roslaunch does not know."""
-    pattern = r"unrecognized tag (\S+)|[Uu]nknown (?:<\w+> )?attribute '?([^\s']+)"
-    odd = next((tag for tag in file.facts["tags"] if tag not in TAGS), "")
-    unknown = re.search(pattern, said)
-    word = odd or (unknown and (unknown[1] or unknown[2]))
-    if not word:
+    pattern = r"unrecognized (?:tag |')(\w+)|[Uu]nknown (?:<\w+> )?attribute '?([^\s']+)"
+    found = (each.groups("") for each in re.finditer(pattern, said))
+    tag, name = next((each for each in found if each[0] not in TAGS), ("", ""))
+    if not tag and not name:
         return
-    near = difflib.get_close_matches(word, ATTRIBUTES, 1, 0.7)
-    hint = f"is {near[0]}= meant?" if near and not odd else "look at its spelling"
-    if odd and word.lower() in TAGS:
-        hint = f"lower case: <{word.lower()}>"
-    written = re.search(rf"<{word}\b" if odd else rf"\s{word}\s*=", file.text)
+    near = difflib.get_close_matches(name, ATTRIBUTES, 1, 0.7)
+    hint = f"is {near[0]}= meant?" if near else "look at its spelling"
+    if tag.lower() in TAGS:
+        hint = f"lower case: <{tag.lower()}>"
+    written = re.search(rf"<{tag}\b" if tag else rf"\s{name}\s*=", file.text)
     where = f"{file.where}:{line_of(file.text, written.end())}" if written else file.where
     expected = "tags and attributes that roslaunch knows"
-    raise Wrong(expected, f"{word}: ignored by roslaunch", where, hint)
+    raise Wrong(expected, f"{tag or name}: ignored by roslaunch", where, hint)
 
 
 def _check_node(file: LaunchFile, node: Node) -> None:

@@ -108,15 +108,15 @@ def check_joy(file: LaunchFile, sender: Node) -> None:
     """Raise Wrong unless the sender, a node, sends its Joys where joy2twist listens."""
     sends, own = topic_of(sender, JOY), file.session.task.topic(JOY)
     listens = [topic_of(node, own) for node in file.own]
-    if sends in listens:
-        return
-    seen, node = f"{sender['type']} sends them on {sends}", sender
-    if sends == JOY:
-        seen, node = f"{file.own[0]['type']} listens to {listens[0]}", file.own[0]
-    named = [to for source, to in node["remaps"] if source.strip("/") in ("joy", own.strip("/"))]
-    where = file.at(*(each for to in named for each in attribute("to", to)))
-    hint = f"leave that <remap> out of the node {node['name']}, or give both nodes the same"
-    raise Wrong("the Joys go to joy2twist, on /joy", seen, where, hint)
+    if sends not in listens:
+        seen = (
+            f"{sender['type']} sends them on {sends}, {file.own[0]['type']} listens to {listens[0]}"
+        )
+        remaps = (*sender["remaps"], *file.own[0]["remaps"])
+        named = [to for source, to in remaps if source.strip("/") in ("joy", own.strip("/"))]
+        where = file.at(*(each for to in named for each in attribute("to", to)))
+        hint = "leave that <remap> out, or give both nodes the same"
+        raise Wrong("the Joys go to joy2twist, on /joy", seen, where, hint)
 
 
 def bag_of(session: Session) -> Any:

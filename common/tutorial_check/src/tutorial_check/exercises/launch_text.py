@@ -50,7 +50,7 @@ SAID = (
     (r"Unknown substitution command \[(\S+)", "",
      "there is no $({0} ...): look at its spelling, as in $(find PACKAGE)"),
     (r"\$\(arg", "", 'each $(arg x) needs an <arg name="x" default="..."/>'),
-    ("is not a 'bool' type", "", "if= and unless= are true, false, 1 or 0, as $(arg gui) may be"),
+    ("no root <launch> tag", "", "roslaunch knows <launch> alone around all, in lower case"),
     ("", "", "roslaunch --nodes FILE shows the same"),
 )  # fmt: skip
 

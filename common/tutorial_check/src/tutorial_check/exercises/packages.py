@@ -220,8 +220,8 @@ def _not_found(session: Session, name: str) -> Any:
     place, text = _place_in_cmake(session, name)
     absent = {each for names in WANTED.values() for each in names if each not in text}
     near = difflib.get_close_matches(name, absent, 1, 0.65)
-    spelling = f"is {name} spelt right in find_package of CMakeLists.txt, and without a comma?"
-    hint = debian_hint(name) or spelling
+    hint = debian_hint(name)
+    hint = hint or f"is {name} spelt right in find_package of CMakeLists.txt, and without a comma?"
     if near and "," not in name:
         hint = f"correct {name} to {near[0]} in CMakeLists.txt"
     return f"catkin cannot find {name}", place, hint
