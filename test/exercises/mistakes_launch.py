@@ -153,6 +153,7 @@ ROWS = [
     included("a missing package", '<arg name="m" default="$(find no_such_pkg)/was"/>', "package not found: no_such_pkg"),
     included("a tag not closed", '<node pkg="joy">', "the <node> of line 2 is never closed"),
     included("a node that there is not", '<node pkg="joy" type="joy_nod" name="j"/>', "joy_nod"),
+    included("an attribute that there is not", '<node pkg="joy" type="joy_node" name="j" arg="x"/>', "is args= meant?"),
     included("a missing file", '<include file="$(find joy)/launch/none.launch"/>', "no such file"),
     ("5", "an included file whose arg has no value", [write(INCLUDED, '<launch>\n  <arg name="dev"/>\n  <param name="d" value="$(arg dev)"/>\n</launch>\n'), put(LAUNCH_BAG, *INCLUDES)], "C21", ("launch/launch_bag.launch:2", "the arg dev has no value")),
     ("5", "rbx1 in src, which needs arbotix", [write("rbx1/rbx1_bringup/package.xml", "<package><name>rbx1_bringup</name><version>0.0.0</version><description>x</description><maintainer email='s@u.example'>s</maintainer><license>x</license></package>"), write("rbx1/rbx1_bringup/launch/fake_turtlebot.launch", '<launch>\n  <param name="m" command="$(find xacro)/xacro.py x"/>\n</launch>\n')], "C21", ("where:    rbx1/rbx1_bringup/launch/fake_turtlebot.launch:2", "Debian lacks xacro", "remove rbx1_bringup from src")),

@@ -63,7 +63,7 @@ def test_of_several_workspaces_the_one_with_the_package_is_named(tmp_path):
         package(tmp_path / place, Path(place).name) if "/" in place else (tmp_path / place).mkdir()
     found = find_layout(tmp_path)
     assert found.source == tmp_path / "z/ros/hydro/catkin_ws/src"
-    assert found.place == "z/ros/hydro/catkin_ws, and not lab1, old/ws"
+    assert found.place == "z/ros/hydro/catkin_ws, not lab1, not old/ws"
 
 
 def test_a_home_folder_is_not_searched(tmp_path, monkeypatch):

@@ -18,14 +18,14 @@ from tutorial_check.model import CannotCheck, Wrong, master_gone
 from tutorial_check.python_facts import PythonFacts, read_python
 from tutorial_check.stage import Stage
 from tutorial_check.variants import Task
-from tutorial_check.workspace import Layout, Package, packages_below
+from tutorial_check.workspace import SOLUTIONS, Layout, Package, packages_below
 
 SLOW_S = 120  # [s] for what needs a second, when the machine is very busy
 # What of CMakeLists.txt makes a build necessary before anything can run.
 NEEDS_BUILD = re.compile(
     r"^[ \t]*(catkin_python_setup|add_message_files|add_service_files|generate_messages"
     r"|add_executable|catkin_install_python)\s*\(",
-    re.MULTILINE,
+    re.MULTILINE | re.IGNORECASE,
 )
 Memory = Dict[object, Tuple[Any, Any]]  # {key: (value, what was raised in place of one)}
 
@@ -189,7 +189,7 @@ class Session:
     @property
     def needed(self) -> list[Package]:
         """The packages of the exercises, and those of the workspace that they depend on."""
-        found, names = [], {*self.task.packages}
+        found, names = [], set(SOLUTIONS)
         for _ in self.packages:
             found = [each for each in self.packages if each.name in names]
             names |= {name for each in found for name in each.depends}

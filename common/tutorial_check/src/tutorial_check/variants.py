@@ -24,7 +24,6 @@ class Task:
 
     # {name that the checks have for a topic: that of the student's programs}
     topics: Mapping[str, str] = MappingProxyType({})
-    packages: tuple[str, ...] = ()  # that the exercises need; of others only a note is made
 
     def __init__(self, values: Variant) -> None:
         """values: those that are given."""

@@ -129,10 +129,8 @@ def find_layout(folder: str | Path) -> Layout:
         [each for each in found if found[each]] or found,
         key=lambda one: (-len(found[one] & SOLUTIONS), len(one.root.parts), one.root),
     )
-    where, *others = (os.path.relpath(each.root, folder) for each in ranked)
-    beside = f", and not {', '.join(others[:3])}" if others else ""
-    best = ranked[0]
-    return replace(best, place="" if best.root in (folder, folder.parent) else where + beside)
+    best, place = ranked[0], ", not ".join(os.path.relpath(one.root, folder) for one in ranked[:4])
+    return replace(best, place="" if best.root in (folder, folder.parent) else place)
 
 
 def _layout_of(folder: Path) -> Layout | None:

@@ -46,8 +46,6 @@ def moved(values: Sequence[Any], places: Mapping[int, int]) -> tuple[Any, ...]:
 class JoystickTask(Task):
     """A variant of the handout's task."""
 
-    packages = ("beginner_tutorials", PACKAGE)
-
     def __init__(self, values: Variant) -> None:
         """values: see course.yaml."""
         super().__init__(values)

@@ -59,21 +59,23 @@ def fault_of(error: BaseException, path: str) -> dict[str, Any]:
     while chain[-1].__context__:
         chain.append(chain[-1].__context__)
     frames = [frame for one in chain for frame, _ in traceback.walk_tb(one.__traceback__)]
-    places, tag = [(path, 1)], ""
+    # A <remap> in a <node> is t there.
+    key = "t" if any(frame.f_code.co_name == "add_remap" for frame in frames) else "tag"
+    places, name = [(path, 1)], ""
     for about in (frame.f_locals for frame in frames if "xmlloader" in frame.f_code.co_filename):
-        path = about.get("filename", path)
-        if hasattr(about.get("tag"), "ownerDocument") and "context" in about:
-            places.append(place_of_tag(about["context"].filename, about["tag"]))
-            tag = about["tag"].tagName
+        path, tag = about.get("filename", path), about.get(key) or about.get("tag")
+        if tag and "context" in about:
+            places.append(place_of_tag(about["context"].filename, tag))
+            name = tag.tagName
     cause = next((one for one in reversed(chain) if not isinstance(one, KeyError)), error)
     if isinstance(cause, expat.ExpatError):
         places.append((path, cause.lineno))
     words = str(cause.args[0] if len(cause.args) == 1 else cause)  # without ROS's paths
-    return {"kind": type(cause).__name__, "words": words, "tag": tag, "places": places}
+    return {"kind": type(cause).__name__, "words": words, "tag": name, "places": places}
 
 
 def _node(node: Any, params: Any) -> Node:
-    plain = ("package", "type", "name", "namespace")
+    plain = ("package", "type", "name", "namespace", "filename")
     return {
         **{name: getattr(node, name) for name in plain},
         "args": node.args or "",
@@ -88,17 +90,8 @@ def facts_of(path: str) -> dict[str, Any]:
     """Return what a launch file says; with an error, as far as roslaunch reads it."""
     import roslaunch.config  # noqa: PLC0415
     import roslaunch.loader  # noqa: PLC0415
-    import roslaunch.xmlloader  # noqa: PLC0415
 
     value_of = roslaunch.loader.Loader.param_value
-    node_of = roslaunch.xmlloader.XmlLoader._node_tag
-    places: dict[int, tuple[str, int]] = {}  # of the nodes, by id()
-
-    def with_place(self: Any, tag: Any, context: Any, *more: Any, **named: Any) -> Any:
-        node = node_of(self, tag, context, *more, **named)
-        if node is not None:
-            places[id(node)] = place_of_tag(context.filename, tag)
-        return node
 
     def without_command(self: Any, *about: Any) -> Any:
         """Do without what <param command=...> prints: wanted is only what would be started."""
@@ -106,16 +99,13 @@ def facts_of(path: str) -> dict[str, Any]:
         return value_of(self, *start, value if command is None else "", textfile, binfile, None)
 
     roslaunch.loader.Loader.param_value = without_command
-    roslaunch.xmlloader.XmlLoader._node_tag = with_place
     said = io.StringIO()
     facts: dict[str, Any] = {"path": path, "fault": None, "nodes": [], "files": [], "said": ""}
     try:
         with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
             config = roslaunch.config.load_config_default([path], 11311, verbose=False)
         facts["errors"] = [str(each) for each in config.config_errors]
-        facts["nodes"] = [
-            {**_node(node, config.params), "place": places[id(node)]} for node in config.nodes
-        ]
+        facts["nodes"] = [_node(node, config.params) for node in config.nodes]
         facts["files"] = sorted({str(Path(each).resolve()) for each in config.roslaunch_files})
     except (Exception, SystemExit) as error:
         facts["fault"] = fault_of(error, path)

@@ -55,10 +55,10 @@ class LaunchFile:
 
     def at_node(self, node: Node) -> str:
         """Return FILE:LINE of a node, which may be in an included file."""
-        path, line = node["place"]
-        if self.session.source in Path(path).parents:
-            return f"{shown(self.session, path)}:{line}"
-        return self.at(*launch_text.attribute("type", node["type"]), Path(node["type"]).name)
+        path = Path(node["filename"])
+        path = path if self.session.source in path.parents else self.path
+        words = (*launch_text.attribute("type", node["type"]), Path(node["type"]).name)
+        return place_of(shown(self.session, path), read(path), *words)
 
     def demand(self, what: str, test: Callable[[Node], bool], hint: str) -> Any:
         """Return the first node of which test() is true. Raises Wrong."""
@@ -160,6 +160,9 @@ def check_file(session: Session, name: str) -> Any:
 
 def _check_text(file: LaunchFile) -> None:
     one = file.facts
+    gap, hint = launch_text.space_hint(file.text)
+    if gap:
+        raise Wrong("names in one word", gap, file.at(gap), hint)
     if one["fault"]:
         raise _fault(file, launch_text.Fault(**one["fault"]))
     said = one["said"] + " ".join(one.get("errors", []))
@@ -172,9 +175,6 @@ def _check_text(file: LaunchFile) -> None:
         hint = "the <node> of this line goes on to its </node>: close it first, with /> or </node>"
         seen = f"<{tag}> in it: ignored by roslaunch"
         raise Wrong(expected, seen, f"{file.where}:{line}", hint)
-    gap, hint = launch_text.space_hint(file.text)
-    if gap:
-        raise Wrong("names in one word", gap, file.at(gap), hint)
 
 
 def _fault(file: LaunchFile, fault: launch_text.Fault) -> Wrong:
@@ -195,18 +195,21 @@ def _fault(file: LaunchFile, fault: launch_text.Fault) -> Wrong:
 def _check_words(file: LaunchFile, said: str) -> None:
     """Raise Wrong for a tag or attribute that roslaunch does not know."""
     pattern = r"unrecognized (?:tag |')(\w+)|[Uu]nknown (?:<\w+> )?attribute '?([^\s']+)"
-    found = (each.groups("") for each in re.finditer(pattern, said))
-    tag, name = next((each for each in found if each[0] not in TAGS), ("", ""))
+    odd = (each.groups("") for each in re.finditer(pattern, said))
+    tag, name = next((each for each in odd if each[0] not in TAGS), ("", ""))
     if not tag and not name:
         return
     near = difflib.get_close_matches(name, ATTRIBUTES, 1, 0.7)
     hint = f"is {near[0]}= meant?" if near else "look at its spelling"
     if tag.lower() in TAGS:
         hint = f"lower case: <{tag.lower()}>"
-    written = re.search(rf"<{tag}\b" if tag else rf"\s{name}\s*=", file.text)
-    where = f"{file.where}:{line_of(file.text, written.end())}" if written else file.where
-    expected = "tags and attributes that roslaunch knows"
-    raise Wrong(expected, f"{tag or name}: ignored by roslaunch", where, hint)
+    written = rf"<{tag}\b" if tag else rf"\s{name}\s*="
+    for path in (file.path, *map(Path, file.facts["files"])):
+        found = file.session.source in path.parents and re.search(written, read(path))
+        if found:  # else it is in a file of others
+            where = f"{shown(file.session, path)}:{line_of(read(path), found.end())}"
+            expected = "tags and attributes that roslaunch knows"
+            raise Wrong(expected, f"{tag or name}: ignored by roslaunch", where, hint)
 
 
 def _check_node(file: LaunchFile, node: Node) -> None:

@@ -118,9 +118,6 @@ def parse_error(fault: Fault, where: str, line: int, text: str) -> Wrong:
         number, hint = not_xml(fault.words, text)
         return Wrong(expected, words, f"{where}:{number}" if number else where, hint)
     text = without_comments(text)
-    gap, hint = space_hint(text)
-    if gap:
-        return Wrong(expected, gap, place_of(where, text, gap), hint)
     open_find = re.search(r"\$\((?:find|arg)\b[^)\"'<>]*[\"'<>]", text)
     if open_find:
         place = place_of(where, text, open_find[0])
