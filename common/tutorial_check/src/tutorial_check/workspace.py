@@ -251,7 +251,8 @@ def packages_below(folder: str | Path) -> list[Package]:
 @own_rights()
 def packages_beside(layout: Layout) -> list[Package]:
     """Return the packages in a workspace right beside its src; deeper ones may be another student's."""
-    every = set(layout.root.iterdir()) - {layout.source} if layout.is_workspace else ()
+    root = layout.root  # a home folder is not shown to the examination
+    every = {*root.iterdir()} - {layout.source} if layout.is_workspace and root.is_dir() else ()
     beside = [each for each in sorted(every) if os.path.isfile(each / "package.xml")]
     return [read_package(each, layout.root) for each in beside]
 
