@@ -166,11 +166,10 @@ class Session:
     def _build(self) -> tuple[int | None, str]:
         """Build all, or if that fails what the exercises need: others may need what Debian lacks."""
         code, output = self._made()
-        needed = {each.name for each in self.needed}
-        if code == 0 or needed == {each.name for each in self.packages}:
+        names = [self.task.named(each.name) for each in self.needed]
+        if code == 0 or len(names) == len(self.packages):
             return code, output
-        names = ";".join(map(self.task.named, sorted(needed)))
-        found = self._made(f"-DCATKIN_WHITELIST_PACKAGES={names}")
+        found = self._made(f"-DCATKIN_WHITELIST_PACKAGES={';'.join(names)}")
         if found[0] != 0:
             return code, output
         self.unbuilt = output or " "

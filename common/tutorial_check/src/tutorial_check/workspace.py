@@ -134,13 +134,12 @@ def find_layout(folder: str | Path) -> Layout:
 
 
 def _layout_of(folder: Path) -> Layout | None:
-    if (folder / "src").is_dir() and not (folder / "package.xml").exists():
+    is_package = (folder / "package.xml").exists()
+    if (folder / "src").is_dir() and not is_package:
         return Layout(folder, folder / "src", True)
     if any(folder.glob("*/package.xml")):
         return Layout(folder, folder, False)
-    if (folder / "package.xml").exists():
-        return Layout(folder.parent, folder, False)
-    return None
+    return Layout(folder.parent, folder, False) if is_package else None
 
 
 def must_be_ones_own(layout: Layout, suite: Path) -> None:

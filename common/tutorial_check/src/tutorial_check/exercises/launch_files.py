@@ -119,10 +119,8 @@ def _read(session: Session) -> Any:
     must_be_launchable(session)
     session.must_reach_underlay()
     folder = session.package(PACKAGE).folder
-    files = (path for name in ALL for path in sorted(folder.rglob(name)) if path.is_file())
-    paths: dict[str, str] = {}
-    for path in files:
-        paths.setdefault(path.name, str(path))
+    files = (path for name in ALL for path in sorted(folder.rglob(name))[::-1] if path.is_file())
+    paths = {path.name: str(path) for path in files}  # the first of each name
     if not paths:
         return {}
     command = ["/usr/bin/python3", launch_facts.__file__, *paths.values()]

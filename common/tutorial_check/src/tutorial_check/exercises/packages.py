@@ -26,14 +26,12 @@ CREATE = {name: f"catkin_create_pkg {name} {' '.join(words)}" for name, words in
 # What a message of CMake's most often means here: (pattern, what to do). The first that fits counts.
 CMAKE_HINTS = (
     (r"does not match current PROJECT_NAME", "write the name that package.xml has into project()"),
-    (
-        r"include dir '(?P<m>[^']+)' does not exist|directory not found: \S*?/ws/src/(?P<n>\S+)"
-        r"|source \"(?P<o>\w[^\"]*)\" which is not an existing",
-        "git keeps no empty folders: put a file into {f}, as .gitkeep, or take it out of the line",
-    ),
+    (r"include dir '(.+)' does not exist|directory not found: .*?/ws/src/(\S+)"
+     r"|source \"(\w[^\"]*)\" which is not an existing",
+     "git keeps no empty folders: put a file into {f}, as .gitkeep, or take it out of the line"),
     (r"non-existing file|Cannot find source file", "look at the spelling of the file's path"),
     (r"Unknown CMake command", "look at the spelling of the command"),
-)
+)  # fmt: skip
 
 
 def _similar(name: str, packages: list[Package]) -> Package | None:

@@ -30,9 +30,7 @@ def workspace(session: Session) -> Note | str | None:
         setup_size = setup.stat().st_size if setup.is_file() else None
     if not has_source:
         seen = f"none in {layout.root}, and no package"
-        hint = (
-            "is this your workspace? --in ~/ros/hydro/catkin_ws; a new one begins with a folder src"
-        )
+        hint = "is this your workspace? --in ~/ros/hydro/catkin_ws; a new one begins with src"
         raise Wrong("a folder src in the workspace", seen, hint=hint)
     _check_names(session)
     if not layout.is_workspace:
