@@ -52,6 +52,16 @@ def mux(what, old, new, check, word):
     return ("6.1", what, [put(TURTLEBOT, old, new, 1)], check, word)
 
 
+INCLUDED = f"{J}/launch/more.launch"
+INCLUDES = ("<launch>", '<launch>\n  <include file="$(find joy2twist)/launch/more.launch"/>', 1)
+
+
+def included(what, line, word):
+    """A row with one fault in the second line of a file that launch_bag.launch includes."""
+    edits = [write(INCLUDED, f"<launch>\n  {line}\n</launch>\n"), put(LAUNCH_BAG, *INCLUDES)]
+    return ("5", f"{what}, in an included file", edits, "C21", ("launch/more.launch:2", word))
+
+
 ROWS = [
     ("5", "no launch_bag.launch", [remove(LAUNCH_BAG)], "C21", "no such file"),
     ("5", "misnamed", [move(LAUNCH_JOY, f"{J}/launch/launch_joynode.launch")], "C21", "launch_joynode"),
@@ -93,7 +103,7 @@ ROWS = [
     joy("no joy_node", JOY, "", "C25", "joy_node"),
     joy("no robot for the joystick", ROBOT, "", "C25", "robot"),
     joy("a recording beside the joystick", JOY, JOY + '  <node name="rosbag" pkg="rosbag" type="play" args="--loop $(find joy2twist)/bag/joy.bag"/>\n', "C25", "both"),
-    joy("/joy remapped away", 'type="joy_node">', 'type="joy_node">\n  <remap from="joy" to="joystick"/>', "C25", ("launch_joy_node.launch:8", "sends them on joystick")),
+    joy("/joy remapped away", 'type="joy_node">', 'type="joy_node">\n  <remap from="joy" to="joystick"/>', "C25", ("launch_joy_node.launch:8", "sends them on /joystick")),
     ("6.1", "no joy2twist_turtlebot.launch", [remove(TURTLEBOT)], "C27", "no such file"),
     mux("remap swapped", REMAP, '<remap from="/cmd_vel_mux/input/teleop" to="/cmd_vel"/>', "C27", "swapped"),
     mux("a blank at the end of to", 'teleop"', 'teleop "', "C27", ("turtlebot.launch:3", "blank")),
@@ -131,6 +141,22 @@ ROWS = [
     ("6.1", "the include misspelt", [put(REAL, "joy2twist_turtlebot", "joy2twist_turtelbot")], "C28", ("realTurtlebot.launch:3", "no such file: src/joy2twist", "is joy2twist_turtlebot.launch meant")),
     mux("remap after the node", f"    {REMAP}\n  </node>\n", f"  </node>\n  {REMAP}\n", "C27", ("turtlebot.launch:4", "between")),
     bag("--loop forgotten", "--loop ", "", "C24", ("launch_bag.launch:7", "rosbag play --loop")),
+    bag("a missing package in an <arg>", "<launch>", '<launch>\n  <arg name="m" default="$(find no_such_pkg)/was"/>', "C21", ("launch_bag.launch:2", "package not found: no_such_pkg", "look at the spelling")),
+    bag("xacro", "<launch>", '<launch>\n  <param name="robot_description" command="$(find xacro)/xacro robot.xacro"/>', "C21", ("launch_bag.launch:2", "package not found: xacro", "Debian lacks xacro; the simulated robot has")),
+    bag("arbotix", OWN, OWN + '  <node pkg="arbotix_python" type="arbotix_driver" name="arbotix"/>\n', "C21", ("launch_bag.launch:7", "Debian lacks arbotix_python; fake_turtlebot.launch")),
+    bag("a package that is not installed", OWN, OWN + '  <node pkg="image_view" type="image_view" name="view"/>\n', "C21", ("launch_bag.launch:7", "apt install libimage-view-dev ros-image-view")),
+    bag("an unset variable", "<launch>", '<launch>\n  <arg name="base" default="$(env THE_BASE)"/>', "C21", ("launch_bag.launch:2", "environment variable 'THE_BASE' is not set", "export THE_BASE=")),
+    bag("a missing rosparam file", "<launch>", '<launch>\n  <rosparam file="$(find joy)/launch/nowhere.yaml"/>', "C21", ("launch_bag.launch:2", "no such file:", "nowhere.yaml", "look at the name")),
+    bag("a / in a node's name", 'name="my_rviz"', 'name="my/rviz"', "C21", ("launch_bag.launch:2", 'a "/" in the name= of a node', "ns=")),
+    ("5", "an arg that the included file lacks", [write(INCLUDED, '<launch><arg name="world" default="room"/></launch>'), put(LAUNCH_BAG, "<launch>", INCLUDES[1].replace("/>", '><arg name="wrold" value="x"/></include>'), 1)], "C21", ("launch_bag.launch:2", "more.launch has no arg wrold", "is world meant?")),
+    bag("a condition that is none", 'type="joy2twist.py"', 'if="maybe" type="joy2twist.py"', "C21", ("launch_bag.launch:5", "maybe is not a 'bool'")),
+    included("a missing package", '<arg name="m" default="$(find no_such_pkg)/was"/>', "package not found: no_such_pkg"),
+    included("a tag not closed", '<node pkg="joy">', "the <node> of line 2 is never closed"),
+    included("a node that there is not", '<node pkg="joy" type="joy_nod" name="j"/>', "joy_nod"),
+    included("an attribute that there is not", '<node pkg="joy" type="joy_node" name="j" arg="x"/>', "is args= meant?"),
+    included("a missing file", '<include file="$(find joy)/launch/none.launch"/>', "no such file"),
+    ("5", "an included file whose arg has no value", [write(INCLUDED, '<launch>\n  <arg name="dev"/>\n  <param name="d" value="$(arg dev)"/>\n</launch>\n'), put(LAUNCH_BAG, *INCLUDES)], "C21", ("launch/launch_bag.launch:2", "the arg dev has no value")),
+    ("5", "rbx1 in src, which needs arbotix", [write("rbx1/rbx1_bringup/package.xml", "<package><name>rbx1_bringup</name><version>0.0.0</version><description>x</description><maintainer email='s@u.example'>s</maintainer><license>x</license></package>"), write("rbx1/rbx1_bringup/launch/fake_turtlebot.launch", '<launch>\n  <param name="m" command="$(find xacro)/xacro.py x"/>\n</launch>\n')], "C21", ("where:    rbx1/rbx1_bringup/launch/fake_turtlebot.launch:2", "Debian lacks xacro", "remove rbx1_bringup from src")),
     ("5", "no recording", [remove(f"{J}/bag/joy.bag")], "C21", ("cp \"$(rospack find gamepad)/bag/joy.bag\" /", f"src/{J}/bag")),
     ("4.2", "a recording that is none", [write(f"{J}/bag/joy.bag", "none")], "C11", "rospack find gamepad"),
 ]  # fmt: skip

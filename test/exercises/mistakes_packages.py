@@ -32,6 +32,10 @@ def manifest(format_, depends):
 """
 
 
+FORMAT_1 = "".join(
+    f"<build_depend>{each}</build_depend><run_depend>{each}</run_depend>"
+    for each in ("rospy", "std_msgs")
+)
 ROWS = [
     ("2", "package beside src", [move(B, f"../{B}")], "C2", "beside src"),
     ("2", "no package", [move(B, "../../gone")], "C2", ("none; found", "has one of OURS")),
@@ -50,6 +54,8 @@ ROWS = [
     ("2", "a condition with one =", [write(PUT_XML, manifest("format='3'", "<depend condition='$ROS_VERSION = 1'>rospy</depend>"))], "C2", (f"{B}/package.xml:6", "by two =")),
     ("2", "run_depend in a folder of another name", [move(B, "mine"), write("mine/package.xml", manifest("format='2'", "<run_depend>rospy</run_depend>"))], "C2", ("mine/package.xml:6", "write exec_depend")),
     ("2", "roscpp forgotten", [put(PUT_XML, "roscpp", "rospy")], "C3", "roscpp"),
+    ("2", "roscpp forgotten in format 1", [write(PUT_XML, manifest("", "<buildtool_depend>catkin</buildtool_depend>" + FORMAT_1))], "C3", ("hint:     add <build_depend>roscpp</build_depend> and <run_depend>roscpp</run_depend>", f"{B}/package.xml:6")),
+    ("2", "<depend> in format 1", [write(PUT_XML, manifest("", f"{FORMAT_1}<depend>roscpp</depend>"))], "C2", (f"{B}/package.xml:6", "or build_depend and run_depend")),
     ("2", "std_msg", [put(PUT_XML, "std_msgs", "std_msg")], "C3", "std_msg"),
     ("2", "std_msg in build_depend alone", [put(PUT_XML, "<build_depend>std_msgs<", "<build_depend>std_msg<")], "C3", ("package.xml:9", "std_msg, which is no package", "correct std_msg to std_msgs")),
     ("2", "two dependencies forgotten", [put(PUT_XML, "  <build_depend>rospy</build_depend>\n  <build_depend>roscpp</build_depend>\n", ""), put(PUT_XML, "  <exec_depend>rospy</exec_depend>\n  <exec_depend>roscpp</exec_depend>\n", "")], "C3", ("<depend>rospy</depend>", "<depend>roscpp</depend>")),
@@ -63,13 +69,16 @@ ROWS = [
     ("2", "another name in CMakeLists.txt", [put(f"{B}/CMakeLists.txt", f"project({B})", "project(beginner-tutorials)")], "C4", ("PROJECT_NAME 'beginner-tutorials'", f"{B}/CMakeLists.txt:", "into project()")),
     ("2", "a program to install that there is not", [put(f"{B}/CMakeLists.txt", "catkin_package()", "catkin_package()\ncatkin_install_python(PROGRAMS scripts/taker.py DESTINATION x)")], "C4", (f"{B}/CMakeLists.txt:7", "non-existing file", "spelling of the file's path")),
     ("2", "a source file that there is not", [put(f"{B}/CMakeLists.txt", "catkin_package()", "catkin_package()\nadd_executable(talker src/talker.cpp)")], "C4", (f"{B}/CMakeLists.txt:7", "CMake: Cannot find source file: src/talker.cpp", "spelling of the file's path")),
-    ("2", "a package of CMake alone", [write("plain/package.xml", manifest("format='2'", "<export><build_type>cmake</build_type></export>").replace(B, "plain")), write("plain/CMakeLists.txt", "")], "C4", "CMake: This workspace contains non-catkin packages in it, and"),
+    ("2", "an include folder that git has lost", [put(f"{B}/CMakeLists.txt", "catkin_package()", "catkin_package(INCLUDE_DIRS include)")], "C4", (f"{B}/CMakeLists.txt:6", "include dir 'include' does not exist", "keeps no empty folders: put a file into include,")),
+    ("2", "a msg folder that git has lost", [put(f"{B}/CMakeLists.txt", "catkin_package()", "find_package(message_generation REQUIRED)\nadd_message_files()\ncatkin_package()")], "C4", (f"{B}/CMakeLists.txt:7", f"put a file into {B}/msg,")),
+    ("2", "a subfolder that git has lost", [put(f"{B}/CMakeLists.txt", "catkin_package()", "catkin_package()\nadd_subdirectory(nodes)")], "C4", (f"{B}/CMakeLists.txt:7", "put a file into nodes,")),
     ("2", "CMakeLists.txt missing", [remove(f"{B}/CMakeLists.txt")], "C4", "CMakeLists"),
     ("2", "CMakeLists.txt is a folder", [remove(f"{B}/CMakeLists.txt"), write(f"{B}/CMakeLists.txt/CMakeLists.txt", "")], "C4", "CMakeLists"),
     ("3", "another topic, and CMakeLists.txt is a folder", [remove(f"{B}/CMakeLists.txt"), write(f"{B}/CMakeLists.txt/CMakeLists.txt", ""), put(TALKER, "'chatter'", "'chater'")], "C6", "/chater"),
     ("2", "unknown component", [put(f"{B}/CMakeLists.txt", "roscpp", "roscpp_tutorial_x")], "C4", "roscpp_tutorial_x"),
     ("2", "rosccp in package.xml", [put(PUT_XML, "roscpp", "rosccp")], "C3", (f"{B}/package.xml:11", "correct rosccp to roscpp")),
     ("2", "the place of a dependency", [lines(PUT_XML, 11, 14)], "C3", (f"{B}/package.xml:11", "add <depend>roscpp")),
+    ("2", "a package that Debian has, not installed", [put(f"{B}/CMakeLists.txt", "roscpp", "roscpp stereo_image_proc")], "C4", (f"{B}/CMakeLists.txt:4", "apt install libstereo-image-proc-dev")),
     ("2", "rospcc in CMakeLists.txt", [put(f"{B}/CMakeLists.txt", "roscpp", "rospcc")], "C4", (f"{B}/CMakeLists.txt:4", "correct rospcc to roscpp")),
     ("2", "an empty devel/setup.bash", [write("../devel/setup.bash", "")], "C1", "rm -r build devel"),
     ("2", "a part of the suite in src", [copy(PUT_XML, "sim/package.xml"), put("sim/package.xml", f"<name>{B}<", "<name>fake_turtlebot_sim<")], "C1", ("where:    src/sim", "remove it from src")),

@@ -97,7 +97,15 @@ def test_a_home_folder_with_a_package_deep_below(literal, tmp_path, underlay):
     (tmp_path / "home" / "Documents").mkdir(parents=True)
     (tmp_path / "home" / "course").mkdir()
     literal.parent.rename(tmp_path / "home" / "course" / "anna")
-    code, out, _ = check(underlay, "--in", ".", "2", "4.2", cwd=tmp_path / "home")
+    code, out, _ = check(
+        underlay,
+        "--in",
+        ".",
+        "2",
+        "4.2",
+        cwd=tmp_path / "home",
+        env=environment(HOME=str(tmp_path / "home")),
+    )
     assert code == 1
     assert "is this your workspace? --in" in out
     assert "anna" not in out and "mv " not in out
@@ -135,7 +143,7 @@ def test_the_professor(literal, underlay, tmp_path):
     put(JOY2TWIST, "data.axes[0]", "-data.axes[0]")(group / "bob/src")
     put(JOY2TWIST, "def callback", "while True:\n    pass\n\n\ndef callback")(group / "eve/src")
     (group / "zoe.zip").write_text("no zip")
-    pack(literal, group / "kim.zip", "kim/src")
+    pack(literal, group / "kim.zip", "ros/hydro/catkin_ws/src")  # as zipped from home
     code, out, error = check(underlay, "--all", group, "4.3", env=environment(HOME=str(tmp_path)))
     assert code == 2, out + error  # zoe's could not be checked
     table = (group / "check" / "table.csv").read_text().splitlines()
@@ -144,6 +152,8 @@ def test_the_professor(literal, underlay, tmp_path):
     page = (group / "check" / "table.html").read_text()
     assert "the sign is wrong" in page
     assert "sign is wrong" in (group / "check" / "bob.txt").read_text()
+    kim = (group / "check" / "kim.txt").read_text()
+    assert kim.endswith("1 of 1 exercises done (workspace: ros/hydro/catkin_ws)\n")
     assert json.loads((group / "check" / "ada.json").read_text())["passed"] == 1
 
 

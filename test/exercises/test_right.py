@@ -4,7 +4,7 @@ import os
 import subprocess
 
 import pytest
-from edits import JOY2TWIST, LAUNCH_BAG, LISTENER, TALKER, apply, put
+from edits import JOY2TWIST, LAUNCH_BAG, LISTENER, TALKER, B, apply, chmod, put, write
 from test_mistakes import is_reported
 from variants import REPORTS
 
@@ -16,6 +16,19 @@ NOETIC = "/opt/ros/noetic/setup.bash"  # where ROS is not of Debian
 LATE = "def made():\n    rospy.sleep(0.5)\n    return rospy.Publisher('/cmd_vel', Twist)\n\n\n"
 SUB, PUB = 'rospy.Subscriber("/joy", Joy, callback)', "pub = rospy.Publisher('/cmd_vel', Twist)"
 HEARD = 'I heard %s", data.data)'
+INSTALL = "\ncatkin_install_python(PROGRAMS scripts/talker.py scripts/listener.py DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})"
+
+
+def another(name, cmake, export=""):
+    """A package besides those of the exercises."""
+    xml = f"<package><name>{name}</name><version>0.0.0</version><description>x</description><maintainer email='s@u.example'>s</maintainer><license>x</license><buildtool_depend>catkin</buildtool_depend>{export}</package>"
+    text = f"cmake_minimum_required(VERSION 3.5)\nproject({name})\n{cmake}\n"
+    return [write(f"{name}/package.xml", xml), write(f"{name}/CMakeLists.txt", text)]
+
+
+LACKS = "find_package(catkin REQUIRED COMPONENTS diagnostic_nowhere)\ncatkin_package()"
+FAILS = "find_package(catkin REQUIRED)\ncatkin_package()\nadd_executable(joy_node x.cpp)"
+MAKES = "find_package(catkin REQUIRED COMPONENTS message_generation std_msgs)\nadd_message_files(FILES Mine.msg)\ngenerate_messages(DEPENDENCIES std_msgs)\ncatkin_package()"
 # What is right and worth a note: (what, edits, exercises, {check: words of the note; none: no note}).
 NOTES = [
     ("a gap in a node's name", [put(LAUNCH_BAG, "my_rviz", "my rviz")], ["5"], {"C22": ("launch_bag.launch:2", 'name="my_rviz"')}),
@@ -27,6 +40,10 @@ NOTES = [
     ("the publisher made late, by a function above", [put(JOY2TWIST, PUB, "pub = made()"), put(JOY2TWIST, "def listener", f"{LATE}def listener")], ["4.3"], {"C18": ("joy2twist.py:24", "finds no pub")}),
     ("two Twists for a Joy", [put(JOY2TWIST, "pub.publish(msg)", "pub.publish(msg)\n    pub.publish(msg)")], ["4.3"], {"C16": ("joy2twist.py:14", "2 Twists for each Joy", "one is enough")}),
     ("a latch", [put(JOY2TWIST, "'/cmd_vel', Twist", "'/cmd_vel', Twist, latch=True")], ["4.3"], {"C16": ("latch=True", "leave latch out")}),
+    ("the real joy, which cannot be built here, and scripts that catkin_install_python makes runnable", [*another("joy", LACKS), chmod(TALKER, 0o644), chmod(LISTENER, 0o644), put(f"{B}/CMakeLists.txt", "catkin_package()", f"catkin_package(){INSTALL}")], ["2", "3", "5"], {"C1": ("never built",), "C4": ("joy/CMakeLists.txt:3", "another package fails: catkin cannot find diagnostic_nowhere", "CATKIN_IGNORE"), "C5": (), "C25": ()}),
+    ("the real joy, whose header is not here", [*another("joy", FAILS), write("joy/x.cpp", "#include <nowhere.h>\n")], ["2", "5"], {"C4": ("another package fails:", "nowhere.h"), "C26": ()}),
+    ("the real kobuki_msgs", [*another("kobuki_msgs", MAKES), write("kobuki_msgs/msg/Mine.msg", "uint8 x\n")], ["2"], {"C1": ("never built",), "C4": ()}),
+    ("a package of CMake alone", another("plain", "", "<export><build_type>cmake</build_type></export>"), ["2"], {"C4": ("another package fails: CMake: This workspace contains non-catkin packages in it, and",)}),
     (*REPORTS, {"C29": (), "C33": ()}),
 ]  # fmt: skip
 

@@ -54,14 +54,32 @@ def test_what_devel_was_built_over(session, tmp_path, below, gone, seen, hint):
     assert hint in wrong.value.hint
 
 
+def test_a_committed_devel_of_another_home_is_ignored_whole_or_not(session, tmp_path):
+    build(tmp_path, THIS)
+    (tmp_path / "ws/devel/setup.sh").write_text(": ${_CATKIN_SETUP_DIR:=/home/ada/ws/devel}\n")
+    (tmp_path / "ws/devel/_setup_util.py").unlink()
+    assert "made elsewhere (/home/ada/ws/devel)" in workspace(session).seen
+
+
 @pytest.mark.parametrize(
-    ("name", "whose"),
-    [("gamepad", "suite"), ("std_msgs", "ROS"), ("joy", ""), ("rbx1_nav", ""), ("my_robot", "")],
+    ("name", "inside", "whose"),
+    [
+        ("gamepad", "msg", "suite"),
+        ("std_msgs", "src", "ROS"),
+        ("std_msgs", "msg", ""),  # a clone of the real one
+        ("rospy", "src/rospy", ""),
+        ("joy", "src", ""),
+        ("kobuki_msgs", "msg", ""),
+        ("rbx1_nav", "src", ""),
+        ("my_robot", "src", ""),
+    ],
 )
-def test_names_that_hide_what_the_exercises_stand_on(session, tmp_path, name, whose):
-    for each in ("gamepad", "joy", "rbx1_nav"):
+def test_names_that_hide_what_the_exercises_stand_on(session, tmp_path, name, inside, whose):
+    for each in ("gamepad", "joy", "kobuki_msgs", "rbx1_nav"):
         (tmp_path / "this/lower/devel/share" / each).mkdir(parents=True)
-    session.packages = [Package(tmp_path / "ws/src/old" / name, f"old/{name}", name)]
+    folder = tmp_path / "ws/src/old" / name
+    (folder / inside).mkdir(parents=True)
+    session.packages = [Package(folder, f"old/{name}", name)]
     if not whose:
         assert "never built" in workspace(session).seen
         return

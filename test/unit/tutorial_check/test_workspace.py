@@ -3,6 +3,7 @@
 import os
 import time
 import zipfile
+from pathlib import Path
 
 import pytest
 
@@ -34,7 +35,14 @@ def copied(folder, tmp_path):
 
 
 @pytest.mark.parametrize(
-    "place", ["src/joy2twist", "joy2twist", "ada/src/joy2twist", "ada/joy2twist"]
+    "place",
+    [
+        "src/joy2twist",
+        "joy2twist",
+        "ada/src/joy2twist",
+        "ros/hydro/catkin_ws/src/joy2twist",
+        "a/joy2twist",
+    ],
 )
 @pytest.mark.parametrize("hidden", [".git", ".vscode"])
 def test_a_workspace_is_found(tmp_path, place, hidden):
@@ -42,6 +50,45 @@ def test_a_workspace_is_found(tmp_path, place, hidden):
     (tmp_path / "ws" / hidden).mkdir()
     found = packages_below(copied(tmp_path / "ws", tmp_path))
     assert [each.name for each in found] == ["joy2twist"]
+
+
+def test_of_several_workspaces_the_one_with_the_package_is_named(tmp_path):
+    """Beside others, and an empty src; in a home folder none is looked for."""
+    for place in (
+        "src",
+        "lab1/src/blinky",
+        "old/ws/src/joy",
+        "z/ros/hydro/catkin_ws/src/joy2twist",
+    ):
+        package(tmp_path / place, Path(place).name) if "/" in place else (tmp_path / place).mkdir()
+    found = find_layout(tmp_path)
+    assert found.source == tmp_path / "z/ros/hydro/catkin_ws/src"
+    assert found.place == "z/ros/hydro/catkin_ws, not lab1, not old/ws"
+
+
+def test_a_home_folder_is_not_searched(tmp_path, monkeypatch):
+    package(tmp_path / "course/anna/src/joy2twist")
+    monkeypatch.setenv("HOME", str(tmp_path))
+    assert find_layout(tmp_path).root == tmp_path
+    assert find_layout(tmp_path / "course").place == "anna"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "# toplevel CMakeLists.txt for a catkin workspace",
+        "/opt/ros/noetic/share/catkin/cmake/toplevel.cmake",
+        None,
+    ],
+)
+def test_a_copy_of_catkins_toplevel_file_is_left_to_catkin_make(tmp_path, text):
+    """A package's own CMakeLists.txt is copied, whatever it says."""
+    folder = package(tmp_path / "ws/src/joy2twist")
+    for file in (folder / "CMakeLists.txt", folder.with_name("CMakeLists.txt")):
+        file.write_text(text) if text else file.symlink_to("/opt/ros/none/toplevel.cmake")
+    found = copied(tmp_path / "ws", tmp_path)
+    assert not os.path.lexists(found / "CMakeLists.txt")
+    assert (found / "joy2twist/CMakeLists.txt").exists() == bool(text)
 
 
 def test_the_package_itself_or_nothing(tmp_path):
@@ -89,7 +136,7 @@ def test_a_zip_beside_something_else_or_a_link_to_one_is_not_unpacked(tmp_path, 
     else:
         (folder / beside).parent.mkdir(parents=True, exist_ok=True)
         (folder / beside).write_text(XML.format("joy2twist"))
-    assert hand_in(folder, tmp_path / "scratch")[0].root == folder
+    assert hand_in(folder, tmp_path / "scratch")[1] == folder
     assert not (tmp_path / "scratch").exists()
 
 
@@ -193,10 +240,10 @@ def test_a_src_that_is_a_link_or_a_manifest_that_is_a_pipe_is_not_read(tmp_path)
 
 
 @pytest.mark.parametrize("file", ["_setup_util.py", "setup.sh"])
-def test_a_devel_folder_with_a_pipe_is_none(tmp_path, file):
+def test_a_devel_folder_with_a_pipe_says_nothing(tmp_path, file):
     for name in ("_setup_util.py", "setup.sh"):
         os.mkfifo(tmp_path / name) if name == file else (tmp_path / name).touch()
-    assert workspace.underlays(tmp_path) is None
+    assert workspace.underlays(tmp_path) == ("", None)
 
 
 @pytest.mark.parametrize("pack", [zipfile.ZIP_STORED, zipfile.ZIP_LZMA, zipfile.ZIP_BZIP2])

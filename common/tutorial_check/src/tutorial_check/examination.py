@@ -15,7 +15,7 @@ import subprocess
 import tempfile
 import threading
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Callable, Iterable, Mapping
@@ -49,6 +49,7 @@ class Outcome:
     trouble: str = ""  # why a check could not be made, through no fault of the student's
     title: str = ""
     points: float = 0.0  # for all of it; 0: one a check
+    place: str = ""  # of the workspace in what was handed in, if that is another folder
 
     @property
     def passed(self) -> bool:
@@ -119,7 +120,8 @@ def examine(
             "environment": _environment(underlay),
             "apart": bool(wrapper),
         }
-        return _examine(orders, wrapper, report)
+        outcomes = _examine(orders, wrapper, report)
+        return [replace(one, place=layout.place) for one in outcomes]
     finally:
         shutil.rmtree(folder, ignore_errors=True)
         cleaner.communicate()

@@ -6,7 +6,6 @@ import re
 from pathlib import Path
 from xml.parsers import expat
 
-NOT_XML = r"mismatched tag|no element found|not well-formed|junk after|unclosed token"
 CURLY = re.compile("[“”‘’]")
 COMMENT = re.compile(r"<!--(.*?)-->", re.DOTALL)
 VALUE = re.compile(r"=\s*(\"[^\"]*\"|'[^']*')")

@@ -4,26 +4,38 @@ from __future__ import annotations
 
 import os
 import re
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from node_kit.manifests import broken_manifests
 from tutorial_check.launch_xml import place_of, read
 from tutorial_check.model import Wrong
+from tutorial_check.place import own_rights
 from tutorial_check.workspace import Package
 
 if TYPE_CHECKING:
     from tutorial_check.session import Session
 
 
+# The real ones may well lie in a student's src.
+STAND_INS = Path(__file__).resolve().parents[3] / "stand_ins"
 # What catkin says of a package.xml, the word that it means, what to do.
 WANTS = (
     ("replace <run_depend>", "<run_depend", "run_depend is of format 1: write exec_depend"),
     ("replace <exec_depend>", "<exec_depend",
      'exec_depend is of format 2: write <package format="2">'),
+    ("following tags: depend$", "<depend>",
+     '<depend> is of format 2: write <package format="2">, or build_depend and run_depend'),
     ("format version '|invalid literal", "<package", 'write <package format="2">'),
     ("condition", "condition=", 'a condition compares by two =, as in "$ROS_VERSION == 1"'),
     ("", "", "its tags are well formed, but catkin wants what is named here"),
 )  # fmt: skip
+
+
+@own_rights()
+def is_stand_in(name: str) -> bool:
+    """Return whether the suite's package of that name stands in for the one that Debian lacks."""
+    return (STAND_INS / name / "package.xml").is_file()
 
 
 def unreadable(package: Package) -> Any:

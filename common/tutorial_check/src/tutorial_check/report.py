@@ -35,7 +35,9 @@ def heading(outcome: Outcome) -> str:
 
 def summary(outcomes: Sequence[Outcome]) -> str:
     empty = ", ".join(outcome.id for outcome in outcomes if outcome.empty)
+    place = next((outcome.place for outcome in outcomes), "")
     rest = f" ({empty}: nothing to check)" if empty else ""
+    rest += f" (workspace: {place})" if place else ""
     return f"{sum(one.solved for one in outcomes)} of {len(outcomes)} exercises done{rest}"
 
 

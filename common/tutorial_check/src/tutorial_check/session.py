@@ -13,19 +13,19 @@ from typing import Any, Callable, Dict, Iterable, Iterator, Tuple
 from tutorial_check import student_files
 from tutorial_check.box import Box, Program
 from tutorial_check.environment import environment_of
-from tutorial_check.manifests import must_be_startable
+from tutorial_check.manifests import is_stand_in, must_be_startable
 from tutorial_check.model import CannotCheck, Wrong, master_gone
 from tutorial_check.python_facts import PythonFacts, read_python
 from tutorial_check.stage import Stage
 from tutorial_check.variants import Task
-from tutorial_check.workspace import Layout, Package, packages_below
+from tutorial_check.workspace import SOLUTIONS, Layout, Package, packages_below
 
 SLOW_S = 120  # [s] for what needs a second, when the machine is very busy
 # What of CMakeLists.txt makes a build necessary before anything can run.
 NEEDS_BUILD = re.compile(
     r"^[ \t]*(catkin_python_setup|add_message_files|add_service_files|generate_messages"
     r"|add_executable|catkin_install_python)\s*\(",
-    re.MULTILINE,
+    re.MULTILINE | re.IGNORECASE,
 )
 Memory = Dict[object, Tuple[Any, Any]]  # {key: (value, what was raised in place of one)}
 
@@ -71,6 +71,7 @@ class Session:
         self._memory: Memory = {}
         self._runs: Memory = {}
         self._siblings = 0
+        self.unbuilt = ""  # what catkin_make said of packages that the exercises do not need
 
     def memo(self, key: object, make: Callable[[], Any]) -> Any:
         """Return make(), called once; what it raised is raised again. For facts, which do not change."""
@@ -163,11 +164,35 @@ class Session:
         return self.memo("built", self._build)
 
     def _build(self) -> tuple[int | None, str]:
+        """Build all, or if that fails what the exercises need: others may need what Debian lacks."""
+        code, output = self._made()
+        names = [self.task.named(each.name) for each in self.needed]
+        if code == 0 or len(names) == len(self.packages):
+            return code, output
+        found = self._made(f"-DCATKIN_WHITELIST_PACKAGES={';'.join(names)}")
+        if found[0] != 0:
+            return code, output
+        self.unbuilt = output or " "
+        for each in self.packages:  # the suite's own takes the place of such a one
+            if is_stand_in(each.name):
+                student_files.put(self.folder, each.folder / "CATKIN_IGNORE", "")
+        return found
+
+    def _made(self, *words: str) -> tuple[int | None, str]:
         python = "-DPYTHON_EXECUTABLE=/usr/bin/python3"
-        program, ended = self._ended("catkin_make", "-C", str(self.folder / "ws"), python)
+        program, ended = self._ended("catkin_make", "-C", str(self.folder / "ws"), python, *words)
         if program.process.returncode != 0:
             self.must_reach_underlay()
         return (program.process.returncode if ended else None), program.output
+
+    @property
+    def needed(self) -> list[Package]:
+        """The packages of the exercises, and those of the workspace that they depend on."""
+        found, names = [], set(SOLUTIONS)
+        for _ in self.packages:
+            found = [each for each in self.packages if each.name in names]
+            names |= {name for each in found for name in each.depends}
+        return found or self.packages
 
     # As root, this process opens files with the rights of the user that runs the student's programs.
 

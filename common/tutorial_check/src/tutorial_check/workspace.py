@@ -8,7 +8,7 @@ import re
 import shutil
 import stat
 import zipfile
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Iterator
 from xml.etree import ElementTree
@@ -20,6 +20,7 @@ from tutorial_check.place import own_rights
 
 MOST_BYTES = 300 << 20  # of a workspace's sources; bags included
 MOST_FILES = 20_000
+SOLUTIONS = {"beginner_tutorials", "joy2twist"}  # the packages of the exercises
 COPY = "handed_in"  # folder of the copy of what was handed in
 # The words of a launch file, and in one of them what a node of the exercises reads.
 BETWEEN_WORDS, WHOLE_PATH = re.compile(r"[\s\"'<>$]+"), re.compile(r"/.+\.(?:bag|rviz)\b")
@@ -36,17 +37,19 @@ class Package:
     name: str = ""
     error: str = ""  # why catkin cannot read package.xml
     malformed: bool = False  # so that it is no XML at all
+    format: int = 2
     depends: set[str] = field(default_factory=set)  # for building or running
     warnings: list[str] = field(default_factory=list)
 
 
-@dataclass
+@dataclass(frozen=True)
 class Layout:
     """Where the sources of a workspace are."""
 
     root: Path  # what the student handed in
     source: Path  # its src folder, or the folder of packages itself
     is_workspace: bool  # there is a src
+    place: str = ""  # of the root in what was handed in, if that is another folder
 
 
 def hand_in(given: str | Path, folder: Path) -> tuple[Layout, Path]:
@@ -58,7 +61,7 @@ def hand_in(given: str | Path, folder: Path) -> tuple[Layout, Path]:
     if not os.path.isfile(given):
         layout = find_layout(given)
         zips = [] if layout.source.is_dir() else [*filter(is_zip, sorted(given.iterdir()))]
-        if len(zips) != 1 or packages_below(given):
+        if len(zips) != 1:
             return layout, given
         archive = zips[0]
     unpack(archive, folder / "unpacked")
@@ -95,40 +98,53 @@ def unpack(archive: Path, folder: Path) -> None:
 
 
 def find_layout(folder: str | Path) -> Layout:
-    """Return the Layout of a workspace, its src, a folder of packages, or one package."""
+    """Return the Layout of a workspace, its src, a folder of packages, or one package, however deep it lies.
+
+    Of several the one with the packages of the exercises. A home folder is not searched: others may
+    keep their workspaces there.
+    """
     folder = Path(folder)
+    if not folder.exists():
+        hint = "./tutorial shell --in FOLDER makes a workspace"
+        raise CannotCheck(f"{folder}: no such folder or zip; {hint}")
+    if not folder.is_dir():
+        raise CannotCheck(f"{folder}: neither a folder nor a zip")
+    home = Path(os.path.expanduser("~")).resolve()
+    found: dict[Layout, set[str]] = {}
     try:
-        if not folder.exists():
-            hint = "./tutorial shell --in FOLDER makes a workspace"
-            raise CannotCheck(f"{folder}: no such folder or zip; {hint}")
-        if not folder.is_dir():
-            raise CannotCheck(f"{folder}: neither a folder nor a zip")
-        for candidate in (folder, *_only_child(folder)):
-            if (candidate / "src").is_dir() and not (candidate / "package.xml").exists():
-                return Layout(candidate, candidate / "src", True)
-            if any(candidate.glob("*/package.xml")):
-                return Layout(candidate, candidate, False)
-            if (candidate / "package.xml").exists():
-                return Layout(candidate.parent, candidate, False)
+        os.listdir(folder)
+        for here, folders, _ in os.walk(folder):
+            layout = _layout_of(Path(here))
+            inside = [*packages_below(layout.source), *packages_beside(layout)] if layout else []
+            if layout and (inside or not found):
+                found[layout] = {each.name for each in inside}
+            is_end = inside or folder.resolve() in (home, *home.parents)
+            folders[:] = [] if is_end else sorted({*folders} - LEFT_OUT)
+            folders[:] = [each for each in folders if each[0] != "." and each != "__MACOSX"]
     except PermissionError as error:
         raise CannotCheck(f"{error.filename}: may not be read") from None
-    return Layout(folder, folder / "src", True)
+    if not found:
+        return Layout(folder, folder / "src", True)
+    ranked = sorted(
+        [each for each in found if found[each]] or found,
+        key=lambda one: (-len(found[one] & SOLUTIONS), len(one.root.parts), one.root),
+    )
+    best, place = ranked[0], ", not ".join(os.path.relpath(one.root, folder) for one in ranked[:4])
+    return replace(best, place="" if best.root in (folder, folder.parent) else place)
 
 
-def _only_child(folder: Path) -> Iterator[Path]:
-    """Yield folders around everything, as a zip or a repository often has one; two at most."""
-    for _ in range(2):
-        inner = [each for each in folder.iterdir() if each.is_dir() and each.name[0] != "."]
-        inner = [each for each in inner if each.name != "__MACOSX"]
-        if len(inner) != 1:
-            return
-        (folder,) = inner
-        yield folder
+def _layout_of(folder: Path) -> Layout | None:
+    is_package = (folder / "package.xml").exists()
+    if (folder / "src").is_dir() and not is_package:
+        return Layout(folder, folder / "src", True)
+    if any(folder.glob("*/package.xml")):
+        return Layout(folder, folder, False)
+    return Layout(folder.parent, folder, False) if is_package else None
 
 
 def must_be_ones_own(layout: Layout, suite: Path) -> None:
     """Raise CannotCheck if a package, or what it is a link to, is one of the suite's solutions."""
-    solutions = {os.path.realpath(suite / name) for name in ("beginner_tutorials", "joy2twist")}
+    solutions = {os.path.realpath(suite / name) for name in SOLUTIONS}
     inside = []
     with contextlib.suppress(OSError):  # copy() reports it
         inside = sorted(layout.source.iterdir())
@@ -148,6 +164,10 @@ def copy(layout: Layout, target: Path, inside: str | Path | None = None) -> Path
         copying = _Copying(str(target.resolve()), os.path.realpath(inside) if inside else None)
         is_package = (source / "package.xml").exists()
         copying.copy(source, target / source.name if is_package else target, frozenset())
+    # Of the student's catkin; git without links, zip and Windows make a file of that link.
+    toplevel = target / "CMakeLists.txt"
+    if toplevel.is_file() and b"toplevel" in toplevel.read_bytes():
+        toplevel.unlink()
     return target
 
 
@@ -230,7 +250,8 @@ def packages_below(folder: str | Path) -> list[Package]:
 @own_rights()
 def packages_beside(layout: Layout) -> list[Package]:
     """Return the packages in a workspace right beside its src; deeper ones may be another student's."""
-    every = set(layout.root.iterdir()) - {layout.source} if layout.is_workspace else ()
+    root = layout.root  # a home folder is not shown to the examination
+    every = {*root.iterdir()} - {layout.source} if layout.is_workspace and root.is_dir() else ()
     beside = [each for each in sorted(every) if os.path.isfile(each / "package.xml")]
     return [read_package(each, layout.root) for each in beside]
 
@@ -247,7 +268,7 @@ def read_package(place: Path, root: str | Path) -> Package:
         package.malformed = name is None
         package.name = name or place.name
         return package
-    package.name = parsed.name
+    package.name, package.format = parsed.name, parsed.package_format
     depends = (*parsed.build_depends, *parsed.exec_depends, *parsed.build_export_depends)
     package.depends = {each.name for each in depends}
     return package
@@ -262,14 +283,13 @@ def _name_in(manifest: Path) -> str | None:
 
 
 @own_rights()
-def underlays(devel: str | Path) -> tuple[str, list[str]] | None:
-    """Return the folder for which a devel space was made, and what it was laid over; or None."""
+def underlays(devel: str | Path) -> tuple[str, list[str] | None]:
+    """Return the folder for which a devel space was made, or ""; and what it was laid over, or None."""
     files = [Path(devel) / name for name in ("_setup_util.py", "setup.sh")]
-    if not all(each.is_file() for each in files):  # a pipe would never be read to its end
-        return None
-    text, setup = (each.read_text(errors="replace") for each in files)
+    # A pipe would never be read to its end.
+    text, setup = (each.read_text(errors="replace") if each.is_file() else "" for each in files)
     # The first of its assignments, written by catkin: CMAKE_PREFIX_PATH = r'/a;/b'.split(';')
     found = re.search(r"^\s*CMAKE_PREFIX_PATH = r?(['\"])(.*)\1\.split\(", text, re.MULTILINE)
     made_for = re.search(r"_CATKIN_SETUP_DIR:=(.*)", setup)
-    below = found[2].split(";") if found else []
-    return made_for[1].rstrip("} \t") if made_for else "", [each for each in below if each]
+    below = [each for each in found[2].split(";") if each] if found else None
+    return made_for[1].rstrip("} \t") if made_for else "", below

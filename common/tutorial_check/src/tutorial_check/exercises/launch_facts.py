@@ -12,22 +12,25 @@ import io
 import json
 import shlex
 import sys
-import xml.dom.minidom
+import traceback
 from pathlib import Path
 from typing import Any, Dict
+from xml.parsers import expat
 
 MARK = "launch facts: "
 Node = Dict[str, Any]  # about a node: package, type, name, args ...
 
 
 @functools.lru_cache(maxsize=None)
-def can_be_found(package: str, kind: str) -> bool:
+def can_be_found(package: str, kind: str) -> Any:
+    """Return whether there is a program; None if there is no such package, either."""
     import roslib.packages  # noqa: PLC0415
+    import rospkg  # noqa: PLC0415
 
     try:
         return bool(roslib.packages.find_node(package, kind))
-    except roslib.packages.ROSPkgException:
-        return False
+    except (roslib.packages.ROSPkgException, rospkg.ResourceNotFound):
+        return None
 
 
 def device_of(node: Any, params: Any) -> str:
@@ -41,8 +44,38 @@ def device_of(node: Any, params: Any) -> str:
     return in_args[0] if in_args else str(in_file.value) if in_file else ""
 
 
+def place_of_tag(file: str, tag: Any) -> tuple[str, int]:
+    """Return (file, line) of a tag, which minidom knows by its order alone."""
+    lines: list[int] = []
+    parser = expat.ParserCreate()
+    parser.StartElementHandler = lambda *_: lines.append(parser.CurrentLineNumber)
+    parser.Parse(Path(file).read_bytes(), True)
+    return file, lines[tag.ownerDocument.getElementsByTagName("*").index(tag)]
+
+
+def fault_of(error: BaseException, path: str) -> dict[str, Any]:
+    """Return what led to an error of roslaunch's, as a launch_text.Fault has it. path: the launch file."""
+    chain = [error]
+    while chain[-1].__context__:
+        chain.append(chain[-1].__context__)
+    frames = [frame for one in chain for frame, _ in traceback.walk_tb(one.__traceback__)]
+    # A <remap> in a <node> is t there.
+    key = "t" if any(frame.f_code.co_name == "add_remap" for frame in frames) else "tag"
+    places, name = [(path, 1)], ""
+    for about in (frame.f_locals for frame in frames if "xmlloader" in frame.f_code.co_filename):
+        path, tag = about.get("filename", path), about.get(key) or about.get("tag")
+        if tag and "context" in about:
+            places.append(place_of_tag(about["context"].filename, tag))
+            name = tag.tagName
+    cause = next((one for one in reversed(chain) if not isinstance(one, KeyError)), error)
+    if isinstance(cause, expat.ExpatError):
+        places.append((path, cause.lineno))
+    words = str(cause.args[0] if len(cause.args) == 1 else cause)  # without ROS's paths
+    return {"kind": type(cause).__name__, "words": words, "tag": name, "places": places}
+
+
 def _node(node: Any, params: Any) -> Node:
-    plain = ("package", "type", "name", "namespace")
+    plain = ("package", "type", "name", "namespace", "filename")
     return {
         **{name: getattr(node, name) for name in plain},
         "args": node.args or "",
@@ -67,13 +100,7 @@ def facts_of(path: str) -> dict[str, Any]:
 
     roslaunch.loader.Loader.param_value = without_command
     said = io.StringIO()
-    facts: dict[str, Any] = {"path": path, "error": "", "nodes": [], "files": [], "said": ""}
-    try:
-        document = xml.dom.minidom.parse(path)
-        facts["root"] = getattr(document.documentElement, "tagName", "")
-        facts["tags"] = [each.tagName for each in document.getElementsByTagName("*")]
-    except Exception as error:
-        return {**facts, "error": str(error)}
+    facts: dict[str, Any] = {"path": path, "fault": None, "nodes": [], "files": [], "said": ""}
     try:
         with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
             config = roslaunch.config.load_config_default([path], 11311, verbose=False)
@@ -81,7 +108,7 @@ def facts_of(path: str) -> dict[str, Any]:
         facts["nodes"] = [_node(node, config.params) for node in config.nodes]
         facts["files"] = sorted({str(Path(each).resolve()) for each in config.roslaunch_files})
     except (Exception, SystemExit) as error:
-        facts["error"] = " ".join(str(error).split())
+        facts["fault"] = fault_of(error, path)
     return {**facts, "said": said.getvalue()[-2000:]}
 
 

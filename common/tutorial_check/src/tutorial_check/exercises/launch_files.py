@@ -11,13 +11,12 @@ from pathlib import Path
 from typing import Any, Callable
 
 from tutorial_check.course import check
-from tutorial_check.exercises import launch_facts
+from tutorial_check.exercises import launch_facts, launch_text
 from tutorial_check.exercises.joy2twist import NAME
 from tutorial_check.exercises.joystick_task import PACKAGE
 from tutorial_check.exercises.launch_facts import Node
-from tutorial_check.exercises.launch_text import attribute, parse_error, space_hint
 from tutorial_check.launch_xml import line_of, place_of, read, unclosed_node
-from tutorial_check.manifests import must_be_launchable
+from tutorial_check.manifests import is_stand_in, must_be_launchable
 from tutorial_check.model import CannotCheck, Note, Wrong
 from tutorial_check.scripts import find_script, is_runnable
 from tutorial_check.session import Session
@@ -44,7 +43,7 @@ class LaunchFile:
         """Read the file. Raises Wrong if there is none."""
         self.session, self.name = session, name
         self.path = find_launch(session, name)
-        self.where = os.path.relpath(self.path, session.package(PACKAGE).folder)
+        self.where = shown(session, self.path)
         self.text = read(self.path)
         self.facts = session.memo("launch facts", lambda: _read(session)).get(name)
         self.nodes: list[Node] = self.facts["nodes"]  # that it starts
@@ -55,7 +54,11 @@ class LaunchFile:
         return place_of(self.where, self.text, *words)
 
     def at_node(self, node: Node) -> str:
-        return self.at(*attribute("type", node["type"]), Path(node["type"]).name)
+        """Return FILE:LINE of a node, which may be in an included file."""
+        path = Path(node["filename"])
+        path = path if self.session.source in path.parents else self.path
+        words = (*launch_text.attribute("type", node["type"]), Path(node["type"]).name)
+        return place_of(shown(self.session, path), read(path), *words)
 
     def demand(self, what: str, test: Callable[[Node], bool], hint: str) -> Any:
         """Return the first node of which test() is true. Raises Wrong."""
@@ -72,6 +75,12 @@ class LaunchFile:
             expected, seen = "a second quote for each one in args", f"{node['args']} ({error})"
             hint = "leave the ' out: a path without spaces needs none"
             raise Wrong(expected, seen, self.at_node(node), hint) from None
+
+
+def shown(session: Session, path: str | Path) -> str:
+    """Return the path of a file within the student's package, or else within src."""
+    inside = os.path.relpath(path, session.package(PACKAGE).folder)
+    return os.path.relpath(path, session.source) if inside.startswith("..") else inside
 
 
 def copy_bag(session: Session) -> str:
@@ -110,10 +119,8 @@ def _read(session: Session) -> Any:
     must_be_launchable(session)
     session.must_reach_underlay()
     folder = session.package(PACKAGE).folder
-    files = (path for name in ALL for path in sorted(folder.rglob(name)) if path.is_file())
-    paths: dict[str, str] = {}
-    for path in files:
-        paths.setdefault(path.name, str(path))
+    files = (path for name in ALL for path in sorted(folder.rglob(name))[::-1] if path.is_file())
+    paths = {path.name: str(path) for path in files}  # the first of each name
     if not paths:
         return {}
     command = ["/usr/bin/python3", launch_facts.__file__, *paths.values()]
@@ -151,12 +158,11 @@ def check_file(session: Session, name: str) -> Any:
 
 def _check_text(file: LaunchFile) -> None:
     one = file.facts
-    root = one.get("root", "launch")
-    if root != "launch":
-        hint = "roslaunch knows <launch> alone, in lower case"
-        raise Wrong("<launch> around all", f"<{root}>", file.at(f"<{root}"), hint)
-    if one["error"]:
-        raise parse_error(one["error"], file.where, file.path.read_text(errors="replace"))
+    gap, hint = launch_text.space_hint(file.text)
+    if gap:
+        raise Wrong("names in one word", gap, file.at(gap), hint)
+    if one["fault"]:
+        raise _fault(file, launch_text.Fault(**one["fault"]))
     said = one["said"] + " ".join(one.get("errors", []))
     _check_words(file, said)
     inside = re.search(r"unrecognized '(\w+)' child tag", said)
@@ -167,27 +173,41 @@ def _check_text(file: LaunchFile) -> None:
         hint = "the <node> of this line goes on to its </node>: close it first, with /> or </node>"
         seen = f"<{tag}> in it: ignored by roslaunch"
         raise Wrong(expected, seen, f"{file.where}:{line}", hint)
-    gap, hint = space_hint(file.text)
-    if gap:
-        raise Wrong("names in one word", gap, file.at(gap), hint)
+
+
+def _fault(file: LaunchFile, fault: launch_text.Fault) -> Wrong:
+    """Return the Wrong for what roslaunch cannot read, in this file or in an included one."""
+    session = file.session
+    path, line = launch_text.blamed(fault, session.source)
+    text = Path(path).read_text(errors="replace")
+    wrong = launch_text.parse_error(fault, shown(session, path), line, text)
+    inner, number = fault.places[-1]
+    if session.source not in Path(inner).parents and fault.kind != launch_text.UNSET:
+        wrong.seen += f" (in {inner}:{number})"
+    hiding = (each for each in session.packages if each.folder in Path(path).parents)
+    for name in (each.name for each in hiding if is_stand_in(each.name)):
+        wrong.hint += f"; or remove {name} from src: this suite has one that needs nothing else"
+    return wrong
 
 
 def _check_words(file: LaunchFile, said: str) -> None:
     """Raise Wrong for a tag or attribute that roslaunch does not know."""
-    pattern = r"unrecognized tag (\S+)|[Uu]nknown (?:<\w+> )?attribute '?([^\s']+)"
-    odd = next((tag for tag in file.facts["tags"] if tag not in TAGS), "")
-    unknown = re.search(pattern, said)
-    word = odd or (unknown and (unknown[1] or unknown[2]))
-    if not word:
+    pattern = r"unrecognized (?:tag |')(\w+)|[Uu]nknown (?:<\w+> )?attribute '?([^\s']+)"
+    odd = (each.groups("") for each in re.finditer(pattern, said))
+    tag, name = next((each for each in odd if each[0] not in TAGS), ("", ""))
+    if not tag and not name:
         return
-    near = difflib.get_close_matches(word, ATTRIBUTES, 1, 0.7)
-    hint = f"is {near[0]}= meant?" if near and not odd else "look at its spelling"
-    if odd and word.lower() in TAGS:
-        hint = f"lower case: <{word.lower()}>"
-    written = re.search(rf"<{word}\b" if odd else rf"\s{word}\s*=", file.text)
-    where = f"{file.where}:{line_of(file.text, written.end())}" if written else file.where
-    expected = "tags and attributes that roslaunch knows"
-    raise Wrong(expected, f"{word}: ignored by roslaunch", where, hint)
+    near = difflib.get_close_matches(name, ATTRIBUTES, 1, 0.7)
+    hint = f"is {near[0]}= meant?" if near else "look at its spelling"
+    if tag.lower() in TAGS:
+        hint = f"lower case: <{tag.lower()}>"
+    written = rf"<{tag}\b" if tag else rf"\s{name}\s*="
+    for path in (file.path, *map(Path, file.facts["files"])):
+        found = file.session.source in path.parents and re.search(written, read(path))
+        if found:  # else it is in a file of others
+            where = f"{shown(file.session, path)}:{line_of(read(path), found.end())}"
+            expected = "tags and attributes that roslaunch knows"
+            raise Wrong(expected, f"{tag or name}: ignored by roslaunch", where, hint)
 
 
 def _check_node(file: LaunchFile, node: Node) -> None:
@@ -202,6 +222,7 @@ def _check_node(file: LaunchFile, node: Node) -> None:
         _check_own_node(file.session, kind, place)
     elif not node["found"] and (package, kind) != ("rviz", "rviz"):
         hint = "look at pkg= and type=: rosrun PACKAGE and Tab twice lists its programs"
+        hint = launch_text.package_hint(package) if node["found"] is None else hint
         if difflib.get_close_matches(kind, ["joy_node"], 1, 0.8):
             hint = JOY_HINT
         seen = f"Cannot locate node of type [{kind}] in package [{package}]"
@@ -211,14 +232,12 @@ def _check_node(file: LaunchFile, node: Node) -> None:
 def _check_own_node(session: Session, kind: str, place: str) -> None:
     files = [path for path in session.package(PACKAGE).folder.rglob("*") if path.is_file()]
     found = [path for path in files if path.name == kind]
-    if kind == "joy_node":
-        seen = 'pkg="joy2twist" has no joy_node: your package hides ours'
-        raise Wrong("joy_node of package joy", seen, place, JOY_HINT)
     if not found and kind == NAME:
         find_script(session, PACKAGE, NAME)  # which says what is there in its place
     if not found:
         near = difflib.get_close_matches(kind, sorted(path.name for path in files), 1, 0.7)
         hint = f'type="{near[0]}"' if near else "type is the name of the file, with .py"
+        hint = JOY_HINT if kind == "joy_node" else hint
         seen = f"Cannot locate node of type [{kind}]"
         raise Wrong(f"a program {kind} in {PACKAGE}", seen, place, hint)
     if not any(is_runnable(session, PACKAGE, path) for path in found):

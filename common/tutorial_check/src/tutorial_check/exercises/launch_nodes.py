@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from tutorial_check.course import check
-from tutorial_check.exercises.driving import CMD_VEL
+from tutorial_check.exercises.driving import CMD_VEL, JOY
 from tutorial_check.exercises.joystick_task import PACKAGE
 from tutorial_check.exercises.launch_facts import Node
 from tutorial_check.exercises.launch_files import BAG, JOY_HINT, STICK, LaunchFile, copy_bag
@@ -87,9 +87,7 @@ def check_one_driver(file: LaunchFile) -> None:
 
 def _drives(session: Session, node: Node) -> bool:
     """Return whether a program publishes Twist, and not on a topic of another name."""
-    own = session.task.topic(CMD_VEL).strip("/")
-    renamed = {source.strip("/"): to.strip("/") for source, to in node["remaps"]}
-    if renamed.get(own, own) != "cmd_vel" or f"{own}:=" in node["args"]:
+    if topic_of(node, session.task.topic(CMD_VEL)) != CMD_VEL:
         return False
     return any(
         "Twist" in " ".join([*call.words, *call.names.values()])
@@ -99,14 +97,25 @@ def _drives(session: Session, node: Node) -> bool:
     )
 
 
+def topic_of(node: Node, topic: str) -> str:
+    """Return the name that a topic of a node has where a launch file starts it."""
+    renamed = (*node["remaps"], *re.findall(r"(\S+):=(\S+)", node["args"]))
+    names = {source.strip("/"): to for source, to in renamed}
+    return f"/{names.get(topic.strip('/'), topic).strip('/')}"
+
+
 def check_joy(file: LaunchFile, sender: Node) -> None:
     """Raise Wrong unless the sender, a node, sends its Joys where joy2twist listens."""
-    renamed = [to for source, to in sender["remaps"] if source.strip("/") == "joy"]
-    listens = [to.strip("/") for node in file.own for _, to in node["remaps"]]
-    if renamed and renamed[0].strip("/") not in ("joy", *listens):
-        seen = f"{sender['type']} sends them on {renamed[0]}"
-        hint = f"leave that <remap> out of the node {sender['name']}"
-        where = file.at(*attribute("to", renamed[0]))
+    sends, own = topic_of(sender, JOY), file.session.task.topic(JOY)
+    listens = [topic_of(node, own) for node in file.own]
+    if sends not in listens:
+        seen = (
+            f"{sender['type']} sends them on {sends}, {file.own[0]['type']} listens to {listens[0]}"
+        )
+        remaps = (*sender["remaps"], *file.own[0]["remaps"])
+        named = [to for source, to in remaps if source.strip("/") in ("joy", own.strip("/"))]
+        where = file.at(*(each for to in named for each in attribute("to", to)))
+        hint = "leave that <remap> out, or give both nodes the same"
         raise Wrong("the Joys go to joy2twist, on /joy", seen, where, hint)
 
 

@@ -36,7 +36,10 @@ class Launch:
     def __init__(self, file: LaunchFile, stage: Stage, twists: str = CMD_VEL) -> None:
         """twists: the topic on which the velocities should come."""
         self.file, self.stage, self.twists = file, stage, twists
-        for topic, kind in ((JOY, "Joy"), (twists, "Twist"), (ODOM, "Odometry")):
+        kinds = (launch_nodes.is_joystick, launch_nodes.is_player)
+        senders = [node for node in file.nodes if any(is_one(node) for is_one in kinds)]
+        self.joys = launch_nodes.topic_of(senders[0], JOY) if senders else JOY
+        for topic, kind in ((self.joys, "Joy"), (twists, "Twist"), (ODOM, "Odometry")):
             stage.call("listen", topic, kind)
         self.program = stage.launch(["roslaunch", str(file.path)])
 
@@ -88,7 +91,7 @@ class Launch:
         if traced:
             return traced
         hints = {
-            JOY: "does the recording, or joy_node, run? rostopic hz /joy",
+            self.joys: "does the recording, or joy_node, run? rostopic hz /joy",
             self.twists: f"does joy2twist run, and publish on {self.twists}? rosnode list",
             ODOM: f"does the simulated robot run? {launch_nodes.ROBOT_HINT}",
         }
@@ -141,12 +144,12 @@ def _bag_run(session: Session) -> Any:
     with session.stage(renamed=False) as stage:
         launch = Launch(file, stage)
         # A robot that drives by another topic has not shown that /joy does it.
-        if not launch.wait(lambda: launch.moved() > 0.3) or not stage.call("count", JOY):
+        if not launch.wait(lambda: launch.moved() > 0.3) or not stage.call("count", launch.joys):
             expected = "/joy, /cmd_vel and /odom flow, and the robot drives more than 0.3 m"
             return launch.wrong(expected), loops
         if by_words and replaced:
-            end_s = stage.call("heard", JOY)[0][0] + BAG_S + 0.5
-            loops = stage.wait(lambda: stage.call("heard", JOY)[-1][0] > end_s, BAG_S + 2.5)
+            end_s = stage.call("heard", launch.joys)[0][0] + BAG_S + 0.5
+            loops = stage.wait(lambda: stage.call("heard", launch.joys)[-1][0] > end_s, BAG_S + 2.5)
         return None, bool(loops)
 
 
@@ -209,7 +212,7 @@ def drives_forwards(stage: Stage, pad: Any, launch: Launch, *signs: str) -> bool
     """
 
     def ready() -> bool:
-        topics = (JOY, launch.twists, ODOM)
+        topics = (launch.joys, launch.twists, ODOM)
         counts = [stage.call("speakers", topic) for topic in topics]
         return pad.call("connected") and all(counts + [stage.call("count", each) for each in signs])
 
@@ -217,9 +220,9 @@ def drives_forwards(stage: Stage, pad: Any, launch: Launch, *signs: str) -> bool
         return launch.moved() > 0.15
 
     def touch(*how: Any) -> None:
-        before = stage.call("count", JOY)
+        before = stage.call("count", launch.joys)
         pad.call(*how)
-        stage.wait(lambda: launch.is_over() or stage.call("count", JOY) > before, 1.0)
+        stage.wait(lambda: launch.is_over() or stage.call("count", launch.joys) > before, 1.0)
 
     launch.wait(ready)
     # LB alone, touched and let go: a joy_node with autorepeat_rate 0 is silent while nothing moves.

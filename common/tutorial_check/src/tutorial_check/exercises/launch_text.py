@@ -1,57 +1,68 @@
-"""The text of a launch file, and what roslaunch says of it: from both to a line and a hint."""
+"""What roslaunch says of a launch file, and the file's text: from both to a line and a hint."""
 
 from __future__ import annotations
 
 import difflib
 import os
 import re
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Sequence
 
-from tutorial_check.launch_xml import NOT_XML, line_of, not_xml, place_of, without_comments
+from tutorial_check.debian_packages import in_place_of, packages_of_ros
+from tutorial_check.launch_xml import not_xml, place_of, without_comments
 from tutorial_check.model import Wrong
 
 # Those that a launch file of the exercises may name.
 PACKAGES = (
-    "rbx1_nav",
-    "rbx1_bringup",
-    "turtlebot_rviz_launchers",
-    "turtlebot_bringup",
-    "fake_turtlebot_sim",
-    "joy2twist",
-    "gamepad",
-    "joy",
-    "rosbag",
-    "rviz",
+    "rbx1_nav rbx1_bringup turtlebot_rviz_launchers turtlebot_bringup fake_turtlebot_sim joy2twist"
+    " gamepad joy rosbag rviz"
 )
-NO_FILE = r"No such file or directory: '([^']+)'|\[([^\]]+)\] (?:does not exist|cannot be)"
-NO_PACKAGE = r"Resource not found: (\S+)|package \[?'?([\w-]+)|(\S+) ROS path \[0\]="
+# Kinds and words of errors, as roslaunch has them.
+UNSET, UNUSED = "ArgException", r"unused args \[(\w+).*\] for include of \[(.*)\]"
+NO_FILE = r"No such file or directory: '([^']+)'|file does not exist \[([^\]]*)\]"
 # Names in two words. (That of a node may have them, says roslaunch; that is worth a note.)
 GAPS = (
     r"\$\(find\s+(\w+(?:[ \t]+\w+)+)\s*\)",
     r"\b(?:pkg|type)\s*=\s*[\"'](\w+(?:[ \t]+[\w.]+)+)[\"']",
 )
-# What roslaunch wants in a tag.
-ATTRIBUTES = {
-    "node": "a node has pkg=, type= and name=",
-    "include": 'an include has file="$(find PACKAGE)/launch/FILE"',
-    "remap": '<remap from="name in the program" to="name on the robot"/>',
-}
-# Other errors: (what roslaunch says, words of the line to blame, what to do). The first that fits counts.
+# (what roslaunch says, what is seen, what to do); without the second its own words. The first that fits counts.
 SAID = (
-    (r"requires the '(\w+)' arg", ('name="{0}"', "$(arg {0})", "<include"),
+    (f"{UNSET} .*?: (.*)", "the arg {0} has no value",
      'give it a value: <arg name="{0}" default="..."/>, or value="..." in the <include>'),
-    (r"\[(?= |[^\]]* \])( *([^\]]*?) *)\] is not a valid ROS name", ('"{0}"', "'{0}'", "{0}"),
-     'a blank stands between the quotes: "{1}"'),
-    (r"\[([^\]]*)\] is not a valid ROS name", ('"{0}"', "'{0}'", "{0}"),
-     "a name has letters, digits, _ and / only"),
-    (r"Unknown substitution command \[rospack ([^\]]*)\]", ("$(rospack",),
+    ("^KeyError <include>", "an <include> without file=",
+     'an include has file="$(find PACKAGE)/launch/FILE"'),
+    ("<node>: .*missing required", "", "a node has pkg=, type= and name="),
+    ("<remap>: .*missing required", "",
+     '<remap from="name in the program" to="name on the robot"/>'),
+    ("missing required", "", "look at the names of its attributes"),
+    (r"environment variable b?'(\w+)' is not set", "",
+     "export {0}=... in the terminal of roslaunch; or $(optenv {0} VALUE), which has a default"),
+    ("node name cannot contain a namespace", 'a "/" in the name= of a node',
+     "the part before the / belongs into ns=, as in ns=\"robot1\" name=\"talker\""),
+    (r"multiple nodes named \[(.*?)\]", "several nodes named {0}",
+     "each node has a name of its own, those of included files as well"),
+    (r"\[(?= |[^\]]* \]) *([^\]]*?) *\] is not a valid ROS name", "",
+     'a blank stands between the quotes: "{0}"'),
+    ("is not a valid ROS name", "", "a name has letters, digits, _ and / only"),
+    (r"Unknown substitution command \[rospack ([^\]]*)\]", "",
      "in a launch file it is $({0}), without rospack"),
-    (r"Unknown substitution command \[(\S+)", ("$({0}",),
+    (r"Unknown substitution command \[(\S+)", "",
      "there is no $({0} ...): look at its spelling, as in $(find PACKAGE)"),
-    (r"\$\(arg", ("$(arg",), 'each $(arg x) needs an <arg name="x" default="..."/>'),
-    ("", (), "roslaunch --nodes FILE shows the same"),
+    (r"\$\(arg", "", 'each $(arg x) needs an <arg name="x" default="..."/>'),
+    ("no root <launch> tag", "", "roslaunch knows <launch> alone around all, in lower case"),
+    ("", "", "roslaunch --nodes FILE shows the same"),
 )  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Fault:
+    """What roslaunch said of a launch file, and the tag that it was reading then."""
+
+    kind: str
+    words: str
+    tag: str
+    places: Sequence[tuple[str, int]]  # (file, line) of each tag around it, the outermost first
 
 
 def attribute(name: str, value: str) -> tuple[str, ...]:
@@ -69,71 +80,79 @@ def space_hint(text: str) -> tuple[str, str]:
     return "", ""
 
 
-def parse_error(error: str, where: str, text: str) -> Wrong:
-    """Return the Wrong for a file that roslaunch cannot read. text: with its comments."""
-    expected = "a launch file that roslaunch can read"
-    if re.search(NOT_XML, error):
-        line, hint = not_xml(error, text)
-        return Wrong(expected, error[:250], f"{where}:{line}" if line else where, hint)
+def debian_hint(name: str) -> str:
+    """Return what to do about a ROS package that Debian has, or is known to lack; or ""."""
+    debian, other = packages_of_ros(name), in_place_of(name)
+    lacks = f"Debian lacks {name}; {other}" if other else ""
+    return f"Debian has it: sudo apt install {debian}" if debian else lacks
+
+
+def package_hint(name: str) -> str:
+    """Return what to do about a ROS package that is not there."""
+    near = difflib.get_close_matches(name, PACKAGES.split(), 1, 0.8)
+    if near:
+        return f"there is no package {name}; is {near[0]} meant?"
+    spelling = f"there is no package {name}: look at the spelling in $(find {name}) or pkg="
+    return debian_hint(name) or spelling
+
+
+def blamed(fault: Fault, source: Path) -> tuple[str, int]:
+    """Return (file, line) of the innermost tag below a folder, which is at fault.
+
+    An arg without a value is the fault of the <include>, where the included file declares it.
+    """
+    own = [place for place in fault.places if source in Path(place[0]).parents]
+    if fault.kind == UNSET:
+        file = own[-1][0]
+        declared = rf"<arg\b[^<>]*\bname\s*=\s*[\"']{re.escape(fault.words)}[\"']"
+        if re.search(declared, without_comments(Path(file).read_text(errors="replace"))):
+            own = [place for place in own if place[0] != file] or own
+    return own[-1]
+
+
+def parse_error(fault: Fault, where: str, line: int, text: str) -> Wrong:
+    """Return the Wrong for a file that roslaunch cannot read. where, line: to blame; text: with its comments."""
+    expected, place = "a launch file that roslaunch can read", f"{where}:{line}"
+    words = " ".join(fault.words.split())[:250]
+    if fault.kind == "ExpatError":
+        number, hint = not_xml(fault.words, text)
+        return Wrong(expected, words, f"{where}:{number}" if number else where, hint)
     text = without_comments(text)
-    gap, hint = space_hint(text)
     open_find = re.search(r"\$\((?:find|arg)\b[^)\"'<>]*[\"'<>]", text)
-    if gap:
-        return Wrong(expected, gap, place_of(where, text, gap), hint)
     if open_find:
         place = place_of(where, text, open_find[0])
         hint = "each $( needs its ): $(find PACKAGE)/launch/FILE"
         return Wrong(expected, f"{open_find[0][:-1]} without )", place, hint)
-    file = re.search(NO_FILE, error)
+    if fault.kind == "ResourceNotFound":
+        return Wrong(expected, f"package not found: {words}", place, package_hint(words))
+    file = re.search(NO_FILE, words)
     if file:
-        return _no_file(expected, file[1] or file[2], where, text)
-    missing = re.search(NO_PACKAGE, error)
-    if missing:
-        name = next(each for each in missing.groups() if each).rstrip(":.")
-        near = difflib.get_close_matches(name, PACKAGES, 1, 0.8)
-        hint = f"there is no package {name}: look at the spelling in $(find {name}) or pkg="
-        hint += f"; is {near[0]} meant?" if near else ""
-        return Wrong(expected, f"package not found: {name}", place_of(where, text, name), hint)
-    return Wrong(expected, error[:250], *_place_and_hint(error, where, text))
-
-
-def _place_and_hint(error: str, where: str, text: str) -> tuple[str, str]:
-    """Return (where, what to do) for what names neither file nor package."""
-    twice = re.search(r"multiple nodes named \[(?:.*/)?([^/\]]+)\]", error)
-    if twice:
-        named = rf"<node\b[^<>]*\bname\s*=\s*[\"']{re.escape(twice[1])}[\"']"
-        ends = [each.end() for each in re.finditer(named, text)]
-        place = f"{where}:{line_of(text, ends[:2][-1])}" if ends else where
-        return place, "each node has a name of its own, those of included files as well"
-    about = error.partition(" xml is ")[0]  # without the tag itself, in which any word may stand
-    lacks = re.search(r"<(\w+)> tag is missing", about)
-    tag = "include" if error == "'file'" else lacks[1] if lacks else ""
-    if tag:
-        names = re.findall(r"'(\w+)'|(\w+)/(\w+) attr", about)
-        place = _tag_without(where, text, tag, names)
-        return place, ATTRIBUTES.get(tag, "look at the names of its attributes")
-    for pattern, words, hint in SAID:
-        found = re.search(pattern, about)
+        return _no_file(expected, file[1] or file[2], place)
+    unused = re.search(UNUSED, words)
+    if unused:
+        seen, hint = _unused(unused[1], Path(unused[2]))
+        return Wrong(expected, seen, place, hint)
+    said = f"{fault.kind} <{fault.tag}>: {words.partition(' xml is ')[0]}"
+    for pattern, seen, hint in SAID:
+        found = re.search(pattern, said)
         if found:
-            parts = found.groups()
-            return place_of(where, text, *(each.format(*parts) for each in words)), hint.format(
-                *parts
-            )
-    return where, ""
+            shown = seen.format(*found.groups()) or words
+            return Wrong(expected, shown, place, hint.format(*found.groups()))
+    raise AssertionError(words)
 
 
-def _tag_without(where: str, text: str, tag: str, attributes: Any) -> str:
-    """Return FILE:LINE of the first such tag that lacks an attribute. attributes: as re.findall has them."""
-    names = [name for found in attributes for name in found if name]
-    for found in re.finditer(rf"<{tag}\b[^<>]*", text):
-        if not all(re.search(rf"\b{name}\s*=", found[0]) for name in names):
-            return f"{where}:{line_of(text, found.start())}"
-    return place_of(where, text, f"<{tag}")
+def _unused(name: str, file: Path) -> tuple[str, str]:
+    """Return (what is seen, what to do) for an arg that an included file does not have."""
+    text = without_comments(file.read_text(errors="replace")) if file.is_file() else ""
+    known = re.findall(r"<arg\b[^<>]*\bname\s*=\s*[\"']([^\"']+)[\"']", text)
+    near = difflib.get_close_matches(name, known, 1, 0.6)
+    hint = f"is {near[0]} meant?" if near else f"leave it out; it has {', '.join(known) or 'none'}"
+    return f"{file.name} has no arg {name}", hint
 
 
-def _no_file(expected: str, name: str, where: str, text: str) -> Wrong:
+def _no_file(expected: str, name: str, place: str) -> Wrong:
     path = Path(name)
-    seen, place = f"no such file: {path}", place_of(where, text, path.name)
+    seen = f"no such file: {path}"
     if not path.is_absolute():
         hint = 'an include needs the whole path: file="$(find PACKAGE)/launch/FILE"'
         return Wrong(expected, seen, place, hint)

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from tutorial_check.course import check
+from tutorial_check.exercises.launch_text import debian_hint
 from tutorial_check.launch_xml import place_of, read
 from tutorial_check.manifests import unreadable
 from tutorial_check.model import Note, Wrong
@@ -25,9 +26,12 @@ CREATE = {name: f"catkin_create_pkg {name} {' '.join(words)}" for name, words in
 # What a message of CMake's most often means here: (pattern, what to do). The first that fits counts.
 CMAKE_HINTS = (
     (r"does not match current PROJECT_NAME", "write the name that package.xml has into project()"),
+    (r"include dir '(.+)' does not exist|directory not found: .*?/ws/src/(\S+)"
+     r"|source \"(\w[^\"]*)\" which is not an existing",
+     "git keeps no empty folders: put a file into {f}, as .gitkeep, or take it out of the line"),
     (r"non-existing file|Cannot find source file", "look at the spelling of the file's path"),
     (r"Unknown CMake command", "look at the spelling of the command"),
-)
+)  # fmt: skip
 
 
 def _similar(name: str, packages: list[Package]) -> Package | None:
@@ -106,7 +110,9 @@ def _dependencies(session: Session, name: str) -> Any:
         seen = f"{near[missing[0]][0]}, which is no package"
     text = read(package.folder / "package.xml")
     place = place_of(where, text, "exec_depend>", "run_depend>", "depend>", "</package>")
-    hint = "add " + " and ".join(f"<depend>{each}</depend>" for each in missing)
+    # Format 1 knows no <depend>.
+    kinds = ("build_depend", "run_depend") if package.format == 1 else ("depend",)
+    hint = "add " + " and ".join(f"<{k}>{each}</{k}>" for each in missing for k in kinds)
     for each, (found,) in ((each, words) for each, words in near.items() if words):
         seen += f" (but {found})" if each not in package.depends else ""
         place = place_of(where, text, f">{found}<", found)
@@ -160,8 +166,8 @@ def _cmake(package: Package) -> Any:
 
 
 @check("C4", "catkin_make builds", "2.1", "C2", look="catkin_make")
-def build(session: Session) -> None:
-    for each in session.packages:
+def build(session: Session) -> Note | None:
+    for each in session.needed:
         _cmake(each)
     code, output = session.built()
     if code is None:
@@ -174,6 +180,12 @@ def build(session: Session) -> None:
     if listed and "beginner_tutorials" not in names:
         seen = f"it goes through {', '.join(names)}"
         raise Wrong("catkin_make goes through beginner_tutorials", seen)
+    if not session.unbuilt:
+        return None
+    wrong = _build_error(session, session.unbuilt)
+    seen = f"it builds what the exercises need; another package fails: {wrong.seen}"
+    hint = f"{wrong.hint}; or put an empty file CATKIN_IGNORE into that package"
+    return Note(seen, wrong.where, hint)
 
 
 def _build_error(session: Session, output: str) -> Any:
@@ -186,8 +198,9 @@ def _build_error(session: Session, output: str) -> Any:
     message, where = _cmake_error(output)
     if words.startswith("CMake Error") and message:
         words = f"CMake: {message}"
-    fits = (what for pattern, what in CMAKE_HINTS if re.search(pattern, message))
-    hint = next(fits, "read the first error of catkin_make: it names file and line")
+    hint = "read the first error of catkin_make: it names file and line"
+    for found, what in ((re.search(each, message), what) for each, what in CMAKE_HINTS[::-1]):
+        hint = what.format(f=found[found.lastindex or 0]) if found else hint
     if missing:
         words, place, hint = _not_found(session, missing[0])
         where = place or where
@@ -196,7 +209,8 @@ def _build_error(session: Session, output: str) -> Any:
 
 def _missing_in(output: str) -> list[str]:
     """Return the packages that catkin_make said it could not find."""
-    return re.findall(r'[Cc]ould not find .*?"([^"]+)"', output)
+    # CMake breaks long lines, and indents them.
+    return re.findall(r'[Cc]ould not find (?:[^"\n]|\n  (?=\S))*"([^"]+)"', output)
 
 
 def _not_found(session: Session, name: str) -> Any:
@@ -204,7 +218,8 @@ def _not_found(session: Session, name: str) -> Any:
     place, text = _place_in_cmake(session, name)
     absent = {each for names in WANTED.values() for each in names if each not in text}
     near = difflib.get_close_matches(name, absent, 1, 0.65)
-    hint = f"is {name} spelt right in find_package of CMakeLists.txt, and without a comma?"
+    hint = debian_hint(name)
+    hint = hint or f"is {name} spelt right in find_package of CMakeLists.txt, and without a comma?"
     if near and "," not in name:
         hint = f"correct {name} to {near[0]} in CMakeLists.txt"
     return f"catkin cannot find {name}", place, hint

@@ -35,18 +35,19 @@ class Remapped:
         self.remap = remap_of(file.session)
         with file.session.stage(renamed=False) as stage:
             stage.call("listen", twists, "Twist")
-            stage.call("advertise", JOY, "Joy")
+            self.joys = joys = launch_nodes.topic_of(file.own[0], file.session.task.topic(JOY))
+            stage.call("advertise", joys, "Joy")
             self.launch = launch = launch_runs.Launch(file, stage, TELEOP)
             topics = (TELEOP, twists)
 
             def is_up() -> bool:
                 speak = any(stage.call("speakers", each) for each in topics)
                 # One of the listeners is ours.
-                return stage.call("listeners", JOY) > 1 and bool(speak or self._others(stage))
+                return stage.call("listeners", joys) > 1 and bool(speak or self._others(stage))
 
             launch.wait(is_up)
-            rest(stage, *topics)
-            stage.call("stream", JOY, [held(file.session, 0.2, 0.3)], 20.0, True)
+            rest(stage, *topics, joys=joys)
+            stage.call("stream", joys, [held(file.session, 0.2, 0.3)], 20.0, True)
 
             def moving(topic: str) -> bool:
                 return any(abs(value[0]) > 0.01 for _, _, value in stage.call("heard", topic))
@@ -101,7 +102,7 @@ NOT_REMAPPED = (
         "{f.at_remap}", sure=True),
     Row(lambda r: r.bad, "Twists on {f.twists}: nothing is remapped", REMAP, "{f.at_remap}",
         sure=True),
-    Row(lambda r: JOY not in r.subscribers, "no node listens to /joy",
+    Row(lambda r: r.joys not in r.subscribers, "no node listens to {f.joys}",
         "does the node start, and is /joy left as it is?", "{f.where}"),
     Row(lambda r: True, "no Twist at all", REMAP, "{f.where}"),
 )  # fmt: skip

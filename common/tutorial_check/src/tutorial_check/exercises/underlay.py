@@ -9,14 +9,13 @@ from typing import Any, Sequence
 from tutorial_check import place
 from tutorial_check.course import check
 from tutorial_check.exercises.packages import WANTED
+from tutorial_check.manifests import is_stand_in
 from tutorial_check.model import Note, Wrong
 from tutorial_check.session import Session
 from tutorial_check.workspace import underlays
 
 SUITE = ("node_kit", "fake_turtlebot_sim")  # packages of the underlay
 AGAIN = "in the workspace: rm -r build devel, then catkin_make"
-# Of the suite's own these are stand-ins: the real ones may well lie in a student's src.
-STAND_INS = ("joy", "rbx1_", "turtlebot_")
 
 
 @check("C1", "the workspace", "2.1", look="ls src devel", timeless=True, eager=True)
@@ -31,27 +30,24 @@ def workspace(session: Session) -> Note | str | None:
         setup_size = setup.stat().st_size if setup.is_file() else None
     if not has_source:
         seen = f"none in {layout.root}, and no package"
-        hint = (
-            "is this your workspace? --in ~/ros/hydro/catkin_ws; a new one begins with a folder src"
-        )
+        hint = "is this your workspace? --in ~/ros/hydro/catkin_ws; a new one begins with src"
         raise Wrong("a folder src in the workspace", seen, hint=hint)
     _check_names(session)
     if not layout.is_workspace:
         return Note("handed in as packages, without their workspace: built afresh here")
     devel = layout.root / "devel"
-    found = underlays(devel)
-    if setup_size is not None and (found is None or not setup_size):
-        gone = setup.name if found else "_setup_util.py or setup.sh"
+    made_for, below = underlays(devel)
+    if made_for and os.path.realpath(made_for) != os.path.realpath(devel):
+        return Note(f"its devel folder was made elsewhere ({made_for}); built afresh here")
+    if setup_size is not None and (not made_for or below is None or not setup_size):
+        gone = setup.name if made_for and below is not None else "_setup_util.py or setup.sh"
         seen = f"it is not whole: {gone} is missing or empty"
         raise Wrong("a devel folder as catkin_make makes it", seen, "devel", AGAIN)
-    if found is None and is_built_within:
+    if not made_for and is_built_within:
         hint = "catkin_make is called in the workspace: cd .., and remove src/build and src/devel"
         raise Wrong("build and devel beside src", "they are within src", hint=hint)
-    if found is None:
+    if below is None:
         return Note("never built here (no devel/setup.bash)", hint="catkin_make in the workspace")
-    made_for, below = found
-    if os.path.realpath(made_for) != os.path.realpath(devel):
-        return Note(f"its devel folder was made elsewhere ({made_for}); built afresh here")
     own = str(devel.resolve())
     _check_below(session, [each for each in below if os.path.realpath(each) != own])
     return "src and devel, on top of this suite"
@@ -83,8 +79,11 @@ def _check_names(session: Session) -> None:
     share = Path(session.underlay).parent / "share"
     for each in session.packages:
         with place.own_rights():
-            is_suite = (share / each.name).is_dir() and not each.name.startswith(STAND_INS)
-        if is_suite or any(each.name in names for names in WANTED.values()):
+            is_suite = (share / each.name).is_dir() and not is_stand_in(each.name)
+            brings = (each.folder / "msg", each.folder / "src" / each.name)
+        is_ros = any(each.name in names for names in WANTED.values())
+        # A clone of the real one is no package that catkin_create_pkg made by mistake.
+        if is_suite or (is_ros and not any(map(Path.is_dir, brings))):
             seen = f"a package {each.name}: it hides {'the suite' if is_suite else 'ROS'}'s own"
             hint = "remove it from src. If catkin_create_pkg made it: its first word is the name"
             hint += " of the new package, those after it what that depends on"
