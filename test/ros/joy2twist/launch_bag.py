@@ -56,7 +56,9 @@ class LaunchBagTest(RosTest):
             robot.wait_for_rest()
             self.assertAlmostEqual(robot.now.x, SPARSE_M, delta=0.05 * SPARSE_M)
             self.end(launch)
-        with Program("roslaunch", "joy2twist", "launch_joy_node_realTurtlebot.launch", *bag) as none:
+        with Program(
+            "roslaunch", "joy2twist", "launch_joy_node_realTurtlebot.launch", *bag
+        ) as none:
             self.assertNotEqual(none.wait(), 0)
             self.assertIn("LB (button 4) or RB (button 5), the dead-man button of", none.output)
             self.assertNotIn("process[", none.output)
