@@ -1,7 +1,11 @@
 """The README's two machines, joined by a network, and what happens when its cable is pulled."""
 
+import signal
+
 import pytest
 
+from fake_turtlebot_sim.mux.arbitration import Verdict
+from tutorial_testing.processes import descendants, signal_all
 from tutorial_testing.two_hosts.scene import REPOSITORY, ROBOT, WORKSTATION
 from tutorial_testing.waiting import wait_for
 
@@ -90,3 +94,20 @@ def test_a_cable_is_pulled_and_plugged_in_again(scene, tmp_path, mux, late):
     for program in (scene.robot, scene.workstation):
         assert "has died" not in program.output
         assert "restarting" not in program.output
+
+
+def test_what_a_program_sent_before_it_was_killed_is_late_and_the_next_one_drives(scene):
+    program = "rostopic pub -r 10 cmd_vel_mux/input/teleop geometry_msgs/Twist '{linear: {x: 0.2}}'"
+    scene.launch_robot()
+    wanderer = scene.start(WORKSTATION, program)
+    scene.first(lambda m: m.moves, "robot that drives")
+    scene.network.pull_cable(WORKSTATION)
+    stands = scene.wait_for_rest()
+    signal_all(descendants(wanderer.pid), signal.SIGKILL)
+    scene.network.plug_cable(WORKSTATION)
+    wait_for(lambda: Verdict.LATE.value in scene.robot.output, "late commands")
+    assert scene.stays_at_rest()
+    assert not any(m.moves for m in scene.since(stands))
+
+    scene.start(WORKSTATION, program)
+    wait_for(lambda: scene.moves, "robot that drives again")
