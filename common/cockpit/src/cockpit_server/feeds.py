@@ -9,9 +9,12 @@ from __future__ import annotations
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
+from math import inf
 from typing import Any, Callable, Hashable, Mapping
 
 import rospy
+from genpy import DeserializationError
 
 from cockpit_server.guard import Guard
 
@@ -31,6 +34,12 @@ def later(action: Callable[..., Any], *arguments: Any) -> None:
             rospy.logwarn("cockpit: %s: %s", type(error).__name__, error)
 
     _worker.submit(do)
+
+
+def read(kind: Any, data: bytes, longest: float = inf) -> Any:
+    """Return a message of a kind from at most so many bytes; None if malformed."""
+    with suppress(DeserializationError):
+        return kind().deserialize(data) if len(data) <= longest else None
 
 
 class OnceLater:

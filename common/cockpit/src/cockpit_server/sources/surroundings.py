@@ -10,12 +10,12 @@ from math import isfinite
 from typing import Any, Sequence
 
 import numpy as np
-from genpy import DeserializationError
 from nav_msgs.msg import OccupancyGrid
 from sensor_msgs.msg import LaserScan
 from tf2_msgs.msg import TFMessage
 
 from cockpit_server.clients import Client, Source, encoded
+from cockpit_server.feeds import read
 from cockpit_server.graph import ODOMETRY, topic_of
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.motion import is_somewhere, motion
@@ -103,12 +103,6 @@ class Surroundings(Source):
         if len(message.data) == BUMPER_BYTES and message.data[0] < BUMPERS:
             pressed = self._pressed.setdefault(topic, set())
             (pressed.add if message.data[1] else pressed.discard)(message.data[0])
-
-
-def read(kind: Any, data: bytes, longest: int) -> Any:
-    """Return a message of a kind from at most so many bytes; None if malformed."""
-    with suppress(DeserializationError):
-        return kind().deserialize(data) if len(data) <= longest else None
 
 
 def map_shown(data: bytes) -> dict[str, Any]:
