@@ -62,6 +62,10 @@ const PANEL = `
       <h2>joy2twist</h2>
       <p id="teleop" role="status" aria-live="polite" data-state="unknown">No report from joy2twist yet.</p>
     </div>
+    <div class="card" id="kobuki" hidden>
+      <h2>Kobuki</h2>
+      <dl class="values">${values(KOBUKI)}</dl>
+    </div>
     <div class="card">
       <h2>Joystick <small id="pad-age"></small></h2>
       <div id="pad"></div>
@@ -69,10 +73,6 @@ const PANEL = `
     <div class="card">
       <h2>Odometry</h2>
       <dl id="odometry" class="values">${values(ODOMETRY)}</dl>
-    </div>
-    <div class="card" id="kobuki" hidden>
-      <h2>Kobuki</h2>
-      <dl class="values">${values(KOBUKI)}</dl>
     </div>
     <div class="card" id="class" hidden>
       <h2>All robots</h2>

@@ -10,7 +10,6 @@ import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
-from math import inf
 from typing import Any, Callable, Hashable, Mapping
 
 import rospy
@@ -36,7 +35,7 @@ def later(action: Callable[..., Any], *arguments: Any) -> None:
     _worker.submit(do)
 
 
-def read(kind: Any, data: bytes, longest: float = inf) -> Any:
+def read(kind: Any, data: bytes, longest: float = float("inf")) -> Any:
     """Return a message of a kind from at most so many bytes; None if malformed."""
     with suppress(DeserializationError):
         return kind().deserialize(data) if len(data) <= longest else None
