@@ -31,6 +31,15 @@ def test_robot_shows_the_odometry(world, page, ros):
     page.wait_for_text("#teleop", re.findall(r'joystick"\s+message: "(.*)"', reports)[-1])
 
 
+def test_robot_shows_leds_and_sounds_of_a_kobuki(page, ros):
+    commands = "/mobile_base/commands"
+    ros("rostopic", "pub", "-1", f"{commands}/led2", "kobuki_msgs/Led", "value: 2")
+    page.wait_for_text("#kobuki [data-value=led2]", "orange")
+    ros("rostopic", "pub", "-1", f"{commands}/sound", "kobuki_msgs/Sound", "value: 4")
+    page.wait_for_text("#kobuki [data-value=sound]", "error")
+    assert page.text("#kobuki [data-value=led1]") == "off"
+
+
 def test_graph_shows_the_nodes_and_their_topics(page, ros):
     page.tab("Graph")
     wait_for(lambda: page.all("#graph g.node"), "nodes")

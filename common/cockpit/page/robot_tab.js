@@ -15,9 +15,14 @@ const ODOMETRY = [ // name, title, unit, digits
   ["x", "x", " m", 2], ["y", "y", " m", 2], ["yaw", "heading", "°", 1],
   ["v", "speed", " m/s", 2], ["w", "turning", " rad/s", 2], ["covered", "covered", " m", 2],
 ];
+const KOBUKI = [ // name, title, unit, before its first command
+  ["led1", "LED 1", "", "off"], ["led2", "LED 2", "", "off"], ["sound", "last sound", "", "none"],
+];
 
 const number = (value, digits = 2) =>
   Number.isFinite(value) ? value.toFixed(digits).replace(/^-(0\.?0*)$/, "$1") : "–"; // no -0.00
+const values = (rows) => rows.map(([name, title, unit]) => `
+        <div><dt>${title}</dt><dd><output data-value="${name}">–</output>${unit}</dd></div>`).join("");
 
 const PANEL = `
   <div class="floor">
@@ -57,15 +62,17 @@ const PANEL = `
       <h2>joy2twist</h2>
       <p id="teleop" role="status" aria-live="polite" data-state="unknown">No report from joy2twist yet.</p>
     </div>
+    <div class="card" id="kobuki" hidden>
+      <h2>Kobuki</h2>
+      <dl class="values">${values(KOBUKI)}</dl>
+    </div>
     <div class="card">
       <h2>Joystick <small id="pad-age"></small></h2>
       <div id="pad"></div>
     </div>
     <div class="card">
       <h2>Odometry</h2>
-      <dl id="odometry">${ODOMETRY.map(([name, title, unit]) => `
-        <div><dt>${title}</dt><dd><output data-value="${name}">–</output>${unit}</dd></div>`).join("")}
-      </dl>
+      <dl id="odometry" class="values">${values(ODOMETRY)}</dl>
     </div>
     <div class="card" id="class" hidden>
       <h2>All robots</h2>
@@ -199,10 +206,16 @@ export class RobotTab {
       if (Object.keys(robots).length > 1 && !this.#seat.yours) this.floor.showAll();
     }
     const robot = robots[this.look] ?? {};
-    const values = { ...robot, yaw: (robot.yaw * 180) / Math.PI };
+    const turned = { ...robot, yaw: (robot.yaw * 180) / Math.PI };
     for (const [name, , , digits] of ODOMETRY) {
-      say(document.querySelector(`#odometry [data-value=${name}]`), number(values[name], digits));
+      say(document.querySelector(`#odometry [data-value=${name}]`), number(turned[name], digits));
     }
+    for (const [name, , , none] of KOBUKI) {
+      const output = document.querySelector(`#kobuki [data-value=${name}]`);
+      say(output, robot[name] ?? none);
+      output.style.setProperty("--lamp", output.textContent.replace("off", ""));
+    }
+    byId("kobuki").hidden = !KOBUKI.some(([name]) => robot[name]);
     byId("odometry").classList.toggle("stale", !(robot.age < STALE_S));
     this.#showClass(robots);
   }

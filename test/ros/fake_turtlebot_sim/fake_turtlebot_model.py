@@ -11,6 +11,7 @@ from tutorial_testing.waiting import wait_for
 LINKS = {
     "base_footprint": "odom",
     "base_link": "base_footprint",
+    "gyro_link": "base_link",
     "stack_link": "base_link",
     "wheel_left_link": "base_link",
     "wheel_right_link": "base_link",

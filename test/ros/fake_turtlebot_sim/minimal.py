@@ -1,12 +1,14 @@
 #!/usr/bin/python3
 """The whole of minimal.launch, seen from outside as a TurtleBot 2 is."""
 
-from math import nan
+from math import atan2, nan
 
 import rosgraph
 import rospy
 from geometry_msgs.msg import Twist, Vector3
+from kobuki_msgs.msg import ButtonEvent, Led, MotorPower, RobotStateEvent, SensorState, VersionInfo
 from rosgraph_msgs.msg import Log
+from sensor_msgs.msg import Imu
 from std_msgs.msg import Empty, String
 
 from node_kit.questions import call
@@ -23,10 +25,41 @@ TOPICS = {
     "/cmd_vel_mux/active": ("std_msgs/String", "/cmd_vel_mux", None),
     "/mobile_base/commands/velocity": ("geometry_msgs/Twist", "/cmd_vel_mux", "/mobile_base"),
     "/mobile_base/commands/reset_odometry": ("std_msgs/Empty", None, "/mobile_base"),
+    **{
+        f"/mobile_base/{topic}": (kind, "/mobile_base", None)
+        for topic, kind in {
+            "events/bumper": "kobuki_msgs/BumperEvent",
+            "events/button": "kobuki_msgs/ButtonEvent",
+            "events/cliff": "kobuki_msgs/CliffEvent",
+            "events/digital_input": "kobuki_msgs/DigitalInputEvent",
+            "events/power_system": "kobuki_msgs/PowerSystemEvent",
+            "events/robot_state": "kobuki_msgs/RobotStateEvent",
+            "events/wheel_drop": "kobuki_msgs/WheelDropEvent",
+            "sensors/core": "kobuki_msgs/SensorState",
+            "sensors/dock_ir": "kobuki_msgs/DockInfraRed",
+            "sensors/imu_data": "sensor_msgs/Imu",
+            "sensors/imu_data_raw": "sensor_msgs/Imu",
+            "version_info": "kobuki_msgs/VersionInfo",
+        }.items()
+    },
+    **{
+        f"/mobile_base/commands/{topic}": (f"kobuki_msgs/{kind}", None, "/mobile_base")
+        for topic, kind in {
+            "controller_info": "ControllerInfo",
+            "digital_output": "DigitalOutput",
+            "external_power": "ExternalPower",
+            "led1": "Led",
+            "led2": "Led",
+            "motor_power": "MotorPower",
+            "sound": "Sound",
+        }.items()
+    },
     "/odom": ("nav_msgs/Odometry", "/mobile_base", None),
     "/joint_states": ("sensor_msgs/JointState", "/mobile_base", None),
     "/tf": ("tf2_msgs/TFMessage", "/mobile_base", None),
 }
+
+TURN = Twist(Vector3(0.2, 0.0, 0.0), Vector3(0.0, 0.0, 0.5))
 
 
 def mux_has_its_base():
@@ -101,6 +134,60 @@ class MinimalTest(RosTest):
 
         reset.publish()
         wait_for(lambda: place() == 0.0, "odometry at zero")
+
+    def test_the_base_is_a_kobuki(self):
+        robot, core = self.enter(Robot()), self.record("mobile_base/sensors/core", SensorState)
+        imu = self.record("mobile_base/sensors/imu_data", Imu)
+        version = self.record("mobile_base/version_info", VersionInfo)
+        online = self.record("mobile_base/events/robot_state", RobotStateEvent)
+        events = self.record("mobile_base/events/button", ButtonEvent)
+        navi, led, motors, press = (
+            self.publisher(topic, kind)
+            for topic, kind in (
+                ("cmd_vel_mux/input/navi", Twist),
+                ("mobile_base/commands/led1", Led),
+                ("mobile_base/commands/motor_power", MotorPower),
+                ("mobile_base/press", ButtonEvent),
+            )
+        )
+        for publisher in (navi, led, motors, press):
+            wait_for(publisher.get_num_connections, f"subscriber of {publisher.name}")
+        wait_for(lambda: robot.odometry and core and imu and version and online, "first messages")
+        self.assertEqual(online[-1].state, RobotStateEvent.ONLINE)
+        led.publish(Led.GREEN)
+
+        first, begin = core[-1], len(core)
+
+        def way():
+            return (core[-1].right_encoder - first.right_encoder) % 65536
+
+        wait_for(lambda: navi.publish(TURN) or way() > 2000, "encoders that count")
+        seconds = (core[-1].header.stamp - first.header.stamp).to_sec()
+        self.assertAlmostEqual((len(core) - begin) / seconds, 50.0, delta=2.0)
+        self.assertEqual(core[-1].battery, 164)
+        last = imu[-1]
+
+        def seen():
+            stamp = last.header.stamp.to_sec()
+            return next((one for one in robot.odometry[::-1] if one.stamp == stamp), None)
+
+        wait_for(seen, "odometry of that instant")
+        self.assertAlmostEqual(2 * atan2(last.orientation.z, last.orientation.w), seen().yaw)
+        self.assertEqual((last.header.frame_id, last.angular_velocity.z), ("gyro_link", seen().w))
+
+        motors.publish(MotorPower.OFF)
+        wait_for(lambda: navi.publish(TURN) or not robot.now.moves, "motors that are off")
+        since = len(robot.odometry)
+        wait_for(lambda: navi.publish(TURN) or len(robot.odometry) > since + 50, "a second")
+        self.assertFalse(any(moment.moves for moment in robot.odometry[since:]))
+        motors.publish(MotorPower.ON)
+        wait_for(lambda: navi.publish(TURN) or robot.now.moves, "motors that are on")
+
+        press.publish(button=ButtonEvent.Button1, state=ButtonEvent.PRESSED)
+        wait_for(lambda: events and core[-1].buttons == SensorState.BUTTON1, "pressed button")
+        press.publish(button=ButtonEvent.Button1, state=ButtonEvent.RELEASED)
+        wait_for(lambda: not core[-1].buttons, "released button")
+        self.assertEqual([event.state for event in events], [1, 0])
 
 
 if __name__ == "__main__":

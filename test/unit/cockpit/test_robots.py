@@ -4,6 +4,8 @@ from math import inf, nan
 from types import SimpleNamespace
 
 import pytest
+from kobuki_msgs.msg import Led, Sound
+from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Joy
 from std_msgs.msg import Header, String
 
@@ -14,10 +16,20 @@ from cockpit_server.sources.graph_view import LONGEST_MESSAGE, Topic
 from cockpit_server.sources.robots import LONGEST_JOY, Pads, Robots, joy_shown, shown
 from tutorial_testing.seat_room import page, serialised
 
+PARTS = {"led1", "led2", "sound"}  # of a Kobuki
+
 
 class Feeds:
     def want(self, _owner, hears, every):
         self.hears = hears
+
+
+class FeedsByOwner:
+    def __init__(self):
+        self.hears = {}
+
+    def want(self, owner, hears, every):
+        self.hears[owner] = hears
 
 
 def graph(*robots):
@@ -45,6 +57,35 @@ def test_the_names_of_robots_come_when_they_change_to_pages_that_look_at_them():
     graphs.graph = graph("robot_1")
     assert names() == [["robot_1", "robot_9"]]
     assert nothing == []
+
+
+def test_pages_get_what_a_kobuki_was_last_asked_for():
+    feeds = FeedsByOwner()
+    here, there = "/ada/mobile_base/commands/led1", "/mobile_base/commands/sound"
+    sim = graph("ada", "")
+    sim.types.update({here: "kobuki_msgs/Led", there: "kobuki_msgs/Sound", "/other/led1": "x/Led"})
+    robots, (one, sent) = Robots(feeds, SimpleNamespace(graph=sim)), page(robots=True)
+
+    def seen():
+        robots.prepare([one], 0.0)
+        for topic, hear in feeds.hears[robots].items():
+            hear(SimpleNamespace(data=serialised(Odometry())), topic)
+        sent.clear()
+        robots.prepare([one], 0.0)
+        robots.give(one, 0.0)
+        found = next(message["robots"] for message in sent if message["kind"] == "robots")
+        return {r: {part: v for part, v in of.items() if part in PARTS} for r, of in found.items()}
+
+    assert seen() == {"ada": {}, "": {}}
+    commands = feeds.hears[robots, "kobuki"]
+    assert set(commands) == {here, there}
+    for topic, message in (
+        (here, Led(Led.ORANGE)),
+        (there, Sound(Sound.CLEANINGEND)),
+        (here, Led(9)),
+    ):
+        commands[topic](SimpleNamespace(data=serialised(message)), topic)
+    assert seen() == {"ada": {"led1": "orange"}, "": {"sound": "cleaningend"}}
 
 
 @pytest.mark.parametrize(

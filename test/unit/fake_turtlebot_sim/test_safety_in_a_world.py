@@ -9,11 +9,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from sensor_msgs.msg import Joy
 
-from fake_turtlebot_sim.kobuki_events import EVENTS
 from fake_turtlebot_sim.replay.bag_replay import read_commands
 from fake_turtlebot_sim.replay.command import velocity_of_joy
 from fake_turtlebot_sim.safety.reaction import Reaction
 from fake_turtlebot_sim.simulator.contact import gap
+from fake_turtlebot_sim.simulator.kobuki import EVENTS
 from fake_turtlebot_sim.simulator.parameters import Parameters
 from fake_turtlebot_sim.simulator.sensors import Sensed
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot

@@ -9,9 +9,12 @@ from __future__ import annotations
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from typing import Any, Callable, Hashable, Mapping
 
+import numpy as np
 import rospy
+from genpy import DeserializationError
 
 from cockpit_server.guard import Guard
 
@@ -31,6 +34,17 @@ def later(action: Callable[..., Any], *arguments: Any) -> None:
             rospy.logwarn("cockpit: %s: %s", type(error).__name__, error)
 
     _worker.submit(do)
+
+
+def read(kind: Any, data: bytes, longest: float = float("inf"), as_arrays: bool = False) -> Any:
+    """Return a message of a kind from at most so many bytes; None if malformed.
+
+    as_arrays: its lists of numbers are arrays of numpy, which is fast for a map or a scan.
+    """
+    with suppress(DeserializationError, ValueError):
+        if len(data) <= longest:
+            return kind().deserialize_numpy(data, np) if as_arrays else kind().deserialize(data)
+    return None
 
 
 class OnceLater:

@@ -30,7 +30,7 @@ class FakeTurtlebot:
     """One TurtleBot 2, or with ~robots as many as named, each in the namespace of its name.
 
     Subscribers: cmd_vel (geometry_msgs/Twist), initialpose (PoseWithCovarianceStamped),
-        mobile_base/commands/reset_odometry (std_msgs/Empty)
+        mobile_base/commands/reset_odometry (std_msgs/Empty); of a Kobuki those of kobuki_topics
     Publishers: odom (nav_msgs/Odometry), joint_states (sensor_msgs/JointState),
         base_pose_ground_truth (nav_msgs/Odometry; in a world, or if the odometry has errors),
         in a world map (nav_msgs/OccupancyGrid, latched), world_markers (MarkerArray) and

@@ -77,6 +77,7 @@ class Parameters:
     publish_tf: bool = parameter(
         True, switch, "false leaves the transform to another node, such as a filter"
     )
+    kobuki: bool = parameter(False, switch, "with a [Kobuki's other topics](#the-kobuki)")
     wheel_separation: float = parameter(0.23, number(0.01, 10.0, "m"))
     wheel_radius: float = parameter(0.035, number(0.001, 5.0, "m"))
     max_linear_speed: float = parameter(0.7, number(0.01, 100.0, "m/s, or 0: no limit", off=0.0))

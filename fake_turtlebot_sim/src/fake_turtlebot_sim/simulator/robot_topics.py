@@ -12,6 +12,7 @@ from std_msgs.msg import Empty
 from std_srvs import srv
 
 from fake_turtlebot_sim.simulator.differential_drive import Pose, composed
+from fake_turtlebot_sim.simulator.kobuki_topics import KobukiTopics
 from fake_turtlebot_sim.simulator.parameters import Parameters
 from fake_turtlebot_sim.simulator.ros_clock import Instant, Motion
 from fake_turtlebot_sim.simulator.ros_messages import RobotMessages, between_frames, pose_on_plane
@@ -68,6 +69,8 @@ class RobotTopics:
             )
             if kind is Twist:
                 self._fresh.watch(subscriber)
+        kobuki = prefix, self.robot, motion, self._is_in_world
+        self._kobuki = KobukiTopics(*kobuki) if parameters.kobuki else None
         if name:  # of a single robot the node's own does the same
             rospy.Service(f"{prefix}reset", srv.Empty, self._on_reset)
 
@@ -79,10 +82,11 @@ class RobotTopics:
                 " motion; send more often, or set ~cmd_vel_timeout (0: never)"
             )
         self.messages.fill(self.robot, now.stamp)
+        self._sensed = self._kobuki.messages(now.stamp) if self._kobuki else []
 
     def publish(self) -> None:
         """Publish the messages as they were filled last."""
-        for publisher, message in self._publishers:
+        for publisher, message in (*self._publishers, *self._sensed):
             publisher.publish(message)
 
     def end(self, now: Instant) -> None:

@@ -49,6 +49,7 @@ class Verdict(Enum):
     ACCEPTED = "obeyed"
     LIMITED = "more than the robot can do; scaled down to what it can"
     REJECTED = "not a finite number; ignored"
+    POWERLESS = "its motors are off, by mobile_base/commands/motor_power; ignored"
 
 
 class RobotState(NamedTuple):
@@ -79,7 +80,8 @@ class SimulatedRobot:
         self._time_ns = 0
         self._expires_ns: float = 0
         self._velocity = self._target = REST
-        self._wheels = (0.0, 0.0)
+        self.turned = self._turned_at_reset = (0.0, 0.0)  # left, right [rad], since the start
+        self._has_power = True
         errors = (p.wheel_radius_ratio, p.track_ratio, p.wheel_noise)
         self._errors = None
         if errors != (1.0, 1.0, 0.0):
@@ -97,11 +99,18 @@ class SimulatedRobot:
         """Obey the velocity (v [m/s], w [rad/s]) from now on; return the Verdict on it."""
         if not all(map(isfinite, velocity)):
             return Verdict.REJECTED  # and the timeout runs on
+        if not self._has_power:
+            return Verdict.POWERLESS
         self.advance(now_ns)
         p = self._parameters
         self._target = limit(velocity, p.max_linear_speed or inf, p.max_angular_speed or inf)
         self._expires_ns = self._time_ns + self._timeout_ns
         return Verdict.ACCEPTED if self._target == velocity else Verdict.LIMITED
+
+    def switch_motors(self, is_on: bool, now_ns: int) -> None:
+        """Stop and obey nothing while off; what was commanded before does not drive afterwards."""
+        self.command(REST, now_ns)
+        self._has_power = is_on
 
     def place(self, pose: Pose) -> None:
         """Lift the robot to a pose (x [m], y [m], yaw [rad]); its wheels and command stay.
@@ -127,12 +136,12 @@ class SimulatedRobot:
             self._pose = ORIGIN
             if self._errors:
                 self._errors.forget()
-        self._wheels = (0.0, 0.0)
+        self._turned_at_reset = self.turned
 
     def reset(self) -> None:
         """Begin again: in a world at the start, else at the origin, with wheels at zero."""
         self.place(self._start_pose)
-        self._wheels = (0.0, 0.0)
+        self._turned_at_reset = self.turned
 
     def advance(self, to_ns: int) -> bool:
         """Move up to the time to_ns; a time already passed changes nothing.
@@ -151,7 +160,8 @@ class SimulatedRobot:
     def state(self) -> RobotState:
         """Return the RobotState at the time of the last advance()."""
         rates = self._wheel_rates(self._velocity)
-        return RobotState(*self._pose, *self._velocity, *self._wheels, *rates)
+        (left, right), zero = self.turned, self._turned_at_reset
+        return RobotState(*self._pose, *self._velocity, left - zero[0], right - zero[1], *rates)
 
     def true_state(self) -> RobotState:
         """Return the RobotState as an outside observer sees it: without odometry errors."""
@@ -271,4 +281,4 @@ class SimulatedRobot:
         else:
             self._pose = drive(self._pose, *wheels, dt)
         left, right = self._wheel_rates(mean)
-        self._wheels = (self._wheels[0] + left * dt, self._wheels[1] + right * dt)
+        self.turned = (self.turned[0] + left * dt, self.turned[1] + right * dt)

@@ -13,7 +13,7 @@ from rospy.msg import serialize_message
 from sensor_msgs.msg import LaserScan
 from visualization_msgs.msg import MarkerArray
 
-from fake_turtlebot_sim.kobuki_events import EVENTS, QUEUE
+from fake_turtlebot_sim.simulator.kobuki import BOTTOM, EVENTS, QUEUE
 from fake_turtlebot_sim.simulator.laser import Laser
 from fake_turtlebot_sim.simulator.parameters import Parameters
 from fake_turtlebot_sim.simulator.ros_messages import ORIGIN, Place
@@ -26,7 +26,6 @@ from node_kit.prompt_publisher import PromptPublisher
 # The camera's depth frame above base_footprint [m]: turtlebot_description's 0.287 above base_link.
 SCAN_Z = 0.2972
 MARKERS_S = 1.0  # how often they are sent: RViz drops a marker that comes before its frame
-BOTTOM = (0, 1500)  # what a cliff sensor of the Kobuki reads above ground and above none, about
 
 
 class WorldTopics:

@@ -9,11 +9,10 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any, ClassVar
 
-from genpy import DeserializationError
 from rosgraph_msgs.msg import Log
 
 from cockpit_server.clients import Client, Source
-from cockpit_server.feeds import Feeds
+from cockpit_server.feeds import Feeds, read
 from cockpit_server.schema import switch
 
 KEPT = 500  # lines
@@ -36,9 +35,8 @@ def without_folders(text: str, home: str | None = None, here: str | None = None)
 @lru_cache(maxsize=KEPT)
 def shown(data: bytes) -> dict[str, Any] | None:
     """Return a line as pages get it, or None if the bytes are no Log."""
-    try:
-        log = Log().deserialize(data)
-    except DeserializationError:
+    log = read(Log, data)
+    if log is None:
         return None
     return {
         "time": round(log.header.stamp.to_sec(), 3),

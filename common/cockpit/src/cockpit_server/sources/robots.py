@@ -7,11 +7,10 @@ import time
 from math import isfinite
 from typing import Any, ClassVar, Sequence
 
-from genpy import DeserializationError
 from sensor_msgs.msg import Joy
 
 from cockpit_server.clients import Client, Source, encoded
-from cockpit_server.feeds import Feeds
+from cockpit_server.feeds import Feeds, read
 from cockpit_server.graph import topic_of
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.motion import Motion, covered, is_somewhere, motion
@@ -20,6 +19,13 @@ from node_kit.careful_connections import sender_of
 
 DIGITS = 4  # of metres: a tenth of a millimetre
 LONGEST_JOY = 4000  # bytes; a gamepad's message has some 100, a huge one would hold up the driver
+KOBUKI = {  # what a robot's commands of these types ask for, by their value
+    "kobuki_msgs/Led": ("off", "green", "orange", "red"),
+    "kobuki_msgs/Sound": (
+        "on", "off", "recharge", "button", "error", "cleaningstart", "cleaningend",
+    ),
+}  # fmt: skip
+COMMANDS = "/mobile_base/commands/"
 FRESH_S, LEAST_SPEED = 1.0, 0.01  # of odometry that says that a robot moves [m/s, rad/s]
 
 
@@ -34,8 +40,13 @@ class Robots(Source):
         # robot -> (Motion, when it came [s], distance covered [m])
         self._states: dict[str, tuple[Motion, float, float]] = {}
         self._text = ""
+        self._kobukis: dict[str, dict[str, str]] = {}  # robot -> {led1, led2, sound: name}
 
     def prepare(self, clients: Sequence[Client], now: float) -> None:
+        # Also while no page looks: an LED keeps its colour.
+        types = self._graphs.graph.types
+        commands = [topic for topic, kind in types.items() if kind in KOBUKI and COMMANDS in topic]
+        self._feeds.want((self, "kobuki"), dict.fromkeys(commands, self._hear_command), every=True)
         watched = any(client.watch.robots for client in clients)
         known = self._graphs.graph.robots_with_odometry() if watched else ()
         topics = {topic_of(robot, "odom"): robot for robot in known}
@@ -46,6 +57,8 @@ class Robots(Source):
         for topic, robot in topics.items():
             self._read(topic, robot)
         robots = {r: shown(*state, now) for r, state in self._states.items() if r in known}
+        for robot in robots.keys() & self._kobukis.keys():
+            robots[robot].update(self._kobukis[robot])
         self._text = encoded("robots", stamp=round(time.time(), 3), robots=robots)
 
     def give(self, client: Client, now: float) -> None:
@@ -64,6 +77,12 @@ class Robots(Source):
     def _hear(self, message: Any, topic: str) -> None:
         self._newest[topic] = (message.data, time.monotonic())
 
+    def _hear_command(self, message: Any, topic: str) -> None:
+        robot, _, part = topic.partition(COMMANDS)
+        names = KOBUKI.get(self._graphs.graph.types.get(topic, ""), ())
+        if len(message.data) == 1 and message.data[0] < len(names):
+            self._kobukis.setdefault(robot.strip("/"), {})[part] = names[message.data[0]]
+
     def _read(self, topic: str, robot: str) -> None:
         data, came = self._newest.pop(topic, (b"", 0.0))
         try:
@@ -74,7 +93,7 @@ class Robots(Source):
         self._states[robot] = (new, came, covered(last, new, so_far))
 
 
-def shown(state: Motion, came: float, way: float, now: float) -> dict[str, float]:
+def shown(state: Motion, came: float, way: float, now: float) -> dict[str, Any]:
     """Return a robot's state as pages get it, without values that are not finite."""
     values = {**state._asdict(), "covered": way, "age": max(0.0, now - came)}
     if not is_somewhere(state):
@@ -85,11 +104,8 @@ def shown(state: Motion, came: float, way: float, now: float) -> dict[str, float
 
 def joy_shown(data: bytes) -> dict[str, Any] | None:
     """Return {axes, buttons} of the bytes of a Joy, or None if malformed or too long."""
-    if len(data) > LONGEST_JOY:
-        return None
-    try:
-        joy = Joy().deserialize(data)
-    except DeserializationError:
+    joy = read(Joy, data, LONGEST_JOY)
+    if joy is None:
         return None
     axes = [round(value, DIGITS) if isfinite(value) else 0.0 for value in joy.axes]
     return {"axes": axes, "buttons": list(joy.buttons)}

@@ -10,12 +10,12 @@ from math import atan2, isfinite
 from typing import Any, Sequence
 
 import numpy as np
-from genpy import DeserializationError
 from nav_msgs.msg import OccupancyGrid
 from sensor_msgs.msg import LaserScan
 from tf2_msgs.msg import TFMessage
 
 from cockpit_server.clients import Client, Source, encoded
+from cockpit_server.feeds import read
 from cockpit_server.graph import ODOMETRY, topic_of
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.motion import is_somewhere, motion
@@ -105,19 +105,13 @@ class Surroundings(Source):
             (pressed.add if message.data[1] else pressed.discard)(message.data[0])
 
 
-def read(kind: Any, data: bytes, longest: int) -> Any:
-    """Return a message of a kind from at most so many bytes; None if malformed."""
-    with suppress(DeserializationError, ValueError):  # numpy: a large map, or a scan, in one piece
-        return kind().deserialize_numpy(data, np) if len(data) <= longest else None
-
-
 def map_shown(data: bytes) -> dict[str, Any]:
     """Return the map as pages get it, from the bytes of an OccupancyGrid; {} if malformed.
 
     x, y, yaw: its corner [m, rad]; cell: its size [m]; rows and columns; cells: base64, a byte for
     each from the lowest row on: 0 free, 1 occupied, 2 unknown.
     """
-    grid = read(OccupancyGrid, data, LARGEST_MAP) or OccupancyGrid()
+    grid = read(OccupancyGrid, data, LARGEST_MAP, as_arrays=True) or OccupancyGrid()
     given, info, corner = np.array(grid.data, np.int8), grid.info, grid.info.origin.position
     yaw = 2.0 * atan2(info.origin.orientation.z, info.origin.orientation.w)
     numbers = (corner.x, corner.y, yaw, info.resolution)
@@ -141,7 +135,7 @@ def scan_points(data: bytes, mounts: dict[str, tuple[float, float]]) -> list[lis
 
     mounts: where the frames of the scanners are on it.
     """
-    scan = read(LaserScan, data, LONGEST_SCAN) or LaserScan()
+    scan = read(LaserScan, data, LONGEST_SCAN, as_arrays=True) or LaserScan()
     x, y = mounts.get(scan.header.frame_id, (0.0, 0.0))
     ranges = np.array(scan.ranges, dtype=float)
     angles = scan.angle_min + scan.angle_increment * np.arange(len(ranges))

@@ -6,10 +6,9 @@ import time
 from typing import Any, Sequence
 
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
-from genpy import DeserializationError
 
 from cockpit_server.clients import Client, Source
-from cockpit_server.feeds import Feeds
+from cockpit_server.feeds import Feeds, read
 from cockpit_server.graph import robot_of
 from node_kit.arming import DRIVING
 
@@ -24,10 +23,7 @@ def said(data: bytes) -> list[tuple[str, dict[str, Any]]]:
     """Return [(robot, {state, why, level, deadman})] of the bytes of a DiagnosticArray."""
     if MARK.encode() not in data:
         return []
-    try:
-        statuses = DiagnosticArray().deserialize(data).status
-    except DeserializationError:
-        return []
+    statuses = (read(DiagnosticArray, data) or DiagnosticArray()).status
     found = [status for status in statuses if status.name.endswith(MARK)]
     return [(robot_of(f"/{one.name[: -len(MARK)]}"), report_of(one)) for one in found]
 

@@ -1,0 +1,98 @@
+"""What a Kobuki reports, worked out by hand from its protocol."""
+
+from math import pi
+
+import pytest
+
+from fake_turtlebot_sim.simulator import kobuki
+from fake_turtlebot_sim.simulator.parameters import Parameters
+from fake_turtlebot_sim.simulator.sensors import Sensed
+from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot, Verdict
+
+SECOND = 1_000_000_000
+TICKS_PER_M = 11724.4  # 11.7244 ticks/mm
+
+
+def robot(cmd_vel_timeout=60.0):
+    return SimulatedRobot(Parameters(cmd_vel_timeout=cmd_vel_timeout))
+
+
+def packet(one, now_ns=0, pressed=(False, False, False)):
+    one.advance(now_ns)
+    return kobuki.core(now_ns, one, pressed)
+
+
+@pytest.mark.parametrize(
+    ("velocity", "seconds", "left_m", "right_m"),
+    [
+        ((0.5, 0.0), 4, 2.0, 2.0),
+        ((0.7, 0.0), 10, 7.0, 7.0),  # 82071 ticks: beyond 16 bits
+        ((-0.1, 0.0), 1, -0.1, -0.1),  # backwards through zero
+        ((0.0, 1.0), 2, -0.23, 0.23),
+    ],
+)
+def test_the_encoders_count_ticks_in_16_bits(velocity, seconds, left_m, right_m):
+    one = robot()
+    one.command(velocity, 0)
+    state = packet(one, seconds * SECOND)
+    for ticks, way_m in ((state.left_encoder, left_m), (state.right_encoder, right_m)):
+        assert 0 <= ticks < 65536
+        assert abs((ticks - way_m * TICKS_PER_M + 32768) % 65536 - 32768) <= 1.5
+
+
+def test_a_turn_of_a_wheel_has_2578_ticks():
+    assert pytest.approx(2578.33, abs=0.01) == kobuki.TICKS_PER_TURN
+
+
+def test_the_encoders_go_on_where_the_odometry_is_reset():
+    one = robot()
+    one.command((0.5, 0.0), 0)
+    before = packet(one, SECOND).left_encoder
+    one.reset_odometry()
+    assert (one.state().left_angle, packet(one, SECOND).left_encoder) == (0.0, before)
+
+
+def test_the_time_stamp_wraps_at_16_bits():
+    one = robot()
+    assert [packet(one, ms * 1_000_000).time_stamp for ms in (65535, 65536)] == [65535, 0]
+
+
+def test_bits_are_those_of_the_protocol(monkeypatch):
+    one = robot()
+    sensed = Sensed((True, False, False), (False, True, True), (False, True))
+    monkeypatch.setattr(one, "sensed", lambda: sensed)
+    state = packet(one, pressed=(True, False, True))
+    assert state.bumper == state.BUMPER_LEFT
+    assert state.cliff == state.CLIFF_CENTRE | state.CLIFF_RIGHT
+    assert state.wheel_drop == state.WHEEL_DROP_RIGHT
+    assert state.buttons == state.BUTTON0 | state.BUTTON2
+    right, center, left = state.bottom
+    assert right == center < left  # the farther the ground, the less
+    assert (state.charger, state.battery) == (state.DISCHARGING, 164)
+
+
+@pytest.mark.parametrize(
+    ("velocity", "left", "right"),
+    [((0.7, 0.0), 100, 100), ((-0.35, 0.0), -50, -50), ((0.0, pi), -52, 52), ((0.0, 0.0), 0, 0)],
+)
+def test_the_voltage_goes_with_the_speed_of_a_wheel(velocity, left, right):
+    one = robot()
+    one.command(velocity, 0)
+    state = packet(one, SECOND)
+    assert (state.left_pwm, state.right_pwm) == (left, right)
+    assert all((current > 0) == bool(left) for current in state.current)
+
+
+def test_without_power_a_robot_stands_and_with_it_waits_for_a_new_command():
+    one = robot()
+    one.command((0.5, 0.0), 0)
+    one.switch_motors(False, SECOND)
+    assert one.command((0.5, 0.0), 2 * SECOND) is Verdict.POWERLESS
+    one.advance(3 * SECOND)
+    assert (one.state().x, one.is_moving) == (0.5, False)
+    one.switch_motors(True, 4 * SECOND)
+    one.advance(5 * SECOND)
+    assert one.state().x == 0.5
+    assert one.command((0.5, 0.0), 5 * SECOND) is Verdict.ACCEPTED
+    one.advance(6 * SECOND)
+    assert one.state().x == 1.0

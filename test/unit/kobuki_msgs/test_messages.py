@@ -1,0 +1,33 @@
+"""Programs and recordings for a real Kobuki fit: a node of ROS 1 compares these sums."""
+
+import pytest
+from kobuki_msgs import msg
+
+# getMD5() of what rosserial generated from the released package, as several public repositories
+# have it (firmware/libraries/ros_lib/kobuki_msgs in verlab/hero_common has all).
+UPSTREAM = {
+    "AutoDockingAction": "44be114f3afc06365a090db0a5e982b5",
+    "BumperEvent": "ffe360cd50f14f9251d9844083e72ac5",
+    "ButtonEvent": "49eca512765dbdec759a79083ffcec8d",
+    "CliffEvent": "c5b106efbb1427a94f517c5e05f06295",
+    "ControllerInfo": "46af38e72f0640f41ed22174d43a2550",
+    "DigitalInputEvent": "93da823c8b121f8a3940ef3830c58e44",
+    "DigitalOutput": "1e97cd7f196a0270516b506e8bf29ca2",
+    "DockInfraRed": "a3d77f7d15e50579473dcc24e9b97b34",
+    "ExternalPower": "95149d524971a4c6d19e64c827307194",
+    "KeyboardInput": "9288b95cb32b48719d84d696be253401",
+    "Led": "4391183b0cf05f8f25d04220401b9f43",
+    "MotorPower": "8f77c0161e0f2021493136bb5f3f0e51",
+    "PowerSystemEvent": "f6464657d6c911b00c7bc7b43a154bf8",
+    "RobotStateEvent": "c6eccd4cb1f95df95635b56d6226ea32",
+    "ScanAngle": "06e2c839dc5c7f5c13ac09a8b4ff0a6a",
+    "SensorState": "430a4bfd78449c8740bfef32b26613a6",
+    "Sound": "dfeab0daae67749c426c1db741a4f420",
+    "VersionInfo": "3dc0ce6edd49be1fc86730f4a4a21861",
+    "WheelDropEvent": "e102837d89384d67669a0df86b63f33b",
+}
+
+
+@pytest.mark.parametrize("name", UPSTREAM)
+def test_a_message_has_the_md5_sum_of_the_real_one(name):
+    assert getattr(msg, name)._md5sum == UPSTREAM[name]
