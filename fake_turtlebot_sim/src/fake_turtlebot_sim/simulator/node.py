@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from dataclasses import replace
 from typing import Any
 
 import diagnostic_updater
@@ -153,6 +154,22 @@ class FakeTurtlebot:
         return status
 
 
+def prefixed(parameters: Parameters) -> Parameters:
+    """Return Parameters whose frames begin with tf_prefix, if a namespace around the node has one.
+
+    robot_state_publisher does the same: http://wiki.ros.org/tf2/Migration, "tf_prefix".
+    """
+    name = rospy.search_param("tf_prefix")
+    prefix = str(rospy.get_param(name)).strip("/") + "/" if name else ""
+    odom, base, scan = (
+        prefix.lstrip("/") + frame
+        for frame in (parameters.odom_frame, parameters.base_frame, parameters.scan_frame)
+    )
+    return replace(parameters, odom_frame=odom, base_frame=base, scan_frame=scan)
+
+
 def main() -> int:
     """Run the node until it is shut down; return its exit code."""
-    return run(NODE_NAME, parse_parameters, lambda p: FakeTurtlebot(p).spin(), keeps_name=True)
+    return run(
+        NODE_NAME, parse_parameters, lambda p: FakeTurtlebot(prefixed(p)).spin(), keeps_name=True
+    )
