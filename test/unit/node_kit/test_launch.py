@@ -70,6 +70,9 @@ def test_arguments_that_no_file_has_are_reported_and_nodes_found_in_their_namesp
         " did you mean world:=? (ignored)",
     ]
     assert read_launch([*command[:2], "no.launch"]) == ([], [], set())  # roslaunch reports it
+    file.write_text(TWO_GROUPS.replace("</launch>", "<no/><include file='no'/></launch>"))
+    started = read_launch(command)
+    assert (started.files, started.nodes) == ([], ["/a/base", "/b/base"])
 
 
 def ends_launch(script):

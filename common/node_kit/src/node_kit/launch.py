@@ -57,7 +57,7 @@ class Launch(NamedTuple):
 
 
 def read_launch(command: list[str]) -> Launch:
-    """Return what roslaunch makes of its command line; nothing if it cannot read the files."""
+    """Return what roslaunch makes of its command line; no files if it cannot read all of them."""
     import roslaunch.xmlloader  # noqa: PLC0415 (it takes 0.2 s, which ends_launch need not wait)
 
     launch, config = Launch([], [], set()), roslaunch.config.ROSLaunchConfig()
@@ -71,7 +71,7 @@ def read_launch(command: list[str]) -> Launch:
             loader.load(file, config, argv=words, verbose=False)
             launch.arguments.update(loader.root_context.resolve_dict.get("arg_doc", ()))
     except Exception:  # whatever it is, roslaunch meets it, too
-        return Launch([], [], set())
+        launch.files.clear()
     launch.nodes.extend(f"{node.namespace}{node.name}" for node in config.nodes)
     return launch
 
