@@ -19,6 +19,7 @@ every end as a process that has died.
 
 from __future__ import annotations
 
+import contextlib
 import difflib
 import os
 import re
@@ -28,7 +29,6 @@ import sys
 import threading
 from collections.abc import Iterable
 from pathlib import Path
-from typing import NamedTuple
 
 from node_kit.questions import holder
 
@@ -48,32 +48,26 @@ def will_start(command: list[str]) -> bool:
     return "roslaunch" in names and not any(map(ONLY_READS.match, command))
 
 
-class Launch(NamedTuple):
-    """What roslaunch starts by a command line: files, nodes by full name, arguments it can set."""
-
-    files: list[str]
-    nodes: list[str]
-    arguments: set[str]
-
-
-def read_launch(command: list[str]) -> Launch:
-    """Return what roslaunch makes of its command line; no files if it cannot read all of them."""
+def read_launch(command: list[str]) -> tuple[list[str], list[str]]:
+    """Return the nodes that roslaunch starts by its command line, and a line for each argument
+    that it ignores; as far as it can read the files, as it reports what is wrong in them.
+    """
     import roslaunch.xmlloader  # noqa: PLC0415 (it takes 0.2 s, which ends_launch need not wait)
 
-    launch, config = Launch([], [], set()), roslaunch.config.ROSLaunchConfig()
+    config, known, ignored = roslaunch.config.ROSLaunchConfig(), set(), []
     words = command[[Path(word).name for word in command].index("roslaunch") + 1 :]
-    try:
-        _, words = roslaunch._get_optparse().parse_args(words)
-        launch.files.extend(roslaunch.rlutil.resolve_launch_arguments(words))
-        for file in launch.files:
+    with contextlib.suppress(Exception):  # whatever it is, roslaunch meets it, too
+        words = roslaunch._get_optparse().parse_args(words)[1]
+        files = roslaunch.rlutil.resolve_launch_arguments(words)
+        for file in files:
             loader = roslaunch.xmlloader.XmlLoader(resolve_anon=False)
             loader.param_value = lambda *_: ""  # runs no command: this program is one of them
             loader.load(file, config, argv=words, verbose=False)
-            launch.arguments.update(loader.root_context.resolve_dict.get("arg_doc", ()))
-    except Exception:  # whatever it is, roslaunch meets it, too
-        launch.files.clear()
-    launch.nodes.extend(f"{node.namespace}{node.name}" for node in config.nodes)
-    return launch
+            known.update(loader.root_context.resolve_dict.get("arg_doc", ()))
+        given = [word for word in words if ":=" in word and not word.startswith("_")]
+        wrong = [word for word in given if word.split(":=")[0] not in known]
+        ignored = [f"{no_argument(word, files[0], known)} (ignored)" for word in wrong]
+    return [f"{node.namespace}{node.name}" for node in config.nodes], ignored
 
 
 def no_argument(given: str, file: str, known: Iterable[str]) -> str:
@@ -84,24 +78,15 @@ def no_argument(given: str, file: str, known: Iterable[str]) -> str:
     return f"{given}: not an argument of {Path(file).name}, which has {names}{meant}"
 
 
-def check_arguments(command: list[str], launch: Launch) -> None:
-    """Report the arguments of a command line that roslaunch ignores."""
-    for word in command if launch.files else ():
-        name, assigned, _ = word.partition(":=")
-        if assigned and name not in launch.arguments and not name.startswith("_"):
-            line = no_argument(word, launch.files[0], launch.arguments)
-            print(f"roslaunch: {line} (ignored)", file=sys.stderr)
-
-
 def _parent() -> list[str]:
     """Return the command line of the program that reads the launch file."""
     words = Path(f"/proc/{os.getppid()}/cmdline").read_bytes().decode(errors="replace")
     return words.rstrip("\0").split("\0")
 
 
-def check_names(names: list[str], launch: Launch, master_uri: str) -> None:
-    """Exit with one line if a node holds one of the names, wherever this launch has them."""
-    for name in [node for node in launch.nodes if node.split("/")[-1] in names]:
+def check_names(names: list[str], nodes: list[str], master_uri: str) -> None:
+    """Exit with one line if a node of such a name runs already, in the namespace of one of ours."""
+    for name in [node for node in nodes if node.split("/")[-1] in names]:
         held = holder(master_uri, name)
         if held:
             sys.exit(
@@ -115,20 +100,20 @@ def names_free() -> None:
     """Check the names of the command line; the output becomes the value of the parameter."""
     command = _parent()
     if will_start(command):
-        launch = read_launch(command)
-        check_names(sys.argv[1:], launch, os.environ.get("ROS_MASTER_URI") or DEFAULT_MASTER)
-        if "--arguments" in sys.argv:
-            check_arguments(command, launch)
+        nodes, ignored = read_launch(command)
+        check_names(sys.argv[1:], nodes, os.environ.get("ROS_MASTER_URI") or DEFAULT_MASTER)
+        for line in ignored if "--arguments" in sys.argv else ():
+            print(f"roslaunch: {line}", file=sys.stderr)
     print("true")
 
 
 def ignored() -> None:
     """Report what was given in vain; the command line has (name, only value, given value) ..."""
-    words, starts = sys.argv[1:], will_start(_parent())
+    words = sys.argv[1:] if will_start(_parent()) else []
     for name, only, given in zip(words[::3], words[1::3], words[2::3]):
-        if starts and given != only:
-            why = "it changes nothing about the simulated robot"
-            print(f"roslaunch: {name}:={given} is ignored: {why}", file=sys.stderr)
+        if given != only:
+            line = f"{name}:={given} is ignored: it changes nothing about the simulated robot"
+            print(f"roslaunch: {line}", file=sys.stderr)
     print("true")
 
 

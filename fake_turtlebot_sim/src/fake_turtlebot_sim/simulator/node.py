@@ -44,7 +44,7 @@ class FakeTurtlebot:
 
     def __init__(self, parameters: Parameters) -> None:
         """Put the robots at their start poses; nothing is published before spin()."""
-        log = Log()
+        log, parameters = Log(), prefixed(parameters)
         report_bad_messages(log.warn)
         self._motion = Motion()
         self._period_ns = parameters.period_ns()
@@ -154,22 +154,16 @@ class FakeTurtlebot:
         return status
 
 
-def prefixed(parameters: Parameters) -> Parameters:
-    """Return Parameters whose frames begin with tf_prefix, if a namespace around the node has one.
-
-    robot_state_publisher does the same: http://wiki.ros.org/tf2/Migration, "tf_prefix".
-    """
+def prefixed(given: Parameters) -> Parameters:
+    """Return Parameters whose frames have the tf_prefix of the namespace, as ROS 1 has it."""
     name = rospy.search_param("tf_prefix")
-    prefix = str(rospy.get_param(name)).strip("/") + "/" if name else ""
-    odom, base, scan = (
-        prefix.lstrip("/") + frame
-        for frame in (parameters.odom_frame, parameters.base_frame, parameters.scan_frame)
+    prefix = f"{rospy.get_param(name)}/".lstrip("/") if name else ""
+    odom, base, scan = given.odom_frame, given.base_frame, given.scan_frame
+    return replace(
+        given, odom_frame=prefix + odom, base_frame=prefix + base, scan_frame=prefix + scan
     )
-    return replace(parameters, odom_frame=odom, base_frame=base, scan_frame=scan)
 
 
 def main() -> int:
     """Run the node until it is shut down; return its exit code."""
-    return run(
-        NODE_NAME, parse_parameters, lambda p: FakeTurtlebot(prefixed(p)).spin(), keeps_name=True
-    )
+    return run(NODE_NAME, parse_parameters, lambda p: FakeTurtlebot(p).spin(), keeps_name=True)
