@@ -60,6 +60,18 @@ class ArgumentsTest(RosTest):
             self.refused("joy2twist", file, argument, line)
         self.refused("cockpit", "classroom.launch", "lan:=yes", must)
 
+    def test_what_changes_nothing_is_reported_once_and_drives(self):
+        given = ("base:=create", "stacks:=hexagons", "wrold:=room")
+        with roslaunch("minimal.launch", *given, package="turtlebot_bringup") as launch:
+            wait_for(lambda: "/mobile_base" in known(), "robot")
+            said = [line for line in launch.output.splitlines() if line.startswith("roslaunch: ")]
+            launch.interrupt()
+            launch.wait()
+        ignored, unknown = said
+        self.assertIn("roslaunch: base:=create is ignored", ignored)
+        self.assertIn("wrold:=room: not an argument of minimal.launch", unknown)
+        self.assertIn("did you mean world:=?", unknown)
+
     def played(self, command, topic):
         """A launch plays a recording, by a path from the folder in which the user is."""
         came = self.record(topic, Joy)

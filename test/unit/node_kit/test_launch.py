@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from node_kit import launch
-from node_kit.launch import check_names, will_start
+from node_kit.launch import check_names, read_launch, will_start
 
 KIT = Path(__file__).resolve().parents[3] / "common" / "node_kit"
 PYTHON = "/usr/bin/python3"
@@ -36,13 +36,39 @@ def test_only_roslaunch_starts_nodes(command, starts):
 def test_the_first_name_in_use_is_reported_with_what_to_do(monkeypatch):
     held = {"/robot_7/joy_node": ("http://here:1", "at http://here:1, process 5")}
     monkeypatch.setattr(launch, "holder", lambda _, name: held.get(name))
+    started = ["/robot_7/rosbag", "/robot_7/joy_node"]
     with pytest.raises(SystemExit) as end:
-        check_names(["/rosbag", "/robot_7//joy_node"], "http://localhost:11311")
+        check_names(["rosbag", "joy_node"], started, "http://localhost:11311")
     name = "/robot_7/joy_node"
     line = f"roslaunch: {name} runs already, at http://here:1, process 5: end it first"
     assert end.value.code.startswith(line)
     assert f"rosnode kill {name}" in end.value.code and "ROS_MASTER_URI=" in end.value.code
-    check_names(["rosbag"], "http://localhost:11311")
+    check_names(["rosbag"], started, "http://localhost:11311")
+    check_names(["joy_node"], ["/robot_8/joy_node"], "http://localhost:11311")
+
+
+TWO_GROUPS = """<launch>
+  <arg name="world" default=""/>
+  <param name="not_run" command="false"/>
+  <group ns="a"><node pkg="rospy" type="none" name="base"/></group>
+  <group ns="b" if="$(eval world != '')"><node pkg="rospy" type="none" name="base"/></group>
+</launch>"""
+
+
+def test_nodes_are_found_in_their_namespaces_and_arguments_that_no_file_has(tmp_path):
+    file = tmp_path / "two.launch"
+    file.write_text(TWO_GROUPS)
+    given = ["world:=room", "wrold:=maze", "__name:=x"]
+    command = [PYTHON, "/usr/bin/roslaunch", "-p", "11400", str(file), *given]
+    assert read_launch(command) == (
+        ["/a/base", "/b/base"],
+        [
+            "wrold:=maze: not an argument of two.launch, which has world:=;"
+            " did you mean world:=? (ignored)"
+        ],
+    )
+    file.write_text(TWO_GROUPS.replace("</launch>", "<include file='no'/></launch>"))
+    assert read_launch(command) == (["/a/base", "/b/base"], [])  # roslaunch reports what is wrong
 
 
 def ends_launch(script):

@@ -208,6 +208,7 @@ def test_nothing_is_wrong(facts):
         (Facts(workspace="/w", joy2twist="/w/src/joy2twist"), "ok", "is yours: /w/src/joy2twist"),
         (Facts(workspace="/w"), "wrong", "is not in your workspace: /suite/joy2twist: mv it into"),
         (Facts(workspace="/w", joy2twist="/w/joy2twist"), "wrong", "mv it into /w/src"),
+        (Facts(hidden=[("/a hides b", "touch c")]), "wrong", "/a hides b"),
         (Facts(broken_manifests=[("/a/package.xml", "line 5")]), "wrong", "/a/package.xml: line 5"),
     ],
 )

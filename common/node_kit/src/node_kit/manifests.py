@@ -1,4 +1,4 @@
-"""Files package.xml that keep every ROS program of a workspace from starting.
+"""The files package.xml of a workspace, and those that keep every ROS program from starting.
 
 rospkg, and so rospy and roslaunch, reads all of them when it looks for any package; its error
 names no file.
@@ -14,10 +14,12 @@ from xml.etree import ElementTree
 
 def broken_manifests(folder: str | Path) -> list[tuple[str, str]]:
     """Return [(path, what is wrong)] of each package.xml below a folder that is unreadable."""
-    return list(_broken(Path(folder), set()))
+    complaints = ((str(path), _complaint(path)) for path in manifests(Path(folder)))
+    return [(path, complaint) for path, complaint in complaints if complaint]
 
 
-def _broken(folder: Path, above: set[str]) -> Iterator[tuple[str, str]]:
+def manifests(folder: Path, above: frozenset[str] = frozenset()) -> Iterator[Path]:
+    """Yield each package.xml below a folder, as rospkg finds them; above: folders around it."""
     here = os.path.realpath(folder)
     try:
         inside = {entry.name: entry for entry in os.scandir(folder)}
@@ -26,13 +28,11 @@ def _broken(folder: Path, above: set[str]) -> Iterator[tuple[str, str]]:
     if here in above or "CATKIN_IGNORE" in inside:
         return
     if "package.xml" in inside:
-        complaint = _complaint(folder / "package.xml")
-        if complaint:
-            yield str(folder / "package.xml"), complaint
+        yield folder / "package.xml"
         return  # rospkg looks no deeper than a package
     for name in sorted(inside):
         if os.path.isdir(inside[name].path):  # not is_dir(), which fails for a link to itself
-            yield from _broken(folder / name, above | {here})
+            yield from manifests(folder / name, above | {here})
 
 
 def _complaint(path: Path) -> str:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import difflib
 import re
 from pathlib import Path
 
 import roslaunch.arg_dump
 
 from gamepad.arguments import RULES, assignment, check
+from node_kit.launch import no_argument
 
 
 def launch_arguments(launch_file: str, arguments: list[str]) -> dict[str, str]:
@@ -22,11 +22,7 @@ def launch_arguments(launch_file: str, arguments: list[str]) -> dict[str, str]:
     for argument in arguments:
         name = re.split(":?=", argument)[0]
         if "=" in argument and name not in known:
-            names = ", ".join(f"{name}:=" for name in sorted(known))
-            near = difflib.get_close_matches(name, known, 1)
-            meant = f"; did you mean {near[0]}:=?" if near else ""
-            file = Path(launch_file).name
-            raise ValueError(f"{argument}: not an argument of {file}, which has {names}{meant}")
+            raise ValueError(no_argument(argument, launch_file, known))
         name, values[name] = assignment(argument)
         if name in RULES and name != "bag":
             check(name, values[name])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from dataclasses import replace
 from typing import Any
 
 import diagnostic_updater
@@ -43,7 +44,7 @@ class FakeTurtlebot:
 
     def __init__(self, parameters: Parameters) -> None:
         """Put the robots at their start poses; nothing is published before spin()."""
-        log = Log()
+        log, parameters = Log(), prefixed(parameters)
         report_bad_messages(log.warn)
         world = parameters.world
         if world and world.grid and not world.start and None in parameters.given_poses().values():
@@ -155,6 +156,16 @@ class FakeTurtlebot:
         status.add("periods missed in the last second", self._missed)
         status.add("commands rejected since the start", rejected)
         return status
+
+
+def prefixed(given: Parameters) -> Parameters:
+    """Return Parameters whose frames have the tf_prefix of the namespace, as ROS 1 has it."""
+    name = rospy.search_param("tf_prefix")
+    prefix = f"{rospy.get_param(name)}/".lstrip("/") if name else ""
+    odom, base, scan = given.odom_frame, given.base_frame, given.scan_frame
+    return replace(
+        given, odom_frame=prefix + odom, base_frame=prefix + base, scan_frame=prefix + scan
+    )
 
 
 def main() -> int:

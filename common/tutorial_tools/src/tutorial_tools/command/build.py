@@ -19,18 +19,20 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 from node_kit.manifests import broken_manifests
+from tutorial_tools.hidden import hidden_stand_ins
 
 REPOSITORY = Path(__file__).resolve().parents[5]
 # The prefix of a ROS that is not the system's own, as ./tutorial has found it.
 PREFIX = os.environ.get("TUTORIAL_ROS", "")
+SHARE = Path(PREFIX or "/usr", "share")  # of its packages
 # The underlay: what a student uses and never writes; stand-ins only for what is not installed.
 UNDERLAY = (
     "common/cockpit", "common/gamepad", "common/node_kit", "common/tutorial_check",
     "common/ros2_bridge", "common/tutorial_tools", "fake_turtlebot_sim",
 )  # fmt: skip
 STAND_INS = (
-    "joy", "kobuki_msgs", "rbx1_bringup", "rbx1_nav", "turtlebot_bringup",
-    "turtlebot_rviz_launchers",
+    "joy", "kobuki_msgs", "kobuki_node", "rbx1_bringup", "rbx1_nav", "turtlebot_bringup",
+    "turtlebot_rviz_launchers", "turtlebot_teleop",
 )  # fmt: skip
 OVERLAY = ("beginner_tutorials", "joy2twist", "test")  # the solutions
 # Commands of the shell, under these names.
@@ -129,8 +131,7 @@ def build_both(workspace: Path) -> None:
     if os.environ.get("SUDO_USER") and not os.environ.get("TUTORIAL_WORKSPACE"):
         own = f"{os.environ['SUDO_USER']}'s own calls do not use"
         say(f"   which {own}: call ./tutorial without sudo, it asks for it itself")
-    share = Path(PREFIX or "/usr", "share")
-    stand_ins = [name for name in STAND_INS if not (share / name / "package.xml").exists()]
+    stand_ins = [name for name in STAND_INS if not (SHARE / name / "package.xml").exists()]
     with contextlib.suppress(FileNotFoundError):
         (workspace / "built").unlink()  # what it stands for changes from here on
     link_packages(lower, [*UNDERLAY, *(f"common/stand_ins/{name}" for name in stand_ins)])
@@ -184,6 +185,8 @@ def build_student(workspace: Path, student: Path) -> None:
     refused = why_no_workspace(workspace, student)
     if refused:
         raise BuildError(f"--in {student}: {refused}")
+    for seen, todo in hidden_stand_ins(student, REPOSITORY, SHARE):
+        say(f"{seen}: {todo}")
     with one_at_a_time(workspace):
         if not (student / "devel" / "setup.bash").exists():
             build_new(workspace, student)

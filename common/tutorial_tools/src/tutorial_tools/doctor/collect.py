@@ -8,6 +8,7 @@ import io
 import os
 import stat
 import struct
+from pathlib import Path
 from typing import Any, List, Tuple
 
 import rosgraph
@@ -20,9 +21,11 @@ from gamepad.driver.container import in_container
 from gamepad.driver.report import SILENT_FOR
 from node_kit.manifests import broken_manifests
 from node_kit.questions import TIMEOUT_S, Answer
+from tutorial_tools.command.build import REPOSITORY, SHARE
 from tutorial_tools.doctor import network
 from tutorial_tools.doctor.facts import JOY, Facts, Joystick, Mux, MuxInput, Node, Offset
 from tutorial_tools.doctor.network import addresses, call, is_here
+from tutorial_tools.hidden import hidden_stand_ins
 
 # Frequent messages that begin with a Header: sequence number, stamp as two uint32 (s, ns).
 STAMPED = (
@@ -68,7 +71,7 @@ def this_machine() -> dict[str, Any]:
     own_addresses = addresses(own_name)
     folders = os.environ.get("ROS_PACKAGE_PATH", "").split(":")
     own = [folder for folder in folders if folder and not folder.startswith(("/usr/", "/opt/"))]
-    joy2twist = ""
+    joy2twist, workspace = "", os.environ.get("TUTORIAL_IN", "")
     with contextlib.suppress(Exception):  # not found, or an error of a broken package.xml
         joy2twist = os.path.realpath(rospkg.RosPack().get_path("joy2twist"))
     return {
@@ -77,7 +80,8 @@ def this_machine() -> dict[str, Any]:
         "own_addresses": own_addresses,
         "own_is_here": bool(own_addresses) and all(map(is_here, own_addresses)),
         "joysticks": [joystick(path) for path in sorted(glob.glob("/dev/input/js*"))],
-        "workspace": os.environ.get("TUTORIAL_IN", ""),
+        "workspace": workspace,
+        "hidden": hidden_stand_ins(Path(workspace), REPOSITORY, SHARE) if workspace else [],
         "broken_manifests": [broken for folder in own for broken in broken_manifests(folder)],
         "joy2twist": joy2twist,
         "container": in_container(),

@@ -112,6 +112,7 @@ class Facts:
     joysticks: list[Joystick] = field(default_factory=list)
     workspace: str = ""  # a student's, which takes the place of the solutions
     broken_manifests: list[tuple[str, str]] = field(default_factory=list)  # path, what is wrong
+    hidden: list[tuple[str, str]] = field(default_factory=list)  # stand-ins: what is wrong, to do
     joy2twist: str = "/suite/joy2twist"  # folder of the package that would run; "": none
     container: bool = False
     wsl: bool = False

@@ -33,6 +33,8 @@ def overlay(facts: Facts) -> Iterator[Finding]:
         yield wrong("overlay", f"{broken}: {why}", todo)
     if facts.broken_manifests:
         return
+    for seen, todo in facts.hidden:
+        yield wrong("overlay", seen, todo)
     if not workspace and path:
         yield ok("overlay", f"joy2twist is the suite's: {path}")
     elif not workspace:

@@ -1,0 +1,72 @@
+#!/usr/bin/python3
+"""The launch files of turtlebot_teleop, as the real one's."""
+
+import rospy
+from geometry_msgs.msg import Twist
+from sensor_msgs.msg import Joy
+
+from tutorial_testing.keys import Tmux
+from tutorial_testing.robot import Robot
+from tutorial_testing.rostests import RosTest, run
+from tutorial_testing.waiting import wait_for
+
+TELEOP = "/cmd_vel_mux/input/teleop"
+LB, L1 = 4, 10
+
+
+def pair(twist):
+    """Speed and turn rate, rounded as the steps are."""
+    return round(twist.linear.x, 6), round(twist.angular.z, 6)
+
+
+class TeleopTest(RosTest):
+    def test_a_key_speeds_up_in_steps_and_its_release_slows_down(self):
+        robot, sent = self.enter(Robot()), self.record(TELEOP, Twist)
+        terminal = Tmux("roslaunch turtlebot_teleop keyboard_teleop.launch")
+        self.addCleanup(terminal.close)
+        wait_for(lambda: sent, "first velocity, which is none")
+        terminal.hold("i", lambda: pair(sent[-1]) == (0.2, 0.0), "full speed")
+        wait_for(lambda: robot.moves, "motion")
+        speeds = [pair(twist)[0] for twist in sent]
+        steps = {round(b - a, 6) for a, b in zip(speeds, speeds[1:])}
+        self.assertLessEqual(steps, {0.0, 0.02, -0.02})
+        wait_for(lambda: pair(sent[-1]) == (0.0, 0.0), "slow end")
+        terminal.press("q")
+        terminal.hold("u", lambda: pair(sent[-1]) == (0.22, 1.1), "10 % more, to the left")
+        terminal.press("k")
+        wait_for(lambda: pair(sent[-1]) == (0.0, 0.0), "stop at once")
+        robot.wait_for_rest()
+        count = len(sent)
+        terminal.press("C-c")
+        wait_for(lambda: terminal.ended, "end")
+        self.assertNotIn("Traceback", terminal.history)
+        self.assertEqual(pair(sent[-1]), (0.0, 0.0))
+        self.assertGreater(len(sent), count)
+
+    def check_gamepad(self, file, button):
+        sent, joy = self.record(TELEOP, Twist), self.publisher("/joy", Joy)
+        with self.start("roslaunch", "turtlebot_teleop", file) as launch:
+            wait_for(joy.get_num_connections, "subscriber of joy")
+            wait_for(lambda: [pair(twist) for twist in sent] == [(0.0, 0.0)], "zero at the start")
+            held = Joy(axes=[0.5, 1.0], buttons=[k == button for k in range(12)])
+            joy.publish(Joy(axes=held.axes, buttons=[not b for b in held.buttons]))
+            joy.publish(held)
+            wait_for(lambda: len(sent) > 3, "velocities, repeated")
+            self.assertEqual({pair(twist) for twist in sent[1:]}, {(0.5, 0.75)})
+            joy.publish(Joy(axes=held.axes, buttons=[0] * 12))
+            wait_for(lambda: pair(sent[-1]) == (0.0, 0.0), "zero at the release")
+            self.assertEqual([pair(twist) for twist in sent[1:]].count((0.0, 0.0)), 1)
+            launch.interrupt()
+            self.assertNotIn("Traceback", launch.output)
+            launch.wait()
+
+    def test_a_gamepad_drives_while_its_dead_man_button_is_held(self):
+        rospy.set_param("/joystick/dev", "/none")
+        self.check_gamepad("logitech.launch", LB)
+
+    def test_that_of_the_ps3_is_another(self):
+        self.check_gamepad("ps3_teleop.launch", L1)
+
+
+if __name__ == "__main__":
+    run()

@@ -1,0 +1,56 @@
+#!/usr/bin/python3
+"""Two TurtleBots in groups: each is driven by its own topics, and has its own frames and place."""
+
+from geometry_msgs.msg import Twist, Vector3
+from sensor_msgs.msg import LaserScan
+from tf2_msgs.msg import TFMessage
+
+from tutorial_testing.robot import Robot
+from tutorial_testing.rostests import RosTest, run
+from tutorial_testing.waiting import wait_for
+
+FORWARDS = Twist(linear=Vector3(0.3, 0.0, 0.0))
+LINKS = {"odom": "base_footprint", "base_link": "wheel_left_link"}
+
+
+class TwoTurtlebotsTest(RosTest):
+    def test_each_starts_at_its_place_and_is_driven_by_its_own_input(self):
+        robots = {name: self.enter(Robot(f"{name}/")) for name in ("tb1", "tb2")}
+        topic = "/{}/cmd_vel_mux/input/teleop"
+        teleops = {name: self.publisher(topic.format(name), Twist, queue_size=1) for name in robots}
+        wait_for(lambda: robots["tb2"].odometry, "odometry")
+        for value, given in zip(robots["tb2"].now.pose, (1.5, -0.5, 0.7)):
+            self.assertAlmostEqual(value, given)
+        for driven, standing in (("tb1", "tb2"), ("tb2", "tb1")):
+            self.check_drive(robots[driven], robots[standing], teleops[driven])
+
+    def check_drive(self, robot, other, teleop):
+        wait_for(lambda: robot.odometry, "odometry")
+        wait_for(teleop.get_num_connections, "mux")
+        other.wait_for_rest()
+        before = len(other.odometry)
+        wait_for(lambda: teleop.publish(FORWARDS) or robot.now.v == 0.3, "motion")
+        wait_for(lambda: len(other.odometry) > before, "odometry of the other one")
+        self.assertFalse(any(moment.moves for moment in other.odometry[before:]))
+
+    def test_frames_have_the_prefix_of_their_group(self):
+        transforms = self.record("/tf", TFMessage)
+
+        def links():
+            found = [one for message in list(transforms) for one in message.transforms]
+            return {(one.header.frame_id, one.child_frame_id) for one in found}
+
+        wanted = {
+            (f"{p}{parent}", p + child) for p in ("", "tb2/") for parent, child in LINKS.items()
+        }
+        wait_for(lambda: links() >= wanted, "transforms of both")
+        self.assertEqual({"tb2/odom"}, {child for parent, child in links() if parent == "map"})
+
+    def test_3dsensor_publishes_the_scan_on_its_topic(self):
+        scans = self.record("/tb2/laser", LaserScan)
+        wait_for(lambda: scans, "scan")
+        self.assertEqual(scans[0].header.frame_id, "tb2/camera_depth_frame")
+
+
+if __name__ == "__main__":
+    run()
