@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from tutorial_check import student_files
-from tutorial_check.causes import explain, hider, syntax_hint, traced
+from tutorial_check.causes import NO_KEYBOARD, explain, hider, syntax_hint, traced
 from tutorial_check.model import Note, Wrong
 from tutorial_check.python_facts import PythonFacts, read_python
 from tutorial_check.python_text import unreadable
@@ -17,6 +17,7 @@ from tutorial_check.rows import Row, find
 from tutorial_check.session import Session
 from tutorial_check.tracebacks import Traceback, first_traceback, last_lines
 
+COPY = re.compile(r"checked_\d+_")  # a program with one thing changed; see Session.sibling
 # env -S takes arguments
 INTERPRETER = re.compile(rb"#!\s*(\S+)(?:\s+(?:-S\s*)?(?:\w+=\S*\s+)*(\S+))?")
 
@@ -32,15 +33,22 @@ def find_script(session: Session, package: str, name: str) -> str:
     if found:
         return str((runnable or found)[0].relative_to(folder))
     others = {path.name: path for path in files if path.name != "CMakeLists.txt"}
-    near = [other for other in others if other.lower().startswith(name) or other.lower() == name]
+    compiled = [path for path in files if path.suffix in (".cpp", ".cc", ".cxx", ".c")]
+    compiled.sort(key=lambda path: path.stem != name[:-3])
+    texts = [each for each in others if others[each].suffix.lower() in ("", ".py", ".txt")]
+    near = [other for other in others if other.lower().startswith(name)]
     # new_joy2twist.py is another program, and no misspelt joy2twist.py.
-    near = near or difflib.get_close_matches(name, [o for o in others if name not in o], 1, 0.75)
+    near = near or difflib.get_close_matches(name, [o for o in texts if name not in o], 1, 0.75)
     if near:
         other = others[near[0]]
         paths = (session.whole(path, package) for path in (other, other.with_name(name)))
         hint = f"mv {' '.join(paths)}: capitals, underscores and the ending count"
         where = str(other.relative_to(folder))
         raise Wrong(f"a program {name}", f"a file {near[0]}", where, hint)
+    if compiled:
+        seen = f"a program in C++, {compiled[0].name}"
+        hint = f"the exercise asks for Python, rospy: write scripts/{name}; the C++ may stay"
+        raise Wrong(f"a program {name}", seen, str(compiled[0].relative_to(folder)), hint)
     expected = f"a program {name} in the package {package}"
     hint = f"create scripts/{name} in YOUR package; ./tutorial shell without --in has one of OURS"
     wrong = Wrong(expected, "no such file anywhere in it", "", hint)
@@ -82,7 +90,7 @@ class Text:
         self.further = "; #! stands further down" if b"\n#!" in self.data else ""
         self.facts = session.scripts(package).get(script)
         self.error = self.facts and self.facts.error
-        self.python_hint = self.error and syntax_hint(self.error, self.facts.error_text)
+        self.python_hint = self.error and syntax_hint(self.error, self.facts.error_text, self.whole)
         self.is_runnable = is_runnable(session, package, path)
 
     @property
@@ -183,11 +191,15 @@ def odd_node(session: Session, package: str, script: str) -> Note | None:
 # ------------------------------------------------------------------------- why one has failed
 
 
+def _script_of(session: Session, package: str, name: str) -> str:
+    """Return the path of a program that was started under that name, or of its changed copy; or ""."""
+    name = COPY.sub("", name)
+    return next((each for each in session.scripts(package) if Path(each).name == name), "")
+
+
 def cause_of(session: Session, package: str, name: str, trace: Traceback) -> tuple[str, str]:
     """Return (the line to blame, what to do) for a Traceback of the program of that name."""
-    name = re.sub(r"^checked_\d+_", "", name)
-    script = next((each for each in session.scripts(package) if Path(each).name == name), "")
-    script = trace.where.rpartition(":")[0] or script
+    script = trace.where.rpartition(":")[0] or _script_of(session, package, name)
     if not script:
         return trace.where, explain(trace.error, trace.text)
     facts = read_python(session.text(package, script))
@@ -196,12 +208,12 @@ def cause_of(session: Session, package: str, name: str, trace: Traceback) -> tup
     if not line and function:  # called by rospy itself
         line = facts.names.get(function[1], 0)
     line, hint = traced(trace.error, line, facts)
-    hint = hint or explain(trace.error, trace.text)
+    hint = hint or explain(trace.error, trace.text, session.whole(COPY.sub("", script), package))
     file, hides = hider(trace.error, script, session.scripts(package))
     if hides:
         return file or f"{script}:{line}", hides
     if re.match("ImportError|ModuleNotFoundError", trace.error) and session.lacks_build:
-        fails = "catkin_make, which may have to make it, fails: exercise 2 says why"
+        fails = "catkin_make, which may have to make it, fails: run it, it says why"
         hint = "; ".join(filter(None, (hint, fails)))
     return f"{script}:{line}" if line else "", hint
 
@@ -216,6 +228,10 @@ def crash(session: Session, package: str, program: Any, expected: str, hint: str
     code = program.process.returncode if program.ended and not program.was_stopped else None
     if code is not None and code < 0:
         return Wrong(expected, f"the program was ended by signal {-code}", "", hint)
+    script = _script_of(session, package, program.name)
+    typed = session.scripts(package)[script].keyboard if script else 0
+    if typed and (program.spins or code is not None):
+        return Wrong(expected, "it reads the keyboard", f"{script}:{typed}", NO_KEYBOARD, sure=True)
     if program.spins:
         seen = f"{program.name} works all the time and gets nowhere"
         hint = "a loop without end? In the callback, and before rospy.init_node, there is none"

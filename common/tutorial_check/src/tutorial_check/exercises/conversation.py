@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import statistics
 
+from tutorial_check.causes import NO_KEYBOARD
 from tutorial_check.exercises.dialogue import Conversation
 from tutorial_check.exercises.driving import CMD_VEL, COUNT, JOY, Drive
 from tutorial_check.exercises.mapping import judge
@@ -44,7 +45,9 @@ NOT_CONNECTED = (
         "it subscribes to {found}", "the topic is called /joy, in lower case",
         "{f.at[Subscriber]}"),
     Row(lambda c: c.heard_on,
-        "it subscribes to {found}", "the topic is called /joy", "{f.at[Subscriber]}"),
+        "it subscribes to {found}", "{f.joy_line}", "{f.at[Subscriber]}"),
+    Row(lambda c: c.facts.keyboard, "it subscribes to nothing, and reads the keyboard",
+        NO_KEYBOARD, "{f.script}:{found}"),
     Row(lambda c: True, "it subscribes to nothing",
         "{f.joy_line}, after rospy.init_node and before rospy.spin()", "{f.at[Subscriber]}"),
 )  # fmt: skip
@@ -58,8 +61,7 @@ DISPLAYED = (
 )  # fmt: skip
 NOT_DISPLAYED = (
     HIDDEN,
-    Row(lambda c: c.found_values >= 2 and c.found_values,
-        "{found} of the six values of a message were found",
+    Row(lambda c: c.found_values, "a line has {found} of the six values of a message",
         "all six: [%.2f, %.2f, %.2f, %.2f, %.2f, %.2f] % data.axes", "{f.script}"),
     Row(lambda c: "logdebug" in c.calls and "Publisher" in c.calls,
         "it logs at the level debug, which is not shown", note=True),
@@ -83,7 +85,7 @@ NO_TOPIC = (
         "it publishes on {found}", "the topic is called /cmd_vel; that of the TurtleBot stands in"
         " the launch file alone, in a <remap>", "{f.at[Publisher]}"),
     Row(lambda c: c.sent_on,
-        "it publishes on {found}", "the topic is called /cmd_vel", "{f.at[Publisher]}"),
+        "it publishes on {found}", "{f.twist_line}", "{f.at[Publisher]}"),
     Row(lambda c: c.facts.first("Publisher"), "it publishes nothing",
         "{f.twist_line}, and publish(msg) in the callback", "{f.at[Publisher]}"),
     Row(lambda c: True, "it publishes nothing: there is no rospy.Publisher in it",

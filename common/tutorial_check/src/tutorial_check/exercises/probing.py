@@ -260,9 +260,25 @@ def delays(
 
 def displayed(joys: Iterable[Joy], output: str) -> list[Joy]:
     """Return the Joys of which a line has all axes, with two decimals or more."""
+    return [joy for joy, count in zip(joys, _shown(joys, output)) if count == len(joy[0])]
+
+
+def values_shown(joys: Iterable[Joy], output: str) -> int:
+    """Return how many axes of a Joy one line has, if it has for three Joys; one may be by chance."""
+    counts = sorted(_shown(joys, output))
+    return counts[-3] if counts[-3] > 1 else counts[len(counts) // 2]
+
+
+def _shown(joys: Iterable[Joy], output: str) -> list[int]:
+    """Return for each Joy how many of its axes are in one line, a number of their own for each."""
     lines = [[float(word) for word in NUMBER.findall(line)] for line in output.splitlines()]
 
-    def has(line: list[float], joy: Joy) -> bool:
-        return all(any(abs(axis - seen) < 0.0056 for seen in line) for axis in joy[0])
+    def count(line: list[float], joy: Joy) -> int:
+        rest = list(line)
+        for axis in joy[0]:
+            near = min(rest, key=lambda number: abs(axis - number), default=math.inf)
+            if abs(axis - near) < 0.0056:
+                rest.remove(near)
+        return len(line) - len(rest)
 
-    return [joy for joy in joys if any(len(line) >= 6 and has(line, joy) for line in lines)]
+    return [max((count(line, joy) for line in lines), default=0) for joy in joys]
