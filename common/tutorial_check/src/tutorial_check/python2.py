@@ -19,7 +19,7 @@ MARKS = re.compile(
     rf"|module '\w+' has no attribute '{LISTS[2]}'|import name '{LISTS[2]}' from '(?:itertools|urllib)'"
     r"|'dict' object has no attribute '(?:has_key|(?:iter|view)\w+)'|no attribute 'next'"
     r"|for >>: 'builtin_function_or_method'|for %: 'NoneType'[^\n]*\n.*\bprint\b"
-    r"|call to '(?:print|exec)'|leading zeros in decimal|parameters cannot be parenthesized"
+    r"|call to '(?:print|exec)'|leading zeros in decimal|\n\s*def\s+\w+\((?:[^=()]*,)?\s*\("
     # print x; exec x; raise X, "text"; except X, e; `x`, <>, 10L, ur"x".
     r"|\n(?:[^\"'#]*[:;])?\s*(?:print\s+[^(=\s]|exec\s+[\w\"']|raise\s+[\w.]+\s*,)"
     r"|\n\s*except\s+(?:[\w.]+|\([^()]*\))\s*,\s*\w+\s*:"

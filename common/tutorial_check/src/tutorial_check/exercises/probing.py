@@ -53,8 +53,8 @@ def numbered_joys(count: int) -> list[Joy]:
     for k in range(count):
         forwards = (0.30 + 0.021 * k if k < count - 1 else 1.0) * (1 if k % 2 == 0 else -1)
         left = (0.25 + 0.017 * k if k != count - 2 else 1.0) * (1 if k % 4 < 2 else -1)
-        # In an order of their own, so that none of them is by chance in proportion to these two.
-        rest = [0.03 + 0.05 * (index - 2) + 0.002 * (7 * k % 20) for index in range(2, AXES)]
+        # Each in an order of its own, so that none is in proportion to another, or to a difference.
+        rest = [0.03 + 0.05 * n + 0.002 * (step * k % 20) for n, step in enumerate((7, 3, 9, 1))]
         joys.append(((left, forwards, *rest), _pressed(LB)))
     return joys
 
