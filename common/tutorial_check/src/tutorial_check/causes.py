@@ -147,9 +147,7 @@ def _rows(text: str) -> list[tuple[str, str]]:
 
 
 IMPORTS = [MISSING_IMPORTS.replace("MESSAGE", one).replace("HOME", HOMES[one]) for one in HOMES]
-NO_KEYBOARD = (
-    "there is no keyboard here (stdin is empty): what is expected comes about without a key"
-)
+NO_KEYBOARD = "there is no keyboard here, and stdin is empty: what is expected comes without a key"
 TYPED = r"termios\.error|Inappropriate ioctl|EOF when reading a line|_curses\.error", NO_KEYBOARD
 ROWS = [TYPED, *(row for text in (*IMPORTS, CAUSES) for row in _rows(text))]
 # Modules that may have been meant by one that is not there.
@@ -165,10 +163,7 @@ def _explained(rows: list[tuple[str, str]], text: str) -> str:
 
 
 def explain(error: str, text: str = "", file: str = "FILE") -> str:
-    """Return what an error most often means here, in a line of that text; empty if unknown.
-
-    file: the path of the program, for a shell.
-    """
+    """Return what an error most often means here, in a line of that text of a file; or empty."""
     found = re.search(r"No module named '([^'.]+)'", error)
     hint = porting(error, text, file) or _explained(ROWS, f"{error}\n{text}")
     return hint or (_absent(found[1]) if found else "")
@@ -186,8 +181,9 @@ def _absent(module: str) -> str:
         return f"{module} is not installed here: sudo apt install {package}"
     if instead:
         return f"Debian lacks {module}: {instead}"
-    for near in difflib.get_close_matches(module, COMMON, 1, 0.75):
-        return f"there is no module {module}: look at its spelling, {near}?"
+    near = difflib.get_close_matches(module, COMMON, 1, 0.75)
+    if near:
+        return f"there is no module {module}: look at its spelling, {near[0]}?"
     return f"{module} is not here: hand in your own file with the program; install another's"
 
 

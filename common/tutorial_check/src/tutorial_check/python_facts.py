@@ -7,10 +7,10 @@ import re
 import warnings
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Iterable, Iterator, NamedTuple, Sequence, Tuple, Union
+from typing import Any, Iterable, Iterator, Sequence, Tuple, Union
 
 from tutorial_check.class_facts import ClassFacts, class_facts
-from tutorial_check.python_text import last_name, python_lines, text_of
+from tutorial_check.python_text import is_broad, last_name, python_lines, text_of
 
 KEYBOARD = ("input", "raw_input", "tcgetattr", "setraw", "setcbreak", "initscr", "getch", "getchar")
 Place = Union[Tuple[int, str], Tuple[()]]  # (line, text), or empty: there is none
@@ -23,14 +23,6 @@ class Call:
     line: int
     words: list[str]  # the arguments as text, strings without quotes
     names: dict[str, str]  # the same of keyword arguments
-
-
-class Handler(NamedTuple):
-    """An `except:` that catches every error of the lines of its try."""
-
-    line: int
-    lines: range
-    shows: bool  # whether it displays anything
 
 
 class PythonFacts:
@@ -60,12 +52,7 @@ class PythonFacts:
         self.has_main = any(map(_is_main, self._nodes))
         self.loops = [node.lineno for node in self._of(ast.While)]
         self.globals = [node.lineno for node in self._of(ast.Global)]
-        self.handlers = [
-            Handler(handler.lineno, range(block.lineno, block.handlers[0].lineno), _shows(handler))
-            for block in self._of(ast.Try)
-            for handler in block.handlers
-            if not handler.type or text_of(handler.type) in ("Exception", "BaseException")
-        ]
+        self.broad_excepts = list(filter(is_broad, self._of(ast.ExceptHandler)))
         self.bare_names = [  # (line, text) of statements that do nothing, as rospy.spin without ()
             (node.lineno, text_of(node.value))
             for node in self._of(ast.Expr)
@@ -191,23 +178,17 @@ class PythonFacts:
         stdin = (node.lineno for node in self._of(ast.Attribute) if text_of(node) == "sys.stdin")
         return min([*calls, *stdin], default=0)
 
-    def catcher(self, lines: Sequence[int]) -> Handler | None:
-        """Return the Handler that catches an error. lines: of the calls to it, the innermost last."""
-        around = ([one for one in self.handlers if line in one.lines] for line in lines[::-1])
-        return max(next(filter(None, around), []), key=lambda one: one.lines.start, default=None)
+    def catcher(self, lines: Sequence[int]) -> ast.ExceptHandler | None:
+        """Return what catches an error. lines: of the calls to it, the innermost last."""
+        blocks = [block for block in self._of(ast.Try) if any(map(is_broad, block.handlers))]
+        for line in lines[::-1]:
+            around = [one for one in blocks if one.lineno <= line < one.handlers[0].lineno]
+            if around:
+                return max(around, key=lambda one: int(one.lineno)).handlers[-1]
+        return None
 
     def first(self, name: str) -> Call | None:
         return next(iter(self.calls.get(name, [])), None)
-
-    def hears_otherwise(self, topic: str, kind: str) -> str:
-        """Return which other topic, or type, its first Subscriber names; empty if none."""
-        call = self.first("Subscriber")
-        given, word, *_ = (call.words if call else []) + ["", ""]
-        is_other = given not in self.names and given.lstrip("/") != topic.lstrip("/")
-        word = word.rpartition(".")[2]
-        is_kind = word == kind or not any(one.endswith(f".{word}") for one in self.imports)
-        said = (f" {given}" if is_other else "") + ("" if is_kind else f" as {word}")
-        return f"; it subscribes to{said}" if call and said else ""
 
     @property
     def deaf(self) -> Call | None:
@@ -246,7 +227,8 @@ def _made(nodes: Iterable[ast.AST]) -> Iterator[tuple[int, str]]:
             yield node.lineno, node.arg
 
 
-def _shows(handler: ast.ExceptHandler) -> bool:
+def shows(handler: ast.ExceptHandler) -> bool:
+    """Return whether it displays anything."""
     calls = (node for node in ast.walk(handler) if isinstance(node, ast.Call))
     return any(re.match("print|log|write|error|warn|exception", last_name(call)) for call in calls)
 

@@ -191,15 +191,11 @@ def odd_node(session: Session, package: str, script: str) -> Note | None:
 # ------------------------------------------------------------------------- why one has failed
 
 
-def _script_of(session: Session, package: str, name: str) -> str:
-    """Return the path of a program that was started under that name, or of its changed copy; or ""."""
-    name = COPY.sub("", name)
-    return next((each for each in session.scripts(package) if Path(each).name == name), "")
-
-
 def cause_of(session: Session, package: str, name: str, trace: Traceback) -> tuple[str, str]:
     """Return (the line to blame, what to do) for a Traceback of the program of that name."""
-    script = trace.where.rpartition(":")[0] or _script_of(session, package, name)
+    name = COPY.sub("", name)
+    script = next((each for each in session.scripts(package) if Path(each).name == name), "")
+    script = trace.where.rpartition(":")[0] or script
     if not script:
         return trace.where, explain(trace.error, trace.text)
     facts = read_python(session.text(package, script))
@@ -228,10 +224,6 @@ def crash(session: Session, package: str, program: Any, expected: str, hint: str
     code = program.process.returncode if program.ended and not program.was_stopped else None
     if code is not None and code < 0:
         return Wrong(expected, f"the program was ended by signal {-code}", "", hint)
-    script = _script_of(session, package, program.name)
-    typed = session.scripts(package)[script].keyboard if script else 0
-    if typed and (program.spins or code is not None):
-        return Wrong(expected, "it reads the keyboard", f"{script}:{typed}", NO_KEYBOARD, sure=True)
     if program.spins:
         seen = f"{program.name} works all the time and gets nowhere"
         hint = "a loop without end? In the callback, and before rospy.init_node, there is none"
@@ -268,8 +260,20 @@ def misnamed_init(methods: list[str]) -> str:
     return next((each for each in methods if re.fullmatch(r"_*init_*", each)), "")
 
 
+def with_end(wrong: Wrong, facts: PythonFacts, script: str) -> Wrong:
+    """Return the Wrong for a program that ended, with what its text shows if its output does not."""
+    if not wrong.where:
+        asked = facts.first("Subscriber")
+        wrong.seen += f"; it subscribes to {', '.join(asked.words[:2])}" if asked else ""
+        wrong.where, hint = silent_end(facts, script)
+        wrong.hint = hint if ":" in wrong.where else wrong.hint or hint
+    return wrong
+
+
 def silent_end(facts: PythonFacts, script: str) -> tuple[str, str]:
     """Return (where, hint) for a program that ends at once, as far as its text shows."""
+    if facts.keyboard:
+        return f"{script}:{facts.keyboard}", NO_KEYBOARD
     for line, text in facts.bare_names:
         if text.endswith(("spin", "listener")):
             return f"{script}:{line}", f"{text} needs its (): {text}()"
@@ -282,18 +286,11 @@ def silent_end(facts: PythonFacts, script: str) -> tuple[str, str]:
             hint = f"it is never made: {one.name}() under if __name__ == '__main__':"
             return f"{script}:{one.line}", hint
     if facts.sunken_main:
-        return sunken_main(facts, script)
+        line, function = facts.sunken_main
+        hint = f"line {line} stands within {function}(): move it, and what is below it, to the left"
+        return f"{script}:{line}", f"{hint} margin"
     if "spin" not in facts.calls:
         return script, "rospy.spin() is missing: without it the program comes to its end"
     if not facts.has_main:
         return script, "listener() is never called: if __name__ == '__main__': listener()"
-    return script, "is the function called, in the last line, and with ()?"
-
-
-def sunken_main(facts: PythonFacts, script: str) -> tuple[str, str]:
-    """Return (where, hint) for a __main__ that stands within a function, or empty texts."""
-    if not facts.sunken_main:
-        return "", ""
-    line, function = facts.sunken_main
-    hint = f"line {line} stands within {function}(): move it, and what is below it, to the left"
-    return f"{script}:{line}", f"{hint} margin"
+    return script, "is listener() called, in the last line, and with ()?"

@@ -13,12 +13,17 @@ class Traceback:
     error: str  # "NameError: name 'pub' is not defined"
     where: str = ""  # "scripts/joy2twist.py:14", the student's own line
     text: str = ""  # of that line
-    lines: tuple[int, ...] = ()  # of that file, from the outermost call to this line
+    places: tuple[str, ...] = ()  # of all calls to it, the outermost first
 
     @property
     def message(self) -> str:
         """What str() of the exception gives."""
         return re.sub(r"^[\w.]+: |\. Did you mean: .*", "", self.error)
+
+    def lines_of(self, script: str) -> list[int]:
+        return [
+            int(place[len(script) + 1 :]) for place in self.places if place.startswith(f"{script}:")
+        ]
 
 
 FRAME = re.compile(r'^\s*File "(?P<file>[^"]+)", line (?P<line>\d+)')
@@ -46,20 +51,16 @@ def first_traceback(output: str, folder: str) -> Traceback | None:
 
 def _traceback(block: str, folder: str) -> Traceback:
     lines = [*block.splitlines(), ""]
-    where = text = ""
-    calls: list[tuple[str, int]] = []  # (file, line) of the student's
+    error, text, places = lines[-2], "", [""]
     for line, below in zip(lines[1:], lines[2:]):
         frame = FRAME.match(line)
         if frame and frame["file"].startswith(folder):
-            calls.append((frame["file"], int(frame["line"])))
-            where = f"{frame['file'][len(folder) :].lstrip('/')}:{frame['line']}"
+            places.append(f"{frame['file'][len(folder) :].lstrip('/')}:{frame['line']}")
             text = below.strip()
         elif ERROR.match(line):
+            error = line
             break
-    else:
-        line = lines[-2]
-    own = tuple(number for file, number in calls if file == calls[-1][0])
-    return Traceback(line.strip(), where, text, own)
+    return Traceback(error.strip(), places[-1], text, tuple(places))
 
 
 def last_lines(output: str, count: int = 3) -> str:

@@ -20,7 +20,7 @@ from tutorial_check.exercises.talking import (
 )
 from tutorial_check.model import Note, Wrong, master_gone
 from tutorial_check.rows import Row, demand
-from tutorial_check.scripts import check_end, check_file, crash, odd_node, sunken_main
+from tutorial_check.scripts import check_end, check_file, crash, odd_node, with_end
 from tutorial_check.session import Session
 
 TALKS = "std_msgs/String on /chatter, about 10 times a second"
@@ -63,26 +63,12 @@ class Half:
         self.found, self.total = sum(map(bool, self.times)), len(talk.strings)
 
     def crash(self, expected: str, hint: str = "") -> Wrong:
-        place, meant = sunken_main(self.facts, self.script)
-        wrong = crash(self.session, PACKAGE, self.program, expected, meant or hint)
-        wrong.where = wrong.where or place
-        return wrong
+        wrong = crash(self.session, PACKAGE, self.program, expected, hint)
+        return with_end(wrong, self.facts, self.script)
 
     def silent_talker(self) -> Wrong:
         loops = ", and does it loop: while not rospy.is_shutdown()" if self.facts.has_main else ""
         return self.crash(TALKS, f"does the last line call talker(){loops}?")
-
-    def ended_listener(self) -> Wrong:
-        hint = "does the last line call listener()?"
-        if "spin" not in self.facts.calls:
-            hint = "rospy.spin() at the end of listener() keeps it alive"
-        wrong = self.crash(GOES_ON, hint)
-        wrong.seen += "" if wrong.where else self.facts.hears_otherwise(TOPIC, "String")
-        bare = [line for line, text in self.facts.bare_names if text.endswith("spin")]
-        if bare and not wrong.where:
-            wrong.where, wrong.hint = f"{self.script}:{bare[0]}", "rospy.spin needs its ():"
-            wrong.hint += " rospy.spin()"
-        return wrong
 
     @property
     def second_line(self) -> str:
@@ -173,7 +159,7 @@ def talker(session: Session) -> Note | str:
 def listener(session: Session) -> Note | None:
     half = _half(session, is_talker=False)
     if half.talk.listener_ended:
-        raise half.ended_listener()
+        raise half.crash(GOES_ON)
     if half.found < half.total:
         demand(DEAF_LISTENER, half, LISTENS)
     if min(half.times) < 2:

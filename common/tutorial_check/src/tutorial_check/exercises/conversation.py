@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import statistics
 
-from tutorial_check.causes import NO_KEYBOARD
 from tutorial_check.exercises.dialogue import Conversation
 from tutorial_check.exercises.driving import CMD_VEL, COUNT, JOY, Drive
 from tutorial_check.exercises.mapping import judge
@@ -35,7 +34,8 @@ CONNECTED = (
         "its Subscriber has no callback", "{f.joy_line}", "{f.script}:{found.line}", sure=True),
 )  # fmt: skip
 NOT_CONNECTED = (
-    Row(lambda c: c.seen.program.spins or c.seen.trouble, lambda c: c.crash()),
+    Row(lambda c: c.seen.program.spins, lambda c: c.end()),
+    CRASHED,
     HIDDEN,
     ENDED,
     Row(lambda c: JOY in c.seen.publishers and c.seen.types.get(JOY, "?"),
@@ -46,8 +46,6 @@ NOT_CONNECTED = (
         "{f.at[Subscriber]}"),
     Row(lambda c: c.heard_on,
         "it subscribes to {found}", "{f.joy_line}", "{f.at[Subscriber]}"),
-    Row(lambda c: c.facts.keyboard, "it subscribes to nothing, and reads the keyboard",
-        NO_KEYBOARD, "{f.script}:{found}"),
     Row(lambda c: True, "it subscribes to nothing",
         "{f.joy_line}, after rospy.init_node and before rospy.spin()", "{f.at[Subscriber]}"),
 )  # fmt: skip

@@ -15,8 +15,9 @@ from tutorial_check.exercises.driving import CMD_VEL, COLOUR, JOY, Drive, drive
 from tutorial_check.exercises.joystick_task import PACKAGE
 from tutorial_check.exercises.talking import other_topic
 from tutorial_check.model import Wrong
+from tutorial_check.python_facts import shows
 from tutorial_check.python_text import python_lines
-from tutorial_check.scripts import check_file, crash, silent_end
+from tutorial_check.scripts import check_file, crash, with_end
 from tutorial_check.session import Session
 from tutorial_check.tracebacks import first_traceback
 
@@ -114,27 +115,20 @@ class Conversation:
         """Return the same Wrong, with the except if that is what hid it."""
         wrong.where = wrong.where.replace(shown.script, self.script)
         trace = first_traceback(shown.output, str(self.session.package(PACKAGE).folder))
-        catcher = self.facts.catcher(trace.lines) if trace else None
+        catcher = self.facts.catcher(trace.lines_of(shown.script)) if trace else None
         if trace and catcher and trace.message not in self.seen.output:
-            text = python_lines(self.session.text(PACKAGE, self.script))[catcher.line - 1].strip()
-            place = f"`{text}` in line {catcher.line}"
-            wrong.seen += (
-                f" ({place} shows another text)" if catcher.shows else f" (hidden by {place})"
-            )
+            text = python_lines(self.session.text(PACKAGE, self.script))[catcher.lineno - 1].strip()
+            how = "{} shows another text" if shows(catcher) else "hidden by {}"
+            wrong.seen += f" ({how.format(f'`{text}` in line {catcher.lineno}')})"
         return wrong
 
     @functools.cached_property
     def hidden_crash(self) -> Wrong | None:
-        wrong = self.crash() if self.facts.handlers else None
+        wrong = self.crash() if self.facts.broad_excepts else None
         return wrong if wrong and wrong.where else None
 
     def end(self) -> Wrong:
-        wrong = self.crash()
-        if not wrong.where:
-            wrong.seen += self.facts.hears_otherwise(self.session.task.topic(JOY), "Joy")
-        place, hint = silent_end(self.facts, self.script)
-        wrong.where, wrong.hint = wrong.where or place, wrong.hint or hint
-        return wrong
+        return with_end(self.crash(), self.facts, self.script)
 
     def odd(self) -> Wrong:
         """Return the Wrong for answers of another rule, at the line that sets the field."""

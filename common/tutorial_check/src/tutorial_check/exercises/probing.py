@@ -264,21 +264,16 @@ def displayed(joys: Iterable[Joy], output: str) -> list[Joy]:
 
 
 def values_shown(joys: Iterable[Joy], output: str) -> int:
-    """Return how many axes of a Joy one line has, if it has for three Joys; one may be by chance."""
+    """Return how many axes of a Joy a line has, as for three Joys; one may be there by chance."""
     counts = sorted(_shown(joys, output))
     return counts[-3] if counts[-3] > 1 else counts[len(counts) // 2]
 
 
 def _shown(joys: Iterable[Joy], output: str) -> list[int]:
-    """Return for each Joy how many of its axes are in one line, a number of their own for each."""
+    """Return for each Joy how many of its axes are in one line. No two of a Joy are as near."""
     lines = [[float(word) for word in NUMBER.findall(line)] for line in output.splitlines()]
 
-    def count(line: list[float], joy: Joy) -> int:
-        rest = list(line)
-        for axis in joy[0]:
-            near = min(rest, key=lambda number: abs(axis - number), default=math.inf)
-            if abs(axis - near) < 0.0056:
-                rest.remove(near)
-        return len(line) - len(rest)
+    def count(line: list[float], axes: Sequence[float]) -> int:
+        return sum(any(abs(axis - seen) < 0.0056 for seen in line) for axis in axes)
 
-    return [max((count(line, joy) for line in lines), default=0) for joy in joys]
+    return [max((count(line, joy[0]) for line in lines), default=0) for joy in joys]
