@@ -35,6 +35,7 @@ ROWS = [
     node("% data", "% data.axes", "% data", "C14", "data.axes"),
     node("only two axes displayed", SHOW, 'rospy.loginfo("%.2f %.2f" % data.axes[:2])', "C14", "six"),
     node("one axis displayed", SHOW, 'rospy.loginfo("%.2f" % data.axes[1])', "C14", ("a line has 1 of the six", "all six")),
+    node("one decimal", SHOW, 'rospy.loginfo("%.1f " * 6 % data.axes)', "C14", ("the six values have less than two decimals", "%.2f")),
     node("joy.msg", "sensor_msgs.msg", "joy.msg", "C14", ("joy2twist.py:4", "from sensor_msgs.msg import Joy")),
     node("a keyboard", "    rospy.spin()", "    import termios\n    termios.tcgetattr(0)", "C14", ("joy2twist.py:22", "termios.error", "no keyboard here")),
     ("4.3", "an import outside of the try", [put(JOY2TWIST, "import rospy\n", "import rospy\nimport wx\n"), put(JOY2TWIST, *tried("pass"))], "C14", ("joy2twist.py:4", "in: import wx\n")),

@@ -1,5 +1,7 @@
 """From an error, and a line of the program, to the cause."""
 
+import re
+import subprocess
 import sys
 
 import pytest
@@ -55,6 +57,17 @@ def test_python_2(line):
         hint = explain(repr(caught.value) + str(caught.value), line, "/x.py")
     is_legal_now = sys.version_info >= (3, 14) and "except (" in line
     assert hint.startswith("this is Python 2: 2to3 -w /x.py") or is_legal_now
+
+
+def test_the_hint_for_python_2_works(tmp_path):
+    """Its command makes a program of what Python 3 refuses; Debian 13 has this one alone."""
+    pytest.importorskip("fissix")
+    program = tmp_path / "old.py"
+    program.write_text("try:\n    print 0777\nexcept IOError, error:\n    print `error`\n")
+    hint = explain("name 'xrange' is not defined", "", str(program))
+    command = re.search(r"python3 (-m fissix -w \S+)\)", hint)[1].split()
+    subprocess.run([sys.executable, *command], check=True, capture_output=True)
+    assert not read_python(program.read_text()).error
 
 
 @pytest.mark.parametrize("line", ["x = f(", "rospy.init_node(`talker')", "x y", "print = (5"])

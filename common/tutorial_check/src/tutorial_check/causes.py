@@ -147,7 +147,7 @@ def _rows(text: str) -> list[tuple[str, str]]:
 
 
 IMPORTS = [MISSING_IMPORTS.replace("MESSAGE", one).replace("HOME", HOMES[one]) for one in HOMES]
-NO_KEYBOARD = "there is no keyboard here, and stdin is empty: what is expected comes without a key"
+NO_KEYBOARD = "there is no keyboard here (stdin is empty): the program has to work without a key"
 TYPED = r"termios\.error|Inappropriate ioctl|EOF when reading a line|_curses\.error", NO_KEYBOARD
 ROWS = [TYPED, *(row for text in (*IMPORTS, CAUSES) for row in _rows(text))]
 # Modules that may have been meant by one that is not there.
@@ -184,7 +184,7 @@ def _absent(module: str) -> str:
     near = difflib.get_close_matches(module, COMMON, 1, 0.75)
     if near:
         return f"there is no module {module}: look at its spelling, {near[0]}?"
-    return f"{module} is not here: hand in your own file with the program; install another's"
+    return f"there is no {module} here: hand in your own file with the program, or install it"
 
 
 def with_import(line: str, message: str, facts: PythonFacts) -> str:

@@ -6,7 +6,8 @@ import statistics
 
 from tutorial_check.exercises.dialogue import Conversation
 from tutorial_check.exercises.driving import CMD_VEL, COUNT, JOY, Drive
-from tutorial_check.exercises.mapping import judge
+from tutorial_check.exercises.mapping import AXES, judge
+from tutorial_check.exercises.probing import ROUNDED
 from tutorial_check.model import Note, master_gone
 from tutorial_check.rows import Row, demand
 from tutorial_check.session import Session
@@ -59,7 +60,9 @@ DISPLAYED = (
 )  # fmt: skip
 NOT_DISPLAYED = (
     HIDDEN,
-    Row(lambda c: c.found_values, "a line has {found} of the six values of a message",
+    Row(lambda c: c.found_values(10 * ROUNDED) == AXES, "the six values have less than two decimals",
+        "%.2f for each value", "{f.script}"),
+    Row(lambda c: c.found_values(), "a line has {found} of the six values of a message",
         "all six: [%.2f, %.2f, %.2f, %.2f, %.2f, %.2f] % data.axes", "{f.script}"),
     Row(lambda c: "logdebug" in c.calls and "Publisher" in c.calls,
         "it logs at the level debug, which is not shown", note=True),

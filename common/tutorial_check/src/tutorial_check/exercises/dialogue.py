@@ -78,9 +78,8 @@ class Conversation:
         calls = (each[0] for name, each in self.calls.items() if name.endswith("_throttle"))
         return next((call.line for call in calls if self.seen.shows_numbers), 0)
 
-    @property
-    def found_values(self) -> int:
-        return probing.values_shown(self.seen.joys, COLOUR.sub("", self.seen.output))
+    def found_values(self, within: float = probing.ROUNDED) -> int:
+        return probing.values_shown(self.seen.joys, COLOUR.sub("", self.seen.output), within)
 
     @functools.cached_property
     def repeated(self) -> tuple[int, bool]:

@@ -39,6 +39,7 @@ def _pressed(*pressed: int) -> tuple[int, ...]:
 
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e-?\d+)?")
 SLOW, STEP = 0.3, 0.005  # of rising_joys()
+ROUNDED = 0.0056  # to two decimals a value is off by no more
 EARLY_S = 0.06  # by which a Twist may seem to come before its Joy
 AT_REST: Joy = (REST, _pressed(LB))
 
@@ -263,17 +264,17 @@ def displayed(joys: Iterable[Joy], output: str) -> list[Joy]:
     return [joy for joy, count in zip(joys, _shown(joys, output)) if count == len(joy[0])]
 
 
-def values_shown(joys: Iterable[Joy], output: str) -> int:
+def values_shown(joys: Iterable[Joy], output: str, within: float = ROUNDED) -> int:
     """Return how many axes of a Joy a line has, as for three Joys; one may be there by chance."""
-    counts = sorted(_shown(joys, output))
+    counts = sorted(_shown(joys, output, within))
     return counts[-3] if counts[-3] > 1 else counts[len(counts) // 2]
 
 
-def _shown(joys: Iterable[Joy], output: str) -> list[int]:
+def _shown(joys: Iterable[Joy], output: str, within: float = ROUNDED) -> list[int]:
     """Return for each Joy how many of its axes are in one line. No two of a Joy are as near."""
     lines = [[float(word) for word in NUMBER.findall(line)] for line in output.splitlines()]
 
     def count(line: list[float], axes: Sequence[float]) -> int:
-        return sum(any(abs(axis - seen) < 0.0056 for seen in line) for axis in axes)
+        return sum(any(abs(axis - seen) < within for seen in line) for axis in axes)
 
     return [max((count(line, joy[0]) for line in lines), default=0) for joy in joys]
