@@ -9,6 +9,12 @@ PUB = "rospy.Publisher('/cmd_vel', Twist)"
 SUB = 'rospy.Subscriber("/joy", Joy, callback)'
 
 
+def tried(handler):
+    """The change that puts the last line into a try, with a line in its `except Exception`."""
+    block = f"    try:\n        listener()\n    except Exception as error:\n        {handler}\n"
+    return "    listener()\n", block
+
+
 def node(what, old, new, check, word):
     """A row with one change in joy2twist.py."""
     return ("4.3", what, [put(JOY2TWIST, old, new)], check, word)
@@ -28,6 +34,14 @@ ROWS = [
     node("five of six values", SHOW, 'rospy.loginfo("[%.2f, %.2f, %.2f, %.2f, %.2f]" % data.axes)', "C14", "as many %.2f"),
     node("% data", "% data.axes", "% data", "C14", "data.axes"),
     node("only two axes displayed", SHOW, 'rospy.loginfo("%.2f %.2f" % data.axes[:2])', "C14", "six"),
+    node("one axis displayed", SHOW, 'rospy.loginfo("%.2f" % data.axes[1])', "C14", ("a line has 1 of the six", "all six")),
+    node("one decimal", SHOW, 'rospy.loginfo("%.1f " * 6 % data.axes)', "C14", ("the six values have less than two decimals", "%.2f")),
+    node("joy.msg", "sensor_msgs.msg", "joy.msg", "C14", ("joy2twist.py:4", "from sensor_msgs.msg import Joy")),
+    node("a keyboard", "    rospy.spin()", "    import termios\n    termios.tcgetattr(0)", "C14", ("joy2twist.py:22", "termios.error", "no keyboard here")),
+    ("4.3", "an import outside of the try", [put(JOY2TWIST, "import rospy\n", "import rospy\nimport wx\n"), put(JOY2TWIST, *tried("pass"))], "C14", ("joy2twist.py:4", "in: import wx\n")),
+    ("4.3", "an except that prints the error", [put(JOY2TWIST, "import Joy", "import Joy as Stick"), put(JOY2TWIST, *tried("print(error)"))], "C14", ("joy2twist.py:19", "Joy, callback)\n")),
+    ("4.3", "an except that prints another text", [put(JOY2TWIST, "import Joy", "import Joy as Stick"), put(JOY2TWIST, *tried("print('no luck')"))], "C14", ("joy2twist.py:19", "(`except Exception as error:` in line 27 shows another text)")),
+    ("4.3", "another topic and type, and it ends", [put(JOY2TWIST, '"/joy", Joy', '"/stick", Twist'), put(JOY2TWIST, "    rospy.spin()\n", "")], "C14", ("it ended, exit code 0", "subscribes to /stick, Twist", "rospy.spin() is missing")),
     node("init_node missing", "    rospy.init_node('listener', anonymous=True)\n", "", "C14", "init_node"),
     node("spin missing", "    rospy.spin()\n", "", "C14", "rospy.spin()"),
     node("spin without ()", "rospy.spin()", "rospy.spin", "C14", "()"),
@@ -75,7 +89,8 @@ ROWS = [
     node("axis for axes under an except", f"    {X}\n    {Z}\n    {PUBLISH}", f"    try:\n        msg.linear.x = data.axis[1]\n        {Z}\n        {PUBLISH}\n    except:\n        pass", "C16", ("joy2twist.py:12", "axis", "hidden by `except:` in line 15")),
     node("forwards only", X, "msg.linear.x = max(0, data.axes[1])", "C16", "linear.x is 0 wherever axes[1] is below 0"),
     node("abs", X, "msg.linear.x = abs(data.axes[1])", "C16", "sign"),
-    node("sum", X, "msg.linear.x = data.axes[1] + data.axes[0]", "C16", "constant"),
+    node("sum", X, "msg.linear.x = data.axes[1] + data.axes[0]", "C16", "linear.x = 1.00 * axes[1] + 1.00 * axes[0]: two axes in one"),
+    node("difference", Z, "msg.angular.z = (data.axes[5] - data.axes[2]) / 2", "C16", "angular.z = -0.50 * axes[2] + 0.50 * axes[5]: two axes in one"),
     node("an offset", X, "msg.linear.x = data.axes[1] + 0.1", "C16", "released"),
     ("4.3", "one global Twist, published too early", [put(JOY2TWIST, "    msg = Twist()\n", ""), put(JOY2TWIST, "def callback(data):\n", "msg = Twist()\n\n\ndef callback(data):\n    pub.publish(msg)\n"), put(JOY2TWIST, f"{Z}\n    {PUBLISH}", Z)], "C16", "late"),
     node("sleep in the callback", PUBLISH, f"{PUBLISH}\n    rospy.sleep(0.1)", "C17", "sleep"),

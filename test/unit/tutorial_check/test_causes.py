@@ -1,5 +1,9 @@
 """From an error, and a line of the program, to the cause."""
 
+import re
+import subprocess
+import sys
+
 import pytest
 
 from tutorial_check.causes import explain, hider, misspelt, syntax_hint, traced
@@ -19,12 +23,57 @@ FORMAT = "TypeError: not enough arguments for format string"
         ("cannot import name 'Twist' from 'geometry_msgs' (/x)", "", "in .msg: from g"),
         ("ImportError: cannot import name 'Joy' from 'std_msgs.msg' (/x)", "", "Joy is in sensor"),
         ("NameError: name 'Twist' is not defined. Did you mean: 'twist'?", "", "not imported"),
+        ("ModuleNotFoundError: No module named 'std_msg'", "", "from std_msgs.msg import"),
+        ("ModuleNotFoundError: No module named 'serail'", "", "look at its spelling, serial?"),
+        ("ModuleNotFoundError: No module named 'tf.foo'", "", "tf has no module foo"),
+        ("No module named 'joy.msg'; 'joy' is not a package", "", "since Hydro"),
+        ("ROSException: ROS node has not been initialized yet.", "", "before Subscriber and Pub"),
         (FORMAT, 'rospy.loginfo("%.2f %.2f" % data.axes[0])', "leave [ ] out"),
     ],
 )
 def test_causes(error, line, word):
     assert word in explain(error, line)
     assert explain("ZeroDivisionError: division by zero", line) == ""
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "print 'x'", "if x: print x", "print >>f, 'x'", "print ('%d') % 5", "exec 'x = 1'",
+        "raise ValueError, 'x'", "x = `5`", "if 1 <> 2: pass", "x = 10L", "x = ur'x'", "x = 0777",
+        "def f(a, (b, c)): pass", "try: pass\nexcept (IOError, OSError), e: pass", "raw_input()",
+        "import urllib2", "import ConfigParser as c", "{}.has_key(1)", "{}.iteritems()",
+        "import sys; sys.maxint", "from itertools import izip", "iter([]).next()", "unicode('x')",
+    ],
+)  # fmt: skip
+def test_python_2(line):
+    """Each in a program of its own, as Python 3 refuses it."""
+    facts = read_python(line)
+    if facts.error:
+        hint = syntax_hint(facts.error, facts.error_text, "/x.py")
+    else:
+        with pytest.raises(Exception) as caught:
+            exec(line, {"f": sys.stderr})
+        hint = explain(repr(caught.value) + str(caught.value), line, "/x.py")
+    is_legal_now = sys.version_info >= (3, 14) and "except (" in line
+    assert hint.startswith("this is Python 2: 2to3 -w /x.py") or is_legal_now
+
+
+def test_the_hint_for_python_2_works(tmp_path):
+    """Its command makes a program of what Python 3 refuses; Debian 13 has this one alone."""
+    pytest.importorskip("fissix")
+    program = tmp_path / "old.py"
+    program.write_text("try:\n    print 0777\nexcept IOError, error:\n    print `error`\n")
+    hint = explain("name 'xrange' is not defined", "", str(program))
+    command = re.search(r"python3 (-m fissix -w \S+)\)", hint)[1].split()
+    subprocess.run([sys.executable, *command], check=True, capture_output=True)
+    assert not read_python(program.read_text()).error
+
+
+@pytest.mark.parametrize("line", ["x = f(", "rospy.init_node(`talker')", "x y", "print = (5"])
+def test_what_is_no_python_2(line):
+    facts = read_python(line)
+    assert "Python 2" not in syntax_hint(facts.error, facts.error_text)
 
 
 @pytest.mark.parametrize(

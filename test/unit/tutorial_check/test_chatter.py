@@ -30,8 +30,9 @@ def asked(make_session):
         )
         about = {
             "talkers": [program], "listener": program, "talker_ended": ended, "heard": [],
-            "listener_ended": ended, "master_alive": True, "publishers": {}, "types": {},
-            "subscribers": {"/chatter": 1}, "warnings": [], "strings": ["A", "B"], "taken": {},
+            "listener_ended": ended, "master_alive": True, "publishers": {}, "published": {},
+            "types": {}, "subscribers": {"/chatter": 1}, "warnings": [], "strings": ["A", "B"],
+            "taken": {},
         }  # fmt: skip
         session.run = lambda key, make: SimpleNamespace(**{**about, **recorded})
         return check(session)

@@ -14,6 +14,7 @@ from tutorial_check.exercises.probing import (
     probes,
     silence,
     small_and_button_probes,
+    values_shown,
 )
 
 JOYS = numbered_joys(20)
@@ -54,6 +55,8 @@ def test_no_two_joys_are_alike_and_lb_is_held():
         ("max(0.0, a[1]) ** 2, a[0]", "linear.x is 0 wherever axes[1] is below", ""),
         ("round(a[1], 1), a[0]", "linear.x has steps, as 0.30, 0.40, 0.50", ""),
         ("0.7 if a[1] > 0 else -0.7, a[0]", "linear.x has steps, as 0.70", ""),
+        ("a[1] - 0.5 * a[3], a[0]", "linear.x = 1.00 * axes[1] - 0.50 * axes[3]: two axes", ""),
+        ("a[1], a[5] + a[2]", "angular.z = 1.00 * axes[2] + 1.00 * axes[5]: two axes", ""),
         ("a[1], 0.0, a[0]", "linear.y follows axes[0], angular.z stays 0", ""),
         ("a[1], -INF if a[0] < 0 else a[0]", "angular.z is -inf, which is no number", ""),
     ],
@@ -125,6 +128,15 @@ def test_what_came_before_does_not_matter(convert, words):
 def test_silence_when_one_axis_alone_is_moved_is_named():
     (axes, held), alone = JOYS[0], (0.5, *(0.0,) * 5)
     assert "with axes[1] = 0" in silence((alone, held), (axes, held), (0.3,))[0]
+
+
+@pytest.mark.parametrize(
+    ("shape", "count"),
+    [("{1:.2f}", 1), ("{0:.2f} {5:.3f}", 2), ("nothing of it", 0), (6 * "{:.2f}\n", 1)],
+)
+def test_how_many_values_are_shown(shape, count):
+    lines = [f"[INFO] [1700000000.1]: 0.5 /listener: {shape.format(*axes)}" for axes in AXES]
+    assert values_shown(JOYS, "\n".join(lines)) == count
 
 
 @pytest.mark.parametrize("shape", ["[" + "{:.2f}," * 6 + "]", "{:.4f} " * 6 + "buttons 0 1"])

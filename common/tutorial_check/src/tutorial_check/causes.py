@@ -6,6 +6,8 @@ import difflib
 import re
 from typing import Collection, Mapping
 
+from tutorial_check.debian_packages import MODULES, in_place_of, package_of_module
+from tutorial_check.python2 import porting
 from tutorial_check.python_facts import PythonFacts
 
 # The messages of the handout, and what else its packages are often asked for: the package of each.
@@ -34,14 +36,16 @@ name '(?P<m>MESSAGE)' is not defined
     {m} is not imported: from HOME.msg import {m}
 """
 CAUSES = r"""
-No module named '(?P<m>std|sensor|geometry|nav)\w*'
+No module named 'joy[.']|cannot import name '\w+' from 'joy[.']
+    Joy is in sensor_msgs since Hydro: from sensor_msgs.msg import Joy
+No module named '(?P<m>std|sensor|geometry|nav)(?:_?(?:msgs?|messages?))?(?:\.\w+)?'
     the module is written with _msgs: from {m}_msgs.msg import ...
-No module named '(?P<m>[^']+)'
-    there is no module {m}: look at the spelling in the import line
-cannot import name '(?P<m>[^']+)'
-    there is no message {m}: look at the spelling, capitals count
-client code must call rospy\.init_node
-    rospy.init_node(...) must come before the first use of ROS
+No module named '(?P<n>[^']+)\.(?P<m>[^'.]+)'
+    {n} has no module {m}: look at the spelling; or the file was not handed in
+cannot import name '(?P<m>[^']+)' from '(?P<n>[^']+)'
+    {n} has no {m}: look at the spelling, capitals count
+client code must call rospy\.init_node|node has not been initialized
+    rospy.init_node(...) must come before the first use of ROS: before Subscriber and Publisher
 name 'pub' is not defined
     pub belongs to another function: write `global pub` where it is made, before the subscriber
 (?:name|local variable) 'data' (?:is not defined|referenced)
@@ -106,8 +110,6 @@ PermissionError|Read-only file system|Permission denied
 SYNTAX = r"""
 \A.*U\+00A0|\n.*\xa0
     invisible blanks came from the PDF: type them anew, or sed -i 's/\xc2\xa0/ /g' FILE
-\A.*call to 'print'|\n\s*print\s+[^(=]
-    that is Python 2: print(...) has parentheses
 \n.*[‘’“”]
     curly quotes came from the PDF: type " or ' instead
 \A.*invalid character '(?P<m>[□₽])'
@@ -145,7 +147,11 @@ def _rows(text: str) -> list[tuple[str, str]]:
 
 
 IMPORTS = [MISSING_IMPORTS.replace("MESSAGE", one).replace("HOME", HOMES[one]) for one in HOMES]
-ROWS = [row for text in (*IMPORTS, CAUSES) for row in _rows(text)]
+NO_KEYBOARD = "there is no keyboard here (stdin is empty): the program has to work without a key"
+TYPED = r"termios\.error|Inappropriate ioctl|EOF when reading a line|_curses\.error", NO_KEYBOARD
+ROWS = [TYPED, *(row for text in (*IMPORTS, CAUSES) for row in _rows(text))]
+# Modules that may have been meant by one that is not there.
+COMMON = [*MODULES.split(), *HOMES.values(), "nav_msgs", "rospy", "roslib", "math", "time", "numpy"]
 
 
 def _explained(rows: list[tuple[str, str]], text: str) -> str:
@@ -156,14 +162,29 @@ def _explained(rows: list[tuple[str, str]], text: str) -> str:
     return ""
 
 
-def explain(error: str, text: str = "") -> str:
-    """Return what an error most often means here, in a line of that text; empty if unknown."""
-    return _explained(ROWS, f"{error}\n{text}")
+def explain(error: str, text: str = "", file: str = "FILE") -> str:
+    """Return what an error most often means here, in a line of that text of a file; or empty."""
+    found = re.search(r"No module named '([^'.]+)'", error)
+    hint = porting(error, text, file) or _explained(ROWS, f"{error}\n{text}")
+    return hint or (_absent(found[1]) if found else "")
 
 
-def syntax_hint(message: str, text: str) -> str:
+def syntax_hint(message: str, text: str, file: str = "FILE") -> str:
     """Return what a SyntaxError most often means here. text: the message's line of the program."""
-    return _explained(_rows(SYNTAX), f"{message}\n{text}")
+    return porting(message, text, file) or _explained(_rows(SYNTAX), f"{message}\n{text}")
+
+
+def _absent(module: str) -> str:
+    """Return what to do about a module that is not there."""
+    package, instead = package_of_module(module), in_place_of(module)
+    if package:
+        return f"{module} is not installed here: sudo apt install {package}"
+    if instead:
+        return f"Debian lacks {module}: {instead}"
+    near = difflib.get_close_matches(module, COMMON, 1, 0.75)
+    if near:
+        return f"there is no module {module}: look at its spelling, {near[0]}?"
+    return f"there is no {module} here: hand in your own file with the program, or install it"
 
 
 def with_import(line: str, message: str, facts: PythonFacts) -> str:

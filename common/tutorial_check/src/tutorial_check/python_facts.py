@@ -7,11 +7,12 @@ import re
 import warnings
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Iterable, Iterator, Tuple, Union
+from typing import Any, Iterable, Iterator, Sequence, Tuple, Union
 
 from tutorial_check.class_facts import ClassFacts, class_facts
-from tutorial_check.python_text import last_name, python_lines, text_of
+from tutorial_check.python_text import is_broad, last_name, python_lines, text_of
 
+KEYBOARD = ("input", "raw_input", "tcgetattr", "setraw", "setcbreak", "initscr", "getch", "getchar")
 Place = Union[Tuple[int, str], Tuple[()]]  # (line, text), or empty: there is none
 
 
@@ -51,11 +52,7 @@ class PythonFacts:
         self.has_main = any(map(_is_main, self._nodes))
         self.loops = [node.lineno for node in self._of(ast.While)]
         self.globals = [node.lineno for node in self._of(ast.Global)]
-        self.broad_excepts = [
-            handler.lineno
-            for handler in self._of(ast.ExceptHandler)
-            if not handler.type or text_of(handler.type) in ("Exception", "BaseException")
-        ]
+        self.broad_excepts = list(filter(is_broad, self._of(ast.ExceptHandler)))
         self.bare_names = [  # (line, text) of statements that do nothing, as rospy.spin without ()
             (node.lineno, text_of(node.value))
             for node in self._of(ast.Expr)
@@ -174,6 +171,22 @@ class PythonFacts:
                     return node.lineno, name
         return ()
 
+    @property
+    def keyboard(self) -> int:
+        """The first line that reads the keyboard; 0 if none does."""
+        calls = (call.line for name in KEYBOARD for call in self.calls.get(name, []))
+        stdin = (node.lineno for node in self._of(ast.Attribute) if text_of(node) == "sys.stdin")
+        return min([*calls, *stdin], default=0)
+
+    def catcher(self, lines: Sequence[int]) -> ast.ExceptHandler | None:
+        """Return what catches an error. lines: of the calls to it, the innermost last."""
+        blocks = [block for block in self._of(ast.Try) if any(map(is_broad, block.handlers))]
+        for line in lines[::-1]:
+            around = [one for one in blocks if one.lineno <= line < one.handlers[0].lineno]
+            if around:
+                return max(around, key=lambda one: int(one.lineno)).handlers[-1]
+        return None
+
     def first(self, name: str) -> Call | None:
         return next(iter(self.calls.get(name, [])), None)
 
@@ -212,6 +225,12 @@ def _made(nodes: Iterable[ast.AST]) -> Iterator[tuple[int, str]]:
             yield node.lineno, node.id
         elif isinstance(node, ast.arg):
             yield node.lineno, node.arg
+
+
+def shows(handler: ast.ExceptHandler) -> bool:
+    """Return whether it displays anything."""
+    calls = (node for node in ast.walk(handler) if isinstance(node, ast.Call))
+    return any(re.match("print|log|write|error|warn|exception", last_name(call)) for call in calls)
 
 
 def _is_main(node: ast.AST) -> bool:

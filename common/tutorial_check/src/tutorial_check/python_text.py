@@ -48,3 +48,8 @@ def text_of(node: ast.AST) -> str:
 
 def last_name(node: ast.Call) -> str:
     return text_of(node.func).rsplit(".", 1)[-1]
+
+
+def is_broad(handler: ast.ExceptHandler) -> bool:
+    """Return whether it catches every kind of error."""
+    return not handler.type or text_of(handler.type) in ("Exception", "BaseException")

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from tutorial_check import student_files
-from tutorial_check.causes import explain, hider, syntax_hint, traced
+from tutorial_check.causes import NO_KEYBOARD, explain, hider, syntax_hint, traced
 from tutorial_check.model import Note, Wrong
 from tutorial_check.python_facts import PythonFacts, read_python
 from tutorial_check.python_text import unreadable
@@ -17,6 +17,7 @@ from tutorial_check.rows import Row, find
 from tutorial_check.session import Session
 from tutorial_check.tracebacks import Traceback, first_traceback, last_lines
 
+COPY = re.compile(r"checked_\d+_")  # a program with one thing changed; see Session.sibling
 # env -S takes arguments
 INTERPRETER = re.compile(rb"#!\s*(\S+)(?:\s+(?:-S\s*)?(?:\w+=\S*\s+)*(\S+))?")
 
@@ -32,15 +33,22 @@ def find_script(session: Session, package: str, name: str) -> str:
     if found:
         return str((runnable or found)[0].relative_to(folder))
     others = {path.name: path for path in files if path.name != "CMakeLists.txt"}
-    near = [other for other in others if other.lower().startswith(name) or other.lower() == name]
+    compiled = [path for path in files if path.suffix in (".cpp", ".cc", ".cxx", ".c")]
+    compiled.sort(key=lambda path: path.stem != name[:-3])
+    texts = [each for each in others if others[each].suffix.lower() in ("", ".py", ".txt")]
+    near = [other for other in others if other.lower().startswith(name)]
     # new_joy2twist.py is another program, and no misspelt joy2twist.py.
-    near = near or difflib.get_close_matches(name, [o for o in others if name not in o], 1, 0.75)
+    near = near or difflib.get_close_matches(name, [o for o in texts if name not in o], 1, 0.75)
     if near:
         other = others[near[0]]
         paths = (session.whole(path, package) for path in (other, other.with_name(name)))
         hint = f"mv {' '.join(paths)}: capitals, underscores and the ending count"
         where = str(other.relative_to(folder))
         raise Wrong(f"a program {name}", f"a file {near[0]}", where, hint)
+    if compiled:
+        seen = f"a program in C++, {compiled[0].name}"
+        hint = f"the exercise asks for Python, rospy: write scripts/{name}; the C++ may stay"
+        raise Wrong(f"a program {name}", seen, str(compiled[0].relative_to(folder)), hint)
     expected = f"a program {name} in the package {package}"
     hint = f"create scripts/{name} in YOUR package; ./tutorial shell without --in has one of OURS"
     wrong = Wrong(expected, "no such file anywhere in it", "", hint)
@@ -82,7 +90,7 @@ class Text:
         self.further = "; #! stands further down" if b"\n#!" in self.data else ""
         self.facts = session.scripts(package).get(script)
         self.error = self.facts and self.facts.error
-        self.python_hint = self.error and syntax_hint(self.error, self.facts.error_text)
+        self.python_hint = self.error and syntax_hint(self.error, self.facts.error_text, self.whole)
         self.is_runnable = is_runnable(session, package, path)
 
     @property
@@ -185,7 +193,7 @@ def odd_node(session: Session, package: str, script: str) -> Note | None:
 
 def cause_of(session: Session, package: str, name: str, trace: Traceback) -> tuple[str, str]:
     """Return (the line to blame, what to do) for a Traceback of the program of that name."""
-    name = re.sub(r"^checked_\d+_", "", name)
+    name = COPY.sub("", name)
     script = next((each for each in session.scripts(package) if Path(each).name == name), "")
     script = trace.where.rpartition(":")[0] or script
     if not script:
@@ -196,12 +204,12 @@ def cause_of(session: Session, package: str, name: str, trace: Traceback) -> tup
     if not line and function:  # called by rospy itself
         line = facts.names.get(function[1], 0)
     line, hint = traced(trace.error, line, facts)
-    hint = hint or explain(trace.error, trace.text)
+    hint = hint or explain(trace.error, trace.text, session.whole(COPY.sub("", script), package))
     file, hides = hider(trace.error, script, session.scripts(package))
     if hides:
         return file or f"{script}:{line}", hides
     if re.match("ImportError|ModuleNotFoundError", trace.error) and session.lacks_build:
-        fails = "catkin_make, which may have to make it, fails: exercise 2 says why"
+        fails = "catkin_make, which may have to make it, fails: run it, it says why"
         hint = "; ".join(filter(None, (hint, fails)))
     return f"{script}:{line}" if line else "", hint
 
@@ -252,8 +260,20 @@ def misnamed_init(methods: list[str]) -> str:
     return next((each for each in methods if re.fullmatch(r"_*init_*", each)), "")
 
 
+def with_end(wrong: Wrong, facts: PythonFacts, script: str) -> Wrong:
+    """Return the Wrong for a program that ended, with what its text shows if its output does not."""
+    if not wrong.where:
+        asked = facts.first("Subscriber")
+        wrong.seen += f"; it subscribes to {', '.join(asked.words[:2])}" if asked else ""
+        wrong.where, hint = silent_end(facts, script)
+        wrong.hint = hint if ":" in wrong.where else wrong.hint or hint
+    return wrong
+
+
 def silent_end(facts: PythonFacts, script: str) -> tuple[str, str]:
     """Return (where, hint) for a program that ends at once, as far as its text shows."""
+    if facts.keyboard:
+        return f"{script}:{facts.keyboard}", NO_KEYBOARD
     for line, text in facts.bare_names:
         if text.endswith(("spin", "listener")):
             return f"{script}:{line}", f"{text} needs its (): {text}()"
@@ -266,18 +286,11 @@ def silent_end(facts: PythonFacts, script: str) -> tuple[str, str]:
             hint = f"it is never made: {one.name}() under if __name__ == '__main__':"
             return f"{script}:{one.line}", hint
     if facts.sunken_main:
-        return sunken_main(facts, script)
+        line, function = facts.sunken_main
+        hint = f"line {line} stands within {function}(): move it, and what is below it, to the left"
+        return f"{script}:{line}", f"{hint} margin"
     if "spin" not in facts.calls:
         return script, "rospy.spin() is missing: without it the program comes to its end"
     if not facts.has_main:
         return script, "listener() is never called: if __name__ == '__main__': listener()"
-    return script, "is the function called, in the last line, and with ()?"
-
-
-def sunken_main(facts: PythonFacts, script: str) -> tuple[str, str]:
-    """Return (where, hint) for a __main__ that stands within a function, or empty texts."""
-    if not facts.sunken_main:
-        return "", ""
-    line, function = facts.sunken_main
-    hint = f"line {line} stands within {function}(): move it, and what is below it, to the left"
-    return f"{script}:{line}", f"{hint} margin"
+    return script, "is listener() called, in the last line, and with ()?"

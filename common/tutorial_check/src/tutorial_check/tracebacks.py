@@ -13,10 +13,21 @@ class Traceback:
     error: str  # "NameError: name 'pub' is not defined"
     where: str = ""  # "scripts/joy2twist.py:14", the student's own line
     text: str = ""  # of that line
+    places: tuple[str, ...] = ()  # of all calls to it, the outermost first
+
+    @property
+    def message(self) -> str:
+        """What str() of the exception gives."""
+        return re.sub(r"^[\w.]+: |\. Did you mean: .*", "", self.error)
+
+    def lines_of(self, script: str) -> list[int]:
+        return [
+            int(place[len(script) + 1 :]) for place in self.places if place.startswith(f"{script}:")
+        ]
 
 
 FRAME = re.compile(r'^\s*File "(?P<file>[^"]+)", line (?P<line>\d+)')
-ERROR = re.compile(r"^(?:[A-Za-z_][\w.]*(?:Error|Exception|NotFound|Interrupt|Exit)\b.*)$")
+ERROR = re.compile(r"^(?:[A-Za-z_][\w.]*(?:[Ee]rror|Exception|NotFound|Interrupt|Exit)\b.*)$")
 # Said of a node that is just being ended: rospy closes topics shortly before it says so. No mistake.
 CLOSED = re.compile(r"publish\(\) to a closed topic|topic was closed during publish\(\)")
 ABOVE = "During handling of the above exception"
@@ -40,19 +51,21 @@ def first_traceback(output: str, folder: str) -> Traceback | None:
 
 def _traceback(block: str, folder: str) -> Traceback:
     lines = [*block.splitlines(), ""]
-    where = text = ""
+    error, text, places = lines[-2], "", [""]
     for line, below in zip(lines[1:], lines[2:]):
         frame = FRAME.match(line)
         if frame and frame["file"].startswith(folder):
-            where = f"{frame['file'][len(folder) :].lstrip('/')}:{frame['line']}"
+            places.append(f"{frame['file'][len(folder) :].lstrip('/')}:{frame['line']}")
             text = below.strip()
         elif ERROR.match(line):
-            return Traceback(line.strip(), where, text)
-    return Traceback(lines[-2].strip(), where, text)
+            error = line
+            break
+    return Traceback(error.strip(), places[-1], text, tuple(places))
 
 
 def last_lines(output: str, count: int = 3) -> str:
     """Return the end of an output, in one line, without colours."""
     plain = re.sub(r"\x1b\[[0-9;]*m", "", output)
-    lines = [line.strip() for line in plain.splitlines() if line.strip()]
+    # Of what rospy says of types that differ, the md5sum is most.
+    lines = [line.strip() for line in plain.splitlines() if line.strip() and "md5sum" not in line]
     return " / ".join(line[:200] for line in lines[-count:])

@@ -56,7 +56,7 @@ class FakeTurtlebot:
         # Absolute, as every listener of tf2 subscribes to it; one message for all robots.
         self._tf = PromptPublisher("/tf", TFMessage)
         self._topics = [
-            RobotTopics(name, pose, parameters, self._motion, log.warn)
+            RobotTopics(name, pose, parameters, self._motion, log)
             for name, pose in parameters.start_poses().items()
         ]
         self._transforms = TFMessage()

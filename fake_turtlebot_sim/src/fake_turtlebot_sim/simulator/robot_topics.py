@@ -18,6 +18,7 @@ from fake_turtlebot_sim.simulator.ros_clock import Instant, Motion
 from fake_turtlebot_sim.simulator.ros_messages import RobotMessages, between_frames, pose_on_plane
 from fake_turtlebot_sim.simulator.simulated_robot import REST, SimulatedRobot, Verdict
 from node_kit.fresh_only import FreshOnly
+from node_kit.log import Log
 from node_kit.prompt_publisher import PromptPublisher
 
 
@@ -30,15 +31,15 @@ class RobotTopics:
         start_pose: Pose,
         parameters: Parameters,
         motion: Motion,
-        warn: Callable[[str], object],
+        log: Log,
     ) -> None:
-        """Take the Motion of all robots; warn() gets a line for the user and must not wait."""
+        """Take the Motion of all robots."""
         prefix = f"{name}/" if name else ""
         self.name = name
         self._name = name or "the robot"
         self._motion = motion
         self._fresh = FreshOnly(motion.suspensions)
-        self._warn = warn
+        self._log, self._warn = log, log.warn
         self._reported: set[str] = set()
         self._has_ended = False
         self._timeout_s = parameters.cmd_vel_timeout
@@ -77,10 +78,11 @@ class RobotTopics:
     def move(self, now: Instant) -> None:
         """Move the robot to the present and take its messages; call while the motion is held."""
         if self.robot.advance(now.motion_ns):
-            self._warn_once(
+            what = (
                 f"no command came for {self._timeout_s:g} s, so it stopped in the middle of a"
                 " motion; send more often, or set ~cmd_vel_timeout (0: never)"
             )
+            self._report_once(what, self._log.info)
         self.messages.fill(self.robot, now.stamp)
         self._sensed = self._kobuki.messages(now.stamp) if self._kobuki else []
 
@@ -122,12 +124,12 @@ class RobotTopics:
             verdict = self.robot.command((twist.linear.x, twist.angular.z), now.motion_ns)
             self.rejected += verdict is Verdict.REJECTED
         if verdict is not Verdict.ACCEPTED:
-            self._warn_once(verdict.value)
+            self._report_once(verdict.value, self._log.warn)
 
-    def _warn_once(self, what: str) -> None:
+    def _report_once(self, what: str, report: Callable[[str], object]) -> None:
         if what not in self._reported:
             self._reported.add(what)
-            self._warn(f"cmd_vel of {self._name}: {what}")
+            report(f"cmd_vel of {self._name}: {what}")
 
     def _is_old(self, twist: Any, now: Instant) -> bool:
         """Return whether it was sent during a suspension, which stops the robot."""

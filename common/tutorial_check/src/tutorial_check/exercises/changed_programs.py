@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from typing import Iterable
 
-from tutorial_check.python_text import last_name, python_lines, text_of
+from tutorial_check.python_text import is_broad, last_name, python_lines
 
 
 def _nodes(text: str) -> list[ast.AST]:
@@ -25,12 +25,8 @@ def unmasked(text: str) -> str | None:
     Every line keeps its number, and its margin of blanks or tabs.
     """
     lines = python_lines(text)
-    hidden = [
-        node
-        for node in _nodes(text)
-        if isinstance(node, ast.ExceptHandler)
-        and (node.type is None or text_of(node.type) in ("Exception", "BaseException"))
-    ]
+    every = [node for node in _nodes(text) if isinstance(node, ast.ExceptHandler)]
+    hidden = [handler for handler in every if is_broad(handler)]
     for handler in hidden:
         if handler.type:
             _put(lines, handler.type, handler.type.end_col_offset or 0, "()")

@@ -9,6 +9,7 @@ from tutorial_check.causes import with_import
 from tutorial_check.course import check
 from tutorial_check.exercises.changed_programs import flipped_anonymous
 from tutorial_check.exercises.talking import (
+    KIND,
     LISTEN_S,
     PACKAGE,
     TOPIC,
@@ -19,12 +20,13 @@ from tutorial_check.exercises.talking import (
 )
 from tutorial_check.model import Note, Wrong, master_gone
 from tutorial_check.rows import Row, demand
-from tutorial_check.scripts import check_end, check_file, crash, odd_node, sunken_main
+from tutorial_check.scripts import check_end, check_file, crash, odd_node, with_end
 from tutorial_check.session import Session
 
 TALKS = "std_msgs/String on /chatter, about 10 times a second"
 LISTENS = "every text sent on /chatter, displayed once"
 GOES_ON = "it goes on until Ctrl-C"
+LOOP = "while not rospy.is_shutdown(): ..., rate.sleep() within it"
 RATE_TOLERANCE = 0.2  # of a rate that is asked for
 FEW = 3  # messages: too few for a rate
 
@@ -43,41 +45,30 @@ class Half:
         self.publisher = f"{script}:{made.line if made else 1}"
         self.subscriber = f"{script}:{asked.line}" if asked else script
         self.has_failed = "Traceback" in program.output or program.spins
-        self.sent_on = other_topic(talk.publishers, TOPIC)
-        self.heard_on = TOPIC not in talk.subscribers and other_topic(talk.subscribers, TOPIC)
+        heard_on = other_topic(talk.subscribers, TOPIC, talk.types, KIND)
+        self.heard_on = TOPIC not in talk.subscribers and heard_on
         # The type that the Subscriber asks for, and that on /chatter, where it is no String.
         refused = [line for line in talk.warnings if "datatype" in line]
         kind = asked.words[1].rpartition(".")[2] if asked and len(asked.words) > 1 else "String"
         other = "another type of message" if any("chatter" in line for line in refused) else ""
         self.wanted = kind if kind != "String" else other
-        kind = talk.types.get(TOPIC, "std_msgs/String")
-        is_other = TOPIC in talk.publishers and kind != "std_msgs/String"
-        self.carried = kind if is_other or refused else ""
+        kind = talk.published.get(TOPIC, KIND)
+        self.carried = kind if kind != KIND or (refused and TOPIC in talk.published) else ""
+        self.sent_on = other_topic(talk.published, TOPIC, talk.published, KIND)
+        ends = talk.talker_ended and not self.has_failed
+        self.end, self.goes_on = (", and it ends by itself", f"; and {LOOP}") if ends else ("", "")
         # With or without colours or a separator.
         lines = program.output.splitlines()
         self.times = [sum(text in line for line in lines) for text in talk.strings]
         self.found, self.total = sum(map(bool, self.times)), len(talk.strings)
 
     def crash(self, expected: str, hint: str = "") -> Wrong:
-        place, meant = sunken_main(self.facts, self.script)
-        wrong = crash(self.session, PACKAGE, self.program, expected, meant or hint)
-        wrong.where = wrong.where or place
-        return wrong
+        wrong = crash(self.session, PACKAGE, self.program, expected, hint)
+        return with_end(wrong, self.facts, self.script)
 
     def silent_talker(self) -> Wrong:
         loops = ", and does it loop: while not rospy.is_shutdown()" if self.facts.has_main else ""
         return self.crash(TALKS, f"does the last line call talker(){loops}?")
-
-    def ended_listener(self) -> Wrong:
-        hint = "does the last line call listener()?"
-        if "spin" not in self.facts.calls:
-            hint = "rospy.spin() at the end of listener() keeps it alive"
-        wrong = self.crash(GOES_ON, hint)
-        bare = [line for line, text in self.facts.bare_names if text.endswith("spin")]
-        if bare and not wrong.where:
-            wrong.where, wrong.hint = f"{self.script}:{bare[0]}", "rospy.spin needs its ():"
-            wrong.hint += " rospy.spin()"
-        return wrong
 
     @property
     def second_line(self) -> str:
@@ -90,10 +81,12 @@ class Half:
 
 
 SILENT_TALKER = (
-    Row(lambda h: h.talk.talker_ended or h.has_failed, lambda h: h.silent_talker()),
-    Row(lambda h: h.carried, "/chatter carries {found}", "{f.publisher_line}", "{f.publisher}"),
-    Row(lambda h: h.sent_on, "it publishes on {found}", "the topic is called chatter",
+    Row(lambda h: h.has_failed, lambda h: h.silent_talker()),
+    Row(lambda h: h.carried, "/chatter carries {found}{f.end}", "{f.publisher_line}{f.goes_on}",
+        "{f.publisher}", sure=True),
+    Row(lambda h: h.sent_on, "it publishes on {found}{f.end}", "{f.publisher_line}{f.goes_on}",
         "{f.publisher}"),
+    Row(lambda h: h.talk.talker_ended, lambda h: h.silent_talker()),
     Row(lambda h: True, "not one message", "is publish(...) called within the loop?", "{f.script}"),
 )  # fmt: skip
 DEAF_LISTENER = (
@@ -138,8 +131,7 @@ def talker(session: Session) -> Note | str:
     if not talk.heard:
         demand(SILENT_TALKER, half, TALKS)
     if talk.talker_ended:
-        hint = "while not rospy.is_shutdown(): ..., rate.sleep() within it"
-        raise crash(session, PACKAGE, half.program, GOES_ON, hint)
+        raise crash(session, PACKAGE, half.program, GOES_ON, LOOP)
     times = [when for when, caller, _ in talk.heard if caller == talk.heard[0][1]]
     wanted = session.task.values.get("rate")
     if len(times) < FEW and not wanted:
@@ -167,7 +159,7 @@ def talker(session: Session) -> Note | str:
 def listener(session: Session) -> Note | None:
     half = _half(session, is_talker=False)
     if half.talk.listener_ended:
-        raise half.ended_listener()
+        raise half.crash(GOES_ON)
     if half.found < half.total:
         demand(DEAF_LISTENER, half, LISTENS)
     if min(half.times) < 2:

@@ -210,7 +210,7 @@ def errors_are_seen(session: Session) -> Note | str | None:
         stage.wait_for_start(lambda: broken is None or broken.ended)
         has_ended, broken_ended = alone.ended, broken is not None and broken.ended
     excepts = session.scripts(PACKAGE)[path].broad_excepts
-    where = f"{path}:{excepts[0]}" if excepts else path
+    where = f"{path}:{excepts[0].lineno}" if excepts else path
     if has_ended and not REPORTS.search(alone.output):
         seen = f"nobody publishes on /joy, and it ends; it printed: {last_lines(alone.output) or 'nothing'}"
         hint = "a Subscriber waits by itself, for as long as it takes; what an except catches, it should show"

@@ -6,7 +6,8 @@ import statistics
 
 from tutorial_check.exercises.dialogue import Conversation
 from tutorial_check.exercises.driving import CMD_VEL, COUNT, JOY, Drive
-from tutorial_check.exercises.mapping import judge
+from tutorial_check.exercises.mapping import AXES, judge
+from tutorial_check.exercises.probing import ROUNDED
 from tutorial_check.model import Note, master_gone
 from tutorial_check.rows import Row, demand
 from tutorial_check.session import Session
@@ -34,7 +35,8 @@ CONNECTED = (
         "its Subscriber has no callback", "{f.joy_line}", "{f.script}:{found.line}", sure=True),
 )  # fmt: skip
 NOT_CONNECTED = (
-    Row(lambda c: c.seen.program.spins or c.seen.trouble, lambda c: c.crash()),
+    Row(lambda c: c.seen.program.spins, lambda c: c.end()),
+    CRASHED,
     HIDDEN,
     ENDED,
     Row(lambda c: JOY in c.seen.publishers and c.seen.types.get(JOY, "?"),
@@ -44,7 +46,7 @@ NOT_CONNECTED = (
         "it subscribes to {found}", "the topic is called /joy, in lower case",
         "{f.at[Subscriber]}"),
     Row(lambda c: c.heard_on,
-        "it subscribes to {found}", "the topic is called /joy", "{f.at[Subscriber]}"),
+        "it subscribes to {found}", "{f.joy_line}", "{f.at[Subscriber]}"),
     Row(lambda c: True, "it subscribes to nothing",
         "{f.joy_line}, after rospy.init_node and before rospy.spin()", "{f.at[Subscriber]}"),
 )  # fmt: skip
@@ -58,8 +60,9 @@ DISPLAYED = (
 )  # fmt: skip
 NOT_DISPLAYED = (
     HIDDEN,
-    Row(lambda c: c.found_values >= 2 and c.found_values,
-        "{found} of the six values of a message were found",
+    Row(lambda c: c.found_values(10 * ROUNDED) == AXES, "the six values have less than two decimals",
+        "%.2f for each value", "{f.script}"),
+    Row(lambda c: c.found_values(), "a line has {found} of the six values of a message",
         "all six: [%.2f, %.2f, %.2f, %.2f, %.2f, %.2f] % data.axes", "{f.script}"),
     Row(lambda c: "logdebug" in c.calls and "Publisher" in c.calls,
         "it logs at the level debug, which is not shown", note=True),
@@ -83,7 +86,7 @@ NO_TOPIC = (
         "it publishes on {found}", "the topic is called /cmd_vel; that of the TurtleBot stands in"
         " the launch file alone, in a <remap>", "{f.at[Publisher]}"),
     Row(lambda c: c.sent_on,
-        "it publishes on {found}", "the topic is called /cmd_vel", "{f.at[Publisher]}"),
+        "it publishes on {found}", "{f.twist_line}", "{f.at[Publisher]}"),
     Row(lambda c: c.facts.first("Publisher"), "it publishes nothing",
         "{f.twist_line}, and publish(msg) in the callback", "{f.at[Publisher]}"),
     Row(lambda c: True, "it publishes nothing: there is no rospy.Publisher in it",

@@ -9,14 +9,17 @@ import re
 from typing import Any, Sequence
 
 from tutorial_check.causes import with_import
+from tutorial_check.exercises import probing
 from tutorial_check.exercises.changed_programs import unmasked
-from tutorial_check.exercises.driving import CMD_VEL, JOY, Drive, drive
+from tutorial_check.exercises.driving import CMD_VEL, COLOUR, JOY, Drive, drive
 from tutorial_check.exercises.joystick_task import PACKAGE
 from tutorial_check.exercises.talking import other_topic
 from tutorial_check.model import Wrong
+from tutorial_check.python_facts import shows
 from tutorial_check.python_text import python_lines
-from tutorial_check.scripts import check_file, crash, silent_end
+from tutorial_check.scripts import check_file, crash, with_end
 from tutorial_check.session import Session
+from tutorial_check.tracebacks import first_traceback
 
 STRAYS = 2  # zeros in a row of Joys that may be
 
@@ -48,8 +51,8 @@ class Conversation:
         kind, own = seen.types.get(CMD_VEL), session.task.topic(CMD_VEL)
         refused = any("datatype" in line and own in line for line in seen.warnings)
         self.carried = kind if kind != "geometry_msgs/Twist" or refused else ""
-        self.heard_on = other_topic(seen.subscribers, JOY)
-        self.sent_on = other_topic(seen.publishers, JOY)
+        self.heard_on = other_topic(seen.subscribers, JOY, seen.types, "sensor_msgs/Joy")
+        self.sent_on = other_topic(seen.publishers, JOY, seen.types, "geometry_msgs/Twist")
         self.drivers = sorted(set(seen.publishers.get(CMD_VEL, ())))
         publishers = calls.get("Publisher", [])
         self.has_latch = any(call.names.get("latch") == "True" for call in publishers)
@@ -75,9 +78,8 @@ class Conversation:
         calls = (each[0] for name, each in self.calls.items() if name.endswith("_throttle"))
         return next((call.line for call in calls if self.seen.shows_numbers), 0)
 
-    @property
-    def found_values(self) -> int:
-        return sum(f"{abs(axis):.2f}" in self.seen.output for axis in self.seen.joys[3][0])
+    def found_values(self, within: float = probing.ROUNDED) -> int:
+        return probing.values_shown(self.seen.joys, COLOUR.sub("", self.seen.output), within)
 
     @functools.cached_property
     def repeated(self) -> tuple[int, bool]:
@@ -98,24 +100,25 @@ class Conversation:
 
     def crash(self) -> Wrong:
         """Return the Wrong for a program that failed; an except that hides the cause is removed."""
-        session, seen, excepts = self.session, self.seen, self.facts.broad_excepts
-        if excepts and not seen.program.spins and (seen.ended_early or not seen.trouble):
-            text = unmasked(session.text(PACKAGE, self.script))
+        session, seen = self.session, self.seen
+        text = unmasked(session.text(PACKAGE, self.script))
+        if text and not seen.program.spins and (seen.ended_early or not seen.trouble):
             key = ("unmasked", self.script)
-            if text:
-                copy = session.memo(key, lambda: session.sibling(PACKAGE, self.script, text))
-                shown = drive(session, copy)
-                if shown.trouble:
-                    return self._hidden(shown, crash(session, PACKAGE, shown.program, ""))
+            copy = session.memo(key, lambda: session.sibling(PACKAGE, self.script, text))
+            shown = drive(session, copy)
+            if shown.trouble:
+                return self._hidden(shown, crash(session, PACKAGE, shown.program, ""))
         return crash(session, PACKAGE, seen.program, "")
 
     def _hidden(self, shown: Drive, wrong: Wrong) -> Wrong:
-        """Return the same Wrong, with the except that hid it."""
-        failed = int(wrong.where.rpartition(":")[2] or 0)
-        line = min(self.facts.broad_excepts, key=lambda each: (each < failed, each))
-        text = python_lines(self.session.text(PACKAGE, self.script))[line - 1].strip()
+        """Return the same Wrong, with the except if that is what hid it."""
         wrong.where = wrong.where.replace(shown.script, self.script)
-        wrong.seen += f" (hidden by `{text}` in line {line})"
+        trace = first_traceback(shown.output, str(self.session.package(PACKAGE).folder))
+        catcher = self.facts.catcher(trace.lines_of(shown.script)) if trace else None
+        if trace and catcher and trace.message not in self.seen.output:
+            text = python_lines(self.session.text(PACKAGE, self.script))[catcher.lineno - 1].strip()
+            how = "{} shows another text" if shows(catcher) else "hidden by {}"
+            wrong.seen += f" ({how.format(f'`{text}` in line {catcher.lineno}')})"
         return wrong
 
     @functools.cached_property
@@ -124,10 +127,7 @@ class Conversation:
         return wrong if wrong and wrong.where else None
 
     def end(self) -> Wrong:
-        wrong = self.crash()
-        place, hint = silent_end(self.facts, self.script)
-        wrong.where, wrong.hint = wrong.where or place, wrong.hint or hint
-        return wrong
+        return with_end(self.crash(), self.facts, self.script)
 
     def odd(self) -> Wrong:
         """Return the Wrong for answers of another rule, at the line that sets the field."""

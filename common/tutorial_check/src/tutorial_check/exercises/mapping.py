@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import dataclass, field
 from typing import Iterable, Mapping, NamedTuple, Sequence, Tuple
@@ -102,6 +103,7 @@ class Field:
         self.values = [twist[index] for _, twist in evidence.samples]
         self.given = [axes[axis] for axes, _ in evidence.samples]
         self.across = [axes[1 - axis] for axes, _ in evidence.samples]
+        self.axes = [axes for axes, _ in evidence.samples]
         self.pairs = list(zip(self.given, self.values))
         self.rule = evidence.rules[index]
         self.wanted = evidence.factors.get(index)
@@ -134,6 +136,21 @@ class Field:
         values = [value for _, value in sorted((abs(given), value) for given, value in self.pairs)]
         varies = len({round(value, 6) for value in values}) > 0.6 * len(values)
         return values[0] > SMALL and _rises(values) and varies
+
+    @property
+    def mixture(self) -> str:
+        """The two axes whose sum, or difference, it is, each with its factor; or empty."""
+        order = sorted(range(AXES), key=lambda axis: axis != self.axis)
+        for i, j in itertools.combinations(order if len(self.values) > 3 else (), 2):
+            (a, b), (c, d) = ((axes[i], axes[j]) for axes in self.axes[:2])
+            one, other = self.values[:2]
+            whole = a * d - b * c or math.inf
+            p, q = (one * d - other * b) / whole, (other * a - one * c) / whole
+            both = zip(self.axes, self.values)
+            fits = all(abs(p * axes[i] + q * axes[j] - value) < 1e-3 for axes, value in both)
+            if fits and min(abs(p), abs(q)) > 0.05:
+                return f"{p:.2f} * axes[{i}] {'-' if q < 0 else '+'} {abs(q):.2f} * axes[{j}]"
+        return ""
 
     @property
     def adds_up(self) -> bool:
@@ -213,6 +230,7 @@ OF_A_FIELD = (
         "{found} follows axes[{f.axis}], {f.name} stays 0",
         "a robot in the plane drives along x and turns about z: linear.x and angular.z"),
     Row(lambda f: f.is_still, "{f.name} is always 0", JUST),
+    Row(lambda f: f.mixture, "{f.name} = {found}: two axes in one", JUST),
     Row(lambda f: factor_of(f.values[1:], f.given[:-1]),
         "{f.name} follows the Joy before: each Twist is one message late",
         "first put the values into the message, then publish it"),

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from tutorial_check.course import check
+from tutorial_check.debian_packages import packages_of_ros
 from tutorial_check.exercises.launch_text import debian_hint
 from tutorial_check.launch_xml import place_of, read
 from tutorial_check.manifests import unreadable
@@ -104,7 +105,9 @@ def _dependencies(session: Session, name: str) -> Any:
         missing = missing or (meant if not _is_known(session, each) else [])
     if not missing:
         return package
-    near = {each: difflib.get_close_matches(each, others, 1, 0.65) for each in missing}
+    # What is a package is not misspelt.
+    unknown = [o for o in others if not (packages_of_ros(o) or _is_known(session, o))]
+    near = {each: difflib.get_close_matches(each, unknown, 1, 0.65) for each in missing}
     seen = f"no {', '.join(missing)}"
     if missing[0] in package.depends:
         seen = f"{near[missing[0]][0]}, which is no package"
@@ -113,6 +116,8 @@ def _dependencies(session: Session, name: str) -> Any:
     # Format 1 knows no <depend>.
     kinds = ("build_depend", "run_depend") if package.format == 1 else ("depend",)
     hint = "add " + " and ".join(f"<{k}>{each}</{k}>" for each in missing for k in kinds)
+    if "rospy" in missing and "roscpp" in others:
+        seen, hint = f"{seen}, but roscpp", f"the exercise asks for Python, not for C++: {hint}"
     for each, (found,) in ((each, words) for each, words in near.items() if words):
         seen += f" (but {found})" if each not in package.depends else ""
         place = place_of(where, text, f">{found}<", found)
@@ -149,11 +154,11 @@ def _is_known(session: Session, name: str) -> bool:
     prefixes = session.underlay_environment.get("CMAKE_PREFIX_PATH", "").split(":")
     if any(each.name == name for each in session.packages):
         return True
+    file = f"cmake/{name}Config.cmake"
     with own_rights():
-        return any(
-            Path(prefix, "share", name, "cmake", f"{name}Config.cmake").is_file()
-            for prefix in (*prefixes, "/usr")
-        )
+        found = (Path(prefix, "share", name, file).is_file() for prefix in (*prefixes, "/usr"))
+        # Of a package with a library, as roscpp, Debian has it there.
+        return any(found) or any(Path("/usr/lib").glob(f"*/cmake/{name}/{name}Config.cmake"))
 
 
 def _cmake(package: Package) -> Any:

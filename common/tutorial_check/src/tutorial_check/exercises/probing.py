@@ -39,6 +39,7 @@ def _pressed(*pressed: int) -> tuple[int, ...]:
 
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e-?\d+)?")
 SLOW, STEP = 0.3, 0.005  # of rising_joys()
+ROUNDED = 0.0056  # to two decimals a value is off by no more
 EARLY_S = 0.06  # by which a Twist may seem to come before its Joy
 AT_REST: Joy = (REST, _pressed(LB))
 
@@ -53,8 +54,8 @@ def numbered_joys(count: int) -> list[Joy]:
     for k in range(count):
         forwards = (0.30 + 0.021 * k if k < count - 1 else 1.0) * (1 if k % 2 == 0 else -1)
         left = (0.25 + 0.017 * k if k != count - 2 else 1.0) * (1 if k % 4 < 2 else -1)
-        # In an order of their own, so that none of them is by chance in proportion to these two.
-        rest = [0.03 + 0.05 * (index - 2) + 0.002 * (7 * k % 20) for index in range(2, AXES)]
+        # Each in an order of its own, so that none is in proportion to another, or to a difference.
+        rest = [0.03 + 0.05 * n + 0.002 * (step * k % 20) for n, step in enumerate((7, 3, 9, 1))]
         joys.append(((left, forwards, *rest), _pressed(LB)))
     return joys
 
@@ -260,9 +261,20 @@ def delays(
 
 def displayed(joys: Iterable[Joy], output: str) -> list[Joy]:
     """Return the Joys of which a line has all axes, with two decimals or more."""
+    return [joy for joy, count in zip(joys, _shown(joys, output)) if count == len(joy[0])]
+
+
+def values_shown(joys: Iterable[Joy], output: str, within: float = ROUNDED) -> int:
+    """Return how many axes of a Joy a line has, as for three Joys; one may be there by chance."""
+    counts = sorted(_shown(joys, output, within))
+    return counts[-3] if counts[-3] > 1 else counts[len(counts) // 2]
+
+
+def _shown(joys: Iterable[Joy], output: str, within: float = ROUNDED) -> list[int]:
+    """Return for each Joy how many of its axes are in one line. No two of a Joy are as near."""
     lines = [[float(word) for word in NUMBER.findall(line)] for line in output.splitlines()]
 
-    def has(line: list[float], joy: Joy) -> bool:
-        return all(any(abs(axis - seen) < 0.0056 for seen in line) for axis in joy[0])
+    def count(line: list[float], axes: Sequence[float]) -> int:
+        return sum(any(abs(axis - seen) < within for seen in line) for axis in axes)
 
-    return [joy for joy in joys if any(len(line) >= 6 and has(line, joy) for line in lines)]
+    return [max((count(line, joy[0]) for line in lines), default=0) for joy in joys]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Iterable
+from typing import Any, Iterable, Mapping
 
 from tutorial_check.scripts import find_script
 from tutorial_check.session import Session
@@ -10,7 +10,9 @@ from tutorial_check.stage import Stage
 
 PACKAGE = "beginner_tutorials"
 LISTEN_S = 1.5  # to the talker
-TOPIC = "/chatter"
+TOPIC, KIND = "/chatter", "std_msgs/String"
+OF_ALL = ("/rosout", "/rosout_agg", "/clock")  # topics of every node
+ANOTHER_S = 3.0  # after another topic, or type, in which a talker makes the right one, or ends
 STRINGS = [f"tutorial check {word} {number}" for word, number in zip("ABCDE", range(21, 36, 3))]
 
 
@@ -28,15 +30,18 @@ class Talk:
             stage.call("listen", TOPIC, "String")
             first = stage.start(PACKAGE, talker)
             self.talkers, self.listener = [first], stage.start(PACKAGE, listener)
-            stage.wait_for_start(lambda: stage.call("count", TOPIC) or first.ended)
-            self.types = stage.call("types")
+            self.published: dict[str, str] = {}  # {topic: type}, also of a talker that ends
+            stage.wait_for_start(lambda: self._is_right(stage) or self.published or first.ended)
+            stage.wait(lambda: self._is_right(stage) or first.ended, ANOTHER_S)
+            if self._is_right(stage):
+                stage.wait_for_start(lambda: stage.call("count", TOPIC) or first.ended)
             stage.call("advertise", TOPIC, "String")
             stage.wait_for_start(lambda: stage.call("listeners", TOPIC) > 1 or self.listener.ended)
             talks = bool(_heard(stage))
             if talks:
                 stage.wait(lambda: len(_heard(stage)) > 3 or first.ended, 2.0)
             self.publishers, self.subscribers = stage.call("state")
-            self.warnings = stage.call("warnings")
+            self.types, self.warnings = stage.call("types"), stage.call("warnings")
             count = len(_heard(stage))
             for text in STRINGS:
                 stage.call("send", TOPIC, text)
@@ -50,6 +55,12 @@ class Talk:
             self.taken: dict[str, float | None] = {}  # [s] to the end of each
             if self.heard and not self.talker_ended and not self.listener_ended:
                 self._talk_both(session, stage, talker)
+
+    def _is_right(self, stage: Stage) -> bool:
+        """Note what is published; return whether it is a String on /chatter."""
+        topics, types = stage.call("state")[0], stage.call("types")
+        self.published.update({t: types.get(t, "") for t in topics if t not in OF_ALL})
+        return self.published.get(TOPIC) == KIND
 
     def _talk_both(self, session: Session, stage: Stage, talker: str) -> None:
         """Start a second talker of the same kind; both must go on, or the first must end."""
@@ -68,12 +79,14 @@ class Talk:
         so_far = len(_heard(stage))  # the one that is ended next must be well under way
         stage.wait(lambda: len(_heard(stage)) > so_far + 2 or second.ended, 3.0)
         taken = session.box.end_all([second, self.listener])
+        self.talker_ended = self.both and first.ended  # by itself, after some messages
         self.taken = dict(zip(("talker.py", "listener.py"), taken))
 
 
-def other_topic(topics: Iterable[str], asked_for: str) -> str:
-    """Return another topic than the one asked for, or an empty text."""
-    return min(set(topics) - {asked_for, "/rosout", "/clock"}, default="")
+def other_topic(topics: Iterable[str], asked_for: str, types: Mapping[str, str], kind: str) -> str:
+    """Return another topic than the one asked for, with its type if that is another; or empty."""
+    topic = min(set(topics) - {asked_for, *OF_ALL}, default="")
+    return topic if types.get(topic, kind) == kind else f"{topic}, of type {types[topic]}"
 
 
 def _heard(stage: Stage) -> list[Any]:
