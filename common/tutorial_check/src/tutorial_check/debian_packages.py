@@ -65,6 +65,7 @@ teleop_twist_keyboard: copy its one file into your package
 turtlebot_* kobuki_* yocs_* ecl_*: common/doc/OTHER_PROGRAMS.md lists what is here
 turtlesim* turtle_*: drive the robot on cmd_vel in place of the turtle
 rosbridge* web_video_server: `./tutorial cockpit` shows the robot in a browser
+roslint: it checks style alone: take it out of CMakeLists.txt and package.xml
 rosserial* smach* moveit* sound_play ar_track_alvar* *_controllers: nothing here replaces it
 """
 
