@@ -67,7 +67,8 @@ def forty():
         return draw.choice(string.ascii_lowercase) + "".join(rest)
 
     def number(key, digits=None):
-        low, high = COURSE.variants[key].allowed
+        allowed = COURSE.variants[key].allowed
+        low, high = draw.choice(allowed) if isinstance(allowed[0], list) else allowed
         return draw.choice((low, high, round(draw.uniform(low, high), digits)))
 
     def one():
@@ -94,6 +95,13 @@ def test_a_right_solution_of_another_task(number, literal, wrong_of):
     values = task(number)
     turn(literal, {**values, **task(number + 40, leave_out={"package", "joy", "cmd_vel", "node"})})
     assert wrong_of(["4.3"], values)[0].id == "C16"
+
+
+def test_each_value_has_its_sign(literal, wrong_of):
+    turn(literal, {"scale_linear": 0.5})
+    wrong = wrong_of(["4.3"], {"scale_linear": -0.5})[0]
+    assert (wrong.id, wrong.hint) == ("C16", "linear.x = -0.5 * axes[1]")
+    assert "linear.x = 0.50 * axes[1]: the sign is wrong" in wrong.seen
 
 
 CHECKS = {"joy": "C14", "cmd_vel": "C15", "package": "C12", "node": "C15", "rate": "C6"}

@@ -5,7 +5,7 @@ import time
 
 import pytest
 import rospy
-from drive import REPOSITORY, Stick
+from drive import Stick
 from nav_msgs.msg import Odometry
 
 from node_kit import ros2_python
@@ -91,8 +91,8 @@ def bridge(start):
     """bridge(topics=FILE): a Bridge that carries."""
 
     def begin(topics=None):
-        file = topics or REPOSITORY / "common/ros2_bridge/config/bridge.yaml"
-        return Bridge(start("rosrun", "ros2_bridge", "bridge", f"_topics:={file}"))
+        given = [f"_topics:={topics}"] if topics else []
+        return Bridge(start("rosrun", "ros2_bridge", "bridge", *given))
 
     return begin
 

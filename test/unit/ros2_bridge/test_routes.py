@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from ros2_bridge.ros1_node import LIST, load
 from ros2_bridge.routes import read_routes
 
 OURS = Path(__file__).resolve().parents[3] / "common/ros2_bridge/config/bridge.yaml"
@@ -18,6 +19,12 @@ def test_ours_keeps_only_the_newest_velocity_and_no_old_one():
     assert 0 < velocity.longest_s <= 0.6 and 0 < routes["/joy"].longest_s <= 0.6
     assert routes["/chatter"].to_ros1 and routes["/chatter"].to_ros2
     assert routes["/odom"].depth == 100  # of the defaults
+
+
+@pytest.mark.parametrize("given", [{}, {"topics": ""}, {"topics": str(OURS)}], ids=str)
+def test_ours_is_the_list_without_another(given, tmp_path):
+    assert load(tmp_path, given) == read_routes(OURS.read_text())
+    assert (tmp_path / LIST).read_text() == OURS.read_text()
 
 
 @pytest.mark.parametrize(

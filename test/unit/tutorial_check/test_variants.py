@@ -35,7 +35,8 @@ def options(**given_ones):
         ("axis_linear: true", "axis_linear: True; allowed is 0 to 5"),
         ("axis_linear: 1.0", "allowed is 0 to 5"),
         ("axis_linear: 0", "axis_angular and axis_linear are both 0"),
-        ("scale_linear: .nan", "scale_linear: nan; allowed is 0.2 to 2.0"),
+        ("scale_linear: .nan", "scale_linear: nan; allowed is -2.0 to -0.2 or 0.2 to 2.0"),
+        ("scale_linear: -0.1", "scale_linear: -0.1; allowed is -2.0 to -0.2 or 0.2 to 2.0"),
         ("joy: stick", "joy: 'stick'; allowed is what fits /"),
         ("joy: 3", "joy: 3; allowed"),
         ("package: Stick Drive", "package: 'Stick Drive'; allowed"),
@@ -84,7 +85,7 @@ def test_whose_variant_it_is(tmp_path):
 
 def test_a_task_sheet_has_all_values_and_the_file():
     text = sheet(COURSE, ALL, "ada")
-    assert "the task of ada" in text and "axis 3 of the joystick drives forwards" in text
+    assert "the task of ada" in text and "axis 3 of the joystick drives linear.x" in text
     assert yaml.safe_load(text[text.rindex("axis_linear:") :]) == ALL
     with pytest.raises(CannotCheck, match="no variant of ada"):
         sheet(COURSE, {}, "ada")
@@ -129,6 +130,22 @@ def words(field, text, values=None, section="handout 4.3"):
 def test_words(field, text, said):
     assert words(field, text) == said
     assert words(field, text, {}) == text
+
+
+def test_a_factor_below_0():
+    """The checks send the other sign, and so see the factor above 0; words have it as it is."""
+    values = {"axis_linear": 3, "scale_linear": -0.5}
+    task = JoystickTask(values)
+    axes, _ = task.joy(((0.1, 0.2, 0.3, 0.4, 0.5, 0.6), (0,) * 12))
+    assert axes == (0.1, 0.4, 0.3, -0.2, 0.5, 0.6) and task.factors == {0: 0.5}
+    assert words("hint", "linear.x = axes[1]", values) == "linear.x = -0.5 * axes[3]"
+    assert (
+        words("hint", "linear.x = axes[1]", {"scale_linear": -0.5}) == "linear.x = -0.5 * axes[1]"
+    )
+    seen = "linear.x = -0.40 * axes[1]: the sign is wrong"
+    assert words("seen", seen, values) == seen.replace(
+        "-0.40 * axes[1]", "0.40 * axes[axis_linear]"
+    )
 
 
 def test_launch_files_keep_the_topics_outside_of_the_program():

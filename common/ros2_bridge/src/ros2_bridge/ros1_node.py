@@ -6,6 +6,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
+import rospkg
 import rospy
 
 from node_kit.start import run
@@ -18,11 +19,11 @@ SOCKET, LIST = "socket", "topics.yaml"  # in the folder that both sides know
 
 def load(folder: Path, given: dict[str, Any]) -> list[Route]:
     """Return the Routes; write their list for the other side. Raises ValueError with one line."""
-    file = given.pop("topics", "")
+    file = given.pop("topics", "") or f"{rospkg.RosPack().get_path(NAME)}/config/bridge.yaml"
     if given:
         raise ValueError(f"~{next(iter(given))}: is not known; known is ~topics")
-    if not isinstance(file, str) or not file:
-        raise ValueError("~topics: the YAML list of topics is missing; ours is config/bridge.yaml")
+    if not isinstance(file, str):
+        raise ValueError(f"~topics: {file!r}: the path of a YAML list is wanted")
     try:
         text = Path(file).read_text(encoding="utf-8")
         routes = read_routes(text)

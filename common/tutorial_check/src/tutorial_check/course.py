@@ -48,8 +48,9 @@ class Exercise:
 class Value:
     """A value that the task of a student may have in place of the course's. See common/doc/COURSES.md.
 
-    about: its line of the task sheet. allowed: [lowest, highest], or what a text has to fit. draw:
-    from what a seed draws it. unlike: another value, from which it differs.
+    about: its line of the task sheet. allowed: [lowest, highest], a list of
+    these, or what a text has to fit. draw: from what a seed draws it. unlike: another value, from
+    which it differs.
     """
 
     about: str

@@ -58,14 +58,15 @@ arbotix* rbx1* rbx2*: fake_turtlebot.launch of rbx1_bringup is here, and needs n
 map_server: fake_turtlebot_sim with world:=MAP.yaml publishes /map
 move_base amcl gmapping *navigation* costmap_2d navfn dwa_*: there is no navigation stack here
 robot_pose_ekf robot_localization: take /odom
-rqt*: `./tutorial cockpit` shows topics, curves and the log; rqt_graph and rqt_bag are here
+rqt*: rqt_graph and rqt_bag are here; `./tutorial cockpit` shows topics, curves, the log
 openni* freenect* astra* depthimage_to_laserscan *_cam: with a world:= there is /scan, but no camera
 teleop_twist_joy joystick_drivers: joy2twist and joy_node of the package joy are here
 teleop_twist_keyboard: copy its one file into your package
-turtlebot_* kobuki_* yocs_* ecl_*: common/doc/OTHER_PROGRAMS.md lists what is here
+turtlebot_* kobuki_*: common/doc/OTHER_PROGRAMS.md lists what is here
 turtlesim* turtle_*: drive the robot on cmd_vel in place of the turtle
 rosbridge* web_video_server: `./tutorial cockpit` shows the robot in a browser
-rosserial* smach* moveit* sound_play ar_track_alvar* *_controllers: nothing here replaces it
+roslint: take it out of CMakeLists.txt and package.xml: it only checks style
+rosserial* smach* moveit* sound_play ar_track_alvar* *_controllers ecl_*: nothing replaces it here
 """
 
 

@@ -67,10 +67,11 @@ def _misses(value: Any, one: Value) -> str:
     if isinstance(one.allowed, str):
         fits = isinstance(value, str) and re.fullmatch(one.allowed, value)
         return "" if fits else f"what fits {one.allowed}"
-    lowest, highest = one.allowed
-    kinds = (int,) if isinstance(lowest, int) else (int, float)
-    fits = type(value) in kinds and lowest <= value <= highest
-    return "" if fits else f"{lowest} to {highest}"
+    ranges = one.allowed if isinstance(one.allowed[0], list) else [one.allowed]
+    kinds = (int,) if isinstance(ranges[0][0], int) else (int, float)
+    if type(value) in kinds and any(lowest <= value <= highest for lowest, highest in ranges):
+        return ""
+    return " or ".join(f"{lowest} to {highest}" for lowest, highest in ranges)
 
 
 def drawn(course: Course, seed: str, name: str) -> Variant:

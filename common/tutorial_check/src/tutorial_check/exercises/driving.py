@@ -213,9 +213,9 @@ class Drive:
         # All of these Joys move the robot, once the first does.
         self.strays = moving[moving.index(True) :].count(False) if any(moving) else 0
         if beside:
-            echoed = stage.call("heard", beside)
+            echoed, sign = stage.call("heard", beside), self._task.signs[RIGHT[LINEAR]]
             self.possible = len(echoed)
-            self.unavoidable_s = statistics.median(probing.delays(sent, echoed, 1.0) or [0.0])
+            self.unavoidable_s = statistics.median(probing.delays(sent, echoed, sign) or [0.0])
 
     @property
     def evidence(self) -> Evidence:
@@ -274,7 +274,8 @@ class Drive:
 
     def _displayed(self) -> int:
         """Return how many of the Joys were displayed, all six axes in a line."""
-        return len(probing.displayed(self.joys, COLOUR.sub("", self.program.output)))
+        joys = map(self._task.joy, self.joys)
+        return len(probing.displayed(joys, COLOUR.sub("", self.program.output)))
 
 
 def drive(session: Session, script: str, wants_twist: bool = True) -> Drive:

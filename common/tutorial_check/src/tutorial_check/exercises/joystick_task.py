@@ -54,12 +54,15 @@ class JoystickTask(Task):
         self.topics = {TOPICS[key]: values[key] for key in TOPICS if key in values}
         # Of linear.x and angular.z, by the index of the Twist's values; without one any is right.
         scales = (values.get(scale) for _, scale in FIELDS.values())
-        self.factors = {index: each for index, each in zip((0, 5), scales) if each is not None}
+        self.factors = {index: abs(each) for index, each in zip((0, 5), scales) if each is not None}
+        # For a factor below 0 the axis is sent with the other sign: the checks see one above 0.
+        self.signs = {i: -1 if values.get(scale, 1) < 0 else 1 for i, scale in FIELDS.values()}
         self.needs_button = "enable_button" in values
 
     def joy(self, joy: tuple[Sequence[float], Sequence[int]]) -> tuple[Any, ...]:
         """Return the Joy, (axes, buttons), that is to this program what a Joy is to the handout's."""
-        return moved(joy[0], self.axes), moved(joy[1], self.buttons)
+        axes = [self.signs.get(index, 1) * value for index, value in enumerate(joy[0])]
+        return moved(axes, self.axes), moved(joy[1], self.buttons)
 
     def topic(self, name: str) -> str:
         """Return what the program calls a topic of the handout's."""
@@ -87,7 +90,7 @@ class JoystickTask(Task):
 
     def _translated(self, text: str, say: Callable[[str], str], launches: bool) -> str:
         """Return a text in which say(name of a value) stands for what the handout has."""
-        keys = {index: name for name, (index, _) in FIELDS.items() if name in self.values}
+        keys = {i: key for key, (i, scale) in FIELDS.items() if {key, scale} & set(self.values)}
 
         def axis(found: re.Match[str]) -> str:
             number = int(found[1] or found[2])
@@ -95,7 +98,11 @@ class JoystickTask(Task):
                 return say(keys[number])
             return found[0].replace(found[1] or found[2], str(self.axes.get(number, number)))
 
+        def factor(found: re.Match[str]) -> str:
+            return f"{self.signs.get(int(found[2]), 1) * float(found[1]):.2f}{found[0][len(found[1]) :]}"
+
         ours, source, own = text.partition(SOURCE)
+        ours = re.sub(r"(-?\d+\.\d\d) \* axes\[(\d)\]", factor, ours)
         ours = re.sub(r"axes\[(\d)\]|\baxis (\d)\b", axis, ours)
         for pattern, key in WORDS.items():
             if key in self.values and not (launches and key in TOPICS):
@@ -105,7 +112,8 @@ class JoystickTask(Task):
 
     def _name(self, key: str) -> str:
         """Return what stands for a value where it is not to be given away."""
-        places = {name: f"axes[{name}]" for name in FIELDS}
+        given = self.values
+        places = {key: f"axes[{key if key in given else i}]" for key, (i, _) in FIELDS.items()}
         return {**places, "rate": "as often as rate says"}.get(key, f"<{key}>")
 
     def _scaled_name(self, key: str) -> str:
@@ -113,7 +121,7 @@ class JoystickTask(Task):
         return f"{scale} * {self._name(key)}" if scale in self.values else self._name(key)
 
     def _value(self, key: str) -> str:
-        value = self.values[key]
+        value = self.values.get(key, FIELDS.get(key, (None,))[0])
         if key in FIELDS:
             scale = self.values.get(FIELDS[key][1])
             return f"axes[{value}]" if scale is None else f"{scale} * axes[{value}]"

@@ -211,6 +211,7 @@ def no_number(samples: Iterable[Sample]) -> str:
 
 
 JUST = "{f.name} = axes[{f.axis}]"
+WRONG_SIGN = "{f.name} = {f.rule.factor:.2f} * axes[{f.axis}]: the sign is wrong"
 ONLY_THIS = "{f.name} comes from this Joy alone: no +=, no mean, nothing kept"
 BEFORE = (
     Row(lambda e: no_number(e.samples), "{found}", "look at what it is calculated from"),
@@ -220,8 +221,8 @@ BEFORE = (
 # Of a field that does not follow its axis by a constant. The first row that applies counts.
 OF_A_FIELD = (
     Row(lambda f: f.is_scaled, "{f.name} = {f.rule.factor:.2f} * axes[{f.axis}]", JUST),
-    Row(lambda f: f.rule and f.rule.axis == f.axis,
-        "{f.name} = {f.rule.factor:.2f} * axes[{f.axis}]: the sign is wrong",
+    Row(lambda f: f.wanted and f.rule and f.rule.axis == f.axis, WRONG_SIGN, JUST),
+    Row(lambda f: f.rule and f.rule.axis == f.axis, WRONG_SIGN,
         "pushed {f.sides[0]}, the robot goes {f.sides[1]}: leave the minus out"),
     Row(lambda f: f.is_swapped, "angular.z follows axes[1] and linear.x axes[0]: they are swapped",
         "linear.x = axes[1] (forwards), angular.z = axes[0] (left)"),

@@ -37,7 +37,7 @@ STAND_INS = (
 OVERLAY = ("beginner_tutorials", "joy2twist", "test")  # the solutions
 # Commands of the shell, under these names.
 SCRIPTS = "common/tutorial_tools/scripts"
-COMMANDS = (f"{SCRIPTS}/rqt_graph", f"{SCRIPTS}/rqt_bag", "tutorial")
+COMMANDS = (f"{SCRIPTS}/rqt_graph", f"{SCRIPTS}/rqt_bag", f"{SCRIPTS}/2to3", "tutorial")
 WRONG = re.compile("rror|invalid|mismatched|not found")
 
 

@@ -1,0 +1,253 @@
+"""OTHER_PROGRAMS.md: each line, by a program of the same imports, topics and timing.
+
+The programs are those of other_programs/, a package in a student's workspace, in our own words.
+"""
+
+import re
+import shlex
+import shutil
+import subprocess
+import time
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+
+from tutorial_check import debian_packages
+from tutorial_testing.keys import Tmux
+from tutorial_testing.ports import free_port
+from tutorial_testing.processes import Program
+from tutorial_testing.robot import OBSERVER, PERIOD_S, Robot
+from tutorial_testing.waiting import wait_for
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+TUTORIAL = str(REPOSITORY / "tutorial")
+PAGE = (REPOSITORY / "common/doc/OTHER_PROGRAMS.md").read_text(encoding="utf-8")
+LAUNCH = {
+    "rbx1": ("rbx1_bringup", "fake_turtlebot.launch"),
+    "TurtleBot": ("turtlebot_bringup", "minimal.launch", "world:=room"),
+}
+# What the page has the user do to a program first, in its words and as a command.
+HOW = {
+    "as it is": "true",
+    "`2to3`": "2to3 -w {0}",
+    "`expand`": "expand -i {0} > new && cat new > {0}",
+}
+TO_MUX = "cmd_vel:=cmd_vel_mux/input/teleop"
+JOY = "rostopic pub -r 20 joy sensor_msgs/Joy '{axes: [0, 0.4], buttons: [1]}'"
+PUSH = "rosrun others sender cmd_vel_mux/input/navi 10 60,0.6,0"
+ARC = "rosrun others sender cmd_vel_mux/input/navi 10 1,0.2,0.6"
+
+
+class Row(NamedTuple):
+    """A program for these lines of the page; at least it drives [m], turns [rad], prints this."""
+
+    names: str
+    robot: str
+    command: str
+    metres: float = 0.0
+    radians: float = 0.0
+    prints: str = ""
+    how: str = "as it is"
+    beside: str = "true"  # another command
+
+
+ROWS = [
+    Row("timed_out_and_back.py", "rbx1", "sender /cmd_vel 50 2,0.2,0 1,0,1 2,0.2,0", 0.68, 0.9),
+    Row("odom_out_and_back.py nav_square.py", "rbx1", "by_tf", 0.38, 0.95),
+    Row("calibrate_linear.py calibrate_angular.py", "rbx1", "calibrate", 0.25),
+    Row("static_transform_publisher tf_echo", "rbx1", "to_laser",
+        prints=r"\[0.100, 0.000, 0.200\]",
+        beside="rosrun tf static_transform_publisher 0.1 0 0.2 0 0 0 base_link laser 100"),
+    Row("simple_action_client.py simple_action_server.py", "rbx1", "timer_action client",
+        prints="waited 0.5", beside="rosrun others timer_action server"),
+    Row("teleop_twist_joy", "rbx1", "teleop_joy", 0.3, beside=JOY),
+    Row("red_light_green_light.py", "TurtleBot", f"sender cmd_vel 10 3,0.2,0 {TO_MUX}", 0.5),
+    Row("test_forwardbackward.py", "TurtleBot",
+        "sender cmd_vel_mux/input/teleop 2 6,0.05,0 6,-0.05,0", 0.53),
+    Row("goforward.py", "TurtleBot",
+        "sender cmd_vel_mux/input/navi 10 3,-0.2,0", 0.5, how="`expand`"),
+    Row("draw_a_square.py", "TurtleBot",
+        "sender cmd_vel_mux/input/navi 5 2,0.2,0 2,0,0.785", 0.3, 1.4, how="`expand`"),
+    Row("motion_square.py", "TurtleBot", "square", 0.05, 0.7, beside=ARC),
+    Row("kobuki_battery.py kobuki_buttons.py", "TurtleBot", "battery",
+        prints=r"battery \d+.*\s.*not charging", how="`expand`"),
+    Row("test_led_array.py test_sounds.py", "TurtleBot", "lights",
+        prints="all shown", how="`2to3`"),
+    Row("wander.py", "TurtleBot", f"wander {TO_MUX}", 0.5, 0.5),
+    Row("test_events.py", "TurtleBot", "events",
+        prints="bumper pressed", how="`2to3`", beside=PUSH),
+]  # fmt: skip
+# In a terminal, with keys.
+KEYBOARDS = [
+    Row("teleop_twist_keyboard.py", "TurtleBot", f"teleop {TO_MUX}"),
+    Row("key_publisher.py keys_to_twist.py", "TurtleBot", f"keys_to_twist {TO_MUX}", how="`2to3`"),
+]  # fmt: skip
+# What waits for ever.
+WAIT = {
+    "waits for move_base": (
+        "move_base_square.py goforward_and_avoid_obstacle.py follow_the_route.py"
+    ),
+    "waits for a camera": "follower.py",
+}
+
+
+class Place:
+    """A robot with its observer on a master of its own, and the shell of a student there."""
+
+    def __init__(self, folder, robot):
+        self._folder, self.scripts = str(folder), folder / "src/others/scripts"
+        self.environment = {"ROS_MASTER_URI": f"http://localhost:{free_port()}"}
+        self.launch = Program(TUTORIAL, "run", "roslaunch", *LAUNCH[robot], **self.environment)
+        wait_for(lambda: "started core service" in self.launch.output, "master", 60)
+        self.robot = Robot()
+        self.robot.observe(OBSERVER, **self.environment)
+
+    def command(self, line):
+        """Return that of a line in the student's shell."""
+        words = ("run", "--in", self._folder, "bash", "-ec", f"cd {self.scripts}; {line}")
+        return (TUTORIAL, *words)
+
+    def start(self, line):
+        """Start such a line."""
+        return Program(*self.command(line), **self.environment)
+
+    def terminal(self, line):
+        """Start such a line in a terminal with keys."""
+        environment = map("=".join, self.environment.items())
+        return Tmux(shlex.join(["env", *environment, *self.command(line)]))
+
+    def run(self, line):
+        """Return what such a line prints."""
+        with self.start(line) as program:
+            assert program.wait() == 0, program.output
+            return program.output
+
+    def driven(self, begin):
+        """Return how far it drove and turned since a number of odometry messages: (m, rad)."""
+        moments = self.robot.odometry[begin:]
+        return tuple(sum(abs(m.velocity[i]) for m in moments) * PERIOD_S for i in (0, 1))
+
+    def prepare(self, row):
+        """Do what the page says, without which Python 3 cannot read the program."""
+        path = self.scripts / row.command.split()[0]
+        if row.how == "as it is":
+            return
+        if path.name == "sender":
+            path.write_text(re.sub("^ {8}(?=self|rate)", "\t", path.read_text(), flags=re.M))
+        read = ("/usr/bin/python3", "-c", f"compile(open({str(path)!r}).read(), 'it', 'exec')")
+        assert subprocess.run(read, capture_output=True, check=False).returncode
+        self.run(HOW[row.how].format(path))
+
+
+@pytest.fixture(scope="module")
+def places(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("others") / "catkin_ws"
+    shutil.copytree(REPOSITORY / "test/system/other_programs", folder / "src/others")
+    with Program(TUTORIAL, "run", "--in", str(folder), "catkin_make", "-C", str(folder)) as made:
+        assert made.wait() == 0, made.output
+    found = {name: Place(folder, name) for name in LAUNCH}
+    yield found
+    for place in found.values():
+        place.robot.__exit__()
+        place.launch.__exit__()
+
+
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: row.names)
+def test_a_program(row, places):
+    place = places[row.robot]
+    place.prepare(row)
+    begin = len(place.robot.odometry)
+
+    def done():
+        metres, radians = place.driven(begin)
+        return metres >= row.metres and radians >= row.radians and re.search(row.prints, it.output)
+
+    with place.start(row.beside), place.start(f"rosrun others {row.command}") as it:
+        try:
+            wait_for(done, f"effect of {row.command}", 60)
+        except AssertionError as error:
+            raise AssertionError(f"{error}: {place.driven(begin)}; {it.output}") from None
+        assert "Traceback" not in it.output
+    if row.robot == "rbx1":  # obeys the last command until the next one
+        place.run("rostopic pub -1 cmd_vel geometry_msgs/Twist '{}'")
+    place.robot.wait_for_rest()
+
+
+@pytest.mark.parametrize("row", KEYBOARDS, ids=lambda row: row.names)
+def test_a_key_held_as_x11_repeats_it(row, places):
+    place = places[row.robot]
+    place.prepare(row)
+    terminal = place.terminal(f"rosrun others {row.command}")
+    wait_for(lambda: "Moving around" in terminal.screen, "program")
+    key, begin, until = "iw"["keys" in row.command], len(place.robot.odometry), time.monotonic() + 3
+    terminal.press(key)
+    time.sleep(0.66)  # X11's delay until a held key repeats
+    while time.monotonic() < until:
+        terminal.press(key)
+        time.sleep(0.03)
+    terminal.hold("s", lambda: not place.robot.now.moves, "robot at rest")
+    terminal.close()
+    moving = "".join("-M"[moment.moves] for moment in place.robot.odometry[begin:]).strip("-")
+    assert len(moving) * PERIOD_S > 1.5 and moving.count("M") > 0.8 * len(moving), moving
+
+
+def test_what_nobody_serves_here(places):
+    place = places["TurtleBot"]
+    assert "move_base is missing" in place.run("rosrun others goal")
+    assert "camera/rgb" not in place.run("rostopic list")
+
+
+def lines():
+    """Return {name: line, its columns} of the page's tables; names are in backticks."""
+    rows = [line.split("|")[1:-1] for line in PAGE.splitlines() if line.startswith("| `")]
+    return {name: row for row in rows for name in re.findall(r"`([^`]+)`", row[0])}
+
+
+def packages(what):
+    """Return the names of ROS packages of which the page says this."""
+    return {name for name, row in lines().items() if row[1].strip() == what}
+
+
+def test_each_line_of_the_page_is_run_here():
+    said = {name: (row.how, row.robot) for row in (*ROWS, *KEYBOARDS) for name in row.names.split()}
+    said.update({name: (why, "") for why, names in WAIT.items() for name in names.split()})
+    assert set(lines()) == set(said) | packages("here already") | packages("not in Debian")
+    for name, (how, robot) in said.items():
+        assert how in lines()[name][1] and robot in lines()[name][2], name
+
+
+def test_what_debian_lacks(places):
+    missing, here = packages("not in Debian"), set(places["rbx1"].run("rospack list-names").split())
+    assert not missing & here and packages("here already") <= here
+    for name in missing:
+        assert debian_packages.in_place_of(name) == lines()[name][2].strip()
+    forms = ("{}", "ros-{}", "python3-{}", "lib{}-dev")
+    assert not shown(*(f.format(name.replace("_", "-")) for name in missing for f in forms))
+
+
+def test_rbx1_of_the_book_hides_ours_until_it_is_ignored(places):
+    place = places["rbx1"]
+    own = place.scripts.parents[1] / "rbx1/rbx1_bringup"
+    own.mkdir(parents=True)
+    find = "rospack profile > profile; rospack find rbx1_bringup"  # past what it remembers
+    (own / "package.xml").write_text("<package><name>rbx1_bringup</name></package>")
+    assert str(own) in place.run(find)
+    (own / "CATKIN_IGNORE").touch()
+    assert "stand_ins" in place.run(f"readlink -f $({find} | tail -n 1)")
+
+
+def shown(*packages):
+    """Return those of these packages that Debian has."""
+    command = ("apt-cache", "show", "--no-all-versions", *packages)
+    text = subprocess.run(command, capture_output=True, text=True, check=False).stdout
+    return set(re.findall(r"^Package: (\S+)$", text, re.MULTILINE))
+
+
+def test_debian_has_what_hints_name():
+    tables = (debian_packages.OTHER_MODULES, debian_packages.OTHER_PACKAGES)
+    listed = [row.partition(":")[0].replace("*", "") for t in tables for row in t.splitlines()]
+    names = " ".join([*listed, debian_packages.MODULES, debian_packages.DEV_PACKAGES]).split()
+    packages = {debian_packages.package_of_module(name) for name in names} - {""}
+    packages |= {one for name in names for one in debian_packages.packages_of_ros(name).split()}
+    assert shown(*packages) == packages
