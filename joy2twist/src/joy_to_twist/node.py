@@ -16,7 +16,7 @@ from sensor_msgs.msg import Joy
 from joy_to_twist.console import Console
 from joy_to_twist.parameters import Parameters, load
 from joy_to_twist.teleoperation import Teleoperation
-from node_kit.arming import ZERO, Velocity
+from node_kit.arming import SILENCE_S, ZERO, Velocity
 from node_kit.careful_connections import connection_of, report_bad_messages
 from node_kit.prompt_publisher import VelocityPublisher
 from node_kit.start import run
@@ -95,7 +95,9 @@ class Joy2Twist:
         self.stopped = threading.Event()
 
         self.hold_new = parameters.arm_on_neutral
-        self.cmd_vel = VelocityPublisher("cmd_vel", self.console.warn, self.hold_new)
+        repeats = 0 < parameters.joy_timeout <= SILENCE_S
+        hold_to_run = self.hold_new and repeats
+        self.cmd_vel = VelocityPublisher("cmd_vel", self.console.warn, hold_to_run)
         rospy.on_shutdown(self.shutdown)
         self.diagnostics = diagnostic_updater.Updater()
         self.diagnostics.setHardwareID("none")

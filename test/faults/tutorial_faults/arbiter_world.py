@@ -8,7 +8,7 @@ between two steps of time. They are asked in the order of the node.
 import math
 from typing import NamedTuple, Tuple
 
-from fake_turtlebot_sim.mux.arbitration import Arbiter, Sender, Verdict
+from fake_turtlebot_sim.mux.arbitration import Arbiter, Publisher, Sender, Verdict
 from fake_turtlebot_sim.mux.parameters import Input
 from tutorial_faults.events import Command, Through
 from tutorial_faults.explore import PASS, TICK, World, key_of, until
@@ -17,6 +17,7 @@ from tutorial_faults.invariants import (
     SILENCE_S,
     HighestSpeaks,
     NeverLate,
+    RestsFirst,
     WithinLimits,
     judged,
     moves,
@@ -31,13 +32,13 @@ class Configuration(NamedTuple):
     """Inputs of a multiplexer, and the senders on them."""
 
     inputs: Tuple[Input, ...]
-    speakers: Tuple[Tuple[str, str], ...]  # (input, sender)
+    speakers: Tuple[Tuple[str, Publisher], ...]  # (input, (sender, whether it is a stick))
     step_s: float = 0.0625  # in which time passes: 0.25 s for three clocks
 
     def events(self):
         """Return the events, by name."""
         commands = {
-            f"{sender} on {name}: {what}": Command(0.0, name, velocity, sender)
+            f"{sender[0]} on {name}: {what}": Command(0.0, name, velocity, sender)
             for name, sender in self.speakers
             for what, velocity in (("zero", ZERO), ("forward", FORWARD), ("NaN", NOT_FINITE))
         }
@@ -46,16 +47,19 @@ class Configuration(NamedTuple):
 
 STICK = Input("stick", "stick", 0.5, 7)
 PROGRAM = Input("program", "program", 0.5, 5)
+ADA, BOB, ROBBY = ("ada", True), ("bob", True), ("robby", False)
 CONFIGURATIONS = {
     "a stick and a program": Configuration(
-        (STICK, PROGRAM), (("stick", "ada"), ("program", "-")), step_s=0.125
+        (STICK, PROGRAM), (("stick", ADA), ("program", ROBBY)), step_s=0.125
     ),
     "two sticks on one input": Configuration(
-        (STICK,), (("stick", "ada"), ("stick", "bob")), step_s=0.125
+        (STICK,), (("stick", ADA), ("stick", BOB)), step_s=0.125
     ),
-    "one sender": Configuration((STICK,), (("stick", "ada"),)),
+    "a stick alone": Configuration((STICK,), (("stick", ADA),)),
+    "a program alone": Configuration((PROGRAM,), (("program", ROBBY),)),
 }
-PAST, FUTURE = {"heard_s", "doubt_s", "last_s", "first_s"}, {"late_until_s"}
+PAST = {"heard_s", "doubt_s", "last_s", "first_s", "rests_since_s"}
+FUTURE = {"late_until_s"}
 PARTS = {"_arbiter": {"_expiry_s": {}, "_senders": {}}, "_late": {}, "_speaks": {"spoke_s": {}}}
 
 
@@ -68,7 +72,7 @@ class ArbiterWorld(World):
         self._inputs = {one.name: one for one in configuration.inputs}
         self._arbiter = Arbiter(configuration.inputs)
         self._sent = ZERO
-        self._late = {}  # (input, sender) -> NeverLate
+        self._late = {}  # (input, sender) -> RestsFirst or NeverLate
         self._speaks = HighestSpeaks(
             {one.name: (one.priority, one.timeout) for one in configuration.inputs}
         )
@@ -77,14 +81,13 @@ class ArbiterWorld(World):
     def key(self):
         """Return all that decides what follows."""
         now, arbiter, known = self._now, self._arbiter, self._arbiter._senders
-        # Of two senders on one input it does not matter which is which.
-        new = Sender()
 
+        # Of two senders on one input it does not matter which is which.
         def sender_key(one):
             return key_of(one, now, HORIZON_S, past=PAST, future=FUTURE)
 
         senders = [
-            (key[0], sender_key(known.get(key, new)), sender_key(one))
+            (key[0], sender_key(known.get(key, Sender(key[1][1]))), sender_key(one))
             for key, one in self._late.items()
         ]
         spoke_s = self._speaks.spoke_s.items()
@@ -146,7 +149,8 @@ class ArbiterWorld(World):
             if verdict is not Verdict.REJECTED:
                 yield "c", "a command that is not finite is not rejected"
             return
-        guard = self._late.setdefault((name, command.sender), NeverLate())
+        new = RestsFirst() if command.sender[1] else NeverLate()
+        guard = self._late.setdefault((name, command.sender), new)
         is_first = guard.take(velocity, now)
         if moves(velocity) and (is_first or guard.late(now)):
             if verdict is Verdict.OBEYED:

@@ -161,6 +161,32 @@ class HighestSpeaks:
         return None
 
 
+class RestsFirst:
+    """(f) No late command of a stick: one that fell silent in a motion rests before it moves."""
+
+    def __init__(self) -> None:
+        self.held = self.moving = False
+        self.last_s = -math.inf  # the last command, if it was a motion
+        self.rests_since_s = math.inf  # the first zero after a motion
+
+    def take(self, velocity: Velocity, now: float) -> bool:
+        """Take a command of one sender; return whether it is a motion that must not go through."""
+        if self.moving and now - self.last_s > SILENCE_S:
+            self.held = True
+        if moves(velocity):
+            self.held = self.held and now - self.rests_since_s < SILENCE_S
+            self.rests_since_s = math.inf
+        elif self.moving:
+            self.rests_since_s = now
+        self.moving = moves(velocity)
+        self.last_s = now if self.moving else -math.inf  # only a motion can be broken off
+        return self.late(now)
+
+    def late(self, _now: float) -> bool:
+        """Return whether no motion of this sender may go through now."""
+        return self.held and self.moving
+
+
 class NeverLate:
     """(f) No late command after a cut: of those that come at once after a silence none moves.
 

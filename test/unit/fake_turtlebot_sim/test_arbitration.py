@@ -96,7 +96,7 @@ class Running:
             self.through += [(v[0], self._now) for v, _ in self.arbiter.waited(self._now)]
             self.arbiter.must_stop(self._now)
 
-    def send(self, speed, now, name="teleop", sender=""):
+    def send(self, speed, now, name="teleop", sender=("", False)):
         self.until(now)
         self.verdicts.append(self.arbiter.command(name, (speed,), now, sender))
         if self.verdicts[-1] is THROUGH:
@@ -108,7 +108,7 @@ def test_silence_of_all_leaves_the_robot_standing(events):
     running, now = Running(INPUTS), 0.0
     for pause_s, name, speed, sender in events:
         now += pause_s
-        running.send(speed, now, name, sender)
+        running.send(speed, now, name, (str(sender), False))
     running.until(now + TOGETHER_S)
     assert running.arbiter.must_stop(now + 2.0) is bool(
         running.through
@@ -194,6 +194,41 @@ def test_late_commands(story):
         assert running.verdicts[-1] is verdict, now
 
 
+STICK_STORIES = {
+    "a stick that is held does not drive on after an outage": [
+        (0.0, 0.2, THROUGH),
+        (0.49, 0.2, THROUGH),
+        (1.2, 0.2, LATE),
+        (1.4, 0.3, LATE),
+        (9.0, 0.3, LATE),
+    ],
+    "a zero among the late commands frees none of them": [
+        (0.0, 0.2, THROUGH),
+        (5.0, 0.2, LATE),
+        (5.0, 0.0, THROUGH),
+        (5.001, 0.3, LATE),
+    ],
+    "a rest of half a second, a zero and silence, sets it free": [
+        (0.0, 0.2, THROUGH),
+        (5.0, 0.2, LATE),
+        (5.1, 0.0, THROUGH),
+        (5.5, 0.2, LATE),
+        (5.6, 0.0, THROUGH),
+        (5.8, 0.0, THROUGH),
+        (6.2, 0.2, THROUGH),
+        (6.3, 0.3, THROUGH),
+    ],
+}
+
+
+@pytest.mark.parametrize("story", STICK_STORIES.values(), ids=STICK_STORIES)
+def test_late_commands_of_a_stick(story):
+    running = Running()
+    for now, speed, verdict in story:
+        running.send(speed, now, sender=("joy2twist", True))
+        assert running.verdicts[-1] is verdict, now
+
+
 @given(
     st.floats(0.51, 100.0),
     st.lists(st.tuples(st.floats(0.0, 0.9 * TOGETHER_S), SPEEDS), min_size=1, max_size=10),
@@ -213,9 +248,9 @@ def test_not_one_command_of_a_late_burst_moves(silence_s, burst):
 def test_what_one_sender_left_is_not_held_against_the_next():
     """Who ends a program in the middle of a motion and starts it anew drives at once."""
     arbiter = Arbiter([TELEOP])
-    assert arbiter.command("teleop", (0.2,), 0.0, "/rostopic_1") is THROUGH
-    assert arbiter.command("teleop", (0.2,), 5.0, "/rostopic_2") is THROUGH
-    assert arbiter.command("teleop", (0.2,), 5.1, "/rostopic_1") is WAITS
+    assert arbiter.command("teleop", (0.2,), 0.0, ("/rostopic_1", False)) is THROUGH
+    assert arbiter.command("teleop", (0.2,), 5.0, ("/rostopic_2", False)) is THROUGH
+    assert arbiter.command("teleop", (0.2,), 5.1, ("/rostopic_1", False)) is WAITS
     assert arbiter.active(9.0) == IDLE  # what waits, or is late, keeps nobody active
 
 

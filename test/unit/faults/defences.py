@@ -25,7 +25,7 @@ STOP, STOP_ARMING, VIGILANCE, RAMP = (
 MUX, PAD = "a stick and a program", "driver"
 
 joy, velocity, latch = Teleoperation.joy, Mapping.velocity, Safety.latch
-lost, init = Driver.lost, Decoder.__init__
+command, lost, init = Arbiter.command, Driver.lost, Decoder.__init__
 
 
 def nothing(*_, **__):
@@ -118,6 +118,8 @@ DEFENCES = [
     ("what waits for no other goes through", Arbiter, "waited", lambda self, now: (), MUX),
     ("what comes at once is late", arbitration, "TOGETHER_S", 0.0, MUX),
     ("and all that comes with it", arbitration, "SETTLING_S", 0.0, MUX),
+    ("a stick rests first", Arbiter, "command",
+     lambda self, name, velocity, now, sender: command(self, name, velocity, now), MUX),
     ("the highest drives", Arbiter, "active", lowest_first, MUX),
     ("silence of all inputs stops", Arbiter, "must_stop", no, MUX),
     ("the silence is noticed in time", Arbiter, "lull", lambda self, now: 9.0, MUX),

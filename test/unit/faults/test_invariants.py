@@ -9,6 +9,7 @@ from tutorial_faults.invariants import (
     HeldDeadMan,
     HighestSpeaks,
     NeverLate,
+    RestsFirst,
     SeenReleased,
     WithinLimits,
     judged,
@@ -75,6 +76,8 @@ def test_c_e_and_f():
     program = [Through(at_s, "program", STICK) for at_s in (0.49, 0.5)]
     rule = HighestSpeaks({"stick": (7, 0.5), "program": (5, 1.0)})
     assert letters([*speaks, *program], rule) == "e"
+    rule = RestsFirst()
+    assert [rule.take(STICK, at_s) for at_s in (0.0, 0.5, 1.1)] == [False, False, True]
     rule = NeverLate()
     steps = [(0.0, False), (0.5, False), (1.1, False), (1.115, True), (1.34, True), (1.36, False)]
     assert [(rule.take(STICK, s), rule.late(s))[1] for s, _ in steps] == [late for _, late in steps]

@@ -131,7 +131,7 @@ class Mux(World):
 
     @rule(
         number=st.integers(0, 3),
-        sender=st.sampled_from(["ada", "bob"]),
+        sender=st.tuples(st.sampled_from(["ada", "bob"]), st.booleans()),
         velocity=st.just((0.0,) * 6)
         | st.tuples(*[st.floats(-10, 10)] * 6)
         | st.tuples(*[st.floats()] * 6),

@@ -8,6 +8,8 @@ from typing import Tuple
 Velocity = Tuple[float, ...]  # linear x, y, z [m/s] and angular x, y, z [rad/s], REP-103
 ZERO: Velocity = (0.0,) * 6
 DRIVING = "driving"  # the state on /diagnostics in which joy2twist drives
+# After a longer silence in a motion, a velocity may be one that a broken network had kept.
+SILENCE_S = 0.5
 SETTLING_S = 0.25  # by then what was sent during an outage or a suspension has arrived
 
 

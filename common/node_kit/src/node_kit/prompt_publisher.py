@@ -129,7 +129,8 @@ class VelocityPublisher(PromptPublisher):
     def __init__(self, name: str, warn: Callable[[str], object], hold_to_run: bool = False) -> None:
         """Take warn(line), called when a subscriber is held or free again; it must not wait.
 
-        hold_to_run: tell a multiplexer that a person's hands drive, who can release the stick.
+        hold_to_run: tell a multiplexer that a person's hands drive, who can release the stick, and
+        that no two velocities of a motion are more than SILENCE_S apart.
         """
         self._warn = warn
         self._holds_new = False  # a new subscriber does not take part in the present motion

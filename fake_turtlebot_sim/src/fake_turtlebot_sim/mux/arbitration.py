@@ -11,13 +11,11 @@ from enum import Enum
 from math import inf, isfinite
 from typing import Any, Iterable, Iterator, Tuple
 
-from node_kit.arming import SETTLING_S, Velocity
+from node_kit.arming import SETTLING_S, SILENCE_S, Velocity
 
 IDLE = "idle"  # what is active when no input is
 Publisher = Tuple[str, bool]  # its name, and whether a person's hands drive, hold-to-run style
 ZERO = (0.0,) * 6  # linear x, y, z [m/s], angular x, y, z [rad/s]
-# After a longer silence in the middle of a motion, a command may be one that a broken network kept.
-SILENCE_S = 0.5
 # What a network kept arrives at once. No key repeats as fast (X11: 25 to 30 Hz); a program that
 # sends as fast is obeyed again after SETTLING_S.
 TOGETHER_S = 0.02
@@ -30,33 +28,41 @@ class Verdict(Enum):
     OUTRANKED = "an input of higher priority is active"
     WAITS = "goes through after TOGETHER_S, unless another one follows sooner"
     REJECTED = "a command is not a finite number; ignored"
-    LATE = "commands that a broken network had kept are ignored; the next ones are obeyed again"
+    LATE = "what a broken network had kept is ignored; a stick that is held must be released once"
 
 
 class Sender:
     """Tells the commands that a broken network kept from those of a slow sender.
 
     When a cable is pulled, TCP keeps what is sent meanwhile and delivers all of it once the cable
-    is back. A Twist has no stamp; but of such commands several arrive at once after a silence.
+    is back. A Twist has no stamp; but of such commands several arrive at once after a silence of
+    SILENCE_S in a motion. Hands that hold a stick are never silent for so long: they must rest for
+    SILENCE_S first.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, is_stick: bool = False) -> None:
+        """is_stick: it drives hold-to-run style, and repeats its velocity."""
+        self._is_stick = is_stick
         self.heard_s = self.doubt_s = -inf  # the last command; the first one after a silence
-        self.late_until_s = -inf
+        self.late_until_s = self.rests_since_s = -inf
         self.moves = False  # the last command was not zero
         self.waiting: Velocity | None = None  # the first command after a silence
 
     def judge(self, velocity: Velocity, now: float) -> Verdict:
         """Return the Verdict on a velocity that came now [s]; a zero is always OBEYED."""
-        since_s = now - self.heard_s
-        is_first = self.moves and since_s > SILENCE_S
+        since_s, moved = now - self.heard_s, self.moves
+        is_first = moved and since_s > SILENCE_S
         self.heard_s, self.moves, self.waiting = now, any(velocity), None
         if is_first:
             self.doubt_s = now
+            self.late_until_s = inf if self._is_stick else self.late_until_s
         elif since_s < TOGETHER_S and now - self.doubt_s < SETTLING_S:
-            self.late_until_s = self.doubt_s + SETTLING_S
+            self.late_until_s = max(self.late_until_s, self.doubt_s + SETTLING_S)
         if not self.moves:
+            self.rests_since_s = now if moved else self.rests_since_s
             return Verdict.OBEYED
+        if not moved and now - self.rests_since_s >= SILENCE_S:
+            self.late_until_s = -inf
         if now < self.late_until_s:
             return Verdict.LATE
         if is_first:
@@ -84,7 +90,7 @@ class Arbiter:
         """
         if not all(map(isfinite, velocity)):
             return Verdict.REJECTED  # and the timeout runs on
-        verdict = self._senders.setdefault((name, sender), Sender()).judge(velocity, now)
+        verdict = self._senders.setdefault((name, sender), Sender(sender[1])).judge(velocity, now)
         if verdict is not Verdict.OBEYED:
             return verdict  # and the timeout runs on
         return self._obey(name, velocity, now)
