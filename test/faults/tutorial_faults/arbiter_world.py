@@ -33,7 +33,7 @@ class Configuration(NamedTuple):
 
     inputs: Tuple[Input, ...]
     speakers: Tuple[Tuple[str, Publisher], ...]  # (input, (sender, whether it is a stick))
-    step_s: float = 0.0625  # in which time passes: 0.25 s for three clocks
+    step_s: float = 0.0625  # in which time passes: 0.25 s for three clocks; coarser for two senders
 
     def events(self):
         """Return the events, by name."""
@@ -50,10 +50,10 @@ PROGRAM = Input("program", "program", 0.5, 5)
 ADA, BOB, ROBBY = ("ada", True), ("bob", True), ("robby", False)
 CONFIGURATIONS = {
     "a stick and a program": Configuration(
-        (STICK, PROGRAM), (("stick", ADA), ("program", ROBBY)), step_s=0.125
+        (STICK, PROGRAM), (("stick", ADA), ("program", ROBBY)), step_s=0.25
     ),
     "two sticks on one input": Configuration(
-        (STICK,), (("stick", ADA), ("stick", BOB)), step_s=0.125
+        (STICK,), (("stick", ADA), ("stick", BOB)), step_s=0.25
     ),
     "a stick alone": Configuration((STICK,), (("stick", ADA),)),
     "a program alone": Configuration((PROGRAM,), (("program", ROBBY),)),
