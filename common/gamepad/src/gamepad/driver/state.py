@@ -25,12 +25,7 @@ class GamepadState:
     """
 
     def __init__(self, deadzone: float, default_trig_val: bool, sticky_buttons: bool) -> None:
-        """See driver_parameters.DriverParameters.
-
-        deadzone: this part of the way of an axis around its middle counts as 0; the rest is
-        stretched over the whole range. default_trig_val: take the values of axes at opening; else
-        an axis is 0 until it moves. sticky_buttons: a press switches a button on or off.
-        """
+        """Take what DriverParameters has under these names."""
         deadzone = min(deadzone, LARGEST_DEADZONE)
         self._dead = FULL * deadzone
         self._scale = -1.0 / (1.0 - deadzone) / FULL
