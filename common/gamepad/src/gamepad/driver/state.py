@@ -68,10 +68,7 @@ class GamepadState:
         return tuple(self._axes), tuple(self._switched)
 
     def neutral(self, triggers: Iterable[int] | None) -> Message:
-        """Return (axes, buttons) of a gamepad at rest.
-
-        triggers: the numbers of the axes that are triggers; None if unknown.
-        """
+        """Return (axes, buttons) at rest; triggers: the numbers of those axes, None if unknown."""
         if triggers is None:
             triggers = triggers_by_count(len(self._axes))
         # A trigger at rest reads +1.
