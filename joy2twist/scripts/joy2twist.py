@@ -8,5 +8,4 @@ signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C while ROS still loads end
 
 from joy_to_twist.node import main
 
-if __name__ == "__main__":
-    sys.exit(main())
+sys.exit(main())

@@ -17,7 +17,7 @@ from joy_to_twist.console import Console
 from joy_to_twist.parameters import Parameters, load
 from joy_to_twist.teleoperation import Teleoperation
 from node_kit.arming import SILENCE_S, ZERO, Velocity
-from node_kit.careful_connections import connection_of, report_bad_messages
+from node_kit.careful_connections import header_of, report_bad_messages
 from node_kit.prompt_publisher import VelocityPublisher
 from node_kit.start import run
 from node_kit.suspension import Suspensions
@@ -116,7 +116,7 @@ class Joy2Twist:
         age_ns = self.read_clock_ns() - joy.stamp_ns if self.uses_age else 0
         with self.lock:
             self.notice_suspension(now)
-            sender = connection_of(joy)
+            sender = header_of(joy)
             self.publish(self.teleoperation.joy(joy.axes, joy.buttons, now, age_ns, sender))
         self.console.display(joy.axes, now)
 

@@ -127,10 +127,7 @@ class Parameters:
 
 
 def load(given: Mapping[str, Any]) -> Parameters:
-    """Check the given private parameters and fill in the defaults.
-
-    Raises ValueError, one line that names the parameter, its value and what is allowed.
-    """
+    """Return Parameters, checked, with the defaults filled in. Raises ValueError, one line."""
     values = checked(Parameters, given)
     enable, turbo = values["enable_button"], values["enable_turbo_button"]
     if values["require_enable_button"] is None:

@@ -60,7 +60,7 @@ def report_bad_messages(warn: Callable[[str], object]) -> None:
 
 def sender_of(message: Any) -> str:
     """Return the name of the node that sent a message, "" if unknown."""
-    return message._connection_header.get("callerid", "")
+    return header_of(message).get("callerid", "")
 
 
 def has_sender(subscriber: Any) -> bool:
@@ -68,30 +68,25 @@ def has_sender(subscriber: Any) -> bool:
     return any(one.socket is not None for one in list(subscriber.impl.connections))
 
 
-def connection_of(message: Any) -> object:
-    """Return an object that is the same (`is`) for the messages of one connection only."""
-    return message._connection_header
-
-
 def header_of(message: Any) -> dict[str, str]:
-    """Return the header of the connection by which a message came: what its publisher declared."""
+    """Return what the publisher of a message declared; one object (`is`) for each connection."""
     return message._connection_header
 
 
-def connections(subscriber: Any) -> list[object]:
-    """Return what connection_of() gives for messages that come to a rospy.Subscriber by now."""
-    return [one.header for one in list(subscriber.impl.connections)]
+def renew(subscriber: Any) -> list[object]:
+    """Connect a rospy.Subscriber anew to each of its publishers; what waits to be read is lost.
 
-
-def renew(subscriber: Any) -> None:
-    """Connect a rospy.Subscriber anew to each of its publishers; what waits to be read is lost."""
-    for one in list(subscriber.impl.connections):
+    Return what header_of() gives for messages of the old connections.
+    """
+    old = list(subscriber.impl.connections)
+    for one in old:
         if one.dest_address:
             address = [TCPROS, *one.dest_address]
             # rospy drops the old connection to the same publisher.
             get_tcpros_handler().create_transport(
                 subscriber.resolved_name, one.endpoint_id, address
             )
+    return [one.header for one in old]
 
 
 def _greet_in_time(self: Any, sock: socket.socket, client_addr: Any) -> None:

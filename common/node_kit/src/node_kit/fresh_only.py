@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from node_kit.careful_connections import connection_of, connections, renew
+from node_kit.careful_connections import header_of, renew
 from node_kit.suspension import Suspensions
 
 
@@ -33,11 +33,9 @@ class FreshOnly:
         if number == self._seen:
             return False
         self._seen = number
-        self._old = [one for subscriber in self._subscribers for one in connections(subscriber)]
-        for subscriber in self._subscribers:
-            renew(subscriber)
+        self._old = [one for subscriber in self._subscribers for one in renew(subscriber)]
         return True
 
     def is_old(self, message: Any) -> bool:
         """Return whether a message came by a connection from before the last suspension."""
-        return any(connection_of(message) is one for one in self._old)
+        return any(header_of(message) is one for one in self._old)

@@ -15,7 +15,6 @@ from node_kit.arming import SETTLING_S, SILENCE_S, Velocity
 
 IDLE = "idle"  # what is active when no input is
 Publisher = Tuple[str, bool]  # its name, and whether a person's hands drive, hold-to-run style
-ZERO = (0.0,) * 6  # linear x, y, z [m/s], angular x, y, z [rad/s]
 # What a network kept arrives at once. No key repeats as fast (X11: 25 to 30 Hz); a program that
 # sends as fast is obeyed again after SETTLING_S.
 TOGETHER_S = 0.02

@@ -10,9 +10,9 @@ import rospy
 from geometry_msgs.msg import Twist
 from std_msgs.msg import String
 
-from fake_turtlebot_sim.mux.arbitration import IDLE, ZERO, Arbiter, Publisher, Verdict
+from fake_turtlebot_sim.mux.arbitration import IDLE, Arbiter, Publisher, Verdict
 from fake_turtlebot_sim.mux.parameters import MuxParameters, parse_mux_parameters
-from node_kit.arming import Velocity
+from node_kit.arming import ZERO, Velocity
 from node_kit.careful_connections import report_bad_messages, sender_of
 from node_kit.fresh_only import FreshOnly
 from node_kit.log import Log

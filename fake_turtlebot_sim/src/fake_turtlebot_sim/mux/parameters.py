@@ -70,10 +70,7 @@ class MuxParameters:
 
 
 def parse_mux_parameters(given: Mapping[str, Any]) -> MuxParameters:
-    """Return MuxParameters from a mapping of names to values.
-
-    Raises ValueError with one line: the parameter, its value and what is allowed.
-    """
+    """Return MuxParameters, checked, with the defaults filled in. Raises ValueError, one line."""
     parameters = MuxParameters(**checked(MuxParameters, given, example=EXAMPLE))
     for one in parameters.subscribers:
         if one.topic == parameters.publisher:

@@ -33,11 +33,8 @@ class PhaseLock:
         self.deadline_ns = now_ns
 
     def complete(self, now_ns: int) -> int:
-        """Move the deadline past now_ns and return how many periods went by unused.
-
-        A clock that was set back begins a new count.
-        """
-        if now_ns < self._last_ns:
+        """Move the deadline past now_ns and return how many periods went by unused."""
+        if now_ns < self._last_ns:  # the clock was set back
             self.deadline_ns = now_ns
         self._last_ns = now_ns
         missed = max(0, now_ns - self.deadline_ns) // self._period_ns

@@ -18,8 +18,6 @@ _NODES, _WEIGHTS = (
     values.tolist()
     for values in np.polynomial.legendre.leggauss(8)  # type: ignore[no-untyped-call, unused-ignore]
 )
-
-
 Pose = Tuple[float, float, float]  # x [m], y [m], yaw [rad]
 Velocity = Tuple[float, float]  # v [m/s], w [rad/s]
 
@@ -38,11 +36,7 @@ def composed(frame: Pose, pose: Pose) -> Pose:
 
 
 def arc(pose: Pose, velocity: Velocity, dt: float) -> Pose:
-    """Drive at constant velocity and return the new pose.
-
-    pose is (x [m], y [m], yaw [rad]), velocity (v [m/s], w [rad/s]), dt the time [s].
-    The new yaw is in (-pi, pi].
-    """
+    """Return the pose after dt [s] at a constant velocity; its yaw is in (-pi, pi]."""
     x, y, yaw = pose
     v, w = velocity
     half_turn = 0.5 * w * dt
@@ -117,10 +111,7 @@ def between(velocity: Velocity, target: Velocity, share: float) -> Velocity:
 def wheel_rates(
     velocity: Velocity, wheel_separation: float, wheel_radius: float
 ) -> tuple[float, float]:
-    """Return the rates (left, right) [rad/s] of wheels that roll without slipping.
-
-    velocity is (v [m/s], w [rad/s]); wheel_separation and wheel_radius are in metres.
-    """
+    """Return the rates (left, right) [rad/s] of wheels that roll without slipping; lengths [m]."""
     v, w = velocity
     swing = 0.5 * w * wheel_separation
     return (v - swing) / wheel_radius, (v + swing) / wheel_radius

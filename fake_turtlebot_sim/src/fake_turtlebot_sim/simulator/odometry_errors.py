@@ -32,11 +32,7 @@ class OdometryErrors:
         wheel_noise: float = 0.0,
         seed: str = "",
     ) -> None:
-        """Take the nominal wheel_separation [m] and how wrong the odometry is.
-
-        wheel_radius_ratio: E_d; track_ratio: E_b; wheel_noise: standard deviation [m] of a wheel's
-        travel after 1 m, drawn from the seed.
-        """
+        """Take what Parameters has under these names; the noise is drawn from the seed."""
         self._separation = wheel_separation
         self._radius_ratio, self._track_ratio = wheel_radius_ratio, track_ratio
         self.wheel_noise = wheel_noise

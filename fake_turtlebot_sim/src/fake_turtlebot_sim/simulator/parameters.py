@@ -151,10 +151,7 @@ class Parameters:
         return 1.0 + 2.0 * self.max_linear_speed * longest_s
 
     def start_poses(self) -> dict[str, Pose]:
-        """Return {name: (x, y, yaw)}; the only robot of a node without ~robots has no name.
-
-        Raises ValueError if the world has no room.
-        """
+        """Return {name: pose}; without ~robots the name is "". Raises ValueError without room."""
         poses = self.given_poses()
         count = list(poses.values()).count(None)
         places = self.world.places(count) if self.world and count else line_up(count)
@@ -168,10 +165,7 @@ class Parameters:
 
 
 def parse_parameters(given: Mapping[str, Any]) -> Parameters:
-    """Return Parameters from a mapping of names to values; names not given keep their default.
-
-    Raises ValueError with one line: the parameter, its value and what is allowed.
-    """
+    """Return Parameters, checked, with the defaults filled in. Raises ValueError, one line."""
     parameters = Parameters(**checked(Parameters, given))
     for one, other in (("odom_frame", "base_frame"), ("left_wheel_joint", "right_wheel_joint")):
         value = getattr(parameters, one)

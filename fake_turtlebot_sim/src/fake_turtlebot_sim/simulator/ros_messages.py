@@ -108,10 +108,7 @@ def static_transform(frame: tuple[str, str, Place], stamp: Any) -> TransformStam
 
 
 def pose_on_plane(message: Any, frames: Sequence[str]) -> Pose:
-    """Return (x [m], y [m], yaw [rad]) of a PoseWithCovarianceStamped in one of the frames.
-
-    Raises ValueError with one line if the frame is another or the pose is not one.
-    """
+    """Return the Pose of a PoseWithCovarianceStamped in one of the frames, or raise ValueError."""
     frame = message.header.frame_id.lstrip("/")
     if frame not in frames:
         raise ValueError(f"the pose is in the frame {frame!r}; give it in {' or '.join(frames)}")

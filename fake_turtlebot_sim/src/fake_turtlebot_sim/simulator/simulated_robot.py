@@ -144,10 +144,7 @@ class SimulatedRobot:
         self._turned_at_reset = self.turned
 
     def advance(self, to_ns: int) -> bool:
-        """Move up to the time to_ns; a time already passed changes nothing.
-
-        Return whether the timeout ended a motion meanwhile.
-        """
+        """Move up to to_ns, unless that has passed; return whether the timeout ended a motion."""
         has_timed_out = False
         if self._time_ns < self._expires_ns <= to_ns:
             self._move(int(self._expires_ns))

@@ -46,8 +46,5 @@ class DriverParameters:
 
 
 def load(given: Mapping[str, Any]) -> DriverParameters:
-    """Check the given private parameters and fill in the defaults.
-
-    Raises ValueError, one line that names the parameter, its value and what is allowed.
-    """
+    """Return parameters, checked, with the defaults filled in. Raises ValueError, one line."""
     return DriverParameters(**checked(DriverParameters, given))

@@ -25,12 +25,7 @@ class GamepadState:
     """
 
     def __init__(self, deadzone: float, default_trig_val: bool, sticky_buttons: bool) -> None:
-        """See driver_parameters.DriverParameters.
-
-        deadzone: this part of the way of an axis around its middle counts as 0; the rest is
-        stretched over the whole range. default_trig_val: take the values of axes at opening; else
-        an axis is 0 until it moves. sticky_buttons: a press switches a button on or off.
-        """
+        """Take what DriverParameters has under these names."""
         deadzone = min(deadzone, LARGEST_DEADZONE)
         self._dead = FULL * deadzone
         self._scale = -1.0 / (1.0 - deadzone) / FULL
@@ -73,10 +68,7 @@ class GamepadState:
         return tuple(self._axes), tuple(self._switched)
 
     def neutral(self, triggers: Iterable[int] | None) -> Message:
-        """Return (axes, buttons) of a gamepad at rest.
-
-        triggers: the numbers of the axes that are triggers; None if unknown.
-        """
+        """Return (axes, buttons) at rest; triggers: the numbers of those axes, None if unknown."""
         if triggers is None:
             triggers = triggers_by_count(len(self._axes))
         # A trigger at rest reads +1.

@@ -9,7 +9,7 @@ import os
 import select
 import stat
 import time
-from typing import Any, Callable, Mapping
+from typing import Any, Callable, ContextManager, Mapping
 
 from gamepad.gamepads import Gamepad
 from gamepad.js_event import AXIS, BUTTON, INIT, SIGN_OF_LIFE_MS, JsEvent, pack
@@ -28,7 +28,7 @@ class PadError(Exception):
     """A virtual gamepad cannot be made; the text says in one line why and what to do."""
 
 
-class UinputPad:
+class UinputPad(ContextManager["UinputPad"]):
     """A gamepad that the kernel shows to every program, as /dev/input/jsN and eventN."""
 
     connected = True  # whether a program may read; the kernel does not report it
@@ -46,9 +46,6 @@ class UinputPad:
         self._bent = False  # whether its sticks are one step off
         self._device: Any = None
         self._plug_in()
-
-    def __enter__(self) -> UinputPad:
-        return self
 
     def __exit__(self, *_: object) -> None:
         self.show(None)
@@ -104,7 +101,7 @@ class UinputPad:
         return TREMBLE_S
 
 
-class StreamPad:
+class StreamPad(ContextManager["StreamPad"]):
     """The events of the joystick device, served through a FIFO to one reader after the other."""
 
     def __init__(
@@ -124,9 +121,6 @@ class StreamPad:
                 raise PadError(f"{path} is there and is no FIFO: choose another path")
         except OSError as error:
             raise PadError(f"cannot make the FIFO {path}: {error.strerror}") from None
-
-    def __enter__(self) -> StreamPad:
-        return self
 
     def __exit__(self, *_: object) -> None:
         self.show(None)

@@ -71,10 +71,7 @@ def script_source(gamepad: Gamepad, script: Script, loop: bool) -> TimedSource:
 def recording_source(
     gamepad: Gamepad, recorded: Sequence[tuple[float, Position]], loop: bool
 ) -> TimedSource:
-    """Return a source from pairs of a time [s] and a position, in the order of time.
-
-    Raises ValueError, one line, if they are of another gamepad.
-    """
+    """Return a source from (time [s], position), in order. ValueError if of another gamepad."""
     expected = (len(gamepad.axes), len(gamepad.buttons))
     for _, (axes, buttons) in recorded:
         if (len(axes), len(buttons)) != expected:
