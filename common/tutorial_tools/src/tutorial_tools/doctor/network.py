@@ -14,7 +14,7 @@ from typing import Any, TypeVar
 from xmlrpc.server import SimpleXMLRPCRequestHandler, SimpleXMLRPCServer
 
 from node_kit import questions
-from node_kit.questions import TIMEOUT_S, Answer
+from node_kit.questions import TIMEOUT_S, Answer, family
 
 CALLER = f"/doctor_{os.getpid()}"
 LONGEST_MESSAGE = 10_000_000  # bytes; the stamped messages looked at are far shorter
@@ -57,25 +57,11 @@ def addresses(name: str) -> list[str]:
 def is_here(address: str) -> bool:
     """Return whether an address is one of this machine: only then can a socket be bound to it."""
     try:
-        with socket.socket(_family(address), socket.SOCK_DGRAM) as probe:
+        with socket.socket(family(address), socket.SOCK_DGRAM) as probe:
             probe.bind((address, 0))
             return address not in ("0.0.0.0", "::")
     except OSError:
         return False
-
-
-def way_out(address: str) -> str:
-    """Return our own address on the way to another one, or "". Nothing is sent."""
-    try:
-        with socket.socket(_family(address), socket.SOCK_DGRAM) as probe:
-            probe.connect((address, 9))
-            return str(probe.getsockname()[0])
-    except OSError:
-        return ""
-
-
-def _family(address: str) -> socket.AddressFamily:
-    return socket.AF_INET6 if ":" in address else socket.AF_INET
 
 
 def call(uri: str, method: str, *arguments: Any) -> tuple[Answer, Any]:
