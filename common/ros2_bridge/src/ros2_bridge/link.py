@@ -6,13 +6,13 @@ are dropped, and topics take turns. So the newest velocity never waits behind ol
 
 from __future__ import annotations
 
-import collections
 import ctypes
 import signal
 import socket
 import struct
 import threading
 import time
+from collections import OrderedDict, deque
 from contextlib import suppress
 from dataclasses import dataclass
 from typing import Callable, Iterator
@@ -71,9 +71,7 @@ class Sender:
         """depth_of: how many messages of a topic may wait."""
         connection.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, BUFFER_BYTES)
         self._connection, self._depth_of = connection, depth_of
-        self._waiting: collections.OrderedDict[str, collections.deque[Frame]] = (
-            collections.OrderedDict()
-        )
+        self._waiting: OrderedDict[str, deque[Frame]] = OrderedDict()
         self._changed = threading.Condition()
         self._has_ended = False
         threading.Thread(target=self._send, daemon=True).start()
@@ -82,8 +80,7 @@ class Sender:
         """Send a frame as soon as possible."""
         with self._changed:
             if frame.topic not in self._waiting:
-                depth = self._depth_of(frame.topic)
-                self._waiting[frame.topic] = collections.deque(maxlen=depth)
+                self._waiting[frame.topic] = deque(maxlen=self._depth_of(frame.topic))
             self._waiting[frame.topic].append(frame)
             self._changed.notify()
 

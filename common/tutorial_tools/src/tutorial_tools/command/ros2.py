@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import platform
 import sys
 from pathlib import Path
@@ -21,18 +20,6 @@ TOOLS = (REPOSITORY / "common" / "ros2_bridge" / "src" / "ros2_bridge" / "conver
 
 class Refused(Exception):  # noqa: N818  as model.Wrong is
     """Why no program of ROS 2 can run here, in one line."""
-
-
-def options_of(arguments: list[str]) -> argparse.Namespace:
-    """Return yes, program and the arguments of the program."""
-    parser = argparse.ArgumentParser(prog="./tutorial ros2", allow_abbrev=False)
-    what = f"install what is missing ({SIZE} from PyPI) without asking"
-    parser.add_argument("--yes", action="store_true", help=what)
-    names = ", ".join(programs())
-    what = f"a file, or one of ours: {names}; none: python itself"
-    parser.add_argument("program", nargs="?", metavar="PROGRAM", help=what)
-    parser.add_argument("rest", nargs=argparse.REMAINDER, metavar="ARGUMENT")
-    return parser.parse_args(arguments)
 
 
 def programs() -> dict[str, Path]:
