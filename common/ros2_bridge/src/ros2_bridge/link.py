@@ -26,18 +26,17 @@ BUFFER_BYTES = 1 << 16  # what the kernel keeps cannot be dropped any more
 
 @dataclass(frozen=True)
 class Frame:
-    """A message on its way. stamp_s: of the monotonic clock, which both sides share.
+    """A message on its way.
 
-    announces: it is no message, but says that some will come, so that subscribers find the topic.
     Without a topic it is a sign of life; data: a line for each topic that cannot be carried.
     """
 
     topic: str
     type: str  # as ROS 2 writes it: package/msg/Name
     data: bytes
-    stamp_s: float
+    stamp_s: float  # of the monotonic clock, which both sides share
     is_latched: bool = False
-    announces: bool = False
+    announces: bool = False  # no message, but that some will come: subscribers find the topic
 
     def packed(self) -> bytes:
         """Return the frame as it is sent."""

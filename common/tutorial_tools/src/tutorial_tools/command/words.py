@@ -201,7 +201,7 @@ def plan_of_ros2(workspace: Path, arguments: list[str]) -> Plan:
     try:
         command = ros2.command_of(workspace, options.program, options.rest)
         ros2.must_be_possible(workspace, options.yes)
-    except ros2.Refused as error:
+    except ValueError as error:
         fail(f"ros2: {error}")
     needed = [] if installed() else [ros2.BUILD]
     return {"sections": ["demo", "more"], "builds": ["workspace", *needed], "command": command}

@@ -11,7 +11,7 @@ import time
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from typing import Any, TypeVar
-from xmlrpc.server import SimpleXMLRPCRequestHandler, SimpleXMLRPCServer
+from xmlrpc.server import SimpleXMLRPCServer
 
 from node_kit import questions
 from node_kit.questions import TIMEOUT_S, Answer, family
@@ -70,13 +70,6 @@ def call(uri: str, method: str, *arguments: Any) -> tuple[Answer, Any]:
     return answer, value if answer is Answer.WELL else None
 
 
-class _Quiet(SimpleXMLRPCRequestHandler):
-    rpc_paths = ()  # any
-
-    def log_message(self, *_: object) -> None:
-        pass
-
-
 def is_called_back(master_uri: str, own_name: str) -> bool:
     """Return whether the master reaches this machine under its own name.
 
@@ -89,7 +82,7 @@ def is_called_back(master_uri: str, own_name: str) -> bool:
         called.set()
         return 1, "", 0
 
-    with SimpleXMLRPCServer(("", 0), _Quiet, logRequests=False) as server:
+    with SimpleXMLRPCServer(("", 0), logRequests=False) as server:
         server.register_function(publisher_update, "publisherUpdate")
         threading.Thread(target=server.serve_forever, args=(0.05,), daemon=True).start()
         uri = f"http://{own_name}:{server.server_address[1]}/"
