@@ -231,7 +231,6 @@ def statuses(messages: Messages) -> list[DiagnosticStatus]:
 
 def decode(kind: Any, data: bytes) -> Any:
     """Return the message, or None if it is malformed."""
-    try:
+    with contextlib.suppress(DeserializationError):
         return kind().deserialize(data)
-    except DeserializationError:
-        return None
+    return None
