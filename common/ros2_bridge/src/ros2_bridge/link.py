@@ -100,13 +100,9 @@ class Sender:
         return None
 
     def _send(self) -> None:
-        frame = self._next()
-        while frame:
-            try:
+        with suppress(OSError):  # the other side is gone; frames() ends, too
+            for frame in iter(self._next, None):
                 self._connection.sendall(frame.packed())
-            except OSError:
-                return  # the other side is gone; frames() ends, too
-            frame = self._next()
 
 
 def end_with_parent() -> None:
