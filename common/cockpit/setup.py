@@ -1,9 +1,4 @@
 from catkin_pkg.python_setup import generate_distutils_setup
-from setuptools import setup
+from setuptools import find_packages, setup
 
-setup(
-    **generate_distutils_setup(
-        packages=["cockpit_server", "cockpit_server.classroom", "cockpit_server.sources"],
-        package_dir={"": "src"},
-    )
-)
+setup(**generate_distutils_setup(packages=find_packages("src"), package_dir={"": "src"}))

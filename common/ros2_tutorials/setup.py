@@ -13,9 +13,5 @@ setup(
         ("share/ros2_tutorials", ["package.xml"]),
     ],
     install_requires=["setuptools"],
-    maintainer="The maintainers",
-    maintainer_email="maintainers@users.noreply.h-seed-6acde6ae.example",
-    description="The programs of the tutorial in ROS 2.",
-    license="BSD-3-Clause",
     entry_points={"console_scripts": [f"{name} = ros2_tutorials.{name}:main" for name in PROGRAMS]},
 )

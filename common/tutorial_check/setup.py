@@ -1,9 +1,9 @@
 from catkin_pkg.python_setup import generate_distutils_setup
-from setuptools import setup
+from setuptools import find_packages, setup
 
 setup(
     **generate_distutils_setup(
-        packages=["tutorial_check", "tutorial_check.exercises"],
+        packages=find_packages("src"),
         package_data={"tutorial_check.exercises": ["course.yaml"]},
         package_dir={"": "src"},
     )

@@ -7,5 +7,4 @@ signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C while ROS still loads end
 
 from cockpit_server.program import main
 
-if __name__ == "__main__":
-    raise SystemExit(main())
+raise SystemExit(main())

@@ -7,5 +7,4 @@ signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C while ROS still loads end
 
 from tutorial_tools.demo.program import main
 
-if __name__ == "__main__":
-    main()
+main()

@@ -7,5 +7,4 @@ signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C ends this quietly
 
 from tutorial_tools.join import main
 
-if __name__ == "__main__":
-    main()
+main()

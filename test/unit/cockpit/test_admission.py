@@ -3,8 +3,9 @@
 import pytest
 
 from cockpit_server.access import DRIVER, VIEWER
-from cockpit_server.admission import IDLE_S, Page, connection_to_close, page_to_close
+from cockpit_server.admission import IDLE_S, connection_to_close, page_to_close
 from cockpit_server.budget import Budget
+from cockpit_server.clients import Client
 
 ADA, BOB, CY = "10.0.0.1", "10.0.0.2", "10.0.0.3"
 LONG = IDLE_S + 1
@@ -38,7 +39,11 @@ HERE = (DRIVER, ADA, LONG)
     ],
 )
 def test_the_viewer_that_is_closed_for_a_new_page(pages, role, address, closed):
-    page = page_to_close([Page(n, *page) for n, page in enumerate(pages)], role, address)
+    clients = [
+        Client(n, its, "", None, None, None, None, where, spoke_at=100.0 - idle_s)
+        for n, (its, where, idle_s) in enumerate(pages)
+    ]
+    page = page_to_close(clients, role, address, 100.0)
     assert (page and page.number) == closed
 
 

@@ -18,17 +18,13 @@ DRIVER, VIEWER = "driver", "viewer"
 
 @dataclass(frozen=True)
 class Access:
-    """names: of this machine. Without tokens, every client may drive: all are on this machine.
+    """Without tokens, every client may drive: all are on this machine."""
 
-    peers: the only addresses beside this machine's own from which requests come, if not None.
-    origins: under which others forward to this page.
-    """
-
-    names: tuple[str, ...] = ("localhost",)
+    names: tuple[str, ...] = ("localhost",)  # of this machine
     driver_token: str | None = None
     viewer_token: str | None = None
-    peers: tuple[str, ...] | None = None
-    origins: tuple[str, ...] = ()
+    peers: tuple[str, ...] | None = None  # the only other machines whose requests are answered
+    origins: tuple[str, ...] = ()  # under which others forward to this page
 
     def may_come(self, address: str) -> bool:
         """Return whether an IP address may send requests."""

@@ -1,22 +1,14 @@
 """Which connection or page is closed when all places are taken (pure)."""
 
 from collections import Counter
-from typing import List, NamedTuple, Optional, Sequence, Tuple, TypeVar
+from typing import List, Optional, Sequence, Tuple, TypeVar
 
 from cockpit_server.access import DRIVER
+from cockpit_server.clients import Client
 
 IDLE_S = 60.0  # a viewer that asked for nothing for so long gives way to one of its own address
 
 T = TypeVar("T")
-
-
-class Page(NamedTuple):
-    """One open page. idle_s: time since it sent a message or was opened [s]."""
-
-    number: int
-    role: str
-    address: str
-    idle_s: float
 
 
 def of_the_fullest(present: Sequence[Tuple[T, str]]) -> List[T]:
@@ -35,17 +27,17 @@ def connection_to_close(unused: Sequence[Tuple[T, str]]) -> Optional[T]:
     return next(iter(of_the_fullest(unused)), None)
 
 
-def page_to_close(pages: Sequence[Page], role: str, address: str) -> Optional[Page]:
+def page_to_close(pages: Sequence[Client], role: str, address: str, now: float) -> Optional[Client]:
     """Return the viewer to close for a new page, or None if the new page is to be refused.
 
     A driver replaces the idlest viewer of the address that has most. A viewer does so if that
     address has more than its own would then have, or else replaces a viewer of its own address that
     is idle: many people may share one address (NAT).
     """
-    viewers = [page for page in pages if page.role != DRIVER]
+    viewers = [page for page in pages if not page.drives]
     fullest = of_the_fullest([(page, page.address) for page in viewers])
     own = [page for page in viewers if page.address == address]
     if fullest and (role == DRIVER or len(fullest) > len(own) + 1):
-        return max(fullest, key=lambda page: page.idle_s)
-    idlest = max(own, key=lambda page: page.idle_s, default=None)
-    return idlest if idlest and idlest.idle_s > IDLE_S else None
+        return min(fullest, key=lambda page: page.spoke_at)
+    idlest = min(own, key=lambda page: page.spoke_at, default=None)
+    return idlest if idlest and now - idlest.spoke_at > IDLE_S else None

@@ -24,20 +24,16 @@ SYSTEMS = (
 
 @dataclass(eq=False)
 class Client:
-    """write: called with a text to send. is_behind: whether the last one has not gone out yet.
-
-    is_cut: whether the network to it seems to be down. close: called to end it. address: of its
-    machine.
-    """
+    """A page, by what can be done with its connection."""
 
     number: int
     role: str
     name: str
-    write: Callable[[str], Any]
-    is_behind: Callable[[], bool]
-    is_cut: Callable[[], bool]
+    write: Callable[[str], Any]  # sends a text
+    is_behind: Callable[[], bool]  # whether the last text has not gone out yet
+    is_cut: Callable[[], bool]  # whether the network to it seems to be down
     close: Callable[[], Any]
-    address: str = ""
+    address: str = ""  # of its machine
     spoke_at: float = 0.0  # when it was opened or sent a message last [s]
     watch: Any = None  # what it wants to see, by the names in the sources' watches
     seen: dict[Any, Any] = field(default_factory=dict)  # about what: the newest version sent

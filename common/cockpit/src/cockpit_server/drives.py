@@ -13,24 +13,17 @@ NO_ROBOT = "No robot is running yet. Start one, for example: ./tutorial demo"
 
 
 class About(NamedTuple):
-    """What is known of one robot.
+    """What is known of one robot."""
 
-    driver: number of the page that drives it, or None; name: of that page. how: PAGE or BAG. armed:
-    whether all was seen released. why: the last stop by a loss of the driver, "" if there was none.
-    said: what joy2twist reports (see teleop.report_of), None if nothing. senders: other nodes that
-    publish its joystick's topic. moves: whether its odometry says so. is_heard: whether a node
-    subscribes to its joystick's topic.
-    """
-
-    driver: Optional[int] = None
-    name: str = ""
-    how: str = ""
-    armed: bool = False
-    why: str = ""
-    said: Optional[Dict[str, Any]] = None
-    senders: Tuple[str, ...] = ()
-    moves: bool = False
-    is_heard: bool = True
+    driver: Optional[int] = None  # number of the page that drives it
+    name: str = ""  # of that page
+    how: str = ""  # PAGE or BAG
+    armed: bool = False  # whether all was seen released
+    why: str = ""  # the last stop by a loss of the driver
+    said: Optional[Dict[str, Any]] = None  # what joy2twist reports: see teleop.report_of()
+    senders: Tuple[str, ...] = ()  # other nodes that publish its joystick's topic
+    moves: bool = False  # whether its odometry says so
+    is_heard: bool = True  # whether a node subscribes to its joystick's topic
 
     @property
     def is_driven_by_node(self) -> bool:

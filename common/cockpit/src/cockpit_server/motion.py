@@ -1,17 +1,11 @@
-"""The motion on the floor from the bytes of a nav_msgs/Odometry (pure)."""
+"""The motion on the floor from a nav_msgs/Odometry (pure)."""
 
 from __future__ import annotations
 
-import struct
 from math import atan2, hypot, isfinite
 from typing import NamedTuple
 
-# Little-endian: seq, secs, nsecs (uint32 each), frame_id and child_frame_id (length and bytes),
-# then as float64 position and quaternion, 36 covariances, linear and angular velocity.
-_HEADER_BYTES = 12
-_LENGTH = struct.Struct("<I")
-_MOTION = struct.Struct("<7d288x6d")
-
+from nav_msgs.msg import Odometry
 
 LONGEST_STEP_M = 0.5  # within a period; what is more was carried, or odometry was not heard
 FARTHEST_M = 1e6  # from the origin; what is beyond is no place of a robot
@@ -27,14 +21,11 @@ class Motion(NamedTuple):
     w: float
 
 
-def motion(data: bytes) -> Motion:
-    """Return the Motion, without the covariances; struct.error if the bytes are too short."""
-    at = _HEADER_BYTES
-    at += 4 + _LENGTH.unpack_from(data, at)[0]
-    at += 4 + _LENGTH.unpack_from(data, at)[0]
-    x, y, _, qx, qy, qz, qw, v, _, _, _, _, w = _MOTION.unpack_from(data, at)
-    yaw = atan2(2 * (qw * qz + qx * qy), qw * qw + qx * qx - qy * qy - qz * qz)
-    return Motion(x, y, yaw, v, w)
+def motion(odometry: Odometry) -> Motion:
+    """Return the Motion of an Odometry."""
+    at, q, twist = odometry.pose.pose.position, odometry.pose.pose.orientation, odometry.twist.twist
+    yaw = atan2(2 * (q.w * q.z + q.x * q.y), q.w * q.w + q.x * q.x - q.y * q.y - q.z * q.z)
+    return Motion(at.x, at.y, yaw, twist.linear.x, twist.angular.z)
 
 
 def is_somewhere(state: Motion) -> bool:

@@ -19,13 +19,14 @@ import rospy
 
 from cockpit_server.access import Access, gateways
 from node_kit.arguments import Parser
-from node_kit.questions import PARAMETER, Answer, accepts, address, call
+from node_kit.questions import PARAMETER, Answer, accepts, address, call, way_out
 from node_kit.start import run
 
 NODE_NAME = "cockpit"
 DEFAULT_PORT = 8080
 LOOK_S = 1.0
 TOKEN_BYTES = 16
+ELSEWHERE = "192.0.2.1"  # RFC 5737 has it for documentation
 TOKENS = "COCKPIT_TOKENS"  # environment variable, which only this user can read
 # In a container: the port of the host at which this one's is published, and who else may come.
 PUBLISHED, PEERS = "COCKPIT_PUBLISHED", "COCKPIT_PEERS"
@@ -90,16 +91,6 @@ def wait_for_master() -> None:
             report(f"waiting for a ROS master at {uri}: start roscore, or a launch file")
             is_reported = True
         time.sleep(LOOK_S)
-
-
-def own_address() -> str:
-    """Return the address at which other machines may find this one."""
-    try:
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-            probe.connect(("192.0.2.1", 9))  # nothing is sent; RFC 5737 has it for documentation
-            return probe.getsockname()[0]
-    except OSError:
-        return socket.gethostname()
 
 
 def main() -> int:
@@ -185,7 +176,8 @@ def print_address(port: int, access: Access) -> None:
     if access.driver_token is None:
         report(where(f"http://127.0.0.1:{port}/"))
         return
-    page = f"http://{own_address()}:{port}/?token="
+    own = way_out(ELSEWHERE) or socket.gethostname()
+    page = f"http://{own}:{port}/?token="
     print(f"cockpit: to look:  {page}{access.viewer_token}")
     report(f"to drive: {page}{access.driver_token}")
     show_code(f"{page}{access.driver_token}")

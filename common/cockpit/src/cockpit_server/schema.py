@@ -42,12 +42,8 @@ text = require(
     lambda v: isinstance(v, str) and len(v) <= LONGEST_TEXT and v.isprintable(),
     f"be a text of at most {LONGEST_TEXT} characters",
 )
-begins_at_root = require(lambda v: v.startswith("/"), "begin with /")
-
-
-def full_name(value: Any) -> Any:
-    """Check a name of the graph: rospy would put a relative one beside the cockpit."""
-    return begins_at_root(text(value))
+# A name of the graph: rospy would put a relative one beside the cockpit.
+full_name = require(lambda v: text(v).startswith("/"), "begin with /")
 
 
 def number(least: float, most: float) -> Check:

@@ -34,19 +34,14 @@ class RefusedError(Exception):
 
 
 class Input(NamedTuple):
-    """What a page says its hand does, and when.
+    """What a page says its hand does, and when; axes and buttons are as on /joy."""
 
-    n: number of the message. t: the page's clock [ms]. beat: the newest beat of the server that the
-    page has seen. axes, buttons: as on /joy. pad: the gamepad's own clock, any unit; None: a hand
-    on glass or keys.
-    """
-
-    n: int
-    t: float
-    beat: int
+    n: int  # number of the message
+    t: float  # the page's clock [ms]
+    beat: int  # the newest beat of the server that the page has seen
     axes: Axes
     buttons: Buttons
-    pad: float | None = None
+    pad: float | None = None  # the gamepad's own clock, any unit; None: a hand on glass or keys
 
 
 def neutral_of(axes: Axes, buttons: Buttons) -> tuple[Axes, Buttons]:

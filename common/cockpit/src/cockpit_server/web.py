@@ -16,7 +16,7 @@ from tornado.web import Application, RequestHandler, StaticFileHandler
 from tornado.websocket import WebSocketClosedError, WebSocketHandler
 
 from cockpit_server.access import Access, without_token
-from cockpit_server.admission import Page, connection_to_close, page_to_close
+from cockpit_server.admission import connection_to_close, page_to_close
 from cockpit_server.clients import Client, name_of
 from cockpit_server.hub import Hub
 from cockpit_server.schema import LONGEST_MESSAGE
@@ -133,16 +133,14 @@ class _Socket(_Guarded, WebSocketHandler):
 
     def has_room(self, hub: Hub) -> bool:
         """Return whether one more page may be opened, for which a viewer may be closed."""
-        clients, now = list(hub.clients.values()), time.monotonic()
-        if len(clients) < MOST_CLIENTS:
+        pages = list(hub.clients.values())
+        if len(pages) < MOST_CLIENTS:
             return True
-        pages = [Page(one.number, one.role, one.address, now - one.spoke_at) for one in clients]
-        page = page_to_close(pages, self.role, self.address)
+        page = page_to_close(pages, self.role, self.address, time.monotonic())
         if page is None:
             return False
-        closed = hub.clients[page.number]
-        hub.leave(closed)
-        closed.close()
+        hub.leave(page)
+        page.close()
         return True
 
     def check_origin(self, origin: str) -> bool:

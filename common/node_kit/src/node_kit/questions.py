@@ -1,6 +1,6 @@
 """Questions to a master or a node that end in time, unlike rospy's own: which node is where.
 
-Also: which node holds a name, and where the cockpit's page is.
+Also: which node holds a name, where the cockpit's page is, and this machine's own address.
 """
 
 from __future__ import annotations
@@ -106,6 +106,20 @@ def accepts(uri: str) -> bool:
             return True
     except (OSError, ValueError):
         return False
+
+
+def family(address: str) -> socket.AddressFamily:
+    return socket.AF_INET6 if ":" in address else socket.AF_INET
+
+
+def way_out(address: str) -> str:
+    """Return our own address on the way to another one, or "". Nothing is sent."""
+    try:
+        with socket.socket(family(address), socket.SOCK_DGRAM) as probe:
+            probe.connect((address, 9))
+            return str(probe.getsockname()[0])
+    except OSError:
+        return ""
 
 
 def address(master_uri: str) -> str | None:

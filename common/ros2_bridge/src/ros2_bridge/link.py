@@ -6,13 +6,13 @@ are dropped, and topics take turns. So the newest velocity never waits behind ol
 
 from __future__ import annotations
 
-import collections
 import ctypes
 import signal
 import socket
 import struct
 import threading
 import time
+from collections import OrderedDict, deque
 from contextlib import suppress
 from dataclasses import dataclass
 from typing import Callable, Iterator
@@ -26,18 +26,17 @@ BUFFER_BYTES = 1 << 16  # what the kernel keeps cannot be dropped any more
 
 @dataclass(frozen=True)
 class Frame:
-    """A message on its way. stamp_s: of the monotonic clock, which both sides share.
+    """A message on its way.
 
-    announces: it is no message, but says that some will come, so that subscribers find the topic.
     Without a topic it is a sign of life; data: a line for each topic that cannot be carried.
     """
 
     topic: str
     type: str  # as ROS 2 writes it: package/msg/Name
     data: bytes
-    stamp_s: float
+    stamp_s: float  # of the monotonic clock, which both sides share
     is_latched: bool = False
-    announces: bool = False
+    announces: bool = False  # no message, but that some will come: subscribers find the topic
 
     def packed(self) -> bytes:
         """Return the frame as it is sent."""
@@ -71,9 +70,7 @@ class Sender:
         """depth_of: how many messages of a topic may wait."""
         connection.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, BUFFER_BYTES)
         self._connection, self._depth_of = connection, depth_of
-        self._waiting: collections.OrderedDict[str, collections.deque[Frame]] = (
-            collections.OrderedDict()
-        )
+        self._waiting: OrderedDict[str, deque[Frame]] = OrderedDict()
         self._changed = threading.Condition()
         self._has_ended = False
         threading.Thread(target=self._send, daemon=True).start()
@@ -82,8 +79,7 @@ class Sender:
         """Send a frame as soon as possible."""
         with self._changed:
             if frame.topic not in self._waiting:
-                depth = self._depth_of(frame.topic)
-                self._waiting[frame.topic] = collections.deque(maxlen=depth)
+                self._waiting[frame.topic] = deque(maxlen=self._depth_of(frame.topic))
             self._waiting[frame.topic].append(frame)
             self._changed.notify()
 
@@ -104,13 +100,9 @@ class Sender:
         return None
 
     def _send(self) -> None:
-        frame = self._next()
-        while frame:
-            try:
+        with suppress(OSError):  # the other side is gone; frames() ends, too
+            for frame in iter(self._next, None):
                 self._connection.sendall(frame.packed())
-            except OSError:
-                return  # the other side is gone; frames() ends, too
-            frame = self._next()
 
 
 def end_with_parent() -> None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass
+from functools import partial
 from typing import Set, Tuple
 
 import rospy
@@ -115,8 +116,4 @@ def pairs(message: TFMessage) -> Pairs:
 
 def main() -> int:
     """Run the node until it is shut down; return its exit code."""
-    return run(
-        NODE_NAME,
-        lambda given: Parameters(**checked(Parameters, given)),
-        lambda _parameters: ClassroomBodies().spin(),
-    )
+    return run(NODE_NAME, partial(checked, Parameters), lambda _: ClassroomBodies().spin())

@@ -18,9 +18,7 @@ from cockpit_server.schema import switch
 KEPT = 500  # lines
 AT_ONCE = 50  # lines in a message to a page: many long ones would hold up the driver
 LONGEST_LINE = 2000  # characters
-LEVELS = {
-    Log.DEBUG: "DEBUG", Log.INFO: "INFO", Log.WARN: "WARN", Log.ERROR: "ERROR", Log.FATAL: "FATAL",
-}  # fmt: skip
+LEVELS = {getattr(Log, name): name for name in ("DEBUG", "INFO", "WARN", "ERROR", "FATAL")}
 
 
 def without_folders(text: str, home: str | None = None, here: str | None = None) -> str:

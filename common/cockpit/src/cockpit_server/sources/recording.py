@@ -27,14 +27,12 @@ class RecordingError(Exception):
 
 
 class Recording(NamedTuple):
-    """start, end [s since 1970]. topics: name -> (type, messages). joys: topic -> its messages as
-    (time since the start [s], axes, buttons).
-    """
+    """What is in a bag; times are [s since 1970]."""
 
     start: float
     end: float
-    topics: dict[str, tuple[str, int]]
-    joys: dict[str, list[Message]]
+    topics: dict[str, tuple[str, int]]  # name -> (type, number of messages)
+    joys: dict[str, list[Message]]  # topic -> [(time since the start [s], axes, buttons)]
 
     @property
     def duration(self) -> float:

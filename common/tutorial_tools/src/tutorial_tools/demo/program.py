@@ -64,13 +64,10 @@ def check_master(nodes: Iterable[str]) -> None:
 def in_the_way(
     state: list[list[tuple[str, list[str]]]], nodes: Iterable[str], topics: Iterable[str]
 ) -> list[str]:
-    """Return the registered nodes that a launch would meet, in alphabetical order (pure).
+    """Return the registered nodes with a name of a launch, or that publish on its topics (pure).
 
-    Those that bear the name of one of its nodes, which would be ended by it, and those that publish
-    on one of its topics, where two would drive one robot.
-
-    state: publishers, subscribers and services as the master's getSystemState() gives them.
-    nodes: names that the launch will give. topics: those that belong to its nodes alone.
+    The launch would end the former; with the latter two would drive one robot.
+    state: as the master's getSystemState() gives it.
     """
     registered = {name for part in state for _, names in part for name in names}
     senders = {name for topic, names in state[0] if topic in topics for name in names}

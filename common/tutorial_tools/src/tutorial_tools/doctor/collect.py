@@ -20,7 +20,7 @@ from std_msgs.msg import String
 from gamepad.driver.container import in_container
 from gamepad.driver.report import SILENT_FOR
 from node_kit.manifests import broken_manifests
-from node_kit.questions import TIMEOUT_S, Answer
+from node_kit.questions import TIMEOUT_S, Answer, way_out
 from tutorial_tools.command.build import REPOSITORY, SHARE
 from tutorial_tools.doctor import network
 from tutorial_tools.doctor.facts import JOY, Facts, Joystick, Mux, MuxInput, Node, Offset
@@ -54,7 +54,7 @@ def collect() -> Facts:
     if not found:
         return Facts(**facts, master=Answer.UNKNOWN_NAME)
     if not facts["master_here"]:
-        facts["way_out"] = network.way_out(found[0])
+        facts["way_out"] = way_out(found[0])
     facts["master"], _ = call(uri, "getPid")
     if facts["master"] is Answer.WELL:
         if facts["own_is_here"]:
@@ -231,7 +231,6 @@ def statuses(messages: Messages) -> list[DiagnosticStatus]:
 
 def decode(kind: Any, data: bytes) -> Any:
     """Return the message, or None if it is malformed."""
-    try:
+    with contextlib.suppress(DeserializationError):
         return kind().deserialize(data)
-    except DeserializationError:
-        return None
+    return None

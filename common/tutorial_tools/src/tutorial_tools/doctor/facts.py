@@ -33,12 +33,12 @@ DEAD = (Answer.REFUSED, Answer.STRANGE)  # of a node: nothing listens, or anothe
 
 
 class Finding(NamedTuple):
-    """One line for the user. about: one word. todo: what to do."""
+    """One line for the user."""
 
     level: str
-    about: str
+    about: str  # one word
     seen: str
-    todo: str = ""
+    todo: str = ""  # what to do
 
     def line(self) -> str:
         """Return the finding as it is shown."""
@@ -52,16 +52,13 @@ unknown = partial(Finding, UNKNOWN)  # the doctor cannot judge this
 
 
 class Node(NamedTuple):
-    """A node as the master has it, and as it answers here.
-
-    here: whether it runs on this machine; None if its name cannot be looked up.
-    links: (topic, whether it comes in) of every connection that it has.
-    """
+    """A node as the master has it, and as it answers here."""
 
     uri: str
     host: str
     answer: Answer
-    here: bool | None = True
+    here: bool | None = True  # whether it runs on this machine; None: its name is not found
+    # Of every connection that it has: topic, and whether messages come in.
     links: list[tuple[str, bool]] = []  # noqa: RUF012 (never changed)
 
 

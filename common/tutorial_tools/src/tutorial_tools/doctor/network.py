@@ -11,10 +11,10 @@ import time
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from typing import Any, TypeVar
-from xmlrpc.server import SimpleXMLRPCRequestHandler, SimpleXMLRPCServer
+from xmlrpc.server import SimpleXMLRPCServer
 
 from node_kit import questions
-from node_kit.questions import TIMEOUT_S, Answer
+from node_kit.questions import TIMEOUT_S, Answer, family
 
 CALLER = f"/doctor_{os.getpid()}"
 LONGEST_MESSAGE = 10_000_000  # bytes; the stamped messages looked at are far shorter
@@ -57,38 +57,17 @@ def addresses(name: str) -> list[str]:
 def is_here(address: str) -> bool:
     """Return whether an address is one of this machine: only then can a socket be bound to it."""
     try:
-        with socket.socket(_family(address), socket.SOCK_DGRAM) as probe:
+        with socket.socket(family(address), socket.SOCK_DGRAM) as probe:
             probe.bind((address, 0))
             return address not in ("0.0.0.0", "::")
     except OSError:
         return False
 
 
-def way_out(address: str) -> str:
-    """Return our own address on the way to another one, or "". Nothing is sent."""
-    try:
-        with socket.socket(_family(address), socket.SOCK_DGRAM) as probe:
-            probe.connect((address, 9))
-            return str(probe.getsockname()[0])
-    except OSError:
-        return ""
-
-
-def _family(address: str) -> socket.AddressFamily:
-    return socket.AF_INET6 if ":" in address else socket.AF_INET
-
-
 def call(uri: str, method: str, *arguments: Any) -> tuple[Answer, Any]:
     """Call a master's or a node's method as this program; return (Answer, its value or None)."""
     answer, value = questions.call(uri, method, *arguments, caller=CALLER)
     return answer, value if answer is Answer.WELL else None
-
-
-class _Quiet(SimpleXMLRPCRequestHandler):
-    rpc_paths = ()  # any
-
-    def log_message(self, *_: object) -> None:
-        pass
 
 
 def is_called_back(master_uri: str, own_name: str) -> bool:
@@ -103,7 +82,7 @@ def is_called_back(master_uri: str, own_name: str) -> bool:
         called.set()
         return 1, "", 0
 
-    with SimpleXMLRPCServer(("", 0), _Quiet, logRequests=False) as server:
+    with SimpleXMLRPCServer(("", 0), logRequests=False) as server:
         server.register_function(publisher_update, "publisherUpdate")
         threading.Thread(target=server.serve_forever, args=(0.05,), daemon=True).start()
         uri = f"http://{own_name}:{server.server_address[1]}/"

@@ -1,6 +1,5 @@
 """The command: looks at all that may keep a robot from moving, one line for each finding."""
 
-import signal
 import sys
 
 from tutorial_tools.command.words import parser_of
@@ -12,7 +11,6 @@ from tutorial_tools.doctor.judgement import judge
 def main() -> None:
     """Show the findings; exit code 1 if something is wrong."""
     parser_of("doctor").parse_args()
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
     try:
         findings = judge(collect())
     except Exception as error:  # one line in place of a traceback, whatever a network does
