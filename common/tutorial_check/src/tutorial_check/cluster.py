@@ -32,7 +32,6 @@ MOST_AT_ONCE = 1000  # submissions that the scheduler knows of
 TRIES = 2  # a submission that ends so many workers is abandoned
 PORT = 8786  # of a Dask scheduler
 CONNECT_S = 10.0
-PARTS = ("submission", "course")  # of what is sent
 
 
 class Gone(CannotCheck):

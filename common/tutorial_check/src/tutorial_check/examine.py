@@ -110,12 +110,10 @@ def _run_exercises(
 ) -> None:
     """Send the results of each exercise as they come, then how long it took."""
     for exercise in orders["exercises"]:
-        began_s = time.monotonic()
-
-        def report(found: Result, exercise: str = exercise) -> None:
+        began_s, results = time.monotonic(), []
+        for found in run.exercise(exercise, orders["only_first"]):
             send(exercise=exercise, result=as_sent(found))
-
-        results = run.exercise(exercise, report, orders["only_first"])
+            results.append(found)
         seconds = round(time.monotonic() - began_s, 2)
         send(exercise=exercise, done=seconds, trouble=run.trouble(exercise))
         if orders["only_first"] and not passed(results):

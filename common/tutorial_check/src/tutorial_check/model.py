@@ -130,18 +130,13 @@ class Run:
             self._done[check_id] = self._make(self._checks[check_id])
         return self._done[check_id]
 
-    def exercise(
-        self,
-        exercise: str,
-        report: Callable[[Result], None] = lambda result: None,
-        only_first: bool = False,
-    ) -> list[Result]:
-        """Return the results of an exercise; call report with each as soon as it is there.
+    def exercise(self, exercise: str, only_first: bool = False) -> Iterator[Result]:
+        """Yield the results of an exercise, each as soon as it is there.
 
         What is wrong in an earlier exercise and keeps this one from being checked comes first, unless
         it was reported before. only_first: end at the first that is wrong.
         """
-        results = []
+        is_wrong = False
         for check in self._of(exercise):
             culprits = {
                 one.id: one
@@ -150,12 +145,11 @@ class Run:
             }
             for result in (*culprits.values(), self.result(check.id)):
                 if result.id not in self._reported or result.status != WRONG:
-                    results.append(result)
+                    is_wrong = is_wrong or result.status == WRONG
                     self._reported.add(result.id)
-                    report(result)
-            if only_first and any(result.status == WRONG for result in results):
-                break
-        return results
+                    yield result
+            if only_first and is_wrong:
+                return
 
     def trouble(self, exercise: str) -> str:
         """Return why a check of the exercise could not be made, though nothing is wrong with it."""

@@ -11,7 +11,7 @@ from typing import Any
 from tutorial_check import student_files
 from tutorial_check.causes import NO_KEYBOARD, explain, hider, syntax_hint, traced
 from tutorial_check.model import Note, Wrong
-from tutorial_check.python_facts import PythonFacts, read_python
+from tutorial_check.python_facts import PythonFacts
 from tutorial_check.python_text import unreadable
 from tutorial_check.rows import Row, find
 from tutorial_check.session import Session
@@ -198,7 +198,7 @@ def cause_of(session: Session, package: str, name: str, trace: Traceback) -> tup
     script = trace.where.rpartition(":")[0] or script
     if not script:
         return trace.where, explain(trace.error, trace.text)
-    facts = read_python(session.text(package, script))
+    facts = PythonFacts(session.text(package, script))
     function = re.search(r"(\w+)\(\) (?:takes|missing)", trace.error)
     line = int(trace.where.rpartition(":")[2] or 0)
     if not line and function:  # called by rospy itself

@@ -15,7 +15,7 @@ from tutorial_check.box import Box, Program
 from tutorial_check.environment import environment_of
 from tutorial_check.manifests import is_stand_in, must_be_startable
 from tutorial_check.model import CannotCheck, Wrong, master_gone
-from tutorial_check.python_facts import PythonFacts, read_python
+from tutorial_check.python_facts import PythonFacts
 from tutorial_check.stage import Stage
 from tutorial_check.variants import Task
 from tutorial_check.workspace import SOLUTIONS, Layout, Package, packages_below
@@ -125,7 +125,7 @@ class Session:
                 with path.open("rb") as file:
                     is_python = file.read(2) == b"#!" and b"python" in file.readline()
             if is_python and path.name not in ("setup.py", "__init__.py"):
-                yield str(inside), read_python(self._text(path))
+                yield str(inside), PythonFacts(self._text(path))
 
     def _text(self, path: Path) -> str:
         return student_files.read(self.folder, path).decode(errors="replace")
@@ -224,9 +224,7 @@ class Session:
                 ) from None
 
     def _needs_build(self) -> bool:
-        files = [each.folder / "CMakeLists.txt" for each in self.packages]
-        texts = (each.read_text(errors="replace") for each in files if each.is_file())
-        return any(map(NEEDS_BUILD.search, texts))
+        return any(NEEDS_BUILD.search(each.cmake or "") for each in self.packages)
 
     @property
     def lacks_build(self) -> bool:

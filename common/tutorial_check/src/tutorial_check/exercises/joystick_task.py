@@ -66,11 +66,9 @@ class JoystickTask(Task):
         return self.topics.get(name, name)
 
     def known_as(self, package: str) -> str:
-        """Return the name that the checks know a package of the student's by."""
         return {PACKAGE: f"not_{PACKAGE}", self.named(PACKAGE): PACKAGE}.get(package, package)
 
     def named(self, package: str) -> str:
-        """Return the name that the student's files have for a package that the checks name."""
         return self.values.get("package", package) if package == PACKAGE else package
 
     def words(self, result: Result) -> Result:
