@@ -39,18 +39,16 @@ class Note:
     empty: bool = False  # there was nothing to be checked
 
 
+@dataclass(eq=False)
 class Wrong(Exception):
     """A check that does not hold. Raised by checks, which so end at the first thing wrong."""
 
-    look = ""  # a command that shows it, if not that of the check
-
-    def __init__(
-        self, expected: str, seen: str, where: str = "", hint: str = "", sure: bool = False
-    ) -> None:
-        """sure: whatever else the machine had to do, it is no matter of time."""
-        super().__init__(f"expected {expected}; seen {seen}")
-        self.expected, self.seen, self.where, self.hint = expected, seen, where, hint
-        self.sure = sure
+    expected: str
+    seen: str
+    where: str = ""
+    hint: str = ""
+    sure: bool = False  # whatever else the machine had to do, it is no matter of time
+    look: str = ""  # a command that shows it, if not that of the check
 
 
 def master_gone(where: str = "") -> Wrong:

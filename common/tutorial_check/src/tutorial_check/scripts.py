@@ -51,9 +51,8 @@ def find_script(session: Session, package: str, name: str) -> str:
         raise Wrong(f"a program {name}", seen, str(compiled[0].relative_to(folder)), hint)
     expected = f"a program {name} in the package {package}"
     hint = f"create scripts/{name} in YOUR package; ./tutorial shell without --in has one of OURS"
-    wrong = Wrong(expected, "no such file anywhere in it", "", hint)
-    wrong.look = f"ls {session.whole('scripts', package)}"
-    raise wrong
+    look = f"ls {session.whole('scripts', package)}"
+    raise Wrong(expected, "no such file anywhere in it", "", hint, look=look)
 
 
 def program_of(session: Session, package: str, name: str) -> str:

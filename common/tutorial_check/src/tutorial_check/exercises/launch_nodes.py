@@ -45,10 +45,6 @@ def is_joystick(node: Node) -> bool:
     return is_driver and node["package"] != "rosbag"
 
 
-def is_own(node: Node) -> bool:
-    return node["package"] == PACKAGE
-
-
 def check_viewer(file: LaunchFile) -> Note | None:
     """Return a Note about RViz, or None. Raises Wrong if its configuration does not exist."""
     node = file.demand("RViz", is_viewer, VIEWER_HINT)
@@ -148,7 +144,7 @@ def _check_items(file: LaunchFile) -> Note | None:
     """Look at what both files start; return a Note about it, or None."""
     note = check_viewer(file) or odd_name(file)
     file.demand("the simulated robot", is_simulator, ROBOT_HINT)
-    file.demand("joy2twist", is_own, OWN_HINT)
+    file.demand("joy2twist", file.own.__contains__, OWN_HINT)
     check_one_driver(file)
     return note
 
