@@ -71,7 +71,7 @@ def examine(orders: dict[str, Any], send: Send, result: int) -> None:
     os.environ.pop("ROS_HOSTNAME", None)
 
     from tutorial_check import box, session, variants  # noqa: PLC0415
-    from tutorial_check.course import checks_of, read_course, task_of  # noqa: PLC0415
+    from tutorial_check.course import checks_of, read_course  # noqa: PLC0415
 
     uid = place.unused_user(orders["number"]) if os.geteuid() == 0 else None
     environment.prepare(scratch, uid)
@@ -88,7 +88,7 @@ def examine(orders: dict[str, Any], send: Send, result: int) -> None:
         underlay=orders["underlay"],
         can_have_devices=apart,
         needed=[*orders["kept"], Path(__file__)],
-        task=(task_of(course) or variants.Task)(orders["variant"]),
+        task=variants.task_of(course)(orders["variant"]),
     )
     run = Run(checks, one, one.second_look, one.box.patience.hopeless)
     if uid is not None:

@@ -7,6 +7,7 @@ import os
 import re
 import shlex
 from dataclasses import replace
+from functools import cached_property
 from pathlib import Path
 from typing import Any, Callable, Dict, Iterable, Iterator, Tuple
 
@@ -95,15 +96,11 @@ class Session:
 
     # ---------------------------------------------------------------- the student's packages
 
-    @property
+    @cached_property
     def packages(self) -> list[Package]:
         """In the order of their paths, by the names that the checks know."""
-
-        def found() -> list[Package]:
-            every = packages_below(self.source)
-            return [replace(each, name=self.task.known_as(each.name)) for each in every]
-
-        return self.memo("packages", found)
+        every = packages_below(self.source)
+        return [replace(each, name=self.task.known_as(each.name)) for each in every]
 
     def package(self, name: str) -> Any:
         return next((each for each in self.packages if each.name == name), None)
@@ -231,12 +228,9 @@ class Session:
         """Whether the programs run without what catkin_make should have made for them."""
         return self._needs_build() and self.built()[0] != 0
 
-    @property
-    def environment(self) -> Any:
+    @cached_property
+    def environment(self) -> dict[str, str]:
         """In which the student's programs find their packages before all others."""
-        return self.memo("environment", self._environment)
-
-    def _environment(self) -> dict[str, str]:
         if self._needs_build() and self.built()[0] == 0:
             found = self._sourced(self.folder / "ws" / "devel" / "setup.bash")
         else:

@@ -10,7 +10,6 @@ import re
 from dataclasses import replace
 from typing import Any, Callable, Mapping, Sequence
 
-from tutorial_check.course import task
 from tutorial_check.model import Result
 from tutorial_check.variants import UNASKED, Task, Variant
 
@@ -42,7 +41,6 @@ def moved(values: Sequence[Any], places: Mapping[int, int]) -> tuple[Any, ...]:
     return tuple(found[index] for index in range(len(values)))
 
 
-@task
 class JoystickTask(Task):
     """A variant of the handout's task."""
 
