@@ -53,13 +53,9 @@ class Wrong(Exception):
 
 def master_gone(where: str = "") -> Wrong:
     """Return the Wrong for a program that ends the master."""
-    return Wrong(
-        "the ROS master is left alone",
-        "it no longer answers: a program of yours has ended it",
-        where,
-        "a node ends itself (rospy.signal_shutdown), never the master",
-        sure=True,
-    )
+    seen = "it no longer answers: a program of yours has ended it"
+    hint = "a node ends itself (rospy.signal_shutdown), never the master"
+    return Wrong("the ROS master is left alone", seen, where, hint, sure=True)
 
 
 class CannotCheck(Exception):

@@ -105,10 +105,9 @@ def check_joy(file: LaunchFile, sender: Node) -> None:
     sends, own = topic_of(sender, JOY), file.session.task.topic(JOY)
     listens = [topic_of(node, own) for node in file.own]
     if sends not in listens:
-        seen = (
-            f"{sender['type']} sends them on {sends}, {file.own[0]['type']} listens to {listens[0]}"
-        )
-        remaps = (*sender["remaps"], *file.own[0]["remaps"])
+        first = file.own[0]
+        seen = f"{sender['type']} sends them on {sends}, {first['type']} listens to {listens[0]}"
+        remaps = (*sender["remaps"], *first["remaps"])
         named = [to for source, to in remaps if source.strip("/") in ("joy", own.strip("/"))]
         where = file.at(*(each for to in named for each in attribute("to", to)))
         hint = "leave that <remap> out, or give both nodes the same"

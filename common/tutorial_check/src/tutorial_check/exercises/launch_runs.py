@@ -56,10 +56,8 @@ class Launch:
     @property
     def has_died(self) -> bool:
         """Return whether roslaunch said that a node has died; RViz, or rqt_graph, needs a screen, and may."""
-        return any(
-            "has died" in line and "rviz" not in line and "rqt" not in line
-            for line in self.program.output.splitlines()
-        )
+        dead = (line for line in self.program.output.splitlines() if "has died" in line)
+        return any("rviz" not in line and "rqt" not in line for line in dead)
 
     def _is_up(self) -> bool:
         """Return whether the master knows all of its nodes; each has /rosout."""
