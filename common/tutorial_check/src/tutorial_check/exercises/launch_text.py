@@ -144,12 +144,9 @@ def _unused(name: str, file: Path) -> tuple[str, str]:
 
 
 def _no_file(expected: str, name: str, place: str) -> Wrong:
-    path = Path(name)
-    seen = f"no such file: {path}"
-    if not path.is_absolute():
-        hint = 'an include needs the whole path: file="$(find PACKAGE)/launch/FILE"'
-        return Wrong(expected, seen, place, hint)
-    beside = [each.name for each in path.parent.glob("*")] if os.path.isdir(path.parent) else []
-    near = difflib.get_close_matches(path.name, beside, 1, 0.7)
-    hint = f"is {near[0]} meant?" if near else "look at the name of the file, and of its folder"
-    return Wrong(expected, seen, place, hint)
+    path, hint = Path(name), 'an include needs the whole path: file="$(find PACKAGE)/launch/FILE"'
+    if path.is_absolute():
+        files = path.parent.glob("*") if os.path.isdir(path.parent) else ()
+        near = difflib.get_close_matches(path.name, [each.name for each in files], 1, 0.7)
+        hint = f"is {near[0]} meant?" if near else "look at the name of the file, and of its folder"
+    return Wrong(expected, f"no such file: {path}", place, hint)
