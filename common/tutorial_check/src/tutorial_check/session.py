@@ -122,14 +122,15 @@ class Session:
                 with path.open("rb") as file:
                     is_python = file.read(2) == b"#!" and b"python" in file.readline()
             if is_python and path.name not in ("setup.py", "__init__.py"):
-                yield str(inside), PythonFacts(self._text(path))
+                yield str(inside), PythonFacts(self.read(path))
 
-    def _text(self, path: Path) -> str:
+    def read(self, path: Path) -> str:
+        """Return the text of a file of the student's, or of a program of theirs. Raises CannotCheck."""
         return student_files.read(self.folder, path).decode(errors="replace")
 
     def text(self, package: str, script: str) -> str:
         """Return the text of a script, its line ends as they are."""
-        return self._text(self.package(package).folder / script)
+        return self.read(self.package(package).folder / script)
 
     def whole(self, path: str, package: str = "") -> str:
         """Return a path of the workspace, or within a package, for a command of a shell in any folder.
