@@ -31,12 +31,26 @@ def parts_of_mutation(arguments):
     return [[name] for name in arguments or mutation.modules()]
 
 
+def tutorial(words):
+    """Return (exit code, output) of ./tutorial on this machine."""
+    import subprocess  # noqa: PLC0415  where it runs, this module is not
+
+    from tutorial_check.examination import SUITE  # noqa: PLC0415
+
+    command = [str(SUITE / "tutorial"), *words]
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+    return done.returncode, done.stdout.decode(errors="replace")
+
+
+tutorial.__module__ = "__main__"  # sent as it is: a worker has no modules of tests
+
+
 PARTS = {"faults": parts_of_faults, "mutation": parts_of_mutation}
 
 
 def run_in_parts(kind, arguments):
     """Run a kind of tests on the workers of --cluster ADDRESS; return the worst exit code."""
-    from tutorial_check.cluster import MOST_AT_ONCE, Cluster, tutorial  # noqa: PLC0415
+    from tutorial_check.cluster import MOST_AT_ONCE, Cluster  # noqa: PLC0415
     from tutorial_check.model import CannotCheck  # noqa: PLC0415
 
     parser = argparse.ArgumentParser(prog=f"./tutorial test {kind}", allow_abbrev=False)

@@ -7,7 +7,7 @@ import sys
 import pytest
 
 from tutorial_check.causes import explain, hider, misspelt, syntax_hint, traced
-from tutorial_check.python_facts import read_python
+from tutorial_check.python_facts import PythonFacts
 from tutorial_check.scripts import silent_end
 from tutorial_check.tracebacks import first_traceback, last_lines
 
@@ -48,7 +48,7 @@ def test_causes(error, line, word):
 )  # fmt: skip
 def test_python_2(line):
     """Each in a program of its own, as Python 3 refuses it."""
-    facts = read_python(line)
+    facts = PythonFacts(line)
     if facts.error:
         hint = syntax_hint(facts.error, facts.error_text, "/x.py")
     else:
@@ -67,12 +67,12 @@ def test_the_hint_for_python_2_works(tmp_path):
     hint = explain("name 'xrange' is not defined", "", str(program))
     command = re.search(r"python3 (-m fissix -w \S+)\)", hint)[1].split()
     subprocess.run([sys.executable, *command], check=True, capture_output=True)
-    assert not read_python(program.read_text()).error
+    assert not PythonFacts(program.read_text()).error
 
 
 @pytest.mark.parametrize("line", ["x = f(", "rospy.init_node(`talker')", "x y", "print = (5"])
 def test_what_is_no_python_2(line):
-    facts = read_python(line)
+    facts = PythonFacts(line)
     assert "Python 2" not in syntax_hint(facts.error, facts.error_text)
 
 
@@ -134,7 +134,7 @@ NO_DATA = "name 'data' is not defined"
     ],
 )
 def test_what_the_text_says_of_an_error(text, line, error, blamed, word):
-    found, hint = traced(error, line, read_python(text))
+    found, hint = traced(error, line, PythonFacts(text))
     assert found == blamed
     assert word in hint if word else "outside" not in hint and "parts" not in hint
 
@@ -154,7 +154,7 @@ def test_what_the_text_says_of_an_error(text, line, error, blamed, word):
     ],
 )
 def test_what_python_refuses(text, line, word):
-    facts = read_python(text)
+    facts = PythonFacts(text)
     assert facts.error_line in (line, line + 1)
     # Python 3.8 names no characters, and fewer causes.
     known = facts.error not in ("invalid syntax", "unexpected EOF while parsing")
@@ -179,7 +179,7 @@ ENDS = """def listener():
     ],
 )
 def test_why_it_ends_and_prints_nothing(spin, margin, where, word):
-    place, hint = silent_end(read_python(ENDS.format(spin=spin, margin=margin)), "x.py")
+    place, hint = silent_end(PythonFacts(ENDS.format(spin=spin, margin=margin)), "x.py")
     assert place == where
     assert word in hint
 

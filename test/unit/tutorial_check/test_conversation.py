@@ -8,7 +8,7 @@ from tutorial_check.exercises import conversation as c
 from tutorial_check.exercises.dialogue import Conversation, repetition
 from tutorial_check.exercises.driving import CMD_VEL, JOY, Drive
 from tutorial_check.exercises.joystick_task import JoystickTask
-from tutorial_check.python_facts import read_python
+from tutorial_check.python_facts import PythonFacts
 from tutorial_check.rows import find
 
 SCRIPT = "joy2twist.py"
@@ -54,7 +54,7 @@ def conversation(text, complaint="", **recorded):
         "program": SimpleNamespace(spins=False), "joys": 4 * [((0.1, 0.2, 0.3, 0.4),)],
         "missing": 0, "unasked": 0, "shows_numbers": False,
     }  # fmt: skip
-    facts = read_python(text)
+    facts = PythonFacts(text)
     about["sleep_lines"] = facts.called_back.get("sleep", [])
     about_files = {"scripts": lambda _: {SCRIPT: facts}, "text": lambda *_: text}
     session = SimpleNamespace(task=JoystickTask({}), **about_files)

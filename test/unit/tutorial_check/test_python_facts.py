@@ -7,7 +7,7 @@ import sys
 import pytest
 
 from tutorial_check.exercises.changed_programs import flipped_anonymous, unmasked, without_name
-from tutorial_check.python_facts import read_python
+from tutorial_check.python_facts import PythonFacts
 from tutorial_check.python_text import unreadable
 
 NO_LINE_ENDS = pytest.mark.parametrize("odd", ["\f", "\v", "\x1c", "\x85", "\u2028"])  # of a PDF
@@ -33,19 +33,19 @@ if __name__ == "__main__":
 
 
 def test_a_text_with_a_zero_is_no_python():
-    assert read_python("a\0b").error
+    assert PythonFacts("a\0b").error
 
 
 def test_a_warning_is_no_error_and_not_shown(recwarn):
-    assert not read_python("x = 1 is 1\ny = '\\d'\n").error
+    assert not PythonFacts("x = 1 is 1\ny = '\\d'\n").error
     assert not recwarn
 
 
 @NO_LINE_ENDS
 def test_what_ends_no_line_for_python(odd):
-    wrong = read_python(f"# {odd}\nfrom std msgs.msg import String")
+    wrong = PythonFacts(f"# {odd}\nfrom std msgs.msg import String")
     assert wrong.error_text.startswith("from std")
-    assert read_python(f"# {odd}\nif name == ' main ':\n    pass").odd_main[1].startswith("if name")
+    assert PythonFacts(f"# {odd}\nif name == ' main ':\n    pass").odd_main[1].startswith("if name")
     text = f"# a page{odd}and the next\r\n{PROGRAM}"
     assert 'init_node("a", anonymous=True)' in ANONYMOUS(text)
     assert "except ():\n        pass" in unmasked(text)
@@ -63,7 +63,7 @@ def test_what_ends_no_line_for_python(odd):
     ],
 )
 def test_a_line_of_main_that_is_none(line, is_odd):
-    assert bool(read_python(f"import rospy\n{line}\n    pass\n").odd_main) == is_odd
+    assert bool(PythonFacts(f"import rospy\n{line}\n    pass\n").odd_main) == is_odd
 
 
 @pytest.mark.parametrize(
@@ -93,13 +93,13 @@ def test_the_first_byte_that_is_not_of_the_files_coding(tmp_path, data, line):
 @pytest.mark.parametrize("name", ["'joy-node'", "'joy2twist'", "'a/b'", "self.name", "f'node.{n}'"])
 def test_a_name_of_which_ros_warns(name):
     """With a / it is an error."""
-    odd = read_python(f"rospy.init_node({name}, anonymous=True)").odd_node
+    odd = PythonFacts(f"rospy.init_node({name}, anonymous=True)").odd_node
     assert odd == ((1, "joy-node") if "-" in name else ())
 
 
 @pytest.mark.parametrize(("size", "keeps"), [(1, True), (10, False)])
 def test_a_queue_of_one_keeps_the_newest(size, keeps):
-    assert read_python(f"rospy.Publisher('/x', Twist, queue_size={size})").keeps_newest == keeps
+    assert PythonFacts(f"rospy.Publisher('/x', Twist, queue_size={size})").keeps_newest == keeps
 
 
 @pytest.mark.parametrize("handler", ["", " Exception", " Exception as error"])

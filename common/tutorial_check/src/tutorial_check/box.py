@@ -201,9 +201,6 @@ class Box:
             assert program.process.stdout
             program.process.stdout.close()
 
-    def interrupt(self, program: Program) -> None:
-        program.signal(signal.SIGINT)
-
     def end(self, program: Program, grace_s: float = GRACE_S) -> float | None:
         """End a program; return how long it took after Ctrl-C [s], or None if it had to be killed."""
         return self.end_all([program], grace_s)[0]

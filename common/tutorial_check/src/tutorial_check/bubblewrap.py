@@ -128,16 +128,12 @@ def command(folder: str | Path, shown: Iterable[str | Path], hidden: str | Path)
     isolation = granted()
     if not isolation.options:
         return []
-
-    def tmpfs(path: str | Path, megabytes: int, mode: str = "0755") -> None:
-        mounts[str(path)] = _tmpfs(str(path), megabytes, isolation.has_sizes, mode)
-
     mounts = {"/proc": ["--proc", "/proc"], "/dev": ["--dev", "/dev"]}
     for path in ("/dev/shm", "/tmp", "/var/tmp"):
-        tmpfs(path, 64, "1777")
-    tmpfs("/dev/input", 1)  # for a joystick
-    tmpfs(hidden, 1)
-    tmpfs(folder, SCRATCH_MB)
+        mounts[path] = _tmpfs(path, 64, isolation.has_sizes, "1777")
+    # /dev/input is for a joystick.
+    for path, size_mb in (("/dev/input", 1), (str(hidden), 1), (str(folder), SCRATCH_MB)):
+        mounts[path] = _tmpfs(path, size_mb, isolation.has_sizes)
     for path in SYSTEM:
         if os.path.islink(path):
             mounts[path] = ["--symlink", os.readlink(path), path]

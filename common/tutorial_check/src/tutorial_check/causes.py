@@ -6,7 +6,7 @@ import difflib
 import re
 from typing import Collection, Mapping
 
-from tutorial_check.debian_packages import MODULES, in_place_of, package_of_module
+from tutorial_check.debian_packages import MODULES, advice, package_of_module
 from tutorial_check.python2 import porting
 from tutorial_check.python_facts import PythonFacts
 
@@ -176,15 +176,11 @@ def syntax_hint(message: str, text: str, file: str = "FILE") -> str:
 
 def _absent(module: str) -> str:
     """Return what to do about a module that is not there."""
-    package, instead = package_of_module(module), in_place_of(module)
-    if package:
-        return f"{module} is not installed here: sudo apt install {package}"
-    if instead:
-        return f"Debian lacks {module}: {instead}"
     near = difflib.get_close_matches(module, COMMON, 1, 0.75)
+    hint = f"there is no {module} here: hand in your own file with the program, or install it"
     if near:
-        return f"there is no module {module}: look at its spelling, {near[0]}?"
-    return f"there is no {module} here: hand in your own file with the program, or install it"
+        hint = f"there is no module {module}: look at its spelling, {near[0]}?"
+    return advice(module, package_of_module(module)) or hint
 
 
 def with_import(line: str, message: str, facts: PythonFacts) -> str:

@@ -102,9 +102,8 @@ def table_csv(students: Iterable[Student], exercises: Sequence[str]) -> str:
     for student in students:
         cells = [student.cell(exercise)[0] for exercise in exercises]
         cause = student.wrong[0].seen if student.wrong else ""
-        name, cause, remark = (
-            FORMULA.sub(r"\1'", text) for text in (student.name, cause, student.trouble)
-        )
+        texts = (student.name, cause, student.trouble)
+        name, cause, remark = (FORMULA.sub(r"\1'", text) for text in texts)
         about = (cells.count("ok"), student.notes, f"{student.seconds:.1f}", cause, remark)
         table.writerow([name, *cells, *about])
     return lines.getvalue()

@@ -13,7 +13,6 @@ import logging
 import os
 import shutil
 import socket
-import subprocess
 import sys
 import tarfile
 import tempfile
@@ -23,7 +22,7 @@ from urllib.parse import urlsplit
 
 from node_kit.arguments import Parser
 from tutorial_check.course import OURS, read_course
-from tutorial_check.examination import SUITE, Outcome, examine
+from tutorial_check.examination import Outcome, examine
 from tutorial_check.last_run import MOST_BYTES, digest_of_checks
 from tutorial_check.model import CannotCheck
 from tutorial_check.workspace import IGNORED
@@ -32,7 +31,6 @@ MOST_AT_ONCE = 1000  # submissions that the scheduler knows of
 TRIES = 2  # a submission that ends so many workers is abandoned
 PORT = 8786  # of a Dask scheduler
 CONNECT_S = 10.0
-PARTS = ("submission", "course")  # of what is sent
 
 
 class Gone(CannotCheck):
@@ -152,13 +150,6 @@ def _examine(
         if digest_of_checks(read_course(course), exercises, 2) != version:
             raise CannotCheck(f"worker {socket.gethostname()} has another version of this suite")
         return examine(submission, underlay, exercises, own=False, course=course, variant=variant)
-
-
-def tutorial(words: Sequence[str]) -> tuple[int, str]:
-    """Return (exit code, output) of ./tutorial on this machine."""
-    command = [str(SUITE / "tutorial"), *words]
-    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
-    return done.returncode, done.stdout.decode(errors="replace")
 
 
 def work(address: str, jobs: int) -> None:

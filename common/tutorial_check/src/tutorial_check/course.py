@@ -27,7 +27,6 @@ KINDS: dict[str, tuple[type, ...]] = {
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 _checks: list[Check] = []  # of all courses that were loaded
-_tasks: list[type] = []  # of the last one that has one of its own
 
 
 @dataclass(frozen=True)
@@ -104,19 +103,8 @@ def check(
     return keep
 
 
-def task(kind: type) -> type:
-    """Make a subclass of variants.Task that of the course: what its variants change."""
-    _tasks[:] = [kind]
-    return kind
-
-
-def task_of(course: Course) -> type | None:
-    """Return the class that @task has named, of a course whose checks are loaded; or None."""
-    package = _package_of(course)
-    return next((each for each in _tasks if each.__module__.startswith(f"{package}.")), None)
-
-
-def _package_of(course: Course) -> str:
+def package_of(course: Course) -> str:
+    """Return the name of the package that a course's modules are in."""
     return f"{__package__}.exercises" if course.folder == OURS else PACKAGE
 
 
@@ -171,7 +159,7 @@ def _known(kind: type, given: Any, but: tuple[str, ...] = ()) -> dict[str, Any]:
 
 def checks_of(course: Course) -> list[Check]:
     """Load the Python files of a course; return their checks, in its order. Raises CannotCheck."""
-    package = _package_of(course)
+    package = package_of(course)
     if course.folder != OURS:
         for name in [each for each in sys.modules if f"{each}.".startswith(f"{PACKAGE}.")]:
             del sys.modules[name]  # of another course

@@ -94,3 +94,10 @@ def packages_of_ros(name: str) -> str:
 def in_place_of(name: str) -> str:
     """Return what to do without a ROS package, or module, that Debian lacks; or ""."""
     return _found(LACKING, name)
+
+
+def advice(name: str, packages: str) -> str:
+    """Return what to do about what is not installed, and is in these packages of Debian's; or ""."""
+    other = in_place_of(name)
+    lacks = f"Debian lacks {name}; {other}" if other else ""
+    return f"Debian has it: sudo apt install {packages}" if packages else lacks

@@ -99,7 +99,8 @@ def examine(
     words = ["sh", "-c", 'read -r _; rm -rf -- "$1"', "sh", folder]
     cleaner = subprocess.Popen(words, stdin=subprocess.PIPE, start_new_session=True)
     try:
-        _compile()
+        # An examination, which writes nothing, would compile our modules each time.
+        compileall.compile_dir(str(Path(__file__).parent), quiet=2)
         layout, shown = _hand_in(os.path.abspath(workspace), Path(folder), own)
         checks = _course_within(Path(folder), course)
         underlay = os.path.abspath(underlay)
@@ -150,12 +151,6 @@ def _environment(underlay: str) -> dict[str, str]:
 
 def _given(names: Iterable[str]) -> dict[str, str]:
     return {name: os.environ[name] for name in names if name in os.environ}
-
-
-@functools.lru_cache(maxsize=None)
-def _compile() -> None:
-    """Compile our modules once: an examination, which writes nothing, would compile them each time."""
-    compileall.compile_dir(str(Path(__file__).parent), quiet=2)
 
 
 def _kept(underlay: str) -> list[str]:

@@ -71,7 +71,7 @@ def examine(orders: dict[str, Any], send: Send, result: int) -> None:
     os.environ.pop("ROS_HOSTNAME", None)
 
     from tutorial_check import box, session, variants  # noqa: PLC0415
-    from tutorial_check.course import checks_of, read_course, task_of  # noqa: PLC0415
+    from tutorial_check.course import checks_of, read_course  # noqa: PLC0415
 
     uid = place.unused_user(orders["number"]) if os.geteuid() == 0 else None
     environment.prepare(scratch, uid)
@@ -88,7 +88,7 @@ def examine(orders: dict[str, Any], send: Send, result: int) -> None:
         underlay=orders["underlay"],
         can_have_devices=apart,
         needed=[*orders["kept"], Path(__file__)],
-        task=(task_of(course) or variants.Task)(orders["variant"]),
+        task=variants.task_of(course)(orders["variant"]),
     )
     run = Run(checks, one, one.second_look, one.box.patience.hopeless)
     if uid is not None:
@@ -110,12 +110,10 @@ def _run_exercises(
 ) -> None:
     """Send the results of each exercise as they come, then how long it took."""
     for exercise in orders["exercises"]:
-        began_s = time.monotonic()
-
-        def report(found: Result, exercise: str = exercise) -> None:
+        began_s, results = time.monotonic(), []
+        for found in run.exercise(exercise, orders["only_first"]):
             send(exercise=exercise, result=as_sent(found))
-
-        results = run.exercise(exercise, report, orders["only_first"])
+            results.append(found)
         seconds = round(time.monotonic() - began_s, 2)
         send(exercise=exercise, done=seconds, trouble=run.trouble(exercise))
         if orders["only_first"] and not passed(results):

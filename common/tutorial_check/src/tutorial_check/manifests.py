@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Sequence
 
 from node_kit.manifests import broken_manifests
 from tutorial_check.launch_xml import place_of, read
@@ -69,14 +69,18 @@ def must_be_startable(session: Session) -> None:
 def must_be_launchable(session: Session) -> None:
     """catkin reads them as well, and roslaunch asks catkin. Raises Wrong."""
     must_be_startable(session)
-    places: dict[str, list[str]] = {}
     for package in session.packages:
         if package.error:
             raise unreadable(package)
-        places.setdefault(package.name, []).append(package.inside)
-    for name, folders in places.items():
-        if len(folders) > 1:
-            seen = f"{len(folders)}: {', '.join(folders)}"
-            hint = "remove the copy from src, or put an empty file CATKIN_IGNORE into it"
-            hint += ": with both of them roslaunch starts nothing"
-            raise Wrong(f"one package {name} in src", seen, folders[1], hint, sure=True)
+    for package in session.packages:
+        must_be_one([each for each in session.packages if each.name == package.name])
+
+
+def must_be_one(packages: Sequence[Package]) -> None:
+    """Raise Wrong for several packages of one name."""
+    if len(packages) > 1:
+        seen = f"{len(packages)}: {', '.join(each.inside for each in packages)}"
+        hint = "remove the copy from src, or put an empty file CATKIN_IGNORE into it"
+        hint += ": with both of them roslaunch starts nothing"
+        expected = f"one package {packages[0].name} in src"
+        raise Wrong(expected, seen, packages[1].inside, hint, sure=True)

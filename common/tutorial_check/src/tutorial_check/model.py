@@ -39,29 +39,23 @@ class Note:
     empty: bool = False  # there was nothing to be checked
 
 
+@dataclass(eq=False)
 class Wrong(Exception):
     """A check that does not hold. Raised by checks, which so end at the first thing wrong."""
 
-    look = ""  # a command that shows it, if not that of the check
-
-    def __init__(
-        self, expected: str, seen: str, where: str = "", hint: str = "", sure: bool = False
-    ) -> None:
-        """sure: whatever else the machine had to do, it is no matter of time."""
-        super().__init__(f"expected {expected}; seen {seen}")
-        self.expected, self.seen, self.where, self.hint = expected, seen, where, hint
-        self.sure = sure
+    expected: str
+    seen: str
+    where: str = ""
+    hint: str = ""
+    sure: bool = False  # whatever else the machine had to do, it is no matter of time
+    look: str = ""  # a command that shows it, if not that of the check
 
 
 def master_gone(where: str = "") -> Wrong:
     """Return the Wrong for a program that ends the master."""
-    return Wrong(
-        "the ROS master is left alone",
-        "it no longer answers: a program of yours has ended it",
-        where,
-        "a node ends itself (rospy.signal_shutdown), never the master",
-        sure=True,
-    )
+    seen = "it no longer answers: a program of yours has ended it"
+    hint = "a node ends itself (rospy.signal_shutdown), never the master"
+    return Wrong("the ROS master is left alone", seen, where, hint, sure=True)
 
 
 class CannotCheck(Exception):
@@ -130,18 +124,13 @@ class Run:
             self._done[check_id] = self._make(self._checks[check_id])
         return self._done[check_id]
 
-    def exercise(
-        self,
-        exercise: str,
-        report: Callable[[Result], None] = lambda result: None,
-        only_first: bool = False,
-    ) -> list[Result]:
-        """Return the results of an exercise; call report with each as soon as it is there.
+    def exercise(self, exercise: str, only_first: bool = False) -> Iterator[Result]:
+        """Yield the results of an exercise, each as soon as it is there.
 
         What is wrong in an earlier exercise and keeps this one from being checked comes first, unless
         it was reported before. only_first: end at the first that is wrong.
         """
-        results = []
+        is_wrong = False
         for check in self._of(exercise):
             culprits = {
                 one.id: one
@@ -150,12 +139,11 @@ class Run:
             }
             for result in (*culprits.values(), self.result(check.id)):
                 if result.id not in self._reported or result.status != WRONG:
-                    results.append(result)
+                    is_wrong = is_wrong or result.status == WRONG
                     self._reported.add(result.id)
-                    report(result)
-            if only_first and any(result.status == WRONG for result in results):
-                break
-        return results
+                    yield result
+            if only_first and is_wrong:
+                return
 
     def trouble(self, exercise: str) -> str:
         """Return why a check of the exercise could not be made, though nothing is wrong with it."""

@@ -61,9 +61,7 @@ def _parser() -> Parser:
     add("--no-hints", action="store_const", const=0, dest="hints", help="the same as --hints 0")
     what = "what differs from the course, as a YAML file; ./tutorial check --show-variant shows one"
     add("--variant", type=path, metavar="FILE", help=what)
-    what = (
-        "with --all: draw each student's from a seed and the name; FOLDER/variants/NAME.yaml first"
-    )
+    what = "with --all: draw each student's from a seed and name; FOLDER/variants/NAME.yaml first"
     add("--variants", metavar="SEED", help=what)
     what = "print the task sheet of a student"
     where.add_argument("--show-variant", type=path, metavar="NAME", help=what)

@@ -209,14 +209,6 @@ class PythonFacts:
         made = self.calls.get("Publisher", []) + self.calls.get("Subscriber", [])
         return any(call.names.get("queue_size") == "1" for call in made)
 
-    @property
-    def is_class_program(self) -> bool:
-        """Whether it has a class that deals with ROS, or is meant to."""
-        return any(one.is_node for one in self.classes)
-
-
-read_python = PythonFacts  # of a file's text
-
 
 def _made(nodes: Iterable[ast.AST]) -> Iterator[tuple[int, str]]:
     """Yield (line, name) of each variable and parameter."""

@@ -11,7 +11,7 @@ from typing import Any
 from tutorial_check import student_files
 from tutorial_check.causes import NO_KEYBOARD, explain, hider, syntax_hint, traced
 from tutorial_check.model import Note, Wrong
-from tutorial_check.python_facts import PythonFacts, read_python
+from tutorial_check.python_facts import PythonFacts
 from tutorial_check.python_text import unreadable
 from tutorial_check.rows import Row, find
 from tutorial_check.session import Session
@@ -51,9 +51,8 @@ def find_script(session: Session, package: str, name: str) -> str:
         raise Wrong(f"a program {name}", seen, str(compiled[0].relative_to(folder)), hint)
     expected = f"a program {name} in the package {package}"
     hint = f"create scripts/{name} in YOUR package; ./tutorial shell without --in has one of OURS"
-    wrong = Wrong(expected, "no such file anywhere in it", "", hint)
-    wrong.look = f"ls {session.whole('scripts', package)}"
-    raise wrong
+    look = f"ls {session.whole('scripts', package)}"
+    raise Wrong(expected, "no such file anywhere in it", "", hint, look=look)
 
 
 def program_of(session: Session, package: str, name: str) -> str:
@@ -198,7 +197,7 @@ def cause_of(session: Session, package: str, name: str, trace: Traceback) -> tup
     script = trace.where.rpartition(":")[0] or script
     if not script:
         return trace.where, explain(trace.error, trace.text)
-    facts = read_python(session.text(package, script))
+    facts = PythonFacts(session.text(package, script))
     function = re.search(r"(\w+)\(\) (?:takes|missing)", trace.error)
     line = int(trace.where.rpartition(":")[2] or 0)
     if not line and function:  # called by rospy itself

@@ -7,6 +7,7 @@ import os
 import re
 import shlex
 from dataclasses import replace
+from functools import cached_property
 from pathlib import Path
 from typing import Any, Callable, Dict, Iterable, Iterator, Tuple
 
@@ -15,7 +16,7 @@ from tutorial_check.box import Box, Program
 from tutorial_check.environment import environment_of
 from tutorial_check.manifests import is_stand_in, must_be_startable
 from tutorial_check.model import CannotCheck, Wrong, master_gone
-from tutorial_check.python_facts import PythonFacts, read_python
+from tutorial_check.python_facts import PythonFacts
 from tutorial_check.stage import Stage
 from tutorial_check.variants import Task
 from tutorial_check.workspace import SOLUTIONS, Layout, Package, packages_below
@@ -95,15 +96,11 @@ class Session:
 
     # ---------------------------------------------------------------- the student's packages
 
-    @property
+    @cached_property
     def packages(self) -> list[Package]:
         """In the order of their paths, by the names that the checks know."""
-
-        def found() -> list[Package]:
-            every = packages_below(self.source)
-            return [replace(each, name=self.task.known_as(each.name)) for each in every]
-
-        return self.memo("packages", found)
+        every = packages_below(self.source)
+        return [replace(each, name=self.task.known_as(each.name)) for each in every]
 
     def package(self, name: str) -> Any:
         return next((each for each in self.packages if each.name == name), None)
@@ -125,14 +122,15 @@ class Session:
                 with path.open("rb") as file:
                     is_python = file.read(2) == b"#!" and b"python" in file.readline()
             if is_python and path.name not in ("setup.py", "__init__.py"):
-                yield str(inside), read_python(self._text(path))
+                yield str(inside), PythonFacts(self.read(path))
 
-    def _text(self, path: Path) -> str:
+    def read(self, path: Path) -> str:
+        """Return the text of a file of the student's, or of a program of theirs. Raises CannotCheck."""
         return student_files.read(self.folder, path).decode(errors="replace")
 
     def text(self, package: str, script: str) -> str:
         """Return the text of a script, its line ends as they are."""
-        return self._text(self.package(package).folder / script)
+        return self.read(self.package(package).folder / script)
 
     def whole(self, path: str, package: str = "") -> str:
         """Return a path of the workspace, or within a package, for a command of a shell in any folder.
@@ -224,21 +222,16 @@ class Session:
                 ) from None
 
     def _needs_build(self) -> bool:
-        files = [each.folder / "CMakeLists.txt" for each in self.packages]
-        texts = (each.read_text(errors="replace") for each in files if each.is_file())
-        return any(map(NEEDS_BUILD.search, texts))
+        return any(NEEDS_BUILD.search(each.cmake or "") for each in self.packages)
 
     @property
     def lacks_build(self) -> bool:
         """Whether the programs run without what catkin_make should have made for them."""
         return self._needs_build() and self.built()[0] != 0
 
-    @property
-    def environment(self) -> Any:
+    @cached_property
+    def environment(self) -> dict[str, str]:
         """In which the student's programs find their packages before all others."""
-        return self.memo("environment", self._environment)
-
-    def _environment(self) -> dict[str, str]:
         if self._needs_build() and self.built()[0] == 0:
             found = self._sourced(self.folder / "ws" / "devel" / "setup.bash")
         else:

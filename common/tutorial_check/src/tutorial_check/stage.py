@@ -79,11 +79,9 @@ class Stage:
         try:
             return self.box.start(command, self._ours if trusted else self.environment, trusted)
         except OSError as error:
-            raise Wrong(
-                "a program that can be started",
-                f"{Path(command[0]).name}: {error.strerror}",
-                hint="look at the first line of the file: #!/usr/bin/env python3",
-            ) from None
+            seen = f"{Path(command[0]).name}: {error.strerror}"
+            hint = "look at the first line of the file: #!/usr/bin/env python3"
+            raise Wrong("a program that can be started", seen, hint=hint) from None
 
     def call(self, method: str, *arguments: Any) -> Any:
         """Call a method of the driver. Stop waiting if the master has ended: rospy would retry without end."""

@@ -21,9 +21,8 @@ class Traceback:
         return re.sub(r"^[\w.]+: |\. Did you mean: .*", "", self.error)
 
     def lines_of(self, script: str) -> list[int]:
-        return [
-            int(place[len(script) + 1 :]) for place in self.places if place.startswith(f"{script}:")
-        ]
+        parts = (place.rpartition(":") for place in self.places)
+        return [int(line) for file, _, line in parts if file == script]
 
 
 FRAME = re.compile(r'^\s*File "(?P<file>[^"]+)", line (?P<line>\d+)')

@@ -10,7 +10,7 @@ from typing import Any, Dict, Mapping
 
 import yaml
 
-from tutorial_check.course import Course, Value, read_yaml
+from tutorial_check.course import Course, Value, package_of, read_yaml
 from tutorial_check.model import CannotCheck, Result
 
 FOLDER = "variants"  # beside what the students of --all handed in: NAME.yaml
@@ -20,7 +20,7 @@ Variant = Dict[str, Any]  # {name of a value: what it is}; what is not named is 
 
 
 class Task:
-    """What a variant changes for the checker; a course that changes more has a subclass, with @task."""
+    """What a variant changes for the checker; a course that changes more has a subclass."""
 
     # {name that the checks have for a topic: that of the student's programs}
     topics: Mapping[str, str] = MappingProxyType({})
@@ -40,6 +40,13 @@ class Task:
     def words(self, result: Result) -> Result:
         """Return a result in the words of this task, whose values stand in hints alone."""
         return result
+
+
+def task_of(course: Course) -> type[Task]:
+    """Return the Task of a course whose checks are loaded."""
+    package = f"{package_of(course)}."
+    own = [each for each in Task.__subclasses__() if each.__module__.startswith(package)]
+    return own[-1] if own else Task
 
 
 def read_variant(course: Course, file: str | Path) -> Variant:

@@ -39,7 +39,12 @@ class Package:
     malformed: bool = False  # so that it is no XML at all
     format: int = 2
     depends: set[str] = field(default_factory=set)  # for building or running
-    warnings: list[str] = field(default_factory=list)
+
+    @property
+    def cmake(self) -> str | None:
+        """The text of its CMakeLists.txt without comments; None if there is none."""
+        path = self.folder / "CMakeLists.txt"
+        return re.sub(r"#.*", "", path.read_text(errors="replace")) if path.is_file() else None
 
 
 @dataclass(frozen=True)
@@ -60,17 +65,13 @@ def hand_in(given: str | Path, folder: Path) -> tuple[Layout, Path]:
     given = archive = Path(given)
     if not os.path.isfile(given):
         layout = find_layout(given)
-        zips = [] if layout.source.is_dir() else [*filter(is_zip, sorted(given.iterdir()))]
-        if len(zips) != 1:
+        # A link may lead to what is not the student's.
+        zips = [p for p in given.glob("*.[zZ][iI][pP]") if p.is_file() and not p.is_symlink()]
+        if layout.source.is_dir() or len(zips) != 1:
             return layout, given
         archive = zips[0]
     unpack(archive, folder / "unpacked")
     return find_layout(folder / "unpacked"), folder / "unpacked"
-
-
-def is_zip(path: Path) -> bool:
-    """Return whether a file is named like a zip. A link may lead to what is not the student's."""
-    return path.suffix.lower() == ".zip" and path.is_file() and not path.is_symlink()
 
 
 def unpack(archive: Path, folder: Path) -> None:
@@ -259,7 +260,7 @@ def packages_beside(layout: Layout) -> list[Package]:
 def read_package(place: Path, root: str | Path) -> Package:
     package = Package(place, os.path.relpath(place, root))
     try:
-        parsed = parse_package(str(place), warnings=package.warnings)
+        parsed = parse_package(str(place), warnings=[])
         parsed.evaluate_conditions({"ROS_PYTHON_VERSION": "3", "ROS_VERSION": "1"})
     # An AssertionError is catkin's word for a format that is yet to come.
     except (InvalidPackage, AssertionError, OSError, ValueError) as error:

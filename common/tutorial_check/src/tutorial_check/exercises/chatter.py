@@ -7,17 +7,9 @@ from typing import Any
 
 from tutorial_check.causes import with_import
 from tutorial_check.course import check
+from tutorial_check.exercises import talking
 from tutorial_check.exercises.changed_programs import flipped_anonymous
-from tutorial_check.exercises.talking import (
-    KIND,
-    LISTEN_S,
-    PACKAGE,
-    TOPIC,
-    Talk,
-    other_topic,
-    scripts,
-    talk_of,
-)
+from tutorial_check.exercises.talking import KIND, PACKAGE, TOPIC, scripts, talk_of
 from tutorial_check.model import Note, Wrong, master_gone
 from tutorial_check.rows import Row, demand
 from tutorial_check.scripts import check_end, check_file, crash, odd_node, with_end
@@ -32,9 +24,9 @@ FEW = 3  # messages: too few for a rate
 
 
 class Half:
-    """One of the two programs in a Talk: the facts of the rows below."""
+    """One of the two programs in a talking.Talk: the facts of the rows below."""
 
-    def __init__(self, session: Session, talk: Talk, script: str, program: Any) -> None:
+    def __init__(self, session: Session, talk: talking.Talk, script: str, program: Any) -> None:
         self.session, self.talk, self.script, self.program = session, talk, script, program
         self.facts = facts = session.scripts(PACKAGE)[script]
         line = "rospy.Publisher('chatter', String, queue_size=10)"
@@ -45,7 +37,7 @@ class Half:
         self.publisher = f"{script}:{made.line if made else 1}"
         self.subscriber = f"{script}:{asked.line}" if asked else script
         self.has_failed = "Traceback" in program.output or program.spins
-        heard_on = other_topic(talk.subscribers, TOPIC, talk.types, KIND)
+        heard_on = talking.other_topic(talk.subscribers, TOPIC, talk.types, KIND)
         self.heard_on = TOPIC not in talk.subscribers and heard_on
         # The type that the Subscriber asks for, and that on /chatter, where it is no String.
         refused = [line for line in talk.warnings if "datatype" in line]
@@ -54,7 +46,7 @@ class Half:
         self.wanted = kind if kind != "String" else other
         kind = talk.published.get(TOPIC, KIND)
         self.carried = kind if kind != KIND or (refused and TOPIC in talk.published) else ""
-        self.sent_on = other_topic(talk.published, TOPIC, talk.published, KIND)
+        self.sent_on = talking.other_topic(talk.published, TOPIC, talk.published, KIND)
         ends = talk.talker_ended and not self.has_failed
         self.end, self.goes_on = (", and it ends by itself", f"; and {LOOP}") if ends else ("", "")
         # With or without colours or a separator.
@@ -135,8 +127,8 @@ def talker(session: Session) -> Note | str:
     times = [when for when, caller, _ in talk.heard if caller == talk.heard[0][1]]
     wanted = session.task.values.get("rate")
     if len(times) < FEW and not wanted:
-        return Note(f"{len(times)} messages in {LISTEN_S + 2:.0f} s: slower than 1 Hz")
-    steps = [b - a for a, b in zip(times, times[1:])] or [LISTEN_S]
+        return Note(f"{len(times)} messages in {talking.LISTEN_S + 2:.0f} s: slower than 1 Hz")
+    steps = [b - a for a, b in zip(times, times[1:])] or [talking.LISTEN_S]
     rate = 1 / max(1e-6, statistics.median(steps))
     # Where we come late for some, they come at once; but not more of them than were sent.
     if min(rate, (len(times) - 1) / max(1e-6, times[-1] - times[0])) > 150:
@@ -178,7 +170,7 @@ def graph(session: Session) -> str:
     return f"{talk.publishers[TOPIC][0]} -> /chatter -> {talk.subscribers[TOPIC][0]}"
 
 
-def _whole_talk(session: Session) -> Talk:
+def _whole_talk(session: Session) -> talking.Talk:
     """Return the Talk; if a second look came to no second talker, C6 or C7 says why."""
     talk = talk_of(session)
     if not talk.taken:

@@ -107,9 +107,8 @@ class Form:
     @property
     def early(self) -> Any:
         """The line of an on_shutdown before the Publisher, or 0."""
-        early = self.facts.first("on_shutdown")
-        made = min((call.line for call in self.facts.calls.get("Publisher", [])), default=0)
-        return early.line if early and early.line < made else 0
+        early, made = map(self.facts.first, ("on_shutdown", "Publisher"))
+        return early.line if early and made and early.line < made.line else 0
 
 
 class Given:
@@ -214,9 +213,8 @@ def errors_are_seen(session: Session) -> Note | str | None:
     if has_ended and not REPORTS.search(alone.output):
         seen = f"nobody publishes on /joy, and it ends; it printed: {last_lines(alone.output) or 'nothing'}"
         hint = "a Subscriber waits by itself, for as long as it takes; what an except catches, it should show"
-        raise Wrong(
-            "without a joystick it waits for one, or says what it misses", seen, where, hint
-        )
+        expected = "without a joystick it waits for one, or says what it misses"
+        raise Wrong(expected, seen, where, hint)
     if not NAMES_IT.search(broken.output) if broken and broken_ended else excepts:
         seen = "except: hides every mistake, a misspelt name as well as Ctrl-C"
         return Note(seen, where, "except rospy.ROSInterruptException:")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import time
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -119,8 +120,8 @@ class Endings:
         index = stage.call("count", CMD_VEL)
         began_s = time.monotonic()  # one clock for all processes
         took_s: dict[str, float] = {}
-        box.interrupt(self._programs[CTRL_C])
-        box.interrupt(self._programs[LAUNCH])
+        for way in (CTRL_C, LAUNCH):
+            self._programs[way].signal(signal.SIGINT)
         stage.call("kill_node", NODES[KILL])
 
         def all_gone() -> bool:

@@ -28,7 +28,8 @@ def main_script(session: Session) -> str:
     is_whole = any(name.startswith("sensor_msgs.msg") for name in facts.imports)
     if is_first and is_whole and "geometry_msgs.msg.Twist" not in facts.imports:
         both = [p for p, f in scripts.items() if {"Publisher", "Subscriber"} <= set(f.calls)]
-        return min(both, key=lambda path: scripts[path].is_class_program, default=script)
+        # A class comes last: that is section 6.2.
+        return min(both, key=lambda p: any(c.is_node for c in scripts[p].classes), default=script)
     return script
 
 

@@ -10,7 +10,6 @@ import re
 from dataclasses import replace
 from typing import Any, Callable, Mapping, Sequence
 
-from tutorial_check.course import task
 from tutorial_check.model import Result
 from tutorial_check.variants import UNASKED, Task, Variant
 
@@ -42,7 +41,6 @@ def moved(values: Sequence[Any], places: Mapping[int, int]) -> tuple[Any, ...]:
     return tuple(found[index] for index in range(len(values)))
 
 
-@task
 class JoystickTask(Task):
     """A variant of the handout's task."""
 
@@ -69,11 +67,9 @@ class JoystickTask(Task):
         return self.topics.get(name, name)
 
     def known_as(self, package: str) -> str:
-        """Return the name that the checks know a package of the student's by."""
         return {PACKAGE: f"not_{PACKAGE}", self.named(PACKAGE): PACKAGE}.get(package, package)
 
     def named(self, package: str) -> str:
-        """Return the name that the student's files have for a package that the checks name."""
         return self.values.get("package", package) if package == PACKAGE else package
 
     def words(self, result: Result) -> Result:

@@ -26,13 +26,12 @@ BAG, STICK = "launch_bag.launch", "launch_joy_node.launch"
 TURTLEBOT, REAL = "joy2twist_turtlebot.launch", "launch_joy_node_realTurtlebot.launch"
 ALL = (BAG, STICK, TURTLEBOT, REAL)
 JOY_HINT = '<node pkg="joy" type="joy_node" name="joy_node"/>'
-KNOWN_TAGS = "launch node include remap param rosparam arg group env machine test master"
-KNOWN_ATTRIBUTES = (
+TAGS = "launch node include remap param rosparam arg group env machine test master"
+ATTRIBUTES = (
     "pkg type name args output required respawn respawn_delay ns cwd launch-prefix machine"
     " clear_params file from to value default if unless command textfile binfile param"
     " pass_all_args doc"
 )
-TAGS, ATTRIBUTES = KNOWN_TAGS.split(), KNOWN_ATTRIBUTES.split()
 READ_S = 15.0  # for all four files
 
 
@@ -194,12 +193,12 @@ def _check_words(file: LaunchFile, said: str) -> None:
     """Raise Wrong for a tag or attribute that roslaunch does not know."""
     pattern = r"unrecognized (?:tag |')(\w+)|[Uu]nknown (?:<\w+> )?attribute '?([^\s']+)"
     odd = (each.groups("") for each in re.finditer(pattern, said))
-    tag, name = next((each for each in odd if each[0] not in TAGS), ("", ""))
+    tag, name = next((each for each in odd if each[0] not in TAGS.split()), ("", ""))
     if not tag and not name:
         return
-    near = difflib.get_close_matches(name, ATTRIBUTES, 1, 0.7)
+    near = difflib.get_close_matches(name, ATTRIBUTES.split(), 1, 0.7)
     hint = f"is {near[0]}= meant?" if near else "look at its spelling"
-    if tag.lower() in TAGS:
+    if tag.lower() in TAGS.split():
         hint = f"lower case: <{tag.lower()}>"
     written = rf"<{tag}\b" if tag else rf"\s{name}\s*="
     for path in (file.path, *map(Path, file.facts["files"])):

@@ -45,10 +45,6 @@ def is_joystick(node: Node) -> bool:
     return is_driver and node["package"] != "rosbag"
 
 
-def is_own(node: Node) -> bool:
-    return node["package"] == PACKAGE
-
-
 def check_viewer(file: LaunchFile) -> Note | None:
     """Return a Note about RViz, or None. Raises Wrong if its configuration does not exist."""
     node = file.demand("RViz", is_viewer, VIEWER_HINT)
@@ -109,10 +105,9 @@ def check_joy(file: LaunchFile, sender: Node) -> None:
     sends, own = topic_of(sender, JOY), file.session.task.topic(JOY)
     listens = [topic_of(node, own) for node in file.own]
     if sends not in listens:
-        seen = (
-            f"{sender['type']} sends them on {sends}, {file.own[0]['type']} listens to {listens[0]}"
-        )
-        remaps = (*sender["remaps"], *file.own[0]["remaps"])
+        first = file.own[0]
+        seen = f"{sender['type']} sends them on {sends}, {first['type']} listens to {listens[0]}"
+        remaps = (*sender["remaps"], *first["remaps"])
         named = [to for source, to in remaps if source.strip("/") in ("joy", own.strip("/"))]
         where = file.at(*(each for to in named for each in attribute("to", to)))
         hint = "leave that <remap> out, or give both nodes the same"
@@ -148,7 +143,7 @@ def _check_items(file: LaunchFile) -> Note | None:
     """Look at what both files start; return a Note about it, or None."""
     note = check_viewer(file) or odd_name(file)
     file.demand("the simulated robot", is_simulator, ROBOT_HINT)
-    file.demand("joy2twist", is_own, OWN_HINT)
+    file.demand("joy2twist", file.own.__contains__, OWN_HINT)
     check_one_driver(file)
     return note
 

@@ -8,7 +8,6 @@ import re
 from pathlib import Path
 from typing import Any, Callable
 
-from tutorial_check import student_files
 from tutorial_check.course import check
 from tutorial_check.exercises import launch_nodes
 from tutorial_check.exercises.driving import CMD_VEL, JOY, NEUTRAL
@@ -56,10 +55,8 @@ class Launch:
     @property
     def has_died(self) -> bool:
         """Return whether roslaunch said that a node has died; RViz, or rqt_graph, needs a screen, and may."""
-        return any(
-            "has died" in line and "rviz" not in line and "rqt" not in line
-            for line in self.program.output.splitlines()
-        )
+        dead = (line for line in self.program.output.splitlines() if "has died" in line)
+        return any("rviz" not in line and "rqt" not in line for line in dead)
 
     def _is_up(self) -> bool:
         """Return whether the master knows all of its nodes; each has /rosout."""
@@ -106,10 +103,7 @@ class Launch:
     def _last_words(self) -> list[str]:
         """Return the last lines that nodes without output="screen" wrote."""
         folder = Path(self.stage.environment["ROS_LOG_DIR"])
-        logs = (
-            student_files.read(self.file.session.folder, path).decode(errors="replace")
-            for path in sorted(folder.rglob("*-stdout.log"))
-        )
+        logs = map(self.file.session.read, sorted(folder.rglob("*-stdout.log")))
         return [line for log in logs for line in log.splitlines()[-1:] if "INFO" not in line]
 
 

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Sequence
 
-from tutorial_check.debian_packages import in_place_of, packages_of_ros
-from tutorial_check.launch_xml import not_xml, place_of, without_comments
+from tutorial_check.debian_packages import advice, packages_of_ros
+from tutorial_check.launch_xml import not_xml, place_of, read, without_comments
 from tutorial_check.model import Wrong
 
 # Those that a launch file of the exercises may name.
@@ -80,20 +80,13 @@ def space_hint(text: str) -> tuple[str, str]:
     return "", ""
 
 
-def debian_hint(name: str) -> str:
-    """Return what to do about a ROS package that Debian has, or is known to lack; or ""."""
-    debian, other = packages_of_ros(name), in_place_of(name)
-    lacks = f"Debian lacks {name}; {other}" if other else ""
-    return f"Debian has it: sudo apt install {debian}" if debian else lacks
-
-
 def package_hint(name: str) -> str:
     """Return what to do about a ROS package that is not there."""
     near = difflib.get_close_matches(name, PACKAGES.split(), 1, 0.8)
     if near:
         return f"there is no package {name}; is {near[0]} meant?"
     spelling = f"there is no package {name}: look at the spelling in $(find {name}) or pkg="
-    return debian_hint(name) or spelling
+    return advice(name, packages_of_ros(name)) or spelling
 
 
 def blamed(fault: Fault, source: Path) -> tuple[str, int]:
@@ -105,7 +98,7 @@ def blamed(fault: Fault, source: Path) -> tuple[str, int]:
     if fault.kind == UNSET:
         file = own[-1][0]
         declared = rf"<arg\b[^<>]*\bname\s*=\s*[\"']{re.escape(fault.words)}[\"']"
-        if re.search(declared, without_comments(Path(file).read_text(errors="replace"))):
+        if re.search(declared, read(Path(file))):
             own = [place for place in own if place[0] != file] or own
     return own[-1]
 
@@ -143,7 +136,7 @@ def parse_error(fault: Fault, where: str, line: int, text: str) -> Wrong:
 
 def _unused(name: str, file: Path) -> tuple[str, str]:
     """Return (what is seen, what to do) for an arg that an included file does not have."""
-    text = without_comments(file.read_text(errors="replace")) if file.is_file() else ""
+    text = read(file) if file.is_file() else ""
     known = re.findall(r"<arg\b[^<>]*\bname\s*=\s*[\"']([^\"']+)[\"']", text)
     near = difflib.get_close_matches(name, known, 1, 0.6)
     hint = f"is {near[0]} meant?" if near else f"leave it out; it has {', '.join(known) or 'none'}"
@@ -151,12 +144,9 @@ def _unused(name: str, file: Path) -> tuple[str, str]:
 
 
 def _no_file(expected: str, name: str, place: str) -> Wrong:
-    path = Path(name)
-    seen = f"no such file: {path}"
-    if not path.is_absolute():
-        hint = 'an include needs the whole path: file="$(find PACKAGE)/launch/FILE"'
-        return Wrong(expected, seen, place, hint)
-    beside = [each.name for each in path.parent.glob("*")] if os.path.isdir(path.parent) else []
-    near = difflib.get_close_matches(path.name, beside, 1, 0.7)
-    hint = f"is {near[0]} meant?" if near else "look at the name of the file, and of its folder"
-    return Wrong(expected, seen, place, hint)
+    path, hint = Path(name), 'an include needs the whole path: file="$(find PACKAGE)/launch/FILE"'
+    if path.is_absolute():
+        files = path.parent.glob("*") if os.path.isdir(path.parent) else ()
+        near = difflib.get_close_matches(path.name, [each.name for each in files], 1, 0.7)
+        hint = f"is {near[0]} meant?" if near else "look at the name of the file, and of its folder"
+    return Wrong(expected, f"no such file: {path}", place, hint)

@@ -202,12 +202,8 @@ def _rises(values: Sequence[float]) -> bool:
 def no_number(samples: Iterable[Sample]) -> str:
     """Return what is said of a value that is infinite or no number; empty if all are numbers."""
     values = ((name, value) for _, twist in samples for name, value in zip(FIELDS, twist))
-    odd = (
-        f"{name} is {value}, which is no number"
-        for name, value in values
-        if not math.isfinite(value)
-    )
-    return next(odd, "")
+    odd = next((each for each in values if not math.isfinite(each[1])), None)
+    return "{} is {}, which is no number".format(*odd) if odd else ""
 
 
 JUST = "{f.name} = axes[{f.axis}]"

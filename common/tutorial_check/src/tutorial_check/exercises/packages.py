@@ -9,10 +9,9 @@ from pathlib import Path
 from typing import Any
 
 from tutorial_check.course import check
-from tutorial_check.debian_packages import packages_of_ros
-from tutorial_check.exercises.launch_text import debian_hint
+from tutorial_check.debian_packages import advice, packages_of_ros
 from tutorial_check.launch_xml import place_of, read
-from tutorial_check.manifests import unreadable
+from tutorial_check.manifests import must_be_one, unreadable
 from tutorial_check.model import Note, Wrong
 from tutorial_check.place import own_rights
 from tutorial_check.session import Session
@@ -52,10 +51,7 @@ def _package(session: Session, name: str) -> Any:
     broken = [each for each in packages if each.error and name in (each.name, each.folder.name)]
     if broken:
         raise unreadable(broken[0])
-    if len(named) > 1:
-        seen = f"{len(named)}: {', '.join(each.inside for each in named)}"
-        hint = "remove the copy from src, or put an empty file CATKIN_IGNORE into it"
-        raise Wrong(expected, seen, named[1].inside, hint)
+    must_be_one(named)
     if not named:
         raise _missing(session, name, expected)
     outer = [each for each in packages if each.folder in named[0].folder.parents]
@@ -141,8 +137,7 @@ def beginner_dependencies(session: Session) -> None:
        timeless=True)  # fmt: skip
 def joy2twist(session: Session) -> Note | str | None:
     package = _dependencies(session, "joy2twist")
-    text = _cmake(package)
-    found = re.search(r"find_package\s*\(\s*catkin\b[^)]*\bCOMPONENTS\b([^)]*)\)", text)
+    found = re.search(r"find_package\s*\(\s*catkin\b[^)]*\bCOMPONENTS\b([^)]*)\)", _cmake(package))
     for name in found[1].split() if found else ():
         if not _is_known(session, name) and name in _missing_in(session.built()[1]):
             raise Wrong("packages that catkin can find", *_not_found(session, name))
@@ -161,13 +156,12 @@ def _is_known(session: Session, name: str) -> bool:
         return any(found) or any(Path("/usr/lib").glob(f"*/cmake/{name}/{name}Config.cmake"))
 
 
-def _cmake(package: Package) -> Any:
+def _cmake(package: Package) -> str:
     """Return the text of a package's CMakeLists.txt without comments. Raises Wrong."""
-    path = package.folder / "CMakeLists.txt"
-    if not path.is_file():
+    if package.cmake is None:
         expected, hint = "a package as catkin_create_pkg makes it", "take it from a new package"
         raise Wrong(expected, "the file CMakeLists.txt is missing", package.inside, hint)
-    return re.sub(r"#.*", "", path.read_text(errors="replace"))
+    return package.cmake
 
 
 @check("C4", "catkin_make builds", "2.1", "C2", look="catkin_make")
@@ -223,7 +217,7 @@ def _not_found(session: Session, name: str) -> Any:
     place, text = _place_in_cmake(session, name)
     absent = {each for names in WANTED.values() for each in names if each not in text}
     near = difflib.get_close_matches(name, absent, 1, 0.65)
-    hint = debian_hint(name)
+    hint = advice(name, packages_of_ros(name))
     hint = hint or f"is {name} spelt right in find_package of CMakeLists.txt, and without a comma?"
     if near and "," not in name:
         hint = f"correct {name} to {near[0]} in CMakeLists.txt"
@@ -245,10 +239,8 @@ def _cmake_error(output: str) -> Any:
 def _place_in_cmake(session: Session, word: str) -> Any:
     """Return (first line with a word in a CMakeLists.txt of the student's, its text); or empty."""
     for each in session.packages:
-        name = f"{each.inside}/CMakeLists.txt"
-        file = each.folder / "CMakeLists.txt"
-        text = file.read_text(errors="replace") if file.is_file() else ""
-        place = place_of(name, re.sub(r"#.*", "", text), word)
+        name, text = f"{each.inside}/CMakeLists.txt", each.cmake or ""
+        place = place_of(name, text, word)
         if place != name:
             return place, text
     return "", ""

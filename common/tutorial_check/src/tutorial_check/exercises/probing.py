@@ -8,26 +8,16 @@ import re
 from types import MappingProxyType
 from typing import Iterable, Mapping, NamedTuple, Sequence, Tuple
 
+from tutorial_check.exercises import mapping
 from tutorial_check.exercises.joystick_task import LB
-from tutorial_check.exercises.mapping import (
-    AXES,
-    FIELDS,
-    ONLY_THIS,
-    RIGHT,
-    SMALL,
-    Evidence,
-    Sample,
-    is_near,
-    judge,
-    no_number,
-)
+from tutorial_check.exercises.mapping import RIGHT, SMALL, Sample
 from tutorial_check.rows import Row, find
 
 Joy = Tuple[Tuple[float, ...], Tuple[int, ...]]  # (axes, buttons)
 Answer = Tuple[Joy, Sequence[float]]  # and the six values of its Twist
 
 BUTTONS = 12
-REST = (0.0,) * AXES
+REST = (0.0,) * mapping.AXES
 FAST = (0.6, 0.7, *REST[2:])
 BACK = tuple(-axis for axis in FAST)
 SLOWEST = 0.25  # an axis below this may be in a dead zone, and is no measure of a factor
@@ -163,13 +153,13 @@ class Reply(NamedTuple):
 
     @property
     def differs(self) -> bool:
-        return not is_near(self.value, self.again)
+        return not mapping.is_near(self.value, self.again)
 
     @property
     def drives_on(self) -> str:
         """Return how the robot moves where it should not; empty if it does not."""
         given = self.joy[0][self.axis]
-        keeps = is_near(self.value, self.before) and abs(self.value) > SMALL
+        keeps = mapping.is_near(self.value, self.before) and abs(self.value) > SMALL
         # A button may turn the direction while it is held, but at rest the robot stands.
         against = self.value * given < 0 and not self.other
         if abs(self.value) <= SMALL or not (not given or against or (keeps and self.differs)):
@@ -192,7 +182,7 @@ REPLIES = (
         "a button changes the speed only while it is held: set the factor anew in the callback"),
     Row(lambda r: r.differs,
         "{f.name} depends on earlier Joys: the same Joy gives {f.again:.2f} and {f.value:.2f}",
-        ONLY_THIS),
+        mapping.ONLY_THIS),
 )  # fmt: skip
 
 
@@ -202,13 +192,13 @@ def judge_probes(
     factors: Mapping[int, float] = MappingProxyType({}),
     needs_button: bool = False,
 ) -> tuple[str, str]:
-    """Return (complaint, hint), as judge() does, about the answers to the probes.
+    """Return (complaint, hint), as mapping.judge() does, about the answers to the probes.
 
-    samples: the numbered Joys, whose rule is right as far as they show. factors: see Evidence.
+    samples: the numbered Joys, whose rule is right as far as they show. factors: see mapping.Evidence.
     needs_button: whether LB must be held to drive.
     """
     answers = list(answers)
-    odd = no_number([(axes, twist) for (axes, _), twist in answers])
+    odd = mapping.no_number([(axes, twist) for (axes, _), twist in answers])
     if odd:
         return odd, "look at what it is calculated from"
     known = {(tuple(axes), _pressed(LB)): twist for axes, twist in samples}
@@ -218,7 +208,7 @@ def judge_probes(
         last_button = _other_button(joy[1]) or last_button
         for field, axis in RIGHT.items():
             values = twist[field], before[field], again[field]
-            wrong = find(REPLIES, Reply(FIELDS[field], axis, joy, *values, last_button))
+            wrong = find(REPLIES, Reply(mapping.FIELDS[field], axis, joy, *values, last_button))
             if wrong:
                 return wrong.seen, wrong.hint
         before = twist
@@ -229,11 +219,11 @@ def judge_probes(
     ]
     for field, axis in RIGHT.items():
         if any(axes[axis] and not axes[1 - axis] and not any(twist) for axes, twist in held):
-            seen = f"{FIELDS[field]} is 0 when axes[{axis}] alone is moved"
-            return seen, f"{FIELDS[field]} = axes[{axis}], whatever the other axis is"
+            seen = f"{mapping.FIELDS[field]} is 0 when axes[{axis}] alone is moved"
+            return seen, f"{mapping.FIELDS[field]} = axes[{axis}], whatever the other axis is"
     if needs_button and any(any(twist) for (_, buttons), twist in answers if not buttons[LB]):
         return "the robot drives with LB released", "publish Twist(), all zero, unless LB is held"
-    complaint, hint = judge(Evidence([*samples, *held], factors=factors))
+    complaint, hint = mapping.judge(mapping.Evidence([*samples, *held], factors=factors))
     return (complaint, hint) if complaint else ("", "")
 
 

@@ -117,7 +117,7 @@ BY_ITSELF = (
 def remapped(session: Session) -> None:
     """Start joy2twist_turtlebot and look at both topics."""
     file = check_file(session, TURTLEBOT)
-    file.demand("joy2twist", launch_nodes.is_own, launch_nodes.OWN_HINT)
+    file.demand("joy2twist", file.own.__contains__, launch_nodes.OWN_HINT)
     found = Remapped(file)
     if found.is_right:
         demand(BY_ITSELF, found, "the program as it was, whose topic the launch file renames")

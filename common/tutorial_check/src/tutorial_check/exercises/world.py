@@ -39,9 +39,8 @@ def reads_bumper(session: Session) -> str:
         program = stage.start(PACKAGE, script)
         if not stage.meet(program, BUMPER) or program.ended:
             hint = "rospy.Subscriber('mobile_base/events/bumper', BumperEvent, callback)"
-            wrong = crash(
-                session, PACKAGE, program, f"it subscribes to {BUMPER}, until Ctrl-C", hint
-            )
+            expected = f"it subscribes to {BUMPER}, until Ctrl-C"
+            wrong = crash(session, PACKAGE, program, expected, hint)
             raise _elsewhere(wrong, stage, SUBSCRIBES, BUMPER, "kobuki_msgs/BumperEvent")
         lines = set()
         for number, side in enumerate(SIDES):
