@@ -104,7 +104,7 @@ class Arbiter:
     def waited(self, now: float) -> Iterator[tuple[Velocity, Publisher]]:
         """Yield each command, with its sender, that waited for TOGETHER_S and goes through now."""
         for (name, sender), one in self._senders.items():
-            if one.waiting is not None and now - one.heard_s >= TOGETHER_S:
+            if one.waiting is not None and now >= one.heard_s + TOGETHER_S:
                 velocity, one.waiting = one.waiting, None
                 if self._obey(name, velocity, now) is Verdict.OBEYED:
                     yield velocity, sender
