@@ -32,13 +32,13 @@ class Configuration(NamedTuple):
     """Inputs of a multiplexer, and the senders on them."""
 
     inputs: Tuple[Input, ...]
-    speakers: Tuple[Tuple[str, Publisher], ...]  # (input, (sender, whether it is a stick))
+    speakers: Tuple[Tuple[str, Publisher], ...]  # (input, sender)
     step_s: float = 0.0625  # in which time passes: 0.25 s for three clocks; coarser for two senders
 
     def events(self):
         """Return the events, by name."""
         commands = {
-            f"{sender[0]} on {name}: {what}": Command(0.0, name, velocity, sender)
+            f"{sender.name} on {name}: {what}": Command(0.0, name, velocity, sender)
             for name, sender in self.speakers
             for what, velocity in (("zero", ZERO), ("forward", FORWARD), ("NaN", NOT_FINITE))
         }
@@ -47,7 +47,8 @@ class Configuration(NamedTuple):
 
 STICK = Input("stick", "stick", 0.5, 7)
 PROGRAM = Input("program", "program", 0.5, 5)
-ADA, BOB, ROBBY = ("ada", True), ("bob", True), ("robby", False)
+ADA, BOB = Publisher("ada", is_stick=True), Publisher("bob", is_stick=True)
+ROBBY = Publisher("robby", is_remote=True)
 CONFIGURATIONS = {
     "a stick and a program": Configuration(
         (STICK, PROGRAM), (("stick", ADA), ("program", ROBBY)), step_s=0.25
@@ -87,7 +88,7 @@ class ArbiterWorld(World):
             return key_of(one, now, HORIZON_S, past=PAST, future=FUTURE)
 
         senders = [
-            (key[0], sender_key(known.get(key, Sender(key[1][1]))), sender_key(one))
+            (key[0], sender_key(known.get(key, Sender(key[1]))), sender_key(one))
             for key, one in self._late.items()
         ]
         spoke_s = self._speaks.spoke_s.items()
@@ -149,7 +150,7 @@ class ArbiterWorld(World):
             if verdict is not Verdict.REJECTED:
                 yield "c", "a command that is not finite is not rejected"
             return
-        new = RestsFirst() if command.sender[1] else NeverLate()
+        new = RestsFirst() if command.sender.is_stick else NeverLate()
         guard = self._late.setdefault((name, command.sender), new)
         is_first = guard.take(velocity, now)
         if moves(velocity) and (is_first or guard.late(now)):

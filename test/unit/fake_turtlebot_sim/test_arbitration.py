@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from fake_turtlebot_sim.mux.arbitration import IDLE, TOGETHER_S, Arbiter, Verdict
+from fake_turtlebot_sim.mux.arbitration import IDLE, TOGETHER_S, Arbiter, Publisher, Verdict
 from fake_turtlebot_sim.mux.parameters import Input
 from node_kit.arming import SETTLING_S
 
@@ -15,6 +15,7 @@ TELEOP = Input("teleop", "input/teleop", 1.0, 7)
 NAVI = Input("navi", "input/navi", 1.0, 5)
 INPUTS = (NAVI, SAFETY, TELEOP)  # their order means nothing
 
+FAR = Publisher(is_remote=True)
 THROUGH, DROPPED = Verdict.OBEYED, Verdict.OUTRANKED
 STOP = "stop"  # a zero of the mux's own is due
 
@@ -46,7 +47,7 @@ STORIES = {
         (1.0, "navi", inf, Verdict.REJECTED, IDLE),
         (1.0, None, None, STOP, IDLE),
         (1.1, "teleop", -inf, Verdict.REJECTED, IDLE),
-        (1.2, "navi", 0.1, Verdict.WAITS, IDLE),
+        (1.2, "navi", 0.1, THROUGH, "navi"),
     ],
 }
 
@@ -96,7 +97,7 @@ class Running:
             self.through += [(v[0], self._now) for v, _ in self.arbiter.waited(self._now)]
             self.arbiter.must_stop(self._now)
 
-    def send(self, speed, now, name="teleop", sender=("", False)):
+    def send(self, speed, now, name="teleop", sender=FAR):
         self.until(now)
         self.verdicts.append(self.arbiter.command(name, (speed,), now, sender))
         if self.verdicts[-1] is THROUGH:
@@ -108,7 +109,7 @@ def test_silence_of_all_leaves_the_robot_standing(events):
     running, now = Running(INPUTS), 0.0
     for pause_s, name, speed, sender in events:
         now += pause_s
-        running.send(speed, now, name, (str(sender), False))
+        running.send(speed, now, name, Publisher(str(sender), is_remote=True))
     running.until(now + TOGETHER_S)
     assert running.arbiter.must_stop(now + 2.0) is bool(
         running.through
@@ -225,7 +226,7 @@ STICK_STORIES = {
 def test_late_commands_of_a_stick(story):
     running = Running()
     for now, speed, verdict in story:
-        running.send(speed, now, sender=("joy2twist", True))
+        running.send(speed, now, sender=Publisher("joy2twist", is_stick=True))
         assert running.verdicts[-1] is verdict, now
 
 
@@ -245,19 +246,30 @@ def test_not_one_command_of_a_late_burst_moves(silence_s, burst):
     assert not any(speed for speed, _ in running.through[1:])
 
 
+def test_what_comes_from_this_host_is_never_late():
+    """The safety controller sends what it must, when it must, and falls silent."""
+    arbiter = Arbiter([SAFETY])
+    for now in (0.0, 5.0, 5.001, 5.002):
+        assert arbiter.command("safety", (-0.1,), now, Publisher("/safety")) is THROUGH
+
+
 def test_what_one_sender_left_is_not_held_against_the_next():
     """Who ends a program in the middle of a motion and starts it anew drives at once."""
     arbiter = Arbiter([TELEOP])
-    assert arbiter.command("teleop", (0.2,), 0.0, ("/rostopic_1", False)) is THROUGH
-    assert arbiter.command("teleop", (0.2,), 5.0, ("/rostopic_2", False)) is THROUGH
-    assert arbiter.command("teleop", (0.2,), 5.1, ("/rostopic_1", False)) is WAITS
+    assert (
+        arbiter.command("teleop", (0.2,), 0.0, Publisher("/rostopic_1", is_remote=True)) is THROUGH
+    )
+    assert (
+        arbiter.command("teleop", (0.2,), 5.0, Publisher("/rostopic_2", is_remote=True)) is THROUGH
+    )
+    assert arbiter.command("teleop", (0.2,), 5.1, Publisher("/rostopic_1", is_remote=True)) is WAITS
     assert arbiter.active(9.0) == IDLE  # what waits, or is late, keeps nobody active
 
 
 def test_what_waits_is_outranked_like_any_other():
     arbiter = Arbiter(INPUTS)
     for now in (0.0, 5.0):
-        arbiter.command("navi", (0.2,), now)
+        arbiter.command("navi", (0.2,), now, FAR)
     arbiter.command("teleop", (0.1,), 5.01)
     assert list(arbiter.waited(5.01)) == []
     assert list(arbiter.waited(5.02)) == []

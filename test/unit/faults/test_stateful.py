@@ -7,6 +7,7 @@ from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, rule
 
+from fake_turtlebot_sim.mux.arbitration import Publisher
 from fake_turtlebot_sim.mux.parameters import Input
 from gamepad.js_event import AXIS, BUTTON, INIT, SIGN_OF_LIFE_MS
 from tutorial_faults import driver_world
@@ -131,7 +132,7 @@ class Mux(World):
 
     @rule(
         number=st.integers(0, 3),
-        sender=st.tuples(st.sampled_from(["ada", "bob"]), st.booleans()),
+        sender=st.builds(Publisher, st.sampled_from(["ada", "bob"]), st.booleans(), st.just(True)),
         velocity=st.just((0.0,) * 6)
         | st.tuples(*[st.floats(-10, 10)] * 6)
         | st.tuples(*[st.floats()] * 6),

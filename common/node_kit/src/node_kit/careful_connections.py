@@ -14,6 +14,7 @@ import struct
 import threading
 import time
 import weakref
+from ipaddress import ip_address
 from typing import Any, Callable
 
 from rospy.exceptions import TransportException
@@ -73,19 +74,27 @@ def header_of(message: Any) -> dict[str, str]:
     return message._connection_header
 
 
+def is_remote(subscriber: Any, message: Any) -> bool:
+    """Return whether a message came to a rospy.Subscriber from another host."""
+    for one in list(subscriber.impl.connections):
+        if one.header is header_of(message):
+            with contextlib.suppress(AttributeError, OSError):  # it is closed meanwhile
+                peer, own = one.socket.getpeername()[0], one.socket.getsockname()[0]
+                return peer != own and not ip_address(peer).is_loopback
+    return False
+
+
 def renew(subscriber: Any) -> list[object]:
     """Connect a rospy.Subscriber anew to each of its publishers; what waits to be read is lost.
 
     Return what header_of() gives for messages of the old connections.
     """
-    old = list(subscriber.impl.connections)
+    # One without a header is being made: a second one to the same publisher makes both deaf.
+    old = [one for one in list(subscriber.impl.connections) if one.header and one.socket]
     for one in old:
-        if one.dest_address:
-            address = [TCPROS, *one.dest_address]
-            # rospy drops the old connection to the same publisher.
-            get_tcpros_handler().create_transport(
-                subscriber.resolved_name, one.endpoint_id, address
-            )
+        address = [TCPROS, *one.dest_address]
+        # rospy drops the old connection to the same publisher.
+        get_tcpros_handler().create_transport(subscriber.resolved_name, one.endpoint_id, address)
     return [one.header for one in old]
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from typing import Any
 
 from node_kit.careful_connections import header_of, renew
@@ -20,7 +21,7 @@ class FreshOnly:
         """Take the Suspensions of this process, if it has them already."""
         self._suspensions = suspensions or Suspensions()
         self._seen = self._suspensions.number()
-        self._old: list[object] = []
+        self._old: deque[object] = deque(maxlen=100)
         self._subscribers: list[Any] = []
 
     def watch(self, subscriber: Any) -> None:
@@ -33,9 +34,10 @@ class FreshOnly:
         if number == self._seen:
             return False
         self._seen = number
-        self._old = [one for subscriber in self._subscribers for one in renew(subscriber)]
+        for subscriber in self._subscribers:
+            self._old += renew(subscriber)
         return True
 
     def is_old(self, message: Any) -> bool:
-        """Return whether a message came by a connection from before the last suspension."""
+        """Return whether a message came by a connection from before a suspension."""
         return any(header_of(message) is one for one in self._old)

@@ -9,12 +9,11 @@ from __future__ import annotations
 
 from enum import Enum
 from math import inf, isfinite
-from typing import Any, Iterable, Iterator, Tuple
+from typing import Any, Iterable, Iterator, NamedTuple
 
 from node_kit.arming import SETTLING_S, SILENCE_S, Velocity
 
 IDLE = "idle"  # what is active when no input is
-Publisher = Tuple[str, bool]  # its name, and whether a person's hands drive, hold-to-run style
 # What a network kept arrives at once. No key repeats as fast (X11: 25 to 30 Hz); a program that
 # sends as fast is obeyed again after SETTLING_S.
 TOGETHER_S = 0.02
@@ -30,6 +29,17 @@ class Verdict(Enum):
     LATE = "what a broken network had kept is ignored; a stick that is held must be released once"
 
 
+class Publisher(NamedTuple):
+    """A node that publishes on an input."""
+
+    name: str = ""
+    is_stick: bool = False  # a person's hands drive, hold-to-run style, and repeat their velocity
+    is_remote: bool = False  # on another host, and so behind a network that may break
+
+
+HERE = Publisher()
+
+
 class Sender:
     """Tells the commands that a broken network kept from those of a slow sender.
 
@@ -39,9 +49,9 @@ class Sender:
     SILENCE_S first.
     """
 
-    def __init__(self, is_stick: bool = False) -> None:
-        """is_stick: it drives hold-to-run style, and repeats its velocity."""
-        self._is_stick = is_stick
+    def __init__(self, publisher: Publisher) -> None:
+        self._is_stick = publisher.is_stick
+        self._may_be_late = publisher.is_stick or publisher.is_remote
         self.heard_s = self.doubt_s = -inf  # the last command; the first one after a silence
         self.late_until_s = self.rests_since_s = -inf
         self.moves = False  # the last command was not zero
@@ -50,7 +60,7 @@ class Sender:
     def judge(self, velocity: Velocity, now: float) -> Verdict:
         """Return the Verdict on a velocity that came now [s]; a zero is always OBEYED."""
         since_s, moved = now - self.heard_s, self.moves
-        is_first = moved and since_s > SILENCE_S
+        is_first = moved and since_s > SILENCE_S and self._may_be_late
         self.heard_s, self.moves, self.waiting = now, any(velocity), None
         if is_first:
             self.doubt_s = now
@@ -81,7 +91,7 @@ class Arbiter:
         self._drives = False  # whether the last command that went through was not zero
 
     def command(
-        self, name: str, velocity: Velocity, now: float, sender: Publisher = ("", False)
+        self, name: str, velocity: Velocity, now: float, sender: Publisher = HERE
     ) -> Verdict:
         """Return the Verdict on a velocity (numbers, whatever their units) that came now [s].
 
@@ -89,7 +99,7 @@ class Arbiter:
         """
         if not all(map(isfinite, velocity)):
             return Verdict.REJECTED  # and the timeout runs on
-        verdict = self._senders.setdefault((name, sender), Sender(sender[1])).judge(velocity, now)
+        verdict = self._senders.setdefault((name, sender), Sender(sender)).judge(velocity, now)
         if verdict is not Verdict.OBEYED:
             return verdict  # and the timeout runs on
         return self._obey(name, velocity, now)

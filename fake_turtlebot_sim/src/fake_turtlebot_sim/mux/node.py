@@ -13,7 +13,7 @@ from std_msgs.msg import String
 from fake_turtlebot_sim.mux.arbitration import IDLE, Arbiter, Publisher, Verdict
 from fake_turtlebot_sim.mux.parameters import MuxParameters, parse_mux_parameters
 from node_kit.arming import ZERO, Velocity
-from node_kit.careful_connections import report_bad_messages, sender_of
+from node_kit.careful_connections import is_remote, report_bad_messages, sender_of
 from node_kit.fresh_only import FreshOnly
 from node_kit.log import Log
 from node_kit.prompt_publisher import VelocityPublisher, is_hold_to_run
@@ -50,8 +50,9 @@ class CmdVelMux:
         self._last_active = ""
         rospy.on_shutdown(self._end)
         self._look()
+        self._subscribers: dict[str, Any] = {}
         for one in parameters.subscribers:
-            subscriber = rospy.Subscriber(
+            self._subscribers[one.name] = subscriber = rospy.Subscriber(
                 _in_own_namespace(one.topic), Twist, self._on_command, callback_args=one.name,
                 queue_size=BURST, tcp_nodelay=True,
             )  # fmt: skip
@@ -65,7 +66,9 @@ class CmdVelMux:
     def _on_command(self, twist: Any, name: str) -> None:
         linear, angular = twist.linear, twist.angular
         velocity: Velocity = (linear.x, linear.y, linear.z, angular.x, angular.y, angular.z)
-        sender = sender_of(twist), is_hold_to_run(twist)
+        subscriber = self._subscribers.get(name)  # None while it is being made
+        is_far = bool(subscriber) and is_remote(subscriber, twist)
+        sender = Publisher(sender_of(twist), is_hold_to_run(twist), is_far)
         with self._lock:
             now = time.monotonic()
             self._notice_suspension()
@@ -88,7 +91,7 @@ class CmdVelMux:
     def _drive(self, velocity: Velocity, sender: Publisher) -> None:
         """Publish; a stick that is held does not move a robot that was lost, a program does."""
         if not self._has_ended:
-            _, is_stick = sender
+            is_stick = sender.is_stick
             self._output.publish(velocity, velocity == ZERO or not is_stick, is_stick)
 
     def _notice_suspension(self) -> None:
