@@ -274,7 +274,7 @@ class Drive:
 
     def _displayed(self) -> int:
         """Return how many of the Joys were displayed, all six axes in a line."""
-        joys = map(self._task.joy, self.joys)
+        joys = [*map(self._task.joy, self.joys)]
         return len(probing.displayed(joys, COLOUR.sub("", self.program.output)))
 
 

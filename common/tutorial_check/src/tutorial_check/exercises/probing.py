@@ -249,7 +249,7 @@ def delays(
     return found
 
 
-def displayed(joys: Iterable[Joy], output: str) -> list[Joy]:
+def displayed(joys: Sequence[Joy], output: str) -> list[Joy]:
     """Return the Joys of which a line has all axes, with two decimals or more."""
     return [joy for joy, count in zip(joys, _shown(joys, output)) if count == len(joy[0])]
 
