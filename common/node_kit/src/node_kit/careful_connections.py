@@ -84,18 +84,21 @@ def is_remote(subscriber: Any, message: Any) -> bool:
     return False
 
 
-def renew(subscriber: Any) -> list[object]:
-    """Connect a rospy.Subscriber anew to each of its publishers; what waits to be read is lost.
+def established(subscriber: Any) -> list[Any]:
+    """Return the connections of a rospy.Subscriber that are in use, not those being made."""
+    return [one for one in list(subscriber.impl.connections) if one.header and one.socket]
 
-    Return what header_of() gives for messages of the old connections.
-    """
-    # One without a header is being made: a second one to the same publisher makes both deaf.
-    old = [one for one in list(subscriber.impl.connections) if one.header and one.socket]
-    for one in old:
-        address = [TCPROS, *one.dest_address]
-        # rospy drops the old connection to the same publisher.
-        get_tcpros_handler().create_transport(subscriber.resolved_name, one.endpoint_id, address)
-    return [one.header for one in old]
+
+def renew(subscriber: Any, old: Any) -> None:
+    """Replace one connection of a rospy.Subscriber; what waits in it to be read is lost."""
+    address = [TCPROS, *old.dest_address]
+    # rospy drops the old connection to the same publisher.
+    get_tcpros_handler().create_transport(subscriber.resolved_name, old.endpoint_id, address)
+
+
+def is_connected(subscriber: Any, old: Any) -> bool:
+    """Return whether a rospy.Subscriber has a connection to the publisher of an old one."""
+    return bool(subscriber.impl.has_connection(old.endpoint_id))
 
 
 def _greet_in_time(self: Any, sock: socket.socket, client_addr: Any) -> None:

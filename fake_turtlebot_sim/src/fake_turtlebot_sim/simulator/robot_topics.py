@@ -77,6 +77,7 @@ class RobotTopics:
 
     def move(self, now: Instant) -> None:
         """Move the robot to the present and take its messages; call while the motion is held."""
+        self._notice_suspension(now)
         if self.robot.advance(now.motion_ns):
             what = (
                 f"no command came for {self._timeout_s:g} s, so it stopped in the middle of a"
@@ -119,7 +120,8 @@ class RobotTopics:
 
     def _on_cmd_vel(self, twist: Any) -> None:
         with self._motion.hold() as now:
-            if self._has_ended or self._is_old(twist, now):
+            self._notice_suspension(now)
+            if self._has_ended or self._fresh.is_old(twist):
                 return
             verdict = self.robot.command((twist.linear.x, twist.angular.z), now.motion_ns)
             self.rejected += verdict is Verdict.REJECTED
@@ -131,12 +133,10 @@ class RobotTopics:
             self._reported.add(what)
             report(f"cmd_vel of {self._name}: {what}")
 
-    def _is_old(self, twist: Any, now: Instant) -> bool:
-        """Return whether it was sent during a suspension, which stops the robot."""
+    def _notice_suspension(self, now: Instant) -> None:
         if self._fresh.notice():
             self.robot.command(REST, now.motion_ns)
             self._warn(f"{self._name} was suspended. What was sent meanwhile is not obeyed.")
-        return self._fresh.is_old(twist)
 
     def _on_initialpose(self, message: Any) -> None:
         try:
