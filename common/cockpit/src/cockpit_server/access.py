@@ -20,7 +20,7 @@ DRIVER, VIEWER = "driver", "viewer"
 class Access:
     """Without tokens, every client may drive: all are on this machine."""
 
-    names: tuple[str, ...] = ("localhost",)  # of this machine
+    names: tuple[str, ...] = ("localhost",)  # names that reach this machine
     driver_token: str | None = None
     viewer_token: str | None = None
     peers: tuple[str, ...] | None = None  # the only other machines whose requests are answered

@@ -33,7 +33,7 @@ class Client:
     is_behind: Callable[[], bool]  # whether the last text has not gone out yet
     is_cut: Callable[[], bool]  # whether the network to it seems to be down
     close: Callable[[], Any]
-    address: str = ""  # of its machine
+    address: str = ""  # IP address of its machine
     spoke_at: float = 0.0  # when it was opened or sent a message last [s]
     watch: Any = None  # what it wants to see, by the names in the sources' watches
     seen: dict[Any, Any] = field(default_factory=dict)  # about what: the newest version sent

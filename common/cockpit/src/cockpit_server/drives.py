@@ -16,7 +16,7 @@ class About(NamedTuple):
     """What is known of one robot."""
 
     driver: Optional[int] = None  # number of the page that drives it
-    name: str = ""  # of that page
+    name: str = ""  # name of the page that drives it
     how: str = ""  # PAGE or BAG
     armed: bool = False  # whether all was seen released
     why: str = ""  # the last stop by a loss of the driver

@@ -8,7 +8,7 @@ import yaml
 from gamepad.gamepads import F710
 
 TOPIC = "/joy"
-KEYS = ("enable_button", "enable_turbo_button")  # of a preset; either drives
+KEYS = ("enable_button", "enable_turbo_button")  # either of them drives
 
 
 def check_recording(bag: str, preset: str) -> None:

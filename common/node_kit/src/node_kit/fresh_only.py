@@ -26,7 +26,7 @@ class FreshOnly:
         self._suspensions = suspensions or Suspensions()
         self._seen = self._suspensions.number()
         self._subscribers: list[Any] = []
-        self._old: deque[object] = deque(maxlen=100)  # of connections, what header_of() gives
+        self._old: deque[object] = deque(maxlen=100)  # headers of old connections
         self._renewed: list[tuple[Any, Any]] = []  # (subscriber, old connection)
         self._looks_s: list[float] = []
 
