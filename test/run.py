@@ -160,7 +160,7 @@ KINDS = {
     "exercises": lambda given: run(*QUIET, "-n", 4 * JOBS, "test/exercises", *given),
     "ros2": lambda given: run(*QUIET, *with_folder("test/ros2", given)),
     "browser": lambda given: run(*QUIET, *with_folder("test/browser", given)),
-    "containers": lambda given: run(REPOSITORY / "docker/check_containers", *given),
+    "containers": lambda given: run(REPOSITORY / "test/check_containers", *given),
     "faults": faults,
     "mutation": mutation,
     "bench": bench,

@@ -50,12 +50,12 @@ EITHER = (
 # What is not run here, and why.
 LEFT_OUT = {
     "roscore": "runs already: this test has one for every section",
-    "./tutorial demo": "test_tutorial.py and docker/check_bare_machine run it",
+    "./tutorial demo": "test_tutorial.py and test/check_bare_machine run it",
     "./tutorial test": "is what runs this",
     "./tutorial doctor": "test/ros/tutorial_tools asks it, where something moves",
     "roslaunch joy2twist launch_joy_node.launch virtual:=true": "needs the keys of a terminal",
     "roslaunch joy2twist student.launch name:=robot_7 virtual:=true": "as the line before",
-    "docker ": "needs an engine; docker/check_bare_machine builds the Dockerfile without one",
+    "docker ": "needs an engine; test/check_bare_machine builds the Dockerfile without one",
 }
 ELSEWHERE = {
     "Two machines": "test_two_hosts.py runs it on two hosts",
