@@ -24,7 +24,7 @@ FORMAT = "TypeError: not enough arguments for format string"
         ("ImportError: cannot import name 'Joy' from 'std_msgs.msg' (/x)", "", "Joy is in sensor"),
         ("NameError: name 'Twist' is not defined. Did you mean: 'twist'?", "", "not imported"),
         ("ModuleNotFoundError: No module named 'std_msg'", "", "from std_msgs.msg import"),
-        ("ModuleNotFoundError: No module named 'serail'", "", "look at its spelling, serial?"),
+        ("ModuleNotFoundError: No module named 'serail'", "", "is serial meant?"),
         ("ModuleNotFoundError: No module named 'tf.foo'", "", "tf has no module foo"),
         ("No module named 'joy.msg'; 'joy' is not a package", "", "since Hydro"),
         ("ROSException: ROS node has not been initialized yet.", "", "before Subscriber and Pub"),

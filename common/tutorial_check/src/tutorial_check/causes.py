@@ -179,7 +179,7 @@ def _absent(module: str) -> str:
     near = difflib.get_close_matches(module, COMMON, 1, 0.75)
     hint = f"there is no {module} here: hand in your own file with the program, or install it"
     if near:
-        hint = f"there is no module {module}: look at its spelling, {near[0]}?"
+        hint = f"there is no module {module}: is {near[0]} meant?"
     return advice(module, package_of_module(module)) or hint
 
 

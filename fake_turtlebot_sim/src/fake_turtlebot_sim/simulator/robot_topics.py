@@ -81,7 +81,8 @@ class RobotTopics:
         if self.robot.advance(now.motion_ns):
             what = (
                 f"no command came for {self._timeout_s:g} s, so it stopped in the middle of a"
-                " motion; send more often, or set ~cmd_vel_timeout (0: never)"
+                f" motion; send more often, or set {rospy.get_name()}/cmd_vel_timeout: 0 (never) in"
+                " the YAML file of config:="
             )
             self._report_once(what, self._log.info)
         self.messages.fill(self.robot, now.stamp)
