@@ -1,12 +1,8 @@
-"""Every state of the joystick driver's rules (Driver and its parts), judged by (a) to (d).
+"""The joystick driver's rules (Driver and its parts), judged by (a) to (d).
 
 The driver must not deceive its subscribers: it never publishes "released" for a gamepad in an
 unknown state, publishes a loss before it is silent, and then is silent for longer than joy2twist
 waits.
-
-Clocks: the next message and the sign of life; without a gamepad the end of the silence after it.
-Thresholds: LONGEST_LIFELESS_S 0.45 s, SHORTEST_SILENCE_S 0.6 s, autorepeat 0.3 s,
-coalesce_interval 0.15 s.
 """
 
 import math
@@ -14,11 +10,10 @@ import struct
 
 from gamepad.driver.driver import LONGEST_LIFELESS_S, Driver
 from gamepad.driver.parameters import load
-from gamepad.js_event import AXIS, BUTTON, FULL, INIT, SIGN_OF_LIFE_MS
-from tutorial_faults.explore import PASS, TICK, World, key_of, until
+from gamepad.js_event import AXIS, BUTTON, INIT, SIGN_OF_LIFE_MS
+from tutorial_faults.worlds import TICK, World
 
 LARGEST = 1.0001  # a little beyond 1: a kernel never gives -32768, but others may
-STEP_S = 0.05  # 0.15 s for two clocks
 JOY_TIMEOUT_S = 0.5  # joy2twist's default
 COALESCE_S, REPEAT_S = 0.15, 0.3
 GIVEN = {"coalesce_interval": COALESCE_S, "autorepeat_rate": 1.0 / REPEAT_S}
@@ -29,30 +24,8 @@ def event(kind, value, number=0, time_ms=0):
     return struct.pack("=IhBB", time_ms, value, kind, number)
 
 
-PRESS, RELEASE = event(BUTTON, 1), event(BUTTON, 0)
-BYTES = {
-    "press": PRESS,
-    "release": RELEASE,
-    "press and release at once": PRESS + RELEASE,
-    "stick": event(AXIS, -FULL),
-    "stick released": event(AXIS, 0),
-    "INIT: pressed": event(BUTTON | INIT, 1),
-    "INIT: stick": event(AXIS | INIT, -FULL),
-    "sign of life": event(BUTTON | INIT, 0, time_ms=SIGN_OF_LIFE_MS),
-    "unknown type": event(8, 1),
-}
-# Constants, what is only for the user, and parts that have keys of their own.
-NOT_IN_KEY = {
-    "_parameters", "_state", "_schedule", "_decoder", "_triggers", "events", "unknown_events",
-    "heard_at",
-}  # fmt: skip
-PARTS = {
-    "_driver": {"_state": {"_axes": {}, "_buttons": {}}, "_schedule": {}, "_decoder": {}},
-    "_pad": {},
-}  # fmt: skip
 LOST = "lost"
 OPEN = {"open: of the kernel": True, "open: a virtual one": False}
-EVENTS = {**{name: name for name in (PASS, TICK, LOST, *OPEN)}, **BYTES}
 
 
 class Gamepad:
@@ -95,7 +68,6 @@ class DriverWorld(World):
 
     def __init__(self):
         """Nothing was opened yet."""
-        super().__init__(STEP_S, PARTS)
         self._driver = Driver(load(GIVEN))
         self._pad = None  # the open Gamepad
         self._is_mute = self._has_published = False
@@ -103,34 +75,14 @@ class DriverWorld(World):
         self._published_s = math.inf  # the last message of this gamepad
         self._sign_due_s = math.inf  # when a sign of life must have come
 
-    def key(self):
-        """Return all that decides what follows."""
-        now, driver = self._now, self._driver
-        key = (self._is_mute, self._has_published, until(now, driver.opens_at))
-        if driver._state is None:
-            return (*key, driver._told, driver._mute)
-        return (
-            *key,
-            key_of(driver, now, future={"opens_at", "_lifeless_at"}, without=NOT_IN_KEY),
-            tuple(driver._state._axes),
-            tuple(driver._state._buttons),
-            until(now, driver._schedule.due),
-            driver._decoder._rest,
-            driver._decoder._changed,
-            tuple(vars(self._pad).values()),
-            until(now, self._since_s + COALESCE_S),
-            until(now, self._published_s + REPEAT_S),
-            until(now, self._sign_due_s),
-        )
-
-    def _happen(self, event):
+    def happen(self, event):
         is_open = self._pad is not None
         if event == TICK:
-            yield from self._judge(self._driver.tick(self._now))
+            yield from self._judge(self._driver.tick(self.now))
             yield from self._must_be_called(True)
         elif event == LOST and is_open:
             yield from self._lose()
-        elif event in OPEN and not is_open and self._now >= self._driver.opens_at:
+        elif event in OPEN and not is_open and self.now >= self._driver.opens_at:
             self._driver.opened((), OPEN[event])
             self._pad = Gamepad(OPEN[event])
             self._since_s = self._published_s = self._sign_due_s = math.inf
@@ -139,14 +91,14 @@ class DriverWorld(World):
             yield from self._must_be_called()
 
     def _lose(self):
-        messages = self._driver.lost(self._now)
+        messages = self._driver.lost(self.now)
         if self._has_published and not messages:
             yield "d", "the loss of the gamepad is not published"
         if messages and not self._has_published:
             yield "b", "the loss of a gamepad that was not published before is published"
         if any(any((*axes, *buttons)) for axes, buttons in messages):
             yield "d", f"a lost gamepad is not published as released: {messages}"
-        if self._driver.opens_at - self._now <= JOY_TIMEOUT_S:
+        if self._driver.opens_at - self.now <= JOY_TIMEOUT_S:
             yield "b", "the next gamepad is opened before joy2twist can notice the loss"
         if self._driver.due != math.inf:
             yield "d", "something is due for a gamepad that is lost"
@@ -158,10 +110,10 @@ class DriverWorld(World):
             self._is_mute = False
         must_give = noisy and not self._pad.is_of_kernel and self._sign_due_s == math.inf
         if signed or must_give:
-            self._sign_due_s = self._now + LONGEST_LIFELESS_S
-        messages = self._driver.read(data, self._now)
+            self._sign_due_s = self.now + LONGEST_LIFELESS_S
+        messages = self._driver.read(data, self.now)
         if changes and self._since_s == math.inf:
-            self._since_s = self._now
+            self._since_s = self.now
         yield from self._judge(messages)
         published = [bool(buttons and buttons[0]) for _, buttons in messages]
         presses = [bool(value) for kind, value in changes if kind == BUTTON]
@@ -178,11 +130,11 @@ class DriverWorld(World):
             if bool(self._pad.pressed) != any(messages[-1][1]):
                 yield "a", f"the button is {self._pad.pressed}, and published is {messages[-1]}"
             self._has_published = True
-            self._since_s, self._published_s = math.inf, self._now
+            self._since_s, self._published_s = math.inf, self.now
 
     def _must_be_called(self, has_ticked=False):
         """Yield what is wrong with the time of the next call."""
-        driver, now = self._driver, self._now
+        driver, now = self._driver, self.now
         if self._pad is None:
             return
         if not self._is_mute:
