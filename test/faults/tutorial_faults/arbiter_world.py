@@ -1,4 +1,4 @@
-"""The rules of the multiplexer (Arbiter, Sender), judged by (c) to (f), in the order of the node."""
+"""The rules of the multiplexer (Arbiter, Sender), judged by (c) to (f), asked as the node asks."""
 
 import math
 
