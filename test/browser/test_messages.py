@@ -2,15 +2,9 @@
 
 import pytest
 
-# A tab of its own beside that of the page. hear() is a message of the server; `sent` is what the
-# tab asks for.
-TAB = """const [given, done] = arguments, sent = [], handlers = {};
-const watch = (fields) => sent.push(["watch", fields]);
-const link = {isOpen: true, send(kind, fields) { return sent.push([kind, fields]); },
-              on(kind, handler) { handlers[kind] = handler; }};
-const hear = (kind, message) => handlers[kind]({kind, ...message});
-const byId = (id) => document.getElementById(id);
-import('/page/%s').then((tabs) => { %s });"""
+from tutorial_testing.cockpit.one_tab import LONG_PLOT, run
+from tutorial_testing.waiting import wait_for
+
 ROBOT_TAB = """const look = byId("look"), take = byId("take").cloneNode(), pad = {D: {}, X: {}};
 byId("take").replaceWith(take);
 byId("robots").replaceChildren();
@@ -23,10 +17,6 @@ const tab = new tabs.RobotTab(link, watch, {notice: () => {}});
 take.disabled = false;
 """
 TWO = ["robot_1", "robot_2"]
-
-
-def run(page, module, script, given=TWO):
-    return page.driver.execute_async_script(TAB % (module, script), given)
 
 
 def run_robot_tab(page, script, robots=TWO):
@@ -106,7 +96,7 @@ def test_a_new_connection_opens_the_recording_again_and_publishes_nothing(page):
     const playing = state();
     hear("hello", {});
     done([before, opened, playing, sent.at(-1), state(), byId("bag-pause").disabled]);"""
-    before, opened, playing, asked, state, pause = run(page, "bag_tab.js", script)
+    before, opened, playing, asked, state, pause = run(page, "bag_tab.js", script, TWO)
     assert (before, opened, "Publishing /joy" in playing) == (0, "other.bag", True)
     assert (asked, state, pause) == (["bag_open", {"name": "joy.bag"}], "", True)
 
@@ -127,7 +117,7 @@ def test_a_new_connection_asks_the_doctor_again_only_while_its_tab_is_shown(page
     hear("hello", {});
     count();
     done([...counts, running, returned]);"""
-    assert run(page, "doctor_tab.js", script) == [0, 1, 2, 2, True, False]
+    assert run(page, "doctor_tab.js", script, TWO) == [0, 1, 2, 2, True, False]
 
 
 def test_the_log_stays_where_its_tab_is_chosen_again(page):
@@ -149,13 +139,17 @@ def test_the_log_stays_where_its_tab_is_chosen_again(page):
     log(900);
     count();
     done(counts);"""
-    assert run(page, "log_tab.js", script) == [1, 0, 0, 1000]
+    assert run(page, "log_tab.js", script, TWO) == [1, 0, 0, 1000]
+
+
+def points(t, value):
+    return {"times": [t], "values": [value]}
 
 
 def test_the_plot_forgets_samples_of_another_time(page):
     script = """import('/page/chart.js').then(({Chart}) => {
       let drawn = null;
-      Chart.prototype.show = (curves) => (drawn = curves);
+      Chart.prototype.show = (curves) => (drawn = structuredClone(curves));
       const tab = new tabs.PlotTab(link, watch), shown = [];
       const next = (samples, then) => {
         hear("plot", {samples});
@@ -174,7 +168,29 @@ def test_the_plot_forgets_samples_of_another_time(page):
         next({a: [[101, 1], [50, 2]], b: [[51, 7]]}, () =>
           next({a: [[1000, 3]]}, () => done(shown))));
     });"""
-    both, set_back, later = run(page, "plot_tab.js", script)
-    assert both == {"a": [[0, 1]], "b": [[0.5, 5]]}
-    assert set_back == {"a": [[0, 2]], "b": [[1, 7]]}
-    assert later == {"a": [[950, 3]], "b": []}  # of the last 30 s
+    both, set_back, later = run(page, "plot_tab.js", script, TWO)
+    assert both == {"a": points(0, 1), "b": points(0.5, 5)}
+    assert set_back == {"a": points(0, 2), "b": points(1, 7)}
+    assert later["a"]["times"][-1] == 950
+
+
+# Pixels of a colour in the upper fifth of the chart, above all that the sines reach.
+ABOVE = """const canvas = document.querySelector("#plot-chart canvas"), pen = canvas.getContext("2d");
+const {data} = pen.getImageData(0, 0, canvas.width, canvas.height / 5);
+let found = 0;
+for (let at = 0; at < data.length; at += 4) {
+  if (data[at + 3] > 100 && data[at + 2] > 150 && data[at] < 100) found += 1;
+}
+return found;"""
+
+
+@pytest.fixture
+def long_plot(page):
+    page.tab("Plot")
+    run(page, "plot_tab.js", LONG_PLOT, ["a", "b", "c", "d"])
+    wait_for(lambda: page.all("#plot-chart canvas"), "chart")
+    return page
+
+
+def test_a_spike_of_one_sample_is_drawn_among_ten_minutes(long_plot):
+    wait_for(lambda: long_plot.driver.execute_script(ABOVE) > 5, "spike")

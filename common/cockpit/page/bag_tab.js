@@ -2,6 +2,7 @@
 
 import { Chart } from "./chart.js";
 import { byId, element, offer, row, say } from "./dom.js";
+import { Track, written } from "./samples.js";
 
 const PANEL = `
   <div class="card row">
@@ -13,6 +14,7 @@ const PANEL = `
   <div class="card">
     <label class="long">Position <output id="bag-at">0.0 s</output>
       <input type="range" id="bag-position" min="0" max="1" step="0.01" value="0"></label>
+    <p class="hint">Drag across the chart to zoom. <button id="bag-zoom">Whole range</button></p>
     <div class="row">
       <label>Topic <select id="bag-topic"></select></label>
       <label>Rate <select id="bag-rate">
@@ -39,10 +41,19 @@ export class BagTab {
   #yours = false; // this page plays it
   #scrubbed = 0; // when the slider was last moved by hand
   #hidden = new Set(); // the names of hidden curves
+  #tracks = {}; // name of a curve -> Track
+  #pointed = null; // the time at which the mouse points, or null
+  #drawn = ""; // what was seen when it was drawn
 
   constructor(link, watch, page) {
     Object.assign(this, { link, watch, page });
-    this.chart = new Chart(byId("bag-chart"));
+    this.chart = new Chart(byId("bag-chart"), {
+      onPoint: (t) => {
+        this.#pointed = t;
+        this.#showValues();
+      },
+      onRange: () => this.#alignSlider(),
+    });
     link.on("bags", ({ names }) => {
       offer(byId("bag-name"), names.map((name) => [name]));
       if (names.length === 1 && !this.#bag) this.#ask();
@@ -75,7 +86,7 @@ export class BagTab {
     };
     // A change while it plays counts at once.
     for (const id of ["bag-rate", "bag-loop", "bag-topic"]) byId(id).onchange = () => this.#yours && this.#play();
-    byId("bag-chart").addEventListener("dblclick", () => this.chart.wholeRange());
+    byId("bag-zoom").onclick = () => this.#draw(this.chart.wholeRange());
   }
 
   #ask() {
@@ -94,6 +105,30 @@ export class BagTab {
   #showPosition(position) {
     say(byId("bag-at"), `${position.toFixed(1)} s`);
     this.chart.cursor = position;
+    this.#showValues();
+  }
+
+  /** The slider has the chart's scale, and a chart that is zoomed is drawn anew, with all its samples. */
+  #alignSlider() {
+    if (!this.chart.seen) return;
+    const { left, right, from, to } = this.chart.seen;
+    const position = byId("bag-position");
+    const now = Number(position.value);
+    position.style.marginLeft = `${left}px`;
+    position.style.width = `calc(100% - ${left + right}px)`;
+    Object.assign(position, { min: from, max: to, value: now });
+    const seen = JSON.stringify([from, to]);
+    if (seen !== this.#drawn) requestAnimationFrame(() => this.#draw());
+    this.#drawn = seen;
+  }
+
+  /** The values of the curves at the mouse, or at the position. */
+  #showValues() {
+    const t = this.#pointed ?? Number(byId("bag-position").value);
+    for (const label of byId("bag-curves").children) {
+      const value = this.#tracks[label.dataset.curve].at(t);
+      say(label.querySelector("output"), value === undefined ? "–" : written(value));
+    }
   }
 
   #open(bag) {
@@ -103,6 +138,7 @@ export class BagTab {
     const when = bag.start > 0 ? `, recorded ${new Date(bag.start * 1000).toLocaleString()}` : "";
     say(byId("bag-about"), `${bag.path}: ${seconds.toFixed(1)} s${when}`);
     byId("bag-position").max = seconds;
+    this.#tracks = Object.fromEntries(Object.entries(bag.curves).map(([name, points]) => [name, new Track(points)]));
     byId("bag-topics").replaceChildren(...bag.topics.map(({ name, type, count }) => row(name, type, String(count))));
     const playable = bag.topics.filter(({ type }) => type === "sensor_msgs/Joy");
     offer(byId("bag-topic"), playable.map(({ name }) => [name]));
@@ -113,16 +149,18 @@ export class BagTab {
 
   #draw() {
     if (!this.#bag) return;
-    this.chart.show(this.#bag.curves);
-    byId("bag-curves").replaceChildren(...Object.keys(this.#bag.curves).map((name, i) => {
+    this.chart.show(this.#tracks, [0, Math.max(1, this.#bag.end - this.#bag.start)]);
+    byId("bag-curves").replaceChildren(...Object.keys(this.#tracks).map((name, i) => {
       const box = element("input", { type: "checkbox", checked: !this.#hidden.has(name) });
       box.onchange = () => {
         this.#hidden[box.checked ? "delete" : "add"](name);
         this.chart.setVisible(i, box.checked);
       };
       this.chart.setVisible(i, box.checked);
-      return element("label", { "data-curve": name }, box, this.chart.sample(i), name);
+      return element("label", { "data-curve": name }, box, this.chart.sample(i), `${name} `, element("output"));
     }));
+    this.#alignSlider();
+    this.#showValues();
   }
 
   #moveTo({ position, playing, topic }) {

@@ -1,6 +1,11 @@
 /** Curves over time, drawn by dygraphs: several series, each with times of its own. */
 
 import { element } from "./dom.js";
+import { mark, rowsOf } from "./samples.js";
+
+const MOST_POINTS = 8000; // drawn at once: of more a frame takes too long
+const MARK_PX = 30; // between two marks of the axis, as dygraphs has it
+const RETRY_MS = 1000;
 
 // Distinct on light and dark backgrounds, and for most colour-blind readers.
 const COLOURS = ["#2b83d6", "#d9700a", "#1f9e6e", "#c2438f", "#8a6fd1", "#a38712", "#d6403a", "#3fa9b5"];
@@ -13,25 +18,32 @@ function style(i) {
   return { colour: COLOURS[i % COLOURS.length], pattern, border };
 }
 
-/** Load dygraphs once it is needed; a phone that only drives does without. */
+/** Load dygraphs once it is needed, until it is there; a phone that only drives does without. */
 async function loadLibrary() {
-  await import("/lib/dygraph.min.js");
+  for (let attempt = 0; !globalThis.Dygraph; attempt++) {
+    // A browser remembers that a module did not come, by its address.
+    const loaded = import(`/lib/dygraph.min.js?${attempt}`);
+    await loaded.catch(() => new Promise((resolve) => setTimeout(resolve, RETRY_MS)));
+  }
   // Its legend, which is not used, writes style attributes, which the page's policy forbids.
   const { Dygraph } = globalThis;
   Dygraph.PLUGINS = Dygraph.PLUGINS.filter((plugin) => plugin !== Dygraph.Plugins.Legend);
 }
+let library = null;
 
 export class Chart {
   #graph = null;
-  #wanted = null; // what is to be shown once the library is there
+  #wanted = null; // what is shown, or is to be once the library is there
   #labels = [];
   #cursor = null;
   #window = []; // from, to: as the page itself has set it last
 
-  /** root: the element. options: of dygraphs, beside those below. */
-  constructor(root, options = {}) {
-    this.root = root;
-    this.options = options;
+  /**
+   * root: the element. onPoint(t): the mouse points at a time [s], or at none (null). onRange(): another part
+   * of the time is seen.
+   */
+  constructor(root, { onPoint = () => {}, onRange = () => {} } = {}) {
+    Object.assign(this, { root, onPoint, onRange });
     new ResizeObserver(() => this.#graph?.resize()).observe(root);
   }
 
@@ -51,18 +63,28 @@ export class Chart {
     this.#graph?.resetZoom();
   }
 
-  /** series: {label: [[t, value], ...]}; window: [from, to] to be shown unless zoomed, or null. */
-  show(series, window = null) {
+  /** What is seen: {left, right} [px] of the curves in the element, {from, to} [s]; or null. */
+  get seen() {
+    if (!this.#graph) return null;
+    const [{ x, w }, [from, to]] = [this.#graph.getArea(), this.#graph.xAxisRange()];
+    return { left: x, right: this.root.clientWidth - x - w, from, to };
+  }
+
+  /** tracks: {label: Track}; window: [from, to] [s] to be shown unless a person has zoomed. */
+  show(tracks, window) {
+    this.#wanted = [tracks, window];
     if (!this.root.clientWidth) return; // another tab is shown
-    if (!globalThis.Dygraph) {
-      if (!this.#wanted) loadLibrary().then(() => this.show(...this.#wanted));
-      this.#wanted = [series, window];
+    if (!globalThis.Dygraph?.PLUGINS) {
+      library ??= loadLibrary();
+      library.then(() => this.show(...this.#wanted));
       return;
     }
-    const labels = Object.keys(series);
-    const rows = merged(Object.values(series));
+    const labels = Object.keys(tracks);
+    const [from, to] = this.isZoomed ? this.#graph.xAxisRange() : window;
+    const columns = Math.min(this.root.clientWidth, MOST_POINTS / 2 / Math.max(1, labels.length));
+    const rows = rowsOf(Object.values(tracks), from, to, columns);
     const isSame = rows.length && JSON.stringify(labels) === JSON.stringify(this.#labels);
-    const range = window && !this.isZoomed ? { dateWindow: window } : {};
+    const range = this.isZoomed ? {} : { dateWindow: window };
     if (range.dateWindow) this.#window = [...window];
     if (this.#graph && isSame) {
       this.#graph.updateOptions({ file: rows, ...range });
@@ -86,9 +108,17 @@ export class Chart {
       strokeWidth: 1.6,
       animatedZooms: false,
       underlayCallback: (pen, area, graph) => this.#drawCursor(pen, area, graph),
+      highlightCallback: (_, t) => this.onPoint(t),
+      unhighlightCallback: () => this.onPoint(null),
+      drawCallback: () => this.#graph && this.onRange(), // not while it is made
+      axes: { y: { axisLabelWidth: 84, axisLabelFormatter: (value, _, __, graph) => this.#mark(value, graph) } },
       ...range,
-      ...this.options,
     });
+  }
+
+  #mark(value, graph) {
+    const [low, high] = graph.yAxisRange();
+    return mark(value, ((high - low) * MARK_PX) / Math.max(MARK_PX, this.root.clientHeight));
   }
 
   setVisible(i, on) {
@@ -148,16 +178,4 @@ export class Chart {
       x += pen.measureText(label).width + 38;
     });
   }
-}
-
-/** Rows [t, value or null of each series] in the order of time, from [[[t, value], ...], ...]. */
-function merged(all) {
-  const rows = new Map();
-  all.forEach((points, i) => {
-    for (const [t, value] of points) {
-      if (!rows.has(t)) rows.set(t, [t, ...all.map(() => null)]);
-      rows.get(t)[i + 1] = value;
-    }
-  });
-  return [...rows.values()].sort((a, b) => a[0] - b[0]);
 }

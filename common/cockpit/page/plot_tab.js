@@ -2,11 +2,12 @@
 
 import { Chart } from "./chart.js";
 import { byId, element, offer, save, say } from "./dom.js";
+import { Track, written } from "./samples.js";
 
 const MOST = 20; // fields at a time, as the server has it
 const LISTED = 200; // of the fields that are found
 const WINDOWS = [[10, "10 s"], [30, "30 s"], [120, "2 min"], [600, "10 min"]];
-const KEEP_S = 600; // the longest window
+const KEEP_S = 600; // the longest window; of a fast topic less, see MOST of samples.js
 const DRAW_MS = 100;
 const SET_BACK_S = 1; // by so much and more
 
@@ -27,8 +28,8 @@ const PANEL = `
       <button id="plot-png">Save PNG</button>
     </div>
     <div class="card chart"><div id="plot-chart"></div></div>
-    <p class="hint">Drag across the chart to zoom.</p>
-    <div class="legend" id="plot-values" role="group" aria-label="Newest values"></div>
+    <p class="hint">Drag across the chart to zoom; Whole range ends it. <output id="plot-at"></output></p>
+    <div class="legend" id="plot-values" role="group" aria-label="Values"></div>
   </div>
   <div class="panel">
     <div class="card"><h2><label for="plot-search">Fields</label></h2>
@@ -41,16 +42,24 @@ export class PlotTab {
   static panel = PANEL;
   static watches = { fields: [], field_list: false };
 
-  #samples = {}; // field -> [[t, value], ...], t since #zero
+  #samples = {}; // field -> Track, times since #zero
   #zero = null; // time of the first sample [s]
   #all = [];
   #fresh = false;
-  #paused = false;
+  #frozen = null; // the newest time that is shown while the plot is paused
+  #pointed = null; // the time at which the mouse points, or null
+  #drawn = ""; // what was seen when it was drawn
   #shown = false;
 
   constructor(link, watch) {
     this.watch = watch;
-    this.chart = new Chart(byId("plot-chart"), { labelsKMB: false, zoomCallback: () => (this.#fresh = true) });
+    this.chart = new Chart(byId("plot-chart"), {
+      onPoint: (t) => {
+        this.#pointed = t;
+        this.#showValues();
+      },
+      onRange: () => this.#look(),
+    });
     link.on("fields", ({ fields }) => {
       if (fields.join() === this.#all.join()) return; // a list in use is left alone
       this.#all = fields;
@@ -61,7 +70,7 @@ export class PlotTab {
     byId("plot-window").value = 30;
     byId("plot-window").onchange = () => this.#showLast(byId("plot-window").value);
     byId("plot-search").oninput = () => this.#list();
-    byId("plot-pause").onclick = () => this.#pause(!this.#paused);
+    byId("plot-pause").onclick = () => this.#pause(this.#frozen === null);
     byId("plot-zoom").onclick = () => this.#showLast(KEEP_S);
     byId("plot-clear").onclick = () => this.#clear();
     byId("plot-csv").onclick = () => this.#saveCsv();
@@ -81,49 +90,65 @@ export class PlotTab {
 
   #take(samples) {
     const wanted = Object.entries(samples).filter(([field]) => this.#samples[field]);
-    const newest = (field) => (this.#samples[field].at(-1)?.[0] ?? -Infinity) + this.#zero;
-    const begins = wanted.map(([field, points]) => setBack(points, newest(field)));
+    const begins = wanted.map(([field, points]) => setBack(points, this.#samples[field].newest + this.#zero));
     if (begins.some((i) => i >= 0)) this.#clear(); // all earlier samples are of another time
     for (const [field, points] of wanted) {
-      const kept = this.#samples[field];
+      const track = this.#samples[field];
       for (const [t, value] of points.slice(Math.max(0, begins.shift()))) {
         this.#zero ??= t;
-        kept.push([t - this.#zero, value]);
+        track.push(t - this.#zero, value);
       }
-      const oldest = (kept.at(-1)?.[0] ?? 0) - KEEP_S;
-      const first = kept.findIndex(([t]) => t >= oldest);
-      if (first > 500) kept.splice(0, first);
+      track.forget(track.newest - KEEP_S);
     }
-    this.#fresh = true;
+    this.#fresh ||= this.#frozen === null;
+  }
+
+  get #newest() {
+    return this.#frozen ?? Math.max(...Object.values(this.#samples).map(({ newest }) => newest), 0);
   }
 
   #draw() {
-    if (!this.#shown || !this.#fresh || this.#paused) return;
+    if (!this.#shown || !this.#fresh) return;
+    const from = Math.max(0, this.#newest - Number(byId("plot-window").value));
+    this.chart.show(this.#samples, [from, Math.max(this.#newest, from + 1)]);
+    this.#drawn = this.#range;
     this.#fresh = false;
-    const seconds = Number(byId("plot-window").value);
-    const newest = Math.max(...Object.values(this.#samples).map((points) => points.at(-1)?.[0] ?? 0), 0);
-    const from = Math.max(0, newest - seconds);
-    const whole = this.chart.isZoomed;
-    const cut = (points) => (whole ? points : points.filter(([t]) => t >= from));
-    const shown = Object.entries(this.#samples).map(([field, points]) => [field, cut(points)]);
-    this.chart.show(Object.fromEntries(shown), [from, Math.max(newest, from + 1)]);
+    this.#showValues();
+  }
+
+  get #range() {
+    return JSON.stringify(this.chart.seen);
+  }
+
+  /** Draw again if another part is seen than was drawn, as after a zoom. */
+  #look() {
+    this.#fresh ||= this.#range !== this.#drawn;
+  }
+
+  /** The values at the mouse, or the newest. */
+  #showValues() {
+    const t = this.#pointed ?? this.#newest;
+    say(byId("plot-at"), this.#pointed === null ? "" : `At ${t.toFixed(2)} s:`);
     byId("plot-values").replaceChildren(...this.fields.map((field, i) => {
-      const value = this.#samples[field].at(-1)?.[1];
+      const value = this.#samples[field].at(t);
       return element("span", { "data-field": field }, this.chart.sample(i), `${field} `,
-        element("output", {}, value === undefined ? "–" : String(Number(value.toFixed(4)))));
+        element("output", {}, value === undefined ? "–" : written(value)));
     }));
   }
 
   #list() {
     const words = byId("plot-search").value.toLowerCase().split(/\s+/).filter(Boolean);
     const found = this.#all.filter((field) => words.every((word) => field.toLowerCase().includes(word)));
-    const listed = [...new Set([...this.fields, ...found])].slice(0, LISTED); // the chosen ones first
+    const matching = [...new Set([...this.fields, ...found])]; // the chosen ones first
+    const listed = matching.slice(0, LISTED);
     byId("plot-fields").replaceChildren(...listed.map((field) => {
       const checked = field in this.#samples;
       const box = element("input", { type: "checkbox", checked, value: field });
       box.onchange = () => this.#choose(field, box.checked);
       return element("li", {}, element("label", {}, box, ` ${field}`));
     }));
+    const rest = matching.length - listed.length;
+    if (rest) byId("plot-fields").append(element("li", { className: "hint" }, `… and ${rest} more: search by name.`));
     this.#limit();
   }
 
@@ -134,7 +159,7 @@ export class PlotTab {
   }
 
   #choose(field, on) {
-    if (on) this.#samples[field] = [];
+    if (on) this.#samples[field] = new Track();
     else delete this.#samples[field];
     if (!this.fields.length) this.#zero = null;
     this.watch({ fields: this.fields });
@@ -150,21 +175,22 @@ export class PlotTab {
   }
 
   #pause(on) {
-    this.#paused = on;
+    this.#frozen = on ? this.#newest : null;
     byId("plot-pause").setAttribute("aria-pressed", String(on));
     say(byId("plot-pause"), on ? "Resume" : "Pause");
     this.#fresh = true;
   }
 
   #clear() {
-    for (const points of Object.values(this.#samples)) points.length = 0;
+    for (const track of Object.values(this.#samples)) track.clear();
     this.#zero = null;
+    this.#frozen &&= 0;
     this.#fresh = true;
   }
 
   #saveCsv() {
-    const lines = Object.entries(this.#samples).flatMap(([field, points]) =>
-      points.map(([t, value]) => `${t + this.#zero},${field},${value}`));
+    const lines = Object.entries(this.#samples).flatMap(([field, { times, values }]) =>
+      times.map((t, i) => `${t + this.#zero},${field},${values[i]}`));
     save(new Blob([["time,field,value", ...lines, ""].join("\n")], { type: "text/csv" }), "plot.csv");
   }
 }

@@ -1,0 +1,108 @@
+/** Samples of numbers over time, without a page: kept, thinned for a chart, and in words. */
+
+export const MOST = 120000; // samples of a field: ten minutes at 200 Hz
+const DENSE = 4; // samples in a column of the chart, from which on only its extremes are drawn
+
+/** The index of the first of these times, which rise, that is not before t. */
+export function firstAt(times, t) {
+  let [low, high] = [0, times.length];
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (times[middle] < t) low = middle + 1;
+    else high = middle;
+  }
+  return low;
+}
+
+/** The samples of one field. */
+export class Track {
+  times = []; // [s]
+  values = [];
+
+  /** points: [[t, value], ...]. */
+  constructor(points = []) {
+    for (const [t, value] of points) this.push(t, value);
+  }
+
+  get newest() {
+    return this.times.at(-1) ?? -Infinity;
+  }
+
+  push(t, value) {
+    this.times.push(t);
+    this.values.push(value);
+  }
+
+  /** Forget what is before a time, and beyond MOST; many at once, as the others are moved. */
+  forget(oldest) {
+    const first = Math.max(firstAt(this.times, oldest), this.times.length - MOST);
+    if (first < 1000 && first < this.times.length) return;
+    this.times.splice(0, first);
+    this.values.splice(0, first);
+  }
+
+  clear() {
+    this.times.length = this.values.length = 0;
+  }
+
+  /** The value at a time, of the newest sample until then, or undefined. */
+  at(t) {
+    const i = firstAt(this.times, t);
+    return this.values[this.times[i] === t ? i : i - 1];
+  }
+}
+
+/**
+ * Rows [t, value or null of each track] from one time to another, in their order. Where a column of the
+ * chart would have many samples, it gets the smallest and the largest, so that no spike is lost.
+ */
+export function rowsOf(tracks, from, to, columns) {
+  const spans = tracks.map(({ times }) => [Math.max(0, firstAt(times, from) - 1), firstAt(times, to) + 1]);
+  const most = Math.max(0, ...spans.map(([first, end], i) => Math.min(end, tracks[i].times.length) - first));
+  return most > DENSE * columns ? thinned(tracks, spans, (to - from) / columns) : joined(tracks, spans);
+}
+
+function joined(tracks, spans) {
+  const rows = new Map();
+  tracks.forEach(({ times, values }, i) => {
+    for (let at = spans[i][0]; at < Math.min(spans[i][1], times.length); at++) {
+      if (!rows.has(times[at])) rows.set(times[at], [times[at], ...tracks.map(() => null)]);
+      rows.get(times[at])[i + 1] = values[at];
+    }
+  });
+  return [...rows.values()].sort((a, b) => a[0] - b[0]);
+}
+
+/** width: of a column [s]; columns begin at its multiples, so that the curve moves and does not flicker. */
+function thinned(tracks, spans, width) {
+  const columns = new Map(); // number -> its two rows: what came first of the extremes, and second
+  const empty = tracks.map(() => null);
+  tracks.forEach(({ times, values }, track) => {
+    const [i, end] = [track + 1, Math.min(spans[track][1], times.length)];
+    for (let at = spans[track][0]; at < end; at++) {
+      const [number, value] = [Math.floor(times[at] / width), values[at]];
+      let rows = columns.get(number);
+      if (!rows) columns.set(number, (rows = [0.25, 0.75].map((part) => [(number + part) * width, ...empty])));
+      const [first, second] = rows;
+      if (first[i] === null) first[i] = second[i] = value;
+      else if (value < Math.min(first[i], second[i])) [first[i], second[i]] = [Math.max(first[i], second[i]), value];
+      else if (value > Math.max(first[i], second[i])) [first[i], second[i]] = [Math.min(first[i], second[i]), value];
+    }
+  });
+  return [...columns.keys()].sort((a, b) => a - b).flatMap((number) => columns.get(number));
+}
+
+/** A number as a person reads it: at most six digits, but seconds since 1970 with their thousandths. */
+export function written(value) {
+  const size = Math.abs(value);
+  return String(Number(size >= 1e5 && size < 1e15 ? value.toFixed(3) : value.toPrecision(6)));
+}
+
+/** The label of a mark on an axis whose marks are at least a step apart: as many digits as tell them apart. */
+export function mark(value, step) {
+  if (value === 0) return "0";
+  const largest = Math.abs(value);
+  const digits = Math.max(0, Math.ceil(-Math.log10(step)));
+  if (largest < 1e11 && digits <= 6) return value.toFixed(digits);
+  return value.toPrecision(Math.min(15, Math.max(2, Math.ceil(Math.log10(largest / step)) + 1)));
+}

@@ -1,0 +1,57 @@
+// The pure part of the page's charts; `node --test` runs it, see test/lint.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { MOST, Track, firstAt, mark, rowsOf, written } from "../../../common/cockpit/page/samples.js";
+
+const sines = (count) => new Track(Array.from({ length: count }, (_, i) => [i / 50, Math.sin(i / 1000)]));
+
+test("few samples are drawn as they are, those of two tracks at one time in one row", () => {
+  const [a, b] = [new Track([[0, 1], [1, 2], [2, 3]]), new Track([[1, 7], [1.5, 8]])];
+  assert.deepEqual(rowsOf([a, b], 0, 2, 100), [[0, 1, null], [1, 2, 7], [1.5, null, 8], [2, 3, null]]);
+  assert.deepEqual(rowsOf([a], 0.9, 1.1, 100).map(([t]) => t), [0, 1, 2]); // lines reach both edges
+});
+
+test("of many samples each column has the extremes, in their order, and no spike is lost", () => {
+  const track = sines(30000);
+  track.values[15000] = 5;
+  track.values[15001] = -5;
+  const rows = rowsOf([track, new Track()], 0, 600, 1000);
+  assert.equal(rows.length, 2000);
+  const at = rows.findIndex(([, value]) => value === 5);
+  assert.equal(rows[at + 1][1], -5);
+  assert.ok(Math.abs(rows[at][0] - 300) < 0.6);
+  assert.ok(rows.every(([t, , other], i) => other === null && (!i || t > rows[i - 1][0])));
+});
+
+test("columns stay where they are while time goes on", () => {
+  const track = sines(30000);
+  const [before, after] = [0, 1].map((from) => new Map(rowsOf([track], from, from + 500, 1000)));
+  for (const [t, value] of after) if (t > 2 && t < 499) assert.equal(before.get(t), value);
+});
+
+test("a track forgets what is old, and no more than it must keep", () => {
+  const track = sines(MOST + 5000);
+  track.forget(-Infinity);
+  assert.equal(track.times.length, MOST);
+  track.forget(track.newest - 10);
+  assert.deepEqual([track.times.length, track.values.length], [501, 501]);
+  assert.equal(track.at(track.newest), track.values.at(-1));
+  assert.equal(new Track([[1, 5]]).at(0.5), undefined);
+  assert.equal(firstAt([1, 2, 2, 3], 2), 1);
+});
+
+test("numbers are written with the digits that count", () => {
+  const cases = [[0, "0"], [0.1, "0.1"], [0.00001234567, "0.0000123457"], [1e300, "1e+300"], [-0.35, "-0.35"],
+    [1763985012.3456, "1763985012.346"], [12345.678, "12345.7"]];
+  for (const [value, text] of cases) assert.equal(written(value), text);
+});
+
+test("the marks of an axis differ", () => {
+  for (const [values, step, texts] of [
+    [[0.09, 0.095, 0.1], 0.005, ["0.090", "0.095", "0.100"]],
+    [[1763985012, 1763985014], 2, ["1763985012", "1763985014"]],
+    [[0, 1e300, 2e300], 1e300, ["0", "1.0e+300", "2.0e+300"]],
+    [[0, 2e-9], 1e-9, ["0", "2.0e-9"]],
+  ]) assert.deepEqual(values.map((value) => mark(value, step)), texts);
+});
