@@ -63,6 +63,15 @@ def test_bag_opens_the_only_recording_and_publishes_it(world, page, ros, recordi
     page.wait_for_text("#bag-topics", messages)
     wait_for(lambda: page.all("#bag-chart canvas"), "chart")
     assert len(page.all("#bag-curves label")) >= 6
+    # The slider has the chart's scale, and its curves the values at the slider.
+    middle = "(({left, right}) => (left + right) / 2)(%s.getBoundingClientRect())"
+    zero = page.ask(middle % 'document.querySelector("#bag-chart .dygraph-axis-label-x")')
+    left = "document.querySelector('#bag-position').getBoundingClientRect().left"
+    wait_for(lambda: abs(page.ask(left) - zero) < 8, "slider below the chart")
+    page.driver.execute_script("""const slider = document.querySelector("#bag-position");
+      slider.value = 20;
+      slider.dispatchEvent(new Event("input"));""")
+    page.wait_for_text('[data-curve="/joy/buttons[4]"] output', "1")
     page.click("Publish")
     wait_for(lambda: world.now.moves, "robot that moves")
     page.wait_for_text("#seat", "You play a recording to the robot.")

@@ -159,7 +159,6 @@ export class BagTab {
       this.chart.setVisible(i, box.checked);
       return element("label", { "data-curve": name }, box, this.chart.sample(i), `${name} `, element("output"));
     }));
-    this.#alignSlider();
     this.#showValues();
   }
 

@@ -93,6 +93,7 @@ export class Chart {
     this.#graph?.destroy();
     this.#labels = labels;
     this.#graph = rows.length ? this.#make(labels, rows, range) : null;
+    if (this.#graph) this.onRange();
   }
 
   #make(labels, rows, range) {
@@ -111,7 +112,7 @@ export class Chart {
       highlightCallback: (_, t) => this.onPoint(t),
       unhighlightCallback: () => this.onPoint(null),
       drawCallback: () => this.#graph && this.onRange(), // not while it is made
-      axes: { y: { axisLabelWidth: 84, axisLabelFormatter: (value, _, __, graph) => this.#mark(value, graph) } },
+      axes: { y: { axisLabelWidth: 96, axisLabelFormatter: (value, _, __, graph) => this.#mark(value, graph) } },
       ...range,
     });
   }
