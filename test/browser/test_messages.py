@@ -175,7 +175,8 @@ def test_the_plot_forgets_samples_of_another_time(page):
 
 
 # Pixels of a colour in the upper fifth of the chart, above all that the sines reach.
-ABOVE = """const canvas = document.querySelector("#plot-chart canvas"), pen = canvas.getContext("2d");
+ABOVE = """const canvas = document.querySelector("#plot-chart canvas");
+const pen = canvas.getContext("2d");
 const {data} = pen.getImageData(0, 0, canvas.width, canvas.height / 5);
 let found = 0;
 for (let at = 0; at < data.length; at += 4) {
