@@ -82,6 +82,17 @@ def test_a_solution_is_shown_when_its_exercise_is_done(memory, capsys):
         show_solution(course, ["4.4"], memory())
 
 
+@pytest.mark.parametrize("file", ["../secret", "link", "../course_2/x", "/etc/passwd"])
+def test_a_solution_is_a_file_of_the_course(memory, tmp_path, file):
+    folder = tmp_path / "course"
+    folder.mkdir()
+    (folder / "link").symlink_to("/etc/passwd")
+    (folder / "course.yaml").write_text(f"exercises: {{'1': {{title: x, solution: [{file}]}}}}")
+    memory().keep([Outcome("1", [Result("C16", OK, "axes")], done=True)])
+    with pytest.raises(CannotCheck, match="is no file of the course's folder"):
+        show_solution(read_course(folder), ["1"], memory())
+
+
 def test_each_solution_of_the_handout_is_there():
     course = read_course()
     named = [file for each in course.exercises.values() for file in each.solution]

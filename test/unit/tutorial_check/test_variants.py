@@ -74,10 +74,14 @@ def test_whose_variant_it_is(tmp_path):
     """A file of the student's own, then what the seed draws, then the file for all, then none."""
     for_all = tmp_path / "all.yaml"
     for_all.write_text("rate: 5")
-    (tmp_path / "variants").mkdir()
-    (tmp_path / "variants/ada.yaml").write_text("rate: 25")
-    given_ones = options(all=str(tmp_path), variant=str(for_all), variants="7")
+    tasks = tmp_path / "tasks"
+    tasks.mkdir()
+    (tasks / "ada.yaml").write_text("rate: 25")
+    (tasks / "eve.yaml").symlink_to("/etc/shadow")
+    given_ones = options(all=str(tmp_path), variant=str(tasks), variants="7")
     assert variant_of(COURSE, given_ones, "ada") == {"rate": 25}
+    with pytest.raises(CannotCheck, match=r"eve\.yaml: a link is not followed"):
+        variant_of(COURSE, given_ones, "eve")
     assert variant_of(COURSE, given_ones, "bob") == drawn(COURSE, "7", "bob")
     assert variant_of(COURSE, options(variant=str(for_all)), "bob") == {"rate": 5}
     assert variant_of(COURSE, options(), "bob") == {}
@@ -89,9 +93,12 @@ def test_a_task_sheet_has_all_values_and_the_file():
     assert yaml.safe_load(text[text.rindex("axis_linear:") :]) == ALL
     with pytest.raises(CannotCheck, match="no variant of ada"):
         sheet(COURSE, {}, "ada")
-    own = dataclasses.replace(COURSE, sheet="{name}: {nonsense}")
-    with pytest.raises(CannotCheck, match="sheet: KeyError"):
-        sheet(own, ALL, "ada")
+    own = dataclasses.replace(COURSE, sheet="{{ {name} }}")
+    assert sheet(own, ALL, "{file}") == "{ {file} }"
+    for word in ("{nonsense}", "{name:9999999999}", "{name.__class__}", "{}"):
+        own = dataclasses.replace(COURSE, sheet=f"{{name}}: {word}")
+        with pytest.raises(CannotCheck, match="a task sheet: {.*} is not known; known are {title}"):
+            sheet(own, ALL, "ada")
 
 
 @pytest.mark.parametrize(("linear", "angular"), itertools.permutations(range(6), 2))

@@ -13,8 +13,8 @@ import tempfile
 from pathlib import Path
 from typing import Any, Sequence
 
-from tutorial_check.course import Course
-from tutorial_check.examination import Outcome
+from tutorial_check.course import OURS, Course
+from tutorial_check.examination import SUITE, Outcome
 from tutorial_check.model import WRONG, CannotCheck, Result
 
 NEVER, AGAIN, ALWAYS = 0, 1, 2  # --hints
@@ -90,6 +90,8 @@ def show_solution(course: Course, exercises: Sequence[str], memory: Memory) -> N
             raise CannotCheck(f"{name} is not done yet: its solution is shown when its check is ok")
         for file in files:
             path = (course.folder / file).resolve()
+            if (SUITE if course.folder == OURS else course.folder) not in path.parents:
+                raise CannotCheck(f"{name}: {file} is no file of the course's folder")
             try:
                 text = path.read_text(encoding="utf-8")
             except OSError as error:

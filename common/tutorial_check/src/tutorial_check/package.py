@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import shlex
 import subprocess
@@ -44,6 +45,10 @@ if [ ! -s results/results.json ]; then
 fi
 exit $code
 """
+RUN_ON_GITHUB = (
+    *("suite/tutorial", "check", "--in", "submission"),
+    *("--classroom", "result.json", "--junit", "report.xml"),
+)
 WORKFLOW = """# Checks a student's repository; to be put into .github/workflows of each, or of their template.
 name: check
 on: [push, workflow_dispatch]
@@ -60,7 +65,7 @@ jobs:
       - uses: actions/checkout@v4
         with: {repository: @REPOSITORY@, ref: @COMMIT@, path: suite}
       - name: check
-        run: suite/tutorial check --in submission --classroom result.json --junit report.xml @WORDS@
+        run: @RUN@
       - uses: actions/upload-artifact@v4
         if: always()
         with: {name: report, path: report.xml}
@@ -130,5 +135,8 @@ def _workflow(repository: str, course: Course, exercises: Sequence[str]) -> str:
         if SUITE not in course.folder.parents:
             raise CannotCheck(f"{course.folder}: put the course into the suite's repository")
         words = ["--course", f"suite/{course.folder.relative_to(SUITE)}", *words]
+    if any("${{" in word for word in words):
+        raise CannotCheck(f"{shlex.join(words)}: GitHub would replace ${{{{ in it: rename that")
+    run = shlex.join([*RUN_ON_GITHUB, *words])
     text = WORKFLOW.replace("@REPOSITORY@", repository).replace("@COMMIT@", _commit())
-    return text.replace("@WORDS@", shlex.join(words))
+    return text.replace("@RUN@", json.dumps(run))  # a text for YAML, whatever is in it

@@ -17,7 +17,7 @@ from tutorial_check.formats import as_json, clear, without_hints, write
 from tutorial_check.last_run import LastRun, digest_of, digest_of_checks
 from tutorial_check.model import CannotCheck, fault
 from tutorial_check.report import summary, text_of
-from tutorial_check.variants import FOLDER, variant_of
+from tutorial_check.variants import variant_of
 
 ARCHIVES = (".zip", ".tar", ".tgz", ".gz", ".bz2", ".xz", ".7z", ".rar")
 TABLES = ("table.csv", "table.html")
@@ -25,8 +25,10 @@ QUICK_S = 0.05  # for the page of a class that is not large
 RESULTS = (".csv", ".html", ".txt", ".json")
 
 
-def find_students(folder: str | Path, out: str | Path) -> list[Student]:
-    """Return the Students of a folder: each folder, archive and link in it, but those of results.
+def find_students(
+    folder: str | Path, out: str | Path, tasks: str | Path | None = None
+) -> list[Student]:
+    """Return the Students of a folder: each folder, archive and link in it, but those of results and tasks.
 
     Archives that are no zip, and links, are among them: the table says that they are not checked.
     """
@@ -34,6 +36,7 @@ def find_students(folder: str | Path, out: str | Path) -> list[Student]:
         entries = [path for path in sorted(Path(folder).iterdir()) if path.name[0] != "."]
     except OSError as error:
         raise CannotCheck(f"{folder}: {error.strerror}") from None
+    entries = [path for path in entries if not (tasks and path.resolve() == Path(tasks).resolve())]
     paths = [path for path in entries if _is_handed_in(path) and not _has_results(path, out)]
     if not paths:
         raise CannotCheck(f"{folder}: no workspace and no zip in it")
@@ -45,8 +48,7 @@ def find_students(folder: str | Path, out: str | Path) -> list[Student]:
 
 
 def _is_handed_in(path: Path) -> bool:
-    is_folder = path.is_dir() and path.name != FOLDER
-    return is_folder or path.suffix.lower() in ARCHIVES or not path.exists()
+    return path.is_dir() or path.suffix.lower() in ARCHIVES or not path.exists()
 
 
 def _has_results(path: Path, out: str | Path) -> bool:
@@ -65,7 +67,9 @@ def _has_results(path: Path, out: str | Path) -> bool:
 def check_all(options: argparse.Namespace) -> int:
     """Check all, write table and reports; 0: all are done, 1: something is wrong, 2: one is unchecked."""
     out = Path(options.out or Path(options.all) / "check")
-    students = find_students(options.all, out)
+    students = find_students(options.all, out, options.variant)
+    if not options.variant and Path(options.all, "variants").is_dir():
+        print("variants: a submission; if it has the tasks of students: --variant FOLDER/variants")
     with contextlib.suppress(OSError):
         out.mkdir(parents=True, exist_ok=True)
     if not (os.path.isdir(out) and os.access(out, os.W_OK | os.X_OK)):

@@ -59,9 +59,10 @@ def _parser() -> Parser:
     what = "0: say what is wrong, never how to mend it; 1: when the same is wrong again; 2: always"
     add("--hints", type=int, choices=(0, 1, 2), help=f"{what} (1; with --all 2)")
     add("--no-hints", action="store_const", const=0, dest="hints", help="the same as --hints 0")
-    what = "what differs from the course, as a YAML file; ./tutorial check --show-variant shows one"
+    what = "what differs from the course, as a YAML file, which --show-variant shows; with --all"
+    what += " also a folder with NAME.yaml of students, which come before --variants"
     add("--variant", type=path, metavar="FILE", help=what)
-    what = "with --all: draw each student's from a seed and name; FOLDER/variants/NAME.yaml first"
+    what = "with --all: draw each student's from a seed and name"
     add("--variants", metavar="SEED", help=what)
     what = "print the task sheet of a student"
     where.add_argument("--show-variant", type=path, metavar="NAME", help=what)
@@ -125,6 +126,8 @@ def _refuse_idle(parser: argparse.ArgumentParser, given: argparse.Namespace) -> 
         (given.out is not None and not (given.all or given.package), "--out is for --all"),
         (given.jobs is not None and not checks_many, "--jobs is for --all"),
         (given.variant and (given.package or given.self_test), "--variant is for workspaces"),
+        (given.variant and os.path.isdir(given.variant) and not (given.all or given.show_variant),
+         "--variant FOLDER is for --all and --show-variant"),
         (given.variants is not None and not (given.all or given.show_variant),
          "--variants is for --all and --show-variant"),
     )  # fmt: skip

@@ -13,7 +13,6 @@ import yaml
 from tutorial_check.course import Course, Value, package_of, read_yaml
 from tutorial_check.model import CannotCheck, Result
 
-FOLDER = "variants"  # beside what the students of --all handed in: NAME.yaml
 SHEET = "# {title}: the task of {name}\n\n{tasks}\n\nTo check it yourself keep this as variant.yaml:\n\n{file}"
 UNASKED = "/unasked"  # before a topic that has the checks' name in the student's programs
 Variant = Dict[str, Any]  # {name of a value: what it is}; what is not named is as the course has it
@@ -92,22 +91,40 @@ def drawn(course: Course, seed: str, name: str) -> Variant:
 
 
 def variant_of(course: Course, options: Any, name: str) -> Variant:
-    """Return a student's Variant: from variants/NAME.yaml, or drawn, or from the file for all."""
-    own = Path(options.all or "", FOLDER, f"{name}.yaml")
-    if options.all and own.is_file():
+    """Return a student's Variant: from NAME.yaml of a folder, or drawn, or from the file for all."""
+    given = Path(options.variant) if options.variant else None
+    own = given / f"{name}.yaml" if given and given.is_dir() else None
+    if own and own.is_symlink():
+        raise CannotCheck(f"{own}: a link is not followed: put the file itself here")
+    if own and own.exists():
         return read_variant(course, own)
     if options.variants is not None:
         return drawn(course, options.variants, name)
-    return read_variant(course, options.variant) if options.variant else {}
+    return read_variant(course, given) if given and not own else {}
 
 
 def sheet(course: Course, values: Variant, name: str) -> str:
     """Return the task sheet of a student. Raises CannotCheck if nothing differs from the course."""
     if not values:
         raise CannotCheck(f"no variant of {name}: --variant FILE, or --variants SEED")
-    tasks = "\n".join(f"- {course.variants[key].about.format(is_=values[key])}" for key in values)
+    lines = [f"- {_filled(course.variants[key].about, is_=values[key])}" for key in values]
     file = yaml.safe_dump(values, sort_keys=False).rstrip()
-    try:
-        return (course.sheet or SHEET).format(title=course.title, name=name, tasks=tasks, file=file)
-    except (LookupError, ValueError) as error:
-        raise CannotCheck(f"{course.folder}: sheet: {error!r}: {{tasks}}, {{name}} ...") from None
+    about = {"title": course.title, "name": name, "tasks": "\n".join(lines), "file": file}
+    return _filled(course.sheet or SHEET, **about)
+
+
+def _filled(text: str, **words: Any) -> str:
+    """Return a text with words in place of their {names}; {{ and }} are braces. Raises CannotCheck.
+
+    No str.format, which would also take a width, of a page of a gigabyte, and attributes.
+    """
+
+    def word(found: re.Match[str]) -> str:
+        if found[0] in ("{{", "}}"):
+            return found[0][0]
+        if found[1] not in words:
+            known = ", ".join(f"{{{name}}}" for name in words)
+            raise CannotCheck(f"a task sheet: {found[0]} is not known; known are {known}")
+        return str(words[found[1]])
+
+    return re.sub(r"\{\{|\}\}|\{([^{}]*)\}", word, text)
