@@ -89,6 +89,13 @@ def processes():
             pass
 
 
+def in_memory(folder):
+    """Whether a folder lies in memory, and more than 1 GB fit."""
+    kind = subprocess.run(["stat", "-f", "-c", "%T", folder], stdout=subprocess.PIPE, check=False)
+    about = os.statvfs(folder)
+    return kind.stdout == b"tmpfs\n" and about.f_blocks * about.f_frsize > 1 << 30
+
+
 def rights():
     """Whether it has some, or may gain them from another program."""
     status = dict(line.split(":") for line in read("/proc/self/status").splitlines())
@@ -100,6 +107,8 @@ ATTACKS = {
     "write into your home folder": lambda: write(f"{aims['home']}/new"),
     "read another student's files": lambda: read(aims["other"]),
     "change another student's files": lambda: write(aims["other"], "a"),
+    "change the rights of your files": lambda: os.chmod(aims["home"], 0o700) is None,
+    "end your processes": lambda: os.kill(aims["process"], 0) is None,
     "change what you check": lambda: write(aims["original"], "a"),
     "read this suite's solutions": lambda: read(aims["solution"]),
     "reach your network": lambda: len(socket.if_nameindex()) > 1,
@@ -109,7 +118,7 @@ ATTACKS = {
     ),
     "see your processes": lambda: any(aims["name"].encode() in each for each in processes()),
     "gain rights, as by sudo": rights,
-    "fill your memory with files": lambda: subprocess.call(FILLS_MEMORY) == 0,
+    "fill your memory with files": lambda: subprocess.call(FILLS_MEMORY) == 0 or in_memory("."),
 }
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tutorial_check import bubblewrap
+from tutorial_check import bubblewrap, landlock
 from tutorial_check.bubblewrap import Isolation
 
 isolated = pytest.mark.skipif(not bubblewrap.granted().options, reason="no isolation here")
@@ -90,15 +90,17 @@ def test_what_is_written_is_limited(home, folder, monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("granted", "words"),
+    ("granted", "version", "words"),
     [
-        (Isolation(why="bwrap: refused"), "no isolation here (bwrap: refused): a program "),
-        (Isolation(("bwrap",)), "does not limit the memory"),
-        (Isolation(("bwrap",), is_limited=True), ""),
+        (Isolation(why="bwrap: refused"), 0, "no isolation here (bwrap: refused): a program "),
+        (Isolation(why="bwrap: refused"), 3, "isolated by Landlock alone (bwrap: refused): a program "),
+        (Isolation(("bwrap",)), 3, "does not limit the memory"),
+        (Isolation(("bwrap",), is_limited=True), 0, ""),
     ],
 )
-def test_what_the_system_does_not_provide_is_reported(monkeypatch, granted, words):
+def test_what_the_system_does_not_provide_is_reported(monkeypatch, granted, version, words):
     monkeypatch.setattr(bubblewrap, "granted", lambda: granted)
+    monkeypatch.setattr(landlock, "version", lambda: version)
     assert words in "".join(bubblewrap.lacking())
     assert bool(bubblewrap.lacking()) == bool(words)
 

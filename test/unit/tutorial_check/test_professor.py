@@ -1,7 +1,9 @@
 """--all: odd names, and what cannot be written, cost no other student the result."""
 
 import csv
+import json
 import os
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -30,10 +32,10 @@ class Group:
         self.begun.append(path.name)
         return self.come_to(path.name)
 
-    def check_all(self, out=None, again=False):
+    def check_all(self, out=None, again=False, variant=None):
         """Return the exit code and the rows of the table."""
         about = {"jobs": 1, "hints": 2, "again": again, "underlay": "", "exercises": ["2"]}
-        about.update(variant=None, variants=None, cluster=None)
+        about.update(variant=variant, variants=None, cluster=None)
         options = SimpleNamespace(all=str(self.folder), out=out, course=read_course(), **about)
         code = professor.check_all(options)
         with (self.check / "table.csv").open(newline="", encoding="utf-8") as table:
@@ -60,6 +62,25 @@ def test_a_folder_and_a_zip_of_one_name_have_each_a_report(group):
     assert sorted(path.stem for path in group.check.glob("*.txt")) == names
     page = (group.check / "table.html").read_text()
     assert all(f'<a href="./{name}.txt">{name}</a>' in page for name in names)
+
+
+def test_a_folder_called_variants_is_a_submission_unless_it_is_named(group, capsys):
+    group.add("ada", "variants")
+    (group.folder / "variants/ada.yaml").write_text("no task")
+    assert [row[:2] for row in group.check_all()[1]] == [["ada", "ok"], ["variants", "ok"]]
+    assert "variants: a submission; if it has the tasks" in capsys.readouterr().out
+    code, rows = group.check_all(variant=str(group.folder / "variants"))
+    assert (code, [row[0] for row in rows]) == (2, ["ada"]) and "a map of values" in rows[0][-1]
+
+
+def test_each_result_says_that_nothing_was_isolated(group):
+    group.add("ada", "bob")
+    bare = replace(WELL, remark="not isolated")
+    group.come_to = lambda name: [bare if name == "bob" else WELL]
+    assert [row[-1] for row in group.check_all()[1]] == ["", "not isolated"]
+    assert "(not isolated)" in (group.check / "bob.txt").read_text()
+    assert json.loads((group.check / "bob.json").read_text())["exercises"][0]["remark"] == "not isolated"
+    assert "<td>bob</td><td>not isolated</td>" in (group.check / "table.html").read_text()
 
 
 def test_odd_names(group):

@@ -16,7 +16,7 @@ import time
 from subprocess import DEVNULL, PIPE, STDOUT
 from typing import Callable, Iterable, Iterator, Mapping, Sequence, TypeVar
 
-from tutorial_check import place
+from tutorial_check import landlock, place
 from tutorial_check.model import Wrong
 from tutorial_check.patience import Patience, Times, fields_of, is_ready, times_of
 
@@ -95,13 +95,14 @@ class Box:
         uid: int | None = None,
         alone: bool = False,
         result: int | None = None,
+        ruleset: int | None = None,
     ) -> None:
         """uid: under which they run, or None; alone: whether they have a PID namespace of their own.
 
-        result: a socket without whose reader nothing of this is wanted any more.
+        result: a socket without whose reader nothing of this is wanted any more; ruleset: see landlock.
         """
         self.environment = environment
-        self._uid, self._alone, self._result = uid, alone, result
+        self._uid, self._alone, self._result, self._ruleset = uid, alone, result, ruleset
         self._limits = place.limits_of_programs(uid)
         self._open: list[Program] = []
         self._reading: dict[int, Program] = {}  # by the descriptor of its output
@@ -151,6 +152,8 @@ class Box:
             os.setgid(self._uid)
             os.setuid(self._uid)
         place.give_up_rights()
+        if self._ruleset is not None:
+            landlock.confine(self._ruleset)
 
     def wait(
         self, condition: Callable[[], Value], deadline_s: float, or_idle: bool = False

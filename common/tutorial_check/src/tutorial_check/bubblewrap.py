@@ -17,6 +17,8 @@ from pathlib import Path
 from subprocess import DEVNULL, PIPE
 from typing import Any, Iterable, Sequence
 
+from tutorial_check import landlock
+
 SCRATCH_MB = 600  # for the copy, its build, logs and what the programs write
 # Of /etc not all: the checker, which is root there, may follow a link, and may read more.
 ETC = "alternatives catkin group host.conf hosts ld.so.cache localtime nsswitch.conf passwd python3 ros"
@@ -106,12 +108,21 @@ def lacking() -> list[str]:
         return []
     if isolation.options:
         return ["this bubblewrap or kernel does not limit the memory that programs fill with files"]
+    why = isolation.why.partition(". ")[0].rstrip(".")
+    if landlock.version():
+        return [f"{instead()} ({why}): a program keeps to its copy, but can use the network"]
     if os.geteuid() == 0:
         rights = "runs as another user, but can read what everybody may, use the network"
     else:
         rights = "has your rights: it can read, change and remove your files, use the network"
-    why = isolation.why.partition(". ")[0].rstrip(".")
     return [f"no isolation here ({why}): a program {rights}, and leave files in /var/tmp"]
+
+
+def instead() -> str:
+    """Return what is in place of bubblewrap on this system; empty where that isolates."""
+    if granted().options:
+        return ""
+    return "isolated by Landlock alone" if landlock.version() else "not isolated"
 
 
 def _tmpfs(path: str, megabytes: int, has_sizes: bool, mode: str = "0755") -> list[str]:

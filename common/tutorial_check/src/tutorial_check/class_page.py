@@ -84,6 +84,11 @@ class Student:
         return sum(one.status == NOTE and not one.empty for one in results)
 
     @property
+    def remark(self) -> str:
+        """Why there is no verdict, or how well its programs were isolated, if not by bubblewrap."""
+        return self.trouble or next((one.remark for one in self.outcomes), "")
+
+    @property
     def wrong(self) -> list[Result]:
         """The checks that are wrong, in their order."""
         return [one for outcome in self.outcomes for one in outcome.wrong]
@@ -102,7 +107,7 @@ def table_csv(students: Iterable[Student], exercises: Sequence[str]) -> str:
     for student in students:
         cells = [student.cell(exercise)[0] for exercise in exercises]
         cause = student.wrong[0].seen if student.wrong else ""
-        texts = (student.name, cause, student.trouble)
+        texts = (student.name, cause, student.remark)
         name, cause, remark = (FORMULA.sub(r"\1'", text) for text in texts)
         about = (cells.count("ok"), student.notes, f"{student.seconds:.1f}", cause, remark)
         table.writerow([name, *cells, *about])
@@ -149,6 +154,8 @@ def _below(students: Sequence[Student]) -> Iterator[str]:
     changed = ((one.name, *map(", ".join, changes(one).values())) for one in students)
     head = ("student", "now done", "no more done", "stuck at the same check")
     yield _section("Since the last run", head, (row for row in changed if any(row[1:])))
+    remarks = ((one.name, one.remark) for one in students if one.remark)
+    yield _section("Remarks", ("student", "remark"), remarks)
     yield _section("Legend", (), LEGEND.items())
 
 

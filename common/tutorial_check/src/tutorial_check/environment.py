@@ -21,6 +21,9 @@ RVIZ = (
 )
 
 
+OWN = ("home", "tmp", "ws")  # folders of a session that belong to the student's programs
+
+
 def environment_of(words: Iterable[str]) -> dict[str, str]:
     """Return the variables of NAME=value words, without those of the shell itself."""
     found = dict(word.split("=", 1) for word in words if "=" in word)
@@ -44,9 +47,9 @@ def variables(folder: Path, environment: Mapping[str, str]) -> dict[str, str]:
 
 
 def prepare(folder: str | Path, uid: int | None) -> None:
-    """Make the folders of a session, of which home, tmp and ws belong to the student's programs."""
+    """Make the folders of a session, and give those of OWN to the student's programs."""
     folder = Path(folder)
-    for name in ("home", "tmp", "bin", "ours", "ws", "view/lib/rviz", "view/src/rviz", "devel"):
+    for name in (*OWN, "bin", "ours", "view/lib/rviz", "view/src/rviz", "devel"):
         (folder / name).mkdir(parents=True, exist_ok=True)
     # The handout's listings begin with `env python`, as did all in its time.
     (folder / "bin" / "python").symlink_to("/usr/bin/python3")
@@ -58,6 +61,6 @@ def prepare(folder: str | Path, uid: int | None) -> None:
     (folder / "view/src/rviz/package.xml").write_text(RVIZ)
     (folder / "view/lib/rviz/rviz").symlink_to(folder / "bin" / "rviz")
     (folder / "devel/.catkin").write_text(str(folder / "ws" / "src"))
-    for name in ("home", "tmp", "ws") if uid is not None else ():
+    for name in OWN if uid is not None else ():
         for path in (folder / name, *(folder / name).rglob("*")):
             os.chown(path, uid or 0, uid or 0, follow_symlinks=False)

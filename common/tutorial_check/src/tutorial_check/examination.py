@@ -50,6 +50,7 @@ class Outcome:
     title: str = ""
     points: float = 0.0  # for all of it; 0: one a check
     place: str = ""  # of the workspace in what was handed in, if that is another folder
+    remark: str = ""  # how well a program of somebody else's was isolated, if not by bubblewrap
 
     @property
     def passed(self) -> bool:
@@ -94,10 +95,8 @@ def examine(
     if not os.path.isfile(underlay):
         why = "no such file, or may not be read; ./tutorial setup builds it"
         raise CannotCheck(f"{underlay}: {why}")
-    folder = tempfile.mkdtemp(prefix="tutorial_check_")
-    # If this process is killed; isolated, an examination does not reach the folder itself.
-    words = ["sh", "-c", 'read -r _; rm -rf -- "$1"', "sh", folder]
-    cleaner = subprocess.Popen(words, stdin=subprocess.PIPE, start_new_session=True)
+    # Isolated, an examination does not reach the folder itself.
+    folder, cleaner = place.folder_until_end("tutorial_check_")
     try:
         # An examination, which writes nothing, would compile our modules each time.
         compileall.compile_dir(str(Path(__file__).parent), quiet=2)
@@ -105,7 +104,8 @@ def examine(
         checks = _course_within(Path(folder), course)
         underlay = os.path.abspath(underlay)
         kept = _kept(underlay)
-        wrapper = bubblewrap.command(folder, [*shown, checks, *kept], SUITE)
+        seen = [*map(str, shown), str(checks), *kept]
+        wrapper = bubblewrap.command(folder, seen, SUITE)
         orders = {
             "layout": [str(layout.root), str(layout.source)],
             "is_workspace": layout.is_workspace,
@@ -116,13 +116,15 @@ def examine(
             "variant": dict(variant),
             "folder": folder,
             "kept": kept,
+            "shown": seen,
             "number": next(NUMBERS),
             "only_first": only_first,
             "environment": _environment(underlay),
             "apart": bool(wrapper),
         }
         outcomes = _examine(orders, wrapper, report)
-        return [replace(one, place=layout.place) for one in outcomes]
+        remark = "" if own else bubblewrap.instead()
+        return [replace(one, place=layout.place, remark=remark) for one in outcomes]
     finally:
         shutil.rmtree(folder, ignore_errors=True)
         cleaner.communicate()

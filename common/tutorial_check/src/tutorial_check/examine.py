@@ -21,7 +21,7 @@ import traceback
 from pathlib import Path
 from typing import Any, Callable
 
-from tutorial_check import environment, place, workspace
+from tutorial_check import bubblewrap, environment, place, workspace
 from tutorial_check.model import CannotCheck, Result, Run, fault, passed
 
 Send = Callable[..., None]
@@ -70,7 +70,7 @@ def examine(orders: dict[str, Any], send: Send, result: int) -> None:
     os.environ.update(HOME=home, ROS_HOME=home, ROS_LOG_DIR=home, ROS_IP="127.0.0.1")
     os.environ.pop("ROS_HOSTNAME", None)
 
-    from tutorial_check import box, session, variants  # noqa: PLC0415
+    from tutorial_check import box, landlock, session, variants  # noqa: PLC0415
     from tutorial_check.course import checks_of, read_course  # noqa: PLC0415
 
     uid = place.unused_user(orders["number"]) if os.geteuid() == 0 else None
@@ -78,13 +78,17 @@ def examine(orders: dict[str, Any], send: Send, result: int) -> None:
     scratch.chmod(0o755)
     apart = orders["apart"]
     variables = environment.variables(scratch, orders["environment"])
+    ruleset = None
+    if not apart and landlock.version():
+        seen = [scratch, *orders["shown"], *bubblewrap.SYSTEM, "/proc"]
+        ruleset = landlock.ruleset(seen, [scratch / name for name in environment.OWN])
     course = read_course(orders["course"])
     checks = checks_of(course)
     one = session.Session(
         scratch,
         layout,
         orders["exercises"],
-        box.Box(variables, uid, apart, result),
+        box.Box(variables, uid, apart, result, ruleset),
         underlay=orders["underlay"],
         can_have_devices=apart,
         needed=[*orders["kept"], Path(__file__)],

@@ -44,6 +44,7 @@ def as_json(outcomes: Sequence[Outcome]) -> str:
             "passed": one.solved,
             "nothing_to_check": one.empty,
             "trouble": one.trouble,
+            "remark": one.remark,
             "checks": [{name: getattr(each, name) for name in FIELDS} for each in one.results],
         }
         for one in outcomes

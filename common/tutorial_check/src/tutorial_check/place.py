@@ -7,6 +7,7 @@ import ctypes
 import os
 import resource
 import subprocess
+import tempfile
 from pathlib import Path
 from typing import Iterator
 
@@ -25,8 +26,21 @@ LIMITS = {
 }
 
 
-def prctl(option: int, value: int) -> None:
-    ctypes.CDLL(None).prctl(option, value, 0, 0, 0)
+def folder_until_end(prefix: str) -> tuple[str, subprocess.Popen[bytes]]:
+    """Return a new temporary folder, and a process that removes it.
+
+    It does so when its standard input is closed: at the latest when this process ends, however.
+    """
+    folder = tempfile.mkdtemp(prefix=prefix)
+    # Programs that end at the same time may still write.
+    remove = 'read -r _; for try in 1 2 3 4 5; do rm -rf -- "$1" && break; sleep 1; done'
+    words = ["sh", "-c", remove, "sh", folder]
+    return folder, subprocess.Popen(words, stdin=subprocess.PIPE, start_new_session=True)
+
+
+def prctl(option: int, value: int, more: object = 0) -> int:
+    """Call prctl(2); return 0 if it could."""
+    return int(ctypes.CDLL(None).prctl(option, value, more, 0, 0))
 
 
 def keep_to_itself() -> None:

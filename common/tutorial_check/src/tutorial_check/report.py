@@ -38,6 +38,8 @@ def summary(outcomes: Sequence[Outcome]) -> str:
     place = next((outcome.place for outcome in outcomes), "")
     rest = f" ({empty}: nothing to check)" if empty else ""
     rest += f" (workspace: {place})" if place else ""
+    remark = next((outcome.remark for outcome in outcomes), "")
+    rest += f" ({remark})" if remark else ""
     return f"{sum(one.solved for one in outcomes)} of {len(outcomes)} exercises done{rest}"
 
 
