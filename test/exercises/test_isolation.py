@@ -25,6 +25,7 @@ MODES = (
     *("root", "a user", "root, Landlock", "a user, Landlock"),
     *("root, not isolated", "a user, not isolated"),
 )
+REMARKS = {"Landlock": "isolated by Landlock alone", "not isolated": "not isolated"}
 STRANGER = 65533  # an ordinary user
 LINK, FORGES, FILES, SHARED, PROCESS = (
     "read it through a link that the checker follows",
@@ -57,9 +58,10 @@ def promised():
 def impossible(words, mode):
     """What no program can do on this machine, whatever the mode."""
     can_mount = "Landlock" not in mode and subprocess.call([*words, *FILLS_MEMORY]) == 0
+    has_memory = in_memory(tempfile.gettempdir())
     is_connected = len(socket.if_nameindex()) > 1
     return {
-        *(() if can_mount or in_memory(tempfile.gettempdir()) else ("fill your memory with files",)),
+        *(() if can_mount or has_memory else ("fill your memory with files",)),
         *(() if is_connected else ("reach your network",)),
     }
 
@@ -143,9 +145,7 @@ def test_what_a_hostile_program_reaches(literal, mode, folder, bare_underlay, wo
         aims["solution"] = REPOSITORY / "joy2twist" / "CMakeLists.txt"
         aims["original"] = package / "CMakeLists.txt"
         aims = {key: value if key == "number" else str(value) for key, value in aims.items()}
-        subject = subprocess.Popen(
-            [*words, "sh", "-c", "read line", name], stdin=subprocess.PIPE
-        )
+        subject = subprocess.Popen([*words, "sh", "-c", "read line", name], stdin=subprocess.PIPE)
         aims["process"] = subject.pid
         (package / "aims.json").write_text(json.dumps({**aims, "port": server.getsockname()[1]}))
         if words:
@@ -161,15 +161,15 @@ def test_what_a_hostile_program_reaches(literal, mode, folder, bare_underlay, wo
                 preexec_fn=lambda: os.umask(0o077),  # whatever the user's, programs read the copy
             )
             report = (group / "check" / "ada.txt").read_text()
-            report_json = group / "check" / "ada.json"
             numbers = re.search(r"reached:([\d ]*) \.", report)
             assert numbers, report + done.stderr
             reached = {list(ATTACKS)[int(each)] for each in numbers[1].split()}
             # Printed before the first verdict.
             assert ("no isolation here" in done.stderr) == mode.endswith("not isolated")
-            remarks = {"Landlock": "isolated by Landlock alone", "not isolated": "not isolated"}
-            said = remarks.get(mode.rpartition(", ")[2], "")
-            assert json.loads(report_json.read_text())["exercises"][0]["remark"] == said
+            said = REMARKS.get(mode.rpartition(", ")[2], "")
+            assert (
+                json.loads((group / "check/ada.json").read_text())["exercises"][0]["remark"] == said
+            )
             assert f"({said})" in report or not said
             shared = libc.shmget(number, 1, 0)
             sleeping = processes_like(f"sleep\0{number}\0")

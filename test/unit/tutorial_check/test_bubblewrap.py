@@ -93,7 +93,11 @@ def test_what_is_written_is_limited(home, folder, monkeypatch):
     ("granted", "version", "words"),
     [
         (Isolation(why="bwrap: refused"), 0, "no isolation here (bwrap: refused): a program "),
-        (Isolation(why="bwrap: refused"), 3, "isolated by Landlock alone (bwrap: refused): a program "),
+        (
+            Isolation(why="bwrap: refused"),
+            3,
+            "isolated by Landlock alone (bwrap: refused): a program ",
+        ),
         (Isolation(("bwrap",)), 3, "does not limit the memory"),
         (Isolation(("bwrap",), is_limited=True), 0, ""),
     ],

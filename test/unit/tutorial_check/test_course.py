@@ -62,8 +62,13 @@ def test_a_course_and_its_checks_in_its_order(course):
         ("title: 3\nexercises: {'1': a}\n", "title: 3 is no str"),
         ("exercises: {1: a}\n", 'exercise 1: write "1", in quotes'),
         ("exercises: {'1': {title: a, points: many}}\n", "points: 'many' is no float"),
-        *((f"exercises: {{'1': {{title: a, points: {points}}}}}\n", "exercise 1: points: 0 to 1000000")
-          for points in (".nan", ".inf", "-1", "10000000")),
+        *(
+            (
+                f"exercises: {{'1': {{title: a, points: {points}}}}}\n",
+                "exercise 1: points: 0 to 1000000",
+            )
+            for points in (".nan", ".inf", "-1", "10000000")
+        ),
         ("exercises: {'1': {title: a, point: 1}}\n", "point is not known; known are title"),
         ("exercises: {'1': {points: 1}}\n", "title"),
     ],

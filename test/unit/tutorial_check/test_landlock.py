@@ -12,12 +12,14 @@ TRY = """
 import ctypes, os, socket, sys
 own, shown, hidden, parent = sys.argv[1:]
 for what in (
-    lambda: open(f"{own}/new", "w"), lambda: os.listdir(own), lambda: open(shown), lambda: open("/dev/null", "w"),
+    lambda: open(f"{own}/new", "w"), lambda: os.listdir(own), lambda: open(shown),
+    lambda: open("/dev/null", "w"),
     lambda: os.rename(f"{own}/new", f"{own}/sub/new"), socket.socket, socket.socketpair,
-    lambda: open(shown, "w"), lambda: open(hidden), lambda: os.truncate(hidden, 0), lambda: os.listdir("/root"),
+    lambda: open(shown, "w"), lambda: open(hidden), lambda: os.truncate(hidden, 0),
+    lambda: os.listdir("/root"),
     lambda: os.link(hidden, f"{own}/link"), lambda: os.unlink(hidden), lambda: os.listdir("/dev"),
     lambda: socket.socket(socket.AF_UNIX), lambda: os.kill(int(parent), 0),
-    lambda: os.environ if ctypes.CDLL(None).shmget(0x5eed, 4096, 0o1600) >= 0 else os.listdir("/root"),
+    lambda: 0 <= ctypes.CDLL(None).shmget(0x5eed, 4096, 0o1600) or os.listdir("/root"),
 ):
     try:
         what()
@@ -44,7 +46,9 @@ def reached(tmp_path):
 
     words = [tmp_path / "own", tmp_path / "shown", tmp_path / "other/hidden", os.getpid()]
     command = ["/usr/bin/python3", "-c", TRY, *map(str, words)]
-    done = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True, preexec_fn=confine)
+    done = subprocess.run(
+        command, stdout=subprocess.PIPE, text=True, check=True, preexec_fn=confine
+    )
     assert (tmp_path / "other/hidden").read_text() == "x"
     return done.stdout.split()
 

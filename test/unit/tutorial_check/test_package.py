@@ -80,7 +80,7 @@ def test_the_workflow(tmp_path, git):
     assert steps[2]["run"].endswith("--course suite/common/doc/square 1")
 
 
-@pytest.mark.parametrize("name", ["a # b", "it's: \"a\"", "two\nlines", "${{ x }}"])
+@pytest.mark.parametrize("name", ["a # b", 'it\'s: "a"', "two\nlines", "${{ x }}"])
 def test_a_folder_of_any_name_in_the_workflow(tmp_path, git, monkeypatch, name):
     git("echo 0a1b")
     monkeypatch.setattr("tutorial_check.package.SUITE", tmp_path)

@@ -79,7 +79,10 @@ def test_each_result_says_that_nothing_was_isolated(group):
     group.come_to = lambda name: [bare if name == "bob" else WELL]
     assert [row[-1] for row in group.check_all()[1]] == ["", "not isolated"]
     assert "(not isolated)" in (group.check / "bob.txt").read_text()
-    assert json.loads((group.check / "bob.json").read_text())["exercises"][0]["remark"] == "not isolated"
+    assert (
+        json.loads((group.check / "bob.json").read_text())["exercises"][0]["remark"]
+        == "not isolated"
+    )
     assert "<td>bob</td><td>not isolated</td>" in (group.check / "table.html").read_text()
 
 

@@ -93,12 +93,9 @@ def test_a_task_sheet_has_all_values_and_the_file():
     assert yaml.safe_load(text[text.rindex("axis_linear:") :]) == ALL
     with pytest.raises(CannotCheck, match="no variant of ada"):
         sheet(COURSE, {}, "ada")
-    own = dataclasses.replace(COURSE, sheet="{{ {name} }}")
-    assert sheet(own, ALL, "{file}") == "{ {file} }"
-    for word in ("{nonsense}", "{name:9999999999}", "{name.__class__}", "{}"):
-        own = dataclasses.replace(COURSE, sheet=f"{{name}}: {word}")
-        with pytest.raises(CannotCheck, match="a task sheet: {.*} is not known; known are {title}"):
-            sheet(own, ALL, "ada")
+    odd = "{nonsense} {name:9999999999} {name.__class__} {{} {"
+    own = dataclasses.replace(COURSE, sheet=f"{{name}}: {odd}")
+    assert sheet(own, ALL, "{file}") == f"{{file}}: {odd}"
 
 
 @pytest.mark.parametrize(("linear", "angular"), itertools.permutations(range(6), 2))

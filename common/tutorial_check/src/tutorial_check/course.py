@@ -17,7 +17,6 @@ from tutorial_check.model import CannotCheck, Check
 
 FILE = "course.yaml"
 OURS = Path(__file__).resolve().with_name("exercises")
-MOST_POINTS = 10**6  # of an exercise
 # The modules of a course, which may lie anywhere, are those of a package of this name.
 PACKAGE = "tutorial_course"
 
@@ -134,10 +133,9 @@ def read_course(folder: str | Path = OURS) -> Course:
             if not isinstance(number, str):
                 raise ValueError(f'exercise {number}: write "{number}", in quotes')
             words = _known(Exercise, what if isinstance(what, dict) else {"title": what})
-            one = Exercise(**{"document": course.document, **words})
-            if not 0 <= one.points <= MOST_POINTS:  # nor what is no number, as .nan
-                raise ValueError(f"exercise {number}: points: 0 to {MOST_POINTS}")
-            course.exercises[number] = one
+            if not 0 <= words.get("points", 0) <= 10**6:  # nor is .nan
+                raise ValueError(f"exercise {number}: points: 0 to 1000000")
+            course.exercises[number] = Exercise(**{"document": course.document, **words})
         for name, what in varied.items():
             course.variants[name] = Value(**_known(Value, what))
     except (TypeError, ValueError) as error:

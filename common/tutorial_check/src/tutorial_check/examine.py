@@ -78,10 +78,9 @@ def examine(orders: dict[str, Any], send: Send, result: int) -> None:
     scratch.chmod(0o755)
     apart = orders["apart"]
     variables = environment.variables(scratch, orders["environment"])
-    ruleset = None
-    if not apart and landlock.version():
-        seen = [scratch, *orders["shown"], *bubblewrap.SYSTEM, "/proc"]
-        ruleset = landlock.ruleset(seen, [scratch / name for name in environment.OWN])
+    shown = [scratch, *orders["shown"], *bubblewrap.SYSTEM, "/proc"]
+    own = [scratch / name for name in environment.OWN]
+    ruleset = landlock.ruleset(shown, own) if landlock.version() and not apart else None
     course = read_course(orders["course"])
     checks = checks_of(course)
     one = session.Session(

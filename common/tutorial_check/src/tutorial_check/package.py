@@ -45,10 +45,7 @@ if [ ! -s results/results.json ]; then
 fi
 exit $code
 """
-RUN_ON_GITHUB = (
-    *("suite/tutorial", "check", "--in", "submission"),
-    *("--classroom", "result.json", "--junit", "report.xml"),
-)
+RUN_ON_GITHUB = "suite/tutorial check --in submission --classroom result.json --junit report.xml"
 WORKFLOW = """# Checks a student's repository; to be put into .github/workflows of each, or of their template.
 name: check
 on: [push, workflow_dispatch]
@@ -137,6 +134,6 @@ def _workflow(repository: str, course: Course, exercises: Sequence[str]) -> str:
         words = ["--course", f"suite/{course.folder.relative_to(SUITE)}", *words]
     if any("${{" in word for word in words):
         raise CannotCheck(f"{shlex.join(words)}: GitHub would replace ${{{{ in it: rename that")
-    run = shlex.join([*RUN_ON_GITHUB, *words])
+    run = f"{RUN_ON_GITHUB} {shlex.join(words)}"
     text = WORKFLOW.replace("@REPOSITORY@", repository).replace("@COMMIT@", _commit())
     return text.replace("@RUN@", json.dumps(run))  # a text for YAML, whatever is in it

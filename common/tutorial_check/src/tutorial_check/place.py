@@ -27,10 +27,7 @@ LIMITS = {
 
 
 def folder_until_end(prefix: str) -> tuple[str, subprocess.Popen[bytes]]:
-    """Return a new temporary folder, and a process that removes it.
-
-    It does so when its standard input is closed: at the latest when this process ends, however.
-    """
+    """Return a new folder, and a process that removes it once its input is closed, as when we end."""
     folder = tempfile.mkdtemp(prefix=prefix)
     # Programs that end at the same time may still write.
     remove = 'read -r _; for try in 1 2 3 4 5; do rm -rf -- "$1" && break; sleep 1; done'
@@ -39,7 +36,7 @@ def folder_until_end(prefix: str) -> tuple[str, subprocess.Popen[bytes]]:
 
 
 def prctl(option: int, value: int, more: object = 0) -> int:
-    """Call prctl(2); return 0 if it could."""
+    """Make the system call of this name; return 0 if it succeeds."""
     return int(ctypes.CDLL(None).prctl(option, value, more, 0, 0))
 
 

@@ -25,10 +25,8 @@ QUICK_S = 0.05  # for the page of a class that is not large
 RESULTS = (".csv", ".html", ".txt", ".json")
 
 
-def find_students(
-    folder: str | Path, out: str | Path, tasks: str | Path | None = None
-) -> list[Student]:
-    """Return the Students of a folder: each folder, archive and link in it, but those of results and tasks.
+def find_students(folder: str | Path, out: str | Path, tasks: str = "") -> list[Student]:
+    """Return the Students of a folder: each folder, archive and link in it, but results and tasks.
 
     Archives that are no zip, and links, are among them: the table says that they are not checked.
     """
@@ -67,7 +65,7 @@ def _has_results(path: Path, out: str | Path) -> bool:
 def check_all(options: argparse.Namespace) -> int:
     """Check all, write table and reports; 0: all are done, 1: something is wrong, 2: one is unchecked."""
     out = Path(options.out or Path(options.all) / "check")
-    students = find_students(options.all, out, options.variant)
+    students = find_students(options.all, out, options.variant or "")
     if not options.variant and Path(options.all, "variants").is_dir():
         print("variants: a submission; if it has the tasks of students: --variant FOLDER/variants")
     with contextlib.suppress(OSError):

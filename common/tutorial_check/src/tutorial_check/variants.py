@@ -107,24 +107,12 @@ def sheet(course: Course, values: Variant, name: str) -> str:
     """Return the task sheet of a student. Raises CannotCheck if nothing differs from the course."""
     if not values:
         raise CannotCheck(f"no variant of {name}: --variant FILE, or --variants SEED")
-    lines = [f"- {_filled(course.variants[key].about, is_=values[key])}" for key in values]
-    file = yaml.safe_dump(values, sort_keys=False).rstrip()
-    about = {"title": course.title, "name": name, "tasks": "\n".join(lines), "file": file}
-    return _filled(course.sheet or SHEET, **about)
+    words = {"title": course.title, "file": yaml.safe_dump(values, sort_keys=False).rstrip()}
+    lines = [_filled(course.variants[key].about, {"is_": values[key]}) for key in values]
+    words.update(tasks="\n".join(f"- {line}" for line in lines), name=name)
+    return _filled(course.sheet or SHEET, words)
 
 
-def _filled(text: str, **words: Any) -> str:
-    """Return a text with words in place of their {names}; {{ and }} are braces. Raises CannotCheck.
-
-    No str.format, which would also take a width, of a page of a gigabyte, and attributes.
-    """
-
-    def word(found: re.Match[str]) -> str:
-        if found[0] in ("{{", "}}"):
-            return found[0][0]
-        if found[1] not in words:
-            known = ", ".join(f"{{{name}}}" for name in words)
-            raise CannotCheck(f"a task sheet: {found[0]} is not known; known are {known}")
-        return str(words[found[1]])
-
-    return re.sub(r"\{\{|\}\}|\{([^{}]*)\}", word, text)
+def _filled(text: str, words: Mapping[str, Any]) -> str:
+    """Return a text with words for {names}. str.format would take a width, of a gigabyte."""
+    return re.sub(r"\{(\w+)\}", lambda found: str(words.get(found[1], found[0])), text)
