@@ -7,10 +7,12 @@ import os
 import re
 import shutil
 import signal
+import subprocess
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 from test_awkward import command, environment, examines
+from test_endings import path_without_namespaces
 from test_mistakes import OF_HANDOUT
 from test_mistakes import apply as change
 
@@ -27,7 +29,8 @@ pytestmark = [
     pytest.mark.skipif(os.geteuid() != 0, reason="not root: no hosts of a network of their own"),
 ]
 HOSTS = {"teacher": "10.66.0.1", "one": "10.66.0.2", "two": "10.66.0.3", "three": "10.66.0.4"}
-ADDRESS = f"tcp://{HOSTS['teacher']}:8786"
+ADDRESS = f"tls://{HOSTS['teacher']}:8786"
+MACHINES = ("/usr/bin/python3", "-m", "tutorial_check.cluster")
 EXERCISE = "3"
 RACE = "Twist for String"  # whichever of its two programs comes first decides what is wrong
 ROWS = [row for row in OF_HANDOUT if row[0] == EXERCISE and row[1] != RACE]
@@ -56,12 +59,16 @@ def start(network):
         program.__exit__()
 
 
+@pytest.fixture(autouse=True)
+def key(tmp_path, monkeypatch):
+    """The key of a cluster of its own, where the programs of students cannot get it."""
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path / "config"))
+    return tmp_path / "config/ros1_tutorial/cluster.pem"
+
+
 @pytest.fixture
 def scheduler(start):
-    return lambda: _up(
-        start("teacher", "/usr/bin/python3", "-m", "distributed.cli.dask_scheduler",
-              "--host", HOSTS["teacher"], "--no-dashboard")
-    )  # fmt: skip
+    return lambda: _up(start("teacher", *MACHINES, "scheduler", "--host", HOSTS["teacher"]))
 
 
 def _up(scheduler):
@@ -72,8 +79,8 @@ def _up(scheduler):
 @pytest.fixture
 def worker(start, underlay, monkeypatch):
     monkeypatch.setenv("TUTORIAL_UNDERLAY", underlay)
-    words = "/usr/bin/python3", "-m", "tutorial_check.cluster", ADDRESS, "--jobs"
-    return lambda host, jobs=JOBS: start(host, *words, jobs)
+    words = *MACHINES, "worker", ADDRESS, "--jobs"
+    return lambda host, jobs=JOBS, *more: start(host, *words, jobs, *more)
 
 
 @pytest.fixture
@@ -203,10 +210,120 @@ def test_a_submission_that_ends_workers_is_abandoned(literal, tmp_path, schedule
     assert "abandoned: 2 workers have ended while they checked it" in call.output
 
 
-def test_nobody_listens(literal, underlay, client, start):
+def test_nobody_listens(literal, client, start, key):
+    key.parent.mkdir(parents=True)
+    key.touch()
     call = client(literal.parent.parent)
     assert call.wait(60) == 2
     assert f"check: no verdict: no Dask scheduler at {ADDRESS}: " in call.output
-    call = start("one", "/usr/bin/python3", "-m", "tutorial_check.cluster", "127.0.0.1:1")
+    call = start("one", *MACHINES, "worker", "127.0.0.1:1")
     assert call.wait(60) == 1
     assert call.output == "worker: no Dask scheduler at 127.0.0.1:1: Connection refused\n"
+
+
+# Of a student's program: it reads the key, and runs code where that leads.
+ATTACK = """
+import os
+try:
+    from distributed import Client
+    from distributed.security import Security
+    key = dict.fromkeys(("tls_ca_file", "tls_client_cert", "tls_client_key"), {key!r})
+    client = Client({address!r}, timeout=5, security=Security(**key, require_encryption={encrypted}))
+    client.run_on_scheduler(lambda path: open(path, "w").close(), {owned!r})
+except BaseException as error:
+    print(repr(error))
+"""
+
+
+@pytest.mark.parametrize("how", ["isolated", "insists"])
+def test_a_students_program_does_not_reach_the_scheduler(
+    literal, tmp_path, scheduler, worker, client, key, monkeypatch, how
+):
+    """Of a worker that insists each result says so."""
+    folder, owned = tmp_path / "class", tmp_path / "owned"
+    shutil.copytree(literal.parent, folder / "ada")
+    about = {"key": str(key), "address": ADDRESS, "owned": str(owned), "encrypted": True}
+    talker = folder / "ada/src/beginner_tutorials/scripts/talker.py"
+    first, rest = talker.read_text().split("\n", 1)
+    talker.write_text(f"{first}\n{ATTACK.format(**about)}\n{rest}")
+    scheduler()
+    more = ()
+    if how == "insists":
+        monkeypatch.setenv("PATH", path_without_namespaces(tmp_path))
+        more = ("--not-isolated",)
+    worker("one", 1, *more)
+    monkeypatch.undo()
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path / "config"))
+    call = client(folder)
+    assert call.wait(300) in (0, 1), call.output
+    assert not owned.exists()
+    report = (folder / "check/ada.txt").read_text()
+    assert ("isolated by Landlock alone" in report or "not isolated" in report) == (
+        how == "insists"
+    )
+
+
+def test_a_worker_that_cannot_isolate_refuses_to_start(tmp_path, start, monkeypatch):
+    monkeypatch.setenv("PATH", path_without_namespaces(tmp_path))
+    for words, why in (
+        ((ADDRESS,), "bwrap fails: a student's program could reach the"),
+        (
+            (ADDRESS.replace("tls", "tcp"), "--not-isolated"),
+            "--not-isolated needs tls://, and root",
+        ),
+    ):
+        call = start("one", *MACHINES, "worker", *words)
+        assert call.wait(60) == 1
+        assert why in call.output and call.output.count("\n") == 1
+
+
+def test_who_has_no_key_is_not_let_in(
+    tmp_path, scheduler, worker, client, key, network, monkeypatch
+):
+    """Neither does anything listen on all addresses, nor on loopback for pages with logs."""
+    scheduler()
+    programs = [worker("one", 1), worker("two", 1)]
+    wait_for(lambda: all("Registered to" in each.output for each in programs), "workers", 60)
+    for host in ("teacher", "one"):
+        lines = subprocess.check_output(network[host].command("ss", "-Hltn"), text=True)
+        places = [line.split()[3].rsplit(":", 1) for line in lines.splitlines()]
+        assert {place for place, _ in places} == {HOSTS[host], "127.0.0.1"}
+        pages = [f"{at}:{port}" for at, port in places if at == "127.0.0.1"]
+        for page in [f"{each}/{name}" for each in pages for name in ("status", "info/main/workers.html", "metrics", "")]:  # fmt: skip
+            said = ["curl", "-s", "-o", "/dev/null", "-w", "%{http_code}", f"http://{page}"]
+            done = subprocess.run(network[host].command(*said), capture_output=True, check=False)
+            assert done.stdout == b"404", page
+    assert key.stat().st_mode & 0o777 == 0o600
+    key.unlink()
+    assert f"key {key}: No such file" in _refused(client, tmp_path)
+    words = ["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-subj", "/CN=x", "-out", key, "-keyout", key]  # fmt: skip
+    subprocess.run(words, check=True, capture_output=True)
+    key.chmod(0o600)
+    assert f"no Dask scheduler at {ADDRESS}: " in _refused(client, tmp_path)
+
+
+def _refused(client, folder):
+    """Return what the client says, which does not check."""
+    (folder / "class/ada").mkdir(parents=True, exist_ok=True)
+    call = client(folder / "class")
+    assert call.wait(60) == 2 and "Traceback" not in call.output
+    return call.output
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
+def test_a_worker_leaves_no_folder(
+    literal, tmp_path, scheduler, worker, client, monkeypatch, number
+):
+    """Though it is ended while it checks."""
+    shutil.copytree(literal.parent, tmp_path / "class/ada")
+    temporary = tmp_path / "temporary"
+    temporary.mkdir()
+    scheduler()
+    monkeypatch.setenv("TMPDIR", str(temporary))
+    one = worker("one", 1)
+    monkeypatch.delenv("TMPDIR")
+    client(tmp_path / "class")
+    wait_for(lambda: examines(one), "an examination", 120)
+    assert list(temporary.glob("tutorial_worker_*/tutorial_check_*"))
+    os.kill(one.pid, number)
+    wait_for(lambda: not list(temporary.iterdir()), "an empty folder", 120)

@@ -13,24 +13,35 @@ import logging
 import os
 import shutil
 import socket
+import subprocess
 import sys
 import tarfile
 import tempfile
 from pathlib import Path
-from typing import Any, Callable, Mapping, Sequence
+from typing import Any, Callable, Mapping, NoReturn, Sequence
 from urllib.parse import urlsplit
 
 from node_kit.arguments import Parser
+from tutorial_check import bubblewrap, landlock, place
 from tutorial_check.course import OURS, read_course
 from tutorial_check.examination import Outcome, examine
-from tutorial_check.last_run import MOST_BYTES, digest_of_checks
+from tutorial_check.last_run import digest_of_checks
 from tutorial_check.model import CannotCheck
-from tutorial_check.workspace import IGNORED
+from tutorial_check.workspace import IGNORED, MOST_BYTES
 
 MOST_AT_ONCE = 1000  # submissions that the scheduler knows of
 TRIES = 2  # a submission that ends so many workers is abandoned
 PORT = 8786  # of a Dask scheduler
 CONNECT_S = 10.0
+# Who has this file is let in: certificate, authority and private key of all.
+CONFIG = os.environ.get("XDG_CONFIG_HOME") or "~/.config"
+KEY = Path(CONFIG, "ros1_tutorial/cluster.pem").expanduser()
+OPENSSL = """openssl req -x509 -newkey rsa:3072 -nodes -days 3650 -subj /CN=ros1_tutorial
+-addext keyUsage=critical,keyCertSign,digitalSignature,keyEncipherment"""
+# Even without a dashboard Dask listens for those who ask for pages about it: for nobody, with none.
+NO_PAGES = {f"DASK_DISTRIBUTED__{one}__HTTP__ROUTES": "[]" for one in ("SCHEDULER", "WORKER")}
+LOCAL = ("--no-dashboard", "--dashboard-address", "127.0.0.1:0")
+INSISTS = "TUTORIAL_NOT_ISOLATED"  # variable of a worker of --not-isolated
 
 
 class Gone(CannotCheck):
@@ -42,6 +53,18 @@ def _dask() -> Any:
         return importlib.import_module("distributed")
     except ImportError:
         raise CannotCheck("no Dask here; ./tutorial installs it with --cluster") from None
+
+
+def _key_of(address: str) -> str:
+    """Return the file of the key, which only this user may read; empty without TLS. Raises CannotCheck."""
+    if not address.startswith("tls://"):
+        return ""
+    try:
+        KEY.chmod(0o600)
+    except OSError as error:
+        why = f"{error.strerror}; copy it from the machine of ./tutorial scheduler"
+        raise CannotCheck(f"key {KEY}: {why}") from None
+    return str(KEY)
 
 
 def _connect(address: str) -> str:
@@ -65,10 +88,15 @@ class Cluster:
     def __init__(self, address: str) -> None:
         """Connect. Raises CannotCheck."""
         self._dask, self._address = _dask(), address
+        key = _key_of(address)
+        names = [f"tls_{name}" for name in ("ca_file", "client_cert", "client_key") if key]
+        keys = self._dask.Security(**dict.fromkeys(names, key), require_encryption=bool(key))
         _connect(address)
         logging.disable(logging.CRITICAL)  # a lost connection is one line of ours, not Dask's many
         try:
-            self._client = self._dask.Client(address, timeout=CONNECT_S, set_as_default=False)
+            self._client = self._dask.Client(
+                address, timeout=CONNECT_S, set_as_default=False, security=keys
+            )
             self._client.run_on_scheduler(_prepare)
         except Exception as error:  # also of a server that is no scheduler, or of a certificate
             raise CannotCheck(f"no Dask scheduler at {address}: {error or 'no answer'}") from None
@@ -125,8 +153,9 @@ def _packed(parts: Mapping[str, Path]) -> bytes:
         nonlocal left
         left -= member.size
         if left < 0:
-            raise CannotCheck(f"more than {MOST_BYTES // 10**6} MB")
-        is_kept = Path(member.name).name not in IGNORED
+            raise CannotCheck(f"more than {MOST_BYTES >> 20} MB")
+        archive.inodes.clear()  # type: ignore[attr-defined]  # a hard link is a file as any other
+        is_kept = not (member.isdir() and Path(member.name).name in IGNORED)
         return member if is_kept and (member.isfile() or member.isdir() or member.issym()) else None
 
     with tarfile.open(fileobj=data, mode="w:gz", format=tarfile.PAX_FORMAT) as archive:
@@ -135,15 +164,22 @@ def _packed(parts: Mapping[str, Path]) -> bytes:
     return data.getvalue()
 
 
+def _unpack(packed: bytes, folder: str | Path) -> None:
+    """Unpack what _packed returned. The client packed it, and a worker runs whatever its client sends."""
+    with tarfile.open(fileobj=io.BytesIO(packed)) as archive:
+        # As it was, links that lead out among it; Python 3.14 would refuse those.
+        archive.extraction_filter = lambda member, _: member
+        archive.extractall(folder)
+
+
 def _examine(
     packed: bytes, exercises: Sequence[str], variant: Mapping[str, Any], version: str
 ) -> list[Outcome]:
     """Check a submission on this machine. Raises CannotCheck."""
+    _must_isolate()
     underlay = os.environ["TUTORIAL_UNDERLAY"]
     with tempfile.TemporaryDirectory(prefix="tutorial_worker_") as folder:
-        # The client packed it, and a worker runs whatever its client sends.
-        with tarfile.open(fileobj=io.BytesIO(packed)) as archive:
-            archive.extractall(folder)
+        _unpack(packed, folder)
         (submission,) = Path(folder).glob("submission*")
         own = Path(folder, "course")
         course = own if own.is_dir() else OURS
@@ -152,30 +188,78 @@ def _examine(
         return examine(submission, underlay, exercises, own=False, course=course, variant=variant)
 
 
-def work(address: str, jobs: int) -> None:
-    """Make this process a worker; it does not return. Raises CannotCheck."""
-    _dask()
+def _must_isolate() -> None:
+    """Raise CannotCheck where a student's program could reach the scheduler, unless told to go on."""
+    if bubblewrap.instead() and INSISTS not in os.environ:
+        why = f"{bubblewrap.granted().why}: a student's program could reach the scheduler"
+        todo = "mend that, or ./tutorial worker --not-isolated"
+        raise CannotCheck(f"worker {socket.gethostname()} cannot isolate programs: {why}; {todo}")
+
+
+def _work(address: str, jobs: int, insists: bool) -> NoReturn:
+    """Make this process a worker. insists: also where programs are not isolated. Raises CannotCheck."""
+    if insists and bubblewrap.instead():
+        if not address.startswith("tls://") or (os.geteuid() and not landlock.version()):
+            why = "else a student's program reaches the scheduler, or reads the key"
+            raise CannotCheck(f"--not-isolated needs tls://, and root or Linux 6.2: {why}")
+        os.environ[INSISTS] = "1"
+    _must_isolate()
     host = _connect(address)
-    folder = tempfile.mkdtemp(prefix="tutorial_worker_")  # which Dask empties at its end
-    words = [address, "--host", host, "--nworkers", jobs, "--nthreads", 1, "--memory-limit", 0]
-    words += ["--no-dashboard", "--local-directory", folder, "--death-timeout", 60]
+    folder, cleaner = place.folder_until_end("tutorial_worker_")
+    os.chmod(folder, 0o711)  # programs of another user pass through
+    assert cleaner.stdin
+    os.set_inheritable(cleaner.stdin.fileno(), True)
+    os.environ["TMPDIR"] = folder
+    words = ["--host", host, "--nworkers", jobs, "--nthreads", 1, "--memory-limit", 0]
+    words += ["--local-directory", folder, "--death-timeout", 60]
+    _become("worker", address, address, *words)
+
+
+def _schedule(host: str) -> NoReturn:
+    """Make this process a scheduler, with a new key if there is none. Raises CannotCheck."""
+    if not KEY.exists():
+        KEY.parent.mkdir(parents=True, exist_ok=True)
+        os.umask(0o077)
+        words = [*OPENSSL.split(), "-keyout", str(KEY), "-out", str(KEY)]
+        subprocess.run(words, check=True, stderr=subprocess.DEVNULL)
+    print(f"workers and check --cluster: tls://{host}:{PORT}, with a copy of {KEY}", flush=True)
+    _become("scheduler", "tls://", "--host", f"tls://{host}", "--port", PORT)
+
+
+def _become(program: str, address: str, *words: object) -> NoReturn:
+    """Become one of Dask's programs. Raises CannotCheck."""
+    _dask()
+    key = _key_of(address)
+    keys = [f"--tls-{name}={key}" for name in ("ca-file", "cert", "key") if key]
+    os.environ.update(NO_PAGES)
     python = shutil.which("python3", path="/usr/bin") or "python3"
-    os.execv(python, [python, "-m", "distributed.cli.dask_worker", *map(str, words)])
+    module = f"distributed.cli.dask_{program}"
+    os.execv(python, [python, "-m", module, *map(str, words), *keys, *LOCAL])
 
 
 def main() -> None:
-    """./tutorial worker ADDRESS: work until Ctrl-C."""
-    what = "Checks submissions for a Dask scheduler, which ./tutorial check --all FOLDER --cluster feeds."
-    parser = Parser(prog="./tutorial worker", description=what)
-    parser.add_argument("address", metavar="ADDRESS", help="of the scheduler, as tcp://HOST:8786")
-    what = "submissions at a time (one for each two processors)"
-    default = max(1, (os.cpu_count() or 1) // 2)
-    parser.add_argument("--jobs", type=int, default=default, metavar="N", help=what)
-    options = parser.parse_args()
+    """./tutorial worker ADDRESS, ./tutorial scheduler: work until Ctrl-C."""
+    word = sys.argv[1]
+    is_worker = word == "worker"
+    what = f"A Dask {word}, for ./tutorial check --all FOLDER --cluster."
+    parser = Parser(prog=f"./tutorial {word}", description=what)
+    add = parser.add_argument
+    if is_worker:
+        add("address", metavar="ADDRESS", help="of the scheduler, as tls://HOST:8786")
+        what = "submissions at a time (one for each two processors)"
+        default = max(1, (os.cpu_count() or 1) // 2)
+        add("--jobs", type=int, default=default, metavar="N", help=what)
+        what = "also where bubblewrap cannot isolate programs; each result says so"
+        add("--not-isolated", action="store_true", help=what)
+    else:
+        add("--host", default="127.0.0.1", help="address on which to listen (127.0.0.1)")
+    options = parser.parse_args(sys.argv[2:])
     try:
-        work(options.address, max(1, options.jobs))
-    except CannotCheck as error:
-        sys.exit(f"worker: {error}")
+        if is_worker:
+            _work(options.address, max(1, options.jobs), options.not_isolated)
+        _schedule(options.host)
+    except (CannotCheck, OSError, subprocess.SubprocessError) as error:
+        sys.exit(f"{word}: {error}")
 
 
 if __name__ == "__main__":

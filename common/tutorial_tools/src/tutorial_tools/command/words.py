@@ -27,7 +27,8 @@ WORDS = {  # word: (arguments as the help shows them, what it does)
     "demo": ("[--for SECONDS] [NAME:=VALUE ...]", "a recorded joystick drives the simulated robot"),
     "check": ("--in WORKSPACE [EXERCISE ...]", "which exercises are done in your workspace"),
     "ros2": ("[--yes] [PROGRAM ...]", "a Python program with ROS 2, beside ROS 1"),
-    "worker": ("ADDRESS [--jobs N]", "check for the Dask scheduler of check --all --cluster"),
+    "scheduler": ("[--host HOST]", "distribute what check --all --cluster is to check"),
+    "worker": ("ADDRESS [--jobs N]", "check for such a scheduler"),
     "test": ("[KIND] [ARGUMENT ...]", "run the tests: all, or those of one kind"),
     "cockpit": ("[--port PORT] [--lan]", "see and drive the robots in a browser"),
     "join": ("HOST NAME [NAME:=VALUE ...]", "drive robot NAME of the classroom on HOST"),
@@ -60,7 +61,8 @@ IN_WORDS = ("shell", "run", "doctor", "check")  # which know --in
 OWN_PARSER = {  # programs that read their options themselves, and those for completion
     "check": ("--in", "--all", "--watch", "--hints", "--solution", "--course", "--self-test"),
     "cockpit": ("--port", "--lan"),
-    "worker": ("--jobs",),
+    "scheduler": ("--host",),
+    "worker": ("--jobs", "--not-isolated"),
 }
 EPILOG = """\
 --in WORKSPACE: your own catkin workspace in place of our beginner_tutorials and joy2twist, which
@@ -212,11 +214,12 @@ def plan(word: str, arguments: list[str]) -> Plan:
     made: Plan = {"sections": ["demo", "more"], "builds": ["workspace"]}
     if word in OWN_PARSER:
         refuse(word, arguments)
-        module = {"check": "tutorial_check", "worker": "tutorial_check.cluster"}.get(word, "")
-        program = ["/usr/bin/python3", "-m", module] if module else [PROGRAMS[word]]
-        if word == "worker" or CLUSTER in options_of(arguments):
+        of_cluster = word in ("scheduler", "worker")
+        module = ["tutorial_check.cluster", word] if of_cluster else ["tutorial_check"]
+        own = [PROGRAMS[word]] if word in PROGRAMS else ["/usr/bin/python3", "-m", *module]
+        if of_cluster or CLUSTER in options_of(arguments):
             made["sections"].append("cluster")
-        return {**made, "command": [*program, *arguments]}
+        return {**made, "command": [*own, *arguments]}
     if word in ("bench", "lint", "docs"):
         parsed = parser_of(word).parse_known_args(arguments)
         if word == "docs" and parsed[1]:
