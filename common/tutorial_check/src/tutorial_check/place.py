@@ -32,7 +32,7 @@ def folder_until_end(prefix: str) -> tuple[str, subprocess.Popen[bytes]]:
     # Programs that end at the same time may still write.
     remove = 'read -r _; for try in 1 2 3 4 5; do rm -rf -- "$1" && break; sleep 1; done'
     words = ["sh", "-c", remove, "sh", folder]
-    return folder, subprocess.Popen(words, stdin=subprocess.PIPE, start_new_session=True)
+    return folder, subprocess.Popen(words, stdin=subprocess.PIPE, start_new_session=True, env={})
 
 
 def prctl(option: int, value: int, more: object = 0) -> int:

@@ -59,7 +59,7 @@ def _parser() -> Parser:
     what = "0: say what is wrong, never how to mend it; 1: when the same is wrong again; 2: always"
     add("--hints", type=int, choices=(0, 1, 2), help=f"{what} (1; with --all 2)")
     add("--no-hints", action="store_const", const=0, dest="hints", help="the same as --hints 0")
-    what = "YAML of what differs from the course, as --show-variant prints; or a folder of NAME.yaml"
+    what = "YAML of what differs from the course, as --show-variant prints; or folder of NAME.yaml"
     add("--variant", type=path, metavar="FILE", help=what)
     what = "with --all: draw each student's from a seed and name"
     add("--variants", metavar="SEED", help=what)
