@@ -18,3 +18,6 @@ def test_nothing_is_open_to_other_machines(name):
         assert service["image"] == "ros1_tutorial"
         assert not {"privileged", "network_mode", "cap_add", "devices"} & set(service)
         assert all(port.startswith("127.0.0.1:") for port in service.get("ports", []))
+        assert service["cap_drop"] == ["ALL"]
+        assert service["security_opt"] == ["no-new-privileges:true"]
+        assert service["pids_limit"] and service["mem_limit"]

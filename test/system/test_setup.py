@@ -1,12 +1,15 @@
 """./tutorial setup where nothing is installed yet, or something cannot be."""
 
+import hashlib
 import re
 import shutil
+import zipfile
 
 import pytest
 
 from tutorial_testing.processes import Program, refuse
 from tutorial_testing.waiting import wait_for
+from tutorial_tools.command import build
 
 # A system on which nothing is installed yet. LACKING: what its archive has not; SLOW: download or
 # install, which then lasts until the file `go_on` is there; BROKEN: no network, nor lists of apt's.
@@ -162,6 +165,29 @@ def test_without_pypi_only_replay_bag_is_missing(call, bare_system):
     assert "not installed from PyPI: rosbags vermin" in first.replace("\n", " ")
     assert first.endswith("tutorial: all but replay_bag works without\nwent on\n")
     assert call("run", "echo", "went on", **offline) == (0, "went on\n")
+
+
+def test_pip_installs_no_file_of_another_hash(tmp_path, monkeypatch):
+    """A release whose file somebody exchanged is refused."""
+    wheel, lock = tmp_path / "thing-1.0-py3-none-any.whl", tmp_path / "test/locks/own.txt"
+    with zipfile.ZipFile(wheel, "w") as file:
+        file.writestr(
+            "thing-1.0.dist-info/METADATA", "Metadata-Version: 2.1\nName: thing\nVersion: 1.0"
+        )
+        file.writestr("thing-1.0.dist-info/WHEEL", "Wheel-Version: 1.0\nTag: py3-none-any")
+        file.writestr("thing-1.0.dist-info/RECORD", "")
+    lock.parent.mkdir(parents=True)
+    (tmp_path / "asked.txt").write_text("thing==1.0")
+    monkeypatch.setattr(build, "REPOSITORY", tmp_path)
+    monkeypatch.setenv("PIP_NO_INDEX", "1")
+    monkeypatch.setenv("PIP_FIND_LINKS", str(tmp_path))
+    lock.write_text(f"thing==1.0 --hash=sha256:{64 * '0'}\n")
+    with pytest.raises(build.BuildError, match="not installed from PyPI: thing"):
+        build.install_from_pypi(tmp_path / "ws", "own", "asked.txt", "pypi")
+    assert "DO NOT MATCH THE HASHES" in (tmp_path / "ws/pip.log").read_text()
+    lock.write_text(f"thing==1.0 --hash=sha256:{hashlib.sha256(wheel.read_bytes()).hexdigest()}\n")
+    build.install_from_pypi(tmp_path / "ws", "own", "asked.txt", "pypi")
+    assert build.is_done(tmp_path / "ws", "pypi=own:asked.txt")
 
 
 def test_after_a_build_that_failed_nothing_counts_as_built(clone, own_workspace, tmp_path):

@@ -91,3 +91,42 @@ def test_a_file_is_read_in_five_minutes_and_a_script_only_starts_its_program(pat
     is_start = path in SCRIPTS and path.parts[-3] != "beginner_tutorials"
     most = 20 if is_start and path.name not in ("rqt_graph", "view_robot") else 300
     assert len(path.read_text(encoding="utf-8").splitlines()) <= most
+
+
+def test_pip_installs_only_what_a_lock_has():
+    """What is asked for stands in the lock, which test/lock makes; each release has its hashes."""
+    source = (REPOSITORY / "test/lock").read_text()
+    locks = dict(re.findall(r'"(\w+)": \("(\S+)"', source))
+    assert len(locks) == len(list((REPOSITORY / "test/locks").glob("*.txt"))) >= 5
+    for name, requirements in locks.items():
+        text = (REPOSITORY / "test/locks" / f"{name}.txt").read_text()
+        releases = [entry.split()[0] for entry in re.findall(r"^(\w.*)", text, re.M)]
+        asked = re.findall(
+            r"^([\w-]+)(?:\[\w+\])?(==[\w.]+)", (REPOSITORY / requirements).read_text(), re.M
+        )
+        assert {"".join(one) for one in asked} <= set(releases), f"stale: test/lock {name}"
+        for entry in re.split(r"\n(?=\w)", text)[1:]:
+            assert re.search(r"--hash=sha256:[0-9a-f]{64}", entry), entry
+    words = (REPOSITORY / "common/tutorial_tools/src/tutorial_tools/command").glob("*.py")
+    named = set(
+        re.findall(
+            r"\b(test/\S+requirements\S*\.txt|common/\S+\.txt)", "".join(map(Path.read_text, words))
+        )
+    )
+    assert named - {"test/requirements-{kind}.txt"} <= set(locks.values())
+
+
+def test_workflows_may_only_read_and_take_actions_by_their_commit():
+    workflow = (REPOSITORY / ".github/workflows/test.yml").read_text()
+    made = (REPOSITORY / "common/tutorial_check/src/tutorial_check/package.py").read_text()
+    for text in (workflow, made):
+        assert re.search(r"^permissions: \{contents: read\}$", text, re.M)
+        assert len(re.findall(r"\buses: ", text)) == len(
+            re.findall(r"\buses: [\w-]+/[\w-]+@[0-9a-f]{40} # v\d+\.\d+\.\d+$", text, re.M)
+        )
+
+
+def test_the_image_gives_its_home_to_its_user_and_group_only():
+    text = (REPOSITORY / "docker/Dockerfile").read_text()
+    modes = re.findall(r"(?:chmod|umask) (\S+)", text)
+    assert modes == ["2770", "007"]

@@ -57,13 +57,13 @@ jobs:
     container: debian:bookworm-slim
     env: {TUTORIAL_WITHOUT: test view}
     steps:
-      - uses: actions/checkout@v4
+      - uses: actions/checkout@11bd71901bbe5b1630ceea73d27597364c9af683 # v4.2.2
         with: {path: submission}
-      - uses: actions/checkout@v4
+      - uses: actions/checkout@11bd71901bbe5b1630ceea73d27597364c9af683 # v4.2.2
         with: {repository: @REPOSITORY@, ref: @COMMIT@, path: suite}
       - name: check
         run: @RUN@
-      - uses: actions/upload-artifact@v4
+      - uses: actions/upload-artifact@ea165f8d65b6e75b540449e92b4886f43607fa02 # v4.6.2
         if: always()
         with: {name: report, path: report.xml}
 """

@@ -214,23 +214,28 @@ def is_done(workspace: Path, part: str) -> bool:
     kind, _, value = part.partition("=")
     if kind in ("workspace", "student"):
         return kind == "workspace" and is_built(workspace)
-    name, requirements = value.split(":")
-    return is_same(workspace / name / "installed", REPOSITORY / requirements)
+    name, _ = value.split(":")
+    return is_same(workspace / name / "installed", lock_of(name))
 
 
-def is_same(kept: Path, requirements: Path) -> bool:
-    """Return whether a file is a copy of the requirements."""
-    return kept.exists() and filecmp.cmp(requirements, kept, shallow=False)
+def lock_of(name: str) -> Path:
+    """Return the file with the releases and hashes that pip may install, made by test/lock."""
+    return REPOSITORY / "test" / "locks" / f"{name}.txt"
+
+
+def is_same(kept: Path, lock: Path) -> bool:
+    """Return whether a file is a copy of the lock."""
+    return kept.exists() and filecmp.cmp(lock, kept, shallow=False)
 
 
 def install_from_pypi(workspace: Path, name: str, requirements: str, kind: str) -> None:
-    """Make a virtual environment with what a file of requirements names.
+    """Make a virtual environment with what a file of requirements names, as its lock has it.
 
     kind: "pypi"; "alone", without Debian's packages; or "maybe", for a shell, which works without:
     a failure is reported once.
     """
     needed = kind != "maybe"
-    folder, wanted, log = workspace / name, REPOSITORY / requirements, workspace / "pip.log"
+    folder, wanted, log = workspace / name, lock_of(name), workspace / "pip.log"
     failed = workspace / "not_from_pypi"
     with one_at_a_time(workspace):
         if is_same(folder / "installed", wanted) or (not needed and is_same(failed, wanted)):
@@ -241,14 +246,15 @@ def install_from_pypi(workspace: Path, name: str, requirements: str, kind: str) 
         subprocess.run(venv, check=True)
         pip = [f"{folder}/bin/python", "-m", "pip", "install", "-q", "--disable-pip-version-check"]
         with open(log, "w", encoding="utf-8") as file:
-            command = [*pip, "-r", str(wanted)]
+            command = [*pip, "--require-hashes", "-r", str(wanted)]
             done = subprocess.run(command, check=False, stdout=file, stderr=file)
         if not done.returncode:
             shutil.copy(wanted, folder / "installed")
             return
         errors = [line for line in log.read_text().splitlines() if line.startswith("ERROR")]
         print(*errors[:3], sep="\n", file=sys.stderr)
-        names = " ".join(dict.fromkeys(re.findall(r"^([a-z-]+)==", wanted.read_text(), re.M)))
+        named = re.findall(r"^([a-z-]+)[=[]", (REPOSITORY / requirements).read_text(), re.M)
+        names = " ".join(dict.fromkeys(named))
         todo = "then run ./tutorial setup again: it goes on where it stopped"
         line = f"not installed from PyPI: {names}. Check the network ({log}), {todo}"
         if needed:
