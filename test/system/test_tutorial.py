@@ -104,4 +104,4 @@ def test_a_broken_package_xml_is_named_before_everything_fails_over_it(call, tmp
     code, output = call(*command)
     assert (code, output.count("\n")) == (0, 1) and f"{package}: mismatched tag: line 2" in output
     _, output = call("doctor", "--in", str(tmp_path))
-    assert f"wrong    overlay   {package}: mismatched tag: line 2" in output
+    assert f"wrong    overlay      {package}: mismatched tag: line 2" in output

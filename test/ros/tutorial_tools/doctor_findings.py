@@ -7,9 +7,10 @@ import time
 import rosgraph
 import rosnode
 import rospy
-from geometry_msgs.msg import Twist
+from geometry_msgs.msg import TransformStamped, Twist
 from sensor_msgs.msg import Joy
 from std_msgs.msg import String
+from tf2_msgs.msg import TFMessage
 
 from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
@@ -53,7 +54,7 @@ class FindingsTest(RosTest):
             code, levels = self.doctor()
             self.assertEqual((code, levels["wrong"]), (0, []))
             way = "/rosbag -> /joy -> /myjoystick2twist -> /cmd_vel -> /fake_turtlebot"
-            for words in (way, "says: driving"):
+            for words in (way, "says: driving", "frames, each from one node"):
                 self.assertTrue(any(words in line for line in levels["ok"]), levels)
 
             seen = f"ROS_IP={NOBODYS} is no address of this machine"
@@ -61,6 +62,12 @@ class FindingsTest(RosTest):
             self.wrong("cannot be looked up", ROS_HOSTNAME="nobody.invalid")
             self.publisher("/cmd_vel", Twist)
             self.wrong("/cmd_vel is sent by /doctor_findings, /myjoystick2twist at once")
+            other = TransformStamped(child_frame_id="base_footprint")
+            other.header.frame_id = "odom"
+            self.publisher("/tf", TFMessage, latch=True).publish([other])
+            rivals = "/doctor_findings, /fake_turtlebot send base_footprint at once"
+            lines = self.wrong(rivals)
+            self.assertTrue(any("doctor_findings sends stamps of the past" in x for x in lines))
             rospy.set_param("/use_sim_time", True)
             self.addCleanup(rospy.delete_param, "/use_sim_time")
             self.wrong("no /clock arrives")

@@ -3,15 +3,19 @@
 import errno
 import io
 import os
+import sys
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from geometry_msgs.msg import TransformStamped
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
+from tf2_msgs.msg import TFMessage
 
 from node_kit.questions import Answer
-from tutorial_tools.doctor import collect
-from tutorial_tools.doctor.facts import Joystick, MuxInput, Offset
+from tutorial_tools.doctor import collect, terminal
+from tutorial_tools.doctor.facts import Joystick, MuxInput, Offset, Transform
+from tutorial_tools.doctor.transforms import of_messages
 
 ARRIVED_S = 1_700_000_000.0
 
@@ -96,3 +100,49 @@ def test_the_variables_of_an_address(monkeypatch, capsys, hostname, ip, used):
     assert seen["own_variable"] == used
     assert not used or (seen["own_name"], seen["own_is_here"]) == ("127.0.0.1", True)
     assert capsys.readouterr().err == ""
+
+
+def test_of_each_frame_the_fastest_message_counts():
+    sent = []
+    for child, stamp_s in (("/base", -3), ("/base", -1), ("wheel", -7)):
+        one = TransformStamped(child_frame_id=child)
+        one.header.frame_id, one.header.stamp.secs = "odom", int(ARRIVED_S) + stamp_s
+        sent.append(wire(TFMessage([one])))
+    sent.append((ARRIVED_S, b"nonsense"))
+    base, wheel = ("/n", "odom", "base"), ("/n", "odom", "wheel")
+    assert of_messages("/n", "/tf", sent) == [Transform(*base, 1.0), Transform(*wheel, 7.0)]
+    assert of_messages("/n", "/tf_static", sent) == [Transform(*base), Transform(*wheel)]
+
+
+def test_the_terminal_and_the_build_of_a_workspace(tmp_path, monkeypatch):
+    conda, script = tmp_path / "conda/bin/python3", tmp_path / "src/mine/scripts/a.py"
+    for path in (conda, script, tmp_path / "build/CMakeCache.txt"):
+        path.parent.mkdir(parents=True)
+    conda.write_text(f'#!/bin/sh\nexec {sys.executable} -S -I "$@"')  # -S: no module of Debian's
+    conda.chmod(0o755)
+    (tmp_path / "src/mine/package.xml").write_text("<package/>")
+    script.write_bytes(b"#!/usr/bin/env python3\r\n")
+    (tmp_path / "build/CMakeCache.txt").write_text(
+        "A:B=c\nCMAKE_HOME_DIRECTORY:INTERNAL=/old/src\n"
+    )
+    (tmp_path / "build/.built_by").write_text("catkin build\n")
+    monkeypatch.setenv(terminal.PATH, f"{conda.parent}:/usr/bin")
+    monkeypatch.setenv("AMENT_PREFIX_PATH", "/opt/ros/jazzy")
+    seen = terminal.terminal(str(tmp_path))
+    first, second = seen.pythons
+    assert (first.path, first.origins["rospkg"]) == (str(conda), "")
+    assert second.path == "/usr/bin/python3" and second.origins["rospkg"] and second.has_raw_opt
+    assert (seen.built_by, seen.built_from) == ("catkin build", "/old/src")
+    assert (seen.ros2, seen.crlf) == ("/opt/ros/jazzy", [str(script)])
+    monkeypatch.setattr(sys, "path", ["/opt/ros/jazzy/lib/python3.12/site-packages", "/usr/lib"])
+    terminal.leave_ros2()
+    assert sys.path == ["/usr/lib"]
+    assert terminal.terminal("").crlf == []
+
+
+def test_a_python_that_does_not_answer_is_left_out(tmp_path):
+    broken = tmp_path / "python3"
+    broken.write_text("#!/bin/sh\nexit 1")
+    broken.chmod(0o755)
+    assert terminal.python(str(broken)) is None
+    assert terminal.python(str(tmp_path / "missing")) is None

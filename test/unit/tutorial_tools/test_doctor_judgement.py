@@ -8,8 +8,19 @@ from pathlib import Path
 import pytest
 
 from node_kit.questions import Answer
-from tutorial_tools.doctor import judgement, way
-from tutorial_tools.doctor.facts import Facts, Joystick, Mux, MuxInput, Node, Offset, some
+from tutorial_tools.doctor import environment, judgement, transforms, way
+from tutorial_tools.doctor.facts import (
+    Facts,
+    Joystick,
+    Mux,
+    MuxInput,
+    Node,
+    Offset,
+    Python,
+    Terminal,
+    Transform,
+    some,
+)
 from tutorial_tools.doctor.judgement import judge
 
 JOY, TWIST = "sensor_msgs/Joy", "geometry_msgs/Twist"
@@ -68,6 +79,19 @@ def mux(active, inputs=WELL.muxes["/cmd_vel_mux"].inputs, **changes):
 
 def says(text):
     return well(states={"/joy2twist": (False, text)})
+
+
+def in_terminal(path="/usr/bin/python3", rospkg="/lib", em="/lib", raw=True, **changes):
+    python = Python(path, {"rospkg": rospkg, "em": em}, raw)
+    return well(terminal=Terminal([python], **changes), workspace="/ws", joy2twist="")
+
+
+def frames(*sent, **changes):
+    """Transforms, each as "NODE PARENT CHILD [LATE_S]"."""
+    parts = [one.split() for one in sent]
+    return well(
+        transforms=[Transform(*part[:3], *map(float, part[3:])) for part in parts], **changes
+    )
 
 
 def lines(facts, level):
@@ -148,6 +172,26 @@ WRONG = {  # words of the one line that is wrong, in their order: facts
     f'lets "safety" through, and not {TELEOP}: end what sends to that': mux("safety"),
     "end /bumper":
         mux("safety", publishers={**WELL.publishers, SAFETY: ["/bumper"]}, types=SAFETY_TOO),
+    "python3 is /root/miniconda3/bin/python3, which has no rospkg: conda deactivate; ROS 1":
+        in_terminal("/root/miniconda3/bin/python3", rospkg=""),
+    "takes em from /root/.local/em.py, which is not empy 3 ... pip uninstall em empy":
+        in_terminal(em="/root/.local/em.py", raw=False),
+    "ROS 2 is in this terminal, too (AMENT_PREFIX_PATH=/opt/ros/jazzy) ... ~/.bashrc":
+        in_terminal(ros2="/opt/ros/jazzy"),
+    "/ws/build was made by catkin build ... cd /ws; rm -r build devel; catkin_make":
+        in_terminal(built_by="catkin build", built_from="/ws/src"),
+    "/ws/build was made for /old/src: cd /ws; rm -r build devel; catkin_make":
+        in_terminal(built_by="catkin_make", built_from="/old/src"),
+    r"/ws/src/p/a.py has the line ends of Windows: sed -i 's/\r$//' /ws/src/p/a.py":
+        in_terminal(crlf=["/ws/src/p/a.py"]),
+    "/one, /two send b at once: end all of them but one":
+        frames("/one a b", "/two a b", "/one b c"),
+    "/r1/robot, /r2/robot send b, odom at once ... tf_prefix":
+        frames("/r1/robot a odom", "/r2/robot a odom", "/r1/robot odom b", "/r2/robot odom b"),
+    "/bag sends stamps of the past ... rosbag play --clock":
+        frames("/bag odom base 3600", "/robot base wheel 0.1"),
+    "networkingMode=mirrored ... wsl --shutdown":
+        unreached("desk", ["10.0.0.2"], called_back=False, wsl=True),
     "/joy2twist says: stopped: not armed":
         says("stopped: not armed, release the sticks and the dead-man button once"),
     "move the joystick, or start it": says("stopped: no message for 0.5 s"),
@@ -185,6 +229,10 @@ def test_all_is_well():
         well(use_sim_time=True, clock_ticks=True, clocks={"robot": Offset(99.0, "/odom")}),
         well(nodes={name: WELL.nodes[name] for name in ("/joy_node", "/cmd_vel_mux")}),
         well(silent_s={"/joy_node": 12.3}),
+        in_terminal(),
+        frames("/one odom base 0.3", "/one base wheel", "/two map odom"),
+        frames("/bag odom base 3600", use_sim_time=True, clock_ticks=True),
+        frames(*(f"/class r{n}/odom r{n}/base" for n in (1, 2))),
         well(bridge=[(True, "carries between ROS 1 and ROS 2")]),
     ],
 )
@@ -209,6 +257,9 @@ def test_nothing_is_wrong(facts):
         (Facts(workspace="/w"), "wrong", "is not in your workspace: /suite/joy2twist: mv it into"),
         (Facts(workspace="/w", joy2twist="/w/joy2twist"), "wrong", "mv it into /w/src"),
         (Facts(hidden=[("/a hides b", "touch c")]), "wrong", "/a hides b"),
+        (in_terminal(), "ok", "python3 is /usr/bin/python3, with em of /lib"),
+        (frames("/a odom base", "/b odom wheel"), "ok", "2 frames, each from one node"),
+        (frames("/a odom base", "/b map x"), "unknown", "nothing joins: below map, odom: start"),
         (Facts(broken_manifests=[("/a/package.xml", "line 5")]), "wrong", "/a/package.xml: line 5"),
     ],
 )
@@ -275,7 +326,8 @@ def test_names_in_a_line(names, shown):
 
 def test_the_readme_lists_what_is_looked_at():
     package = Path(judgement.__file__).resolve().parents[3]
-    source = "".join(Path(module.__file__).read_text() for module in (judgement, way))
+    modules = (judgement, way, environment, transforms)
+    source = "".join(Path(module.__file__).read_text() for module in modules)
     looked_at = set(re.findall(r'\b(?:ok|wrong|unknown)\("(\w+)"', source))
     section = (package / "README.md").read_text().split("## When nothing moves")[1].split("##")[0]
     assert set(re.findall(r"^\| `(\w+)` \|", section, re.M)) == looked_at

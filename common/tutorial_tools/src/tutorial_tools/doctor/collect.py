@@ -22,9 +22,10 @@ from gamepad.driver.report import SILENT_FOR
 from node_kit.manifests import broken_manifests
 from node_kit.questions import TIMEOUT_S, Answer, way_out
 from tutorial_tools.command.build import REPOSITORY, SHARE
-from tutorial_tools.doctor import network
+from tutorial_tools.doctor import network, transforms
 from tutorial_tools.doctor.facts import JOY, Facts, Joystick, Mux, MuxInput, Node, Offset
 from tutorial_tools.doctor.network import addresses, call, is_here
+from tutorial_tools.doctor.terminal import terminal
 from tutorial_tools.hidden import hidden_stand_ins
 
 # Frequent messages that begin with a Header: sequence number, stamp as two uint32 (s, ns).
@@ -85,6 +86,7 @@ def this_machine() -> dict[str, Any]:
         "broken_manifests": [broken for folder in own for broken in broken_manifests(folder)],
         "joy2twist": joy2twist,
         "container": in_container(),
+        "terminal": terminal(workspace),
         "wsl": "microsoft" in os.uname().release.lower(),
     }
 
@@ -165,6 +167,10 @@ def heard(uri: str, facts: Facts) -> dict[str, Any]:
     jobs += [(name, "/diagnostics", 1) for name in speakers]
     for topic in (*active, "/clock"):
         jobs += [(name, topic, 1) for name in facts.publishers.get(topic, [])[:1]]
+    frames = [
+        (name, t, transforms.MESSAGES) for t in transforms.TOPICS for name in facts.senders(t)
+    ]
+    jobs += frames
     came = network.at_once(
         lambda job: network.listen(well[job[0]].uri, job[1], LISTEN_S, job[2]),
         [job for job in jobs if job[0] in well],
@@ -180,6 +186,11 @@ def heard(uri: str, facts: Facts) -> dict[str, Any]:
             host: nearest([offset(topic, of.get((name, topic), [])) for name, topic, _ in several])
             for host, several in far.items()
         },
+        "transforms": [
+            transform
+            for name, topic, _ in frames
+            for transform in transforms.of_messages(name, topic, of.get((name, topic), []))
+        ],
         "muxes": {name: mux(uri, name, on.get(f"{name}/active", [])) for name in names},
         "states": {
             name: (status.level == DiagnosticStatus.OK, status.message)

@@ -43,7 +43,7 @@ class Finding(NamedTuple):
     def line(self) -> str:
         """Return the finding as it is shown."""
         todo = f": {self.todo}" if self.todo else ""
-        return f"{self.level:7}  {self.about:8}  {self.seen}{todo}"
+        return f"{self.level:7}  {self.about:11}  {self.seen}{todo}"
 
 
 ok = partial(Finding, OK)  # nothing is wrong here
@@ -91,6 +91,34 @@ class Joystick(NamedTuple):
     error: int | None = None
 
 
+class Python(NamedTuple):
+    """Where a Python finds the modules of ROS ("": not at all), and whether its em is empy 3."""
+
+    path: str
+    origins: dict[str, str]
+    has_raw_opt: bool = True
+
+
+@dataclass(frozen=True)
+class Terminal:
+    """What a terminal and the student's workspace bring along; "" is none."""
+
+    pythons: list[Python] = field(default_factory=list)  # the first on PATH, the system's
+    ros2: str = ""  # AMENT_PREFIX_PATH
+    built_by: str = ""  # the tool that made the folder build
+    built_from: str = ""  # its folder src, by CMake
+    crlf: list[str] = field(default_factory=list)  # programs with the line ends of Windows
+
+
+class Transform(NamedTuple):
+    """A frame as a node publishes it, and how old its stamp is at arrival [s]."""
+
+    node: str
+    parent: str
+    child: str
+    late_s: float = 0.0
+
+
 @dataclass(frozen=True)
 class Facts:
     """All that was seen. The defaults: a machine on which all is well and idle."""
@@ -113,6 +141,7 @@ class Facts:
     joy2twist: str = "/suite/joy2twist"  # folder of the package that would run; "": none
     container: bool = False
     wsl: bool = False
+    terminal: Terminal = field(default_factory=Terminal)
     # The graph: by topic the names of nodes, and its type.
     nodes: dict[str, Node] = field(default_factory=dict)
     publishers: dict[str, list[str]] = field(default_factory=dict)
@@ -121,6 +150,7 @@ class Facts:
     use_sim_time: bool = False
     clock_ticks: bool = False
     clocks: dict[str, Offset | None] = field(default_factory=dict)  # of the other hosts
+    transforms: list[Transform] = field(default_factory=list)
     muxes: dict[str, Mux] = field(default_factory=dict)  # by the name of the node
     states: dict[str, tuple[bool, str]] = field(default_factory=dict)  # of joy2twist: well, text
     bridge: list[tuple[bool, str]] = field(default_factory=list)  # to ROS 2: well, text

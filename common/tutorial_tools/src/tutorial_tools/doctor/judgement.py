@@ -7,7 +7,9 @@ from collections.abc import Iterator
 
 from gamepad.driver.device_choice import explain
 from node_kit.questions import Answer
+from tutorial_tools.doctor.environment import environment
 from tutorial_tools.doctor.facts import DEAD, JOY, Facts, Finding, ok, some, unknown, wrong
+from tutorial_tools.doctor.transforms import transforms
 from tutorial_tools.doctor.way import muxes, rivals, states, topics
 
 # Clocks may differ by this much [s]: a tenth of a second of old transforms, or of a joystick
@@ -18,9 +20,9 @@ RESTART = "and restart its nodes"
 
 def judge(facts: Facts) -> list[Finding]:
     """Return all findings, in the order in which one would look for a cause."""
-    findings = [*overlay(facts), *master(facts), *address(facts)]
+    findings = [*environment(facts), *overlay(facts), *master(facts), *address(facts)]
     if facts.master is Answer.WELL:
-        for check in (nodes, clocks, topics, muxes, rivals, states):
+        for check in (nodes, clocks, topics, muxes, rivals, states, transforms):
             findings += check(facts)
     return [*findings, *joysticks(facts)]
 
@@ -91,6 +93,9 @@ def address(facts: Facts) -> Iterator[Finding]:
         yield ok("address", f'nodes of this machine call it "{name}"')
     else:
         todo += "; or open this machine's firewall for it"
+        if facts.wsl:
+            todo = "Windows hides WSL behind its own address: networkingMode=mirrored below [wsl2]"
+            todo += " in .wslconfig of your Windows home, then wsl --shutdown"
         yield wrong("address", f'the master does not reach "{name}"', todo)
 
 
