@@ -5,7 +5,7 @@ import signal
 
 signal.signal(signal.SIGINT, signal.SIG_DFL)  # Ctrl-C ends this quietly
 
-from tutorial_tools.doctor.terminal import leave_ros2
+from tutorial_tools.doctor.environment import leave_ros2
 
 leave_ros2()  # before the first import of a message
 

@@ -13,7 +13,7 @@ from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
 from node_kit.questions import Answer
-from tutorial_tools.doctor import collect, terminal
+from tutorial_tools.doctor import collect, environment
 from tutorial_tools.doctor.facts import Joystick, MuxInput, Offset, Transform
 from tutorial_tools.doctor.transforms import of_messages
 
@@ -114,35 +114,60 @@ def test_of_each_frame_the_fastest_message_counts():
     assert of_messages("/n", "/tf_static", sent) == [Transform(*base), Transform(*wheel)]
 
 
-def test_the_terminal_and_the_build_of_a_workspace(tmp_path, monkeypatch):
-    conda, script = tmp_path / "conda/bin/python3", tmp_path / "src/mine/scripts/a.py"
-    for path in (conda, script, tmp_path / "build/CMakeCache.txt"):
-        path.parent.mkdir(parents=True)
-    conda.write_text(f'#!/bin/sh\nexec {sys.executable} -S -I "$@"')  # -S: no module of Debian's
-    conda.chmod(0o755)
-    (tmp_path / "src/mine/package.xml").write_text("<package/>")
-    script.write_bytes(b"#!/usr/bin/env python3\r\n")
-    (tmp_path / "build/CMakeCache.txt").write_text(
-        "A:B=c\nCMAKE_HOME_DIRECTORY:INTERNAL=/old/src\n"
-    )
-    (tmp_path / "build/.built_by").write_text("catkin build\n")
-    monkeypatch.setenv(terminal.PATH, f"{conda.parent}:/usr/bin")
+@pytest.fixture
+def conda(tmp_path, monkeypatch):
+    """A Python before the system's, which finds nothing of Debian's (-S)."""
+    for name in ("AMENT_PREFIX_PATH", environment.PATH):
+        monkeypatch.delenv(name, raising=False)
+    path = tmp_path / "conda/bin/python3"
+    path.parent.mkdir(parents=True)
+    path.write_text('#!/bin/sh\nexec /usr/bin/python3 -S -I "$@"')
+    path.chmod(0o755)
+    return path
+
+
+def complaints(workspace=""):
+    return [": ".join(one) for one in environment.environment(str(workspace))]
+
+
+def test_the_pythons_of_a_terminal(conda, tmp_path, monkeypatch):
+    monkeypatch.setenv("PATH", f"{environment.SYSTEMS[:-8]}:{conda.parent}")
+    assert complaints() == []
+    monkeypatch.setenv(environment.PATH, f"{conda.parent}:/usr/bin")
+    (line,) = complaints()
+    assert f"{conda}, which has no rospkg, catkin_pkg, em: conda deactivate; ROS 1" in line
+    conda.write_text("#!/bin/sh\nexit 1")  # a shim without a Python behind it
+    (tmp_path / "em.py").touch()
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path), prepend=":")
+    (line,) = complaints()
+    assert f"takes em from {tmp_path}/em.py, which is not empy 3" in line
+
+
+def test_ros2_in_the_same_terminal(conda, monkeypatch):
     monkeypatch.setenv("AMENT_PREFIX_PATH", "/opt/ros/jazzy")
-    seen = terminal.terminal(str(tmp_path))
-    first, second = seen.pythons
-    assert (first.path, first.origins["rospkg"]) == (str(conda), "")
-    assert second.path == "/usr/bin/python3" and second.origins["rospkg"] and second.has_raw_opt
-    assert (seen.built_by, seen.built_from) == ("catkin build", "/old/src")
-    assert (seen.ros2, seen.crlf) == ("/opt/ros/jazzy", [str(script)])
+    assert conda and "AMENT_PREFIX_PATH=/opt/ros/jazzy): open a terminal" in complaints()[-1]
     monkeypatch.setattr(sys, "path", ["/opt/ros/jazzy/lib/python3.12/site-packages", "/usr/lib"])
-    terminal.leave_ros2()
+    environment.leave_ros2()
     assert sys.path == ["/usr/lib"]
-    assert terminal.terminal("").crlf == []
 
 
-def test_a_python_that_does_not_answer_is_left_out(tmp_path):
-    broken = tmp_path / "python3"
-    broken.write_text("#!/bin/sh\nexit 1")
-    broken.chmod(0o755)
-    assert terminal.python(str(broken)) is None
-    assert terminal.python(str(tmp_path / "missing")) is None
+@pytest.mark.usefixtures("conda")
+def test_how_a_workspace_was_built(tmp_path, monkeypatch):
+    monkeypatch.setenv("PATH", "/usr/bin")
+    script, build = tmp_path / "src/mine/scripts/a.py", tmp_path / "build"
+    for folder in (script.parent, build):
+        folder.mkdir(parents=True)
+    cache, by = build / "CMakeCache.txt", build / ".built_by"
+    by.write_text("catkin_make")
+    cache.write_text(f"A:B=c\nCMAKE_HOME_DIRECTORY:INTERNAL={tmp_path}/src\n")
+    (tmp_path / "src/mine/package.xml").write_text("<package/>")
+    script.write_bytes(b"#!/usr/bin/env python3\n")
+    assert complaints(tmp_path) == []
+    rebuild = f": cd {tmp_path}; rm -r build devel; catkin_make"
+    cache.write_text("CMAKE_HOME_DIRECTORY:INTERNAL=/old/src\n")
+    assert complaints(tmp_path) == [f"{build} was made for /old/src{rebuild}"]
+    by.write_text("catkin build\n")
+    script.write_bytes(b"#!/usr/bin/env python3\r\n")
+    first, second = complaints(tmp_path)
+    assert first == f"{build} was made by catkin build, not by catkin_make{rebuild}"
+    assert second == rf"{script} has the line ends of Windows: sed -i 's/\r$//' {script}"

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from node_kit.questions import Answer
-from tutorial_tools.doctor import environment, judgement, transforms, way
+from tutorial_tools.doctor import judgement, transforms, way
 from tutorial_tools.doctor.facts import (
     Facts,
     Joystick,
@@ -16,8 +16,6 @@ from tutorial_tools.doctor.facts import (
     MuxInput,
     Node,
     Offset,
-    Python,
-    Terminal,
     Transform,
     some,
 )
@@ -79,11 +77,6 @@ def mux(active, inputs=WELL.muxes["/cmd_vel_mux"].inputs, **changes):
 
 def says(text):
     return well(states={"/joy2twist": (False, text)})
-
-
-def in_terminal(path="/usr/bin/python3", rospkg="/lib", em="/lib", raw=True, **changes):
-    python = Python(path, {"rospkg": rospkg, "em": em}, raw)
-    return well(terminal=Terminal([python], **changes), workspace="/ws", joy2twist="")
 
 
 def frames(*sent, **changes):
@@ -172,18 +165,7 @@ WRONG = {  # words of the one line that is wrong, in their order: facts
     f'lets "safety" through, and not {TELEOP}: end what sends to that': mux("safety"),
     "end /bumper":
         mux("safety", publishers={**WELL.publishers, SAFETY: ["/bumper"]}, types=SAFETY_TOO),
-    "python3 is /root/miniconda3/bin/python3, which has no rospkg: conda deactivate; ROS 1":
-        in_terminal("/root/miniconda3/bin/python3", rospkg=""),
-    "takes em from /root/.local/em.py, which is not empy 3 ... pip uninstall em empy":
-        in_terminal(em="/root/.local/em.py", raw=False),
-    "ROS 2 is in this terminal, too (AMENT_PREFIX_PATH=/opt/ros/jazzy) ... ~/.bashrc":
-        in_terminal(ros2="/opt/ros/jazzy"),
-    "/ws/build was made by catkin build ... cd /ws; rm -r build devel; catkin_make":
-        in_terminal(built_by="catkin build", built_from="/ws/src"),
-    "/ws/build was made for /old/src: cd /ws; rm -r build devel; catkin_make":
-        in_terminal(built_by="catkin_make", built_from="/old/src"),
-    r"/ws/src/p/a.py has the line ends of Windows: sed -i 's/\r$//' /ws/src/p/a.py":
-        in_terminal(crlf=["/ws/src/p/a.py"]),
+    "environment  ROS 2 is here: leave": well(environment=[("ROS 2 is here", "leave")]),
     "/one, /two send b at once: end all of them but one":
         frames("/one a b", "/two a b", "/one b c"),
     "/r1/robot, /r2/robot send b, odom at once ... tf_prefix":
@@ -214,9 +196,10 @@ def test_all_is_well():
     findings = judge(WELL)
     assert {finding.level for finding in findings} == {"ok"}
     assert [finding.about for finding in findings] == [
-        "overlay", "master", "address", "nodes", "clocks", "topics", "mux", "state", "joystick",
+        "environment", "overlay", "master", "address", "nodes", "clocks", "topics", "mux", "state",
+        "joystick",
     ]  # fmt: skip
-    assert f"/joy_node -> /joy -> /joy2twist -> {TELEOP} -> /cmd_vel_mux" in findings[5].line()
+    assert f"/joy_node -> /joy -> /joy2twist -> {TELEOP} -> /cmd_vel_mux" in findings[6].line()
 
 
 @pytest.mark.parametrize(
@@ -229,7 +212,6 @@ def test_all_is_well():
         well(use_sim_time=True, clock_ticks=True, clocks={"robot": Offset(99.0, "/odom")}),
         well(nodes={name: WELL.nodes[name] for name in ("/joy_node", "/cmd_vel_mux")}),
         well(silent_s={"/joy_node": 12.3}),
-        in_terminal(),
         frames("/one odom base 0.3", "/one base wheel", "/two map odom"),
         frames("/bag odom base 3600", use_sim_time=True, clock_ticks=True),
         frames(*(f"/class r{n}/odom r{n}/base" for n in (1, 2))),
@@ -257,7 +239,7 @@ def test_nothing_is_wrong(facts):
         (Facts(workspace="/w"), "wrong", "is not in your workspace: /suite/joy2twist: mv it into"),
         (Facts(workspace="/w", joy2twist="/w/joy2twist"), "wrong", "mv it into /w/src"),
         (Facts(hidden=[("/a hides b", "touch c")]), "wrong", "/a hides b"),
-        (in_terminal(), "ok", "python3 is /usr/bin/python3, with em of /lib"),
+        (Facts(), "ok", "those of ROS 1 alone"),
         (frames("/a odom base", "/b odom wheel"), "ok", "2 frames, each from one node"),
         (frames("/a odom base", "/b map x"), "unknown", "nothing joins: below map, odom: start"),
         (Facts(broken_manifests=[("/a/package.xml", "line 5")]), "wrong", "/a/package.xml: line 5"),
@@ -270,7 +252,7 @@ def test_a_line_of_a_level(facts, level, words):
 def test_of_a_graph_that_was_not_seen_nothing_is_said():
     facts = well(master=Answer.REFUSED, called_back=None)
     abouts = {finding.about for finding in judge(facts)}
-    assert abouts == {"overlay", "master", "address", "joystick"}
+    assert abouts == {"environment", "overlay", "master", "address", "joystick"}
     (line, *_) = lines(Facts(master=Answer.REFUSED, called_back=None), "wrong")
     assert ": start roscore; or" in line  # a master of this machine is to be started here
 
@@ -326,7 +308,7 @@ def test_names_in_a_line(names, shown):
 
 def test_the_readme_lists_what_is_looked_at():
     package = Path(judgement.__file__).resolve().parents[3]
-    modules = (judgement, way, environment, transforms)
+    modules = (judgement, way, transforms)
     source = "".join(Path(module.__file__).read_text() for module in modules)
     looked_at = set(re.findall(r'\b(?:ok|wrong|unknown)\("(\w+)"', source))
     section = (package / "README.md").read_text().split("## When nothing moves")[1].split("##")[0]

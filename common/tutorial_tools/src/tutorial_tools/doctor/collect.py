@@ -23,9 +23,9 @@ from node_kit.manifests import broken_manifests
 from node_kit.questions import TIMEOUT_S, Answer, way_out
 from tutorial_tools.command.build import REPOSITORY, SHARE
 from tutorial_tools.doctor import network, transforms
+from tutorial_tools.doctor.environment import environment
 from tutorial_tools.doctor.facts import JOY, Facts, Joystick, Mux, MuxInput, Node, Offset
 from tutorial_tools.doctor.network import addresses, call, is_here
-from tutorial_tools.doctor.terminal import terminal
 from tutorial_tools.hidden import hidden_stand_ins
 
 # Frequent messages that begin with a Header: sequence number, stamp as two uint32 (s, ns).
@@ -86,7 +86,7 @@ def this_machine() -> dict[str, Any]:
         "broken_manifests": [broken for folder in own for broken in broken_manifests(folder)],
         "joy2twist": joy2twist,
         "container": in_container(),
-        "terminal": terminal(workspace),
+        "environment": environment(workspace),
         "wsl": "microsoft" in os.uname().release.lower(),
     }
 

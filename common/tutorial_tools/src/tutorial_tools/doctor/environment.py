@@ -1,51 +1,87 @@
-"""Judge what a terminal and a workspace bring along, which keeps ROS 1 from starting (pure)."""
+"""What a terminal and a workspace have that keeps ROS 1 from starting (pure, but for the files).
+
+By the standard library alone, as the modules of ROS may be hidden.
+"""
 
 from __future__ import annotations
 
+import contextlib
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
 from collections.abc import Iterator
+from pathlib import Path
 
-from tutorial_tools.doctor.facts import Facts, Finding, ok, wrong
+from node_kit.manifests import manifests
 
-SYSTEMS = "ROS 1 belongs to /usr/bin/python3: export PATH=/usr/bin:$PATH, or ./tutorial shell"
+SYSTEMS = "/usr/bin/python3"  # to which ROS 1 belongs
+# The PATH with which ./tutorial was called; it puts the system's Python first.
+PATH = "TUTORIAL_TERMINAL_PATH"
+PROBE = """
+import importlib.util, json
+found = {name: importlib.util.find_spec(name) for name in ("rospkg", "catkin_pkg", "em")}
+print(json.dumps({name: spec.origin if spec else "" for name, spec in found.items()}))"""
+LONGEST_S = 5.0
 
 
-def environment(facts: Facts) -> Iterator[Finding]:
-    """Judge the Pythons, ROS 2 in the same terminal, and how the workspace was built."""
-    found = [*pythons(facts), *builds(facts)]
-    if facts.terminal.ros2:
+def environment(workspace: str) -> list[tuple[str, str]]:
+    """Return [(what is wrong, what to do)] of this terminal and a workspace ("": none)."""
+    path = os.environ.get(PATH) or os.environ.get("PATH", "")
+    pythons = dict.fromkeys((shutil.which("python3", path=path) or SYSTEMS, SYSTEMS))
+    found = [complaint for one in pythons for complaint in _of_python(one)]
+    if os.environ.get("AMENT_PREFIX_PATH"):
         todo = "open a terminal in which no setup.bash of ROS 2 is sourced; look into ~/.bashrc"
-        seen = f"ROS 2 is in this terminal, too (AMENT_PREFIX_PATH={facts.terminal.ros2})"
-        found.append(wrong("environment", seen, todo))
-    yield from found
-    if facts.terminal.pythons and not found:
-        path, origins, _ = facts.terminal.pythons[0]
-        yield ok("environment", f"python3 is {path}, with em of {origins['em']}")
+        seen = "ROS 2 is in this terminal, too (AMENT_PREFIX_PATH={AMENT_PREFIX_PATH})"
+        found.append((seen.format(**os.environ), todo))
+    return [*found, *(_of_workspace(Path(workspace)) if workspace else ())]
 
 
-def pythons(facts: Facts) -> Iterator[Finding]:
-    """Judge whether the Pythons find the modules of ROS, and the right em."""
-    for path, origins, has_raw_opt in facts.terminal.pythons:
-        missing = [name for name, origin in origins.items() if not origin]
-        if missing:
-            conda = "conda deactivate; " if "conda" in path or "forge" in path else ""
-            seen = f"python3 is {path}, which has no {', '.join(missing)}"
-            yield wrong("environment", seen, conda + SYSTEMS)
-        elif not has_raw_opt:
-            seen = f"{path} takes em from {origins['em']}, which is not empy 3: no message is built"
-            todo = f"{path} -m pip uninstall em empy (--break-system-packages, if it asks for that)"
-            yield wrong("environment", seen, todo)
+def leave_ros2() -> None:
+    """Let this program not find the modules of ROS 2, which have the names of those of ROS 1."""
+    prefixes = tuple(filter(None, os.environ.get("AMENT_PREFIX_PATH", "").split(":")))
+    sys.path[:] = [entry for entry in sys.path if not entry.startswith(prefixes or ("\0",))]
 
 
-def builds(facts: Facts) -> Iterator[Finding]:
-    """Judge whether catkin_make can build the workspace, and its programs can start."""
-    seen, terminal = "", facts.terminal
-    if terminal.built_by not in ("", "catkin_make"):
-        seen = f"{facts.workspace}/build was made by {terminal.built_by}, not by catkin_make"
-    elif terminal.built_from and terminal.built_from != f"{facts.workspace}/src":
-        seen = f"{facts.workspace}/build was made for {terminal.built_from}"
-    if seen:
-        todo = f"cd {facts.workspace}; rm -r build devel; catkin_make"
-        yield wrong("environment", seen, todo)
-    for path in terminal.crlf:
-        todo = f"sed -i 's/\\r$//' {path}"
-        yield wrong("environment", f"{path} has the line ends of Windows", todo)
+def _of_python(path: str) -> Iterator[tuple[str, str]]:
+    origins: dict[str, str] = {}
+    with contextlib.suppress(OSError, ValueError, subprocess.SubprocessError):
+        probe = [path, "-c", PROBE]
+        said = subprocess.run(probe, capture_output=True, timeout=LONGEST_S, check=True).stdout
+        origins = json.loads(said)
+    missing = [name for name, origin in origins.items() if not origin]
+    if missing:
+        todo = "conda deactivate; " if re.search("conda|forge", path) else ""
+        todo += f"ROS 1 belongs to {SYSTEMS}: export PATH=/usr/bin:$PATH, or ./tutorial shell"
+        yield f"python3 is {path}, which has no {', '.join(missing)}", todo
+    elif origins and "RAW_OPT" not in _text(Path(origins["em"])):
+        todo = f"{path} -m pip uninstall em empy (--break-system-packages, if it asks for that)"
+        yield (
+            f"{path} takes em from {origins['em']}, which is not empy 3: no message is built",
+            todo,
+        )
+
+
+def _of_workspace(workspace: Path) -> Iterator[tuple[str, str]]:
+    build, rebuild = workspace / "build", f"cd {workspace}; rm -r build devel; catkin_make"
+    source = re.search(
+        "^CMAKE_HOME_DIRECTORY:INTERNAL=(.*)$", _text(build / "CMakeCache.txt"), re.M
+    )
+    tool = _text(build / ".built_by").strip()
+    if tool not in ("", "catkin_make"):
+        yield f"{build} was made by {tool}, not by catkin_make", rebuild
+    elif source and os.path.realpath(source[1]) != os.path.realpath(workspace / "src"):
+        yield f"{build} was made for {source[1]}", rebuild
+    for script in [path for one in manifests(workspace / "src") for path in one.parent.glob("*/*")]:
+        if re.match("#!.*\r\n", _text(script)):
+            yield f"{script} has the line ends of Windows", f"sed -i 's/\\r$//' {script}"
+
+
+def _text(path: Path) -> str:
+    """Return the text of a file; "" if there is none."""
+    if path.is_file():
+        with contextlib.suppress(OSError), open(path, errors="replace", newline="") as file:
+            return file.read()
+    return ""

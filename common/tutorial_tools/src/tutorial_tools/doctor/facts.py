@@ -91,25 +91,6 @@ class Joystick(NamedTuple):
     error: int | None = None
 
 
-class Python(NamedTuple):
-    """Where a Python finds the modules of ROS ("": not at all), and whether its em is empy 3."""
-
-    path: str
-    origins: dict[str, str]
-    has_raw_opt: bool = True
-
-
-@dataclass(frozen=True)
-class Terminal:
-    """What a terminal and the student's workspace bring along; "" is none."""
-
-    pythons: list[Python] = field(default_factory=list)  # the first on PATH, the system's
-    ros2: str = ""  # AMENT_PREFIX_PATH
-    built_by: str = ""  # the tool that made the folder build
-    built_from: str = ""  # its folder src, by CMake
-    crlf: list[str] = field(default_factory=list)  # programs with the line ends of Windows
-
-
 class Transform(NamedTuple):
     """A frame as a node publishes it, and how old its stamp is at arrival [s]."""
 
@@ -141,7 +122,7 @@ class Facts:
     joy2twist: str = "/suite/joy2twist"  # folder of the package that would run; "": none
     container: bool = False
     wsl: bool = False
-    terminal: Terminal = field(default_factory=Terminal)
+    environment: list[tuple[str, str]] = field(default_factory=list)  # what is wrong, what to do
     # The graph: by topic the names of nodes, and its type.
     nodes: dict[str, Node] = field(default_factory=dict)
     publishers: dict[str, list[str]] = field(default_factory=dict)

@@ -7,7 +7,6 @@ from collections.abc import Iterator
 
 from gamepad.driver.device_choice import explain
 from node_kit.questions import Answer
-from tutorial_tools.doctor.environment import environment
 from tutorial_tools.doctor.facts import DEAD, JOY, Facts, Finding, ok, some, unknown, wrong
 from tutorial_tools.doctor.transforms import transforms
 from tutorial_tools.doctor.way import muxes, rivals, states, topics
@@ -25,6 +24,13 @@ def judge(facts: Facts) -> list[Finding]:
         for check in (nodes, clocks, topics, muxes, rivals, states, transforms):
             findings += check(facts)
     return [*findings, *joysticks(facts)]
+
+
+def environment(facts: Facts) -> Iterator[Finding]:
+    """Judge what this terminal and the workspace have that keeps ROS 1 from starting."""
+    yield from (wrong("environment", seen, todo) for seen, todo in facts.environment)
+    if not facts.environment:
+        yield ok("environment", "Python, em and the workspace are those of ROS 1 alone")
 
 
 def overlay(facts: Facts) -> Iterator[Finding]:
