@@ -110,8 +110,9 @@ def test_of_each_frame_the_fastest_message_counts():
         sent.append(wire(TFMessage([one])))
     sent.append((ARRIVED_S, b"nonsense"))
     base, wheel = ("/n", "odom", "base"), ("/n", "odom", "wheel")
-    assert of_messages("/n", "/tf", sent) == [Transform(*base, 1.0), Transform(*wheel, 7.0)]
-    assert of_messages("/n", "/tf_static", sent) == [Transform(*base), Transform(*wheel)]
+    moving = of_messages({("/n", "/tf"): sent, ("/n", "/odom"): sent})
+    assert moving == [Transform(*base, 1.0), Transform(*wheel, 7.0)]
+    assert of_messages({("/n", "/tf_static"): sent}) == [Transform(*base), Transform(*wheel)]
 
 
 @pytest.fixture

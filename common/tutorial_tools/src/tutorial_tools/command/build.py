@@ -253,8 +253,8 @@ def install_from_pypi(workspace: Path, name: str, requirements: str, kind: str) 
             return
         errors = [line for line in log.read_text().splitlines() if line.startswith("ERROR")]
         print(*errors[:3], sep="\n", file=sys.stderr)
-        named = re.findall(r"^([a-z-]+)[=[]", (REPOSITORY / requirements).read_text(), re.M)
-        names = " ".join(dict.fromkeys(named))
+        asked = (REPOSITORY / requirements).read_text()
+        names = " ".join(dict.fromkeys(re.findall(r"^([a-z-]+)[=[]", asked, re.M)))
         todo = "then run ./tutorial setup again: it goes on where it stopped"
         line = f"not installed from PyPI: {names}. Check the network ({log}), {todo}"
         if needed:

@@ -167,10 +167,8 @@ def heard(uri: str, facts: Facts) -> dict[str, Any]:
     jobs += [(name, "/diagnostics", 1) for name in speakers]
     for topic in (*active, "/clock"):
         jobs += [(name, topic, 1) for name in facts.publishers.get(topic, [])[:1]]
-    frames = [
-        (name, t, transforms.MESSAGES) for t in transforms.TOPICS for name in facts.senders(t)
-    ]
-    jobs += frames
+    for topic in transforms.TOPICS:
+        jobs += [(name, topic, STAMPED_MESSAGES) for name in facts.senders(topic)]
     came = network.at_once(
         lambda job: network.listen(well[job[0]].uri, job[1], LISTEN_S, job[2]),
         [job for job in jobs if job[0] in well],
@@ -186,11 +184,7 @@ def heard(uri: str, facts: Facts) -> dict[str, Any]:
             host: nearest([offset(topic, of.get((name, topic), [])) for name, topic, _ in several])
             for host, several in far.items()
         },
-        "transforms": [
-            transform
-            for name, topic, _ in frames
-            for transform in transforms.of_messages(name, topic, of.get((name, topic), []))
-        ],
+        "transforms": transforms.of_messages(of),
         "muxes": {name: mux(uri, name, on.get(f"{name}/active", [])) for name in names},
         "states": {
             name: (status.level == DiagnosticStatus.OK, status.message)

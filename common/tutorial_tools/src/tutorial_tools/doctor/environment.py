@@ -1,7 +1,4 @@
-"""What a terminal and a workspace have that keeps ROS 1 from starting (pure, but for the files).
-
-By the standard library alone, as the modules of ROS may be hidden.
-"""
+"""What a terminal and a workspace have that keeps ROS 1 from starting; imports none of ROS."""
 
 from __future__ import annotations
 
@@ -18,13 +15,11 @@ from pathlib import Path
 from node_kit.manifests import manifests
 
 SYSTEMS = "/usr/bin/python3"  # to which ROS 1 belongs
-# The PATH with which ./tutorial was called; it puts the system's Python first.
-PATH = "TUTORIAL_TERMINAL_PATH"
+PATH = "TUTORIAL_TERMINAL_PATH"  # with which ./tutorial was called; its own has SYSTEMS first
 PROBE = """
 import importlib.util, json
 found = {name: importlib.util.find_spec(name) for name in ("rospkg", "catkin_pkg", "em")}
 print(json.dumps({name: spec.origin if spec else "" for name, spec in found.items()}))"""
-LONGEST_S = 5.0
 
 
 def environment(workspace: str) -> list[tuple[str, str]]:
@@ -32,10 +27,9 @@ def environment(workspace: str) -> list[tuple[str, str]]:
     path = os.environ.get(PATH) or os.environ.get("PATH", "")
     pythons = dict.fromkeys((shutil.which("python3", path=path) or SYSTEMS, SYSTEMS))
     found = [complaint for one in pythons for complaint in _of_python(one)]
-    if os.environ.get("AMENT_PREFIX_PATH"):
+    if ros2 := os.environ.get("AMENT_PREFIX_PATH"):
         todo = "open a terminal in which no setup.bash of ROS 2 is sourced; look into ~/.bashrc"
-        seen = "ROS 2 is in this terminal, too (AMENT_PREFIX_PATH={AMENT_PREFIX_PATH})"
-        found.append((seen.format(**os.environ), todo))
+        found.append((f"ROS 2 is in this terminal, too (AMENT_PREFIX_PATH={ros2})", todo))
     return [*found, *(_of_workspace(Path(workspace)) if workspace else ())]
 
 
@@ -49,7 +43,7 @@ def _of_python(path: str) -> Iterator[tuple[str, str]]:
     origins: dict[str, str] = {}
     with contextlib.suppress(OSError, ValueError, subprocess.SubprocessError):
         probe = [path, "-c", PROBE]
-        said = subprocess.run(probe, capture_output=True, timeout=LONGEST_S, check=True).stdout
+        said = subprocess.run(probe, capture_output=True, timeout=5.0, check=True).stdout
         origins = json.loads(said)
     missing = [name for name, origin in origins.items() if not origin]
     if missing:
@@ -81,7 +75,6 @@ def _of_workspace(workspace: Path) -> Iterator[tuple[str, str]]:
 
 def _text(path: Path) -> str:
     """Return the text of a file; "" if there is none."""
-    if path.is_file():
-        with contextlib.suppress(OSError), open(path, errors="replace", newline="") as file:
-            return file.read()
+    with contextlib.suppress(OSError):
+        return path.read_bytes().decode(errors="replace") if path.is_file() else ""
     return ""
