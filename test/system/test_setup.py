@@ -181,10 +181,11 @@ def test_pip_installs_no_file_of_another_hash(tmp_path, monkeypatch):
     monkeypatch.setattr(build, "REPOSITORY", tmp_path)
     monkeypatch.setenv("PIP_NO_INDEX", "1")
     monkeypatch.setenv("PIP_FIND_LINKS", str(tmp_path))
-    lock.write_text(f"thing==1.0 --hash=sha256:{64 * '0'}\n")
-    with pytest.raises(build.BuildError, match="not installed from PyPI: thing"):
-        build.install_from_pypi(tmp_path / "ws", "own", "asked.txt", "pypi")
-    assert "DO NOT MATCH THE HASHES" in (tmp_path / "ws/pip.log").read_text()
+    for known, why in (("", "Hashes are required"), (64 * "0", "DO NOT MATCH THE HASHES")):
+        lock.write_text(f"thing==1.0 {known and f'--hash=sha256:{known}'}\n")
+        with pytest.raises(build.BuildError, match="not installed from PyPI: thing"):
+            build.install_from_pypi(tmp_path / "ws", "own", "asked.txt", "pypi")
+        assert why in (tmp_path / "ws/pip.log").read_text()
     lock.write_text(f"thing==1.0 --hash=sha256:{hashlib.sha256(wheel.read_bytes()).hexdigest()}\n")
     build.install_from_pypi(tmp_path / "ws", "own", "asked.txt", "pypi")
     assert build.is_done(tmp_path / "ws", "pypi=own:asked.txt")
