@@ -20,7 +20,7 @@ from tutorial_testing.processes import descendants
 from tutorial_testing.waiting import wait_for
 
 RECORDING = REPOSITORY / "common/gamepad/bag/joy.bag"
-PEER = Path(__file__).with_name("peer.py")
+PEER, DRIVER = (Path(__file__).with_name(name) for name in ("peer.py", "driver.py"))
 BRIDGE = "/ros2_bridge"
 SECONDS = float(os.environ.get("TUTORIAL_ROS2_SECONDS", "8"))  # the bare machines have 60
 WITHOUT_SCREEN = ("rviz:=false", "cockpit:=false", "model:=false")
@@ -43,6 +43,12 @@ def is_one_for_each(twists, joys, begun=0):
     """
     rest = iter(joys)
     return len(twists) > 0.99 * (len(joys) - begun) and all(twist in rest for twist in twists)
+
+
+def latching(twists):
+    """[(velocity, "1" if its connection latches)]"""
+    heard = [message for _, _, message in twists.heard]
+    return [(each.linear.x, each._connection_header["latching"]) for each in heard]
 
 
 def doctor_says(start):
@@ -146,6 +152,47 @@ def test_what_waited_for_a_suspended_side_does_not_move_the_robot(class_drives, 
     late = [pair for pair in heard_twists(twists)[before:] if any(pair)]
     assert len(late) <= RATE * 0.5  # those of the last half second, which the Joys may be old
     assert not moves(robot)
+
+
+def test_no_velocity_is_latched_and_drivers_of_any_quality_are_carried_in_turn(
+    bridge, start_ros2, ear, tmp_path
+):
+    """First as our list has /cmd_vel, with an age limit; then without one."""
+    list_ = tmp_path / "topics.yaml"
+    list_.write_text("topics: {/cmd_vel: {direction: to_ros1}}")
+    twists, kept = ear("/cmd_vel", Twist), "transient_local"
+    for topics in (None, list_):
+        made = bridge(topics)
+        for number, quality in enumerate(
+            (
+                (kept, "reliable"), ("volatile", "reliable"), ("volatile", "best_effort"),
+                (kept, "best_effort"), ("volatile", "reliable"),
+            ), 1
+        ):  # fmt: skip
+            driver = start_ros2(DRIVER, *quality, number)
+            expected = number, "1" if topics and kept in quality else "0"
+            wait_for(lambda: latching(twists)[-1:] == [expected], f"{quality} of {topics}", 60)
+            driver.interrupt()
+            driver.wait(20)
+        made.program.interrupt()
+        made.program.wait(20)
+        assert topics or {latch for _, latch in latching(twists)} == {"0"}
+
+
+def test_a_latched_joy_of_unknown_age_is_not_carried(bridge, start_ros2):
+    joy = rospy.Publisher("/joy", Joy, queue_size=10, latch=True)
+    joy.publish(Joy(axes=[0.25]))
+    peer = start_ros2(PEER)
+    bridge()
+    wait_for(joy.get_num_connections, "the bridge", 20)
+
+    def carries_new():
+        joy.publish(Joy(axes=[0.5]))
+        return "joy 0.5" in peer.output
+
+    wait_for(carries_new, "a Joy that is new", 30)
+    assert "joy 0.25" not in peer.output
+    joy.unregister()
 
 
 def test_the_newest_message_of_any_type_is_carried(bridge, start, start_ros2, ear, tmp_path):

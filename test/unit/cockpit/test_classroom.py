@@ -4,7 +4,10 @@ import pytest
 
 pytest.importorskip("visualization_msgs", reason="no ROS for this Python: ./tutorial setup")
 
-from cockpit_server.classroom.node import base_frames, markers, robots
+from geometry_msgs.msg import TransformStamped
+from tf2_msgs.msg import TFMessage
+
+from cockpit_server.classroom.node import MOST_PAIRS, base_frames, joined, markers, robots
 
 STATIC = {
     ("world", "ada/odom"),
@@ -21,6 +24,14 @@ def test_a_robot_has_a_base_once_it_was_seen_to_move():
     assert base_frames(STATIC, MOVING) == {"ada": "ada/base_footprint"}
     both = base_frames(STATIC, MOVING | {("robot_2/odom", "robot_2/base")})
     assert both == {"ada": "ada/base_footprint", "robot_2": "robot_2/base"}
+
+
+def test_the_frames_that_are_kept_are_bounded():
+    known = set()
+    for number in range(3):
+        names = [f"link_{number}_{part}" for part in range(MOST_PAIRS // 2)]
+        known = joined(known, TFMessage([TransformStamped(child_frame_id=name) for name in names]))
+    assert len(known) == MOST_PAIRS and ("", "link_1_0") in known
 
 
 def test_a_body_and_the_name_above_it():

@@ -14,6 +14,7 @@ from tf2_msgs.msg import TFMessage
 from cockpit_server.graph import ODOMETRY, Graph
 from cockpit_server.sources.surroundings import (
     MOST_CELLS,
+    MOST_FRAMES,
     MOST_POINTS,
     Surroundings,
     map_shown,
@@ -92,6 +93,16 @@ def test_a_page_that_does_not_watch_robots_is_sent_nothing():
     seen = Seen(robots=False)
     assert seen.hears == {}
     assert seen.look() == {}
+
+
+def test_the_frames_that_are_kept_are_bounded_and_the_newest():
+    seen = Seen()
+    for first in range(0, 2 * MOST_FRAMES, 1000):
+        names = [*(f"link_{first + number}" for number in range(1000)), "ada/camera", "x" * 300]
+        transforms = [TransformStamped(child_frame_id=name) for name in names]
+        seen.hear("/tf_static", serialised(TFMessage(transforms)))
+    mounts = seen.source._mounts
+    assert len(mounts) == MOST_FRAMES and {"ada/camera", "link_9999"} <= mounts.keys()
 
 
 @pytest.mark.parametrize("data", [b"", b"\1", b"\3\1", b"\0\1\1"])

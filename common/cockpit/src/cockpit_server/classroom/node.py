@@ -22,6 +22,7 @@ from node_kit.start import run
 
 NODE_NAME = "classroom_bodies"
 PERIOD_S = 1.0  # not of rospy, whose time may be simulated
+MOST_PAIRS = 10_000  # of frames that are kept; a class of thirty has a few hundred
 UPRIGHT = Quaternion(0.0, 0.0, 0.0, 1.0)
 BLACK, PLATE = ColorRGBA(0.10, 0.10, 0.10, 1.0), ColorRGBA(0.30, 0.30, 0.32, 1.0)
 GREEN = ColorRGBA(0.35, 0.75, 0.20, 1.0)
@@ -95,13 +96,13 @@ class ClassroomBodies:
             time.sleep(PERIOD_S)
 
     def _on_static(self, message: TFMessage) -> None:
-        self._static = self._static | pairs(message)
+        self._static = joined(self._static, message)
         if self._tf is None:
             self._tf = rospy.Subscriber("/tf", TFMessage, self._on_moving)
 
     def _on_moving(self, message: TFMessage) -> None:
         static = self._static
-        self._moving |= pairs(message)
+        self._moving = joined(self._moving, message)
         bases = base_frames(static, self._moving)
         if self._tf is not None and set(bases) == robots(static | self._moving):
             self._tf.unregister()  # fifty messages a second without news
@@ -109,9 +110,10 @@ class ClassroomBodies:
             self._bodies = MarkerArray([m for name in bases for m in markers(name, bases[name])])
 
 
-def pairs(message: TFMessage) -> Pairs:
-    """Return the transforms of a TFMessage as (parent, child)."""
-    return {(t.header.frame_id, t.child_frame_id) for t in message.transforms}
+def joined(known: Pairs, message: TFMessage) -> Pairs:
+    """Return what is known and the transforms of a TFMessage; only what is known if too many."""
+    both = known | {(t.header.frame_id, t.child_frame_id) for t in message.transforms}
+    return both if len(both) <= MOST_PAIRS else known
 
 
 def main() -> int:

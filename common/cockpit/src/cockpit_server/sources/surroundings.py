@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import threading
 import time
 from math import atan2, isfinite
 from typing import Any, Sequence
@@ -22,6 +23,7 @@ MOST_CELLS = 250_000  # of the map as pages get it; a larger one gets larger cel
 LARGEST_MAP = 20_000_000  # bytes
 MOST_POINTS = 160  # of a scan as pages get it
 LONGEST_SCAN = 200_000  # bytes
+MOST_FRAMES, LONGEST_FRAMES, LONGEST_NAME = 5_000, 1_000_000, 200  # in all; bytes; characters
 DIGITS = 3  # of metres
 TRUTH, SCAN, EVENT = "base_pose_ground_truth", "scan", "mobile_base/events/bumper"  # of a robot
 EVENT_TYPE = "kobuki_msgs/BumperEvent"
@@ -37,7 +39,9 @@ class Surroundings(Source):
         self._version, self._text = 0, ""
         # topic -> (when it came [s], the newest LaserScan, or Odometry in the frame of the map)
         self._newest: dict[str, tuple[float, bytes]] = {}
-        self._mounts: dict[str, tuple[float, float]] = {}  # frame -> x, y [m] on the robot
+        # frame -> x, y [m] on the robot, the newest last
+        self._mounts: dict[str, tuple[float, float]] = {}
+        self._lock = threading.Lock()  # each publisher of /tf_static has a thread
         self._pressed: dict[str, set[int]] = {}  # topic -> numbers of bumpers
 
     def prepare(self, clients: Sequence[Client], now: float) -> None:
@@ -89,9 +93,14 @@ class Surroundings(Source):
             self._version += 1
 
     def _hear_frames(self, message: Any, _topic: str) -> None:
-        for one in (read(TFMessage, message.data, LARGEST_MAP) or TFMessage()).transforms:
-            place = one.transform.translation
-            self._mounts[one.child_frame_id] = (place.x, place.y)
+        for one in (read(TFMessage, message.data, LONGEST_FRAMES) or TFMessage()).transforms:
+            place, frame = one.transform.translation, one.child_frame_id
+            with self._lock:
+                self._mounts.pop(frame, None)
+                if len(frame) <= LONGEST_NAME:
+                    self._mounts[frame] = (place.x, place.y)
+                if len(self._mounts) > MOST_FRAMES:
+                    del self._mounts[next(iter(self._mounts))]
 
     def _keep(self, message: Any, topic: str) -> None:
         self._newest[topic] = (time.monotonic(), message.data)
