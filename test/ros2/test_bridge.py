@@ -16,6 +16,7 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Image, Joy
 from std_msgs.msg import String
 
+from node_kit.raw_messages import senders, subscribe
 from tutorial_testing.processes import descendants
 from tutorial_testing.waiting import wait_for
 
@@ -170,8 +171,8 @@ def test_no_velocity_is_latched_and_drivers_of_any_quality_are_carried_in_turn(
             ), 1
         ):  # fmt: skip
             driver = start_ros2(DRIVER, *quality, number)
-            expected = number, "1" if topics and kept in quality else "0"
-            wait_for(lambda: latching(twists)[-1:] == [expected], f"{quality} of {topics}", 60)
+            now = [(number, "1" if topics and kept in quality else "0")]
+            wait_for(lambda now=now: latching(twists)[-1:] == now, f"{quality} of {topics}", 60)
             driver.interrupt()
             driver.wait(20)
         made.program.interrupt()
@@ -179,20 +180,18 @@ def test_no_velocity_is_latched_and_drivers_of_any_quality_are_carried_in_turn(
         assert topics or {latch for _, latch in latching(twists)} == {"0"}
 
 
-def test_a_latched_joy_of_unknown_age_is_not_carried(bridge, start_ros2):
-    joy = rospy.Publisher("/joy", Joy, queue_size=10, latch=True)
-    joy.publish(Joy(axes=[0.25]))
-    peer = start_ros2(PEER)
-    bridge()
-    wait_for(joy.get_num_connections, "the bridge", 20)
-
-    def carries_new():
-        joy.publish(Joy(axes=[0.5]))
-        return "joy 0.5" in peer.output
-
-    wait_for(carries_new, "a Joy that is new", 30)
-    assert "joy 0.25" not in peer.output
-    joy.unregister()
+def test_the_first_message_of_a_connection_is_known_and_who_is_connected():
+    heard, old = [], rospy.Publisher("/old", String, queue_size=10, latch=True)
+    old.publish("old")
+    subscriber = subscribe("/old", heard.append, 10)
+    wait_for(lambda: heard, "what was latched", 20)
+    old.publish("new")
+    wait_for(lambda: len(heard) == 2, "a second message", 20)
+    assert [(raw.is_latched, raw.is_first) for raw in heard] == [(True, True), (True, False)]
+    assert senders(subscriber) == {rospy.get_name()}
+    old.unregister()
+    wait_for(lambda: not senders(subscriber), "an end of the connection", 20)
+    subscriber.unregister()
 
 
 def test_the_newest_message_of_any_type_is_carried(bridge, start, start_ros2, ear, tmp_path):

@@ -21,6 +21,7 @@ class Raw:
     type: str
     sender: str
     is_latched: bool
+    is_first: bool  # of its connection: if latched, it may have been published long ago
 
 
 def subscribe(topic: str, callback: Callable[[Raw], object], depth: int) -> rospy.Subscriber:
@@ -28,11 +29,18 @@ def subscribe(topic: str, callback: Callable[[Raw], object], depth: int) -> rosp
 
     def hear(message: Any) -> None:
         about = message._connection_header
-        is_latched = about.get("latching") == "1"
-        callback(Raw(message._buff, about["type"], about.get("callerid", ""), is_latched))
+        is_latched, is_first = about.get("latching") == "1", hear not in about
+        about[hear] = "heard"  # each connection has a header of its own
+        callback(Raw(message._buff, about["type"], about.get("callerid", ""), is_latched, is_first))
 
     options = {"queue_size": depth, "tcp_nodelay": True, "buff_size": 1 << 22}
     return rospy.Subscriber(topic, rospy.AnyMsg, hear, **options)
+
+
+def senders(subscriber: rospy.Subscriber) -> set[str]:
+    """Return the names of the nodes that a subscriber is connected to."""
+    connections = getattr(subscriber.impl, "connections", ())  # none at the end
+    return {one.callerid_pub for one in list(connections) if one.socket}
 
 
 class RawPublisher:

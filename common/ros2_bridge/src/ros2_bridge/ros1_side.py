@@ -11,7 +11,7 @@ from typing import Callable
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 
-from node_kit.raw_messages import Raw, RawPublisher, subscribe, types_of_others
+from node_kit.raw_messages import Raw, RawPublisher, senders, subscribe, types_of_others
 from ros2_bridge.link import Frame, Sender, frames, is_late
 from ros2_bridge.routes import Route, depth_of
 
@@ -30,7 +30,9 @@ class Ros1Side:
         self._sender: Sender | None = None
         # By topic and sender, for the other side when it restarts.
         self._latched: dict[tuple[str, str], Frame] = {}
-        self._publishers: dict[str, tuple[str, RawPublisher | None]] = {}  # by topic, with the type
+        self._subscribers: dict[str, rospy.Subscriber] = {}
+        # By topic, with the type and whether it is latched.
+        self._publishers: dict[str, tuple[tuple[str, bool], RawPublisher | None]] = {}
         self._lock = threading.Lock()
         self._unknown: dict[str, str] = {}  # by topic: which of its types is not known here
         self._sign_s, self._wrong = -SILENT_S, ""  # last sign of life of the other side; its lines
@@ -55,6 +57,7 @@ class Ros1Side:
         while not rospy.is_shutdown():
             time.sleep(LOOK_S)
             state.publish(self._state())
+            self._forget_what_is_gone()
             sender = self._sender
             for topic, kind in types_of_others() if sender else ():
                 route = self._routes.get(topic)
@@ -81,15 +84,27 @@ class Ros1Side:
         def hear(raw: Raw) -> None:
             if raw.sender == rospy.get_name():
                 return  # what came through the bridge
-            kind = raw.type.replace("/", "/msg/")
-            frame = Frame(route.topic, kind, raw.data, time.monotonic(), raw.is_latched)
+            if raw.is_latched and raw.is_first and not route.may_latch:
+                return  # its age is not known
+            kind, is_latched = raw.type.replace("/", "/msg/"), raw.is_latched and route.may_latch
+            frame = Frame(route.topic, kind, raw.data, time.monotonic(), is_latched)
             with self._lock:
-                if raw.is_latched:
+                if is_latched:
                     self._latched[route.topic, raw.sender] = frame
                 if self._sender:
                     self._sender.put(frame)
 
-        subscribe(route.topic, hear, route.depth)
+        self._subscribers[route.topic] = subscribe(route.topic, hear, route.depth)
+
+    def _forget_what_is_gone(self) -> None:
+        """Keep what is latched only while its sender is connected, as subscribers of ROS 1 do."""
+        with self._lock:
+            there = {
+                (topic, sender)
+                for topic, subscriber in self._subscribers.items()
+                for sender in senders(subscriber)
+            }
+            self._latched = {key: one for key, one in self._latched.items() if key in there}
 
     def _serve(self) -> None:
         while True:
@@ -117,11 +132,12 @@ class Ros1Side:
                 publisher.publish(frame.data)
 
     def _publisher(self, route: Route, frame: Frame) -> RawPublisher | None:
-        kind, publisher = self._publishers.get(frame.topic, ("", None))
-        if kind == frame.type:
+        (kind, is_latched), publisher = self._publishers.get(frame.topic, (("", False), None))
+        if (kind, is_latched) == (frame.type, frame.is_latched):
             return publisher
         if publisher:
-            self._warn(f"{frame.topic} is now {frame.type} in ROS 2, and no more {kind}")
+            if kind != frame.type:
+                self._warn(f"{frame.topic} is now {frame.type} in ROS 2, and no more {kind}")
             publisher.end()
             publisher = None
         self._unknown.pop(frame.topic, None)
@@ -131,5 +147,5 @@ class Ros1Side:
         except LookupError as error:
             self._unknown[frame.topic] = f"{frame.topic}: {error}; it is not carried"
             self._warn(self._unknown[frame.topic])
-        self._publishers[frame.topic] = frame.type, publisher
+        self._publishers[frame.topic] = (frame.type, frame.is_latched), publisher
         return publisher

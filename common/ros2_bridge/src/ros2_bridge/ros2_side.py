@@ -39,7 +39,7 @@ class Ros2Side:
         self._store = get_typestore(Stores.LATEST)
         self._sender = Sender(connection, lambda topic: depth_of(self._routes, topic))
         self._publishers: dict[str, tuple[tuple[str, bool], Any]] = {}
-        self._subscriptions: dict[str, tuple[str, Any]] = {}
+        self._subscriptions: dict[str, tuple[tuple[str, QoSProfile] | None, Any]] = {}
         self._own: dict[str, collections.deque[tuple[float, bytes]]] = {}  # of both directions
         self._said: set[str] = set()
         self._wrong: dict[str, str] = {}  # by topic: why it is not carried
@@ -96,9 +96,11 @@ class Ros2Side:
 
     def _publisher(self, frame: Frame, route: Route) -> Any:
         kind, publisher = self._publishers.get(frame.topic, (None, None))
-        if kind == (frame.type, frame.is_latched) or (frame.announces and kind):
+        is_same = kind and kind[0] == frame.type
+        # What one of several senders latches is kept for all: publishers are not remade each time.
+        if kind and (frame.announces or (is_same and kind[1] >= frame.is_latched)):
             return publisher
-        if kind and kind[0] != frame.type:
+        if kind and not is_same:
             line = f"{frame.topic} is now {frame.type} in ROS 1, and no more {kind[0]}"
             self._say(frame.topic, line)
         if publisher:
@@ -111,7 +113,7 @@ class Ros2Side:
     # ------------------------------------------------------------------ to ROS 1
 
     def _look(self) -> None:
-        """Subscribe to new topics, and again to those whose type has changed."""
+        """Subscribe to new topics, and again if the type or the quality of service has changed."""
         wrong = "\n".join(list(self._wrong.values())).encode()
         self._sender.put(Frame("", "", wrong, time.monotonic(), announces=True))
         for route in self._routes.values():
@@ -123,26 +125,25 @@ class Ros2Side:
             if len(kinds) > 1:
                 line = f"{route.topic} has several types in ROS 2: {', '.join(kinds)}"
                 self._say(route.topic, line)
-            kind, subscription = self._subscriptions.get(route.topic, ("", None))
-            if kinds and kind not in kinds:
-                if subscription:
-                    self.node.destroy_subscription(subscription)
-                offered = [one.qos_profile for one in publishers]
-                self._subscribe(route, kinds[0], offered)
+            before, subscription = self._subscriptions.get(route.topic, (None, None))
+            if kinds:
+                kind = before[0] if before and before[0] in kinds else kinds[0]
+                wanted = kind, fitting(route, [one.qos_profile for one in publishers])
+                if wanted != before:
+                    if subscription:
+                        self.node.destroy_subscription(subscription)
+                    self._subscribe(route, *wanted)
 
-    def _subscribe(self, route: Route, kind: str, offered: list[QoSProfile]) -> None:
-        self._subscriptions[route.topic] = kind, None
+    def _subscribe(self, route: Route, kind: str, profile: QoSProfile) -> None:
+        self._subscriptions[route.topic] = (kind, profile), None
         cls = self._class(route.topic, kind)
         if cls is None:
             return
-        latched = all(one.durability == DurabilityPolicy.TRANSIENT_LOCAL for one in offered)
-        profile = quality(route, latched)
-        if any(one.reliability == ReliabilityPolicy.BEST_EFFORT for one in offered):
-            profile.reliability = ReliabilityPolicy.BEST_EFFORT
+        latched = profile.durability == DurabilityPolicy.TRANSIENT_LOCAL
         made = self.node.create_subscription(
             cls, route.topic, self._hearer(route, kind, latched), profile, raw=True
         )
-        self._subscriptions[route.topic] = kind, made
+        self._subscriptions[route.topic] = (kind, profile), made
         now_s = time.monotonic()
         self._sender.put(Frame(route.topic, kind, b"", now_s, latched, announces=True))
 
@@ -179,13 +180,22 @@ class Ros2Side:
 
 def quality(route: Route, is_latched: bool) -> QoSProfile:
     """Return the quality of service of a route."""
-    kept = DurabilityPolicy.TRANSIENT_LOCAL if is_latched else DurabilityPolicy.VOLATILE
+    is_kept = is_latched and route.may_latch
     return QoSProfile(
         depth=route.depth,
         lifespan=Duration(seconds=route.longest_s),  # 0: without a limit
         reliability=ReliabilityPolicy[route.reliability.upper()],
-        durability=kept,
+        durability=DurabilityPolicy.TRANSIENT_LOCAL if is_kept else DurabilityPolicy.VOLATILE,
     )
+
+
+def fitting(route: Route, offered: list[QoSProfile]) -> QoSProfile:
+    """Return the quality of service of a subscription that hears all of these publishers."""
+    kept = {one.durability for one in offered}
+    profile = quality(route, kept == {DurabilityPolicy.TRANSIENT_LOCAL})
+    if any(one.reliability == ReliabilityPolicy.BEST_EFFORT for one in offered):
+        profile.reliability = ReliabilityPolicy.BEST_EFFORT
+    return profile
 
 
 def connect(path: str) -> socket.socket:

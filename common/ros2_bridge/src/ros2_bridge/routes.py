@@ -34,6 +34,11 @@ class Route:
         """Whether messages go from ROS 1 to ROS 2."""
         return self.direction in (TO_ROS2, BOTH)
 
+    @property
+    def may_latch(self) -> bool:
+        """Whether subscribers that come later get the last message: not if its age is limited."""
+        return not self.longest_s
+
 
 def read_routes(text: str) -> list[Route]:
     """Return the Routes of a YAML text. Raises ValueError with one line."""
