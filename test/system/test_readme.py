@@ -60,8 +60,9 @@ LEFT_OUT = {
 ELSEWHERE = {
     "Two machines": "test_two_hosts.py runs it on two hosts",
     "Exercises of your own": "test/exercises/test_course.py runs it",
-    "From here to ROS 2": "test/ros2 runs it, with 180 MB of PyPI",
-    "Both side by side": "test/ros2 runs it, with 180 MB of PyPI",
+    "From here to ROS 2": "test/ros2 runs it",
+    "Both side by side": "test/ros2 runs it",
+    "With colcon": "test/ros2/test_colcon.py runs it",
 }
 STUDENTS_SHELL = "./tutorial shell --in ~/catkin_ws"
 LONGEST_README = 270

@@ -5,7 +5,7 @@ import sys
 
 import pytest
 
-from tutorial_tools.command import build
+from tutorial_tools.command import build, ros2
 from tutorial_tools.command.words import candidates, main, plan
 
 SECTIONS = {"demo": ["demo", "more"], "test": ["demo", "more", "test"], "doctor": ["doctor"]}
@@ -60,6 +60,18 @@ def said(capsys, *arguments):
     assert end.value.code == 2
     (line,) = capsys.readouterr().err.splitlines()
     return line
+
+
+@pytest.mark.parametrize("version", [(3, 9), (3, 10), (3, 14), (3, 15)])
+def test_for_which_python_there_is_a_ros2(monkeypatch, tmp_path, version):
+    monkeypatch.setattr(ros2, "installed", str)
+    monkeypatch.setattr(ros2.platform, "machine", lambda: "x86_64")
+    monkeypatch.setattr(sys, "version_info", version)
+    if (3, 10) <= version <= (3, 14):
+        ros2.must_be_possible(tmp_path, True)
+        return
+    with pytest.raises(ValueError, match=r"only for x86_64 with Python 3\.10 to 3\.14"):
+        ros2.must_be_possible(tmp_path, True)
 
 
 @pytest.mark.parametrize(

@@ -11,8 +11,8 @@ from tutorial_tools.command.build import REPOSITORY, is_done
 
 NAME, REQUIREMENTS = "ros2", "common/ros2_tutorials/requirements.txt"
 BUILD = f"alone={NAME}:{REQUIREMENTS}"
-SIZE = "180 MB"
-PYTHONS = ((3, 10), (3, 13))  # for which there are wheels, the first and the last
+SIZE = "290 MB"
+PYTHONS = ((3, 10), (3, 14))  # for which there are wheels, the first and the last
 MACHINE = "x86_64"
 OWN = REPOSITORY / "common" / "ros2_tutorials" / "ros2_tutorials"
 TOOLS = (REPOSITORY / "common" / "ros2_bridge" / "src" / "ros2_bridge" / "convert_bag.py",)
