@@ -25,7 +25,7 @@ from routes import Route, depth_of, read_routes
 
 NAME = "ros2_bridge"
 LOOK_S = 0.5  # how often it looks which topics there are
-ECHO_S = 2.0  # how long what was published may take to come back to this node
+ECHO_S = 10.0  # how long what was published may take to come back to this node, on a busy machine
 CONNECT_S = 10.0
 
 
@@ -128,7 +128,9 @@ class Ros2Side:
             before, subscription = self._subscriptions.get(route.topic, (None, None))
             if kinds:
                 kind = before[0] if before and before[0] in kinds else kinds[0]
-                wanted = kind, fitting(route, [one.qos_profile for one in publishers])
+                (_, is_own_kept), _ = self._publishers.get(route.topic, (("", False), None))
+                offered = [one.qos_profile for one in publishers]
+                wanted = kind, fitting(route, offered, is_own_kept)
                 if wanted != before:
                     if subscription:
                         self.node.destroy_subscription(subscription)
@@ -189,10 +191,13 @@ def quality(route: Route, is_latched: bool) -> QoSProfile:
     )
 
 
-def fitting(route: Route, offered: list[QoSProfile]) -> QoSProfile:
-    """Return the quality of service of a subscription that hears all of these publishers."""
+def fitting(route: Route, offered: list[QoSProfile], is_own_kept: bool) -> QoSProfile:
+    """Return the quality of service of a subscription that hears all of these publishers.
+
+    is_own_kept: this node's own publisher keeps messages, which must not come back.
+    """
     kept = {one.durability for one in offered}
-    profile = quality(route, kept == {DurabilityPolicy.TRANSIENT_LOCAL})
+    profile = quality(route, kept == {DurabilityPolicy.TRANSIENT_LOCAL} and not is_own_kept)
     if any(one.reliability == ReliabilityPolicy.BEST_EFFORT for one in offered):
         profile.reliability = ReliabilityPolicy.BEST_EFFORT
     return profile
