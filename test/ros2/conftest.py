@@ -36,6 +36,15 @@ def master():
         rospy.signal_shutdown("the end")
 
 
+@pytest.fixture(autouse=True)
+def own_parameters():
+    """Remove a test's parameters: launch_bag.launch has a robot that never stops by itself."""
+    before = set(rospy.get_param_names())
+    yield
+    for name in set(rospy.get_param_names()) - before:
+        rospy.delete_param(name)
+
+
 @pytest.fixture
 def start():
     """start(words): a program that ends with the test."""
@@ -49,7 +58,7 @@ def start():
     for program in reversed(running):
         if not program.ended:
             program.interrupt()
-            program.wait(20)
+            program.wait()
         program.__exit__()
 
 
@@ -64,7 +73,7 @@ class Bridge:
 
     def __init__(self, program):
         self.program = program
-        wait_for(self.is_up, "both sides of the bridge", 40)
+        wait_for(self.is_up, "both sides of the bridge")
 
     @property
     def output(self):
@@ -143,5 +152,5 @@ def robot(start, ear):
     """What the simulated robot's odometry says."""
     odometry = ear("/odom", Odometry)
     start("rosrun", "fake_turtlebot_sim", "fake_turtlebot.py")
-    wait_for(lambda: odometry.heard, "odometry", 20)
+    wait_for(lambda: odometry.heard, "odometry")
     return odometry

@@ -8,14 +8,13 @@ from pathlib import Path
 import rospy
 from sensor_msgs.msg import Joy
 
-from tutorial_testing.waiting import wait_for
+from tutorial_testing.waiting import BUSY_S, wait_for
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 CLASS = REPOSITORY / "common/ros2_tutorials/ros2_tutorials/new_joy2twist.py"
 RATE = 50.0  # [Hz]
 TIMEOUT_S, PERIOD_S = 0.6, 0.02  # of the simulated base
-LATENESS_S = 0.4  # of programs on a busy machine
-REST_S = TIMEOUT_S + PERIOD_S + LATENESS_S  # by then a robot without a driver stands
+REST_S = TIMEOUT_S + PERIOD_S + BUSY_S  # by then a robot without a driver stands
 
 
 def single(value):
@@ -33,7 +32,7 @@ class Stick:
         self._thread = threading.Thread(target=self._push, daemon=True)
 
     def wait_for_listener(self):
-        wait_for(self._publisher.get_num_connections, "a subscriber of /joy", 20)
+        wait_for(self._publisher.get_num_connections, "a subscriber of /joy")
         return self
 
     def begin(self):
@@ -44,16 +43,21 @@ class Stick:
         due = time.monotonic()
         while not self._ends.is_set():
             number = len(self.sent)
-            axes = (0.3 + 0.0001 * (number % 1000), 0.2 + 0.0002 * (number % 1000), 0, 0, 0, 0)
-            self.sent.append((single(axes[1]), single(axes[0])))
-            self._publisher.publish(Joy(axes=axes, buttons=[0] * 12))
+            self.push(0.3 + 0.0001 * (number % 1000), 0.2 + 0.0002 * (number % 1000))
             due += 1 / RATE
             self._ends.wait(max(0.0, due - time.monotonic()))
+
+    def push(self, turn, speed):
+        """Publish one Joy; return the Twist that it becomes."""
+        self.sent.append((single(speed), single(turn)))
+        self._publisher.publish(Joy(axes=(turn, speed, 0, 0, 0, 0), buttons=[0] * 12))
+        return self.sent[-1]
 
     def end(self):
         """Stop publishing; return when."""
         self._ends.set()
-        self._thread.join()
+        if self._thread.is_alive():
+            self._thread.join()
         return time.monotonic()
 
 
@@ -63,6 +67,6 @@ def moves(odometry):
 
 def stands_after(odometry, since_s):
     """Wait until the robot stands; return how long that took [s]."""
-    wait_for(lambda: not moves(odometry), "a robot that stands", 10)
+    wait_for(lambda: not moves(odometry), "a robot that stands")
     moving = [when for when, _, odom in odometry.heard if abs(odom.twist.twist.linear.x) > 0.01]
     return moving[-1] - since_s

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 import rosnode
 import rospy
-from drive import CLASS, LATENESS_S, RATE, REPOSITORY, REST_S, moves, stands_after
+from drive import CLASS, RATE, REPOSITORY, REST_S, moves, stands_after
 from geometry_msgs.msg import Twist
 from kobuki_msgs.msg import BumperEvent
 from nav_msgs.msg import Odometry
@@ -36,14 +36,10 @@ def heard_twists(ear_):
     ]
 
 
-def is_one_for_each(twists, joys, begun=0):
-    """Whether each Joy became its Twist, in order and equal to the bit.
-
-    begun: at which Joy at the latest. A velocity that waits gives way to the next one, as the
-    bridge's list says: on a busy machine that may be one in a hundred.
-    """
+def is_in_order(twists, joys):
+    """Whether each Twist is that of a Joy, in their order and equal to the bit."""
     rest = iter(joys)
-    return len(twists) > 0.99 * (len(joys) - begun) and all(twist in rest for twist in twists)
+    return all(twist in rest for twist in twists)
 
 
 def latching(twists):
@@ -54,9 +50,14 @@ def latching(twists):
 
 def doctor_says(start):
     program = start("rosrun", "tutorial_tools", "doctor.py")
-    program.wait(20)
+    program.wait()
     assert "Traceback" not in program.output
     return program.output
+
+
+def wait_for_doctor(start, line):
+    """Wait until the doctor says it: what it knows of the bridge comes each half second."""
+    wait_for(lambda: line in doctor_says(start), f"doctor's {line}")
 
 
 @pytest.fixture
@@ -66,40 +67,51 @@ def class_drives(bridge, start_ros2, robot, ear, stick):
     made = bridge()
     program = start_ros2(CLASS)
     stick.wait_for_listener().begin()
-    begin_s = time.monotonic()
-    wait_for(lambda: moves(robot), "a robot that drives", 30)
-    assert time.monotonic() - begin_s < 5 + 10 * LATENESS_S
+    wait_for(lambda: moves(robot), "a robot that drives")
     return made, program, robot, twists, stick
 
 
-def test_every_joy_becomes_one_twist_equal_to_the_bit_and_then_the_robot_rests(class_drives, start):
-    _, _, robot, twists, stick = class_drives
-    first = len(stick.sent)
-    wait_for(lambda: len(stick.sent) > first + int(RATE * SECONDS), "Joys", SECONDS + 10)
-    ended_s = stick.end()
-    assert stands_after(robot, ended_s) < REST_S
-    heard = heard_twists(twists)
-    assert is_one_for_each(heard, stick.sent[stick.sent.index(heard[0]) :])
-    assert "bridge    carries between ROS 1 and ROS 2" in doctor_says(start)
+def test_every_joy_becomes_one_twist_equal_to_the_bit(class_drives, tmp_path, bridge, start):
+    """One after the other, without an age limit: so none is late on a busy machine."""
+    made, _, robot, twists, stick = class_drives
+    assert stands_after(robot, stick.end()) < REST_S
+    made.program.interrupt()
+    made.program.wait()
+    list_ = tmp_path / "topics.yaml"
+    list_.write_text("topics: {/joy: {direction: to_ros2}, /cmd_vel: {direction: to_ros1}}")
+    bridge(list_)
+
+    def arrives(speed):
+        sent = stick.push(0.5, speed)
+        return heard_twists(twists)[-1:] == [sent]
+
+    wait_for(lambda: arrives(0.25), "a Twist through the new bridge")
+    stick.push(0.5, 0.125)
+    wait_for(lambda: heard_twists(twists)[-1:] == stick.sent[-1:], "the last one of the beginning")
+    first = len(heard_twists(twists))
+    for number in range(int(RATE * SECONDS)):
+        stick.push(0.001 * number, 0.002 * number)
+        wait_for(lambda: len(heard_twists(twists)) > first + number, f"Twist {number}")  # noqa: B023
+    assert heard_twists(twists)[first:] == stick.sent[-int(RATE * SECONDS) :]
+    wait_for_doctor(start, "bridge    carries between ROS 1 and ROS 2")
 
 
-def test_the_recording_drives_the_robot_one_twist_for_each_joy(
-    bridge, start, start_ros2, robot, ear
-):
+def test_the_recording_drives_the_robot(bridge, start, start_ros2, robot, ear):
+    """A velocity that waits gives way to the next one, as the list says; most do not wait."""
     joys, twists = ear("/joy", Joy), ear("/cmd_vel", Twist)
     bridge()
     start_ros2(CLASS)
     play = start("rosbag", "play", "--loop", "--quiet", RECORDING)
-    wait_for(lambda: joys.heard, "a first Joy", 20)
-    wait_for(lambda: moves(robot), "a robot that drives", 30)
+    wait_for(lambda: joys.heard, "a first Joy")
+    wait_for(lambda: moves(robot), "a robot that drives")
     begun = len(joys.heard)
     wait_for(lambda: time.monotonic() - joys.heard[0][0] > SECONDS, "the recording", SECONDS + 10)
     for pid in (*descendants(play.pid), play.pid):
         os.kill(pid, signal.SIGKILL)
     assert stands_after(robot, time.monotonic()) < REST_S
-    sent = [(joy.axes[1], joy.axes[0]) for _, _, joy in joys.heard]
     heard = heard_twists(twists)
-    assert is_one_for_each(heard, sent, begun)
+    assert is_in_order(heard, [(joy.axes[1], joy.axes[0]) for _, _, joy in joys.heard])
+    assert len(heard) > 0.5 * (len(joys.heard) - begun)
 
 
 @pytest.mark.parametrize("side", ["ROS 1", "ROS 2"])
@@ -108,9 +120,9 @@ def test_a_side_that_is_killed_stops_the_robot_and_comes_back(class_drives, side
     pid = made.send(side, signal.SIGKILL)
     assert stands_after(robot, time.monotonic()) < REST_S
     line = f"bridge: the side of {side} has ended (signal 9): it is started anew"
-    wait_for(lambda: line in made.output, "the line about it", 10)
+    wait_for(lambda: line in made.output, "the line about it")
     assert made.process(side) != pid
-    wait_for(lambda: moves(robot), "a robot that drives again", 30)
+    wait_for(lambda: moves(robot), "a robot that drives again")
     assert "Traceback" not in made.output
 
 
@@ -119,7 +131,7 @@ def test_the_launch_file_has_the_bridge_in_place_of_joy2twist(start, ear):
     odometry = ear("/odom", Odometry)
     start("roslaunch", "joy2twist", "launch_bag.launch", "ros2:=true", *WITHOUT_SCREEN)
     start(REPOSITORY / "tutorial", "ros2", "new_joy2twist")
-    wait_for(lambda: odometry.heard and moves(odometry), "a robot that drives", 60)
+    wait_for(lambda: odometry.heard and moves(odometry), "a robot that drives")
     assert "/myjoystick2twist" not in rosnode.get_node_names()
 
 
@@ -132,8 +144,8 @@ def test_a_program_that_is_killed_stops_the_robot(class_drives):
 def test_ctrl_c_of_the_class_ends_with_zeros(class_drives):
     _, program, robot, twists, _ = class_drives
     program.interrupt()
-    assert program.wait(10) == 0, program.output
-    wait_for(lambda: heard_twists(twists)[-3:] == [(0.0, 0.0)] * 3, "three zeros", 5)
+    assert program.wait() == 0, program.output
+    wait_for(lambda: heard_twists(twists)[-1] == (0.0, 0.0), "a zero")
     assert "Traceback" not in program.output
     assert stands_after(robot, time.monotonic()) < REST_S
 
@@ -145,14 +157,18 @@ def test_what_waited_for_a_suspended_side_does_not_move_the_robot(class_drives, 
     time.sleep(1.5)  # longer than a velocity or a Joy may be old; the robot stands by then
     stick.end()
     if side == "ROS 2":
-        line = "bridge    the side of ROS 2 is missing: its terminal"
-        wait_for(lambda: line in doctor_says(start), "the doctor's line", 20)
-    before = len(twists.heard)
+        wait_for_doctor(start, "bridge    the side of ROS 2 is missing: its terminal")
+    before = len(heard_twists(twists))
     made.send(side, signal.SIGCONT)
-    time.sleep(1.5)  # in which a late one would come
+
+    def has_passed():
+        stick.push(0.0, 0.0)
+        return (0.0, 0.0) in heard_twists(twists)[before:]
+
+    wait_for(has_passed, "a zero, which comes after all that waited")
     late = [pair for pair in heard_twists(twists)[before:] if any(pair)]
     assert len(late) <= RATE * 0.5  # those of the last half second, which the Joys may be old
-    assert not moves(robot)
+    wait_for(lambda: not moves(robot), "a robot that stands")
 
 
 def test_no_velocity_is_latched_and_drivers_of_any_quality_are_carried_in_turn(
@@ -172,25 +188,49 @@ def test_no_velocity_is_latched_and_drivers_of_any_quality_are_carried_in_turn(
         ):  # fmt: skip
             driver = start_ros2(DRIVER, *quality, number)
             now = [(number, "1" if topics and kept in quality else "0")]
-            wait_for(lambda now=now: latching(twists)[-1:] == now, f"{quality} of {topics}", 60)
+            wait_for(lambda now=now: latching(twists)[-1:] == now, f"{quality} of {topics}")
             driver.interrupt()
-            driver.wait(20)
+            driver.wait()
         made.program.interrupt()
-        made.program.wait(20)
+        made.program.wait()
         assert topics or {latch for _, latch in latching(twists)} == {"0"}
+
+
+QUALITIES = """
+import sys; sys.path.insert(0, sys.argv[1])
+from rclpy.qos import DurabilityPolicy as D, QoSProfile, ReliabilityPolicy as R
+from ros2_side import Route, fitting
+kept, plain = (QoSProfile(depth=1, durability=d) for d in (D.TRANSIENT_LOCAL, D.VOLATILE))
+loose = QoSProfile(depth=1, reliability=R.BEST_EFFORT)
+for limit_s, is_own_kept, *offered in (
+    (0.0, 0, kept), (0.0, 0, kept, plain), (0.5, 0, kept), (0.0, 1, kept), (0.0, 0, plain, loose),
+):
+    made = fitting(Route("/a", "both", 1, limit_s), offered, is_own_kept)
+    print(made.durability.name, made.reliability.name)
+"""
+
+
+def test_a_subscription_hears_all_publishers_and_nothing_that_is_old(start_ros2):
+    """Of an age limit nothing old; nor, of a topic of both directions, what this node keeps."""
+    sources = REPOSITORY / "common/ros2_bridge/src/ros2_bridge"
+    program = start_ros2("-c", QUALITIES, sources)
+    assert program.wait() == 0, program.output
+    wanted = ["TRANSIENT_LOCAL", "VOLATILE", "VOLATILE", "VOLATILE", "VOLATILE"]
+    lines = [f"{each} RELIABLE" for each in wanted[:-1]] + ["VOLATILE BEST_EFFORT"]
+    assert program.output.splitlines() == lines
 
 
 def test_the_first_message_of_a_connection_is_known_and_who_is_connected():
     heard, old = [], rospy.Publisher("/old", String, queue_size=10, latch=True)
     old.publish("old")
     subscriber = subscribe("/old", heard.append, 10)
-    wait_for(lambda: heard, "what was latched", 20)
+    wait_for(lambda: heard, "what was latched")
     old.publish("new")
-    wait_for(lambda: len(heard) == 2, "a second message", 20)
+    wait_for(lambda: len(heard) == 2, "a second message")
     assert [(raw.is_latched, raw.is_first) for raw in heard] == [(True, True), (True, False)]
     assert senders(subscriber) == {rospy.get_name()}
     old.unregister()
-    wait_for(lambda: not senders(subscriber), "an end of the connection", 20)
+    wait_for(lambda: not senders(subscriber), "an end of the connection")
     subscriber.unregister()
 
 
@@ -205,28 +245,27 @@ def test_the_newest_message_of_any_type_is_carried(bridge, start, start_ros2, ea
     made = bridge(list_)
     bumper = rospy.Publisher("/bumper", BumperEvent, queue_size=1, latch=True)
     bumper.publish(BumperEvent(1, 1))
-    wait_for(lambda: "ROS 2 has no such type here" in made.output, "a line", 20)
+    wait_for(lambda: "ROS 2 has no such type here" in made.output, "a line")
     assert made.output.count("kobuki_msgs/msg/BumperEvent") == 1
-    assert "/bumper: kobuki_msgs/msg/BumperEvent: ROS 2 has no such" in doctor_says(start)
+    wait_for_doctor(start, "/bumper: kobuki_msgs/msg/BumperEvent: ROS 2 has no such")
     peer = start_ros2(PEER)  # late: what was latched has been sent long ago
     reply = ear("/reply", String)
-    wait_for(lambda: reply.heard, "the note, and back", 20)
+    wait_for(lambda: reply.heard, "the note, and back")
     assert reply.last.data == HOSTILE
     assert reply.heard[0][1] == BRIDGE
     picture = rospy.Publisher("/picture", Image, queue_size=1, latch=True)
     picture.publish(Image(height=1, width=10_000_000, data=bytes(10_000_000)))
-    wait_for(lambda: "picture 10000000" in peer.output, "ten megabytes", 20)
+    wait_for(lambda: "picture 10000000" in peer.output, "ten megabytes")
     changing = rospy.Publisher("/changing", String, queue_size=1, latch=True)
     changing.publish("one")
-    wait_for(lambda: "changing" in str(rospy.get_published_topics()), "a topic", 10)
-    time.sleep(1.0)
+    wait_for(lambda: "changing one" in peer.output, "the text")
     changing.unregister()
     other = rospy.Publisher("/changing", Twist, queue_size=1, latch=True)
     other.publish(Twist())
     line = "/changing is now geometry_msgs/msg/Twist in ROS 1"
-    wait_for(lambda: line in made.output, "a line", 20)
+    wait_for(lambda: line in made.output, "a line")
     note.publish("and on")
-    wait_for(lambda: reply.last.data == "and on", "a note after all that", 10)
+    wait_for(lambda: reply.last.data == "and on", "a note after all that")
     assert "Traceback" not in made.output
 
 
@@ -237,16 +276,20 @@ def test_a_topic_of_both_directions_has_no_echo(bridge, start_ros2, ear):
     listener = start_ros2(programs / "listener.py")
     chatter = ear("/chatter", String)
     publisher = rospy.Publisher("/chatter", String, queue_size=10)
-    wait_for(lambda: len(chatter.heard) > 20, "a talker of ROS 2", 20)
+    wait_for(lambda: len(chatter.heard) > 20, "a talker of ROS 2")
+
+    def is_heard():
+        publisher.publish("ready?")
+        return "ready?" in listener.output
+
+    wait_for(is_heard, "a way to the listener")
     for number in range(20):
-        publisher.publish(f"from here {number}")
         publisher.publish("the same again")
-        time.sleep(0.05)
-    wait_for(lambda: "from here 19" in listener.output, "what was said here", 10)
-    mine = [line for line in listener.output.splitlines() if "the same again" in line]
-    assert len(mine) == 20
+        publisher.publish(f"from here {number}.")
+        wait_for(lambda: f"from here {number}." in listener.output, "what was said")  # noqa: B023
+    assert listener.output.count("the same again") == 20
     own = [text.data for _, sender, text in chatter.heard if sender == BRIDGE]
-    assert len(own) == len(set(own)) and not [text for text in own if "here" in text]
+    assert len(own) == len(set(own)) and all("hello" in text for text in own)
 
 
 @pytest.mark.parametrize(
@@ -261,5 +304,5 @@ def test_a_failed_start_is_one_line(start, monkeypatch, tmp_path, python, text, 
         monkeypatch.setenv("TUTORIAL_ROS2", python)
     (tmp_path / "topics.yaml").write_text(text)
     program = start("rosrun", "ros2_bridge", "bridge", f"_topics:={tmp_path}/topics.yaml")
-    assert program.wait(20) == 1
+    assert program.wait() == 1
     assert line in program.output and "Traceback" not in program.output
