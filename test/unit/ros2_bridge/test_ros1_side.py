@@ -9,6 +9,7 @@ from node_kit.raw_messages import Raw
 from ros2_bridge import ros1_side
 from ros2_bridge.link import Frame, frames
 from ros2_bridge.routes import Route
+from tutorial_testing.waiting import DEADLINE_S
 
 
 class Room:
@@ -59,6 +60,7 @@ def test_what_a_latched_sender_sent_is_kept_only_while_it_is_connected(room):
 def test_what_has_an_age_limit_is_not_latched_and_not_carried_with_an_unknown_age(room):
     made = room(longest_s=0.5)
     one, other = socket.socketpair()
+    other.settimeout(DEADLINE_S)
     with one, other:
         made.side._sender = ros1_side.Sender(one, lambda topic: 10)
         made.send("/joy_node", b"published who knows when")
