@@ -1,6 +1,7 @@
 """A person at the page drives the simulated robot with keys, thumbs or a gamepad."""
 
 import pytest
+from selenium.webdriver.common.keys import Keys as Key
 
 from tutorial_testing.cockpit.chromium import Chromium
 from tutorial_testing.cockpit.hands import Gamepad, Keys, Thumbs
@@ -30,7 +31,7 @@ def test_held_it_moves_and_released_it_stops(world, kind):
         hands.release()
         world.wait_for_rest()
         assert world.stays_at_rest()
-        browser.click("Stop driving")
+        browser.click("Stop")
         browser.wait_for_text("#seat", "Nobody drives")
         assert browser.errors() == []
 
@@ -76,11 +77,44 @@ def test_no_menu_opens_where_a_page_drives(page):
 
 
 def test_esc_stops_driving(world, page):
+    page.one("#take").send_keys(Key.ENTER)
+    page.wait_for_text("#seat", "You drive")
+    assert page.ask("document.activeElement.id") == "stop"
     Keys(page).drive(world)
     page.key("rawKeyDown", "Escape")
     world.wait_for_rest()
     page.wait_for_text("#seat", "Nobody drives")
     assert world.stays_at_rest()  # although all is still held
+
+
+STOP_ON_TOP = """(() => {
+  const box = document.getElementById("stop").getBoundingClientRect();
+  const top = document.elementFromPoint(box.x + box.width / 2, box.y + box.height / 2);
+  return top.id === "stop" && box.width >= 24 && box.height >= 24;
+})()"""
+
+
+@pytest.mark.parametrize(("tab", "by"), [("Log", "mouse"), ("Doctor", "keyboard")])
+def test_who_drives_how_fast_and_stop_are_on_every_tab(world, page, tab, by):
+    page.tab(tab)
+    Keys(page).drive(world)  # Shift and an arrow drive on any tab
+    page.wait_for_text("#seat", "You drive the robot.")
+    page.wait_for_text("#speed", f"{FULL} m/s, 0.00 rad/s")
+    for name in page.ask("[...document.querySelectorAll('[role=tab]')].map((e) => e.textContent)"):
+        page.tab(name)
+        assert page.one("#seat").is_displayed() and page.one("#speed").is_displayed(), name
+        assert page.ask(STOP_ON_TOP), name
+    Keys(page).drive(world)  # a busy machine may have stopped it meanwhile
+    if by == "mouse":
+        page.click("Stop")
+    else:
+        page.one("#stop").send_keys(Key.ENTER)
+    world.wait_for_rest()
+    page.wait_for_text("#seat", "Nobody drives.")
+    page.wait_for_text("#speed", "0.00 m/s, 0.00 rad/s")
+    assert world.stays_at_rest()  # although all is still held
+    assert not page.one("#stop").is_enabled()
+    assert page.ask("document.activeElement.textContent") == name  # the keyboard is still somewhere
 
 
 FORCED = "const take = document.getElementById('take'); take.disabled = false; take.click()"
@@ -93,8 +127,14 @@ def test_a_second_page_is_refused_until_the_first_hands_over(world, page):
         second.wait_for_text("#seat", "drives the robot")
         assert not second.by_role("button", "Drive from this page").is_enabled()
         second.driver.execute_script(FORCED)
-        second.wait_for_text("#notice", "drive:")
+        second.wait_for_text("#notice", "Not possible: another page drives")
         page.wait_for_text("#seat", "You drive")
+        second.click("Stop")
+        world.wait_for_rest()
+        page.wait_for_text("#ready", "pressed Stop. Release LB and the stick")
+        page.wait_for_text("#seat", "You drive")
+        assert world.stays_at_rest()  # although the first one still holds all
+        Keys(page).drive(world)
         page.one("#heir").send_keys(second.text("#me").split()[-1])
         page.click("Hand over")
         world.wait_for_rest()
@@ -107,13 +147,20 @@ def test_a_second_page_is_refused_until_the_first_hands_over(world, page):
 
 
 def test_a_recording_beside_the_page_is_shown_as_the_driver(world, page, recording):
-    page.wait_for_text("#seat", "Nobody drives.")
+    page.tab("Bag")
+    page.wait_for_text("#bag-about", "joy.bag")
     with world.run("rosbag", "play", "--loop", recording, "__name:=player"):
         page.wait_for_text("#teleop", "driving")
         page.wait_for_text("#seat", "/player drives the robot.")
-        page.click("Drive from this page")
-        page.wait_for_text("#notice", "drive: /player publishes the joystick topic")
+        why = "layer publishes the joystick topic of this robot: end it first."
+        page.wait_for_text("#ready", why)
+        page.wait_for_text("#bag-state", why)
+        for css in ("#take", "#bag-play", "#stop"):  # Stop: of what pages drive
+            assert not page.one(css).is_enabled(), css
+        page.driver.execute_script(FORCED)
+        page.wait_for_text("#notice", "Not possible: /player publishes the joystick topic")
     page.wait_for_text("#seat", "Nobody drives.")
+    wait_for(lambda: page.one("#take").is_enabled() and page.one("#bag-play").is_enabled(), "leave")
     wait_for(lambda: page.text("#teleop") != "driving", "joy2twist that drives no longer")
     world.wait_for_rest()
 

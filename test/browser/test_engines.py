@@ -62,5 +62,5 @@ def test_keys_drive_the_robot_and_every_tab_opens(world, engine, request):
     hands.drive(world)
     hands.release()
     world.wait_for_rest()
-    browser.press("#leave")
+    browser.press("#stop")
     browser.wait_for_text("#seat", "Nobody drives")

@@ -74,7 +74,6 @@ def test_a_driver_who_is_handed_a_robot_looks_at_no_other(page):
     hear("robots", {robots: {robot_1: {}, robot_2: {}}});
     rowOf("robot_1").click();
     const driving = [tab.look, tab.floor.look, watched.look];
-    tab.driver.stop();
     hear("seat", {...seat, driver: null, yours: false});
     rowOf("robot_1").click();
     done([before, driving, tab.look]);"""

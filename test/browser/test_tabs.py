@@ -22,7 +22,7 @@ def test_robot_shows_the_odometry(world, page, ros):
     hands.drive(world, until=lambda: world.now.x > begin + 0.1)
     hands.release()
     world.wait_for_rest()
-    page.click("Stop driving")
+    page.click("Stop")
     x = float(ros("rostopic", "echo", "-n1", POSITION).split()[0])
     assert x > 0.1
     wait_for(lambda: shown(page, "[data-value=x]") == round(x, 2), f"x = {x:.2f}")
@@ -95,12 +95,12 @@ def viewers_address(world):
 def test_a_viewers_page_says_why_its_buttons_are_grey(viewers_address, shared_browser):
     page = shared_browser
     page.open(viewers_address)
-    page.wait_for_text("#ready", "it may look, not drive")
+    page.wait_for_text("#ready", "it may only look")
     assert not page.by_role("button", "Drive from this page").is_enabled()
     assert not page.one("#how").is_displayed()
     page.tab("Bag")
     page.wait_for_text("#bag-about", "joy.bag")
-    page.wait_for_text("#bag-state", "it may look, not publish")
+    page.wait_for_text("#bag-state", "it may only look")
     assert not page.by_role("button", "Publish").is_enabled()
     page.driver.get("about:blank")
 

@@ -37,7 +37,8 @@ export class BagTab {
   static watches = { bag: false };
 
   #bag = null; // as the server described it
-  #looksOnly = false; // this page may not publish
+  #at = { playing: false, topic: "" }; // as the server says
+  #refusal = ""; // why this page may not publish now
   #yours = false; // this page plays it
   #scrubbed = 0; // when the slider was last moved by hand
   #hidden = new Set(); // the names of hidden curves
@@ -60,9 +61,12 @@ export class BagTab {
     });
     link.on("bag", (bag) => this.#open(bag));
     link.on("bag_at", (at) => this.#moveTo(at));
-    link.on("hello", ({ role }) => {
-      this.#looksOnly = role === "viewer";
-      this.#report(false);
+    link.on("drives", ({ refusal }) => {
+      this.#refusal = refusal;
+      this.#report(this.#at);
+    });
+    link.on("hello", () => {
+      this.#report({ playing: false });
       if (this.#bag) link.send("bag_open", { name: this.#bag.path }); // for the server this page is new
     });
     link.on("seat", ({ yours, how }) => (this.#yours = yours && how === "bag"));
@@ -142,8 +146,7 @@ export class BagTab {
     byId("bag-topics").replaceChildren(...bag.topics.map(({ name, type, count }) => row(name, type, String(count))));
     const playable = bag.topics.filter(({ type }) => type === "sensor_msgs/Joy");
     offer(byId("bag-topic"), playable.map(({ name }) => [name]));
-    byId("bag-play").disabled = this.#looksOnly || playable.length === 0;
-    this.#report(false);
+    this.#report({ playing: false });
     this.#draw();
   }
 
@@ -162,19 +165,30 @@ export class BagTab {
     this.#showValues();
   }
 
-  #moveTo({ position, playing, topic }) {
+  /** Without a connection nothing can be opened or published, and what is published is unknown. */
+  connect() {
+    this.#report(this.#at);
+  }
+
+  #moveTo({ position, ...at }) {
     if (performance.now() - this.#scrubbed > 500) {
       byId("bag-position").value = position;
       this.#showPosition(position);
     }
-    this.#report(playing, topic);
+    this.#report(at);
   }
 
-  #report(playing, topic) {
-    byId("bag-pause").disabled = !playing;
-    const looks = this.#looksOnly ? "This page was opened with the address for viewers: it may look, not publish." : "";
-    const none = this.#bag && !byId("bag-topic").options.length ? "This recording has no joystick topic to publish." : "";
-    say(byId("bag-state"), playing ? `Publishing ${topic}. Pause stops the robot.` : looks || none);
-    byId("bag").dataset.playing = playing;
+  #report(at) {
+    this.#at = at;
+    const { isOpen } = this.link;
+    const isPlaying = isOpen && at.playing;
+    const isNone = this.#bag && !byId("bag-topic").options.length;
+    const refusal = isNone ? "This recording has no joystick topic to publish." : this.#refusal;
+    byId("bag-open").disabled = byId("bag-position").disabled = !isOpen;
+    byId("bag-play").disabled = !isOpen || !this.#bag || Boolean(refusal);
+    byId("bag-pause").disabled = !isPlaying;
+    const publishes = isPlaying ? `Publishing ${at.topic}. Pause stops the robot.` : refusal;
+    say(byId("bag-state"), isOpen ? publishes : "Not connected.");
+    byId("bag").dataset.playing = isPlaying;
   }
 }

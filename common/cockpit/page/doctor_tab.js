@@ -18,12 +18,14 @@ export class DoctorTab {
 
   #asked = false;
   #shown = false;
+  #running = false;
+  #state = ""; // the newest verdict
 
   constructor(link) {
     this.link = link;
     link.on("hello", () => {
       this.#asked = false; // a run may have ended with its server
-      byId("doctor-run").disabled = false;
+      this.#report("", false);
       this.show(this.#shown);
     });
     link.on("doctor", (found) => this.#show(found));
@@ -37,13 +39,24 @@ export class DoctorTab {
 
   #ask() {
     this.#asked = this.link.send("doctor");
-    if (this.#asked) say(byId("doctor-state"), "Checking …");
+    if (this.#asked) this.#report("Checking …", this.#running);
+  }
+
+  /** Without a connection a verdict is an old one. */
+  connect() {
+    this.#report(this.#state, this.#running);
+  }
+
+  #report(state, running) {
+    [this.#state, this.#running] = [state, running];
+    const { isOpen } = this.link;
+    say(byId("doctor-state"), isOpen ? state : `Not connected. Before: ${state || "no result"}`);
+    byId("doctor-run").disabled = running || !isOpen;
   }
 
   #show({ lines, running }) {
     const wrong = lines.filter(({ level }) => level === "wrong").length;
-    say(byId("doctor-state"), running ? "Checking …" : wrong ? `${wrong} wrong` : "No problem found");
-    byId("doctor-run").disabled = running;
+    this.#report(running ? "Checking …" : wrong ? `${wrong} wrong` : "No problem found", running);
     byId("doctor-lines").replaceChildren(...lines.map(({ level, subject, text }) =>
       element("li", { className: level, "data-level": level },
         element("b", { className: "sign", "aria-label": level }, SIGNS[level] ?? "·"),

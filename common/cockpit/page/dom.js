@@ -16,6 +16,10 @@ export function element(tag, properties = {}, ...children) {
 /** A row of a table. */
 export const row = (...cells) => element("tr", {}, ...cells.map((cell) => element("td", {}, cell)));
 
+/** A number as text, without -0.00; a dash if it is not finite. */
+export const number = (value, digits = 2) =>
+  Number.isFinite(value) ? value.toFixed(digits).replace(/^-(0\.?0*)$/, "$1") : "–";
+
 /** Let a <select> offer these [value, text] pairs, and keep what is chosen if it is still there. */
 export function offer(select, choices) {
   const wanted = JSON.stringify(choices);

@@ -17,6 +17,7 @@ const FULL = 4096; // [byte] waiting to be sent: what is added now would come la
 export class Link {
   #socket = null;
   #handlers = new Map();
+  heardAt = 0; // when the newest message came [ms since 1970], also on a machine that slept since
   #lastHeard = 0; // or when the connection was begun
   #lostAt = 0;
   #state = "connecting";
@@ -38,10 +39,7 @@ export class Link {
     const query = token === null ? "" : `?token=${encodeURIComponent(token)}`;
     const socket = new WebSocket(`${location.origin.replace("http", "ws")}/ws${query}`);
     this.#socket = socket;
-    socket.onopen = () => {
-      this.#lastHeard = performance.now();
-      this.#become("open");
-    };
+    socket.onopen = () => (this.#lastHeard = performance.now());
     socket.onmessage = (event) => this.#hear(event.data);
     socket.onclose = () => this.#lose(socket);
   }
@@ -66,7 +64,8 @@ export class Link {
 
   #hear(text) {
     this.#lastHeard = performance.now();
-    this.#become("open"); // after a silence
+    this.heardAt = Date.now();
+    this.#become("open"); // the connection is new, or was silent
     const message = JSON.parse(text);
     for (const handler of this.#handlers.get(message.kind) ?? []) handler(message);
   }

@@ -12,7 +12,7 @@ import { makeTabs } from "./tabs.js";
 
 /**
  * A tab has a title, a panel (its HTML), watches (what the server is asked to send at first), and may
- * have show(on), called when it is chosen or left, and connect(isOpen). The robots' places are always
+ * have show(on), called when it is chosen or left, and connect(), when the connection is open or lost. The robots' places are always
  * watched: they show that the server is there.
  */
 const TABS = [RobotTab, GraphTab, BagTab, PlotTab, LogTab, DoctorTab];
@@ -27,10 +27,11 @@ let noticeEnd = null;
 const link = new Link((state) => {
   byId("connection").dataset.state = state;
   say(byId("connection"), WORDS[state]);
-  for (const tab of Object.values(tabs)) tab.connect?.(state === "open");
+  document.body.classList.toggle("old", state !== "open");
+  for (const tab of Object.values(tabs)) tab.connect?.();
   if (state === "gone") notice(GONE, Infinity);
   else if (byId("notice").textContent === GONE) notice("");
-  if (state === "open") link.send("watch", watched); // the server then sends everything again
+  if (state === "open") link.send("watch", watched);
 });
 
 function watch(fields) {
@@ -58,7 +59,7 @@ for (const { title, panel } of TABS) {
 const page = { notice, look: () => tabs.robot.look };
 const tabs = Object.fromEntries(TABS.map((Tab) => [Tab.title.toLowerCase(), new Tab(link, watch, page)]));
 link.on("refused", ({ what, why }) => {
-  if (what !== "input") notice(`${what}: ${why}`); // the loss of the seat has a message of its own
+  if (what !== "input") notice(`Not possible: ${why}.`); // the loss of the seat has a message of its own
 });
 makeTabs(tablist, (name) => {
   for (const [other, tab] of Object.entries(tabs)) if (other !== name) tab.show?.(false);

@@ -1,16 +1,12 @@
 /** The tab Robot: the floor, the joystick, the driver, and driving from here. */
 
-import { byId, offer, row, say } from "./dom.js";
-import { Driver } from "./driver.js";
+import { byId, number, offer, row, say } from "./dom.js";
 import { Floor } from "./floor.js";
 import { GamepadPicture } from "./gamepad_picture.js";
+import { Seat } from "./seat.js";
 
 const STALE_S = 1; // older news is greyed
 const ON_FLOOR = ".toolbar button, #glass button, #stick";
-const NOBODY = { driver: null, yours: false };
-const NOT_CONNECTED = {
-  drivers: {}, who: "Not connected: the driver is unknown.", ready: "", how: "", again: "",
-};
 const ODOMETRY = [ // name, title, unit, digits
   ["x", "x", " m", 2], ["y", "y", " m", 2], ["yaw", "heading", "°", 1],
   ["v", "speed", " m/s", 2], ["w", "turning", " rad/s", 2], ["covered", "covered", " m", 2],
@@ -19,8 +15,6 @@ const KOBUKI = [ // name, title, unit, before its first command
   ["led1", "LED 1", "", "off"], ["led2", "LED 2", "", "off"], ["sound", "last sound", "", "none"],
 ];
 
-const number = (value, digits = 2) =>
-  Number.isFinite(value) ? value.toFixed(digits).replace(/^-(0\.?0*)$/, "$1") : "–"; // no -0.00
 const values = (rows) => rows.map(([name, title, unit]) => `
         <div><dt>${title}</dt><dd><output data-value="${name}">–</output>${unit}</dd></div>`).join("");
 
@@ -45,16 +39,14 @@ const PANEL = `
   <div class="panel">
     <div class="card" id="drive">
       <h2><label for="look">Robot</label> <select id="look"></select> <small id="me"></small></h2>
-      <p id="seat" role="status" aria-live="polite"></p>
       <p id="ready" role="status" aria-live="polite"></p>
       <div class="row">
         <button id="take" class="primary" disabled>Drive from this page</button>
-        <button id="leave" class="stop" hidden>Stop driving</button>
         <button id="reset" disabled>Reset robot</button>
       </div>
       <div class="row" id="hand-over" hidden>
         <button id="give">Hand over</button>
-        <label>to page <input type="number" id="heir" min="1" step="1"></label>
+        <label>to page <input type="number" id="heir" min="1" step="1" required></label>
       </div>
       <p id="how" class="hint" hidden><span id="how-to"></span> <label>F710 at <select id="mode"><option>D</option><option>X</option></select></label></p>
     </div>
@@ -86,9 +78,6 @@ export class RobotTab {
   static panel = PANEL;
   static watches = { robots: true, look: null };
 
-  #role = null; // "driver" or "viewer", once the server has said so
-  #seat = NOBODY;
-  #drives = NOT_CONNECTED; // the server's words: the driver, and what to do
   #teleop = new Map(); // robot -> what its joy2twist reports
   #names = []; // of the robots
   #look = null; // the name of the chosen robot, once there is one
@@ -97,11 +86,10 @@ export class RobotTab {
 
   /** link: the Link. watch(fields): what to ask the server for. page: see main.js. */
   constructor(link, watch, { notice }) {
-    Object.assign(this, { link, watch, notice });
+    this.watch = watch;
     this.floor = new Floor(byId("floor"), () => [...byId("robot").querySelectorAll(ON_FLOOR)]);
     this.picture = new GamepadPicture(byId("pad"));
-    this.driver = new Driver(link, byId("glass"));
-    this.driver.onLost = (why) => notice(`Stopped: ${why}. ${this.#drives.again}`);
+    this.seat = new Seat(link, notice, this);
     link.on("hello", (hello) => this.#meet(hello));
     link.on("names", ({ names }) => this.#showNames(names));
     link.on("robots", ({ robots }) => this.#showRobots(robots));
@@ -114,9 +102,6 @@ export class RobotTab {
     link.on("scan", (scan) => this.floor.showScan(scan));
     link.on("pad", (pad) => this.#showPad(pad));
     link.on("teleop", (teleop) => this.#showTeleop(teleop));
-    link.on("seat", (seat) => this.#showSeat(seat));
-    link.on("drives", (drives) => this.#showDrives(drives));
-    link.on("lost", ({ text, again }) => notice(again ? `${text} ${this.#drives.again}` : text));
     this.#listen();
   }
 
@@ -124,50 +109,25 @@ export class RobotTab {
     return this.#look ?? "";
   }
 
-  /** The connection is open or lost. Without it nothing here is news, and nothing drives. */
-  connect(isOpen) {
-    byId("robot").classList.toggle("stale", !isOpen);
-    if (isOpen) {
-      this.#showButtons();
-    } else {
-      this.#showSeat(NOBODY);
-      this.#showDrives(NOT_CONNECTED);
-    }
+  connect() {
+    this.seat.show();
   }
 
   #listen() {
-    const { link, floor } = this;
+    const { floor } = this;
     byId("zoom-in").onclick = () => floor.zoom(1.25);
     byId("zoom-out").onclick = () => floor.zoom(0.8);
     byId("show-all").onclick = () => floor.showAll();
     byId("clear-trail").onclick = () => floor.clearTrails();
     byId("follow").onclick = () => floor.setFollow(!floor.follow);
     floor.onFollow = (on) => byId("follow").setAttribute("aria-pressed", on);
-    byId("take").onclick = () => link.send("drive", { robot: this.look, mode: byId("mode").value });
-    byId("leave").onclick = () => this.#leave();
-    byId("reset").onclick = () => {
-      this.notice("");
-      link.send("reset", { robot: this.look });
-    };
-    byId("give").onclick = () => link.send("hand_over", { to: Number(byId("heir").value) });
-    byId("look").onchange = () => this.#lookAt(byId("look").value);
-    addEventListener("keydown", (event) => {
-      if (event.key === "Escape" && this.driver.isDriving) this.#leave();
-    });
+    byId("look").onchange = () => this.lookAt(byId("look").value);
   }
 
-  #leave() {
-    this.notice(""); // why it stopped before
-    this.driver.stop();
-    this.link.send("leave");
-  }
-
-  #meet({ id, role, robots }) {
-    this.#role = role;
+  #meet({ id, robots }) {
     say(byId("me"), `page ${id}`);
     this.#showNames(robots);
-    this.#showButtons();
-    if (this.#look !== null) this.#lookAt(this.#look);
+    if (this.#look !== null) this.lookAt(this.#look);
   }
 
   #showNames(names) {
@@ -175,7 +135,7 @@ export class RobotTab {
     byId("class").hidden = names.length < 2;
     this.#rows = new Map(names.map((name) => [name, this.#rows.get(name) ?? this.#rowOf(name)]));
     byId("robots").replaceChildren(...this.#rows.values());
-    if (this.#look === null && names.length) this.#lookAt(names[0]);
+    if (this.#look === null && names.length) this.lookAt(names[0]);
     else this.#offerRobots();
   }
 
@@ -188,7 +148,7 @@ export class RobotTab {
     if (this.#look !== null) byId("look").value = this.#look;
   }
 
-  #lookAt(name) {
+  lookAt(name) {
     this.#look = name;
     this.#offerRobots();
     this.floor.look = name;
@@ -196,6 +156,7 @@ export class RobotTab {
     say(byId("pad-age"), "no message yet");
     this.#showTeleop(this.#teleop.get(name) ?? { robot: name });
     this.watch({ look: name });
+    this.seat.show();
   }
 
   #showRobots(robots) {
@@ -203,9 +164,10 @@ export class RobotTab {
     const names = JSON.stringify(Object.keys(robots));
     if (names !== this.#onFloor && names !== "[]") {
       this.#onFloor = names;
-      if (Object.keys(robots).length > 1 && !this.#seat.yours) this.floor.showAll();
+      if (Object.keys(robots).length > 1 && !this.seat.yours) this.floor.showAll();
     }
     const robot = robots[this.look] ?? {};
+    this.seat.showSpeed(robot);
     const turned = { ...robot, yaw: (robot.yaw * 180) / Math.PI };
     for (const [name, , , digits] of ODOMETRY) {
       say(document.querySelector(`#odometry [data-value=${name}]`), number(turned[name], digits));
@@ -224,7 +186,7 @@ export class RobotTab {
     const line = row(name, "", "", "");
     line.dataset.robot = name;
     line.onclick = () => {
-      if (!this.#seat.yours && name !== this.#look) this.#lookAt(name); // a driver sees the driven robot
+      if (!this.seat.yours && name !== this.#look) this.lookAt(name); // a driver sees the driven robot
     };
     return line;
   }
@@ -233,7 +195,7 @@ export class RobotTab {
     for (const [name, line] of this.#rows) {
       const { x, y, age } = robots[name] ?? {};
       const why = this.#teleop.get(name)?.why;
-      const texts = [name, `${number(x)}, ${number(y)}`, this.#drives.drivers[name] || "–", why ?? "–"];
+      const texts = [name, `${number(x)}, ${number(y)}`, this.seat.drivers[name] || "–", why ?? "–"];
       texts.forEach((text, i) => say(line.cells[i], text));
       line.classList.toggle("stale", !(age < STALE_S));
       line.classList.toggle("chosen", name === this.look);
@@ -241,8 +203,8 @@ export class RobotTab {
   }
 
   #showPad({ robot, axes, buttons, age }) {
-    if (robot !== this.look || !this.driver.names) return;
-    this.picture.show(this.driver.names, axes, buttons);
+    if (robot !== this.look || !this.seat.driver.names) return;
+    this.picture.show(this.seat.driver.names, axes, buttons);
     say(byId("pad-age"), age > STALE_S ? `silent for ${number(age, 0)} s` : "");
     byId("pad").classList.toggle("stale", age > STALE_S);
   }
@@ -252,48 +214,5 @@ export class RobotTab {
     if (robot !== this.look) return;
     byId("teleop").dataset.state = state ?? "unknown";
     say(byId("teleop"), why || state || "No report from joy2twist yet.");
-  }
-
-  #showSeat(seat) {
-    const { yours, armed, driver, robot } = seat;
-    if (yours && !this.#seat.yours) this.floor.setFollow(true); // a driver sees the driven robot
-    if (yours && robot !== this.#look) this.#lookAt(robot); // it was handed over
-    if (yours) this.driver.mode = byId("mode").value;
-    if (yours && armed) this.notice(""); // it may go on
-    this.#seat = seat;
-    if (this.#isByHand) this.driver.start();
-    else this.driver.stop();
-    byId("seat").dataset.armed = Boolean(yours && armed);
-    byId("seat").dataset.state = driver === null ? "free" : yours ? "yours" : "taken";
-    this.#showButtons();
-  }
-
-  /** Whether this page drives, by no recording. */
-  get #isByHand() {
-    return this.#seat.yours && this.#seat.how !== "bag";
-  }
-
-  #showDrives(drives) {
-    this.#drives = drives;
-    say(byId("seat"), drives.who);
-    say(byId("ready"), drives.ready);
-    say(byId("how-to"), drives.how);
-    byId("how").hidden = !drives.how;
-  }
-
-  #showButtons() {
-    const { yours, driver } = this.#seat;
-    const mayDrive = this.link.isOpen && this.#role !== "viewer";
-    const [take, leave] = [byId("take"), byId("leave")];
-    const hadKeyboard = [take, leave].includes(document.activeElement);
-    take.hidden = yours;
-    leave.hidden = !yours;
-    if (hadKeyboard) (yours ? leave : take).focus();
-    take.disabled = !mayDrive || (driver !== null && !yours);
-    byId("reset").disabled = !mayDrive;
-    byId("hand-over").hidden = byId("glass").hidden = !this.#isByHand;
-    byId("look").disabled = byId("mode").disabled = yours;
-    document.body.classList.toggle("driving", yours);
-    document.body.classList.toggle("by-hand", this.#isByHand);
   }
 }

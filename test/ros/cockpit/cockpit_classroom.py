@@ -29,7 +29,7 @@ class Classroom(RosTest):
             rig.drive(page)
             wait_for(lambda: seen()[OURS]["covered"] > 0.2, "way driven")
             page.wait_for("teleop", lambda told: [told["robot"], told["state"]] == [OURS, DRIVING])
-            page.say("leave")
+            page.say("stop")
             rig.wait_for_rest(time.time())
             at = rospy.wait_for_message(f"/{OURS}/odom", Odometry).pose.pose.position
             wait_for(lambda: abs(seen()[OURS]["x"] - at.x) < 0.001, "place of its odometry")

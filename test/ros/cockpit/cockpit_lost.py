@@ -44,7 +44,7 @@ class OperatorLost(WithCockpit):
                 else:
                     page = stack.enter_context(self.page_anew())
                 self.assertTrue(self.rig.drives_only_once_released(page))
-                page.say("leave")
+                page.say("stop")
                 self.rig.wait_for_rest(time.time())
         print(f"{self._testMethodName}: at rest after {', '.join(f'{t:.3f}' for t in took)} s")
         self.assertLessEqual(statistics.median(took), WITHIN_S)

@@ -30,7 +30,7 @@ class Refused(WithCockpit):
         self.assertEqual([moment for moment in self.rig.odometry if moment.moves], [])
         with self.rig.page() as page:
             self.rig.drive(page)
-            page.say("leave")
+            page.say("stop")
             self.rig.wait_for_rest()
             self.assertTrue(self.rig.stays_at_rest())
         self.rig.odometry.clear()

@@ -38,7 +38,7 @@ def watch(dice):
 def others(dice):
     return [
         {"kind": "drive", "robot": "", "mode": "D"},
-        {"kind": "leave"},
+        {"kind": "stop"},
         {"kind": "hand_over", "to": dice.randrange(40)},
         {"kind": "input", "n": 2**52, "t": 1e9, "beat": 1, "axes": [1.0] * 6,
          "buttons": [1] * 12, "pad": None, "source": "pad"},

@@ -6,8 +6,10 @@ import pytest
 
 from cockpit_server import drives
 from cockpit_server.access import DRIVER, VIEWER
-from cockpit_server.drives import LOOKS_ONLY, NO_ROBOT, About, Drives
+from cockpit_server.clients import LOOKS_ONLY
+from cockpit_server.drives import About, Drives, sentence
 from cockpit_server.graph import Graph
+from cockpit_server.hub import Hub
 from cockpit_server.seat import BAG, PAGE, RefusedError, Seat
 from cockpit_server.sources.resets import Resets
 from tutorial_testing.seat_room import page
@@ -80,12 +82,12 @@ READY = {  # -> why it stands and what to do now; how it is driven, without "Esc
 @pytest.mark.parametrize("case", READY)
 def test_the_page_says_why_the_robot_stands_and_what_to_do(case):
     about, said, how = READY[case]
-    assert drives.ready(about, "ada", ANNA, may_drive=True) == said
+    assert drives.ready(about, "ada", ANNA, "") == said
     assert drives.how_to(about, ANNA, may_drive=True) == f"{how} Esc: stop." * bool(how)
     assert drives.how_to(about, ANNA, may_drive=False) == ""
     if about.driver is None:
-        viewed = drives.ready(about, "ada", ANNA, may_drive=False)
-        assert viewed == f"{said} {LOOKS_ONLY}".strip()
+        viewed = drives.ready(about, "ada", ANNA, LOOKS_ONLY)
+        assert viewed == f"{said} {sentence(LOOKS_ONLY)}".strip()
 
 
 def test_a_refusal_is_not_called_a_stop():
@@ -96,12 +98,15 @@ def test_a_refusal_is_not_called_a_stop():
 class Room:
     """A seat, a joy2twist that reports, a graph, and a page that looks at the robot ada."""
 
+    refusal = Hub.refusal
+
     def __init__(self, role=DRIVER, robots=("ada",)):
         self.outdated, self.report, self.senders = [], ARMED, ()
         self.client, self.sent = page(role, ANNA, look="ada")
         self.seat = Seat(lambda *_: None, lambda *_: None)
         self.listeners = {"/joy2twist"}
-        graphs = SimpleNamespace(
+        self._pads = SimpleNamespace(rival=lambda *_: None)
+        graphs = self._graphs = SimpleNamespace(
             graph=SimpleNamespace(robots=lambda: robots), joysticks=lambda _: self.senders,
             joystick_listeners=lambda _: self.listeners,
         )  # fmt: skip
@@ -154,6 +159,9 @@ def test_a_robot_is_not_reset_while_a_node_drives_it():
         resets.on_reset(room.client, 0.0, "ada")
 
 
-def test_without_a_robot_a_page_says_so():
-    assert Room(robots=()).look()["ready"] == NO_ROBOT
-    assert Room(VIEWER, robots=()).look()["ready"] == f"{NO_ROBOT} {LOOKS_ONLY}"
+def test_why_a_page_may_not_drive_is_on_it_before_a_person_tries():
+    for room, refusal in ((Room(), ""), (Room(VIEWER), sentence(LOOKS_ONLY))):
+        words = room.look()
+        assert (words["refusal"], words["ready"]) == (refusal, refusal)
+        assert bool(words["how"]) == (not refusal)
+    assert Room(robots=()).look()["ready"].startswith("No robot is running yet: start one")

@@ -8,13 +8,15 @@ import pytest
 from rosgraph_msgs.msg import Log
 
 from cockpit_server import hub as hub_module
-from cockpit_server.clients import Source
+from cockpit_server.access import DRIVER, VIEWER
+from cockpit_server.clients import LOOKS_ONLY, Source
+from cockpit_server.drives import NO_ROBOT
 from cockpit_server.graph import Graph
 from cockpit_server.guard import MOST_REPORTED, Guard
 from cockpit_server.hub import CONNECT_S, GIVE_S, Hub
 from cockpit_server.seat import PAGE
 from cockpit_server.sources.logs import Logs
-from tutorial_testing.seat_room import page, serialised
+from tutorial_testing.seat_room import DRIVE, REST, page, serialised
 
 
 class Broken(Source):
@@ -159,3 +161,61 @@ def test_a_page_that_watches_the_log_gets_each_line_once():
     assert lines("b", log=True) == ["b"]  # as a page does that was silent for a while
     assert lines("c", log=False) == []
     assert lines("d", log=True) == ["a", "b", "c", "d"]
+
+
+def test_stop_leaves_the_own_seat_and_stops_another_driver():
+    hub, _ = made()
+    sent = []
+    hub.seat._send = lambda *message: sent.append(message)
+    (driver, to_driver), (guest, _), (viewer, to_viewer) = [join(hub) for _ in range(3)]
+    viewer.role = VIEWER
+    hub._is_heard = lambda _: True
+
+    def drive():
+        hub.on_drive(driver, monotonic(), "", "D")
+        hub.seat.armed, hub.seat._last = True, DRIVE
+        sent.clear()
+
+    def stop(client):
+        hub.hear(client, json.dumps({"kind": "stop"}))
+        return sent, hub.seat.driver, hub.seat.armed
+
+    drive()
+    assert stop(viewer) == ([], driver.number, True)
+    assert LOOKS_ONLY in to_viewer[-1]["why"]
+    assert stop(guest) == ([("", *REST)], driver.number, False)  # its hands must let go first
+    assert "pressed Stop" in to_driver[-1]["text"]
+    drive()
+    assert stop(driver) == ([("", *REST)], None, False)
+
+
+@pytest.mark.parametrize(
+    ("role", "robot", "rival", "driver", "refusal"),
+    [
+        (DRIVER, "", None, None, ""),
+        (DRIVER, "ada", None, None, "there is no robot 'ada'"),
+        (VIEWER, "", None, None, LOOKS_ONLY),
+        (DRIVER, "", "/player", None, "/player publishes the joystick topic of this robot"),
+        (DRIVER, "", None, 1, "another page drives"),
+        (DRIVER, "", "/player", 2, ""),  # the own seat
+    ],
+)
+def test_a_page_is_told_beforehand_what_drive_would_be_refused_for(
+    role, robot, rival, driver, refusal
+):
+    hub, _ = made()
+    _, (client, sent) = join(hub), join(hub)
+    client.role = role
+    if driver is not None:
+        hub.seat.take(driver, "", PAGE, 0.0)
+    hub._pads.rival = lambda *_: rival
+    said = hub.refusal(client, robot, 0.0)
+    assert said.startswith(refusal) and bool(said) == bool(refusal)
+    hub.hear(client, json.dumps({"kind": "drive", "robot": robot, "mode": "D"}))
+    assert [one["why"] for one in sent if one["kind"] == "refused"] == [said] * bool(refusal)
+
+
+def test_without_a_robot_the_refusal_says_how_to_start_one():
+    hub, _ = made()
+    hub._graphs.graph = Graph()
+    assert hub.refusal(join(hub)[0], "", 0.0) == NO_ROBOT

@@ -18,7 +18,7 @@ GOOD = {
         "fields": ["/odom/pose/pose/position/x"], "field_list": False, "log": True, "bag": False,
     },
     "drive": {"robot": "", "mode": "D"},
-    "leave": {},
+    "stop": {},
     "hand_over": {"to": 3},
     "input": {
         "n": 1, "t": 12.5, "beat": 0, "axes": [0, 1, -1.0, 0, 0, 0], "buttons": [0] * 12,
@@ -67,14 +67,14 @@ def test_a_page_is_shown_only_what_it_watches():
 
 
 def test_the_longest_message_is_taken():
-    assert SCHEMA.check(say("leave").ljust(8192)) == ("leave", {})
+    assert SCHEMA.check(say("stop").ljust(8192)) == ("stop", {})
 
 
 @pytest.mark.parametrize(
     "data",
     [
         b"{}", "", "null", "[]", "{", "1", '{"kind": 1}', '{"kind": "publish"}', "[" * 5000,
-        say("leave").ljust(8193), '{"kind": ["leave"]}', '"leave"', say("x" * 5000),
+        say("stop").ljust(8193), '{"kind": ["stop"]}', '"stop"', say("x" * 5000),
     ],
 )  # fmt: skip
 def test_a_malformed_message_is_refused(data):

@@ -20,6 +20,7 @@ SYSTEMS = (
     ("Android", "Android"), ("iPhone", "iPhone"), ("iPad", "iPad"), ("Windows", "Windows"),
     ("Mac OS", "Mac"), ("CrOS", "ChromeOS"), ("Linux", "Linux"),
 )  # fmt: skip
+LOOKS_ONLY = "this page was opened with the address for viewers: it may only look"
 
 
 @dataclass(eq=False)
@@ -48,7 +49,7 @@ class Client:
 
     def must_drive(self) -> None:
         if not self.drives:
-            raise RefusedError("this page was opened with the viewers' token: it may only look")
+            raise RefusedError(LOOKS_ONLY)
 
     def send(self, kind: str, **fields: Any) -> None:
         self.write(encoded(kind, **fields))

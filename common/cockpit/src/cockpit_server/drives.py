@@ -8,8 +8,7 @@ from cockpit_server.seat import BAG
 from gamepad.gamepads import F710
 from node_kit.arming import DRIVING
 
-LOOKS_ONLY = "This page was opened with the address for viewers: it may look, not drive."
-NO_ROBOT = "No robot is running yet. Start one, for example: ./tutorial demo"
+NO_ROBOT = "no robot is running yet: start one, for example with ./tutorial demo"
 
 
 class About(NamedTuple):
@@ -70,14 +69,21 @@ def unheard(robot: str) -> str:
     return f"No node subscribes to {topic}: nothing moves before you start joy2twist{where}."
 
 
-def ready(about: About, robot: str, page: int, may_drive: bool) -> str:
-    """Return why the robot stands, and what the person at a page is to do now."""
+def sentence(text: str) -> str:
+    return f"{text[0].upper()}{text[1:]}." if text else ""
+
+
+def ready(about: About, robot: str, page: int, refusal: str) -> str:
+    """Return why the robot stands, and what the person at a page is to do now.
+
+    refusal: why the page may not drive it, or "".
+    """
     stopped = f"Stopped: {about.why}." if about.why else ""
     if not about.is_heard:
-        return " ".join(filter(None, (stopped, unheard(robot), "" if may_drive else LOOKS_ONLY)))
+        return " ".join(filter(None, (stopped, unheard(robot), sentence(refusal))))
     button = held(about)
     if about.driver != page:
-        todo = "" if may_drive else LOOKS_ONLY
+        todo = sentence(refusal)
     elif about.how == BAG:
         todo = ""
     elif not about.armed:
@@ -160,15 +166,15 @@ class Drives(Source):
     def give(self, client: Client, now: float) -> None:
         robot = client.watch.look
         about = self._abouts.get(robot, About())
+        refusal = self._hub.refusal(client, robot or "", now)
         words = {
             "robot": robot,
             "who": who(about, robot or "", client.number),
-            "ready": ready(about, robot or "", client.number, client.drives),
-            "how": how_to(about, client.number, client.drives),
+            "ready": ready(about, robot or "", client.number, refusal),
+            "how": how_to(about, client.number, not refusal),
+            "refusal": sentence(refusal),
             "again": again(about),
             "drivers": self._drivers,
         }
-        if not self._abouts:
-            words["ready"] = " ".join(filter(None, (NO_ROBOT, words["ready"])))
         if client.lacks("drives", words):
             client.send("drives", **words)

@@ -9,8 +9,8 @@ from typing import Any, Callable, ClassVar, Sequence
 
 from cockpit_server import budget, schema
 from cockpit_server.budget import SHARE, Budget
-from cockpit_server.clients import Client, Source
-from cockpit_server.drives import lost_text
+from cockpit_server.clients import LOOKS_ONLY, Client, Source
+from cockpit_server.drives import NO_ROBOT, lost_text
 from cockpit_server.feeds import OnceLater
 from cockpit_server.graph_watch import GraphWatch
 from cockpit_server.guard import Guard
@@ -30,7 +30,7 @@ class Hub(Source):
 
     messages: ClassVar = {
         "drive": {"robot": schema.text, "mode": schema.one_of(*schema.MODES)},
-        "leave": {},
+        "stop": {},
         "hand_over": {"to": schema.whole},
         "input": schema.INPUT,
         "release": {"why": schema.text},
@@ -142,8 +142,13 @@ class Hub(Source):
         self.sit_down(client, robot, PAGE, now)
         self._modes = (mode,)
 
-    def on_leave(self, client: Client, _now: float) -> None:
-        self.stand_up(client)
+    def on_stop(self, client: Client, _now: float) -> None:
+        """Stop the driven robot: the own seat is left, another page has to release all first."""
+        client.must_drive()
+        if client.number == self.seat.driver:
+            self.stand_up(client)
+        else:
+            self.lose(f"{client.name} pressed Stop")
 
     def on_hand_over(self, client: Client, now: float, to: int) -> None:
         other = self.clients.get(to)
@@ -175,14 +180,23 @@ class Hub(Source):
 
     def sit_down(self, client: Client, robot: str, how: str, now: float) -> None:
         """Let a client drive a robot. Raises RefusedError."""
-        client.must_drive()
-        if robot not in self._graphs.graph.robots():
-            raise RefusedError(f"there is no robot {robot!r}")
-        rival = self._pads.rival(robot, now - RIVAL_S)
-        if rival and self.seat.driver != client.number:
-            raise RefusedError(f"{rival} publishes the joystick topic of this robot: end it first")
+        refusal = self.refusal(client, robot, now)
+        if refusal:
+            raise RefusedError(refusal)
         self._change(lambda: self.seat.take(client.number, robot, how, now))
         self._sat_at = now
+
+    def refusal(self, client: Client, robot: str, now: float) -> str:
+        """Return why a page may not drive a robot now, or ""."""
+        robots = self._graphs.graph.robots()
+        if robot not in robots:
+            return f"there is no robot {robot!r}" if robots else NO_ROBOT
+        if not client.drives:
+            return LOOKS_ONLY
+        rival = self._pads.rival(robot, now - RIVAL_S)
+        if rival and self.seat.driver != client.number:
+            return f"{rival} publishes the joystick topic of this robot: end it first"
+        return self.seat.refusal(client.number)
 
     def stand_up(self, client: Client) -> None:
         self._change(lambda: self.seat.leave(client.number))

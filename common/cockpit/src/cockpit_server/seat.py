@@ -90,16 +90,22 @@ class Seat:
 
     def take(self, client: int, robot: str, how: str, now: float) -> None:
         """Sit down. Raises RefusedError if another sits there."""
-        if self._has_ended:
-            raise RefusedError("the cockpit is being shut down")
-        if self.driver not in (None, client):
-            raise RefusedError("another page drives; its driver may hand over")
+        refusal = self.refusal(client)
+        if refusal:
+            raise RefusedError(refusal)
         self.leave(client)
         self.driver, self.robot, self.how = client, robot, how
         self.why, self.stopped = "", None
         self.armed = how == BAG  # a recording begins as it begins
         self._fresh_at = now
         self._beats.clear()
+
+    def refusal(self, client: int) -> str:
+        """Return why a client may not sit down, or ""."""
+        if self._has_ended:
+            return "the cockpit is being shut down"
+        taken = self.driver not in (None, client)
+        return "another page drives; its driver may hand over" if taken else ""
 
     def leave(self, client: int) -> None:
         if client == self.driver:

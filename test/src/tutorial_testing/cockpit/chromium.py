@@ -45,8 +45,7 @@ class Chromium(WebDriver):
         options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
         service = Service(shutil.which("chromedriver"))
         super().__init__(webdriver.Chrome(service=service, options=options))
-        metrics = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": touch}
-        self.send("Emulation.setDeviceMetricsOverride", **metrics)
+        self.resize(width, height, touch)
         if touch:
             self.send("Emulation.setTouchEmulationEnabled", enabled=True, maxTouchPoints=5)
 
@@ -62,6 +61,10 @@ class Chromium(WebDriver):
 
     def send(self, method, **parameters):
         return self.driver.execute_cdp_cmd(method, parameters)
+
+    def resize(self, width, height, touch=False):
+        metrics = {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": touch}
+        self.send("Emulation.setDeviceMetricsOverride", **metrics)
 
     def one(self, css):
         return self.driver.find_element(By.CSS_SELECTOR, css)

@@ -5,8 +5,8 @@
 TAB = """const [given, done] = arguments, sent = [], handlers = {};
 const watch = (fields) => sent.push(["watch", fields]);
 const link = {isOpen: true, send(kind, fields) { return sent.push([kind, fields]); },
-              on(kind, handler) { handlers[kind] = handler; }};
-const hear = (kind, message) => handlers[kind]({kind, ...message});
+              on(kind, handler) { (handlers[kind] ??= []).push(handler); }};
+const hear = (kind, message) => handlers[kind].forEach((one) => one({kind, ...message}));
 const byId = (id) => document.getElementById(id);
 import('/page/%s').then((tabs) => { %s });"""
 # Four curves of 50 Hz for ten minutes, with a spike of one sample, in the page's own tab.

@@ -1,0 +1,128 @@
+/** The driver's seat: above all tabs who drives, how fast, and Stop; in the tab Robot driving from here. */
+
+import { byId, number, say } from "./dom.js";
+import { Driver } from "./driver.js";
+
+const NOTHING = {
+  seat: { driver: null, yours: false },
+  drives: { drivers: {}, who: "", ready: "", how: "", again: "", refusal: "" },
+};
+const STALE_S = 1; // an older speed is not shown
+const CUT = "This page no longer drives: its connection was lost. Press Drive from this page to go on.";
+
+export class Seat {
+  #role = null; // "driver" or "viewer", once the server has said so
+  #said = NOTHING; // by the server, over this connection
+  #advice = ""; // a notice of what to do, which counts as long as this page has the seat
+
+  /** tab: the RobotTab, which has the robot, the floor, and the elements below the tabs. */
+  constructor(link, notice, tab) {
+    Object.assign(this, { link, notice, tab });
+    this.driver = new Driver(link, byId("glass"));
+    this.driver.onLost = (why) => this.#advise(`Stopped: ${why}.`);
+    link.on("hello", ({ role }) => this.#begin(role));
+    link.on("seat", (seat) => this.#take(seat));
+    link.on("drives", (drives) => this.#hear({ drives }));
+    link.on("lost", ({ text, again }) => (again ? this.#advise(text) : notice(text)));
+    byId("take").onclick = () => link.send("drive", { robot: tab.look, mode: byId("mode").value });
+    byId("stop").onclick = () => this.#stop();
+    byId("reset").onclick = () => {
+      notice("");
+      link.send("reset", { robot: tab.look });
+    };
+    byId("give").onclick = () => {
+      const heir = byId("heir");
+      if (heir.reportValidity()) link.send("hand_over", { to: heir.valueAsNumber });
+    };
+    addEventListener("keydown", (event) => event.key === "Escape" && this.yours && this.#stop());
+  }
+
+  /** Whether this page drives, by hand or with a recording. */
+  get yours() {
+    return this.#now.seat.yours;
+  }
+
+  /** Robot -> the name of what drives it, or "". */
+  get drivers() {
+    return this.#now.drives.drivers;
+  }
+
+  /** v, w, age: of the chosen robot [m/s, rad/s, s]. */
+  showSpeed({ v, w, age }) {
+    const isKnown = this.link.isOpen && age < STALE_S;
+    say(byId("speed"), isKnown ? `${number(v)} m/s, ${number(w)} rad/s` : "– m/s");
+  }
+
+  /** Show what the server said last. Without a connection that is no news, and nothing drives. */
+  show() {
+    const { isOpen, heardAt } = this.link;
+    const { seat, drives } = this.#now;
+    const isByHand = seat.yours && seat.how !== "bag";
+    if (isByHand) this.driver.start();
+    else this.driver.stop();
+    if (!seat.yours && byId("notice").textContent === this.#advice) this.notice("");
+    if (!isOpen) this.showSpeed({});
+    const time = new Date(heardAt).toTimeString().slice(0, 8);
+    const old = heardAt ? `Not connected: everything shown is from ${time}. The driver is unknown.` : "";
+    say(byId("seat"), isOpen ? drives.who : old);
+    byId("seat").dataset.armed = Boolean(seat.yours && seat.armed);
+    byId("seat").dataset.state = seat.driver === null ? "free" : seat.yours ? "yours" : "taken";
+    say(byId("ready"), drives.ready);
+    say(byId("how-to"), drives.how);
+    byId("how").hidden = !drives.how;
+    this.#showButtons(seat, drives, isByHand);
+  }
+
+  #showButtons({ yours, driver, robot }, { refusal }, isByHand) {
+    const mayDrive = this.link.isOpen && this.#role === "driver";
+    const [take, stop] = [byId("take"), byId("stop")];
+    const focused = [take, stop].find((one) => one === document.activeElement);
+    take.hidden = yours;
+    take.disabled = !mayDrive || Boolean(refusal);
+    stop.disabled = !mayDrive || driver === null || !(yours || robot === this.tab.look);
+    if (focused && (focused.hidden || focused.disabled)) { // the keyboard goes on from what can be pressed
+      const selected = document.querySelector("[role=tab][aria-selected=true]");
+      ([stop, take].find((one) => !one.disabled && one.offsetParent) ?? selected)?.focus();
+    }
+    byId("reset").disabled = !mayDrive;
+    byId("hand-over").hidden = byId("glass").hidden = !isByHand;
+    byId("look").disabled = byId("mode").disabled = yours;
+    document.body.classList.toggle("driving", yours);
+    document.body.classList.toggle("by-hand", isByHand);
+  }
+
+  get #now() {
+    return this.link.isOpen ? this.#said : NOTHING;
+  }
+
+  #hear(words) {
+    this.#said = { ...this.#said, ...words };
+    this.show();
+  }
+
+  #begin(role) {
+    if (this.yours) this.notice(CUT);
+    this.#role = role;
+    this.#hear(NOTHING);
+  }
+
+  #take(seat) {
+    if (seat.yours && !this.yours) this.tab.floor.setFollow(true); // a driver sees the driven robot
+    if (seat.yours && seat.robot !== this.tab.look) this.tab.lookAt(seat.robot); // it was handed over
+    if (seat.yours) this.driver.mode = byId("mode").value;
+    if (seat.yours && seat.armed) this.notice(""); // it may go on
+    this.#hear({ seat });
+  }
+
+  #advise(text) {
+    this.#advice = `${text} ${this.#now.drives.again}`;
+    this.notice(this.#advice);
+  }
+
+  /** Stop the robot: this page's hands let go at once, and leave the seat; another driver is stopped. */
+  #stop() {
+    this.notice(""); // why it stopped before
+    this.driver.stop();
+    this.link.send("stop");
+  }
+}
