@@ -1,6 +1,7 @@
 """What is drawn on the floor: the driven robot in sight, walls, the scan, pressed bumpers."""
 
 import pytest
+from selenium.webdriver.common.keys import Keys as Key
 
 from tutorial_testing.cockpit.chromium import Chromium
 from tutorial_testing.cockpit.hands import Thumbs
@@ -45,14 +46,14 @@ def test_the_driven_one_of_two_robots_is_seen_beside_the_buttons(held):
         assert phone.ask(f"document.elementFromPoint({x}, {y}).id") == "floor"
         assert 0 <= x <= width and 0 <= y <= height
         assert phone.one("#floor").rect["height"] >= 250
-        stop = phone.by_role("button", "Stop driving").rect
+        stop = phone.by_role("button", "Stop").rect
         assert 0 <= stop["y"] <= height - stop["height"]
 
 
-def settled(phone):
-    """Return what is drawn of the robot once two looks agree."""
-    drawn = phone.ask(DRAWN % "--accent")
-    return drawn if drawn[0] and drawn == phone.ask(DRAWN % "--accent") else None
+def settled(browser, colour="--accent"):
+    """Return what is drawn in a colour, that of the robot, once two looks agree."""
+    drawn = browser.ask(DRAWN % colour)
+    return drawn if drawn[0] and drawn == browser.ask(DRAWN % colour) else None
 
 
 @pytest.mark.parametrize("size", [(1280, 800), (360, 640)])
@@ -70,6 +71,18 @@ def test_walls_scan_and_bumpers_are_drawn(size):
         with world.run("rostopic", "pub", "-r", "10", "/cmd_vel", "geometry_msgs/Twist", ahead):
             wait_for(lambda: count("--bumper") > 10, "a pressed bumper")
             assert world.now.x == pytest.approx(4.0 - 0.178)  # its side touches the wall
+        world.wait_for_rest()
+        browser.click("Zoom in")
+        browser.one("#floor").send_keys(Key.ARROW_LEFT)
+        view = wait_for(lambda: settled(browser, "--wall"), "walls of the view")
+        browser.tab("Plot")
+        wait_for(lambda: browser.all("#plot-fields input"), "fields")
+        browser.press("#plot-fields input")
+        browser.tab("Log")
+        browser.wait_for_text("#log-lines", "/")
+        browser.tab("Robot")
+        assert wait_for(lambda: settled(browser, "--wall"), "walls again") == view
+        assert browser.one("#follow").get_attribute("aria-pressed") == "false"
         assert browser.errors() == []
 
 

@@ -136,9 +136,30 @@ def test_the_log_stays_where_its_tab_is_chosen_again(page):
     count();
     log(900);
     log(900);
+    tab.show(false);
+    tab.show(true);
     count();
     done(counts);"""
-    assert run(page, "log_tab.js", script, TWO) == [1, 0, 0, 1000]
+    assert run(page, "log_tab.js", script, TWO) == [1, 1, 0, 1000]
+
+
+def test_a_line_of_its_own_level_and_one_of_a_long_name_are_shown(page):
+    script = """byId("tab-log").click();
+    byId("log-lines").replaceChildren();
+    const tab = new tabs.LogTab(link, watch);
+    byId("log-level").value = "FATAL";
+    const line = (level, node) => ({time: 0, level, node, text: "a text of the usual length"});
+    hear("log", {entries: [line("WARN", "/x"), line("3", "/x"), line("0", "/n".repeat(150))]});
+    const lines = [...byId("log-lines").rows];
+    const texts = lines.map((one) => one.cells[3].getBoundingClientRect());
+    const wide = byId("log-scroll").scrollWidth - byId("log-scroll").clientWidth;
+    done([lines.map((one) => one.dataset.level), texts.map(({width}) => width),
+          texts.map(({right}) => right), wide, byId("log-count").textContent]);"""
+    for size in ((360, 640), (1280, 800)):  # the last one is that of the other tests
+        page.resize(*size)
+        levels, widths, rights, overflow, count = run(page, "log_tab.js", script, TWO)
+        assert (levels, count, overflow) == (["3", "0"], "2 of 3", 0)
+        assert min(widths) > 170 and max(rights) <= size[0]
 
 
 def points(t, value):

@@ -2,8 +2,8 @@
 
 import { byId, offer, row, say } from "./dom.js";
 
-const LEVELS = ["DEBUG", "INFO", "WARN", "ERROR", "FATAL"];
-const MOST = 1000; // lines that are kept
+const LEVELS = ["DEBUG", "INFO", "WARN", "ERROR", "FATAL"]; // a line of another level is always shown
+const MOST = 1000; // lines that are kept, as many as by the server
 const NOTHING = `No line yet. What nodes log with rospy.loginfo() and the like comes here, and of each node the last line
  before the cockpit was started. What is printed stays in its terminal; older lines are in ~/.ros/log.`;
 
@@ -23,8 +23,6 @@ export class LogTab {
   static watches = { log: false };
 
   #entries = [];
-  #shown = false;
-
   constructor(link, watch) {
     this.watch = watch;
     this.lines = byId("log-lines");
@@ -35,13 +33,12 @@ export class LogTab {
     byId("log-level").onchange = byId("log-filter").oninput = () => this.#showAll();
   }
 
+  /** Lines stay while another tab is shown: the server then sends those that came meanwhile. */
   show(on) {
-    if (on && !this.#shown) this.#begin();
-    this.#shown = on;
     this.watch({ log: on });
   }
 
-  /** Forget all lines: the server sends the last ones again. */
+  /** Forget all lines: the server of a new connection sends its last ones. */
   #begin() {
     this.#entries = [];
     this.#showAll();
@@ -49,8 +46,8 @@ export class LogTab {
 
   #passes({ level, node, text }) {
     const wanted = byId("log-filter").value.toLowerCase();
-    const loud = LEVELS.indexOf(level) >= LEVELS.indexOf(byId("log-level").value);
-    return loud && `${node} ${text}`.toLowerCase().includes(wanted);
+    const quiet = LEVELS.slice(0, LEVELS.indexOf(byId("log-level").value));
+    return !quiet.includes(level) && `${node} ${text}`.toLowerCase().includes(wanted);
   }
 
   #add(entries) {

@@ -94,7 +94,7 @@ export class RobotTab {
     link.on("names", ({ names }) => this.#showNames(names));
     link.on("robots", ({ robots }) => this.#showRobots(robots));
     link.on("map", (map) => {
-      this.floor.around.showMap(map);
+      if (!this.floor.around.showMap(map)) return; // the view stays as it was chosen
       this.floor.showAll();
       if (this.#names.length < 2) this.floor.setFollow(true);
     });

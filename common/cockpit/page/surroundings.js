@@ -13,10 +13,13 @@ export class Surroundings {
     this.onChange = onChange;
   }
 
+  /** Returns whether the map covers another part of the floor than the one before. */
   showMap(map) {
+    const before = this.corners().join();
     this.#map = { ...map, bytes: Uint8Array.from(atob(map.cells), (c) => c.charCodeAt(0)) };
     this.#pictures.clear();
     this.onChange();
+    return this.corners().join() !== before;
   }
 
   showRobots(robots) {

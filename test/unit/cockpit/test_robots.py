@@ -135,6 +135,9 @@ def test_a_joystick_message_is_read_once_for_all_pages(monkeypatch):
         tick()
     assert read == [b"1", b"2"]
     assert [len(sent) for _, sent in pages] == [2, 2, 0]
+    for pages[1][0].watch.look in ("no/such/robot", "robot_1"):  # it looks away, and back
+        tick()
+    assert [len(sent) for _, sent in pages] == [2, 3, 0]
     monkeypatch.setattr(robots_module, "joy_shown", lambda data: [].pop())
     monkeypatch.setattr(robots_module, "sender_of", lambda message: "/rival")
     with pytest.raises(IndexError):

@@ -2,6 +2,7 @@
 
 import json
 from math import nan, pi
+from types import SimpleNamespace
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
@@ -16,6 +17,7 @@ from cockpit_server.graph import Graph, without
 from cockpit_server.motion import Motion, covered, motion
 from cockpit_server.seat import RefusedError
 from cockpit_server.sources.doctor import shown
+from cockpit_server.sources.graph_view import GraphView
 from cockpit_server.sources.logs import without_folders
 from cockpit_server.sources.plots import fields_of
 from cockpit_server.sources.recording import corners, curves
@@ -95,6 +97,14 @@ GRAPH = Graph(
 def test_robots_have_an_odometry_or_hear_a_joystick():
     assert GRAPH.robots_with_odometry() == {"", "robot_1"}
     assert GRAPH.robots() == {"", "robot_1", "real"}
+
+
+def test_a_page_that_looks_back_at_a_node_is_sent_it_again():
+    view = GraphView(SimpleNamespace(graph=GRAPH, version=1))
+    client, sent = page(graph=False)
+    for client.watch.node in ("/sim", "/sim", None, "/sim"):
+        view.give(client, 0.0)
+    assert [message["name"] for message in sent] == ["/sim", "/sim"]
 
 
 def test_a_node_and_its_neighbours():

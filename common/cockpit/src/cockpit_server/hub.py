@@ -132,11 +132,8 @@ class Hub(Source):
             client.refuse(kind, str(error), now)
 
     def on_watch(self, client: Client, _now: float, **fields: Any) -> None:
-        # Resend everything except log lines, which the page already has.
-        watch = self._schema.watch(**fields)
-        goes_on = client.watch.log and watch.log and "log" in client.seen
-        client.seen = {"log": client.seen["log"]} if goes_on else {}
-        client.watch = watch
+        # What the page was sent it keeps, whichever tab it shows; a new connection is a new client.
+        client.watch = self._schema.watch(**fields)
 
     def on_drive(self, client: Client, now: float, robot: str, mode: str) -> None:
         self.sit_down(client, robot, PAGE, now)

@@ -47,7 +47,7 @@ class GraphView(Source):
         if client.watch.graph and self._text and client.lacks("graph", self._version):
             client.write(self._text)
         node, pid = client.watch.node, self._pids.get(client.watch.node)
-        if node and client.lacks("node", (node, self._graphs.version, pid)):
+        if client.lacks("node", node and (node, self._graphs.version, pid)) and node:
             about = self._graphs.graph.about_node(node)
             client.send("node", **about, **({"pid": pid} if pid else {}))
 

@@ -15,7 +15,7 @@ from cockpit_server.clients import Client, Source
 from cockpit_server.feeds import Feeds, read
 from cockpit_server.schema import switch
 
-KEPT = 500  # lines
+KEPT = 1000  # lines, as many as a page keeps
 AT_ONCE = 50  # lines in a message to a page: many long ones would hold up the driver
 LONGEST_LINE = 2000  # characters
 LEVELS = {getattr(Log, name): name for name in ("DEBUG", "INFO", "WARN", "ERROR", "FATAL")}

@@ -83,8 +83,6 @@ class Plots(Source):
     def give(self, client: Client, now: float) -> None:
         if client.watch.field_list and client.lacks("fields", self._fields_of):
             client.send("fields", fields=self._fields)
-        if not client.watch.fields:
-            return
         known = client.seen.get("plot", self._number)
         with self._lock:
             client.seen["plot"] = self._number

@@ -133,7 +133,7 @@ class Pads(Source):
     def give(self, client: Client, now: float) -> None:
         robot = client.watch.look
         came, joy = self._newest.get(topic_of(robot or "", "joy"), (0.0, None))
-        if robot is not None and joy and client.lacks("pad", (robot, came)):
+        if client.lacks("pad", (robot, came)) and joy:
             client.send("pad", robot=robot, age=round(max(0.0, now - came), 3), **joy)
 
     def rival(self, robot: str, since: float) -> str | None:
