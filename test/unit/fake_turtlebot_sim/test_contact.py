@@ -7,7 +7,7 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from fake_turtlebot_sim.simulator.contact import Piece, drive_among, first_contact, gap
-from fake_turtlebot_sim.simulator.differential_drive import arc
+from fake_turtlebot_sim.simulator.differential_drive import drive
 
 R = 0.178
 WALL = (1.0, -5.0, 1.0, 5.0, 0.0)  # x = 1
@@ -41,7 +41,7 @@ CASES = {
 @pytest.mark.parametrize("name", CASES)
 def test_the_time_of_contact_is_the_closed_forms(name):
     pose, velocity, obstacle, after_s = CASES[name]
-    met = first_contact(pose, velocity, 60.0, R, [obstacle])
+    met = first_contact(pose, Piece(velocity, velocity, 60.0), R, [obstacle])
     assert (met[0] if met else inf) == pytest.approx(after_s, abs=EXACT)
 
 
@@ -57,25 +57,33 @@ velocities = st.tuples(
 @settings(max_examples=500, deadline=None)
 @example(  # a circle of 0.1 um beside the end of a wall, whose gap is a rounding
     [post(0.0, 0.0, 0.0), (0.0, 0.0, 0.0, -1.0, 0.0)], (-1.0, 0.0, 0.0),
-    [((1.0, 0.0), 1.0), ((-1.4901161193847696e-07, pi), 2.0)],
+    [((1.0, 0.0), (1.0, 0.0), 1.0), ((-1.4901161193847696e-07, pi),) * 2 + (2.0,)],
 )  # fmt: skip
+@example([WALL], (1 - R - 1e-11, 0.0, pi / 2), [((0.0, 0.0), (0.7, 0.0), 1.0)])  # along it
 @given(
     st.lists(walls | posts, min_size=1, max_size=8),
     st.tuples(places, places, st.floats(-pi, pi)),
-    st.lists(st.tuples(velocities, st.floats(0.001, 3.0)), min_size=1, max_size=6),
+    st.lists(
+        st.tuples(velocities, velocities, st.floats(0.001, 3.0))
+        | st.tuples(velocities, st.floats(0.001, 3.0)).map(lambda one: (one[0], *one)),
+        min_size=1,
+        max_size=6,
+    ),
 )
 def test_a_robot_is_never_inside_and_stops_only_where_it_touches(obstacles, pose, commands):
     clear = lambda x, y: min(gap(x, y, R, one) for one in obstacles)  # noqa: E731
     assume(clear(*pose[:2]) > 0.0)
-    for velocity, dt in commands:
-        pieces, contact = drive_among(pose, Piece(velocity, velocity, dt), R, obstacles)
+    for velocity, end_velocity, dt in commands:
+        pieces, contact = drive_among(pose, Piece(velocity, end_velocity, dt), R, obstacles)
         for piece in pieces:
             for part in range(1, 20):
-                x, y, _ = arc(pose, piece.velocity, piece.dt * part / 20)
+                before = piece.until(piece.dt * part / 20)
+                x, y, _ = drive(pose, *before[:2], before.dt)
                 assert clear(x, y) > -EXACT
-            pose = arc(pose, piece.velocity, piece.dt)
+            pose = drive(pose, *piece[:2], piece.dt)
         assert sum(piece.dt for piece in pieces) == pytest.approx(dt)
         assert contact is None or abs(clear(*pose[:2])) < EXACT
-        if contact is not None:  # it drives towards what it touches: backing off is never kept
+        # It drives towards what it touches: backing off is never kept.
+        if contact is not None and velocity == end_velocity:
             ahead = pose[2] if velocity[0] > 0 else pose[2] + pi
             assert cos(contact - ahead) > -EXACT

@@ -1,23 +1,22 @@
-"""When a round robot on its arc touches something, in closed form (pure).
+"""When a round robot on its path touches something, but for rounding (pure).
 
 The robot is a disc. An obstacle is a segment with a radius: a wall has the radius 0, a post or
-another robot the length 0. The robot drives its arc until it touches; while it pushes it turns on
+another robot the length 0. The robot drives its path until it touches; while it pushes it turns on
 the spot, as its wheels can, until its heading leads along the obstacle or away. It never slides.
 All is in one frame, in metres, radians and seconds.
 """
 
 from __future__ import annotations
 
-from cmath import rect
-from math import atan, atan2, copysign, cos, hypot, inf, pi, sin, sqrt, tau
-from typing import Iterable, Iterator, NamedTuple, Sequence, Tuple
+from math import atan2, ceil, copysign, cos, hypot, inf, pi, tau
+from typing import Callable, NamedTuple, Sequence, Tuple
 
 from fake_turtlebot_sim.simulator.differential_drive import Pose, Velocity, arc, between, drive
 
 TOUCH_M = 1e-11  # a gap that counts as none: some hundred times the rounding of a place in metres
 TANGENT = 1e-9  # the sine of an angle below which a motion leads along an obstacle, not into it
-STRAIGHT = 1e-12  # the turn [rad] of a path that bends to nothing
-LEAST_BEND = 1e-30  # [1/m] of a straight path, which so needs no formulas of its own
+MOST_LINES = 50  # of which each leaves at most a quarter of a gap
+HALVINGS = 52  # of a time, to its rounding
 
 Obstacle = Tuple[float, float, float, float, float]  # x1, y1, x2, y2, radius [m]
 
@@ -59,101 +58,87 @@ def direction_to(pose: Pose, obstacle: Obstacle) -> float:
 
 
 def first_contact(
-    pose: Pose, velocity: Velocity, dt: float, radius: float, obstacles: Iterable[Obstacle]
+    pose: Pose, whole: Piece, radius: float, obstacles: Sequence[Obstacle]
 ) -> tuple[float, Obstacle] | None:
-    """Return after which time [s] within dt a disc on its arc touches which obstacle, or None.
+    """Return after which time [s] of a drive a disc touches which obstacle, or None.
 
-    What it touches already counts only if it drives into it.
+    What it touches already counts only if it drives into it. The path is cut where it reverses or
+    turns back, and into quarters of a turn.
     """
-    first = None
-    if velocity[0]:
-        motion = _Motion(pose, velocity)
-        for obstacle in obstacles:
-            way = motion.way_to(obstacle, radius, motion.speed * dt)
-            if way is not None:
-                dt = way / motion.speed
-                first = dt, obstacle
-    return first
+    velocity, end_velocity, dt, _ = whole
+    longest = dt * max(abs(velocity[0]), abs(end_velocity[0]))
+    x, y, _ = pose
+    near = [one for one in obstacles if gap(x, y, radius, one) <= longest] if longest else []
+    if not near:
+        return None
+    quarters = ceil(max(abs(velocity[1]), abs(end_velocity[1])) * dt / (pi / 2)) or 1
+    shares = {(k + 1) / quarters for k in range(quarters)}
+    shares |= {a / (a - b) for a, b in zip(velocity, end_velocity) if a * b < 0.0}
+    after, now = 0.0, velocity
+    for share in sorted(shares):
+        end = between(velocity, end_velocity, share)
+        part, first = Piece(now, end, share * dt - after), None
+        for obstacle in near:
+            time = _contact_on_part(pose, part, radius, obstacle)
+            if time is not None:
+                part, first = part.until(time), obstacle
+        if first:
+            return after + part.dt, first
+        pose, now, after = drive(pose, *part[:2], part.dt), end, share * dt
+    return None
 
 
-class _Motion:
-    """A circle, seen from the robot: it leaves 0 towards 1 and bends towards 1j.
+def _contact_on_part(pose: Pose, part: Piece, radius: float, obstacle: Obstacle) -> float | None:
+    """Return after which time [s] of a part of a drive the robot touches an obstacle, or None.
 
-    After the way s the turn is a = bend s, and the place (sin(a) + 1j (1 - cos(a))) / bend. A
-    distance, or its square, then is given where A sin(a) + B (1 - cos(a)) = C: a quadratic in
-    tan(a / 2), which keeps its digits as bend goes to zero.
+    No point of an obstacle is nearer than the line through its nearest one, across the way to
+    there. The robot drives to that line, and to the next, until it touches.
     """
-
-    def __init__(self, pose: Pose, velocity: Velocity) -> None:
-        self.x, self.y, yaw = pose
-        v, w = velocity
-        self.speed = abs(v)
-        self._bend = max(LEAST_BEND, abs(w) / self.speed)  # [1/m]
-        self._turn = rect(1.0 if v > 0 else -1.0, -yaw)
-        self._is_mirrored = w < 0
-
-    def _seen(self, x: float, y: float) -> complex:
-        seen = complex(x - self.x, y - self.y) * self._turn
-        return seen.conjugate() if self._is_mirrored else seen
-
-    def way_to(self, obstacle: Obstacle, radius: float, longest: float) -> float | None:
-        """Return the way [m] to the first touch within longest [m], or None."""
-        reach = radius + obstacle[4]
-        px, py = nearest(self.x, self.y, obstacle)
-        distance = hypot(px - self.x, py - self.y)
-        if distance - reach > longest:
-            return None
-        least = 0.0
-        if distance - reach <= TOUCH_M:
-            if not distance:
-                return None  # both have one middle: every way leads out
-            near = self._seen(px, py)
-            towards = near.real / distance
-            bends_to_it = self._bend * longest >= STRAIGHT and near.imag > 0.0
-            if towards > TANGENT or (towards > -TANGENT and bends_to_it):
-                return 0.0
-            if towards > -TANGENT:  # along it and away: not met again before half a circle
-                least = pi / self._bend
-        one, other = self._seen(*obstacle[:2]), self._seen(*obstacle[2:4])
-        ways = self._to_disc(one, reach)
-        if one != other:
-            ways += [*self._to_disc(other, reach), *self._to_wall(one, other - one, reach)]
-        return min((way for way in ways if least <= way <= longest), default=None)
-
-    def _to_wall(self, start: complex, wall: complex, reach: float) -> Iterator[float]:
-        """Yield the ways [m] to touches of the inside of a wall, from either side."""
-        length = abs(wall)
-        along = wall / length
-        for out in (1j * along, -1j * along):
-            away = -(start * out.conjugate()).real
-            for way in self._ways(out.real, out.imag, -self._bend * _rounded(away - reach)):
-                half = 0.5 * self._bend * way
-                place = rect(way * (sin(half) / half if half else 1.0), half)
-                if 0.0 <= ((place - start) * along.conjugate()).real <= length:
-                    yield way
-
-    def _to_disc(self, middle: complex, reach: float) -> list[float]:
-        """Return the ways [m] on which the robot comes within reach [m] of a point."""
-        bend, distance = self._bend, abs(middle)
-        outside = _rounded(distance - reach) * (distance + reach)
-        wanted = -0.5 * bend * bend * outside
-        return self._ways(-bend * middle.real, 1.0 - bend * middle.imag, wanted)
-
-    def _ways(self, along: float, aside: float, wanted: float) -> list[float]:
-        """Return where along sin(a) + aside (1 - cos(a)) falls to wanted, as ways [m] from 0 on."""
-        room = along * along + wanted * (2 * aside - wanted)
-        if room <= 0.0:
-            return []
-        sum_ = along + sqrt(room) if along >= 0 else along - sqrt(room)
-        tangents = ((wanted, sum_), (-sum_, 2 * aside - wanted))  # of half the turn
-        turns = [2 * (atan(up / low) if low else pi / 2) % tau for up, low in tangents]
-        falls = (turn for turn in turns if along * cos(turn) + aside * sin(turn) < 0.0)
-        return [turn / self._bend for turn in falls]
+    rest = part
+    for _ in range(MOST_LINES):
+        free = gap(*pose[:2], radius, obstacle)
+        if rest is not part and free <= TOUCH_M:
+            break
+        fastest = max(abs(rest.velocity[0]), abs(rest.end_velocity[0]))
+        if not fastest or free > rest.dt * fastest or free <= -radius - obstacle[4]:
+            return None  # too far, or both have one middle: every way leads out
+        time = _time_to_line((-free, 0.0, pose[2] - direction_to(pose, obstacle)), rest)
+        if not time:
+            return None if time is None else part.dt - rest.dt
+        done = rest.until(time)
+        pose, rest = drive(pose, *done[:3]), Piece(done[1], rest[1], rest.dt - time)
+    return part.dt - rest.dt
 
 
-def _rounded(gap_m: float) -> float:
-    """Return 0 for a gap below none: a robot that leaves may be inside by a rounding."""
-    return 0.0 if -TOUCH_M <= gap_m < 0.0 else gap_m
+def _time_to_line(pose: Pose, part: Piece) -> float | None:
+    """Return after which time [s] of a part the robot gets to x = 0, on which it drives on.
+
+    Yaw does not turn by more than a quarter, so x grows in one stretch of time, or not at all.
+    """
+    sign = copysign(1.0, part.velocity[0] + part.end_velocity[0])
+
+    def at(time: float) -> tuple[float, float]:  # x [m], and the sine of the angle to the line
+        x, _, yaw = drive(pose, *part.until(time)[:2], time)
+        return x, sign * cos(yaw)
+
+    begin, end = 0.0, part.dt
+    if at(0.0)[1] <= 0.0:
+        begin = _halved(lambda time: at(time)[1] > 0.0, begin, end)
+    else:
+        end = _halved(lambda time: at(time)[1] <= 0.0, begin, end)
+    if at(begin)[0] >= -TOUCH_M:
+        return begin if at(0.5 * (begin + end))[1] > TANGENT else None
+    return _halved(lambda time: at(time)[0] >= 0.0, begin, end) if at(end)[0] >= 0.0 else None
+
+
+def _halved(is_later: Callable[[float], bool], low: float, high: float) -> float:
+    """Return the last time [s] between low and high before it is later, by halving."""
+    if not is_later(high):
+        return high
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if is_later(middle) else (middle, high)
+    return low
 
 
 def drive_among(
@@ -166,14 +151,12 @@ def drive_among(
     """
     velocity, end_velocity, left, _ = whole
     is_ramp = velocity != end_velocity
-    pieces, now = [], velocity
+    pieces = []
     for _ in range(2 * len(obstacles) + 2):  # each may be met, and turned away from, once or twice
-        if is_ramp:
-            met = _contact_on_ramp(pose, whole, radius, obstacles)
-            now = between(velocity, end_velocity, met[0] / left) if met else end_velocity
-        else:
-            met = first_contact(pose, velocity, left, radius, obstacles)
+        rest = Piece(velocity, end_velocity, left)
+        met = first_contact(pose, rest, radius, obstacles)
         free = met[0] if met else left
+        now = rest.until(free).end_velocity if met else end_velocity
         pieces.append(Piece(velocity, now, free))
         if met is None:
             return pieces, None
@@ -197,23 +180,3 @@ def _time_to_turn_away(yaw: float, velocity: Velocity, direction: float) -> floa
     ahead = yaw if v > 0 else yaw + pi
     side = (copysign(1.0, w) * (direction - ahead) + pi) % tau - pi  # positive: yet to be passed
     return max(0.0, side + pi / 2) / abs(w)
-
-
-def _contact_on_ramp(
-    pose: Pose, whole: Piece, radius: float, obstacles: Sequence[Obstacle]
-) -> tuple[float, Obstacle] | None:
-    """Do as first_contact() where the velocity changes, and the path has no closed form.
-
-    Going on by the gap to the nearest obstacle, again and again, never leads into one.
-    """
-    velocity, end_velocity, dt, _ = whole
-    fastest = max(abs(velocity[0]), abs(end_velocity[0]))
-    after, place, now = 0.0, pose, velocity
-    while after < dt and fastest and obstacles:
-        free, near = min((gap(*place[:2], radius, one), one) for one in obstacles)
-        if free <= TOUCH_M and first_contact(place, now, dt, radius, [near]):
-            return after, near
-        after = min(dt, after + max(free, TOUCH_M) / fastest)
-        now = between(velocity, end_velocity, after / dt)
-        place = drive(pose, velocity, now, after)
-    return None

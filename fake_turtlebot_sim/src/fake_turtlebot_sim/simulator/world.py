@@ -10,12 +10,13 @@ from typing import Any, Iterable, Sequence, Tuple
 
 import numpy as np
 
-from fake_turtlebot_sim.simulator.contact import Obstacle, first_contact
+from fake_turtlebot_sim.simulator.contact import Obstacle, Piece, first_contact
 from fake_turtlebot_sim.simulator.differential_drive import Pose, composed
 from fake_turtlebot_sim.simulator.grid_map import Grid
 
 BASE_RADIUS_M = 0.178  # kobuki.urdf.xacro
 Point = Tuple[float, float]  # x, y [m]
+FARTHEST_PLACE_M = 1e6  # of a robot that is put somewhere
 REACH_M = 1.0  # around a robot: what is farther away is looked at again only after so long a way
 INSIDE_M = 1e-9  # how deep in a wall a robot may be put
 GRID_M = 0.5  # between robots that are lined up
@@ -86,6 +87,7 @@ class World:
         start = self.start_pose
         self.check_place(start)
         around = Surroundings(self)
+        step = Piece((1.0, 0.0), (1.0, 0.0), GRID_M)
         found = {(0, 0): start}
         for row, column in (reached := [(0, 0)]):  # grows meanwhile
             px, py, _ = found[row, column]
@@ -95,7 +97,7 @@ class World:
                 if len(found) >= count or key in found:
                     continue
                 way = px, py, start[2] - (k + 1) * pi / 2
-                if first_contact(way, (1.0, 0.0), GRID_M, BASE_RADIUS_M, obstacles) is None:
+                if first_contact(way, step, BASE_RADIUS_M, obstacles) is None:
                     found[key] = composed(start, (GRID_M * key[0], GRID_M * key[1], 0.0))
                     reached.append(key)
         if len(found) < count:
@@ -132,15 +134,14 @@ class Surroundings:
     def __init__(self, world: World) -> None:
         self.world = world
         self._at: Point | None = None
+        self._within = 0.0  # [m]
         self._near: list[Obstacle] = []
 
     def near(self, x: float, y: float, reach: float) -> Sequence[Obstacle]:
         """Return at least all obstacles within reach [m] of (x, y)."""
-        obstacles = self.world.obstacles
-        if reach > REACH_M:
-            return obstacles
-        if self._at is None or hypot(x - self._at[0], y - self._at[1]) + reach > REACH_M:
-            self._at = x, y
-            is_near = gaps(x, y, self.world.array) <= REACH_M
-            self._near = [obstacles[i] for i in np.flatnonzero(is_near)]
+        at = self._at
+        if at is None or hypot(x - at[0], y - at[1]) + reach > self._within:
+            self._at, self._within = (x, y), max(reach, REACH_M)
+            is_near = gaps(x, y, self.world.array) <= self._within
+            self._near = [self.world.obstacles[i] for i in np.flatnonzero(is_near)]
         return self._near
