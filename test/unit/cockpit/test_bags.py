@@ -12,7 +12,8 @@ from sensor_msgs.msg import Joy
 
 from cockpit_server.seat import BAG, RefusedError
 from cockpit_server.sources import bags, recording
-from cockpit_server.sources.recording import RecordingError, curves, read
+from cockpit_server.sources.recording import curves, read
+from gamepad.bags import BagError
 from tutorial_testing.seat_room import page as new_page
 
 
@@ -120,7 +121,7 @@ def test_a_refused_file_is_named_without_its_folder(tmp_path, monkeypatch):
     os.mkfifo(tmp_path / "pipe.bag")
     (tmp_path / "text.bag").write_text("no bag")
     for name in ("pipe.bag", "text.bag", "none.bag"):
-        with pytest.raises(RecordingError) as error:
+        with pytest.raises(BagError) as error:
             read(tmp_path / name)
         assert str(error.value).startswith(f"{name}: ") and str(tmp_path) not in str(error.value)
     monkeypatch.chdir(tmp_path)

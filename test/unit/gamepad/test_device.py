@@ -1,6 +1,9 @@
 """Choosing, opening and losing devices: files and FIFOs here, the kernel's in test/system."""
 
 import errno
+import os
+import stat
+from types import SimpleNamespace
 
 import pytest
 
@@ -54,6 +57,27 @@ def test_each_case_is_told_apart_and_says_what_to_do(path, number, container, ws
 def test_what_is_no_joystick_is_refused(path):
     with pytest.raises(DeviceError, match="joystick"):
         Finder(path, "").open()
+
+
+@pytest.mark.parametrize(
+    ("owner", "mode", "is_refused"),
+    [(0, 0o644, False), (7, 0o600, False), (8, 0o600, True), (7, 0o620, True), (0, 0o602, True)],
+)
+def test_a_fifo_that_another_user_could_write_is_refused(
+    tmp_path, monkeypatch, owner, mode, is_refused
+):
+    path = tmp_path / "virtual_f710"
+    os.mkfifo(path)
+    status = SimpleNamespace(st_uid=owner, st_mode=stat.S_IFIFO | mode)
+    monkeypatch.setattr(os, "fstat", lambda _: status)
+    monkeypatch.setattr(os, "getuid", lambda: 7)
+    if is_refused:
+        with pytest.raises(
+            DeviceError, match="could drive the robot: choose another path, or: chmod"
+        ):
+            Finder(str(path), "").open()
+    else:
+        Finder(str(path), "").open().close()
 
 
 def test_a_plain_file_is_read_once_until_it_changes(tmp_path):

@@ -17,9 +17,6 @@ from typing import Callable
 
 from node_kit.parameters import Check
 
-LONGEST_BAG_HEADER = 4096  # bytes; http://wiki.ros.org/Bags/Format/2.0
-INDEX = re.compile(rb"index_pos=(.{8})", re.DOTALL)
-
 
 def recording(value: str) -> None:
     """Check for a file that rosbag can play, or none."""
@@ -27,19 +24,13 @@ def recording(value: str) -> None:
         return
     if not value.startswith("/"):
         raise ValueError("must be a whole path, as $PWD is not set")
+    from gamepad.bags import BagError, opened  # noqa: PLC0415  rosbag takes a while
+
     try:
-        with open(value, "rb") as file:
-            begin = file.read(LONGEST_BAG_HEADER)
-            size = file.seek(0, 2)
-    except OSError as error:
-        raise ValueError(f"cannot be read: {error.strerror}") from None
-    if not begin.startswith(b"#ROSBAG V"):
-        raise ValueError("is no recording of rosbag")
-    index = INDEX.search(begin)  # rosbag record writes where it is at the very end
-    if begin.startswith(b"#ROSBAG V2") and not (
-        index and 0 < int.from_bytes(index[1], "little") < size
-    ):
-        raise ValueError(f"is cut short; mend it with: rosbag reindex {value}")
+        with opened(value):
+            pass
+    except BagError as error:
+        raise ValueError(str(error).replace(f"{value}: ", "", 1)) from None
 
 
 def driver(value: str) -> None:

@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
-import rosbag
 import yaml
 
+from gamepad.bags import opened
 from gamepad.gamepads import F710
 
 TOPIC = "/joy"
@@ -18,7 +18,7 @@ def check_recording(bag: str, preset: str) -> None:
     """
     parameters = yaml.safe_load(Path(preset).read_text(encoding="utf-8"))
     numbers = [parameters[key] for key in KEYS if parameters.get(key, -1) >= 0]
-    with rosbag.Bag(bag) as recorded:
+    with opened(bag) as recorded:
         for _, joy, _ in recorded.read_messages(TOPIC):
             if not numbers or any(any(joy.buttons[one : one + 1]) for one in numbers):
                 return

@@ -13,9 +13,8 @@ from pathlib import Path
 from typing import Any
 
 from rosbags.rosbag1 import Reader as Reader1
-from rosbags.rosbag1 import ReaderError
 from rosbags.rosbag2 import Reader as Reader2
-from rosbags.rosbag2 import Writer, WriterError
+from rosbags.rosbag2 import Writer
 from rosbags.typesys import Stores, get_typestore
 
 VERSION = 9  # of the format: that of ROS 2 Jazzy and later
@@ -72,8 +71,8 @@ def main() -> None:
     try:
         count = convert(given.bag, given.folder)
         difference = first_difference(given.bag, given.folder)
-    except (ReaderError, WriterError, OSError, KeyError) as error:
-        sys.exit(f"convert_bag: {' '.join(str(error).split())}")
+    except Exception as error:  # rosbags lets struct.error and more through from a damaged file
+        sys.exit(f"convert_bag: {' '.join(str(error).split()) or type(error).__name__}")
     if difference:
         sys.exit(f"convert_bag: {given.folder} is not as {given.bag}: {difference}")
     print(f"{given.folder}: {count} messages, the same as in {given.bag}")

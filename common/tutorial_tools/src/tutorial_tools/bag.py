@@ -6,14 +6,13 @@ import argparse
 import os
 import shlex
 import sys
-from contextlib import contextmanager
 from html import escape
 from pathlib import Path
-from typing import Dict, Iterator, List, NoReturn, Sequence, Tuple
+from typing import Dict, List, NoReturn, Sequence, Tuple
 
-import rosbag
 import rosgraph
 
+from gamepad.bags import BagError, opened
 from node_kit.questions import address
 
 WIDTH, ROW, LEFT = 900, 90, 130  # [pixel] of the picture, of one curve, for the names
@@ -69,24 +68,6 @@ def svg(title: str, lines: list[Curve]) -> str:
 
 def fail(line: str) -> NoReturn:
     sys.exit(f"rqt_bag: {line}")
-
-
-class BagError(Exception):
-    """Why a bag cannot be read, in one line for the user."""
-
-
-@contextmanager
-def opened(path: str | Path) -> Iterator[rosbag.Bag]:
-    """Open a bag. Raises BagError, also for what is wrong while it is read."""
-    try:
-        with rosbag.Bag(str(path)) as bag:
-            yield bag
-    except OSError as error:
-        raise BagError(f"{path}: cannot be read: {error.strerror}") from error
-    except rosbag.ROSBagUnindexedException as error:
-        raise BagError(f"{path}: cut short; mend it with: rosbag reindex {path}") from error
-    except Exception as error:  # rosbag lets struct.error and more through from a damaged file
-        raise BagError(f"{path}: not a bag that can be read: {error}") from error
 
 
 def read(path: Path) -> tuple[float, Topics, list[Sample]]:

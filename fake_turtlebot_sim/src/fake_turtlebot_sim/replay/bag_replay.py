@@ -14,8 +14,7 @@ from pathlib import Path
 from typing import Any, Callable, Iterator, List, Optional, Tuple
 
 from genpy import Time
-from genpy.message import DeserializationError
-from rosbags.rosbag1 import Reader, ReaderError, Writer
+from rosbags.rosbag1 import Reader, Writer
 from tf2_msgs.msg import TFMessage
 
 from fake_turtlebot_sim.simulator.differential_drive import Velocity
@@ -23,6 +22,7 @@ from fake_turtlebot_sim.simulator.parameters import Parameters
 from fake_turtlebot_sim.simulator.ros_messages import RobotMessages
 from fake_turtlebot_sim.simulator.simulated_robot import RobotState, SimulatedRobot
 
+LONGEST_SILENCE_S = 1000.0  # between two commands
 Commands = List[Tuple[int, Optional[Velocity]]]  # times [ns]; None: a message not to be obeyed
 
 
@@ -56,6 +56,12 @@ def read_commands(
         ]
     if not commands:
         raise ReplayError(f"{path}: no message on {topic}")
+    for (before_ns, _), (after_ns, _) in zip(commands, commands[1:]):
+        if after_ns - before_ns > LONGEST_SILENCE_S * 1e9:
+            said = (
+                f"is silent for {(after_ns - before_ns) / 3.6e12:.1f} h: damaged, or no one drive"
+            )
+            raise ReplayError(f"{path}: {topic} {said}")
     return commands
 
 
@@ -72,8 +78,9 @@ def _open(path: Path) -> Iterator[Reader]:
     try:
         with Reader(path) as reader:
             yield reader
-    except (ReaderError, DeserializationError, OSError, EOFError) as error:
-        raise ReplayError(f"{path}: not a whole ROS 1 bag ({error})") from error
+    except Exception as error:  # rosbags lets KeyError and more through from a damaged file
+        why = " ".join(str(error).split()) or type(error).__name__
+        raise ReplayError(f"{path}: not a whole ROS 1 bag ({why:.200})") from None
 
 
 def replay(commands: Commands, target: Path, parameters: Parameters) -> Replay:

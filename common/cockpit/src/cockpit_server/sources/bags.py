@@ -11,7 +11,8 @@ from cockpit_server.graph import JOY
 from cockpit_server.player import Player
 from cockpit_server.schema import number, switch, text
 from cockpit_server.seat import BAG, RefusedError
-from cockpit_server.sources.recording import Recording, RecordingError, Shelf, recordings
+from cockpit_server.sources.recording import Recording, Shelf, recordings
+from gamepad.bags import BagError
 
 LOOK_S = 2.0  # how often the folder is looked at for recordings, while a page shows them
 
@@ -91,9 +92,9 @@ class Bags(Source):
         try:
             path = recordings(client.drives).get(name)
             if path is None:
-                raise RecordingError(f"{name!r} is none of the recordings that may be opened here")
+                raise BagError(f"{name!r} is none of the recordings that may be opened here")
             opened = Opened(name, *self._shelf.take(path))
-        except RecordingError as error:
+        except BagError as error:
             why = str(error)
         except Exception as error:  # whatever is in the file, the page gets the reason
             why = f"{name}: {type(error).__name__}: {error}"

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import stat
 from math import isfinite
 from pathlib import Path
 from typing import Any, List, NamedTuple, Sequence
 
-import rosbag
 import rospkg
 
 from cockpit_server.clients import encoded
 from cockpit_server.graph import JOY
 from cockpit_server.player import Message
+from gamepad.bags import BagError, opened
 
 Point = List[float]  # of a curve: time [s], value
 LARGEST = 200_000_000  # bytes
@@ -20,10 +19,6 @@ MOST_MESSAGES = 500_000  # of joysticks; at 100 Hz more than an hour
 MOST_POINTS = 3000  # of a curve
 MOST_NAMES = 100  # of this folder
 MOST_KEPT = 20  # recordings
-
-
-class RecordingError(Exception):
-    """It cannot be read; the text says why in one line."""
 
 
 class Recording(NamedTuple):
@@ -44,35 +39,25 @@ class Recording(NamedTuple):
 
 
 def read(path: Path) -> Recording:
-    """Return the Recording of a file. Raises RecordingError, which names no folder."""
+    """Return the Recording of a file. Raises BagError, which names no folder."""
     name = path.name
     try:
-        about = path.stat()
-        if not stat.S_ISREG(about.st_mode):
-            raise RecordingError(f"{name}: not a file")  # nothing ever comes from some of these
-        if about.st_size > LARGEST:
-            raise RecordingError(f"{name}: larger than {LARGEST // 1_000_000} MB: use rosbag play")
-        with rosbag.Bag(str(path)) as bag:
+        if path.is_file() and path.stat().st_size > LARGEST:
+            raise BagError(f"{name}: larger than {LARGEST // 1_000_000} MB: use rosbag play")
+        with opened(path) as bag:
             return _read(bag, name)
-    except OSError as error:
-        raise RecordingError(f"{name}: cannot be read: {error.strerror}") from None
-    except rosbag.ROSBagUnindexedException:
-        raise RecordingError(f"{name}: cut short; mend it with: rosbag reindex {name}") from None
-    except RecordingError:
-        raise
-    except Exception as error:  # rosbag lets struct.error and more through from a damaged file
-        why = str(error).replace(str(path), name)
-        raise RecordingError(f"{name}: not a bag that can be read: {why}") from None
+    except BagError as error:
+        raise BagError(str(error).replace(str(path), name)) from None
 
 
 def _read(bag: Any, name: str) -> Recording:
     info = bag.get_type_and_topic_info().topics
     topics = {topic: (one.msg_type, one.message_count) for topic, one in info.items()}
     if not topics:
-        raise RecordingError(f"{name}: is empty")
+        raise BagError(f"{name}: is empty")
     joys: dict[str, list[Message]] = {t: [] for t in sorted(topics) if topics[t][0] == JOY}
     if sum(topics[topic][1] for topic in joys) > MOST_MESSAGES:
-        raise RecordingError(f"{name}: too long: use rosbag play")
+        raise BagError(f"{name}: too long: use rosbag play")
     start = bag.get_start_time()
     for topic, joy, stamp in bag.read_messages(topics=list(joys)) if joys else ():
         joys[topic].append((stamp.to_sec() - start, joy.axes, joy.buttons))
@@ -122,11 +107,11 @@ class Shelf:
         self.in_use: Sequence[Recording] = ()  # that pages have open; replaced, never changed
 
     def take(self, path: Path) -> tuple[Recording, str]:
-        """Return (Recording, message) of a file. Raises RecordingError."""
+        """Return (Recording, message) of a file. Raises BagError."""
         try:
             about = path.stat()
         except OSError as error:
-            raise RecordingError(f"{path.name}: cannot be read: {error.strerror}") from None
+            raise BagError(f"{path.name}: cannot be read: {error.strerror}") from None
         key = (path, about.st_mtime_ns, about.st_size)
         # Before anything changes: what cannot be shown is not opened.
         taken = self._read.get(key) or _with_message(read(path), path.name)
@@ -142,7 +127,7 @@ class Shelf:
             del self._read[unused.pop(0)]
         if self._has_too_many() and len(self._read) > 1:
             self._read.popitem()
-            raise RecordingError("other pages have long recordings open: close one of them")
+            raise BagError("other pages have long recordings open: close one of them")
 
     def _has_too_many(self) -> bool:
         return sum(one.messages for one, _ in self._read.values()) > MOST_MESSAGES

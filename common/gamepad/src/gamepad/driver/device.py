@@ -11,7 +11,7 @@ import stat
 from pathlib import Path
 
 from gamepad.driver.container import in_container
-from gamepad.driver.device_choice import DeviceError, choose_by_name, explain
+from gamepad.driver.device_choice import DeviceError, check_trust, choose_by_name, explain
 from gamepad.gamepads import trigger_axes
 from gamepad.js_event import EVENT_BYTES
 
@@ -48,6 +48,8 @@ class Device:
                 self.content = (status.st_dev, status.st_ino, status.st_size, status.st_mtime_ns)
             elif not stat.S_ISFIFO(status.st_mode):
                 raise DeviceError(f"{path} is no joystick: a device such as /dev/input/js0 is.")
+            if not self.kernel_device:
+                check_trust(path, status, os.getuid())
         except BaseException:
             self.close()
             raise

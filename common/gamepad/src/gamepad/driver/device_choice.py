@@ -16,6 +16,13 @@ class DeviceError(Exception):
     """No gamepad can be opened or read; the text says in one line why and what to do."""
 
 
+def check_trust(path: str, status: os.stat_result, user: int) -> None:
+    """Raise DeviceError if a FIFO or a file could be written by others than a user and root."""
+    if status.st_uid not in {user, 0} or status.st_mode & 0o022:
+        why = "is another user's, or can be written by others, who could drive the robot"
+        raise DeviceError(f"{path} {why}: choose another path, or: chmod go-w {path}")
+
+
 def choose_by_name(names: Mapping[str, str], wanted: str) -> str:
     """Return the path of the gamepad with the wanted name: its exact name, or else a part of it.
 

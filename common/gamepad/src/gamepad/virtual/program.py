@@ -52,18 +52,13 @@ def read_script(path: str) -> Script:
 
 def read_bag(path: str, topic: str) -> list[tuple[float, Position]]:
     """Return (time [s], position) of a topic of a bag. Raises ValueError, OSError."""
-    import rosbag  # noqa: PLC0415  nothing else needs ROS
+    from gamepad.bags import BagError, opened  # noqa: PLC0415  nothing else needs ROS
 
-    try:
-        with rosbag.Bag(path) as bag:
-            return [
-                (stamp.to_sec(), (message.axes, message.buttons))
-                for _, message, stamp in bag.read_messages(topics=[topic])
-            ]
-    except rosbag.ROSBagException as error:
-        raise ValueError(str(error)) from None
-    except AttributeError:
-        raise ValueError(f"{topic} is no sensor_msgs/Joy") from None
+    with opened(path) as bag:
+        recorded = list(bag.read_messages(topics=[topic]))
+        if not all(hasattr(message, "axes") for _, message, _ in recorded):
+            raise BagError(f"{path}: {topic} is no sensor_msgs/Joy")
+        return [(stamp.to_sec(), (joy.axes, joy.buttons)) for _, joy, stamp in recorded]
 
 
 def make_source(options: argparse.Namespace) -> tuple[Gamepad, KeySource | TimedSource]:

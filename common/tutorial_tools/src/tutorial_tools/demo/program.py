@@ -17,8 +17,8 @@ from collections.abc import Iterable
 import rosgraph
 import rospkg
 
+from gamepad.bags import BagError, opened
 from node_kit.questions import Answer, accepts, address, call, holder
-from tutorial_tools.bag import BagError, opened
 from tutorial_tools.command.words import fail, parser_of
 from tutorial_tools.demo.launch import ENDING, TOPICS, DemoError, Launch
 from tutorial_tools.launch_arguments import launch_arguments

@@ -1,0 +1,84 @@
+"""Files that somebody damaged, or made to do harm, and a child process that reads one.
+
+`TUTORIAL_HOSTILE=10 ./tutorial test unit FILE` tries ten times as many, and says the worst.
+"""
+
+import os
+import resource
+import signal
+import sys
+import tempfile
+import traceback
+
+from hypothesis import HealthCheck, settings
+from hypothesis import strategies as st
+
+SCALE = int(os.environ.get("TUTORIAL_HOSTILE", "1"))
+MOST_S, MOST_MB = 5.0, 200.0  # of processor time, and of memory with what Python and ROS need
+BARE_MB = 70.0  # what they need before a file is read
+worst = {"s": 0.0, "MB": 0.0}
+
+
+def many(count):
+    """Return hypothesis' settings for so many examples, times TUTORIAL_HOSTILE."""
+    fixture = HealthCheck.function_scoped_fixture
+    return settings(
+        max_examples=count * SCALE, deadline=None, database=None,
+        suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large, fixture],
+    )  # fmt: skip
+
+
+def end_of(main):
+    """Run main in a child: its exit code is 0, or it is 1 and stderr has one line. Return that."""
+    with tempfile.TemporaryFile("w+") as said:
+        with open("/proc/self/statm", encoding="ascii") as file:
+            before_mb = int(file.read().split()[1]) * resource.getpagesize() / 1e6
+        child = os.fork()
+        if not child:
+            _be(main, said.fileno())
+        _, status, used = os.wait4(child, 0)
+        said.seek(0)
+        text = said.read()
+    assert not os.WIFSIGNALED(status), signal.strsignal(os.WTERMSIG(status))
+    code, lines = os.WEXITSTATUS(status), text.splitlines()
+    assert (code, len(lines)) == (0, 0) or (code, len(lines)) == (1, 1), f"{code}: {text[-2000:]}"
+    spent = {
+        "s": used.ru_utime + used.ru_stime,
+        "MB": BARE_MB + max(0.0, used.ru_maxrss * 1024 / 1e6 - before_mb),
+    }
+    assert spent["MB"] <= MOST_MB, f"{spent}: {text}"
+    for what, much in spent.items():
+        if SCALE > 1 and much > worst[what]:
+            worst[what] = much
+            print(f"worst so far: {much:.2f} {what}: {text[:200]}", file=sys.__stderr__)
+    return text
+
+
+def _be(main, said):
+    """Be the child: run main and exit, whatever comes."""
+    code = 70
+    try:
+        os.dup2(said, 2)
+        resource.setrlimit(resource.RLIMIT_CPU, (int(MOST_S), int(MOST_S) + 1))
+        sys.stderr = open(2, "w", closefd=False)  # noqa: SIM115
+        sys.stdout = open(os.devnull, "w")  # noqa: SIM115
+        code = main()
+    except BaseException:
+        traceback.print_exc()
+    finally:
+        sys.stderr.flush()
+        os._exit(code)
+
+
+@st.composite
+def damaged(draw, data):
+    """Draw bytes with some of them changed, cut out, put in, or the end cut off."""
+    for _ in range(draw(st.integers(1, 4))):
+        at = draw(st.integers(0, max(0, len(data) - 1)))
+        new = draw(st.binary(max_size=12) | st.sampled_from(EXTREMES))
+        lost = draw(st.sampled_from([0, len(new), len(new), len(new), 40, 4000]))
+        data = data[:at] + new + data[at + lost :]
+    return data[: draw(st.integers(0, len(data)))] if draw(st.integers(0, 4)) == 0 else data
+
+
+EXTREMES = [b"\0" * 4, b"\xff" * 4, b"\xff\xff\xff\x7f", b"\0\0\0\x80", b"\xff" * 8, b"\0" * 500]
