@@ -126,7 +126,9 @@ def test_a_start_that_is_given_counts_also_at_zero(tmp_path):
 
 def test_a_robot_has_no_place_in_the_middle_of_a_thick_wall(tmp_path):
     path = write_map(tmp_path, np.zeros((80, 80), np.uint8), origin=[-2, -2, 0])
-    with pytest.raises(ValueError, match="no free place where a robot has room; give other"):
+    with pytest.raises(
+        ValueError, match="no free place where a robot has room; give another place"
+    ):
         start_of(path)
     with pytest.raises(ValueError, match="would be inside of a wall"):
         start_of(path, initial_x=0.1)

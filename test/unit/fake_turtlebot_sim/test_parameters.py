@@ -59,6 +59,7 @@ def test_the_period_is_right_to_the_nanosecond(rate, period_ns):
         ),
         ({"robots": ["ada", "2nd"]}, ["~robots: [", "'2nd'", "letter"]),
         ({"robots": [True]}, ["~robots: [True]", "letter"]),
+        ({"robots": {"ada": [1e7, 0, 0]}}, ["~robots: {", "ada: [10000000.0", "up to 1e6"]),
         ({"robots": {"2nd": [0, 0, 0]}}, ["~robots: {", "'2nd'", "letter"]),
         (
             {"robots": {"bob": [0, 0]}},

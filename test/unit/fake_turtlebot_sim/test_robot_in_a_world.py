@@ -160,7 +160,18 @@ def test_it_is_not_put_into_a_wall_or_over_an_edge():
     for pose in ((1.9, 0.0, 0.0), (0.0, -1.9, 0.0), (0.9, 0.0, 0.0), (1.5, 0.0, 0.0)):
         with pytest.raises(ValueError, match=r"inside of a wall|over an edge"):
             robot.place(pose)
+    for far in (1e308, -1e7, inf):
+        with pytest.raises(ValueError, match="a pose is at most 1e\\+06 m from"):
+            robot.place((0.0, far, 0.0))
     assert robot.true_pose == (0.0, 0.0, 0.0)
+
+
+def test_far_from_the_origin_contact_is_as_exact():
+    wall = World((((9999.0, 9000.0), (9999.0, 9999.0)),))
+    start = (9998.0, 9900.0, 0.0)
+    for limits in ({}, {"max_linear_acceleration": 0.5}):
+        robot = driven(SimulatedRobot(Parameters(world=wall, **limits), start), (0.5, 0.1), 5)
+        assert robot.true_pose[0] == pytest.approx(9999 - R, abs=EXACT)
 
 
 def test_ranges_begin_at_the_camera_and_end_as_rep_117_has_it():
@@ -240,7 +251,10 @@ def test_each_world_of_the_package_has_room_for_a_class(name):
         ({"world": "moon"}, "~world: 'moon': no world of this package has that name: take maze, "),
         ({"world": "./none.yaml"}, "~world: './none.yaml': cannot be read: No such file"),
         ({"world": "maze", "robots": 500}, "~world: 'maze': the world has room for"),
-        ({"world": "maze", "robots": {"ada": [1.0, 1.0, 0.0]}}, "would be inside of a wall"),
+        (
+            {"world": "maze", "robots": {"ada": [1.0, 1.0, 0.0]}},
+            "start: in the world's file or x:= y:=",
+        ),
         ({"scan_no_return": "0"}, "~scan_no_return: '0': must be inf or nan"),
         ({"scan_range_min": 11.0}, "~scan_range_min: must be less than ~scan_range_max"),
     ],

@@ -1,7 +1,7 @@
 """A robot under commands: rates, timeout, limits, reset."""
 
 import random
-from math import hypot, inf, nan, pi
+from math import hypot, inf, isfinite, nan, pi
 
 import pytest
 
@@ -90,6 +90,14 @@ def test_verdicts():
     assert robot.command((1e300, 1.0), 0) is Verdict.LIMITED
     robot.advance(10 * SECOND)  # a jump of time moves no further than the timeout
     assert robot.state().x == pytest.approx(0.42)
+
+
+def test_a_speed_without_a_limit_is_still_one_that_can_be_computed():
+    no_limits = Parameters(max_linear_speed=0, max_angular_speed=0, max_linear_acceleration=1.0)
+    robot = SimulatedRobot(no_limits)
+    assert robot.command((1e308, 1e308), 0) is Verdict.LIMITED
+    robot.advance(SECOND // 10)
+    assert all(map(isfinite, robot.state()))
 
 
 def test_the_wheels_have_rolled_the_path_and_the_turn():

@@ -1,10 +1,21 @@
 """Worlds from files: ours, map_server's, and what is no world."""
 
+import io
+import os
+import shutil
+import sys
+
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from PIL import Image
 
+from fake_turtlebot_sim.simulator.parameters import parse_parameters
+from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
 from fake_turtlebot_sim.simulator.world import Surroundings
-from fake_turtlebot_sim.simulator.world_files import WorldError, read_world
+from fake_turtlebot_sim.simulator.world_files import FIELDS, WorldError, read_world
+from fake_turtlebot_sim.simulator.world_messages import world_map, world_markers
+from tutorial_testing.hostile import damaged, end_of, many
 
 OURS = """\
 walls:
@@ -51,19 +62,125 @@ def test_a_world_of_ours(tmp_path):
         ("cliffs: [[[0, 0], [1, .nan], [1, 1]]]", "line 1: cliffs: must be"),
         ("start: {x: 1, y: 2, yaw: 0, z: 3}", "line 1: start: must be"),
         ("posts: []\ncolour: red", "line 2: colour: is not known"),
-        ("walls: [", "line 1: not YAML"),
+        ("walls: [", ": not YAML"),
+        ("posts: []\nposts: [1, 2]\n", "line 2: posts: must be"),
+        ("walls: {}\nwalls: []", "line 1: walls: is there twice"),
         ("- 1", "must be a map of walls, posts"),
-        ("image: none.pgm", "a map needs resolution, origin [x, y, yaw]"),
-        (f"{MAP}negate: false", "free_thresh and mode"),
-        (f"{MAP}mode: binary", "('trinary', 'scale', 'raw') or none"),
+        ("walls: &a [*a]", "line 1: *NAME, or more than 20 lists"),
+        ("walls: " + "[" * 60_000, "line 1: *NAME, or more than 20 lists"),
+        ("!!binary walls: []", "not YAML"),
+        ("walls: !!int two", "not YAML: no text, or a value that is none"),
+        ("walls: [[[0, 0], [10001, 0]]]", "up to 10000 m"),
+        (f"posts: {[{'x': 1, 'y': 1, 'radius': 1}] * 2001}", "2001 are too many: at most 2000"),
+        (f"cliffs: {[[[0, 0], [1, 1], [1, 0]]] * 334}", "1002 are too many: at most 1000"),
+        (" " * 2_000_001, "cannot be read: not a plain file of at most 2 MB"),
+        ("image: none.pgm", "negate: must be 0 or 1"),
+        (f"{MAP}negate: false", "negate: must be 0 or 1"),
+        (f"{MAP}mode: binary", "mode: must be trinary, scale, raw or left out"),
+        (f"{MAP}resolution: 0", "resolution: 0: must be a number from 0.001 to 100"),
+        (f"{MAP}free_thresh: -0.1", "free_thresh: -0.1: must be a number from 0 to 1"),
+        (f"{MAP}origin: [0, 2e4, 0]", "origin: '2e4': must be a number from -10000 to 10000"),
+        (MAP.replace("resolution", "resolutoin"), "resolution: is missing, which a map needs"),
+        (f"{MAP}image: /dev/zero", "/dev/zero: cannot be read as an image: not a plain file"),
         (f"{MAP}start: {{x: 1, y: 2}}", "start: must be {x: ..., y: ..., yaw: ...}"),
-        (MAP, "map.pgm: cannot be read as an image: [Errno 2]"),
+        (MAP, "map.pgm: cannot be read as an image: No such file or directory"),
     ],
 )
 def test_a_mistake_is_one_line(tmp_path, text, said):
     with pytest.raises(WorldError) as error:
         world_of(tmp_path, text)
     assert said in str(error.value) and "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("data", "said"),
+    [
+        (b"GIF89a", "no PGM, PNG or BMP"),
+        (b"P2 3 2 255\n0 50 100 1", "cut short, or has a negative number"),
+        (b"P2 3 1 255\n0 50 -1", "cut short, or has a negative number"),
+        (b"P5 2 1 65535\n\0\xff\0\0", "map_server reads the higher 8, which are all 0"),
+        (b"P5 20 10 255\n" + bytes(200), "reaches farther than 10000 m"),
+        (b"P5 4096 4097 255\n", "more than 16777216 cells"),
+    ],
+)  # fmt: skip
+def test_an_image_that_is_no_map_is_one_line(tmp_path, data, said):
+    (tmp_path / "map.pgm").write_bytes(data)
+    resolution = 100 if "farther" in said else 0.5
+    with pytest.raises(WorldError, match=said):
+        world_of(tmp_path, f"{MAP}resolution: {resolution}\norigin: [9000, 0, 0]")
+
+
+def test_what_never_ends_is_not_read(tmp_path):
+    os.mkfifo(tmp_path / "pipe.yaml")
+    (tmp_path / "zero.yaml").symlink_to("/dev/zero")
+    for name in ("pipe.yaml", "zero.yaml", "."):
+        with pytest.raises(WorldError, match="cannot be read: not a plain file"):
+            read_world(tmp_path / name)
+
+
+def live_in(path):
+    """Read a world, and do what the node does in it; return the exit code."""
+    try:
+        parameters = parse_parameters({"world": str(path)})
+        robot = SimulatedRobot(parameters, parameters.start_poses()[""])
+    except ValueError as error:
+        print(error, file=sys.stderr)
+        return 1
+    world_map(parameters.world, "map", None)
+    world_markers(parameters.world, "map")
+    for cycle in range(50):
+        robot.command((0.7, cycle % 3 - 1.0), cycle * 20_000_000)
+        robot.advance((cycle + 1) * 20_000_000)
+        robot.sensed()
+    return 0
+
+
+numbers = st.sampled_from([0, -1, 0.05, 1e308, -1e6, 3, 1e-300, "nan", "1e400", "9" * 5000, "0x1"])
+values = numbers | st.text(max_size=5) | st.none() | st.lists(numbers, max_size=4)
+keys = st.sampled_from([*FIELDS, "image", "resolution", "origin", "negate", "mode", "free_thresh"])
+IMAGES = [
+    lambda: b"P5 %d %d 255\n" % (200, 100) + bytes([254] * 199 + [0]) * 100,
+    lambda: b"P5 300 300 255\n" + bytes([0, 254] * 150 + [254, 0] * 150) * 150,
+    lambda: b"P2 20 20 255\n" + b"254 " * 400,
+    lambda: b"P6 9999999 9999999 255\n" + bytes(99),
+    lambda: saved(Image.new("L", (900, 900), 254), "PNG"),
+    lambda: saved(Image.new("P", (60, 60), 254), "PNG"),
+    lambda: saved(Image.new("RGBA", (60, 60), (254,) * 4), "PNG"),
+    lambda: saved(Image.new("I", (60, 60), 254), "PNG"),
+    lambda: saved(Image.new("RGB", (60, 60), (254,) * 3), "BMP"),
+    lambda: saved(Image.new("1", (5000, 3000), 1), "PNG"),
+]
+LARGE = [
+    lambda: "walls: " + str([[[k / 200, k % 7], [k / 200 + 1, k % 5]] for k in range(1, 20_000)]),
+    lambda: "- &a0 [1]\n" + "".join(f"- &a{k} [{f'*a{k - 1},' * 9}]\n" for k in range(1, 2000)),
+    lambda: "[" * 60_000, lambda: "{a: " * 30_000, lambda: "- " * 30_000, lambda: "? " * 30_000,
+    lambda: "walls: " + "9" * 60_000, lambda: "walls: 1" + ":59" * 20_000 + ".5",
+    lambda: "cliffs: " + str([[[k % 9, k / 40], [9, 0], [9, 9]] for k in range(40, 370)]),
+    lambda: "walls: !!omap [a: 1]", lambda: "!!set {walls}", lambda: "<<: {walls: []}", lambda: "",
+    lambda: "start: 2001-99-99", lambda: "walls: !!timestamp x", lambda: "walls: !!bool x",
+]  # fmt: skip
+
+
+def saved(image, kind):
+    file = io.BytesIO()
+    image.save(file, kind)
+    return file.getvalue()
+
+
+@many(20)
+@given(st.data())
+def test_a_hostile_world_is_a_world_or_one_line(tmp_path_factory, data):
+    folder = tmp_path_factory.mktemp("hostile")
+    image = data.draw(st.sampled_from(IMAGES))()
+    (folder / "map.pgm").write_bytes(data.draw(st.just(image) | damaged(image)))
+    text = data.draw(st.sampled_from([OURS, MAP, MAP])).encode()
+    lines = data.draw(st.lists(st.tuples(keys, values), max_size=2))
+    text += "".join(f"{key}: {value}\n" for key, value in lines).encode(errors="replace")
+    large = data.draw(st.sampled_from(LARGE))
+    text = data.draw(st.just(text) | damaged(text) | st.builds(lambda: large().encode()))
+    (folder / "world.yaml").write_bytes(text)
+    end_of(lambda: live_in(folder / "world.yaml"))
+    shutil.rmtree(folder)
 
 
 def test_a_map_has_walls_around_its_occupied_cells(tmp_path):

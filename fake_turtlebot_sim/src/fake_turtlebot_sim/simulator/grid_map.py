@@ -5,11 +5,15 @@ The rules are those of map_server's main.cpp and image_loader.cpp, and of SDL_im
 
 from __future__ import annotations
 
+import re
 from cmath import rect
+from contextlib import suppress
 from dataclasses import dataclass
+from errno import EFBIG
 from functools import cached_property
-from math import isfinite
+from io import BytesIO
 from pathlib import Path
+from stat import S_ISREG
 from typing import Any, Mapping
 
 import numpy as np
@@ -18,6 +22,9 @@ from fake_turtlebot_sim.simulator.differential_drive import Pose
 
 OCCUPIED, UNKNOWN = 100, -1  # nav_msgs/OccupancyGrid; 0: free
 LARGEST_MAP = 4096 * 4096  # cells
+LARGEST_IMAGE = 100_000_000  # bytes
+MOST_WALLS = 200_000  # pieces of outlines
+FARTHEST_M = 1e4  # of a world from (0, 0): beyond, places round to more than counts as a touch
 TRINARY, SCALE, RAW = MODES = ("trinary", "scale", "raw")
 
 
@@ -51,12 +58,14 @@ class Grid:
         return away * rect(1.0, self.origin[2]) + complex(*self.origin[:2])
 
     def outlines(self) -> Any:
-        """Return the edges between occupied and other cells, joined where in line: (n, 2) [m]."""
+        """Return the edges of occupied cells, joined in line: (n, 2) [m]. Raises WorldError."""
         found = []
         for is_upright in (False, True):
             cells = self.occupied.T if is_upright else self.occupied
             edge = np.diff(np.pad(cells, ((1, 1), (0, 0))).astype(np.int8), axis=0) != 0
             steps = np.diff(np.pad(edge, ((0, 0), (1, 1))).astype(np.int8), axis=1)
+            if np.count_nonzero(steps > 0) > MOST_WALLS:
+                raise WorldError(f"its walls have more than {MOST_WALLS} pieces")
             (rows, begins), (_, ends) = np.nonzero(steps > 0), np.nonzero(steps < 0)
             lines = np.array([[begins, rows], [ends, rows]])
             found.append(lines[:, ::-1] if is_upright else lines)
@@ -71,46 +80,77 @@ class Grid:
         is_free = (self.cells >= 0) & (self.cells < OCCUPIED)
         reach, (rows, columns) = int(radius / self.resolution + 0.5), self.cells.shape
         away = np.maximum(np.abs(np.arange(-reach, reach + 1)) - 0.5, 0.0) * self.resolution
-        covered = np.argwhere(np.hypot(away[:, None], away) < radius)
+        # Of each column of the disc, how many cells it covers above its middle, and below; or -1.
+        heights = ((np.hypot(away[:, None], away) < radius).sum(axis=0) - 1) // 2
         for is_open in (is_free, ~self.occupied):
             fits, around = is_free.copy(), np.pad(is_open, reach)
-            for row, column in covered:
-                fits &= around[row : row + rows, column : column + columns]
-            if fits.any():
-                places = self.places(*(np.argwhere(fits).T[::-1] + 0.5))
-                place = places[np.abs(places).argmin()]
+            upright = around[reach : reach + rows].copy()  # whether open from -height to height
+            for height in range(reach + 1):
+                above, below = reach + height, reach - height
+                upright &= around[above : above + rows] & around[below : below + rows]
+                for column in np.flatnonzero(heights == height):
+                    fits &= upright[:, column : column + columns]
+            nearest, strip = [], rows // 64 + 1  # in strips, which bounds the memory
+            for low in range(0, rows, strip):
+                lines, across = np.nonzero(fits[low : low + strip])
+                if len(lines):
+                    places = self.places(across + 0.5, lines + low + 0.5)
+                    nearest.append(places[np.abs(places).argmin()])
+            if nearest:
+                place = min(nearest, key=abs)
                 return float(place.real), float(place.imag), 0.0
         raise ValueError("the map has no free place where a robot has room")
 
 
+def check_file(path: Path, most: int) -> None:
+    """Raise OSError if it is no plain file, or has more than most bytes."""
+    about = path.stat()
+    if not S_ISREG(about.st_mode) or about.st_size > most:
+        raise OSError(EFBIG, f"not a plain file of at most {most // 10**6} MB")
+
+
 def read_map(path: Path, about: Mapping[str, Any]) -> Grid:
     """Return the Grid of a map, of its YAML file and what stands in it. Raises WorldError."""
-    try:
-        mode = MODES[MODES.index(about.get("mode", TRINARY))]
-        negate = int(str(about["negate"]))  # of true or a text as yaml-cpp does
-        lengths = about["resolution"], *about["origin"][:3]
-        given = (*lengths, about["occupied_thresh"], about["free_thresh"])
-        resolution, x, y, yaw, occupied, free = numbers = [float(str(one)) for one in given]
-        if resolution <= 0 or not all(map(isfinite, numbers)):
-            raise ValueError(f"{numbers}")
-    except (KeyError, TypeError, ValueError) as error:
-        needs = "resolution, origin [x, y, yaw], negate (0 or 1), occupied_thresh, free_thresh"
-        raise WorldError(f"a map needs {needs} and mode {MODES} or none: {error}") from None
+    mode, origin, negate = about.get("mode", TRINARY), about.get("origin"), about.get("negate")
+    if mode not in MODES:
+        raise WorldError(f"mode: must be {', '.join(MODES)} or left out")
+    if str(negate) not in {"0", "1"}:
+        raise WorldError("negate: must be 0 or 1")
+    if not isinstance(origin, list) or len(origin) < 3:
+        raise WorldError("origin: must be [x, y, yaw] in metres and radians")
+    x, y, yaw = (_number({"origin": one}, "origin", -FARTHEST_M, FARTHEST_M) for one in origin[:3])
+    resolution = _number(about, "resolution", 0.001, 100.0)
+    occupied, free = (_number(about, name, 0.0, 1.0) for name in ("occupied_thresh", "free_thresh"))
     image = path.parent / str(about["image"])
     try:
-        pixels = _pixels(image)
+        check_file(image, LARGEST_IMAGE)
+        pixels = _pixels(image.read_bytes())
     except ImportError:
         raise WorldError(f"{image}: reading it takes Pillow: apt install python3-pil") from None
-    except (OSError, SyntaxError, ValueError) as error:
-        raise WorldError(f"{image}: cannot be read as an image: {error}") from None
+    except Exception as error:  # Pillow lets struct.error and more through
+        why = getattr(error, "strerror", None) or error
+        raise WorldError(f"{image}: cannot be read as an image: {why}") from None
+    if np.hypot(x, y) + np.hypot(*pixels.shape[:2]) * resolution > FARTHEST_M:
+        raise WorldError(f"{image}: reaches farther than {FARTHEST_M:g} m from (0, 0)")
     channels = pixels.shape[2]
     counted = channels - (channels == 4 and mode != TRINARY)  # without alpha
     mean = np.arange(255 * counted + 1) / counted  # of each sum that the channels can have
-    table = _values(255 - mean if negate else mean, mode, occupied, free)
+    table = _values(255 - mean if str(negate) == "1" else mean, mode, occupied, free)
     cells = table[pixels[..., :counted].sum(axis=2, dtype=np.uint16)]
     if mode == SCALE and channels > 1:  # the last channel counts as alpha, whichever it is
         cells[(cells > 0) & (cells < OCCUPIED) & (pixels[..., -1] == 0)] = UNKNOWN
     return Grid(cells[::-1], resolution, (x, y, yaw))
+
+
+def _number(about: Mapping[str, Any], name: str, least: float, most: float) -> float:
+    """Return a number of a map's file, maybe a text, as yaml-cpp reads it. Raises WorldError."""
+    if name not in about:
+        raise WorldError(f"{name}: is missing, which a map needs")
+    with suppress(ValueError):
+        value = float(str(about[name]))
+        if least <= value <= most:
+            return value
+    raise WorldError(f"{name}: {about[name]!r:.40}: must be a number from {least:g} to {most:g}")
 
 
 def _values(shades: Any, mode: str, occupied: float, free: float) -> Any:
@@ -123,18 +163,28 @@ def _values(shades: Any, mode: str, occupied: float, free: float) -> Any:
     return values.astype(np.int8)
 
 
-def _pixels(image: Path) -> Any:
+def _pixels(data: bytes) -> Any:
     """Return the bytes of an image's pixels as SDL_image has them: (rows, columns, channels)."""
     from PIL import Image  # noqa: PLC0415  a quarter of the node's start, and for maps alone
 
+    if not data.startswith((b"P", b"\x89PNG", b"BM")):
+        raise WorldError("no PGM, PNG or BMP")
     Image.MAX_IMAGE_PIXELS = None  # it is checked here
-    with Image.open(image) as picture:
-        if picture.width * picture.height > LARGEST_MAP:
-            raise ValueError(f"more than {LARGEST_MAP} cells")
-        kinds = {"1": "L", "F": "L", "LA": "RGBA", "PA": "RGBA", "CMYK": "RGB"}
-        if isinstance(picture.info.get("transparency"), bytes):
-            kinds["P"] = "RGBA"  # else the number of the colour counts
-        pixels = np.asarray(picture.convert(kinds.get(picture.mode, picture.mode)))
+    picture = Image.open(BytesIO(data), formats=("PPM", "PNG", "BMP"))
+    cells = picture.width * picture.height
+    if cells > LARGEST_MAP:
+        raise WorldError(f"more than {LARGEST_MAP} cells")
+    if data[:2] in {b"P2", b"P3"}:  # numbers as text: Pillow makes up what is missing
+        text = np.frombuffer(re.sub(rb"#[^\r\n]*", b"", data), np.uint8)
+        numbers = np.count_nonzero((text[:-1] <= ord(" ")) & (text[1:] > ord(" ")))
+        if numbers < 3 + cells * len(picture.getbands()) or ord("-") in text:
+            raise WorldError("cut short, or has a negative number")
+    kinds = {"1": "L", "F": "L", "LA": "RGBA", "PA": "RGBA", "CMYK": "RGB"}
+    if isinstance(picture.info.get("transparency"), bytes):
+        kinds["P"] = "RGBA"  # else the number of the colour counts
+    pixels = np.asarray(picture.convert(kinds.get(picture.mode, picture.mode)))
     if pixels.dtype != np.uint8:  # of 16 bits the higher 8
         pixels = (pixels >> 8).astype(np.uint8)
+        if not pixels.any():
+            raise WorldError("of its 16 bits map_server reads the higher 8, which are all 0")
     return pixels.reshape(*pixels.shape[:2], -1)

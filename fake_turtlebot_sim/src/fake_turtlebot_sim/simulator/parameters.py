@@ -8,7 +8,7 @@ from math import inf, pi, tau
 from typing import Any, Mapping
 
 from fake_turtlebot_sim.simulator.differential_drive import Pose
-from fake_turtlebot_sim.simulator.world import World
+from fake_turtlebot_sim.simulator.world import FARTHEST_PLACE_M, World
 from fake_turtlebot_sim.simulator.world_files import find_world, read_world
 from node_kit.parameters import checked, is_number, number, parameter, switch, text, whole_number
 
@@ -18,7 +18,8 @@ MOST_ROBOTS = 1000
 _FRAME = text(
     "a name without blanks and leading slash", lambda value: re.fullmatch(r"[^/\s]\S*", value)
 )
-_LENGTH = number(-1e6, 1e6, "m, or empty", off="")
+_LENGTH = number(-FARTHEST_PLACE_M, FARTHEST_PLACE_M, "m, or empty", off="")
+FASTEST = 1000.0  # [m/s, rad/s] where no limit is set
 _ACCELERATION = number(0.0, 1000.0, "m/s2 (0: no limit)")
 _ANGULAR_ACCELERATION = number(0.0, 1000.0, "rad/s2 (0: no limit)")
 
@@ -48,8 +49,9 @@ def _robot_name(robot: Any) -> str:
 
 
 def _robot_pose(robot: str, pose: Any) -> Pose:
-    if not isinstance(pose, (list, tuple)) or len(pose) != 3 or not all(map(is_number, pose)):
-        raise ValueError(f"{robot}: {pose!r}: must be [x in m, y in m, yaw in rad]")
+    is_list = isinstance(pose, (list, tuple)) and len(pose) == 3
+    if not (is_list and all(is_number(v) and abs(v) <= FARTHEST_PLACE_M for v in pose)):
+        raise ValueError(f"{robot}: {pose!r}: must be [x in m, y in m, yaw in rad], up to 1e6")
     x, y, yaw = map(float, pose)
     return x, y, yaw
 
@@ -80,9 +82,9 @@ class Parameters:
     kobuki: bool = parameter(False, switch, "with a [Kobuki's other topics](#the-kobuki)")
     wheel_separation: float = parameter(0.23, number(0.01, 10.0, "m"))
     wheel_radius: float = parameter(0.035, number(0.001, 5.0, "m"))
-    max_linear_speed: float = parameter(0.7, number(0.01, 100.0, "m/s, or 0: no limit", off=0.0))
+    max_linear_speed: float = parameter(0.7, number(0.01, 100.0, "m/s, or 0: 1000", off=0.0))
     max_angular_speed: float = parameter(
-        pi, number(0.01, 100.0, "rad/s, or 0: no limit", off=0.0), "180 deg/s", "pi"
+        pi, number(0.01, 100.0, "rad/s, or 0: 1000", off=0.0), "180 deg/s", "pi"
     )
     max_linear_acceleration: float = parameter(
         0.0, _ACCELERATION, "with a limit the robot also needs time to stop"
@@ -178,6 +180,7 @@ def parse_parameters(given: Mapping[str, Any]) -> Parameters:
             for pose in parameters.start_poses().values():
                 parameters.world.check_place(pose)
         except ValueError as error:
-            line = f"~world: {given['world']!r}: {error}; give other start poses"
+            todo = "give another place, with start: in the world's file or x:= y:="
+            line = f"~world: {given['world']!r}: {error}; {todo}"
             raise ValueError(line) from None
     return parameters

@@ -25,9 +25,9 @@ from fake_turtlebot_sim.simulator.differential_drive import (
     wrap_angle,
 )
 from fake_turtlebot_sim.simulator.odometry_errors import OdometryErrors
-from fake_turtlebot_sim.simulator.parameters import Parameters
+from fake_turtlebot_sim.simulator.parameters import FASTEST, Parameters
 from fake_turtlebot_sim.simulator.sensors import Sensed, bumpers, cliffs, first_drop
-from fake_turtlebot_sim.simulator.world import BASE_RADIUS_M, ORIGIN, Surroundings
+from fake_turtlebot_sim.simulator.world import BASE_RADIUS_M, FARTHEST_PLACE_M, ORIGIN, Surroundings
 
 REST: Velocity = (0.0, 0.0)
 ON_ITS_WHEELS = (False, False)
@@ -103,7 +103,8 @@ class SimulatedRobot:
             return Verdict.POWERLESS
         self.advance(now_ns)
         p = self._parameters
-        self._target = limit(velocity, p.max_linear_speed or inf, p.max_angular_speed or inf)
+        fastest = p.max_linear_speed or FASTEST, p.max_angular_speed or FASTEST
+        self._target = limit(velocity, *fastest)
         self._expires_ns = self._time_ns + self._timeout_ns
         return Verdict.ACCEPTED if self._target == velocity else Verdict.LIMITED
 
@@ -115,8 +116,10 @@ class SimulatedRobot:
     def place(self, pose: Pose) -> None:
         """Lift the robot to a pose (x [m], y [m], yaw [rad]); its wheels and command stay.
 
-        Raises ValueError if something is there, or an edge.
+        Raises ValueError if something is there, or an edge, or if it is too far away.
         """
+        if not max(map(abs, pose[:2])) <= FARTHEST_PLACE_M:
+            raise ValueError(f"a pose is at most {FARTHEST_PLACE_M:g} m from (0, 0)")
         if self._parameters.world:
             self._parameters.world.check_place(pose)
         x, y, yaw = pose

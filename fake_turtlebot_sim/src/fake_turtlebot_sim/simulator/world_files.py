@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from math import tau
 from pathlib import Path
 from typing import Any, Callable
@@ -9,17 +10,21 @@ from typing import Any, Callable
 import numpy as np
 import yaml
 
-from fake_turtlebot_sim.simulator.grid_map import WorldError, read_map
+from fake_turtlebot_sim.simulator.grid_map import FARTHEST_M, WorldError, check_file, read_map
 from fake_turtlebot_sim.simulator.world import World
 from node_kit.parameters import is_number
 
-MOST_WALLS = 200_000
+LARGEST_WORLD = 2_000_000  # bytes
+MOST = {"walls": 40_000, "posts": 2_000, "cliffs": 1_000}  # corners, or posts
+DEEPEST = 20  # of lists in lists
+# libyaml is ten times as fast as PyYAML alone.
+LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
 def find_world(name: str) -> Path:
     """Return the path of a world, given as a file or by the name of one of this package."""
     if "/" in name or name.endswith((".yaml", ".yml")):
-        return Path(name).expanduser()
+        return Path(os.path.expanduser(name))  # a user who is unknown stays as written
     worlds = shipped_worlds()
     if name not in worlds:
         names = ", ".join(sorted(worlds))
@@ -37,34 +42,56 @@ def shipped_worlds() -> dict[str, Path]:
 
 def read_world(path: Path) -> World:
     """Return the World of a YAML file, ours or map_server's. Raises WorldError."""
-    try:
-        text = path.read_text(encoding="utf-8")
-        node = yaml.compose(text, Loader=yaml.SafeLoader)
-        data = yaml.safe_load(text)
-    except OSError as error:
-        raise WorldError(f"cannot be read: {error.strerror}") from None
-    except (UnicodeDecodeError, yaml.YAMLError) as error:
-        mark, why = (getattr(error, name, None) for name in ("problem_mark", "problem"))
-        where = f"line {mark.line + 1}: " if mark else ""
-        raise WorldError(f"{where}not YAML: {why or 'no text'}") from None
+    node, data = _parsed(path)
     if not isinstance(data, dict):
         raise WorldError(f"must be a map of {', '.join(FIELDS)}, or of map_server")
     if "image" in data:
         return _from_map(path, data)
     found = {}
-    for key, items in node.value:
+    for key, items in reversed(node.value):  # of two that are the same, data has the last
         name, line = key.value, key.start_mark.line + 1
         if name not in FIELDS:
             known = ", ".join(FIELDS)
             raise WorldError(f"line {line}: {name}: is not known; known are {known}")
+        if name in found:
+            raise WorldError(f"line {line}: {name}: is there twice")
         allowed, read = FIELDS[name]
-        found[name] = _read(read, data[name])
+        value = data.get(name)
+        found[name] = _read(read, value)
         if found[name] is None:
-            if isinstance(data[name], list):  # the first of its items that is wrong
-                wrong = [_read(read, [item]) is None for item in data[name]].index(True)
+            if isinstance(value, list):  # the first of its items that is wrong
+                wrong = [_read(read, [item]) is None for item in value].index(True)
                 line = items.value[wrong].start_mark.line + 1
-            raise WorldError(f"line {line}: {name}: must be {allowed}")
+            raise WorldError(f"line {line}: {name}: must be {allowed}, up to {FARTHEST_M:g} m")
+        count = sum(1 if name == "posts" else np.size(one) // 2 for one in found[name])
+        if count > MOST.get(name, 3):
+            raise WorldError(f"line {line}: {name}: {count} are too many: at most {MOST[name]}")
     return World(**found)
+
+
+def _parsed(path: Path) -> tuple[Any, Any]:
+    """Return (node, value) of the YAML in a file, or None for both. Raises WorldError."""
+    try:
+        check_file(path, LARGEST_WORLD)
+        text = path.read_text(encoding="utf-8")
+        depth = 0
+        for event in yaml.parse(text, Loader=LOADER):
+            depth += isinstance(event, yaml.CollectionStartEvent)
+            depth -= isinstance(event, yaml.CollectionEndEvent)
+            if depth > DEEPEST or isinstance(event, yaml.AliasEvent):  # it could unfold for ever
+                where = f"line {event.start_mark.line + 1}"
+                raise WorldError(f"{where}: *NAME, or more than {DEEPEST} lists in each other")
+        loader = LOADER(text)
+        node = loader.get_single_node()
+        return node, loader.construct_document(node) if node else None
+    except OSError as error:
+        raise WorldError(f"cannot be read: {error.strerror}") from None
+    except WorldError:
+        raise
+    except Exception as error:  # PyYAML lets ValueError, KeyError and more through
+        mark, why = (getattr(error, name, None) for name in ("problem_mark", "problem"))
+        where = f"line {mark.line + 1}: " if mark else ""
+        raise WorldError(f"{where}not YAML: {why or 'no text, or a value that is none'}") from None
 
 
 def _read(read: Callable[[Any], Any], value: Any) -> Any:
@@ -77,7 +104,7 @@ def _read(read: Callable[[Any], Any], value: Any) -> Any:
 
 def _numbers(values: Any, count: int) -> Any:
     """Return as many numbers, as floats. Raises ValueError."""
-    if len(values) != count or not all(map(is_number, values)):
+    if len(values) != count or not all(is_number(v) and abs(v) <= FARTHEST_M for v in values):
         raise ValueError
     return tuple(map(float, values))
 
@@ -121,7 +148,5 @@ def _from_map(path: Path, about: dict[str, Any]) -> World:
         raise WorldError(f"start: must be {FIELDS['start'][0]}")
     grid = read_map(path, about)
     walls = grid.outlines()
-    if len(walls) > MOST_WALLS:
-        raise WorldError(f"{about['image']}: its outlines have more than {MOST_WALLS} pieces")
     ends = np.stack((walls.real, walls.imag), axis=-1).tolist()
     return World(tuple(((*one,), (*other,)) for one, other in ends), start=start, grid=grid)

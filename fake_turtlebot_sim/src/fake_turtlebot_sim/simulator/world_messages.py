@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from array import array
 from math import ceil, cos, hypot, sin
 from typing import Any
 
@@ -27,7 +28,7 @@ def world_map(world: World, frame: str, stamp: Any, resolution: float = 0.05) ->
     """Return the OccupancyGrid of a world in the frame: a map as it is, others with cells drawn."""
     drawn = world.grid or _drawn(world, resolution)
     x, y, yaw = drawn.origin
-    grid = OccupancyGrid(data=drawn.cells.ravel().tolist())
+    grid = OccupancyGrid(data=array("b", drawn.cells.tobytes()))
     grid.header.frame_id, grid.header.stamp, grid.info.map_load_time = frame, stamp, stamp
     grid.info.resolution, (grid.info.height, grid.info.width) = drawn.resolution, drawn.cells.shape
     grid.info.origin.position = Point(x, y, 0.0)
