@@ -29,7 +29,7 @@ def many(count):
 
 
 def end_of(main):
-    """Run main in a child: its exit code is 0, or it is 1 and stderr has one line. Return that."""
+    """Run main in a child; its exit code is 0, or 1 with one line on stderr. Return that."""
     with tempfile.TemporaryFile("w+") as said:
         with open("/proc/self/statm", encoding="ascii") as file:
             before_mb = int(file.read().split()[1]) * resource.getpagesize() / 1e6
@@ -41,7 +41,8 @@ def end_of(main):
         text = said.read()
     assert not os.WIFSIGNALED(status), signal.strsignal(os.WTERMSIG(status))
     code, lines = os.WEXITSTATUS(status), text.splitlines()
-    assert (code, len(lines)) == (0, 0) or (code, len(lines)) == (1, 1), f"{code}: {text[-2000:]}"
+    # rosbag itself may warn about what it can read nevertheless.
+    assert code == 0 or (code, len(lines)) == (1, 1), f"{code}: {text[-2000:]}"
     spent = {
         "s": used.ru_utime + used.ru_stime,
         "MB": BARE_MB + max(0.0, used.ru_maxrss * 1024 / 1e6 - before_mb),
