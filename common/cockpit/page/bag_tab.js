@@ -47,7 +47,9 @@ export class BagTab {
   #drawn = ""; // what was seen when it was drawn
 
   constructor(link, watch, page) {
-    Object.assign(this, { link, watch, page });
+    this.link = link;
+    this.watch = watch;
+    this.page = page;
     this.chart = new Chart(byId("bag-chart"), {
       onPoint: (t) => {
         this.#pointed = t;
@@ -90,7 +92,10 @@ export class BagTab {
     };
     // A change while it plays counts at once.
     for (const id of ["bag-rate", "bag-loop", "bag-topic"]) byId(id).onchange = () => this.#yours && this.#play();
-    byId("bag-zoom").onclick = () => this.#draw(this.chart.wholeRange());
+    byId("bag-zoom").onclick = () => {
+      this.chart.wholeRange();
+      this.#draw();
+    };
   }
 
   #ask() {

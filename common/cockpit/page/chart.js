@@ -18,15 +18,17 @@ function style(i) {
   return { colour: COLOURS[i % COLOURS.length], pattern, border };
 }
 
+const page = /** @type {any} */ (globalThis); // which has Dygraph then
+
 /** Load dygraphs once it is needed, until it is there; a phone that only drives does without. */
 async function loadLibrary() {
-  for (let attempt = 0; !globalThis.Dygraph; attempt++) {
+  for (let attempt = 0; !page.Dygraph; attempt++) {
     // A browser remembers that a module did not come, by its address.
     const loaded = import(`/lib/dygraph.min.js?${attempt}`);
     await loaded.catch(() => new Promise((resolve) => setTimeout(resolve, RETRY_MS)));
   }
   // Its legend, which is not used, writes style attributes, which the page's policy forbids.
-  const { Dygraph } = globalThis;
+  const { Dygraph } = page;
   Dygraph.PLUGINS = Dygraph.PLUGINS.filter((plugin) => plugin !== Dygraph.Plugins.Legend);
 }
 let library = null;
@@ -42,8 +44,10 @@ export class Chart {
    * root: the element. onPoint(t): the mouse points at a time [s], or at none (null). onRange(): another part
    * of the time is seen.
    */
-  constructor(root, { onPoint = () => {}, onRange = () => {} } = {}) {
-    Object.assign(this, { root, onPoint, onRange });
+  constructor(root, { onPoint = (_t) => {}, onRange = () => {} } = {}) {
+    this.root = root;
+    this.onPoint = onPoint;
+    this.onRange = onRange;
     new ResizeObserver(() => this.#graph?.resize()).observe(root);
   }
 
@@ -74,7 +78,7 @@ export class Chart {
   show(tracks, window) {
     this.#wanted = [tracks, window];
     if (!this.root.clientWidth) return; // another tab is shown
-    if (!globalThis.Dygraph?.PLUGINS) {
+    if (!page.Dygraph?.PLUGINS) {
       library ??= loadLibrary();
       library.then(() => this.show(...this.#wanted));
       return;
@@ -98,7 +102,7 @@ export class Chart {
 
   #make(labels, rows, range) {
     const patterns = labels.map((label, i) => [label, { strokePattern: style(i).pattern }]);
-    return new globalThis.Dygraph(this.root, rows, {
+    return new page.Dygraph(this.root, rows, {
       labels: ["time [s]", ...labels],
       xlabel: "time [s]",
       colors: labels.map((_, i) => style(i).colour),

@@ -1,5 +1,6 @@
 /** The few functions with which the tabs build their elements. */
 
+/** @type {(id: string) => any} of any kind: an input has a value */
 export const byId = (id) => document.getElementById(id);
 
 /** An element with properties, attributes (data-*, aria-*, role) and children: elements or texts. */

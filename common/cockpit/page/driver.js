@@ -26,7 +26,7 @@ export class Driver {
     this.mode = "D";
     this.names = null; // {D, X: names of the buttons of that mode}
     this.periodMs = 50;
-    this.onLost = () => {};
+    this.onLost = (_why) => {};
     const changed = () => this.#report();
     const lost = (why) => this.release(why);
     this.keys = new Keys(() => this.isDriving, changed);
@@ -79,11 +79,11 @@ export class Driver {
     addEventListener("contextmenu", (event) => this.isDriving && event.preventDefault(), capture);
     // While another button is held, a pointermove reports the right one.
     for (const kind of ["pointerdown", "pointermove"]) {
-      addEventListener(kind, ({ pointerType, button, buttons }) => {
+      addEventListener(kind, (/** @type {PointerEvent} */ { pointerType, button, buttons }) => {
         if (pointerType === "mouse" && button === RIGHT && buttons & RIGHT_HELD) lose();
       }, capture);
     }
-    addEventListener("pointerdown", ({ target }) => target.closest?.("select") && lose(), capture);
+    addEventListener("pointerdown", (/** @type {any} */ { target }) => target.closest?.("select") && lose(), capture);
   }
 
   #noticeAbsence() {

@@ -18,7 +18,7 @@ const STANDARD = [
   "up", "down", "left", "right", "LOGITECH",
 ];
 
-const digital = (v) => (v > DIGITAL) - (v < -DIGITAL);
+const digital = (v) => Number(v > DIGITAL) - Number(v < -DIGITAL);
 
 /** The names of all buttons that are held, with the triggers that are pressed. */
 export function heldBy({ held, triggers }) {

@@ -8,7 +8,8 @@ export class Glass {
 
   /** root: the element with buttons [data-button], #stick and #knob. onLost(why): a pointer was lost. */
   constructor(root, onChange, onLost) {
-    Object.assign(this, { onChange, onLost });
+    this.onChange = onChange;
+    this.onLost = onLost;
     this.stick = root.querySelector("#stick");
     this.knob = root.querySelector("#knob");
     this.buttons = [...root.querySelectorAll("[data-button]")];
@@ -63,7 +64,8 @@ export class Glass {
   }
 
   /** Draw what hands do here, on the keys or on a gamepad. */
-  show({ held, left: [left, up] }) {
+  show({ held, left: stick }) {
+    const [left, up] = stick;
     for (const button of this.buttons) {
       button.classList.toggle("held", held.includes(button.dataset.button));
     }

@@ -22,13 +22,13 @@ export class Keys {
     // A menu or another program may have taken a key's release, but each event has the state of
     // Shift. While Cmd of a Mac is down, no release is reported.
     for (const kind of HAVE_SHIFT) {
-      addEventListener(kind, (event) => {
+      addEventListener(kind, (/** @type {KeyboardEvent} */ event) => {
         if (event.metaKey) drop([...this.#down]);
         else if (event.shiftKey === false) drop(SHIFTS);
       }, { capture: true, passive: true });
     }
     // Captured, so that arrows do not choose tabs while they drive.
-    addEventListener("keydown", (event) => {
+    addEventListener("keydown", (/** @type {any} */ event) => {
       const isKnown = event.code in STICK || SHIFTS.includes(event.code);
       if (!isKnown || !isOurs() || event.target.matches?.(TYPED_INTO)) return;
       event.preventDefault();

@@ -57,6 +57,7 @@ for (const { title, panel } of TABS) {
   document.querySelector("main").append(section);
 }
 const page = { notice, look: () => tabs.robot.look };
+/** @type {Object<string, any>} */
 const tabs = Object.fromEntries(TABS.map((Tab) => [Tab.title.toLowerCase(), new Tab(link, watch, page)]));
 link.on("refused", ({ what, why }) => {
   if (what !== "input") notice(`Not possible: ${why}.`); // the loss of the seat has a message of its own

@@ -4,7 +4,7 @@ import { byId, number, say } from "./dom.js";
 import { Driver } from "./driver.js";
 
 const NOTHING = {
-  seat: { driver: null, yours: false },
+  seat: { driver: null, yours: false, robot: "" },
   drives: { drivers: {}, who: "", ready: "", how: "", again: "", refusal: "" },
 };
 const STALE_S = 1; // an older speed is not shown
@@ -17,7 +17,9 @@ export class Seat {
 
   /** tab: the RobotTab, which has the robot, the floor, and the elements below the tabs. */
   constructor(link, notice, tab) {
-    Object.assign(this, { link, notice, tab });
+    this.link = link;
+    this.notice = notice;
+    this.tab = tab;
     this.driver = new Driver(link, byId("glass"));
     this.driver.onLost = (why) => this.#advise(`Stopped: ${why}.`);
     link.on("hello", ({ role }) => this.#begin(role));
@@ -47,8 +49,8 @@ export class Seat {
     return this.#now.drives.drivers;
   }
 
-  /** v, w, age: of the chosen robot [m/s, rad/s, s]. */
-  showSpeed({ v, w, age }) {
+  /** v, w, age: of the chosen robot [m/s, rad/s, s]; without them: unknown. */
+  showSpeed({ v = NaN, w = NaN, age = NaN }) {
     const isKnown = this.link.isOpen && age < STALE_S;
     say(byId("speed"), isKnown ? `${number(v)} m/s, ${number(w)} rad/s` : "– m/s");
   }
