@@ -36,15 +36,17 @@ let library = null;
 export class Chart {
   #graph = null;
   #wanted = null; // what is shown, or is to be once the library is there
+  #waits = null; // for the library
   #labels = [];
   #cursor = null;
   #window = []; // from, to: as the page itself has set it last
 
   /**
-   * root: the element. onPoint(t): the mouse points at a time [s], or at none (null). onRange(): another part
+   * root: the element. onPoint(t, points): the mouse points at a time [s] and at
+   * these points of curves ({name, yval}), or at none (null). onRange(): another part
    * of the time is seen.
    */
-  constructor(root, { onPoint = (_t) => {}, onRange = () => {} } = {}) {
+  constructor(root, { onPoint = (_t, _points) => {}, onRange = () => {} } = {}) {
     this.root = root;
     this.onPoint = onPoint;
     this.onRange = onRange;
@@ -79,8 +81,7 @@ export class Chart {
     this.#wanted = [tracks, window];
     if (!this.root.clientWidth) return; // another tab is shown
     if (!page.Dygraph?.PLUGINS) {
-      library ??= loadLibrary();
-      library.then(() => this.show(...this.#wanted));
+      this.#waits ??= (library ??= loadLibrary()).then(() => this.show(...this.#wanted));
       return;
     }
     const labels = Object.keys(tracks);
@@ -113,7 +114,7 @@ export class Chart {
       strokeWidth: 1.6,
       animatedZooms: false,
       underlayCallback: (pen, area, graph) => this.#drawCursor(pen, area, graph),
-      highlightCallback: (_, t) => this.onPoint(t),
+      highlightCallback: (_, t, points) => this.onPoint(t, points),
       unhighlightCallback: () => this.onPoint(null),
       drawCallback: () => this.#graph && this.onRange(), // not while it is made
       axes: { y: { axisLabelWidth: 96, axisLabelFormatter: (value, _, __, graph) => this.#mark(value, graph) } },

@@ -54,9 +54,9 @@ export class PlotTab {
   constructor(link, watch) {
     this.watch = watch;
     this.chart = new Chart(byId("plot-chart"), {
-      onPoint: (t) => {
+      onPoint: (t, points) => {
         this.#pointed = t;
-        this.#showValues();
+        this.#showValues(points);
       },
       onRange: () => this.#look(),
     });
@@ -125,12 +125,12 @@ export class PlotTab {
     this.#fresh ||= this.#range !== this.#drawn;
   }
 
-  /** The values at the mouse, or the newest. */
-  #showValues() {
+  /** The values at the mouse, where a point is drawn that of the point; or the newest. */
+  #showValues(points = []) {
     const t = this.#pointed ?? this.#newest;
     say(byId("plot-at"), this.#pointed === null ? "" : `At ${t.toFixed(2)} s:`);
     byId("plot-values").replaceChildren(...this.fields.map((field, i) => {
-      const value = this.#samples[field].at(t);
+      const value = points.find(({ name }) => name === field)?.yval ?? this.#samples[field].at(t);
       return element("span", { "data-field": field }, this.chart.sample(i), `${field} `,
         element("output", {}, value === undefined ? "–" : written(value)));
     }));

@@ -167,10 +167,10 @@ def _pixels(data: bytes) -> Any:
     """Return the bytes of an image's pixels as SDL_image has them: (rows, columns, channels)."""
     from PIL import Image  # noqa: PLC0415  a quarter of the node's start, and for maps alone
 
-    if not data.startswith((b"P", b"\x89PNG", b"BM")):
+    if not re.match(rb"P[1-6]\s|\x89PNG\r|BM", data):  # Pillow 7 has no formats=
         raise WorldError("no PGM, PNG or BMP")
     Image.MAX_IMAGE_PIXELS = None  # it is checked here
-    picture = Image.open(BytesIO(data), formats=("PPM", "PNG", "BMP"))
+    picture = Image.open(BytesIO(data))
     cells = picture.width * picture.height
     if cells > LARGEST_MAP:
         raise WorldError(f"more than {LARGEST_MAP} cells")
