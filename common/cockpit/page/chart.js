@@ -36,7 +36,7 @@ let library = null;
 export class Chart {
   #graph = null;
   #wanted = null; // what is shown, or is to be once the library is there
-  #waits = null; // for the library
+  #waits = false; // for the library
   #labels = [];
   #cursor = null;
   #window = []; // from, to: as the page itself has set it last
@@ -81,7 +81,9 @@ export class Chart {
     this.#wanted = [tracks, window];
     if (!this.root.clientWidth) return; // another tab is shown
     if (!page.Dygraph?.PLUGINS) {
-      this.#waits ??= (library ??= loadLibrary()).then(() => this.show(...this.#wanted));
+      library ??= loadLibrary();
+      if (!this.#waits) library.then(() => this.show(...this.#wanted));
+      this.#waits = true;
       return;
     }
     const labels = Object.keys(tracks);
