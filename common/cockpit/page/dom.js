@@ -14,6 +14,9 @@ export function element(tag, properties = {}, ...children) {
   return made;
 }
 
+/** For sort(): robot_2 before robot_10. */
+export const byName = new Intl.Collator("en", { numeric: true }).compare;
+
 /** A row of a table. */
 export const row = (...cells) => element("tr", {}, ...cells.map((cell) => element("td", {}, cell)));
 

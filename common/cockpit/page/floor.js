@@ -1,5 +1,6 @@
 /** The floor from above: grid, map, trails, robots. x is to the right, y up, as on paper. */
 
+import { drawNames, overlap } from "./names.js";
 import { drawBumpers, Surroundings } from "./surroundings.js";
 
 const BODY_RADIUS_M = 0.177; // TurtleBot 2
@@ -10,7 +11,6 @@ const GRID_PX = 45; // least distance of two lines of the grid
 const PAN = { ArrowLeft: [40, 0], ArrowRight: [-40, 0], ArrowUp: [0, 40], ArrowDown: [0, -40] };
 const ZOOM = { "+": 1.25, "-": 0.8 };
 
-const overlap = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
 const area = ({ left, top, right, bottom }) => Math.max(0, right - left) * Math.max(0, bottom - top);
 
 export class Floor {
@@ -35,7 +35,7 @@ export class Floor {
     this.#listen();
   }
 
-  /** robots: {name: {x, y, yaw, v, w}} [m, rad]; one without a place is not drawn. */
+  /** robots: {name: {x, y, yaw, age}} [m, rad]; one without a place is not drawn. */
   show(robots) {
     const placed = Object.entries(robots)
       .map(([name, robot]) => [name, this.around.placed(name, robot)])
@@ -205,7 +205,9 @@ export class Floor {
     this.#drawGrid(paper, width, height);
     this.around.draw(paper, this.look);
     for (const [name, trail] of this.#trails) this.#drawTrail(paper, name, trail);
-    for (const [name, robot] of Object.entries(this.#robots)) this.#drawRobot(paper, name, robot);
+    const robots = Object.entries(this.#robots).map(([name, robot]) => this.#drawRobot(paper, name, robot));
+    robots.sort((a, b) => b.isChosen - a.isChosen); // its name gets the best place
+    drawNames(paper, robots, this.#boxes(), { width, height });
   }
 
   #drawGrid(paper, width, height) {
@@ -246,12 +248,13 @@ export class Floor {
     stroke(paper, points, isChosen ? "--accent" : "--muted");
   }
 
+  /** Draw a robot without its name; return where and how large it is [pixel]. */
   #drawRobot(paper, name, { x, y, yaw, age, bumpers }) {
     const { pen, colour } = paper;
     const isChosen = name === this.look;
     const [px, py] = this.#toPixels([x, y]);
     const radius = Math.max(5, BODY_RADIUS_M * this.#scale);
-    pen.globalAlpha = age > 1 ? 0.4 : 1; // no news
+    pen.globalAlpha = age >= 1 ? 0.4 : 1; // no news
     pen.fillStyle = colour(isChosen ? "--accent" : "--muted");
     pen.beginPath();
     pen.arc(px, py, radius, 0, 2 * Math.PI);
@@ -265,9 +268,7 @@ export class Floor {
     pen.fill();
     pen.globalAlpha = 1;
     drawBumpers(paper, [px, py], yaw, radius, bumpers ?? []);
-    pen.fillStyle = colour("--text");
-    pen.font = `${isChosen ? "bold " : ""}13px system-ui, sans-serif`;
-    pen.fillText(name, px + radius + 4, py + 4);
+    return { name, x: px, y: py, radius, isChosen };
   }
 }
 

@@ -1,6 +1,6 @@
 /** The tab Robot: the floor, the joystick, the driver, and driving from here. */
 
-import { byId, number, offer, row, say } from "./dom.js";
+import { byId, byName, element, number, offer, row, say } from "./dom.js";
 import { Floor } from "./floor.js";
 import { GamepadPicture } from "./gamepad_picture.js";
 import { Seat } from "./seat.js";
@@ -131,7 +131,7 @@ export class RobotTab {
   }
 
   #showNames(names) {
-    this.#names = names;
+    this.#names = names = [...names].sort(byName);
     byId("class").hidden = names.length < 2;
     this.#rows = new Map(names.map((name) => [name, this.#rows.get(name) ?? this.#rowOf(name)]));
     byId("robots").replaceChildren(...this.#rows.values());
@@ -183,7 +183,7 @@ export class RobotTab {
   }
 
   #rowOf(name) {
-    const line = row(name, "", "", "");
+    const line = row(element("button", { className: "link" }, name || "TurtleBot"), "", "", "");
     line.dataset.robot = name;
     line.onclick = () => {
       if (!this.seat.yours && name !== this.#look) this.lookAt(name); // a driver sees the driven robot
@@ -195,10 +195,11 @@ export class RobotTab {
     for (const [name, line] of this.#rows) {
       const { x, y, age } = robots[name] ?? {};
       const why = this.#teleop.get(name)?.why;
-      const texts = [name, `${number(x)}, ${number(y)}`, this.seat.drivers[name] || "–", why ?? "–"];
-      texts.forEach((text, i) => say(line.cells[i], text));
+      const texts = [`${number(x)}, ${number(y)}`, this.seat.drivers[name] || "–", why ?? "–"];
+      texts.forEach((text, i) => say(line.cells[i + 1], text));
       line.classList.toggle("stale", !(age < STALE_S));
       line.classList.toggle("chosen", name === this.look);
+      line.ariaCurrent = String(name === this.look);
     }
   }
 

@@ -27,7 +27,7 @@ async def main(port, seconds):
     frames, began, last, longest = 0, None, None, 0.0
     while began is None or last - began < float(seconds):
         message = await socket.read_message()
-        if not message.startswith('{"kind":"robots"') or "robot_1" not in message:
+        if not message.startswith('{"kind":"robots"') or (not began and "robot_1" not in message):
             continue
         now = time.monotonic()
         if began is None:

@@ -38,6 +38,7 @@ class SocketPage(Started):
         self.sees_beats = True
         self.delay_s = 0.0  # by which what is said is older
         self._beat, self._n = 0, 0
+        self._robots = {}
         self._socket = None
         self._loop = asyncio.new_event_loop()
         self._thread = threading.Thread(target=self._loop.run_forever, daemon=True)
@@ -68,6 +69,9 @@ class SocketPage(Started):
                 self.messages.append({"kind": "closed"})
                 return
             message = json.loads(text)
+            if message["kind"] == "robots":  # which has those that changed
+                before = {} if message["all"] else self._robots
+                self._robots = message["robots"] = {**before, **message["robots"]}
             if message["kind"] != "beat":
                 self.messages.append(message)
             elif self.sees_beats:

@@ -1,5 +1,6 @@
 """What pages are sent of robots, of their joysticks and of topics."""
 
+import time
 from math import inf, nan
 from types import SimpleNamespace
 
@@ -101,6 +102,41 @@ def test_an_impossible_place_is_left_out(wrong, left_out):
     state = Motion(1.0, -1e6, 0.5, 0.25, -0.5)._replace(**wrong)
     everything = {"x", "y", "yaw", "v", "w", "covered", "age"}
     assert set(shown(state, 1.0, 2.0, 3.0)) == everything - left_out
+    assert [shown(state, 1.0, 2.0, now)["age"] for now in (0.9, 1.9, 2.1)] == [0, 0, 1]
+
+
+def test_a_page_gets_only_the_robots_that_changed_since_it_was_sent_some():
+    feeds, graphs = FeedsByOwner(), SimpleNamespace(graph=graph("ada", "bob"))
+    robots = Robots(feeds, graphs)
+    (one, sent), (late, sent_late) = page(robots=True), page(robots=True)
+
+    def place(robot, x):
+        odometry = Odometry()
+        odometry.pose.pose.position.x = x
+        data = SimpleNamespace(data=serialised(odometry))
+        feeds.hears[robots][f"/{robot}/odom"](data, f"/{robot}/odom")
+
+    def seen(client=one, sent=sent):
+        now = time.monotonic()
+        robots.prepare([one, late], now)
+        robots.give(client, now)
+        newest = sent[-1]
+        return newest["all"], {name: state["x"] for name, state in newest["robots"].items()}
+
+    assert seen() == (True, {})
+    for robot in ("ada", "bob"):
+        place(robot, 1.0)
+    assert seen() == (True, {"ada": 1.0, "bob": 1.0})
+    place("ada", 1.0)
+    assert seen() == (False, {})  # it stands; the message still says that the server is there
+    place("bob", 2.0)
+    robots.prepare([one, late], time.monotonic())  # one is behind
+    assert seen() == (False, {"bob": 2.0})
+    assert seen(late, sent_late) == (True, {"ada": 1.0, "bob": 2.0})
+    graphs.graph = graph("bob")
+    assert seen() == (True, {"bob": 2.0})  # so ada is gone
+    one.seen.clear()  # it asked for something else
+    assert seen() == (True, {"bob": 2.0})
 
 
 def test_a_joystick_as_pages_get_it():

@@ -39,7 +39,11 @@ class Robots(Source):
         self._newest: dict[str, tuple[bytes, float]] = {}  # topic -> (bytes, when they came [s])
         # robot -> (Motion, when it came [s], distance covered [m])
         self._states: dict[str, tuple[Motion, float, float]] = {}
-        self._text = ""
+        self._beat = 0
+        self._shown: dict[str, dict[str, Any]] = {}  # robot -> its state as pages get it
+        self._changed: dict[str, int] = {}  # robot -> the beat in which that changed last
+        self._began = 0  # the beat in which a robot came or went last
+        self._texts: dict[int, str] = {}  # the last beat of which a page knows -> what it lacks
         self._kobukis: dict[str, dict[str, str]] = {}  # robot -> {led1, led2, sound: name}
 
     def prepare(self, clients: Sequence[Client], now: float) -> None:
@@ -54,12 +58,17 @@ class Robots(Source):
         if not watched:
             self._states = {}
             return
+        self._beat, self._texts = self._beat + 1, {}
         for topic, robot in topics.items():
             self._read(topic, robot)
         robots = {r: shown(*state, now) for r, state in self._states.items() if r in known}
         for robot in robots.keys() & self._kobukis.keys():
             robots[robot].update(self._kobukis[robot])
-        self._text = encoded("robots", stamp=round(time.time(), 3), robots=robots)
+        if robots.keys() != self._shown.keys():
+            self._began = self._beat
+        changed = [r for r, state in robots.items() if state != self._shown.get(r)]
+        self._changed.update(dict.fromkeys(changed, self._beat))
+        self._shown = robots
 
     def give(self, client: Client, now: float) -> None:
         if not client.watch.robots:
@@ -67,7 +76,16 @@ class Robots(Source):
         names = sorted(self._graphs.graph.robots())
         if client.lacks("names", names):
             client.send("names", names=names)
-        client.write(self._text)
+        last, client.seen["robots"] = client.seen.get("robots", -1), self._beat
+        if last not in self._texts:
+            self._texts[last] = self._text_since(last)
+        client.write(self._texts[last])
+
+    def _text_since(self, last: int) -> str:
+        """Return all robots, or only those that changed since a beat, if none came or went."""
+        everything = last < self._began
+        robots = {r: s for r, s in self._shown.items() if everything or self._changed[r] > last}
+        return encoded("robots", stamp=round(time.time(), 3), all=everything, robots=robots)
 
     def moves(self, robot: str, now: float) -> bool:
         """Return whether the newest odometry says so; known while a page shows robots."""
@@ -94,8 +112,8 @@ class Robots(Source):
 
 
 def shown(state: Motion, came: float, way: float, now: float) -> dict[str, Any]:
-    """Return a robot's state as pages get it, without values that are not finite."""
-    values = {**state._asdict(), "covered": way, "age": max(0.0, now - came)}
+    """Return a robot's finite values as pages get them, its age in whole seconds."""
+    values = {**state._asdict(), "covered": way, "age": max(0, int(now - came))}
     if not is_somewhere(state):
         for name in ("x", "y", "yaw"):
             del values[name]

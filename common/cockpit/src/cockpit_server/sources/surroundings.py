@@ -76,7 +76,9 @@ class Surroundings(Source):
         robot = client.watch.look
         came, data = self._newest.get(topic_of(robot or "", SCAN), (0.0, b""))
         if robot is not None and data and client.lacks("scan", (robot, came)):
-            client.send("scan", robot=robot, points=scan_points(data, self._mounts))
+            points = scan_points(data, self._mounts)
+            if client.lacks("points", (robot, points, self._text)):  # none while all stand
+                client.send("scan", robot=robot, points=points)
 
     def _around(self, robot: str) -> dict[str, Any]:
         found: dict[str, Any] = {"bumpers": sorted(self._pressed.get(topic_of(robot, EVENT), ()))}

@@ -1,0 +1,57 @@
+/** The robots' names on the floor, each where nothing covers it. */
+
+const HEIGHT = 16, GAP = 4; // of a name, and from its robot [pixel]
+const SIDES = [[1, 0], [0, 1], [0, -1], [-1, 0], [1, 1], [1, -1], [-1, 1], [-1, -1]];
+// In 14 rings around the robot; from the second on a line leads to the name.
+const PLACES = Array.from({ length: 14 }, (_, ring) => SIDES.map((side) => [ring, side])).flat();
+
+export const overlap = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+const around = (x, y, w, h) => ({ left: x - w, right: x + w, top: y - h, bottom: y + h }); // half sizes
+
+/**
+ * robots: [{name, x, y, radius, width}], width: of the name; taken: boxes that no name may overlap;
+ * size: {width, height} of the picture. All in pixels.
+ * Returns [{name, x, y, ring}]: the middle of each name. One that fits nowhere is at its robot's right.
+ */
+export function placeNames(robots, taken, size) {
+  const boxes = [...taken, ...robots.map(({ x, y, radius }) => around(x, y, radius, radius))];
+  return robots.map(({ name, x, y, radius, width }) => {
+    const boxOf = ([ring, [dx, dy]]) => around(
+      x + dx * (radius + GAP + width / 2 + ring * HEIGHT), y + dy * (radius + (ring + 0.5) * HEIGHT),
+      width / 2 + 1, HEIGHT / 2);
+    const isFree = (box) => box.left >= 0 && box.right <= size.width && box.top >= 0
+      && box.bottom <= size.height && !boxes.some((other) => overlap(box, other));
+    const place = PLACES.find((one) => isFree(boxOf(one))) ?? PLACES[0];
+    const box = boxOf(place);
+    boxes.push(box);
+    return { name, ring: place[0], x: (box.left + box.right) / 2, y: (box.top + box.bottom) / 2 };
+  });
+}
+
+/** paper: see Floor. robots: [{name, x, y, radius, isChosen}]. taken, size: see placeNames(). */
+export function drawNames({ pen, colour }, robots, taken, size) {
+  const font = ({ isChosen }) => `${isChosen ? "bold " : ""}13px system-ui, sans-serif`;
+  const seen = robots.filter(({ x, y }) => x >= 0 && x <= size.width && y >= 0 && y <= size.height);
+  const measured = seen.map((robot) => {
+    pen.font = font(robot);
+    return { ...robot, width: pen.measureText(robot.name).width };
+  });
+  const places = placeNames(measured, taken, size);
+  pen.save();
+  Object.assign(pen, { textAlign: "center", textBaseline: "middle", lineJoin: "round" });
+  Object.assign(pen, { strokeStyle: colour("--muted"), lineWidth: 1 });
+  pen.beginPath();
+  for (const [i, { x, y, ring }] of places.entries()) {
+    pen.moveTo(seen[i].x, seen[i].y);
+    if (ring) pen.lineTo(x, y);
+  }
+  pen.stroke();
+  // With an edge: walls and trails may be below.
+  Object.assign(pen, { strokeStyle: colour("--floor"), lineWidth: 4, fillStyle: colour("--text") });
+  places.forEach(({ name, x, y }, i) => {
+    pen.font = font(seen[i]);
+    pen.strokeText(name, x, y);
+    pen.fillText(name, x, y);
+  });
+  pen.restore();
+}
