@@ -1,112 +1,155 @@
 /** Where nodes and topics are drawn: in layers from left to right, as arrows go (pure). */
 
-const SIZE = { height: 34, letter: 7.2, padding: 24, between: 16, layers: 40, margin: 12 };
-const BEND = "bend "; // of a long arrow: a place in each layer between, where no box may be
+import { byName } from "./dom.js";
+
+const SIZE = { height: 34, letter: 7.2, padding: 24, between: 16, bend: 6, layers: 56, tip: 12, margin: 12 };
+const ROWS = 14; // of boxes in a column; a layer with more has several columns, about as wide as high
+const BEND = "bend "; // of a long arrow: a place in each column between, where no box may be
 
 /**
  * items: names such as "node /a" and "topic /b". edges: [{from, to}].
  * Returns {width, height, boxes: {name: {x, y, w, h}}, arrows: [{from, to, path}]} in pixels.
  */
 export function layout(items, edges) {
-  const known = edges.filter(({ from, to }) => items.includes(from) && items.includes(to));
-  const layerOf = layers(items, known);
-  const columns = [];
-  for (const item of items) (columns[layerOf[item]] ??= []).push(item);
-  const ways = known.map((edge, i) => wayOf(edge, i, layerOf, columns));
-  const steps = ways.flatMap((way) => way.slice(1).map((to, i) => ({ from: way[i], to })));
-  untangle(columns, steps);
-  const { width, height, boxes } = place(columns);
+  const there = new Set(items);
+  const known = edges.filter(({ from, to }) => there.has(from) && there.has(to));
+  const columns = split(layers(items, known));
+  const columnOf = {};
+  columns.forEach((column, i) => column.forEach((item) => (columnOf[item] = i)));
+  const near = new Map(); // item -> its neighbours in the columns beside its own
+  const ways = known.map((edge) => wayOf(edge, columnOf, columns, near));
+  untangle(columns, near);
+  const { width, height, boxes, sides } = place(columns);
   const arrows = known.map((edge, i) => {
-    const way = layerOf[edge.from] < layerOf[edge.to] ? ways[i] : ways[i].reverse();
-    return { ...edge, path: curve(way.map((item) => boxes[item])) };
+    const points = ways[i].flatMap((item, k) => stops(boxes[item], sides[columnOf[ways[i][0]] + k]));
+    const ahead = columnOf[edge.from] < columnOf[edge.to];
+    return { ...edge, path: curve(ahead ? points : points.reverse(), ahead ? -3 : 3) };
   });
   return { width, height, boxes: Object.fromEntries(items.map((item) => [item, boxes[item]])), arrows };
 }
 
-/** The items of an arrow from left to right, with a bend in each layer that it passes. */
-function wayOf({ from, to }, number, layerOf, columns) {
-  const [left, right] = layerOf[from] < layerOf[to] ? [from, to] : [to, from];
-  const bends = [];
-  for (let layer = layerOf[left] + 1; layer < layerOf[right]; layer += 1) {
-    bends.push(`${BEND}${number} ${layer}`);
-    columns[layer].push(bends.at(-1));
-  }
-  return [left, ...bends, right];
+/** Each layer as columns of about the same number of rows, by name. */
+function split(layers) {
+  return layers.flatMap((layer) => {
+    layer.sort(byName);
+    const count = Math.ceil(layer.length / Math.max(ROWS, Math.sqrt(4 * layer.length)));
+    const rows = Math.ceil(layer.length / count);
+    return Array.from({ length: count }, (_, i) => layer.slice(i * rows, (i + 1) * rows));
+  });
 }
 
-/** An SVG path along boxes, to the right or to the left. */
-function curve(boxes) {
-  const ahead = boxes.at(-1).x > boxes[0].x;
-  const sides = boxes.flatMap(({ x, y, w, h }) => {
-    const [left, right] = [[x, y + h / 2], [x + w, y + h / 2]];
-    return ahead ? [left, right] : [right, left];
-  });
-  const points = sides.slice(1, -1); // from the far side of the first box to the near side of the last
-  points.at(-1)[0] += ahead ? -3 : 3; // for the tip
-  let path = `M${points[0]}`;
-  for (let i = 1; i < points.length; i += 1) {
-    const middle = (points[i - 1][0] + points[i][0]) / 2;
-    path += ` C${middle} ${points[i - 1][1]} ${middle} ${points[i][1]} ${points[i]}`;
+/**
+ * The items of an arrow from left to right, with a bend in each column that it passes. All arrows of a
+ * node in one direction share these, as far as they go: else 2,000 topics would want as many rows.
+ */
+function wayOf({ from, to }, columnOf, columns, near) {
+  const [left, right] = columnOf[from] < columnOf[to] ? [from, to] : [to, from];
+  const isAfter = left.startsWith("node ");
+  const line = isAfter ? `after ${left}` : `before ${right}`;
+  const way = [left];
+  for (let i = columnOf[left] + 1; i < columnOf[right]; i += 1) {
+    way.push(`${BEND}${line} ${i}`);
+    if (!near.has(way.at(-1))) columns[i].push(way.at(-1));
   }
-  return path;
+  way.push(right);
+  const connect = (item, other, isWanted) => {
+    if (isWanted || !item.startsWith(BEND)) near.set(item, (near.get(item) ?? new Set()).add(other));
+  };
+  way.slice(1).forEach((item, i) => { // a bend only follows its node, so that the line is straight
+    connect(item, way[i], isAfter);
+    connect(way[i], item, !isAfter);
+  });
+  return way;
+}
+
+/** Both ends of what an arrow passes, out to the sides of its column: there it bends behind no box. */
+function stops({ x, y, w, h }, [left, right]) {
+  return [[left, y + h / 2], [x, y + h / 2], [x + w, y + h / 2], [right, y + h / 2]];
+}
+
+/** An SVG path along the stops of boxes, to the right or to the left. tip: room for the head. */
+function curve(stopped, tip) {
+  const points = stopped.slice(2, -2); // from the far side of the first box to the near side of the last
+  points[points.length - 1] = [points.at(-1)[0] + tip, points.at(-1)[1]];
+  const corners = points.filter(([, y], i) => y !== points[i - 1]?.[1] || y !== points[i + 1]?.[1]);
+  return corners.reduce((path, [x, y], i) => {
+    if (!i) return `M${x} ${y}`;
+    const [px, py] = corners[i - 1];
+    const middle = (px + x) / 2;
+    return py === y ? `${path} H${x}` : `${path} C${middle} ${py} ${middle} ${y} ${x} ${y}`;
+  }, "");
+}
+
+/** {item: those that pairs [item, other] lead to}. */
+function grouped(pairs) {
+  const found = {};
+  for (const [item, other] of pairs) (found[item] ??= []).push(other);
+  return found;
 }
 
 /** Each item one layer after the last of those that lead to it; an arrow that closes a loop does not count. */
 function layers(items, edges) {
-  const reached = new Set(edges.map(({ to }) => to));
-  const starts = items.filter((item) => !reached.has(item));
+  const after = grouped(edges.map(({ from, to }) => [from, to]));
+  const before = grouped(edges.map(({ from, to }) => [to, from]));
   const seen = new Set();
-  const order = []; // each item before those that follow it
+  const order = []; // each item after those that follow it
   const visit = (item) => {
     if (seen.has(item)) return;
     seen.add(item);
-    for (const { from, to } of edges) if (from === item) visit(to);
-    order.unshift(item);
+    after[item]?.forEach(visit);
+    order.push(item);
   };
-  for (const item of [...starts, ...items]) visit(item);
+  [...items.filter((item) => !before[item]), ...items].forEach(visit);
   const layer = {};
-  for (const item of order) {
-    const before = edges.filter(({ from, to }) => to === item && from in layer);
-    layer[item] = 1 + Math.max(-1, ...before.map(({ from }) => layer[from]));
+  const found = [];
+  for (const item of order.reverse()) {
+    const known = (before[item] ?? []).filter((one) => one in layer);
+    layer[item] = 1 + Math.max(-1, ...known.map((one) => layer[one]));
+    (found[layer[item]] ??= []).push(item);
   }
-  return layer;
+  return found;
 }
 
 /** Order each column by the mean place of its neighbours, a few times, so that few arrows cross. */
-function untangle(columns, edges) {
+function untangle(columns, near) {
   const place = {};
   const note = (column) => column.forEach((item, i) => (place[item] = i - column.length / 2));
   const mean = (item) => {
-    const near = edges.flatMap(({ from, to }) => (from === item ? [to] : to === item ? [from] : []));
-    return near.length ? near.reduce((sum, other) => sum + place[other], 0) / near.length : 0;
+    const others = [...(near.get(item) ?? [])];
+    const found = others.reduce((sum, other) => sum + place[other] / others.length, 0);
+    return item.startsWith(BEND) ? found + Math.sign(found) : found; // beyond what the line leads to
   };
   columns.forEach(note);
   for (let turn = 0; turn < 6; turn += 1) {
     for (const column of columns) {
       const means = Object.fromEntries(column.map((item) => [item, mean(item)]));
-      column.sort((a, b) => means[a] - means[b] || (a < b ? -1 : 1));
+      column.sort((a, b) => means[a] - means[b]);
       note(column);
     }
   }
 }
 
+/** Boxes, and the left and right side of each column. */
 function place(columns) {
-  const step = SIZE.height + SIZE.between;
-  const tallest = Math.max(1, ...columns.map((column) => column.length));
-  const boxes = {};
+  const isBend = (item) => item.startsWith(BEND);
+  const rowOf = (item) => (isBend(item) ? SIZE.bend : SIZE.height + SIZE.between);
+  const heights = columns.map((column) => column.reduce((sum, item) => sum + rowOf(item), 0));
+  const tallest = Math.max(SIZE.height, ...heights);
+  const [boxes, sides] = [{}, []];
   let x = SIZE.margin;
-  for (const column of columns) {
-    const widths = column.map((item) =>
-      item.startsWith(BEND) ? 0 : (item.length - item.indexOf(" ") - 1) * SIZE.letter + SIZE.padding);
-    const w = Math.max(...widths);
-    const top = SIZE.margin + ((tallest - column.length) * step) / 2;
-    column.forEach((item, i) => {
-      // A bend is as wide as its layer, so that the arrow is straight where boxes are.
-      const own = widths[i] || w;
-      boxes[item] = { x: x + (w - own) / 2, y: top + i * step, w: own, h: SIZE.height };
-    });
+  const widthOf = (item) => Math.round((item.length - item.indexOf(" ") - 1) * SIZE.letter + SIZE.padding);
+  columns.forEach((column, i) => {
+    const w = column.reduce((most, item) => (isBend(item) ? most : Math.max(most, widthOf(item))), 0);
+    let y = SIZE.margin + Math.round((tallest - heights[i]) / 2);
+    for (const item of column) {
+      const own = widthOf(item);
+      boxes[item] = isBend(item) ? { x, y, w, h: 0 }
+        : { x: x + (w - own) / 2, y: y + SIZE.between / 2, w: own, h: SIZE.height };
+      y += rowOf(item);
+    }
+    sides.push([x - SIZE.tip, x + w + SIZE.tip]); // heads of arrows are between
     x += w + SIZE.layers;
-  }
+  });
   const width = Math.max(x - SIZE.layers + SIZE.margin, 100);
-  return { width, height: tallest * step + SIZE.margin, boxes };
+  return { width, height: tallest + 2 * SIZE.margin, boxes, sides };
 }

@@ -1,11 +1,11 @@
 /** The tab Graph: the nodes and their topics, live. */
 
-import { byId, element, say } from "./dom.js";
+import { byId, byName, element, say } from "./dom.js";
 import { layout } from "./graph_layout.js";
 
 // Every node is connected to /rosout, which would hide the rest; as draw_graph has it.
 const DEBUG = ["node /rosout", "topic /rosout", "topic /rosout_agg", "topic /statistics"];
-const LEAST_SCALE = 0.7; // to which the picture shrinks before it is scrolled
+const READABLE = 0.7; // the scale to which the picture shrinks by itself; then it is scrolled
 const SVG = "http://www.w3.org/2000/svg";
 
 function svg(tag, attributes = {}, ...children) {
@@ -16,10 +16,18 @@ function svg(tag, attributes = {}, ...children) {
 }
 
 const PANEL = `
-  <label class="hint"><input type="checkbox" id="graph-all"> Show all: also /rosout, and topics without a publisher</label>
-  <div class="wide" id="graph-picture" tabindex="0" aria-label="Nodes and topics"></div>
+  <div class="row">
+    <button id="graph-in" aria-label="Zoom in">+</button>
+    <button id="graph-out" aria-label="Zoom out">−</button>
+    <button id="graph-fit">Fit</button>
+    <label>Find <input type="search" id="graph-search" placeholder="name, then Enter" autocomplete="off"></label>
+    <span id="graph-found" class="hint" role="status"></span>
+    <label class="hint"><input type="checkbox" id="graph-all"> Show all: also /rosout, and topics without a publisher</label>
+  </div>
+  <div class="wide" id="graph-picture" role="region" tabindex="0" aria-label="Nodes and topics"></div>
   <div class="panel">
-    <div class="card" id="graph-details" aria-live="polite"><p class="hint">Choose a node or a topic.</p></div>
+    <div class="card"><h2 id="graph-title" aria-live="polite"></h2>
+      <div id="graph-details"><p class="hint">Choose a node or a topic.</p></div></div>
   </div>`;
 
 export class GraphTab {
@@ -29,6 +37,8 @@ export class GraphTab {
 
   #chosen = null; // "node /a" or "topic /b"
   #drawn = "";
+  #scale = () => Math.min(1, Math.max(READABLE, this.#fits[0])); // until a person chooses another
+  #size = { width: 1, height: 1 }; // of the picture in its own units
   #graph = { nodes: [], topics: [], edges: [] };
 
   constructor(link, watch) {
@@ -37,6 +47,12 @@ export class GraphTab {
     this.details = byId("graph-details");
     link.on("graph", (graph) => this.#draw(graph));
     byId("graph-all").onchange = () => this.#draw(this.#graph);
+    byId("graph-in").onclick = () => this.#zoom(1.25);
+    byId("graph-out").onclick = () => this.#zoom(0.8);
+    byId("graph-fit").onclick = () => this.#resize(() => Math.min(1, ...this.#fits));
+    byId("graph-search").oninput = () => this.#find(false);
+    byId("graph-search").addEventListener("keydown", ({ key }) => key === "Enter" && this.#find(true));
+    new ResizeObserver(() => this.#resize()).observe(this.picture);
     link.on("topic", (topic) => this.#chosen === `topic ${topic.name}` && this.#showTopic(topic));
     link.on("node", (node) => this.#chosen === `node ${node.name}` && this.#showNode(node));
   }
@@ -52,6 +68,7 @@ export class GraphTab {
 
   #choose(item) {
     this.#chosen = item;
+    say(byId("graph-title"), item.replace(/^./, (letter) => letter.toUpperCase()));
     this.details.replaceChildren(element("p", { className: "hint" }, "…"));
     this.#mark();
     this.watch(this.#asked(item));
@@ -60,8 +77,55 @@ export class GraphTab {
   #mark() {
     for (const part of this.picture.querySelectorAll("[data-item], [data-from]")) {
       const { item, from, to } = part.dataset;
-      part.classList.toggle("chosen", this.#chosen !== null && [item, from, to].includes(this.#chosen));
+      const isChosen = this.#chosen !== null && [item, from, to].includes(this.#chosen);
+      part.classList.toggle("chosen", isChosen);
+      if (from) part.setAttribute("marker-end", isChosen ? "url(#chosen-tip)" : "url(#tip)");
     }
+  }
+
+  /** The scales in which the picture is as wide, and as high, as there is room. */
+  get #fits() {
+    return [this.picture.clientWidth / this.#size.width, this.picture.clientHeight / this.#size.height];
+  }
+
+  #zoom(factor) {
+    const scale = Math.max(0.02, this.#scale() * factor);
+    this.#resize(() => scale);
+  }
+
+  /** Scale the picture; what is in the middle stays there. */
+  #resize(scale = this.#scale) {
+    this.#scale = scale;
+    const drawn = this.picture.querySelector("svg");
+    if (!drawn || !this.picture.clientWidth) return; // another tab is shown
+    const { scrollLeft, scrollTop, clientWidth, clientHeight } = this.picture;
+    const now = this.#scale();
+    const grown = (this.#size.width * now) / drawn.width.baseVal.value;
+    for (const side of ["width", "height"]) drawn.setAttribute(side, this.#size[side] * now);
+    const scrolled = (start, size) => (start + size / 2) * grown - size / 2;
+    this.picture.scrollTo(scrolled(scrollLeft, clientWidth), scrolled(scrollTop, clientHeight));
+  }
+
+  /** The boxes that have all words of the search in their names; the others are dimmed. */
+  #search() {
+    const words = byId("graph-search").value.toLowerCase().split(/\s+/).filter(Boolean);
+    const boxes = [...this.picture.querySelectorAll("[data-item]")];
+    const isFound = ({ dataset: { item } }) => words.every((word) => item.toLowerCase().includes(word));
+    for (const box of boxes) box.classList.toggle("other", !isFound(box));
+    const found = words.length ? boxes.filter(isFound) : [];
+    say(byId("graph-found"), words.length ? `${found.length} of ${boxes.length}` : "");
+    return found;
+  }
+
+  /** Show the first that is found, or choose the next one. */
+  #find(next) {
+    const found = this.#search();
+    if (!found.length) return;
+    const last = found.findIndex(({ dataset: { item } }) => item === this.#chosen);
+    const box = found[next ? (last + 1) % found.length : 0];
+    if (this.#scale() < READABLE) this.#resize(() => 1);
+    box.scrollIntoView({ block: "center", inline: "center" });
+    if (next) this.#choose(box.dataset.item);
   }
 
   #draw(graph) {
@@ -72,16 +136,20 @@ export class GraphTab {
     this.#drawn = wanted;
     const focused = document.activeElement?.dataset?.item;
     const { width, height, boxes, arrows } = layout(items, graph.edges);
-    const tip = { id: "tip", viewBox: "0 0 8 8", refX: 7, refY: 4, markerUnits: "userSpaceOnUse",
-      markerWidth: 10, markerHeight: 10, orient: "auto" };
+    const scrolled = [this.picture.scrollLeft, this.picture.scrollTop];
+    this.#size = { width, height };
+    const tip = (id) => svg("marker", { id, viewBox: "0 0 8 8", refX: 7, refY: 4, orient: "auto",
+      markerUnits: "userSpaceOnUse", markerWidth: 10, markerHeight: 10 }, svg("path", { d: "M0 0 L8 4 L0 8 Z" }));
     const picture = svg("svg", { width, height, viewBox: `0 0 ${width} ${height}`, role: "group" },
-      svg("defs", {}, svg("marker", tip, svg("path", { d: "M0 0 L8 4 L0 8 Z" }))),
-      ...arrows.map(({ from, to, path }) => svg("path", { d: path, class: "arrow", "data-from": from,
-        "data-to": to, "marker-end": "url(#tip)" })),
+      svg("defs", {}, tip("tip"), tip("chosen-tip")),
+      ...arrows.map(({ from, to, path }) =>
+        svg("path", { d: path, class: "arrow", "data-from": from, "data-to": to })),
       ...items.map((item) => this.#box(item, boxes[item])));
-    picture.style.minWidth = `${width * LEAST_SCALE}px`;
     this.picture.replaceChildren(items.length ? picture : element("p", { className: "hint" }, "No node is running."));
+    this.#resize();
+    this.picture.scrollTo(...scrolled);
     this.#mark();
+    this.#search();
     if (focused) this.picture.querySelector(`[data-item="${CSS.escape(focused)}"]`)?.focus();
   }
 
@@ -114,20 +182,20 @@ export class GraphTab {
   #fill(kind, name, entries) {
     const list = entries.map(([title, key, value]) => element("div", {},
       element("dt", {}, title), element("dd", { "data-value": key }, ...[value].flat())));
-    this.details.replaceChildren(
-      element("h2", {}, `${kind} ${name}`), element("dl", { className: "details" }, ...list));
+    this.details.dataset.about = `${kind} ${name}`;
+    this.details.replaceChildren(element("dl", { className: "details" }, ...list));
   }
 
   /** Buttons that choose other nodes or topics, or a dash. */
   #links(kind, names) {
     if (!names?.length) return "–";
     const choose = (name) => () => this.#choose(`${kind} ${name}`);
-    return names.map((name) => element("button", { className: "link", onclick: choose(name) }, name));
+    return [...names].sort(byName).map((name) => element("button", { className: "link", onclick: choose(name) }, name));
   }
 
   #showTopic({ name, type, rate, publishers, subscribers, last }) {
     const old = this.details.querySelector("[data-value=last] pre");
-    const isSame = this.details.querySelector("h2")?.textContent === `Topic ${name}`;
+    const isSame = this.details.dataset.about === `topic ${name}`;
     const newest = last || "none yet";
     const perSecond = last && Number.isFinite(rate) ? `${rate.toFixed(1)} Hz` : "–";
     if (isSame && old) { // only what changes, so that a link keeps the keyboard
@@ -135,16 +203,16 @@ export class GraphTab {
       say(old, newest);
       return;
     }
-    this.#fill("Topic", name, [
+    this.#fill("topic", name, [
       ["Type", "type", type], ["Rate", "rate", perSecond],
       ["Publishers", "publishers", this.#links("node", publishers)],
       ["Subscribers", "subscribers", this.#links("node", subscribers)],
-      ["Last message", "last", element("pre", {}, newest)],
+      ["Last message", "last", element("pre", { tabIndex: 0, role: "region", "aria-label": "Last message" }, newest)],
     ]);
   }
 
   #showNode({ name, machine, pid, speaks_to: speaksTo, publishes, subscribes, services }) {
-    this.#fill("Node", name, [
+    this.#fill("node", name, [
       ["Machine", "machine", machine || "–"], ["Process", "pid", String(pid ?? "–")],
       ["Publishes", "publishes", this.#links("topic", publishes)],
       ["Subscribes to", "subscribes", this.#links("topic", subscribes)],
