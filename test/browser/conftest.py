@@ -1,13 +1,18 @@
 """What the tests in browsers share: robots with a cockpit, browsers, the table of times."""
 
 import re
+import shutil
 from collections import defaultdict
 from pathlib import Path
 
 import pytest
+from selenium import webdriver
+from selenium.webdriver.webkitgtk.options import Options
 
 from tutorial_testing.cockpit.chromium import Chromium
+from tutorial_testing.cockpit.engines import Firefox, WebDriver
 from tutorial_testing.cockpit.world import World
+from tutorial_testing.screen import virtual_screen
 
 
 def pytest_addoption(parser):
@@ -50,6 +55,30 @@ def browser():
 def shared_browser():
     with Chromium() as browser:
         yield browser
+
+
+@pytest.fixture
+def firefox():
+    if not shutil.which("firefox-esr"):
+        pytest.skip("no Firefox here: apt install firefox-esr")
+    with Firefox() as browser:
+        yield browser
+
+
+@pytest.fixture
+def webkit(monkeypatch):
+    program = shutil.which("WebKitWebDriver")
+    found = sorted(Path("/usr/lib").glob("*/webkit2gtk-4.*/MiniBrowser"))
+    if not program or not found:
+        pytest.skip("no WebKit here: apt install webkit2gtk-driver")
+    options = Options()
+    options.binary_location = str(found[-1])
+    options.add_argument("--automation")
+    with virtual_screen(1280, 800) as screen:
+        monkeypatch.setenv("DISPLAY", screen)
+        driver = webdriver.WebKitGTK(executable_path=program, options=options)
+        yield WebDriver(driver)
+        driver.quit()
 
 
 @pytest.fixture

@@ -1,16 +1,9 @@
 """The core in the other engines: Firefox, and WebKit, the engine of an iPhone."""
 
-import shutil
-from pathlib import Path
-
 import pytest
-from selenium import webdriver
 from selenium.webdriver.common.keys import Keys as Key
-from selenium.webdriver.webkitgtk.options import Options
 
-from tutorial_testing.cockpit.engines import Firefox, WebDriver
 from tutorial_testing.cockpit.hands import Hands
-from tutorial_testing.screen import virtual_screen
 
 
 class EngineHands(Hands):
@@ -21,30 +14,6 @@ class EngineHands(Hands):
 
     def release(self):
         self.browser.keys("keyUp", Key.ARROW_UP, Key.SHIFT)
-
-
-@pytest.fixture
-def firefox():
-    if not shutil.which("firefox-esr"):
-        pytest.skip("no Firefox here: apt install firefox-esr")
-    with Firefox() as browser:
-        yield browser
-
-
-@pytest.fixture
-def webkit(monkeypatch):
-    program = shutil.which("WebKitWebDriver")
-    found = sorted(Path("/usr/lib").glob("*/webkit2gtk-4.*/MiniBrowser"))
-    if not program or not found:
-        pytest.skip("no WebKit here: apt install webkit2gtk-driver")
-    options = Options()
-    options.binary_location = str(found[-1])
-    options.add_argument("--automation")
-    with virtual_screen(1280, 800) as screen:
-        monkeypatch.setenv("DISPLAY", screen)
-        driver = webdriver.WebKitGTK(executable_path=program, options=options)
-        yield WebDriver(driver)
-        driver.quit()
 
 
 @pytest.mark.parametrize("engine", ["firefox", "webkit"])

@@ -13,7 +13,7 @@ const PANEL = `
     <label class="grow">Filter <input type="search" id="log-filter" placeholder="node or text" autocomplete="off"></label>
     <span id="log-count" class="hint"></span>
   </div>
-  <div class="scroll" id="log-scroll" tabindex="0" aria-label="Messages of all nodes">
+  <div class="scroll" id="log-scroll" role="region" tabindex="0" aria-label="Messages of all nodes">
     <p id="log-empty" class="hint"></p>
     <table><tbody id="log-lines"></tbody></table></div>`;
 

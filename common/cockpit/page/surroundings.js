@@ -52,10 +52,10 @@ export class Surroundings {
   /** paper: see Floor. name: of the robot whose scan is drawn. */
   draw(paper, name) {
     if (this.#map) this.#drawMap(paper);
-    paper.pen.fillStyle = paper.colour("--scan");
-    for (const point of this.#scan.name === name ? this.#scan.points : []) {
-      const [x, y] = paper.toPixels(point);
-      paper.pen.fillRect(x - 1.5, y - 1.5, 3, 3);
+    const points = this.#scan.name === name ? this.#scan.points.map(paper.toPixels) : [];
+    for (const [colour, size] of [["--floor", 5], ["--scan", 3]]) { // with an edge, as on walls
+      paper.pen.fillStyle = paper.colour(colour);
+      for (const [x, y] of points) paper.pen.fillRect(Math.round(x - size / 2), Math.round(y - size / 2), size, size);
     }
   }
 
@@ -91,12 +91,16 @@ export class Surroundings {
 
 /** Left (0), center (1) and right (2), each over a third of the front half. */
 export function drawBumpers({ pen, colour }, [x, y], yaw, radius, pressed) {
-  pen.strokeStyle = colour("--bumper");
-  pen.lineWidth = Math.max(3, radius / 5);
-  for (const bumper of pressed) {
-    const middle = -yaw - ((1 - bumper) * Math.PI) / 3;
-    pen.beginPath();
-    pen.arc(x, y, radius + 1, middle - Math.PI / 6, middle + Math.PI / 6);
-    pen.stroke();
+  const width = Math.max(3, radius / 5);
+  for (const [name, edge] of [["--floor", 2], ["--bumper", 0]]) { // whatever is below
+    pen.strokeStyle = colour(name);
+    pen.lineWidth = width + 2 * edge;
+    for (const bumper of pressed) {
+      const middle = -yaw - ((1 - bumper) * Math.PI) / 3;
+      const angle = Math.PI / 6 + edge / radius;
+      pen.beginPath();
+      pen.arc(x, y, radius + 1, middle - angle, middle + angle);
+      pen.stroke();
+    }
   }
 }

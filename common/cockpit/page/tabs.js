@@ -11,6 +11,7 @@ export function makeTabs(tablist, onChoose) {
       tab.tabIndex = tab === chosen ? 0 : -1;
       document.getElementById(nameOf(tab)).hidden = tab !== chosen;
     }
+    document.title = `${chosen.textContent} – Cockpit`;
     history.replaceState(null, "", `${location.pathname}${location.search}#${nameOf(chosen)}`);
     onChoose(nameOf(chosen));
   }

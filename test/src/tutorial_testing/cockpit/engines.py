@@ -33,7 +33,8 @@ class Browser(Started):
 
     def press(self, css):
         """Click on an element, seen or not."""
-        self.ask(f"document.querySelector({json.dumps(css)}).click()")
+        click = "dispatchEvent(new MouseEvent('click', {bubbles: true}))"  # SVG has no click()
+        self.ask(f"document.querySelector({json.dumps(css)}).{click}")
 
 
 class WebDriver(Browser):
@@ -45,6 +46,12 @@ class WebDriver(Browser):
 
     def go(self, address):
         self.driver.get(address)
+
+    def resize(self, width, height):
+        """Give the page a size [pixel]; the window is larger."""
+        self.driver.set_window_size(width, height)
+        rest = self.ask("[outerWidth - innerWidth, outerHeight - innerHeight]")
+        self.driver.set_window_size(width + rest[0], height + rest[1])
 
     def ask(self, expression):
         return self.driver.execute_script(f"return {expression}")
@@ -100,6 +107,11 @@ class Firefox(Browser):
 
     def go(self, address):
         self.send("browsingContext.navigate", context=self._context, url=address, wait="complete")
+
+    def resize(self, width, height):
+        """Give the page a size [pixel]."""
+        size = {"width": width, "height": height}
+        self.send("browsingContext.setViewport", context=self._context, viewport=size)
 
     def ask(self, expression):
         """The value of a JavaScript expression: a text, a number or a truth value."""
