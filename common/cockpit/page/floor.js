@@ -28,7 +28,7 @@ export class Floor {
     this.above = above;
     this.follow = true;
     this.look = ""; // the robot that is followed
-    this.onFollow = () => {};
+    this.onFollow = (_on) => {};
     this.around = new Surroundings(() => this.#drawSoon());
     new ResizeObserver(() => this.#drawSoon()).observe(canvas);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.#drawSoon());
@@ -123,6 +123,7 @@ export class Floor {
     }
   }
 
+  /** @returns {[number, number]} */
   #middle() {
     const { left, top, right, bottom } = this.#free;
     return [(left + right) / 2, (top + bottom) / 2];
@@ -206,7 +207,7 @@ export class Floor {
     this.around.draw(paper, this.look);
     for (const [name, trail] of this.#trails) this.#drawTrail(paper, name, trail);
     const robots = Object.entries(this.#robots).map(([name, robot]) => this.#drawRobot(paper, name, robot));
-    robots.sort((a, b) => b.isChosen - a.isChosen); // its name gets the best place
+    robots.sort((a, b) => Number(b.isChosen) - Number(a.isChosen)); // its name gets the best place
     drawNames(paper, robots, this.#boxes(), { width, height });
   }
 

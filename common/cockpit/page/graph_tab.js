@@ -134,7 +134,7 @@ export class GraphTab {
     const wanted = JSON.stringify([items, graph.edges]);
     if (wanted === this.#drawn) return;
     this.#drawn = wanted;
-    const focused = document.activeElement?.dataset?.item;
+    const focused = this.picture.querySelector(":focus")?.dataset.item;
     const { width, height, boxes, arrows } = layout(items, graph.edges);
     const scrolled = [this.picture.scrollLeft, this.picture.scrollTop];
     this.#size = { width, height };

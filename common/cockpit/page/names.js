@@ -3,7 +3,7 @@
 const HEIGHT = 16, GAP = 4; // of a name, and from its robot [pixel]
 const SIDES = [[1, 0], [0, 1], [0, -1], [-1, 0], [1, 1], [1, -1], [-1, 1], [-1, -1]];
 // In 14 rings around the robot; from the second on a line leads to the name.
-const PLACES = Array.from({ length: 14 }, (_, ring) => SIDES.map((side) => [ring, side])).flat();
+const PLACES = Array.from({ length: 14 }, (_, ring) => SIDES.map(([dx, dy]) => ({ ring, dx, dy }))).flat();
 
 export const overlap = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
 const around = (x, y, w, h) => ({ left: x - w, right: x + w, top: y - h, bottom: y + h }); // half sizes
@@ -16,7 +16,7 @@ const around = (x, y, w, h) => ({ left: x - w, right: x + w, top: y - h, bottom:
 export function placeNames(robots, taken, size) {
   const boxes = [...taken, ...robots.map(({ x, y, radius }) => around(x, y, radius, radius))];
   return robots.map(({ name, x, y, radius, width }) => {
-    const boxOf = ([ring, [dx, dy]]) => around(
+    const boxOf = ({ ring, dx, dy }) => around(
       x + dx * (radius + GAP + width / 2 + ring * HEIGHT), y + dy * (radius + (ring + 0.5) * HEIGHT),
       width / 2 + 1, HEIGHT / 2);
     const isFree = (box) => box.left >= 0 && box.right <= size.width && box.top >= 0
@@ -24,7 +24,7 @@ export function placeNames(robots, taken, size) {
     const place = PLACES.find((one) => isFree(boxOf(one))) ?? PLACES[0];
     const box = boxOf(place);
     boxes.push(box);
-    return { name, ring: place[0], x: (box.left + box.right) / 2, y: (box.top + box.bottom) / 2 };
+    return { name, ring: place.ring, x: (box.left + box.right) / 2, y: (box.top + box.bottom) / 2 };
   });
 }
 

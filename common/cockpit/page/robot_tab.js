@@ -170,10 +170,10 @@ export class RobotTab {
     this.seat.showSpeed(robot);
     const turned = { ...robot, yaw: (robot.yaw * 180) / Math.PI };
     for (const [name, , , digits] of ODOMETRY) {
-      say(document.querySelector(`#odometry [data-value=${name}]`), number(turned[name], digits));
+      say(document.querySelector(`#odometry [data-value=${name}]`), number(turned[name], Number(digits)));
     }
     for (const [name, , , none] of KOBUKI) {
-      const output = document.querySelector(`#kobuki [data-value=${name}]`);
+      const output = byId("kobuki").querySelector(`[data-value=${name}]`);
       say(output, robot[name] ?? none);
       output.style.setProperty("--lamp", output.textContent.replace("off", ""));
     }

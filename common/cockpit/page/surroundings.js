@@ -53,7 +53,7 @@ export class Surroundings {
   draw(paper, name) {
     if (this.#map) this.#drawMap(paper);
     const points = this.#scan.name === name ? this.#scan.points.map(paper.toPixels) : [];
-    for (const [colour, size] of [["--floor", 5], ["--scan", 3]]) { // with an edge, as on walls
+    for (const { colour, size } of [{ colour: "--floor", size: 5 }, { colour: "--scan", size: 3 }]) { // with an edge, as on walls
       paper.pen.fillStyle = paper.colour(colour);
       for (const [x, y] of points) paper.pen.fillRect(Math.round(x - size / 2), Math.round(y - size / 2), size, size);
     }
@@ -92,7 +92,7 @@ export class Surroundings {
 /** Left (0), center (1) and right (2), each over a third of the front half. */
 export function drawBumpers({ pen, colour }, [x, y], yaw, radius, pressed) {
   const width = Math.max(3, radius / 5);
-  for (const [name, edge] of [["--floor", 2], ["--bumper", 0]]) { // whatever is below
+  for (const { name, edge } of [{ name: "--floor", edge: 2 }, { name: "--bumper", edge: 0 }]) { // whatever is below
     pen.strokeStyle = colour(name);
     pen.lineWidth = width + 2 * edge;
     for (const bumper of pressed) {
