@@ -123,7 +123,7 @@ export class Floor {
     }
   }
 
-  /** @returns {[number, number]} */
+  /** @returns {any} [x, y] [pixel] */
   #middle() {
     const { left, top, right, bottom } = this.#free;
     return [(left + right) / 2, (top + bottom) / 2];
