@@ -91,7 +91,7 @@ export class Surroundings {
 
 /** Left (0), center (1) and right (2), each over a third of the front half. */
 export function drawBumpers({ pen, colour }, [x, y], yaw, radius, pressed) {
-  const width = Math.max(3, radius / 5);
+  const width = Math.max(4, radius / 5);
   for (const { name, edge } of [{ name: "--floor", edge: 2 }, { name: "--bumper", edge: 0 }]) { // whatever is below
     pen.strokeStyle = colour(name);
     pen.lineWidth = width + 2 * edge;
