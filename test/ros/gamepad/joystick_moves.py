@@ -64,10 +64,10 @@ class MovesTest(JoystickTest):
         missing = str(self.folder() / "none")
         for line, option, content in (
             (f"cannot read {missing}: No such file", "--script", None),
-            (f"cannot read {missing}: No such file", "--bag", None),
+            (f"_joystick: {missing}: cannot be read: No such file", "--bag", None),
             ("moves.yaml: it has no list of moves", "--script", "7"),
             ("moves.yaml: while ", "--script", "moves: ]\n\t@"),
-            ("moves.yaml: ", "--bag", "no bag"),
+            ("moves.yaml: not a bag that can be read", "--bag", "no bag"),
             ("is there and is no FIFO", "--stream", ""),
         ):
             path = missing if content is None else self.write(content)

@@ -141,4 +141,5 @@ def main() -> None:
     except OSError as error:
         sys.exit(f"{NAME}: cannot read {error.filename}: {os.strerror(error.errno or 0)}")
     except ValueError as error:
-        sys.exit(f"{NAME}: {options.script or options.bag}: {error}")
+        path, why = options.script or options.bag, str(error)  # a BagError begins with the path
+        sys.exit(f"{NAME}: {why if why.startswith(path) else f'{path}: {why}'}")
