@@ -24,7 +24,7 @@ class Pad:
         with contextlib.suppress(FileNotFoundError):
             os.unlink(path)
         self._pad = StreamPad(MODE, path)
-        os.chmod(path, 0o666)
+        os.chmod(path, 0o644)
         self._arranged = arranged
         self.release()
         threading.Thread(target=self._serve, daemon=True).start()
