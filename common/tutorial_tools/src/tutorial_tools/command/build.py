@@ -246,7 +246,7 @@ def install_from_pypi(workspace: Path, name: str, requirements: str, kind: str) 
         subprocess.run(venv, check=True)
         pip = [f"{folder}/bin/python", "-m", "pip", "install", "-q", "--disable-pip-version-check"]
         with open(log, "w", encoding="utf-8") as file:
-            # A lock has all that is not Debian's: the browser tests' Selenium is, and comes with them.
+            # A lock has all that Debian lacks; the browser tests' Selenium comes with them.
             command = [*pip, "--require-hashes", "--no-deps", "-r", str(wanted)]
             done = subprocess.run(command, check=False, stdout=file, stderr=file)
         if not done.returncode:
