@@ -60,17 +60,21 @@ def test_what_is_no_joystick_is_refused(path):
 
 
 @pytest.mark.parametrize(
-    ("owner", "mode", "is_refused"),
-    [(0, 0o644, False), (7, 0o600, False), (8, 0o600, True), (7, 0o620, True), (0, 0o602, True)],
-)
+    ("owner", "group", "mode", "is_refused"),
+    [
+        (0, 0, 0o644, False), (7, 7, 0o600, False), (8, 7, 0o600, True), (0, 0, 0o602, True),
+        (7, 7, 0o664, False), (7, 9, 0o664, True),  # the user's own group, as with umask 002
+    ],
+)  # fmt: skip
 def test_a_fifo_that_another_user_could_write_is_refused(
-    tmp_path, monkeypatch, owner, mode, is_refused
+    tmp_path, monkeypatch, owner, group, mode, is_refused
 ):
     path = tmp_path / "virtual_f710"
     os.mkfifo(path)
-    status = SimpleNamespace(st_uid=owner, st_mode=stat.S_IFIFO | mode)
+    status = SimpleNamespace(st_uid=owner, st_gid=group, st_mode=stat.S_IFIFO | mode)
     monkeypatch.setattr(os, "fstat", lambda _: status)
     monkeypatch.setattr(os, "getuid", lambda: 7)
+    monkeypatch.setattr(os, "getgid", lambda: 7)
     if is_refused:
         with pytest.raises(
             DeviceError, match="could drive the robot: choose another path, or: chmod"

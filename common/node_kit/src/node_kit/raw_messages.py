@@ -21,7 +21,7 @@ class Raw:
     type: str
     sender: str
     is_latched: bool
-    is_first: bool  # of its connection: if latched, it may have been published long ago
+    is_first: bool  # The first of a latched connection may be old.
 
 
 def subscribe(topic: str, callback: Callable[[Raw], object], depth: int) -> rospy.Subscriber:

@@ -19,7 +19,8 @@ from typing import Iterable
 from tutorial_check.place import prctl
 
 CREATE_RULESET, ADD_RULE, RESTRICT_SELF = 444, 445, 446
-OLDEST, WITH_SCOPES = 3, 6  # of Linux 6.2: truncates; of 6.12: signals
+# Version 3 (Linux 6.2) also guards against truncation, version 6 (Linux 6.12) against signals.
+OLDEST, WITH_SCOPES = 3, 6
 EVERYTHING = (1 << 15) - 1  # rights of OLDEST
 EXECUTE, WRITE, READ, LIST, TRUNCATE = 1 << 0, 1 << 1, 1 << 2, 1 << 3, 1 << 14
 OF_FILES = EXECUTE | WRITE | READ | TRUNCATE
@@ -73,7 +74,8 @@ def confine(descriptor: int) -> None:
     """Confine this process, and what it starts, for good; it has to have given up rights. Raises OSError."""
     _call(RESTRICT_SELF, descriptor, ctypes.c_uint32(0))
     machine, open_socket, others = MACHINES[platform.machine()]
-    load, equal, at_least, end = 0x20, 0x15, 0x35, 0x06  # of linux/bpf_common.h
+    # The codes stand in linux/bpf_common.h.
+    load, equal, at_least, end = 0x20, 0x15, 0x35, 0x06
     # Each (code, steps forward if so, if not, value); the steps count the instructions in between.
     steps = [(load, 0, 0, 4), (equal, 1, 0, machine), (end, 0, 0, REFUSED), (load, 0, 0, 0)]
     steps += [(at_least, 0, 1, X32), (end, 0, 0, REFUSED)]

@@ -22,7 +22,7 @@ from node_kit.start import run
 
 NODE_NAME = "classroom_bodies"
 PERIOD_S = 1.0  # not of rospy, whose time may be simulated
-MOST_PAIRS = 10_000  # of frames that are kept; a class of thirty has a few hundred
+MOST_PAIRS = 10_000  # The node keeps so many transforms; a class of thirty has a few hundred.
 UPRIGHT = Quaternion(0.0, 0.0, 0.0, 1.0)
 BLACK, PLATE = ColorRGBA(0.10, 0.10, 0.10, 1.0), ColorRGBA(0.30, 0.30, 0.32, 1.0)
 GREEN = ColorRGBA(0.35, 0.75, 0.20, 1.0)

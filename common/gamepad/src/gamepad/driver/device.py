@@ -49,7 +49,7 @@ class Device:
             elif not stat.S_ISFIFO(status.st_mode):
                 raise DeviceError(f"{path} is no joystick: a device such as /dev/input/js0 is.")
             if not self.kernel_device:
-                check_trust(path, status, os.getuid())
+                check_trust(path, status, os.getuid(), os.getgid())
         except BaseException:
             self.close()
             raise

@@ -16,9 +16,13 @@ class DeviceError(Exception):
     """No gamepad can be opened or read; the text says in one line why and what to do."""
 
 
-def check_trust(path: str, status: os.stat_result, user: int) -> None:
-    """Raise DeviceError if a FIFO or a file could be written by others than a user and root."""
-    if status.st_uid not in {user, 0} or status.st_mode & 0o022:
+def check_trust(path: str, status: os.stat_result, user: int, group: int) -> None:
+    """Raise DeviceError if a FIFO or a file could be written by others than a user and root.
+
+    The user's own group may write: with Ubuntu's umask 002 it may write all that the user makes.
+    """
+    others = 0o002 if status.st_gid in {group, 0} else 0o022
+    if status.st_uid not in {user, 0} or status.st_mode & others:
         why = "is another user's, or can be written by others, who could drive the robot"
         raise DeviceError(f"{path} {why}: choose another path, or: chmod go-w {path}")
 
