@@ -42,6 +42,7 @@ def refused(name, value):
         ("bag", ["none", str(JOY_BAG)], ["./joy.bag"], "must be a whole path, as $PWD is not set"),
         ("bag", [], ["/no/joy.bag"], "cannot be read: No such file or directory"),
         ("bag", [], ["/tmp"], "cannot be read: Is a directory"),
+        ("bag", [], ["/dev/null"], "not a plain file"),
         ("bag", [], [__file__], f"not a bag that can be read: {NO_BAG}"),
         ("name", ["robot_7", "ada", "R2D2"], [""],
          "is missing: which robot of the classroom, such as name:=robot_7"),
