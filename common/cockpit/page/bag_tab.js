@@ -41,6 +41,7 @@ export class BagTab {
   #refusal = ""; // why this page may not publish now
   #yours = false; // this page plays it
   #scrubbed = 0; // when the slider was last moved by hand
+  #position = 0; // of the recording [s], which a zoomed slider may not show
   #hidden = new Set(); // the names of hidden curves
   #tracks = {}; // name of a curve -> Track
   #pointed = null; // the time at which the mouse points, or null
@@ -112,6 +113,7 @@ export class BagTab {
   }
 
   #showPosition(position) {
+    this.#position = position;
     say(byId("bag-at"), `${position.toFixed(1)} s`);
     this.chart.cursor = position;
     this.#showValues();
@@ -122,10 +124,9 @@ export class BagTab {
     if (!this.chart.seen) return;
     const { left, right, from, to } = this.chart.seen;
     const position = byId("bag-position");
-    const now = Number(position.value);
     position.style.marginLeft = `${left}px`;
     position.style.width = `calc(100% - ${left + right}px)`;
-    Object.assign(position, { min: from, max: to, value: now });
+    Object.assign(position, { min: from, max: to, value: this.#position });
     const seen = JSON.stringify([from, to]);
     if (seen !== this.#drawn) requestAnimationFrame(() => this.#draw());
     this.#drawn = seen;
@@ -133,7 +134,7 @@ export class BagTab {
 
   /** The values of the curves at the mouse, or at the position. */
   #showValues() {
-    const t = this.#pointed ?? Number(byId("bag-position").value);
+    const t = this.#pointed ?? this.#position;
     for (const label of byId("bag-curves").children) {
       const value = this.#tracks[label.dataset.curve].at(t);
       say(label.querySelector("output"), value === undefined ? "–" : written(value));
@@ -144,6 +145,7 @@ export class BagTab {
     this.#bag = bag;
     this.#hidden.clear();
     const seconds = bag.end - bag.start;
+    this.#position = Math.min(this.#position, seconds);
     const when = bag.start > 0 ? `, recorded ${new Date(bag.start * 1000).toLocaleString()}` : "";
     say(byId("bag-about"), `${bag.path}: ${seconds.toFixed(1)} s${when}`);
     byId("bag-position").max = seconds;

@@ -50,6 +50,8 @@ class Robots(Source):
         # Also while no page looks: an LED keeps its colour.
         types = self._graphs.graph.types
         commands = [topic for topic, kind in types.items() if kind in KOBUKI and COMMANDS in topic]
+        named = {topic.partition(COMMANDS)[0].strip("/") for topic in commands}
+        self._kobukis = {r: parts for r, parts in list(self._kobukis.items()) if r in named}
         self._feeds.want((self, "kobuki"), dict.fromkeys(commands, self._hear_command), every=True)
         watched = any(client.watch.robots for client in clients)
         known = self._graphs.graph.robots_with_odometry() if watched else ()
@@ -147,6 +149,7 @@ class Pads(Source):
         hears = {topic_of(robot, "joy"): self._hear for robot in robots}
         self._feeds.want(self, hears, every=False)
         self._newest = {topic: self._newest[topic] for topic in hears if topic in self._newest}
+        self._rivals = {topic: self._rivals[topic] for topic in hears if topic in self._rivals}
 
     def give(self, client: Client, now: float) -> None:
         robot = client.watch.look

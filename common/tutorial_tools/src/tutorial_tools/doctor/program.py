@@ -1,5 +1,6 @@
 """The command: looks at all that may keep a robot from moving, one line for each finding."""
 
+import signal
 import sys
 
 from tutorial_tools.command.words import parser_of
@@ -15,6 +16,8 @@ def main() -> None:
         findings = judge(collect())
     except Exception as error:  # one line in place of a traceback, whatever a network does
         sys.exit(f"doctor: cannot go on: {type(error).__name__}: {' '.join(str(error).split())}")
+    # No socket is written to from here on: `doctor | head` ends quietly.
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)
     for finding in findings:
         print(finding.line(), flush=True)
     count = {level: sum(f.level == level for f in findings) for level in (OK, WRONG, UNKNOWN)}
