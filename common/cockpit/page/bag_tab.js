@@ -45,7 +45,6 @@ export class BagTab {
   #hidden = new Set(); // the names of hidden curves
   #tracks = {}; // name of a curve -> Track
   #pointed = null; // the time at which the mouse points, or null
-  #drawn = ""; // what was seen when it was drawn
 
   constructor(link, watch, page) {
     this.link = link;
@@ -93,10 +92,7 @@ export class BagTab {
     };
     // A change while it plays counts at once.
     for (const id of ["bag-rate", "bag-loop", "bag-topic"]) byId(id).onchange = () => this.#yours && this.#play();
-    byId("bag-zoom").onclick = () => {
-      this.chart.wholeRange();
-      this.#draw();
-    };
+    byId("bag-zoom").onclick = () => this.chart.wholeRange();
   }
 
   #ask() {
@@ -119,7 +115,7 @@ export class BagTab {
     this.#showValues();
   }
 
-  /** The slider has the chart's scale, and a chart that is zoomed is drawn anew, with all its samples. */
+  /** Give the slider the chart's scale. */
   #alignSlider() {
     if (!this.chart.seen) return;
     const { left, right, from, to } = this.chart.seen;
@@ -127,9 +123,6 @@ export class BagTab {
     position.style.marginLeft = `${left}px`;
     position.style.width = `calc(100% - ${left + right}px)`;
     Object.assign(position, { min: from, max: to, value: this.#position });
-    const seen = JSON.stringify([from, to]);
-    if (seen !== this.#drawn) requestAnimationFrame(() => this.#draw());
-    this.#drawn = seen;
   }
 
   /** The values of the curves at the mouse, or at the position. */

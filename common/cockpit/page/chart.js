@@ -40,6 +40,7 @@ export class Chart {
   #labels = [];
   #cursor = null;
   #window = []; // from, to: as the page itself has set it last
+  #drawn = ""; // the part of the time for which samples were chosen
 
   /**
    * root: the element. onPoint(t, points): the mouse points at a time [s] and at
@@ -93,6 +94,7 @@ export class Chart {
     const isSame = rows.length && JSON.stringify(labels) === JSON.stringify(this.#labels);
     const range = this.isZoomed ? {} : { dateWindow: window };
     if (range.dateWindow) this.#window = [...window];
+    this.#drawn = [from, to].join();
     if (this.#graph && isSame) {
       this.#graph.updateOptions({ file: rows, ...range });
       return;
@@ -101,6 +103,13 @@ export class Chart {
     this.#labels = labels;
     this.#graph = rows.length ? this.#make(labels, rows, range) : null;
     if (this.#graph) this.onRange();
+  }
+
+  /** Another part may be seen, as after a zoom: choose its samples. */
+  #look() {
+    if (!this.#graph) return; // it is being made
+    this.onRange();
+    if (this.#graph.xAxisRange().join() !== this.#drawn) requestAnimationFrame(() => this.show(...this.#wanted));
   }
 
   #make(labels, rows, range) {
@@ -118,7 +127,7 @@ export class Chart {
       underlayCallback: (pen, area, graph) => this.#drawCursor(pen, area, graph),
       highlightCallback: (_, t, points) => this.onPoint(t, points),
       unhighlightCallback: () => this.onPoint(null),
-      drawCallback: () => this.#graph && this.onRange(), // not while it is made
+      drawCallback: () => this.#look(),
       axes: { y: { axisLabelWidth: 96, axisLabelFormatter: (value, _, __, graph) => this.#mark(value, graph) } },
       ...range,
     });

@@ -48,7 +48,6 @@ export class PlotTab {
   #fresh = false;
   #frozen = null; // the newest time that is shown while the plot is paused
   #pointed = null; // the time at which the mouse points, or null
-  #drawn = ""; // what was seen when it was drawn
   #shown = false;
 
   constructor(link, watch) {
@@ -58,7 +57,6 @@ export class PlotTab {
         this.#pointed = t;
         this.#showValues(points);
       },
-      onRange: () => this.#look(),
     });
     link.on("fields", ({ fields }) => {
       if (fields.join() === this.#all.join()) return; // a list in use is left alone
@@ -111,18 +109,8 @@ export class PlotTab {
     if (!this.#shown || !this.#fresh) return;
     const from = Math.max(0, this.#newest - Number(byId("plot-window").value));
     this.chart.show(this.#samples, [from, Math.max(this.#newest, from + 1)]);
-    this.#drawn = this.#range;
     this.#fresh = false;
     this.#showValues();
-  }
-
-  get #range() {
-    return JSON.stringify(this.chart.seen);
-  }
-
-  /** Draw again if another part is seen than was drawn, as after a zoom. */
-  #look() {
-    this.#fresh ||= this.#range !== this.#drawn;
   }
 
   /** The values at the mouse, where a point is drawn that of the point; or the newest. */

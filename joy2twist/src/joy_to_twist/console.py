@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import io
 import logging
 import sys
 from typing import Sequence
@@ -46,9 +45,7 @@ class Console(Log):
 
 def _write(lines: list[str]) -> None:
     """Write lines as rospy.loginfo does to the screen, which takes longer than all else."""
-    mark = "\0"
-    around = io.StringIO()
-    record = logging.LogRecord("rosout.joy", logging.INFO, __file__, 0, mark, (), None)
-    RosStreamHandler(colorize=False, stdout=around).emit(record)
-    sys.stdout.write("".join([around.getvalue().replace(mark, line) for line in lines]))
+    screen = RosStreamHandler(colorize=False)
+    for line in lines:
+        screen.emit(logging.LogRecord("rosout.joy", logging.INFO, __file__, 0, line, (), None))
     sys.stdout.flush()
