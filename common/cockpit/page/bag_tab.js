@@ -14,7 +14,7 @@ const PANEL = `
   <div class="card">
     <label class="long">Position <output id="bag-at">0.0 s</output>
       <input type="range" id="bag-position" min="0" max="1" step="0.01" value="0"></label>
-    <p class="hint">Drag across the chart to zoom. <button id="bag-zoom">Whole range</button></p>
+    <p class="hint">Drag across the chart to zoom. <button id="bag-zoom">Whole range</button> <output id="bag-pointed"></output></p>
     <div class="row">
       <label>Topic <select id="bag-topic"></select></label>
       <label>Rate <select id="bag-rate">
@@ -87,6 +87,7 @@ export class BagTab {
     byId("bag-pause").onclick = () => this.link.send("bag_pause");
     position.oninput = () => {
       this.#scrubbed = performance.now();
+      this.#pointed = null;
       this.#showPosition(Number(position.value));
       this.link.send("bag_seek", { position: Number(position.value) });
     };
@@ -128,6 +129,7 @@ export class BagTab {
   /** The values of the curves at the mouse, or at the position. */
   #showValues() {
     const t = this.#pointed ?? this.#position;
+    say(byId("bag-pointed"), this.#pointed === null ? "" : `At ${t.toFixed(2)} s:`);
     for (const label of byId("bag-curves").children) {
       const value = this.#tracks[label.dataset.curve].at(t);
       say(label.querySelector("output"), value === undefined ? "–" : written(value));

@@ -13,13 +13,14 @@ export class Surroundings {
     this.onChange = onChange;
   }
 
-  /** Returns whether the map covers another part of the floor than the one before. */
+  /** map: without cells there is none. Returns whether it covers another part of the floor than the one before. */
   showMap(map) {
     const before = this.corners().join();
-    this.#map = { ...map, bytes: Uint8Array.from(atob(map.cells), (c) => c.charCodeAt(0)) };
+    this.#map = map.cells ? { ...map, bytes: Uint8Array.from(atob(map.cells), (c) => c.charCodeAt(0)) } : null;
+    this.#scan.name = null; // of another world, or a server that has ended
     this.#pictures.clear();
     this.onChange();
-    return this.corners().join() !== before;
+    return Boolean(this.#map) && this.corners().join() !== before;
   }
 
   showRobots(robots) {

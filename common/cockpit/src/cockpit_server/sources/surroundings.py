@@ -59,18 +59,18 @@ class Surroundings(Source):
             **{topic_of(robot, SCAN): (LaserScan._type, self._keep) for robot in looks & robots},
         })  # fmt: skip
         events = {topic_of(robot, EVENT): (EVENT_TYPE, self._hear_bumper) for robot in robots}
-        if "/map" not in newest:
-            self._map = {}
+        if "/map" not in newest and self._map:
+            self._map, self._version = {}, self._version + 1
         self._feeds.want((self, "newest"), newest, every=False)
         self._feeds.want((self, "events"), there(events), every=True)
         around = {robot: self._around(robot) for robot in sorted(robots)} if self._map else {}
         self._text = encoded("around", robots=around)
 
     def give(self, client: Client, now: float) -> None:
+        if client.watch.robots and client.lacks("map", self._version):
+            client.send("map", **self._map)
         if not client.watch.robots or not self._map:
             return
-        if client.lacks("map", self._version):
-            client.send("map", **self._map)
         if client.lacks("around", self._text):
             client.write(self._text)
         robot = client.watch.look
