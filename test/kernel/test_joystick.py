@@ -16,6 +16,7 @@ import pytest
 
 from tutorial_testing.kernel import machine
 from tutorial_testing.kernel.machine import makes_joysticks
+from tutorial_testing.ports import free_port
 from tutorial_testing.processes import Program
 
 KERNEL = Path(machine.__file__).parent
@@ -59,7 +60,8 @@ def start_in_guest(command, tmp_path, shift):
 def run(name, command, here, tmp_path, capsys, *, shift=machine.SHIFT):
     """Run a program to its end, and show what it reports; AssertionError unless it passes."""
     if here:
-        where, program = f"here, Linux {platform.release()}", Program(*command)
+        uri = f"http://localhost:{free_port()}"
+        where, program = f"here, Linux {platform.release()}", Program(*command, ROS_MASTER_URI=uri)
     else:
         where, program = start_in_guest(command, tmp_path, shift)
     with program:
@@ -78,13 +80,11 @@ def run(name, command, here, tmp_path, capsys, *, shift=machine.SHIFT):
     assert said[-1] == "drive: passed"
 
 
-@pytest.mark.usefixtures("master_uri")
 def test_a_joystick_of_the_kernel_drives_the_robot(tmp_path, capsys):
     command = ["/usr/bin/python3", str(KERNEL / "drive.py")]
     run("kernel joystick", command, makes_joysticks(), tmp_path, capsys)
 
 
-@pytest.mark.usefixtures("master_uri")
 def test_chromium_sees_a_joystick_of_the_kernel_and_its_page_drives_the_robot(tmp_path, capsys):
     missing = [name for name in ("chromium", "chromedriver", UDEVD) if not shutil.which(name)]
     if missing or not find_spec("selenium"):
