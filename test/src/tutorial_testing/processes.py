@@ -149,7 +149,8 @@ class Program:
 
     def interrupt(self):
         """Press Ctrl-C: SIGINT to the group in the foreground."""
-        os.killpg(self._process.pid, signal.SIGINT)
+        with contextlib.suppress(ProcessLookupError):  # it has ended
+            os.killpg(self._process.pid, signal.SIGINT)
 
     def type(self, line):
         """Type a line into a program that was started with stdin=subprocess.PIPE."""
