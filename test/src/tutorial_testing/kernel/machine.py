@@ -16,9 +16,9 @@ from pathlib import Path
 CACHE = Path(os.environ.get("XDG_CACHE_HOME", Path.home() / ".cache")) / "ros1_tutorial" / "kernel"
 BUSYBOX, QEMU = "/bin/busybox", "qemu-system-x86_64"
 NEEDED = ("apt-get", "dpkg-deb", BUSYBOX, QEMU)
-# In the order in which to load them; what a kernel has built in, or not at all, has no file.
+# In about the order in which to load them; what a kernel has built in, or not at all, has no file.
 MODULES = (
-    "virtio", "virtio_ring", "virtio_pci_modern_dev", "virtio_pci_legacy_dev", "virtio_pci",
+    "virtio_ring", "virtio", "virtio_pci_modern_dev", "virtio_pci_legacy_dev", "virtio_pci",
     "netfs", "fscache", "9pnet", "9pnet_virtio", "9p", "overlay", "evdev", "joydev", "uinput",
 )  # fmt: skip
 INIT = """\
@@ -28,7 +28,7 @@ for folder in proc sys dev lower upper root; do $b mkdir -p /$folder; done
 $b mount -t proc proc /proc
 $b mount -t sysfs sys /sys
 $b mount -t devtmpfs dev /dev
-for module in {modules}; do $b insmod /$module; done
+for module in {modules} {modules}; do $b insmod /$module 2>/dev/null; done
 $b mount -t 9p -o trans=virtio,version=9p2000.L,msize=524288,cache=loose,ro root /lower
 $b mount -t tmpfs tmpfs /upper
 $b mkdir /upper/new /upper/work
