@@ -21,7 +21,6 @@ NUMBER_OF_INTERRUPT = 130
 TOGETHER = ("ros", "system", "launch")  # of all; they mostly wait, so they run at the same time
 ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 RUNNING = []  # in the background
-PART = "TUTORIAL_PART"  # environment variable: this is one kind of all, which another one sums up
 BRIDGE = "--bridge"  # of the faults
 
 
@@ -45,18 +44,6 @@ def run(*command):
             process.send_signal(signal.SIGINT)
         process.wait()
         raise
-
-
-def start(command, log):
-    """Start a command in the background, in a process group of its own; return the process."""
-    with log.open("w") as output:
-        RUNNING.append(
-            subprocess.Popen(
-                command, cwd=REPOSITORY, start_new_session=True, stdin=subprocess.DEVNULL,
-                stdout=output, stderr=output, env={**os.environ, PART: "yes"},
-            )
-        )  # fmt: skip
-    return RUNNING[-1]
 
 
 def end_background():
@@ -134,10 +121,16 @@ def run_all():
     say("tests: unit")
     failed = ["unit"] if KINDS["unit"]([]) else []
     logs = [RESULTS / f"test_{kind}.log" for kind in TOGETHER]
-    processes = [start([__file__, kind], log) for kind, log in zip(TOGETHER, logs)]
+    for kind, log in zip(TOGETHER, logs):
+        with log.open("w") as output:
+            command = subprocess.Popen(
+                [__file__, kind], cwd=REPOSITORY, start_new_session=True,
+                stdin=subprocess.DEVNULL, stdout=output, stderr=output,
+            )  # fmt: skip
+        RUNNING.append(command)
     say("tests: ros, system and launch at once, for some minutes; till then see")
     say(f"   {RESULTS}/test_*.log")
-    for kind, log, process in zip(TOGETHER, logs, processes):
+    for kind, log, process in zip(TOGETHER, logs, RUNNING):
         failed += [kind] if process.wait() else []
         say(f"tests: {kind}")
         sys.stdout.write(log.read_text(errors="replace"))
@@ -152,18 +145,18 @@ def main():
     folders = [str(REPOSITORY / "test" / name) for name in ("src", "faults")]
     os.environ["PYTHONPATH"] = ":".join([*folders, os.environ.get("PYTHONPATH", "")])
     kind, *arguments = sys.argv[1:] or [""]
-    is_part = os.environ.pop(PART, "")  # the tests of ./tutorial test run others, which are whole
     try:
         if any(argument.split("=")[0] == "--cluster" for argument in arguments):
             from tutorial_testing.in_parts import run_in_parts  # noqa: PLC0415
 
             sys.exit(run_in_parts(kind, arguments))
-        if kind in ("again", "faults", "bench") or is_part:
+        if kind in ("again", "faults", "bench"):
             sys.exit(KINDS[kind](arguments))
         FAILED.unlink(missing_ok=True)
         failed = run_all() if not kind else [kind] if KINDS[kind](arguments) else []
     except KeyboardInterrupt:
         end_background()
+        FAILED.unlink(missing_ok=True)
         say("test: interrupted")
         sys.exit(NUMBER_OF_INTERRUPT)
     FAILED.write_text("".join(f"{kind}\n" for kind in failed))

@@ -11,6 +11,7 @@ from pathlib import Path
 from tutorial_check.patience import Patience, times_of
 
 DEADLINE_S = 150.0  # generous: ten times what a build takes, or the start of a dozen nodes
+LONGEST_S = 4 * DEADLINE_S  # for what cannot know what it lost, such as subprocess.run()
 # What a busy machine may add to a time that is demanded of a program, beside lost_s().
 BUSY_S = 2.0
 
