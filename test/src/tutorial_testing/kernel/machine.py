@@ -32,7 +32,7 @@ for module in {modules} {modules}; do $b insmod /$module 2>/dev/null; done
 $b mount -t 9p -o trans=virtio,version=9p2000.L,msize=524288,cache=loose,ro root /lower
 $b mount -t tmpfs tmpfs /upper
 $b mkdir /upper/new /upper/work
-$b mount -t overlay -o lowerdir=/lower,upperdir=/upper/new,workdir=/upper/work overlay /root
+$b mount -t overlay -o lowerdir=/lower,upperdir=/upper/new,workdir=/upper/work none /root
 for folder in proc sys dev; do $b mount --move /$folder /root/$folder; done
 $b mkdir -p /root/dev/shm
 for folder in run dev/shm; do $b mount -t tmpfs tmpfs /root/$folder; done
