@@ -1,9 +1,11 @@
 """A virtual F710 in the kernel drives the simulated robot through the cockpit's page in Chromium.
 
-In both of its modes: Chromium, which knows gamepads from udev, has a table of layouts of its own.
+In both of its modes, for which Chromium has layouts of its own; it knows gamepads from udev.
 """
 
 import time
+
+from drive import FORWARD, HELD, METRES_PER_S, check_stands
 
 from gamepad.gamepads import F710
 from gamepad.virtual.controls import Controls, positions
@@ -11,7 +13,6 @@ from gamepad.virtual.pads import UinputPad
 from tutorial_testing.cockpit.chromium import Chromium
 from tutorial_testing.cockpit.hands import Hands
 from tutorial_testing.cockpit.world import World
-from tutorial_testing.kernel.drive import FORWARD, HELD, METRES_PER_S, check_stands
 from tutorial_testing.waiting import wait_for
 
 LIMIT_S = 0.5  # until a released LB or a lost gamepad has its effect
@@ -30,12 +31,11 @@ def check_mode(browser, world, mode):
         begin_m = world.now.x
         hands.drive(world, until=lambda: world.now.x > begin_m + 0.5)
         assert abs(world.now.v - METRES_PER_S) < 1e-3
-        ends = {"LB released": lambda: show(FORWARD), "unplugged": lambda: pad.show(None)}
-        for what, end in ends.items():
+        for end in (lambda: show(FORWARD), lambda: pad.show(None)):  # LB released; unplugged
             hands.drive(world)
             since = time.time()
             end()
-            check_stands(world, since, LIMIT_S, f"F710 at {mode}: {what}")
+            check_stands(world, since, LIMIT_S)
     wait_for(lambda: not browser.ask(SEEN), "page without a gamepad")
 
 

@@ -1,10 +1,10 @@
 """A virtual F710 in the kernel drives the simulated robot through launch_joy_node.launch."""
 
-import os
 import time
-from math import copysign, isclose
+from math import copysign
 from pathlib import Path
 
+import numpy as np
 import rospy
 from sensor_msgs.msg import Joy
 
@@ -19,20 +19,19 @@ from tutorial_testing.waiting import wait_for
 DEVICE = Path("/dev/input/js0")
 COMMAND = ("roslaunch", "joy2twist", "launch_joy_node.launch", "rviz:=false")
 PROMPT_S = 0.1  # until a released LB or a lost gamepad has its effect
-DEADZONE = 0.05
-METRES_PER_S = 0.35  # at full deflection: config/f710_d.yaml
+DEADZONE, METRES_PER_S = 0.05, 0.35  # the latter at full deflection: config/f710_d.yaml
 FORWARD = Controls(left_stick=(0.0, 1.0))
 HELD = Controls(left_stick=(0.0, 1.0), held=frozenset(["LB"]))
-PRESSED = Controls(dpad=(1, -1), held=frozenset(["X", "RIGHT"]))
-STICKS = (((0.02, -0.04), (0.33, 0.77)), ((1.0, -1.0), (-0.5, 0.06)))
-SHOWN = [PRESSED, *(Controls(left_stick=left, right_stick=right) for left, right in STICKS)]
+SHOWN = (
+    Controls(dpad=(1, -1), held=frozenset(["X", "RIGHT"])),
+    Controls(left_stick=(0.02, -0.04), right_stick=(0.33, 0.77)),
+    Controls(left_stick=(1.0, -1.0), right_stick=(-0.5, 0.06)),
+)
 
 
-def check_stands(robot, since, within_s, what):
+def check_stands(robot, since, within_s):
     """The robot stood soon after a time [s]."""
-    took_s = robot.wait_for_rest(since) - since
-    print(f"drive: {what}: the robot stands after {1e3 * took_s:.0f} ms", flush=True)
-    assert took_s < within_s + PERIOD_S
+    assert robot.wait_for_rest(since) - since < within_s + PERIOD_S
 
 
 def show_on_joy(pad, joy, controls):
@@ -41,12 +40,9 @@ def show_on_joy(pad, joy, controls):
     pad.show((axes, buttons))
     raw = [-axis.js_value(axis.raw(place)) / 32767 for axis, place in zip(F710_D.axes, axes)]
     axes = [copysign(max(0.0, abs(one) - DEADZONE) / (1 - DEADZONE), one) for one in raw]
-
-    def is_there():
-        same = all(isclose(*pair, abs_tol=1e-7) for pair in zip(joy[-1].axes, axes))
-        return same and list(joy[-1].buttons) == list(buttons)
-
-    wait_for(is_there, f"{axes}, {buttons} on /joy")
+    shown = [*axes, *buttons]
+    seen = lambda: np.allclose([*joy[-1].axes, *joy[-1].buttons], shown, atol=1e-7)  # noqa: E731
+    wait_for(seen, f"{shown} on /joy")
 
 
 def drive(pad, robot, joy):
@@ -61,7 +57,7 @@ def check_unplugged(pad, launch, robot, joy):
     """Neutral at once, no other gamepad, and no motion before neutral was seen again."""
     since = drive(pad, robot, joy)
     pad.show(None)
-    check_stands(robot, since, PROMPT_S, "unplugged while driving")
+    check_stands(robot, since, PROMPT_S)
     neutral = joy[-1]
     assert not any((*neutral.axes, *neutral.buttons))
     wait_for(lambda: not DEVICE.exists(), "end of the device")
@@ -78,22 +74,20 @@ def check_unplugged(pad, launch, robot, joy):
 
 
 if __name__ == "__main__":
-    with UinputPad(F710_D) as pad:
-        wait_for(lambda: os.access(DEVICE, os.R_OK), f"{DEVICE} to be read")  # by udev, later
-        with Program(*COMMAND) as launch:
-            wait_for(lambda: "F710 in D mode" in launch.output, "line on the mode")
-            init_node("drive")
-            joy = []
-            rospy.Subscriber("joy", Joy, joy.append)
-            with Robot() as robot:
-                wait_for(lambda: joy and robot.odometry, "joystick and robot")
-                for controls in SHOWN:
-                    show_on_joy(pad, joy, controls)
-                since = drive(pad, robot, joy)
-                pad.show(positions(F710_D, FORWARD))
-                check_stands(robot, since, PROMPT_S, "LB released")
-                check_unplugged(pad, launch, robot, joy)
-                drive(pad, robot, joy)
-            launch.interrupt()
-            assert launch.wait() == 0 and "Traceback" not in launch.output, launch.output
+    with UinputPad(F710_D) as pad, Program(*COMMAND) as launch:
+        wait_for(lambda: "F710 in D mode" in launch.output, "line on the mode")
+        init_node("drive")
+        joy = []
+        rospy.Subscriber("joy", Joy, joy.append)
+        with Robot() as robot:
+            wait_for(lambda: joy and robot.odometry, "joystick and robot")
+            for controls in SHOWN:
+                show_on_joy(pad, joy, controls)
+            since = drive(pad, robot, joy)
+            pad.show(positions(F710_D, FORWARD))
+            check_stands(robot, since, PROMPT_S)
+            check_unplugged(pad, launch, robot, joy)
+            drive(pad, robot, joy)
+        launch.interrupt()
+        assert launch.wait() == 0 and "Traceback" not in launch.output, launch.output
     print("drive: passed", flush=True)
