@@ -22,6 +22,7 @@ TOGETHER = ("ros", "system", "launch")  # of all; they mostly wait, so they run 
 ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 RUNNING = []  # in the background
 BRIDGE = "--bridge"  # of the faults
+MUTATE = RESULTS / "mutation/bin/python"  # with the lowest priority, as it takes hours
 
 
 def say(line):
@@ -76,24 +77,12 @@ def again(_):
     return any([KINDS[kind](["--last-failed", "-n", "1"]) for kind in kinds])
 
 
-def bench(arguments):
-    """Run the benchmarks of all packages, or of one."""
-    package, *rest = arguments or [""]
-    return run(*PYTEST, "-q", "-s", f"test/benchmark/{package}", *rest)
-
-
 def faults(arguments):
     """Hit the live system with random faults; with --bridge the one between ROS 1 and ROS 2."""
     if BRIDGE not in arguments:
         return run("/usr/bin/python3", "-m", "tutorial_faults", *arguments)
     rest = [argument for argument in arguments if argument != BRIDGE]
     return tests("ros2", ["-q", "-s", "test/ros2/test_faults.py", *rest])
-
-
-def mutation(arguments):
-    """Run with the lowest priority, as it takes hours."""
-    python = RESULTS / "mutation/bin/python"
-    return run("nice", "-n", "19", python, "test/mutation/run.py", *arguments)
 
 
 KINDS = {
@@ -110,8 +99,8 @@ KINDS = {
     "browser": lambda given: tests("browser", given),
     "containers": lambda given: run(REPOSITORY / "test/check_containers", *given),
     "faults": faults,
-    "mutation": mutation,
-    "bench": bench,
+    "mutation": lambda given: run("nice", "-n", "19", MUTATE, "test/mutation/run.py", *given),
+    "bench": lambda given: run(*PYTEST, "-qs", f"test/benchmark/{''.join(given[:1])}", *given[1:]),
 }
 
 

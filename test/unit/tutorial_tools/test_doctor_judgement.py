@@ -182,6 +182,7 @@ WRONG = {  # words of the one line that is wrong, in their order: facts
     "--device /dev/input/js1":
         well(joysticks=[Joystick("/dev/input/js1", errno.ENOENT)], container=True),
 }
+# fmt: on
 BRIDGE = [(False, "the side of ROS 2 is missing"), (False, "/scan: a/msg/B: not carried")]
 LONELY = unreached("1.2.3.4", ["1.2.3.4"], "ROS_IP", own_is_here=False, way_out="")
 # Of robot_2 of the classroom, without a joystick.
@@ -193,24 +194,24 @@ OF_TWO = replace(
     states={"/robot_2/joy2twist": (False, "waiting for the joystick")},
 )
 LINES = [  # facts, level, words of one line among others of this level
-        (mux("Navigation", [], states=ARMED), "wrong", 'lets "Navigation" through'),
-        (well(joysticks=[]), "ok", "joystick messages come from /joy_node"),
-        (Facts(), "ok", "every node runs on this machine"),
-        (well(publishers=JOY_OF_TWO, nodes=DEAD_BAG), "ok", "/joy_node -> /joy -> /joy2twist ->"),
-        (well(clocks={"robot": None}), "unknown", "robot sends no stamped message: compare: date"),
-        (mux(None), "unknown", "rostopic echo /cmd_vel_mux/active"),
-        (well(publishers={}, joysticks=[]), "unknown", "No joystick at /dev/input/js0: plug it in"),
-        (Facts(joy2twist=""), "unknown", "no joy2twist is found here: call this through"),
-        (Facts(workspace="/ws", joy2twist=""), "unknown", "yet: make it in /ws/src"),
-        (Facts(), "ok", "is the suite's: /suite/joy2twist"),
-        (Facts(workspace="/w", joy2twist="/w/src/joy2twist"), "ok", "is yours: /w/src/joy2twist"),
-        (Facts(workspace="/w"), "wrong", "is not in your workspace: /suite/joy2twist: mv it into"),
-        (Facts(workspace="/w", joy2twist="/w/joy2twist"), "wrong", "mv it into /w/src"),
-        (Facts(hidden=[("/a hides b", "touch c")]), "wrong", "/a hides b"),
-        (Facts(), "ok", "those of ROS 1 alone"),
-        (frames("/a odom base", "/b odom wheel"), "ok", "2 frames, each from one node"),
-        (frames("/a odom base", "/b map x"), "unknown", "nothing joins: below map, odom: start"),
-        (Facts(broken_manifests=[("/a/package.xml", "line 5")]), "wrong", "/a/package.xml: line 5"),
+    (mux("Navigation", [], states=ARMED), "wrong", 'lets "Navigation" through'),
+    (well(joysticks=[]), "ok", "joystick messages come from /joy_node"),
+    (Facts(), "ok", "every node runs on this machine"),
+    (well(publishers=JOY_OF_TWO, nodes=DEAD_BAG), "ok", "/joy_node -> /joy -> /joy2twist ->"),
+    (well(clocks={"robot": None}), "unknown", "robot sends no stamped message: compare: date"),
+    (mux(None), "unknown", "rostopic echo /cmd_vel_mux/active"),
+    (well(publishers={}, joysticks=[]), "unknown", "No joystick at /dev/input/js0: plug it in"),
+    (Facts(joy2twist=""), "unknown", "no joy2twist is found here: call this through"),
+    (Facts(workspace="/ws", joy2twist=""), "unknown", "yet: make it in /ws/src"),
+    (Facts(), "ok", "is the suite's: /suite/joy2twist"),
+    (Facts(workspace="/w", joy2twist="/w/src/joy2twist"), "ok", "is yours: /w/src/joy2twist"),
+    (Facts(workspace="/w"), "wrong", "is not in your workspace: /suite/joy2twist: mv it into"),
+    (Facts(workspace="/w", joy2twist="/w/joy2twist"), "wrong", "mv it into /w/src"),
+    (Facts(hidden=[("/a hides b", "touch c")]), "wrong", "/a hides b"),
+    (Facts(), "ok", "those of ROS 1 alone"),
+    (frames("/a odom base", "/b odom wheel"), "ok", "2 frames, each from one node"),
+    (frames("/a odom base", "/b map x"), "unknown", "nothing joins: below map, odom: start"),
+    (Facts(broken_manifests=[("/a/package.xml", "line 5")]), "wrong", "/a/package.xml: line 5"),
     (well(), "ok", f"/joy_node -> /joy -> /joy2twist -> {TELEOP} -> /cmd_vel_mux"),
     (LONELY, "wrong", "unset ROS_IP ROS_HOSTNAME"),
     (Facts(master=Answer.REFUSED, called_back=None), "wrong", ": start roscore; or"),
@@ -219,10 +220,12 @@ LINES = [  # facts, level, words of one line among others of this level
     (well(bridge=BRIDGE), "unknown", BRIDGE[1][1]),
     (OF_TWO, "wrong", "joy_node __ns:=/robot_2 ... FILE /joy:=/robot_2/joy ... joystick:=browser"),
     (OF_TWO, "wrong", "rostopic hz /robot_2/joy ... joystick:=browser"),
-    (replace(says(STILL), silent_s={"/joy_node": 12.3}), "wrong",
-     "the gamepad of /joy_node has been silent for 12 s: look at its battery"),
+    (
+        replace(says(STILL), silent_s={"/joy_node": 12.3}),
+        "wrong",
+        "the gamepad of /joy_node has been silent for 12 s: look at its battery",
+    ),
 ]
-# fmt: on
 
 
 def has(line, words):
