@@ -20,18 +20,13 @@ MASTER_PORT = 11311
 CONNECT = """
 import socket, sys
 for port in sys.argv[2:]:
-    try:
-        socket.create_connection((sys.argv[1], int(port)), 3).close()
-        print(port)
-    except OSError:
-        pass
+    if not socket.socket().connect_ex((sys.argv[1], int(port))): print(port)
 """
-# Every node's XML-RPC port, by its master.
+# Every node and its XML-RPC port, by its master.
 XML_RPC_PORTS = """
-import rosgraph
+import rosgraph, rosnode
 master = rosgraph.Master("/test")
-state = master.getSystemState()
-for name in sorted({name for kind in state for _, names in kind for name in names}):
+for name in rosnode.get_node_names():
     print(name, master.lookupNode(name).rstrip("/").rsplit(":", 1)[1])
 """
 

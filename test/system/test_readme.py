@@ -71,19 +71,12 @@ def sections():
                 yield pytest.param(blocks, id=heading)
 
 
-def sign_of(command):
-    """What a lasting command prints; None for one that ends by itself."""
-    return next((LASTING[start] for start in LASTING if command.startswith(start)), None)
-
-
 @pytest.fixture
 def roscore(tutorial, master_uri):
     """A ROS master, which the README's user starts once and keeps."""
     with Program(tutorial, "run", "roscore", "-p", master_uri.rsplit(":", 1)[1]) as program:
         wait_for(lambda: "started core service" in program.output, "roscore")
-        yield program
-        program.interrupt()
-        program.wait()
+        yield
 
 
 @pytest.mark.parametrize("blocks", sections())
@@ -100,7 +93,7 @@ def test_the_commands_of_a_section_run(blocks, tutorial, suite_workspace, screen
 
     def run_to_its_end(script, *options):
         with run(script, *options) as program:
-            assert program.wait(120) == 0, f"{script}\n{program.output}"
+            assert program.wait() == 0, f"{script}\n{program.output}"
 
     def end(command):
         with lasting.pop(command) as program:
@@ -113,7 +106,9 @@ def test_the_commands_of_a_section_run(blocks, tutorial, suite_workspace, screen
                 run_to_its_end("\n".join(block[1:]), "--in", f"{tmp_path}/catkin_ws")
                 continue
             for command in block:  # each may have a terminal
-                sign = sign_of(command)
+                sign = next(
+                    (LASTING[start] for start in LASTING if command.startswith(start)), None
+                )
                 if sign is None:
                     run_to_its_end(command)
                     continue

@@ -72,12 +72,9 @@ def test_nothing_listens_or_nobody_knows_the_name():
     assert network.listen("http://127.0.0.1:1/", "/odom", 0.5) == []
 
 
-@pytest.mark.parametrize(
-    ("name", "found"),
-    [("no.such.host.invalid", []), ("a" * 300, []), ("127.0.0.1", ["127.0.0.1"])],
-)
-def test_addresses_of_a_name(name, found):
-    assert network.addresses(name) == found
+def test_addresses_of_a_name():
+    names = ("no.such.host.invalid", "a" * 300, "127.0.0.1")
+    assert list(map(network.addresses, names)) == [[], [], ["127.0.0.1"]]
 
 
 def test_a_look_up_without_an_end_has_one(monkeypatch):
@@ -85,13 +82,9 @@ def test_a_look_up_without_an_end_has_one(monkeypatch):
     assert network.addresses("robot") == []
 
 
-@pytest.mark.parametrize(
-    ("address", "here"),
-    # The second one is for documentation: nobody's (RFC 5737).
-    [("127.0.0.1", True), ("192.0.2.7", False), ("0.0.0.0", False), ("no address", False)],
-)
-def test_whether_an_address_is_this_machines(address, here):
-    assert network.is_here(address) == here
+def test_whether_an_address_is_this_machines():
+    others = ("192.0.2.7", "0.0.0.0", "no address")  # the first is for documentation (RFC 5737)
+    assert network.is_here("127.0.0.1") and not any(map(network.is_here, others))
 
 
 def test_the_way_out_to_an_address():
