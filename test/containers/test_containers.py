@@ -182,7 +182,7 @@ def test_a_classroom_and_a_student_in_further_terminals(workspace):
             run("docker", "rm", "--force", "course")
 
 
-def test_two_hosts():
+def test_robot_and_workstation_in_two_containers_drive():
     with Compose("two_hosts.yaml") as compose:
         compose("up", "-d")
         wait_for_movement(compose, "exec", "-T", "workstation", "./tutorial", "run")

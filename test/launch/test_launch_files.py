@@ -33,7 +33,7 @@ ARGUMENTS = {
 
 
 @pytest.mark.parametrize("file", FILES, ids=lambda file: str(file.relative_to(REPOSITORY)))
-def test_launch_file(file, monkeypatch):
+def test_a_launch_file_is_read_and_all_that_it_names_is_found(file, monkeypatch):
     # roslaunch reads the arguments of its own command line; student.launch needs this one.
     monkeypatch.setattr("sys.argv", ["roslaunch", "name:=robot_1"])
     assert roslaunch.rlutil.check_roslaunch(str(file), use_test_depends=True) is None

@@ -13,7 +13,6 @@ from tutorial_testing.two_hosts.scene import Scene
 from tutorial_testing.waiting import DEADLINE_S
 
 REPOSITORY = Path(__file__).resolve().parents[2]
-WIDTH, HEIGHT = 1200, 800  # [pixel] of a virtual screen, and of RViz's window in sim.rviz
 
 
 @pytest.fixture
@@ -57,16 +56,13 @@ def clone(tmp_path_factory):
 
 
 @pytest.fixture
-def clean_environment(suite_workspace, monkeypatch):
-    """The environment of a user who has sourced no ROS workspace."""
-    assert suite_workspace  # read from the environment before
+def own_workspace(suite_workspace, tmp_path, monkeypatch):
+    """A TUTORIAL_WORKSPACE of the test: built like ours, and with nothing else in it yet.
+
+    In the environment of a user who has sourced no workspace.
+    """
     for name in ("CMAKE_PREFIX_PATH", "ROS_PACKAGE_PATH", "PYTHONPATH"):
         monkeypatch.delenv(name, raising=False)
-
-
-@pytest.fixture
-def own_workspace(suite_workspace, tmp_path, monkeypatch, clean_environment):
-    """A TUTORIAL_WORKSPACE of the test: built like ours, and with nothing else in it yet."""
     own = tmp_path / "ws"
     own.mkdir()
     for name in ("built", "devel", "python"):
@@ -78,7 +74,7 @@ def own_workspace(suite_workspace, tmp_path, monkeypatch, clean_environment):
 @pytest.fixture
 def screen():
     """The name of a virtual screen."""
-    with virtual_screen(WIDTH, HEIGHT) as name:
+    with virtual_screen(1200, 800) as name:  # pixels, those of RViz's window in sim.rviz
         yield name
 
 

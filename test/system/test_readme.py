@@ -19,27 +19,17 @@ PAGES = [README, *sorted((REPOSITORY / "common/doc").glob("*.md"))]
 # What lasts until Ctrl-C, and what it prints once it runs ("": nothing, being there is enough).
 LASTING = {
     "rosrun beginner_tutorials talker.py": "hello world",
-    "rosrun beginner_tutorials listener.py": "",
     "roslaunch beginner_tutorials talker_listener.launch": "I heard hello world",
+    "rosrun beginner_tutorials": "",
+    "rosrun joy2twist joy2twist.py": "axis 1 -> linear.x",
+    "rosrun joy2twist": "Get from Joy",
+    "roslaunch cockpit cockpit.launch": "http://127.0.0.1",
+    "roslaunch --ros-args": None,
+    "roslaunch": "process[",
     "rosbag play": "",
+    "rosrun rviz rviz": "",
     "rostopic hz": "average rate",
     "rostopic echo /": "---",
-    "rosrun joy2twist display_joy.py": "Get from Joy",
-    "rosrun joy2twist publish_twist.py": "Get from Joy",
-    "rosrun joy2twist new_joy2twist.py": "Get from Joy",
-    "rosrun joy2twist joy2twist.py": "axis 1 -> linear.x",
-    "roslaunch turtlebot_bringup minimal.launch": "process[mobile_base",
-    "roslaunch rbx1_bringup": "process[fake_turtlebot",
-    "roslaunch fake_turtlebot_sim fake_turtlebot.launch": "process[fake_turtlebot",
-    "roslaunch fake_turtlebot_sim minimal.launch": "process[mobile_base",
-    "rosrun beginner_tutorials bumper.py": "",
-    "rosrun beginner_tutorials stop_before_wall.py": "",
-    "rosrun beginner_tutorials wander.py": "",
-    "roslaunch cockpit classroom.launch": "process[classroom",
-    "roslaunch joy2twist student.launch": "process[robot_7/my",
-    "roslaunch joy2twist": "process[my",
-    "rosrun rviz rviz": "",
-    "roslaunch cockpit cockpit.launch": "http://127.0.0.1",
 }
 # Of those, one of each line at a time: the others are ended before the next one starts.
 EITHER = (
@@ -50,7 +40,7 @@ EITHER = (
 # What is not run here, and why.
 LEFT_OUT = {
     "roscore": "runs already: this test has one for every section",
-    "./tutorial demo": "test_tutorial.py and test/check_bare_machine run it",
+    "./tutorial demo": "test_demo.py and test/check_bare_machine run it",
     "./tutorial test": "is what runs this",
     "./tutorial doctor": "test/ros/tutorial_tools asks it, where something moves",
     "roslaunch joy2twist launch_joy_node.launch virtual:=true": "needs the keys of a terminal",
@@ -65,10 +55,6 @@ ELSEWHERE = {
     "With colcon": "test/ros2/test_colcon.py runs it",
 }
 STUDENTS_SHELL = "./tutorial shell --in ~/catkin_ws"
-LONGEST_README = 270
-# The handout's, and 7, which is ours.
-SECTIONS = ["2", "3", "4", "4.2", "4.3", "4.4", "4.5", "5", "6", "6.1", "6.2", "7"]
-WITHOUT_EXERCISE = ("4", "6")  # they only hold others
 
 
 def sections():
@@ -85,24 +71,17 @@ def sections():
                 yield pytest.param(blocks, id=heading)
 
 
-def sign_of(command):
-    """What a lasting command prints; None for one that ends by itself."""
-    return next((LASTING[start] for start in LASTING if command.startswith(start)), None)
-
-
 @pytest.fixture
 def roscore(tutorial, master_uri):
     """A ROS master, which the README's user starts once and keeps."""
     with Program(tutorial, "run", "roscore", "-p", master_uri.rsplit(":", 1)[1]) as program:
         wait_for(lambda: "started core service" in program.output, "roscore")
-        yield program
-        program.interrupt()
-        program.wait()
+        yield
 
 
 @pytest.mark.parametrize("blocks", sections())
 @pytest.mark.usefixtures("roscore")
-def test_section(blocks, tutorial, suite_workspace, screen, tmp_path):
+def test_the_commands_of_a_section_run(blocks, tutorial, suite_workspace, screen, tmp_path):
     environment = {"DISPLAY": screen, "LIBGL_ALWAYS_SOFTWARE": "1", "HOME": str(tmp_path)}
     environment["TUTORIAL_WORKSPACE"] = suite_workspace  # whatever HOME is
     lasting = {}
@@ -114,12 +93,11 @@ def test_section(blocks, tutorial, suite_workspace, screen, tmp_path):
 
     def run_to_its_end(script, *options):
         with run(script, *options) as program:
-            assert program.wait(120) == 0, f"{script}\n{program.output}"
+            assert program.wait() == 0, f"{script}\n{program.output}"
 
     def end(command):
         with lasting.pop(command) as program:
-            if not program.ended:
-                program.interrupt()
+            program.interrupt()
             program.wait()
 
     try:
@@ -128,7 +106,9 @@ def test_section(blocks, tutorial, suite_workspace, screen, tmp_path):
                 run_to_its_end("\n".join(block[1:]), "--in", f"{tmp_path}/catkin_ws")
                 continue
             for command in block:  # each may have a terminal
-                sign = sign_of(command)
+                sign = next(
+                    (LASTING[start] for start in LASTING if command.startswith(start)), None
+                )
                 if sign is None:
                     run_to_its_end(command)
                     continue
@@ -141,18 +121,3 @@ def test_section(blocks, tutorial, suite_workspace, screen, tmp_path):
     finally:
         for command in list(lasting):
             end(command)
-
-
-def test_the_readme_has_the_handouts_sections_in_its_order_and_is_short():
-    text = README.read_text()
-    assert re.findall(r"^##+ (\d(?:\.\d)?)\.? ", text, re.MULTILINE) == SECTIONS
-    assert len(text.splitlines()) <= LONGEST_README
-
-
-@pytest.mark.parametrize("section", [one for one in SECTIONS if one not in WITHOUT_EXERCISE])
-def test_do_it_yourself_comes_first_and_ends_with_the_check(section):
-    body = re.search(rf"^##+ {section}\.? (.*?)(?=^##|\Z)", README.read_text(), re.M | re.S)[1]
-    check = f"./tutorial check --in ~/catkin_ws {section}`"
-    assert check in body
-    if "**See ours" in body and "**Do it" in body:
-        assert body.index("**Do it") < body.index(check) < body.index("**See ours")

@@ -6,15 +6,13 @@ import subprocess
 import pytest
 
 from tutorial_testing.processes import Program, refuse
-from tutorial_testing.waiting import DEADLINE_S, wait_for
+from tutorial_testing.waiting import LONGEST_S, wait_for
 
 
 @pytest.mark.parametrize(
     ("arguments", "expected"),
     [
-        (["frobnicate"], 'tutorial: "frobnicate" is no command'),
         (["run", "no_such_command"], 'run: there is no command "no_such_command"'),
-        (["demo", "--for", "ever"], "ever: not a number above 0"),
         (["demo", "colour:=red"], "demo: colour:=red: not an argument of launch_bag.launch"),
         (["demo", "bag:=/no/such.bag"], "demo: /no/such.bag: cannot be read: No such file"),
     ],
@@ -72,7 +70,7 @@ def test_a_shell_sees_the_workspace_and_touches_no_file(tutorial, suite_workspac
         "wget http://127.0.0.1:9/talker.py 2>&1 | tail -n 1\n"  # installed or not
         "exit 3\n",
         env={"HOME": str(home), "PATH": "/usr/bin:/bin", "TUTORIAL_WORKSPACE": suite_workspace},
-        cwd=tmp_path, capture_output=True, text=True, check=False, timeout=DEADLINE_S,
+        cwd=tmp_path, capture_output=True, text=True, check=False, timeout=LONGEST_S,
     )  # fmt: skip
     assert shell.returncode == 3
     assert shell.stdout.splitlines() == [

@@ -1,13 +1,9 @@
 """The README's two machines, joined by a network, and what happens when its cable is pulled."""
 
-import signal
-
 import pytest
 
-from fake_turtlebot_sim.mux.arbitration import Verdict
-from tutorial_testing.processes import descendants, signal_all
 from tutorial_testing.two_hosts.scene import REPOSITORY, ROBOT, WORKSTATION
-from tutorial_testing.waiting import wait_for
+from tutorial_testing.waiting import lost_s, wait_for
 
 TURTLEBOT = "roslaunch joy2twist joy2twist_turtlebot.launch log_rate:=50"
 TIMEOUT_S = 0.6  # of the base
@@ -30,10 +26,6 @@ def ends_with(topic, text):
     return text in "".join(topic.output.split("---")[-2:])
 
 
-def path_length(moments):
-    return sum(map(distance, moments, moments[1:]))
-
-
 def drive(scene):
     """Hold LB and the stick until the robot drives; the moment of it."""
     began = scene.tell("drive")
@@ -43,7 +35,9 @@ def drive(scene):
 def test_the_readme_commands_drive_the_recording_across_and_the_tools_see_it(scene, tmp_path):
     scene.launch_robot()
     scene.launch_workstation()
-    wait_for(lambda: path_length(scene.odometry) > 1.0, "robot that follows the recording")
+    scene.first(
+        lambda moment: moment.x**2 + moment.y**2 > 0.5**2, "robot that follows the recording"
+    )
     assert not scene.workstation.ended
     for host, other in ((WORKSTATION, ROBOT), (ROBOT, WORKSTATION)):
         doctor = scene.start(host, f"'{REPOSITORY}/tutorial' doctor")
@@ -58,7 +52,9 @@ def test_the_readme_commands_drive_the_recording_across_and_the_tools_see_it(sce
 
 
 @pytest.mark.parametrize("mux, late", [("", 0.0), (REAL_MUX, 0.02)], ids=["ours", "real"])
-def test_a_cable_is_pulled_and_plugged_in_again(scene, tmp_path, mux, late):
+def test_a_pulled_cable_stops_the_robot_which_drives_again_after_neutral(
+    scene, tmp_path, mux, late
+):
     (tmp_path / "mux.yaml").write_text(mux)
     scene.launch_robot(f"mux_config:={tmp_path}/mux.yaml" if mux else "")
     scene.launch_workstation(TURTLEBOT)
@@ -69,11 +65,11 @@ def test_a_cable_is_pulled_and_plugged_in_again(scene, tmp_path, mux, late):
     wait_for(lambda: "Get from Joy" in scene.workstation.output, "joystick heard")
     drive(scene)
 
-    before = scene.odometry[-1]
+    before, lost = scene.odometry[-1], lost_s()
     scene.network.pull_cable(WORKSTATION)
     pulled = scene.odometry[-1]
     stands = scene.first(lambda m: m.stamp > before.stamp and m.v == 0, "robot that stands")
-    assert stands.stamp - pulled.stamp <= TIMEOUT_S + 0.02 + LATENESS_S
+    assert stands.stamp - pulled.stamp <= TIMEOUT_S + 0.02 + LATENESS_S + lost_s() - lost
     # Not a stop that came across, or there was no cut: the coast of the timeout.
     assert distance(stands, before) >= 0.9 * TIMEOUT_S * before.v
     wait_for(lambda: "is cut" in scene.workstation.output, "warning of joy2twist")
@@ -94,20 +90,3 @@ def test_a_cable_is_pulled_and_plugged_in_again(scene, tmp_path, mux, late):
     for program in (scene.robot, scene.workstation):
         assert "has died" not in program.output
         assert "restarting" not in program.output
-
-
-def test_what_a_program_sent_before_it_was_killed_is_late_and_the_next_one_drives(scene):
-    program = "rostopic pub -r 10 cmd_vel_mux/input/teleop geometry_msgs/Twist '{linear: {x: 0.2}}'"
-    scene.launch_robot()
-    wanderer = scene.start(WORKSTATION, program)
-    scene.first(lambda m: m.moves, "robot that drives")
-    scene.network.pull_cable(WORKSTATION)
-    stands = scene.wait_for_rest()
-    signal_all(descendants(wanderer.pid), signal.SIGKILL)
-    scene.network.plug_cable(WORKSTATION)
-    wait_for(lambda: Verdict.LATE.value in scene.robot.output, "late commands")
-    assert scene.stays_at_rest()
-    assert not any(m.moves for m in scene.since(stands))
-
-    scene.start(WORKSTATION, program)
-    wait_for(lambda: scene.moves, "robot that drives again")

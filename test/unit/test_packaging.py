@@ -1,7 +1,6 @@
 """What holds for every package: catkin's rules, versions, and that one file leads to the others."""
 
 import ast
-import os
 import re
 import sysconfig
 from importlib.util import find_spec
@@ -31,19 +30,10 @@ def test_version_is_the_newest_in_the_changelog(package):
 def test_every_launch_argument_is_explained(package):
     for launch in sorted((REPOSITORY / package / "launch").glob("*.launch")):
         for arg in ElementTree.parse(launch).getroot().findall("arg"):
-            if arg.get("value") is not None:
-                continue  # fixed by the file itself
-            assert arg.get("doc"), f"{launch.name}: {arg.get('name')}"
             explained = (REPOSITORY / package / "README.md").read_text()
-            assert f"`{arg.get('name')}`" in explained, f"{launch.name}: {arg.get('name')}"
-
-
-def test_links_lead_to_files_of_this_repository():
-    links = [path for path in REPOSITORY.rglob("*") if path.is_symlink()]
-    assert links  # the recording and the view, which stand in two packages
-    for link in links:
-        assert not os.readlink(link).startswith("/"), link
-        assert REPOSITORY in link.resolve(strict=True).parents
+            is_explained = arg.get("doc") and f"`{arg.get('name')}`" in explained
+            is_fixed = arg.get("value") is not None  # by the file itself
+            assert is_fixed or is_explained, f"{launch.name}: {arg.get('name')}"
 
 
 SOURCES = [*REPOSITORY.glob("*/src/**/*.py"), *REPOSITORY.glob("common/*/src/**/*.py")]
@@ -80,8 +70,7 @@ def imported_packages(path):
 
 
 def is_of_python(name):
-    spec = find_spec(name)
-    origin = (spec and spec.origin) or ""
+    origin = getattr(find_spec(name), "origin", None) or ""
     standard = origin.startswith(sysconfig.get_paths()["stdlib"]) and "-packages" not in origin
     return standard or origin in ("built-in", "frozen")
 
@@ -95,24 +84,19 @@ def test_a_file_is_read_in_five_minutes_and_a_script_only_starts_its_program(pat
 
 def test_pip_installs_only_what_a_lock_has():
     """What is asked for stands in the lock, which test/lock makes; each release has its hashes."""
-    source = (REPOSITORY / "test/lock").read_text()
-    locks = dict(re.findall(r'"(\w+)": \("(\S+)"', source))
+    locks = dict(re.findall(r'"(\w+)": \("(\S+)"', (REPOSITORY / "test/lock").read_text()))
     assert len(locks) == len(list((REPOSITORY / "test/locks").glob("*.txt"))) >= 5
     for name, requirements in locks.items():
         text = (REPOSITORY / "test/locks" / f"{name}.txt").read_text()
-        releases = [entry.split()[0] for entry in re.findall(r"^(\w.*)", text, re.M)]
         asked = re.findall(
             r"^([\w-]+)(?:\[\w+\])?(==[\w.]+)", (REPOSITORY / requirements).read_text(), re.M
         )
-        assert {"".join(one) for one in asked} <= set(releases), f"stale: test/lock {name}"
+        assert {"".join(one) for one in asked} <= set(re.findall(r"^\w\S*", text, re.M)), name
         for entry in re.split(r"\n(?=\w)", text)[1:]:
             assert re.search(r"--hash=sha256:[0-9a-f]{64}", entry), entry
     words = (REPOSITORY / "common/tutorial_tools/src/tutorial_tools/command").glob("*.py")
-    named = set(
-        re.findall(
-            r"\b(test/\S+requirements\S*\.txt|common/\S+\.txt)", "".join(map(Path.read_text, words))
-        )
-    )
+    files = r"\b(test/\S+requirements\S*\.txt|common/\S+\.txt)"
+    named = set(re.findall(files, "".join(map(Path.read_text, words))))
     assert named - {"test/requirements-{kind}.txt"} <= set(locks.values())
 
 
@@ -128,5 +112,4 @@ def test_workflows_may_only_read_and_take_actions_by_their_commit():
 
 def test_the_image_gives_its_home_to_its_user_and_group_only():
     text = (REPOSITORY / "docker/Dockerfile").read_text()
-    modes = re.findall(r"(?:chmod|umask) (\S+)", text)
-    assert modes == ["2770", "007"]
+    assert re.findall(r"(?:chmod|umask) (\S+)", text) == ["2770", "007"]

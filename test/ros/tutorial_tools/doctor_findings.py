@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """doctor.py as a user runs it: where all is well, and where one thing after the other is not."""
 
+import re
 import socket
 import time
 
@@ -16,7 +17,7 @@ from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.robot import Robot
 from tutorial_testing.rostests import RosTest, run
-from tutorial_testing.waiting import wait_for
+from tutorial_testing.waiting import lost_s, wait_for
 
 LONGEST_S = 15.0
 NOBODYS = "192.0.2.7"  # an address for documentation (RFC 5737)
@@ -24,39 +25,36 @@ NOBODYS = "192.0.2.7"  # an address for documentation (RFC 5737)
 
 class FindingsTest(RosTest):
     def doctor(self, **environment):
-        """Return (exit code, {level: lines}) of a run that exits in time, without a traceback."""
-        began_s = time.monotonic()
+        """Return (exit code, the lines but the last) of a run that exits in time."""
+        began_s, lost = time.monotonic(), lost_s()
         with Program(node_path("tutorial_tools", "doctor.py"), **environment) as program:
             code, output = program.wait(), program.output
-        self.assertLess(time.monotonic() - began_s, LONGEST_S)
+        self.assertLess(time.monotonic() - began_s, LONGEST_S + lost_s() - lost)
         *lines, summary = output.splitlines()
         self.assertRegex(summary, r"^doctor: \d+ ok, \d+ wrong, \d+ unknown$", output)
-        levels = {"ok": [], "wrong": [], "unknown": []}
         for line in lines:
             self.assertRegex(line, r"^(ok|wrong|unknown) +(\w+) +\S.*$", output)
-            levels[line.split()[0]].append(line)
-        return code, levels
+        return code, lines
 
     def wrong(self, *words, **environment):
-        """Check that one of the lines that are wrong has these words; return all of them."""
-        code, levels = self.doctor(**environment)
+        """Check that a line that is wrong has these words, for each; return all such lines."""
+        code, lines = self.doctor(**environment)
         self.assertEqual(code, 1)
-        found = any(all(word in line for word in words) for line in levels["wrong"])
-        self.assertTrue(found, levels)
-        return levels["wrong"]
+        lines = [line for line in lines if line.startswith("wrong")]
+        for each in words:
+            self.assertTrue(any(re.search(each, line) for line in lines), lines)
+        return lines
 
-    def test_a_drive(self):
-        """All is well, and then one thing after the other is not."""
+    def test_beside_a_drive_all_is_well_and_then_one_thing_after_the_other_is_not(self):
         robot = self.enter(Robot())
         launch = ("joy2twist", "launch_bag.launch", "cockpit:=false", "rviz:=false")
         with Program("roslaunch", *launch) as drive:
             robot.first(lambda moment: moment.v > 0.1, "moving robot")
-            code, levels = self.doctor()
-            self.assertEqual((code, levels["wrong"]), (0, []))
+            code, lines = self.doctor()
+            self.assertEqual((code, [line for line in lines if line.startswith("wrong")]), (0, []))
             way = "/rosbag -> /joy -> /myjoystick2twist -> /cmd_vel -> /fake_turtlebot"
             for words in (way, "says: driving", "frames, each from one node"):
-                self.assertTrue(any(words in line for line in levels["ok"]), levels)
-
+                self.assertIn(words, "\n".join(lines))
             seen = f"ROS_IP={NOBODYS} is no address of this machine"
             self.assertEqual(len(self.wrong(seen, ROS_IP=NOBODYS)), 1)
             self.wrong("cannot be looked up", ROS_HOSTNAME="nobody.invalid")
@@ -66,26 +64,18 @@ class FindingsTest(RosTest):
             other.header.frame_id = "odom"
             self.publisher("/tf", TFMessage, latch=True).publish([other])
             rivals = "/doctor_findings, /fake_turtlebot send base_footprint at once"
-            lines = self.wrong(rivals)
-            self.assertTrue(any("doctor_findings sends stamps of the past" in x for x in lines))
+            self.wrong(rivals, "doctor_findings sends stamps of the past")
             rospy.set_param("/use_sim_time", True)
             self.addCleanup(rospy.delete_param, "/use_sim_time")
             self.wrong("no /clock arrives")
             drive.interrupt()
             drive.wait()
 
-    def test_no_master(self):
-        self.wrong("nothing listens", "start roscore", ROS_MASTER_URI="http://localhost:9")
-        self.wrong("looked up", ROS_MASTER_URI="http://robot.invalid:11311")
-        with socket.create_server(("localhost", 0)) as server:
-            port = server.getsockname()[1]
-            self.wrong("does not answer", ROS_MASTER_URI=f"http://localhost:{port}")
-
-    def test_a_node_that_died(self):
+    def test_a_node_that_died_is_named(self):
         with Program(node_path("beginner_tutorials", "talker.py"), "--unique") as talker:
             wait_for(lambda: "hello" in talker.output, "talker")
             talker.kill()
-            self.wrong("/talker at http://", "has died", "rosnode cleanup")
+            self.wrong("/talker at http://.* has died.*rosnode cleanup")
         rosnode.cleanup_master_blacklist(rosgraph.Master("/test"), ["/talker"])
         self.assertNotIn("/talker", rosnode.get_node_names())
 
@@ -94,12 +84,12 @@ class FindingsTest(RosTest):
         master.registerPublisher("/far", "std_msgs/Empty", uri)
         self.addCleanup(master.unregisterPublisher, "/far", uri)
 
-    def test_a_node_on_an_unknown_machine_and_one_that_hangs(self):
+    def test_a_node_on_an_unknown_machine_and_one_that_hangs_are_named(self):
         self.register("http://robot.invalid:1234/")
         self.wrong('/far at http://robot.invalid:1234/: "robot.invalid" cannot be looked up here')
         with socket.create_server(("localhost", 0)) as server:
             self.register(f"http://localhost:{server.getsockname()[1]}/")
-            self.wrong("/far at ", "does not answer")
+            self.wrong("/far at .* does not answer")
 
     def test_a_joystick_without_a_converter_and_a_mux_that_listens_to_another(self):
         joystick = self.publisher("joy", Joy)

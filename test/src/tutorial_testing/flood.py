@@ -15,39 +15,30 @@ from tornado.websocket import WebSocketClosedError, websocket_connect
 
 from tutorial_testing.socket_page import request
 
-TOPICS = ["/odom", "/joy", "/tf", "/diagnostics", "/rosout", "/no/such/topic"]
-FIELDS = [f"/odom/pose/covariance[{i}]" for i in range(12)] + ["/odom/x", "/nothing/y"]
-READERS = 5  # of six viewers; the sixth reads nothing
-WORST = [  # what costs most, each as often as all others together
+FIELDS = [f"/odom/pose/covariance[{i}]" for i in range(10)] + ["/odom/x", "/nothing/y"]
+WATCH = {"kind": "watch", "robots": True, "graph": True, "node": "/fake_turtlebot",
+         "fields": FIELDS, "field_list": True, "log": True, "bag": True}  # fmt: skip
+# What costs most, each as often as all others together.
+WORST = [
     {"kind": "bag_open", "name": "joy.bag"},
     {"kind": "bag_open", "name": "no.bag"},
     {"kind": "doctor"},
-    None,  # a watch of everything
+    *({**WATCH, "topic": topic, "look": "x" * 200} for topic in ("/tf", "/no/such/topic")),
 ]
-
-
-def watch(dice):
-    return {
-        "kind": "watch", "robots": dice.random() < 0.8, "look": dice.choice(["", None, "x" * 200]),
-        "graph": dice.random() < 0.5, "topic": dice.choice(TOPICS), "node": "/fake_turtlebot",
-        "fields": dice.sample(FIELDS, 12), "field_list": dice.random() < 0.5,
-        "log": dice.random() < 0.5, "bag": dice.random() < 0.5,
-    }  # fmt: skip
-
-
-def others(dice):
-    return [
-        {"kind": "drive", "robot": "", "mode": "D"},
-        {"kind": "stop"},
-        {"kind": "hand_over", "to": dice.randrange(40)},
-        {"kind": "input", "n": 2**52, "t": 1e9, "beat": 1, "axes": [1.0] * 6,
-         "buttons": [1] * 12, "pad": None, "source": "pad"},
-        {"kind": "release", "why": "x" * 200},
-        {"kind": "reset", "robot": ""},
-        {"kind": "bag_play", "topic": "/joy", "rate": 10, "loop": True, "robot": ""},
-        {"kind": "bag_pause"},
-        {"kind": "bag_seek", "position": dice.random()},
-    ]  # fmt: skip
+OTHERS = [
+    {"kind": "drive", "robot": "", "mode": "D"},
+    {"kind": "stop"},
+    {"kind": "hand_over", "to": 7},
+    {"kind": "input", "n": 2**52, "t": 1e9, "beat": 1, "axes": [1.0] * 6,
+     "buttons": [1] * 12, "pad": None, "source": "pad"},
+    {"kind": "release", "why": "x" * 200},
+    {"kind": "reset", "robot": ""},
+    {"kind": "bag_play", "topic": "/joy", "rate": 10, "loop": True, "robot": ""},
+    {"kind": "bag_pause"},
+    {"kind": "bag_seek", "position": 0.5},
+    {**WATCH, "robots": False, "topic": "/joy", "look": None},
+]  # fmt: skip
+READERS = 5  # of six viewers; the sixth reads nothing
 
 
 class Flood:
@@ -62,7 +53,7 @@ class Flood:
 
     async def send(self, socket, dice, end):
         while time.monotonic() < end:
-            message = dice.choice([*WORST, dice.choice(others(dice))]) or watch(dice)
+            message = dice.choice([*WORST, dice.choice(OTHERS)])
             try:
                 await asyncio.wait_for(socket.write_message(json.dumps(message)), 5)
                 self.counts["sent"] += 1

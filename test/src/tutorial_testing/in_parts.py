@@ -10,25 +10,18 @@ TRIALS = 10  # of a part: the start of a system takes as long as some trials
 MUTATION = Path(__file__).resolve().parents[2] / "mutation" / "run.py"
 
 
-def parts_of_faults(arguments):
-    """Return the arguments of each part of so many trials."""
-    parser = argparse.ArgumentParser(prog="./tutorial test faults", allow_abbrev=False)
-    parser.add_argument("--trials", type=int, required=True, metavar="N", help="with --cluster")
-    parser.add_argument("--seed", type=int, default=1)
-    options, others = parser.parse_known_args(arguments)
+def parts(options, others):
+    """Return the arguments of each part: so many trials of faults, or a module to mutate."""
+    if options.kind == "mutation":
+        spec = importlib.util.spec_from_file_location("mutation", MUTATION)
+        mutation = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(mutation)
+        return [[name] for name in others or mutation.modules()]
     end = options.seed + options.trials
     return [
         ["--trials", str(min(TRIALS, end - seed)), "--seed", str(seed), *others]
         for seed in range(options.seed, end, TRIALS)
     ]
-
-
-def parts_of_mutation(arguments):
-    """Return the arguments of each part: a module."""
-    spec = importlib.util.spec_from_file_location("mutation", MUTATION)
-    mutation = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(mutation)
-    return [[name] for name in arguments or mutation.modules()]
 
 
 def tutorial(words):
@@ -45,30 +38,29 @@ def tutorial(words):
 tutorial.__module__ = "__main__"  # sent as it is: a worker has no modules of tests
 
 
-PARTS = {"faults": parts_of_faults, "mutation": parts_of_mutation}
-
-
 def run_in_parts(kind, arguments):
     """Run a kind of tests on the workers of --cluster ADDRESS; return the worst exit code."""
     from tutorial_check.cluster import MOST_AT_ONCE, Cluster  # noqa: PLC0415
     from tutorial_check.model import CannotCheck  # noqa: PLC0415
 
     parser = argparse.ArgumentParser(prog=f"./tutorial test {kind}", allow_abbrev=False)
+    parser.set_defaults(kind=kind)
     parser.add_argument("--cluster", required=True, metavar="ADDRESS")
+    if kind == "faults":
+        parser.add_argument("--trials", type=int, required=True, metavar="N", help="--cluster")
+        parser.add_argument("--seed", type=int, default=1)
     options, others = parser.parse_known_args(arguments)
-    parts = PARTS[kind](others)
-    worst = 0
+    worst, words = 0, {}
     try:
         cluster = Cluster(options.cluster)
-        with ThreadPoolExecutor(min(MOST_AT_ONCE, len(parts))) as pool:
-            calls = {
-                pool.submit(cluster.call, tutorial, ["test", kind, *part]): part for part in parts
-            }
-            for done, call in enumerate(as_completed(calls), 1):
+        with ThreadPoolExecutor(MOST_AT_ONCE) as pool:
+            for part in parts(options, others):
+                words[pool.submit(cluster.call, tutorial, ["test", kind, *part])] = " ".join(part)
+            for done, call in enumerate(as_completed(words), 1):
                 code, output = call.result()
                 worst = max(worst, code)
-                words = " ".join(calls[call])
-                print(f"{output}part {done} of {len(parts)}: {words}: exit code {code}", flush=True)
+                said = f"part {done} of {len(words)}: {words[call]}: exit code {code}"
+                print(f"{output}{said}", flush=True)
     except CannotCheck as error:
         print(f"tutorial: {kind}: {error}", file=sys.stderr)
         return 2

@@ -9,7 +9,7 @@ import time
 import uuid
 from pathlib import Path
 
-from tutorial_testing.waiting import DEADLINE_S, wait_for
+from tutorial_testing.waiting import DEADLINE_S, LONGEST_S, descendants, wait_for  # noqa: F401  for tests
 
 # As a terminal has it: tests that run in the background inherit that Ctrl-C is ignored, and what
 # they start would inherit it from them.
@@ -28,15 +28,6 @@ def lives(pid):
         return False
 
 
-def descendants(pid):
-    """Return a process and its descendants, in any namespace and environment."""
-    children = []
-    with contextlib.suppress(OSError):  # ended meanwhile
-        for each in Path(f"/proc/{pid}/task").glob("*/children"):  # each thread has its own
-            children += each.read_text().split()
-    return [pid, *(one for child in children for one in descendants(int(child)))]
-
-
 def command_line(pid):
     """Return that of a process; empty if it has exited."""
     try:
@@ -47,12 +38,11 @@ def command_line(pid):
 
 def refuse(*command):
     """Run a command that must fail; return the line in which it says why."""
-    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=DEADLINE_S)
+    done = subprocess.run(command, capture_output=True, text=True, check=False, timeout=LONGEST_S)
     assert done.returncode not in (0, 124)
     assert "Traceback" not in done.stdout + done.stderr
-    lines = [line for line in done.stderr.splitlines() if not line.startswith("usage:")]
-    assert len(lines) == 1, done.stderr
-    return lines[0]
+    (line,) = (line for line in done.stderr.splitlines() if not line.startswith("usage:"))
+    return line
 
 
 def signal_all(pids, number):
@@ -159,7 +149,8 @@ class Program:
 
     def interrupt(self):
         """Press Ctrl-C: SIGINT to the group in the foreground."""
-        os.killpg(self._process.pid, signal.SIGINT)
+        with contextlib.suppress(ProcessLookupError):  # it has ended
+            os.killpg(self._process.pid, signal.SIGINT)
 
     def type(self, line):
         """Type a line into a program that was started with stdin=subprocess.PIPE."""

@@ -1,10 +1,48 @@
-"""Waiting for what a test is about, with one deadline for all."""
+"""Waiting for what a test is about, with one deadline for all.
 
+A deadline counts only time in which the machine gave a test and its programs their turn.
+"""
+
+import contextlib
+import os
 import time
+from pathlib import Path
+
+from tutorial_check.patience import Patience, times_of
 
 DEADLINE_S = 150.0  # generous: ten times what a build takes, or the start of a dozen nodes
-# What a busy machine may add to a time that is demanded of a program.
+LONGEST_S = 4 * DEADLINE_S  # for what cannot know what it lost, such as subprocess.run()
+# What a busy machine may add to a time that is demanded of a program, beside lost_s().
 BUSY_S = 2.0
+
+
+def descendants(pid):
+    """Return a process and its descendants, in any namespace and environment."""
+    children = []
+    with contextlib.suppress(OSError):  # ended meanwhile
+        for each in Path(f"/proc/{pid}/task").glob("*/children"):  # each thread has its own
+            children += each.read_text().split()
+    return [pid, *(one for child in children for one in descendants(int(child)))]
+
+
+def _times():
+    """Return those of the threads that this test has: below rostest's or pytest's process."""
+    return {id_: times for pid in descendants(os.getppid()) for id_, times in times_of(pid).items()}
+
+
+_clock = Patience(set(), read=_times)
+
+
+def lost_s():
+    """Return the time [s] so far that waits for a processor have cost.
+
+    A bound of what was measured grows by what was lost meanwhile:
+        lost = lost_s()
+        ...
+        assert took_s < LIMIT_S + lost_s() - lost
+    """
+    now = _clock.now()
+    return time.monotonic() - now
 
 
 def wait_for(condition, what, deadline_s=DEADLINE_S):
@@ -13,14 +51,14 @@ def wait_for(condition, what, deadline_s=DEADLINE_S):
     It asks 100 times a second in the first second, then 20 times; and less often where a question
     takes processor time here, so that it leaves five sixths of it.
     """
-    begin = time.monotonic()
+    begin = _clock.now()
     while True:
         worked_s = time.thread_time()
         value = condition()
         if value:
             return value
+        waited_s = _clock.now() - begin
         worked_s = time.thread_time() - worked_s
-        waited_s = time.monotonic() - begin
         if waited_s > deadline_s:
             raise AssertionError(f"no {what} within {deadline_s:.0f} s")
         time.sleep(max(0.01 if waited_s < 1.0 else 0.05, 5 * worked_s))

@@ -15,14 +15,11 @@ RECORDED = [  # time [s], axes, buttons
 ]
 
 
-def test_only_what_moves_is_drawn():
+def test_only_what_moves_is_drawn_or_else_all_axes():
     assert curves(RECORDED) == [
         ("axes[1]", [(0.0, 0.0), (1.0, 0.5), (2.0, -1.0)]),
         ("buttons[1]", [(0.0, 0.0), (1.0, 1.0), (2.0, 0.0)]),
     ]
-
-
-def test_where_nothing_moves_all_axes_are_drawn():
     assert [name for name, _ in curves(RECORDED[:1] * 2)] == ["axes[0]", "axes[1]", "axes[2]"]
 
 

@@ -17,13 +17,10 @@ SECTIONS["browser"] = [*SECTIONS["test"], "browser"]
     [
         ("demo --for 20 rviz:=false", "demo", "demo.py", "--for 20 rviz:=false"),
         ("join teacher robot_7 virtual:=true", "demo", "join.py", "teacher robot_7 virtual:=true"),
-        ("cockpit --lan", "demo", "cockpit.py", "--lan"),
         ("check --in ws 4.3 --watch", "demo", "python3", "-m tutorial_check --in ws 4.3 --watch"),
         ("run rosrun joy2twist x.py _a:=1 -v", "demo", "rosrun", "joy2twist x.py _a:=1 -v"),
         ("doctor", "doctor", "doctor.py", ""),
         ("test", "test", "run.py", ""),
-        ("test unit -k expression -x", "test", "run.py", "unit -k expression -x"),
-        ("test faults --for 600", "test", "run.py", "faults --for 600"),
         ("test exercises --every 5 --lf", "test", "run.py", "exercises --every 5 --lf"),
         ("test browser --picture", "browser", "run.py", "browser --picture"),
         ("bench joy2twist --hours 1", "test", "run.py", "bench joy2twist --hours 1"),
@@ -52,16 +49,6 @@ def test_a_students_workspace_is_absolute_and_built_last(tmp_path, monkeypatch):
     assert plan("doctor", [])["student"] == ["/mine"]
 
 
-def said(capsys, *arguments):
-    """The one line in which a mistake is reported."""
-    sys.argv = ["words", "/ws", *arguments]
-    with pytest.raises(SystemExit) as end:
-        main()
-    assert end.value.code == 2
-    (line,) = capsys.readouterr().err.splitlines()
-    return line
-
-
 @pytest.mark.parametrize("version", [(3, 9), (3, 10), (3, 14), (3, 15)])
 def test_for_which_python_there_is_a_ros2(monkeypatch, tmp_path, version):
     monkeypatch.setattr(ros2, "installed", str)
@@ -78,8 +65,7 @@ def test_for_which_python_there_is_a_ros2(monkeypatch, tmp_path, version):
     ("line", "words"),
     [
         ("dmeo", '"dmeo" is no command; did you mean demo?'),
-        ("demo --for ever", "demo: argument --for: ever: not a number above 0"),
-        *((f"demo --for {time}", f"{time}: not a number above 0") for time in ("0", "nan", "inf")),
+        *((f"demo --for {s}", f"--for: {s}: not a number above 0") for s in ("ever", "0", "nan")),
         ("demo --in /tmp", "demo: knows no --in; shell, run, doctor and check do"),
         ("join teacher", "join: the following arguments are required: NAME"),
         ("test everything", 'test: "everything": must be unit, launch, ros, system, again'),
@@ -89,19 +75,18 @@ def test_for_which_python_there_is_a_ros2(monkeypatch, tmp_path, version):
         ("shell moon", "shell: unrecognized arguments: moon"),
         ("doctor --in /no/such", "doctor: --in /no/such: no workspace, it has no folder src"),
         ("run", "run: a command is missing"),
-        ("run --in", "run: argument --in: expected one argument"),
         ("run rosrun rviz rviz -d x", "run: no screen for RViz"),
-        (
-            "check 4.3",
-            "which workspace? For example: ./tutorial check --in ~/ros/hydro/catkin_ws 4.3",
-        ),
+        ("check 4.3", "For example: ./tutorial check --in ~/ros/hydro/catkin_ws 4.3"),
     ],
 )
 def test_a_mistake_is_one_line(monkeypatch, capsys, line, words):
     for name in ("DISPLAY", "TUTORIAL_IN"):
         monkeypatch.delenv(name, raising=False)
-    monkeypatch.setattr("sys.argv", [])
-    assert words in said(capsys, *line.split())
+    monkeypatch.setattr("sys.argv", ["words", "/ws", *line.split()])
+    with pytest.raises(SystemExit) as end:
+        main()
+    (said,) = capsys.readouterr().err.splitlines()
+    assert words in said and end.value.code == 2
 
 
 @pytest.mark.parametrize(
@@ -115,7 +100,7 @@ def test_a_mistake_is_one_line(monkeypatch, capsys, line, words):
         (["frob", ""], []),
     ],
 )
-def test_completion(typed, found):
+def test_completion_of_words_kinds_and_options(typed, found):
     assert candidates(typed) == found
 
 

@@ -52,12 +52,13 @@ def test_a_wrong_argument_is_named(argument, line):
         ([["/odom", ["/other", "/fake_turtlebot"]]], [], [], ["/fake_turtlebot", "/other"]),
     ],
 )
-def test_in_the_way(publishers, subscribers, services, names):
+def test_nodes_in_the_way(publishers, subscribers, services, names):
     assert in_the_way([publishers, subscribers, services], NODES, TOPICS) == names
 
 
 def test_the_line_of_a_refusal():
-    uri, todo = "http://localhost:11311", "or take a master of your own: export ROS_MASTER_URI=http"
+    uri, own = "http://localhost:11311", "export ROS_MASTER_URI=http://localhost:11312"
+    todo = f"or take a master of your own: {own}"
     assert f"/a runs already on {uri}; end it, {todo}" in refusal(uri, ["/a"])
     assert f"/a, /b and /c run already on {uri}; end them" in refusal(uri, ["/a", "/b", "/c"])
 

@@ -1,5 +1,6 @@
 """An answer comes in time, whatever the other end is. No ROS runs here."""
 
+import contextlib
 import socket
 import struct
 import threading
@@ -19,32 +20,24 @@ def hurry(monkeypatch):
 @pytest.fixture
 def server():
     """A function that serves what it is given to every caller; returns the URI."""
-    sockets = []
+    with contextlib.ExitStack() as stack:
 
-    def serve(answer):
-        listener = socket.create_server(("127.0.0.1", 0))
-        sockets.append(listener)
+        def serve(answer):
+            listener = stack.enter_context(socket.create_server(("127.0.0.1", 0)))
 
-        def run():
-            while True:
-                try:
-                    connection, _ = listener.accept()
-                    sockets.append(connection)
-                    answer(connection)
-                except OSError:
-                    return
+            def run():
+                with contextlib.suppress(OSError):  # a caller has hung up, or this is the end
+                    while True:
+                        answer(stack.enter_context(listener.accept()[0]))
 
-        threading.Thread(target=run, daemon=True).start()
-        return f"http://127.0.0.1:{listener.getsockname()[1]}/"
+            threading.Thread(target=run, daemon=True).start()
+            return f"http://127.0.0.1:{listener.getsockname()[1]}/"
 
-    yield serve
-    for each in sockets:
-        each.close()
+        yield serve
 
 
 def dribble(connection):
     """Send a little, again and again, as a camera on the web does."""
-    connection.recv(1000)
     connection.sendall(b"HTTP/1.1 200 OK\r\nContent-Type: text/xml\r\n\r\n")
     while True:
         connection.sendall(b" ")
@@ -68,7 +61,7 @@ def say(text):
         *((say(text), Answer.STRANGE) for text in (b"", b"SSH-2.0\r\n", b"HTTP/1.0 200\r\n\r\nhi")),
     ],
 )
-def test_whatever_answers(server, answer, expected):
+def test_whatever_answers_the_doctor_goes_on(server, answer, expected):
     assert network.call(server(answer), "getPid") == (expected, None)
 
 
@@ -76,26 +69,26 @@ def test_nothing_listens_or_nobody_knows_the_name():
     assert network.call("http://127.0.0.1:1/", "getPid") == (Answer.REFUSED, None)
     answer, _ = network.call("http://no.such.host.invalid:1/", "getPid")
     assert answer in (Answer.UNKNOWN_NAME, Answer.SILENT)
+    assert network.listen("http://127.0.0.1:1/", "/odom", 0.5) == []
 
 
-def test_a_name_that_does_not_exist():
-    assert network.addresses("no.such.host.invalid") == []
-    assert network.addresses("a" * 300) == []
-    assert network.addresses("127.0.0.1") == ["127.0.0.1"]
+def test_addresses_of_a_name():
+    names = ("no.such.host.invalid", "a" * 300, "127.0.0.1")
+    assert list(map(network.addresses, names)) == [[], [], ["127.0.0.1"]]
 
 
-def test_a_look_up_without_an_end(monkeypatch):
+def test_a_look_up_without_an_end_has_one(monkeypatch):
     monkeypatch.setattr(socket, "getaddrinfo", lambda *_: threading.Event().wait())
     assert network.addresses("robot") == []
 
 
-def test_own_addresses():
-    assert network.is_here("127.0.0.1")
-    assert not network.is_here("192.0.2.7")  # for documentation: nobody's (RFC 5737)
-    assert not network.is_here("0.0.0.0")
-    assert not network.is_here("no address")
-    assert way_out("127.0.0.1") == "127.0.0.1"
-    assert way_out("no address") == ""
+def test_whether_an_address_is_this_machines():
+    others = ("192.0.2.7", "0.0.0.0", "no address")  # the first is for documentation (RFC 5737)
+    assert network.is_here("127.0.0.1") and not any(map(network.is_here, others))
+
+
+def test_the_way_out_to_an_address():
+    assert (way_out("127.0.0.1"), way_out("no address")) == ("127.0.0.1", "")
 
 
 def block(data):
@@ -112,14 +105,10 @@ def block(data):
         (b"", []),
     ],
 )
-def test_listening(server, monkeypatch, sent, heard):
+def test_messages_of_a_node_are_heard_as_far_as_they_are_whole(server, monkeypatch, sent, heard):
     port = int(server(say(sent)).rsplit(":", 1)[1].strip("/"))
     monkeypatch.setattr(network, "call", lambda *_: (Answer.WELL, ["TCPROS", "127.0.0.1", port]))
     assert [data for _, data in network.listen("", "/odom", 0.5, most=2)] == heard
-
-
-def test_listening_to_a_node_that_has_gone():
-    assert network.listen("http://127.0.0.1:1/", "/odom", 0.5) == []
 
 
 def test_only_what_is_answered_in_time_counts():

@@ -48,7 +48,7 @@ def stamp() -> str:
         for name in ("CMakeLists.txt", "package.xml", "setup.py"):
             for path in sorted(REPOSITORY.glob(f"{depth}/{name}")):
                 found.update(path.read_bytes())
-    for path in sorted(REPOSITORY.glob("test/ros/*/*.test")):
+    for path in sorted(REPOSITORY.glob("test/ros/*/*.*")):
         found.update(str(path.relative_to(REPOSITORY)).encode())
     return found.hexdigest()
 

@@ -45,7 +45,7 @@ WORDS = {  # word: (arguments as the help shows them, what it does)
 KINDS = {  # of tests
     "unit": "seconds, no ROS running",
     "launch": "whether roslaunch can read each launch file",
-    "ros": "rostests: all, of a folder of test/ros, or of files; --times N",
+    "ros": "rostests: all, or a folder or file of test/ros; --times N",
     "system": "./tutorial itself, workspaces, RViz on a virtual screen, two hosts",
     "again": "what failed of these, once more and alone",
     "kernel": "joy_node with a joystick of a real kernel; minutes",

@@ -1,0 +1,48 @@
+"""A virtual F710 in the kernel drives the simulated robot through the cockpit's page in Chromium.
+
+In both of its modes, for which Chromium has layouts of its own; it knows gamepads from udev.
+"""
+
+import time
+
+from drive import FORWARD, HELD, METRES_PER_S, check_stands
+
+from gamepad.gamepads import F710
+from gamepad.virtual.controls import Controls, positions
+from gamepad.virtual.pads import UinputPad
+from tutorial_testing.cockpit.chromium import Chromium
+from tutorial_testing.cockpit.hands import Hands
+from tutorial_testing.cockpit.world import World
+from tutorial_testing.waiting import wait_for
+
+LIMIT_S = 0.5  # until a released LB or a lost gamepad has its effect
+SEEN = "navigator.getGamepads().filter((pad) => pad?.connected).map((pad) => pad.mapping)"
+
+
+def check_mode(browser, world, mode):
+    """Check what the page makes of an F710 in a mode, from the first button to its end."""
+    with UinputPad(F710[mode]) as pad:
+        show = lambda controls: pad.show(positions(F710[mode], controls))  # noqa: E731
+        hands = Hands(browser)
+        hands.hold, hands.release = lambda: show(HELD), lambda: show(Controls())
+        show(Controls(held=frozenset(["A"])))  # by a pressed button a page gets to know it
+        assert wait_for(lambda: browser.ask(SEEN), "gamepad in the page") == ["standard"]
+        # For longer than a second: the gamepad's own time stands still where the stick does.
+        begin_m = world.now.x
+        hands.drive(world, until=lambda: world.now.x > begin_m + 0.5)
+        assert abs(world.now.v - METRES_PER_S) < 1e-3
+        for end in (lambda: show(FORWARD), lambda: pad.show(None)):  # LB released; unplugged
+            hands.drive(world)
+            since = time.time()
+            end()
+            check_stands(world, since, LIMIT_S)
+    wait_for(lambda: not browser.ask(SEEN), "page without a gamepad")
+
+
+if __name__ == "__main__":
+    with World() as world, Chromium() as browser:
+        browser.open(world.address)
+        for mode in ("X", "D"):
+            check_mode(browser, world, mode)
+        assert browser.errors() == []
+    print("drive: passed")

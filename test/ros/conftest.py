@@ -1,0 +1,117 @@
+"""Collects each rostest as a test of pytest: a NAME.test, or a NAME.py that needs no other node.
+
+Each has a network of its own where that is granted (to root): a master still calls the port of a
+node that died, which may by then be the port of another test's node.
+"""
+
+import contextlib
+import functools
+import os
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+
+RESULTS = Path(os.environ["TUTORIAL_RESULTS"]) / "rostests"
+ONE = Path(__file__).with_name("one.test")
+IS_A_TEST = "\n    run()\n"  # how such a Python file ends
+BROKEN = ("error", "failure")  # as JUnit files note it; rosunit notes no skips
+
+
+def pytest_addoption(parser):
+    parser.addoption("--times", type=int, default=1, metavar="N", help="run each rostest N times")
+
+
+def pytest_configure(config):
+    config.addinivalue_line("python_files", "*.py")
+    signal.signal(signal.SIGHUP, signal.default_int_handler)  # ends all, as Ctrl-C does
+    if not hasattr(config, "workerinput"):
+        shutil.rmtree(RESULTS, ignore_errors=True)
+        RESULTS.mkdir(parents=True)
+
+
+def pytest_unconfigure(config):
+    if not hasattr(config, "workerinput"):
+        end_all(RESULTS)
+
+
+def pytest_collect_file(file_path, parent):
+    is_one = file_path.suffix == ".test" and file_path != ONE
+    return RosFile.from_parent(parent, path=file_path) if is_one else None
+
+
+def pytest_pycollect_makemodule(module_path, parent):
+    return RosFile.from_parent(parent, path=module_path)
+
+
+def pytest_collection_modifyitems(items):
+    items.sort(key=lambda item: item.path.parent.name != "faults")  # which take the longest
+
+
+class RosFile(pytest.File):
+    def collect(self):
+        command = [str(self.path)]
+        if self.path.suffix == ".py":
+            if IS_A_TEST not in self.path.read_text() or self.path.with_suffix(".test").exists():
+                return
+            robot = self.path.with_name("robot.launch.xml").exists()
+            command = [str(ONE), f"name:={self.path.stem}", f"robot:={str(robot).lower()}"]
+        for turn in range(self.config.option.times):
+            name = f"{self.path.stem}_{turn + 1}" if turn else self.path.stem
+            yield RosTest.from_parent(self, name=name, command=command)
+
+
+class RosTest(pytest.Item):
+    def __init__(self, command, **options):
+        super().__init__(**options)
+        self.command = command
+
+    def runtest(self):
+        home = Path(tempfile.mkdtemp(prefix=f"{self.name}.", dir=RESULTS))
+        environment = {**os.environ, "ROS_HOME": str(home), "ROS_IP": "127.0.0.1"}
+        environment.pop("ROS_HOSTNAME", None)  # no address of the user's is in that network
+        with open(home / "output", "w+", errors="replace") as output:
+            try:
+                code = subprocess.call(
+                    [*own_network(), "rostest", *self.command],
+                    env=environment, stdin=subprocess.DEVNULL, stdout=output, stderr=output,
+                )  # fmt: skip
+            finally:
+                end_all(home)
+            output.seek(0)
+            print(output.read())
+        # A file that was cut short raises ParseError; failures without a name are in the exit code.
+        files = [ElementTree.parse(path) for path in home.rglob("rosunit-*.xml")]
+        cases = [case for file in files for case in file.iter("testcase")]
+        failed = [case.get("name") for case in cases for note in case if note.tag in BROKEN]
+        said = f"{', '.join(failed) or 'no test by name'} of {len(cases)} failed, exit code {code}"
+        assert cases and not failed and not code, said
+
+    def reportinfo(self):
+        return self.path, None, self.name
+
+
+@functools.lru_cache(1)
+def own_network():
+    """Return the words before a command that give it a network of its own; none if refused."""
+    words = ["unshare", "--net", "sh", "-c", 'ip link set lo up && exec "$@"', "-"]
+    done = subprocess.run([*words, "true"], stderr=subprocess.DEVNULL, check=False)
+    return words if done.returncode == 0 else []
+
+
+def end_all(home):
+    """Kill what rostests started, known by ROS_HOME: roslaunch gives each node its own session."""
+    found = [None]
+    while found:
+        found = []
+        for process in Path("/proc").glob("[0-9]*"):
+            with contextlib.suppress(OSError):  # it has ended, or is another user's
+                if f"ROS_HOME={home}".encode() in (process / "environ").read_bytes():
+                    found.append(process)
+                    os.kill(int(process.name), signal.SIGKILL)
+        time.sleep(0.05 * bool(found))

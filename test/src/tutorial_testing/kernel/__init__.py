@@ -1,1 +1,0 @@
-"""A kernel with joysticks, in QEMU where this machine's has none."""
