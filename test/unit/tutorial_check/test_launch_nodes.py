@@ -1,7 +1,5 @@
 """Who drives, of what a launch file starts."""
 
-import contextlib
-
 import pytest
 
 from tutorial_check.exercises import launch_nodes
@@ -12,6 +10,7 @@ from tutorial_check.model import Wrong
 LISTENS = 'rospy.Subscriber("/joy", Joy, callback)\n'
 DRIVES = f"{LISTENS}rospy.Publisher('/cmd_vel', Twist)\n"
 SHOWS = f"{LISTENS}rospy.Publisher('/shown', String)\n"
+TEXTS = {"joy2twist.py": DRIVES, "class.py": DRIVES, "first.py": LISTENS, "shows.py": SHOWS}
 
 
 def node(kind, name="second", **more):
@@ -20,28 +19,14 @@ def node(kind, name="second", **more):
     return {**about, "remaps": [], **more}
 
 
-FIRST = node("joy2twist.py", "first")
-
-
 @pytest.fixture
-def session(make_session):
-    """One with three programs, and a launch file."""
+def launched(make_session):
+    """launched(*nodes): a LaunchFile that starts these, of a package with some programs."""
     session = make_session(PACKAGE, "5")
-    texts = {"joy2twist.py": DRIVES, "class.py": DRIVES, "first.py": LISTENS, "shows.py": SHOWS}
-    for name, text in texts.items():
+    for name, text in {**TEXTS, BAG: "<launch/>"}.items():
         (session.package(PACKAGE).folder / name).write_text(text)
-    text = '<launch>\n<node name="first"/>\n<node name="second"/>\n</launch>'
-    (session.package(PACKAGE).folder / BAG).write_text(text)
-    return session
 
-
-@pytest.fixture
-def given(session):
-    """given(*nodes, text): the LaunchFile of that text, which starts these."""
-
-    def make(*nodes, text=""):
-        if text:
-            (session.package(PACKAGE).folder / BAG).write_text(text)
+    def make(*nodes):
         session.memo("launch facts", dict)[BAG] = {"nodes": nodes}
         return LaunchFile(session, BAG)
 
@@ -59,23 +44,10 @@ def given(session):
         node("made_of.cpp"),
     ],
 )
-def test_one_drives(given, other):
-    launch_nodes.check_one_driver(given(FIRST, other))
+def test_a_program_that_drives_nothing_is_no_second_driver(launched, other):
+    launch_nodes.check_one_driver(launched(node("joy2twist.py", "first"), other))
 
 
-@pytest.mark.parametrize(
-    ("to", "own", "seen"),
-    [
-        ("/joystick", [], "joy_node sends them on /joystick"),
-        ("/joystick", [["/joy", "/joystick"]], ""),
-        ("joy", [], ""),
-        ("joy", [["joy", "joystick"]], "joy2twist.py listens to /joystick"),
-    ],
-)
-def test_where_the_joys_go(given, to, own, seen):
-    joystick = {**node("joy_node", remaps=[["/joy", to]]), "package": "joy"}
-    text = f"<launch>\n<remap from='joy' to='{own[0][1] if to == 'joy' and own else to}'/>"
-    file = given(node("joy2twist.py", remaps=own), joystick, text=text)
-    with pytest.raises(Wrong, match=seen) if seen else contextlib.nullcontext() as caught:
-        launch_nodes.check_joy(file, joystick)
-    assert not seen or caught.value.where == f"{BAG}:2"
+def test_a_second_driver_is_wrong(launched):
+    with pytest.raises(Wrong, match="joy2twist.py and class.py: all would drive"):
+        launch_nodes.check_one_driver(launched(node("joy2twist.py", "first"), node("class.py")))
