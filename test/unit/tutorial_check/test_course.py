@@ -3,9 +3,8 @@
 import pytest
 
 from tutorial_check.course import checks_of, read_course
-from tutorial_check.examination import Outcome
-from tutorial_check.model import OK, UNREACHED, WRONG, CannotCheck, Result
-from tutorial_check.self_test import complaint_of, solutions
+from tutorial_check.model import CannotCheck
+from tutorial_check.self_test import solutions
 
 YAML = 'title: T\ndocument: sheet\nexercises: {"2": two, "1": {title: one, points: 3}}\n'
 CHECKS = """
@@ -62,13 +61,8 @@ def test_a_course_and_its_checks_in_its_order(course):
         ("title: 3\nexercises: {'1': a}\n", "title: 3 is no str"),
         ("exercises: {1: a}\n", 'exercise 1: write "1", in quotes'),
         ("exercises: {'1': {title: a, points: many}}\n", "points: 'many' is no float"),
-        *(
-            (
-                f"exercises: {{'1': {{title: a, points: {points}}}}}\n",
-                "exercise 1: points: 0 to 1000000",
-            )
-            for points in (".nan", ".inf", "-1", "10000000")
-        ),
+        ("exercises: {'1': {title: a, points: .nan}}\n", "exercise 1: points: 0 to 1000000"),
+        ("exercises: {'1': {title: a, points: -1}}\n", "exercise 1: points: 0 to 1000000"),
         ("exercises: {'1': {title: a, point: 1}}\n", "point is not known; known are title"),
         ("exercises: {'1': {points: 1}}\n", "title"),
     ],
@@ -98,28 +92,6 @@ def test_wrong_checks_are_one_line(course, checks, why):
 def test_a_folder_without_a_course(tmp_path):
     with pytest.raises(CannotCheck, match=r"a course is a folder with course\.yaml"):
         read_course(tmp_path)
-
-
-# ------------------------------------------------------------------------------------ self-test
-
-BAD = Result("S2", WRONG, "b", seen="crooked")
-BLOCKED = Result("S3", UNREACHED, "c", seen="first mend S2")
-
-
-@pytest.mark.parametrize(
-    ("named", "results", "why"),
-    [
-        ("", [Result("S1", OK, "a")], ""),
-        ("", [Result("S1", OK, "a"), BAD], "S2 is wrong: crooked"),
-        ("S2", [Result("S1", OK, "a"), BAD, BLOCKED], ""),
-        ("S3", [BAD, BLOCKED], "S3 should be the first that is wrong, and S2 is: crooked"),
-        ("S3", [Result("S3", OK, "c")], "S3 should be wrong, and nothing is"),
-    ],
-)
-def test_a_solution_and_what_it_should_come_to(named, results, why):
-    assert complaint_of(named, [Outcome("1", results, done=True)]) == why
-    trouble = Outcome("1", results, done=True, trouble="no space")
-    assert complaint_of(named, [trouble]) == "could not be checked: 1: no space"
 
 
 def test_the_solutions_of_a_course(course):

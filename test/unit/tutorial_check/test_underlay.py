@@ -38,7 +38,9 @@ def build(tmp_path, below):
         (THIS, "_setup_util.py", "not whole", "rm -r build devel"),
     ],
 )
-def test_a_devel_folder_that_is_not_of_this_suite_or_not_whole_is_wrong(session, tmp_path, below, gone, seen, hint):
+def test_a_devel_folder_that_is_not_of_this_suite_or_not_whole_is_wrong(
+    session, tmp_path, below, gone, seen, hint
+):
     build(tmp_path, below.format(tmp_path))
     if gone:
         (tmp_path / "ws/devel" / gone).unlink()
