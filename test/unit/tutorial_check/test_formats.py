@@ -38,7 +38,7 @@ def test_the_points_of_a_course():
     assert (found["score"], found["max-score"]) == (1, 4.0)
 
 
-def test_json():
+def test_json_has_each_check_and_why_there_is_no_verdict():
     found = json.loads(as_json([GOOD, BAD, NO_VERDICT, EMPTY]))
     assert (found["passed"], found["total"]) == (1, 4)
     assert [each["passed"] for each in found["exercises"]] == [True, False, False, False]
@@ -56,7 +56,7 @@ def test_junit_is_xml_whatever_was_printed():
     assert [len(root.findall(f".//{tag}")) for tag in ("skipped", "system-out")] == [2, 1]
 
 
-def test_gradescope():
+def test_gradescope_has_a_point_a_check():
     found = json.loads(as_gradescope([GOOD, BAD]))
     assert [test["score"] for test in found["tests"]] == [1.0, 1.0, 0.0, 0.0]
     assert set(found["tests"][0]) == {"name", "score", "max_score", "output", "visibility"}
@@ -80,11 +80,11 @@ def test_classroom_50_learns_which_submission_it_is():
 
 
 @pytest.mark.parametrize("make", [*(make for _, make in FORMATS.values()), text_of])
-def test_without_hints(make):
+def test_no_format_shows_a_hint_that_is_not_to_be_shown(make):
     assert "do it" not in make(without_hints([BAD]))
 
 
-def test_the_text_for_people():
+def test_the_text_for_people_tells_where_and_how_to_see_it():
     lines = [line.split(None, 1) for line in text_of([BAD]).splitlines()]
     about = [["expected:", "a < b"], ["where:", "f.py:3"], ["hint:", "do it"]]
     assert [line for line in lines if line in about] == about

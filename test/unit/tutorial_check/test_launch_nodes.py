@@ -49,5 +49,5 @@ def test_a_program_that_drives_nothing_is_no_second_driver(launched, other):
 
 
 def test_a_second_driver_is_wrong(launched):
-    with pytest.raises(Wrong, match="joy2twist.py and class.py: all would drive"):
+    with pytest.raises(Wrong, match=r"2, joy2twist\.py and class\.py: all would"):
         launch_nodes.check_one_driver(launched(node("joy2twist.py", "first"), node("class.py")))

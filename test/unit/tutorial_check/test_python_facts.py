@@ -32,17 +32,13 @@ if __name__ == "__main__":
 """
 
 
-def test_a_text_with_a_zero_is_no_python():
-    assert PythonFacts("a\0b").error
-
-
 def test_a_warning_is_no_error_and_not_shown(recwarn):
     assert not PythonFacts("x = 1 is 1\ny = '\\d'\n").error
     assert not recwarn
 
 
 @NO_LINE_ENDS
-def test_what_ends_no_line_for_python(odd):
+def test_a_character_that_ends_no_line_for_python_ends_none_here(odd):
     wrong = PythonFacts(f"# {odd}\nfrom std msgs.msg import String")
     assert wrong.error_text.startswith("from std")
     assert PythonFacts(f"# {odd}\nif name == ' main ':\n    pass").odd_main[1].startswith("if name")
@@ -56,13 +52,12 @@ def test_what_ends_no_line_for_python(odd):
     ("line", "is_odd"),
     [
         ("if __name__ == '__main__':", False),
-        ("if name == ' main ':", True),
         ("if _name_ == '_main_':", True),
         ("name = 'main'\nif name == 'main':", False),
         ("if __name__ == 'joy2twist':", False),
     ],
 )
-def test_a_line_of_main_that_is_none(line, is_odd):
+def test_a_line_of_main_that_lost_its_underscores_is_odd(line, is_odd):
     assert bool(PythonFacts(f"import rospy\n{line}\n    pass\n").odd_main) == is_odd
 
 

@@ -1,4 +1,4 @@
-"""Checks that only read files: none blames a right solution, each finds the mistakes in its files."""
+"""Checks that only read files: right ones are not blamed, each mistake in them is found."""
 
 import shutil
 from pathlib import Path

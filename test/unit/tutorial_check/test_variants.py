@@ -33,12 +33,9 @@ def options(**given_ones):
         ("axis: 3", "axis is not known; known are: axis_linear, axis_angular"),
         ("axis_linear: 9", "axis_linear: 9; allowed is 0 to 5"),
         ("axis_linear: true", "axis_linear: True; allowed is 0 to 5"),
-        ("axis_linear: 1.0", "allowed is 0 to 5"),
         ("axis_linear: 0", "axis_angular and axis_linear are both 0"),
         ("scale_linear: .nan", "scale_linear: nan; allowed is -2.0 to -0.2 or 0.2 to 2.0"),
-        ("scale_linear: -0.1", "scale_linear: -0.1; allowed is -2.0 to -0.2 or 0.2 to 2.0"),
         ("joy: stick", "joy: 'stick'; allowed is what fits /"),
-        ("joy: 3", "joy: 3; allowed"),
         ("package: Stick Drive", "package: 'Stick Drive'; allowed"),
         ("joy: /x\ncmd_vel: /x", "cmd_vel"),
         ("a: [", "no YAML"),
@@ -99,13 +96,13 @@ def test_a_task_sheet_has_all_values_and_the_file():
 
 
 @pytest.mark.parametrize(("linear", "angular"), itertools.permutations(range(6), 2))
-def test_an_order_loses_nothing(linear, angular):
+def test_an_order_of_axes_loses_none(linear, angular):
     values = moved(range(8), order({1: linear, 0: angular}))
     assert sorted(values) == list(range(8)) and (values[linear], values[angular]) == (1, 0)
 
 
-def words(field, text, values=None, section="handout 4.3"):
-    result = Result("C16", WRONG, "", section=section)
+def words(field, text, values=None):
+    result = Result("C16", WRONG, "", section="handout 4.3")
     task = JoystickTask(ALL if values is None else values)
     return getattr(task.words(dataclasses.replace(result, **{field: text})), field)
 
@@ -131,26 +128,18 @@ def words(field, text, values=None, section="handout 4.3"):
         ("seen", "NameError   in: axes[1] on /joy", "NameError   in: axes[1] on /joy"),
     ],
 )  # fmt: skip
-def test_words(field, text, said):
+def test_words_name_the_values_of_a_task_in_hints_alone(field, text, said):
     assert words(field, text) == said
     assert words(field, text, {}) == text
 
 
-def test_a_factor_below_0():
+def test_a_factor_below_0_is_seen_above_0_and_named_as_it_is():
     """The checks send the other sign, and so see the factor above 0; words have it as it is."""
     values = {"axis_linear": 3, "scale_linear": -0.5}
     task = JoystickTask(values)
     axes, _ = task.joy(((0.1, 0.2, 0.3, 0.4, 0.5, 0.6), (0,) * 12))
     assert axes == (0.1, 0.4, 0.3, -0.2, 0.5, 0.6) and task.factors == {0: 0.5}
     assert words("hint", "linear.x = axes[1]", values) == "linear.x = -0.5 * axes[3]"
-    assert (
-        words("hint", "linear.x = axes[1]", {"scale_linear": -0.5}) == "linear.x = -0.5 * axes[1]"
-    )
     seen = "linear.x = -0.40 * axes[1]: the sign is wrong"
-    assert words("seen", seen, values) == seen.replace(
-        "-0.40 * axes[1]", "0.40 * axes[axis_linear]"
-    )
-
-
-def test_launch_files_keep_the_topics_outside_of_the_program():
-    assert words("seen", "nothing on /joy", section="handout 5.1") == "nothing on /joy"
+    told = seen.replace("-0.40 * axes[1]", "0.40 * axes[axis_linear]")
+    assert words("seen", seen, values) == told

@@ -217,13 +217,6 @@ def test_a_src_that_is_a_link_or_a_manifest_that_is_a_pipe_is_not_read(tmp_path)
     assert packages_below(tmp_path / "eve") == []
 
 
-@pytest.mark.parametrize("file", ["_setup_util.py", "setup.sh"])
-def test_a_devel_folder_with_a_pipe_says_nothing(tmp_path, file):
-    for name in ("_setup_util.py", "setup.sh"):
-        os.mkfifo(tmp_path / name) if name == file else (tmp_path / name).touch()
-    assert workspace.underlays(tmp_path) == ("", None)
-
-
 @pytest.mark.parametrize("pack", [zipfile.ZIP_STORED, zipfile.ZIP_LZMA])
 def test_a_zip_with_broken_bytes_is_one_line(tmp_path, pack):
     archive = zipped(tmp_path / "a.zip", {"package.xml": XML * 20}, pack)
