@@ -12,15 +12,14 @@ import variants
 HERE = Path(__file__).resolve().parent
 REPOSITORY = HERE.parents[1]
 BAG = REPOSITORY / "joy2twist" / "bag" / "joy.bag"
-SOME_TASKS = 40  # every so many-th of the tests of other tasks, if not all are asked for
+SOME = 40  # every so many-th mistake in another task, if not everything is asked for
 OPTIONS = {
     "--every": (1, "only every Nth row of data"),
     "--first": (0, "the row with which --every begins"),
     "--students": (4, "how many in the test of --all"),
     "--submissions": (8, "how many on a cluster"),
     "--repeat": (0, "only N checks of right solutions, in turn"),
-    "--everything": (False, "all exercises, and not only those of the mistakes; an hour"),
-    "--tasks": (False, "40 other tasks, and each mistake in three; half an hour"),
+    "--everything": (False, "each mistake in all exercises, and in another task; two hours"),
     "--busy": (False, "beside an endless loop on each processor"),
 }
 
@@ -56,21 +55,26 @@ def pytest_generate_tests(metafunc):
         metafunc.parametrize("variant", rows, ids=names)
 
 
+def is_row(item):
+    return bool({"row", "variant"} & set(getattr(item, "fixturenames", ())))
+
+
+def leave_out(items, is_one_of_many, every, first=0):
+    """Keep only every so many-th of those."""
+    many = [item for item in items if is_one_of_many(item)]
+    left_out = {item for at, item in enumerate(many) if (at - first) % every}
+    items[:] = [item for item in items if item not in left_out]
+
+
 def pytest_collection_modifyitems(config, items):
     """Leave out what was not asked for."""
-    if config.getoption("--repeat"):
+    option = config.getoption
+    if option("--repeat"):
         items[:] = [item for item in items if "variant" in getattr(item, "fixturenames", ())]
-    if not config.getoption("--everything"):
-        items[:] = [item for item in items if "test_in_all_exercises" not in item.name]
-    if not config.getoption("--tasks"):
-        of_tasks = [item for item in items if item.fspath.basename == "test_task.py"]
-        many = [item for item in of_tasks if "test_each_value" not in item.name]
-        left_out = {item for at, item in enumerate(many) if at % SOME_TASKS}
-        items[:] = [item for item in items if item not in left_out]
-    rows = [item for item in items if {"row", "variant"} & set(getattr(item, "fixturenames", ()))]
-    every, first = config.getoption("--every"), config.getoption("--first")
-    left_out = {item for at, item in enumerate(rows) if (at - first) % every}
-    items[:] = [item for item in items if item not in left_out]
+    if not option("--everything"):
+        items[:] = [item for item in items if "in_all_exercises" not in item.name]
+        leave_out(items, lambda item: "mistake_in_a_task" in item.name, SOME)
+    leave_out(items, is_row, option("--every"), option("--first"))
 
 
 @pytest.fixture(scope="session")

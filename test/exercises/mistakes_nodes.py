@@ -1,6 +1,6 @@
 """Mistakes in joy2twist and in the class, each a row: (exercise, what, edits, check, word or words)."""
 
-from edits import CLASS, JOY2TWIST, J, chmod, copy, latin1, lines, move, put, remove, write
+from edits import CLASS, JOY2TWIST, J, chmod, copy, lines, move, put, remove, write
 
 SHOW = 'rospy.loginfo(rospy.get_name() + ": axes [%.2f, %.2f, %.2f, %.2f, %.2f, %.2f]" % data.axes)'
 X, Z = "msg.linear.x = data.axes[1]", "msg.angular.z = data.axes[0]"
@@ -28,7 +28,6 @@ def cls(what, old, new, check, word):
 ROWS = [
     ("4.3", "no joy2twist.py", [remove(JOY2TWIST)], "C13", "create scripts/joy2twist.py"),
     ("4.3", "a file joy2twist that is no program", [move(JOY2TWIST, JOY2TWIST[:-3]), put(JOY2TWIST[:-3], "#!/usr/bin/env python", "")], "C13", "first line"),
-    ("4.3", "Latin-1", [latin1(JOY2TWIST, "import rospy\n", "# von Jörg, für alle")], "C13", ("joy2twist.py:", "save the file as UTF-8")),
     ("4.3", "joy2twist.py without chmod beside a file joy2twist", [chmod(JOY2TWIST, 0o644), write(f"{J}/joy2twist", "notes")], "C13", ("chmod +x /", "src/joy2twist/scripts/joy2twist.py")),
     node("nothing displayed", SHOW, "pass", "C14", ("not one value", "data.axes in the callback")),
     node("five of six values", SHOW, 'rospy.loginfo("[%.2f, %.2f, %.2f, %.2f, %.2f]" % data.axes)', "C14", "as many %.2f"),
@@ -36,6 +35,7 @@ ROWS = [
     node("only two axes displayed", SHOW, 'rospy.loginfo("%.2f %.2f" % data.axes[:2])', "C14", "six"),
     node("one axis displayed", SHOW, 'rospy.loginfo("%.2f" % data.axes[1])', "C14", ("a line has 1 of the six", "all six")),
     node("one decimal", SHOW, 'rospy.loginfo("%.1f " * 6 % data.axes)', "C14", ("the six values have less than two decimals", "%.2f")),
+    node("a line that fell out of the callback", f"    msg = Twist()\n    {X}\n    {Z}\n    {PUBLISH}\n", f"msg = Twist()\n{X}\n", "C14", ("joy2twist.py:11", "outside of callback: indent")),
     node("joy.msg", "sensor_msgs.msg", "joy.msg", "C14", ("joy2twist.py:4", "from sensor_msgs.msg import Joy")),
     node("a keyboard", "    rospy.spin()", "    import termios\n    termios.tcgetattr(0)", "C14", ("joy2twist.py:22", "termios.error", "no keyboard here")),
     ("4.3", "an import outside of the try", [put(JOY2TWIST, "import rospy\n", "import rospy\nimport wx\n"), put(JOY2TWIST, *tried("pass"))], "C14", ("joy2twist.py:4", "in: import wx\n")),
@@ -62,11 +62,8 @@ ROWS = [
     node("publishes on /joy", PUB, "rospy.Publisher('/joy', Joy)", "C15", "/joy"),
     node("axes swapped", f"{X}\n    {Z}", "msg.linear.x = data.axes[0]\n    msg.angular.z = data.axes[1]", "C16", "swapped"),
     node("turns the wrong way", Z, "msg.angular.z = -data.axes[0]", "C16", "sign"),
-    node("drives backwards", X, "msg.linear.x = -data.axes[1]", "C16", "sign"),
     node("linear.z", "msg.linear.x", "msg.linear.z", "C16", "linear.z"),
-    node("angular.x", "msg.angular.z", "msg.angular.x", "C16", "angular.x"),
     node("axis 2", "data.axes[1]", "data.axes[2]", "C16", "axes[2]"),
-    node("axis 3 turns", "data.axes[0]", "data.axes[3]", "C16", "axes[3]"),
     node("linear.y too", X, f"{X}\n    msg.linear.y = data.axes[0]", "C16", "linear.y"),
     node("angular.z forgotten", f"    {Z}\n", "", "C16", "angular.z"),
     node("linear.x forgotten", f"    {X}\n", "", "C16", "linear.x"),
@@ -94,7 +91,6 @@ ROWS = [
     node("an offset", X, "msg.linear.x = data.axes[1] + 0.1", "C16", "released"),
     ("4.3", "one global Twist, published too early", [put(JOY2TWIST, "    msg = Twist()\n", ""), put(JOY2TWIST, "def callback(data):\n", "msg = Twist()\n\n\ndef callback(data):\n    pub.publish(msg)\n"), put(JOY2TWIST, f"{Z}\n    {PUBLISH}", Z)], "C16", "late"),
     node("sleep in the callback", PUBLISH, f"{PUBLISH}\n    rospy.sleep(0.1)", "C17", "sleep"),
-    node("Rate in the callback", PUBLISH, f"{PUBLISH}\n    rospy.Rate(10).sleep()", "C17", "sleep"),
     node("only every second", PUBLISH, "callback.n = getattr(callback, 'n', 0) + 1\n    if callback.n % 2:\n        pub.publish(msg)", "C16", "Twists"),
     node("published twice", X, f"{X}\n    {PUBLISH}", "C16", ("joy2twist.py:14", "2 Twists for each Joy, and they differ", "at the end of the callback")),
     node("sleep before it publishes", "def callback(data):\n", "def callback(data):\n    rospy.sleep(0.5)\n", "C16", ("joy2twist.py:9", "the callback sleeps", "no sleep in the callback")),
@@ -111,6 +107,7 @@ ROWS = [
     cls("callback without self", "Joy, self.callback)", "Joy, callback)", "C29", "self.callback"),
     cls("self.callback()", "Joy, self.callback)", "Joy, self.callback())", "C29", "without ()"),
     cls("typo under the bare except", "rospy.Publisher", "rospy.Publsher", "C30", "Publsher"),
+    cls("a line that fell out of its method", "        self.cmd_vel.publish(msg)", "    self.cmd_vel.publish(msg)", "C30", ("new_joy2twist.py:21", "outside of callback")),
     cls("cmd_vel without self", "self.cmd_vel = ", "cmd_vel = ", "C30", "cmd_vel"),
     cls("cmd_vel for self.cmd_vel", "self.cmd_vel.publish(msg)", "cmd_vel.publish(msg)", "C30", "cmd_vel"),
     cls("spin missing", "        rospy.spin()\n", "", "C30", "spin"),
@@ -134,7 +131,6 @@ ROWS = [
     cls("self forgotten in callback", "def callback(self, data)", "def callback(data)", "C30", ("new_joy2twist.py:16", "a method has self first")),
     cls("shutdown without self", "def shutdown(self)", "def shutdown()", "C31", ("new_joy2twist.py:23", "a method has self first")),
     cls("Twst in shutdown", "self.cmd_vel.publish(Twist())", "self.cmd_vel.publish(Twst())", "C31", ("new_joy2twist.py:25", "Twist in line 5")),
-    ("6.2", "chmod forgotten", [chmod(CLASS, 0o644)], "C29", "chmod"),
     ("6.2", "no class", [lambda src: (src / CLASS).unlink()], "C29", "no class"),
     ("4.3", "an own rospy.py beside it", [write(f"{J}/scripts/rospy.py", "import time\n")], "C14", ("scripts/rospy.py", "hides", "rename")),
     ("4.3", "an own geometry_msgs.py beside it", [write(f"{J}/scripts/geometry_msgs.py", "class Twist: pass\n")], "C14", ("scripts/geometry_msgs.py", "hides", "rename")),

@@ -9,6 +9,7 @@ import mistakes_launch
 import mistakes_nodes
 import mistakes_packages
 import pytest
+from test_mistakes import is_reported
 
 from tutorial_check.box import Box
 from tutorial_check.course import checks_of, read_course
@@ -68,6 +69,4 @@ def test_a_right_solution_is_not_blamed(judge):
 def test_a_mistake_in_a_file_is_found(judge, row):
     _, _, changes, check, words = row
     (one,) = judge([check], changes)
-    report = "\n".join(lines_of(one)).lower()
-    words = [words] if isinstance(words, str) else words
-    assert one.status == WRONG and all(word.lower() in report for word in words), report
+    assert one.status == WRONG and is_reported(one, words), lines_of(one)
