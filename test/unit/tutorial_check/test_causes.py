@@ -6,7 +6,7 @@ import sys
 
 import pytest
 
-from tutorial_check.causes import explain, misspelt, syntax_hint, traced
+from tutorial_check.causes import explain, misspelt, syntax_hint
 from tutorial_check.python_facts import PythonFacts
 from tutorial_check.tracebacks import first_traceback
 
@@ -83,47 +83,6 @@ def test_a_name_like_the_missing_one_is_named(name, word):
     names = {"msq": 10, "data": 8, "sub": 20, "twist": 9}
     found = misspelt(f"NameError: name '{name}' is not defined", names)
     assert word in found and bool(word) == bool(found)
-
-
-CLASS = """class Node():
-    def __init__(self):
-        self.pub = rospy.Publisher('/cmd_vel', Twist)
-
-    def callback(self, data):
-        pub.publish(Twist())
-    self.pub.publish(msg)
-"""
-FALLEN = """def callback(data):
-    rospy.loginfo(data)
-msg = Twist()
-msg.linear.x = data.axes[1]
-def listener():
-    global pub
-    print(data)
-if __name__ == '__main__':
-    print(data)
-"""
-VECTOR = "def callback(data):\n    msg = Twist()\n    msg.linear = {}\n    pub.publish(msg)\n"
-NO_X = "AttributeError: 'float' object has no attribute 'x'"
-NO_DATA = "name 'data' is not defined"
-
-
-@pytest.mark.parametrize(
-    ("text", "line", "error", "blamed", "word"),
-    [
-        (FALLEN, 4, NO_DATA, 4, "outside of callback: indent"),
-        (FALLEN, 4, "name 'listener' is not defined", 4, ""),
-        (FALLEN, 7, NO_DATA, 7, ""),
-        (FALLEN, 9, NO_DATA, 9, ""),
-        (CLASS, 7, "name 'self' is not defined", 7, "outside of c"),
-        (CLASS, 6, "name 'pub' is not defined", 6, "within a class it is self.pub"),
-        (VECTOR.format("Vector3(data.axes[1], 0, 0)"), 4, NO_X, 4, ""),
-    ],
-)
-def test_the_text_around_an_error_tells_its_cause(text, line, error, blamed, word):
-    found, hint = traced(error, line, PythonFacts(text))
-    assert found == blamed
-    assert word in hint if word else "outside" not in hint and "parts" not in hint
 
 
 @pytest.mark.parametrize(

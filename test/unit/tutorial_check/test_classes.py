@@ -27,24 +27,6 @@ if __name__ == '__main__':
 """
 NO_SHUTDOWN = CLASS.replace("        rospy.on_shutdown(self.shutdown)\n", "")
 PUBLISHER = "        self.cmd_vel = rospy.Publisher('/cmd_vel', Twist)\n"
-ROBOT = """class Robot:
-    def __init__(self):
-        rospy.on_shutdown(self.stop)
-
-    def stop(self):
-        pass
-
-
-"""
-BASE = CLASS.replace("NewJoy2Twist", "Node").split("\n\nif __name__")[0]
-BELOW = """class NewJoy2Twist(Node):
-    def callback(self, data):
-        self.publish(data)
-
-
-if __name__ == "__main__":
-    NewJoy2Twist()
-"""
 
 
 @pytest.fixture
@@ -70,8 +52,6 @@ def write(session):
     [
         ("scripts/joy2twist.py", NO_SHUTDOWN, 0o755),
         ("old/new_joy2twist.py", CLASS, 0o644),
-        ("scripts/class_joy2twist.py", CLASS, 0o644),
-        (".history/scripts/joy2twist_2.py", CLASS, 0o755),
     ],
 )
 def test_of_several_classes_the_last_step_counts(session, write, other, text, mode):
@@ -95,12 +75,8 @@ def test_an_early_ctrl_c_that_finds_no_publisher_is_noted(session, write, before
         CLASS.replace("self.shutdown)", "self.ended)\n        self.ended = print"),
         CLASS.replace("self.callback)", "partial(self.callback, 1))"),
         CLASS.replace("NewJoy2Twist:", "NewJoy2Twist(Base):").replace("def shutdown", "def other"),
-        CLASS.replace("class", f"{ROBOT}class", 1),
-        f"{BASE}\n\n{BELOW}",
-        f"#!/usr/bin/python3\nfrom node import Node\n\n\n{BELOW}",  # a file of its own
     ],
 )
 def test_a_class_of_another_form_is_right(session, write, text):
-    write("scripts/node.py", BASE)
     write("scripts/new_joy2twist.py", text)
     assert classes.is_class(session).startswith("NewJoy2Twist in")

@@ -62,15 +62,6 @@ def test_a_folder_and_a_zip_of_one_name_have_each_a_report(group):
     assert all(f'<a href="./{name}.txt">{name}</a>' in page for name in names)
 
 
-def test_a_folder_called_variants_is_a_submission_unless_it_is_named(group, capsys):
-    group.add("ada", "variants")
-    (group.folder / "variants/ada.yaml").write_text("no task")
-    assert [row[:2] for row in group.check_all()[1]] == [["ada", "ok"], ["variants", "ok"]]
-    assert "variants: a submission; if it has the tasks" in capsys.readouterr().out
-    code, rows = group.check_all(variant=str(group.folder / "variants"))
-    assert (code, [row[0] for row in rows]) == (2, ["ada"]) and "a map of values" in rows[0][-1]
-
-
 def test_students_with_odd_names_are_checked(group):
     """One is no UTF-8; the report of another cannot be written."""
     longest = "n" * 255
@@ -190,35 +181,25 @@ def test_a_broken_state_is_ignored(group, text):
     assert group.check_all()[0] == 0
 
 
-@pytest.fixture
-def submission(tmp_path):
-    folder = tmp_path / "submission"
-    (folder / "build").mkdir(parents=True)
-    (folder / "talker.py").write_text("1")
-    (folder / "link").symlink_to("/etc/passwd")
-    os.mkfifo(folder / "pipe")
-    return folder
-
-
-def test_what_catkin_built_makes_no_other_submission(submission):
-    first = digest_of(submission, "checks")
-    (submission / "build" / "made").write_text("by catkin_make")
-    assert digest_of(submission, "checks") == first != digest_of(submission, "other checks")
-
-
 @pytest.mark.parametrize(
-    "change",
+    ("change", "is_the_same"),
     [
-        lambda folder: (folder / "talker.py").chmod(0o755),
-        lambda folder: (folder / "talker.py").write_text("2"),
-        lambda folder: os.replace(folder / "link_2", folder / "link"),
+        (lambda folder: (folder / "build" / "made").write_text("by catkin_make"), True),
+        (lambda folder: (folder / "talker.py").chmod(0o755), False),
+        (lambda folder: (folder / "talker.py").write_text("2"), False),
+        (lambda folder: os.replace(folder / "link_2", folder / "link"), False),
     ],
 )
-def test_other_rights_texts_or_links_make_another_submission(submission, change):
-    (submission / "link_2").symlink_to("/etc/group")
-    first = digest_of(submission, "checks")
-    change(submission)
-    assert digest_of(submission, "checks") != first
+def test_rights_texts_or_links_make_another_submission(tmp_path, change, is_the_same):
+    (tmp_path / "build").mkdir()
+    (tmp_path / "talker.py").write_text("1")
+    (tmp_path / "link").symlink_to("/etc/passwd")
+    (tmp_path / "link_2").symlink_to("/etc/group")
+    os.mkfifo(tmp_path / "pipe")
+    first = digest_of(tmp_path, "checks")
+    change(tmp_path)
+    assert (digest_of(tmp_path, "checks") == first) == is_the_same
+    assert digest_of(tmp_path, "other checks") != first
 
 
 def test_another_exercise_or_level_of_hints_makes_other_checks():

@@ -1,6 +1,5 @@
 """The command line."""
 
-import io
 import sys
 
 import pytest
@@ -14,7 +13,7 @@ from tutorial_check.program import parse
 UNDERLAY = ["--underlay", "setup.bash"]
 BEFORE = [*UNDERLAY, "--in", "ws"]
 WELL = Outcome("2", [Result("C1", OK, "one")], 1.0, True)
-BAD = Outcome("2", [Result("C1", WRONG, "no file M\udcfcller.bag", hint="mkdir src")], 1.0, True)
+BAD = Outcome("2", [Result("C1", WRONG, "no file", hint="mkdir src")], 1.0, True)
 NO_VERDICT = Outcome("5", [Result("C21", UNREACHED, "two")], 1.0, True, "C21: no space")
 
 
@@ -110,18 +109,3 @@ def test_a_file_that_cannot_be_written(main, tmp_path, capsys):
     assert main(lambda *_, **__: pytest.fail("begun"), *files) == 2
     why = f"check: no verdict: {tmp_path / 'json'}: Is a directory"
     assert capsys.readouterr().err.count(why) == 2
-
-
-def test_a_name_that_is_no_utf_8_is_reported(main, tmp_path, monkeypatch):
-    def examine(workspace, underlay, exercises, tell, **_):
-        tell(BAD, BAD.results[0])
-        return [BAD]
-
-    printed = io.BytesIO()
-    monkeypatch.setattr(sys, "stdout", io.TextIOWrapper(printed, "utf-8"))
-    files = [word for name in FORMATS for word in (f"--{name}", tmp_path / name)]
-    assert main(examine, *files) == 1
-    sys.stdout.flush()
-    assert b"no file M\\udcfcller.bag" in printed.getvalue()
-    assert "M\\udcfcller.bag" in (tmp_path / "junit").read_text(encoding="utf-8")
-    assert all((tmp_path / name).stat().st_size for name in FORMATS)

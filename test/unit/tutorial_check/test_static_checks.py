@@ -23,7 +23,7 @@ from tutorial_check.workspace import find_layout
 REPOSITORY = Path(__file__).resolve().parents[3]
 PACKAGES = f"{REPOSITORY}/common:{REPOSITORY}/fake_turtlebot_sim:/usr/share"
 LITERAL = Path(__file__).resolve().parents[2] / "exercises" / "literal"
-READ_ALONE = ("C2", "C3", "C5", "C12", "C13", "C29")
+READ_ALONE = ("C1", "C2", "C3", "C5", "C12", "C13", "C29")
 CHECKS = checks_of(read_course())
 BUILT = "a dependency that there is not"  # only a build shows that
 OF_LAUNCH_FILES = ("C21", "C22", "C25")  # roslaunch reads them, which takes a second
@@ -46,12 +46,13 @@ def judge(tmp_path):
         shutil.copytree(REPOSITORY / "joy2twist/bag", source / "joy2twist/bag")
         edits.apply(changes, source)
         prepare(tmp_path, None)
+        (tmp_path / "lower" / "share" / "fake_turtlebot_sim").mkdir(parents=True)
         session = Session(
             tmp_path,
             find_layout(tmp_path / "ws"),
             ["2", "3", "4.3", "6.2"],
             Box(variables(tmp_path, {**os.environ, "ROS_PACKAGE_PATH": PACKAGES})),
-            underlay="",
+            underlay=str(tmp_path / "lower" / "setup.bash"),
             can_have_devices=False,
             task=JoystickTask({}),
         )

@@ -114,7 +114,6 @@ def words(field, text, values=None):
         ("expected", "x = axes[1]", "x = scale_linear * axes[axis_linear]"),
         ("seen", "linear.x = 0.50 * axes[1]", "linear.x = 0.50 * axes[axis_linear]"),
         ("seen", "linear.x follows axes[3]", "linear.x follows axes[1]"),
-        ("seen", "linear.x follows axes[2]", "linear.x follows axes[2]"),
         ("hint", "linear.x = axes[1]", "linear.x = 0.5 * axes[3]"),
         ("hint", "the topic is called /cmd_vel", "the topic is called /drive"),
         ("seen", "it publishes on /unasked/cmd_vel", "it publishes on /cmd_vel"),
@@ -122,10 +121,8 @@ def words(field, text, values=None):
         ("expected", "on /cmd_vel_mux/input/teleop", "on /cmd_vel_mux/input/teleop"),
         ("seen", "a package called not_joy2twist", "a package called joy2twist"),
         ("look", "rosrun joy2twist joy2twist.py", "rosrun <package> joy2twist.py"),
-        ("hint", 'pkg="joy2twist" type="joy2twist.py"', 'pkg="stick_drive" type="joy2twist.py"'),
         ("seen", "it drives with LB released", "it drives with <enable_button> released"),
         ("expected", "about 10 times a second", "as often as rate says"),
-        ("seen", "NameError   in: axes[1] on /joy", "NameError   in: axes[1] on /joy"),
     ],
 )  # fmt: skip
 def test_words_name_the_values_of_a_task_in_hints_alone(field, text, said):
@@ -136,9 +133,7 @@ def test_words_name_the_values_of_a_task_in_hints_alone(field, text, said):
 def test_a_factor_below_0_is_seen_above_0_and_named_as_it_is():
     """The checks send the other sign, and so see the factor above 0; words have it as it is."""
     values = {"axis_linear": 3, "scale_linear": -0.5}
-    task = JoystickTask(values)
-    axes, _ = task.joy(((0.1, 0.2, 0.3, 0.4, 0.5, 0.6), (0,) * 12))
-    assert axes == (0.1, 0.4, 0.3, -0.2, 0.5, 0.6) and task.factors == {0: 0.5}
+    assert JoystickTask(values).factors == {0: 0.5}
     assert words("hint", "linear.x = axes[1]", values) == "linear.x = -0.5 * axes[3]"
     seen = "linear.x = -0.40 * axes[1]: the sign is wrong"
     told = seen.replace("-0.40 * axes[1]", "0.40 * axes[axis_linear]")
