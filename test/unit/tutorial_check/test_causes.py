@@ -6,7 +6,7 @@ import sys
 
 import pytest
 
-from tutorial_check.causes import explain, misspelt, syntax_hint
+from tutorial_check.causes import explain, syntax_hint
 from tutorial_check.python_facts import PythonFacts
 from tutorial_check.tracebacks import first_traceback
 
@@ -73,16 +73,6 @@ def test_the_hint_for_python_2_works(tmp_path):
 def test_another_error_is_not_called_python_2(line):
     facts = PythonFacts(line)
     assert "Python 2" not in syntax_hint(facts.error, facts.error_text)
-
-
-@pytest.mark.parametrize(
-    ("name", "word"),
-    [("date", "data in line 8"), ("Twist", ""), ("pub", ""), ("msq", "")],  # Twist: not imported
-)
-def test_a_name_like_the_missing_one_is_named(name, word):
-    names = {"msq": 10, "data": 8, "sub": 20, "twist": 9}
-    found = misspelt(f"NameError: name '{name}' is not defined", names)
-    assert word in found and bool(word) == bool(found)
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ import pytest
 
 from tutorial_check.exercises import conversation as c
 from tutorial_check.exercises.dialogue import Conversation, repetition
-from tutorial_check.exercises.driving import CMD_VEL, JOY, Drive
+from tutorial_check.exercises.driving import CMD_VEL, JOY
 from tutorial_check.exercises.joystick_task import JoystickTask
 from tutorial_check.python_facts import PythonFacts
 from tutorial_check.rows import find
@@ -97,9 +97,3 @@ def test_recorded_facts_that_are_right_have_none(rows, text, recorded):
 )
 def test_how_often_each_twist_comes(twists, expected):
     assert repetition(ANSWERS, twists) == expected
-
-
-@pytest.mark.parametrize(("enough", "is_prompt"), [(0.95, False), (0.5, True)])
-def test_of_a_queue_of_one_the_newest_counts(enough, is_prompt):
-    seen = {"answered": 90, "sent": 125, "possible": 120, "delay_s": 0.01, "unavoidable_s": 0.0}
-    assert Drive.is_prompt.fget(SimpleNamespace(enough=enough, **seen)) == is_prompt

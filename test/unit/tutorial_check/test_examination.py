@@ -80,8 +80,3 @@ def test_a_result_that_nobody_asked_for_or_that_comes_twice_is_none(examine):
     )
     assert seen == [("2", "C1", "ok")]
     assert found_in(outcomes)["2"] == (["C1"], "")
-
-
-def test_the_way_of_the_verdicts_cannot_be_opened_by_a_path(examine):
-    script = """echo '{"cannot": "opened"}' >/proc/self/fd/1 && exit; echo shut >&2"""
-    assert found_in(examine([RESULT], script))["3"][1].endswith("shut")

@@ -58,14 +58,6 @@ def test_a_memory_that_cannot_be_read_is_empty(memory, tmp_path, text):
     assert isinstance(json.loads((tmp_path / "cache/checked.json").read_text()), dict)
 
 
-def test_a_workspace_that_is_gone_is_forgotten(memory, tmp_path):
-    memory(workspace="old").keep([Outcome("4.3", [WRONG_SIGN])])
-    (tmp_path / "old").rmdir()
-    memory().keep([Outcome("4.3", [WRONG_SIGN])])
-    kept = json.loads((tmp_path / "cache/checked.json").read_text())
-    assert [key.split("\n")[0] for key in kept] == [str(tmp_path / "ws")]
-
-
 def test_a_solution_is_shown_when_its_exercise_is_done(memory, capsys):
     course = read_course()
     with pytest.raises(CannotCheck, match=r"4\.3 is not done yet"):

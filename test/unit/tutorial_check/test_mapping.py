@@ -3,32 +3,18 @@
 import pytest
 
 from tutorial_check.exercises.mapping import Evidence, judge
-from tutorial_check.exercises.probing import (
-    delays,
-    displayed,
-    judge_probes,
-    low_joys,
-    numbered_joys,
-    probes,
-    small_and_button_probes,
-    values_shown,
-)
+from tutorial_check.exercises.probing import delays, displayed, numbered_joys, values_shown
 
 JOYS = numbered_joys(20)
 AXES = [axes for axes, _ in JOYS]
 NAN, INF = float("nan"), float("inf")
 
 
-def samples(text, joys=JOYS):
-    """(Joy, Twist) pairs of a program: linear.x, angular.z, linear.y of axes and buttons."""
-    convert = eval(f"lambda a, b: ({text})")
-    values = [(*convert(axes, buttons), 0.0)[:3] for axes, buttons in joys]
-    twists = [(x, y, 0.0, 0.0, 0.0, z) for x, z, y in values]
-    return list(zip(joys, twists))
-
-
-def evidence(text, joys=JOYS):
-    return Evidence([(axes, twist) for (axes, _), twist in samples(text, joys)])
+def evidence(text, count=20):
+    """Of a program that answers so many Joys: linear.x, angular.z, linear.y, by their axes."""
+    convert = eval(f"lambda a: ({text})")
+    values = [(axes, (*convert(axes), 0.0)) for axes in AXES[:count]]
+    return Evidence([(axes, (x, y, 0.0, 0.0, 0.0, z)) for axes, (x, z, y, *_) in values])
 
 
 @pytest.mark.parametrize(
@@ -49,31 +35,9 @@ def test_the_rule_is_found_and_named(text, complaint, remark):
     assert hint.startswith(remark) and hint
 
 
-@pytest.mark.parametrize("limit", [0.12, 0.22, 0.3])
-def test_a_low_limit_is_right(limit):
-    text = f"max(-{limit}, min({limit}, a[1])), a[0]"
-    assert judge(evidence(text, [*JOYS, *low_joys()])) == ("", "")
-
-
 @pytest.mark.parametrize("count", [1, 2])
 def test_few_samples_are_judged(count):
-    assert judge(evidence("a[1] + a[0], a[0]", JOYS[:count]))[0]
-
-
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
-        ("(2.0 if b[5] else 0.3 if b[7] else 1.0) * a[1], a[0]", ""),
-        ("a[1] if abs(a[1]) > 0.02 else 0.0, a[0] if abs(a[0]) > 0.1 else 0.0", ""),
-        ("round(0.5 * a[1], 2), round(0.5 * a[0], 2)", ""),
-        ("a[1] if any(a) else NAN, a[0]", "linear.x is nan"),
-    ],
-)
-def test_small_values_rest_and_buttons_are_judged(text, words):
-    sent = [*probes(JOYS), *small_and_button_probes()]
-    numbered = [(axes, twist) for (axes, _), twist in samples(text)]
-    complaint = judge_probes(numbered, samples(text, sent))[0]
-    assert words in complaint and bool(words) == bool(complaint)
+    assert judge(evidence("a[1] + a[0], a[0]", count))[0]
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,5 @@
 """What --package writes for a service."""
 
-import shlex
 import subprocess
 import zipfile
 from pathlib import Path
@@ -78,18 +77,6 @@ def test_the_workflow_checks_out_the_suite_at_this_commit(tmp_path, git):
     suite = steps[1]["with"]
     assert (suite["repository"], suite["ref"]) == ("lab/ros1_tutorial", "0a1b" * 10)
     assert steps[2]["run"].endswith("--course suite/common/doc/square 1")
-
-
-@pytest.mark.parametrize("name", ["a # b", 'it\'s: "a"', "two\nlines"])
-def test_a_folder_of_any_name_in_the_workflow(tmp_path, git, monkeypatch, name):
-    git("echo 0a1b")
-    monkeypatch.setattr("tutorial_check.package.SUITE", tmp_path)
-    (tmp_path / name).mkdir()
-    (tmp_path / name / "course.yaml").write_text("exercises: {'1': one}")
-    out = tmp_path / "check.yml"
-    package("github:lab/x", read_course(tmp_path / name), ["1"], str(out))
-    run = yaml.safe_load(out.read_text())["jobs"]["check"]["steps"][2]["run"]
-    assert shlex.split(run)[-3:] == ["--course", f"suite/{name}", "1"]
 
 
 NO_CLONE = "echo fatal: not a git repository >&2; exit 128"

@@ -10,7 +10,7 @@ import pytest
 from tutorial_check import professor
 from tutorial_check.course import read_course
 from tutorial_check.examination import Outcome
-from tutorial_check.last_run import digest_of, digest_of_checks
+from tutorial_check.last_run import digest_of_checks
 from tutorial_check.model import OK, UNREACHED, CannotCheck, Result
 from tutorial_testing.waiting import wait_for
 
@@ -142,21 +142,6 @@ def test_only_what_changed_or_had_no_verdict_is_checked_again(group, capsys):
     assert group.begun[3:] == ["ada", "bob"] * 2
 
 
-def test_a_run_that_was_interrupted_goes_on_where_it_was(group, monkeypatch):
-    def interrupted_once(name):
-        if name == "bob" and len(group.begun) < 3:
-            raise KeyboardInterrupt
-        return [WELL]
-
-    group.come_to = interrupted_once
-    monkeypatch.setattr(professor, "end_all", lambda: None)
-    group.add("ada", "bob")
-    with pytest.raises(KeyboardInterrupt):
-        group.check_all()
-    assert group.check_all()[0] == 0
-    assert group.begun == ["ada", "bob", "bob"]
-
-
 def test_the_page_can_be_read_while_it_is_made(group):
     pages = []
 
@@ -179,27 +164,6 @@ def test_a_broken_state_is_ignored(group, text):
     group.check.mkdir()
     (group.check / ".state.json").write_text(text)
     assert group.check_all()[0] == 0
-
-
-@pytest.mark.parametrize(
-    ("change", "is_the_same"),
-    [
-        (lambda folder: (folder / "build" / "made").write_text("by catkin_make"), True),
-        (lambda folder: (folder / "talker.py").chmod(0o755), False),
-        (lambda folder: (folder / "talker.py").write_text("2"), False),
-        (lambda folder: os.replace(folder / "link_2", folder / "link"), False),
-    ],
-)
-def test_rights_texts_or_links_make_another_submission(tmp_path, change, is_the_same):
-    (tmp_path / "build").mkdir()
-    (tmp_path / "talker.py").write_text("1")
-    (tmp_path / "link").symlink_to("/etc/passwd")
-    (tmp_path / "link_2").symlink_to("/etc/group")
-    os.mkfifo(tmp_path / "pipe")
-    first = digest_of(tmp_path, "checks")
-    change(tmp_path)
-    assert (digest_of(tmp_path, "checks") == first) == is_the_same
-    assert digest_of(tmp_path, "other checks") != first
 
 
 def test_another_exercise_or_level_of_hints_makes_other_checks():

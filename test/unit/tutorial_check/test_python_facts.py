@@ -83,18 +83,6 @@ def test_the_first_byte_that_is_not_of_the_files_coding(tmp_path, data, line):
     assert (b"SyntaxError" in done.stderr) == (line is not None), done.stderr
 
 
-@pytest.mark.parametrize("name", ["'joy-node'", "'joy2twist'", "'a/b'", "self.name", "f'node.{n}'"])
-def test_a_name_of_which_ros_warns(name):
-    """With a / it is an error."""
-    odd = PythonFacts(f"rospy.init_node({name}, anonymous=True)").odd_node
-    assert odd == ((1, "joy-node") if "-" in name else ())
-
-
-@pytest.mark.parametrize(("size", "keeps"), [(1, True), (10, False)])
-def test_a_queue_of_one_keeps_the_newest(size, keeps):
-    assert PythonFacts(f"rospy.Publisher('/x', Twist, queue_size={size})").keeps_newest == keeps
-
-
 @pytest.mark.parametrize("handler", ["", " Exception", " Exception as error"])
 @pytest.mark.parametrize("block", [" pass", "\n\t\tif True:\n\t\t\tpass"])
 def test_what_an_except_hides_is_shown(handler, block):

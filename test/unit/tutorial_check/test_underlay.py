@@ -1,4 +1,4 @@
-"""C1: a devel folder, whole or not, over this suite or not; packages that hide nothing of it."""
+"""C1: a devel folder, whole or not, over this suite or not."""
 
 from types import SimpleNamespace
 
@@ -6,7 +6,7 @@ import pytest
 
 from tutorial_check.exercises.underlay import workspace
 from tutorial_check.model import Wrong
-from tutorial_check.workspace import Layout, Package
+from tutorial_check.workspace import Layout
 
 THIS, OTHER, MINE = "{0}/this/lower/devel", "{0}/other/lower/devel", "{0}/ws/devel"
 
@@ -56,11 +56,3 @@ def test_a_committed_devel_of_another_home_is_ignored_whole_or_not(session, tmp_
     (tmp_path / "ws/devel/setup.sh").write_text(": ${_CATKIN_SETUP_DIR:=/home/ada/ws/devel}\n")
     (tmp_path / "ws/devel/_setup_util.py").unlink()
     assert "made elsewhere (/home/ada/ws/devel)" in workspace(session).seen
-
-
-@pytest.mark.parametrize(("name", "inside"), [("std_msgs", "msg"), ("joy", "src"), ("mine", "src")])
-def test_a_clone_of_a_real_package_hides_nothing(session, tmp_path, name, inside):
-    folder = tmp_path / "ws/src/old" / name
-    (folder / inside).mkdir(parents=True)
-    session.packages = [Package(folder, f"old/{name}", name)]
-    assert "never built" in workspace(session).seen

@@ -1,7 +1,6 @@
 """Variants: what a file may say, what a seed draws, and the words of a task."""
 
 import dataclasses
-import itertools
 import tempfile
 from types import SimpleNamespace
 
@@ -11,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tutorial_check.course import read_course
-from tutorial_check.exercises.joystick_task import JoystickTask, moved, order
+from tutorial_check.exercises.joystick_task import JoystickTask
 from tutorial_check.model import WRONG, CannotCheck, Result
 from tutorial_check.variants import drawn, read_variant, sheet, variant_of
 
@@ -93,12 +92,6 @@ def test_a_task_sheet_has_all_values_and_the_file():
     odd = "{nonsense} {name:9999999999} {name.__class__} {{} {"
     own = dataclasses.replace(COURSE, sheet=f"{{name}}: {odd}")
     assert sheet(own, ALL, "{file}") == f"{{file}}: {odd}"
-
-
-@pytest.mark.parametrize(("linear", "angular"), itertools.permutations(range(6), 2))
-def test_an_order_of_axes_loses_none(linear, angular):
-    values = moved(range(8), order({1: linear, 0: angular}))
-    assert sorted(values) == list(range(8)) and (values[linear], values[angular]) == (1, 0)
 
 
 def words(field, text, values=None):

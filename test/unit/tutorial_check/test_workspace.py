@@ -99,19 +99,6 @@ def test_a_zip_beside_something_else_is_not_unpacked(tmp_path, beside):
     assert hand_in(tmp_path / "ada", tmp_path / "scratch")[1] == tmp_path / "ada"
 
 
-def test_recordings_and_views_that_launch_files_name_by_whole_paths_are_found(tmp_path):
-    kept, view = tmp_path / "joy.bag", tmp_path / "my.rviz"
-    for path in (kept, view, tmp_path / "secret", tmp_path / "bag.old"):
-        path.touch()
-    launch = tmp_path / "src/joy2twist/launch"
-    launch.mkdir(parents=True)
-    (launch / "a.launch").write_text(
-        f'<node args="--loop {kept} $(find x){view} {tmp_path}/none.bag {tmp_path}/secret"/>'
-    )
-    (launch / "b.launch").write_text(f"<node args='{view} {tmp_path}/bag.old'/>")
-    assert workspace.named_outside(tmp_path / "src") == [str(kept), str(view)]
-
-
 @pytest.mark.parametrize("name", ["/evil.txt", "a/../../evil.txt", "..\\evil.txt"])
 def test_a_zip_with_a_path_outside_is_refused(tmp_path, name):
     with pytest.raises(CannotCheck, match="outside"):
