@@ -6,13 +6,6 @@ from edits import TURTLEBOT, J
 
 LB = 4  # the button that programs for the handout's task may wait for
 SCALES = {0: "scale_angular", 1: "scale_linear"}
-# What a text cannot be turned with: axes in an order of their own.
-ODD_AXES = re.compile(r"axes\[[^\d\]]|axes\[\d+:|[=*] *(data|joy|msg)\.axes\b(?!\[)")
-
-
-def can_be_turned(src):
-    """Whether all axes in the programs are named by their number."""
-    return not any(ODD_AXES.search(text) for text in texts(src))
 
 
 def texts(src):

@@ -12,14 +12,13 @@ import variants
 HERE = Path(__file__).resolve().parent
 REPOSITORY = HERE.parents[1]
 BAG = REPOSITORY / "joy2twist" / "bag" / "joy.bag"
-SOME = 40  # every so many-th mistake in another task, if not everything is asked for
 OPTIONS = {
     "--every": (1, "only every Nth row of data"),
     "--first": (0, "the row with which --every begins"),
     "--students": (4, "how many in the test of --all"),
     "--submissions": (8, "how many on a cluster"),
     "--repeat": (0, "only N checks of right solutions, in turn"),
-    "--everything": (False, "each mistake in all exercises, and in another task; two hours"),
+    "--everything": (False, "all exercises, and not only those of the mistakes; an hour"),
     "--busy": (False, "beside an endless loop on each processor"),
 }
 
@@ -59,13 +58,6 @@ def is_row(item):
     return bool({"row", "variant"} & set(getattr(item, "fixturenames", ())))
 
 
-def leave_out(items, is_one_of_many, every, first=0):
-    """Keep only every so many-th of those."""
-    many = [item for item in items if is_one_of_many(item)]
-    left_out = {item for at, item in enumerate(many) if (at - first) % every}
-    items[:] = [item for item in items if item not in left_out]
-
-
 def pytest_collection_modifyitems(config, items):
     """Leave out what was not asked for."""
     option = config.getoption
@@ -73,8 +65,9 @@ def pytest_collection_modifyitems(config, items):
         items[:] = [item for item in items if "variant" in getattr(item, "fixturenames", ())]
     if not option("--everything"):
         items[:] = [item for item in items if "in_all_exercises" not in item.name]
-        leave_out(items, lambda item: "mistake_in_a_task" in item.name, SOME)
-    leave_out(items, is_row, option("--every"), option("--first"))
+    rows = list(filter(is_row, items))
+    left_out = {item for at, item in enumerate(rows, -option("--first")) if at % option("--every")}
+    items[:] = [item for item in items if item not in left_out]
 
 
 @pytest.fixture(scope="session")

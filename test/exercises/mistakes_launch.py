@@ -1,6 +1,6 @@
 """Mistakes in launch files, each a row: (exercise, what, edits, check, word or words of the diagnosis)."""
 
-from edits import (  # noqa: F401
+from edits import (
     JOY2TWIST,
     LAUNCH_BAG,
     LAUNCH_JOY,
@@ -8,14 +8,12 @@ from edits import (  # noqa: F401
     TURTLEBOT,
     B,
     J,
-    chmod,
     copy,
     move,
     put,
     remove,
-    windows,
     write,
-)
+)  # fmt: skip
 
 OWN = '  <node pkg="joy2twist" name="myjoystick2twist" type="joy2twist.py">\n  </node>\n'
 ROBOT = '  <include file="$(find rbx1_bringup)/launch/fake_turtlebot.launch"/>\n'

@@ -15,7 +15,7 @@ from edits import (
     remove,
     windows,
     write,
-)
+)  # fmt: skip
 
 PUT_XML, PUT_JOY_XML = f"{B}/package.xml", f"{J}/package.xml"
 

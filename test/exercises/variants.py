@@ -16,7 +16,7 @@ from edits import (
     move,
     put,
     write,
-)
+)  # fmt: skip
 from grammar import RIGHT
 from mistakes_world import RIGHT as RIGHT_IN_WORLD
 
