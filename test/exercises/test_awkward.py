@@ -182,11 +182,3 @@ def test_watch_checks_again_once_a_file_is_saved(literal, underlay, tmp_path):
             assert any(line.startswith("1 of 1 exercises done") for line in process.stdout)
         finally:
             process.kill()
-
-
-def test_two_checks_and_a_roscore_do_not_meet(literal, underlay):
-    env = environment(ROS_MASTER_URI="http://localhost:1")
-    words = command(underlay, "--in", literal.parent, "3")
-    both = [subprocess.Popen(words, env=env, stdout=subprocess.PIPE, text=True) for _ in range(2)]
-    printed = [process.communicate(timeout=1800)[0] for process in both]
-    assert [process.returncode for process in both] == [0, 0], printed

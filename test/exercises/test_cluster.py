@@ -161,17 +161,6 @@ def test_a_submission_that_ends_workers_is_abandoned(scheduler, worker, client):
     assert "abandoned: 2 workers have ended while they checked it" in call.output
 
 
-def test_without_a_scheduler_there_is_one_line(client, start, key):
-    key.parent.mkdir(parents=True)
-    key.touch()
-    call = client()
-    assert call.wait(60) == 2
-    assert f"check: no verdict: no Dask scheduler at {ADDRESS}: " in call.output
-    call = start("one", *MACHINES, "worker", "127.0.0.1:1")
-    assert call.wait(60) == 1
-    assert call.output == "worker: no Dask scheduler at 127.0.0.1:1: Connection refused\n"
-
-
 # Of a student's program: it reads the key, and runs code where that leads.
 ATTACK = """
 try:

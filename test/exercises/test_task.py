@@ -3,7 +3,7 @@
 import re
 
 import pytest
-from another_task import texts, turn
+from edits import TALKER, J, put
 
 from tutorial_check.course import read_course
 from tutorial_check.examination import examine
@@ -14,7 +14,39 @@ COURSE = read_course()
 TOPICS = {"joy", "cmd_vel"}
 FEW = {"axis_linear": 5, "axis_angular": 2, "scale_linear": -2.0, "rate": 1}  # else the handout's
 ADA, BOB = (drawn(COURSE, "test", name) for name in ("ada", "bob"))
+NAMES_THE_PACKAGE = (f'pkg="{J}"', f"find {J})", f"<name>{J}<", f"project({J})", f"_manifest('{J}'")
+HANDOUT = {"axis_linear": 1, "axis_angular": 0, "scale_linear": 1.0, "scale_angular": 1.0,
+           "joy": "/joy", "cmd_vel": "/cmd_vel", "package": J, "node": "listener", "rate": 10}  # fmt: skip
 CHECKS = {"joy": "C14", "cmd_vel": "C15", "package": "C12", "node": "C15", "rate": "C6"}
+
+
+def texts(src):
+    """{path: text} of all programs and launch files of a workspace."""
+    files = (path for path in src.rglob("*") if path.is_file() and path.suffix != ".bag")
+    return {path: path.read_text() for path in files}
+
+
+def turn(src, values):
+    """Make of the literal solution in a src folder one of another task."""
+    its = {**HANDOUT, **values}
+    held = f" * data.buttons[{values['enable_button']}]" if "enable_button" in values else ""
+    new = {
+        "data.axes[1]": f"{its['scale_linear']} * data.axes[{its['axis_linear']}]{held}",
+        "data.axes[0]": f"{its['scale_angular']} * data.axes[{its['axis_angular']}]{held}",
+        '"/joy"': f'"{its["joy"]}"',
+        "'/cmd_vel'": f"'{its['cmd_vel']}'",
+        'from="/cmd_vel"': f'from="{its["cmd_vel"]}"',
+        "'listener'": f"'{its['node']}'",
+        **{quoted: quoted.replace(J, its["package"]) for quoted in NAMES_THE_PACKAGE},
+    }
+    pattern = "|".join(map(re.escape, new))
+    for path, text in texts(src / J).items():
+        own = [key for key in TOPICS & set(values) if f'from="/{key}"' not in text]
+        remaps = "".join(f'<remap from="{its[key]}" to="/{key}"/>' for key in own)
+        connected = re.sub(f'(<node pkg="{J}"[^>]*>)', rf"\1{remaps}", text)
+        path.write_text(re.sub(pattern, lambda word: new[word[0]], connected))
+    (src / J).rename(src / its["package"])
+    put(TALKER, "Rate(10)", f"Rate({its['rate']})")(src)
 
 
 @pytest.fixture
@@ -25,7 +57,7 @@ def wrong_of(literal, underlay):
         outcomes = examine(literal.parent, underlay, exercises, variant=values)
         assert not [one.trouble for one in outcomes if one.trouble]
         found = [one for each in outcomes for one in each.results]
-        own = "\n".join((*texts(literal), *map(str, literal.rglob("*"))))
+        own = "\n".join((*texts(literal).values(), *map(str, literal.rglob("*"))))
         for one in found:
             assert not given_away(one, values, own), "\n".join(lines_of(one))
         return [one for one in found if one.status in ("wrong", "unreached")]

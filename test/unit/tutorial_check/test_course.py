@@ -4,7 +4,6 @@ import pytest
 
 from tutorial_check.course import checks_of, read_course
 from tutorial_check.model import CannotCheck
-from tutorial_check.self_test import solutions
 
 YAML = 'title: T\ndocument: sheet\nexercises: {"2": two, "1": {title: one, points: 3}}\n'
 CHECKS = """
@@ -92,19 +91,3 @@ def test_wrong_checks_are_one_line(course, checks, why):
 def test_a_folder_without_a_course(tmp_path):
     with pytest.raises(CannotCheck, match=r"a course is a folder with course\.yaml"):
         read_course(tmp_path)
-
-
-def test_the_solutions_of_a_course(course):
-    one = course()
-    with pytest.raises(CannotCheck, match="a self-test needs a right solution"):
-        list(solutions(one))
-    for name in ("right", "right_other", "wrong_S2_crooked"):
-        (one.folder / "solutions" / name).mkdir(parents=True)
-    assert [(name, at, len(folders)) for name, at, folders in solutions(one)] == [
-        ("right", "", 1),
-        ("right_other", "", 1),
-        ("wrong_S2_crooked", "S2", 2),
-    ]
-    (one.folder / "solutions" / "odd").mkdir()
-    with pytest.raises(CannotCheck, match="call it right_WHAT, or wrong_CHECK_WHAT"):
-        list(solutions(one))

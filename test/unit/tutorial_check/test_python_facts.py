@@ -10,25 +10,13 @@ from tutorial_check.exercises.changed_programs import flipped_anonymous, unmaske
 from tutorial_check.python_facts import PythonFacts
 from tutorial_check.python_text import unreadable
 
-NO_LINE_ENDS = pytest.mark.parametrize("odd", ["\f", "\v", "\x1c", "\x85", "\u2028"])  # of a PDF
 ANONYMOUS = functools.partial(flipped_anonymous, wanted=True)
 NO_JOY = functools.partial(without_name, name="Joy")
-PROGRAM = """
-import rospy
-class Node(object):
-    def __init__(self):
-        rospy.init_node("a", anonymous=False)
-        rospy.Subscriber("/joy", Joy, self.callback)
-    def callback(self, data): send(data)
-class Odd(Exception): pass
-def send(data):
-    data.pub.publish(1)
-if __name__ == "__main__":
-    try:
-        Node()
-    except:
-        pass
-    rospy.spin
+PROGRAM = """rospy.init_node("a", anonymous=False)
+try:
+    rospy.spin()
+except:
+    pass
 """
 
 
@@ -37,28 +25,15 @@ def test_a_warning_is_no_error_and_not_shown(recwarn):
     assert not recwarn
 
 
-@NO_LINE_ENDS
+@pytest.mark.parametrize("odd", ["\f", "\v", "\x1c", "\x85", "\u2028"])  # of a PDF
 def test_a_character_that_ends_no_line_for_python_ends_none_here(odd):
     wrong = PythonFacts(f"# {odd}\nfrom std msgs.msg import String")
     assert wrong.error_text.startswith("from std")
     assert PythonFacts(f"# {odd}\nif name == ' main ':\n    pass").odd_main[1].startswith("if name")
     text = f"# a page{odd}and the next\r\n{PROGRAM}"
     assert 'init_node("a", anonymous=True)' in ANONYMOUS(text)
-    assert "except ():\n        pass" in unmasked(text)
+    assert "except ():\n    pass" in unmasked(text)
     assert NO_JOY(f"{text}from m import Joy").endswith("from m import Joy\ndel Joy\n")
-
-
-@pytest.mark.parametrize(
-    ("line", "is_odd"),
-    [
-        ("if __name__ == '__main__':", False),
-        ("if _name_ == '_main_':", True),
-        ("name = 'main'\nif name == 'main':", False),
-        ("if __name__ == 'joy2twist':", False),
-    ],
-)
-def test_a_line_of_main_that_lost_its_underscores_is_odd(line, is_odd):
-    assert bool(PythonFacts(f"import rospy\n{line}\n    pass\n").odd_main) == is_odd
 
 
 @pytest.mark.parametrize(
