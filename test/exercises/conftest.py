@@ -84,12 +84,3 @@ def literal(tmp_path):
     (src / "joy2twist" / "bag").mkdir()
     shutil.copy(BAG, src / "joy2twist" / "bag")
     return src
-
-
-@pytest.fixture
-def solutions(tmp_path):
-    """A workspace with the solutions of this suite; its src."""
-    src = tmp_path / "ws" / "src"
-    for name in ("beginner_tutorials", "joy2twist"):
-        shutil.copytree(REPOSITORY / name, src / name)
-    return src

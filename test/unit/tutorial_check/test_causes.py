@@ -109,21 +109,13 @@ TypeError: 'tuple' object is not callable
 
 more
 """
-CLOSED = """Traceback (most recent call last):
-  File "/usr/lib/python3/dist-packages/rospy/topics.py", line 1085, in publish
-    self.message_data_sent += b.tell() #STATS
-ValueError: I/O operation on closed file.
-
-During handling of the above exception, another exception occurred:
-
-"""
 
 
 @pytest.mark.parametrize(
     "no_mistake",
     [
         OUTPUT.replace("TypeError: 'tuple'", "rospy.ROSException: publish() to a closed topic"),
-        CLOSED + OUTPUT.replace("TypeError:", "ROSException: topic was closed during publish()"),
+        OUTPUT.replace("TypeError:", "ROSException: topic was closed during publish()"),
         "Traceback (most recent call last):\n",  # it was cut off here
     ],
 )

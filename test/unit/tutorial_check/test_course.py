@@ -86,8 +86,3 @@ def test_wrong_checks_are_one_line(course, checks, why):
     with pytest.raises(CannotCheck) as error:
         checks_of(course(checks=checks))
     assert why in str(error.value) and "\n" not in str(error.value)
-
-
-def test_a_folder_without_a_course(tmp_path):
-    with pytest.raises(CannotCheck, match=r"a course is a folder with course\.yaml"):
-        read_course(tmp_path)

@@ -61,14 +61,6 @@ def test_an_examination_that_finds_nothing_has_no_verdict(examine):
         examine([])
 
 
-@pytest.mark.parametrize("name", ["ROS_ETC_DIR", "CMAKE_POLICY_VERSION_MINIMUM"])
-def test_variables_of_a_shell_of_the_suite_hold(examine, tmp_path, monkeypatch, name):
-    (tmp_path / "setup.bash").write_text(f"export {name}=of_the_system\n")
-    monkeypatch.setenv(name, "of_the_suite")
-    outcomes = examine([RESULT], f"""printf '{{"cannot": "%s"}}\\n' "${name}" """)
-    assert found_in(outcomes)["3"] == ([], "of_the_suite")
-
-
 def test_a_result_that_nobody_asked_for_or_that_comes_twice_is_none(examine):
     stray = RESULT.replace('"2"', '"4.3"')
     late = RESULT.replace("C1", "C2")

@@ -30,8 +30,3 @@ def test_a_helper_that_was_late_is_asked_no_more(helper, gate):
         pass
     with pytest.raises(CannotCheck, match="hangs in read_text"):
         helper.call("exists")
-
-
-def test_a_fault_of_the_helper_is_reported(helper):
-    with pytest.raises(CannotCheck, match="failed in rename: TypeError"):
-        helper.call("rename")

@@ -1,4 +1,4 @@
-"""The files for other programs, and the text for people."""
+"""The files for other programs, and the last line for people."""
 
 import json
 import xml.etree.ElementTree as ET
@@ -6,16 +6,9 @@ import xml.etree.ElementTree as ET
 import pytest
 
 from tutorial_check.examination import Outcome
-from tutorial_check.formats import (
-    FORMATS,
-    as_classroom,
-    as_gradescope,
-    as_json,
-    as_junit,
-    without_hints,
-)
+from tutorial_check.formats import as_classroom, as_gradescope, as_json, as_junit
 from tutorial_check.model import NOTE, OK, UNREACHED, WRONG, Result
-from tutorial_check.report import summary, text_of
+from tutorial_check.report import summary
 
 NAMES = ("id", "status", "title", "expected", "seen", "where", "hint")
 VALUES = ("C16", WRONG, "three", "a < b", "c\x00\x1b & d", "f.py:3", "do it")
@@ -77,11 +70,6 @@ def test_classroom_50_learns_which_submission_it_is():
     reviewed = {**GIVEN, "REVIEW_URL": "https://git.example/v"}
     assert json.loads(as_classroom([GOOD], reviewed))["review"] == "https://git.example/v"
     assert set(json.loads(as_classroom([GOOD], {}))) == {*score, "tests"}
-
-
-@pytest.mark.parametrize("make", [*(make for _, make in FORMATS.values()), text_of])
-def test_no_format_shows_a_hint_that_is_not_to_be_shown(make):
-    assert "do it" not in make(without_hints([BAD]))
 
 
 @pytest.mark.parametrize(("other", "rest"), [(CUT_OFF, ""), (EMPTY, " (4.2: nothing to check)")])

@@ -52,17 +52,6 @@ def test_time_without_a_processor_does_not_count(machine, passed, programs_s, st
     assert (machine.patience.strained(), machine.patience.hopeless()) == (strained, hopeless)
 
 
-@pytest.mark.parametrize(
-    ("first", "then"),
-    [((80.0, 10_000, 0), (3.0, 1_000, 1_500)), ((3.0, 1_000, 1_500), (1.0, 100, 0))],
-)
-def test_a_strain_is_seen_before_and_after_a_calm(machine, first, then):
-    machine.passes(*first)
-    machine.patience.begin()
-    machine.passes(*then)
-    assert machine.patience.strained() and not machine.patience.hopeless()
-
-
 def test_programs_are_idle_that_neither_work_nor_wait_for_a_processor(machine):
     idle_s = []
     for passed in ((500,), (20,), (900, 0, OURS), (0, 500)):

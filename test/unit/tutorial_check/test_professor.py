@@ -11,7 +11,7 @@ from tutorial_check import professor
 from tutorial_check.course import read_course
 from tutorial_check.examination import Outcome
 from tutorial_check.last_run import digest_of_checks
-from tutorial_check.model import OK, UNREACHED, CannotCheck, Result
+from tutorial_check.model import OK, UNREACHED, Result
 from tutorial_testing.waiting import wait_for
 
 WELL = Outcome("2", [Result("C1", OK, "one")], 1.0, True)
@@ -85,19 +85,6 @@ def test_reports_of_an_earlier_check_are_removed(group):
     assert group.check_all(again=True)[0] == 2
     assert [file.exists() for file in reports] == [False, True]
     assert "could not be checked: IndexError" in reports[1].read_text()
-
-
-@pytest.mark.parametrize(
-    ("blocked", "out", "why"),
-    [("check/table.html/", None, "Is a directory"), ("file", "file", "--out names another")],
-)
-def test_results_that_cannot_be_written_are_found_before_the_work(group, blocked, out, why):
-    group.add("ada")
-    path = group.folder / blocked
-    path.mkdir(parents=True) if blocked.endswith("/") else path.touch()
-    with pytest.raises(CannotCheck, match=why):
-        group.check_all(out and group.folder / out)
-    assert not group.begun
 
 
 def test_what_is_no_folder_and_no_zip_has_a_row_all_the_same(group):

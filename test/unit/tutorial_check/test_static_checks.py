@@ -47,15 +47,12 @@ def judge(tmp_path):
         edits.apply(changes, source)
         prepare(tmp_path, None)
         (tmp_path / "lower" / "share" / "fake_turtlebot_sim").mkdir(parents=True)
+        box = Box(variables(tmp_path, {**os.environ, "ROS_PACKAGE_PATH": PACKAGES}))
         session = Session(
-            tmp_path,
-            find_layout(tmp_path / "ws"),
-            ["2", "3", "4.3", "6.2"],
-            Box(variables(tmp_path, {**os.environ, "ROS_PACKAGE_PATH": PACKAGES})),
-            underlay=str(tmp_path / "lower" / "setup.bash"),
-            can_have_devices=False,
+            tmp_path, find_layout(tmp_path / "ws"), ["2", "3", "4.3", "6.2"], box,
+            underlay=str(tmp_path / "lower" / "setup.bash"), can_have_devices=False,
             task=JoystickTask({}),
-        )
+        )  # fmt: skip
         run = Run(CHECKS, session, lambda _: False, lambda: False)
         return [run.result(each) for each in checks]
 

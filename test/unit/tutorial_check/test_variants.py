@@ -105,13 +105,11 @@ def words(field, text, values=None):
     [
         ("title", "axis 1, axis 0", "axes[axis_linear], axes[axis_angular]"),
         ("expected", "x = axes[1]", "x = scale_linear * axes[axis_linear]"),
-        ("seen", "linear.x = 0.50 * axes[1]", "linear.x = 0.50 * axes[axis_linear]"),
         ("seen", "linear.x follows axes[3]", "linear.x follows axes[1]"),
         ("hint", "linear.x = axes[1]", "linear.x = 0.5 * axes[3]"),
         ("hint", "the topic is called /cmd_vel", "the topic is called /drive"),
         ("seen", "it publishes on /unasked/cmd_vel", "it publishes on /cmd_vel"),
         ("expected", "Twists on /cmd_vel", "Twists on <cmd_vel>"),
-        ("expected", "on /cmd_vel_mux/input/teleop", "on /cmd_vel_mux/input/teleop"),
         ("seen", "a package called not_joy2twist", "a package called joy2twist"),
         ("look", "rosrun joy2twist joy2twist.py", "rosrun <package> joy2twist.py"),
         ("seen", "it drives with LB released", "it drives with <enable_button> released"),

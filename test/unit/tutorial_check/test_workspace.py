@@ -128,13 +128,6 @@ def test_rights_survive_a_zip_and_those_of_more_than_its_owner_no_copy(tmp_path)
     assert modes == {**rights, "tool": 0o755}
 
 
-def test_a_workspace_that_is_too_large_is_refused(tmp_path, monkeypatch):
-    monkeypatch.setattr(workspace, "MOST_BYTES", 10)
-    package(tmp_path / "src" / "joy2twist")
-    with pytest.raises(CannotCheck, match="more than"):
-        copied(tmp_path, tmp_path)
-
-
 PACKAGE, SCRIPT = "joy2twist/package.xml", "joy2twist/scripts/joy2twist.py"
 J = "ada/src/joy2twist"
 BOB = ("bob/src/joy2twist/package.xml", "bob/src/joy2twist/scripts/joy2twist.py", "ada_too/secret")
