@@ -22,7 +22,9 @@ from rospy.topics import _SubscriberImpl
 attach = _SubscriberImpl.add_callback
 
 def attach_late(*arguments):
-    time.sleep(0.2)
+    until_s = time.monotonic() + 0.2
+    while time.monotonic() < until_s:
+        pass
     attach(*arguments)
 
 _SubscriberImpl.add_callback = attach_late
