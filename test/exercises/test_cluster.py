@@ -100,7 +100,7 @@ def hand_in(literal, folder, count):
         student = folder / f"student_{number:04}"
         shutil.copytree(literal.parent, student)
         apply(rows[number % len(rows)][2], student / "src")
-        os.link(student / "src" / "joy2twist" / "package.xml", student / "the_same_file")
+        os.link(student / "src" / "beginner_tutorials" / "package.xml", student / "a_second_name")
         (student / "gone").symlink_to("../../gone")
         os.mkfifo(student / "pipe")
 

@@ -116,17 +116,19 @@ def test_the_results_of_an_earlier_check_are_no_student(group, tmp_path, capsys)
 
 
 def test_only_what_changed_or_had_no_verdict_is_checked_again(group, capsys):
-    group.add("ada", "bob")
+    group.add("ada", "bob", "eve")
+    (group.folder / "eve" / "talker.py").touch()
     assert group.check_all()[0] == 0
     (group.folder / "bob" / "talker.py").write_text("2")
+    (group.folder / "eve" / "talker.py").chmod(0o755)
     first = group.check_all()
     assert group.check_all() == (0, [[*row[:4], "0.0", *row[5:]] for row in first[1]])
-    assert group.begun == ["ada", "bob", "bob"]
+    assert group.begun == ["ada", "bob", "eve", "bob", "eve"]
     assert "ada: 1 of 1 exercises done, unchanged since the last check" in capsys.readouterr().out
     group.come_to = lambda name: [NO_VERDICT]
     group.check_all(again=True)
     group.check_all()
-    assert group.begun[3:] == ["ada", "bob"] * 2
+    assert group.begun[5:] == ["ada", "bob", "eve"] * 2
 
 
 def test_the_page_can_be_read_while_it_is_made(group):
