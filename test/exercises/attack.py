@@ -109,7 +109,7 @@ ATTACKS = {
     "change another student's files": lambda: write(aims["other"], "a"),
     "change the rights of your files": lambda: os.chmod(aims["home"], 0o700) is None,
     "end your processes": lambda: os.kill(aims["process"], 0) is None,
-    "change what you check": lambda: write(aims["original"], "a"),
+    "change what you check": lambda: os.truncate(aims["original"], 0) is None,
     "read this suite's solutions": lambda: read(aims["solution"]),
     "reach your network": lambda: len(socket.if_nameindex()) > 1,
     "reach your roscore": lambda: connect(socket.AF_INET, ("127.0.0.1", aims["port"])),

@@ -12,7 +12,6 @@ import variants
 HERE = Path(__file__).resolve().parent
 REPOSITORY = HERE.parents[1]
 BAG = REPOSITORY / "joy2twist" / "bag" / "joy.bag"
-SOME_TASKS = 40  # every so many-th of the tests of other tasks, if not all are asked for
 OPTIONS = {
     "--every": (1, "only every Nth row of data"),
     "--first": (0, "the row with which --every begins"),
@@ -20,7 +19,6 @@ OPTIONS = {
     "--submissions": (8, "how many on a cluster"),
     "--repeat": (0, "only N checks of right solutions, in turn"),
     "--everything": (False, "all exercises, and not only those of the mistakes; an hour"),
-    "--tasks": (False, "40 other tasks, and each mistake in three; half an hour"),
     "--busy": (False, "beside an endless loop on each processor"),
 }
 
@@ -56,20 +54,19 @@ def pytest_generate_tests(metafunc):
         metafunc.parametrize("variant", rows, ids=names)
 
 
+def is_row(item):
+    return bool({"row", "variant"} & set(getattr(item, "fixturenames", ())))
+
+
 def pytest_collection_modifyitems(config, items):
     """Leave out what was not asked for."""
-    if config.getoption("--repeat"):
+    option = config.getoption
+    if option("--repeat"):
         items[:] = [item for item in items if "variant" in getattr(item, "fixturenames", ())]
-    if not config.getoption("--everything"):
-        items[:] = [item for item in items if "test_in_all_exercises" not in item.name]
-    if not config.getoption("--tasks"):
-        of_tasks = [item for item in items if item.fspath.basename == "test_task.py"]
-        many = [item for item in of_tasks if "test_each_value" not in item.name]
-        left_out = {item for at, item in enumerate(many) if at % SOME_TASKS}
-        items[:] = [item for item in items if item not in left_out]
-    rows = [item for item in items if {"row", "variant"} & set(getattr(item, "fixturenames", ()))]
-    every, first = config.getoption("--every"), config.getoption("--first")
-    left_out = {item for at, item in enumerate(rows) if (at - first) % every}
+    if not option("--everything"):
+        items[:] = [item for item in items if "in_all_exercises" not in item.name]
+    rows = list(filter(is_row, items))
+    left_out = {item for at, item in enumerate(rows, -option("--first")) if at % option("--every")}
     items[:] = [item for item in items if item not in left_out]
 
 
@@ -86,13 +83,4 @@ def literal(tmp_path):
     shutil.copytree(HERE / "literal", src)
     (src / "joy2twist" / "bag").mkdir()
     shutil.copy(BAG, src / "joy2twist" / "bag")
-    return src
-
-
-@pytest.fixture
-def solutions(tmp_path):
-    """A workspace with the solutions of this suite; its src."""
-    src = tmp_path / "ws" / "src"
-    for name in ("beginner_tutorials", "joy2twist"):
-        shutil.copytree(REPOSITORY / name, src / name)
     return src

@@ -1,6 +1,6 @@
 """Mistakes in launch files, each a row: (exercise, what, edits, check, word or words of the diagnosis)."""
 
-from edits import (  # noqa: F401
+from edits import (
     JOY2TWIST,
     LAUNCH_BAG,
     LAUNCH_JOY,
@@ -8,14 +8,12 @@ from edits import (  # noqa: F401
     TURTLEBOT,
     B,
     J,
-    chmod,
     copy,
     move,
     put,
     remove,
-    windows,
     write,
-)
+)  # fmt: skip
 
 OWN = '  <node pkg="joy2twist" name="myjoystick2twist" type="joy2twist.py">\n  </node>\n'
 ROBOT = '  <include file="$(find rbx1_bringup)/launch/fake_turtlebot.launch"/>\n'
@@ -72,7 +70,6 @@ ROWS = [
     bag("curly quotes", '"rviz"', "“rviz”", "C21", "curly"),
     bag("<Node>", '<node pkg="joy2twist" name="myjoystick2twist" type="joy2twist.py">\n  </node>', '<Node pkg="joy2twist" name="myjoystick2twist" type="joy2twist.py">\n  </Node>', "C21", "lower case"),
     bag("a package that does not exist", "$(find rbx1_bringup)", "$(find rbx1_bringupp)", "C21", "rbx1_bringupp"),
-    bag("a file that does not exist", "fake_turtlebot.launch", "fake_turtelbot.launch", "C21", "fake_turtelbot"),
     bag("include without a path", "$(find rbx1_bringup)/launch/fake_turtlebot.launch", "fake_turtlebot.launch", "C21", "whole path"),
     bag("include pkg= file=", 'include file="$(find rbx1_bringup)/launch/fake_turtlebot.launch"', 'include pkg="rbx1_bringup" file="fake_turtlebot.launch"', "C21", "include"),
     bag("a node that is a launch file", ROBOT, '  <node pkg="rbx1_bringup" name="robot" type="fake_turtlebot.launch"/>\n', "C21", "<include"),
@@ -82,13 +79,11 @@ ROWS = [
     bag("a remap without from", "  </node>", '    <remap name="/cmd_vel" to="/x"/>\n  </node>', "C21", ("launch_bag.launch:3", "hint:     <remap from=")),
     bag("an include without a file", ROBOT, "  <include/>\n", "C21", ("launch_bag.launch:4", "an include has file=")),
     bag("two nodes of one name", 'name="my_rviz"', 'name="myjoystick2twist"', "C21", ("launch_bag.launch:5", "each node has a name of its own")),
-    bag('type="joy2twist"', 'type="joy2twist.py"', 'type="joy2twist"', "C21", "joy2twist.py"),
     bag("type missing", ' type="joy2twist.py"', "", "C21", ("'type'", "launch_bag.launch:5")),
     bag("arg for args", 'args="--loop', 'arg="--loop', "C21", ("launch_bag.launch:7", "is args= meant?")),
     bag("the bag is one folder further down", "/bag/joy.bag", "/joy.bag", "C21", "$(find joy2twist)/bag/joy.bag"),
     bag("bag folder not made", "/bag/joy.bag", "/bags/joy.bag", "C21", "bag"),
     joy('pkg="joy2twist" type="joy_node"', 'pkg="joy" name="joy_node"', 'pkg="joy2twist" name="joy_node"', "C21", 'pkg="joy"'),
-    joy("joy_node misspelt", 'type="joy_node"', 'type="joynode"', "C21", "joynode"),
     bag("no RViz", RVIZ, "", "C22", "RViz"),
     bag("no robot", ROBOT, "", "C22", "robot"),
     bag("no joy2twist", OWN, "", "C22", "joy2twist"),
@@ -97,22 +92,18 @@ ROWS = [
     bag("a joystick beside the recording", OWN, OWN + JOY, "C22", ("it starts a joystick, too", "launch_joy_node.launch has it")),
     bag("one dash", "--loop", "-loop", "C22", ("launch_bag.launch:7", "-loop, which it does not", "two plain hyphens: --loop")),
     bag("a long dash", "--loop", "\u2014clock", "C22", ("launch_bag.launch:7", "\u2014clock, which it does not", "two plain hyphens: --clock")),
-    bag("rviz file that does not exist", "sim.rviz", "simm.rviz", "C22", "simm.rviz"),
     bag("bag without a path", "$(find joy2twist)/bag/joy.bag", "joy.bag", "C22", "whole path"),
     bag("cmd_vel remapped away", 'type="joy2twist.py">', 'type="joy2twist.py">\n  <remap from="/cmd_vel" to="/cmd"/>', "C23", "/cmd_vel"),
     joy("no joy_node", JOY, "", "C25", "joy_node"),
-    joy("no robot for the joystick", ROBOT, "", "C25", "robot"),
     joy("a recording beside the joystick", JOY, JOY + '  <node name="rosbag" pkg="rosbag" type="play" args="--loop $(find joy2twist)/bag/joy.bag"/>\n', "C25", "both"),
     joy("/joy remapped away", 'type="joy_node">', 'type="joy_node">\n  <remap from="joy" to="joystick"/>', "C25", ("launch_joy_node.launch:8", "sends them on /joystick")),
     ("6.1", "no joy2twist_turtlebot.launch", [remove(TURTLEBOT)], "C27", "no such file"),
     mux("remap swapped", REMAP, '<remap from="/cmd_vel_mux/input/teleop" to="/cmd_vel"/>', "C27", "swapped"),
     mux("a blank at the end of to", 'teleop"', 'teleop "', "C27", ("turtlebot.launch:3", "blank")),
-    mux("a blank before from", 'from="', 'from=" ', "C27", ("turtlebot.launch:3", "blank")),
     mux("a dot in a name", 'from="/cmd_vel"', 'from="/cmd.vel"', "C27", ("turtlebot.launch:3", "letters, digits")),
     mux("no remap", f"    {REMAP}\n", "", "C27", "remap"),
     mux("<param> for <remap>", REMAP, '<param name="/cmd_vel" value="/cmd_vel_mux/input/teleop"/>', "C27", "param"),
     mux("remap of another name", 'from="/cmd_vel"', 'from="/cmdvel"', "C27", "/cmdvel"),
-    mux("teleop misspelt", "input/teleop", "input/teleope", "C27", "teleope"),
     mux("mux misspelt", "cmd_vel_mux/input", "cmd_vel_mux", "C27", "/cmd_vel_mux/teleop"),
     ("6.1", "a copy with the topic in it", [copy(JOY2TWIST, f"{J}/scripts/turtlebot.py"), put(f"{J}/scripts/turtlebot.py", "/cmd_vel", "/cmd_vel_mux/input/teleop"), put(TURTLEBOT, "joy2twist.py", "turtlebot.py"), put(TURTLEBOT, f"    {REMAP}\n", "")], "C27", ("by itself", "turtlebot.launch:2", REMAP)),
     mux("no node", 'type="joy2twist.py"', 'type="joy2twst.py"', "C27", "joy2twst"),

@@ -15,6 +15,20 @@ def row(what, path, old, new, check, word):
     return ("7", what, [*SOLVED, put(path, old, new)], check, word)
 
 
+# What a busy machine may do: rospy is connected long before it attaches the callback.
+LATE = """import rospy
+import time
+from rospy.topics import _SubscriberImpl
+attach = _SubscriberImpl.add_callback
+
+def attach_late(*arguments):
+    until_s = time.monotonic() + 0.2
+    while time.monotonic() < until_s:
+        pass
+    attach(*arguments)
+
+_SubscriberImpl.add_callback = attach_late
+"""
 SHOWN = 'rospy.loginfo("%s bumper %s", SIDES[event.bumper], change)'
 ROWS = [
     ("7", "no bumper.py", [*SOLVED, remove(BUMPER)], "C35", "scripts/bumper.py"),
@@ -41,6 +55,7 @@ ROWS = [
 ]  # fmt: skip
 RIGHT = [
     ("lesson 7, NaN and all else that is not measured left out", [*SOLVED, put(STOP, "scan.ranges)", "scan.ranges if scan.range_min <= one <= scan.range_max)"), put(WANDER, "any(one < FREE for one in scan.ranges)", "min([one for one in scan.ranges if one == one] or [9.0]) < FREE")], ["7"]),
+    ("lesson 7, a callback that is attached late", [*SOLVED, put(BUMPER, "import rospy\n", LATE)], ["7"]),
     ("lesson 7, each event as it comes", [*SOLVED, put(BUMPER, SHOWN, "rospy.loginfo(event)")], ["7"]),
     ("lesson 7, it ends once it stands", [*SOLVED, put(STOP, "        self.cmd_vel.publish(twist)", "        self.cmd_vel.publish(twist)\n        if not twist.linear.x:\n            rospy.signal_shutdown('at the wall')")], ["7"]),
     ("lesson 7, slower near the wall", [*SOLVED, put(STOP, "twist.linear.x = self.speed", "twist.linear.x = min(self.speed, 2 * (min(scan.ranges) - TO_FRONT - GAP) + 0.02)")], ["7"]),

@@ -9,23 +9,22 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
-from edits import JOY2TWIST, TALKER, apply, put, write
+from edits import JOY2TWIST, TALKER, put, write
 
 from tutorial_check import bubblewrap
 from tutorial_check.examination import examine
 from tutorial_check.report import lines_of
 
 FIRST = "#!/usr/bin/env python3\nimport os\n"
-FORK_BOMB = f"{FIRST}while True:\n    try:\n        os.fork()\n    except OSError:\n        pass\n"
-KILLS_ALL = f"{FIRST}os.kill(-1, 9)\n"
-PRINTS_WITHOUT_END = f"{FIRST}while True:\n    print('x' * 1000000)\n"
-FILLS_THE_DISK = (
-    f"{FIRST}file = open('filled', 'wb')\nwhile file.write(b'x' * 1000000):\n    pass\n"
-)
-ENDS_THE_MASTER = (
-    f"{FIRST}import xmlrpc.client\n"
-    "xmlrpc.client.ServerProxy(os.environ['ROS_MASTER_URI']).shutdown('/me', 'no more')\n"
-)
+MASTER = "xmlrpc.client\nxmlrpc.client.ServerProxy(os.environ['ROS_MASTER_URI'])"
+# Each in place of talker.py, and a word of what is said of it.
+TALKERS = {
+    "a fork bomb": ("while True:\n    try:\n        os.fork()\n    except OSError:\n        pass\n", "again and again"),
+    "kills all it may": ("os.kill(-1, 9)\n", ""),
+    "prints without end": ("while True:\n    print('x' * 1000000)\n", ""),
+    "fills the disk": ("file = open('filled', 'wb')\nwhile file.write(b'x' * 1000000):\n    pass\n", ""),
+    "ends the master": (f"import {MASTER}.shutdown('/me', 'no more')\n", ""),
+}  # fmt: skip
 # It works as it should, and leaves links where the checker writes a changed copy of it (C9).
 PLANTS_LINKS = """
 import os
@@ -36,6 +35,27 @@ for number in range(1, 9):
         os.symlink({aim!r}, link)
 """
 AFTER_INIT = "    rospy.init_node('listener', anonymous=True)\n"
+FORGED = '\n{"exercise": "4.3", "result": {"id": "C16", "status": "ok", "title": "x"}}\n'
+# Twists as they should be, but not for the Joys that came.
+FORGES_TWISTS = """import itertools
+loud = rospy.Publisher('/cmd_vel', Twist, queue_size=1)
+loud2 = rospy.Publisher('/joy', Joy, queue_size=1)
+msg = Twist()
+msg.linear.x = 0.4
+msg.angular.z = 0.3
+while not rospy.is_shutdown():
+    loud.publish(msg)
+    loud2.publish(Joy(axes=[0.3, 0.4, 0, 0, 0, 0], buttons=[0] * 12))
+    rospy.sleep(0.02)
+"""
+# Of joy2twist.py, after init_node: (lines, checks that may be wrong, words of the first).
+JOINED = {
+    "ends the master": (f"import os, {MASTER}.shutdown('/me', 'no more')", "C14", "has ended it"),
+    "kills its group": ("import os\nos.killpg(0, 9)", "C14", "signal 9"),
+    "prints a verdict": (f"print({FORGED!r} * 50)\n__import__('os')._exit(0)", "C14", ""),
+    "writes into the workspace": ("open('VICTIM', 'w')", "C14", "writes where it may not"),
+    "forges what the checker hears": (FORGES_TWISTS, "C14 C15", "/joy"),
+}
 
 
 def first_wrong(outcome):
@@ -63,81 +83,43 @@ def scratch(monkeypatch):
         yield folder
 
 
-def test_a_fork_bomb(literal, underlay, scratch):
-    """It does not spoil what comes after it, either."""
-    write(TALKER, FORK_BOMB)(literal)
-    bombed, after = examine(literal.parent, underlay, ["3", "4.3"])
-    check, report = first_wrong(bombed)
-    assert check == "C6", report
-    assert "again and again" in report
-    assert after.passed, after
-    assert not processes_like(f"{scratch}/")
-
-
-FORGED = '\n{"exercise": "4.3", "result": {"id": "C16", "status": "ok", "title": "x"}}\n'
-MASTER = "import os, xmlrpc.client\nxmlrpc.client.ServerProxy(os.environ['ROS_MASTER_URI'])"
-KILLS_OTHERS = "import os, signal\nsignal.signal(15, signal.SIG_IGN)\nos.kill(-1, 15)"
-SPOILS = "open('VICTIM', 'w').write('spoilt')"
-# Twists as they should be, but not for the Joys that came.
-FORGES_TWISTS = """import itertools
-loud = rospy.Publisher('/cmd_vel', Twist, queue_size=1)
-loud2 = rospy.Publisher('/joy', Joy, queue_size=1)
-msg = Twist()
-msg.linear.x = 0.4
-msg.angular.z = 0.3
-while not rospy.is_shutdown():
-    loud.publish(msg)
-    loud2.publish(Joy(axes=[0.3, 0.4, 0, 0, 0, 0], buttons=[0] * 12))
-    rospy.sleep(0.02)
-"""
-JOINED = {
-    # what it does: (its lines after init_node, checks that may be wrong, words of the first)
-    "ends the master": (f"{MASTER}.shutdown('/me', 'no more')", "C14", "has ended it"),
-    "kills its group": ("import os\nos.killpg(0, 9)", "C14", "signal 9"),
-    "kills all it may": (KILLS_OTHERS, "", ""),  # it may have found none
-    "fills the disk": ("open('filled', 'wb').write(b'x' * (100 << 20))", "C14", ""),
-    "prints a verdict": (f"print({FORGED!r} * 50)\n__import__('os')._exit(0)", "C14", ""),
-    "writes into the workspace": (SPOILS, "C14", "writes where it may not"),
-    "forges what the checker hears": (FORGES_TWISTS, "C14 C15", "/joy"),
-}
-
-
 @pytest.mark.parametrize("what", JOINED)
-def test_one_that(literal, underlay, what):
-    """The checker comes to a verdict; no other program and no file is harmed."""
+def test_a_hostile_joy2twist_has_a_verdict_and_harms_no_file(literal, underlay, what):
     victim = literal / "joy2twist" / "package.xml"
     before, (lines, checks, words) = victim.read_bytes(), JOINED[what]
     lines = textwrap.indent(lines.replace("VICTIM", str(victim)), "    ")
     put(JOY2TWIST, AFTER_INIT, f"{AFTER_INIT}{lines}\n")(literal)
     (outcome,) = examine(literal.parent, underlay, ["4.3"])
-    assert outcome.results and processes_like("pytest")
     assert victim.read_bytes() == before
     check, report = first_wrong(outcome)
-    assert not checks or (check in checks.split() and words in report), report
+    assert check in checks.split() and words in report, report
 
 
-def test_one_that_plants_links_where_the_checker_writes(literal, underlay, scratch, monkeypatch):
+def test_a_link_planted_where_the_checker_writes_is_not_followed(
+    literal, underlay, scratch, monkeypatch
+):
     """Without isolation, where the link leads somewhere."""
     monkeypatch.setattr(bubblewrap, "granted", bubblewrap.Isolation)
     plant = PLANTS_LINKS.format(aim=f"{scratch}/planted")
-    apply([put(TALKER, "import rospy\n", f"import rospy\n{plant}", 1)], literal)
+    put(TALKER, "import rospy\n", f"import rospy\n{plant}", 1)(literal)
     (outcome,) = examine(literal.parent, underlay, ["3"])
     assert "C9" in [result.id for result in outcome.results]
     assert not os.path.lexists(f"{scratch}/planted")
 
 
-def test_those_beside_them_are_unharmed(literal, underlay, tmp_path):
+def test_a_hostile_talker_harms_none_beside_or_after_it(literal, underlay, tmp_path, scratch):
     """Two at a time, as check --all has it: before and after each hostile one comes a right one."""
-    programs = [FORK_BOMB, KILLS_ALL, PRINTS_WITHOUT_END, FILLS_THE_DISK, ENDS_THE_MASTER]
     students = [tmp_path / "right_0"]
     shutil.copytree(literal.parent, students[0])
-    for number, program in enumerate(programs, 1):
+    for number, (program, _) in enumerate(TALKERS.values(), 1):
         students += [tmp_path / f"hostile_{number}", tmp_path / f"right_{number}"]
         for student in students[-2:]:
             shutil.copytree(literal.parent, student)
-        write(TALKER, program)(students[-2] / "src")
+        write(TALKER, FIRST + program)(students[-2] / "src")
     with ThreadPoolExecutor(2) as pool:
         found = list(pool.map(lambda student: examine(student, underlay, ["3"]), students))
     wrong = [first_wrong(*outcomes) for outcomes in found]
-    assert wrong[::2] == [(None, "")] * (len(programs) + 1)
-    assert [check for check, _ in wrong[1::2]] == ["C6"] * len(programs), wrong
+    assert wrong[::2] == [(None, "")] * (len(TALKERS) + 1)
+    for (check, report), (_, words) in zip(wrong[1::2], TALKERS.values()):
+        assert check == "C6" and words in report, report
+    assert not processes_like(f"{scratch}/")

@@ -1,7 +1,9 @@
 """Right solutions, the suite's, a literal one and many variants: nothing is called wrong."""
 
 import os
+import shutil
 import subprocess
+from pathlib import Path
 
 import pytest
 from edits import JOY2TWIST, LAUNCH_BAG, LISTENER, TALKER, B, apply, chmod, put, write
@@ -12,6 +14,7 @@ from tutorial_check.course import read_course
 from tutorial_check.examination import examine
 from tutorial_check.report import lines_of
 
+REPOSITORY = Path(__file__).resolve().parents[2]
 NOETIC = "/opt/ros/noetic/setup.bash"  # where ROS is not of Debian
 LATE = "def made():\n    rospy.sleep(0.5)\n    return rospy.Publisher('/cmd_vel', Twist)\n\n\n"
 SUB, PUB = 'rospy.Subscriber("/joy", Joy, callback)', "pub = rospy.Publisher('/cmd_vel', Twist)"
@@ -62,11 +65,13 @@ def check(underlay):
     return judge
 
 
-def test_the_solutions_of_the_suite(solutions, check):
-    check(solutions.parent, [*read_course().by_default, "7"])
+def test_the_solutions_of_the_suite_are_right(tmp_path, check):
+    for name in ("beginner_tutorials", "joy2twist"):
+        shutil.copytree(REPOSITORY / name, tmp_path / "ws" / "src" / name)
+    check(tmp_path / "ws", [*read_course().by_default, "7"])
 
 
-def test_a_literal_solution(literal, check):
+def test_a_literal_solution_is_right_and_noted(literal, check):
     seen = check(literal.parent, read_course().by_default)
     assert len(seen) == 34
     # What the handout's own listings do is worth a word, no more.
@@ -75,7 +80,7 @@ def test_a_literal_solution(literal, check):
 
 
 @pytest.mark.parametrize("row", NOTES, ids=lambda row: row[0])
-def test_note(row, literal, check):
+def test_a_right_solution_is_noted(row, literal, check):
     _, edits, exercises, notes = row
     apply(edits, literal)
     found = check(literal.parent, exercises)
@@ -87,7 +92,7 @@ def test_note(row, literal, check):
 @pytest.mark.parametrize(
     ("below", "status"), [("underlay", "ok"), ("nothing of the suite", "wrong")]
 )
-def test_a_workspace_that_was_built(literal, underlay, below, status):
+def test_below_what_a_workspace_was_built(literal, underlay, below, status):
     """As catkin writes its devel folder, over the suite or without it."""
     under = underlay if below == "underlay" else NOETIC
     build = f"[ ! -e '{under}' ] || . '{under}'; catkin_make"
@@ -97,7 +102,7 @@ def test_a_workspace_that_was_built(literal, underlay, below, status):
     assert next(one.status for one in outcome.results if one.id == "C1") == status
 
 
-def test_variant(variant, literal, check):
+def test_a_variant_is_right(variant, literal, check):
     _, edits, exercises = variant
     apply(edits, literal)
     check(literal.parent, exercises)

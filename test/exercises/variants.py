@@ -12,11 +12,12 @@ from edits import (
     B,
     J,
     chmod,
+    copy,
     latin1,
     move,
     put,
     write,
-)
+)  # fmt: skip
 from grammar import RIGHT
 from mistakes_world import RIGHT as RIGHT_IN_WORLD
 
@@ -100,6 +101,7 @@ ROWS = [
     ("package.xml format 3 with <depend>", [write(f"{B}/package.xml", f"<package format='3'>\n<name>{B}</name>\n<version>0.0.0</version>\n<description>x</description>\n<maintainer email='s@u.example'>s</maintainer>\n<license>TODO</license>\n<buildtool_depend>catkin</buildtool_depend>\n" + "".join(f"<depend>{d}</depend>\n" for d in ("rospy", "std_msgs", "roscpp", "sensor_msgs")) + "</package>\n", 0o644)], ["2"]),
     ("our names in the launch files", [put(LAUNCH_BAG, "$(find rbx1_nav)/sim.rviz", "$(find fake_turtlebot_sim)/rviz/sim.rviz"), put(LAUNCH_BAG, "rbx1_bringup", "fake_turtlebot_sim"), put(LAUNCH_JOY, 'pkg="joy" name', 'pkg="gamepad" name')], ["5"]),
     ("-l for --loop, output, required, arg", [put(LAUNCH_BAG, "--loop", "-l --clock"), put(LAUNCH_BAG, 'type="joy2twist.py"', 'type="joy2twist.py" output="screen" required="true"'), put(LAUNCH_BAG, "<launch>", '<launch>\n  <arg name="gui" default="true"/>'), put(LAUNCH_BAG, 'type="rviz"', 'type="rviz" if="$(arg gui)"')], ["5"]),
+    ("the first version beside the second in a launch file", [copy(JOY2TWIST, f"{J}/scripts/first.py"), put(f"{J}/scripts/first.py", PUB, ""), put(f"{J}/scripts/first.py", PUBLISH, "pass"), put(LAUNCH_BAG, "<launch>", '<launch>\n  <node pkg="joy2twist" type="first.py" name="first"/>')], ["5"]),
     ("a copy of another system's toplevel file", [write("CMakeLists.txt", "# toplevel CMakeLists.txt for a catkin workspace\nfind_package(catkin NO_DEFAULT_PATH REQUIRED PATHS /opt/ros/noetic)\n", 0o644)], ["2"]),
     ("a bag of another name", [move(f"{J}/bag/joy.bag", f"{J}/bags/figure of eight.bag".replace(" ", "_")), put(LAUNCH_BAG, "bag/joy.bag", "bags/figure_of_eight.bag")], ["4.2", "5"]),
     ("joy_node with parameters, in a group", [put(LAUNCH_JOY, '  <node pkg="joy" name="joy_node" type="joy_node">\n', '  <group>\n  <node pkg="joy" name="stick" type="joy_node">\n    <param name="dev" value="/dev/input/js0"/>\n    <param name="autorepeat_rate" value="10"/>\n'), put(LAUNCH_JOY, "  </node>\n</launch>", "  </node>\n  </group>\n</launch>")], ["5"]),

@@ -1,6 +1,5 @@
-"""What the tests of check share: a session of a package, and a user for its programs."""
+"""What the tests of check share: a session of a package."""
 
-import os
 from types import SimpleNamespace
 
 import pytest
@@ -29,9 +28,3 @@ def make_session(tmp_path):
         )
 
     return make
-
-
-@pytest.fixture(scope="session")
-def stranger():
-    """A uid that no other process of this machine uses; None if not root."""
-    return 2_000_000 + os.getpid() if os.geteuid() == 0 else None

@@ -1,4 +1,4 @@
-"""What is said of talker and listener, from recorded facts: one row for each diagnosis."""
+"""What is said of talker and listener from recorded facts, where no program shows it reliably."""
 
 from types import SimpleNamespace
 
@@ -8,12 +8,13 @@ from tutorial_check.exercises import chatter
 from tutorial_check.exercises.talking import PACKAGE
 from tutorial_check.model import Wrong
 
-RIGHT = """from std_msgs.msg import String
+LISTENER = """from std_msgs.msg import String
 def callback(data):
     loginfo(data)
 rospy.Subscriber('chatter', String, callback)
 """
 TALKER = "#!/usr/bin/env python3\nfrom std_msgs.msg import String\nrospy.init_node('talker')\n"
+TORRENT = {"heard": [(k / 1e4, "", "") for k in range(9)]}
 
 
 @pytest.fixture
@@ -24,10 +25,10 @@ def asked(make_session):
     def ask(check, text, output="", ended=False, **recorded):
         for name in ("talker.py", "listener.py"):
             (session.package(PACKAGE).folder / name).write_text(text)
-        process = SimpleNamespace(returncode=0)
         program = SimpleNamespace(
-            name="x.py", output=output, process=process, spins=False, was_stopped=False, ended=ended
-        )
+            name="x.py", output=output, process=SimpleNamespace(returncode=0), spins=False,
+            was_stopped=False, ended=ended,
+        )  # fmt: skip
         about = {
             "talkers": [program], "listener": program, "talker_ended": ended, "heard": [],
             "listener_ended": ended, "master_alive": True, "publishers": {}, "published": {},
@@ -40,24 +41,20 @@ def asked(make_session):
     return ask
 
 
-@pytest.mark.parametrize("row", [
-    (chatter.talker, TALKER, {"master_alive": False}, "has ended it", "", ""),
-    (chatter.talker, TALKER + "while True: pass", {"heard": [(k / 1e4, "", "") for k in range(9)]},
-     "thousands of messages", ":4", "rate.sleep()"),
-    (chatter.listener, RIGHT, {"output": "A"}, "1 of 2 displayed", ":4", "does callback"),
-    (chatter.graph, "", {}, "no such way in the graph", "", "one name"),
+@pytest.mark.parametrize(("check", "text", "recorded", "seen"), [
+    (chatter.talker, TALKER, {"master_alive": False}, "has ended it"),
+    (chatter.talker, TALKER + "while True: pass", TORRENT, "thousands of messages"),
+    (chatter.listener, LISTENER, {"output": "A"}, "1 of 2 displayed"),
+    (chatter.graph, "", {}, "no such way in the graph"),
     # C9 and C10 look again, and talker and listener do not come as far as they did before.
-    (chatter.anonymous, TALKER, {}, "not one message", "", "within the loop?"),
-    (chatter.ctrl_c, TALKER, {"ended": True}, "it ended, exit code", "", "call talker()?"),
+    (chatter.anonymous, TALKER, {}, "not one message"),
+    (chatter.ctrl_c, TALKER, {"ended": True}, "it ended, exit code"),
 ])  # fmt: skip
-def test_diagnosis(asked, row):
-    check, text, recorded, seen, where, hint = row
+def test_recorded_facts_have_a_diagnosis(asked, check, text, recorded, seen):
     with pytest.raises(Wrong) as caught:
         asked(check, text, **recorded)
     assert seen in caught.value.seen
-    assert hint in caught.value.hint
-    assert caught.value.where.endswith(where)
 
 
-def test_a_text_of_which_one_is_displayed_twice(asked):
-    assert asked(chatter.listener, RIGHT, output="I heard A\nI heard B\nI heard A\n") is None
+def test_a_text_that_is_displayed_twice_is_right(asked):
+    assert asked(chatter.listener, LISTENER, output="I heard A\nI heard B\nI heard A\n") is None

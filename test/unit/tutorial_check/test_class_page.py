@@ -5,15 +5,8 @@ import re
 
 import pytest
 
-from tutorial_check.class_page import (
-    POLICY,
-    Student,
-    causes,
-    changes,
-    failures,
-    table_csv,
-    table_html,
-)
+from tutorial_check import class_page
+from tutorial_check.class_page import POLICY, Student, table_csv, table_html
 from tutorial_check.examination import Outcome
 from tutorial_check.model import NOTE, OK, UNREACHED, WRONG, Result
 
@@ -23,10 +16,11 @@ UNDECIDED = Outcome("5", [Result("C21", UNREACHED, "two")], 1.0, True)
 NO_VERDICT = Outcome("5", UNDECIDED.results, 1.0, True, "C21: no space")
 EMPTY = Outcome("5", [Result("C21", OK, "two", empty=True)], done=True)
 TITLES = {"2": "a package", "5": "launch files"}
+TEXTS = ("title", "expected", "seen", "where", "hint")
 HOSTILE = "<script>alert(1)</script>\"'><img src=x onerror=alert(1)>"
 
 
-@pytest.mark.parametrize("cell", ["=1", "\t=1", "\r=1", "x;=1", "x,\n+1", " -1", "a|@b"])
+@pytest.mark.parametrize("cell", ["=1", "\t=1", "x;=1", "x,\n+1", " -1", "a|@b"])
 def test_no_cell_is_a_formula(cell):
     """Of whatever a spreadsheet takes for the end of a cell."""
     table = table_csv([Student(cell, None, trouble=f"{cell}: no zip")], ["2"])
@@ -34,23 +28,17 @@ def test_no_cell_is_a_formula(cell):
         assert written.strip(' "')[:1] not in tuple("=+-@"), table
 
 
-def test_a_usual_name_is_as_it_was():
-    names = ["Anna-Lena (2)", "a = b - c", "o'neill_7@uni.example", "a=b"]
-    table = table_csv([Student(name, None) for name in names], ["2"])
-    assert [row[0] for row in csv.reader(table.splitlines())][1:] == names
-
-
 def test_the_table_has_what_could_be_checked():
     students = [
         Student("ada", None, [NOTED, NO_VERDICT]),
         Student("=bob", None, [BAD, UNDECIDED]),
-        Student("eve", None, [NOTED, EMPTY]),
+        Student("o'neill_7@uni.example = b - c", None, [NOTED, EMPTY]),
     ]
     rows = list(csv.reader(table_csv(students, ["2", "5"]).splitlines()))
     assert [row[:5] for row in rows[1:]] == [
         ["ada", "ok", "?", "1", "1"],
         ["'=bob", "C1", "-", "0", "0"],
-        ["eve", "ok", "not done", "1", "1"],
+        ["o'neill_7@uni.example = b - c", "ok", "not done", "1", "1"],
     ]
     assert [row[6] for row in rows[1:]] == ["", "'=none", ""]
     page = table_html(students, ["2", "5"], TITLES)
@@ -70,8 +58,8 @@ def test_how_many_fail_what_and_why():
         Student("eve", None, [wrong("angular.z = -1.00 * axes[0]")]),
         Student("zoe", None, [wrong("no file", "C12")]),
     ]
-    assert failures(students) == [("C16", "axes", 3), ("C12", "axes", 1)]
-    found = causes(students)
+    assert class_page.failures(students) == [("C16", "axes", 3), ("C12", "axes", 1)]
+    found = class_page.causes(students)
     assert [count for count, _ in found] == [2, 1, 1]
     assert found[0][1].seen == "angular.z = -0.98 * axes[0]"
     # An example does not say whose it is.
@@ -83,6 +71,7 @@ def test_how_many_fail_what_and_why():
 
 
 def test_what_changed_since_the_last_run():
+    changes = class_page.changes
     well = Outcome("5", NOTED.results, done=True)
     again = Student("ada", None, [wrong("b")], before=[wrong("a")])
     mended = Student("bob", None, [well], before=[wrong("a")])
@@ -97,15 +86,12 @@ def test_what_changed_since_the_last_run():
     assert "Since the last run" not in table_html([Student("ada", None, [BAD])], ["2"], TITLES)
 
 
-@pytest.mark.parametrize("field", ["name", "seen", "title", "where", "hint", "expected", "trouble"])
+@pytest.mark.parametrize("field", ["name", "trouble", *TEXTS])
 def test_nothing_in_a_page_is_a_tag(field):
-    words = dict.fromkeys(("title", "expected", "seen", "where", "hint"), "x")
-    words.update({field: HOSTILE} if field in words else {})
-    outcome = Outcome("5", [Result("C16", WRONG, **words)], done=True)
-    student = Student(HOSTILE if field == "name" else "ada", None, [outcome])
-    if field == "trouble":
-        student = Student("ada", None, trouble=HOSTILE)
-    student.before = [outcome]
+    words = {**dict.fromkeys(("name", "trouble", *TEXTS), ""), field: HOSTILE}
+    name, trouble = words.pop("name"), words.pop("trouble")
+    outcomes = [Outcome("5", [Result("C16", WRONG, **words)], done=True)]
+    student = Student(name, None, [] if trouble else outcomes, trouble=trouble, before=outcomes)
     page = table_html([student], ["5"], TITLES)
     tags = set(re.findall(r"<(\w+)", page))
     assert not tags & {"script", "img"}

@@ -42,7 +42,7 @@ def test_the_same_failure_again_shows_how_to_mend_it(memory):
     assert memory().hint_of(WRONG_SIGN) == LATER
 
 
-def test_the_levels(memory):
+def test_a_level_a_note_or_an_eager_check_shows_hints_or_none(memory):
     assert [memory(level).hint_of(WRONG_SIGN) for level in (NEVER, ALWAYS)] == ["", "no minus"]
     assert memory().hint_of(A_NOTE) == "rename it"
     assert memory().hint_of(Result("C1", WRONG, "one")) == ""
@@ -56,19 +56,6 @@ def test_a_memory_that_cannot_be_read_is_empty(memory, tmp_path, text):
     memory().keep([Outcome("4.3", [WRONG_SIGN])])
     assert memory().hint_of(WRONG_SIGN) == "no minus"
     assert isinstance(json.loads((tmp_path / "cache/checked.json").read_text()), dict)
-
-
-def test_a_workspace_that_is_gone_is_forgotten(memory, tmp_path):
-    memory(workspace="old").keep([Outcome("4.3", [WRONG_SIGN])])
-    (tmp_path / "old").rmdir()
-    memory().keep([Outcome("4.3", [WRONG_SIGN])])
-    kept = json.loads((tmp_path / "cache/checked.json").read_text())
-    assert [key.split("\n")[0] for key in kept] == [str(tmp_path / "ws")]
-
-
-def test_a_memory_that_cannot_be_written_is_no_fault(memory, tmp_path):
-    (tmp_path / "cache").write_text("a file in its place")
-    memory().keep([Outcome("4.3", [WRONG_SIGN])])
 
 
 def test_a_solution_is_shown_when_its_exercise_is_done(memory, capsys):
@@ -91,10 +78,3 @@ def test_a_solution_is_a_file_of_the_course(memory, tmp_path, file):
     memory().keep([Outcome("1", [Result("C16", OK, "axes")], done=True)])
     with pytest.raises(CannotCheck, match="is no file of the course's folder"):
         show_solution(read_course(folder), ["1"], memory())
-
-
-def test_each_solution_of_the_handout_is_there():
-    course = read_course()
-    named = [file for each in course.exercises.values() for file in each.solution]
-    assert len(named) > 9
-    assert all((course.folder / file).is_file() for file in named)

@@ -45,7 +45,7 @@ def statuses(one, exercises, **options):
         ({"A": BAD}, "2", "A:wrong C:unreached D:ok", "A D"),  # the culprit with the later one
     ],
 )
-def test_order(come_to, exercises, expected, calls):
+def test_checks_come_after_those_they_need(come_to, exercises, expected, calls):
     one, called = run(CHECKS, **come_to)
     assert statuses(one, exercises) == expected
     assert called == calls.split()
@@ -116,8 +116,9 @@ def test_a_second_look_on_a_busy_machine(about, busy, hopeless, looks, status):
 
 @pytest.mark.parametrize(("where", "explained"), [("a.py:3", True), ("a.py", False)])
 def test_a_second_look_knows_whether_a_line_explains_it(where, explained):
+    def look(session):
+        raise Wrong("good", "bad", where)
+
     asked = []
-    one, _ = run([ONE], A=Wrong("good", "bad", where))
-    one._second_look = asked.append
-    one.result("A")
+    Run([replace(ONE, function=look)], None, asked.append, lambda: False).result("A")
     assert asked == [explained]

@@ -1,6 +1,5 @@
 """What --package writes for a service."""
 
-import shlex
 import subprocess
 import zipfile
 from pathlib import Path
@@ -70,7 +69,7 @@ def git(tmp_path, monkeypatch):
     return make
 
 
-def test_the_workflow(tmp_path, git):
+def test_the_workflow_checks_out_the_suite_at_this_commit(tmp_path, git):
     git(f"echo {'0a1b' * 10}")
     out = str(tmp_path / "check.yml")
     assert package("github:lab/ros1_tutorial", read_course(SQUARE), ["1"], out) == out
@@ -80,22 +79,6 @@ def test_the_workflow(tmp_path, git):
     assert steps[2]["run"].endswith("--course suite/common/doc/square 1")
 
 
-@pytest.mark.parametrize("name", ["a # b", 'it\'s: "a"', "two\nlines", "${{ x }}"])
-def test_a_folder_of_any_name_in_the_workflow(tmp_path, git, monkeypatch, name):
-    git("echo 0a1b")
-    monkeypatch.setattr("tutorial_check.package.SUITE", tmp_path)
-    (tmp_path / name).mkdir()
-    (tmp_path / name / "course.yaml").write_text("exercises: {'1': one}")
-    out = tmp_path / "check.yml"
-    if "${{" in name:
-        with pytest.raises(CannotCheck, match="GitHub would replace"):
-            package("github:lab/x", read_course(tmp_path / name), ["1"], str(out))
-        return
-    package("github:lab/x", read_course(tmp_path / name), ["1"], str(out))
-    run = yaml.safe_load(out.read_text())["jobs"]["check"]["steps"][2]["run"]
-    assert shlex.split(run)[-3:] == ["--course", f"suite/{name}", "1"]
-
-
 NO_CLONE = "echo fatal: not a git repository >&2; exit 128"
 
 
@@ -103,7 +86,6 @@ NO_CLONE = "echo fatal: not a git repository >&2; exit 128"
     ("what", "out", "script", "why"),
     [
         ("moodle", "a", "", "there are gradescope and github:OWNER/NAME"),
-        ("github", "a", "", "the repository in which this suite is"),
         ("github:no name", "a", "", "the repository in which this suite is"),
         ("gradescope", "nowhere/a.zip", "", "No such file"),
         ("github:lab/x", "a", "", "git: No such file"),

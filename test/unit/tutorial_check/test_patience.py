@@ -52,22 +52,6 @@ def test_time_without_a_processor_does_not_count(machine, passed, programs_s, st
     assert (machine.patience.strained(), machine.patience.hopeless()) == (strained, hopeless)
 
 
-@pytest.mark.parametrize(
-    ("first", "then"),
-    [((80.0, 10_000, 0), (3.0, 1_000, 1_500)), ((3.0, 1_000, 1_500), (1.0, 100, 0))],
-)
-def test_a_strain_is_seen_before_and_after_a_calm(machine, first, then):
-    machine.passes(*first)
-    machine.patience.begin()
-    machine.passes(*then)
-    assert machine.patience.strained() and not machine.patience.hopeless()
-
-
-def test_a_wait_that_is_counted_late_counts_for_the_time_before(machine):
-    machine.passes(4.0)
-    assert machine.passes(1.0, ready_ms=4000) == pytest.approx(1.0)
-
-
 def test_programs_are_idle_that_neither_work_nor_wait_for_a_processor(machine):
     idle_s = []
     for passed in ((500,), (20,), (900, 0, OURS), (0, 500)):
@@ -84,13 +68,6 @@ def test_a_ready_program_is_not_idle_but_starved(machine):
     assert machine.patience.starved()
     machine.passes(0.1, worked_ms=5)
     assert not machine.patience.starved()
-
-
-def test_where_nothing_is_counted_time_is_time(machine):
-    machine.threads.clear()
-    machine.now_s += 5.0
-    assert machine.patience.now() - machine.began_s == pytest.approx(5.0)
-    assert Patience({OURS}, dict, machine.ready, lambda: machine.now_s).idle_s() == 0.0
 
 
 def test_linux_counts_this_process():

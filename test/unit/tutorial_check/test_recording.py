@@ -8,40 +8,47 @@ from sensor_msgs.msg import Joy
 from std_msgs.msg import String
 
 from tutorial_check.exercises.robot import recording
-from tutorial_check.model import Note, Wrong
+from tutorial_check.model import Wrong
 
 JOY, CHATTER, BROKEN = ("/joy", Joy(axes=[0.0] * 6)), ("/chatter", String()), None
 TALK = "beginner_tutorials/chatter.bag"
+OTHER_TOPICS = "no recording of /joy; topics: /chatter"
+
+
+@pytest.fixture
+def workspace(tmp_path):
+    folders = {name: tmp_path / name for name in ("beginner_tutorials", "joy2twist")}
+    for folder in folders.values():
+        folder.mkdir()
+    package = lambda name: SimpleNamespace(folder=folders[name])  # noqa: E731
+    return SimpleNamespace(source=tmp_path, package=package)
+
+
+def record(path, message):
+    path.write_text("no recording")
+    if message:
+        with rosbag.Bag(str(path), "w") as bag:
+            bag.write(*message)
 
 
 @pytest.mark.parametrize(
-    ("bags", "kind", "where"),
+    ("bags", "found"),
     [
-        ({}, Note, ""),
-        ({TALK: CHATTER}, Note, TALK),
-        ({"joy2twist/joy.bag": CHATTER}, Note, "joy2twist/joy.bag"),
-        ({TALK: BROKEN}, Note, None),  # it is of another exercise
-        ({TALK: CHATTER, "joy.bag": BROKEN}, Wrong, "joy.bag"),
-        ({TALK: CHATTER, "joy2twist/figure.bag": BROKEN}, Wrong, "joy2twist/figure.bag"),
-        ({TALK: CHATTER, "joy2twist/a.bag": CHATTER, "joy.bag": JOY}, str, "joy.bag"),
-        ({TALK: BROKEN, "joy2twist/a.bag": BROKEN, "joy2twist/b.bag": JOY}, str, "joy2twist/b.bag"),
+        ({TALK: CHATTER}, (TALK, OTHER_TOPICS)),
+        ({TALK: CHATTER, "joy2twist/a.bag": CHATTER, "joy.bag": JOY}, "joy.bag: /joy"),
+        ({TALK: BROKEN, "joy2twist/b.bag": JOY}, "joy2twist/b.bag: /joy"),
     ],
 )
-def test_the_recording_of_joy_counts(tmp_path, bags, kind, where):
-    names = ("beginner_tutorials", "joy2twist")
-    packages = {name: SimpleNamespace(folder=tmp_path / name) for name in names}
-    for each in packages.values():
-        each.folder.mkdir()
+def test_the_recording_of_joy_counts(workspace, bags, found):
     for path, message in bags.items():
-        (tmp_path / path).write_text("no recording")
-        if message:
-            with rosbag.Bag(str(tmp_path / path), "w") as bag:
-                bag.write(*message)
-    try:
-        found = recording(SimpleNamespace(source=tmp_path, package=packages.get))
-    except Wrong as wrong:
-        found = wrong
-    assert isinstance(found, kind)
-    assert found == f"{where}: /joy" if kind is str else where in (None, found.where)
-    if bags and kind is Note and where:
-        assert found.seen == "no recording of /joy; topics: /chatter"
+        record(workspace.source / path, message)
+    result = recording(workspace)
+    assert (result if isinstance(result, str) else (result.where, result.seen)) == found
+
+
+def test_a_broken_recording_beside_others_is_wrong(workspace):
+    record(workspace.source / TALK, CHATTER)
+    record(workspace.source / "joy.bag", BROKEN)
+    with pytest.raises(Wrong) as wrong:
+        recording(workspace)
+    assert wrong.value.where == "joy.bag"

@@ -1,13 +1,12 @@
 """Finding, unpacking and copying what a student hands in."""
 
 import os
-import time
 import zipfile
 from pathlib import Path
 
 import pytest
 
-from tutorial_check import session, workspace
+from tutorial_check import workspace
 from tutorial_check.model import CannotCheck
 from tutorial_check.workspace import copy, find_layout, hand_in, packages_below, unpack
 
@@ -36,31 +35,19 @@ def copied(folder, tmp_path):
 
 @pytest.mark.parametrize(
     "place",
-    [
-        "src/joy2twist",
-        "joy2twist",
-        "ada/src/joy2twist",
-        "ros/hydro/catkin_ws/src/joy2twist",
-        "a/joy2twist",
-    ],
+    ["", "src/joy2twist", "joy2twist", "a/joy2twist", "ros/hydro/catkin_ws/src/joy2twist"],
 )
-@pytest.mark.parametrize("hidden", [".git", ".vscode"])
-def test_a_workspace_is_found(tmp_path, place, hidden):
+def test_a_package_is_found_at_any_depth(tmp_path, place):
     package(tmp_path / "ws" / place)
-    (tmp_path / "ws" / hidden).mkdir()
+    (tmp_path / "ws" / ".git").mkdir()
     found = packages_below(copied(tmp_path / "ws", tmp_path))
     assert [each.name for each in found] == ["joy2twist"]
 
 
 def test_of_several_workspaces_the_one_with_the_package_is_named(tmp_path):
-    """Beside others, and an empty src; in a home folder none is looked for."""
-    for place in (
-        "src",
-        "lab1/src/blinky",
-        "old/ws/src/joy",
-        "z/ros/hydro/catkin_ws/src/joy2twist",
-    ):
-        package(tmp_path / place, Path(place).name) if "/" in place else (tmp_path / place).mkdir()
+    (tmp_path / "src").mkdir()
+    for place in ("lab1/src/blinky", "old/ws/src/joy", "z/ros/hydro/catkin_ws/src/joy2twist"):
+        package(tmp_path / place, Path(place).name)
     found = find_layout(tmp_path)
     assert found.source == tmp_path / "z/ros/hydro/catkin_ws/src"
     assert found.place == "z/ros/hydro/catkin_ws, not lab1, not old/ws"
@@ -73,32 +60,13 @@ def test_a_home_folder_is_not_searched(tmp_path, monkeypatch):
     assert find_layout(tmp_path / "course").place == "anna"
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
-        "# toplevel CMakeLists.txt for a catkin workspace",
-        "/opt/ros/noetic/share/catkin/cmake/toplevel.cmake",
-        None,
-    ],
-)
-def test_a_copy_of_catkins_toplevel_file_is_left_to_catkin_make(tmp_path, text):
-    """A package's own CMakeLists.txt is copied, whatever it says."""
-    folder = package(tmp_path / "ws/src/joy2twist")
-    for file in (folder / "CMakeLists.txt", folder.with_name("CMakeLists.txt")):
-        file.write_text(text) if text else file.symlink_to("/opt/ros/none/toplevel.cmake")
-    found = copied(tmp_path / "ws", tmp_path)
-    assert not os.path.lexists(found / "CMakeLists.txt")
-    assert (found / "joy2twist/CMakeLists.txt").exists() == bool(text)
+def test_a_dangling_link_to_catkins_toplevel_file_is_left_to_catkin_make(tmp_path):
+    package(tmp_path / "ws/src/joy2twist")
+    (tmp_path / "ws/src/CMakeLists.txt").symlink_to("/opt/ros/none/toplevel.cmake")
+    assert not os.path.lexists(copied(tmp_path / "ws", tmp_path) / "CMakeLists.txt")
 
 
-def test_the_package_itself_or_nothing(tmp_path):
-    package(tmp_path / "joy2twist")
-    assert (copied(tmp_path / "joy2twist", tmp_path) / "joy2twist" / "package.xml").exists()
-    (tmp_path / "ws").mkdir()
-    assert packages_below(copy(find_layout(tmp_path / "ws"), tmp_path / "another")) == []
-
-
-@pytest.mark.parametrize("given", ["suite", "suite/joy2twist", "ws", "ws/src"])
+@pytest.mark.parametrize("given", ["suite", "suite/joy2twist", "ws"])
 def test_the_suites_own_solutions_are_refused(tmp_path, given):
     """Linked into a workspace as well, as those are that the suite builds for itself."""
     package(tmp_path / "suite/joy2twist")
@@ -113,55 +81,33 @@ def test_the_suites_own_solutions_are_refused(tmp_path, given):
 IN_ZIP = {"ws/src/joy2twist/package.xml": XML.format("joy2twist")}
 
 
-@pytest.mark.parametrize("name", ["ada.zip", "Ada_1_file/my_ws.zip", "Ada_1_file/MY WS.ZIP"])
+@pytest.mark.parametrize("name", ["ada.zip", "Ada_1_file/MY WS.ZIP"])
 def test_a_zip_alone_or_in_a_folder_is_handed_in(tmp_path, name):
-    given = archive = zipped(tmp_path / name, IN_ZIP)
-    if archive.parent != tmp_path:
-        (archive.parent / "remark.txt").touch()
-        given = archive.parent
+    archive = zipped(tmp_path / name, IN_ZIP)
+    (archive.parent / "remark.txt").touch()
+    given = archive if archive.parent == tmp_path else archive.parent
     layout, inside = hand_in(given, tmp_path / "scratch")
     assert inside == tmp_path / "scratch/unpacked"
     assert layout.source == tmp_path / "scratch/unpacked/ws/src"
 
 
-@pytest.mark.parametrize("beside", ["second.zip", "src/", "a/b/c/joy2twist/package.xml", "link"])
-def test_a_zip_beside_something_else_or_a_link_to_one_is_not_unpacked(tmp_path, beside):
-    folder = tmp_path / "ada"
-    zipped(folder / "first.zip", IN_ZIP)
-    if beside == "link":
-        (folder / "first.zip").rename(tmp_path / "first.zip")
-        (folder / "first.zip").symlink_to(tmp_path / "first.zip")
-    elif beside.endswith("/"):
-        (folder / beside).mkdir()
-    else:
-        (folder / beside).parent.mkdir(parents=True, exist_ok=True)
-        (folder / beside).write_text(XML.format("joy2twist"))
-    assert hand_in(folder, tmp_path / "scratch")[1] == folder
-    assert not (tmp_path / "scratch").exists()
+@pytest.mark.parametrize("beside", ["second.zip", "a/b/c/joy2twist/package.xml"])
+def test_a_zip_beside_something_else_is_not_unpacked(tmp_path, beside):
+    zipped(tmp_path / "ada/first.zip", IN_ZIP)
+    (tmp_path / "ada" / beside).parent.mkdir(parents=True, exist_ok=True)
+    (tmp_path / "ada" / beside).write_text(XML.format("joy2twist"))
+    assert hand_in(tmp_path / "ada", tmp_path / "scratch")[1] == tmp_path / "ada"
 
 
-def test_what_launch_files_name_by_whole_paths(tmp_path):
-    kept, view = tmp_path / "joy.bag", tmp_path / "my.rviz"
-    for path in (kept, view, tmp_path / "secret", tmp_path / "bag.old"):
-        path.touch()
-    launch = tmp_path / "src/joy2twist/launch"
-    launch.mkdir(parents=True)
-    (launch / "a.launch").write_text(
-        f'<node args="--loop {kept} $(find x){view} {tmp_path}/none.bag {tmp_path}/secret"/>'
-    )
-    (launch / "b.launch").write_text(f"<node args='{view} {tmp_path}/bag.old'/>")
-    assert workspace.named_outside(tmp_path / "src") == [str(kept), str(view)]
-
-
-@pytest.mark.parametrize("name", ["../evil.txt", "/evil.txt", "a/../../evil.txt", "..\\evil.txt"])
-def test_a_zip_with_a_path_outside(tmp_path, name):
+@pytest.mark.parametrize("name", ["/evil.txt", "a/../../evil.txt", "..\\evil.txt"])
+def test_a_zip_with_a_path_outside_is_refused(tmp_path, name):
     with pytest.raises(CannotCheck, match="outside"):
         unpack(zipped(tmp_path / "a.zip", {name: "x"}), tmp_path / "out")
     assert not (tmp_path / "evil.txt").exists()
 
 
-def test_a_zip_of_an_older_powershell(tmp_path):
-    """It has backslashes in its paths."""
+def test_a_zip_with_backslashes_in_its_paths_is_unpacked(tmp_path):
+    """As an older PowerShell makes it."""
     files = {"ws\\src\\joy2twist\\package.xml": XML.format("a"), "ws\\src\\joy2twist\\bag\\": ""}
     unpack(zipped(tmp_path / "a.zip", files), tmp_path / "out")
     assert [each.inside for each in packages_below(tmp_path / "out/ws/src")] == ["joy2twist"]
@@ -180,13 +126,6 @@ def test_rights_survive_a_zip_and_those_of_more_than_its_owner_no_copy(tmp_path)
     found = copied(tmp_path / "out", tmp_path)
     modes = {path.name: path.stat().st_mode & 0o7777 for path in found.iterdir()}
     assert modes == {**rights, "tool": 0o755}
-
-
-def test_too_large(tmp_path, monkeypatch):
-    monkeypatch.setattr(workspace, "MOST_BYTES", 10)
-    package(tmp_path / "src" / "joy2twist")
-    with pytest.raises(CannotCheck, match="more than"):
-        copied(tmp_path, tmp_path)
 
 
 PACKAGE, SCRIPT = "joy2twist/package.xml", "joy2twist/scripts/joy2twist.py"
@@ -209,11 +148,9 @@ def make(folder, *entries):
 @pytest.mark.parametrize(
     ("entries", "of_others", "own"),
     [
-        ([f"{J}/link -> ../../src"], [PACKAGE], [PACKAGE]),  # to above, to nowhere, to itself
-        ([f"{J}/link -> nowhere"], [PACKAGE], [PACKAGE]),
+        ([f"{J}/link -> ../../src"], [PACKAGE], [PACKAGE]),  # to above, to itself
         ([f"{J}/link -> link"], [PACKAGE], [PACKAGE]),
         ([f"{J}/in -> ../../src/{PACKAGE}"], ["joy2twist/in", PACKAGE], ["joy2twist/in", PACKAGE]),
-        ([f"{J}/out -> ../../../ada_too/secret"], [PACKAGE], ["joy2twist/out", PACKAGE]),
         ([f"{J}/out -> {{}}/ada_too/secret"], [PACKAGE], ["joy2twist/out", PACKAGE]),
         ([f"{J}/scripts -> {{}}/bob/src/joy2twist/scripts"], [PACKAGE], [PACKAGE, SCRIPT]),
         (["ada/src/other -> {}/bob/src/joy2twist"], [PACKAGE],
@@ -239,28 +176,11 @@ def test_a_src_that_is_a_link_or_a_manifest_that_is_a_pipe_is_not_read(tmp_path)
     assert packages_below(tmp_path / "eve") == []
 
 
-@pytest.mark.parametrize("file", ["_setup_util.py", "setup.sh"])
-def test_a_devel_folder_with_a_pipe_says_nothing(tmp_path, file):
-    for name in ("_setup_util.py", "setup.sh"):
-        os.mkfifo(tmp_path / name) if name == file else (tmp_path / name).touch()
-    assert workspace.underlays(tmp_path) == ("", None)
-
-
-@pytest.mark.parametrize("pack", [zipfile.ZIP_STORED, zipfile.ZIP_LZMA, zipfile.ZIP_BZIP2])
-def test_a_zip_with_broken_bytes(tmp_path, pack):
+@pytest.mark.parametrize("pack", [zipfile.ZIP_STORED, zipfile.ZIP_LZMA])
+def test_a_zip_with_broken_bytes_is_one_line(tmp_path, pack):
     archive = zipped(tmp_path / "a.zip", {"package.xml": XML * 20}, pack)
     data = bytearray(archive.read_bytes())
     data[60:100] = b"\xff" * 40
     archive.write_bytes(data)
     with pytest.raises(CannotCheck, match=r"a\.zip: cannot be unpacked: "):
         unpack(archive, tmp_path / "out")
-
-
-@pytest.mark.parametrize("text", ["=/", "/a", ".bag/", "\n"])
-def test_a_launch_file_or_cmakelists_of_any_text_is_read_at_once(tmp_path, text):
-    """In time linear in its length; quadratic time would be minutes."""
-    (tmp_path / "a.launch").write_text(text * 99_999)
-    began_s = time.process_time()
-    assert workspace.named_outside(tmp_path) == []
-    assert not session.NEEDS_BUILD.search(text * 99_999)
-    assert time.process_time() - began_s < 60.0

@@ -1,12 +1,10 @@
-"""From the text of a launch file, and what roslaunch says of it, to a line and a hint."""
+"""From the text of a launch file that is no XML to a line and a hint."""
 
-from types import SimpleNamespace
 from xml.parsers import expat
 
 import pytest
 
-from tutorial_check.exercises.launch_facts import device_of
-from tutorial_check.launch_xml import QUOTES, not_xml, unclosed_node
+from tutorial_check.launch_xml import QUOTES, not_xml
 
 NODE = '  <node pkg="rosbag" type="play" name="x" args="--loop a.bag"/>\n'
 
@@ -29,36 +27,9 @@ NODE = '  <node pkg="rosbag" type="play" name="x" args="--loop a.bag"/>\n'
         ('<launch>\n<node pkg="a"/\n</launch>\n', 2, "> or />"),
     ],
 )  # fmt: skip
-def test_a_file_that_is_no_xml(text, line, words):
+def test_a_launch_file_that_is_no_xml_has_a_line_and_a_hint(text, line, words):
     with pytest.raises(expat.ExpatError) as raised:
         expat.ParserCreate().Parse(text.encode(), True)
     found, hint = not_xml(str(raised.value), text)
     assert words in hint
     assert found == line
-
-
-@pytest.mark.parametrize(
-    ("text", "line"),
-    [
-        (f"<launch>\n{NODE}<node>\n<remap/>\n<include/>\n</node></launch>", 3),
-        ("<launch>\n<!-- <node> -->\n<node>\n</node>\n<include/></launch>", None),
-    ],
-)
-def test_a_tag_within_a_node(text, line):
-    assert unclosed_node(text, "include") == line
-
-
-PARAMS = {"/joy_node/dev": SimpleNamespace(value="/dev/input/js2")}
-
-
-@pytest.mark.parametrize(
-    ("args", "params", "device"),
-    [
-        ("_autorepeat_rate:=20 _dev:='/dev/input/js1'", PARAMS, "/dev/input/js1"),
-        ("", PARAMS, "/dev/input/js2"),
-        ("_dev:='/dev/input/js1", {}, ""),
-    ],
-)
-def test_the_device_of_a_joystick(args, params, device):
-    node = SimpleNamespace(args=args, namespace="/", name="joy_node")
-    assert device_of(node, params) == device
