@@ -12,11 +12,10 @@ from rosgraph.network import encode_ros_handshake_header, read_ros_handshake_hea
 from sensor_msgs.msg import Joy
 
 from node_kit.questions import call
-from tutorial_faults.live.table import HELD, LB, RawJoy
+from tutorial_faults.live.table import HELD, LB, RawJoy, serialised
 from tutorial_testing.nodes import node_path
 from tutorial_testing.rig import BASE, DRIVER, MUX
 from tutorial_testing.rostests import RosTest, run
-from tutorial_testing.seat_room import serialised
 from tutorial_testing.waiting import DEADLINE_S, wait_for
 
 NEUTRAL = Joy(axes=[0.0] * 6, buttons=[0] * 12)

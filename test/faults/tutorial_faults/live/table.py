@@ -6,6 +6,7 @@ import math
 import signal
 import struct
 import threading
+from functools import partial
 from random import Random
 from typing import Any, Callable, NamedTuple, Tuple
 
@@ -13,18 +14,15 @@ import rospy
 from geometry_msgs.msg import Twist, Vector3
 from sensor_msgs.msg import Joy
 
-from tutorial_testing.processes import Program
 from tutorial_testing.rig import BASE, DRIVER, JOYSTICK, MUX
 
 NODES = {"joy_node": JOYSTICK, "joy2twist": DRIVER, "mux": MUX, "base": BASE}
-STATION = "station"  # the host of gamepad, driver and joy2twist
 TELEOP, NAVI = "cmd_vel_mux/input/teleop", "cmd_vel_mux/input/navi"
 # What must hold: the wheels rest in time, and then wait for the release of all; they wait for it
 # if they stood; the robot is driven on all the while; it may stop and drive on, for it is no loss.
 RESTS, WAITS, DRIVES_ON, MAY_STOP = "rests", "waits", "drives on", "may stop"
 
 VIGILANCE_S = 1.0  # joy2twist's ~vigilance_timeout here, for more trials
-BUSY = "for n in 1 2 3 4; do while :; do :; done & done; wait"  # this is for two cores
 PERIOD_S = 0.05  # of the messages of other programs
 LB, RB = 4, 5
 TEXT_AT = 12  # in a serialized Joy: where the length of its frame_id is
@@ -74,11 +72,16 @@ def odd_joy(random):
     return Joy(axes=values, buttons=buttons)
 
 
+def serialised(message):
+    """Return the bytes of a message."""
+    buff = io.BytesIO()
+    message.serialize(buff)
+    return buff.getvalue()
+
+
 def broken_joy(random):
     """Return a Joy that cannot be read: cut, noise, with a length that lies, or oversized."""
-    buff = io.BytesIO()
-    odd_joy(random).serialize(buff)
-    whole, noise = buff.getvalue(), random.getrandbits(800).to_bytes(100, "little")
+    whole, noise = serialised(odd_joy(random)), random.getrandbits(800).to_bytes(100, "little")
     lie = struct.pack("<I", random.randrange(10**6, 2**32))
     lying, oversized = whole[:TEXT_AT] + lie + whole[TEXT_AT + 4 :], whole + bytes(100_000)
     return RawJoy(random.choice((whole[: random.randrange(len(whole))], noise, lying, oversized)))
@@ -107,12 +110,14 @@ def ends(node, number):
     return lambda world: world.signal(node, number), lambda world: world.restart(node)
 
 
+def between(act_of, begin, end):
+    """Return what calls act_of(world) with one value, and what calls it with another one."""
+    return lambda world: act_of(world)(begin), lambda world: act_of(world)(end)
+
+
 def stops(part):
     """Return what suspends a process, and what lets it go on."""
-    return (
-        lambda world: world.signal(part, signal.SIGSTOP),
-        lambda world: world.signal(part, signal.SIGCONT),
-    )
+    return between(lambda world: partial(world.signal, part), signal.SIGSTOP, signal.SIGCONT)
 
 
 def rows():
@@ -121,12 +126,14 @@ def rows():
         yield Fault("kill", name, (0.05, 0.7), RESTS, *ends(node, signal.SIGKILL))
         yield Fault("end", name, (0.05, 0.7), RESTS, *ends(node, signal.SIGINT))
         yield Fault("stop", name, (0.02, 1.5), RESTS, *stops(node))
-    plug = (lambda world: world.hands.plug(False), lambda world: world.hands.plug(True))
-    freeze = (lambda world: world.hands.freeze(True), lambda world: world.hands.freeze(False))
-    pull = (
-        lambda world: world.hosts.pull_cable(STATION),
-        lambda world: world.hosts.plug_cable(STATION),
-    )
+    plug = between(lambda world: world.hands.plug, False, True)
+    freeze = between(lambda world: world.hands.freeze, True, False)
+    pull = between(lambda world: world.pull, True, False)
+    kill = between(lambda world: partial(world.signal, "master"), signal.SIGKILL, 0)
+    nan = lambda random: Twist(linear=Vector3(x=random.choice(ODD[:3])))  # noqa: E731
+    broken = lambda random: RawTwist(random.choice(BROKEN))  # noqa: E731
+    # Sideways, where no wheel turns to: it is seen to pass, and moves nothing.
+    sideways = lambda _: Twist(linear=Vector3(y=0.1))  # noqa: E731
     yield Fault("unplug", "gamepad", (0.02, 1.2), RESTS, *plug)
     yield Fault("stop", "gamepad", (0.7, 1.5), RESTS, *freeze)
     # Out of reach: the receiver keeps the last state, and only joy2twist can notice.
@@ -136,21 +143,12 @@ def rows():
     yield Fault("odd", "joy", (0.1, 1.0), MAY_STOP, *says("joy", Joy, odd_joy))
     yield Fault("broken", "joy", (0.1, 1.0), MAY_STOP, *says("joy", RawJoy, broken_joy))
     for name, topic in {"teleop": TELEOP, "navi": NAVI, "cmd_vel": "cmd_vel"}.items():
-        nan = says(topic, Twist, lambda random: Twist(linear=Vector3(x=random.choice(ODD[:3]))))
-        broken = says(topic, RawTwist, lambda random: RawTwist(random.choice(BROKEN)))
-        yield Fault("nan", name, (0.1, 1.0), DRIVES_ON, *nan)
-        yield Fault("broken", name, (0.1, 1.0), DRIVES_ON, *broken)
-    # Sideways, where no wheel turns to: it is seen to pass, and moves nothing.
-    sideways = says(NAVI, Twist, lambda _: Twist(linear=Vector3(y=0.1)))
-    yield Fault("lower", "navi", (0.1, 1.0), DRIVES_ON, *sideways)
-    kill = lambda world: world.signal("master", signal.SIGKILL)  # noqa: E731
-    yield Fault("kill", "master", (0.1, 1.0), DRIVES_ON, kill, lambda _: None)
+        yield Fault("nan", name, (0.1, 1.0), DRIVES_ON, *says(topic, Twist, nan))
+        yield Fault("broken", name, (0.1, 1.0), DRIVES_ON, *says(topic, RawTwist, broken))
+    yield Fault("lower", "navi", (0.1, 1.0), DRIVES_ON, *says(NAVI, Twist, sideways))
+    yield Fault("kill", "master", (0.1, 1.0), DRIVES_ON, *kill)
     yield Fault("stop", "master", (0.1, 1.5), DRIVES_ON, *stops("master"))
     yield Fault("stop", "viewer", (0.1, 1.5), DRIVES_ON, *stops("viewer"))
-    busy = lambda world: world.programs.update(busy=Program("sh", "-c", BUSY))  # noqa: E731
-    yield Fault(
-        "busy", "machine", (0.3, 1.5), WAITS, busy, lambda world: world.programs["busy"].kill()
-    )
 
 
 FAULTS = {fault.name: fault for fault in rows()}

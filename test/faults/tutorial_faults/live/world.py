@@ -3,7 +3,6 @@
 import collections
 import contextlib
 import os
-import threading
 import time
 
 import rospy
@@ -13,30 +12,20 @@ from nav_msgs.msg import Odometry
 from node_kit.careful_connections import sender_of
 from node_kit.questions import call
 from tutorial_faults.events import Violation
-from tutorial_faults.live.judge import (
-    ASKED,
-    BEGINS,
-    COMMAND,
-    ENDS,
-    HANDS,
-    LATE,
-    SEEN,
-    WHEELS,
-    Event,
-)
-from tutorial_faults.live.table import FAULTS, STATION, TELEOP, VIGILANCE_S
+from tutorial_faults.live import judge
+from tutorial_faults.live.table import FAULTS, TELEOP, VIGILANCE_S
 from tutorial_testing import rig
 from tutorial_testing.hands import DRIVE, RELEASED
 from tutorial_testing.nodes import init_node
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import BUSY_S, wait_for
 
+STATION = "station"  # the host of gamepad, driver and joy2twist
 ADDRESSES = {"robot": "10.99.0.1", STATION: "10.99.0.2"}
 ENDS_S = 1.5 + BUSY_S  # for a node to exit, when asked to
 MOVES_S = 4.0  # to release all and drive again, at least
 DRIVES_S = 90.0  # after which a system that does not drive is deaf
 STARTS_S = 0.3  # a node that is restarted does nothing sooner: it loads rospy
-BEAT_S, LATE_S = 0.01, 0.15  # a gap in which this process was not run
 
 
 class World(rig.Rig):
@@ -53,7 +42,7 @@ class World(rig.Rig):
         self.stream, self.seed = [], 0
 
     def begin(self):
-        uri, over = os.environ["ROS_MASTER_URI"], threading.Event()
+        uri = os.environ["ROS_MASTER_URI"]
         self.programs["master"] = Program("rosmaster", "--core", "-p", uri.rsplit(":", 1)[1])
         self._stack.callback(self._end_nodes)
         wait_for(lambda: call(uri, "getPid")[1], "master")
@@ -63,24 +52,14 @@ class World(rig.Rig):
         super().begin()
         topics = ("/odom", "/joy", "/cmd_vel", f"/{TELEOP}")
         self.programs["viewer"] = Program("rostopic", "hz", *topics)
-        self._stack.callback(over.set)
-        threading.Thread(target=self._beat, args=(over,), daemon=True).start()
         wait_for(lambda: self.odometry, "odometry", DRIVES_S)
-
-    def _beat(self, over):
-        before_s = time.monotonic()
-        while not over.wait(BEAT_S):
-            gap_s = time.monotonic() - before_s
-            before_s += gap_s
-            if gap_s > LATE_S:
-                self._see(LATE, gap_s)
 
     def listen(self):
         super().listen()
         stamp = lambda odometry: (odometry.header.stamp.to_sec(), odometry.twist.twist)  # noqa: E731
-        self._hear("odom", Odometry, WHEELS, stamp)
-        self._hear("cmd_vel", Twist, COMMAND, lambda twist: (time.time(), twist))
-        self._hear(TELEOP, Twist, ASKED, lambda twist: (time.time(), twist))
+        self._hear("odom", Odometry, judge.WHEELS, stamp)
+        self._hear("cmd_vel", Twist, judge.COMMAND, lambda twist: (time.time(), twist))
+        self._hear(TELEOP, Twist, judge.ASKED, lambda twist: (time.time(), twist))
 
     def _hear(self, topic, message_class, what, read):
         def hear(message):
@@ -93,7 +72,7 @@ class World(rig.Rig):
         self._stack.callback(subscriber.unregister)
 
     def _see(self, what, value, at_s=None):
-        self.stream.append(Event(at_s or time.time(), what, value))
+        self.stream.append(judge.Event(at_s or time.time(), what, value))
 
     def start(self, node, *prefix, **environment):
         if self.hosts and node in (rig.JOYSTICK, rig.DRIVER):
@@ -112,6 +91,10 @@ class World(rig.Rig):
             if not self.programs[part].ended:
                 os.kill(self.programs[part].pid, number)
 
+    def pull(self, pulled):
+        """Pull the cable between the hosts, or plug it in again."""
+        (self.hosts.pull_cable if pulled else self.hosts.plug_cable)(STATION)
+
     def restart(self, node):
         """Wait until a node that was asked to exit does; report it if it does not; start it."""
         program, now = self.programs[node], time.time()
@@ -119,20 +102,23 @@ class World(rig.Rig):
             program.wait(ENDS_S)
         if program.left_behind():
             what = f"{node} has not exited, or left a process behind, after {ENDS_S} s"
-            self._see(SEEN, Violation("g", now, what))
+            self._see(judge.SEEN, Violation("g", now, what))
         self.start(node)
 
     def hit(self, name):
         """Do what a fault of the table does."""
-        self._see(BEGINS, name)
+        now = time.time()
         FAULTS[name].do(self)
+        self._see(judge.BEGINS, name, now)
+        if time.time() - now > judge.LATE_S:
+            self._see(judge.LATE, time.time() - now)
 
     def heal(self, name):
         """Undo it."""
         now = time.time()
         FAULTS[name].undo(self)
         is_restart = FAULTS[name].family in ("kill", "end")
-        self._see(ENDS, name, time.time() + STARTS_S if is_restart else now)
+        self._see(judge.ENDS, name, time.time() + STARTS_S if is_restart else now)
 
     def hold(self):
         """Hold LB and the stick after a release, in a new stream; return what the hands show."""
@@ -154,7 +140,7 @@ class World(rig.Rig):
             shown = self.drive_by(self.hold, try_s=MOVES_S, deadline_s=DRIVES_S)
         except AssertionError as error:
             self.is_deaf = True
-            self._see(SEEN, Violation("h", time.time(), f"before the faults: {error}"))
+            self._see(judge.SEEN, Violation("h", time.time(), f"before the faults: {error}"))
             return self.stream
         acts = [(at_s, self.hands.show, shows) for at_s, shows in plan.hands]
         acts += [(at_s, self.hit, name) for at_s, _, name in plan.hits]
@@ -164,7 +150,7 @@ class World(rig.Rig):
         for at_s, do, what in sorted(acts, key=lambda act: act[0]):
             time.sleep(max(0.0, began_s + at_s - time.monotonic()))
             do(what)
-        return [*self.stream, *(Event(at_s, HANDS, shows) for at_s, shows in shown)]
+        return [*self.stream, *(judge.Event(at_s, judge.HANDS, shows) for at_s, shows in shown)]
 
     @property
     def is_used_up(self):
