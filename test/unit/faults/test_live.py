@@ -31,7 +31,6 @@ def fault(name, begin=0.5, end=0.9):
         (fault("stop:mux", end=2.0) + wheels((1.1, GO), (3.0, STAND)), ""),
         (fault("stop:mux", end=2.0) + wheels((1.2, GO), (3.0, STAND)), "d"),
         (fault("stop:mux") + wheels((0.7, GO), (1.0, STAND), (1.5, GO)), "b"),
-        (fault("pull:cable") + wheels((0.7, GO), (1.0, STAND), (1.5, GO)), "f"),
         (fault("odd:joy") + wheels((0.7, GO), (1.0, STAND), (1.5, GO)), ""),
         (wheels((1.0, (0.8, *STAND[1:]))), "c"),
         (LOWER + wheels((2.0, GO)), "e"),

@@ -8,8 +8,7 @@ from __future__ import annotations
 import math
 from typing import Any, Iterator, NamedTuple, Sequence
 
-from tutorial_faults.events import Twist, Violation
-from tutorial_faults.invariants import BASE_TIMEOUT_S, WithinLimits, judged, moves
+from tutorial_faults.invariants import BASE_TIMEOUT_S, Twist, Violation, WithinLimits, moves
 from tutorial_faults.live.table import DRIVES_ON, FAULTS, MAY_STOP, RESTS
 from tutorial_testing.hands import DRIVE, RELEASED, TURBO, TURN
 
@@ -83,17 +82,15 @@ class Trial:
 
     def _judge(self) -> list[Violation]:
         """Return the first Violation of each invariant."""
+        limits, must = WithinLimits(MAX_LINEAR, MAX_ANGULAR), {fault.must for fault in self.hits}
         twists = [Twist(at_s, velocity) for at_s, _, velocity in self.of(*VELOCITIES)]
-        found = judged(twists, WithinLimits(MAX_LINEAR, MAX_ANGULAR))
-        found += [event.value for event in self.of(SEEN)]
-        must = {fault.must for fault in self.hits}
-        found += [*self._rests(), *self._outranked()]
+        found = [event.value for event in self.of(SEEN)]
+        found += [*filter(None, map(limits.take, twists)), *self._rests(), *self._outranked()]
         found += self._waits() if MAY_STOP not in must else []
         found += self._drives_on() if must == {DRIVES_ON} else []
-        first: dict[str, Violation] = {}
-        for violation in sorted(found, key=lambda violation: violation.at_s):
-            first.setdefault(violation.invariant, violation)
-        return list(first.values())
+        found.sort(key=lambda violation: violation.at_s, reverse=True)
+        first = {violation.invariant: violation for violation in found}
+        return sorted(first.values(), key=lambda violation: violation.at_s)
 
     def _rests(self) -> Iterator[Violation]:
         """Yield (a), (d): wheels that turn too long after LB was released or a part was lost."""
@@ -118,8 +115,7 @@ class Trial:
         return last
 
     def _waits(self) -> Iterator[Violation]:
-        """Yield (b), or (f) after a cut: wheels that stood turn without a release."""
-        letter = "f" if FAULTS["pull:cable"] in self.hits else "b"
+        """Yield (b): wheels that stood turn without a release."""
         stood_s = None
         for now, _, velocity in self.of(WHEELS):
             if not moves(velocity):
@@ -127,7 +123,7 @@ class Trial:
             elif stood_s is not None:
                 since = stood_s - SLACK_S
                 if not any(begin <= now and end >= since for begin, end in self.released):
-                    yield Violation(letter, now, f"moved again after {now - stood_s:.3f} s")
+                    yield Violation("b", now, f"moved again after {now - stood_s:.3f} s")
                 stood_s = None
 
     def _drives_on(self) -> Iterator[Violation]:

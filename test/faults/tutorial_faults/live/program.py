@@ -16,16 +16,15 @@ from tutorial_faults.invariants import moves
 from tutorial_faults.live.judge import VELOCITIES, Trial
 from tutorial_faults.live.plan import draw
 from tutorial_faults.live.table import FAULTS
-from tutorial_faults.live.world import ADDRESSES, World
+from tutorial_faults.live.world import World
 from tutorial_testing.ports import free_port
-from tutorial_testing.two_hosts.network import Network
 
 # The handout's own class, as printed there, by the name under which --node knows it.
 HANDOUT, LITERAL = "handout", "test/exercises/literal/joy2twist/scripts/new_joy2twist.py"
 SHORTEST_S = 60.0  # without --for and --trials
 ATTEMPTS = 4  # at a trial in which this machine was late
 CANNOT = 2  # exit code
-STEP = 0.1  # a change of a velocity worth a line
+STEP = 0.15  # a change of a velocity worth a line
 
 
 def parse(arguments):
@@ -78,11 +77,10 @@ def show(options, plan, trial):
     print(*timeline(trial.events), again, sep="\n", flush=True)
 
 
-def hunt(options, hosts):
+def hunt(options):
     """Yield a Trial after the other; the world is replaced when it cannot be repaired."""
     wanted = {*(options.kinds or FAULTS)}
     names = [name for name, fault in FAULTS.items() if {name, fault.family} & wanted]
-    names = [name for name in names if hosts or FAULTS[name].part != "cable"]
     node = [LITERAL] if options.node == [HANDOUT] else options.node
     end_s = time.monotonic() + (math.inf if options.trials else options.seconds or SHORTEST_S)
     world, stack = None, contextlib.ExitStack()
@@ -92,7 +90,7 @@ def hunt(options, hosts):
                 return
             plan = draw(seed, names)
             try:
-                world = world or stack.enter_context(World(hosts, node))
+                world = world or stack.enter_context(World(node))
                 trial = tried(world, plan)
                 yield trial
             except (AssertionError, OSError) as error:
@@ -101,19 +99,8 @@ def hunt(options, hosts):
                 continue
             if trial.violations:
                 show(options, plan, trial)
-            if world.is_used_up:
+            if world.is_deaf:
                 world = stack.close()
-
-
-def two_hosts(stack):
-    """Be on the first of two hosts, as far as that is granted; return their Network or None."""
-    try:
-        network = stack.enter_context(Network(ADDRESSES))
-        stack.enter_context(network["robot"].inside())
-    except OSError as error:
-        print(f"faults: without pull:cable: {error}", flush=True)
-        return None
-    return network
 
 
 def main():
@@ -122,15 +109,10 @@ def main():
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     logging.disable(logging.CRITICAL)  # of this process, which is asked for what it has ended
     trials = []
-    with contextlib.ExitStack() as stack:
-        hosts = two_hosts(stack)
-        address = ADDRESSES["robot"] if hosts else "127.0.0.1"
-        home = stack.enter_context(tempfile.TemporaryDirectory())
-        os.environ.pop("ROS_HOSTNAME", None)  # it would take precedence over ROS_IP
-        uri = f"http://{address}:{free_port()}"
-        os.environ.update(ROS_HOME=home, ROS_MASTER_URI=uri, ROS_IP=address)
+    with tempfile.TemporaryDirectory() as home:
+        os.environ.update(ROS_HOME=home, ROS_MASTER_URI=f"http://localhost:{free_port()}")
         with contextlib.suppress(KeyboardInterrupt):
-            for trial in hunt(options, hosts):
+            for trial in hunt(options):
                 trials.append(trial)
     print(
         f"{len(trials)} trials, {sum(len(one.hits) for one in trials)} faults,"

@@ -128,8 +128,6 @@ def rows():
         yield Fault("stop", name, (0.02, 1.5), RESTS, *stops(node))
     plug = between(lambda world: world.hands.plug, False, True)
     freeze = between(lambda world: world.hands.freeze, True, False)
-    pull = between(lambda world: world.pull, True, False)
-    kill = between(lambda world: partial(world.signal, "master"), signal.SIGKILL, 0)
     nan = lambda random: Twist(linear=Vector3(x=random.choice(ODD[:3])))  # noqa: E731
     broken = lambda random: RawTwist(random.choice(BROKEN))  # noqa: E731
     # Sideways, where no wheel turns to: it is seen to pass, and moves nothing.
@@ -138,7 +136,6 @@ def rows():
     yield Fault("stop", "gamepad", (0.7, 1.5), RESTS, *freeze)
     # Out of reach: the receiver keeps the last state, and only joy2twist can notice.
     yield Fault("silence", "gamepad", (0.1, 2.5), RESTS, *freeze, late_s=VIGILANCE_S)
-    yield Fault("pull", "cable", (0.05, 1.5), RESTS, *pull)
     yield Fault("second", "joy", (0.1, 1.0), WAITS, *says("joy", Joy, lambda _: HELD))
     yield Fault("odd", "joy", (0.1, 1.0), MAY_STOP, *says("joy", Joy, odd_joy))
     yield Fault("broken", "joy", (0.1, 1.0), MAY_STOP, *says("joy", RawJoy, broken_joy))
@@ -146,7 +143,6 @@ def rows():
         yield Fault("nan", name, (0.1, 1.0), DRIVES_ON, *says(topic, Twist, nan))
         yield Fault("broken", name, (0.1, 1.0), DRIVES_ON, *says(topic, RawTwist, broken))
     yield Fault("lower", "navi", (0.1, 1.0), DRIVES_ON, *says(NAVI, Twist, sideways))
-    yield Fault("kill", "master", (0.1, 1.0), DRIVES_ON, *kill)
     yield Fault("stop", "master", (0.1, 1.5), DRIVES_ON, *stops("master"))
     yield Fault("stop", "viewer", (0.1, 1.5), DRIVES_ON, *stops("viewer"))
 

@@ -11,7 +11,7 @@ from nav_msgs.msg import Odometry
 
 from node_kit.careful_connections import sender_of
 from node_kit.questions import call
-from tutorial_faults.events import Violation
+from tutorial_faults.invariants import Violation
 from tutorial_faults.live import judge
 from tutorial_faults.live.table import FAULTS, TELEOP, VIGILANCE_S
 from tutorial_testing import rig
@@ -20,8 +20,6 @@ from tutorial_testing.nodes import init_node
 from tutorial_testing.processes import Program
 from tutorial_testing.waiting import BUSY_S, wait_for
 
-STATION = "station"  # the host of gamepad, driver and joy2twist
-ADDRESSES = {"robot": "10.99.0.1", STATION: "10.99.0.2"}
 ENDS_S = 1.5 + BUSY_S  # for a node to exit, when asked to
 MOVES_S = 4.0  # to release all and drive again, at least
 DRIVES_S = 90.0  # after which a system that does not drive is deaf
@@ -34,10 +32,10 @@ class World(rig.Rig):
     stream: what was seen in a trial. This process is also the other programs that send nonsense.
     """
 
-    def __init__(self, hosts, command):
-        """hosts: a Network of ADDRESSES, or None. command: in place of joy2twist, if any."""
+    def __init__(self, command):
+        """command: in place of joy2twist, if any."""
         super().__init__(vigilance_timeout=VIGILANCE_S)
-        self.hosts, self._command, self.is_deaf = hosts, command, False
+        self._command, self.is_deaf = command, False
         self.odometry = collections.deque(maxlen=1)  # the stream has all of a trial
         self.stream, self.seed = [], 0
 
@@ -74,11 +72,6 @@ class World(rig.Rig):
     def _see(self, what, value, at_s=None):
         self.stream.append(judge.Event(at_s or time.time(), what, value))
 
-    def start(self, node, *prefix, **environment):
-        if self.hosts and node in (rig.JOYSTICK, rig.DRIVER):
-            prefix, environment = self.hosts[STATION].command(), {"ROS_IP": ADDRESSES[STATION]}
-        super().start(node, *prefix, **environment)
-
     def given(self, node):
         program, parameters, remaps = super().given(node)
         if node == rig.DRIVER and self._command:
@@ -90,10 +83,6 @@ class World(rig.Rig):
         with contextlib.suppress(ProcessLookupError):
             if not self.programs[part].ended:
                 os.kill(self.programs[part].pid, number)
-
-    def pull(self, pulled):
-        """Pull the cable between the hosts, or plug it in again."""
-        (self.hosts.pull_cable if pulled else self.hosts.plug_cable)(STATION)
 
     def restart(self, node):
         """Wait until a node that was asked to exit does; report it if it does not; start it."""
@@ -151,8 +140,3 @@ class World(rig.Rig):
             time.sleep(max(0.0, began_s + at_s - time.monotonic()))
             do(what)
         return [*self.stream, *(judge.Event(at_s, judge.HANDS, shows) for at_s, shows in shown)]
-
-    @property
-    def is_used_up(self):
-        """Whether it cannot be repaired for the next trial; no node registers with a new master."""
-        return self.is_deaf or self.programs["master"].ended
