@@ -23,7 +23,10 @@ NOT_RUN = "not 100_000 and not whatever_the_rate and not million"
 IMPURE = re.compile(
     r"^(import|from) (os|pathlib|rospy|socket|subprocess|threading|time|\w+_msgs)\b", re.M
 )
-PYTEST = "-m pytest -x -q -p no:cacheprovider -p no:xdist -p no:benchmark --hypothesis-seed=0"
+# Each change is tried alone: no plugin that runs tests side by side, or again.
+PYTEST = "-m pytest -x -q --hypothesis-seed=0" + "".join(
+    f" -p no:{plugin}" for plugin in ("cacheprovider", "xdist", "rerunfailures", "benchmark")
+)
 # Bits of a float and the identity of numbers say nothing about the rules.
 CONFIG = """
 [cosmic-ray]
