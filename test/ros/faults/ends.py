@@ -2,13 +2,16 @@
 """Every node exits in time, a base at rest first, whatever the screen, peers and master do."""
 
 import contextlib
+import math
 import os
 import signal
 import termios
 
 import rosgraph
+from geometry_msgs.msg import Twist, Vector3
 
 from node_kit.questions import call
+from tutorial_testing.hands import DRIVE, RELEASED
 from tutorial_testing.nodes import pid_of
 from tutorial_testing.rig import BASE, Rig, suspended
 from tutorial_testing.rostests import RosTest, run
@@ -18,18 +21,18 @@ LONGEST_END_S = 1.5 + BUSY_S
 
 
 class FaultsAtTheEnd(RosTest):
-    def check_end(self, rig, node, pid, number):
-        """It exits in time, and the robot rests."""
-        self.assertLess(rig.kill(node, number, pid), LONGEST_END_S, node)
+    def check_end(self, rig, node, number, meanwhile):
+        """It exits in time, in a context, and the robot rests."""
+        pid = pid_of(node)
+        with meanwhile:
+            self.assertLess(rig.kill(node, number, pid), LONGEST_END_S, node)
         wait_for(lambda: not rig.moves, f"robot at rest after the end of {node}")
 
     def check_each(self, rig, number, meanwhile):
         """One after the other is driven and ended, in a context that meanwhile(node) returns."""
         for node in rig.nodes:
             rig.drive()
-            pid = pid_of(node)
-            with meanwhile(node):
-                self.check_end(rig, node, pid, number)
+            self.check_end(rig, node, number, meanwhile(node))
             if node != BASE:
                 rig.start(node)
 
@@ -45,13 +48,28 @@ class FaultsAtTheEnd(RosTest):
             peers = lambda node: [pid_of(one) for one in rig.nodes if one != node]  # noqa: E731
             self.check_each(rig, signal.SIGTERM, lambda node: suspended(peers(node)))
 
-    def test_all_exit_while_the_master_hangs(self):
+    def test_each_exits_on_sigterm_while_the_master_hangs(self):
+        with Rig() as rig:
+            self.check_each(rig, signal.SIGTERM, lambda _: suspended(master()))
+
+    def test_a_warning_while_the_master_hangs_makes_no_node_deaf(self):
+        """NaN and a speed beyond the robot's bring a warning of the mux and of the base."""
         with Rig() as rig:
             rig.drive()
-            pids = {node: pid_of(node) for node in rig.nodes}
-            with suspended([call(rosgraph.get_master_uri(), "getPid")[1]]):
-                for node, number in zip(rig.nodes, (signal.SIGTERM, signal.SIGINT) * 2):
-                    self.check_end(rig, node, pids[node], number)
+            pilot = self.publisher("/cmd_vel_mux/input/teleop", Twist)
+            wait_for(pilot.get_num_connections, "mux")
+            with suspended(master()):
+                for bad in (math.nan, 5.0, math.nan):
+                    pilot.publish(Twist(linear=Vector3(x=bad)))
+                rig.hands.show(RELEASED)
+                rig.wait_for_rest(rig.now.stamp)
+                rig.hands.show(DRIVE)
+                wait_for(lambda: rig.moves, "robot that obeys")
+
+
+def master():
+    """Return its process."""
+    return [call(rosgraph.get_master_uri(), "getPid")[1]]
 
 
 if __name__ == "__main__":
