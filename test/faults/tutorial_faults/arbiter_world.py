@@ -10,9 +10,8 @@ from tutorial_faults.invariants import (
     NeverLate,
     RestsFirst,
     WithinLimits,
-    moves,
 )  # fmt: skip
-from tutorial_faults.worlds import TICK, World
+from tutorial_faults.worlds import TICK, World, moves
 
 ZERO = (0.0,) * 6
 

@@ -8,7 +8,9 @@ linear x, y, z [m/s] and angular x, y, z [rad/s], in the frame of the base.
 from __future__ import annotations
 
 import math
-from typing import Any, Callable, Hashable, Iterable, NamedTuple, Tuple
+from typing import Any, Callable, Hashable, NamedTuple, Tuple
+
+from tutorial_faults.worlds import moves
 
 Velocity = Tuple[float, ...]
 # Silence after which a base stops by itself [s]: fake_turtlebot's ~cmd_vel_timeout and a Kobuki's.
@@ -59,11 +61,6 @@ class Violation(NamedTuple):
     invariant: str  # its letter
     at_s: float
     what: str
-
-
-def moves(velocity: Iterable[float]) -> bool:
-    """Return whether a velocity is other than zero; NaN is, too."""
-    return any(part != 0 for part in velocity)
 
 
 class HeldDeadMan:

@@ -7,17 +7,9 @@ from typing import NamedTuple
 from joy_to_twist.parameters import load
 from joy_to_twist.teleoperation import Teleoperation
 from node_kit.arming import SETTLING_S, ZERO
-from tutorial_faults.invariants import (
-    HeldDeadMan,
-    Joy,
-    Loss,
-    SeenReleased,
-    Twist,
-    WithinLimits,
-    moves,
-)  # fmt: skip
+from tutorial_faults.invariants import HeldDeadMan, Joy, Loss, SeenReleased, Twist, WithinLimits
 from tutorial_faults.meaning import Meaning
-from tutorial_faults.worlds import SUSPENDED, TICK, World
+from tutorial_faults.worlds import SUSPENDED, TICK, World, moves
 
 LEFT = "left"  # an event: no node publishes joystick messages
 

@@ -2,11 +2,10 @@
 
 import pytest
 
-from tutorial_faults.live.judge import BEGINS, COMMAND, ENDS, HANDS, WHEELS, Event, Trial
+from tutorial_faults.live.judge import BEGINS, ENDS, HANDS, WHEELS, Event, Trial
 
 STAND, GO = (0.0,) * 6, (0.3, *(0.0,) * 5)
 HOLD, LET_GO = Event(0.1, HANDS, "drive"), Event(1.0, HANDS, "released")
-LOWER = [Event(1.0, COMMAND, GO), Event(1.5, COMMAND, (0.0, 0.1, *STAND[2:]))]
 
 
 def wheels(*phases):
@@ -33,7 +32,6 @@ def fault(name, begin=0.5, end=0.9):
         (fault("stop:mux") + wheels((0.7, GO), (1.0, STAND), (1.5, GO)), "b"),
         (fault("odd:joy") + wheels((0.7, GO), (1.0, STAND), (1.5, GO)), ""),
         (wheels((1.0, (0.8, *STAND[1:]))), "c"),
-        (LOWER + wheels((2.0, GO)), "e"),
         (fault("stop:master") + wheels((2.0, GO)), ""),
         (fault("stop:master") + wheels((0.7, GO), (2.0, STAND)), "h"),
     ],

@@ -17,10 +17,9 @@ LIMIT_S = BASE_TIMEOUT_S + 0.02  # from a loss to wheels at rest; /odom comes ev
 SLACK_S = 0.05  # between the stamps of this process and those of the nodes
 # What the preset of the F710 allows with RB held, and the mux and the base with it.
 MAX_LINEAR, MAX_ANGULAR = 0.7, 2.0
-TELEOP_S = 1.0 - 0.15  # for which teleop holds lower inputs off, less the way of a message
 LATE_S = 0.15  # a gap in the odometry, or a fault that was not there at once
 
-# What an Event is about; of the last three the value is a velocity.
+# What an Event is about; of the last two the value is a velocity.
 HANDS, BEGINS, ENDS, LATE, SEEN = (
     "hands show",
     "begins:",
@@ -28,8 +27,7 @@ HANDS, BEGINS, ENDS, LATE, SEEN = (
     "this machine is late by",
     "seen:",
 )
-ASKED, COMMAND, WHEELS = "joy2twist asks for", "the base receives", "wheels turn at"
-VELOCITIES = (ASKED, COMMAND, WHEELS)
+VELOCITIES = COMMAND, WHEELS = "the base receives", "wheels turn at"
 
 
 class Event(NamedTuple):
@@ -85,7 +83,7 @@ class Trial:
         limits, must = WithinLimits(MAX_LINEAR, MAX_ANGULAR), {fault.must for fault in self.hits}
         twists = [Twist(at_s, velocity) for at_s, _, velocity in self.of(*VELOCITIES)]
         found = [event.value for event in self.of(SEEN)]
-        found += [*filter(None, map(limits.take, twists)), *self._rests(), *self._outranked()]
+        found += [*filter(None, map(limits.take, twists)), *self._rests()]
         found += self._waits() if MAY_STOP not in must else []
         found += self._drives_on() if must == {DRIVES_ON} else []
         found.sort(key=lambda violation: violation.at_s, reverse=True)
@@ -134,13 +132,3 @@ class Trial:
             is_free = any(begin <= now < end for begin, end in self.free)
             if first < now < last and not is_free and not moves(velocity):
                 yield Violation("h", now, "stopped by a fault elsewhere")
-
-    def _outranked(self) -> Iterator[Violation]:
-        """Yield (e): a lower input, which drives sideways, while teleop speaks."""
-        spoke_s = -math.inf
-        commands = [] if any(fault.part == "mux" for fault in self.hits) else self.of(COMMAND)
-        for now, _, velocity in commands:
-            if velocity[1] == 0 and moves(velocity):
-                spoke_s = now
-            elif velocity[1] and now < spoke_s + TELEOP_S:
-                yield Violation("e", now, "a lower input drives while teleop speaks")

@@ -12,7 +12,7 @@ import tempfile
 import time
 
 from node_kit.arguments import Parser, above_zero
-from tutorial_faults.invariants import moves
+from tutorial_faults.worlds import moves
 from tutorial_faults.live.judge import VELOCITIES, Trial
 from tutorial_faults.live.plan import draw
 from tutorial_faults.live.table import FAULTS

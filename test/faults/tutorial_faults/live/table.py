@@ -130,8 +130,6 @@ def rows():
     freeze = between(lambda world: world.hands.freeze, True, False)
     nan = lambda random: Twist(linear=Vector3(x=random.choice(ODD[:3])))  # noqa: E731
     broken = lambda random: RawTwist(random.choice(BROKEN))  # noqa: E731
-    # Sideways, where no wheel turns to: it is seen to pass, and moves nothing.
-    sideways = lambda _: Twist(linear=Vector3(y=0.1))  # noqa: E731
     yield Fault("unplug", "gamepad", (0.02, 1.2), RESTS, *plug)
     yield Fault("stop", "gamepad", (0.7, 1.5), RESTS, *freeze)
     # Out of reach: the receiver keeps the last state, and only joy2twist can notice.
@@ -142,7 +140,6 @@ def rows():
     for name, topic in {"teleop": TELEOP, "navi": NAVI, "cmd_vel": "cmd_vel"}.items():
         yield Fault("nan", name, (0.1, 1.0), DRIVES_ON, *says(topic, Twist, nan))
         yield Fault("broken", name, (0.1, 1.0), DRIVES_ON, *says(topic, RawTwist, broken))
-    yield Fault("lower", "navi", (0.1, 1.0), DRIVES_ON, *says(NAVI, Twist, sideways))
     yield Fault("stop", "master", (0.1, 1.5), DRIVES_ON, *stops("master"))
     yield Fault("stop", "viewer", (0.1, 1.5), DRIVES_ON, *stops("viewer"))
 

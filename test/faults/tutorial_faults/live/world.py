@@ -57,7 +57,6 @@ class World(rig.Rig):
         stamp = lambda odometry: (odometry.header.stamp.to_sec(), odometry.twist.twist)  # noqa: E731
         self._hear("odom", Odometry, judge.WHEELS, stamp)
         self._hear("cmd_vel", Twist, judge.COMMAND, lambda twist: (time.time(), twist))
-        self._hear(TELEOP, Twist, judge.ASKED, lambda twist: (time.time(), twist))
 
     def _hear(self, topic, message_class, what, read):
         def hear(message):
