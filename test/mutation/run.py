@@ -10,6 +10,7 @@ import os
 import random
 import re
 import shutil
+import sqlite3
 import subprocess
 import sys
 import tempfile
@@ -61,15 +62,16 @@ def modules():
 
 
 def leave_out(session, sample, seed):
-    """Leave so many of the changes that one of `sample` is left, the same for the same seed."""
-    from cosmic_ray.work_db import use_db  # noqa: PLC0415  others ask for the modules alone
-    from cosmic_ray.work_item import WorkerOutcome, WorkResult  # noqa: PLC0415
-
-    with use_db(session) as database:
-        items = [item.job_id for item in database.pending_work_items]
-        left = random.Random(seed).sample(range(len(items)), -(-len(items) // sample))
-        for job in (job for number, job in enumerate(items) if number not in left):
-            database.set_result(job, WorkResult(worker_outcome=WorkerOutcome.SKIPPED))
+    """Keep one of `sample` changes, the same for the same seed, and none that was filtered out."""
+    with sqlite3.connect(session) as database:
+        order = "operator_name, occurrence, operator_args"
+        wanted = "job_id NOT IN (SELECT job_id FROM work_results)"
+        pending = f"SELECT job_id FROM mutation_specs WHERE {wanted} ORDER BY {order}"
+        jobs = database.execute(pending).fetchall()
+        random.Random(seed).shuffle(jobs)
+        kept = ",".join(f"'{job}'" for (job,) in jobs[: -(-len(jobs) // sample)])
+        for table in ("work_results", "mutation_specs", "work_items"):
+            database.execute(f"DELETE FROM {table} WHERE job_id NOT IN ({kept})")
 
 
 def examine(copy, module, source, tests, options):
