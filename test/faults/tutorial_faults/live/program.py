@@ -12,11 +12,11 @@ import tempfile
 import time
 
 from node_kit.arguments import Parser, above_zero
-from tutorial_faults.worlds import moves
 from tutorial_faults.live.judge import VELOCITIES, Trial
 from tutorial_faults.live.plan import draw
 from tutorial_faults.live.table import FAULTS
 from tutorial_faults.live.world import World
+from tutorial_faults.worlds import moves
 from tutorial_testing.ports import free_port
 
 # The handout's own class, as printed there, by the name under which --node knows it.
