@@ -3,17 +3,15 @@
 import math
 
 from fake_turtlebot_sim.mux.arbitration import Arbiter, Verdict
-from tutorial_faults.events import Command, Through
 from tutorial_faults.invariants import (
     AT_ONCE_S,
+    Command,
     HighestSpeaks,
     NeverLate,
     RestsFirst,
     WithinLimits,
-    judged,
-    moves,
-)
-from tutorial_faults.worlds import TICK, World
+)  # fmt: skip
+from tutorial_faults.worlds import TICK, World, moves
 
 ZERO = (0.0,) * 6
 
@@ -52,8 +50,8 @@ class ArbiterWorld(World):
             for key, velocity in self._waiting.items()
             if now - self._late[key].last_s >= AT_ONCE_S
         }
-        for (name, sender), velocity in waiting.items():
-            self._speaks.take(Command(now, name, velocity, sender))
+        for name, sender in waiting:
+            self._speaks.spoke_s[name] = now
             del self._waiting[name, sender]
         names = {(velocity, sender): name for (name, sender), velocity in waiting.items()}
         through = list(self._arbiter.waited(now))
@@ -96,7 +94,7 @@ class ArbiterWorld(World):
             if verdict is Verdict.OBEYED:
                 yield "f", f"a late command of {command.sender} is obeyed"
             return
-        self._speaks.take(command)
+        self._speaks.spoke_s[name] = now
         if verdict is Verdict.OBEYED:
             yield from self._through(command)
         elif self._highest()[0].name == name:
@@ -104,8 +102,7 @@ class ArbiterWorld(World):
 
     def _through(self, command):
         self._sent = command.velocity
-        through = Through(self.now, command.input, command.velocity)
-        for violation in judged([through], self._limits, self._speaks):
+        for violation in filter(None, (self._limits.take(command), self._speaks.take(command))):
             yield violation.invariant, violation.what
         if moves(command.velocity) and self._late[command.input, command.sender].late(self.now):
             yield "f", f"a late command of {command.sender} is obeyed"

@@ -1,16 +1,18 @@
-"""What never happens, whatever fails: the invariants of FAULTS.md (pure).
+"""What never happens, whatever fails: the invariants of FAULTS.md, and what they judge (pure).
 
-Each class takes the events in the order of time with take(), which returns a Violation or None.
-They know nothing of the code that they judge.
+Each class takes what happened in the order of time, and returns a Violation or None. They know
+nothing of the code that they judge. Times [s] are of one clock that never jumps. A velocity is
+linear x, y, z [m/s] and angular x, y, z [rad/s], in the frame of the base.
 """
 
 from __future__ import annotations
 
 import math
-from typing import Any, Callable, Iterable
+from typing import Any, Callable, Hashable, NamedTuple, Tuple
 
-from tutorial_faults.events import Command, Joy, Loss, Through, Twist, Velocity, Violation, Wheels
+from tutorial_faults.worlds import moves
 
+Velocity = Tuple[float, ...]
 # Silence after which a base stops by itself [s]: fake_turtlebot's ~cmd_vel_timeout and a Kobuki's.
 BASE_TIMEOUT_S = 0.6
 # A sender that is silent for longer while it drives may be cut off [s]. What the network then kept
@@ -19,17 +21,46 @@ SILENCE_S, AT_ONCE_S, DELIVERED_S = 0.5, 0.02, 0.25
 ROUNDING = 1e-9  # of a float64, as part of a limit
 
 
-def moves(velocity: Iterable[float]) -> bool:
-    """Return whether a velocity is other than zero; NaN is, too."""
-    return any(part != 0 for part in velocity)
+class Joy(NamedTuple):
+    """A joystick message, as the node that drives by it received it."""
+
+    at_s: float
+    sender: Hashable  # the joystick node
+    axes: tuple[float, ...]
+    buttons: tuple[int, ...]
+    age_s: float = 0.0  # since its stamp
 
 
-def judged(events: Iterable[Any], *invariants: Any) -> list[Violation]:
-    """Return all violations of the invariants in a record, which is sorted by time here."""
-    found = []
-    for event in sorted(events, key=lambda event: event.at_s):
-        found += [violation for one in invariants for violation in [one.take(event)] if violation]
-    return found
+class Twist(NamedTuple):
+    """A velocity that was sent to the robot."""
+
+    at_s: float
+    velocity: Velocity
+
+
+class Command(NamedTuple):
+    """A velocity at an input of the multiplexer."""
+
+    at_s: float
+    input: str
+    velocity: Velocity
+    sender: Hashable = None  # one of several on the same input
+
+
+class Loss(NamedTuple):
+    """A part was lost: killed, suspended, cut off, restarted."""
+
+    at_s: float
+    part: str
+    settles_s: float = 0.0  # messages that arrive within this time were sent before
+
+
+class Violation(NamedTuple):
+    """An invariant does not hold."""
+
+    invariant: str  # its letter
+    at_s: float
+    what: str
 
 
 class HeldDeadMan:
@@ -124,17 +155,10 @@ class WithinLimits:
         self._max_linear = max_linear * (1 + ROUNDING)
         self._max_angular = max_angular * (1 + ROUNDING)
 
-    def take(self, event: Any) -> Violation | None:
-        """Take a Twist, a Through or the Wheels."""
-        linear: Velocity
-        angular: Velocity
-        if isinstance(event, (Twist, Through)):
-            linear, angular = event.velocity[:3], event.velocity[3:]
-        elif isinstance(event, Wheels):
-            linear, angular = (event.v,), (event.w,)
-        else:
-            return None
-        if not all(map(math.isfinite, (*linear, *angular))):
+    def take(self, event: Twist | Command) -> Violation | None:
+        """Take what was sent, or passed the multiplexer."""
+        linear, angular = event.velocity[:3], event.velocity[3:]
+        if not all(map(math.isfinite, event.velocity)):
             return Violation("c", event.at_s, f"{linear}, {angular} is not finite")
         if math.hypot(*linear) > self._max_linear or math.hypot(*angular) > self._max_angular:
             return Violation("c", event.at_s, f"{linear}, {angular} is beyond the limits")
@@ -149,15 +173,12 @@ class HighestSpeaks:
         self._inputs = inputs
         self.spoke_s = dict.fromkeys(inputs, -math.inf)
 
-    def take(self, event: Any) -> Violation | None:
-        """Take a Command that counts (finite, and not late) or what went Through."""
-        if isinstance(event, Command) and all(map(math.isfinite, event.velocity)):
-            self.spoke_s[event.input] = event.at_s
-        elif isinstance(event, Through):
-            priority, _ = self._inputs[event.input]
-            for name, (other, timeout_s) in self._inputs.items():
-                if other > priority and event.at_s < self.spoke_s[name] + timeout_s:
-                    return Violation("e", event.at_s, f"{event.input} drives while {name} speaks")
+    def take(self, command: Command) -> Violation | None:
+        """Take a Command that passed the multiplexer."""
+        priority, _ = self._inputs[command.input]
+        for name, (other, timeout_s) in self._inputs.items():
+            if other > priority and command.at_s < self.spoke_s[name] + timeout_s:
+                return Violation("e", command.at_s, f"{command.input} drives while {name} speaks")
         return None
 
 

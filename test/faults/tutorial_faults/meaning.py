@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Sequence
 
-from tutorial_faults.events import Joy
+from tutorial_faults.invariants import Joy
 
 RELEASED = 0.1  # a stick within this part of its way is released
 LARGEST = 1e6  # a length of all axes beyond this is noise

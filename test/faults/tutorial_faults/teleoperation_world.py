@@ -7,10 +7,9 @@ from typing import NamedTuple
 from joy_to_twist.parameters import load
 from joy_to_twist.teleoperation import Teleoperation
 from node_kit.arming import SETTLING_S, ZERO
-from tutorial_faults.events import Joy, Loss, Twist
-from tutorial_faults.invariants import HeldDeadMan, SeenReleased, WithinLimits, judged, moves
+from tutorial_faults.invariants import HeldDeadMan, Joy, Loss, SeenReleased, Twist, WithinLimits
 from tutorial_faults.meaning import Meaning
-from tutorial_faults.worlds import SUSPENDED, TICK, World
+from tutorial_faults.worlds import SUSPENDED, TICK, World, moves
 
 LEFT = "left"  # an event: no node publishes joystick messages
 
@@ -110,7 +109,7 @@ class TeleoperationWorld(World):
     def _judge_velocity(self, velocity, before):
         twist = Twist(self.now, velocity)
         judges = (self._held, self._limits, *([self._armed] if self._arms else []))
-        for violation in judged([twist], *judges):
+        for violation in filter(None, (judge.take(twist) for judge in judges)):
             yield violation.invariant, violation.what
         change = math.hypot(*(new - old for new, old in zip(velocity[:3], before[:3])))
         most = (self._parameters.max_linear_acceleration or math.inf) / self._parameters.output_rate

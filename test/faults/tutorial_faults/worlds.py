@@ -8,6 +8,11 @@ from typing import Any, Iterable
 TICK, SUSPENDED = "tick", "suspended"  # events; a TICK: the node looks at the clock
 
 
+def moves(velocity: Iterable[float]) -> bool:
+    """Return whether a velocity is other than zero; NaN is, too."""
+    return any(part != 0 for part in velocity)
+
+
 class Moment(int):
     """A time [us] to which seconds are added without rounding: at a threshold is at it exactly."""
 

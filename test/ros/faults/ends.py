@@ -5,105 +5,71 @@ import contextlib
 import math
 import os
 import signal
-import tempfile
-from pathlib import Path
+import termios
 
 import rosgraph
-from geometry_msgs.msg import Twist
+from geometry_msgs.msg import Twist, Vector3
 
 from node_kit.questions import call
-from tutorial_testing.nodes import node_path, pid_of
-from tutorial_testing.processes import Program
-from tutorial_testing.rig import BASE, JOYSTICK, MUX, Rig, suspended
-from tutorial_testing.robot import Robot
+from tutorial_testing.hands import DRIVE, RELEASED
+from tutorial_testing.nodes import pid_of
+from tutorial_testing.rig import BASE, Rig, suspended
 from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import BUSY_S, wait_for
 
 LONGEST_END_S = 1.5 + BUSY_S
-INPUTS = '[{"name": "a", "topic": "input", "timeout": 1.0, "priority": 1}]'
-
-
-@contextlib.contextmanager
-def held_screen():
-    """Yield a path that can be written to, and is full: so is a terminal after Ctrl-S."""
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "screen"
-        os.mkfifo(path)
-        descriptor = os.open(path, os.O_RDWR | os.O_NONBLOCK)
-        try:
-            for size in (4096, 1):  # what is left of the last page, too
-                with contextlib.suppress(BlockingIOError):
-                    while True:
-                        os.write(descriptor, b"." * size)
-            yield str(path)
-        finally:
-            os.close(descriptor)
-
-
-def master():
-    return [call(rosgraph.get_master_uri(), "getPid")[1]]
 
 
 class FaultsAtTheEnd(RosTest):
-    def check_exit(self, rig, node, pid, number):
-        """The node exits in time."""
-        self.assertLess(rig.kill(node, number, pid), LONGEST_END_S, node)
+    def check_end(self, rig, node, number, meanwhile):
+        """It exits in time, in a context, and the robot rests."""
+        pid = pid_of(node)
+        with meanwhile:
+            self.assertLess(rig.kill(node, number, pid), LONGEST_END_S, node)
+        wait_for(lambda: not rig.moves, f"robot at rest after the end of {node}")
 
     def check_each(self, rig, number, meanwhile):
         """One after the other is driven and ended, in a context that meanwhile(node) returns."""
         for node in rig.nodes:
             rig.drive()
-            pid = pid_of(node)
-            with meanwhile(node):
-                self.check_exit(rig, node, pid, number)
-            wait_for(lambda: not rig.moves, f"robot at rest after the end of {node}")
+            self.check_end(rig, node, number, meanwhile(node))
             if node != BASE:
                 rig.start(node)
 
-    def check_all(self, number):
-        """All exit on a held screen, and with suspended peers."""
-        with held_screen() as screen, Rig(screen=screen) as rig:
-            self.check_each(rig, number, lambda _: contextlib.nullcontext())
+    def test_each_exits_on_ctrl_c_while_the_screen_is_held(self):
+        keyboard, screen = os.openpty()
+        self.addCleanup(os.close, keyboard)
+        termios.tcflow(screen, termios.TCOOFF)  # as Ctrl-S does
+        with Rig(screen=os.ttyname(screen)) as rig:
+            self.check_each(rig, signal.SIGINT, lambda _: contextlib.nullcontext())
+
+    def test_each_exits_on_sigterm_while_its_peers_are_suspended(self):
         with Rig() as rig:
             peers = lambda node: [pid_of(one) for one in rig.nodes if one != node]  # noqa: E731
-            self.check_each(rig, number, lambda node: suspended(peers(node)))
+            self.check_each(rig, signal.SIGTERM, lambda node: suspended(peers(node)))
 
-    def test_sigint(self):
-        self.check_all(signal.SIGINT)
+    def test_each_exits_on_sigterm_while_the_master_hangs(self):
+        with Rig() as rig:
+            self.check_each(rig, signal.SIGTERM, lambda _: suspended(master()))
 
-    def test_sigterm(self):
-        self.check_all(signal.SIGTERM)
-
-    def test_all_exit_under_a_hung_master_whichever_is_first(self):
-        ends = ((JOYSTICK, signal.SIGTERM), (MUX, signal.SIGINT), (BASE, signal.SIGINT))
-        for first, number in ends:
-            with Rig() as rig:
-                rig.drive()
-                pids = {node: pid_of(node) for node in rig.nodes}
-                with suspended(master()):
-                    for node in (first, *(node for node in rig.nodes if node != first)):
-                        self.check_exit(rig, node, pids[node], number)
-                        wait_for(lambda: not rig.moves, "robot at rest")
-
-    def test_a_warning_under_a_hung_master_makes_no_node_deaf(self):
+    def test_a_warning_while_the_master_hangs_makes_no_node_deaf(self):
         """NaN and a speed beyond the robot's bring a warning of the mux and of the base."""
-        robot, command = self.enter(Robot()), Twist()
-        pilot = self.publisher("/cmd_vel_mux/input", Twist)
-
-        def moves(speed):
-            command.linear.x = speed
-            pilot.publish(command)
-            return robot.moves
-
-        mux = node_path("fake_turtlebot_sim", "cmd_vel_mux.py")
-        base = node_path("fake_turtlebot_sim", "fake_turtlebot.py")
-        with Program(mux, f"_subscribers:={INPUTS}", "cmd_vel_mux/output:=cmd_vel"), Program(base):
-            wait_for(lambda: moves(0.2), "robot that moves")
+        with Rig() as rig:
+            rig.drive()
+            pilot = self.publisher("/cmd_vel_mux/input/teleop", Twist)
+            wait_for(pilot.get_num_connections, "mux")
             with suspended(master()):
-                for bad in (math.nan, 5.0, -5.0):
-                    moves(bad)
-                wait_for(lambda: not moves(0.0), "robot that obeys zero")
-                wait_for(lambda: moves(0.2), "robot that obeys")
+                for bad in (math.nan, 5.0, math.nan):
+                    pilot.publish(Twist(linear=Vector3(x=bad)))
+                rig.hands.show(RELEASED)
+                rig.wait_for_rest(rig.now.stamp)
+                rig.hands.show(DRIVE)
+                wait_for(lambda: rig.moves, "robot that obeys")
+
+
+def master():
+    """Return its process."""
+    return [call(rosgraph.get_master_uri(), "getPid")[1]]
 
 
 if __name__ == "__main__":

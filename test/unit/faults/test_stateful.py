@@ -14,7 +14,7 @@ from fake_turtlebot_sim.mux.parameters import Input
 from gamepad.js_event import AXIS, BUTTON, FULL, INIT, SIGN_OF_LIFE_MS
 from tutorial_faults.arbiter_world import ZERO, ArbiterWorld
 from tutorial_faults.driver_world import LOST, OPEN, DriverWorld, event
-from tutorial_faults.events import Command
+from tutorial_faults.invariants import Command
 from tutorial_faults.teleoperation_world import LEFT, Message, TeleoperationWorld
 from tutorial_faults.worlds import SUSPENDED, TICK
 

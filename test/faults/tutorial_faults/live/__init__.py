@@ -1,1 +1,1 @@
-"""The live hunt: a system that is driven by random hands and hit by random faults."""
+"""Random faults on the live system: ./tutorial test faults."""

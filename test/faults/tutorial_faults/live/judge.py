@@ -1,203 +1,134 @@
 """What is wrong with a trial, by what the hands showed and what the wheels did (pure).
 
-The nodes under test are not asked. Times [s] are all of the system clock, as the stamps of /odom.
+The nodes under test are not asked. Times [s] are of the system clock, as the stamps of /odom.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
-from typing import Sequence
+from typing import Any, Iterator, NamedTuple, Sequence
 
-from tutorial_faults.events import Twist, Violation, Wheels
-from tutorial_faults.invariants import BASE_TIMEOUT_S, WithinLimits, judged, moves
-from tutorial_faults.live.kinds import BASE, KINDS, MUX
-from tutorial_faults.live.plan import HELD
-from tutorial_testing.hands import RELEASED
+from tutorial_faults.invariants import BASE_TIMEOUT_S, Twist, Violation, WithinLimits, moves
+from tutorial_faults.live.table import DRIVES_ON, FAULTS, MAY_STOP, RESTS
+from tutorial_testing.hands import DRIVE, RELEASED, TURBO, TURN
 
-PERIOD_S = 0.02  # of /odom
-LIMIT_S = BASE_TIMEOUT_S + PERIOD_S  # from a loss to wheels at rest
+HELD = (DRIVE, TURN, TURBO)  # shown with LB held
+LIMIT_S = BASE_TIMEOUT_S + 0.02  # from a loss to wheels at rest; /odom comes every 0.02 s
 SLACK_S = 0.05  # between the stamps of this process and those of the nodes
 # What the preset of the F710 allows with RB held, and the mux and the base with it.
 MAX_LINEAR, MAX_ANGULAR = 0.7, 2.0
-# An input that speaks holds those below it off for so long, less the way of a message.
-TELEOP_S = 1.0 - 0.15
-# As long a gap as a busy machine may make in what is published every 20 ms.
-LONGEST_GAP_S = 0.3
-LONGEST_PUSH_S = 0.5  # in a world with a safety controller
+LATE_S = 0.15  # a gap in the odometry, or a fault that was not there at once
+
+# What an Event is about; of the last two the value is a velocity.
+HANDS, BEGINS, ENDS, LATE, SEEN = (
+    "hands show",
+    "begins:",
+    "ends:",
+    "this machine is late by",
+    "seen:",
+)
+VELOCITIES = COMMAND, WHEELS = "the base receives", "wheels turn at"
 
 
-@dataclass
-class Injury:
-    """A fault as it came: begin and end [s]. end_s is infinite as long as it lasts."""
+class Event(NamedTuple):
+    """Something that was seen in a trial. SEEN: a Violation that wheels do not show."""
 
-    kind: str
-    begin_s: float
-    end_s: float = math.inf
-
-
-@dataclass
-class Record:
-    """All that was seen in a trial, each in the order of time [s]."""
-
-    hands: list[tuple[float, str]] = field(default_factory=list)  # what they show from then on
-    injuries: list[Injury] = field(default_factory=list)
-    wheels: list[Wheels] = field(default_factory=list)
-    commands: list[Twist] = field(default_factory=list)  # at the base
-    asked: list[Twist] = field(default_factory=list)  # at the mux, by teleop
-    late: list[tuple[float, float]] = field(default_factory=list)  # (end, length) of a gap
-    reported: list[Violation] = field(default_factory=list)  # by what wheels do not show
-    is_safe: bool = False  # in a world, with a safety controller
-    bumpers: list[tuple[float, float]] = field(default_factory=list)  # how many are pressed
-    drops: list[tuple[float, float]] = field(default_factory=list)  # how many wheels dropped
+    at_s: float
+    what: str
+    value: Any
 
 
-@dataclass(frozen=True)
-class Judgement:
-    """violations: of any invariant. rest_s: the longest time from a loss or release to rest [s]."""
-
-    violations: tuple[Violation, ...]
-    rest_s: float
-
-
-def judge(record: Record) -> Judgement:
-    """Return the Judgement on a Record, with the first violation of each invariant."""
-    limits = WithinLimits(MAX_LINEAR, MAX_ANGULAR)
-    found = judged([*record.wheels, *record.commands, *record.asked], limits)
-    late, rest_s = _rest(record)
-    found += late + _outranked(record)
-    found += _unsafe(record) if record.is_safe else _moved_again(record) + _went_on(record)
-    first: dict[str, Violation] = {}
-    for violation in sorted(record.reported + found, key=lambda violation: violation.at_s):
-        first.setdefault(violation.invariant, violation)
-    return Judgement(tuple(first.values()), rest_s)
+def spans(changes: Sequence[tuple[float, bool]]) -> list[tuple[float, float]]:
+    """Return (begin, end) of each time in which something is so, from when it changes."""
+    found, begin = [], None
+    for at_s, is_so in changes:
+        if is_so and begin is None:
+            begin = at_s
+        elif not is_so and begin is not None:
+            found.append((begin, at_s))
+            begin = None
+    return found if begin is None else [*found, (begin, math.inf)]
 
 
-def shown_at(changes: Sequence[tuple[float, str]], now: float) -> tuple[str, float]:
-    """Return (what the hands show at a time, since when something is held, or nothing is)."""
-    shown, since = RELEASED, changes[0][0] if changes else now
-    for at_s, shows in changes:
-        if at_s > now:
-            break
-        if (shows in HELD) != (shown in HELD):
-            since = at_s
-        shown = shows
-    return shown, since
+class Trial:
+    """The stream of Events of a trial."""
 
+    def __init__(self, stream: Sequence[Event]) -> None:
+        """stream: in any order."""
+        self.events = sorted(stream, key=lambda event: event.at_s)
+        hands = self.of(HANDS)
+        self.free = spans([(at_s, shows not in HELD) for at_s, _, shows in hands])
+        self.released = spans([(at_s, shows == RELEASED) for at_s, _, shows in hands])
+        ends = {event.value: event.at_s for event in self.of(ENDS)}
+        self.hits = {
+            FAULTS[name]: (at_s, ends.get(name, math.inf)) for at_s, _, name in self.of(BEGINS)
+        }
+        self.rest_s = 0.0  # the longest time from a loss or release to rest
+        self.violations = self._judge()
 
-def _rest(record: Record) -> tuple[list[Violation], float]:
-    """Return the Violations (a) and (d), wheels that turn too long; and the longest time [s]."""
-    found, worst_s = [], 0.0
-    for wheels in record.wheels:
-        # Backing off is the safety controller's, whatever is shown or lost.
-        if not moves((wheels.v, wheels.w)) or (record.is_safe and wheels.v <= 0):
-            continue
-        now = wheels.at_s
-        shown, since = shown_at(record.hands, now)
-        losses = [(i.begin_s, i.kind) for i in record.injuries if _lost(i, now)]
-        if shown not in HELD:
-            losses.append((since, ""))
-        for began, kind in losses:
-            elapsed_s = now - _last_blow(record.injuries, began, now)
-            worst_s = max(worst_s, elapsed_s)
-            if elapsed_s > LIMIT_S + _allowed(record.injuries, began, now):
-                letter = "d" if kind else "a"
-                why = f"the loss by {kind}" if kind else f"LB was released ({shown})"
-                found.append(Violation(letter, now, f"wheels turn {elapsed_s:.3f} s after {why}"))
-    return found[:1], worst_s
+    @property
+    def was_late(self) -> bool:
+        """Whether what was seen may be the lateness of this machine."""
+        stamps = [event.at_s for event in self.of(WHEELS)]
+        gaps_s = [after - before for before, after in zip(stamps, stamps[1:])]
+        is_base_hit = any(fault.part == "base" for fault in self.hits)
+        return bool(self.of(LATE)) or (not is_base_hit and max(gaps_s, default=0.0) > LATE_S)
 
+    def of(self, *what: str) -> list[Event]:
+        """Return the Events about this."""
+        return [event for event in self.events if event.what in what]
 
-def _lost(injury: Injury, now: float) -> bool:
-    """Return whether a part is lost at a time; when the base is, its wheels say nothing."""
-    kind = KINDS[injury.kind]
-    return kind.loses and kind.part != BASE and injury.begin_s < now <= injury.end_s
+    def _judge(self) -> list[Violation]:
+        """Return the first Violation of each invariant."""
+        limits, must = WithinLimits(MAX_LINEAR, MAX_ANGULAR), {fault.must for fault in self.hits}
+        twists = [Twist(at_s, velocity) for at_s, _, velocity in self.of(*VELOCITIES)]
+        found = [event.value for event in self.of(SEEN)]
+        found += [*filter(None, map(limits.take, twists)), *self._rests()]
+        found += self._waits() if MAY_STOP not in must else []
+        found += self._drives_on() if must == {DRIVES_ON} else []
+        found.sort(key=lambda violation: violation.at_s, reverse=True)
+        first = {violation.invariant: violation for violation in found}
+        return sorted(first.values(), key=lambda violation: violation.at_s)
 
+    def _rests(self) -> Iterator[Violation]:
+        """Yield (a), (d): wheels that turn too long after LB was released or a part was lost."""
+        causes = [("a", "LB was released", *span) for span in self.free]
+        for fault, span in self.hits.items():
+            if fault.must == RESTS and fault.part != "base":  # whose wheels say nothing meanwhile
+                causes.append(("d", f"the loss by {fault.name}", *span))
+        for now in [wheels.at_s for wheels in self.of(WHEELS) if moves(wheels.value)]:
+            for letter, why, begin, end in causes:
+                if begin < now <= end:
+                    elapsed_s = now - self._last_blow(begin, now)
+                    self.rest_s = max(self.rest_s, elapsed_s)
+                    if elapsed_s > LIMIT_S + sum(fault.late_s for fault in self.hits):
+                        yield Violation(letter, now, f"wheels turn {elapsed_s:.3f} s after {why}")
 
-def _last_blow(injuries: Sequence[Injury], began: float, now: float) -> float:
-    """Return when the time to rest begins: a second fault before its end begins it again."""
-    last = began
-    for injury in sorted(injuries, key=lambda injury: injury.begin_s):
-        if last < injury.begin_s < now and injury.begin_s - last <= LIMIT_S:
-            last = injury.begin_s
-    return last
+    def _last_blow(self, began: float, now: float) -> float:
+        """Return when the time to rest begins: a second fault before its end begins it again."""
+        last = began
+        for begin in sorted(begin for begin, _ in self.hits.values()):
+            if last < begin < min(now, last + LIMIT_S):
+                last = begin
+        return last
 
+    def _waits(self) -> Iterator[Violation]:
+        """Yield (b): wheels that stood turn without a release."""
+        stood_s = None
+        for now, _, velocity in self.of(WHEELS):
+            if not moves(velocity):
+                stood_s = now if stood_s is None else stood_s
+            elif stood_s is not None:
+                since = stood_s - SLACK_S
+                if not any(begin <= now and end >= since for begin, end in self.released):
+                    yield Violation("b", now, f"moved again after {now - stood_s:.3f} s")
+                stood_s = None
 
-def _allowed(injuries: Sequence[Injury], began: float, now: float) -> float:
-    """Return what the faults in force may add [s]."""
-    return sum(
-        KINDS[i.kind].late_s for i in injuries if i.begin_s < now and began - LIMIT_S < i.end_s
-    )
-
-
-def _moved_again(record: Record) -> list[Violation]:
-    """Return the Violations (b), (f) after a cut: wheels that stood turn without a release."""
-    if not all(KINDS[injury.kind].rearms for injury in record.injuries):
-        return []
-    stood_s = None
-    for wheels in record.wheels:
-        now = wheels.at_s
-        if not moves((wheels.v, wheels.w)):
-            stood_s = now if stood_s is None else stood_s
-        elif stood_s is not None:
-            if not _released_within(record.hands, stood_s - SLACK_S, now):
-                cut = any(i.kind == "link_down" and i.begin_s < now for i in record.injuries)
-                what = f"wheels that stood since {now - stood_s:.3f} s turn, without a release"
-                return [Violation("f" if cut else "b", now, what)]
-            stood_s = None
-    return []
-
-
-def _released_within(changes: Sequence[tuple[float, str]], begin: float, end: float) -> bool:
-    """Return whether all was released at some time between two."""
-    return shown_at(changes, begin)[0] == RELEASED or any(
-        begin <= at_s <= end and shows == RELEASED for at_s, shows in changes
-    )
-
-
-def _went_on(record: Record) -> list[Violation]:
-    """Return the Violations (h): a fault outside of the robot's own parts stops it."""
-    kinds = [KINDS[injury.kind] for injury in record.injuries]
-    if not kinds or not all(kind.goes_on for kind in kinds):
-        return []
-    begin = min(injury.begin_s for injury in record.injuries)
-    end = next(
-        (at_s for at_s, shows in record.hands if at_s > begin and shows not in HELD), math.inf
-    )
-    last_s = None
-    for wheels in record.wheels:
-        if not begin < wheels.at_s < end or shown_at(record.hands, wheels.at_s)[0] not in HELD:
-            continue
-        if last_s is not None and wheels.at_s - last_s > LONGEST_GAP_S:
-            return [Violation("h", wheels.at_s, f"silent for {wheels.at_s - last_s:.3f} s")]
-        if not moves((wheels.v, wheels.w)):
-            return [Violation("h", wheels.at_s, "stopped by a fault elsewhere")]
-        last_s = wheels.at_s
-    return []
-
-
-def _unsafe(record: Record) -> list[Violation]:
-    """Return the Violations (i): a push that lasts, a fall; unless mux or base were hit."""
-    if any(KINDS[injury.kind].part in (MUX, BASE) for injury in record.injuries):
-        return []
-    found = [Violation("i", at_s, "a wheel dropped over an edge") for at_s, n in record.drops if n]
-    ends = [record.wheels[-1].at_s] if record.wheels else []
-    since_s = None
-    for at_s, pressed in [*record.bumpers, *((end, 0) for end in ends)]:
-        if since_s is not None and not pressed and at_s - since_s > LONGEST_PUSH_S + SLACK_S:
-            found.append(Violation("i", at_s, f"a bumper was pressed for {at_s - since_s:.3f} s"))
-        since_s = (at_s if since_s is None else since_s) if pressed else None
-    return found
-
-
-def _outranked(record: Record) -> list[Violation]:
-    """Return the Violations (e): a lower input, which drives sideways, while teleop speaks."""
-    if any(KINDS[injury.kind].part == MUX for injury in record.injuries):
-        return []
-    spoke_s = -math.inf
-    for command in record.commands:
-        sideways = command.velocity[1] != 0
-        if sideways and command.at_s < spoke_s + TELEOP_S:
-            return [Violation("e", command.at_s, "a lower input drives while teleop speaks")]
-        if not sideways and moves(command.velocity):
-            spoke_s = command.at_s
-    return []
+    def _drives_on(self) -> Iterator[Violation]:
+        """Yield (h): a fault outside of the robot's own parts stops it."""
+        first = min(begin for begin, _ in self.hits.values())
+        last = min((begin for begin, _ in self.free if begin > first), default=math.inf)
+        for now, _, velocity in self.of(WHEELS):
+            is_free = any(begin <= now < end for begin, end in self.free)
+            if first < now < last and not is_free and not moves(velocity):
+                yield Violation("h", now, "stopped by a fault elsewhere")

@@ -1,115 +1,122 @@
 """./tutorial test faults: hit the live system with random faults, and report what it did."""
 
-import argparse
 import contextlib
-import csv
+import itertools
+import logging
+import math
 import os
 import shlex
 import signal
 import sys
 import tempfile
-from pathlib import Path
+import time
 
 from node_kit.arguments import Parser, above_zero
-from tutorial_faults.live import hosts
-from tutorial_faults.live.hunting import Hunt
-from tutorial_faults.live.kinds import KINDS
-from tutorial_faults.live.report import by_kind, last_line
-from tutorial_faults.live.soak import soak
+from tutorial_faults.live.judge import VELOCITIES, Trial
+from tutorial_faults.live.plan import draw
+from tutorial_faults.live.table import FAULTS
+from tutorial_faults.live.world import World
+from tutorial_faults.worlds import moves
+from tutorial_testing.ports import free_port
 
 # The handout's own class, as printed there, by the name under which --node knows it.
-HANDOUT, LITERAL = "handout", "exercises/literal/joy2twist/scripts/new_joy2twist.py"
-FIRST_SEED = 1
+HANDOUT, LITERAL = "handout", "test/exercises/literal/joy2twist/scripts/new_joy2twist.py"
+SHORTEST_S = 60.0  # without --for and --trials
+ATTEMPTS = 4  # at a trial in which this machine was late
 CANNOT = 2  # exit code
-
-
-def count(text):
-    """Return how many. Raises argparse.ArgumentTypeError."""
-    if not text.isdigit() or int(text) < 1:
-        raise argparse.ArgumentTypeError(f"{text}: not a whole number above 0, such as 100")
-    return int(text)
-
-
-def node(text):
-    """Return the name of a node. Raises argparse.ArgumentTypeError."""
-    if text != HANDOUT and text.count("/") != 1:
-        raise argparse.ArgumentTypeError(f"{text}: not PACKAGE/TYPE, such as gamepad/joy_node")
-    return text
-
-
-def kind(text):
-    """Return the name of a kind, or of a family. Raises argparse.ArgumentTypeError."""
-    families = sorted({one.family for one in KINDS.values()})
-    if text not in KINDS and text not in families:
-        there_are = f"there are {', '.join(families)}"
-        raise argparse.ArgumentTypeError(f"{text}: is no kind of fault; {there_are}")
-    return text
+STEP = 0.15  # a change of a velocity worth a line
 
 
 def parse(arguments):
-    """Return the options; seed: None if there is none."""
-    description = "Hit the live system with random faults."
-    parser = Parser(prog="./tutorial test faults", description=description)
-    add = parser.add_argument
-    what = parser.add_mutually_exclusive_group()
-    what.add_argument("--for", type=above_zero, metavar="SECONDS", dest="seconds", help="(60)")
-    what.add_argument("--trials", type=count, metavar="N", help="so many trials")
-    what.add_argument("--soak", type=above_zero, metavar="HOURS", help="without faults: what grows")
-    add("--seed", type=int, help=f"of the first trial ({FIRST_SEED})")
-    add("--kinds", type=kind, nargs="+", default=[], metavar="KIND", help="these faults alone")
-    add("--node", type=node, metavar="PACKAGE/TYPE", help=f"in place of joy2twist; or {HANDOUT}")
-    add(
-        "--in-a-cell", action="store_true", help="between walls and edges, with a safety controller"
-    )
-    file = argparse.FileType("w", 1)
-    add("--table", type=file, metavar="FILE", help="write each trial to FILE; print a table")
+    """Return the options."""
+    parser = Parser(prog="./tutorial test faults", description="Hit the live system with faults.")
+    add, ends = parser.add_argument, parser.add_mutually_exclusive_group()
+    ends.add_argument("--for", type=above_zero, metavar="SECONDS", dest="seconds", help="(60)")
+    ends.add_argument("--trials", type=int, default=0, metavar="N", help="so many trials")
+    add("--seed", type=int, default=1, help="of the first trial (1); the next one has the next")
+    names = sorted({*FAULTS, *(fault.family for fault in FAULTS.values())})
+    add("--kinds", choices=names, nargs="+", metavar="KIND", help=", ".join(FAULTS))
+    text = f"a command in place of joy2twist; {HANDOUT}: the handout's own class"
+    add("--node", type=shlex.split, default=[], metavar="COMMAND", help=text)
     return parser.parse_args(arguments)
 
 
+def tried(world, plan):
+    """Return the judge.Trial of a Plan. Raises TimeoutError."""
+    for _ in range(ATTEMPTS):
+        trial = Trial(world.act(plan))
+        if not trial.violations or not trial.was_late:
+            return trial
+    raise TimeoutError("this machine was too late")
+
+
+def timeline(events):
+    """Yield lines in the order of time: hands, faults, each change of a velocity."""
+    last = dict.fromkeys(VELOCITIES, (math.inf,))
+    for at_s, what, value in events:
+        words = value
+        if what in VELOCITIES:
+            changes = [abs(new - old) for new, old in zip(value, last[what])]
+            if max(changes) < STEP and moves(value) == moves(last[what]):
+                continue
+            last[what] = value
+            words = ", ".join(f"{part:.2f}" for part in value if part) or "rest"
+        yield f"  {at_s - events[0].at_s:8.3f} s  {what} {words}"
+
+
+def show(options, plan, trial):
+    """Print a trial that violates an invariant, and how to repeat it."""
+    hits = [f"{name} at {at_s:.2f} s for {end_s - at_s:.2f} s" for at_s, end_s, name in plan.hits]
+    print(f"VIOLATION, seed {plan.seed}: {' + '.join(hits)}")
+    for letter, at_s, what in trial.violations:
+        print(f"  ({letter}) {what}, at {at_s - trial.events[0].at_s:.3f} s")
+    again = ["--seed", str(plan.seed), "--trials", "1"]
+    again += ["--node", shlex.join(options.node)] if options.node else []
+    again += ["--kinds", *options.kinds] if options.kinds else []
+    again = f"  again: ./tutorial test faults {shlex.join(again)}"
+    print(*timeline(trial.events), again, sep="\n", flush=True)
+
+
 def hunt(options):
-    """Run the trials; return the exit code."""
-    command = ()
-    if options.node:
-        is_handout = options.node == HANDOUT
-        literal = Path(__file__).resolve().parents[3] / LITERAL
-        command = (str(literal),) if is_handout else ("rosrun", *options.node.split("/"))
-    with contextlib.ExitStack() as stack:
-        home = stack.enter_context(tempfile.TemporaryDirectory())
-        the_hosts = stack.enter_context(hosts.Hosts(home, options.seed))
-        os.environ.update(the_hosts.robot_environment)
-        for need, why in the_hosts.refused.items():
-            kinds = ", ".join(kind.name for kind in KINDS.values() if kind.needs == need)
-            print(f"faults: without {kinds}: {why}", flush=True)
-        table = csv.writer(options.table or stack.enter_context(open(os.devnull, "w")))
-        table.writerow(("seed", "kinds", "rest_s", "violations"))
-        the_hunt = stack.enter_context(Hunt(the_hosts, options, command))
-        with contextlib.suppress(KeyboardInterrupt):
-            for result, lines in the_hunt.run():
-                table.writerow(result.row())
-                print(*lines, sep="\n", end="\n" if lines else "", flush=True)
-                if sys.stderr.isatty():
-                    print(f"\rseed {result.seed} ", end="", file=sys.stderr, flush=True)
-            the_hunt.end()
-    results = the_hunt.results
-    if the_hunt.not_judged:
-        print(f"{the_hunt.not_judged} trials not judged: this machine was too late or failed")
-    if options.table:
-        print("\n".join(by_kind(results)))
-    print(last_line(results))
-    return int(any(result.violations for result in results)) if results else CANNOT
+    """Yield a Trial after the other; the world is replaced when it cannot be repaired."""
+    wanted = {*(options.kinds or FAULTS)}
+    names = [name for name, fault in FAULTS.items() if {name, fault.family} & wanted]
+    node = [LITERAL] if options.node == [HANDOUT] else options.node
+    end_s = time.monotonic() + (math.inf if options.trials else options.seconds or SHORTEST_S)
+    world, stack = None, contextlib.ExitStack()
+    with stack:
+        for seed in itertools.islice(itertools.count(options.seed), options.trials or None):
+            if time.monotonic() > end_s:
+                return
+            plan = draw(seed, names)
+            try:
+                world = world or stack.enter_context(World(node))
+                trial = tried(world, plan)
+                yield trial
+            except (AssertionError, OSError) as error:
+                print(f"faults: seed {seed} could not be tried: {error}", file=sys.stderr)
+                world = stack.close()
+                continue
+            if trial.violations:
+                show(options, plan, trial)
+            if world.is_deaf:
+                world = stack.close()
 
 
-def main(arguments=None):
+def main():
     """Run until done; return 1 if an invariant was violated, 2 if this cannot work."""
-    arguments = sys.argv[1:] if arguments is None else arguments
-    options = parse(arguments)
-    hosts.move_in(arguments)
-    # As the first process of a namespace this receives only signals with a handler.
+    options = parse(sys.argv[1:])
     signal.signal(signal.SIGTERM, signal.default_int_handler)
-    if options.soak:
-        return soak(options.soak, options.table)
-    if options.seed is None:
-        options.seed = FIRST_SEED
-        again = shlex.join(["./tutorial", "test", "faults", *arguments, "--seed", str(FIRST_SEED)])
-        print(f"faults: seed {FIRST_SEED}; the same again: {again}", flush=True)
-    return hunt(options)
+    logging.disable(logging.CRITICAL)  # of this process, which is asked for what it has ended
+    trials = []
+    with tempfile.TemporaryDirectory() as home:
+        os.environ.update(ROS_HOME=home, ROS_MASTER_URI=f"http://localhost:{free_port()}")
+        with contextlib.suppress(KeyboardInterrupt):
+            for trial in hunt(options):
+                trials.append(trial)
+    print(
+        f"{len(trials)} trials, {sum(len(one.hits) for one in trials)} faults,"
+        f" {sum(bool(one.violations) for one in trials)} violations,"
+        f" worst time to rest {max((one.rest_s for one in trials), default=0.0):.2f} s"
+    )
+    return int(any(one.violations for one in trials)) if trials else CANNOT

@@ -1,4 +1,4 @@
-"""What the processes of a soak need, over time, and whether it grows; sample() reads /proc."""
+"""What processes need, over time, and whether it grows; sample() reads /proc."""
 
 from __future__ import annotations
 
@@ -28,31 +28,24 @@ def sample(at_s: float, node: str, pid: int) -> Sample | None:
         files = len(os.listdir(f"/proc/{pid}/fd"))
     except OSError:
         return None
-    memory, threads = (
-        int(re.findall(rf"^{name}:\s+(\d+)", status, re.M)[0]) for name in ("VmRSS", "Threads")
-    )
-    return Sample(at_s, node, memory, threads, files)
+    memory, threads = re.findall(r"^(?:VmRSS|Threads):\s+(\d+)", status, re.M)
+    return Sample(at_s, node, int(memory), int(threads), files)
 
 
 def growth(samples: Sequence[Sample], node: str) -> tuple[int, int, int] | None:
-    """Return (memory [kB], threads, files) by which a node has grown after it settled.
+    """Return (memory [kB], threads, files) by which a node has grown; None: unknown.
 
-    The smallest of the last tenth of the time, as a thread that answers one question is no growth;
-    of memory beyond the smallest of the first tenth, of threads and files beyond the largest of the
-    first minute. None: unknown.
+    From the smallest memory after it settled, and the most threads and files before, to the
+    smallest of the last tenth of the time, as a thread that answers one question is no growth.
     """
-    its = [one for one in samples if one.node == node]
-    before = [one for one in its if one.at_s <= SETTLES_S]
-    after = [one for one in its if one.at_s > SETTLES_S]
-    if not before or not after:
+    its = [one[2:] for one in samples if one.node == node and one.at_s > SETTLES_S]
+    before = [one[2:] for one in samples if one.node == node and one.at_s <= SETTLES_S]
+    if not before or not its:
         return None
-    tenth = max(1, len(after) // 10)
-    last, first = after[-tenth:], after[:tenth]
-    memory = min(one.memory_kb for one in last) - min(one.memory_kb for one in first)
-    threads, files = (
-        min(getattr(one, name) for one in last) - max(getattr(one, name) for one in before)
-        for name in ("threads", "files")
-    )
+    tenth = max(1, len(its) // 10)
+    last = map(min, zip(*its[-tenth:]))
+    first = min(its[:tenth])[0], *(max(column) for column in list(zip(*before))[1:])
+    memory, threads, files = (new - old for new, old in zip(last, first))
     return memory, threads, files
 
 
