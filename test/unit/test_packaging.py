@@ -93,6 +93,14 @@ def test_a_file_is_read_in_five_minutes_and_a_script_only_starts_its_program(pat
     assert len(path.read_text(encoding="utf-8").splitlines()) <= most
 
 
+def test_coverage_is_of_every_library():
+    """The other tools find them, as this does; coverage cannot."""
+    found = {path.parent.name for path in SOURCES if path.parts[-3] == "src"} - {"tutorial_testing"}
+    text = (REPOSITORY / "pyproject.toml").read_text()
+    listed = re.search(r"^run\.source_pkgs = \[(.*?)\]", text, re.S | re.M)[1]
+    assert set(re.findall(r"\w+", listed)) == found | {"ros2_tutorials"}
+
+
 def test_pip_installs_only_what_a_lock_has():
     """What is asked for stands in the lock, which test/lock makes; each release has its hashes."""
     source = (REPOSITORY / "test/lock").read_text()
