@@ -125,9 +125,8 @@ def test_pip_installs_only_what_a_lock_has():
 
 
 def test_workflows_may_only_read_and_take_actions_by_their_commit():
-    workflow = (REPOSITORY / ".github/workflows/test.yml").read_text()
-    made = (REPOSITORY / "common/tutorial_check/src/tutorial_check/package.py").read_text()
-    for text in (workflow, made):
+    made = REPOSITORY / "common/tutorial_check/src/tutorial_check/package.py"
+    for text in map(Path.read_text, [made, *(REPOSITORY / ".github/workflows").glob("*.yml")]):
         assert re.search(r"^permissions: \{contents: read\}$", text, re.M)
         assert len(re.findall(r"\buses: ", text)) == len(
             re.findall(r"\buses: [\w-]+/[\w-]+@[0-9a-f]{40} # v\d+\.\d+\.\d+$", text, re.M)
