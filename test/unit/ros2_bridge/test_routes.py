@@ -18,7 +18,7 @@ def test_our_list_keeps_only_the_newest_velocity_and_no_old_one():
     assert routes["/odom"].depth == 100  # of the defaults
 
 
-@pytest.mark.parametrize("given", [{}, {"topics": str(OURS)}], ids=str)
+@pytest.mark.parametrize("given", [{}, {"topics": ""}, {"topics": str(OURS)}], ids=str)
 def test_our_list_counts_without_another(given, tmp_path):
     assert load(tmp_path, given) == read_routes(OURS.read_text())
     assert (tmp_path / LIST).read_text() == OURS.read_text()
@@ -38,6 +38,7 @@ def test_our_list_counts_without_another(given, tmp_path):
         ("topics: {/joy: {direction: both, depth: 0}}", "/joy: depth: 0; allowed is 1 to 10000"),
         ("topics: {/joy: {direction: both, depth: true}}", "/joy: depth: True"),
         ("topics: {/joy: {direction: both, longest_s: .nan}}", "/joy: longest_s: nan"),
+        ("topics: {/joy: {direction: both, longest_s: -1}}", "/joy: longest_s: -1"),
         ("topics: {/joy: {direction: both, reliability: 3}}", "/joy: reliability: 3 is none of"),
     ],
 )

@@ -69,7 +69,9 @@ VALUES = {  # by genpy's names of types: a function that draws a value, extremes
     "float32": lambda draw: struct.unpack("f", struct.pack("f", real(draw)))[0],
     "string": lambda draw: draw.choice(("", "a", "\u00e4\u20ac{}%s\n", "x" * 1000)),
     "time": lambda draw: genpy.Time(draw.randrange(2**31), draw.randrange(10**9)),
-    "duration": lambda draw: genpy.Duration(draw.randint(-(2**31), 2**31 - 1), draw.randrange(9)),
+    "duration": lambda draw: genpy.Duration(
+        whole(-(2**31), 2**31 - 1)(draw), draw.randrange(10**9)
+    ),
 }
 
 
