@@ -29,6 +29,7 @@ def test_our_list_counts_without_another(given, tmp_path):
     [
         ("[", "no YAML"),
         ("topics: [/joy]", "a map with topics"),
+        ("topics: {joy: {direction: both}}", "'joy': a topic is written as /name"),
         ("topics: {'/a b': {direction: both}}", "'/a b': a topic is written as /name"),
         ("topics: {3: {direction: both}}", "3: a topic is written"),
         ("topics: {/joy: both}", "/joy: a map such as"),
