@@ -1,16 +1,16 @@
 """A master, the bridge, and programs with ROS 2; this process is a node of ROS 1."""
 
+import json
 import os
 import time
+from contextlib import ExitStack
 
 import pytest
 import rospy
-from drive import Stick
+from drive import Stick, own_master
 from nav_msgs.msg import Odometry
 
 from node_kit import ros2_python
-from tutorial_testing.nodes import init_node
-from tutorial_testing.ports import free_port
 from tutorial_testing.processes import Program, command_line, descendants
 from tutorial_testing.waiting import wait_for
 
@@ -25,41 +25,27 @@ def pytest_addoption(parser):
 
 @pytest.fixture(scope="session", autouse=True)
 def master():
-    """A master and a domain of ROS 2 for this test alone."""
-    port = free_port()
-    os.environ["ROS_MASTER_URI"] = f"http://127.0.0.1:{port}"
-    os.environ["ROS_DOMAIN_ID"] = str(1 + port % 100)
-    with Program("roscore", "-p", str(port)) as core:
-        wait_for(lambda: "started core service" in core.output, "master")
-        init_node("test", disable_signals=True)
+    with own_master():
         yield
-        rospy.signal_shutdown("the end")
-
-
-@pytest.fixture(autouse=True)
-def own_parameters():
-    """Remove a test's parameters: launch_bag.launch has a robot that never stops by itself."""
-    before = set(rospy.get_param_names())
-    yield
-    for name in set(rospy.get_param_names()) - before:
-        rospy.delete_param(name)
 
 
 @pytest.fixture
 def start():
     """start(words): a program that ends with the test."""
-    running = []
+    with ExitStack() as stack:
 
-    def begin(*words):
-        running.append(Program(*map(str, words)))
-        return running[-1]
+        def begin(*words):
+            program = stack.enter_context(Program(*map(str, words)))
+            stack.callback(end, program)
+            return program
 
-    yield begin
-    for program in reversed(running):
-        if not program.ended:
-            program.interrupt()
-            program.wait()
-        program.__exit__()
+        yield begin
+
+
+def end(program):
+    if not program.ended:
+        program.interrupt()
+        program.wait()
 
 
 @pytest.fixture
@@ -96,11 +82,15 @@ class Bridge:
 
 
 @pytest.fixture
-def bridge(start):
-    """bridge(topics=FILE): a Bridge that carries."""
+def bridge(start, tmp_path):
+    """bridge({topic: direction}): a Bridge that carries these, or those of our own list."""
 
     def begin(topics=None):
-        given = [f"_topics:={topics}"] if topics else []
+        given, file = [], tmp_path / "topics.yaml"
+        if topics:
+            listed = {topic: {"direction": direction} for topic, direction in topics.items()}
+            file.write_text(json.dumps({"topics": listed}))
+            given = [f"_topics:={file}"]
         return Bridge(start("rosrun", "ros2_bridge", "bridge", *given))
 
     return begin
@@ -109,11 +99,10 @@ def bridge(start):
 class Ear:
     """What comes on a topic of ROS 1: (when, node, message)."""
 
-    def __init__(self, topic, kind):
+    def __init__(self):
         self.heard = []
-        self._subscriber = rospy.Subscriber(topic, kind, self._keep, tcp_nodelay=True)
 
-    def _keep(self, message):
+    def keep(self, message):
         sender = message._connection_header["callerid"]
         self.heard.append((time.monotonic(), sender, message))
 
@@ -121,22 +110,18 @@ class Ear:
     def last(self):
         return self.heard[-1][2] if self.heard else None
 
-    def end(self):
-        self._subscriber.unregister()
-
 
 @pytest.fixture
 def ear():
     """ear(topic, kind): an Ear."""
-    made = []
+    with ExitStack() as stack:
 
-    def listen(topic, kind):
-        made.append(Ear(topic, kind))
-        return made[-1]
+        def listen(topic, kind):
+            made = Ear()
+            stack.callback(rospy.Subscriber(topic, kind, made.keep, tcp_nodelay=True).unregister)
+            return made
 
-    yield listen
-    for each in made:
-        each.end()
+        yield listen
 
 
 @pytest.fixture

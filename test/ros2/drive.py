@@ -1,20 +1,39 @@
-"""A stick that is held, and what the wheels say."""
+"""A master of its own, a stick that is held, and what the wheels say."""
 
+import os
 import struct
 import threading
 import time
+from contextlib import contextmanager
 from pathlib import Path
 
 import rospy
 from sensor_msgs.msg import Joy
 
+from tutorial_testing.nodes import init_node
+from tutorial_testing.ports import free_port
+from tutorial_testing.processes import Program
 from tutorial_testing.waiting import BUSY_S, wait_for
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 CLASS = REPOSITORY / "common/ros2_tutorials/ros2_tutorials/new_joy2twist.py"
 RATE = 50.0  # [Hz]
 TIMEOUT_S, PERIOD_S = 0.6, 0.02  # of the simulated base
+ZERO = (0.0, 0.0)  # velocity [m/s, rad/s]
 REST_S = TIMEOUT_S + PERIOD_S + BUSY_S  # by then a robot without a driver stands
+
+
+@contextmanager
+def own_master():
+    """Have a master and a domain of ROS 2 for this process alone, which is a node then."""
+    port = free_port()
+    os.environ["ROS_MASTER_URI"] = f"http://127.0.0.1:{port}"
+    os.environ["ROS_DOMAIN_ID"] = str(1 + port % 100)
+    with Program("roscore", "-p", str(port)) as core:
+        wait_for(lambda: "started core service" in core.output, "master")
+        init_node("test", disable_signals=True)
+        yield
+        rospy.signal_shutdown("the end")
 
 
 def single(value):

@@ -1,4 +1,4 @@
-"""With ROS 2: answers on /reply what comes on /note; prints a picture's size, and what changes."""
+"""With ROS 2: answers on /reply what comes on /note, and prints a picture's size."""
 
 import rclpy
 from rclpy.qos import DurabilityPolicy, QoSProfile
@@ -16,9 +16,6 @@ def main():
     node.create_subscription(String, "/note", reply.publish, LATCHED)
     node.create_subscription(
         Image, "/picture", lambda image: print("picture", len(image.data), flush=True), LATCHED
-    )
-    node.create_subscription(
-        String, "/changing", lambda text: print("changing", text.data, flush=True), LATCHED
     )
     rclpy.spin(node)
 

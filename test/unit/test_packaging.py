@@ -82,6 +82,14 @@ def test_a_file_is_read_in_five_minutes_and_a_script_only_starts_its_program(pat
     assert len(path.read_text(encoding="utf-8").splitlines()) <= most
 
 
+def test_coverage_is_of_every_library():
+    """The other tools find them, as this does; coverage cannot."""
+    found = {path.parent.name for path in SOURCES if path.parts[-3] == "src"} - {"tutorial_testing"}
+    text = (REPOSITORY / "pyproject.toml").read_text()
+    listed = re.search(r"^run\.source_pkgs = \[(.*?)\]", text, re.S | re.M)[1]
+    assert set(re.findall(r"\w+", listed)) == found | {"ros2_tutorials"}
+
+
 def test_pip_installs_only_what_a_lock_has():
     """What is asked for stands in the lock, which test/lock makes; each release has its hashes."""
     locks = dict(re.findall(r'"(\w+)": \("(\S+)"', (REPOSITORY / "test/lock").read_text()))
@@ -101,9 +109,8 @@ def test_pip_installs_only_what_a_lock_has():
 
 
 def test_workflows_may_only_read_and_take_actions_by_their_commit():
-    workflow = (REPOSITORY / ".github/workflows/test.yml").read_text()
-    made = (REPOSITORY / "common/tutorial_check/src/tutorial_check/package.py").read_text()
-    for text in (workflow, made):
+    made = REPOSITORY / "common/tutorial_check/src/tutorial_check/package.py"
+    for text in map(Path.read_text, [made, *(REPOSITORY / ".github/workflows").glob("*.yml")]):
         assert re.search(r"^permissions: \{contents: read\}$", text, re.M)
         assert len(re.findall(r"\buses: ", text)) == len(
             re.findall(r"\buses: [\w-]+/[\w-]+@[0-9a-f]{40} # v\d+\.\d+\.\d+$", text, re.M)

@@ -5,12 +5,12 @@ from rclpy.executors import ExternalShutdownException
 from std_msgs.msg import String
 
 
-def main():
+def main() -> None:
     """Hand every message on chatter to callback() until the node is stopped."""
     rclpy.init()
     node = rclpy.create_node("listener")
 
-    def callback(message):
+    def callback(message: String) -> None:
         node.get_logger().info(f"{node.get_name()}: I heard {message.data}")
 
     node.create_subscription(String, "chatter", callback, 10)

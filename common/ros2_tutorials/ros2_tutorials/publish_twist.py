@@ -9,13 +9,13 @@ from rclpy.executors import ExternalShutdownException
 from sensor_msgs.msg import Joy
 
 
-def main():
+def main() -> None:
     """Hand every joy message to callback() until the node is stopped."""
     rclpy.init()
     node = rclpy.create_node("converter")
     publisher = node.create_publisher(Twist, "cmd_vel", 1)
 
-    def callback(joy):
+    def callback(joy: Joy) -> None:
         """Publish the velocity first, because displaying takes longer; then display the axes."""
         twist = Twist()  # all zero, and so it stays when the joystick has too few axes
         if len(joy.axes) >= 2:

@@ -5,13 +5,13 @@ from rclpy.executors import ExternalShutdownException
 from std_msgs.msg import String
 
 
-def main():
+def main() -> None:
     """Publish until the node is stopped."""
     rclpy.init()
     node = rclpy.create_node("talker")
     publisher = node.create_publisher(String, "chatter", 10)
 
-    def talk():
+    def talk() -> None:
         text = f"hello world {node.get_clock().now().nanoseconds / 1e9:.2f}"
         node.get_logger().info(text)
         publisher.publish(String(data=text))

@@ -2,45 +2,35 @@
 
 import os
 import statistics
-import struct
 import threading
 import time
 from pathlib import Path
 
 import pytest
 import rospy
+from drive import CLASS, own_master, single
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Joy
 
 from node_kit import ros2_python
-from tutorial_faults.live.samples import complaints, growth, sample
-from tutorial_testing.nodes import init_node
-from tutorial_testing.ports import free_port
-from tutorial_testing.processes import Program, command_line, descendants
+from tutorial_testing.processes import Program, descendants
 from tutorial_testing.waiting import wait_for
 
 pytestmark = pytest.mark.skipif(
     not ros2_python.is_there(), reason="no ROS 2 here: ./tutorial ros2 --yes sets it up"
 )
-REPOSITORY = Path(__file__).resolve().parents[3]
-PROGRAM = REPOSITORY / "common/ros2_tutorials/ros2_tutorials/publish_twist.py"
+PROGRAM = CLASS.with_name("publish_twist.py")
 MANY = Path(__file__).with_name("many.py")
 COUNT, RATE = 1000, 50.0
 MOST_MS, MOST_LATE_MS = 3.0, 8.0  # median; of 99 in 100
 SECONDS, ODOMETRY_HZ = 20, 1000.0
-SIDES = {"ros1_node": "the side of ROS 1", "ros2_side": "the side of ROS 2"}
 TICKS = os.sysconf("SC_CLK_TCK")
 
 
 @pytest.fixture(scope="module", autouse=True)
 def master():
-    port = free_port()
-    os.environ["ROS_MASTER_URI"] = f"http://127.0.0.1:{port}"
-    os.environ["ROS_DOMAIN_ID"] = str(1 + port % 100)
-    with Program("roscore", "-p", str(port)) as core:
-        wait_for(lambda: "started core service" in core.output, "master")
-        init_node("bench", disable_signals=True)
+    with own_master():
         yield
 
 
@@ -77,7 +67,7 @@ def delays():
     wait_for(is_answered, "a first Twist", 20)
     sent = {}
     for number in range(COUNT):
-        (axis,) = struct.unpack("f", struct.pack("f", (number + 1) / COUNT))
+        axis = single((number + 1) / COUNT)
         sent[axis] = time.monotonic()
         publisher.publish(Joy(axes=[0.0, axis], buttons=[0] * 12))
         time.sleep(1 / RATE)
@@ -87,15 +77,11 @@ def delays():
     return sorted(1000 * (heard[axis] - when) for axis, when in sent.items() if axis in heard)
 
 
-def test_a_joy_and_its_twist(bridge, figure):
-    with Program("rosrun", "joy2twist", "publish_twist.py") as program:
+def test_a_joy_is_answered_through_the_bridge_in_milliseconds(bridge, figure):
+    with Program("rosrun", "joy2twist", "publish_twist.py"):
         beside = delays()
-        program.interrupt()
-        program.wait()
-    with Program(*ros2_python.command([str(PROGRAM)])) as program:
+    with Program(*ros2_python.command([str(PROGRAM)])):
         found = delays()
-        program.interrupt()
-        program.wait()
     median, late = statistics.median(found), found[int(0.99 * len(found))]
     alone = statistics.median(beside)
     figure("Joys answered in ROS 2", f"{len(found)} of {COUNT}", f"{COUNT}")
@@ -115,7 +101,7 @@ def used_s(pids):
     return total / TICKS
 
 
-def test_odometry_both_ways(bridge, figure):
+def test_a_thousand_odometry_messages_a_second_pass_both_ways(bridge, figure):
     count = int(SECONDS * ODOMETRY_HZ)
     came = []
 
@@ -153,42 +139,3 @@ def publish(publisher, count):
         message.pose.pose.position.x = float(number)
         publisher.publish(message)
         time.sleep(max(0.0, begin_s + (number + 1) / ODOMETRY_HZ - time.monotonic()))
-
-
-def test_nothing_grows(bridge, figure, request):
-    """Joys at an even rate for --hours: memory, threads and files of both sides."""
-    seconds = 3600 * request.config.getoption("--hours")
-    twists, sent, samples = [0], 0, []
-
-    def hear(_twist):
-        twists[0] += 1
-
-    subscriber = rospy.Subscriber("/cmd_vel", Twist, hear, tcp_nodelay=True)
-    publisher = rospy.Publisher("/joy", Joy, queue_size=10, tcp_nodelay=True)
-    with Program(*ros2_python.command([str(PROGRAM)])) as program:
-        wait_for(publisher.get_num_connections, "the bridge", 20)
-        sides = {
-            said: pid
-            for pid in descendants(bridge.pid)
-            for name, said in SIDES.items()
-            if name in command_line(pid)
-        }
-        begin_s = time.monotonic()
-        while time.monotonic() - begin_s < seconds:
-            if sent % int(2 * RATE) == 0:
-                now_s = time.monotonic() - begin_s
-                samples += [sample(now_s, side, pid) for side, pid in sides.items()]
-            publisher.publish(Joy(axes=[0.0, sent % 7 / 7], buttons=[0] * 12))
-            sent += 1
-            time.sleep(max(0.0, begin_s + sent / RATE - time.monotonic()))
-        program.interrupt()
-        program.wait()
-    subscriber.unregister()
-    publisher.unregister()
-    for side in sides:
-        memory, threads, files = growth(samples, side)
-        seen = f"{memory:+} kB, {threads:+} threads, {files:+} files"
-        figure(f"{side} in {seconds / 60:.0f} minutes", seen, "≤ 2 MB, 0, 0")
-    figure("meanwhile Twists for Joys", f"{twists[0]} of {sent}", "")
-    assert len(sides) == 2 and complaints(samples) == []
-    assert twists[0] >= 0.95 * sent  # it took a moment until both knew each other

@@ -1,82 +1,115 @@
 """The side of ROS 1, without a master: what it keeps and carries of latched senders."""
 
 import socket
+import threading
+import time
+from itertools import takewhile
 from types import SimpleNamespace
 
 import pytest
+import rospy
 
 from node_kit.raw_messages import Raw
 from ros2_bridge import ros1_side
 from ros2_bridge.link import Frame, frames
 from ros2_bridge.routes import Route
-from tutorial_testing.waiting import DEADLINE_S
+from tutorial_testing.waiting import DEADLINE_S, wait_for
+
+STRING, END = "std_msgs/msg/String", b"end"
+FORGET = (b"", "")
 
 
 class Room:
-    """A Ros1Side and the other one; nodes that publish, and what was published."""
+    """A Ros1Side that runs, the nodes that it knows, and the other side."""
 
-    def __init__(self, folder, monkeypatch, **route):
-        self.there, self.publishers = set(), []
-        for name in ("subscribe", "senders", "RawPublisher"):
-            monkeypatch.setattr(ros1_side, name, getattr(self, f"_{name.lower()}"))
-        self.path = str(folder / "socket")
-        route = Route("/note", "both", **route)
-        self.side = ros1_side.Ros1Side([route], self.path, print)
-        self.side._subscribe(route)
+    def __init__(self, path, monkeypatch, **route):
+        self.there, self.publishers, self.states = set(), [], []
+        self.ends, self.has_ended = threading.Event(), threading.Event()
+        state = SimpleNamespace(publish=self.states.append)
+        for name, value in {
+            "get_name": lambda: "/ros2_bridge", "Publisher": lambda *_, **__: state,
+            "is_shutdown": lambda: self.ends.is_set() and not self.has_ended.set(),
+            "spin": lambda: None, "Time": SimpleNamespace(now=rospy.Time),
+        }.items():  # fmt: skip
+            monkeypatch.setattr(rospy, name, value)
+        for name, value in {
+            "types_of_others": list, "LOOK_S": 0.001, "FORGET_S": 0.0, "RawPublisher": self._made,
+            "subscribe": self._subscribe, "senders": lambda _: self.there,
+        }.items():  # fmt: skip
+            monkeypatch.setattr(ros1_side, name, value)
+        ros1_side.Ros1Side([Route("/note", "both", **route)], path, print).run()
+        self.other = socket.socket(socket.AF_UNIX)
+        self.other.settimeout(DEADLINE_S)
+        self._path, self._frames = path, frames(self.other)
+
+    def connect(self):
+        """Let the other side come, and wait until it is known."""
+        self.other.connect(self._path)
+        self.other.sendall(Frame("", "", b"", time.monotonic()).packed())
+        wait_for(lambda: self.states and not self.states[-1].status[0].level, "a sign of life")
 
     def _subscribe(self, _topic, callback, _depth):
-        self.hear = callback
+        self._hear = callback
 
-    def _senders(self, _subscriber):
-        return self.there
-
-    def _rawpublisher(self, topic, kind, _depth, is_latched):
-        made = SimpleNamespace(said=[kind, is_latched], end=lambda: made.said.append("ended"))
-        made.publish = made.said.append
-        self.publishers.append(made.said)
-        return made
+    def _made(self, _topic, kind, _depth, is_latched):
+        said = [kind, is_latched]
+        self.publishers.append(said)
+        return SimpleNamespace(publish=said.append, end=lambda: said.append("ended"))
 
     def send(self, sender, data, is_latched=True, is_first=True):
-        self.there.add(sender)
-        self.hear(Raw(data, "std_msgs/String", sender, is_latched, is_first))
+        self._hear(Raw(data, "std_msgs/String", sender, is_latched, is_first))
+
+    def senders_are(self, *names):
+        """Connect these alone, and wait until that is noticed."""
+        self.there, before = set(names), len(self.states)
+        wait_for(lambda: len(self.states) > before + 2, "looks at who is connected")
+
+    def carried(self):
+        """Return (data, type) of all that came since the last time."""
+        self.send("/last", END, is_latched=False)
+        came = takewhile(lambda frame: frame.data != END, self._frames)
+        return [(frame.data, frame.type) for frame in came]
 
 
 @pytest.fixture
 def room(tmp_path, monkeypatch):
-    monkeypatch.setattr(ros1_side.rospy, "get_name", lambda: "/ros2_bridge")
-    return lambda **route: Room(tmp_path, monkeypatch, **route)
+    made = []
+    yield lambda **route: made.append(Room(f"{tmp_path}/s", monkeypatch, **route)) or made[0]
+    made[0].ends.set()
+    made[0].has_ended.wait()
+    made[0].other.close()
 
 
-def test_what_a_latched_sender_sent_is_kept_only_while_it_is_connected(room):
+def test_what_a_latched_sender_sent_is_kept_while_it_is_connected_and_forgotten_later(room):
     made = room()
-    for number in range(48):
-        made.send(f"/sender_{number}", b"%d" % number)
-        made.side._forget_what_is_gone()
-        made.there -= {f"/sender_{number}"} - {"/sender_3"}
-    made.side._forget_what_is_gone()
-    assert [frame.data for frame in made.side._latched.values()] == [b"3"]
+    made.there = {"/one", "/two", "/three"}
+    for sender in ("/one", "/two", "/three"):
+        made.send(sender, sender.encode())
+    made.senders_are("/two", "/three")
+    made.connect()
+    assert made.carried() == [(b"/two", STRING), (b"/three", STRING)]
+    made.senders_are("/three")
+    assert made.carried() == []
+    made.senders_are()
+    assert made.carried() == [FORGET]
 
 
 def test_what_has_an_age_limit_is_not_latched_and_not_carried_with_an_unknown_age(room):
     made = room(longest_s=0.5)
-    one, other = socket.socketpair()
-    other.settimeout(DEADLINE_S)
-    with one, other:
-        made.side._sender = ros1_side.Sender(one, lambda topic: 10)
-        made.send("/joy_node", b"published who knows when")
-        made.send("/joy_node", b"now", is_first=False)
-        frame = next(frames(other))
-    assert (frame.data, frame.is_latched, made.side._latched) == (b"now", False, {})
+    made.there = {"/joy_node"}
+    made.connect()
+    made.send("/joy_node", b"published who knows when")
+    made.send("/joy_node", b"now", is_first=False)
+    assert made.carried() == [(b"now", STRING)]
+    made.senders_are()
+    assert made.carried() == []  # nothing to forget
 
 
 def test_a_publisher_is_made_anew_when_its_type_or_latching_changes(room):
     made = room()
+    made.connect()
     for kind, is_latched in (("a/msg/B", True), ("a/msg/B", False), ("a/msg/C", False)):
-        for data in (b"1", b"2"):
-            frame = Frame("/note", kind, data, ros1_side.time.monotonic(), is_latched)
-            made.side._publish(frame)
-    assert made.publishers == [
-        ["a/B", True, b"1", b"2", "ended"],
-        ["a/B", False, b"1", b"2", "ended"],
-        ["a/C", False, b"1", b"2"],
-    ]
+        frame = Frame("/note", kind, b"1", time.monotonic(), is_latched)
+        made.other.sendall(frame.packed() * 2)
+    anew = [["a/B", True, b"1", b"1", "ended"], ["a/B", False, b"1", b"1", "ended"]]
+    wait_for(lambda: made.publishers == [*anew, ["a/C", False, b"1", b"1"]], "three publishers")

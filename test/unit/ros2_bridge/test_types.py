@@ -4,6 +4,7 @@ import importlib
 import io
 import random
 import struct
+from importlib.util import find_spec
 from math import inf
 
 import genpy
@@ -11,14 +12,13 @@ import pytest
 
 typesys = pytest.importorskip("rosbags.typesys", reason="no rosbags here: PyPI was not reached")
 STORE = typesys.get_typestore(typesys.Stores.LATEST)
-PACKAGES = (
-    "std_msgs", "geometry_msgs", "sensor_msgs", "nav_msgs", "diagnostic_msgs", "tf2_msgs",
-    "trajectory_msgs", "shape_msgs", "stereo_msgs", "visualization_msgs", "actionlib_msgs",
-)  # fmt: skip
 BRIDGED = {
     "sensor_msgs/Joy", "geometry_msgs/Twist", "nav_msgs/Odometry", "tf2_msgs/TFMessage",
     "sensor_msgs/JointState", "sensor_msgs/LaserScan", "std_msgs/String",
     "diagnostic_msgs/DiagnosticArray",
+}  # fmt: skip
+PACKAGES = {name.split("/")[0] for name in BRIDGED} | {
+    "trajectory_msgs", "shape_msgs", "stereo_msgs", "visualization_msgs", "actionlib_msgs",
 }  # fmt: skip
 
 
@@ -26,41 +26,29 @@ def fields_of(kind):
     return list(zip(kind.__slots__, kind._slot_types))
 
 
-def definitions(name):
-    """The names of a type's fields in ROS 2; None if ROS 2 has no such type."""
-    known = STORE.fielddefs.get(name.replace("/", "/msg/"))
-    return known and [field for field, _ in known[1]]
-
-
-def is_the_same(kind):
-    """Whether ROS 2 has a type with the same fields, but for Header.seq."""
-    name = kind._type
-    if name == "std_msgs/Header":
-        return True
-    own = [field for field, _ in fields_of(kind)]
-    inner = [part.split("[")[0] for _, part in fields_of(kind) if "/" in part]
-    return definitions(name) == own and all(map(is_the_same, map(class_of, inner)))
-
-
 def class_of(name):
     package, _, kind = name.partition("/")
     return getattr(importlib.import_module(f"{package}.msg"), kind)
 
 
+def is_the_same(kind):
+    """Whether ROS 2 has a type with the same fields, but for Header.seq."""
+    if kind._type == "std_msgs/Header":
+        return True
+    known = STORE.fielddefs.get(kind._type.replace("/", "/msg/"))
+    inner = [part.split("[")[0] for _, part in fields_of(kind) if "/" in part]
+    same = known and [field for field, _ in known[1]] == [field for field, _ in fields_of(kind)]
+    return same and all(map(is_the_same, map(class_of, inner)))
+
+
 def types():
-    found = {}
-    for package in PACKAGES:
-        try:
-            module = importlib.import_module(f"{package}.msg")
-        except ImportError:
-            continue
-        for kind in vars(module).values():
+    for package in filter(find_spec, PACKAGES):
+        for kind in vars(importlib.import_module(f"{package}.msg")).values():
             if isinstance(kind, type) and issubclass(kind, genpy.Message) and is_the_same(kind):
-                found[kind._type] = kind
-    return found
+                yield kind._type, kind
 
 
-TYPES = types()
+TYPES = dict(types())
 
 
 def whole(low, high):
@@ -88,35 +76,26 @@ VALUES = {  # by genpy's names of types: a function that draws a value, extremes
 
 
 def value(kind, draw):
-    """A value of a type, as genpy names it."""
+    """A value of a type, as genpy names it; seq, which ROS 2 lacks, is 0."""
     base, _, length = kind.partition("[")
     if length:
         values = [value(base, draw) for _ in range(int(length[:-1] or draw.choice((0, 1, 3))))]
         return bytes(values) if base in ("uint8", "char") else values
-    return filled(class_of(base), draw) if "/" in base else VALUES[base](draw)
-
-
-def filled(kind, draw):
-    """A message of random values; seq, which ROS 2 lacks, is 0."""
-    made = kind()
-    for field, part in fields_of(kind):
+    if "/" not in base:
+        return VALUES[base](draw)
+    made = class_of(base)()
+    for field, part in fields_of(made):
         setattr(made, field, 0 if field == "seq" else value(part, draw))
     return made
-
-
-def serialized(message):
-    buffer = io.BytesIO()
-    message.serialize(buffer)
-    return buffer.getvalue()
 
 
 @pytest.mark.parametrize("name", sorted(TYPES))
 def test_a_type_is_carried_without_a_loss(name):
     for seed in range(40):
-        data = serialized(filled(TYPES[name], random.Random(seed)))
-        kind = name.replace("/", "/msg/")
-        cdr = bytes(STORE.ros1_to_cdr(data, kind))
-        assert bytes(STORE.cdr_to_ros1(cdr, kind)) == data, seed
+        buffer, kind = io.BytesIO(), name.replace("/", "/msg/")
+        value(name, random.Random(seed)).serialize(buffer)
+        cdr = bytes(STORE.ros1_to_cdr(buffer.getvalue(), kind))
+        assert bytes(STORE.cdr_to_ros1(cdr, kind)) == buffer.getvalue(), seed
 
 
 def test_the_bridged_types_and_a_hundred_in_all_are_tried():

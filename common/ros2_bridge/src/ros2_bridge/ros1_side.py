@@ -17,6 +17,9 @@ from ros2_bridge.routes import Route, depth_of
 
 NAME = "ros2_bridge"
 LOOK_S = 0.5  # how often the master is asked which topics there are; and the state is published
+FORGET_S = (
+    5.0  # what a latched sender has sent, after it: by then subscribers have found it in ROS 2
+)
 SILENT_S = 2.0  # the other side gives a sign of life each half second
 
 
@@ -30,6 +33,7 @@ class Ros1Side:
         self._sender: Sender | None = None
         # By topic and sender, for the other side when it restarts.
         self._latched: dict[tuple[str, str], Frame] = {}
+        self._last_seen_s: dict[str, float] = {}  # by topic: when the last latched sender was there
         self._subscribers: dict[str, rospy.Subscriber] = {}
         # By topic, with the type and whether it is latched.
         self._publishers: dict[str, tuple[tuple[str, bool], RawPublisher | None]] = {}
@@ -98,13 +102,20 @@ class Ros1Side:
 
     def _forget_what_is_gone(self) -> None:
         """Keep what is latched only while its sender is connected, as subscribers of ROS 1 do."""
+        now_s = time.monotonic()
         with self._lock:
+            self._last_seen_s.update((topic, now_s) for topic, _ in self._latched)
             there = {
                 (topic, sender)
                 for topic, subscriber in self._subscribers.items()
                 for sender in senders(subscriber)
             }
             self._latched = {key: one for key, one in self._latched.items() if key in there}
+            for topic, seen_s in list(self._last_seen_s.items()):
+                if now_s - seen_s > FORGET_S:
+                    del self._last_seen_s[topic]
+                    if self._sender:
+                        self._sender.put(Frame(topic, "", b"", now_s, announces=True))
 
     def _serve(self) -> None:
         while True:

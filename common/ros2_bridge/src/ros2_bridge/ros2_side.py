@@ -83,6 +83,9 @@ class Ros2Side:
                 self._say_lost(frame.topic, frame.type, "ROS 2", error)
 
     def _publish(self, frame: Frame, route: Route) -> None:
+        if not frame.type:
+            self._forget(route)
+            return
         publisher = self._publisher(frame, route)
         if publisher is None or frame.announces:
             return
@@ -93,6 +96,13 @@ class Ros2Side:
                 self._own.setdefault(frame.topic, collections.deque()).append(mark)
         publisher.publish(data)
         self._wrong.pop(frame.topic, None)
+
+    def _forget(self, route: Route) -> None:
+        """Replace a publisher by one that keeps no messages yet."""
+        (kind, is_latched), publisher = self._publishers.pop(route.topic, (("", False), None))
+        if publisher:
+            self.node.destroy_publisher(publisher)
+            self._publisher(Frame(route.topic, kind, b"", 0.0, is_latched), route)
 
     def _publisher(self, frame: Frame, route: Route) -> Any:
         kind, publisher = self._publishers.get(frame.topic, (None, None))

@@ -1,0 +1,54 @@
+"""With ROS 2: prints which quality of service the bridge takes, and what its publishers keep."""
+
+import socket
+import struct
+import sys
+import time
+
+import rclpy
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from std_msgs.msg import String
+
+sys.path.insert(0, sys.argv[1])  # of the bridge
+from link import Frame
+from ros2_side import Ros2Side, fitting
+from routes import Route
+
+KIND = "std_msgs/msg/String"
+KEPT, PLAIN = (
+    QoSProfile(depth=9, durability=each)
+    for each in (DurabilityPolicy.TRANSIENT_LOCAL, DurabilityPolicy.VOLATILE)
+)
+LOOSE = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+FORGET = Frame("/note", "", b"", 0.0, announces=True)
+
+
+def note(text, is_latched=True):
+    data = struct.pack("<I", len(text)) + text.encode()
+    return Frame("/note", KIND, data, time.monotonic(), is_latched)
+
+
+def kept_of(*carried):
+    """Return the texts that a late subscriber gets, up to one that says "end"."""
+    node_end, bridge_end = socket.socketpair()
+    with node_end, bridge_end:
+        side, texts = Ros2Side([Route("/note", "to_ros2")], bridge_end), []
+        node_end.sendall(b"".join(frame.packed() for frame in carried))
+        node_end.shutdown(socket.SHUT_WR)
+        side.carry(bridge_end)
+        side.node.create_subscription(String, "/note", lambda one: texts.append(one.data), KEPT)
+        while "end" not in texts:
+            rclpy.spin_once(side.node, timeout_sec=0.1)
+        side.node.destroy_node()
+    return texts
+
+
+rclpy.init()
+for limit_s, is_own_kept, *offered in (
+    (0.0, False, KEPT), (0.0, False, KEPT, PLAIN), (0.5, False, KEPT),
+    (0.0, True, KEPT), (0.0, False, PLAIN, LOOSE),
+):  # fmt: skip
+    made = fitting(Route("/a", "both", 1, limit_s), offered, is_own_kept)
+    print(made.durability.name, made.reliability.name)
+print(*kept_of(note("latched"), note("not", False), note("end")))
+print(*kept_of(note("gone"), FORGET, note("end")))
