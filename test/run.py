@@ -87,7 +87,7 @@ def faults(arguments):
 
 KINDS = {
     # Several at a time; with arguments in turn, so that -s shows what they print.
-    "unit": lambda given: tests("unit", given or ["-n", JOBS]),
+    "unit": lambda given: tests("unit", given or ["-n", str(JOBS)]),
     "launch": lambda given: tests("launch", given, "-n", JOBS),
     # More at a time: they wait more than they work.
     "ros": lambda given: tests("ros", given, "-n", 2 * JOBS),
