@@ -51,7 +51,7 @@ TYPES = dict(types())
 
 
 def value(kind, high):
-    """A value of a type, as genpy names it: the highest, or the lowest; seq, which ROS 2 lacks, is 0."""
+    """The highest or lowest value of a type, as genpy names it; seq, which ROS 2 lacks, is 0."""
     base, _, length = kind.partition("[")
     bits = int(re.sub(r"\D", "", base) or 8)
     if length:
@@ -65,13 +65,12 @@ def value(kind, high):
     if base in ("time", "duration"):
         earliest = -(2**31) if base == "duration" else 0
         return getattr(genpy, base.title())(2**31 - 1 if high else earliest, 999_999_999)
-    if base == "string":
-        return "\u00e4\u20ac{}%s\n" * high
-    if base.startswith("float"):
-        return inf if high else -0.5
-    if base.startswith(("u", "char", "bool")):
-        return high * (2**bits - 1 if base != "bool" else 1)
-    return 2 ** (bits - 1) - 1 if high else -(2 ** (bits - 1))
+    lowest, highest = -(2 ** (bits - 1)), 2 ** (bits - 1) - 1
+    if base.startswith(("u", "char")):
+        lowest, highest = 0, 2**bits - 1
+    others = {"string": ("", "\u00e4\u20ac{}%s\n"), "bool": (False, True)}
+    others.update(dict.fromkeys(("float32", "float64"), (-0.5, inf)))
+    return others.get(base, (lowest, highest))[high]
 
 
 @pytest.mark.parametrize("name", sorted(TYPES))
