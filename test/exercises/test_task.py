@@ -33,7 +33,7 @@ def turn(src, values):
     new = {
         "data.axes[1]": f"{its['scale_linear']} * data.axes[{its['axis_linear']}]{held}",
         "data.axes[0]": f"{its['scale_angular']} * data.axes[{its['axis_angular']}]{held}",
-        '"/joy"': f'"{its["joy"]}"',
+        '("/joy"': f'("{its["joy"]}"',
         "'/cmd_vel'": f"'{its['cmd_vel']}'",
         'from="/cmd_vel"': f'from="{its["cmd_vel"]}"',
         "'listener'": f"'{its['node']}'",
@@ -94,7 +94,7 @@ def test_a_right_solution_of_a_task_is_right(values, literal, wrong_of):
 )
 def test_each_value_of_a_task_is_checked(key, literal, wrong_of):
     """All is right but for one value, that of the handout, or a neighbour's."""
-    values = ADA
+    values = BOB
     turn(literal, {name: value for name, value in values.items() if name != key})
     first = wrong_of(["3" if key == "rate" else "4.3"], values)[0]
     assert (first.status, first.id) == ("wrong", CHECKS.get(key, "C16"))
