@@ -72,6 +72,7 @@ def again(_):
         todo = "./tutorial test must run to its end first"
         sys.exit(f"tutorial: test again: it is not known what failed: {todo}")
     kinds = FAILED.read_text().split()
+    say(f"what failed: {' '.join(kinds) or 'nothing'}")
     if not set(kinds) <= set(TOGETHER):
         sys.exit(f"tutorial: test again: only for {', '.join(TOGETHER)}; failed: {' '.join(kinds)}")
     return any([KINDS[kind](["--last-failed", "-n", "1"]) for kind in kinds])
