@@ -33,7 +33,7 @@ def test_driven_one_of_two_robots_is_seen_beside_the_buttons(held):
         phone.click("Clear trail")  # it has the robot's colour
         robot = wait_for(lambda: settled(phone, "--accent"), "robot on the floor")
         assert len(robot) > 60
-        x, y = (sum(of) / len(robot) for of in zip(*robot))
+        y, x = (sum(of) / len(robot) for of in zip(*robot))
         box = phone.ask("document.getElementById('floor').getBoundingClientRect().toJSON()")
         at = f"{box['left'] + x}, {box['top'] + y}"
         assert phone.ask(f"document.elementFromPoint({at})?.id") == "floor"

@@ -31,7 +31,8 @@ def graph(count):
     topics = [f"topic /robot_{n}/{'long_' * (n % 7)}topic" for n in range(count)]
     nodes = [f"node /node_{n}" for n in range(6)]
     edges = [{"from": nodes[n % 4], "to": topic} for n, topic in enumerate(topics)]
-    return [*nodes, *topics], [*edges, {"from": topics[0], "to": nodes[4]}]
+    edges += [{"from": t, "to": nodes[4 + n % 2]} for n, t in enumerate(topics) if n % 3 == 0]
+    return [*nodes, *topics], [*edges, {"from": nodes[0], "to": topics[0]}]
 
 
 def test_large_graph_fits_and_is_zoomed_and_what_is_found_is_in_sight(page):

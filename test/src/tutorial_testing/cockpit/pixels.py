@@ -4,6 +4,7 @@ import base64
 import io
 from collections import Counter
 
+import numpy as np
 from PIL import Image
 
 SCHEMES = ("light", "dark")
@@ -33,30 +34,25 @@ def shot(browser):
     return Image.open(io.BytesIO(browser.driver.get_screenshot_as_png())).convert("RGB").load()
 
 
-def floor(browser):
-    """Return the floor's picture without what is above it: (pixels by [x, y], (width, height))."""
+def drawn(browser, name):
+    """Return where the floor has about a colour [(y, x)], and the two that it has beside it the
+    most. What is above the floor is not seen.
+    """
     data = browser.ask("document.getElementById('floor').toDataURL()").partition(",")[2]
     image = Image.open(io.BytesIO(base64.b64decode(data))).convert("RGBA")
     below = Image.new("RGBA", image.size, colour(browser, "--floor"))
-    return Image.alpha_composite(below, image).convert("RGB").load(), image.size
+    pixels = np.asarray(Image.alpha_composite(below, image).convert("RGB"), dtype=int)
+    dots = (abs(pixels - colour(browser, name)) < NEARLY).all(axis=2)
+    edge = grown(dots)
+    colours = Counter(map(tuple, pixels[grown(edge) & ~edge].tolist()))
+    return np.argwhere(dots).tolist(), [one for one, _ in colours.most_common(2)]
 
 
-def drawn(browser, name):
-    """Return where the floor has about a colour [(x, y)], and the two that it has beside it the
-    most.
-    """
-    wanted, (pixels, (width, height)) = colour(browser, name), floor(browser)
-    every = {(x, y) for x in range(width) for y in range(height)}
-    is_near = lambda one: all(abs(a - b) < NEARLY for a, b in zip(one, wanted))  # noqa: E731
-    dots = {at for at in every if is_near(pixels[at])}
-    edge = grown(dots) - dots
-    beside = Counter(pixels[at] for at in (grown(edge) - edge - dots) & every)
-    return sorted(dots), [one for one, _ in beside.most_common(2)]
-
-
-def grown(places):
-    steps = (-1, 0, 1)
-    return {(x + dx, y + dy) for x, y in places for dx in steps for dy in steps}
+def grown(mask):
+    """Return a mask with what is beside it."""
+    wide = np.pad(mask, 1)
+    rows = wide[:-2] | wide[1:-1] | wide[2:]
+    return rows[:, :-2] | rows[:, 1:-1] | rows[:, 2:]
 
 
 def dress(browser, scheme="light", size=(1280, 800)):
