@@ -11,7 +11,8 @@ from selenium.webdriver.webkitgtk.options import Options
 
 from tutorial_testing.cockpit.chromium import Chromium
 from tutorial_testing.cockpit.engines import Firefox, WebDriver
-from tutorial_testing.cockpit.world import World
+from tutorial_testing.cockpit.pixels import dress
+from tutorial_testing.cockpit.world import HERE, World
 from tutorial_testing.screen import virtual_screen
 
 
@@ -28,12 +29,12 @@ def pytest_configure(config):
 
 def pytest_terminal_summary(terminalreporter, config):
     """Print how long the robot went on after the operator was lost."""
-    stopping_times = config.stopping_times
-    if stopping_times:
-        terminalreporter.section("operator lost to wheels at rest")
-        terminalreporter.line("| way | times | median [s] | worst [s] |")
-        terminalreporter.line("|---|---|---|---|")
-    for way, times in stopping_times.items():
+    if not config.stopping_times:
+        return
+    terminalreporter.section("operator lost to wheels at rest")
+    terminalreporter.line("| way | times | median [s] | worst [s] |")
+    terminalreporter.line("|---|---|---|---|")
+    for way, times in config.stopping_times.items():
         middle = sorted(times)[len(times) // 2]
         terminalreporter.line(f"| {way} | {len(times)} | {middle:.2f} | {max(times):.2f} |")
 
@@ -65,8 +66,12 @@ def firefox():
         yield browser
 
 
+# WebKit's small browser is not narrower than its toolbar, whose own parts are made smaller.
+SMALL_TOOLBAR = "window * { font-size: 1px; min-width: 0; min-height: 0; padding: 0; margin: 0 }"
+
+
 @pytest.fixture
-def webkit(monkeypatch):
+def webkit(monkeypatch, tmp_path):
     program = shutil.which("WebKitWebDriver")
     found = sorted(Path("/usr/lib").glob("*/webkit2gtk-4.*/MiniBrowser"))
     if not program or not found:
@@ -74,6 +79,10 @@ def webkit(monkeypatch):
     options = Options()
     options.binary_location = str(found[-1])
     options.add_argument("--automation")
+    for folder in (tmp_path / "gtk-3.0", tmp_path / "gtk-4.0"):
+        folder.mkdir()
+        (folder / "gtk.css").write_text(SMALL_TOOLBAR)
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
     with virtual_screen(1280, 800) as screen:
         monkeypatch.setenv("DISPLAY", screen)
         driver = webdriver.WebKitGTK(executable_path=program, options=options)
@@ -89,6 +98,23 @@ def page(world, shared_browser):
     errors = shared_browser.errors()
     shared_browser.driver.get("about:blank")  # it drives no more
     assert errors == []
+
+
+@pytest.fixture(scope="session")
+def room():
+    """A robot between walls, with a cockpit, for tests that only look or drive."""
+    with World(str(HERE / "world.launch"), "world:=room") as world:
+        yield world
+
+
+@pytest.fixture
+def page_of_room(room, shared_browser):
+    """The shared browser with its page, in whatever clothes a test gives it."""
+    shared_browser.open(room.address)
+    yield shared_browser
+    shared_browser.errors()
+    shared_browser.driver.get("about:blank")
+    dress(shared_browser)
 
 
 @pytest.fixture

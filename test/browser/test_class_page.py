@@ -30,27 +30,15 @@ def page_of(words):
     return table_html(students, ["4.3"], {"4.3": "joy2twist"})
 
 
-@pytest.fixture
-def title_of(browser, tmp_path):
-    def title(html):
-        page = tmp_path / "table.html"
-        page.write_text(html, encoding="utf-8")
-        browser.driver.get(page.as_uri())
-        browser.ask(
-            "document.querySelectorAll('td, a').forEach(one => {"
-            " one.dispatchEvent(new MouseEvent('mouseover', {bubbles: true})); })"
-        )
-        return browser.ask("document.title")
-
-    return title
-
-
-def test_no_script_runs(browser, title_of):
-    assert title_of(page_of(HOSTILE)) == "Exercises"
-    assert browser.ask("document.querySelectorAll('script, img, svg').length") == 0
-    assert f"<script>{RUN}</script>" in browser.text("table")  # it is there to be read
-
-
-def test_the_policy_stops_a_script_that_got_in(title_of):
-    assert title_of(page_of([]) + f"<script>{RUN}</script>") == "Exercises"
-    assert title_of(f"<script>{RUN}</script>") == "owned"  # the test would see it
+@pytest.mark.parametrize("got_in", ["", f"<script>{RUN}</script>"], ids=["names", "got in"])
+def test_no_script_of_a_student_runs_on_the_page_of_a_class(shared_browser, tmp_path, got_in):
+    page = tmp_path / "table.html"
+    page.write_text(page_of(HOSTILE) + got_in, encoding="utf-8")
+    shared_browser.driver.get(page.as_uri())
+    shared_browser.ask(
+        "document.querySelectorAll('td, a').forEach(one => {"
+        " one.dispatchEvent(new MouseEvent('mouseover', {bubbles: true})); })"
+    )
+    assert shared_browser.ask("document.title") == "Exercises"
+    assert f"<script>{RUN}</script>" in shared_browser.text("table")  # it is there to be read
+    shared_browser.errors()  # the policy's words

@@ -25,8 +25,6 @@ def test_held_it_moves_and_released_it_stops(world, kind):
         assert 0.0 < max(moment.v for moment in world.odometry) <= FULL + 1e-6
         drawn = "document.querySelector('#lb').classList.contains('held')"
         hands.drive(world, until=lambda: browser.ask(drawn))  # whichever hand holds it
-        held = "document.querySelector('#pad svg').dataset.held"
-        hands.drive(world, until=lambda: browser.ask(held) == "LB")
         hands.drive(world, until=lambda: browser.text("#teleop") == "driving")
         hands.release()
         world.wait_for_rest()
@@ -67,15 +65,6 @@ def test_a_release_that_no_keyup_reports_stops_the_robot(world, page, name):
     hands.release()
 
 
-def test_no_menu_opens_where_a_page_drives(page):
-    event = "new Event('contextmenu', {cancelable: true, bubbles: true})"
-    script = f"document.body.dispatchEvent({event})"
-    assert page.ask(script) is True
-    page.click("Drive from this page")
-    page.wait_for_text("#seat", "You drive")
-    assert page.ask(script) is False
-
-
 def test_esc_stops_driving(world, page):
     page.one("#take").send_keys(Key.ENTER)
     page.wait_for_text("#seat", "You drive")
@@ -94,9 +83,8 @@ STOP_ON_TOP = """(() => {
 })()"""
 
 
-@pytest.mark.parametrize(("tab", "by"), [("Log", "mouse"), ("Doctor", "keyboard")])
-def test_who_drives_how_fast_and_stop_are_on_every_tab(world, page, tab, by):
-    page.tab(tab)
+def test_who_drives_how_fast_and_stop_are_above_every_tab(world, page):
+    page.tab("Doctor")
     Keys(page).drive(world)  # Shift and an arrow drive on any tab
     page.wait_for_text("#seat", "You drive the robot.")
     page.wait_for_text("#speed", f"{FULL} m/s, 0.00 rad/s")
@@ -105,15 +93,11 @@ def test_who_drives_how_fast_and_stop_are_on_every_tab(world, page, tab, by):
         assert page.one("#seat").is_displayed() and page.one("#speed").is_displayed(), name
         assert page.ask(STOP_ON_TOP), name
     Keys(page).drive(world)  # a busy machine may have stopped it meanwhile
-    if by == "mouse":
-        page.click("Stop")
-    else:
-        page.one("#stop").send_keys(Key.ENTER)
+    page.one("#stop").send_keys(Key.ENTER)
     world.wait_for_rest()
     page.wait_for_text("#seat", "Nobody drives.")
     page.wait_for_text("#speed", "0.00 m/s, 0.00 rad/s")
     assert world.stays_at_rest()  # although all is still held
-    assert not page.one("#stop").is_enabled()
     assert page.ask("document.activeElement.textContent") == name  # the keyboard is still somewhere
 
 
@@ -162,16 +146,4 @@ def test_a_recording_beside_the_page_is_shown_as_the_driver(world, page, recordi
     page.wait_for_text("#seat", "Nobody drives.")
     wait_for(lambda: page.one("#take").is_enabled() and page.one("#bag-play").is_enabled(), "leave")
     wait_for(lambda: page.text("#teleop") != "driving", "joy2twist that drives no longer")
-    world.wait_for_rest()
-
-
-def test_the_reason_of_a_stop_is_shown_once_the_robot_was_stopped(world, page):
-    hands = Keys(page)
-    hands.drive(world)
-    page.driver.execute_script("dispatchEvent(new Event('blur'))")
-    page.wait_for_text(
-        "#ready",
-        "Stopped: the window lost the focus. Release LB and the stick, then hold LB again.",
-    )
-    hands.release()
     world.wait_for_rest()

@@ -26,29 +26,22 @@ def button(pressed):
 
 
 @pytest.mark.parametrize("mode", F710)
-def test_hands_give_the_same_message(page, mode):
+def test_hands_on_glass_and_on_a_gamepad_of_the_kernel_give_the_same_message(page, mode):
     for controls in CASES:
-        hands = {
+        axes, buttons = positions(F710[mode], controls)
+        glass = {
             "left": controls.left_stick, "right": controls.right_stick, "dpad": controls.dpad,
             "triggers": controls.triggers, "held": sorted(controls.held),
         }  # fmt: skip
-        shown = call(page, "positions", mode, NAMES[mode], hands)
-        assert (tuple(shown["axes"]), tuple(shown["buttons"])) == positions(F710[mode], controls)
-
-
-@pytest.mark.parametrize("mode", F710)
-def test_a_gamepad_as_the_kernel_numbers_it(page, mode):
-    """Without the standard mapping: right and down are positive there."""
-    for controls in CASES:
-        axes, buttons = positions(F710[mode], controls)
+        # Without the standard mapping right and down are positive.
         raw = {"mapping": "", "axes": [-v for v in axes], "buttons": [button(b) for b in buttons]}
-        hands = call(page, "handsOfGamepad", raw, NAMES)
-        shown = call(page, "positions", mode, NAMES[mode], hands)
-        assert shown["axes"] == pytest.approx(axes, abs=0.05)  # the dead zone is rescaled
-        assert tuple(shown["buttons"]) == buttons
+        for hands in (glass, call(page, "handsOfGamepad", raw, NAMES)):
+            shown = call(page, "positions", mode, NAMES[mode], hands)
+            assert shown["axes"] == pytest.approx(axes, abs=0.05)  # the dead zone is rescaled
+            assert tuple(shown["buttons"]) == buttons
 
 
-def test_a_gamepad_of_the_standard_mapping(page):
+def test_gamepad_of_the_standard_mapping_is_an_f710(page):
     pressed = [number in (0, 4, 12) for number in range(17)]  # A, LB, and the D-pad up
     pad = {"mapping": "standard", "axes": [-1, 1, 0.02, 0], "buttons": [button(b) for b in pressed]}
     assert call(page, "handsOfGamepad", pad, NAMES) == {
@@ -56,7 +49,7 @@ def test_a_gamepad_of_the_standard_mapping(page):
     }  # fmt: skip
 
 
-def test_a_gamepad_that_is_held_when_it_is_plugged_in_moves_nothing(page):
+def test_gamepad_that_is_held_when_it_is_plugged_in_moves_nothing(page):
     script = """const done = arguments[0];
     const held = {id: "fake", index: 0, connected: true, mapping: "standard", timestamp: 1,
         axes: [0, -1, 0, 0], buttons: Array(17).fill({pressed: true, value: 1})};

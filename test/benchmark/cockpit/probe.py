@@ -1,9 +1,7 @@
 #!/usr/bin/python3
-"""Times inputs of a page until their /cmd_vel comes, beside messages that are sent back.
+"""Times inputs of a page until their /cmd_vel comes.
 
-probe.py COCKPIT_PORT ECHO_PORT COUNT [TOKEN] -> JSON: {"input": [s, ...], "echo": [s, ...],
-"losses": how often the operator was lost, "stalls": how often the machine held up this program or
-the echo, as it may hold up the cockpit}
+probe.py COCKPIT_PORT COUNT TOKEN -> JSON: the times [s] of those that came.
 """
 
 import asyncio
@@ -14,20 +12,20 @@ import time
 
 import rospy
 from geometry_msgs.msg import Twist
-from tornado.httpclient import HTTPRequest
 from tornado.websocket import websocket_connect
+
+from tutorial_testing.socket_page import request
 
 STEP = 2.0**-12  # of the stick, from each input to the next: exact as float32
 SCALE = 0.35  # m/s for a whole stick, as config/f710_d.yaml has it
-PERIOD_S = 0.02  # a fast gamepad's; each input beside one message that is sent back
-STALL_S = 0.1  # the server drops what is later (LATE_S of the seat)
-sent_s, heard = {}, {"input": [], "echo": [], "losses": 0, "stalls": 0}
+PERIOD_S = 0.02  # a fast gamepad's
+sent_s, heard_s = {}, []
 
 
 def on_twist(twist):
     began = sent_s.pop(round(twist.linear.x / SCALE / STEP), None)
     if began is not None:
-        heard["input"].append(time.monotonic() - began)
+        heard_s.append(time.monotonic() - began)
 
 
 class Page:
@@ -59,52 +57,26 @@ class Page:
             await asyncio.sleep(PERIOD_S)
 
 
-async def connect(port, query=""):
-    headers = {"Origin": f"http://127.0.0.1:{port}"}
-    address = f"ws://127.0.0.1:{port}/ws{query}"
-    socket = await websocket_connect(HTTPRequest(address, headers=headers))
+async def main(port, count, token):
+    socket = await websocket_connect(request(port, token))
     socket.protocol.set_nodelay(True)
-    return socket
-
-
-async def read_echo(socket):
-    while True:
-        began = float(await socket.read_message())
-        took_s = time.monotonic() - began
-        heard["echo"].append(took_s)
-        heard["stalls"] += took_s > STALL_S
-
-
-async def pause(seconds):
-    """Sleep, and notice where the scheduler let this program sleep for too long."""
-    end = time.monotonic() + seconds
-    await asyncio.sleep(seconds)
-    heard["stalls"] += time.monotonic() - end > STALL_S
-
-
-async def main(cockpit_port, echo_port, count, token=""):
-    page, echo = Page(await connect(cockpit_port, f"?token={token}")), await connect(echo_port)
-    tasks = [asyncio.ensure_future(page.read()), asyncio.ensure_future(read_echo(echo))]
+    page = Page(socket)
+    reader = asyncio.ensure_future(page.read())
     page.say("drive", robot="", mode="D")
-    await page.release()
     for number in range(-20, count):  # all is warm from 0 on
-        if not page.armed:
-            heard["losses"] += 1
+        if not page.armed:  # at first, and where a busy machine has lost the operator
             await page.release()
         stick = number % 2000 + 500
         if number >= 0:
             sent_s[stick] = time.monotonic()
         page.input(stick * STEP, 1)
-        await pause(PERIOD_S / 2)
-        echo.write_message(str(time.monotonic()))
-        await pause(PERIOD_S / 2)
+        await asyncio.sleep(PERIOD_S)
     await asyncio.sleep(0.5)
-    for task in tasks:
-        task.cancel()
+    reader.cancel()
 
 
 rospy.init_node("probe", disable_signals=True)
 subscriber = rospy.Subscriber("/cmd_vel", Twist, on_twist, tcp_nodelay=True)
 gc.freeze()
-asyncio.run(main(*map(int, sys.argv[1:4]), *sys.argv[4:]))
-print(json.dumps(heard))
+asyncio.run(main(int(sys.argv[1]), int(sys.argv[2]), sys.argv[3]))
+print(json.dumps(heard_s))

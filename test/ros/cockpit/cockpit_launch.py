@@ -16,59 +16,57 @@ from tutorial_testing.processes import Program
 from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
+URI = rosgraph.get_master_uri()
+
 
 class Launched(CockpitRig):
     def start(self):
-        page = wait_for(lambda: address(rosgraph.get_master_uri()), "address of the page")
-        self.port = urlsplit(page).port
-        self.program = Program("true")
+        self.address = wait_for(lambda: address(URI), "address of the page")
+        self.port = urlsplit(self.address).port
+        self.program = Program("sleep", "infinity")  # the launch file has the cockpit
         wait_for(self.listens, "page of the cockpit")
 
-    def listens(self):
-        with self.page() as page:
-            return self.robot in page.wait_for("hello")["robots"]
+
+def cockpit(port, *options):
+    return Program(node_path("cockpit", "cockpit.py"), "--port", str(port), *options)
 
 
 class BrowserJoystick(RosTest):
-    def test_the_page_drives(self):
-        with Launched() as rig, rig.page() as page:
-            self.assertNotIn("/joy_node", rosnode.get_node_names())
-            rig.drive(page)
-            page.close()
-            rig.wait_for_rest(time.time())
-            at = f"http://127.0.0.1:{rig.port}/"
-            why = f"cockpit: a cockpit is already running: open {at} on this machine"
-            self.second_says(rig.port, 0, f"{why}\n")
-            why = f"cockpit: a cockpit is already running at {at}; for other machines end[^\n]*"
-            self.second_says(rig.port, 1, f"{why} or take --port {rig.port + 1}\n", "--lan")
-            with socket.create_server(("127.0.0.1", 0)) as taken:  # by another program
-                port = taken.getsockname()[1]
-                self.second_says(port, 1, f"cockpit: port {port} is taken[^\n]*\n")
-            with rig.page() as again:
-                rig.drive(again)
+    def setUp(self):
+        self.rig = self.enter(Launched())
 
-    def second_says(self, port, code, line, *options):
-        """Another cockpit ends at once, with an exit code and one line."""
-        command = (node_path("cockpit", "cockpit.py"), "--port", str(port), *options)
-        with Program(*command, "__name:=another") as second:
-            self.assertEqual(second.wait(), code)
-            self.assertRegex(second.output, f"^{line}$")
+    def test_the_page_drives_in_place_of_a_joystick(self):
+        self.assertNotIn("/joy_node", rosnode.get_node_names())
+        with self.rig.page() as page:
+            self.rig.drive(page)
+        self.rig.wait_for_rest(time.time())
+
+    def test_a_second_cockpit_says_where_the_first_one_is(self):
+        with socket.create_server(("127.0.0.1", 0)) as taken:  # by another program
+            other, ours = taken.getsockname()[1], self.rig.port
+            at = self.rig.address
+            for port, options, code, line in (
+                (ours, (), 0, f"a cockpit is already running: open {at} on this machine"),
+                (ours, ("--lan",), 1, f"a cockpit is already running at {at}; for other machines "
+                 f"end[^\n]* or take --port {ours + 1}"),
+                (other, (), 1, f"port {other} is taken[^\n]*"),
+            ):  # fmt: skip
+                with cockpit(port, *options, "__name:=another") as second:
+                    self.assertEqual(second.wait(), code)
+                    self.assertRegex(second.output, f"^cockpit: {line}\n$")
 
     def test_a_second_cockpit_that_ends_leaves_the_address_of_the_first(self):
-        uri, port = rosgraph.get_master_uri(), free_port()
-        first = wait_for(lambda: address(uri), "address of the page")
-        command = (node_path("cockpit", "cockpit.py"), "--port", str(port), "__name:=second")
-        with Program(*command) as second:
-            wait_for(lambda: address(uri) == f"http://127.0.0.1:{port}/", "the second's address")
+        port = free_port()
+        with cockpit(port, "__name:=second") as second:
+            wait_for(lambda: address(URI) == f"http://127.0.0.1:{port}/", "the second's address")
             second.interrupt()
             second.wait()
-        self.assertEqual(address(uri), first)
+        self.assertEqual(address(URI), self.rig.address)
 
-    def test_rqt_commands_lead_to_the_page(self):
-        page = wait_for(lambda: address(rosgraph.get_master_uri()), "address of the page")
+    def test_rqt_graph_without_a_screen_leads_to_the_page(self):
         with Program(node_path("tutorial_tools", "rqt_graph"), DISPLAY="") as graph:
             self.assertEqual(graph.wait(), 0)
-            self.assertEqual(graph.output, f"rqt_graph: see {page}#Graph\n")
+            self.assertEqual(graph.output, f"rqt_graph: see {self.rig.address}#Graph\n")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""A driver's seat and the pages around it: time is a number, and nothing waits."""
+"""A driver's seat, pages and what they look at, without ROS: time is a number, nothing waits."""
 
 import json
 from io import BytesIO
@@ -75,6 +75,35 @@ def page(role="driver", number=7, **watch):
     client = Client(number, role, "Firefox", hear, is_behind=no, is_cut=no, close=close)
     client.watch = SimpleNamespace(**{"robots": False, "look": None, "bag": False, **watch})
     return client, sent
+
+
+def look(source, *pages, now=0.0):
+    """Let these pages look at a source; return what each of them is sent now."""
+    for _, sent in pages:
+        sent.clear()
+    source.prepare([client for client, _ in pages], now)
+    for client, _ in pages:
+        source.give(client, now)
+    return [list(sent) for _, sent in pages]
+
+
+class Topics:
+    """In the place of Feeds: topics that are wanted, and whose messages a test makes up."""
+
+    def __init__(self):
+        self._wants = {}
+
+    def want(self, owner, hears, every):
+        self._wants[owner] = hears
+
+    @property
+    def hears(self):
+        return {topic: hear for hears in self._wants.values() for topic, hear in hears.items()}
+
+    def hear(self, topic, message):
+        """message: of ROS, or bytes."""
+        data = message if isinstance(message, bytes) else serialised(message)
+        self.hears[topic](SimpleNamespace(data=data), topic)
 
 
 def serialised(message):

@@ -1,8 +1,10 @@
 """One truth about who drives and why a robot stands: what pages say in each situation."""
 
+from math import inf
 from types import SimpleNamespace
 
 import pytest
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 
 from cockpit_server import drives
 from cockpit_server.access import DRIVER, VIEWER
@@ -12,7 +14,8 @@ from cockpit_server.graph import Graph
 from cockpit_server.hub import Hub
 from cockpit_server.seat import BAG, PAGE, RefusedError, Seat
 from cockpit_server.sources.resets import Resets
-from tutorial_testing.seat_room import page
+from cockpit_server.sources.teleop import DEADMAN, Teleop
+from tutorial_testing.seat_room import Topics, look, page
 
 ANNA, BOB = 1, 2
 MOVING, ARMED, FREE = ({"state": s, "deadman": d} for s, d in
@@ -51,7 +54,6 @@ UNHEARD = "No node subscribes to /ada/joy: nothing moves before you start joy2tw
 BY_LB = "Hold LB (a thumb, a gamepad's button, the key Shift), then move the stick (or arrow keys)."
 BY_77 = "Hold button 77 (a gamepad's button), then move the stick (or arrow keys)."
 FREELY = "Move the stick (a thumb, a gamepad, the arrow keys)."
-RB, ODD = ({"state": "armed", "deadman": button} for button in ("5", "77"))
 READY = {  # -> why it stands and what to do now; how it is driven, without "Esc: stop."
     "drives": (SEAT, "Hold LB, then move the stick.", BY_LB),
     "sits down": (SEAT._replace(armed=False), "Release LB and the stick first.", BY_LB),
@@ -59,22 +61,19 @@ READY = {  # -> why it stands and what to do now; how it is driven, without "Esc
         "Stopped: hidden. Release LB and the stick, then hold LB again.", BY_LB),
     "no button": (SEAT._replace(said=FREE),
         "Move the stick: this robot needs no button held.", FREELY),
-    "no button, sits down": (
-        SEAT._replace(said=FREE, armed=False), "Release the stick first.", FREELY),
     "no button, was stopped": (SEAT._replace(said=FREE, armed=False, why="hidden"),
         "Stopped: hidden. Release the stick, then move it again.", FREELY),
-    "RB": (SEAT._replace(said=RB), "Hold RB, then move the stick.", BY_LB.replace(
-        "LB (a thumb, a gamepad's button, the key Shift)", "RB (a gamepad's button)")),
-    "a button without a name": (
-        SEAT._replace(said=ODD), "Hold button 77, then move the stick.", BY_77),
+    "RB": (SEAT._replace(said={"state": "armed", "deadman": "5"}),
+        "Hold RB, then move the stick.", BY_77.replace("button 77", "RB")),
+    "a button without a name": (SEAT._replace(said={"state": "armed", "deadman": "77"}),
+        "Hold button 77, then move the stick.", BY_77),
     "plays": (SEAT._replace(how=BAG), "", ""),
     "looks on": (About(said=ARMED), "", BY_LB),
     "another page drives": (SEAT._replace(driver=BOB), "", ""),
     "a node drives": (About(said=MOVING), "", ""),
-    "it stopped": (
-        About(said=ARMED, why="the network is down"), "Stopped: the network is down.", BY_LB),
+    "it stopped": (About(said=ARMED, why="the network is down"),
+        "Stopped: the network is down.", BY_LB),
     "without joy2twist": (SEAT._replace(is_heard=False, armed=False), UNHEARD, ""),
-    "without joy2twist, looks on": (About(is_heard=False), UNHEARD, ""),
     "without joy2twist, stopped": (About(is_heard=False, why="it"), f"Stopped: it. {UNHEARD}", ""),
 }  # fmt: skip
 
@@ -102,7 +101,8 @@ class Room:
 
     def __init__(self, role=DRIVER, robots=("ada",)):
         self.outdated, self.report, self.senders = [], ARMED, ()
-        self.client, self.sent = page(role, ANNA, look="ada")
+        self.page = self.client, self.sent = page(role, ANNA, look="ada")
+        self.clients = {ANNA: self.client}
         self.seat = Seat(lambda *_: None, lambda *_: None)
         self.listeners = {"/joy2twist"}
         self._pads = SimpleNamespace(rival=lambda *_: None)
@@ -113,40 +113,43 @@ class Room:
         teleop = SimpleNamespace(newest=lambda _: self.report, outdate=self.outdated.append)
         self.drives = Drives(self, graphs, teleop, SimpleNamespace(moves=lambda *_: False))
 
-    clients = property(lambda self: {ANNA: self.client})
-    driven = property(lambda self: self.seat.robot if self.seat.driver is not None else None)
+    @property
+    def driven(self):
+        return self.seat.robot if self.seat.driver is not None else None
 
     def look(self):
-        """What the page is sent now, or the last time if nothing has changed."""
-        self.drives.prepare([self.client], 0.0)
-        self.drives.give(self.client, 0.0)
-        return self.sent[-1]
+        """Return the words that the page is sent now, or None if nothing has changed."""
+        sent = look(self.drives, self.page)[0]
+        return sent[0] if sent else None
 
 
-def test_a_page_is_sent_the_words_when_they_change():
+def test_page_is_sent_the_words_when_they_change():
     room = Room()
-    assert room.look()["who"] == "Nobody drives." and room.look() and len(room.sent) == 1
+    assert (room.look()["who"], room.look()) == ("Nobody drives.", None)
     room.seat.take(ANNA, "ada", PAGE, 0.0)
-    assert room.look()["who"] == "You drive ada." and room.sent[-1]["drivers"] == {"ada": "Firefox"}
+    words = room.look()
+    assert (words["who"], words["drivers"]) == ("You drive ada.", {"ada": "Firefox"})
     assert room.outdated == []
     room.seat.leave(ANNA)
-    assert room.look()["who"] == "Nobody drives." and room.sent[-1]["drivers"] == {"ada": ""}
+    words = room.look()
+    assert (words["who"], words["drivers"]) == ("Nobody drives.", {"ada": ""})
     assert room.outdated == ["ada"]  # that joy2twist was driving is no longer true
     room.listeners = set()
     assert room.look()["ready"] == UNHEARD
 
 
-def test_the_reason_of_a_stop_is_dropped_once_a_recording_drives():
+def test_reason_of_a_stop_is_dropped_once_a_recording_drives():
     room = Room()
     room.seat.why, room.seat.stopped = "the network is down", "ada"
     assert room.look()["ready"] == "Stopped: the network is down."
     room.report, room.senders = MOVING, PLAYS
     assert room.look()["who"] == "/rosbag_play drives ada."
     room.report, room.senders = ARMED, ()
-    assert (room.look()["who"], room.look()["ready"]) == ("Nobody drives.", "")
+    words = room.look()
+    assert (words["who"], words["ready"]) == ("Nobody drives.", "")
 
 
-def test_a_robot_is_not_reset_while_a_node_drives_it():
+def test_robot_is_not_reset_while_another_drives_it():
     room = Room()
     graphs = SimpleNamespace(graph=Graph(services={"/ada/reset": {"/sim"}}))
     resets = Resets(room, graphs, room.drives)
@@ -165,3 +168,25 @@ def test_why_a_page_may_not_drive_is_on_it_before_a_person_tries():
         assert (words["refusal"], words["ready"]) == (refusal, refusal)
         assert bool(words["how"]) == (not refusal)
     assert Room(robots=()).look()["ready"].startswith("No robot is running yet: start one")
+
+
+def test_reports_of_joy2twist_are_read_by_robot_and_outdated_once_its_driver_has_left():
+    topics, one = Topics(), page(robots=True)
+    teleop = Teleop(topics)
+    statuses = [
+        DiagnosticStatus(name=name, message=words, level=1, values=values)
+        for name, words, values in (
+            ("myjoystick2twist: joystick", "driving", []),
+            ("robot_1/joy2twist: joystick", "stopped: not armed", [KeyValue(DEADMAN, "4")]),
+            ("fake_turtlebot: simulation", "running", []),
+        )
+    ]
+    for message in (DiagnosticArray(status=statuses), b"bytes that are none: joystick"):
+        topics.hear("/diagnostics", message)
+    told = {"kind": "teleop", "level": 1}
+    driving = {**told, "robot": "", "state": "driving", "why": "driving", "deadman": None}
+    stopped = {"robot": "robot_1", "state": "stopped", "why": "stopped: not armed", "deadman": "4"}
+    assert look(teleop, one) == [[driving, {**told, **stopped}]]
+    teleop.outdate("")
+    assert look(teleop, one)[0][0]["state"] == "unknown"
+    assert {words["state"] for words in look(teleop, one, now=inf)[0]} == {"silent"}

@@ -1,22 +1,57 @@
 """What the hub sends and hears; a failure, a flood or a slow page does not hold up others."""
 
 import json
-from time import monotonic
 from types import SimpleNamespace
 
 import pytest
-from rosgraph_msgs.msg import Log
 
 from cockpit_server import hub as hub_module
 from cockpit_server.access import DRIVER, VIEWER
 from cockpit_server.clients import LOOKS_ONLY, Source
 from cockpit_server.drives import NO_ROBOT
-from cockpit_server.graph import Graph
+from cockpit_server.graph import JOY, Graph
 from cockpit_server.guard import MOST_REPORTED, Guard
 from cockpit_server.hub import CONNECT_S, GIVE_S, Hub
 from cockpit_server.seat import PAGE
-from cockpit_server.sources.logs import Logs
-from tutorial_testing.seat_room import DRIVE, REST, page, serialised
+from tutorial_testing.seat_room import DRIVE, REST, page
+
+ROBOT = {"robot": "", "mode": "D"}
+
+
+class Made(Hub):
+    """A hub of these sources that knows the robot "", and what goes in and out of it."""
+
+    def __init__(self, *sources, player=None):
+        self.told, self.published, self.heard_by, self.rival = [], [], {"/joy2twist"}, None
+        self.graphs = SimpleNamespace(
+            graph=Graph(subscribers={"/joy": {"/joy2twist"}}, types={"/joy": JOY}),
+            joystick_listeners=lambda _: {"/joy2twist"},
+        )
+        joysticks = SimpleNamespace(
+            send=lambda *message: self.published.append(message),
+            keep=lambda _: None,
+            listeners=lambda _: self.heard_by,
+        )
+        pads = SimpleNamespace(driven=None, rival=lambda *_: self.rival)
+        super().__init__(None, self.graphs, joysticks, pads, self.told.append)
+        self.add(sources, player or SimpleNamespace(play=lambda now: None))
+
+    def opened(self, role=DRIVER):
+        """(a page that has joined, what it is sent)."""
+        client, sent = page(role, number=self.number())
+        self.join(client)
+        return client, sent
+
+    def say(self, client, kind, **fields):
+        self.hear(client, json.dumps({"kind": kind, **fields}))
+
+    def hold(self, client, sent, position):
+        """Let the driver's page answer the next beat with this position."""
+        self.tick()
+        beat = [one for one in sent if one["kind"] == "beat"][-1]["n"]
+        axes, buttons = position
+        self.say(client, "input", n=beat, t=1e3 * hub_module.time.monotonic(), beat=beat, pad=None,
+                 axes=axes, buttons=buttons, source="keys")  # fmt: skip
 
 
 class Broken(Source):
@@ -35,37 +70,29 @@ class Well(Source):
         client.send("well")
 
 
-def made(*sources, player=None):
-    """A hub of these sources that knows the robot "", and what it reported."""
-    told = []
-    graph = Graph(subscribers={"/joy": {"/j"}}, types={"/joy": "sensor_msgs/Joy"})
-    pads = SimpleNamespace(driven=None, rival=lambda *_: None)
-    joysticks = SimpleNamespace(send=None, keep=lambda robot: None)
-    hub = Hub(None, SimpleNamespace(graph=graph), joysticks, pads, told.append)
-    hub.add(sources, player or SimpleNamespace(play=lambda now: None))
-    return hub, told
-
-
-def join(hub):
-    client, sent = page(number=hub.number())
-    hub.join(client)
-    return client, sent
-
-
 def kinds(sent):
     return [message["kind"] for message in sent]
 
 
-def test_a_failure_does_not_hold_up_other_sources_and_pages():
-    hub, told = made(Broken(), Well(), player=Broken())
-    (unwritable, _), *others = [join(hub) for _ in range(3)]
+@pytest.fixture
+def clock(monkeypatch):
+    """The time now, and how long the thread has worked [s]."""
+    clock = SimpleNamespace(now=100.0, worked=0.0, time=lambda: 0.0)
+    clock.monotonic, clock.thread_time = (lambda: clock.now), (lambda: clock.worked)
+    monkeypatch.setattr(hub_module, "time", clock)
+    return clock
+
+
+def test_failure_does_not_hold_up_other_sources_and_pages():
+    hub = Made(Broken(), Well(), player=Broken())
+    (unwritable, _), *others = [hub.opened() for _ in range(3)]
     unwritable.write = None
     hub.tick()
     assert [kinds(sent) for _, sent in others] == [["hello", "seat", "well"]] * 2
-    assert len(told) == 4  # of each once: the player, the source, and of that page two
+    assert len(hub.told) == 4  # of each once: the player, the source, and of that page two
 
 
-def test_a_failure_is_reported_once_for_each_thing():
+def test_failure_is_reported_once_for_each_thing():
     told, done = [], []
     guard = Guard(told.append)
     for _ in range(3):
@@ -79,114 +106,105 @@ def test_a_failure_is_reported_once_for_each_thing():
     assert len(told) == MOST_REPORTED
 
 
-def test_a_page_in_debt_waits_unless_it_drives():
-    hub, _ = made(Well())
-    (guest, to_guest), (_, to_other), (driver, _) = [join(hub) for _ in range(3)]
-    hub.seat.take(driver.number, "ada", PAGE, monotonic())
+def test_page_in_debt_waits_unless_it_drives(clock):
+    hub = Made(Well())
+    (guest, to_guest), (_, to_other), (driver, _) = [hub.opened() for _ in range(3)]
+    hub.say(driver, "drive", **ROBOT)
     for one in (guest, driver):
         one.budget.spend(10.0)
-    assert hub.wait_s(guest) > 1.0
-    assert hub.wait_s(driver) == 0.0
+    assert (hub.wait_s(guest) > 1.0, hub.wait_s(driver)) == (True, 0.0)
     hub.tick()
     assert kinds(to_guest) == ["hello"]  # it gets the newest once that is paid
     assert "well" in kinds(to_other)
 
 
-def test_a_message_costs_the_page_that_sent_it(monkeypatch):
-    time = SimpleNamespace(monotonic=lambda: 100.0, thread_time=iter(range(9)).__next__)
-    monkeypatch.setattr(hub_module, "time", time)  # each message takes a second
-    hub, _ = made()
-    (one, _), (other, _) = join(hub), join(hub)
+def test_message_costs_the_page_that_sent_it(clock, monkeypatch):
+    monkeypatch.setattr(clock, "thread_time", iter(range(9)).__next__)  # each takes a second
+    hub = Made()
+    (one, _), (other, _) = hub.opened(), hub.opened()
     assert hub.wait_s(one) == 0.0
     hub.hear(one, "no message")
     assert hub.wait_s(one) > 1.0
-    assert other.budget.wait_s(100.0, 1.0) == 0.0
+    assert other.budget.wait_s(clock.now, 1.0) == 0.0
 
 
 def test_many_requests_delay_only_their_own_address():
-    hub, _ = made()
+    hub = Made()
     waits = [hub.request_wait_s("10.0.0.1") for _ in range(1000)]
     assert waits[25] == 0.0  # a page loads as many files
     assert waits[-1] > 10.0
     assert hub.request_wait_s("10.0.0.2") == 0.0
 
 
-def test_pages_that_one_tick_does_not_reach_come_next(monkeypatch):
+def test_pages_that_one_tick_does_not_reach_come_next(clock):
     class Slow(Source):
         def give(self, client, now):
-            clock[0] += 1.1 * GIVE_S
+            clock.worked += 1.1 * GIVE_S
             given.append(client.number)
 
-    clock, given = [0.0], []
-    time = SimpleNamespace(monotonic=lambda: clock[0], thread_time=lambda: clock[0])
-    monkeypatch.setattr(hub_module, "time", time)
-    hub, _ = made(Slow())
+    given, hub = [], Made(Slow())
     for _ in range(3):
-        join(hub)
+        hub.opened()
     for tick in (1, 2, 3):
         hub.tick()
         assert given == [1, 2, 3][:tick]
 
 
 @pytest.mark.parametrize(
-    ("hears", "after_s", "is_heard"),
+    ("heard_by", "after_s", "drives"),
     [((), CONNECT_S, False), (("/joy2twist",), 0.0, True), ((), CONNECT_S + 0.1, True)],
 )
-def test_a_page_drives_once_all_subscribers_are_connected_or_after_a_while(
-    hears, after_s, is_heard
+def test_page_drives_once_all_subscribers_are_connected_or_after_a_while(
+    clock, heard_by, after_s, drives
 ):
-    hub, _ = made()
-    hub._graphs.joystick_listeners = lambda robot: {"/joy2twist"}
-    hub._joysticks.listeners = lambda robot: set(hears)
-    assert hub._is_heard(after_s) == is_heard
+    hub = Made()
+    hub.heard_by = set(heard_by)
+    driver, sent = hub.opened()
+    hub.say(driver, "drive", **ROBOT)
+    clock.now += after_s
+    hub.hold(driver, sent, REST)
+    assert hub.seat.armed == drives
 
 
-def test_a_page_that_watches_the_log_gets_each_line_once():
-    wanted = []
-    logs = Logs(SimpleNamespace(want=lambda _, hears, every: wanted.extend(hears)))
-    hub, _ = made(logs)
-    assert wanted == ["/rosout"]  # whose publishers keep the line that was logged before
-    client, sent = join(hub)
-
-    def lines(text, **watch):
-        for _ in range(2):  # a latched line comes again with a new connection
-            logs._hear(SimpleNamespace(data=serialised(Log(msg=text))), "/rosout")
-        hub.hear(client, json.dumps({"kind": "watch", **watch}))
-        sent.clear()
-        for _ in range(2):
-            logs.give(client, 0.0)
-        return [entry["text"] for message in sent for entry in message["entries"]]
-
-    assert lines("a", log=True) == ["a"]
-    assert lines("b", log=True) == ["b"]  # as a page does that was silent for a while
-    assert lines("c", log=False) == []
-    assert lines("d", log=True) == ["c", "d"]  # the page has the others
+@pytest.fixture
+def driven(clock):
+    """A hub, and a page that drives, with what it is sent."""
+    hub = Made()
+    driver, sent = hub.opened()
+    hub.say(driver, "drive", **ROBOT)
+    for position in (REST, DRIVE):
+        clock.now += 0.1
+        hub.hold(driver, sent, position)
+    assert hub.published.pop() == ("", *DRIVE)
+    hub.published.clear()
+    return hub, driver, sent
 
 
-def test_stop_leaves_the_own_seat_and_stops_another_driver():
-    hub, _ = made()
-    sent = []
-    hub.seat._send = lambda *message: sent.append(message)
-    (driver, to_driver), (guest, _), (viewer, to_viewer) = [join(hub) for _ in range(3)]
-    viewer.role = VIEWER
-    hub._is_heard = lambda _: True
+def test_stop_of_the_driver_leaves_the_seat(driven):
+    hub, driver, _ = driven
+    hub.say(driver, "stop")
+    assert (hub.published, hub.seat.driver) == ([("", *REST)], None)
 
-    def drive():
-        hub.on_drive(driver, monotonic(), "", "D")
-        hub.seat.armed, hub.seat._last = True, DRIVE
-        sent.clear()
 
-    def stop(client):
-        hub.hear(client, json.dumps({"kind": "stop"}))
-        return sent, hub.seat.driver, hub.seat.armed
-
-    drive()
-    assert stop(viewer) == ([], driver.number, True)
-    assert LOOKS_ONLY in to_viewer[-1]["why"]
-    assert stop(guest) == ([("", *REST)], driver.number, False)  # its hands must let go first
+def test_stop_of_another_page_stops_the_driver_and_a_viewers_does_nothing(driven):
+    hub, driver, to_driver = driven
+    viewer, to_viewer = hub.opened(VIEWER)
+    hub.say(viewer, "stop")
+    assert LOOKS_ONLY in to_viewer[-1]["why"] and hub.seat.armed
+    hub.say(hub.opened()[0], "stop")
+    assert (hub.published, hub.seat.driver) == ([("", *REST)], driver.number)
+    assert not hub.seat.armed  # its hands must let go first
     assert "pressed Stop" in to_driver[-1]["text"]
-    drive()
-    assert stop(driver) == ([("", *REST)], None, False)
+
+
+def test_another_joystick_frees_the_seat(driven, clock):
+    hub, _, to_driver = driven
+    hub.rival = "/player"
+    clock.now += 0.1
+    hub.tick()
+    assert (hub.published, hub.seat.driver) == ([("", *REST)], None)
+    [lost] = [one for one in to_driver if one["kind"] == "lost"]
+    assert "/player also drives this robot" in lost["why"]
 
 
 @pytest.mark.parametrize(
@@ -200,22 +218,21 @@ def test_stop_leaves_the_own_seat_and_stops_another_driver():
         (DRIVER, "", "/player", 2, ""),  # the own seat
     ],
 )
-def test_a_page_is_told_beforehand_what_drive_would_be_refused_for(
+def test_page_is_told_beforehand_what_drive_would_be_refused_for(
     role, robot, rival, driver, refusal
 ):
-    hub, _ = made()
-    _, (client, sent) = join(hub), join(hub)
-    client.role = role
+    hub = Made()
+    _, (client, sent) = hub.opened(), hub.opened(role)
     if driver is not None:
         hub.seat.take(driver, "", PAGE, 0.0)
-    hub._pads.rival = lambda *_: rival
+    hub.rival = rival
     said = hub.refusal(client, robot, 0.0)
     assert said.startswith(refusal) and bool(said) == bool(refusal)
-    hub.hear(client, json.dumps({"kind": "drive", "robot": robot, "mode": "D"}))
+    hub.say(client, "drive", **{**ROBOT, "robot": robot})
     assert [one["why"] for one in sent if one["kind"] == "refused"] == [said] * bool(refusal)
 
 
-def test_without_a_robot_the_refusal_says_how_to_start_one():
-    hub, _ = made()
-    hub._graphs.graph = Graph()
-    assert hub.refusal(join(hub)[0], "", 0.0) == NO_ROBOT
+def test_refusal_without_a_robot_says_how_to_start_one():
+    hub = Made()
+    hub.graphs.graph = Graph()
+    assert hub.refusal(hub.opened()[0], "", 0.0) == NO_ROBOT

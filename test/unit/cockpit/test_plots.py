@@ -9,7 +9,7 @@ from std_msgs.msg import Float64, Header
 
 from cockpit_server.graph import Graph
 from cockpit_server.sources import plots
-from tutorial_testing.seat_room import page, serialised
+from tutorial_testing.seat_room import Topics, look, page
 
 NOW = 1000.0
 
@@ -29,18 +29,16 @@ def joy(stamp):
         (Float64(2.5), "data", NOW),
     ],
 )
-def test_a_stamp_that_is_missing_or_of_another_clock_is_now(monkeypatch, message, field, t):
+def test_sample_has_its_stamp_or_now_where_that_is_missing_or_of_another_clock(
+    monkeypatch, message, field, t
+):
     monkeypatch.setattr(plots.rospy, "get_time", lambda: NOW)
     graph = Graph(publishers={"/x": {"/n"}}, types={"/x": message._type})
-    feeds = SimpleNamespace(want=lambda *_, **__: None)
-    source = plots.Plots(feeds, SimpleNamespace(graph=graph))
-    client, sent = page(fields=(f"/x/{field}",), field_list=True)
-    client.seen["plot"] = 0
-    source.prepare([client], 0.0)
-    for data in (serialised(message), b"short"):
-        source._hear(SimpleNamespace(data=data), "/x")
-    source.give(client, 0.0)
-    assert f"/x/{field}" in sent[0]["fields"]
-    assert sent[1]["samples"] == {f"/x/{field}": [[t, 2.5]]}
-    source.give(client, 0.0)
-    assert len(sent) == 2
+    topics, one = Topics(), page(fields=(f"/x/{field}",), field_list=True)
+    source = plots.Plots(topics, SimpleNamespace(graph=graph))
+    [[fields]] = look(source, one)
+    assert f"/x/{field}" in fields["fields"]
+    topics.hear("/x", message)
+    topics.hear("/x", b"short")
+    assert look(source, one) == [[{"kind": "plot", "samples": {f"/x/{field}": [[t, 2.5]]}}]]
+    assert look(source, one) == [[]]

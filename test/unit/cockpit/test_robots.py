@@ -1,6 +1,5 @@
-"""What pages are sent of robots, of their joysticks and of topics."""
+"""What pages are sent of robots and of their joysticks."""
 
-import time
 from math import inf, nan
 from types import SimpleNamespace
 
@@ -8,85 +7,57 @@ import pytest
 from kobuki_msgs.msg import Led, Sound
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Joy
-from std_msgs.msg import Header, String
+from std_msgs.msg import Header
 
-from cockpit_server.graph import JOY, ODOMETRY, Graph
+from cockpit_server.graph import JOY, ODOMETRY, Graph, topic_of
 from cockpit_server.motion import Motion
 from cockpit_server.sources import robots as robots_module
-from cockpit_server.sources.graph_view import LONGEST_MESSAGE, Topic
 from cockpit_server.sources.robots import LONGEST_JOY, Pads, Robots, joy_shown, shown
-from tutorial_testing.seat_room import page, serialised
-
-PARTS = {"led1", "led2", "sound"}  # of a Kobuki
+from tutorial_testing.seat_room import Topics, look, page, serialised
 
 
-class Feeds:
-    def want(self, _owner, hears, every):
-        self.hears = hears
-
-
-class FeedsByOwner:
-    def __init__(self):
-        self.hears = {}
-
-    def want(self, owner, hears, every):
-        self.hears[owner] = hears
-
-
-def graph(*robots):
+def graph(*robots, **types):
     """These robots with an odometry, and robot_9, which only hears a joystick."""
     return Graph(
-        publishers={f"/{robot}/odom": {"/sim"} for robot in robots},
+        publishers={topic_of(robot, "odom"): {"/sim"} for robot in robots},
         subscribers={"/robot_9/joy": {"/joy2twist"}},
-        types={"/robot_9/joy": JOY, **{f"/{robot}/odom": ODOMETRY for robot in robots}},
+        types={"/robot_9/joy": JOY, **{topic_of(r, "odom"): ODOMETRY for r in robots}, **types},
     )
 
 
-def test_the_names_of_robots_come_when_they_change_to_pages_that_look_at_them():
+def of(kind, sent):
+    return next((message for message in sent if message["kind"] == kind), None)
+
+
+def test_names_of_robots_come_when_they_change_to_pages_that_look_at_robots():
     graphs = SimpleNamespace(graph=graph("robot_2", "robot_1"))
-    robots, (one, sent), (other, nothing) = Robots(Feeds(), graphs), page(robots=True), page()
-
-    def names():
-        sent.clear()
-        robots.prepare([one, other], 0.0)
-        robots.give(one, 0.0)
-        robots.give(other, 0.0)
-        return [message["names"] for message in sent if message["kind"] == "names"]
-
-    assert names() == [["robot_1", "robot_2", "robot_9"]]
-    assert names() == []
-    graphs.graph = graph("robot_1")
-    assert names() == [["robot_1", "robot_9"]]
+    robots, pages = Robots(Topics(), graphs), (page(robots=True), page())
+    sent, nothing = look(robots, *pages)
+    assert of("names", sent)["names"] == ["robot_1", "robot_2", "robot_9"]
     assert nothing == []
+    assert of("names", look(robots, *pages)[0]) is None
+    graphs.graph = graph("robot_1")
+    assert of("names", look(robots, *pages)[0])["names"] == ["robot_1", "robot_9"]
 
 
 def test_pages_get_what_a_kobuki_was_last_asked_for():
-    feeds = FeedsByOwner()
     here, there = "/ada/mobile_base/commands/led1", "/mobile_base/commands/sound"
-    sim = graph("ada", "")
-    sim.types.update({here: "kobuki_msgs/Led", there: "kobuki_msgs/Sound", "/other/led1": "x/Led"})
-    robots, (one, sent) = Robots(feeds, SimpleNamespace(graph=sim)), page(robots=True)
-
-    def seen():
-        robots.prepare([one], 0.0)
-        for topic, hear in feeds.hears[robots].items():
-            hear(SimpleNamespace(data=serialised(Odometry())), topic)
-        sent.clear()
-        robots.prepare([one], 0.0)
-        robots.give(one, 0.0)
-        found = next(message["robots"] for message in sent if message["kind"] == "robots")
-        return {r: {part: v for part, v in of.items() if part in PARTS} for r, of in found.items()}
-
-    assert seen() == {"ada": {}, "": {}}
-    commands = feeds.hears[robots, "kobuki"]
-    assert set(commands) == {here, there}
+    kinds = {here: "kobuki_msgs/Led", there: "kobuki_msgs/Sound", "/other/led1": "x/Led"}
+    topics, one = Topics(), page(robots=True)
+    robots = Robots(topics, SimpleNamespace(graph=graph("ada", "", **kinds)))
+    look(robots, one)
+    assert {here, there} < set(topics.hears) and "/other/led1" not in topics.hears
+    for topic in ("/ada/odom", "/odom"):
+        topics.hear(topic, Odometry())
     for topic, message in (
         (here, Led(Led.ORANGE)),
         (there, Sound(Sound.CLEANINGEND)),
         (here, Led(9)),
     ):
-        commands[topic](SimpleNamespace(data=serialised(message)), topic)
-    assert seen() == {"ada": {"led1": "orange"}, "": {"sound": "cleaningend"}}
+        topics.hear(topic, message)
+    seen = of("robots", look(robots, one)[0])["robots"]
+    assert (seen["ada"]["led1"], seen[""]["sound"]) == ("orange", "cleaningend")
+    assert "sound" not in seen["ada"] and "led1" not in seen[""]
 
 
 @pytest.mark.parametrize(
@@ -98,48 +69,41 @@ def test_pages_get_what_a_kobuki_was_last_asked_for():
         ({"w": nan}, {"w"}),
     ],
 )
-def test_an_impossible_place_is_left_out(wrong, left_out):
+def test_impossible_place_is_left_out(wrong, left_out):
     state = Motion(1.0, -1e6, 0.5, 0.25, -0.5)._replace(**wrong)
     everything = {"x", "y", "yaw", "v", "w", "covered", "age"}
     assert set(shown(state, 1.0, 2.0, 3.0)) == everything - left_out
     assert [shown(state, 1.0, 2.0, now)["age"] for now in (0.9, 1.9, 2.1)] == [0, 0, 1]
 
 
-def test_a_page_gets_only_the_robots_that_changed_since_it_was_sent_some():
-    feeds, graphs = FeedsByOwner(), SimpleNamespace(graph=graph("ada", "bob"))
-    robots = Robots(feeds, graphs)
-    (one, sent), (late, sent_late) = page(robots=True), page(robots=True)
+def test_page_gets_only_the_robots_that_changed_since_it_was_sent_some():
+    topics, graphs = Topics(), SimpleNamespace(graph=graph("ada", "bob"))
+    robots, one, late = Robots(topics, graphs), page(robots=True), page(robots=True)
 
     def place(robot, x):
         odometry = Odometry()
         odometry.pose.pose.position.x = x
-        data = SimpleNamespace(data=serialised(odometry))
-        feeds.hears[robots][f"/{robot}/odom"](data, f"/{robot}/odom")
+        topics.hear(f"/{robot}/odom", odometry)
 
-    def seen(client=one, sent=sent):
-        now = time.monotonic()
-        robots.prepare([one, late], now)
-        robots.give(client, now)
-        newest = sent[-1]
+    def seen(*pages):
+        newest = of("robots", look(robots, *pages)[0])
         return newest["all"], {name: state["x"] for name, state in newest["robots"].items()}
 
-    assert seen() == (True, {})
+    assert seen(one) == (True, {})
     for robot in ("ada", "bob"):
         place(robot, 1.0)
-    assert seen() == (True, {"ada": 1.0, "bob": 1.0})
+    assert seen(one) == (True, {"ada": 1.0, "bob": 1.0})
     place("ada", 1.0)
-    assert seen() == (False, {})  # it stands; the message still says that the server is there
+    assert seen(one) == (False, {})  # it stands; the message still says that the server is there
     place("bob", 2.0)
-    robots.prepare([one, late], time.monotonic())  # one is behind
-    assert seen() == (False, {"bob": 2.0})
-    assert seen(late, sent_late) == (True, {"ada": 1.0, "bob": 2.0})
+    robots.prepare([one[0]], 0.0)  # the page is behind
+    assert seen(one) == (False, {"bob": 2.0})
+    assert seen(late) == (True, {"ada": 1.0, "bob": 2.0})
     graphs.graph = graph("bob")
-    assert seen() == (True, {"bob": 2.0})  # so ada is gone
-    one.seen.clear()  # it asked for something else
-    assert seen() == (True, {"bob": 2.0})
+    assert seen(one) == (True, {"bob": 2.0})  # so ada is gone
 
 
-def test_a_joystick_as_pages_get_it():
+def test_joystick_is_shown_finite_and_up_to_a_length():
     joy = Joy(axes=[0.123456, inf], buttons=[1, 0])
     assert joy_shown(serialised(joy)) == {"axes": [0.1235, 0.0], "buttons": [1, 0]}
     assert joy_shown(b"none") is None
@@ -150,40 +114,37 @@ def test_a_joystick_as_pages_get_it():
     assert joy_shown(serialised(joy)) is None
 
 
-def test_a_joystick_message_is_read_once_for_all_pages(monkeypatch):
+@pytest.fixture
+def pads(monkeypatch):
+    """(Pads of the robot robot_1, its Topics); messages come from the node /other."""
+    monkeypatch.setattr(robots_module, "sender_of", lambda message: "/other")
+    topics = Topics()
+    return Pads(topics, SimpleNamespace(graph=graph("robot_1")), "/cockpit"), topics
+
+
+def test_joystick_message_is_read_once_for_all_pages(pads, monkeypatch):
+    pads, topics = pads
     read = []
     monkeypatch.setattr(robots_module, "joy_shown", lambda data: read.append(data) or {"axes": []})
-    monkeypatch.setattr(robots_module, "sender_of", lambda message: "/other")
-    feeds = Feeds()
-    pads = Pads(feeds, SimpleNamespace(graph=graph("robot_1")), "/cockpit")
-    pages = [page(look=robot) for robot in ("robot_1", "robot_1", "no/such/robot")]
-
-    def tick():
-        pads.prepare([one for one, _ in pages], 0.0)
-        for one, _ in pages:
-            pads.give(one, 0.0)
-
-    tick()
-    assert set(feeds.hears) == {"/robot_1/joy"}
+    one, other, _ = pages = [page(look=r) for r in ("robot_1", "robot_1", "no/such/robot")]
+    look(pads, *pages)
+    assert set(topics.hears) == {"/robot_1/joy"}
     for data in (b"1", b"2"):
-        feeds.hears["/robot_1/joy"](SimpleNamespace(data=data), "/robot_1/joy")
-        tick()
-        tick()
+        topics.hear("/robot_1/joy", data)
+        assert [len(sent) for sent in look(pads, *pages)] == [1, 1, 0]
+        assert look(pads, *pages) == [[], [], []]
     assert read == [b"1", b"2"]
-    assert [len(sent) for _, sent in pages] == [2, 2, 0]
-    for pages[1][0].watch.look in ("no/such/robot", "robot_1"):  # it looks away, and back
-        tick()
-    assert [len(sent) for _, sent in pages] == [2, 3, 0]
+    other[0].watch.look = None
+    look(pads, one, other)
+    other[0].watch.look = "robot_1"
+    assert [len(sent) for sent in look(pads, one, other)] == [0, 1]  # it looks back
+
+
+def test_other_joystick_is_a_rival_whatever_is_in_its_message(pads, monkeypatch):
+    pads, topics = pads
+    look(pads, page(look="robot_1"))
     monkeypatch.setattr(robots_module, "joy_shown", lambda data: [].pop())
-    monkeypatch.setattr(robots_module, "sender_of", lambda message: "/rival")
     with pytest.raises(IndexError):
-        feeds.hears["/robot_1/joy"](SimpleNamespace(data=b""), "/robot_1/joy")
-    assert pads.rival("robot_1", 0.0) == "/rival"  # whatever is in its message
+        topics.hear("/robot_1/joy", b"")
+    assert pads.rival("robot_1", 0.0) == "/other"
     assert pads.rival("robot_1", inf) is None
-
-
-def test_a_long_message_is_shown_by_its_length():
-    topic = Topic()
-    for length, text in ((LONGEST_MESSAGE - 4, 'data: "xxx'), (LONGEST_MESSAGE, "(20004 bytes)")):
-        topic.hear(SimpleNamespace(data=serialised(String("x" * length))), "/x")
-        assert topic.text("std_msgs/String").startswith(text)

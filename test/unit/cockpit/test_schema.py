@@ -1,7 +1,6 @@
 """What pages may say: the messages that the hub and the sources declare, and their bounds."""
 
 import json
-import random
 
 import pytest
 
@@ -66,10 +65,6 @@ def test_a_page_is_shown_only_what_it_watches():
     assert watch.log is True and watch.fields == () and watch.look is None and not watch.robots
 
 
-def test_the_longest_message_is_taken():
-    assert SCHEMA.check(say("stop").ljust(8192)) == ("stop", {})
-
-
 @pytest.mark.parametrize(
     "data",
     [
@@ -77,23 +72,11 @@ def test_the_longest_message_is_taken():
         say("stop").ljust(8193), '{"kind": ["stop"]}', '"stop"', say("x" * 5000),
     ],
 )  # fmt: skip
-def test_a_malformed_message_is_refused(data):
+def test_malformed_message_is_refused_and_the_longest_taken(data):
+    assert SCHEMA.check(say("stop").ljust(8192)) == ("stop", {})
     with pytest.raises(ValueError, match="message") as caught:
         SCHEMA.check(data)
     assert len(str(caught.value)) < 100
-
-
-def test_random_changes_are_taken_or_refused():
-    dice = random.Random(1)
-    for _ in range(3000):
-        kind = dice.choice(list(GOOD))
-        letters = list(say(kind, **GOOD[kind]))
-        for _ in range(dice.randrange(1, 4)):
-            letters[dice.randrange(len(letters))] = dice.choice('{}[]":,0e-x\\')
-        try:
-            SCHEMA.check("".join(letters))
-        except ValueError as error:
-            assert len(str(error)) < 300
 
 
 WHOLE, UP_TO = "must be a whole number from 0", "must be a number from"

@@ -20,7 +20,7 @@ from cockpit_server.sources.surroundings import (
     map_shown,
     scan_points,
 )
-from tutorial_testing.seat_room import page, serialised
+from tutorial_testing.seat_room import Topics, look, page, serialised
 
 TYPES = {
     "/map": "nav_msgs/OccupancyGrid", "/tf_static": "tf2_msgs/TFMessage",
@@ -44,28 +44,20 @@ def scan(ranges, **fields):
     return message
 
 
-class Seen:
+class Seen(Topics):
     """The Surroundings of one robot, ada, and a page that looks at her."""
 
     def __init__(self, **watch):
-        self.hears = {}
+        super().__init__()
         published = {topic: {"/sim"} for topic in TYPES}
         graphs = SimpleNamespace(graph=Graph(publishers=published, types=TYPES))
         self.source = Surroundings(self, graphs)
-        self.page, self.sent = page(**{"robots": True, "look": "ada", **watch})
+        self.page = page(**{"robots": True, "look": "ada", **watch})
         self.look()
 
-    def want(self, _owner, hears, every):
-        self.hears.update(hears)
-
-    def hear(self, topic, data):
-        self.hears[topic](SimpleNamespace(data=data), topic)
-
     def look(self):
-        self.sent.clear()
-        self.source.prepare([self.page], 0.0)
-        self.source.give(self.page, 0.0)
-        return {message["kind"]: message for message in self.sent}
+        """Return what the page is sent now, by kind."""
+        return {message["kind"]: message for message in look(self.source, self.page)[0]}
 
 
 def test_a_page_gets_the_map_the_place_in_it_and_the_scan_when_they_change():
@@ -74,10 +66,10 @@ def test_a_page_gets_the_map_the_place_in_it_and_the_scan_when_they_change():
     truth, mount = Odometry(), TransformStamped()
     truth.pose.pose.position.x = truth.pose.pose.orientation.w = 1.0
     mount.child_frame_id, mount.transform.translation.x = "ada/camera", -0.1
-    seen.hear("/map", serialised(grid(1, 3, [0, 100, -1])))
-    seen.hear("/ada/base_pose_ground_truth", serialised(truth))
-    seen.hear("/tf_static", serialised(TFMessage([mount])))
-    seen.hear("/ada/scan", serialised(scan([inf, 2.0, nan])))
+    seen.hear("/map", grid(1, 3, [0, 100, -1]))
+    seen.hear("/ada/base_pose_ground_truth", truth)
+    seen.hear("/tf_static", TFMessage([mount]))
+    seen.hear("/ada/scan", scan([inf, 2.0, nan]))
     seen.hear("/ada/mobile_base/events/bumper", b"\1\1")
     got = seen.look()
     assert base64.b64decode(got["map"]["cells"]) == b"\0\1\2"
@@ -91,12 +83,12 @@ def test_a_page_gets_the_map_the_place_in_it_and_the_scan_when_they_change():
 
 def test_a_scan_is_sent_again_only_if_it_or_a_place_is_another():
     seen, truth = Seen(), Odometry()
-    seen.hear("/map", serialised(grid(1, 1, [0])))
+    seen.hear("/map", grid(1, 1, [0]))
 
     def kinds(x, distance):
         truth.pose.pose.position.x = x
-        seen.hear("/ada/base_pose_ground_truth", serialised(truth))
-        seen.hear("/ada/scan", serialised(scan([distance])))
+        seen.hear("/ada/base_pose_ground_truth", truth)
+        seen.hear("/ada/scan", scan([distance]))
         return list(seen.look())
 
     assert kinds(1.0, 2.0) == ["map", "around", "scan"]
@@ -111,20 +103,28 @@ def test_a_page_that_does_not_watch_robots_is_sent_nothing():
     assert seen.look() == {}
 
 
-def test_the_frames_that_are_kept_are_bounded_and_the_newest():
+def test_frames_that_are_kept_are_bounded_and_the_newest():
     seen = Seen()
+    seen.hear("/map", grid(1, 1, [0]))
     for first in range(0, 2 * MOST_FRAMES, 1000):
         names = [*(f"link_{first + number}" for number in range(1000)), "ada/camera", "x" * 300]
-        transforms = [TransformStamped(child_frame_id=name) for name in names]
-        seen.hear("/tf_static", serialised(TFMessage(transforms)))
-    mounts = seen.source._mounts
-    assert len(mounts) == MOST_FRAMES and {"ada/camera", "link_9999"} <= mounts.keys()
+        mounts = [TransformStamped(child_frame_id=name) for name in names]
+        for mount in mounts:
+            mount.transform.translation.x = -0.1
+        seen.hear("/tf_static", TFMessage(mounts))
+
+    frames = ("ada/camera", f"link_{2 * MOST_FRAMES - 1}", "link_0", "x" * 300)
+    for distance, frame, is_kept in zip((2.0, 3.0, 4.0, 5.0), frames, (True, True, False, False)):
+        message = scan([inf, distance])
+        message.header.frame_id = frame
+        seen.hear("/ada/scan", message)
+        assert seen.look()["scan"]["points"] == [[distance - 0.1 * is_kept, 0.0]], frame
 
 
 @pytest.mark.parametrize("data", [b"", b"\1", b"\3\1", b"\0\1\1"])
 def test_a_malformed_bumper_event_is_left_out(data):
     seen = Seen()
-    seen.hear("/map", serialised(grid(1, 1, [0])))
+    seen.hear("/map", grid(1, 1, [0]))
     seen.hear("/ada/mobile_base/events/bumper", data)
     assert seen.look()["around"]["robots"]["ada"]["bumpers"] == []
 

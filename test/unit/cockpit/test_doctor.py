@@ -1,0 +1,40 @@
+"""The doctor's lines on pages, and who may have it run."""
+
+import time
+
+import pytest
+
+from cockpit_server.sources import doctor
+from tutorial_testing.seat_room import look, page
+from tutorial_testing.waiting import wait_for
+
+
+@pytest.mark.parametrize(
+    ("line", "level", "subject", "text"),
+    [
+        ("ok       master    it answers\n", "ok", "master", "it answers"),
+        ("wrong    topics    nobody", "wrong", "topics", "nobody"),
+        ("unknown  joystick  none", "note", "joystick", "none"),
+        ("doctor: 1 ok, 0 wrong\n", "note", "", "doctor: 1 ok, 0 wrong"),
+    ],
+)
+def test_line_of_the_doctor_has_level_subject_and_text(line, level, subject, text):
+    assert doctor.shown(line) == {"level": level, "subject": subject, "text": text}
+
+
+def test_doctor_that_cannot_run_is_reported_and_runs_again_but_for_viewers_not_at_once(monkeypatch):
+    runs = []
+    monkeypatch.setattr(doctor.rospkg, "RosPack", lambda: runs.append(1) or [].pop())
+    one, driver, viewer = doctor.Doctor(), page(), page(role="viewer")
+
+    def found(who, now):
+        one.on_doctor(who[0], now)
+        told = wait_for(lambda: [m for m in look(one, who)[0] if not m["running"]], "its end")
+        return [(line["level"], line["subject"]) for line in told[0]["lines"]]
+
+    for _ in range(2):
+        assert found(driver, 0.0) == [("wrong", "doctor")]
+    assert len(runs) == 2
+    ended = time.monotonic()
+    assert found(viewer, ended) == [("wrong", "doctor")] and len(runs) == 2  # what is known
+    assert found(viewer, ended + doctor.FRESH_S + 1.0) and len(runs) == 3

@@ -1,0 +1,62 @@
+"""The graph as pages get it: robots, nodes and their neighbours, resets."""
+
+from types import SimpleNamespace
+
+import pytest
+from std_msgs.msg import String
+
+from cockpit_server.graph import JOY, ODOMETRY, Graph, without
+from cockpit_server.seat import RefusedError
+from cockpit_server.sources.graph_view import LONGEST_MESSAGE, GraphView, Topic
+from cockpit_server.sources.resets import reset_service
+from tutorial_testing.seat_room import page, serialised
+
+GRAPH = Graph(
+    publishers={"/odom": {"/sim"}, "/robot_1/odom": {"/room"}, "/robot_2/odom": {"/room"}},
+    subscribers={"/odom": {"/rviz"}, "/real/joy": {"/joy2twist"}},
+    services={"/sim/reset": {"/sim"}, "/room/reset": {"/room"}, "/robot_2/reset": {"/room"}},
+    types={
+        "/odom": ODOMETRY, "/robot_1/odom": ODOMETRY, "/robot_2/odom": "std_msgs/String",
+        "/real/joy": JOY,
+    },
+)  # fmt: skip
+
+
+def test_robots_have_an_odometry_or_hear_a_joystick():
+    assert GRAPH.robots_with_odometry() == {"", "robot_1"}
+    assert GRAPH.robots() == {"", "robot_1", "real"}
+
+
+def test_node_has_its_topics_services_and_neighbours():
+    about = GRAPH.about_node("/sim")
+    assert about["speaks_to"] == ["/rviz"]
+    assert (about["publishes"], about["services"]) == (["/odom"], ["/sim/reset"])
+    assert {"from": "topic /odom", "to": "node /rviz"} in GRAPH.parts()["edges"]
+
+
+def test_cockpit_is_a_part_of_the_graph_only_where_it_drives():
+    column = [["/rosout", ["/cockpit", "/joy_node"]], ["/robot/joy", ["/cockpit"]]]
+    assert without("/cockpit", column) == {"/rosout": {"/joy_node"}}
+    assert without("/cockpit", column, shown_in={"/robot/joy"})["/robot/joy"] == {"/cockpit"}
+
+
+def test_page_that_looks_back_at_a_node_is_sent_it_again():
+    view = GraphView(SimpleNamespace(graph=GRAPH, version=1))
+    client, sent = page(graph=False)
+    for client.watch.node in ("/sim", "/sim", None, "/sim"):
+        view.give(client, 0.0)
+    assert [message["name"] for message in sent] == ["/sim", "/sim"]
+
+
+def test_reset_is_of_one_robot():
+    assert reset_service(GRAPH, "") == "/sim/reset"
+    assert reset_service(GRAPH, "robot_2") == "/robot_2/reset"
+    with pytest.raises(RefusedError, match="robot_1 has no service"):
+        reset_service(GRAPH, "robot_1")  # the node's own would reset both
+
+
+def test_long_message_is_shown_by_its_length():
+    topic = Topic()
+    for length, text in ((LONGEST_MESSAGE - 4, 'data: "xxx'), (LONGEST_MESSAGE, "(20004 bytes)")):
+        topic.hear(SimpleNamespace(data=serialised(String("x" * length))), "/x")
+        assert topic.text("std_msgs/String").startswith(text)

@@ -1,0 +1,34 @@
+"""Lines of the log on pages."""
+
+import pytest
+from rosgraph_msgs.msg import Log
+
+from cockpit_server.sources.logs import Logs, without_folders
+from tutorial_testing.seat_room import Topics, look, page
+
+
+def test_page_that_watches_the_log_gets_each_line_once():
+    topics = Topics()
+    logs = Logs(topics)
+    client, sent = page()
+
+    def lines(text, log):
+        for _ in range(2):  # a latched line comes again with a new connection
+            topics.hear("/rosout", Log(msg=text))
+        client.watch.log = log
+        [given], [again] = look(logs, (client, sent)), look(logs, (client, sent))
+        return [entry["text"] for message in given + again for entry in message["entries"]]
+
+    assert lines("a", log=True) == ["a"]
+    assert lines("b", log=True) == ["b"]
+    assert lines("c", log=False) == []
+    assert lines("d", log=True) == ["c", "d"]  # the page has the others
+
+
+@pytest.mark.parametrize(
+    ("text", "shown_text"),
+    [("in /home/ada/ws/x.bag", "in ./x.bag"), ("/home/ada/.ros/log", "~/.ros/log"),
+     ("/home/ada", "~"), ("/home/ada2/x /home/ada/ws-2", "/home/ada2/x ~/ws-2")],
+)  # fmt: skip
+def test_folders_of_the_server_are_not_shown(text, shown_text):
+    assert without_folders(text, "/home/ada", "/home/ada/ws") == shown_text
