@@ -109,7 +109,8 @@ def run_all():
     """Run unit tests, then the others at once; return the kinds that failed."""
     shutil.rmtree(CACHES, ignore_errors=True)  # of a run that was killed nothing is to be known
     say("tests: unit")
-    failed = ["unit"] if KINDS["unit"]([]) else []
+    options = os.environ.get("TUTORIAL_UNIT", "").split()  # of pytest: .ci/run
+    failed = ["unit"] if KINDS["unit"](options) else []
     logs = [RESULTS / f"test_{kind}.log" for kind in TOGETHER]
     for kind, log in zip(TOGETHER, logs):
         with log.open("w") as output:

@@ -45,7 +45,7 @@ LEFT_OUT = {
     "./tutorial doctor": "test/ros/tutorial_tools asks it, where something moves",
     "roslaunch joy2twist launch_joy_node.launch virtual:=true": "needs the keys of a terminal",
     "roslaunch joy2twist student.launch name:=robot_7 virtual:=true": "as the line before",
-    "docker ": "needs an engine; test/check_bare_machine builds the Dockerfile without one",
+    "docker ": "needs an engine; test/check_bare_machine bookworm:image builds the Dockerfile",
 }
 ELSEWHERE = {
     "Two machines": "test_two_hosts.py runs it on two hosts",
