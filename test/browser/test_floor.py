@@ -1,22 +1,35 @@
 """What is drawn on the floor: the driven robot in sight, walls, the scan, pressed bumpers."""
 
+from collections import Counter
+
 import pytest
 from selenium.webdriver.common.keys import Keys as Key
 
 from tutorial_testing.cockpit.chromium import Chromium
 from tutorial_testing.cockpit.hands import Thumbs
-from tutorial_testing.cockpit.pixels import LEAST_CONTRAST, SCHEMES, colour, contrast, drawn, dress
+from tutorial_testing.cockpit.pixels import LEAST_CONTRAST, SCHEMES, colour, contrast, dress, seen
 from tutorial_testing.cockpit.world import HERE, World
 from tutorial_testing.waiting import wait_for
 
 PHONES = {"upright": (360, 640), "on its side": (640, 360)}
-AHEAD = "rostopic", "pub", "-r", "10", "/cmd_vel", "geometry_msgs/Twist", "{linear: {x: 0.7}}"
-
-
-def settled(browser, name):
-    """Return where the floor has a colour, once two looks agree."""
-    (places, _), (again, _) = drawn(browser, name), drawn(browser, name)
-    return places if places and places == again else None
+# How many pixels of the floor have about the colour of a variable of the style sheet, and their
+# middle as a place on the page [pixel].
+DRAWN = """(() => {
+  const canvas = document.getElementById("floor"), box = canvas.getBoundingClientRect();
+  const hex = getComputedStyle(canvas).getPropertyValue(%r).trim().slice(1);
+  const wanted = [0, 2, 4].map((i) => parseInt(hex.slice(i, i + 2), 16));
+  const pen = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d");
+  pen.drawImage(canvas, 0, 0);
+  const { data } = pen.getImageData(0, 0, canvas.width, canvas.height);
+  let [count, x, y] = [0, 0, 0];
+  for (let i = 0; i < data.length; i += 4) {
+    if (wanted.some((value, k) => Math.abs(data[i + k] - value) >= 12)) continue;
+    count += 1;
+    x += (i / 4) %% canvas.width;
+    y += Math.floor(i / 4 / canvas.width);
+  }
+  return [count, box.left + x / count, box.top + y / count];
+})()"""
 
 
 @pytest.mark.parametrize("held", PHONES)
@@ -31,41 +44,75 @@ def test_driven_one_of_two_robots_is_seen_beside_the_buttons(held):
         hands.release()
         world.wait_for_rest()
         phone.click("Clear trail")  # it has the robot's colour
-        robot = wait_for(lambda: settled(phone, "--accent"), "robot on the floor")
-        assert len(robot) > 60
-        y, x = (sum(of) / len(robot) for of in zip(*robot))
-        box = phone.ask("document.getElementById('floor').getBoundingClientRect().toJSON()")
-        at = f"{box['left'] + x}, {box['top'] + y}"
-        assert phone.ask(f"document.elementFromPoint({at})?.id") == "floor"
-        assert box["height"] >= 250
+        count, x, y = wait_for(lambda: settled(phone), "robot on the floor")
+        assert count > 60
+        assert phone.ask(f"document.elementFromPoint({x}, {y}).id") == "floor"
+        assert 0 <= x <= width and 0 <= y <= height
+        assert phone.one("#floor").rect["height"] >= 250
         stop = phone.by_role("button", "Stop").rect
         assert 0 <= stop["y"] <= height - stop["height"]
 
 
-def test_walls_scan_and_bumper_stand_out_and_a_change_of_tab_keeps_the_view(room, page_of_room):
-    page = page_of_room
+def settled(browser, colour="--accent"):
+    """Return what is drawn in a colour, that of the robot, once two looks agree."""
+    drawn = browser.ask(DRAWN % colour)
+    return drawn if drawn[0] and drawn == browser.ask(DRAWN % colour) else None
 
+
+@pytest.mark.parametrize("size", [(1280, 800), (360, 640)])
+def test_walls_scan_and_bumpers_are_drawn_and_a_change_of_tab_keeps_the_view(size):
+    with World(str(HERE / "world.launch"), "world:=room") as world, Chromium(*size) as browser:
+
+        def count(colour):
+            return browser.ask(DRAWN % colour)[0]
+
+        browser.open(world.address)
+        wait_for(lambda: count("--wall") > 500, "walls on the floor")
+        wait_for(lambda: count("--scan") > 50, "points of the scan")
+        assert count("--bumper") == 0
+        ahead = "{linear: {x: 0.7}}"
+        with world.run("rostopic", "pub", "-r", "10", "/cmd_vel", "geometry_msgs/Twist", ahead):
+            wait_for(lambda: count("--bumper") > 10, "a pressed bumper")
+            assert world.now.x == pytest.approx(4.0 - 0.178)  # its side touches the wall
+        world.wait_for_rest()
+        browser.click("Zoom in")
+        browser.one("#floor").send_keys(Key.ARROW_LEFT)
+        view = wait_for(lambda: settled(browser, "--wall"), "walls of the view")
+        browser.tab("Plot")
+        wait_for(lambda: browser.all("#plot-fields input"), "fields")
+        browser.press("#plot-fields input")
+        browser.tab("Log")
+        browser.wait_for_text("#log-lines", "/")
+        browser.tab("Robot")
+        assert wait_for(lambda: settled(browser, "--wall"), "walls again") == view
+        assert browser.one("#follow").get_attribute("aria-pressed") == "false"
+        assert browser.errors() == []
+
+
+def beside(browser, name):
+    """Return how many pixels have a colour, and the two most frequent colours around them."""
+    wanted, (pixels, (width, height)) = colour(browser, name), seen(browser)
+    dots = {(x, y) for x in range(width) for y in range(height) if pixels[x, y] == wanted}
+    near = {(x + dx, y + dy) for x, y in dots for dx in (-1, 0, 1) for dy in (-1, 0, 1)} - dots
+    far = {(x + dx, y + dy) for x, y in near for dx in (-1, 0, 1) for dy in (-1, 0, 1)}
+    around = Counter(pixels[at] for at in far - near - dots)
+    return len(dots), [one for one, _ in around.most_common(2)]
+
+
+def test_scan_and_bumper_stand_out_from_what_is_beside_them(room, page_of_room, shared_browser):
     def stands_out(name, least):
-        places, beside = drawn(page, name)
-        worst = min((contrast(colour(page, name), one) for one in beside), default=0)
-        return len(places) > least and worst >= LEAST_CONTRAST
-
-    def stands_out_in_both(name, least):
         for scheme in SCHEMES:
-            dress(page, scheme, PHONES["upright"])
-            wait_for(lambda: stands_out(name, least), f"{name} that stands out, {scheme}")
+            dress(shared_browser, scheme)
+            _, colours = wait_for(
+                lambda: (found := beside(shared_browser, name))[0] > least and found, name
+            )
+            own = colour(shared_browser, name)
+            worst = min(contrast(own, other) for other in colours)
+            assert worst >= LEAST_CONTRAST, (scheme, own, colours)
 
-    wait_for(lambda: len(drawn(page, "--wall")[0]) > 300, "walls on the floor")
-    stands_out_in_both("--scan", 30)
-    assert contrast(colour(page, "--scan"), colour(page, "--wall")) >= LEAST_CONTRAST
-    assert drawn(page, "--bumper")[0] == []
-    with room.run(*AHEAD):
-        stands_out_in_both("--bumper", 5)
-    room.wait_for_rest()
-    page.click("Zoom in")
-    page.one("#floor").send_keys(Key.ARROW_LEFT)
-    view = wait_for(lambda: settled(page, "--wall"), "walls of the view")
-    page.tab("Plot")
-    page.tab("Robot")
-    assert wait_for(lambda: settled(page, "--wall"), "walls again") == view
-    assert page.one("#follow").get_attribute("aria-pressed") == "false"
+    stands_out("--scan", 100)
+    assert contrast(colour(shared_browser, "--scan"), colour(shared_browser, "--wall")) >= 3
+    ahead = "{linear: {x: 0.7}}"
+    with room.run("rostopic", "pub", "-r", "10", "/cmd_vel", "geometry_msgs/Twist", ahead):
+        stands_out("--bumper", 10)
+    dress(shared_browser)

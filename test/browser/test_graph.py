@@ -3,7 +3,7 @@
 import pytest
 from selenium.webdriver.common.keys import Keys
 
-from tutorial_testing.cockpit.pixels import LEAST_CONTRAST, SCHEMES, colour, contrast, dress, shot
+from tutorial_testing.cockpit.pixels import LEAST_CONTRAST, SCHEMES, colour, contrast, dress, seen
 from tutorial_testing.waiting import wait_for
 
 # A Graph of its own, with a server that is this script: given topics, and hear() as in main.js.
@@ -72,7 +72,7 @@ def test_arrows_stand_out_and_their_heads_are_chosen_with_them(page, scheme):
           const at = new DOMPoint(x, y).matrixTransform(arrow.getScreenCTM());
           return [at.x, at.y];
         }})()""")
-        pixels = shot(page)
+        pixels, _ = seen(page)
         around = [pixels[int(x) + dx, int(y) + dy] for dx in (-1, 0, 1) for dy in (-1, 0, 1)]
         return max(around, key=lambda one: contrast(one, colour(page, "--floor")))
 
