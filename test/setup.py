@@ -1,16 +1,9 @@
 from catkin_pkg.python_setup import generate_distutils_setup
-from setuptools import setup
+from setuptools import find_packages, setup
 
 setup(
     **generate_distutils_setup(
-        packages=[
-            "tutorial_faults",
-            "tutorial_faults.live",
-            "tutorial_testing",
-            "tutorial_testing.cockpit",
-            "tutorial_testing.kernel",
-            "tutorial_testing.two_hosts",
-        ],
+        packages=[*find_packages("src"), *find_packages("faults")],
         package_dir={"": "src", "tutorial_faults": "faults/tutorial_faults"},
     )
 )

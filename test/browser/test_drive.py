@@ -147,3 +147,12 @@ def test_a_recording_beside_the_page_is_shown_as_the_driver(world, page, recordi
     wait_for(lambda: page.one("#take").is_enabled() and page.one("#bag-play").is_enabled(), "leave")
     wait_for(lambda: page.text("#teleop") != "driving", "joy2twist that drives no longer")
     world.wait_for_rest()
+
+
+def test_no_menu_opens_where_a_page_drives(page):
+    event = "new Event('contextmenu', {cancelable: true, bubbles: true})"
+    script = f"document.body.dispatchEvent({event})"
+    assert page.ask(script) is True
+    page.click("Drive from this page")
+    page.wait_for_text("#seat", "You drive")
+    assert page.ask(script) is False

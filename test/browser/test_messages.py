@@ -8,6 +8,7 @@ byId("take").replaceWith(take);
 const hello = (robots) => hear("hello", {id: 1, role: "driver", robots, pad});
 const choose = (name) => { look.value = name; look.dispatchEvent(new Event("change")); };
 const drive = () => { take.click(); return sent.at(-1)[1].robot; };
+const rowOf = (name) => document.querySelector(`#robots [data-robot=${name}]`);
 const tab = new tabs.RobotTab(link, watch, {notice: () => {}});
 take.disabled = false;
 """
@@ -94,3 +95,55 @@ def test_plot_is_drawn_after_a_failed_import_of_the_library_of_charts(page):
     page.driver.delete_network_conditions()
     wait_for(lambda: page.all("#plot-chart canvas"), "chart", 60)
     page.errors()  # of attempts meanwhile
+
+
+def test_a_driver_who_is_handed_a_robot_looks_at_no_other(page):
+    script = """hello(given);
+    const seat = {driver: 1, name: "x", robot: "robot_2", how: "page", armed: false, why: ""};
+    hear("seat", {...seat, yours: false});
+    const before = tab.look;
+    hear("seat", {...seat, yours: true});
+    const watched = sent.filter(([kind]) => kind === "watch").at(-1)[1];
+    hear("robots", {robots: {robot_1: {}, robot_2: {}}});
+    rowOf("robot_1").click();
+    const driving = [tab.look, tab.floor.look, watched.look];
+    hear("seat", {...seat, driver: null, yours: false});
+    rowOf("robot_1").click();
+    done([before, driving, tab.look]);"""
+    assert run(page, "robot_tab.js", ROBOT_TAB + script, TWO) == [
+        "robot_1",
+        ["robot_2"] * 3,
+        "robot_1",
+    ]
+
+
+def points(t, value):
+    return {"times": [t], "values": [value]}
+
+
+def test_the_plot_forgets_samples_of_another_time(page):
+    script = """import('/page/chart.js').then(({Chart}) => {
+      let drawn = null;
+      Chart.prototype.show = (curves) => (drawn = structuredClone(curves));
+      const tab = new tabs.PlotTab(link, watch), shown = [];
+      const next = (samples, then) => {
+        hear("plot", {samples});
+        drawn = null;
+        const wait = () => {
+          if (drawn === null) return setTimeout(wait, 20);
+          shown.push(drawn);
+          then();
+        };
+        wait();
+      };
+      hear("fields", {fields: ["a", "b"]});
+      for (const box of document.querySelectorAll("#plot-fields input")) box.click();
+      tab.show(true);
+      next({a: [[100, 1]], b: [[100.5, 5]]}, () =>
+        next({a: [[101, 1], [50, 2]], b: [[51, 7]]}, () =>
+          next({a: [[1000, 3]]}, () => done(shown))));
+    });"""
+    both, set_back, later = run(page, "plot_tab.js", script, TWO)
+    assert both == {"a": points(0, 1), "b": points(0.5, 5)}
+    assert set_back == {"a": points(0, 2), "b": points(1, 7)}
+    assert later["a"]["times"][-1] == 950

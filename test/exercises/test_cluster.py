@@ -238,3 +238,20 @@ def test_nothing_listens_elsewhere_and_pages_are_empty(scheduler, worker, start,
             url = f"http://127.0.0.1:{port}/{page}"
             call = start(host, "curl", "-s", "-o", "/dev/null", "-w", "%{http_code}", url)
             assert call.wait(60) == 0 and call.output == "404", url
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
+def test_a_worker_that_is_ended_while_it_checks_leaves_no_folder(
+    tmp_path, scheduler, worker, client, monkeypatch, number
+):
+    temporary = tmp_path / "temporary"
+    temporary.mkdir()
+    scheduler()
+    monkeypatch.setenv("TMPDIR", str(temporary))
+    one = worker("one")
+    monkeypatch.delenv("TMPDIR")
+    client()
+    wait_for(lambda: examines(one), "an examination", 120)
+    assert list(temporary.glob("tutorial_worker_*/tutorial_check_*"))
+    os.kill(one.pid, number)
+    wait_for(lambda: not list(temporary.iterdir()), "an empty folder", 120)

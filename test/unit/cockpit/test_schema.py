@@ -1,6 +1,7 @@
 """What pages may say: the messages that the hub and the sources declare, and their bounds."""
 
 import json
+import random
 
 import pytest
 
@@ -122,3 +123,16 @@ def test_axes_and_buttons_must_be_as_many_as_the_gamepad_has():
         with pytest.raises(ValueError) as caught:
             check_lengths(tuple(modes), (0,) * axes, (0,) * buttons)
         assert (str(caught.value) == both) == (modes == "DX")
+
+
+def test_random_changes_are_taken_or_refused():
+    dice = random.Random(1)
+    for _ in range(3000):
+        kind = dice.choice(list(GOOD))
+        letters = list(say(kind, **GOOD[kind]))
+        for _ in range(dice.randrange(1, 4)):
+            letters[dice.randrange(len(letters))] = dice.choice('{}[]":,0e-x\\')
+        try:
+            SCHEMA.check("".join(letters))
+        except ValueError as error:
+            assert len(str(error)) < 300
