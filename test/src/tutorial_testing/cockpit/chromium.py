@@ -120,8 +120,10 @@ class Chromium(WebDriver):
         self.send("Input.dispatchTouchEvent", type=kind, touchPoints=fingers)
 
     def middle(self, css):
-        """The middle of an element [pixel]."""
-        box = self.one(css).rect
+        """The middle of an element in the window [pixel], however the page is scrolled."""
+        box = self.driver.execute_script(
+            "return arguments[0].getBoundingClientRect()", self.one(css)
+        )
         return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
 
     @property

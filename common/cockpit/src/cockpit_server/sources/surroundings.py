@@ -49,7 +49,7 @@ class Surroundings(Source):
         robots = graph.robots() if looks else set()
 
         def there(wanted: dict[str, tuple[str, Any]]) -> dict[str, Any]:
-            types = graph.types if looks else {}
+            types = {t: graph.types.get(t) for t in graph.published} if looks else {}
             return {t: hear for t, (kind, hear) in wanted.items() if types.get(t) == kind}
 
         newest = there({
@@ -59,7 +59,7 @@ class Surroundings(Source):
             **{topic_of(robot, SCAN): (LaserScan._type, self._keep) for robot in looks & robots},
         })  # fmt: skip
         events = {topic_of(robot, EVENT): (EVENT_TYPE, self._hear_bumper) for robot in robots}
-        if "/map" not in newest and self._map:
+        if looks and "/map" not in newest and self._map:
             self._map, self._version = {}, self._version + 1
         self._feeds.want((self, "newest"), newest, every=False)
         self._feeds.want((self, "events"), there(events), every=True)
