@@ -55,13 +55,6 @@ def test_with_a_turn_it_pushes_until_it_leads_along_the_wall():
     assert robot.state().x == pytest.approx(x, abs=EXACT)
 
 
-def test_a_ramp_ends_at_the_wall_too():
-    parameters = Parameters(world=WALL, max_linear_acceleration=0.5)
-    robot = driven(SimulatedRobot(parameters), (0.7, 0.0), 4)
-    assert robot.state().x == pytest.approx(1 - R, abs=EXACT)
-    assert robot.state().v == 0.0 and robot.contact is not None
-
-
 def test_a_robot_with_errors_touches_with_its_true_body():
     parameters = Parameters(world=WALL, wheel_radius_ratio=1.02, wheel_noise=0.01)
     for robot in drive(SimulatedRobot(parameters), (0.5, 0.0), 4):
@@ -242,24 +235,3 @@ def test_each_world_of_the_package_has_room_for_a_class(name):
     world = read_world(shipped_worlds()[name])
     assert len(world.places(10)) == 10
     assert world.obstacles and any(world_map(world, "map", None).data)
-
-
-@pytest.mark.parametrize(
-    ("given", "said"),
-    [
-        ({"world": 3}, "~world: 3: must be a file"),
-        ({"world": "moon"}, "~world: 'moon': no world of this package has that name: take maze, "),
-        ({"world": "./none.yaml"}, "~world: './none.yaml': cannot be read: No such file"),
-        ({"world": "maze", "robots": 500}, "~world: 'maze': the world has room for"),
-        (
-            {"world": "maze", "robots": {"ada": [1.0, 1.0, 0.0]}},
-            "start: in the world's file or x:= y:=",
-        ),
-        ({"scan_no_return": "0"}, "~scan_no_return: '0': must be inf or nan"),
-        ({"scan_range_min": 11.0}, "~scan_range_min: must be less than ~scan_range_max"),
-    ],
-)
-def test_a_mistake_is_one_line(given, said):
-    with pytest.raises(ValueError) as error:
-        parse_parameters(given)
-    assert said in str(error.value) and "\n" not in str(error.value)
