@@ -1,7 +1,6 @@
 """Bags in, bags out: the command replay_bag."""
 
 import contextlib
-from io import BytesIO
 from math import hypot, inf, pi
 from pathlib import Path
 
@@ -11,10 +10,7 @@ from genpy import Time
 from geometry_msgs.msg import Twist
 from hypothesis import given
 from hypothesis import strategies as st
-from nav_msgs.msg import Odometry
-from rosbags.rosbag1 import Reader, Writer
-from sensor_msgs.msg import JointState, Joy
-from tf2_msgs.msg import TFMessage
+from sensor_msgs.msg import Joy
 
 from cockpit_server.sources import recording
 from fake_turtlebot_sim.replay import command as replay_command
@@ -39,32 +35,25 @@ QUARTER = [(0, twist(0.1 * pi, 0.5 * pi)), (500, twist(0.1 * pi, 0.5 * pi)), (10
 
 def write_bag(path, topic_messages):
     """Write {topic: [(ms after the start, message)]}."""
-    with Writer(path) as writer:
+    with rosbag.Bag(str(path), "w") as bag:
         for topic, messages in topic_messages.items():
-            kind = type(messages[0][1])
-            connection = writer.add_connection(
-                topic,
-                kind._type.replace("/", "/msg/"),
-                msgdef=kind._full_text,
-                md5sum=kind._md5sum,
-            )
             for time_ms, message in messages:
-                buffer = BytesIO()
-                message.serialize(buffer)
-                writer.write(connection, START_NS + time_ms * 10**6, buffer.getvalue())
+                bag.write(
+                    topic,
+                    message,
+                    Time(START_NS // 10**9 + time_ms // 1000, time_ms % 1000 * 10**6),
+                )
     return path
 
 
 def read_bag(path):
-    """Return {topic: [message]}."""
-    kinds = {kind._type: kind for kind in (Odometry, TFMessage, JointState)}
+    """Return {topic: [message]}, each stamped with the time of its record."""
     read = {}
-    with Reader(path) as reader:
-        for connection, time_ns, data in reader.messages():
-            message = kinds[connection.msgtype.replace("/msg/", "/")]().deserialize(data)
+    with rosbag.Bag(str(path)) as bag:
+        for topic, message, time in bag.read_messages():
             header = getattr(message, "header", None) or message.transforms[0].header
-            assert header.stamp.to_nsec() == time_ns
-            read.setdefault(connection.topic, []).append(message)
+            assert header.stamp == time
+            read.setdefault(topic, []).append(message)
     return read
 
 

@@ -96,24 +96,3 @@ def test_no_stick_held_forward_drives_over_the_edge(v, w, yaw, delay, cuts):
         drive.step((0.0, 0.0) if is_cut else (v, w))
         assert drive.robot.sensed().wheels == (False, False)
     assert drive.longest_push * PERIOD_S <= LONGEST_PUSH_S
-
-
-@settings(deadline=None, max_examples=30)
-@given(st.integers(0, 10_000), st.sampled_from([7, 50, 333, 1000]))
-def test_where_a_drive_among_walls_ends_does_not_depend_on_the_rate(seed, rate):
-    """Ten seconds of velocities, as they come, with the robot looked at as often as may be."""
-    ends = []
-    for looks in (50, rate):
-        robot = SimulatedRobot(Parameters(world=ROOM), ROOM.start)
-        draw, now_ns = random.Random(seed), 0
-        for _ in range(10):
-            velocity = draw.uniform(-0.7, 0.7), draw.uniform(-2.0, 2.0)
-            for k in range(3):
-                robot.command(velocity, now_ns + k * 300_000_000)
-                begin = now_ns + k * 300_000_000
-                for look in range(1, looks):
-                    robot.advance(begin + look * 300_000_000 // looks)
-            now_ns += 900_000_000
-        robot.advance(now_ns)
-        ends.append(robot.true_pose)
-    assert ends[0] == pytest.approx(ends[1], abs=1e-7)
