@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 import rosbag
-from genpy import Time
+from genpy import Duration, Time
 from geometry_msgs.msg import Twist
 from hypothesis import given
 from hypothesis import strategies as st
@@ -18,7 +18,7 @@ from gamepad.dead_man import check_recording
 from tutorial_testing.hostile import damaged, end_of, many
 from tutorial_tools import bag as rqt_bag
 
-START_NS = 1_400_000_000 * 10**9
+START = Time(1_400_000_000)
 PRESET = Path(__file__).parents[3] / "joy2twist" / "config" / "f710_d.yaml"
 JOY_BAG = Path(__file__).parents[3] / "joy2twist" / "bag" / "joy.bag"
 
@@ -38,11 +38,7 @@ def write_bag(path, topic_messages):
     with rosbag.Bag(str(path), "w") as bag:
         for topic, messages in topic_messages.items():
             for time_ms, message in messages:
-                bag.write(
-                    topic,
-                    message,
-                    Time(START_NS // 10**9 + time_ms // 1000, time_ms % 1000 * 10**6),
-                )
+                bag.write(topic, message, START + Duration.from_sec(time_ms / 1000))
     return path
 
 
@@ -69,8 +65,8 @@ def test_the_robot_obeys_the_bag(commands, tmp_path, capsys):
     assert {topic: len(messages) for topic, messages in read.items()} == dict.fromkeys(
         ("/odom", "/tf", "/joint_states"), 51
     )
-    stamps = [odometry.header.stamp.to_nsec() for odometry in read["/odom"]]
-    assert stamps == [START_NS + k * 20_000_000 for k in range(51)]
+    stamps = [odometry.header.stamp for odometry in read["/odom"]]
+    assert stamps == [START + Duration(0, k * 20_000_000) for k in range(51)]
     end = read["/odom"][-1].pose.pose.position
     assert (end.x, end.y) == pytest.approx((0.2, 0.2), abs=1e-9)
     assert "1.0 s from /cmd_vel" in capsys.readouterr().out
@@ -91,7 +87,7 @@ def test_after_the_last_command_the_timeout_stops_the_robot(tmp_path):
     assert replay_command.main([str(bag), str(tmp_path / "out.bag")]) == 0
     end = read_bag(tmp_path / "out.bag")["/odom"][-1]
     assert end.pose.pose.position.x == pytest.approx(0.42, abs=1e-9)
-    assert (end.twist.twist.linear.x, end.header.stamp.to_nsec()) == (0.0, START_NS + 6 * 10**8)
+    assert (end.twist.twist.linear.x, end.header.stamp) == (0.0, START + Duration(0, 6 * 10**8))
 
 
 def test_the_recorded_joystick_of_the_tutorial_comes_home(tmp_path, capsys):
@@ -193,6 +189,6 @@ def bags(tmp_path_factory):
     for kind in ("none", "bz2", "lz4"):
         with rosbag.Bag(str(folder / f"{kind}.bag"), "w", kind, chunk_threshold=300) as bag:
             for time_ms, message in QUARTER:
-                bag.write("/cmd_vel", message, Time(START_NS // 10**9, time_ms * 10**6))
-                bag.write("/joy", Joy(axes=[0.5] * 6, buttons=[0] * 12), Time(START_NS // 10**9))
+                bag.write("/cmd_vel", message, START + Duration.from_sec(time_ms / 1000))
+                bag.write("/joy", Joy(axes=[0.5] * 6, buttons=[0] * 12), START)
     return folder
