@@ -12,7 +12,6 @@ from PIL import Image
 
 from fake_turtlebot_sim.simulator.parameters import parse_parameters
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
-from fake_turtlebot_sim.simulator.world import Surroundings
 from fake_turtlebot_sim.simulator.world_files import FIELDS, WorldError, read_world
 from fake_turtlebot_sim.simulator.world_messages import world_map, world_markers
 from tutorial_testing.hostile import damaged, end_of, many
@@ -191,10 +190,3 @@ def test_a_map_has_walls_around_its_occupied_cells(tmp_path):
             ((-0.5, 2.5), (-0.5, 3.0)), ((0.5, 2.5), (0.5, 3.0)),
         )
     }  # fmt: skip
-
-
-def test_what_is_near_is_found_anew_after_a_long_way(tmp_path):
-    around = Surroundings(world_of(tmp_path, OURS))
-    assert list(around.near(0.0, 0.9, 0.5)) == [(0, 0, 4, 0, 0), (1, 1, 1, 1, 0.2)]
-    assert (4, 0, 4, 3, 0) in around.near(3.6, 2.0, 0.5)
-    assert len(around.near(3.6, 2.0, 50.0)) == 3
