@@ -55,6 +55,13 @@ def test_with_a_turn_it_pushes_until_it_leads_along_the_wall():
     assert robot.state().x == pytest.approx(x, abs=EXACT)
 
 
+def test_a_ramp_ends_at_the_wall_too():
+    parameters = Parameters(world=WALL, max_linear_acceleration=0.5)
+    robot = driven(SimulatedRobot(parameters), (0.7, 0.0), 4)
+    assert robot.state().x == pytest.approx(1 - R, abs=EXACT)
+    assert robot.state().v == 0.0 and robot.contact is not None
+
+
 def test_a_robot_with_errors_touches_with_its_true_body():
     parameters = Parameters(world=WALL, wheel_radius_ratio=1.02, wheel_noise=0.01)
     for robot in drive(SimulatedRobot(parameters), (0.5, 0.0), 4):

@@ -103,6 +103,17 @@ def test_the_wheels_follow_a_ramp_up_and_down(way):
         assert state.right_angle == state.left_angle
 
 
+def test_a_rest_draws_no_error_and_changes_none_that_follow():
+    noisy = Parameters(wheel_noise=0.01)
+    at_once, rested = SimulatedRobot(noisy), SimulatedRobot(noisy)
+    for _ in range(3):
+        rested.advance(SECOND)
+    for robot, now_ns in ((at_once, 0), (rested, SECOND)):
+        robot.command((0.5, 1.0), now_ns)
+        robot.advance(now_ns + SECOND // 2)
+    assert rested.state() == at_once.state()
+
+
 def test_placing_keeps_wheels_and_command_and_reset_zeroes_wheels_too():
     robot = SimulatedRobot(KOBUKI)
     robot.command((0.35, 0.0), 0)
