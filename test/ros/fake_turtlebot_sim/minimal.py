@@ -6,57 +6,51 @@ from math import atan2, nan
 import rosgraph
 import rospy
 from geometry_msgs.msg import Twist, Vector3
-from kobuki_msgs.msg import ButtonEvent, Led, MotorPower, RobotStateEvent, SensorState, VersionInfo
+from kobuki_msgs.msg import ButtonEvent, MotorPower, RobotStateEvent, SensorState, VersionInfo
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import Imu
-from std_msgs.msg import Empty, String
+from std_msgs.msg import String
 
 from node_kit.questions import call
 from tutorial_testing.robot import Robot
 from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
+# Topic below mobile_base/: the type in kobuki_msgs.
+SENT = {
+    "events/bumper": "BumperEvent", "events/button": "ButtonEvent", "events/cliff": "CliffEvent",
+    "events/digital_input": "DigitalInputEvent", "events/power_system": "PowerSystemEvent",
+    "events/robot_state": "RobotStateEvent", "events/wheel_drop": "WheelDropEvent",
+    "sensors/core": "SensorState", "sensors/dock_ir": "DockInfraRed",
+    "version_info": "VersionInfo",
+}  # fmt: skip
+HEARD = {
+    "controller_info": "ControllerInfo", "digital_output": "DigitalOutput", "led1": "Led",
+    "external_power": "ExternalPower", "led2": "Led", "motor_power": "MotorPower",
+    "sound": "Sound",
+}  # fmt: skip
+BASE, MUX = "/mobile_base", "/cmd_vel_mux"
 # Topic: (type, node that publishes it, node that subscribes to it).
 TOPICS = {
-    "/cmd_vel_mux/input/safety_controller": ("geometry_msgs/Twist", None, "/cmd_vel_mux"),
-    "/cmd_vel_mux/input/teleop": ("geometry_msgs/Twist", None, "/cmd_vel_mux"),
-    "/cmd_vel_mux/input/switch": ("geometry_msgs/Twist", None, "/cmd_vel_mux"),
-    "/cmd_vel_mux/input/navi": ("geometry_msgs/Twist", None, "/cmd_vel_mux"),
-    "/cmd_vel_mux/active": ("std_msgs/String", "/cmd_vel_mux", None),
-    "/mobile_base/commands/velocity": ("geometry_msgs/Twist", "/cmd_vel_mux", "/mobile_base"),
-    "/mobile_base/commands/reset_odometry": ("std_msgs/Empty", None, "/mobile_base"),
     **{
-        f"/mobile_base/{topic}": (kind, "/mobile_base", None)
-        for topic, kind in {
-            "events/bumper": "kobuki_msgs/BumperEvent",
-            "events/button": "kobuki_msgs/ButtonEvent",
-            "events/cliff": "kobuki_msgs/CliffEvent",
-            "events/digital_input": "kobuki_msgs/DigitalInputEvent",
-            "events/power_system": "kobuki_msgs/PowerSystemEvent",
-            "events/robot_state": "kobuki_msgs/RobotStateEvent",
-            "events/wheel_drop": "kobuki_msgs/WheelDropEvent",
-            "sensors/core": "kobuki_msgs/SensorState",
-            "sensors/dock_ir": "kobuki_msgs/DockInfraRed",
-            "sensors/imu_data": "sensor_msgs/Imu",
-            "sensors/imu_data_raw": "sensor_msgs/Imu",
-            "version_info": "kobuki_msgs/VersionInfo",
-        }.items()
+        f"{MUX}/input/{name}": ("geometry_msgs/Twist", None, MUX)
+        for name in ("safety_controller", "teleop", "switch", "navi")
+    },
+    f"{MUX}/active": ("std_msgs/String", MUX, None),
+    f"{BASE}/commands/velocity": ("geometry_msgs/Twist", MUX, BASE),
+    f"{BASE}/commands/reset_odometry": ("std_msgs/Empty", None, BASE),
+    **{f"{BASE}/{topic}": (f"kobuki_msgs/{kind}", BASE, None) for topic, kind in SENT.items()},
+    **{
+        f"{BASE}/sensors/{name}": ("sensor_msgs/Imu", BASE, None)
+        for name in ("imu_data", "imu_data_raw")
     },
     **{
-        f"/mobile_base/commands/{topic}": (f"kobuki_msgs/{kind}", None, "/mobile_base")
-        for topic, kind in {
-            "controller_info": "ControllerInfo",
-            "digital_output": "DigitalOutput",
-            "external_power": "ExternalPower",
-            "led1": "Led",
-            "led2": "Led",
-            "motor_power": "MotorPower",
-            "sound": "Sound",
-        }.items()
+        f"{BASE}/commands/{topic}": (f"kobuki_msgs/{kind}", None, BASE)
+        for topic, kind in HEARD.items()
     },
-    "/odom": ("nav_msgs/Odometry", "/mobile_base", None),
-    "/joint_states": ("sensor_msgs/JointState", "/mobile_base", None),
-    "/tf": ("tf2_msgs/TFMessage", "/mobile_base", None),
+    "/odom": ("nav_msgs/Odometry", BASE, None),
+    "/joint_states": ("sensor_msgs/JointState", BASE, None),
+    "/tf": ("tf2_msgs/TFMessage", BASE, None),
 }
 
 TURN = Twist(Vector3(0.2, 0.0, 0.0), Vector3(0.0, 0.0, 0.5))
@@ -70,7 +64,7 @@ def mux_has_its_base():
 
 
 class MinimalTest(RosTest):
-    def test_topics_and_their_types(self):
+    def test_it_has_the_topics_of_a_turtlebot_2(self):
         master = rosgraph.Master(rospy.get_name())
 
         def missing():
@@ -88,7 +82,7 @@ class MinimalTest(RosTest):
         # The base hears the mux alone.
         self.assertNotIn("/cmd_vel", dict(master.getTopicTypes()))
 
-    def test_driving(self):
+    def test_the_safety_controller_outranks_teleop(self):
         robot, log = self.enter(Robot()), self.record("/rosout", Log)
         commands = self.record("mobile_base/commands/velocity", Twist)
         active = self.record("cmd_vel_mux/active", String)
@@ -96,8 +90,7 @@ class MinimalTest(RosTest):
             self.publisher(f"cmd_vel_mux/input/{name}", Twist, queue_size=1)
             for name in ("teleop", "safety_controller")
         )
-        reset = self.publisher("mobile_base/commands/reset_odometry", Empty)
-        for publisher in (teleop, safety, reset):
+        for publisher in (teleop, safety):
             wait_for(publisher.get_num_connections, f"subscriber of {publisher.name}")
         wait_for(lambda: robot.odometry and active, "first messages")
         # Who comes in the middle of a motion would be held, and so would a base that starts late.
@@ -106,24 +99,17 @@ class MinimalTest(RosTest):
         def is_driven(name, speed):
             return active[-1].data == name and robot.now.v == speed
 
-        def place():
-            return robot.now.x
-
         forwards = Twist(Vector3(0.3, 0.01, 0.02), Vector3(0.03, 0.04, 0.05))
         backwards = Twist(linear=Vector3(-0.1, 0.0, 0.0))
-
-        self.assertEqual(place(), 0.0)
         wait_for(lambda: teleop.publish(forwards) or is_driven("teleop", 0.3), "teleop")
-        wait_for(lambda: teleop.publish(forwards) or place() > 0.1, "way forwards")
-        self.assertEqual(commands[-1], forwards)  # all six numbers, unchanged
+        unchanged = lambda: commands and commands[-1] == forwards  # noqa: E731  all six numbers
+        wait_for(lambda: teleop.publish(forwards) or unchanged(), "its command, unchanged")
 
         def both():
             teleop.publish(forwards)
             safety.publish(backwards)
 
         wait_for(lambda: both() or is_driven("safety_controller", -0.1), "safety_controller")
-        farthest = place()
-        wait_for(lambda: both() or place() < farthest - 0.05, "way back")
         backwards.linear.x = nan  # neither obeyed nor a sign of life, and reported
 
         def is_reported():
@@ -132,29 +118,24 @@ class MinimalTest(RosTest):
         wait_for(lambda: both() or (is_driven("teleop", 0.3) and is_reported()), "teleop again")
         wait_for(lambda: is_driven("idle", 0.0), "robot that stands")
 
-        reset.publish()
-        wait_for(lambda: place() == 0.0, "odometry at zero")
-
-    def test_the_base_is_a_kobuki(self):
+    def test_the_base_has_encoders_imu_motors_and_buttons_of_a_kobuki(self):
         robot, core = self.enter(Robot()), self.record("mobile_base/sensors/core", SensorState)
         imu = self.record("mobile_base/sensors/imu_data", Imu)
-        version = self.record("mobile_base/version_info", VersionInfo)
         online = self.record("mobile_base/events/robot_state", RobotStateEvent)
+        version = self.record("mobile_base/version_info", VersionInfo)
         events = self.record("mobile_base/events/button", ButtonEvent)
-        navi, led, motors, press = (
+        navi, motors, press = (
             self.publisher(topic, kind)
             for topic, kind in (
                 ("cmd_vel_mux/input/navi", Twist),
-                ("mobile_base/commands/led1", Led),
                 ("mobile_base/commands/motor_power", MotorPower),
                 ("mobile_base/press", ButtonEvent),
             )
         )
-        for publisher in (navi, led, motors, press):
+        for publisher in (navi, motors, press):
             wait_for(publisher.get_num_connections, f"subscriber of {publisher.name}")
-        wait_for(lambda: robot.odometry and core and imu and version and online, "first messages")
+        wait_for(lambda: robot.odometry and core and imu and online and version, "first messages")
         self.assertEqual(online[-1].state, RobotStateEvent.ONLINE)
-        led.publish(Led.GREEN)
 
         first, begin = core[-1], len(core)
 
@@ -164,7 +145,6 @@ class MinimalTest(RosTest):
         wait_for(lambda: navi.publish(TURN) or way() > 2000, "encoders that count")
         seconds = (core[-1].header.stamp - first.header.stamp).to_sec()
         self.assertAlmostEqual((len(core) - begin) / seconds, 50.0, delta=2.0)
-        self.assertEqual(core[-1].battery, 164)
         last = imu[-1]
 
         def seen():

@@ -40,10 +40,6 @@ def test_the_encoders_count_ticks_in_16_bits(velocity, seconds, left_m, right_m)
         assert abs((ticks - way_m * TICKS_PER_M + 32768) % 65536 - 32768) <= 1.5
 
 
-def test_a_turn_of_a_wheel_has_2578_ticks():
-    assert pytest.approx(2578.33, abs=0.01) == kobuki.TICKS_PER_TURN
-
-
 def test_the_encoders_go_on_where_the_odometry_is_reset():
     one = robot()
     one.command((0.5, 0.0), 0)

@@ -11,7 +11,6 @@ from fake_turtlebot_sim.simulator.laser import Scanner
 EXACT = 1e-9
 FAR = 100.0  # [m]
 NONE = np.empty((0, 3))
-ROOM = np.array([[-2, -1, 3, -1], [3, -1, 3, 1], [3, 1, -2, 1], [-2, 1, -2, -1]], dtype=float)
 
 
 def oracle(pose, angles, walls, discs):
@@ -46,17 +45,6 @@ def test_a_hundred_thousand_random_beams(view):
         seen = np.isfinite(found)
         worst = max(worst, np.abs(found[seen] - expected[seen]).max(initial=0.0))
     assert worst < EXACT
-
-
-def test_no_beam_slips_through_the_corners_of_a_room():
-    scanner = Scanner(-math.pi, math.tau / 3600, 3600)
-    assert np.isfinite(scanner.ranges((0.0, 0.0, 0.3), ROOM, NONE)).all()
-
-
-def test_ahead_and_aside_in_a_room():
-    scanner = Scanner(-math.pi / 2, math.pi / 2, 3)
-    assert scanner.ranges((0, 0, 0), ROOM, NONE) == pytest.approx([1, 3, 1], abs=EXACT)
-    assert scanner.ranges((0, 0, math.pi), ROOM, NONE) == pytest.approx([1, 2, 1], abs=EXACT)
 
 
 def test_a_wall_in_line_with_a_beam_is_met_at_its_end_and_nothing_is_far():

@@ -29,18 +29,16 @@ def with_teleop(**changes):
     return {"subscribers": [teleop, NAVI]}
 
 
-def test_a_turtlebots_own_file():
+def test_a_turtlebots_own_file_works_as_it_is():
     parameters = parse_mux_parameters(yaml.safe_load(OF_A_TURTLEBOT))
     assert parameters.publisher == "output"
     assert parameters.subscribers[1] == Input("Teleoperation", "input/teleop", 1.0, 7)
     assert [one.timeout for one in parameters.subscribers] == [0.2, 1.0, 1.0, 1.0, 1.0]
 
 
-def test_our_own_file():
+def test_our_own_file_is_the_table_of_the_readme():
     given = yaml.safe_load((PACKAGE / "config/cmd_vel_mux.yaml").read_text())
-    parameters = parse_mux_parameters(given)
-    assert parameters.publisher == "output"
-    assert [(one.topic, one.timeout, one.priority) for one in parameters.subscribers] == [
+    assert [(i.topic, i.timeout, i.priority) for i in parse_mux_parameters(given).subscribers] == [
         ("input/safety_controller", 0.2, 10),
         ("input/teleop", 1.0, 7),
         ("input/switch", 1.0, 6),
@@ -65,7 +63,6 @@ def test_our_own_file():
         (with_teleop(name="idle"), ["entry 1: name: 'idle'", "none is active"]),
         (with_teleop(topic="input teleop"), ["entry 1: topic: 'input teleop'"]),
         (with_teleop(topic="~teleop"), ["entry 1: topic: '~teleop'"]),
-        (with_teleop(topic="input/"), ["entry 1: topic: 'input/'"]),
         (with_teleop(priority=-1), ["entry 1: priority: -1", "whole number"]),
         (with_teleop(short_desc=7), ["entry 1: short_desc: 7", "text"]),
         (with_teleop(time_out=1.0), ["entry 1: time_out: 1.0", "did you mean timeout?"]),
@@ -80,8 +77,6 @@ def test_our_own_file():
 def test_a_mistake_is_named_with_its_value_and_what_is_allowed(given, parts):
     with pytest.raises(ValueError) as caught:
         parse_mux_parameters(given)
-    message = str(caught.value)
-    assert message.startswith("~")
-    assert "\n" not in message
+    assert str(caught.value).startswith("~") and "\n" not in str(caught.value)
     for part in parts:
-        assert part in message
+        assert part in str(caught.value)

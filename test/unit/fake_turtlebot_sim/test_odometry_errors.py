@@ -65,15 +65,6 @@ def test_umbmark(way, ratio, track):
         assert hypot(*truth[:2]) > 0.05
 
 
-def test_true_velocity_of_unequal_wheels():
-    errors = OdometryErrors(0.2, wheel_radius_ratio=1.5, track_ratio=1.25)
-    # Left wheel 0.8, right wheel 1.2 of nominal, 0.25 m apart.
-    assert errors.true_velocity((1.0, 0.0)) == pytest.approx((1.0, 1.6))
-    # The wheels of the nominal robot drive 0.8 and 1.2 m/s, these 0.64 and 1.44.
-    assert errors.true_velocity((1.0, 2.0)) == pytest.approx((1.04, 3.2))
-    assert errors.true_velocity((-1.0, -2.0)) == pytest.approx((-1.04, -3.2))
-
-
 def test_each_wheel_errs_by_the_root_of_its_own_way():
     errors = OdometryErrors(0.2, wheel_noise=0.01, seed="a")
     v, w = errors.measured((0.8, 2.0), 0.3)

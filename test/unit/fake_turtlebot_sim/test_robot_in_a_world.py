@@ -242,24 +242,3 @@ def test_each_world_of_the_package_has_room_for_a_class(name):
     world = read_world(shipped_worlds()[name])
     assert len(world.places(10)) == 10
     assert world.obstacles and any(world_map(world, "map", None).data)
-
-
-@pytest.mark.parametrize(
-    ("given", "said"),
-    [
-        ({"world": 3}, "~world: 3: must be a file"),
-        ({"world": "moon"}, "~world: 'moon': no world of this package has that name: take maze, "),
-        ({"world": "./none.yaml"}, "~world: './none.yaml': cannot be read: No such file"),
-        ({"world": "maze", "robots": 500}, "~world: 'maze': the world has room for"),
-        (
-            {"world": "maze", "robots": {"ada": [1.0, 1.0, 0.0]}},
-            "start: in the world's file or x:= y:=",
-        ),
-        ({"scan_no_return": "0"}, "~scan_no_return: '0': must be inf or nan"),
-        ({"scan_range_min": 11.0}, "~scan_range_min: must be less than ~scan_range_max"),
-    ],
-)
-def test_a_mistake_is_one_line(given, said):
-    with pytest.raises(ValueError) as error:
-        parse_parameters(given)
-    assert said in str(error.value) and "\n" not in str(error.value)

@@ -1,16 +1,12 @@
 """A stick that drives on, and a safety controller: in the room, and on the table."""
 
 import random
-from math import hypot, isfinite
-from pathlib import Path
+from math import hypot
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from sensor_msgs.msg import Joy
 
-from fake_turtlebot_sim.replay.bag_replay import read_commands
-from fake_turtlebot_sim.replay.command import velocity_of_joy
 from fake_turtlebot_sim.safety.reaction import Reaction
 from fake_turtlebot_sim.simulator.contact import gap
 from fake_turtlebot_sim.simulator.kobuki import EVENTS
@@ -20,7 +16,6 @@ from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
 from fake_turtlebot_sim.simulator.world import BASE_RADIUS_M
 from fake_turtlebot_sim.simulator.world_files import read_world, shipped_worlds
 
-JOY_BAG = Path(__file__).parents[3] / "joy2twist" / "bag" / "joy.bag"
 EXACT = 1e-9
 PERIOD_S = 0.02  # of the sensors
 DELAY, LONGEST_DELAY = 2, 5  # periods from an event to the command that answers it
@@ -31,9 +26,9 @@ ROOM, TABLE = (read_world(shipped_worlds()[name]) for name in ("room", "table"))
 class Drive:
     """A robot, its safety controller, and a mux that lets the controller win for 0.2 s."""
 
-    def __init__(self, world, is_safe=True, delay=DELAY):
+    def __init__(self, world, delay=DELAY):
         self.robot, self.reaction = SimulatedRobot(Parameters(world=world), world.start), Reaction()
-        self.sensed, self.cycle, self.is_safe = Sensed(), 0, is_safe
+        self.sensed, self.cycle = Sensed(), 0
         self.answers, self.holds_until, self.pushed = [None] * delay, 0.0, 0
         self.longest_push = 0
 
@@ -52,7 +47,7 @@ class Drive:
             for sensor, (old, new) in enumerate(zip(was, is_now)):
                 if old != new:
                     self.reaction.event(kind, sensor, new, now)
-        self.answers.append(self.reaction.velocity(now) if self.is_safe else None)
+        self.answers.append(self.reaction.velocity(now))
         self.pushed = self.pushed + 1 if any(self.sensed.bumpers) else 0
         self.longest_push = max(self.longest_push, self.pushed)
 
@@ -70,13 +65,12 @@ def random_sticks(seed, seconds):
 
 
 @pytest.mark.parametrize("seed", range(4))
-def test_ten_minutes_of_random_sticks_in_the_room(seed):
+def test_random_sticks_never_push_into_a_wall_for_long(seed):
     drive = Drive(ROOM)
     way, last = 0.0, drive.robot.true_pose
     for stick in random_sticks(seed, 150.0):
         drive.step(stick)
-        x, y, yaw = drive.robot.true_pose
-        assert isfinite(x + y + yaw)
+        x, y, _ = drive.robot.true_pose
         nearest = min(gap(x, y, BASE_RADIUS_M, one) for one in ROOM.obstacles)
         assert nearest > -EXACT
         way, last = way + hypot(x - last[0], y - last[1]), (x, y)
@@ -102,48 +96,3 @@ def test_no_stick_held_forward_drives_over_the_edge(v, w, yaw, delay, cuts):
         drive.step((0.0, 0.0) if is_cut else (v, w))
         assert drive.robot.sensed().wheels == (False, False)
     assert drive.longest_push * PERIOD_S <= LONGEST_PUSH_S
-
-
-def test_ten_minutes_of_the_recording_in_the_room():
-    commands = read_commands(JOY_BAG, "/joy", Joy, velocity_of_joy)
-    seconds = (commands[-1][0] - commands[0][0]) * 1e-9
-    drive, k = Drive(ROOM), 0
-    for cycle in range(round(600.0 / PERIOD_S)):
-        elapsed_ns = round(cycle * PERIOD_S % seconds * 1e9)
-        if elapsed_ns < PERIOD_S * 1e9:
-            k = 0
-        while k + 1 < len(commands) and commands[k + 1][0] - commands[0][0] <= elapsed_ns:
-            k += 1
-        drive.step(commands[k][1])
-        x, y, _ = drive.robot.true_pose
-        nearest = min(gap(x, y, BASE_RADIUS_M, one) for one in ROOM.obstacles)
-        assert nearest > -EXACT
-    assert drive.longest_push * PERIOD_S <= LONGEST_PUSH_S
-
-
-def test_without_the_controller_it_falls():
-    drive = Drive(TABLE, is_safe=False)
-    for _ in range(400):
-        drive.step((0.5, 0.0))
-    assert drive.robot.sensed().wheels == (True, True)
-
-
-@settings(deadline=None, max_examples=30)
-@given(st.integers(0, 10_000), st.sampled_from([7, 50, 333, 1000]))
-def test_where_a_drive_ends_does_not_depend_on_the_rate(seed, rate):
-    """Ten seconds of velocities, as they come, with the robot looked at as often as may be."""
-    ends = []
-    for looks in (50, rate):
-        robot = SimulatedRobot(Parameters(world=ROOM), ROOM.start)
-        draw, now_ns = random.Random(seed), 0
-        for _ in range(10):
-            velocity = draw.uniform(-0.7, 0.7), draw.uniform(-2.0, 2.0)
-            for k in range(3):
-                robot.command(velocity, now_ns + k * 300_000_000)
-                begin = now_ns + k * 300_000_000
-                for look in range(1, looks):
-                    robot.advance(begin + look * 300_000_000 // looks)
-            now_ns += 900_000_000
-        robot.advance(now_ns)
-        ends.append(robot.true_pose)
-    assert ends[0] == pytest.approx(ends[1], abs=1e-7)

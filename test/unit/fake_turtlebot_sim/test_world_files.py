@@ -12,7 +12,6 @@ from PIL import Image
 
 from fake_turtlebot_sim.simulator.parameters import parse_parameters
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
-from fake_turtlebot_sim.simulator.world import Surroundings
 from fake_turtlebot_sim.simulator.world_files import FIELDS, WorldError, read_world
 from fake_turtlebot_sim.simulator.world_messages import world_map, world_markers
 from tutorial_testing.hostile import damaged, end_of, many
@@ -54,13 +53,9 @@ def test_a_world_of_ours(tmp_path):
     ("text", "said"),
     [
         ("walls: [[[0, 0]]]", "line 1: walls: must be a list of polylines"),
-        ("posts: []\nwalls: 3", "line 2: walls: must be"),
         ("posts:\n- {x: 1, y: 1, radius: 1}\n- {x: 1, y: 1, radius: -1}", "line 3: posts: must be"),
         ("start: {x: 1, y: 2, yaw: 90}", "line 1: start: must be"),
-        ("walls:\n- [[0, 0], [1, two]]", "line 2: walls: must be"),
-        ("posts:\n- {x: 1, y: 1}", "line 2: posts: must be"),
         ("cliffs: [[[0, 0], [1, .nan], [1, 1]]]", "line 1: cliffs: must be"),
-        ("start: {x: 1, y: 2, yaw: 0, z: 3}", "line 1: start: must be"),
         ("posts: []\ncolour: red", "line 2: colour: is not known"),
         ("walls: [", ": not YAML"),
         ("posts: []\nposts: [1, 2]\n", "line 2: posts: must be"),
@@ -74,7 +69,6 @@ def test_a_world_of_ours(tmp_path):
         (f"posts: {[{'x': 1, 'y': 1, 'radius': 1}] * 2001}", "2001 are too many: at most 2000"),
         (f"cliffs: {[[[0, 0], [1, 1], [1, 0]]] * 334}", "1002 are too many: at most 1000"),
         (" " * 2_000_001, "cannot be read: not a plain file of at most 2 MB"),
-        ("image: none.pgm", "negate: must be 0 or 1"),
         (f"{MAP}negate: false", "negate: must be 0 or 1"),
         (f"{MAP}mode: binary", "mode: must be trinary, scale, raw or left out"),
         (f"{MAP}resolution: 0", "resolution: 0: must be a number from 0.001 to 100"),
@@ -196,10 +190,3 @@ def test_a_map_has_walls_around_its_occupied_cells(tmp_path):
             ((-0.5, 2.5), (-0.5, 3.0)), ((0.5, 2.5), (0.5, 3.0)),
         )
     }  # fmt: skip
-
-
-def test_what_is_near_is_found_anew_after_a_long_way(tmp_path):
-    around = Surroundings(world_of(tmp_path, OURS))
-    assert list(around.near(0.0, 0.9, 0.5)) == [(0, 0, 4, 0, 0), (1, 1, 1, 1, 0.2)]
-    assert (4, 0, 4, 3, 0) in around.near(3.6, 2.0, 0.5)
-    assert len(around.near(3.6, 2.0, 50.0)) == 3
