@@ -88,10 +88,11 @@ class LostNodes(RosTest):
             wait_for(lambda: rig.moves, "robot that drives")
             base = [pid_of(BASE)]
             stop(base)
+            stopped = rig.now.stamp
             threading.Event().wait(1.5)
             go_on(base)
-            rig.wait_for_rest()
-            wait_for(lambda: rig.moves, "robot that drives on")
+            later = stopped + 1.5 + 2 * TIMEOUT_S  # when what was sent before counts no more
+            wait_for(lambda: any(one.moves for one in rig.since(later)), "robot that drives on")
 
 
 if __name__ == "__main__":
