@@ -9,9 +9,12 @@ import sys
 from pathlib import Path
 
 REPOSITORY = Path(__file__).resolve().parents[1]
+sys.path.append(str(REPOSITORY / "test/src"))
+
+from tutorial_testing.rostest_files import is_rostest  # noqa: E402
+
 CLAIMS = REPOSITORY / "test/CLAIMS.md"
 NAMED = re.compile(r"`(test/[^`:]+)(?:::([^`]+))?`")
-IS_A_ROSTEST = "\n    run()\n"  # how the Python file of one ends
 
 
 def tests_in(path):
@@ -25,7 +28,7 @@ def to_be_named():
         for path in sorted((REPOSITORY / "test" / folder).glob("test_*.py")):
             yield from ((path, name) for name in tests_in(path))
     for path in sorted((REPOSITORY / "test/ros").glob("*/*.py")):
-        if IS_A_ROSTEST in path.read_text() and not path.with_suffix(".test").exists():
+        if is_rostest(path):
             yield path, ""
     yield from ((path, "") for path in sorted((REPOSITORY / "test/ros").glob("*/*.test")))
 

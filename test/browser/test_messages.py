@@ -94,7 +94,7 @@ def test_plot_is_drawn_after_a_failed_import_of_the_library_of_charts(page):
     wait_for(page.errors, "failed import", 30)
     page.driver.delete_network_conditions()
     wait_for(lambda: page.all("#plot-chart canvas"), "chart", 60)
-    page.errors()  # of attempts meanwhile
+    page.errors()  # attempts meanwhile may fail
 
 
 def test_a_driver_who_is_handed_a_robot_looks_at_no_other(page):

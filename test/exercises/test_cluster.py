@@ -161,7 +161,7 @@ def test_a_submission_that_ends_workers_is_abandoned(scheduler, worker, client):
     assert "abandoned: 2 workers have ended while they checked it" in call.output
 
 
-# Of a student's program: it reads the key, and runs code where that leads.
+# What a student's program tries: it reads the key, and runs code where that leads.
 ATTACK = """
 try:
     from distributed import Client
@@ -255,3 +255,14 @@ def test_a_worker_that_is_ended_while_it_checks_leaves_no_folder(
     assert list(temporary.glob("tutorial_worker_*/tutorial_check_*"))
     os.kill(one.pid, number)
     wait_for(lambda: not list(temporary.iterdir()), "an empty folder", 120)
+
+
+def test_a_scheduler_that_is_not_there_is_one_line(client, start, key):
+    key.parent.mkdir(parents=True)
+    key.touch()
+    call = client()
+    assert call.wait(60) == 2
+    assert f"check: no verdict: no Dask scheduler at {ADDRESS}: " in call.output
+    call = start("one", *MACHINES, "worker", "127.0.0.1:1")
+    assert call.wait(60) == 1
+    assert call.output == "worker: no Dask scheduler at 127.0.0.1:1: Connection refused\n"

@@ -17,9 +17,10 @@ from xml.etree import ElementTree
 
 import pytest
 
+from tutorial_testing.rostest_files import is_rostest
+
 RESULTS = Path(os.environ["TUTORIAL_RESULTS"]) / "rostests"
 ONE = Path(__file__).with_name("one.test")
-IS_A_TEST = "\n    run()\n"  # how such a Python file ends
 BROKEN = ("error", "failure")  # as JUnit files note it; rosunit notes no skips
 
 
@@ -57,7 +58,7 @@ class RosFile(pytest.File):
     def collect(self):
         command = [str(self.path)]
         if self.path.suffix == ".py":
-            if IS_A_TEST not in self.path.read_text() or self.path.with_suffix(".test").exists():
+            if not is_rostest(self.path):
                 return
             robot = self.path.with_name("robot.launch.xml").exists()
             command = [str(ONE), f"name:={self.path.stem}", f"robot:={str(robot).lower()}"]

@@ -1,4 +1,4 @@
-"""The 25 problems that beginners of ROS 1 report most, as TROUBLE.md and the doctor answer them.
+"""The 30 problems that beginners of ROS 1 report most, as TROUBLE.md and the doctor answer them.
 
 Each is made here, as far as this machine can, in bash. What is printed must have the sentence of
 the page, in which "..." stands for names, and the doctor's words, where it is the tool.
@@ -129,6 +129,25 @@ Could not find a package configuration file provided by "..."
     package 'COMPONENTS nowhere'; cd ws && bare catkin_make
 SyntaxError: Missing parentheses in call to 'print'
     echo 'print "hello"' >a.py; /usr/bin/python3 a.py
+IndentationError
+    printf 'if True:\nprint()\n' >a.py; /usr/bin/python3 a.py
+process has died [pid ..., exit code ...]
+    package; printf '#!/bin/sh\nexit 3\n' >ws/src/mine/scripts/a.py
+    chmod +x ws/src/mine/scripts/a.py
+    echo '<launch><node pkg="mine" type="a.py" name="a" required="true"/></launch>' >a.launch
+    ROS_PACKAGE_PATH=$PWD/ws/src:$ROS_PACKAGE_PATH roslaunch a.launch
+RLException: Invalid roslaunch XML syntax
+    echo '<launch><node></launch>' >a.launch; roslaunch a.launch
+RLException: Invalid <param> tag: Cannot load command parameter
+    roslaunch joy2twist launch_bag.launch rviz:=maybe
+datatype/md5sum [...], but our version has [...]
+    master; printf '%s\n' 'import sys, rospy' 'from std_msgs.msg import String' \
+        'rospy.init_node("mine", anonymous=True)' \
+        'if sys.argv[1:]: rospy.Publisher("x", String, queue_size=1)' \
+        'else: String._md5sum = 32 * "0"; rospy.Subscriber("x", String, print)' \
+        'rospy.spin()' >a.py
+    /usr/bin/python3 a.py 2>/dev/null &
+    until_it_says 'but our version' /usr/bin/python3 a.py publishes
 """  # noqa: RUF001
 MADE = re.findall(r"^(\S.*)\n((?: {4}.*\n)+)(?:  > (.*))?", MADE, re.M)
 # Which cannot be made here: the sentence, and what tests the answer in its place.
@@ -139,8 +158,8 @@ NOT_MADE = {
 }
 
 
-def test_there_are_25_problems_and_the_page_has_each_where_one_looks():
-    assert len(MADE) + len(NOT_MADE) == 25
+def test_there_are_30_problems_and_the_page_has_each_where_one_looks():
+    assert len(MADE) + len(NOT_MADE) == 30
     for sentence in NOT_MADE:
         assert sentence in PAGE
     firsts = [cell.split("`")[1].casefold() for cell, _ in CELLS]

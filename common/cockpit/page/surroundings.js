@@ -7,6 +7,7 @@ export class Surroundings {
   #pictures = new Map(); // colours -> canvas, a pixel for each cell
   #robots = {}; // name -> {x, y, yaw} in the map, and the numbers of the pressed bumpers
   #scan = { name: null, points: [] }; // [m], of that robot
+  #covered = ""; // the corners of the newest map
 
   /** onChange(): called when something must be drawn again. */
   constructor(onChange) {
@@ -15,12 +16,13 @@ export class Surroundings {
 
   /** map: without cells there is none. Returns whether it covers another part of the floor than the one before. */
   showMap(map) {
-    const before = this.corners().join();
     this.#map = map.cells ? { ...map, bytes: Uint8Array.from(atob(map.cells), (c) => c.charCodeAt(0)) } : null;
     this.#scan.name = null; // of another world, or a server that has ended
     this.#pictures.clear();
     this.onChange();
-    return Boolean(this.#map) && this.corners().join() !== before;
+    const [before, corners] = [this.#covered, this.corners().join()];
+    this.#covered = corners || before;
+    return this.#covered !== before;
   }
 
   showRobots(robots) {

@@ -2,8 +2,9 @@
 
 import pytest
 
-from tutorial_check import bubblewrap, landlock
+from tutorial_check import bubblewrap, cluster, landlock
 from tutorial_check.bubblewrap import Isolation
+from tutorial_check.model import CannotCheck
 
 
 @pytest.mark.parametrize(
@@ -29,3 +30,11 @@ def test_why_bubblewrap_does_not_work_is_known(monkeypatch, tmp_path, why):
         (tmp_path / "bwrap").chmod(0o755)
     monkeypatch.setenv("PATH", str(tmp_path))
     assert bubblewrap.granted.__wrapped__() == Isolation(why=why)
+
+
+def test_a_worker_without_isolation_checks_nothing(monkeypatch):
+    """Also one that was started without ./tutorial worker."""
+    monkeypatch.setattr(bubblewrap, "granted", lambda: Isolation(why="bwrap: refused"))
+    monkeypatch.delenv(cluster.INSISTS, raising=False)
+    with pytest.raises(CannotCheck, match=r"cannot isolate programs: bwrap: refused: .* reach the"):
+        cluster._examine(b"", ["2"], {}, "")

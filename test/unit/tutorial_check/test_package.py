@@ -1,5 +1,6 @@
 """What --package writes for a service."""
 
+import shlex
 import subprocess
 import zipfile
 from pathlib import Path
@@ -102,3 +103,19 @@ def test_what_cannot_be_packed_is_one_line(tmp_path, git, what, out, script, why
         package(what, course, ["2"], str(tmp_path / out))
     assert why in str(error.value) and "\n" not in str(error.value)
     assert not (tmp_path / out).exists()
+
+
+@pytest.mark.parametrize("name", ["a # b", 'it\'s: "a"', "two\nlines", "${{ x }}"])
+def test_a_folder_of_any_name_in_the_workflow(tmp_path, git, monkeypatch, name):
+    git("echo 0a1b")
+    monkeypatch.setattr("tutorial_check.package.SUITE", tmp_path)
+    (tmp_path / name).mkdir()
+    (tmp_path / name / "course.yaml").write_text("exercises: {'1': one}")
+    out = tmp_path / "check.yml"
+    if "${{" in name:
+        with pytest.raises(CannotCheck, match="GitHub would replace"):
+            package("github:lab/x", read_course(tmp_path / name), ["1"], str(out))
+        return
+    package("github:lab/x", read_course(tmp_path / name), ["1"], str(out))
+    run = yaml.safe_load(out.read_text())["jobs"]["check"]["steps"][2]["run"]
+    assert shlex.split(run)[-3:] == ["--course", f"suite/{name}", "1"]

@@ -1,7 +1,9 @@
 """--all: odd names, and what cannot be written, cost no other student the result."""
 
 import csv
+import json
 import os
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -11,7 +13,7 @@ from tutorial_check import professor
 from tutorial_check.course import read_course
 from tutorial_check.examination import Outcome
 from tutorial_check.last_run import digest_of_checks
-from tutorial_check.model import OK, UNREACHED, Result
+from tutorial_check.model import OK, UNREACHED, CannotCheck, Result
 from tutorial_testing.waiting import wait_for
 
 WELL = Outcome("2", [Result("C1", OK, "one")], 1.0, True)
@@ -158,3 +160,53 @@ def test_a_broken_state_is_ignored(group, text):
 def test_another_exercise_or_level_of_hints_makes_other_checks():
     asked = [(["2"], 2), (["3"], 2), (["2"], 0)]
     assert len({digest_of_checks(read_course(), *one) for one in asked}) == 3
+
+
+def test_a_folder_called_variants_is_a_submission_unless_it_is_named(group, capsys):
+    group.add("ada", "variants")
+    (group.folder / "variants/ada.yaml").write_text("no task")
+    assert [row[:2] for row in group.check_all()[1]] == [["ada", "ok"], ["variants", "ok"]]
+    assert "variants: a submission; if it has the tasks" in capsys.readouterr().out
+    code, rows = group.check_all(variant=str(group.folder / "variants"))
+    assert (code, [row[0] for row in rows]) == (2, ["ada"]) and "a map of values" in rows[0][-1]
+
+
+def test_each_result_says_that_nothing_was_isolated(group):
+    group.add("ada", "bob")
+    bare = replace(WELL, remark="not isolated")
+    group.come_to = lambda name: [bare if name == "bob" else WELL]
+    assert [row[-1] for row in group.check_all()[1]] == ["", "not isolated"]
+    assert "(not isolated)" in (group.check / "bob.txt").read_text()
+    assert (
+        json.loads((group.check / "bob.json").read_text())["exercises"][0]["remark"]
+        == "not isolated"
+    )
+    assert "<td>bob</td><td>not isolated</td>" in (group.check / "table.html").read_text()
+
+
+@pytest.mark.parametrize(
+    ("blocked", "out", "why"),
+    [("check/table.html/", None, "Is a directory"), ("file", "file", "--out names another")],
+)
+def test_results_that_cannot_be_written_are_found_before_the_work(group, blocked, out, why):
+    group.add("ada")
+    path = group.folder / blocked
+    path.mkdir(parents=True) if blocked.endswith("/") else path.touch()
+    with pytest.raises(CannotCheck, match=why):
+        group.check_all(out and group.folder / out)
+    assert not group.begun
+
+
+def test_a_run_that_was_interrupted_goes_on_where_it_was(group, monkeypatch):
+    def interrupted_once(name):
+        if name == "bob" and len(group.begun) < 3:
+            raise KeyboardInterrupt
+        return [WELL]
+
+    group.come_to = interrupted_once
+    monkeypatch.setattr(professor, "end_all", lambda: None)
+    group.add("ada", "bob")
+    with pytest.raises(KeyboardInterrupt):
+        group.check_all()
+    assert group.check_all()[0] == 0
+    assert group.begun == ["ada", "bob", "bob"]

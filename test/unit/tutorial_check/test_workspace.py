@@ -1,12 +1,13 @@
 """Finding, unpacking and copying what a student hands in."""
 
 import os
+import time
 import zipfile
 from pathlib import Path
 
 import pytest
 
-from tutorial_check import workspace
+from tutorial_check import session, workspace
 from tutorial_check.model import CannotCheck
 from tutorial_check.workspace import copy, find_layout, hand_in, packages_below, unpack
 
@@ -184,3 +185,20 @@ def test_a_zip_with_broken_bytes_is_one_line(tmp_path, pack):
     archive.write_bytes(data)
     with pytest.raises(CannotCheck, match=r"a\.zip: cannot be unpacked: "):
         unpack(archive, tmp_path / "out")
+
+
+def test_a_workspace_that_is_too_large_is_one_line(tmp_path, monkeypatch):
+    monkeypatch.setattr(workspace, "MOST_BYTES", 10)
+    package(tmp_path / "src" / "joy2twist")
+    with pytest.raises(CannotCheck, match="more than"):
+        copied(tmp_path, tmp_path)
+
+
+@pytest.mark.parametrize("text", ["=/", "/a", ".bag/", "\n"])
+def test_a_launch_file_or_cmakelists_of_any_text_is_read_at_once(tmp_path, text):
+    """In time linear in its length; quadratic time would be minutes."""
+    (tmp_path / "a.launch").write_text(text * 99_999)
+    began_s = time.process_time()
+    assert workspace.named_outside(tmp_path) == []
+    assert not session.NEEDS_BUILD.search(text * 99_999)
+    assert time.process_time() - began_s < 60.0

@@ -17,9 +17,7 @@ from ros2_bridge.routes import Route, depth_of
 
 NAME = "ros2_bridge"
 LOOK_S = 0.5  # how often the master is asked which topics there are; and the state is published
-FORGET_S = (
-    5.0  # what a latched sender has sent, after it: by then subscribers have found it in ROS 2
-)
+FORGET_S = 5.0  # after the last latched sender: by then subscribers in ROS 2 have its messages
 SILENT_S = 2.0  # the other side gives a sign of life each half second
 
 

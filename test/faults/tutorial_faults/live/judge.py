@@ -94,7 +94,9 @@ class Trial:
         """Yield (a), (d): wheels that turn too long after LB was released or a part was lost."""
         causes = [("a", "LB was released", *span) for span in self.free]
         for fault, span in self.hits.items():
-            if fault.must == RESTS and fault.part != "base":  # whose wheels say nothing meanwhile
+            if (
+                fault.must == RESTS and fault.part != "base"
+            ):  # a lost base does not report its wheels
                 causes.append(("d", f"the loss by {fault.name}", *span))
         for now in [wheels.at_s for wheels in self.of(WHEELS) if moves(wheels.value)]:
             for letter, why, begin, end in causes:

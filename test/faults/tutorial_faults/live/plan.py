@@ -32,7 +32,7 @@ def draw(seed: int, names: Sequence[str]) -> Plan:
     hands, hits, at_s = [(0.0, DRIVE)], [], random.uniform(0.05, 0.3)
     chosen = random.choices(names, k=random.choice((1, 2)))
     if len({FAULTS[name].part for name in chosen}) < len(chosen):
-        chosen.pop()  # of two faults of one part one would spoil the other
+        chosen.pop()  # two faults of one part would disturb each other
     for name in chosen:
         hits.append((at_s, at_s + random.uniform(*FAULTS[name].lasts_s), name))
         at_s += random.uniform(0.0, 0.6)

@@ -107,7 +107,7 @@ def main():
     """Run until done; return 1 if an invariant was violated, 2 if this cannot work."""
     options = parse(sys.argv[1:])
     signal.signal(signal.SIGTERM, signal.default_int_handler)
-    logging.disable(logging.CRITICAL)  # of this process, which is asked for what it has ended
+    logging.disable(logging.CRITICAL)  # this process reports what it ended itself
     trials = []
     with tempfile.TemporaryDirectory() as home:
         os.environ.update(ROS_HOME=home, ROS_MASTER_URI=f"http://localhost:{free_port()}")
