@@ -82,11 +82,12 @@ def clock(monkeypatch):
     return clock
 
 
-def test_failure_does_not_hold_up_other_sources_and_pages():
+def test_failure_does_not_hold_up_other_sources_and_pages(clock):
     hub = Made(Broken(), Well(), player=Broken())
     (unwritable, _), *others = [hub.opened() for _ in range(3)]
     unwritable.write = None
     for _ in range(2):
+        clock.now += 0.1
         hub.tick()
     assert [kinds(sent) for _, sent in others] == [["hello", "seat", "well", "well"]] * 2
     assert len(hub.told) == 4  # of each once: the player, the source, and of that page two

@@ -13,11 +13,9 @@ MESSAGES = [(0.0, "a", 0), (0.5, "b", 0), (1.0, "c", 0)]
     [
         (0.0, 1.0, False, {10.01: "a", 10.49: "", 10.51: "b", 11.3: "c"}),
         (0.0, 2.0, False, {10.3: "ab"}),
-        (0.0, 0.5, False, {10.9: "a"}),
         (0.5, 1.0, False, {10.1: "b"}),
         (5.0, 1.0, False, {10.1: "a"}),  # beyond the end: from the beginning
         (0.0, 1.0, True, {11.19: "abc", 11.21: "", 11.22: "a"}),
-        (0.0, 1.0, True, {10.6: "ab", 11.21: "c", 11.22: "a"}),
     ],
 )
 def test_each_message_is_due_once_at_its_time(position, rate, loop, due):

@@ -1,7 +1,6 @@
 """What pages may say: the messages that the hub and the sources declare, and their bounds."""
 
 import json
-import random
 
 import pytest
 
@@ -32,7 +31,6 @@ GOOD = {
     "bag_seek": {"position": 3.5},
     "doctor": {},
 }  # fmt: skip
-WRONG = (None, True, -1, 1.5, 2**60, 1e300, "x" * 300, "a\nb", [], {}, [[]], [None] * 21)
 
 
 def say(kind, **fields):
@@ -49,16 +47,20 @@ def taken(kind, name, value):
 
 
 @pytest.mark.parametrize("kind", SCHEMA.messages)
-def test_each_field_is_required_and_has_bounds_and_others_are_refused(kind):
+def test_each_field_is_required_and_others_are_refused(kind):
     assert SCHEMA.check(say(kind, **GOOD[kind]))[0] == kind
     with pytest.raises(ValueError, match="has no field 'more'"):
         SCHEMA.check(say(kind, **GOOD[kind], more=1))
-    for name in SCHEMA.messages[kind]:
-        if kind != "watch":
-            with pytest.raises(ValueError, match=f"{kind} lacks {name}"):
-                SCHEMA.check(say(kind, **{n: v for n, v in GOOD[kind].items() if n != name}))
-        refused = [f"{kind}: {name}" in str(taken(kind, name, value)) for value in WRONG]
-        assert sum(refused) >= len(WRONG) / 2, name
+    for name in SCHEMA.messages[kind] if kind != "watch" else ():
+        with pytest.raises(ValueError, match=f"{kind} lacks {name}"):
+            SCHEMA.check(say(kind, **{n: v for n, v in GOOD[kind].items() if n != name}))
+
+
+@pytest.mark.parametrize("value", [2**60, 1e300, "x" * 300, "a\nb", {}, [[]], [None] * 21], ids=str)
+def test_no_field_takes_everything(value):
+    for kind, fields in SCHEMA.messages.items():
+        for name in fields:
+            assert f"{kind}: {name}" in str(taken(kind, name, value))
 
 
 def test_a_page_is_shown_only_what_it_watches():
@@ -123,16 +125,3 @@ def test_axes_and_buttons_must_be_as_many_as_the_gamepad_has():
         with pytest.raises(ValueError) as caught:
             check_lengths(tuple(modes), (0,) * axes, (0,) * buttons)
         assert (str(caught.value) == both) == (modes == "DX")
-
-
-def test_random_changes_are_taken_or_refused():
-    dice = random.Random(1)
-    for _ in range(3000):
-        kind = dice.choice(list(GOOD))
-        letters = list(say(kind, **GOOD[kind]))
-        for _ in range(dice.randrange(1, 4)):
-            letters[dice.randrange(len(letters))] = dice.choice('{}[]":,0e-x\\')
-        try:
-            SCHEMA.check("".join(letters))
-        except ValueError as error:
-            assert len(str(error)) < 300
