@@ -42,7 +42,7 @@ def test_the_picture_is_well_formed_and_has_a_line_for_each():
         (b"", "not a bag that can be read"),
         (b"no bag", "not a bag that can be read"),
         (b"#ROSBAG V2.0\n", "cut short; mend it with: rosbag reindex"),
-        *((WHOLE[:size], ": ") for size in (12, 30, 4096, 5000, 20_000, -4000, -1)),
+        *((WHOLE[:size], ": ") for size in (12, 4096, 20_000, -1)),
     ],
 )
 def test_a_file_that_is_no_whole_bag_is_one_line(tmp_path, monkeypatch, capfd, data, words):

@@ -16,12 +16,6 @@ TALK = (
     [["/rosout", ["/rosout"]], ["/chatter", ["/listener"]], ["/unsaid", ["/listener"]]],
     [["/talker/get_loggers", ["/talker"]], ["/add_two_ints", ["/server"]]],
 )  # fmt: skip
-LABELS = {
-    "/mobile_base/commands/velocity": r"/mobile_base\n/commands\n/velocity",
-    "/cmd_vel_mux/input/teleop": r"/cmd_vel_mux\n/input/teleop",
-    "/listener_4711_1700000000000": r"/listener_4711\n_1700000000000",
-    "/myjoystick2twist": "/myjoystick2twist",  # nowhere to break
-}
 
 
 def names(text):
@@ -47,8 +41,8 @@ def test_topics_that_join_nodes_are_drawn_and_the_log_and_loose_ends_on_demand()
     assert set(names(dot_text(TALK, {}, everything=True))) == {*names(text), *more}
 
 
-@pytest.mark.parametrize(("name", "label"), LABELS.items())
-def test_a_long_name_is_broken(name, label):
+def test_a_long_name_is_broken():
+    name, label = "/mobile_base/commands/velocity", r"/mobile_base\n/commands\n/velocity"
     text = dot_text(([[name, ["/a"]]], [[name, ["/b"]]], []), {})
     assert f'"topic {name}" [label="{label}" shape=box]' in text
 
@@ -61,15 +55,10 @@ def test_each_machine_has_a_frame_and_a_topic_between_machines_has_none():
     desk = ["node /joy2twist", "node /joy_node", "topic /joy"]
     assert list(frames(text).items()) == [("desk", desk), ("robot", ["node /robot"])]
     assert "topic /cmd_vel" in names(text)
-    again = (publishers[::-1], subscribers[::-1], [])
-    assert dot_text(again, dict(reversed(machines.items()))) == text
 
 
 def test_one_machine_and_a_node_that_has_exited_have_no_frame():
-    # /rosout, which is not shown, does not count.
-    machines = {"/talker": "here", "/listener": "here", "/rosout": "there"}
-    assert not frames(dot_text(TALK, machines))
-    assert sorted(frames(dot_text(TALK, machines, everything=True))) == ["here", "there"]
+    assert not frames(dot_text(TALK, {"/talker": "here", "/listener": "here", "/rosout": "there"}))
     assert not frames(dot_text(TALK, {"/talker": "here"}))
 
 
