@@ -89,20 +89,6 @@ def test_walls_scan_and_bumpers_are_drawn_and_a_change_of_tab_keeps_the_view(siz
         assert browser.errors() == []
 
 
-GRID = "{info: {resolution: 1, width: 2, height: 2}, data: [100, 100, 100, 100]}"
-
-
-def test_a_world_that_has_ended_leaves_the_floor(world, page):
-    def walls():
-        return page.ask(DRAWN % "--wall")[0]
-
-    with world.run("rostopic", "pub", "/map", "nav_msgs/OccupancyGrid", GRID) as publisher:
-        wait_for(lambda: walls() > 500, "walls on the floor")
-        publisher.interrupt()
-        publisher.wait()
-    wait_for(lambda: not walls(), "a floor without walls")
-
-
 def beside(browser, name):
     """Return how many pixels have a colour, and the two most frequent colours around them."""
     wanted, (pixels, (width, height)) = colour(browser, name), seen(browser)

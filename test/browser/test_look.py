@@ -1,8 +1,5 @@
 """How the page looks at all sizes: one direction of scrolling, a class's table, and by axe."""
 
-import subprocess
-import time
-
 import pytest
 from selenium.webdriver.common.keys import Keys
 
@@ -17,7 +14,6 @@ NARROW = (320, 256)  # 1280 x 1024 at 400 %: WCAG 2.2, 1.4.10
 VIEWS = {"light": (1280, 800), "dark": (1280, 800), "360 px": (360, 640), "400 %": NARROW}
 WCAG = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22a", "wcag22aa"]
 ROBOTS = 30
-MOST_BYTES = 20_000  # a second, for a page whose robots stand
 
 
 @pytest.fixture(scope="module")
@@ -92,65 +88,6 @@ def test_axe_finds_nothing(room, shared_browser, view):
             page.wait_for_text("#doctor-state", "o")  # whatever it found
         assert violations(page) == [], name
     dress(page)
-
-
-# Draw all names anew; return, of each, the share of its letters' pixels that has the text's colour.
-NAMES = """const done = arguments[0], canvas = document.getElementById("floor"), drawn = {};
-const kind = CanvasRenderingContext2D.prototype, fill = kind.fillText;
-kind.fillText = function (text, ...place) {
-  if (this.canvas === canvas) drawn[text] = [place, this.font, this.textAlign, this.textBaseline];
-  return fill.call(this, text, ...place);
-};
-const size = [canvas.width, canvas.height];
-const data = (pen) => pen.getImageData(0, 0, ...size).data;
-const wanted = getComputedStyle(canvas).getPropertyValue("--text").trim().slice(1);
-const rgb = [0, 2, 4].map((i) => parseInt(wanted.slice(i, i + 2), 16));
-document.getElementById("show-all").click();
-requestAnimationFrame(() => requestAnimationFrame(() => {
-  kind.fillText = fill;
-  const copy = new OffscreenCanvas(...size).getContext("2d");
-  copy.drawImage(canvas, 0, 0);
-  const there = data(copy);
-  const share = ([place, font, textAlign, textBaseline], text) => {
-    const pen = new OffscreenCanvas(...size).getContext("2d");
-    Object.assign(pen, {font, textAlign, textBaseline});
-    pen.fillText(text, ...place);
-    const inked = data(pen);
-    let [all, right] = [0, 0];
-    for (let i = 0; i < inked.length; i += 4) {
-      if (inked[i + 3] < 200) continue;
-      all += 1;
-      right += rgb.every((c, k) => Math.abs(there[i + k] - c) < 70);
-    }
-    return all && right / all;
-  };
-  const names = Object.keys(drawn).filter((text) => text.startsWith("robot_"));
-  done(Object.fromEntries(names.map((name) => [name, share(drawn[name], name)])));
-}));"""
-
-
-def test_every_name_of_thirty_is_readable(class_page):
-    def shares():
-        found = class_page.driver.execute_async_script(NAMES)
-        return len(found) == ROBOTS and found
-
-    assert min(wait_for(shares, "thirty names").values()) > 0.95
-
-
-def sent(port):
-    """Return the bytes that all connections of the port have sent, as the kernel counts."""
-    lines = subprocess.check_output(["ss", "-tinOH", f"sport = :{port}"], text=True)
-    return sum(int(word[11:]) for word in lines.split() if word.startswith("bytes_sent:"))
-
-
-def test_a_page_of_standing_robots_costs_little(class_page):
-    port = class_page.ask("location.port")
-    begin, began = sent(port), time.monotonic()
-    messages = "performance.now()"
-    later = class_page.ask(messages) + 5000
-    wait_for(lambda: class_page.ask(messages) > later, "five seconds of the page")
-    assert 100 < (sent(port) - begin) / (time.monotonic() - began) < MOST_BYTES
-    assert class_page.text("#connection") == "Connected"
 
 
 def test_at_400_percent_a_thumb_drives_and_stop_stays_in_sight(world):
