@@ -31,14 +31,12 @@ WHO = {
     "a recording of another": (
         SEAT._replace(how=BAG, driver=BOB), "Firefox plays a recording to ada."),
     "a recording of rosbag": (About(said=MOVING, senders=PLAYS), "/rosbag_play drives ada."),
-    "a joystick that has left": (About(said=MOVING), "A joystick drives ada."),
     "a joystick at rest": (
         About(said=ARMED, senders=PLAYS),
         "Nobody drives. Publishers of its joystick topic: /rosbag_play."),
     "without diagnostics": (About(senders=PLAYS, moves=True), "/rosbag_play drives ada."),
     "no joystick": (About(moves=True),
         "No joystick drives ada, but it moves: the tab Graph shows what moves it."),
-    "it rolls out": (About(said=ARMED, moves=True), "Nobody drives."),
 }  # fmt: skip
 
 
@@ -63,8 +61,6 @@ READY = {  # -> why it stands and what to do now; how it is driven, without "Esc
         "Move the stick: this robot needs no button held.", FREELY),
     "no button, was stopped": (SEAT._replace(said=FREE, armed=False, why="hidden"),
         "Stopped: hidden. Release the stick, then move it again.", FREELY),
-    "RB": (SEAT._replace(said={"state": "armed", "deadman": "5"}),
-        "Hold RB, then move the stick.", BY_77.replace("button 77", "RB")),
     "a button without a name": (SEAT._replace(said={"state": "armed", "deadman": "77"}),
         "Hold button 77, then move the stick.", BY_77),
     "plays": (SEAT._replace(how=BAG), "", ""),
@@ -128,16 +124,6 @@ def test_page_is_sent_the_words_when_they_change():
     assert room.outdated == ["ada"]  # that joy2twist was driving is no longer true
 
 
-def test_reason_of_a_stop_is_dropped_once_a_recording_drives():
-    room = Room()
-    room.seat.why, room.seat.stopped = "the network is down", "ada"
-    assert room.look()["ready"] == "Stopped: the network is down."
-    room.report, room.senders = MOVING, PLAYS
-    assert room.look()["who"] == "/rosbag_play drives ada."
-    room.report, room.senders = ARMED, ()
-    assert room.look()["ready"] == ""
-
-
 def test_robot_is_not_reset_while_another_drives_it():
     room = Room()
     graphs = SimpleNamespace(graph=Graph(services={"/ada/reset": {"/sim"}}))
@@ -154,15 +140,13 @@ def test_robot_is_not_reset_while_another_drives_it():
 def test_reports_of_joy2twist_are_read_by_robot_and_outdated_once_its_driver_has_left():
     topics, one = Topics(), page(robots=True)
     teleop = Teleop(topics)
-    statuses = [
-        DiagnosticStatus(name=name, message=words, level=1, values=values)
-        for name, words, values in (
-            ("myjoystick2twist: joystick", "driving", []),
-            ("robot_1/joy2twist: joystick", "stopped: not armed", [KeyValue(DEADMAN, "4")]),
-            ("fake_turtlebot: simulation", "running", []),
-        )
-    ]
-    for message in (DiagnosticArray(status=statuses), b"bytes that are none: joystick"):
+    status = [
+        DiagnosticStatus(1, "myjoystick2twist: joystick", "driving", "", []),
+        DiagnosticStatus(1, "robot_1/joy2twist: joystick", "stopped: not armed", "",
+                         [KeyValue(DEADMAN, "4")]),
+        DiagnosticStatus(1, "fake_turtlebot: simulation", "running", "", []),
+    ]  # fmt: skip
+    for message in (DiagnosticArray(status=status), b"bytes that are none: joystick"):
         topics.hear("/diagnostics", message)
     told = {"kind": "teleop", "level": 1}
     driving = {**told, "robot": "", "state": "driving", "why": "driving", "deadman": None}

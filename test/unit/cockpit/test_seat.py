@@ -6,7 +6,6 @@ from cockpit_server.seat import BAG, PAGE, RefusedError, is_neutral, neutral_of
 from tutorial_testing.seat_room import ANNA, BOB, DRIVE, REST, Room
 
 SILENT = "no input from the page for 0.2 s"
-FROZEN = "the gamepad sends nothing new: it is frozen or out of reach"
 CLOSED = "the page was closed, or the network is down"
 
 
@@ -25,23 +24,9 @@ def test_each_fresh_input_of_the_driver_is_published_once(room):
     assert room.sent == 3 * [("ada", *DRIVE)]
 
 
-def say(count, **how):
-    """Say the same several times, a twentieth of a second apart; how: by the number."""
-
-    def lose(room):
-        seen = room.beats
-        for i in range(count):
-            room.say(DRIVE, **{name: value(i, seen) for name, value in how.items()})
-
-    return lose
-
-
 LOSSES = {
     "silence": (lambda room: room.pass_time(0.21), SILENT),
     "a silence that no tick noticed": (lambda room: setattr(room, "now", room.now + 1.0), SILENT),
-    "input from a queue": (say(6, delay_s=lambda i, _: 0.11 + 0.05 * i), SILENT),
-    "the page sees no beats": (say(10, beat=lambda _, seen: seen), SILENT),
-    "the gamepad stands still": (say(16, pad=lambda i, _: 1000.0 + min(i, 9)), FROZEN),
     "the page says so": (lambda room: room.seat.release(ANNA, "hidden"), "hidden"),
 }
 
