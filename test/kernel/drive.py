@@ -8,7 +8,7 @@ import numpy as np
 import rospy
 from sensor_msgs.msg import Joy
 
-from gamepad.gamepads import F710_D
+from gamepad.gamepads import F710_D, F710_X
 from gamepad.virtual.controls import Controls, positions
 from gamepad.virtual.pads import UinputPad
 from tutorial_testing.nodes import init_node
@@ -53,12 +53,19 @@ def drive(pad, robot, joy):
 
 
 def check_unplugged(pad, launch, robot, joy):
-    """Neutral at once, and no motion before neutral was seen again."""
+    """Neutral at once, no other gamepad, and no motion before neutral was seen again."""
     since = drive(pad, robot, joy)
     pad.show(None)
     check_stands(robot, since, PROMPT_S)
-    assert not any((*joy[-1].axes, *joy[-1].buttons))
+    neutral = joy[-1]
+    assert not any((*neutral.axes, *neutral.buttons))
     wait_for(lambda: not DEVICE.exists(), "end of the device")
+    with UinputPad(F710_X) as other:
+        wait_for(DEVICE.exists, "other gamepad")
+        other.show(positions(F710_X, HELD))
+        wait_for(lambda: "is now" in launch.output, "refusal of the other gamepad")
+        assert joy[-1] is neutral and not robot.moves
+    wait_for(lambda: not DEVICE.exists(), "end of the other gamepad")
     pad.show(positions(F710_D, HELD))  # while it is plugged in
     wait_for(lambda: launch.output.count("Opened joystick") == 2, "reconnection")
     show_on_joy(pad, joy, Controls(left_stick=(0.0, 0.5), held=HELD.held))
