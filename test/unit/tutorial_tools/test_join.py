@@ -22,10 +22,6 @@ def test_a_host_that_cannot_be_one(monkeypatch, host, line):
         check_host(host)
 
 
-def test_this_machine_needs_no_way_out():
-    assert check_host("127.0.0.1:11999") == ("http://127.0.0.1:11999", "127.0.0.1")
-
-
 ROBOT, DRIVEN = "/robot_1/cmd_vel", "/robot_2/cmd_vel"
 DRIVER = "/robot_2/myjoystick2twist"
 STATE = [[[DRIVEN, [DRIVER]]], [[ROBOT, ["/classroom"]], [DRIVEN, ["/classroom"]]], []]
@@ -76,7 +72,8 @@ def test_a_robot_that_is_refused(answers, state, name, line):
         check_robot(URI, name)
 
 
-def test_a_master_and_a_robot_that_are_free(answers):
+def test_a_host_a_master_and_a_robot_that_are_free(answers):
+    assert check_host("127.0.0.1:11999") == ("http://127.0.0.1:11999", "127.0.0.1")
     answers("6a5f-01")
     check_master(URI, OWN)
     answers(STATE)
