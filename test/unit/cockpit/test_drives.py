@@ -129,7 +129,9 @@ def test_robot_is_not_reset_while_another_drives_it():
     graphs = SimpleNamespace(graph=Graph(services={"/ada/reset": {"/sim"}}))
     resets = Resets(room, graphs, room.drives)
     room.report, room.senders = MOVING, PLAYS
+    room.seat.why, room.seat.stopped = "hidden", "ada"
     room.look()
+    assert room.seat.stopped is None  # it stands no longer
     with pytest.raises(RefusedError, match="/rosbag_play drives this robot: stop it"):
         resets.on_reset(room.client, 0.0, "ada")
     room.seat.take(BOB, "ada", PAGE, 0.0)
