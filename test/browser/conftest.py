@@ -11,7 +11,6 @@ from selenium.webdriver.webkitgtk.options import Options
 
 from tutorial_testing.cockpit.chromium import Chromium
 from tutorial_testing.cockpit.engines import Firefox, WebDriver
-from tutorial_testing.cockpit.pixels import dress
 from tutorial_testing.cockpit.world import HERE, World
 from tutorial_testing.screen import virtual_screen
 
@@ -97,16 +96,6 @@ def room():
     """A robot between walls, with a cockpit, for tests that only look or drive."""
     with World(str(HERE / "world.launch"), "world:=room") as world:
         yield world
-
-
-@pytest.fixture
-def page_of_room(room, shared_browser):
-    """The shared browser with its page, in whatever clothes a test gives it."""
-    shared_browser.open(room.address)
-    yield shared_browser
-    shared_browser.errors()
-    shared_browser.driver.get("about:blank")
-    dress(shared_browser)
 
 
 @pytest.fixture

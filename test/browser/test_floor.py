@@ -64,33 +64,22 @@ def settled(browser, colour="--accent"):
     return drawn if drawn[0] and drawn == browser.ask(DRAWN % colour) else None
 
 
-def test_walls_scan_and_bumpers_are_drawn_and_a_change_of_tab_keeps_the_view():
-    with World(str(HERE / "world.launch"), "world:=room") as world, Chromium() as browser:
-
-        def count(colour):
-            return browser.ask(DRAWN % colour)[0]
-
-        browser.open(world.address)
-        wait_for(lambda: count("--wall") > 500, "walls on the floor")
-        wait_for(lambda: count("--scan") > 50, "points of the scan")
-        assert count("--bumper") == 0
-        ahead = "{linear: {x: 0.7}}"
-        with world.run("rostopic", "pub", "-r", "10", "/cmd_vel", "geometry_msgs/Twist", ahead):
-            wait_for(lambda: count("--bumper") > 10, "a pressed bumper")
-            assert world.now.x == pytest.approx(4.0 - 0.178)  # its side touches the wall
-        world.wait_for_rest()
-        browser.click("Zoom in")
-        browser.one("#floor").send_keys(Key.ARROW_LEFT)
-        view = wait_for(lambda: settled(browser, "--wall"), "walls of the view")
-        browser.tab("Plot")
-        wait_for(lambda: browser.all("#plot-fields input"), "fields")
-        browser.press("#plot-fields input")
-        browser.tab("Log")
-        browser.wait_for_text("#log-lines", "/")
-        browser.tab("Robot")
-        assert wait_for(lambda: settled(browser, "--wall"), "walls again") == view
-        assert browser.one("#follow").get_attribute("aria-pressed") == "false"
-        assert browser.errors() == []
+def test_a_change_of_tab_keeps_the_view_of_the_floor(room, shared_browser):
+    page = shared_browser
+    page.open(room.address)
+    wait_for(lambda: page.ask(DRAWN % "--wall")[0] > 500, "walls on the floor")
+    page.click("Zoom in")
+    page.one("#floor").send_keys(Key.ARROW_LEFT)
+    view = wait_for(lambda: settled(page, "--wall"), "walls of the view")
+    page.tab("Plot")
+    wait_for(lambda: page.all("#plot-fields input"), "fields")
+    page.press("#plot-fields input")
+    page.tab("Log")
+    page.wait_for_text("#log-lines", "/")
+    page.tab("Robot")
+    assert wait_for(lambda: settled(page, "--wall"), "walls again") == view
+    assert page.one("#follow").get_attribute("aria-pressed") == "false"
+    assert page.errors() == []
 
 
 def beside(browser, name):
@@ -103,7 +92,9 @@ def beside(browser, name):
     return len(dots), [one for one, _ in around.most_common(2)]
 
 
-def test_scan_and_bumper_stand_out_from_what_is_beside_them(room, page_of_room, shared_browser):
+def test_scan_and_bumper_stand_out_from_what_is_beside_them(room, shared_browser):
+    shared_browser.open(room.address)
+
     def stands_out(name, least):
         for scheme in SCHEMES:
             dress(shared_browser, scheme)
