@@ -23,14 +23,3 @@ def test_each_message_is_due_once_at_its_time(position, rate, loop, due):
     player.seek(position, 10.0)
     for now, names in due.items():
         assert "".join(axes for axes, _ in player.due(now)) == names
-
-
-def test_the_position_and_the_end_of_a_recording():
-    player = Player(MESSAGES, 1.2, 1.0, loop=False)
-    player.seek(0.0, 10.0)
-    assert [player.position(now) for now in (10.75, 12.0)] == [0.75, 1.2]
-    assert [player.is_over(now) for now in (11.1, 11.3)] == [False, True]
-    player.due(10.1)
-    player.seek(0.9, 10.1)
-    assert player.due(10.25) == [("c", 0)]
-    assert not Player(MESSAGES, 1.2, 1.0, loop=True).is_over(100.0)
