@@ -56,11 +56,6 @@ def test_each_field_is_required_and_others_are_refused(kind):
             SCHEMA.check(say(kind, **{n: v for n, v in GOOD[kind].items() if n != name}))
 
 
-def test_a_page_is_shown_only_what_it_watches():
-    watch = SCHEMA.watch(**SCHEMA.check(say("watch", log=True))[1])
-    assert watch.log is True and watch.fields == () and watch.look is None and not watch.robots
-
-
 @pytest.mark.parametrize(
     "data",
     [

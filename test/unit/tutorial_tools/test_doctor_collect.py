@@ -80,15 +80,6 @@ def test_a_malformed_uri_of_a_master(monkeypatch, uri):
     assert collect.collect().master is Answer.MALFORMED
 
 
-@pytest.mark.filterwarnings("ignore::DeprecationWarning")  # of rosgraph's, which comments on it
-def test_the_variables_of_an_address(monkeypatch, capsys):
-    monkeypatch.setenv("ROS_HOSTNAME", "127.0.0.1")
-    monkeypatch.setenv("ROS_IP", "192.0.2.7")
-    seen = collect.this_machine()
-    assert (seen["own_variable"], seen["own_name"]) == ("ROS_HOSTNAME", "127.0.0.1")
-    assert seen["own_is_here"] and capsys.readouterr().err == ""
-
-
 def test_of_each_frame_the_fastest_message_counts():
     sent = []
     for child, stamp_s in (("/base", -3), ("/base", -1), ("wheel", -7)):

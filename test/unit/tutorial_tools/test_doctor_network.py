@@ -98,10 +98,3 @@ def test_messages_of_a_node_are_heard_as_far_as_they_are_whole(server, monkeypat
     port = int(server(say(sent)).rsplit(":", 1)[1].strip("/"))
     monkeypatch.setattr(network, "call", lambda *_: (Answer.WELL, ["TCPROS", "127.0.0.1", port]))
     assert [data for _, data in network.listen("", "/odom", 0.5, most=2)] == heard
-
-
-def test_only_what_is_answered_in_time_counts():
-    late = threading.Event()
-    answers = network.at_once(lambda thing: thing or late.wait(), [0, 1, 2], 0.2)
-    assert answers == {1: 1, 2: 2}
-    late.set()

