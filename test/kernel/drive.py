@@ -24,7 +24,8 @@ FORWARD = Controls(left_stick=(0.0, 1.0))
 HELD = Controls(left_stick=(0.0, 1.0), held=frozenset(["LB"]))
 SHOWN = (
     Controls(dpad=(1, -1), held=frozenset(["X", "RIGHT"])),
-    Controls(left_stick=(0.02, -1.0), right_stick=(0.33, -0.77)),
+    Controls(left_stick=(0.02, -0.04), right_stick=(0.33, 0.77)),
+    Controls(left_stick=(1.0, -1.0), right_stick=(-0.5, 0.06)),
 )
 
 
