@@ -88,17 +88,12 @@ def test_who_drives_how_fast_and_stop_are_above_every_tab_until_esc(world, page)
     assert world.stays_at_rest()  # although all is still held
 
 
-FORCED = "const take = document.getElementById('take'); take.disabled = false; take.click()"
-
-
 def test_a_second_page_is_refused_until_the_first_hands_over(world, page):
     with Chromium() as second:
         second.open(world.address)  # first: a browser that starts may hold up the other one
         Keys(page).drive(world)
         second.wait_for_text("#seat", "drives the robot")
         assert not second.by_role("button", "Drive from this page").is_enabled()
-        second.driver.execute_script(FORCED)
-        second.wait_for_text("#notice", "Not possible: another page drives")
         page.wait_for_text("#seat", "You drive")
         second.click("Stop")
         world.wait_for_rest()
@@ -128,8 +123,6 @@ def test_a_recording_beside_the_page_is_shown_as_the_driver(world, page, recordi
         page.wait_for_text("#bag-state", why)
         for css in ("#take", "#bag-play", "#stop"):  # Stop: of what pages drive
             assert not page.one(css).is_enabled(), css
-        page.driver.execute_script(FORCED)
-        page.wait_for_text("#notice", "Not possible: /player publishes the joystick topic")
     page.wait_for_text("#seat", "Nobody drives.")
     wait_for(lambda: page.one("#take").is_enabled() and page.one("#bag-play").is_enabled(), "leave")
     wait_for(lambda: page.text("#teleop") != "driving", "joy2twist that drives no longer")

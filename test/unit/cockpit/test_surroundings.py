@@ -120,11 +120,8 @@ def test_frames_that_are_kept_are_bounded_and_the_newest():
 
 
 @pytest.mark.parametrize(
-    "message",
-    [
-        String("no map"), grid(2, 2, [0]), grid(0, 0, []), grid(1, 1, [0], cell=nan),
-    ],
-)  # fmt: skip
+    "message", [String("no map"), grid(2, 2, [0]), grid(0, 0, []), grid(1, 1, [0], cell=nan)]
+)
 def test_a_malformed_map_is_left_out(message):
     assert map_shown(serialised(message)) == {}
 

@@ -91,11 +91,9 @@ def test_a_mistake_is_one_line(monkeypatch, capsys, line, words):
     ("typed", "found"),
     [
         (["te"], ["test"]),
-        (["test", "ex"], ["exercises"]),
         (["test", "unit", ""], []),  # bash's own: files
         (["demo", "--"], ["--help", "--for"]),
         (["setup", ""], ["system", "workspace"]),
-        (["frob", ""], []),
     ],
 )
 def test_completion_of_words_kinds_and_options(typed, found):

@@ -127,7 +127,6 @@ WRONG = {  # words of the one line that is wrong, in their order: facts
         nodes(cmd_vel_mux=node("robot", Answer.REFUSED, False)),
     "does not answer ... ping robot": nodes(cmd_vel_mux=node("robot", Answer.SILENT, False)),
     "from its own machine only ... export ROS_IP": nodes(cmd_vel_mux=node("localhost")),
-    "3.2 s ahead of us, by /odom": well(clocks={"robot": Offset(3.21, "/odom")}),
     "3.2 s behind us ... chrony": well(clocks={"robot": Offset(-3.21, "/odom")}),
     "/use_sim_time is true, and no /clock arrives ... rosparam delete":
         well(use_sim_time=True, clocks={"robot": Offset(99.0, "/odom")}),

@@ -84,7 +84,6 @@ def test_a_host_a_master_and_a_robot_that_are_free(answers):
     ("argument", "line"),
     [
         ("virtul:=true", "virtul:=true: not an argument of student.launch, "),
-        ("virtual:=yes", "virtual:=yes: must be true or false"),
         ("bag:=/no/such", "bag:=/no/such: cannot be read: No such file or directory"),
         ("name:=robot_8", "name:=robot_8: the name is robot_7 already"),
     ],
