@@ -11,7 +11,6 @@ from selenium.webdriver.webkitgtk.options import Options
 
 from tutorial_testing.cockpit.chromium import Chromium
 from tutorial_testing.cockpit.engines import Firefox, WebDriver
-from tutorial_testing.cockpit.pixels import dress
 from tutorial_testing.cockpit.world import HERE, World
 from tutorial_testing.screen import virtual_screen
 
@@ -66,12 +65,8 @@ def firefox():
         yield browser
 
 
-# WebKit's small browser is not narrower than its toolbar, whose own parts are made smaller.
-SMALL_TOOLBAR = "window * { font-size: 1px; min-width: 0; min-height: 0; padding: 0; margin: 0 }"
-
-
 @pytest.fixture
-def webkit(monkeypatch, tmp_path):
+def webkit(monkeypatch):
     program = shutil.which("WebKitWebDriver")
     found = sorted(Path("/usr/lib").glob("*/webkit2gtk-4.*/MiniBrowser"))
     if not program or not found:
@@ -79,10 +74,6 @@ def webkit(monkeypatch, tmp_path):
     options = Options()
     options.binary_location = str(found[-1])
     options.add_argument("--automation")
-    for folder in (tmp_path / "gtk-3.0", tmp_path / "gtk-4.0"):
-        folder.mkdir()
-        (folder / "gtk.css").write_text(SMALL_TOOLBAR)
-    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
     with virtual_screen(1280, 800) as screen:
         monkeypatch.setenv("DISPLAY", screen)
         driver = webdriver.WebKitGTK(executable_path=program, options=options)
@@ -105,16 +96,6 @@ def room():
     """A robot between walls, with a cockpit, for tests that only look or drive."""
     with World(str(HERE / "world.launch"), "world:=room") as world:
         yield world
-
-
-@pytest.fixture
-def page_of_room(room, shared_browser):
-    """The shared browser with its page, in whatever clothes a test gives it."""
-    shared_browser.open(room.address)
-    yield shared_browser
-    shared_browser.errors()
-    shared_browser.driver.get("about:blank")
-    dress(shared_browser)
 
 
 @pytest.fixture

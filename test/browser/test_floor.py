@@ -11,6 +11,7 @@ from tutorial_testing.cockpit.pixels import LEAST_CONTRAST, SCHEMES, colour, con
 from tutorial_testing.cockpit.world import HERE, World
 from tutorial_testing.waiting import wait_for
 
+LEAST_TOUCH = 44  # pixel, of what a thumb holds; WCAG 2.5.5
 PHONES = {"upright": (360, 640), "on its side": (640, 360)}
 # How many pixels of the floor have about the colour of a variable of the style sheet, and their
 # middle as a place on the page [pixel].
@@ -33,7 +34,7 @@ DRAWN = """(() => {
 
 
 @pytest.mark.parametrize("held", PHONES)
-def test_driven_one_of_two_robots_is_seen_beside_the_buttons(held):
+def test_a_phone_shows_the_driven_one_of_two_robots_beside_what_thumbs_hold(held):
     width, height = PHONES[held]
     two = str(HERE / "two_robots.launch")
     with World(two) as world, Chromium(width, height, touch=True) as phone:
@@ -47,10 +48,14 @@ def test_driven_one_of_two_robots_is_seen_beside_the_buttons(held):
         count, x, y = wait_for(lambda: settled(phone), "robot on the floor")
         assert count > 60
         assert phone.ask(f"document.elementFromPoint({x}, {y}).id") == "floor"
-        assert 0 <= x <= width and 0 <= y <= height
         assert phone.one("#floor").rect["height"] >= 250
-        stop = phone.by_role("button", "Stop").rect
-        assert 0 <= stop["y"] <= height - stop["height"]
+        for css, least in (("#lb", LEAST_TOUCH), ("#stick", LEAST_TOUCH), ("#stop", 24)):
+            box = phone.one(css).rect
+            assert min(box["width"], box["height"]) >= least
+            assert 0 <= box["x"] <= width - box["width"]
+            assert 0 <= box["y"] <= height - box["height"]
+        every = "[...document.body.querySelectorAll('*')]"  # of which none zooms
+        assert "auto" not in phone.ask(f"{every}.map((e) => getComputedStyle(e).touchAction)")
 
 
 def settled(browser, colour="--accent"):
@@ -59,48 +64,22 @@ def settled(browser, colour="--accent"):
     return drawn if drawn[0] and drawn == browser.ask(DRAWN % colour) else None
 
 
-@pytest.mark.parametrize("size", [(1280, 800), (360, 640)])
-def test_walls_scan_and_bumpers_are_drawn_and_a_change_of_tab_keeps_the_view(size):
-    with World(str(HERE / "world.launch"), "world:=room") as world, Chromium(*size) as browser:
-
-        def count(colour):
-            return browser.ask(DRAWN % colour)[0]
-
-        browser.open(world.address)
-        wait_for(lambda: count("--wall") > 500, "walls on the floor")
-        wait_for(lambda: count("--scan") > 50, "points of the scan")
-        assert count("--bumper") == 0
-        ahead = "{linear: {x: 0.7}}"
-        with world.run("rostopic", "pub", "-r", "10", "/cmd_vel", "geometry_msgs/Twist", ahead):
-            wait_for(lambda: count("--bumper") > 10, "a pressed bumper")
-            assert world.now.x == pytest.approx(4.0 - 0.178)  # its side touches the wall
-        world.wait_for_rest()
-        browser.click("Zoom in")
-        browser.one("#floor").send_keys(Key.ARROW_LEFT)
-        view = wait_for(lambda: settled(browser, "--wall"), "walls of the view")
-        browser.tab("Plot")
-        wait_for(lambda: browser.all("#plot-fields input"), "fields")
-        browser.press("#plot-fields input")
-        browser.tab("Log")
-        browser.wait_for_text("#log-lines", "/")
-        browser.tab("Robot")
-        assert wait_for(lambda: settled(browser, "--wall"), "walls again") == view
-        assert browser.one("#follow").get_attribute("aria-pressed") == "false"
-        assert browser.errors() == []
-
-
-GRID = "{info: {resolution: 1, width: 2, height: 2}, data: [100, 100, 100, 100]}"
-
-
-def test_a_world_that_has_ended_leaves_the_floor(world, page):
-    def walls():
-        return page.ask(DRAWN % "--wall")[0]
-
-    with world.run("rostopic", "pub", "/map", "nav_msgs/OccupancyGrid", GRID) as publisher:
-        wait_for(lambda: walls() > 500, "walls on the floor")
-        publisher.interrupt()
-        publisher.wait()
-    wait_for(lambda: not walls(), "a floor without walls")
+def test_a_change_of_tab_keeps_the_view_of_the_floor(room, shared_browser):
+    page = shared_browser
+    page.open(room.address)
+    wait_for(lambda: page.ask(DRAWN % "--wall")[0] > 500, "walls on the floor")
+    page.click("Zoom in")
+    page.one("#floor").send_keys(Key.ARROW_LEFT)
+    view = wait_for(lambda: settled(page, "--wall"), "walls of the view")
+    page.tab("Plot")
+    wait_for(lambda: page.all("#plot-fields input"), "fields")
+    page.press("#plot-fields input")
+    page.tab("Log")
+    page.wait_for_text("#log-lines", "/")
+    page.tab("Robot")
+    assert wait_for(lambda: settled(page, "--wall"), "walls again") == view
+    assert page.one("#follow").get_attribute("aria-pressed") == "false"
+    assert page.errors() == []
 
 
 def beside(browser, name):
@@ -113,7 +92,9 @@ def beside(browser, name):
     return len(dots), [one for one, _ in around.most_common(2)]
 
 
-def test_scan_and_bumper_stand_out_from_what_is_beside_them(room, page_of_room, shared_browser):
+def test_scan_and_bumper_stand_out_from_what_is_beside_them(room, shared_browser):
+    shared_browser.open(room.address)
+
     def stands_out(name, least):
         for scheme in SCHEMES:
             dress(shared_browser, scheme)

@@ -4,14 +4,10 @@ import re
 import signal
 from urllib.parse import urlsplit
 
-import pytest
-
-from tutorial_testing.cockpit.chromium import Chromium
 from tutorial_testing.cockpit.hands import Keys
 from tutorial_testing.waiting import wait_for
 
 FIRST_LOAD = 200_000  # bytes
-LEAST_TOUCH = 44  # pixel, of what a thumb holds; WCAG 2.5.5
 
 
 def tabs(page):
@@ -56,21 +52,6 @@ def test_the_keyboard_alone_reaches_everything(page):
     for name in (*others, first):
         press(page, "ArrowRight")
         assert page.by_role("tab", name).get_attribute("aria-selected") == "true"
-
-
-@pytest.mark.parametrize(("width", "height"), [(360, 640), (640, 360)])
-def test_thumbs_find_lb_and_the_stick_on_a_phone_and_zoom_nothing(world, width, height):
-    with Chromium(width, height, touch=True) as phone:
-        phone.open(world.address)
-        phone.click("Drive from this page")
-        phone.wait_for_text("#seat", "You drive")
-        for css in ("#lb", "#stick"):
-            box = phone.one(css).rect
-            assert min(box["width"], box["height"]) >= LEAST_TOUCH
-            assert 0 <= box["x"] <= width - box["width"]
-            assert 0 <= box["y"] <= height - box["height"]
-        every = "[...document.body.querySelectorAll('*')]"
-        assert "auto" not in phone.ask(f"{every}.map((e) => getComputedStyle(e).touchAction)")
 
 
 def test_a_server_that_hangs_for_a_while_leaves_the_seat_to_its_page(world, page):

@@ -11,7 +11,7 @@ PICTURE = Path(__file__).resolve().parents[2] / "common/cockpit/doc/cockpit.webp
 LARGEST = 50_000  # bytes
 
 
-def test_picture(request, browser, tmp_path):
+def test_the_picture_of_the_readme_is_made_on_demand(request, browser, tmp_path):
     if not request.config.getoption("--picture"):
         pytest.skip("the README's picture is made only with --picture")
     with World("fake_turtlebot_sim", "fake_turtlebot.launch") as world:

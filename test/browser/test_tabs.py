@@ -5,8 +5,6 @@ import re
 import pytest
 
 from tutorial_testing.cockpit.hands import Keys
-from tutorial_testing.nodes import node_path
-from tutorial_testing.ports import free_port
 from tutorial_testing.waiting import wait_for
 
 POSITION = "/odom/pose/pose/position/x"
@@ -80,27 +78,6 @@ def test_bag_publishes_a_recording_until_it_is_paused(world, page):
     page.click("Pause")
     world.wait_for_rest()
     assert world.stays_at_rest()
-
-
-@pytest.fixture
-def viewers_address(world):
-    port = str(free_port())
-    script = node_path("cockpit", "cockpit.py")
-    program = world.run(script, "--port", port, "--lan", "__name:=cockpit_for_viewers")
-    token = wait_for(lambda: re.search(r"to look: .*(\?token=\S+)", program.output), "address")
-    yield f"http://127.0.0.1:{port}/{token[1]}"
-    program.__exit__()
-
-
-def test_a_viewers_page_says_why_its_buttons_are_grey(viewers_address, shared_browser):
-    page = shared_browser
-    page.open(viewers_address)
-    page.wait_for_text("#ready", "it may only look")
-    assert not page.by_role("button", "Drive from this page").is_enabled()
-    page.tab("Bag")
-    page.wait_for_text("#bag-state", "it may only look")
-    assert not page.by_role("button", "Publish").is_enabled()
-    page.driver.get("about:blank")
 
 
 @pytest.fixture

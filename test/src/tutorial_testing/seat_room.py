@@ -37,23 +37,14 @@ class Room:
         self.beats += 1
         self.seat.beat(self.beats, self.now)
 
-    def say(self, position, client=ANNA, *, delay_s=0.0, beat=None, n=None, pad=None):
-        """One input that was on its way for some time."""
+    def say(self, position, client=ANNA, n=None):
+        """One input, a PERIOD_S after the last one."""
         self.now += PERIOD_S
         self.beat()
         self.n += 1
-        self.seat.input(
-            client,
-            Input(
-                n=self.n if n is None else n,
-                t=1000 * (self.now - 50.0 - delay_s),  # the page's clock began 50 s later
-                beat=self.beats if beat is None else beat,
-                axes=position[0],
-                buttons=position[1],
-                pad=pad,
-            ),
-            self.now,
-        )
+        t = 1000 * (self.now - 50.0)  # the page's clock began 50 s later
+        number = self.n if n is None else n
+        self.seat.input(client, Input(number, t, self.beats, *position), self.now)
         self.seat.tick(self.now)
 
     def drive(self):

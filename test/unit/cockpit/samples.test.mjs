@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { MOST, Track, firstAt, mark, rowsOf, written } from "../../../common/cockpit/page/samples.js";
+import { MOST, Track, mark, rowsOf } from "../../../common/cockpit/page/samples.js";
 
 const sines = (count) => new Track(Array.from({ length: count }, (_, i) => [i / 50, Math.sin(i / 1000)]));
 
@@ -24,12 +24,6 @@ test("of many samples each column has the extremes, in their order, and no spike
   assert.ok(rows.every(([t, , other], i) => other === null && (!i || t > rows[i - 1][0])));
 });
 
-test("columns stay where they are while time goes on", () => {
-  const track = sines(30000);
-  const [before, after] = [0, 1].map((from) => new Map(rowsOf([track], from, from + 500, 1000)));
-  for (const [t, value] of after) if (t > 2 && t < 499) assert.equal(before.get(t), value);
-});
-
 test("a track forgets what is old, and no more than it must keep", () => {
   const track = sines(MOST + 5000);
   track.forget(-Infinity);
@@ -37,14 +31,6 @@ test("a track forgets what is old, and no more than it must keep", () => {
   track.forget(track.newest - 10);
   assert.deepEqual([track.times.length, track.values.length], [501, 501]);
   assert.equal(track.at(track.newest), track.values.at(-1));
-  assert.equal(new Track([[1, 5]]).at(0.5), undefined);
-  assert.equal(firstAt([1, 2, 2, 3], 2), 1);
-});
-
-test("numbers are written with the digits that count", () => {
-  const cases = [[0, "0"], [0.1, "0.1"], [0.00001234567, "0.0000123457"], [1e300, "1e+300"], [-0.35, "-0.35"],
-    [1763985012.3456, "1763985012.346"], [12345.678, "12345.7"]];
-  for (const [value, text] of cases) assert.equal(written(value), text);
 });
 
 test("the marks of an axis differ", () => {

@@ -28,9 +28,7 @@ def test_value_of_a_field_is_a_number_or_none(field, value):
     assert value_at(joy, parts_of(field)) == value
 
 
-@pytest.mark.parametrize(
-    "field", ["", "a b", "a//b", "a[-1]", "a[1", "a.b", "/".join("a" * 9), "__class__"]
-)
+@pytest.mark.parametrize("field", ["", "a//b", "a[-1]", "a.b", "/".join("a" * 9), "__class__"])
 def test_malformed_field_is_refused(field):
     with pytest.raises(ValueError, match="is no field"):
         parts_of(field)

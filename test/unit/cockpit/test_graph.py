@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import pytest
 from std_msgs.msg import String
 
-from cockpit_server.graph import JOY, ODOMETRY, Graph, without
+from cockpit_server.graph import JOY, ODOMETRY, Graph
 from cockpit_server.seat import RefusedError
 from cockpit_server.sources.graph_view import LONGEST_MESSAGE, GraphView, Topic
 from cockpit_server.sources.resets import reset_service
@@ -32,12 +32,6 @@ def test_node_has_its_topics_services_and_neighbours():
     assert about["speaks_to"] == ["/rviz"]
     assert (about["publishes"], about["services"]) == (["/odom"], ["/sim/reset"])
     assert {"from": "topic /odom", "to": "node /rviz"} in GRAPH.parts()["edges"]
-
-
-def test_cockpit_is_a_part_of_the_graph_only_where_it_drives():
-    column = [["/rosout", ["/cockpit", "/joy_node"]], ["/robot/joy", ["/cockpit"]]]
-    assert without("/cockpit", column) == {"/rosout": {"/joy_node"}}
-    assert without("/cockpit", column, shown_in={"/robot/joy"})["/robot/joy"] == {"/cockpit"}
 
 
 def test_page_that_looks_back_at_a_node_is_sent_it_again():

@@ -29,16 +29,6 @@ def master(monkeypatch):
     return answers
 
 
-@pytest.mark.parametrize("question", ["getSystemState", "getPid", "getTopicTypes"])
-def test_master_that_is_silent_is_asked_again(master, question):
-    master[question] = (Answer.SILENT, None)
-    watch = graph_watch.GraphWatch("/cockpit")
-    assert watch.graph.robots() == set()
-    master[question] = WELL[question]
-    watch.look()
-    assert watch.graph.robots() == {""}
-
-
 @pytest.mark.parametrize(("question", "answer"), GONE)
 def test_master_that_has_gone_is_noticed(master, question, answer):
     watch = graph_watch.GraphWatch("/cockpit")

@@ -1,23 +1,10 @@
 """Where a robot is, and the way that it has covered, from its odometry."""
 
-from math import nan, pi
+from math import nan
 
 import pytest
-from geometry_msgs.msg import Quaternion
-from nav_msgs.msg import Odometry
 
-from cockpit_server.feeds import read
-from cockpit_server.motion import Motion, covered, motion
-from tutorial_testing.seat_room import serialised
-
-
-def test_motion_of_an_odometry_is_place_and_speed():
-    odometry = Odometry()
-    odometry.pose.pose.position.x, odometry.pose.pose.position.y = 1.0, -2.0
-    odometry.pose.pose.orientation = Quaternion(0.0, 0.0, 1.0, 0.0)
-    odometry.twist.twist.linear.x, odometry.twist.twist.angular.z = 0.5, -0.25
-    assert motion(read(Odometry, serialised(odometry))) == (1.0, -2.0, pi, 0.5, -0.25)
-    assert read(Odometry, serialised(odometry)[:200]) is None
+from cockpit_server.motion import Motion, covered
 
 
 @pytest.mark.parametrize(

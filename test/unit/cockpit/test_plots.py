@@ -22,8 +22,6 @@ def joy(stamp):
     ("message", "field", "t"),
     [
         (joy(NOW - 1.0), "axes[0]", NOW - 1.0),
-        (joy(NOW + 1.0), "axes[0]", NOW + 1.0),
-        (joy(NOW - 1.1), "axes[0]", NOW),
         (joy(NOW + 1.1), "axes[0]", NOW),
         (joy(0), "axes[0]", NOW),
         (Float64(2.5), "data", NOW),

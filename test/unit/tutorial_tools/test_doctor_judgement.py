@@ -125,20 +125,12 @@ WRONG = {  # words of the one line that is wrong, in their order: facts
         nodes(cmd_vel_mux=node("robot", Answer.UNKNOWN_NAME, None)),
     "/cmd_vel_mux at http://robot:1234/ ... has died ... rosnode cleanup":
         nodes(cmd_vel_mux=node("robot", Answer.REFUSED, False)),
-    "has died ... rosnode cleanup": nodes(cmd_vel_mux=node("robot", Answer.STRANGE, False)),
     "does not answer ... ping robot": nodes(cmd_vel_mux=node("robot", Answer.SILENT, False)),
     "from its own machine only ... export ROS_IP": nodes(cmd_vel_mux=node("localhost")),
-    "127.0.1.1:1234/ can be reached from its own machine only ... export ROS_IP":
-        nodes(cmd_vel_mux=node("127.0.1.1", Answer.REFUSED)),
-    "/joy_node ... own machine only":
-        replace(nodes(joy_node=node("localhost")), master_here=True, way_out=""),
-    "3.2 s ahead of us, by /odom": well(clocks={"robot": Offset(3.21, "/odom")}),
     "3.2 s behind us ... chrony": well(clocks={"robot": Offset(-3.21, "/odom")}),
     "/use_sim_time is true, and no /clock arrives ... rosparam delete":
         well(use_sim_time=True, clocks={"robot": Offset(99.0, "/odom")}),
     "neither a joystick nor joy2twist: roslaunch joy2twist launch_joy_node.launch": Facts(),
-    "neither a joystick nor joy2twist ... launch_joy_node_realTurtlebot.launch":
-        well(publishers={}, subscribers={TELEOP: ["/cmd_vel_mux"]}),
     "roslaunch joy2twist student.launch name:=robot_1 ... joystick:=browser": CLASSROOM,
     "rosrun joy2twist joy2twist.py __ns:=/robot_2":
         replace(CLASSROOM, publishers={"/robot_2/joy": ["/pad"]}, types=JOY_OF_CLASS),
@@ -147,19 +139,14 @@ WRONG = {  # words of the one line that is wrong, in their order: facts
         well(publishers={TELEOP: ["/joy2twist"]}, joysticks=[]),
     "nothing turns /joy into velocities ... joy2twist_turtlebot.launch":
         well(publishers={"/joy": ["/joy_node"]}, subscribers={"/joy": ["/echo"]}),
-    "rosrun joy2twist joy2twist.py)":
-        well(publishers={"/joy": ["/joy_node"]}, subscribers={"/joy": ["/echo"]}, muxes={}),
     f"nobody listens to {TELEOP} of /joy2twist ... or drive the one at /left":
         well(subscribers={"/joy": ["/joy2twist"], "/left": ["/robot"]}, muxes={}),
     f"start the robot, or drive the one at {' or '.join(ROBOTS[:5])} and 25 more":
         well(subscribers={**LISTENING, **CLASSROOM.subscribers}, types={**WELL.types, **CLASS}),
     f"{TELEOP}:  ... know of each other, but are not connected":
         nodes(joy2twist=node("10.0.0.2", links=[("/joy", True)])),
-    "/joy:  ... know of each other, but are not connected":
-        nodes(joy2twist=node("10.0.0.2", links=[(TELEOP, False)])),
     f"{TELEOP} is sent by /joy2twist, /keyboard at once: end all of them but one":
         well(publishers={**WELL.publishers, TELEOP: ["/joy2twist", "/keyboard"]}),
-    "/joy is sent by /joy_node, /rosbag at once": well(publishers=JOY_OF_TWO),
     "/rosbag at http://10.0.0.2:1234/ is registered, but has died":
         well(publishers=JOY_OF_TWO, nodes=DEAD_BAG),
     f'lets "safety" through, and not {TELEOP}: end what sends to that': mux("safety"),
@@ -174,8 +161,6 @@ WRONG = {  # words of the one line that is wrong, in their order: facts
         frames("/bag odom base 3600", "/robot base wheel 0.1"),
     "networkingMode=mirrored ... wsl --shutdown":
         unreached("desk", ["10.0.0.2"], called_back=False, wsl=True),
-    "/joy2twist says: stopped: not armed":
-        says("stopped: not armed, release the sticks and the dead-man button once"),
     "move the joystick, or start it": says("stopped: no message for 0.5 s"),
     "No permission to read /dev/input/js0 ... usermod":
         well(joysticks=[Joystick("/dev/input/js0", errno.EACCES)]),
@@ -196,7 +181,6 @@ OF_TWO = replace(
 LINES = [  # facts, level, words of one line among others of this level
     (mux("Navigation", [], states=ARMED), "wrong", 'lets "Navigation" through'),
     (well(joysticks=[]), "ok", "joystick messages come from /joy_node"),
-    (Facts(), "ok", "every node runs on this machine"),
     (well(publishers=JOY_OF_TWO, nodes=DEAD_BAG), "ok", "/joy_node -> /joy -> /joy2twist ->"),
     (well(clocks={"robot": None}), "unknown", "robot sends no stamped message: compare: date"),
     (mux(None), "unknown", "rostopic echo /cmd_vel_mux/active"),
@@ -206,16 +190,12 @@ LINES = [  # facts, level, words of one line among others of this level
     (Facts(), "ok", "is the suite's: /suite/joy2twist"),
     (Facts(workspace="/w", joy2twist="/w/src/joy2twist"), "ok", "is yours: /w/src/joy2twist"),
     (Facts(workspace="/w"), "wrong", "is not in your workspace: /suite/joy2twist: mv it into"),
-    (Facts(workspace="/w", joy2twist="/w/joy2twist"), "wrong", "mv it into /w/src"),
     (Facts(hidden=[("/a hides b", "touch c")]), "wrong", "/a hides b"),
-    (Facts(), "ok", "those of ROS 1 alone"),
+    (Facts(broken_manifests=[("/a/package.xml", "line 5")]), "wrong", "/a/package.xml: line 5"),
     (frames("/a odom base", "/b odom wheel"), "ok", "2 frames, each from one node"),
     (frames("/a odom base", "/b map x"), "unknown", "nothing joins: below map, odom: start"),
-    (Facts(broken_manifests=[("/a/package.xml", "line 5")]), "wrong", "/a/package.xml: line 5"),
-    (well(), "ok", f"/joy_node -> /joy -> /joy2twist -> {TELEOP} -> /cmd_vel_mux"),
     (LONELY, "wrong", "unset ROS_IP ROS_HOSTNAME"),
     (Facts(master=Answer.REFUSED, called_back=None), "wrong", ": start roscore; or"),
-    (Facts(nodes={"/a": node("localhost", Answer.REFUSED)}), "wrong", "on another machine"),
     (well(bridge=BRIDGE), "wrong", "the side of ROS 2 is missing: its terminal says why"),
     (well(bridge=BRIDGE), "unknown", BRIDGE[1][1]),
     (OF_TWO, "wrong", "joy_node __ns:=/robot_2 ... FILE /joy:=/robot_2/joy ... joystick:=browser"),
@@ -244,28 +224,20 @@ def test_a_line_has_the_level_and_the_words(facts, level, words):
 
 
 def test_all_is_well():
-    findings = judge(WELL)
-    assert {finding.level for finding in findings} == {"ok"}
-    assert [finding.about for finding in findings] == [
-        "environment", "overlay", "master", "address", "nodes", "clocks", "topics", "mux", "state",
-        "joystick",
-    ]  # fmt: skip
+    assert {finding.level for finding in judge(WELL)} == {"ok"}
 
 
 @pytest.mark.parametrize(
     "facts",
     [
         *(mux(active, states=ARMED) for active in ("teleop", "idle", "", "n")),
-        *(mux(active, [], states=ARMED) for active in ("Teleoperation", "idle")),
+        mux("Teleoperation", [], states=ARMED),
         well(clocks={"robot": Offset(0.1, "/odom")}),
-        well(clocks={"robot": Offset(-0.1, "/odom")}),
         well(use_sim_time=True, clock_ticks=True, clocks={"robot": Offset(99.0, "/odom")}),
         well(nodes={name: WELL.nodes[name] for name in ("/joy_node", "/cmd_vel_mux")}),
-        well(silent_s={"/joy_node": 12.3}),
         frames("/one odom base 0.3", "/one base wheel", "/two map odom"),
         frames("/bag odom base 3600", use_sim_time=True, clock_ticks=True),
         frames(*(f"/class r{n}/odom r{n}/base" for n in (1, 2))),
-        well(bridge=[(True, "carries between ROS 1 and ROS 2")]),
     ],
 )
 def test_what_is_no_mistake(facts):
@@ -284,7 +256,6 @@ def test_no_way_leads_through_a_dead_node():
 
 def test_names_in_a_line_are_in_the_order_of_their_numbers_and_only_some_of_many():
     assert some(["b_10", "b_2", "a"]) == "a, b_2, b_10"
-    assert some("654321") == "1, 2, 3, 4, 5, 6"  # "and 1 more" would be no shorter
     assert some("gfedcba") == "a, b, c, d, e and 2 more"
 
 

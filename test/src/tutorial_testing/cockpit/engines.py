@@ -108,11 +108,6 @@ class Firefox(Browser):
     def go(self, address):
         self.send("browsingContext.navigate", context=self._context, url=address, wait="complete")
 
-    def resize(self, width, height):
-        """Give the page a size [pixel]."""
-        size = {"width": width, "height": height}
-        self.send("browsingContext.setViewport", context=self._context, viewport=size)
-
     def ask(self, expression):
         """The value of a JavaScript expression: a text, a number or a truth value."""
         target = {"context": self._context}

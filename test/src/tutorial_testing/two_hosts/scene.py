@@ -45,9 +45,9 @@ class Scene(Robot):
         # Without a screen, so that RViz is left out.
         return self._stack.enter_context(self.network[host].start(*command, DISPLAY="", **options))
 
-    def launch_robot(self, arguments=""):
+    def launch_robot(self):
         """Start the page's launch on the robot and watch its odometry."""
-        self.robot = self.start(ROBOT, f"{self._blocks[ROBOT][2]} {arguments}")
+        self.robot = self.start(ROBOT, self._blocks[ROBOT][2])
         wait_for(lambda: "core service" in self.robot.output, "master of the robot")
         address = self.address(ROBOT)
         environment = {"ROS_MASTER_URI": f"http://{address}:11311", "ROS_IP": address}
