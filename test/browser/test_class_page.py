@@ -2,9 +2,9 @@
 
 import pytest
 
-from tutorial_check.class_page import Student, table_html
-from tutorial_check.examination import Outcome
+from tutorial_check.launcher import Outcome
 from tutorial_check.model import WRONG, Result
+from tutorial_check.report.class_page import Student, table_html
 
 RUN = "document.title='owned'"
 HOSTILE = (

@@ -4,8 +4,8 @@ from types import SimpleNamespace
 
 import pytest
 
-from tutorial_check.exercises.joystick_task import JoystickTask
-from tutorial_check.session import Session
+from tutorial_check.handout.task import JoystickTask
+from tutorial_check.record.session import Session
 
 
 @pytest.fixture

@@ -1,11 +1,12 @@
 """What is said of talker and listener from recorded facts, where no program shows it reliably."""
 
-from types import SimpleNamespace
+from dataclasses import replace
 
 import pytest
 
-from tutorial_check.exercises import chatter
-from tutorial_check.exercises.talking import PACKAGE
+from tutorial_check.handout.s3 import judge
+from tutorial_check.handout.s3.record import PACKAGE, STRINGS, Talk
+from tutorial_check.isolation.programs import Ran
 from tutorial_check.model import Wrong
 
 LISTENER = """from std_msgs.msg import String
@@ -14,7 +15,15 @@ def callback(data):
 rospy.Subscriber('chatter', String, callback)
 """
 TALKER = "#!/usr/bin/env python3\nfrom std_msgs.msg import String\nrospy.init_node('talker')\n"
-TORRENT = {"heard": [(k / 1e4, "", "") for k in range(9)]}
+TORRENT = {"heard": tuple((k / 1e4, "", "") for k in range(9))}
+ENDED = {"talker": Ran("x.py", "", 0, False, False), "talker_ended": True, "heard": ((0, "", ""),)}
+
+
+RIGHT = Talk(
+    Ran("x.py", "", None, False, False), Ran("x.py", "", None, False, False),
+    talker_ended=False, listener_ended=False, published={}, publishers={},
+    subscribers={"/chatter": ("/listener",)}, types={}, warnings=(), heard=(), master_alive=True,
+)  # fmt: skip
 
 
 @pytest.fixture
@@ -22,33 +31,27 @@ def asked(make_session):
     """asked(check, text, **recorded): what a check says of a program of that text, or raises."""
     session = make_session(PACKAGE, "3")
 
-    def ask(check, text, output="", ended=False, **recorded):
+    def ask(check, text, **recorded):
         for name in ("talker.py", "listener.py"):
             (session.package(PACKAGE).folder / name).write_text(text)
-        program = SimpleNamespace(
-            name="x.py", output=output, process=SimpleNamespace(returncode=0), spins=False,
-            was_stopped=False, ended=ended,
-        )  # fmt: skip
-        about = {
-            "talkers": [program], "listener": program, "talker_ended": ended, "heard": [],
-            "listener_ended": ended, "master_alive": True, "publishers": {}, "published": {},
-            "types": {}, "subscribers": {"/chatter": 1}, "warnings": [], "strings": ["A", "B"],
-            "taken": {},
-        }  # fmt: skip
-        session.run = lambda key, make: SimpleNamespace(**{**about, **recorded})
+        session.recording = lambda recorder, *arguments: replace(RIGHT, **recorded)
         return check(session)
 
     return ask
 
 
+def printed(output):
+    return Ran("x.py", output, None, False, False)
+
+
 @pytest.mark.parametrize(("check", "text", "recorded", "seen"), [
-    (chatter.talker, TALKER, {"master_alive": False}, "has ended it"),
-    (chatter.talker, TALKER + "while True: pass", TORRENT, "thousands of messages"),
-    (chatter.listener, LISTENER, {"output": "A"}, "1 of 2 displayed"),
-    (chatter.graph, "", {}, "no such way in the graph"),
+    (judge.talker, TALKER, {"master_alive": False}, "has ended it"),
+    (judge.talker, TALKER + "while True: pass", TORRENT, "thousands of messages"),
+    (judge.listener, LISTENER, {"listener": printed(STRINGS[0])}, "1 of 5 displayed"),
+    (judge.graph, "", {}, "no such way in the graph"),
     # C9 and C10 look again, and talker and listener do not come as far as they did before.
-    (chatter.anonymous, TALKER, {}, "not one message"),
-    (chatter.ctrl_c, TALKER, {"ended": True}, "it ended, exit code"),
+    (judge.anonymous, TALKER, {}, "not one message"),
+    (judge.ctrl_c, TALKER, ENDED, "it ended, exit code"),
 ])  # fmt: skip
 def test_recorded_facts_have_a_diagnosis(asked, check, text, recorded, seen):
     with pytest.raises(Wrong) as caught:
@@ -57,4 +60,5 @@ def test_recorded_facts_have_a_diagnosis(asked, check, text, recorded, seen):
 
 
 def test_a_text_that_is_displayed_twice_is_right(asked):
-    assert asked(chatter.listener, LISTENER, output="I heard A\nI heard B\nI heard A\n") is None
+    output = "\n".join([*STRINGS, STRINGS[0]])
+    assert asked(judge.listener, LISTENER, listener=printed(output)) is None

@@ -4,12 +4,13 @@ from types import SimpleNamespace
 
 import pytest
 
-from tutorial_check.exercises import conversation as c
-from tutorial_check.exercises.dialogue import Conversation, repetition
-from tutorial_check.exercises.driving import CMD_VEL, JOY
-from tutorial_check.exercises.joystick_task import JoystickTask
-from tutorial_check.python_facts import PythonFacts
-from tutorial_check.rows import find
+from tutorial_check.handout.s4_3 import diagnoses as c
+from tutorial_check.handout.s4_3.drive import Drive
+from tutorial_check.handout.s4_3.facts import Conversation, repetition
+from tutorial_check.handout.s4_3.record import CMD_VEL, JOY
+from tutorial_check.handout.task import JoystickTask
+from tutorial_check.judge.rows import find
+from tutorial_check.source.python_facts import PythonFacts
 
 SCRIPT = "joy2twist.py"
 ANSWERS = [(0.1 * k, 0.0, 0.0, 0.0, 0.0, 0.5) for k in range(20)]
@@ -33,21 +34,18 @@ def each(*kinds):
     return [twist for answer in ANSWERS for twist in [*kinds, answer]]
 
 
+SAMPLES = tuple(((), answer) for answer in ANSWERS)
+
+
 def conversation(text, complaint="", **recorded):
     """The Conversation with a program of that text, of which this was recorded."""
     about = {
-        "script": SCRIPT, "samples": [((), each) for each in ANSWERS], "twists": [],
-        "has_clock": False, "repeats": False, "strays": 0, "naps": False, "waits": [],
-        "master_alive": True, "connected": True, "ended_early": False, "shown": 0, "came": 0,
-        "publishers": {CMD_VEL: ["/node"]}, "subscribers": {JOY: ["/node"]},
-        "types": {CMD_VEL: "geometry_msgs/Twist"}, "warnings": [], "trouble": False,
-        "unanswered": None, "output": "", "program": SimpleNamespace(spins=False),
-        "joys": 4 * [((0.1, 0.2, 0.3, 0.4),)], "missing": 0, "unasked": 0,
-        "shows_numbers": False, "sleep_lines": [],
+        "samples": SAMPLES, "connected": True, "publishers": {CMD_VEL: ("/node",)},
+        "subscribers": {JOY: ("/node",)}, "types": {CMD_VEL: "geometry_msgs/Twist"},
     }  # fmt: skip
     about_files = {"scripts": lambda _: {SCRIPT: PythonFacts(text)}, "text": lambda *_: text}
     session = SimpleNamespace(task=JoystickTask({}), **about_files)
-    one = Conversation(session, SimpleNamespace(**{**about, **recorded}))
+    one = Conversation(session, Drive(SCRIPT, **{**about, **recorded}))
     one.complaint = complaint
     return one
 

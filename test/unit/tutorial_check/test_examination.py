@@ -4,7 +4,8 @@ from types import SimpleNamespace
 
 import pytest
 
-from tutorial_check import bubblewrap, examination
+from tutorial_check import launcher
+from tutorial_check.isolation import bubblewrap
 from tutorial_check.model import CannotCheck
 
 RESULT = '{"exercise": "2", "result": {"id": "C1", "status": "ok", "title": "one"}}'
@@ -20,7 +21,7 @@ def examine(tmp_path, monkeypatch):
     def examined(lines, ending="", tell=lambda outcome, result: None):
         script = "\n".join(["cat >/dev/null", *(f"echo '{line}'" for line in lines), ending])
         monkeypatch.setattr(bubblewrap, "command", lambda *_: ["sh", "-c", script])
-        return examination.examine(tmp_path, tmp_path / "setup.bash", ["2", "3", "5"], tell)
+        return launcher.examine(tmp_path, tmp_path / "setup.bash", ["2", "3", "5"], tell)
 
     return examined
 
@@ -45,11 +46,11 @@ def test_what_was_found_before_it_ended(examine, ending, why):
 
 def test_what_was_found_before_the_time_was_over(examine, monkeypatch):
     clock = SimpleNamespace(monotonic=lambda: 0.0)
-    monkeypatch.setattr(examination, "time", clock)
+    monkeypatch.setattr(launcher, "time", clock)
 
     def let_it_be_over(outcome, _):
         if outcome.id == "3":
-            clock.monotonic = lambda: examination.LONGEST_S + 1
+            clock.monotonic = lambda: launcher.LONGEST_S + 1
 
     outcomes = found_in(examine([RESULT, DONE, BEGUN], "exec sleep 3600", let_it_be_over))
     assert outcomes["2"] == (["C1"], "")

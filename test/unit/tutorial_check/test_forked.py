@@ -4,7 +4,7 @@ import os
 
 import pytest
 
-from tutorial_check.forked import Helper
+from tutorial_check.isolation.helper_process import Helper
 from tutorial_check.model import CannotCheck
 
 

@@ -2,8 +2,8 @@
 
 import pytest
 
-from tutorial_check.exercises.mapping import Evidence, judge
-from tutorial_check.exercises.probing import delays, displayed, numbered_joys, values_shown
+from tutorial_check.handout.s4_3.probes import delays, displayed, numbered_joys, values_shown
+from tutorial_check.handout.s4_3.rules import Evidence, judge
 
 JOYS = numbered_joys(20)
 AXES = [axes for axes, _ in JOYS]

@@ -9,11 +9,11 @@ from types import SimpleNamespace
 
 import pytest
 
-from tutorial_check import professor
+from tutorial_check import submissions
 from tutorial_check.course import read_course
-from tutorial_check.examination import Outcome
-from tutorial_check.last_run import digest_of_checks
+from tutorial_check.launcher import Outcome
 from tutorial_check.model import OK, UNREACHED, CannotCheck, Result
+from tutorial_check.report.last_run import digest_of_checks
 from tutorial_testing.waiting import wait_for
 
 WELL = Outcome("2", [Result("C1", OK, "one")], 1.0, True)
@@ -37,7 +37,7 @@ class Group:
         about = {"jobs": 1, "hints": 2, "again": again, "underlay": "", "exercises": ["2"]}
         about.update(variant=variant, variants=None, cluster=None)
         options = SimpleNamespace(all=str(self.folder), out=out, course=read_course(), **about)
-        code = professor.check_all(options)
+        code = submissions.check_all(options)
         with (self.check / "table.csv").open(newline="", encoding="utf-8") as table:
             return code, list(csv.reader(table))[1:]
 
@@ -50,7 +50,7 @@ class Group:
 def group(tmp_path, monkeypatch):
     """A Group without students yet."""
     made = Group(tmp_path / "group")
-    monkeypatch.setattr(professor, "examine", made.examine)
+    monkeypatch.setattr(submissions, "examine", made.examine)
     return made
 
 
@@ -93,7 +93,7 @@ def test_what_is_no_folder_and_no_zip_has_a_row_all_the_same(group):
     group.add("ADA.ZIP", "bob.tar.gz", "carl.7z", "dora.zip", "dora.ZIP", "README.md", "a.csv")
     (group.folder / "emma").symlink_to(group.folder / "nowhere")
     (group.folder / "loop").symlink_to(group.folder / "loop")
-    names = [one.name for one in professor.find_students(group.folder, group.check)]
+    names = [one.name for one in submissions.find_students(group.folder, group.check)]
     assert names == ["ADA", "bob.tar.gz", "carl.7z", "dora.ZIP", "dora.zip", "emma", "loop"]
 
 
@@ -204,7 +204,7 @@ def test_a_run_that_was_interrupted_goes_on_where_it_was(group, monkeypatch):
         return [WELL]
 
     group.come_to = interrupted_once
-    monkeypatch.setattr(professor, "end_all", lambda: None)
+    monkeypatch.setattr(submissions, "end_all", lambda: None)
     group.add("ada", "bob")
     with pytest.raises(KeyboardInterrupt):
         group.check_all()

@@ -4,11 +4,11 @@ import sys
 
 import pytest
 
-from tutorial_check import one_workspace, program
-from tutorial_check.examination import Outcome
-from tutorial_check.formats import FORMATS
+from tutorial_check import command_line, one_workspace
+from tutorial_check.command_line import parse
+from tutorial_check.launcher import Outcome
 from tutorial_check.model import OK, UNREACHED, WRONG, Result
-from tutorial_check.program import parse
+from tutorial_check.report.formats import FORMATS
 
 UNDERLAY = ["--underlay", "setup.bash"]
 BEFORE = [*UNDERLAY, "--in", "ws"]
@@ -67,7 +67,7 @@ def main(monkeypatch):
         monkeypatch.setattr(one_workspace, "examine", examine)
         monkeypatch.setattr(sys, "argv", ["check", *BEFORE, "2", "5", *map(str, words)])
         with pytest.raises(SystemExit) as ended:
-            program.main()
+            command_line.main()
         return ended.value.code
 
     return called

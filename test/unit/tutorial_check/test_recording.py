@@ -7,7 +7,7 @@ import rosbag
 from sensor_msgs.msg import Joy
 from std_msgs.msg import String
 
-from tutorial_check.exercises.robot import recording
+from tutorial_check.handout.s4.judge import recording
 from tutorial_check.model import Wrong
 
 JOY, CHATTER, BROKEN = ("/joy", Joy(axes=[0.0] * 6)), ("/chatter", String()), None
@@ -21,7 +21,9 @@ def workspace(tmp_path):
     for folder in folders.values():
         folder.mkdir()
     package = lambda name: SimpleNamespace(folder=folders[name])  # noqa: E731
-    return SimpleNamespace(source=tmp_path, package=package)
+    one = SimpleNamespace(source=tmp_path, package=package)
+    one.recording = lambda recorder, path: recorder(one, path)
+    return one
 
 
 def record(path, message):

@@ -1,0 +1,38 @@
+"""Where recorders work: a workspace, and stages on which its programs run."""
+
+from __future__ import annotations
+
+import contextlib
+from typing import Iterator
+
+from tutorial_check.model import CannotCheck, Wrong, master_gone
+from tutorial_check.record.session import Recorded, Recorder, Session
+from tutorial_check.record.stage import Stage
+
+
+class Ground(Session):
+    """A Session whose programs can be started."""
+
+    def recording(self, recorder: Recorder[Recorded], *arguments: object) -> Recorded:
+        """Let the recorder work, at the first call."""
+        key = recorder.__module__, recorder.__name__, *arguments
+        found: Recorded = self.run(key, lambda: recorder(self, *arguments))
+        return found
+
+    @contextlib.contextmanager
+    def stage(self, renamed: bool = True) -> Iterator[Stage]:
+        """Yield a Stage: a ROS master and a driver; all that was started on it ends with it.
+
+        renamed: whether topics have the names that the student's task gives them.
+        """
+        self.must_be_startable()
+        self.box.patience.begin()
+        stage = Stage(self, renamed)
+        try:
+            yield stage
+        except (CannotCheck, Wrong, LookupError) as error:
+            if stage.master_lives:
+                raise
+            raise master_gone() from error
+        finally:
+            stage.end()
