@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Tuple
 
 from tutorial_check.course import check
-from tutorial_check.isolation.programs import Ran
+from tutorial_check.isolation.program import Ran
 from tutorial_check.judge.scripts import crash, program_of
 from tutorial_check.model import Wrong
 from tutorial_check.record.simulated_robot import Sample, SimulatedRobot, has_moved

@@ -16,12 +16,12 @@ def make_session(tmp_path):
         folder = tmp_path / "ws/src" / package
         folder.mkdir(parents=True)
         (folder / "package.xml").write_text(f"<package><name>{package}</name></package>")
-        box = SimpleNamespace(environment={"PATH": ""})
+        runner = SimpleNamespace(environment={"PATH": ""})
         return Session(
             tmp_path,
             None,
             [exercise],
-            box,
+            runner,
             underlay="",
             can_have_devices=False,
             task=JoystickTask({}),

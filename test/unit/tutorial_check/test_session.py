@@ -26,7 +26,7 @@ def test_a_second_look_at_what_was_busy_or_unexplained(
 ):
     """It forgets what was seen, and nothing of what is."""
     one, count = make_session("a", "2"), itertools.count()
-    one.box = SimpleNamespace(patience=SimpleNamespace(strained=lambda: strained))
+    one.runner = SimpleNamespace(clock=SimpleNamespace(strained=lambda: strained))
     assert [one.run("k", lambda: next(count)), one.memo("k", lambda: next(count))] == [0, 1]
     assert one.second_look(explained) == is_worth_it
     again = [one.run("k", lambda: next(count)), one.memo("k", lambda: next(count))]

@@ -14,7 +14,7 @@ from test_mistakes import is_reported
 from tutorial_check.course import checks_of, read_course
 from tutorial_check.handout.task import JoystickTask
 from tutorial_check.isolation.environment import prepare, variables
-from tutorial_check.isolation.programs import Box
+from tutorial_check.isolation.runner import Runner
 from tutorial_check.model import NOTE, OK, WRONG, Run
 from tutorial_check.record.ground import Ground
 from tutorial_check.report.text import lines_of
@@ -36,7 +36,7 @@ ROWS = [
 def judge(tmp_path):
     """judge(checks, edits): the results of these checks of the right solution, once changed."""
 
-    box = Box(variables(tmp_path, {**os.environ, "ROS_PACKAGE_PATH": PACKAGES}))
+    runner = Runner(variables(tmp_path, {**os.environ, "ROS_PACKAGE_PATH": PACKAGES}))
 
     def judged(checks, changes=()):
         source = shutil.copytree(LITERAL, tmp_path / "ws" / "src")
@@ -45,7 +45,7 @@ def judge(tmp_path):
         prepare(tmp_path, None)
         (tmp_path / "lower" / "share" / "fake_turtlebot_sim").mkdir(parents=True)
         session = Ground(
-            tmp_path, find_layout(tmp_path / "ws"), ["2", "3", "4.3", "6.2"], box,
+            tmp_path, find_layout(tmp_path / "ws"), ["2", "3", "4.3", "6.2"], runner,
             underlay=str(tmp_path / "lower" / "setup.bash"), can_have_devices=False,
             task=JoystickTask({}),
         )  # fmt: skip
@@ -53,7 +53,7 @@ def judge(tmp_path):
         return [run.result(each) for each in checks]
 
     yield judged
-    box.clear()
+    runner.clear()
 
 
 def test_a_right_solution_is_not_blamed(judge):

@@ -27,7 +27,7 @@ from tutorial_check.model import WRONG, CannotCheck, Result, passed
 from tutorial_check.source import workspace as workspaces
 
 # All exercises take 90 s on two quiet processors. Ten times as long is enough: where programs have less
-# than a seventh of the time, there is no verdict anyway (patience.HOPELESS), and a student waits.
+# than a seventh of the time, there is no verdict anyway (cpu_clock.HOPELESS), and a student waits.
 LONGEST_S = 900.0
 # Of a shell of the suite: its roscore.xml, with which each roslaunch starts sooner, and what CMake 4
 # needs to read catkin's files.

@@ -38,7 +38,7 @@ def main() -> None:
         privileges.prctl(privileges.PR_SET_PDEATHSIG, signal.SIGKILL)  # of bwrap
         with contextlib.suppress(OSError):  # where the kernel does not allow it
             Path("/proc/sys/kernel/shmall").write_text(str(SHARED_PAGES))
-    else:  # its box notices that the reader has ended, and ends what was started
+    else:  # its runner notices that the reader has ended, and ends what was started
         signal.signal(signal.SIGTERM, signal.SIG_IGN)
         privileges.prctl(
             privileges.PR_SET_CHILD_SUBREAPER, 1
@@ -63,7 +63,7 @@ def main() -> None:
 
 
 def examine(orders: dict[str, Any], send: Send, result: int) -> None:
-    """Examine. orders: layout, folder, underlay, exercises, apart, only_first ...; result: see Box."""
+    """Examine. orders: layout, folder, underlay, exercises, apart, only_first ...; result: see Runner."""
     scratch = Path(orders["folder"])
     root, source = map(Path, orders["layout"])
     layout = workspace.Layout(root, source, orders["is_workspace"])
@@ -75,7 +75,7 @@ def examine(orders: dict[str, Any], send: Send, result: int) -> None:
 
     from tutorial_check import variants  # noqa: PLC0415
     from tutorial_check.course import checks_of, read_course  # noqa: PLC0415
-    from tutorial_check.isolation import landlock, programs  # noqa: PLC0415
+    from tutorial_check.isolation import landlock, runner  # noqa: PLC0415
     from tutorial_check.record.ground import Ground  # noqa: PLC0415
 
     uid = privileges.unused_user(orders["number"]) if os.geteuid() == 0 else None
@@ -92,13 +92,13 @@ def examine(orders: dict[str, Any], send: Send, result: int) -> None:
         scratch,
         layout,
         orders["exercises"],
-        programs.Box(variables, uid, apart, result, ruleset),
+        runner.Runner(variables, uid, apart, result, ruleset),
         underlay=orders["underlay"],
         can_have_devices=apart,
         needed=[*orders["kept"], Path(__file__)],
         task=variants.task_of(course)(orders["variant"]),
     )
-    run = Run(checks, one, one.second_look, one.box.patience.hopeless)
+    run = Run(checks, one, one.second_look, one.runner.clock.hopeless)
     if uid is not None:
         if not apart:  # then the suite may lie where that user cannot read
             importlib.import_module("rosbag")
@@ -110,7 +110,7 @@ def examine(orders: dict[str, Any], send: Send, result: int) -> None:
     try:
         _run_exercises(run, orders, send, lambda found: as_sent(one.task.words(found)))
     finally:
-        one.box.clear()  # a build, too, is ended; where no namespace is, nothing else does that
+        one.runner.clear()  # a build, too, is ended; where no namespace is, nothing else does that
 
 
 def _run_exercises(

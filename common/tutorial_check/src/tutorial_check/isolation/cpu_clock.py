@@ -56,7 +56,7 @@ def is_ready(process: int, thread: int) -> bool:
     return False
 
 
-class Patience:
+class CpuClock:
     """The programs' clock."""
 
     def __init__(

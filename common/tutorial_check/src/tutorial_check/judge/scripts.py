@@ -8,7 +8,7 @@ import shutil
 from pathlib import Path
 from typing import Any
 
-from tutorial_check.isolation.programs import Ran
+from tutorial_check.isolation.program import Ran
 from tutorial_check.judge.causes import NO_KEYBOARD, explain, hider, syntax_hint, traced
 from tutorial_check.judge.rows import Row, find
 from tutorial_check.model import Note, Wrong

@@ -26,7 +26,7 @@ class Ground(Session):
         renamed: whether topics have the names that the student's task gives them.
         """
         self.must_be_startable()
-        self.box.patience.begin()
+        self.runner.clock.begin()
         stage = Stage(self, renamed)
         try:
             yield stage

@@ -11,7 +11,8 @@ from pathlib import Path
 from typing import Any, Callable, Dict, Iterable, Iterator, Tuple, TypeVar
 
 from tutorial_check.isolation.environment import environment_of
-from tutorial_check.isolation.programs import Box, Program
+from tutorial_check.isolation.program import Program
+from tutorial_check.isolation.runner import Runner
 from tutorial_check.model import CannotCheck, Wrong
 from tutorial_check.source import student_files
 from tutorial_check.source.manifests import (
@@ -49,14 +50,14 @@ def _once(memory: Memory, key: object, make: Callable[[], Any]) -> Any:
 
 
 class Session:
-    """One workspace, copied to folder/ws, and the box in which its programs run."""
+    """One workspace, copied to folder/ws, and the runner in which its programs run."""
 
     def __init__(
         self,
         folder: str | Path,
         layout: Layout,
         exercises: Iterable[str],
-        box: Box,
+        runner: Runner,
         *,
         underlay: str,
         can_have_devices: bool,
@@ -68,10 +69,10 @@ class Session:
         task: of this student; see variants.Task.
         """
         self.task: Any = task or Task({})  # of the course
-        self.folder, self.layout, self.box = Path(folder), layout, box
+        self.folder, self.layout, self.runner = Path(folder), layout, runner
         self.source = self.folder / "ws" / "src"
         self.exercises = frozenset(exercises)  # that are asked for
-        self.underlay, self.underlay_environment = underlay, box.environment
+        self.underlay, self.underlay_environment = underlay, runner.environment
         self.can_have_devices = can_have_devices
         self._needed = [Path(each) for each in needed]
         self._memory: Memory = {}
@@ -98,7 +99,7 @@ class Session:
         in any order; and a Ctrl-C that meets rospy in the middle of a publish of the main thread may
         wait without end for a lock of that thread.
         """
-        if explained and not self.box.patience.strained():
+        if explained and not self.runner.clock.strained():
             return False
         self._runs.clear()
         return True
@@ -172,9 +173,9 @@ class Session:
 
     def _ended(self, *command: str) -> tuple[Program, bool]:
         """Return a program that was run, and whether it ended by itself."""
-        program = self.box.start(command)
-        ended = self.box.wait(lambda: program.ended, SLOW_S)
-        self.box.end(program)
+        program = self.runner.start(command)
+        ended = self.runner.wait(lambda: program.ended, SLOW_S)
+        self.runner.end(program)
         return program, ended
 
     def built(self) -> Any:

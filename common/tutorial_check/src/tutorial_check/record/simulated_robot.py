@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Sequence
 
-from tutorial_check.isolation.programs import Program
+from tutorial_check.isolation.program import Program
 from tutorial_check.model import CannotCheck
 from tutorial_check.record.stage import START_S, Stage
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, Callable, Sequence
 
 from tutorial_check.isolation import helper_process
-from tutorial_check.isolation.programs import Program
+from tutorial_check.isolation.program import Program
 from tutorial_check.model import CannotCheck, Wrong
 from tutorial_check.record.session import Session
 from tutorial_check.variants import UNASKED
@@ -28,7 +28,7 @@ class Stage:
 
         from tutorial_check.record import driver  # noqa: PLC0415
 
-        self.session, self.box, self.wait = session, session.box, session.box.wait
+        self.session, self.runner, self.wait = session, session.runner, session.runner.wait
         self._topics = dict(session.task.topics) if renamed else {}
         asked = {own: topic for topic, own in self._topics.items()}
         self._known_as = {**{topic: f"{UNASKED}{topic}" for topic in self._topics}, **asked}
@@ -56,7 +56,7 @@ class Stage:
 
     def help(self, make: Callable[[], Any]) -> helper_process.Helper:
         helper = helper_process.Helper(make, self._ours)
-        self.box.trusted.add(helper.pid)
+        self.runner.trusted.add(helper.pid)
         self._helpers.append(helper)
         return helper
 
@@ -75,7 +75,7 @@ class Stage:
 
     def launch(self, command: Sequence[str], trusted: bool = False) -> Program:
         try:
-            return self.box.start(command, self._ours if trusted else self.environment, trusted)
+            return self.runner.start(command, self._ours if trusted else self.environment, trusted)
         except OSError as error:
             seen = f"{Path(command[0]).name}: {error.strerror}"
             hint = "look at the first line of the file: #!/usr/bin/env python3"
@@ -119,7 +119,7 @@ class Stage:
         return not program.ended and has_met()
 
     def end(self) -> None:
-        self.box.clear()
+        self.runner.clear()
         for helper in reversed(self._helpers):
             helper.end()
         shutil.rmtree(self.session.folder / "home" / ".ros", ignore_errors=True)

@@ -19,7 +19,7 @@ from tutorial_check.handout.s3.record import (
     second,
     talk,
 )
-from tutorial_check.isolation.programs import Ran
+from tutorial_check.isolation.program import Ran
 from tutorial_check.judge.causes import with_import
 from tutorial_check.judge.rows import Row, demand
 from tutorial_check.judge.scripts import (

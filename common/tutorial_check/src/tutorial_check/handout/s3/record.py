@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Dict, Optional, Tuple
 
-from tutorial_check.isolation.programs import Program, Ran
+from tutorial_check.isolation.program import Program, Ran
 from tutorial_check.record.ground import Ground
 from tutorial_check.record.recording import HeardText, Topics
 from tutorial_check.record.stage import Stage
@@ -111,7 +111,7 @@ def _pair(
     first_ended, both_talk = first.ended, both()
     so_far = len(_heard(stage))  # the one that is ended next must be well under way
     stage.wait(lambda: len(_heard(stage)) > so_far + 2 or second.ended, 3.0)
-    taken_s = ground.box.end_all([second, hears])
+    taken_s = ground.runner.end_all([second, hears])
     return Pair(first_ended, both_talk, second.ran, tuple(taken_s))
 
 

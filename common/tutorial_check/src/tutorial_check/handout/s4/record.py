@@ -13,7 +13,7 @@ from tutorial_check.handout.s4_3.record import CMD_VEL, JOY, NEUTRAL
 from tutorial_check.handout.s4_3.rules import ANGULAR, LINEAR
 from tutorial_check.handout.task import LB, PACKAGE
 from tutorial_check.isolation.helper_process import Helper
-from tutorial_check.isolation.programs import Program, Ran
+from tutorial_check.isolation.program import Program, Ran
 from tutorial_check.model import CannotCheck
 from tutorial_check.record.ground import Ground
 from tutorial_check.record.session import Session
@@ -111,7 +111,7 @@ def follow(ground: Ground, script: str) -> Follow:
             return Follow(program.ran, ready, publishers)
         (v, _), told_v = _driven(stage, robot, held(ground, 0.0, FORWARDS), LINEAR)
         (_, w), told_w = _driven(stage, robot, held(ground, LEFT, 0.0), ANGULAR)
-        ground.box.end(program, 0.5)
+        ground.runner.end(program, 0.5)
     return Follow(program.ran, True, publishers, v, w, told_v, told_w)
 
 
@@ -187,7 +187,7 @@ def stick(ground: Ground, script: str) -> Stick:
         v = _speeds_told(stage)[-1]
         if v < 0:
             return Stick(program.ran, True, v)
-        ground.box.end(node)
+        ground.runner.end(node)
         survives = _survives_eight_axes(ground, stage, program)
     return Stick(program.ran, True, v, survives)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import statistics
 
 from tutorial_check.handout.s4_3.drive import Drive
-from tutorial_check.handout.s4_3.facts import Conversation
+from tutorial_check.handout.s4_3.facts import Facts
 from tutorial_check.handout.s4_3.probes import ROUNDED
 from tutorial_check.handout.s4_3.record import CMD_VEL, COUNT, JOY
 from tutorial_check.handout.s4_3.rules import AXES, judge
@@ -136,9 +136,9 @@ RATE = (
 )  # fmt: skip
 
 
-def check_connected(session: Session, seen: Drive) -> Conversation:
+def check_connected(session: Session, seen: Drive) -> Facts:
     """Check that it subscribes to /joy as Joy. Raises Wrong."""
-    one = Conversation(session, seen)
+    one = Facts(session, seen)
     demand(CONNECTED, one, CONNECTS)
     if not seen.connected or (seen.ended_early and not seen.samples and not seen.shown):
         demand(NOT_CONNECTED, one, CONNECTS)
@@ -167,7 +167,7 @@ def check_topics(session: Session, seen: Drive) -> Note | str:
 
 def check_mapping(session: Session, seen: Drive) -> Note | None:
     """Check that linear.x follows axis 1, angular.z axis 0; a Wrong names the rule found."""
-    one = Conversation(session, seen)
+    one = Facts(session, seen)
     if not seen.trouble:
         demand([ASLEEP], one, MAPS)
     if len(seen.samples) < COUNT * 0.9:
@@ -184,4 +184,4 @@ def check_rate(session: Session, seen: Drive) -> Note | str | None:
     """Check that 50 Joys a second are answered, each soon. Raises Wrong."""
     if seen.is_prompt:
         return seen.rate
-    return demand(RATE, Conversation(session, seen), KEEPS_UP)
+    return demand(RATE, Facts(session, seen), KEEPS_UP)

@@ -8,7 +8,7 @@ from typing import Dict, Optional, Tuple
 
 from tutorial_check.handout.s4_3 import probes
 from tutorial_check.handout.s4_3.rules import FIELDS, Evidence, judge
-from tutorial_check.isolation.programs import Ran
+from tutorial_check.isolation.program import Ran
 from tutorial_check.record.recording import Topics
 
 SOON_S = 0.05  # from Joy to Twist

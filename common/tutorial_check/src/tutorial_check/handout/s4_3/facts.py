@@ -25,7 +25,7 @@ from tutorial_check.source.tracebacks import first_traceback
 STRAYS = 2  # zeros in a row of Joys that may be
 
 
-class Conversation:
+class Facts:
     """A Drive beside the text of its program: the facts of the rows of conversation."""
 
     def __init__(self, session: Session, seen: Drive) -> None:

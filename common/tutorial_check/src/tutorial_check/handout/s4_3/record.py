@@ -12,7 +12,7 @@ from tutorial_check.handout.s4_3 import probes
 from tutorial_check.handout.s4_3.drive import Drive, Joy
 from tutorial_check.handout.s4_3.rules import FIELDS, LINEAR, RIGHT, rule_of
 from tutorial_check.handout.task import PACKAGE
-from tutorial_check.isolation.programs import GRACE_S
+from tutorial_check.isolation.runner import GRACE_S
 from tutorial_check.record.ground import Ground
 from tutorial_check.record.stage import START_S, Stage
 
@@ -53,8 +53,8 @@ def drive(ground: Ground, script: str, wants_twist: bool = True, text: str = "")
 
 def found(ground: Ground, package: str) -> Found:
     """Ask rospack for a package."""
-    program = ground.box.start(["rospack", "find", package], ground.environment)
-    ground.box.wait(lambda: program.ended, 10.0)
+    program = ground.runner.start(["rospack", "find", package], ground.environment)
+    ground.runner.wait(lambda: program.ended, 10.0)
     return Found(not program.process.returncode)
 
 
@@ -115,7 +115,7 @@ class _Driver:
         types, warnings = stage.call("types"), tuple(stage.call("warnings"))
         # Only where its end is asked for it is waited for.
         grace_s = GRACE_S if "4.3" in self._ground.exercises else 0.5
-        taken_s = self._ground.box.end(program, grace_s)
+        taken_s = self._ground.runner.end(program, grace_s)
         self._note(
             connected=connected, publishers={**publishers, **late}, subscribers=subscribers,
             types=types, warnings=warnings, master_alive=master_alive, ended_early=ended_early,

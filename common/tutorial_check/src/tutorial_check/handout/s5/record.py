@@ -13,7 +13,7 @@ from tutorial_check.handout.s4.record import held, plug_in
 from tutorial_check.handout.s4_3.record import NEUTRAL
 from tutorial_check.handout.s5 import launch_facts
 from tutorial_check.isolation.helper_process import Helper
-from tutorial_check.isolation.programs import Ran
+from tutorial_check.isolation.program import Ran
 from tutorial_check.model import CannotCheck
 from tutorial_check.record.ground import Ground
 from tutorial_check.record.simulated_robot import ODOM
@@ -66,10 +66,10 @@ def facts_of_files(ground: Ground, *paths: str) -> Facts:
     ground.must_reach_underlay()
     whole = [str(ground.source / path) for path in paths]
     command = ["/usr/bin/python3", launch_facts.__file__, *whole]
-    program = ground.box.start(command, ground.environment)
-    ended = ground.box.wait(lambda: program.ended, READ_S)
-    ground.box.end(program)
-    if not ended and ground.box.patience.strained():
+    program = ground.runner.start(command, ground.environment)
+    ended = ground.runner.wait(lambda: program.ended, READ_S)
+    ground.runner.end(program)
+    if not ended and ground.runner.clock.strained():
         raise CannotCheck("launch files cannot be read in time: the machine is too busy")
     if not ended:
         return Facts(None)

@@ -11,7 +11,7 @@ from typing import Dict, Optional
 from tutorial_check.handout.s4.record import held
 from tutorial_check.handout.s4_3.record import CMD_VEL, JOY, NEUTRAL
 from tutorial_check.handout.task import PACKAGE
-from tutorial_check.isolation.programs import Program, Ran
+from tutorial_check.isolation.program import Program, Ran
 from tutorial_check.model import CannotCheck
 from tutorial_check.record.ground import Ground
 from tutorial_check.record.recording import Heard
@@ -141,7 +141,7 @@ def _drive(ground: Ground, stage: Stage, programs: dict[str, Program]) -> str:
 
 
 def _end(ground: Ground, stage: Stage, programs: dict[str, Program]) -> Endings:
-    box = ground.box
+    runner = ground.runner
     launched = stage.call("node_process", NODES[LAUNCH])
     index = stage.call("count", CMD_VEL)
     began_s = time.monotonic()  # one clock for all processes
@@ -163,13 +163,13 @@ def _end(ground: Ground, stage: Stage, programs: dict[str, Program]) -> Endings:
         sent = _twists(stage, index)
         return {way: way in took_s or ZERO in [one[2] for one in sent[way]] for way in NODES}
 
-    before_s = box.patience.now()
+    before_s = runner.clock.now()
     stage.wait(lambda: all(stopped().values()), STOP_S)
     in_time = stopped()
-    stage.wait(all_gone, GONE_S + 0.5 - (box.patience.now() - before_s))
+    stage.wait(all_gone, GONE_S + 0.5 - (runner.clock.now() - before_s))
     rests = bool(stage.wait(lambda: _robot_rests(stage), STANDS_S)) or not all_gone()
     stage.call("end_stream", JOY)
-    box.end_all(list(programs.values()), 0.2)
+    runner.end_all(list(programs.values()), 0.2)
     stage.wait(lambda: not stage.call("speakers", CMD_VEL), 3.0)
     ends = {}
     for way, sent in _twists(stage, index).items():

@@ -8,7 +8,7 @@ from typing import Dict, Optional, Tuple
 
 from tutorial_check.handout.s3.record import PACKAGE
 from tutorial_check.handout.s4_3.record import CMD_VEL
-from tutorial_check.isolation.programs import Program, Ran
+from tutorial_check.isolation.program import Program, Ran
 from tutorial_check.record.ground import Ground
 from tutorial_check.record.recording import Heard, Topics
 from tutorial_check.record.simulated_robot import BUMPER, TRUTH, Sample, SimulatedRobot

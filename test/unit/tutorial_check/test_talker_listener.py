@@ -6,7 +6,7 @@ import pytest
 
 from tutorial_check.handout.s3 import judge
 from tutorial_check.handout.s3.record import PACKAGE, STRINGS, Talk
-from tutorial_check.isolation.programs import Ran
+from tutorial_check.isolation.program import Ran
 from tutorial_check.model import Wrong
 
 LISTENER = """from std_msgs.msg import String

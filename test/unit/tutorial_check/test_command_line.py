@@ -96,7 +96,7 @@ def test_a_bug_of_the_checker_is_no_fault_of_the_students(main, tmp_path, capsys
     (tmp_path / "file").write_text("last week's")
     assert main(lambda *_, **__: [].pop(), f"--{name}", tmp_path / "file") == 2
     error = capsys.readouterr().err
-    assert "check: IndexError: pop from empty list (test_program.py:" in error
+    assert "check: IndexError: pop from empty list (test_command_line.py:" in error
     assert "a fault of the check, not of your exercises" in error and "Traceback" not in error
     assert not (tmp_path / "file").exists()  # last week's result is not this one's
 

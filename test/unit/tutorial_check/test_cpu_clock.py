@@ -4,7 +4,7 @@ import os
 
 import pytest
 
-from tutorial_check.isolation.cpu_clock import SLOWEST, Patience, times
+from tutorial_check.isolation.cpu_clock import SLOWEST, CpuClock, times
 
 OURS, THEIRS = 1, 2
 MS = 1_000_000  # nanoseconds
@@ -16,8 +16,8 @@ class Machine:
     def __init__(self):
         self.now_s, self.is_ready = 100.0, False
         self.threads = {OURS: [0, 0], THEIRS: [0, 0]}
-        self.patience = Patience({OURS}, self.read, self.ready, lambda: self.now_s)
-        self.began_s = self.patience.now()
+        self.clock = CpuClock({OURS}, self.read, self.ready, lambda: self.now_s)
+        self.began_s = self.clock.now()
 
     def read(self):
         return {thread: (thread, *spent) for thread, spent in self.threads.items()}
@@ -30,7 +30,7 @@ class Machine:
         self.now_s += passed_s
         self.threads[thread][0] += worked_ms * MS
         self.threads[thread][1] += ready_ms * MS
-        return self.patience.now() - self.began_s
+        return self.clock.now() - self.began_s
 
 
 @pytest.fixture
@@ -49,14 +49,14 @@ def machine():
 )
 def test_time_without_a_processor_does_not_count(machine, passed, programs_s, strained, hopeless):
     assert machine.passes(*passed) == pytest.approx(programs_s)
-    assert (machine.patience.strained(), machine.patience.hopeless()) == (strained, hopeless)
+    assert (machine.clock.strained(), machine.clock.hopeless()) == (strained, hopeless)
 
 
 def test_programs_are_idle_that_neither_work_nor_wait_for_a_processor(machine):
     idle_s = []
     for passed in ((500,), (20,), (900, 0, OURS), (0, 500)):
         machine.passes(1.0, *passed)
-        idle_s.append(machine.patience.idle_s())
+        idle_s.append(machine.clock.idle_s())
     assert idle_s == pytest.approx([0.0, 1.0, 2.0, 0.0])
 
 
@@ -64,10 +64,10 @@ def test_a_ready_program_is_not_idle_but_starved(machine):
     machine.is_ready = True
     for _ in range(5):
         machine.passes(1.0)
-        assert machine.patience.idle_s() == pytest.approx(0.0)
-    assert machine.patience.starved()
+        assert machine.clock.idle_s() == pytest.approx(0.0)
+    assert machine.clock.starved()
     machine.passes(0.1, worked_ms=5)
-    assert not machine.patience.starved()
+    assert not machine.clock.starved()
 
 
 def test_linux_counts_this_process():

@@ -6,7 +6,7 @@ import pytest
 
 from tutorial_check.handout.s4_3 import diagnoses as c
 from tutorial_check.handout.s4_3.drive import Drive
-from tutorial_check.handout.s4_3.facts import Conversation, repetition
+from tutorial_check.handout.s4_3.facts import Facts, repetition
 from tutorial_check.handout.s4_3.record import CMD_VEL, JOY
 from tutorial_check.handout.task import JoystickTask
 from tutorial_check.judge.rows import find
@@ -38,14 +38,14 @@ SAMPLES = tuple(((), answer) for answer in ANSWERS)
 
 
 def conversation(text, complaint="", **recorded):
-    """The Conversation with a program of that text, of which this was recorded."""
+    """The Facts with a program of that text, of which this was recorded."""
     about = {
         "samples": SAMPLES, "connected": True, "publishers": {CMD_VEL: ("/node",)},
         "subscribers": {JOY: ("/node",)}, "types": {CMD_VEL: "geometry_msgs/Twist"},
     }  # fmt: skip
     about_files = {"scripts": lambda _: {SCRIPT: PythonFacts(text)}, "text": lambda *_: text}
     session = SimpleNamespace(task=JoystickTask({}), **about_files)
-    one = Conversation(session, Drive(SCRIPT, **{**about, **recorded}))
+    one = Facts(session, Drive(SCRIPT, **{**about, **recorded}))
     one.complaint = complaint
     return one
 

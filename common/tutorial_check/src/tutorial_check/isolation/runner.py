@@ -13,103 +13,22 @@ import signal
 import subprocess
 import sys
 import time
-from dataclasses import dataclass
 from subprocess import DEVNULL, PIPE, STDOUT
-from typing import Callable, Iterable, Iterator, Mapping, Optional, Sequence, TypeVar
+from typing import Callable, Iterable, Iterator, Mapping, Sequence, TypeVar
 
 from tutorial_check.isolation import landlock, privileges
-from tutorial_check.isolation.cpu_clock import Patience, Times, fields_of, is_ready, times_of
+from tutorial_check.isolation.cpu_clock import CpuClock, fields_of
+from tutorial_check.isolation.program import Program
 from tutorial_check.model import Wrong
 
 GRACE_S = 3.0  # after Ctrl-C a program has this long to end by itself
 IDLE_S = 2.0  # programs that have done nothing for so long wait for what does not come; a talker may for 1 s
-SPINNING_S = 6.0  # of a processor's time; to start, a ROS program needs less than one
 MOST_PROCESSES = 100  # a launch file's are a dozen
-KEPT_FIRST, KEPT_LAST = 200_000, 50_000  # bytes of a program's output
 ENDED = (b"Z", b"X")  # states of processes that are no more than a number
 Value = TypeVar("Value")
 
 
-@dataclass(frozen=True)
-class Ran:
-    """A program that was started, as it was when this was noted."""
-
-    name: str
-    output: str
-    code: Optional[int]  # it ended by itself, with this exit code, or by the signal -code
-    spins: bool  # it worked without end until we ended it, so that no busy machine is to blame
-    was_stopped: bool
-
-    @property
-    def ended(self) -> bool:
-        """Whether it ended by itself."""
-        return self.code is not None
-
-
-class Program:
-    """A program of the student's, or one that serves the check."""
-
-    def __init__(self, process: subprocess.Popen[bytes], name: str) -> None:
-        self.process, self.name = process, name
-        self.was_stopped = False  # by us: then how it ended says nothing
-        self._worked_s = 0.0
-        self._times: Times = {}  # of its threads, when rests() last looked
-        self._first, self._last, self._printed = bytearray(), bytearray(), 0
-
-    @property
-    def ended(self) -> bool:
-        return self.process.poll() is not None
-
-    def signal(self, number: int) -> None:
-        with contextlib.suppress(ProcessLookupError, PermissionError):
-            os.killpg(self.process.pid, number)
-
-    def stop(self, number: int) -> None:
-        """Signal it to end, and note how long it has worked: later the kernel does not know."""
-        with contextlib.suppress(OSError):
-            fields = fields_of(f"/proc/{self.process.pid}/stat")
-            self._worked_s = sum(map(int, fields[11:13])) / os.sysconf("SC_CLK_TCK")
-        if not self.ended:
-            self.was_stopped = True
-            self.signal(number)
-
-    def rests(self) -> bool:
-        """Return whether no thread of it has worked since the last call, nor wants to."""
-        pid = self.process.pid
-        before, self._times = self._times, times_of(pid)
-        return before == self._times and not any(is_ready(pid, thread) for thread in before)
-
-    @property
-    def spins(self) -> bool:
-        """Whether it worked without end until we ended it, so that no busy machine is to blame."""
-        return self.was_stopped and self._worked_s > SPINNING_S
-
-    @property
-    def ran(self) -> Ran:
-        """What a recording keeps of it."""
-        code = self.process.poll() if not self.was_stopped else None
-        return Ran(self.name, self.output, code, self.spins, self.was_stopped)
-
-    @property
-    def output(self) -> str:
-        """What it printed; the middle of very much is left out."""
-        gap = b"\n[...]\n" if self._printed > KEPT_FIRST + KEPT_LAST else b""
-        return (self._first + gap + self._last).decode(errors="replace")
-
-    def read(self) -> bool:
-        """Take what it printed since the last time; return False at the end of its output."""
-        assert self.process.stdout
-        data = self.process.stdout.read(65536)
-        if data is None:  # nothing yet
-            return True
-        self._printed += len(data)
-        free = KEPT_FIRST - len(self._first)
-        self._first += data[:free]
-        self._last = (self._last + data[free:])[-KEPT_LAST:]
-        return bool(data)
-
-
-class Box:
+class Runner:
     """All programs of one check of one workspace."""
 
     def __init__(
@@ -131,7 +50,7 @@ class Box:
         self._reading: dict[int, Program] = {}  # by the descriptor of its output
         # Left alone: ours, and those that we start, which lead sessions of their own.
         self.trusted = {os.getsid(0), os.getpid()}
-        self.patience = Patience(self.trusted)
+        self.clock = CpuClock(self.trusted)
         self._poll = select.poll()
         if result is not None:
             self._poll.register(result, 0)  # the end of its reader is always reported
@@ -183,15 +102,15 @@ class Box:
     ) -> Value:
         """Return the first true value of condition(), or its value at the deadline.
 
-        The deadline goes by the programs' time, see Patience. or_idle: no longer than until they
+        The deadline goes by the programs' time, see CpuClock. or_idle: no longer than until they
         have done nothing for IDLE_S. Raises Wrong for a program that multiplies without end.
         """
-        began_s = self.patience.now()
+        began_s = self.clock.now()
         while True:
-            waited_s = self.patience.now() - began_s
-            is_over = waited_s > deadline_s and not self.patience.starved()
+            waited_s = self.clock.now() - began_s
+            is_over = waited_s > deadline_s and not self.clock.starved()
             if or_idle and waited_s > IDLE_S:
-                is_over = is_over or self.patience.idle_s() > IDLE_S
+                is_over = is_over or self.clock.idle_s() > IDLE_S
             asked_s = time.monotonic()
             value = condition()
             if value or is_over:
@@ -204,7 +123,7 @@ class Box:
 
     def _is_crowded(self) -> bool:
         """Return whether the living programs are too many. Reap those that have ended."""
-        if not self._alone or self.patience.crowd() <= MOST_PROCESSES:
+        if not self._alone or self.clock.crowd() <= MOST_PROCESSES:
             return False
         self._reap()
         return len(self._strays()) > MOST_PROCESSES
