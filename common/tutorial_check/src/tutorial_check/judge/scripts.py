@@ -12,6 +12,7 @@ from tutorial_check.isolation.program import Ran
 from tutorial_check.judge.causes import NO_KEYBOARD, explain, hider, syntax_hint, traced
 from tutorial_check.judge.rows import Row, find
 from tutorial_check.model import Note, Wrong
+from tutorial_check.record.build import installed
 from tutorial_check.record.session import Session
 from tutorial_check.source import student_files
 from tutorial_check.source.python_facts import PythonFacts
@@ -174,7 +175,8 @@ def check_file(session: Session, package: str, script: str) -> None:
 def is_runnable(session: Session, package: str, path: Path) -> bool:
     """Return whether rosrun takes a program: executable, or made so by catkin in devel."""
     may_be_run = path.stat().st_mode & 0o100
-    return bool(may_be_run) or session.command(package, str(path)) != [str(path)]
+    script = str(path.relative_to(session.package(package).folder))
+    return bool(may_be_run) or session.recording(installed, package, script).installed
 
 
 def odd_node(session: Session, package: str, script: str) -> Note | None:

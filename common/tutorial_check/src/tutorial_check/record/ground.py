@@ -3,21 +3,39 @@
 from __future__ import annotations
 
 import contextlib
+from functools import cached_property
 from typing import Iterator
 
 from tutorial_check.model import CannotCheck, Wrong, master_gone
-from tutorial_check.record.session import Recorded, Recorder, Session
+from tutorial_check.record.builder import Builder
+from tutorial_check.record.session import Memory, Recorded, Recorder, once
 from tutorial_check.record.stage import Stage
 
 
-class Ground(Session):
-    """A Session whose programs can be started."""
+class Ground(Builder):
+    """A workspace whose programs can be started."""
+
+    @cached_property
+    def _runs(self) -> Memory:
+        return {}
 
     def recording(self, recorder: Recorder[Recorded], *arguments: object) -> Recorded:
         """Let the recorder work, at the first call."""
         key = recorder.__module__, recorder.__name__, *arguments
-        found: Recorded = self.run(key, lambda: recorder(self, *arguments))
+        found: Recorded = once(self._runs, key, lambda: recorder(self, *arguments))
         return found
+
+    def second_look(self, explained: bool) -> bool:
+        """Return whether to look again at what programs do; then forget what they did.
+
+        It is worth it if the machine was busy, or if no line explains it: nodes of a launch file meet
+        in any order; and a Ctrl-C that meets rospy in the middle of a publish of the main thread may
+        wait without end for a lock of that thread.
+        """
+        if explained and not self.runner.clock.strained():
+            return False
+        self._runs.clear()
+        return True
 
     @contextlib.contextmanager
     def stage(self, renamed: bool = True) -> Iterator[Stage]:

@@ -11,7 +11,7 @@ from typing import Any, Callable, Sequence
 from tutorial_check.isolation import helper_process
 from tutorial_check.isolation.program import Program
 from tutorial_check.model import CannotCheck, Wrong
-from tutorial_check.record.session import Session
+from tutorial_check.record.builder import Builder
 from tutorial_check.variants import UNASKED
 
 START_S = 8.0  # a node of the student's has this long to appear
@@ -21,7 +21,7 @@ SETTLE_S = 0.5  # once connected, a thread of it has this long to attach its cal
 class Stage:
     """A master, a driver, and the student's programs."""
 
-    def __init__(self, session: Session, renamed: bool = True) -> None:
+    def __init__(self, session: Builder, renamed: bool = True) -> None:
         """Start a master and a driver. renamed: topics have the names of the student's task."""
         # ROS, for all that are forked from here on. Not every check needs it, and it takes its time.
         import rosmaster.master  # noqa: F401, PLC0415

@@ -11,6 +11,7 @@ from typing import Any
 from tutorial_check.course import check
 from tutorial_check.isolation.privileges import own_rights
 from tutorial_check.model import Note, Wrong
+from tutorial_check.record.build import built
 from tutorial_check.record.session import Session
 from tutorial_check.source.debian_packages import advice, packages_of_ros
 from tutorial_check.source.launch_xml import place_of, read
@@ -139,7 +140,7 @@ def joy2twist(session: Session) -> Note | str | None:
     package = _dependencies(session, "joy2twist")
     found = re.search(r"find_package\s*\(\s*catkin\b[^)]*\bCOMPONENTS\b([^)]*)\)", _cmake(package))
     for name in found[1].split() if found else ():
-        if not _is_known(session, name) and name in _missing_in(session.built()[1]):
+        if not _is_known(session, name) and name in _missing_in(session.recording(built).output):
             raise Wrong("packages that catkin can find", *_not_found(session, name))
     return f"src/{package.inside}"
 
@@ -168,7 +169,8 @@ def _cmake(package: Package) -> str:
 def build(session: Session) -> Note | None:
     for each in session.needed:
         _cmake(each)
-    code, output = session.built()
+    made = session.recording(built)
+    code, output = made.code, made.output
     if code is None:
         hint = "catkin_make in your workspace"
         raise Wrong("catkin_make ends", "it runs for more than two minutes", hint=hint)
@@ -179,9 +181,9 @@ def build(session: Session) -> Note | None:
     if listed and "beginner_tutorials" not in names:
         seen = f"it goes through {', '.join(names)}"
         raise Wrong("catkin_make goes through beginner_tutorials", seen)
-    if not session.unbuilt:
+    if not made.unbuilt:
         return None
-    wrong = _build_error(session, session.unbuilt)
+    wrong = _build_error(session, made.unbuilt)
     seen = f"it builds what the exercises need; another package fails: {wrong.seen}"
     hint = f"{wrong.hint}; or put an empty file CATKIN_IGNORE into that package"
     return Note(seen, wrong.where, hint)
