@@ -24,6 +24,8 @@ from tutorial_check.course import FILE, OURS, read_course
 from tutorial_check.isolation import bubblewrap, privileges
 from tutorial_check.isolation.environment import environment_of
 from tutorial_check.model import WRONG, CannotCheck, Result, passed
+from tutorial_check.order import Order
+from tutorial_check.record.recording import as_json
 from tutorial_check.source import workspace as workspaces
 
 # All exercises take 90 s on two quiet processors. Ten times as long is enough: where programs have less
@@ -106,23 +108,14 @@ def examine(
         kept = _kept(underlay)
         seen = [*map(str, shown), str(checks), *kept]
         wrapper = bubblewrap.command(folder, seen, SUITE)
-        orders = {
-            "layout": [str(layout.root), str(layout.source)],
-            "is_workspace": layout.is_workspace,
-            "own": own,
-            "underlay": underlay,
-            "exercises": list(exercises),
-            "course": str(checks),
-            "variant": dict(variant),
-            "folder": folder,
-            "kept": kept,
-            "shown": seen,
-            "number": next(NUMBERS),
-            "only_first": only_first,
-            "environment": _environment(underlay),
-            "apart": bool(wrapper),
-        }
-        outcomes = _examine(orders, wrapper, report)
+        order = Order(
+            folder=folder, root=str(layout.root), source=str(layout.source),
+            is_workspace=layout.is_workspace, own=own, exercises=tuple(exercises),
+            only_first=only_first, course=str(checks), variant=dict(variant), underlay=underlay,
+            environment=_environment(underlay), kept=tuple(kept), shown=tuple(seen),
+            number=next(NUMBERS), apart=bool(wrapper),
+        )  # fmt: skip
+        outcomes = _examine(order, wrapper, report)
         remark = "" if own else bubblewrap.instead()
         return [replace(one, place=layout.place, remark=remark) for one in outcomes]
     finally:
@@ -188,17 +181,17 @@ def _hand_in(workspace: str, folder: Path, own: bool) -> tuple[workspaces.Layout
     return layout, [each for each in shown if each.resolve() not in (home, *home.parents)]
 
 
-def _examine(orders: dict[str, Any], wrapper: list[str], report: Report) -> list[Outcome]:
+def _examine(order: Order, wrapper: list[str], report: Report) -> list[Outcome]:
     if not wrapper:
         privileges.keep_to_itself()  # and the end of the socket
-    environment = {**orders["environment"], **_given(("HOME", "LANG"))}
+    environment = {**order.environment, **_given(("HOME", "LANG"))}
     environment.update(PATH="/usr/bin:/bin:/usr/sbin:/sbin", PYTHONDONTWRITEBYTECODE="1")
     # No pipe, which a path in /proc would open: a program could plant a link to that.
     ours, theirs = socket.socketpair()
-    known = read_course(orders["course"]).exercises
+    known = read_course(order.course).exercises
     outcomes = {
         name: Outcome(name, title=known[name].title, points=known[name].points)
-        for name in orders["exercises"]
+        for name in order.exercises
     }
     with tempfile.TemporaryFile("w+") as log, ours:
         process = subprocess.Popen(
@@ -216,7 +209,7 @@ def _examine(orders: dict[str, Any], wrapper: list[str], report: Report) -> list
         theirs.close()
         try:
             assert process.stdin
-            json.dump(orders, process.stdin)
+            json.dump(as_json(order), process.stdin)
             process.stdin.close()
             ending = _listen(ours, outcomes, report)
         finally:

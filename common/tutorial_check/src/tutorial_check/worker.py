@@ -23,6 +23,8 @@ from typing import Any, Callable
 
 from tutorial_check.isolation import bubblewrap, environment, privileges
 from tutorial_check.model import CannotCheck, Result, Run, fault, passed
+from tutorial_check.order import Order
+from tutorial_check.record.recording import from_json
 from tutorial_check.source import workspace
 
 Send = Callable[..., None]
@@ -33,8 +35,8 @@ def main() -> None:
     """Read the orders, examine, send what is found."""
     os.umask(0o022)  # programs that run as another user read what we write
     privileges.keep_to_itself()
-    orders = json.load(sys.stdin)
-    if orders["apart"]:
+    order = from_json(Order, json.load(sys.stdin))
+    if order.apart:
         privileges.prctl(privileges.PR_SET_PDEATHSIG, signal.SIGKILL)  # of bwrap
         with contextlib.suppress(OSError):  # where the kernel does not allow it
             Path("/proc/sys/kernel/shmall").write_text(str(SHARED_PAGES))
@@ -51,7 +53,7 @@ def main() -> None:
         line.write(json.dumps(what) + "\n")
 
     try:
-        examine(orders, send, line.fileno())
+        examine(order, send, line.fileno())
         send(end=True)
     except Exception as error:  # not the student's fault, whatever it is
         if not isinstance(error, CannotCheck):
@@ -59,14 +61,13 @@ def main() -> None:
         send(cannot=fault(error))
     finally:  # the process that made the folder may have been killed
         privileges.restore_rights()
-        shutil.rmtree(orders["folder"], ignore_errors=True)
+        shutil.rmtree(order.folder, ignore_errors=True)
 
 
-def examine(orders: dict[str, Any], send: Send, result: int) -> None:
-    """Examine. orders: layout, folder, underlay, exercises, apart, only_first ...; result: see Runner."""
-    scratch = Path(orders["folder"])
-    root, source = map(Path, orders["layout"])
-    layout = workspace.Layout(root, source, orders["is_workspace"])
+def examine(order: Order, send: Send, result: int) -> None:
+    """Make the checks of an order, and send their results. result: see Runner."""
+    scratch = Path(order.folder)
+    layout = workspace.Layout(Path(order.root), Path(order.source), order.is_workspace)
     shutil.copytree(scratch / workspace.COPY, scratch / "ws" / "src", symlinks=True)
     # Before ROS, which reads the environment as it loads.
     home = str(scratch / "ours")
@@ -78,25 +79,25 @@ def examine(orders: dict[str, Any], send: Send, result: int) -> None:
     from tutorial_check.isolation import landlock, runner  # noqa: PLC0415
     from tutorial_check.record.ground import Ground  # noqa: PLC0415
 
-    uid = privileges.unused_user(orders["number"]) if os.geteuid() == 0 else None
+    uid = privileges.unused_user(order.number) if os.geteuid() == 0 else None
     environment.prepare(scratch, uid)
     scratch.chmod(0o755)
-    apart = orders["apart"]
-    variables = environment.variables(scratch, orders["environment"])
-    shown = [scratch, *orders["shown"], *bubblewrap.SYSTEM, "/proc"]
+    apart = order.apart
+    variables = environment.variables(scratch, order.environment)
+    shown: list[str | Path] = [scratch, *order.shown, *bubblewrap.SYSTEM, "/proc"]
     own = [scratch / name for name in environment.OWN]
     ruleset = landlock.ruleset(shown, own) if landlock.version() and not apart else None
-    course = read_course(orders["course"])
+    course = read_course(order.course)
     checks = checks_of(course)
     one = Ground(
         scratch,
         layout,
-        orders["exercises"],
+        order.exercises,
         runner.Runner(variables, uid, apart, result, ruleset),
-        underlay=orders["underlay"],
+        underlay=order.underlay,
         can_have_devices=apart,
-        needed=[*orders["kept"], Path(__file__)],
-        task=variants.task_of(course)(orders["variant"]),
+        needed=[*order.kept, Path(__file__)],
+        task=variants.task_of(course)(order.variant),
     )
     run = Run(checks, one, one.second_look, one.runner.clock.hopeless)
     if uid is not None:
@@ -106,25 +107,25 @@ def examine(orders: dict[str, Any], send: Send, result: int) -> None:
         os.setgroups([])
         privileges.touch_files_as(uid, uid)
     one.must_start_programs()
-    as_sent = _paths_of_the_student(scratch, layout, orders["own"])
+    as_sent = _paths_of_the_student(scratch, layout, order.own)
     try:
-        _run_exercises(run, orders, send, lambda found: as_sent(one.task.words(found)))
+        _run_exercises(run, order, send, lambda found: as_sent(one.task.words(found)))
     finally:
         one.runner.clear()  # a build, too, is ended; where no namespace is, nothing else does that
 
 
 def _run_exercises(
-    run: Run, orders: dict[str, Any], send: Send, as_sent: Callable[[Result], dict[str, Any]]
+    run: Run, order: Order, send: Send, as_sent: Callable[[Result], dict[str, Any]]
 ) -> None:
     """Send the results of each exercise as they come, then how long it took."""
-    for exercise in orders["exercises"]:
+    for exercise in order.exercises:
         began_s, results = time.monotonic(), []
-        for found in run.exercise(exercise, orders["only_first"]):
+        for found in run.exercise(exercise, order.only_first):
             send(exercise=exercise, result=as_sent(found))
             results.append(found)
         seconds = round(time.monotonic() - began_s, 2)
         send(exercise=exercise, done=seconds, trouble=run.trouble(exercise))
-        if orders["only_first"] and not passed(results):
+        if order.only_first and not passed(results):
             return
 
 

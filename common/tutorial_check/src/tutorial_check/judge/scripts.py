@@ -6,7 +6,6 @@ import difflib
 import re
 import shutil
 from pathlib import Path
-from typing import Any
 
 from tutorial_check.isolation.program import Ran
 from tutorial_check.judge.causes import NO_KEYBOARD, explain, hider, syntax_hint, traced
@@ -15,7 +14,7 @@ from tutorial_check.model import Note, Wrong
 from tutorial_check.record.build import installed
 from tutorial_check.record.session import Session
 from tutorial_check.source import student_files
-from tutorial_check.source.python_facts import PythonFacts
+from tutorial_check.source.python_facts import Call, PythonFacts
 from tutorial_check.source.python_text import unreadable
 from tutorial_check.source.tracebacks import Traceback, first_traceback, last_lines
 
@@ -90,8 +89,10 @@ class Text:
         self.first_line = self.first.decode(errors="replace")[:80]
         self.further = "; #! stands further down" if b"\n#!" in self.data else ""
         self.facts = session.scripts(package).get(script)
-        self.error = self.facts and self.facts.error
-        self.python_hint = self.error and syntax_hint(self.error, self.facts.error_text, self.whole)
+        self.error, self.python_hint = "", ""
+        if self.facts and self.facts.error:
+            self.error = self.facts.error
+            self.python_hint = syntax_hint(self.error, self.facts.error_text, self.whole)
         self.is_runnable = is_runnable(session, package, path)
 
     @property
@@ -106,12 +107,13 @@ class Text:
         return program if known and "python" in program else ""
 
     @property
-    def gap(self) -> tuple[Any, str] | None:
+    def gap(self) -> tuple[Call, str] | None:
         """(the first call that gives a node or topic a name with a space, the name without)."""
-        kinds = ("Publisher", "Subscriber", "init_node") if self.facts else ()
-        calls = (call for kind in kinds for call in self.facts.calls.get(kind, []))
+        known = self.facts.calls if self.facts else {}
+        kinds = ("Publisher", "Subscriber", "init_node")
+        calls = (call for kind in kinds for call in known.get(kind, []))
         found = next((call for call in calls if call.words and " " in call.words[0]), None)
-        return found and (found, "_".join(found.words[0].split()))
+        return (found, "_".join(found.words[0].split())) if found else None
 
 
 PYTHON3 = "#!/usr/bin/env python3"

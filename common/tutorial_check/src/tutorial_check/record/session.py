@@ -95,9 +95,12 @@ class Session:
     def package(self, name: str) -> Any:
         return next((each for each in self.packages if each.name == name), None)
 
-    def scripts(self, name: str) -> Any:
+    def scripts(self, name: str) -> dict[str, PythonFacts]:
         """Return {path within the package: PythonFacts} of the Python programs of a package."""
-        return self.memo(("scripts", name), lambda: dict(self._scripts(self.package(name))))
+        found: dict[str, PythonFacts] = self.memo(
+            ("scripts", name), lambda: dict(self._scripts(self.package(name)))
+        )
+        return found
 
     def _scripts(self, package: Package | None) -> Iterator[tuple[str, PythonFacts]]:
         if package is None:

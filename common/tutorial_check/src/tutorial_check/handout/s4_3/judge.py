@@ -35,8 +35,8 @@ def main_script(session: Session) -> str:
 def check_manifest(session: Session, script: str) -> None:
     """Check that roslib.load_manifest names a package that exists. Raises Wrong."""
     facts = session.scripts(PACKAGE).get(script)
-    call = facts and facts.first("load_manifest")
-    if not call or not call.words or call.words[0] in facts.names:
+    call = facts.first("load_manifest") if facts else None
+    if not facts or not call or not call.words or call.words[0] in facts.names:
         return  # PKG = "joy2twist": what is in it shows when the program runs
     if session.package(session.task.known_as(call.words[0])):
         return

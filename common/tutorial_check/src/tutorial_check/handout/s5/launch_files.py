@@ -57,14 +57,14 @@ class LaunchFile:
         words = (*launch_text.attribute("type", node["type"]), Path(node["type"]).name)
         return place_of(shown(self.session, path), read(path), *words)
 
-    def demand(self, what: str, test: Callable[[Node], bool], hint: str) -> Any:
+    def demand(self, what: str, test: Callable[[Node], bool], hint: str) -> Node:
         """Return the first node of which test() is true. Raises Wrong."""
         found = next(filter(test, self.nodes), None)
         if not found:
             raise Wrong(f"{self.name} starts {what}", "it does not", self.where, hint)
         return found
 
-    def words_of(self, node: Node) -> Any:
+    def words_of(self, node: Node) -> list[str]:
         """Return the arguments of a node, as a shell would part them. Raises Wrong."""
         try:
             return shlex.split(node["args"])
@@ -86,7 +86,7 @@ def copy_bag(session: Session) -> str:
     return f'mkdir -p {folder}; cp "$(rospack find gamepad)/bag/joy.bag" {folder}'
 
 
-def find_launch(session: Session, name: str) -> Any:
+def find_launch(session: Session, name: str) -> Path:
     """Return the path of a launch file in the student's package. Raises Wrong."""
     folder = session.package(PACKAGE).folder
     found = sorted(path for path in folder.rglob(name) if path.is_file())
@@ -128,7 +128,7 @@ def _read(session: Session) -> dict[str, dict[str, Any]]:
     return {Path(one["path"]).name: one for one in facts}
 
 
-def check_file(session: Session, name: str) -> Any:
+def check_file(session: Session, name: str) -> LaunchFile:
     """Return the LaunchFile: it exists, parses, each $(find) leads where it may. Raises Wrong."""
     try:
         file = LaunchFile(session, name)

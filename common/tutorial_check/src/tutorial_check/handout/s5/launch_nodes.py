@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import re
 from pathlib import Path
-from typing import Any
 
 from tutorial_check.course import check
 from tutorial_check.handout.s4.judge import check_recording
@@ -114,7 +113,7 @@ def check_joy(file: LaunchFile, sender: Node) -> None:
         raise Wrong("the Joys go to joy2twist, on /joy", seen, where, hint)
 
 
-def bag_of(session: Session) -> Any:
+def bag_of(session: Session) -> tuple[str, str]:
     """Return (the recording that launch_bag plays, where that is written). Raises Wrong."""
     file = LaunchFile(session, BAG)
     node = file.demand("rosbag play", is_player, BAG_HINT)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import Any
 
 from tutorial_check.course import check
 from tutorial_check.handout.changed_programs import without_name
@@ -37,7 +36,7 @@ def _class_files(session: Session) -> dict[str, ClassFacts]:
             found[path] = one
     folder = session.package(PACKAGE).folder
 
-    def unlikely(path: str) -> Any:
+    def unlikely(path: str) -> tuple[bool | str, ...]:
         """Return a sort key: the step before, joy2twist.py, may be a class already; and there are old copies."""
         return (
             found[path].name in bases,
@@ -56,7 +55,7 @@ def _fits(words: str) -> bool:
     return bool(re.search(r"joy.*twist", words, re.IGNORECASE))
 
 
-def program(session: Session) -> Any:
+def program(session: Session) -> tuple[str, str, ClassFacts]:
     """Return (the program to start, the file with the class, its ClassFacts). Raises Wrong."""
     scripts, files = session.scripts(PACKAGE), _class_files(session)
     if not files:
@@ -89,7 +88,7 @@ class Form:
         self.methods = ", ".join(one.methods)
 
     @property
-    def odd_init(self) -> Any:
+    def odd_init(self) -> str:
         """What was meant to be __init__, or "no __init__"; empty if there is one, maybe of a base."""
         if "__init__" in self.one.methods:
             return ""
@@ -99,13 +98,13 @@ class Form:
         return "" if self.one.bases else f"{self.one.name} has no __init__"
 
     @property
-    def place_of_name(self) -> Any:
+    def place_of_name(self) -> str:
         """Where its name stands alone, without (), or else the class."""
         bare = (line for line, text in self.facts.bare_names if text == self.one.name)
         return next((f"{self.path}:{line}" for line in bare), self.where)
 
     @property
-    def early(self) -> Any:
+    def early(self) -> int:
         """The line of an on_shutdown before the Publisher, or 0."""
         early, made = map(self.facts.first, ("on_shutdown", "Publisher"))
         return early.line if early and made and early.line < made.line else 0
@@ -125,11 +124,11 @@ class Given:
         self.line = form.facts.functions.get(self.name, 0)
 
     @property
-    def is_called(self) -> Any:
+    def is_called(self) -> bool:
         return self.name.endswith("()") and self.name[:-2] in self.form.facts.functions
 
     @property
-    def is_unknown(self) -> Any:
+    def is_unknown(self) -> bool:
         """Return whether the object has no such method, as far as the text shows."""
         classes = self.form.facts.classes
         known = any(self.name in {*one.methods, *one.attributes} or one.bases for one in classes)
