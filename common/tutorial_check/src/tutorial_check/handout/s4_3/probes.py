@@ -249,6 +249,14 @@ def delays(
     return found
 
 
+def strays(moving: Sequence[bool]) -> int:
+    """Return how many Twists are zero among those for rising_joys(), which all move the robot.
+
+    moving: whether each Twist does; the first Twists may answer a Joy before these.
+    """
+    return list(moving[moving.index(True) :]).count(False) if any(moving) else 0
+
+
 def displayed(joys: Sequence[Joy], output: str) -> list[Joy]:
     """Return the Joys of which a line has all axes, with two decimals or more."""
     return [joy for joy, count in zip(joys, _shown(joys, output)) if count == len(joy[0])]

@@ -146,8 +146,14 @@ class _Driver:
             for joy in joys:
                 stage.call("send", JOY, self._task.joy(joy))
             self._note(asked=COUNT)
-        self._wait(lambda: self._displayed(joys) >= min(5, self._seen.asked), 0.7)
-        self._note(shown=self._displayed(joys))
+        sent = [*map(self._task.joy, joys)]
+
+        def shown() -> int:
+            """Return how many of the Joys were displayed, all six axes in a line."""
+            return len(probes.displayed(sent, COLOUR.sub("", self._program.output)))
+
+        self._wait(lambda: shown() >= min(5, self._seen.asked), 0.7)
+        self._note(shown=shown())
         seen = self._seen
         goes = seen.answers and not seen.unanswered and not seen.judge_probes()[0]
         if goes and RATED & self._ground.exercises and not self._program.ended:
@@ -270,16 +276,9 @@ class _Driver:
         sent, heard = stage.call("sent", JOY), self._heard(before)
         rule = rule_of(LINEAR, self._seen.samples)
         delays = probes.delays(sent, heard, rule.factor if rule else None)
-        moving = [any(twist) for _, _, twist in heard]
-        # All of these Joys move the robot, once the first does.
-        strays = moving[moving.index(True) :].count(False) if any(moving) else 0
+        strays = probes.strays([any(twist) for _, _, twist in heard])
         self._note(sent=len(sent), answered=len(heard), delays=tuple(delays), strays=strays)
         if beside:
             echoed, sign = stage.call("heard", beside), self._task.signs[RIGHT[LINEAR]]
             ours = statistics.median(probes.delays(sent, echoed, sign) or [0.0])
             self._note(possible=len(echoed), unavoidable_s=ours)
-
-    def _displayed(self, joys: Sequence[Joy]) -> int:
-        """Return how many of the Joys were displayed, all six axes in a line."""
-        sent = [*map(self._task.joy, joys)]
-        return len(probes.displayed(sent, COLOUR.sub("", self._program.output)))
