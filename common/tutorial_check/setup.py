@@ -4,7 +4,7 @@ from setuptools import find_packages, setup
 setup(
     **generate_distutils_setup(
         packages=find_packages("src"),
-        package_data={"tutorial_check.exercises": ["course.yaml"]},
+        package_data={"tutorial_check.handout": ["course.yaml"]},
         package_dir={"": "src"},
     )
 )

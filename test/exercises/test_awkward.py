@@ -14,8 +14,8 @@ import test_mistakes
 from edits import JOY2TWIST, TALKER, apply, chmod, put
 
 from tutorial_check.course import read_course
-from tutorial_check.examination import examine
-from tutorial_check.hints import LATER
+from tutorial_check.launcher import examine
+from tutorial_check.report.hints import LATER
 from tutorial_testing.processes import Program, command_line, descendants, lives
 from tutorial_testing.waiting import wait_for
 
@@ -105,7 +105,7 @@ def test_a_class_has_a_table_and_reports(literal, underlay, tmp_path):
 def examines(program):
     """Return whether an examination runs below a program."""
     lines = map(command_line, descendants(program.pid))
-    return any("tutorial_check.examine" in line for line in lines)
+    return any("tutorial_check.worker" in line for line in lines)
 
 
 def test_ctrl_c_ends_the_check_of_all(literal, underlay, tmp_path):

@@ -10,7 +10,7 @@ from edits import TALKER, B, write
 from test_awkward import PYTHONPATH, command
 from test_hostile import processes_like
 
-from tutorial_check import bubblewrap
+from tutorial_check.isolation import bubblewrap
 from tutorial_testing.processes import Program, command_line, descendants, lives
 from tutorial_testing.waiting import wait_for
 

@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 from edits import LAUNCH_BAG, TALKER, J, put
 
-from tutorial_check import bubblewrap
-from tutorial_check.examination import examine
+from tutorial_check.isolation import bubblewrap
+from tutorial_check.launcher import examine
 
 pytestmark = pytest.mark.skipif(
     not bubblewrap.granted().options, reason="no isolation here: nothing is hidden"

@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 from edits import JOY2TWIST, TALKER, put, write
 
-from tutorial_check import bubblewrap
-from tutorial_check.examination import examine
-from tutorial_check.report import lines_of
+from tutorial_check.isolation import bubblewrap
+from tutorial_check.launcher import examine
+from tutorial_check.report.text import lines_of
 
 FIRST = "#!/usr/bin/env python3\nimport os\n"
 MASTER = "xmlrpc.client\nxmlrpc.client.ServerProxy(os.environ['ROS_MASTER_URI'])"

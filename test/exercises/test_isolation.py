@@ -18,7 +18,7 @@ from test_awkward import PYTHONPATH, SOURCE, command
 from test_endings import path_without_namespaces
 from test_hostile import processes_like
 
-from tutorial_check import bubblewrap, landlock
+from tutorial_check.isolation import bubblewrap, landlock
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 MODES = (

@@ -9,8 +9,8 @@ import pytest
 from edits import apply
 
 from tutorial_check.course import read_course
-from tutorial_check.examination import examine
-from tutorial_check.report import lines_of
+from tutorial_check.launcher import examine
+from tutorial_check.report.text import lines_of
 
 OF_HANDOUT = mistakes_packages.ROWS + mistakes_nodes.ROWS + mistakes_launch.ROWS + grammar.WRONG
 ROWS = OF_HANDOUT + mistakes_world.ROWS

@@ -11,8 +11,8 @@ from test_mistakes import is_reported
 from variants import REPORTS
 
 from tutorial_check.course import read_course
-from tutorial_check.examination import examine
-from tutorial_check.report import lines_of
+from tutorial_check.launcher import examine
+from tutorial_check.report.text import lines_of
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 NOETIC = "/opt/ros/noetic/setup.bash"  # where ROS is not of Debian

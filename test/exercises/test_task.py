@@ -6,8 +6,8 @@ import pytest
 from edits import TALKER, J, put
 
 from tutorial_check.course import read_course
-from tutorial_check.examination import examine
-from tutorial_check.report import lines_of
+from tutorial_check.launcher import examine
+from tutorial_check.report.text import lines_of
 from tutorial_check.variants import drawn
 
 COURSE = read_course()

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import pytest
 
-from tutorial_check import debian_packages
+from tutorial_check.source import debian_packages
 from tutorial_testing.keys import Tmux
 from tutorial_testing.ports import free_port
 from tutorial_testing.processes import Program, Started

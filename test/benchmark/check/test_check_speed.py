@@ -7,7 +7,7 @@ import time
 from pathlib import Path
 
 from tutorial_check.course import read_course
-from tutorial_check.examination import examine
+from tutorial_check.launcher import examine
 
 REPOSITORY = Path(__file__).resolve().parents[3]
 ONE_S, ALL_S = 15.0, 90.0  # on two processors with nothing else to do

@@ -28,7 +28,7 @@ def tutorial(words):
     """Return (exit code, output) of ./tutorial on this machine."""
     import subprocess  # noqa: PLC0415  where it runs, this module is not
 
-    from tutorial_check.examination import SUITE  # noqa: PLC0415
+    from tutorial_check.launcher import SUITE  # noqa: PLC0415
 
     command = [str(SUITE / "tutorial"), *words]
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)

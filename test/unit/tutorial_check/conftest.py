@@ -4,24 +4,24 @@ from types import SimpleNamespace
 
 import pytest
 
-from tutorial_check.exercises.joystick_task import JoystickTask
-from tutorial_check.session import Session
+from tutorial_check.handout.task import JoystickTask
+from tutorial_check.record.ground import Ground
 
 
 @pytest.fixture
 def make_session(tmp_path):
-    """make_session(package, exercise): a Session of a workspace with that package, still empty."""
+    """make_session(package, exercise): a Ground of a workspace with that package, still empty."""
 
     def make(package, exercise):
         folder = tmp_path / "ws/src" / package
         folder.mkdir(parents=True)
         (folder / "package.xml").write_text(f"<package><name>{package}</name></package>")
-        box = SimpleNamespace(environment={"PATH": ""})
-        return Session(
+        runner = SimpleNamespace(environment={"PATH": ""})
+        return Ground(
             tmp_path,
             None,
             [exercise],
-            box,
+            runner,
             underlay="",
             can_have_devices=False,
             task=JoystickTask({}),

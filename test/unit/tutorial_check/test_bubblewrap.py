@@ -2,8 +2,9 @@
 
 import pytest
 
-from tutorial_check import bubblewrap, cluster, landlock
-from tutorial_check.bubblewrap import Isolation
+from tutorial_check import cluster
+from tutorial_check.isolation import bubblewrap, landlock
+from tutorial_check.isolation.bubblewrap import Isolation
 from tutorial_check.model import CannotCheck
 
 

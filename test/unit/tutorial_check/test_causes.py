@@ -6,9 +6,9 @@ import sys
 
 import pytest
 
-from tutorial_check.causes import explain, syntax_hint
-from tutorial_check.python_facts import PythonFacts
-from tutorial_check.tracebacks import first_traceback
+from tutorial_check.judge.causes import explain, syntax_hint
+from tutorial_check.source.python_facts import PythonFacts
+from tutorial_check.source.tracebacks import first_traceback
 
 FORMAT = "TypeError: not enough arguments for format string"
 

@@ -5,10 +5,10 @@ import re
 
 import pytest
 
-from tutorial_check import class_page
-from tutorial_check.class_page import POLICY, Student, table_csv, table_html
-from tutorial_check.examination import Outcome
+from tutorial_check.launcher import Outcome
 from tutorial_check.model import NOTE, OK, UNREACHED, WRONG, Result
+from tutorial_check.report import class_page
+from tutorial_check.report.class_page import POLICY, Student, table_csv, table_html
 
 NOTED = Outcome("2", [Result("C1", NOTE, "one", seen="a name")], 1.0, True)
 BAD = Outcome("2", [Result("C1", WRONG, "one", seen="=none", hint="mkdir src")], 1.0, True)

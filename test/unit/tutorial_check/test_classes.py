@@ -2,8 +2,8 @@
 
 import pytest
 
-from tutorial_check.exercises import classes
-from tutorial_check.exercises.driving import PACKAGE
+from tutorial_check.handout.s4_3.record import PACKAGE
+from tutorial_check.handout.s6_2 import judge
 
 CLASS = """#!/usr/bin/python3
 import rospy
@@ -56,7 +56,7 @@ def write(session):
 def test_of_several_classes_the_last_step_counts(session, write, other, text, mode):
     write(other, text, mode)
     write("scripts/new_joy2twist.py", CLASS)
-    assert classes.program(session)[0] == "scripts/new_joy2twist.py"
+    assert judge.program(session)[0] == "scripts/new_joy2twist.py"
 
 
 @pytest.mark.parametrize(
@@ -70,4 +70,4 @@ def test_of_several_classes_the_last_step_counts(session, write, other, text, mo
 )
 def test_a_class_of_another_form_is_right(session, write, text):
     write("scripts/new_joy2twist.py", text)
-    assert classes.is_class(session).startswith("NewJoy2Twist in")
+    assert judge.is_class(session).startswith("NewJoy2Twist in")

@@ -5,10 +5,10 @@ import xml.etree.ElementTree as ET
 
 import pytest
 
-from tutorial_check.examination import Outcome
-from tutorial_check.formats import as_classroom, as_gradescope, as_json, as_junit
+from tutorial_check.launcher import Outcome
 from tutorial_check.model import NOTE, OK, UNREACHED, WRONG, Result
-from tutorial_check.report import summary
+from tutorial_check.report.formats import as_classroom, as_gradescope, as_json, as_junit
+from tutorial_check.report.text import summary
 
 NAMES = ("id", "status", "title", "expected", "seen", "where", "hint")
 VALUES = ("C16", WRONG, "three", "a < b", "c\x00\x1b & d", "f.py:3", "do it")

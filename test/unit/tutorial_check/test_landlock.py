@@ -2,7 +2,7 @@
 
 import platform
 
-from tutorial_check import landlock
+from tutorial_check.isolation import landlock
 
 
 def test_landlock_is_not_used_where_the_machine_or_the_kernel_is_unknown(monkeypatch):

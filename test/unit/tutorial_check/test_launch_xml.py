@@ -4,7 +4,7 @@ from xml.parsers import expat
 
 import pytest
 
-from tutorial_check.launch_xml import QUOTES, not_xml
+from tutorial_check.source.launch_xml import QUOTES, not_xml
 
 NODE = '  <node pkg="rosbag" type="play" name="x" args="--loop a.bag"/>\n'
 

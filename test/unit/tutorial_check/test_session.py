@@ -26,8 +26,12 @@ def test_a_second_look_at_what_was_busy_or_unexplained(
 ):
     """It forgets what was seen, and nothing of what is."""
     one, count = make_session("a", "2"), itertools.count()
-    one.box = SimpleNamespace(patience=SimpleNamespace(strained=lambda: strained))
-    assert [one.run("k", lambda: next(count)), one.memo("k", lambda: next(count))] == [0, 1]
+
+    def look(ground):
+        return next(count)
+
+    one.runner = SimpleNamespace(clock=SimpleNamespace(strained=lambda: strained))
+    assert [one.recording(look), one.memo("k", lambda: next(count))] == [0, 1]
     assert one.second_look(explained) == is_worth_it
-    again = [one.run("k", lambda: next(count)), one.memo("k", lambda: next(count))]
+    again = [one.recording(look), one.memo("k", lambda: next(count))]
     assert again == [2 if is_worth_it else 0, 1]

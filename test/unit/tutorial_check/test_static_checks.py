@@ -11,14 +11,14 @@ import mistakes_packages
 import pytest
 from test_mistakes import is_reported
 
-from tutorial_check.box import Box
 from tutorial_check.course import checks_of, read_course
-from tutorial_check.environment import prepare, variables
-from tutorial_check.exercises.joystick_task import JoystickTask
+from tutorial_check.handout.task import JoystickTask
+from tutorial_check.isolation.environment import prepare, variables
+from tutorial_check.isolation.runner import Runner
 from tutorial_check.model import NOTE, OK, WRONG, Run
-from tutorial_check.report import lines_of
-from tutorial_check.session import Session
-from tutorial_check.workspace import find_layout
+from tutorial_check.record.ground import Ground
+from tutorial_check.report.text import lines_of
+from tutorial_check.source.workspace import find_layout
 
 REPOSITORY = Path(__file__).resolve().parents[3]
 PACKAGES = f"{REPOSITORY}/common:{REPOSITORY}/fake_turtlebot_sim:/usr/share"
@@ -36,7 +36,7 @@ ROWS = [
 def judge(tmp_path):
     """judge(checks, edits): the results of these checks of the right solution, once changed."""
 
-    box = Box(variables(tmp_path, {**os.environ, "ROS_PACKAGE_PATH": PACKAGES}))
+    runner = Runner(variables(tmp_path, {**os.environ, "ROS_PACKAGE_PATH": PACKAGES}))
 
     def judged(checks, changes=()):
         source = shutil.copytree(LITERAL, tmp_path / "ws" / "src")
@@ -44,8 +44,8 @@ def judge(tmp_path):
         edits.apply(changes, source)
         prepare(tmp_path, None)
         (tmp_path / "lower" / "share" / "fake_turtlebot_sim").mkdir(parents=True)
-        session = Session(
-            tmp_path, find_layout(tmp_path / "ws"), ["2", "3", "4.3", "6.2"], box,
+        session = Ground(
+            tmp_path, find_layout(tmp_path / "ws"), ["2", "3", "4.3", "6.2"], runner,
             underlay=str(tmp_path / "lower" / "setup.bash"), can_have_devices=False,
             task=JoystickTask({}),
         )  # fmt: skip
@@ -53,7 +53,7 @@ def judge(tmp_path):
         return [run.result(each) for each in checks]
 
     yield judged
-    box.clear()
+    runner.clear()
 
 
 def test_a_right_solution_is_not_blamed(judge):

@@ -4,9 +4,9 @@ from types import SimpleNamespace
 
 import pytest
 
-from tutorial_check.exercises.underlay import workspace
+from tutorial_check.handout.s2.underlay import workspace
 from tutorial_check.model import Wrong
-from tutorial_check.workspace import Layout
+from tutorial_check.source.workspace import Layout
 
 THIS, OTHER, MINE = "{0}/this/lower/devel", "{0}/other/lower/devel", "{0}/ws/devel"
 

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tutorial_check.course import read_course
-from tutorial_check.exercises.joystick_task import JoystickTask
+from tutorial_check.handout.task import JoystickTask
 from tutorial_check.model import WRONG, CannotCheck, Result
 from tutorial_check.variants import drawn, read_variant, sheet, variant_of
 

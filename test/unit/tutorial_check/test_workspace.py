@@ -7,9 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from tutorial_check import session, workspace
 from tutorial_check.model import CannotCheck
-from tutorial_check.workspace import copy, find_layout, hand_in, packages_below, unpack
+from tutorial_check.record import session
+from tutorial_check.source import workspace
+from tutorial_check.source.workspace import copy, find_layout, hand_in, packages_below, unpack
 
 XML = """<package format="2"><name>{}</name><version>0.0.0</version><description>x</description>
 <maintainer email="a@b.example">a</maintainer><license>x</license>

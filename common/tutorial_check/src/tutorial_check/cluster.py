@@ -22,12 +22,12 @@ from typing import Any, Callable, Mapping, NoReturn, Sequence
 from urllib.parse import urlsplit
 
 from node_kit.arguments import Parser
-from tutorial_check import bubblewrap, landlock, place
 from tutorial_check.course import OURS, read_course
-from tutorial_check.examination import Outcome, examine
-from tutorial_check.last_run import digest_of_checks
+from tutorial_check.isolation import bubblewrap, landlock, privileges
+from tutorial_check.launcher import Outcome, examine
 from tutorial_check.model import CannotCheck
-from tutorial_check.workspace import IGNORED, MOST_BYTES
+from tutorial_check.report.last_run import digest_of_checks
+from tutorial_check.source.workspace import IGNORED, MOST_BYTES
 
 MOST_AT_ONCE = 1000  # submissions that the scheduler knows of
 TRIES = 2  # a submission that ends so many workers is abandoned
@@ -205,7 +205,7 @@ def _work(address: str, jobs: int, insists: bool) -> NoReturn:
         os.environ[INSISTS] = "1"
     _must_isolate()
     host = _connect(address)
-    folder, cleaner = place.folder_until_end("tutorial_worker_")
+    folder, cleaner = privileges.folder_until_end("tutorial_worker_")
     os.chmod(folder, 0o711)  # programs of another user pass through
     assert cleaner.stdin
     os.set_inheritable(cleaner.stdin.fileno(), True)

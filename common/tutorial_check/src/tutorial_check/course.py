@@ -16,7 +16,7 @@ import yaml
 from tutorial_check.model import CannotCheck, Check
 
 FILE = "course.yaml"
-OURS = Path(__file__).resolve().with_name("exercises")
+OURS = Path(__file__).resolve().with_name("handout")
 # The modules of a course, which may lie anywhere, are those of a package of this name.
 PACKAGE = "tutorial_course"
 
@@ -105,7 +105,7 @@ def check(
 
 def package_of(course: Course) -> str:
     """Return the name of the package that a course's modules are in."""
-    return f"{__package__}.exercises" if course.folder == OURS else PACKAGE
+    return f"{__package__}.handout" if course.folder == OURS else PACKAGE
 
 
 def read_yaml(file: str | Path, what: str = "") -> Any:
@@ -168,7 +168,7 @@ def checks_of(course: Course) -> list[Check]:
         _checks[:] = [one for one in _checks if not one.function.__module__.startswith(PACKAGE)]
         sys.modules[PACKAGE] = types.ModuleType(PACKAGE)
         sys.modules[PACKAGE].__path__ = [str(course.folder)]
-    names = [f"{package}.{path.stem}" for path in sorted(course.folder.glob("*.py"))]
+    names = [f"{package}.{'.'.join(inside.parts)}" for inside in _modules_of(course)]
     for name in names:
         try:
             importlib.import_module(name)
@@ -192,6 +192,13 @@ def checks_of(course: Course) -> list[Check]:
         if lost:
             raise CannotCheck(f"{one.id} needs {', '.join(sorted(lost))}, which is no check")
     return sorted(found.values(), key=lambda one: (order.index(one.exercise), one.number))
+
+
+def _modules_of(course: Course) -> list[Path]:
+    """Return the paths of a course's modules within its folder; only ours has folders of them."""
+    pattern = "**/*.py" if course.folder == OURS else "*.py"
+    paths = (path.relative_to(course.folder) for path in sorted(course.folder.glob(pattern)))
+    return [path.with_suffix("") for path in paths if path.name != "__init__.py"]
 
 
 def _place(error: Exception, folder: Path) -> str:

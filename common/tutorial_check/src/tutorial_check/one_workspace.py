@@ -10,13 +10,13 @@ import sys
 import time
 from typing import NoReturn
 
-from tutorial_check.examination import Outcome, examine
-from tutorial_check.formats import FORMATS, clear, without_hints, write
-from tutorial_check.hints import Memory, show_solution
+from tutorial_check.launcher import Outcome, examine
 from tutorial_check.model import CannotCheck
-from tutorial_check.report import Terminal, summary
+from tutorial_check.report.formats import FORMATS, clear, without_hints, write
+from tutorial_check.report.hints import Memory, show_solution
+from tutorial_check.report.text import Terminal, summary
+from tutorial_check.source.workspace import all_below
 from tutorial_check.variants import variant_of
-from tutorial_check.workspace import all_below
 
 PERIOD_S = 0.5  # between two looks; editors save in several steps, so two must be the same
 OF_EDITORS = ("~", ".swp")

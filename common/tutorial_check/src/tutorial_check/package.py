@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Iterator, Sequence
 
 from tutorial_check.course import OURS, Course
-from tutorial_check.examination import SUITE
+from tutorial_check.launcher import SUITE
 from tutorial_check.model import CannotCheck
 
 GRADESCOPE, GITHUB = "gradescope", "github"

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Iterator
 
 from tutorial_check.course import Course
-from tutorial_check.examination import Outcome, examine
+from tutorial_check.launcher import Outcome, examine
 from tutorial_check.model import CannotCheck
 
 SOLUTIONS, RIGHT, WRONG_OF = "solutions", "right", "wrong_"

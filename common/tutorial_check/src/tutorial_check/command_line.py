@@ -1,0 +1,182 @@
+"""The command line: ./tutorial check."""
+
+from __future__ import annotations
+
+import argparse
+import io
+import os
+import signal
+import sys
+from typing import Sequence
+
+from node_kit.arguments import Parser
+from tutorial_check.course import OURS, read_course
+from tutorial_check.isolation import bubblewrap
+from tutorial_check.model import CannotCheck, fault
+from tutorial_check.one_workspace import check_one, watch
+from tutorial_check.package import package
+from tutorial_check.report.formats import FORMATS
+from tutorial_check.report.hints import AGAIN, ALWAYS
+from tutorial_check.self_test import self_test
+from tutorial_check.variants import sheet, variant_of
+
+UNDERLAY = "TUTORIAL_UNDERLAY"  # environment variable: setup.bash of the underlay
+WORKSPACE = "TUTORIAL_IN"  # environment variable: the workspace of the shell that this is called in
+
+
+def path(word: str) -> str:
+    """Return a path of the command line; an empty word would be the current folder."""
+    if not word:
+        raise argparse.ArgumentTypeError("an empty word is no path")
+    return word
+
+
+MODES = ("workspace", "all", "package", "self_test", "show_variant")
+
+
+def _parser() -> Parser:
+    parser = Parser(
+        prog="./tutorial check",
+        description="Checks the exercises of the tutorial in your own workspace.",
+        epilog="exercises: "
+        + ", ".join(f"{name} ({one.title})" for name, one in read_course().exercises.items()),
+    )
+    where, add = parser.add_mutually_exclusive_group(), parser.add_argument
+    what = "your catkin workspace, a folder of packages, or a zip; in a shell of it not needed"
+    own = os.environ.get(WORKSPACE) or None
+    where.add_argument(
+        "--in", dest="workspace", type=path, default=own, metavar="WORKSPACE", help=what
+    )
+    what = "for the professor: every workspace, or zip, in a folder"
+    where.add_argument("--all", type=path, metavar="FOLDER", help=what)
+    what = "write what a service takes: gradescope, or github:OWNER/NAME (to --out)"
+    where.add_argument("--package", type=path, metavar="SERVICE", help=what)
+    add("exercises", nargs="*", metavar="EXERCISE", help="all of the handout without one")
+    what = "a folder with course.yaml and your own checks, in place of the handout"
+    add("--course", type=path, default=str(OURS), metavar="FOLDER", help=what)
+    what = "check the solutions that lie in the course, right ones and wrong ones"
+    where.add_argument("--self-test", action="store_true", help=what)
+    what = "0: say what is wrong, never how to mend it; 1: when the same is wrong again; 2: always"
+    add("--hints", type=int, choices=(0, 1, 2), help=f"{what} (1; with --all 2)")
+    add("--no-hints", action="store_const", const=0, dest="hints", help="the same as --hints 0")
+    what = "YAML of what differs from the course, as --show-variant prints; or folder of NAME.yaml"
+    add("--variant", type=path, metavar="FILE", help=what)
+    what = "with --all: draw each student's from a seed and name"
+    add("--variants", metavar="SEED", help=what)
+    what = "print the task sheet of a student"
+    where.add_argument("--show-variant", type=path, metavar="NAME", help=what)
+    add("--solution", action="store_true", help="show ours, of exercises that are done")
+    add("--watch", action="store_true", help="check again whenever a file is saved")
+    for name, (what, _) in FORMATS.items():
+        add(f"--{name}", type=path, metavar="FILE", help=f"write {what}")
+    what = "with --all: where the table and the reports go (FOLDER/check)"
+    add("--out", type=path, metavar="FOLDER", help=what)
+    add("--again", action="store_true", help="with --all: also what is the same as last time")
+    what = "with --all: check on the workers of a Dask scheduler, as tcp://HOST:8786"
+    add("--cluster", type=path, metavar="ADDRESS", help=what)
+    add("--jobs", type=int, help="with --all: how many at a time (2)")
+    what = "setup.bash of what the exercises need"
+    add("--underlay", type=path, default=os.environ.get(UNDERLAY), metavar="SETUP", help=what)
+    return parser
+
+
+def parse(arguments: Sequence[str]) -> argparse.Namespace:
+    """Return the options; end with a line if they are not clear."""
+    parser = _parser()
+    options = parser.parse_args(arguments)
+    try:
+        options.course = read_course(options.course)
+    except CannotCheck as error:
+        parser.error(str(error))
+    known = options.course.exercises
+    if not any(getattr(options, name) for name in MODES):
+        words = " ".join(options.exercises)
+        parser.error(f"which workspace? For example: --in ~/ros/hydro/catkin_ws {words}".rstrip())
+    wanted = [name for each in options.exercises for name in options.course.meant(each)]
+    unknown = [each for each in wanted if each not in known]
+    if unknown:
+        parser.error(f"no exercise {unknown[0]}; there are {', '.join(known)}")
+    _refuse_idle(parser, options)
+    options.jobs = 2 if options.jobs is None else options.jobs
+    if options.hints is None:
+        options.hints = ALWAYS if options.all else AGAIN
+    if not options.underlay:
+        parser.error("--underlay is missing; ./tutorial check gives it")
+    # In the course's order, whatever theirs.
+    wanted = wanted or options.course.by_default
+    options.exercises = [each for each in known if each in wanted]
+    return options
+
+
+def _refuse_idle(parser: argparse.ArgumentParser, given: argparse.Namespace) -> None:
+    """End with a line if an option would do nothing."""
+    file = next((f"--{name}" for name in FORMATS if getattr(given, name)), "")
+    checks_many = given.all or given.self_test
+    rows = (
+        (given.watch and given.all, "--watch is for one workspace"),
+        (given.solution and (checks_many or given.watch),
+         "--solution is for one workspace, and checks nothing"),
+        (given.solution and not given.exercises,
+         "--solution of which exercise? For example: --solution 4.3"),
+        (file and given.all, f"{file} is for one workspace; --all writes a .json of each student"),
+        (file and given.watch, f"{file} is for one check; leave --watch out"),
+        (given.again and not given.all, "--again is for --all"),
+        (given.cluster and not given.all, "--cluster is for --all"),
+        (given.out is not None and not (given.all or given.package), "--out is for --all"),
+        (given.jobs is not None and not checks_many, "--jobs is for --all"),
+        (given.variant and (given.package or given.self_test), "--variant is for workspaces"),
+        (given.variant and os.path.isdir(given.variant) and not (given.all or given.show_variant),
+         "--variant FOLDER is for --all and --show-variant"),
+        (given.variants is not None and not (given.all or given.show_variant),
+         "--variants is for --all and --show-variant"),
+    )  # fmt: skip
+    for is_idle, why in rows:
+        if is_idle:
+            parser.error(why)
+
+
+def _run(options: argparse.Namespace) -> int:
+    """Do what was asked for; return the exit code. Raises CannotCheck."""
+    course = options.course
+    if options.all:
+        from tutorial_check.submissions import check_all  # noqa: PLC0415  takes its time
+
+        return check_all(options)
+    if options.self_test:
+        return self_test(course, options.underlay, max(1, options.jobs))
+    if options.watch:
+        watch(options)
+    if options.package:
+        print(package(options.package, course, options.exercises, options.out))
+    elif options.show_variant:
+        name = options.show_variant
+        print(sheet(course, variant_of(course, options, name), name))
+    else:
+        return check_one(options)
+    return 0
+
+
+def main() -> None:
+    """Run the command. Exit code 0: nothing wrong; 1: something is; 2: the checker cannot work."""
+    assert isinstance(sys.stdout, io.TextIOWrapper)
+    sys.stdout.reconfigure(errors="backslashreplace")  # for names of files that are no UTF-8
+    options = parse(sys.argv[1:])
+    for number in (signal.SIGTERM, signal.SIGHUP):  # as Ctrl-C: what was started ends, too
+        if signal.getsignal(number) != signal.SIG_IGN:  # as nohup has it
+            signal.signal(number, signal.default_int_handler)
+    for line in bubblewrap.lacking():
+        print(f"check: {line}", file=sys.stderr, flush=True)
+    try:
+        code = _run(options)
+    except CannotCheck as error:
+        print(f"\ncheck: no verdict: {error}", file=sys.stderr)
+        code = 2
+    except Exception as error:  # not the student's fault, whatever it is
+        print(f"\ncheck: {fault(error)}", file=sys.stderr)
+        print("check: this is a fault of the check, not of your exercises", file=sys.stderr)
+        code = 2
+    except KeyboardInterrupt:
+        if not options.watch:
+            print("\ncheck: interrupted: no verdict", file=sys.stderr)
+        code = 130
+    sys.exit(code)

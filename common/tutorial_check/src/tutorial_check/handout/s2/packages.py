@@ -1,0 +1,248 @@
+"""C2 to C4 and C12: the packages, their dependencies, the build."""
+
+from __future__ import annotations
+
+import difflib
+import os
+import re
+from pathlib import Path
+from typing import Any
+
+from tutorial_check.course import check
+from tutorial_check.isolation.privileges import own_rights
+from tutorial_check.model import Note, Wrong
+from tutorial_check.record.build import built
+from tutorial_check.record.session import Session
+from tutorial_check.source.debian_packages import advice, packages_of_ros
+from tutorial_check.source.launch_xml import place_of, read
+from tutorial_check.source.manifests import must_be_one, unreadable
+from tutorial_check.source.workspace import Package, packages_beside
+
+WANTED = {
+    "beginner_tutorials": ("std_msgs", "rospy", "roscpp"),
+    "joy2twist": ("rospy", "std_msgs", "sensor_msgs", "geometry_msgs"),
+}
+CREATE = {name: f"catkin_create_pkg {name} {' '.join(words)}" for name, words in WANTED.items()}
+
+# What a message of CMake's most often means here: (pattern, what to do). The first that fits counts.
+CMAKE_HINTS = (
+    (r"does not match current PROJECT_NAME", "write the name that package.xml has into project()"),
+    (r"include dir '(.+)' does not exist|directory not found: .*?/ws/src/(\S+)"
+     r"|source \"(\w[^\"]*)\" which is not an existing",
+     "git keeps no empty folders: put a file into {f}, as .gitkeep, or take it out of the line"),
+    (r"non-existing file|Cannot find source file", "look at the spelling of the file's path"),
+    (r"Unknown CMake command", "look at the spelling of the command"),
+)  # fmt: skip
+
+
+def _similar(name: str, packages: list[Package]) -> Package | None:
+    """Return a package that was meant to be the one of that name, or None."""
+
+    def is_near(word: str) -> bool:
+        bare, plain = (re.sub(r"[^a-z0-9]", "", each.lower()) for each in (word, name))
+        return difflib.SequenceMatcher(None, bare, plain).ratio() > 0.8
+
+    return next((p for p in packages if is_near(p.name) or is_near(p.folder.name)), None)
+
+
+def _package(session: Session, name: str) -> Any:
+    """Return the package of that name. Raises Wrong."""
+    packages, expected = session.packages, f"one package {name} in src"
+    named = [each for each in packages if each.name == name]
+    broken = [each for each in packages if each.error and name in (each.name, each.folder.name)]
+    if broken:
+        raise unreadable(broken[0])
+    must_be_one(named)
+    if not named:
+        raise _missing(session, name, expected)
+    outer = [each for each in packages if each.folder in named[0].folder.parents]
+    if outer:
+        seen = f"it lies within another package, {outer[0].inside}"
+        hint = "move it up: packages stand side by side in src"
+        raise Wrong(expected, seen, named[0].inside, hint)
+    return named[0]
+
+
+def _missing(session: Session, name: str, expected: str) -> Any:
+    """Return the Wrong for a package that is not there, or is elsewhere, or has another name."""
+    for beside in (each.inside for each in packages_beside(session.layout) if each.name == name):
+        hint = f"mv {session.whole(beside)} {session.whole('src')}"
+        return Wrong(expected, f"it lies beside src: {beside}", beside, hint)
+    link = session.layout.source / name
+    with own_rights():
+        leads_to = os.readlink(link) if link.is_symlink() and not link.exists() else ""
+    if leads_to:
+        seen = f"src/{name} is a link to {leads_to}, and leads nowhere here"
+        return Wrong(expected, seen, f"src/{name}", "put the folder itself into src, no link")
+    similar = _similar(name, session.packages)
+    if similar:
+        hint = f"its name must be exactly {name}: lower case, with _ and without -;"
+        hint += " in package.xml, CMakeLists.txt and the folder"
+        seen, where = f"a package called {similar.name}", f"{similar.inside}/package.xml"
+        return Wrong(expected, seen, where, hint)
+    found = ", ".join(each.name for each in session.packages) or "no package at all"
+    hint = f"cd to src of your workspace; {CREATE[name]}. ./tutorial shell without --in has one of OURS"
+    return Wrong(expected, f"none; found: {found}", hint=hint)
+
+
+def _dependencies(session: Session, name: str) -> Any:
+    """Return the package of that name, which has all dependencies. Raises Wrong."""
+    package, wanted = _package(session, name), WANTED[name]
+    where = f"{package.inside}/package.xml"
+    for odd in sorted(package.depends):
+        if not re.fullmatch(r"[a-z][a-z0-9_+-]*", odd, re.IGNORECASE):
+            hint = "between the dependencies stand spaces only, no commas:"
+            hint += " mend package.xml and CMakeLists.txt"
+            raise Wrong("names of packages", f"a dependency on {odd!r}", where, hint)
+    missing = [each for each in wanted if each not in package.depends]
+    others = package.depends - set(wanted)
+    # One kind of dependency may name it rightly.
+    for each in sorted(others) if not missing else ():
+        meant = difflib.get_close_matches(each, wanted, 1, 0.8)
+        missing = missing or (meant if not _is_known(session, each) else [])
+    if not missing:
+        return package
+    # What is a package is not misspelt.
+    unknown = [o for o in others if not (packages_of_ros(o) or _is_known(session, o))]
+    near = {each: difflib.get_close_matches(each, unknown, 1, 0.65) for each in missing}
+    seen = f"no {', '.join(missing)}"
+    if missing[0] in package.depends:
+        seen = f"{near[missing[0]][0]}, which is no package"
+    text = read(package.folder / "package.xml")
+    place = place_of(where, text, "exec_depend>", "run_depend>", "depend>", "</package>")
+    # Format 1 knows no <depend>.
+    kinds = ("build_depend", "run_depend") if package.format == 1 else ("depend",)
+    hint = "add " + " and ".join(f"<{k}>{each}</{k}>" for each in missing for k in kinds)
+    if "rospy" in missing and "roscpp" in others:
+        seen, hint = f"{seen}, but roscpp", f"the exercise asks for Python, not for C++: {hint}"
+    for each, (found,) in ((each, words) for each, words in near.items() if words):
+        seen += f" (but {found})" if each not in package.depends else ""
+        place = place_of(where, text, f">{found}<", found)
+        hint = f"correct {found} to {each}, in each line that has it"
+    raise Wrong(f"dependencies on {', '.join(wanted)}", seen, place, hint)
+
+
+@check("C2", "package beginner_tutorials", "2.1", look="rospack find beginner_tutorials",
+       timeless=True)  # fmt: skip
+def beginner(session: Session) -> Note | str | None:
+    return f"src/{_package(session, 'beginner_tutorials').inside}"
+
+
+@check("C3", "its dependencies", "2.1", "C2", look="rospack depends1 beginner_tutorials",
+       timeless=True)  # fmt: skip
+def beginner_dependencies(session: Session) -> None:
+    _dependencies(session, "beginner_tutorials")
+
+
+@check("C12", "package joy2twist and its dependencies", "4.3", look="rospack find joy2twist",
+       timeless=True)  # fmt: skip
+def joy2twist(session: Session) -> Note | str | None:
+    package = _dependencies(session, "joy2twist")
+    found = re.search(r"find_package\s*\(\s*catkin\b[^)]*\bCOMPONENTS\b([^)]*)\)", _cmake(package))
+    for name in found[1].split() if found else ():
+        if not _is_known(session, name) and name in _missing_in(session.recording(built).output):
+            raise Wrong("packages that catkin can find", *_not_found(session, name))
+    return f"src/{package.inside}"
+
+
+def _is_known(session: Session, name: str) -> bool:
+    """Return whether find_package surely finds a package. If not, only a build shows it, which takes long."""
+    prefixes = session.underlay_environment.get("CMAKE_PREFIX_PATH", "").split(":")
+    if any(each.name == name for each in session.packages):
+        return True
+    file = f"cmake/{name}Config.cmake"
+    with own_rights():
+        found = (Path(prefix, "share", name, file).is_file() for prefix in (*prefixes, "/usr"))
+        # Of a package with a library, as roscpp, Debian has it there.
+        return any(found) or any(Path("/usr/lib").glob(f"*/cmake/{name}/{name}Config.cmake"))
+
+
+def _cmake(package: Package) -> str:
+    """Return the text of a package's CMakeLists.txt without comments. Raises Wrong."""
+    if package.cmake is None:
+        expected, hint = "a package as catkin_create_pkg makes it", "take it from a new package"
+        raise Wrong(expected, "the file CMakeLists.txt is missing", package.inside, hint)
+    return package.cmake
+
+
+@check("C4", "catkin_make builds", "2.1", "C2", look="catkin_make")
+def build(session: Session) -> Note | None:
+    for each in session.needed:
+        _cmake(each)
+    made = session.recording(built)
+    code, output = made.code, made.output
+    if code is None:
+        hint = "catkin_make in your workspace"
+        raise Wrong("catkin_make ends", "it runs for more than two minutes", hint=hint)
+    if code != 0:
+        raise _build_error(session, output)
+    listed = re.search(r"traversing \d+ packages?[^:]*:((?:\s*--\s+~~\s+- .*)+)", output)
+    names = re.findall(r"- (\S+)", listed[1]) if listed else []
+    if listed and "beginner_tutorials" not in names:
+        seen = f"it goes through {', '.join(names)}"
+        raise Wrong("catkin_make goes through beginner_tutorials", seen)
+    if not made.unbuilt:
+        return None
+    wrong = _build_error(session, made.unbuilt)
+    seen = f"it builds what the exercises need; another package fails: {wrong.seen}"
+    hint = f"{wrong.hint}; or put an empty file CATKIN_IGNORE into that package"
+    return Note(seen, wrong.where, hint)
+
+
+def _build_error(session: Session, output: str) -> Any:
+    """Return the Wrong for the first error of catkin_make."""
+    output = re.sub(r"\x1b\[[0-9;]*m", "", output)
+    lines = [line.strip() for line in output.splitlines()]
+    bad = r"Error at|^E: |mismatched tag|error:|Could not find|Multiple packages"
+    words = next((line for line in lines if re.search(bad, line)), lines[-1] if lines else "")
+    missing = _missing_in(output)
+    message, where = _cmake_error(output)
+    if words.startswith("CMake Error") and message:
+        words = f"CMake: {message}"
+    hint = "read the first error of catkin_make: it names file and line"
+    for found, what in ((re.search(each, message), what) for each, what in CMAKE_HINTS[::-1]):
+        hint = what.format(f=found[found.lastindex or 0]) if found else hint
+    if missing:
+        words, place, hint = _not_found(session, missing[0])
+        where = place or where
+    return Wrong("catkin_make without an error", words[:300], where, hint)
+
+
+def _missing_in(output: str) -> list[str]:
+    """Return the packages that catkin_make said it could not find."""
+    # CMake breaks long lines, and indents them.
+    return re.findall(r'[Cc]ould not find (?:[^"\n]|\n  (?=\S))*"([^"]+)"', output)
+
+
+def _not_found(session: Session, name: str) -> Any:
+    """Return (what is seen, where, what to do) for a package that CMakeLists.txt names and catkin does not find."""
+    place, text = _place_in_cmake(session, name)
+    absent = {each for names in WANTED.values() for each in names if each not in text}
+    near = difflib.get_close_matches(name, absent, 1, 0.65)
+    hint = advice(name, packages_of_ros(name))
+    hint = hint or f"is {name} spelt right in find_package of CMakeLists.txt, and without a comma?"
+    if near and "," not in name:
+        hint = f"correct {name} to {near[0]} in CMakeLists.txt"
+    return f"catkin cannot find {name}", place, hint
+
+
+def _cmake_error(output: str) -> Any:
+    """Return (message, FILE:LINE of the student's) of CMake's first error, each perhaps empty.
+
+    The error itself is often in a file of catkin's; the call stack names the student's line.
+    """
+    found = re.search(r"^CMake Error(?: at [^\n]*)?:\s(.*?)(?:\n\n\n|\Z)", output, re.M | re.S)
+    if not found:
+        return "", ""
+    place = re.search(r"(?<!\S)[^/\s]\S*/CMakeLists\.txt:\d+", found[0])
+    return " ".join(found[1].split("Call Stack")[0].split()), place[0] if place else ""
+
+
+def _place_in_cmake(session: Session, word: str) -> Any:
+    """Return (first line with a word in a CMakeLists.txt of the student's, its text); or empty."""
+    for each in session.packages:
+        name, text = f"{each.inside}/CMakeLists.txt", each.cmake or ""
+        place = place_of(name, text, word)
+        if place != name:
+            return place, text
+    return "", ""

@@ -1,0 +1,90 @@
+"""C1: the workspace, and the underlay that it was built over."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Any, Sequence
+
+from tutorial_check.course import check
+from tutorial_check.handout.s2.packages import WANTED
+from tutorial_check.isolation import privileges
+from tutorial_check.model import Note, Wrong
+from tutorial_check.record.session import Session
+from tutorial_check.source.manifests import is_stand_in
+from tutorial_check.source.workspace import underlays
+
+SUITE = ("node_kit", "fake_turtlebot_sim")  # packages of the underlay
+AGAIN = "in the workspace: rm -r build devel, then catkin_make"
+
+
+@check("C1", "the workspace", "2.1", look="ls src devel", timeless=True, eager=True)
+def workspace(session: Session) -> Note | str | None:
+    """Look for a src, and whether what was built was built over the suite."""
+    layout = session.layout
+    with privileges.own_rights():  # no program writes here
+        has_source = layout.source.is_dir()
+        within = [layout.source / name for name in ("build", "devel")]
+        is_built_within = has_source and any(map(Path.is_dir, within))
+        setup = layout.root / "devel" / "setup.bash"
+        setup_size = setup.stat().st_size if setup.is_file() else None
+    if not has_source:
+        seen = f"none in {layout.root}, and no package"
+        hint = "is this your workspace? --in ~/ros/hydro/catkin_ws; a new one begins with src"
+        raise Wrong("a folder src in the workspace", seen, hint=hint)
+    _check_names(session)
+    if not layout.is_workspace:
+        return Note("handed in as packages, without their workspace: built afresh here")
+    devel = layout.root / "devel"
+    made_for, below = underlays(devel)
+    if made_for and os.path.realpath(made_for) != os.path.realpath(devel):
+        return Note(f"its devel folder was made elsewhere ({made_for}); built afresh here")
+    if setup_size is not None and (not made_for or below is None or not setup_size):
+        gone = setup.name if made_for and below is not None else "_setup_util.py or setup.sh"
+        seen = f"it is not whole: {gone} is missing or empty"
+        raise Wrong("a devel folder as catkin_make makes it", seen, "devel", AGAIN)
+    if not made_for and is_built_within:
+        hint = "catkin_make is called in the workspace: cd .., and remove src/build and src/devel"
+        raise Wrong("build and devel beside src", "they are within src", hint=hint)
+    if below is None:
+        return Note("never built here (no devel/setup.bash)", hint="catkin_make in the workspace")
+    own = str(devel.resolve())
+    _check_below(session, [each for each in below if os.path.realpath(each) != own])
+    return "src and devel, on top of this suite"
+
+
+def _check_below(session: Session, below: Sequence[str]) -> None:
+    """Raise Wrong unless this suite is among the folders that a workspace was built over."""
+    suite = os.path.realpath(Path(session.underlay).parent)
+    if suite in map(os.path.realpath, below):
+        return
+    other = next(filter(_is_suite, below), None)
+    seen = f"devel was built over {', '.join(below) or 'nothing'}"
+    hint = "built in a terminal without ./tutorial shell: delete build and devel, then catkin_make in it"
+    if other:
+        seen = f"devel was built over another copy of the suite, {other}; this one is {suite}"
+        hint = f"{AGAIN} in the ./tutorial shell of this copy; or check with the ./tutorial"
+        hint += " (and TUTORIAL_WORKSPACE) of the other"
+    raise Wrong("a workspace built on top of this suite", seen, "devel", hint)
+
+
+def _is_suite(devel: str | Path) -> Any:
+    """Return whether a devel folder is the underlay of some copy of this suite; it may be hidden here."""
+    is_there = any(os.path.isdir(os.path.join(devel, "share", name)) for name in SUITE)
+    return is_there or Path(devel).parts[-2:] == ("lower", "devel")
+
+
+def _check_names(session: Session) -> None:
+    """Raise Wrong for a package with the name of one that the exercises need."""
+    share = Path(session.underlay).parent / "share"
+    for each in session.packages:
+        with privileges.own_rights():
+            is_suite = (share / each.name).is_dir() and not is_stand_in(each.name)
+            brings = (each.folder / "msg", each.folder / "src" / each.name)
+        is_ros = any(each.name in names for names in WANTED.values())
+        # A clone of the real one is no package that catkin_create_pkg made by mistake.
+        if is_suite or (is_ros and not any(map(Path.is_dir, brings))):
+            seen = f"a package {each.name}: it hides {'the suite' if is_suite else 'ROS'}'s own"
+            hint = "remove it from src. If catkin_create_pkg made it: its first word is the name"
+            hint += " of the new package, those after it what that depends on"
+            raise Wrong("packages of names of their own", seen, f"src/{each.inside}", hint)

@@ -1,0 +1,222 @@
+"""Sections 4.2, 4.4 and 4.5: recordings, the simulated robot, a virtual joystick."""
+
+from __future__ import annotations
+
+import math
+import statistics
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Optional, Tuple
+
+from tutorial_check.handout.s4.gamepad import Pad
+from tutorial_check.handout.s4_3.record import CMD_VEL, JOY, NEUTRAL
+from tutorial_check.handout.s4_3.rules import ANGULAR, LINEAR
+from tutorial_check.handout.task import LB, PACKAGE
+from tutorial_check.isolation.helper_process import Helper
+from tutorial_check.isolation.program import Program, Ran
+from tutorial_check.model import CannotCheck
+from tutorial_check.record.ground import Ground
+from tutorial_check.record.session import Session
+from tutorial_check.record.simulated_robot import ODOM, SimulatedRobot
+from tutorial_check.record.stage import START_S, Stage
+
+FORWARDS, LEFT = 0.5, 0.8  # positions of the stick
+SLOW_S = 4.0  # for a program that sleeps in its callback to answer what has gathered
+REST_S = 0.5  # for a Twist at rest; not every program sends one
+FASTEST = {LINEAR: 0.7, ANGULAR: math.pi}  # [m/s, rad/s] that the robot can do
+LOOKS = 3  # at the robot's speed: a busy machine may stutter once
+SAMPLES, SAMPLES_S = 40, 4.0  # of odometry for one look, 50 a second; and how long they may take
+
+
+@dataclass(frozen=True)
+class Bag:
+    """A file of rosbag's."""
+
+    error: str = ""  # why it cannot be read
+    topics: Tuple[str, ...] = ()
+    axes: Optional[int] = None  # of its first Joy; None: it has none
+
+
+@dataclass(frozen=True)
+class Follow:
+    """The simulated robot, driven forwards, then turned."""
+
+    program: Ran
+    ready: bool
+    publishers: Tuple[str, ...]  # nodes that publish on /cmd_vel
+    v: float = 0.0  # [m/s] of the robot
+    w: float = 0.0  # [rad/s]
+    told_v: Optional[float] = None  # what the last Twist said
+    told_w: Optional[float] = None
+
+
+@dataclass(frozen=True)
+class Stick:
+    """joy_node with a virtual F710, its switch at D, then Joys as at X."""
+
+    program: Ran
+    drives: bool
+    v: float = 0.0  # linear.x of the last Twist [m/s]
+    survives_eight_axes: bool = False
+
+
+def held(
+    session: Session, left: float, forwards: float
+) -> Tuple[Tuple[float, ...], Tuple[int, ...]]:
+    """Return a Joy with LB held, as the student's task has it."""
+    buttons = (*NEUTRAL[1][:LB], 1, *NEUTRAL[1][LB + 1 :])
+    joy: Tuple[Tuple[float, ...], Tuple[int, ...]] = session.task.joy(
+        ((left, forwards, 0.0, 0.0, 0.0, 0.0), buttons)
+    )
+    return joy
+
+
+def rest(stage: Stage, *topics: str, joys: str = JOY) -> None:
+    """Send Joys at rest until a Twist answers, or for a while: some programs drive only after it.
+
+    A Subscriber with queue_size=1 that is still busy may lose one; so, several.
+    """
+    stage.call("stream", joys, [NEUTRAL], 20.0, True)
+    stage.wait(lambda: any(stage.call("count", topic) for topic in topics), REST_S)
+    stage.call("end_stream", joys)
+
+
+def bag(ground: Ground, path: str) -> Bag:
+    """Read a recording. path: within src."""
+    import rosbag  # noqa: PLC0415
+
+    try:
+        with rosbag.Bag(str(ground.source / path)) as opened:
+            topics = tuple(opened.get_type_and_topic_info().topics)
+            _, joy, _ = next(opened.read_messages(topics=[JOY, "joy"]), (None, None, None))
+    except (rosbag.ROSBagException, OSError, ValueError, KeyError, EOFError) as error:
+        return Bag(str(error) or type(error).__name__)
+    return Bag("", topics, None if joy is None else len(getattr(joy, "axes", ())))
+
+
+def follow(ground: Ground, script: str) -> Follow:
+    """Drive the simulated robot forwards, then turn it."""
+    with ground.stage() as stage:
+        stage.call("listen", CMD_VEL, "Twist")
+        stage.call("advertise", JOY, "Joy")
+        program = stage.start(PACKAGE, script)
+        robot = SimulatedRobot(stage)
+        ready = stage.wait(lambda: program.ended or stage.call("listeners", JOY), START_S)
+        rest(stage, CMD_VEL)
+        if ready:  # its Publisher may be made in the callback
+            ready = stage.wait(lambda: program.ended or stage.call("speakers", CMD_VEL), START_S)
+        ready = bool(ready) and not program.ended
+        publishers = tuple(sorted(set(stage.call("state")[0].get(CMD_VEL, []))))
+        if not ready or len(publishers) != 1:
+            return Follow(program.ran, ready, publishers)
+        (v, _), told_v = _driven(stage, robot, held(ground, 0.0, FORWARDS), LINEAR)
+        (_, w), told_w = _driven(stage, robot, held(ground, LEFT, 0.0), ANGULAR)
+        ground.runner.end(program, 0.5)
+    return Follow(program.ran, True, publishers, v, w, told_v, told_w)
+
+
+def _speeds(stage: Stage, robot: SimulatedRobot) -> tuple[float, float]:
+    """Return (speed [m/s], rate of turn [rad/s]) of the robot in a while of even driving."""
+    begun = stage.call("count", ODOM)
+    stage.wait(lambda: stage.call("count", ODOM) >= begun + SAMPLES, SAMPLES_S)
+    path = robot.path[begun:]
+    mean = statistics.fmean if path else lambda _: 0.0
+    return mean([sample.v for sample in path]), mean([sample.w for sample in path])
+
+
+def agree(measured: float, wanted: float, field: int) -> bool:
+    """Return whether the robot does what a Twist says, as far as it can."""
+    most = FASTEST[field]
+    return wanted > 0 and abs(measured - min(wanted, most)) <= 0.1 * min(wanted, most)
+
+
+def _driven(
+    stage: Stage, robot: SimulatedRobot, joy: object, field: int
+) -> tuple[tuple[float, float], float | None]:
+    """Return (speed and rate of turn of the robot, what the last Twist has in a field) in a drive."""
+    before = stage.call("count", CMD_VEL)
+
+    def wanted() -> list[float]:
+        return [value[field] for _, _, value in stage.call("heard", CMD_VEL, before)]
+
+    stage.call("stream", JOY, [joy], 20.0, True)
+    stage.wait(lambda: any(abs(value) > 0.01 for value in wanted()), 3.0)
+    moving = stage.call("count", ODOM)
+    stage.wait(lambda: stage.call("count", ODOM) > moving + 8, 3.0)
+    for _ in range(LOOKS):
+        speeds, last = _speeds(stage, robot), next(iter(wanted()[-1:]), None)
+        if last is not None and agree(speeds[field == ANGULAR], last, field):
+            break
+    stage.call("end_stream", JOY)
+    return speeds, last
+
+
+def plug_in(ground: Ground, stage: Stage, device: str = "/dev/input/js0") -> tuple[Helper, Path]:
+    """Make a virtual F710 behind a device, or a FIFO where that cannot be; (Pad, path)."""
+    path = Path(device) if ground.can_have_devices else ground.folder / "js0"
+    pad = stage.help(lambda: Pad(str(path), ground.task.joy))
+    pad.call("connected")
+    return pad, path
+
+
+def stick(ground: Ground, script: str) -> Stick:
+    """Drive with a virtual F710, its switch at D; then send Joys as with the switch at X."""
+    with ground.stage() as stage:
+        stage.call("listen", JOY, "Joy")
+        stage.call("listen", CMD_VEL, "Twist")
+        pad, path = plug_in(ground, stage)
+        node = stage.start_ours("gamepad", "joy_node", f"_dev:={path}", "_autorepeat_rate:=20")
+        program = stage.start(PACKAGE, script)
+
+        def has_ended() -> bool:
+            return program.ended or node.ended
+
+        def drives() -> bool:
+            return any(abs(speed) > 0.01 for speed in _speeds_told(stage))
+
+        def is_up() -> bool:
+            return bool(stage.call("count", JOY) and stage.call("speakers", CMD_VEL))
+
+        stage.wait(lambda: is_up() or has_ended(), START_S)
+        pad.call("push", 0.0, 0.6)
+        stage.wait(lambda: drives() or has_ended(), 3.0)
+        if not stage.call("count", JOY):
+            raise CannotCheck(f"the joystick driver does not start: {node.output[-200:]}")
+        if program.ended or not drives():
+            return Stick(program.ran, drives=False)
+        v = _speeds_told(stage)[-1]
+        if v < 0:
+            return Stick(program.ran, True, v)
+        ground.runner.end(node)
+        survives = _survives_eight_axes(ground, stage, program)
+    return Stick(program.ran, True, v, survives)
+
+
+def _speeds_told(stage: Stage, since: int = 0) -> list[float]:
+    """Return linear.x of the Twists [m/s]."""
+    return [value[0] for _, _, value in stage.call("heard", CMD_VEL, since)]
+
+
+def _survives_eight_axes(ground: Ground, stage: Stage, program: Program) -> bool:
+    """Return whether Joys as of the switch at X are answered."""
+    stage.call("advertise", JOY, "Joy")
+    # Our own Subscriber is one of them.
+    stage.wait(lambda: stage.call("listeners", JOY) > 1 or program.ended, START_S)
+
+    def drive_backwards() -> None:
+        """Only this does; once it shows, all that was sent before has been answered."""
+        index = stage.call("count", CMD_VEL)
+        stage.call("send", JOY, held(ground, 0.1, -0.5))
+        stage.wait(
+            lambda: min(_speeds_told(stage, index), default=0.0) < 0 or program.ended, SLOW_S
+        )
+
+    drive_backwards()
+    before, failed = stage.call("count", CMD_VEL), program.output.count("Traceback")
+    for k in range(5):
+        axes = (0.1, 0.2 + 0.1 * k, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+        joy = axes, (0,) * LB + (1,) + (0,) * 6
+        stage.call("send", JOY, ground.task.joy(joy))
+    drive_backwards()
+    has_failed = program.ended or program.output.count("Traceback") != failed
+    return not has_failed and max(_speeds_told(stage, before), default=0.0) > 0

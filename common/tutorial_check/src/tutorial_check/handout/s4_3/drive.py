@@ -1,0 +1,127 @@
+"""What came of starting a program and sending it Joy messages. Pure."""
+
+from __future__ import annotations
+
+import statistics
+from dataclasses import dataclass, field
+from typing import Dict, Optional, Tuple
+
+from tutorial_check.handout.s4_3 import probes
+from tutorial_check.handout.s4_3.rules import FIELDS, Evidence, judge
+from tutorial_check.isolation.program import Ran
+from tutorial_check.record.recording import Topics
+
+SOON_S = 0.05  # from Joy to Twist
+NAP_S = 0.3  # for one Twist: a correct program never takes this long
+
+Joy = Tuple[Tuple[float, ...], Tuple[int, ...]]  # (axes, buttons)
+Twist = Tuple[float, ...]
+Sample = Tuple[Tuple[float, ...], Twist]
+
+
+@dataclass(frozen=True)
+class Drive:
+    """A recording; Joys have the axes and buttons of the handout's task."""
+
+    script: str
+    program: Ran = Ran("", "", None, False, False)  # noqa: RUF009  frozen
+    # What the text and the task say.
+    sleep_lines: Tuple[int, ...] = ()  # in a callback
+    enough: float = 0.95  # of the Joys of a stream answered
+    factors: Dict[str, float] = field(
+        default_factory=dict
+    )  # those asked for, by the name of the field
+    needs_button: bool = False
+    # The graph.
+    connected: bool = False
+    publishers: Topics = field(default_factory=dict)
+    subscribers: Topics = field(default_factory=dict)
+    types: Dict[str, str] = field(default_factory=dict)
+    warnings: Tuple[str, ...] = ()
+    master_alive: bool = True
+    # The numbered Joys, one at a time.
+    asked: int = 0
+    samples: Tuple[Sample, ...] = ()
+    first_samples: Tuple[Sample, ...] = ()  # of an earlier pass
+    missing: int = 0
+    unasked: int = 0
+    came: int = 0  # for the numbered Joys
+    waits: Tuple[float, ...] = ()  # [s] from a Joy to the next Twist
+    at_rest: Optional[Twist] = None  # the answer to a Joy at rest
+    twists: Tuple[Twist, ...] = ()  # all of the second pass
+    has_clock: bool = False  # more come unasked
+    repeats: bool = False  # and move the robot
+    shown: int = 0  # how many Joys were displayed
+    # The probes.
+    answers: Tuple[Tuple[Joy, Twist], ...] = ()
+    unanswered: Optional[Tuple[Joy, Joy]] = None  # (Joy, the one before) without a Twist
+    # The stream.
+    sent: int = 0
+    answered: int = 0
+    strays: int = 0  # zeros between the answers
+    delays: Tuple[float, ...] = ()
+    possible: Optional[int] = None  # what our own Echo answered beside it
+    unavoidable_s: Optional[float] = None
+    # The end.
+    ended_early: bool = False
+    output: str = ""  # before Ctrl-C
+    taken_s: Optional[float] = None  # to the end; None: it was killed
+    last_words: str = ""
+
+    @property
+    def evidence(self) -> Evidence:
+        given = self.factors
+        factors = {index: given[name] for index, name in enumerate(FIELDS) if name in given}
+        return Evidence(list(self.samples), list(self.first_samples), self.at_rest, factors)
+
+    @property
+    def complaint(self) -> str:
+        """What is odd about the answers to the numbered Joys; empty if nothing is."""
+        return judge(self.evidence)[0]
+
+    def judge_probes(self) -> tuple[str, str]:
+        """Return what is wrong with the answers to the probes, and what to do; empty if nothing is."""
+        about = self.evidence.factors, self.needs_button
+        return probes.judge_probes(self.samples, self.answers, *about)
+
+    @property
+    def silence(self) -> tuple[str, str]:
+        """Return (what is seen, what to do) for the first probe that was not answered."""
+        assert self.unanswered
+        joy, before = self.unanswered
+        return probes.silence(joy, before, self.answers[-1][1] if self.answers else (1.0,))
+
+    @property
+    def delay_s(self) -> float | None:
+        return statistics.median(self.delays) if self.delays else None
+
+    @property
+    def rate(self) -> str:
+        late = f", {1000 * self.delay_s:.1f} ms late" if self.delay_s is not None else ""
+        return f"{self.answered} Twists for {self.sent} Joys{late}"
+
+    @property
+    def is_prompt(self) -> bool:
+        """Whether enough Joys were answered, and soon, as far as the machine allows."""
+        if self.answered < self.enough * min(self.sent, self.possible or self.sent):
+            return False
+        return self.delay_s is None or self.delay_s < SOON_S + (self.unavoidable_s or 0.0)
+
+    @property
+    def naps(self) -> bool:
+        """Whether its callback sleeps, and so long that each Joy waits for the one before."""
+        is_slow = len(self.waits) > 2 and statistics.median(self.waits[:5]) > NAP_S
+        return bool(self.sleep_lines) and is_slow
+
+    @property
+    def all_shown(self) -> bool:
+        return self.shown >= min(5, max(1, self.asked))
+
+    @property
+    def shows_numbers(self) -> bool:
+        """Whether it prints lines with as many numbers as a Joy has axes."""
+        return any(len(probes.NUMBER.findall(line)) >= 6 for line in self.output.splitlines())
+
+    @property
+    def trouble(self) -> bool:
+        return "Traceback (most recent call last)" in self.output

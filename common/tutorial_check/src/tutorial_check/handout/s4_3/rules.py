@@ -1,0 +1,283 @@
+"""Which rule turns these Joys into these Twists? One row for each mistake that is known. Pure."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from dataclasses import dataclass, field
+from typing import Iterable, Mapping, NamedTuple, Sequence, Tuple
+
+from tutorial_check.judge.rows import Row, find
+
+Sample = Tuple[Sequence[float], Sequence[float]]  # (axes, six values of the Twist)
+
+FIELDS = ("linear.x", "linear.y", "linear.z", "angular.x", "angular.y", "angular.z")
+LINEAR, ANGULAR = 0, 5  # the two fields that a robot in the plane obeys
+RIGHT = {LINEAR: 1, ANGULAR: 0}  # the axis that each of them follows
+SMALL = 1e-4
+AXES = 6
+
+
+class Rule(NamedTuple):
+    """field = factor * axes[axis], of all samples."""
+
+    axis: int
+    factor: float
+
+
+def is_near(one: float, other: float) -> bool:
+    """Return whether two values are the same, as far as a message or a rounding goes."""
+    return abs(one - other) <= SMALL + 0.01 * abs(other)
+
+
+def factor_of(values: Sequence[float], inputs: Sequence[float]) -> float | None:
+    """Return the constant of proportion, or None. Zeros (dead zone) and a limit may be among the values."""
+    pairs = [(value, given) for value, given in zip(values, inputs) if abs(given) > SMALL]
+    moving = [(value, given) for value, given in pairs if abs(value) > SMALL]
+    ratios = sorted((value / given for value, given in moving), key=abs)
+    if len(ratios) < max(2, 0.5 * len(pairs)):
+        return None
+    limit = max(abs(value) for value, _ in pairs)
+    dead_zone = min(abs(given) for _, given in moving)
+    # Beyond a limit the ratio is less than the factor.
+    for factor, enough in ((sorted(ratios)[len(ratios) // 2], 0.5 * len(pairs)), (ratios[-1], 3)):
+        fits = limited = 0
+        for value, given in pairs:
+            wanted = factor * given
+            if abs(value - wanted) <= 0.02 * abs(wanted) + SMALL:
+                fits += 1
+            elif abs(value) <= SMALL:
+                limited += abs(given) < dead_zone
+            else:
+                at_limit = abs(abs(value) - limit) < SMALL and limit < abs(wanted)
+                limited += at_limit and value * wanted > 0
+        if fits + limited == len(pairs) and fits >= enough:
+            return factor
+    return None
+
+
+def rule_of(index: int, samples: Iterable[Sample]) -> Rule | None:
+    samples = list(samples)
+    values = [twist[index] for _, twist in samples]
+    for axis in range(AXES):
+        factor = factor_of(values, [axes[axis] for axes, _ in samples])
+        if factor is not None:
+            return Rule(axis, factor)
+    return None
+
+
+@dataclass
+class Evidence:
+    """What a program answered; `again` to the same Joys sent earlier, `at_rest` to one with all axes 0.
+
+    factors: those that are asked for, by the index of the field; without one any is right.
+    """
+
+    samples: list[Sample]
+    again: list[Sample] = field(default_factory=list)
+    at_rest: Sequence[float] | None = None
+    factors: Mapping[int, float] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        twists = [twist for _, twist in self.samples]
+        self.rules = {index: rule_of(index, self.samples) for index in range(6)}
+        self.moving = [i for i in range(6) if any(abs(twist[i]) > SMALL for twist in twists)]
+        self.fields = [Field(self, index, axis) for index, axis in RIGHT.items()]
+
+    @property
+    def extra(self) -> str:
+        """Return what is said of a field that should stay 0; empty if all do."""
+        index = next((each for each in self.moving if each not in RIGHT), None)
+        if index is None:
+            return ""
+        rule = self.rules[index]
+        return f"{FIELDS[index]} follows axes[{rule.axis}]" if rule else f"{FIELDS[index]} is not 0"
+
+
+class Field:
+    """One field of the Twists, beside the axis that it should follow."""
+
+    def __init__(self, evidence: Evidence, index: int, axis: int) -> None:
+        self.name, self.axis, self.across_axis = FIELDS[index], axis, 1 - axis
+        self.sides = ("forwards", "backwards") if axis == 1 else ("left", "right")
+        self.values = [twist[index] for _, twist in evidence.samples]
+        self.given = [axes[axis] for axes, _ in evidence.samples]
+        self.across = [axes[1 - axis] for axes, _ in evidence.samples]
+        self.axes = [axes for axes, _ in evidence.samples]
+        self.pairs = list(zip(self.given, self.values))
+        self.rule = evidence.rules[index]
+        self.wanted = evidence.factors.get(index)
+        self.is_right = bool(self.rule and self.rule.axis == axis and self.rule.factor > 0)
+        # Rounded to two decimals a value is off by as much as 0.005.
+        near = self.rule and self.wanted and abs(self.rule.factor / self.wanted - 1) < 0.02
+        self.is_scaled = self.is_right and bool(self.wanted and not near)
+        self.is_right = self.is_right and not self.is_scaled
+        self.is_still = index not in evidence.moving
+        other = evidence.rules[ANGULAR if index == LINEAR else LINEAR]
+        crossed = (1 - axis, axis)
+        self.is_swapped = self.rule and other and (self.rule.axis, other.axis) == crossed
+        strange = [each for each in evidence.moving if each not in RIGHT]
+        rules = {FIELDS[each]: evidence.rules[each] for each in strange}
+        self.misplaced = next((n for n, rule in rules.items() if rule and rule.axis == axis), "")
+        self.at_rest = evidence.at_rest[index] if evidence.at_rest else 0.0
+        earlier = {tuple(axes): twist[index] for axes, twist in evidence.again}
+        keys = [tuple(axes) for axes, _ in evidence.samples]
+        both = [(earlier[key], now) for key, now in zip(keys, self.values) if key in earlier]
+        self.other_answer = next((each for each in both if not is_near(*each)), None)
+
+    def follows(self, inputs: Iterable[float]) -> bool:
+        return bool(factor_of(self.values, list(inputs)))
+
+    @property
+    def has_lost_its_sign(self) -> bool:
+        """Return whether it grows with the axis to either side: abs(), or a square."""
+        if self.follows(map(abs, self.given)):
+            return True
+        values = [value for _, value in sorted((abs(given), value) for given, value in self.pairs)]
+        varies = len({round(value, 6) for value in values}) > 0.6 * len(values)
+        return values[0] > SMALL and _rises(values) and varies
+
+    @property
+    def mixture(self) -> str:
+        """The two axes whose sum, or difference, it is, each with its factor; or empty."""
+        order = sorted(range(AXES), key=lambda axis: axis != self.axis)
+        for i, j in itertools.combinations(order if len(self.values) > 3 else (), 2):
+            (a, b), (c, d) = ((axes[i], axes[j]) for axes in self.axes[:2])
+            one, other = self.values[:2]
+            whole = a * d - b * c or math.inf
+            p, q = (one * d - other * b) / whole, (other * a - one * c) / whole
+            both = zip(self.axes, self.values)
+            fits = all(abs(p * axes[i] + q * axes[j] - value) < 1e-3 for axes, value in both)
+            if fits and min(abs(p), abs(q)) > 0.05:
+                return f"{p:.2f} * axes[{i}] {'-' if q < 0 else '+'} {abs(q):.2f} * axes[{j}]"
+        return ""
+
+    @property
+    def adds_up(self) -> bool:
+        steps = [after - before for before, after in zip(self.values, self.values[1:])]
+        if len(steps) < 3 or not self.given[-1]:
+            return False
+        factor = steps[-1] / self.given[-1]
+        # Values that only change sign are nearly twice as much as those before.
+        fits = (abs(step - factor * each) < 1e-3 for step, each in zip(steps, self.given[1:]))
+        return abs(factor) > 1e-2 and all(fits)
+
+    @property
+    def side_left_out(self) -> str:
+        for sign, side in ((1, "below"), (-1, "above")):
+            rest = [value for given, value in self.pairs if sign * given < 0]
+            pairs = sorted((abs(g), abs(value)) for g, value in self.pairs if sign * g > 0)
+            if not any(rest) and _rises([value for _, value in pairs]):
+                return side
+        return ""
+
+    @property
+    def offset(self) -> str | None:
+        offsets = [value - given for given, value in self.pairs]
+        return f"{offsets[0]:.2f}" if max(offsets) - min(offsets) < 0.02 else None
+
+    @property
+    def steps(self) -> str:
+        """Return the values if there are few for many positions; zero and a limit may be many."""
+        found = {abs(given): abs(value) for given, value in self.pairs}.values()
+        limit = max(found)
+        between = [round(value, 6) for value in found if SMALL < value < limit - SMALL]
+        limited = sum(value >= limit - SMALL for value in found)
+        kinds = len(set(between))
+        if kinds > 0.6 * len(between) or not limited + len(between) > 2 + kinds:
+            return ""
+        return ", ".join(f"{value:.2f}" for value in sorted({*between, round(limit, 6)})[:3])
+
+    @property
+    def is_curve(self) -> bool:
+        values = [value for _, value in sorted(self.pairs)]
+        signs = all(value * given >= -SMALL for given, value in self.pairs)
+        return _rises(values) and signs and min(values[-1], -values[0]) > 0.05
+
+
+def _rises(values: Sequence[float]) -> bool:
+    return all(after >= before - SMALL for before, after in zip(values, values[1:]))
+
+
+def no_number(samples: Iterable[Sample]) -> str:
+    """Return what is said of a value that is infinite or no number; empty if all are numbers."""
+    values = ((name, value) for _, twist in samples for name, value in zip(FIELDS, twist))
+    odd = next((each for each in values if not math.isfinite(each[1])), None)
+    return "{} is {}, which is no number".format(*odd) if odd else ""
+
+
+JUST = "{f.name} = axes[{f.axis}]"
+WRONG_SIGN = "{f.name} = {f.rule.factor:.2f} * axes[{f.axis}]: the sign is wrong"
+ONLY_THIS = "{f.name} comes from this Joy alone: no +=, no mean, nothing kept"
+BEFORE = (
+    Row(lambda e: no_number(e.samples), "{found}", "look at what it is calculated from"),
+    Row(lambda e: not e.moving, "every Twist is zero",
+        "are linear.x and angular.z of the message that is published set from data.axes?"),
+)  # fmt: skip
+# Of a field that does not follow its axis by a constant. The first row that applies counts.
+OF_A_FIELD = (
+    Row(lambda f: f.is_scaled, "{f.name} = {f.rule.factor:.2f} * axes[{f.axis}]", JUST),
+    Row(lambda f: f.wanted and f.rule and f.rule.axis == f.axis, WRONG_SIGN, JUST),
+    Row(lambda f: f.rule and f.rule.axis == f.axis, WRONG_SIGN,
+        "pushed {f.sides[0]}, the robot goes {f.sides[1]}: leave the minus out"),
+    Row(lambda f: f.is_swapped, "angular.z follows axes[1] and linear.x axes[0]: they are swapped",
+        "linear.x = axes[1] (forwards), angular.z = axes[0] (left)"),
+    Row(lambda f: f.rule, "{f.name} follows axes[{found.axis}]", JUST),
+    Row(lambda f: f.is_still and f.misplaced,
+        "{found} follows axes[{f.axis}], {f.name} stays 0",
+        "a robot in the plane drives along x and turns about z: linear.x and angular.z"),
+    Row(lambda f: f.is_still, "{f.name} is always 0", JUST),
+    Row(lambda f: f.mixture, "{f.name} = {found}: two axes in one", JUST),
+    Row(lambda f: factor_of(f.values[1:], f.given[:-1]),
+        "{f.name} follows the Joy before: each Twist is one message late",
+        "first put the values into the message, then publish it"),
+    Row(lambda f: f.adds_up,
+        "{f.name} depends on earlier Joys: it grows while the stick is held", ONLY_THIS),
+    Row(lambda f: f.other_answer,
+        "{f.name} depends on earlier Joys: the same Joy gives {found[0]:.2f} and {found[1]:.2f}",
+        ONLY_THIS),
+    Row(lambda f: f.has_lost_its_sign, "{f.name} has lost the sign of axes[{f.axis}]",
+        JUST + ", without abs or a square"),
+    Row(lambda f: f.follows(g if a >= 0 else -g for g, a in zip(f.given, f.across)),
+        "{f.name} changes sign when axes[{f.across_axis}] is negative",
+        JUST + ", whatever the other axis is"),
+    Row(lambda f: len({round(value, 6) for value in f.values}) == 1,
+        "{f.name} is always {f.values[0]:.2f}", JUST),
+    Row(lambda f: all(value == round(value) for value in f.values),
+        "{f.name} has whole numbers only", JUST + ", without int() or round()"),
+    Row(lambda f: f.side_left_out, "{f.name} is 0 wherever axes[{f.axis}] is {found} 0",
+        JUST + ", of either sign"),
+    Row(lambda f: f.offset,
+        "{f.name} = axes[{f.axis}] + {found}: released, the robot still moves", JUST),
+    Row(lambda f: abs(f.at_rest) > SMALL,
+        "{f.name} is {f.at_rest:.2f} at rest, all axes 0: the robot never stands still", JUST),
+    Row(lambda f: f.steps,
+        "{f.name} has steps, as {found}: it does not follow axes[{f.axis}] between them",
+        JUST + ", without round(), and not one speed for many positions"),
+    Row(lambda f: not f.is_curve or f.wanted, "{f.name} is no constant times axes[{f.axis}]", JUST),
+)  # fmt: skip
+AFTER = (
+    Row(lambda e: e.extra, "{found}",
+        "only linear.x and angular.z move a robot in the plane; leave the others 0"),
+)  # fmt: skip
+
+
+def judge(evidence: Evidence) -> tuple[str, str]:
+    """Return (complaint, hint), each empty if there is none; a hint without a complaint is a remark."""
+    odd = [find(OF_A_FIELD, each) for each in evidence.fields if not each.is_right]
+    all_found = [find(BEFORE, evidence), *odd, find(AFTER, evidence)]
+    found = next((each for each in all_found if each), None)
+    return (found.seen, found.hint) if found else ("", _remark(evidence))
+
+
+def _remark(evidence: Evidence) -> str:
+    curves = [f.name for f in evidence.fields if f.rule is None]
+    if curves:
+        are = "are curves of their axes" if len(curves) > 1 else "is a curve of its axis"
+        return f"{' and '.join(curves)} {are}, not a constant times it"
+    scaled = [
+        f"{f.name} = {f.rule.factor:.2f} * axes[{f.axis}]"
+        for f in evidence.fields
+        if f.rule and abs(f.rule.factor - 1) > 0.02 and not f.wanted
+    ]
+    return f"{', '.join(scaled)}; the handout's has no factor" if scaled else ""

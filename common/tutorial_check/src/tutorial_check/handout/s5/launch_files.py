@@ -1,0 +1,257 @@
+"""Launch files, read and not started: C21, and what the others ask of them."""
+
+from __future__ import annotations
+
+import difflib
+import os
+import re
+import shlex
+from pathlib import Path
+from typing import Any, Callable
+
+from tutorial_check.course import check
+from tutorial_check.handout.s4_3.judge import NAME
+from tutorial_check.handout.s5 import launch_text
+from tutorial_check.handout.s5.launch_facts import Node
+from tutorial_check.handout.s5.record import facts_of_files
+from tutorial_check.handout.task import PACKAGE
+from tutorial_check.judge.scripts import find_script, is_runnable
+from tutorial_check.model import Note, Wrong
+from tutorial_check.record.session import Session
+from tutorial_check.source.launch_xml import line_of, place_of, read, unclosed_node
+from tutorial_check.source.manifests import is_stand_in
+
+BAG, STICK = "launch_bag.launch", "launch_joy_node.launch"
+TURTLEBOT, REAL = "joy2twist_turtlebot.launch", "launch_joy_node_realTurtlebot.launch"
+ALL = (BAG, STICK, TURTLEBOT, REAL)
+JOY_HINT = '<node pkg="joy" type="joy_node" name="joy_node"/>'
+TAGS = "launch node include remap param rosparam arg group env machine test master"
+ATTRIBUTES = (
+    "pkg type name args output required respawn respawn_delay ns cwd launch-prefix machine"
+    " clear_params file from to value default if unless command textfile binfile param"
+    " pass_all_args doc"
+)
+
+
+class LaunchFile:
+    """A launch file of the student's: its text, and what roslaunch makes of it."""
+
+    def __init__(self, session: Session, name: str) -> None:
+        """Read the file. Raises Wrong if there is none."""
+        self.session, self.name = session, name
+        self.path = find_launch(session, name)
+        self.where = shown(session, self.path)
+        self.text = read(self.path)
+        self.facts = session.memo("launch facts", lambda: _read(session)).get(name)
+        self.nodes: list[Node] = self.facts["nodes"]  # that it starts
+        self.own = [node for node in self.nodes if node["package"] == PACKAGE]
+
+    def at(self, *words: str) -> str:
+        """Return FILE:LINE of the first line with the first of the words that is there; else the file."""
+        return place_of(self.where, self.text, *words)
+
+    def at_node(self, node: Node) -> str:
+        """Return FILE:LINE of a node, which may be in an included file."""
+        path = Path(node["filename"])
+        path = path if self.session.source in path.parents else self.path
+        words = (*launch_text.attribute("type", node["type"]), Path(node["type"]).name)
+        return place_of(shown(self.session, path), read(path), *words)
+
+    def demand(self, what: str, test: Callable[[Node], bool], hint: str) -> Node:
+        """Return the first node of which test() is true. Raises Wrong."""
+        found = next(filter(test, self.nodes), None)
+        if not found:
+            raise Wrong(f"{self.name} starts {what}", "it does not", self.where, hint)
+        return found
+
+    def words_of(self, node: Node) -> list[str]:
+        """Return the arguments of a node, as a shell would part them. Raises Wrong."""
+        try:
+            return shlex.split(node["args"])
+        except ValueError as error:
+            expected, seen = "a second quote for each one in args", f"{node['args']} ({error})"
+            hint = "leave the ' out: a path without spaces needs none"
+            raise Wrong(expected, seen, self.at_node(node), hint) from None
+
+
+def shown(session: Session, path: str | Path) -> str:
+    """Return the path of a file within the student's package, or else within src."""
+    inside = os.path.relpath(path, session.package(PACKAGE).folder)
+    return os.path.relpath(path, session.source) if inside.startswith("..") else inside
+
+
+def copy_bag(session: Session) -> str:
+    """Return the commands that put the suite's recording into the student's package."""
+    folder = session.whole("bag", PACKAGE)
+    return f'mkdir -p {folder}; cp "$(rospack find gamepad)/bag/joy.bag" {folder}'
+
+
+def find_launch(session: Session, name: str) -> Path:
+    """Return the path of a launch file in the student's package. Raises Wrong."""
+    folder = session.package(PACKAGE).folder
+    found = sorted(path for path in folder.rglob(name) if path.is_file())
+    if len(found) > 1:
+        inside = [str(path.relative_to(folder)) for path in found]
+        hint = f"roslaunch says 'multiple files named {name}' and starts nothing: keep one in"
+        seen = f"several: {', '.join(inside)}"
+        raise Wrong(f"one file {name}", seen, inside[1], f"{hint} {PACKAGE}/launch")
+    if found:
+        return found[0]
+    paths = sorted(path for path in session.source.rglob("*launch*") if path.is_file())
+    others = {path.name: path for path in paths}
+    near = [other for other in others if other.lower() == name.lower()]
+    strange = [other for other in others if other not in ALL]
+    near = near or difflib.get_close_matches(name, strange, 1, 0.85)
+    expected = f"{PACKAGE}/launch/{name}"
+    if near:
+        other = os.path.relpath(others[near[0]], session.source)
+        hint = f"its name must be {name}, and its place {PACKAGE}/launch"
+        raise Wrong(expected, f"a file {other}", other, hint)
+    hint = f"write it: launch/{name} in YOUR package. ./tutorial shell without --in has one of OURS"
+    raise Wrong(expected, "no such file in your package", f"{PACKAGE}/launch", hint)
+
+
+def _read(session: Session) -> dict[str, dict[str, Any]]:
+    """Return {name: facts} of those of the four that are there."""
+    session.must_be_launchable()
+    folder = session.package(PACKAGE).folder
+    files = (path for name in ALL for path in sorted(folder.rglob(name))[::-1] if path.is_file())
+    paths = {path.name: os.path.relpath(path, session.source) for path in files}  # the first ones
+    if not paths:
+        return {}
+    facts = session.recording(facts_of_files, *paths.values()).files
+    if facts is None:
+        seen, hint = "reading them does not end", "roslaunch --nodes FILE"
+        raise Wrong("launch files that roslaunch can read", seen, hint=hint)
+    for node in (node for one in facts for node in one["nodes"]):
+        node["package"] = session.task.known_as(node["package"])
+    return {Path(one["path"]).name: one for one in facts}
+
+
+def check_file(session: Session, name: str) -> LaunchFile:
+    """Return the LaunchFile: it exists, parses, each $(find) leads where it may. Raises Wrong."""
+    try:
+        file = LaunchFile(session, name)
+        _check_text(file)
+        for node in file.nodes:
+            _check_node(file, node)
+        _check_finds(file)
+        return file
+    except Wrong as wrong:
+        wrong.look = wrong.look or f"roslaunch --nodes {PACKAGE} {name}"
+        raise
+
+
+def _check_text(file: LaunchFile) -> None:
+    one = file.facts
+    gap, hint = launch_text.space_hint(file.text)
+    if gap:
+        raise Wrong("names in one word", gap, file.at(gap), hint)
+    if one["fault"]:
+        raise _fault(file, launch_text.Fault(**one["fault"]))
+    said = one["said"] + " ".join(one.get("errors", []))
+    _check_words(file, said)
+    inside = re.search(r"unrecognized '(\w+)' child tag", said)
+    tag = inside[1] if inside else ""
+    line = unclosed_node(file.text, tag) if tag else None
+    if line:
+        expected = "no tag in a <node> but remap, param, rosparam and env"
+        hint = "the <node> of this line goes on to its </node>: close it first, with /> or </node>"
+        seen = f"<{tag}> in it: ignored by roslaunch"
+        raise Wrong(expected, seen, f"{file.where}:{line}", hint)
+
+
+def _fault(file: LaunchFile, fault: launch_text.Fault) -> Wrong:
+    """Return the Wrong for what roslaunch cannot read, in this file or in an included one."""
+    session = file.session
+    path, line = launch_text.blamed(fault, session.source)
+    text = Path(path).read_text(errors="replace")
+    wrong = launch_text.parse_error(fault, shown(session, path), line, text)
+    inner, number = fault.places[-1]
+    if session.source not in Path(inner).parents and fault.kind != launch_text.UNSET:
+        wrong.seen += f" (in {inner}:{number})"
+    hiding = (each for each in session.packages if each.folder in Path(path).parents)
+    for name in (each.name for each in hiding if is_stand_in(each.name)):
+        wrong.hint += f"; or remove {name} from src: this suite has one that needs nothing else"
+    return wrong
+
+
+def _check_words(file: LaunchFile, said: str) -> None:
+    """Raise Wrong for a tag or attribute that roslaunch does not know."""
+    pattern = r"unrecognized (?:tag |')(\w+)|[Uu]nknown (?:<\w+> )?attribute '?([^\s']+)"
+    odd = (each.groups("") for each in re.finditer(pattern, said))
+    tag, name = next((each for each in odd if each[0] not in TAGS.split()), ("", ""))
+    if not tag and not name:
+        return
+    near = difflib.get_close_matches(name, ATTRIBUTES.split(), 1, 0.7)
+    hint = f"is {near[0]}= meant?" if near else "look at its spelling"
+    if tag.lower() in TAGS.split():
+        hint = f"lower case: <{tag.lower()}>"
+    written = rf"<{tag}\b" if tag else rf"\s{name}\s*="
+    for path in (file.path, *map(Path, file.facts["files"])):
+        found = file.session.source in path.parents and re.search(written, read(path))
+        if found:  # else it is in a file of others
+            where = f"{shown(file.session, path)}:{line_of(read(path), found.end())}"
+            expected = "tags and attributes that roslaunch knows"
+            raise Wrong(expected, f"{tag or name}: ignored by roslaunch", where, hint)
+
+
+def _check_node(file: LaunchFile, node: Node) -> None:
+    package, kind, place = node["package"], node["type"], file.at_node(node)
+    if "/" in kind:
+        expected = "type is the name of a program, without its folder"
+        raise Wrong(expected, f'type="{kind}"', place, f'type="{Path(kind).name}"')
+    if kind.endswith(".launch"):
+        hint = f'<include file="$(find {package})/launch/{kind}"/>'
+        raise Wrong("programs in <node>", f'type="{kind}"', place, hint)
+    if package == PACKAGE:
+        _check_own_node(file.session, kind, place)
+    elif not node["found"] and (package, kind) != ("rviz", "rviz"):
+        hint = "look at pkg= and type=: rosrun PACKAGE and Tab twice lists its programs"
+        hint = launch_text.package_hint(package) if node["found"] is None else hint
+        if difflib.get_close_matches(kind, ["joy_node"], 1, 0.8):
+            hint = JOY_HINT
+        seen = f"Cannot locate node of type [{kind}] in package [{package}]"
+        raise Wrong("nodes that exist", seen, place, hint)
+
+
+def _check_own_node(session: Session, kind: str, place: str) -> None:
+    files = [path for path in session.package(PACKAGE).folder.rglob("*") if path.is_file()]
+    found = [path for path in files if path.name == kind]
+    if not found and kind == NAME:
+        find_script(session, PACKAGE, NAME)  # which says what is there in its place
+    if not found:
+        near = difflib.get_close_matches(kind, sorted(path.name for path in files), 1, 0.7)
+        hint = f'type="{near[0]}"' if near else "type is the name of the file, with .py"
+        hint = JOY_HINT if kind == "joy_node" else hint
+        seen = f"Cannot locate node of type [{kind}]"
+        raise Wrong(f"a program {kind} in {PACKAGE}", seen, place, hint)
+    if not any(is_runnable(session, PACKAGE, path) for path in found):
+        hint = f"chmod +x {session.whole(found[0], PACKAGE)}"
+        raise Wrong(f"{kind} may be run", "it is not executable", place, hint)
+
+
+def _check_finds(file: LaunchFile) -> None:
+    """Raise Wrong for a $(find joy2twist) of a file that the student does not have."""
+    folder, package = file.session.package(PACKAGE).folder, file.session.task.named(PACKAGE)
+    for number, line in enumerate(file.text.splitlines(), 1):
+        for rest in re.findall(rf"\$\(find\s+{package}\)([^\s\"'<>$]*)", line):
+            if not rest.strip("/") or (folder / rest.strip("/")).exists():
+                continue
+            name = Path(rest).name
+            hint = f"write {name} in YOUR package"
+            if rest.endswith(".bag"):
+                hint = copy_bag(file.session)
+            there = sorted(each.relative_to(folder) for each in folder.rglob(name))
+            if there:
+                hint = f"it lies elsewhere: $(find {PACKAGE})/{there[0]}"
+            expected = f"$(find {PACKAGE}){rest} in your package"
+            hint += "; roslaunch would take another workspace's file and not say so"
+            raise Wrong(expected, "no such file there", f"{file.where}:{number}", hint)
+
+
+@check("C21", "the two launch files can be read", "5.1", "C12",
+       look="roslaunch --nodes joy2twist launch_bag.launch", timeless=True)  # fmt: skip
+def files(session: Session) -> Note | str | None:
+    """Read the two launch files of section 5."""
+    return ", ".join(check_file(session, name).where for name in (BAG, STICK))

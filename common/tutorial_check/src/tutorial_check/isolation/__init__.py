@@ -1,0 +1,1 @@
+"""What keeps a student's programs to themselves: users, rights, limits, processes."""

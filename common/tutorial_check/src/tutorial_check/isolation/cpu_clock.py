@@ -1,0 +1,140 @@
+"""The clock of the programs: real time without their waits for a processor (/proc/*/task/*/schedstat).
+
+On a busy machine a program waits for a processor, and its author is not to blame. So deadlines use a
+clock that nearly stops during such waits. A program that does nothing although it could ends a wait.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import time
+from typing import Callable, Dict, Iterator, Tuple
+
+SLOWEST = 0.05  # of real time: a deadline is at most twenty times as long
+LOOKING = 0.05  # of the time at most goes into looking
+IDLE = 0.1  # of one processor; programs that use less only wait
+STRAINED = 0.15  # of the time spent waiting for a processor: a late answer proves little
+HOPELESS = 0.86  # it proves nothing
+REACH_S = 30.0  # the kernel counts how long a thread waited only when that is over
+STARVED_S = 0.5  # ready, and without a turn
+
+# {thread: (its process, ns at work, ns ready without a turn)}
+Times = Dict[int, Tuple[int, int, int]]
+
+
+def fields_of(stat: str) -> list[bytes]:
+    """Return a /proc/*/stat from its third field on; the second is a name, of any bytes. Raises OSError."""
+    with open(stat, "rb") as file:
+        return file.read().rsplit(b")", 1)[1].split()
+
+
+def times() -> Times:
+    found: Times = {}
+    for process in filter(str.isdigit, os.listdir("/proc")):
+        found.update(times_of(int(process)))
+    return found
+
+
+def times_of(process: int) -> Times:
+    """Return the times of one process' threads; none if it has ended."""
+    found: Times = {}
+    with contextlib.suppress(OSError):  # ended meanwhile
+        for thread in os.listdir(f"/proc/{process}/task"):
+            # It may have ended meanwhile, or the kernel does not count.
+            with contextlib.suppress(OSError, ValueError):
+                with open(f"/proc/{process}/task/{thread}/schedstat") as file:
+                    at_work, ready, _ = file.read().split()
+                found[int(thread)] = process, int(at_work), int(ready)
+    return found
+
+
+def is_ready(process: int, thread: int) -> bool:
+    """Return whether a thread would work if it had a processor, or waits for the disk."""
+    with contextlib.suppress(OSError, IndexError):  # ended meanwhile
+        return fields_of(f"/proc/{process}/task/{thread}/stat")[0] in (b"R", b"D")
+    return False
+
+
+class CpuClock:
+    """The programs' clock."""
+
+    def __init__(
+        self,
+        ours: set[int],
+        read: Callable[[], Times] = times,
+        ready: Callable[[int, int], bool] = is_ready,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        """ours: ids of the processes whose work is not the programs'; the set may grow later."""
+        self._ours, self._read, self._ready, self._clock = ours, read, ready, clock
+        self._whole = self._part = clock(), 0.0  # when it began, and what had been lost by then
+        self._last_s = self._busy_s = clock()
+        self._last: Times = {}
+        self._changed_s: dict[int, float] = {}
+        self._next_s = self._lost_s = self._reach_s = 0.0
+
+    def now(self) -> float:
+        """Return the programs' time [s]; look at them if that is due."""
+        now_s = self._clock()
+        if now_s >= self._next_s:
+            self._look(now_s)
+        return now_s - self._lost_s
+
+    def _look(self, now_s: float) -> None:
+        passed_s, new = now_s - self._last_s, self._read()
+        longest = worked = 0
+        for thread, (process, at_work, ready) in new.items():
+            before = self._last.get(thread, (process, 0, 0))
+            longest = max(longest, ready - before[2])
+            if process not in self._ours:
+                worked += at_work - before[1] + ready - before[2]
+            if new[thread] != self._last.get(thread):
+                self._changed_s[thread] = now_s
+        if self._last:
+            self._reach_s = min(REACH_S, self._reach_s + passed_s)
+            lost_s = min(longest / 1e9, (1 - SLOWEST) * self._reach_s)
+            self._lost_s += lost_s
+            self._reach_s -= lost_s
+            if worked / 1e9 > IDLE * passed_s:
+                self._busy_s = now_s - self._lost_s
+        self._last, self._last_s = new, now_s
+        self._next_s = now_s + max(0.05, (self._clock() - now_s) / LOOKING)
+
+    def _ready_threads(self) -> Iterator[int]:
+        """Yield the master's, too: a program may wait for its answer."""
+        for thread, (process, _, _) in self._last.items():
+            if process != os.getpid() and self._ready(process, thread):
+                yield thread
+
+    def idle_s(self) -> float:
+        """Return for how long the programs have done nothing [s of theirs]; 0 where nothing is counted."""
+        idle_s = self.now() - self._busy_s if self._last else 0.0
+        if idle_s > STARVED_S and any(self._ready_threads()):
+            self._busy_s = self.now()
+            return 0.0
+        return idle_s
+
+    def starved(self) -> bool:
+        """Return whether a thread is ready and has had no turn for long."""
+        now_s = self._clock()
+        return any(now_s - self._changed_s[each] > STARVED_S for each in self._ready_threads())
+
+    def crowd(self) -> int:
+        return len({process for process, _, _ in self._last.values()} - self._ours)
+
+    def begin(self) -> None:
+        """Let strained() judge what begins now on its own, too."""
+        self.now()
+        self._part = self._clock(), self._lost_s
+
+    def strained(self) -> bool:
+        """Return whether a late answer proves little, as the machine was busy: since the start, or begin()."""
+        return max(self._lost_share(*self._whole), self._lost_share(*self._part)) > STRAINED
+
+    def hopeless(self) -> bool:
+        """Return whether a late answer proves nothing: the machine was too busy."""
+        return self._lost_share(*self._whole) > HOPELESS
+
+    def _lost_share(self, began_s: float, lost_s: float) -> float:
+        return (self._lost_s - lost_s) / max(1e-3, self._clock() - began_s)

@@ -1,0 +1,224 @@
+"""Programs of others: started with limits, read with a limit, and always ended.
+
+One thread does it all: each wait also reads what the programs print, so that no program blocks on its
+output, and endless output costs only the reading.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import select
+import signal
+import subprocess
+import sys
+import time
+from subprocess import DEVNULL, PIPE, STDOUT
+from typing import Callable, Iterable, Iterator, Mapping, Sequence, TypeVar
+
+from tutorial_check.isolation import landlock, privileges
+from tutorial_check.isolation.cpu_clock import CpuClock, fields_of
+from tutorial_check.isolation.program import Program
+from tutorial_check.model import Wrong
+
+GRACE_S = 3.0  # after Ctrl-C a program has this long to end by itself
+IDLE_S = 2.0  # programs that have done nothing for so long wait for what does not come; a talker may for 1 s
+MOST_PROCESSES = 100  # a launch file's are a dozen
+ENDED = (b"Z", b"X")  # states of processes that are no more than a number
+Value = TypeVar("Value")
+
+
+class Runner:
+    """All programs of one check of one workspace."""
+
+    def __init__(
+        self,
+        environment: Mapping[str, str],
+        uid: int | None = None,
+        alone: bool = False,
+        result: int | None = None,
+        ruleset: int | None = None,
+    ) -> None:
+        """uid: under which they run, or None; alone: whether they have a PID namespace of their own.
+
+        result: a socket without whose reader nothing of this is wanted any more; ruleset: see landlock.
+        """
+        self.environment = environment
+        self._uid, self._alone, self._result, self._ruleset = uid, alone, result, ruleset
+        self._limits = privileges.limits_of_programs(uid)
+        self._open: list[Program] = []
+        self._reading: dict[int, Program] = {}  # by the descriptor of its output
+        # Left alone: ours, and those that we start, which lead sessions of their own.
+        self.trusted = {os.getsid(0), os.getpid()}
+        self.clock = CpuClock(self.trusted)
+        self._poll = select.poll()
+        if result is not None:
+            self._poll.register(result, 0)  # the end of its reader is always reported
+
+    def start(
+        self,
+        command: Sequence[str],
+        environment: Mapping[str, str] | None = None,
+        trusted: bool = False,
+    ) -> Program:
+        """Start a program. Raises OSError if there is nothing to start."""
+        process = subprocess.Popen(
+            command,
+            bufsize=0,
+            stdin=DEVNULL,
+            stdout=PIPE,
+            stderr=STDOUT,
+            cwd=self.environment["HOME"],
+            env={**self.environment, **(environment or {})},
+            start_new_session=True,  # with a group that Ctrl-C reaches, as in a terminal
+            preexec_fn=privileges.restore_rights if trusted else self._restrict,  # noqa: PLW1509  one thread
+        )
+        if trusted:
+            self.trusted.add(process.pid)
+        program = Program(process, os.path.basename(command[0]))
+        self._open.append(program)
+        assert process.stdout
+        descriptor = process.stdout.fileno()
+        os.set_blocking(descriptor, False)
+        self._reading[descriptor] = program
+        self._poll.register(descriptor, select.POLLIN | select.POLLHUP)
+        return program
+
+    def _restrict(self) -> None:
+        """In the child, before the student's program: its limits and its user."""
+        for number in (signal.SIGINT, signal.SIGHUP, signal.SIGTERM):
+            signal.signal(number, signal.SIG_DFL)
+        privileges.limit(self._limits)
+        if self._uid is not None:
+            os.setgroups([])
+            os.setgid(self._uid)
+            os.setuid(self._uid)
+        privileges.give_up_rights()
+        if self._ruleset is not None:
+            landlock.confine(self._ruleset)
+
+    def wait(
+        self, condition: Callable[[], Value], deadline_s: float, or_idle: bool = False
+    ) -> Value:
+        """Return the first true value of condition(), or its value at the deadline.
+
+        The deadline goes by the programs' time, see CpuClock. or_idle: no longer than until they
+        have done nothing for IDLE_S. Raises Wrong for a program that multiplies without end.
+        """
+        began_s = self.clock.now()
+        while True:
+            waited_s = self.clock.now() - began_s
+            is_over = waited_s > deadline_s and not self.clock.starved()
+            if or_idle and waited_s > IDLE_S:
+                is_over = is_over or self.clock.idle_s() > IDLE_S
+            asked_s = time.monotonic()
+            value = condition()
+            if value or is_over:
+                return value
+            if self._is_crowded():
+                seen = f"it starts itself again and again: more than {MOST_PROCESSES} processes"
+                hint = "where does it call os.fork, or start programs?"
+                raise Wrong("a program that is one process, or a few", seen, "", hint, sure=True)
+            self._pump(max(0.01, 2 * (time.monotonic() - asked_s)))  # asking takes others' time
+
+    def _is_crowded(self) -> bool:
+        """Return whether the living programs are too many. Reap those that have ended."""
+        if not self._alone or self.clock.crowd() <= MOST_PROCESSES:
+            return False
+        self._reap()
+        return len(self._strays()) > MOST_PROCESSES
+
+    def _pump(self, longest_s: float) -> None:
+        """Read what was printed; return when something was, or after the given time.
+
+        Raises SystemExit when it is of no use any more; clear() ends what was started.
+        """
+        for descriptor, _ in self._poll.poll(longest_s * 1000):
+            if descriptor == self._result:
+                sys.exit("the checker has ended")
+            self._read(descriptor)
+
+    def _read(self, descriptor: int, is_last: bool = False) -> None:
+        program = self._reading.get(descriptor)
+        if program and (not program.read() or is_last):
+            del self._reading[descriptor]
+            self._poll.unregister(descriptor)
+            assert program.process.stdout
+            program.process.stdout.close()
+
+    def end(self, program: Program, grace_s: float = GRACE_S) -> float | None:
+        """End a program; return how long it took after Ctrl-C [s], or None if it had to be killed."""
+        return self.end_all([program], grace_s)[0]
+
+    def end_all(self, programs: Sequence[Program], grace_s: float = GRACE_S) -> list[float | None]:
+        """End several at once; return how long each took."""
+        began_s = time.monotonic()
+        took_s: dict[Program, float] = {}
+        for program in programs:
+            program.stop(signal.SIGINT)
+
+        def all_ended() -> bool:
+            for program in programs:
+                if program.ended:
+                    took_s.setdefault(program, time.monotonic() - began_s)
+            return len(took_s) == len(programs)
+
+        self.wait(all_ended, grace_s)
+        for program in programs:  # with what one that has ended left behind in its group
+            program.signal(signal.SIGKILL)
+            program.process.wait()
+        for descriptor, program in list(self._reading.items()):
+            if program in programs:
+                self._read(descriptor)  # at most a pipe's size is left, which is read at once
+        return [took_s.get(program) for program in programs]
+
+    def clear(self) -> None:
+        """End all that is left, whatever it is called and whatever started it."""
+        for program in self._open:
+            program.stop(signal.SIGKILL)
+        for _ in range(100):
+            stopped: set[int] = set()
+            # One that forks without end comes to the limit of its processes.
+            while new := set(self._strays()) - stopped:
+                _signal(new, signal.SIGSTOP)
+                stopped |= new
+            if not stopped:
+                break
+            _signal(stopped, signal.SIGKILL)
+        for program in self._open:
+            program.process.wait()
+        for descriptor in list(self._reading):
+            self._read(descriptor, is_last=True)
+        self._open.clear()
+        self._reap()
+
+    def _reap(self) -> None:
+        """Reap orphans that have ended: till then they count against the user's limit."""
+        known = {program.process.pid for program in self._open} | self.trusted
+        for pid, state, parent, _ in processes():
+            if state in ENDED and parent == os.getpid() and pid not in known:
+                with contextlib.suppress(ChildProcessError):
+                    os.waitpid(pid, os.WNOHANG)
+
+    def _strays(self) -> list[int]:
+        """Return the ids of the living below this process, whose children orphans become."""
+        found, ours = list(processes()), {os.getpid()}
+        below: set[int] = set()
+        while more := {pid for pid, _, parent, _ in found if parent in below | ours} - below:
+            below |= more
+        living = [one for one in found if one[0] in below and one[1] not in ENDED]
+        return [pid for pid, _, _, session in living if session not in self.trusted]
+
+
+def _signal(pids: Iterable[int], number: int) -> None:
+    for pid in pids:
+        with contextlib.suppress(ProcessLookupError, PermissionError):
+            os.kill(pid, number)
+
+
+def processes() -> Iterator[tuple[int, bytes, int, int]]:
+    """Yield id, state, parent, session of each visible process."""
+    for pid in filter(str.isdigit, os.listdir("/proc")):
+        with contextlib.suppress(OSError):  # ended meanwhile
+            state, parent, _, session = fields_of(f"/proc/{pid}/stat")[:4]
+            yield int(pid), state, int(parent), int(session)

@@ -1,0 +1,299 @@
+"""What every program must be before it can run, C5 and C13, and why one has failed."""
+
+from __future__ import annotations
+
+import difflib
+import re
+import shutil
+from pathlib import Path
+
+from tutorial_check.isolation.program import Ran
+from tutorial_check.judge.causes import NO_KEYBOARD, explain, hider, syntax_hint, traced
+from tutorial_check.judge.rows import Row, find
+from tutorial_check.model import Note, Wrong
+from tutorial_check.record.build import installed
+from tutorial_check.record.session import Session
+from tutorial_check.source import student_files
+from tutorial_check.source.python_facts import Call, PythonFacts
+from tutorial_check.source.python_text import unreadable
+from tutorial_check.source.tracebacks import Traceback, first_traceback, last_lines
+
+COPY = re.compile(r"checked_\d+_")  # a program with one thing changed; see Session.sibling
+# env -S takes arguments
+INTERPRETER = re.compile(rb"#!\s*(\S+)(?:\s+(?:-S\s*)?(?:\w+=\S*\s+)*(\S+))?")
+
+
+def find_script(session: Session, package: str, name: str) -> str:
+    """Return the path of a program within its package. Raises Wrong."""
+    folder = session.package(package).folder
+    files = sorted(path for path in folder.rglob("*") if path.is_file())
+    # One without .py counts where there is none with it.
+    found = [path for path in files if path.name in (name, name[:-3])]
+    found.sort(key=lambda path: path.name != name)
+    runnable = must_be_one(folder, name)
+    if found:
+        return str((runnable or found)[0].relative_to(folder))
+    others = {path.name: path for path in files if path.name != "CMakeLists.txt"}
+    compiled = [path for path in files if path.suffix in (".cpp", ".cc", ".cxx", ".c")]
+    compiled.sort(key=lambda path: path.stem != name[:-3])
+    texts = [each for each in others if others[each].suffix.lower() in ("", ".py", ".txt")]
+    near = [other for other in others if other.lower().startswith(name)]
+    # new_joy2twist.py is another program, and no misspelt joy2twist.py.
+    near = near or difflib.get_close_matches(name, [o for o in texts if name not in o], 1, 0.75)
+    if near:
+        other = others[near[0]]
+        paths = (session.whole(path, package) for path in (other, other.with_name(name)))
+        hint = f"mv {' '.join(paths)}: capitals, underscores and the ending count"
+        where = str(other.relative_to(folder))
+        raise Wrong(f"a program {name}", f"a file {near[0]}", where, hint)
+    if compiled:
+        seen = f"a program in C++, {compiled[0].name}"
+        hint = f"the exercise asks for Python, rospy: write scripts/{name}; the C++ may stay"
+        raise Wrong(f"a program {name}", seen, str(compiled[0].relative_to(folder)), hint)
+    expected = f"a program {name} in the package {package}"
+    hint = f"create scripts/{name} in YOUR package; ./tutorial shell without --in has one of OURS"
+    look = f"ls {session.whole('scripts', package)}"
+    raise Wrong(expected, "no such file anywhere in it", "", hint, look=look)
+
+
+def program_of(session: Session, package: str, name: str) -> str:
+    """Return the path of a program that can be run, within its package. Raises Wrong."""
+    if session.package(package) is None:
+        there = ", ".join(each.name for each in session.packages) or "no package at all"
+        raise Wrong(f"a package {package} in src", there, hint=f"catkin_create_pkg {package} rospy")
+    script = find_script(session, package, name)
+    check_file(session, package, script)
+    return script
+
+
+def must_be_one(folder: Path, name: str) -> list[Path]:
+    """Return the programs of that name that rosrun finds: one, or none. Raises Wrong."""
+    found = sorted(path for path in folder.rglob(name) if path.is_file())
+    runnable = [path for path in found if path.stat().st_mode & 0o100]
+    if len(runnable) > 1:
+        inside = [str(path.relative_to(folder)) for path in runnable]
+        hint = "rosrun asks which one ('You have chosen a non-unique executable'):"
+        hint += f" remove all but one {name}"
+        raise Wrong(f"one program {name}", f"several: {', '.join(inside)}", inside[1], hint)
+    return runnable
+
+
+class Text:
+    """A program that is not run yet: the facts of the rows below."""
+
+    def __init__(self, session: Session, package: str, script: str) -> None:
+        path = session.package(package).folder / script
+        self.script, self.name, self.whole = script, path.name, session.whole(script, package)
+        self.data = student_files.read(session.folder, path)
+        self.first = self.data.split(b"\n", 1)[0]
+        self.first_line = self.first.decode(errors="replace")[:80]
+        self.further = "; #! stands further down" if b"\n#!" in self.data else ""
+        self.facts = session.scripts(package).get(script)
+        self.error, self.python_hint = "", ""
+        if self.facts and self.facts.error:
+            self.error = self.facts.error
+            self.python_hint = syntax_hint(self.error, self.facts.error_text, self.whole)
+        self.is_runnable = is_runnable(session, package, path)
+
+    @property
+    def interpreter(self) -> str:
+        """The program that #! names, if there is one of that name and it is Python; else empty."""
+        found = INTERPRETER.match(self.first)
+        words = [word.decode(errors="replace") for word in found.groups() if word] if found else []
+        program = words[0] if words else ""
+        if program.endswith("/env") and len(words) > 1:
+            program = words[1]
+        known = program in ("python", "python3") or (program and shutil.which(program))
+        return program if known and "python" in program else ""
+
+    @property
+    def gap(self) -> tuple[Call, str] | None:
+        """(the first call that gives a node or topic a name with a space, the name without)."""
+        known = self.facts.calls if self.facts else {}
+        kinds = ("Publisher", "Subscriber", "init_node")
+        calls = (call for kind in kinds for call in known.get(kind, []))
+        found = next((call for call in calls if call.words and " " in call.words[0]), None)
+        return (found, "_".join(found.words[0].split())) if found else None
+
+
+PYTHON3 = "#!/usr/bin/env python3"
+# (what is expected, a command to see it, the diagnosis); the first that applies counts.
+OF_A_TEXT = (
+    ("a program", "",
+     Row(lambda t: not t.data.strip(), "the file is empty", "was it saved?", "{f.script}")),
+    ("#! as the very first two bytes", "",
+     Row(lambda t: t.data.startswith((b"\xef\xbb\xbf", b"\xff\xfe", b"\xfe\xff")),
+         "a byte order mark before them", "save the file as UTF-8 without BOM", "{f.script}:1")),
+    ("a Python program", "",
+     Row(lambda t: re.match(rb"\s*<(!doctype|html)", t.data, re.IGNORECASE), "a web page",
+         "the download gave the page and not the file: take the address of the raw file",
+         "{f.script}")),
+    ("Unix line ends", "head -1 {whole} | cat -A",  # further down they do no harm
+     Row(lambda t: t.first.endswith(b"\r"),
+         "the file has Windows line ends (python3\\r: No such file)",
+         "sed -i 's/\\r$//' {f.whole}", "{f.script}:1")),
+    ("a file in UTF-8, or in the coding that its first lines name", "python3 -m py_compile {whole}",
+     Row(lambda t: t.facts and unreadable(t.data), "{found[1]}",
+         "save the file as UTF-8 and name no other coding; or name the right one in line 2:"
+         " # coding: latin-1", "{f.script}:{found[0]}")),
+    ("Python that can be read", "python3 -m py_compile {whole}",
+     Row(lambda t: t.error, "{found}: {f.facts.error_text}", "{f.python_hint}",
+         "{f.script}:{f.facts.error_line}")),
+    (f"{PYTHON3} as the first line", "head -3 {whole}",
+     Row(lambda t: not t.first.startswith(b"#!"), "the first line is {f.first_line!r}{f.further}",
+         "without #! in the very first line the shell tries to run the Python lines itself"
+         " (import: command not found)", "{f.script}:1")),
+    (f"an interpreter that exists: {PYTHON3}", "head -1 {whole}",
+     Row(lambda t: not t.interpreter, "{f.first_line}", f"{PYTHON3}, or #!/usr/bin/python3",
+         "{f.script}:1")),
+    ("Python 3", "head -1 {whole}",
+     Row(lambda t: "python2" in t.interpreter, "{f.first_line}",
+         f"ROS here belongs to Python 3: {PYTHON3}", "{f.script}:1")),
+    ("a program that may be run", "ls -l {whole}",
+     Row(lambda t: not t.is_runnable,
+         "{f.name} is not executable (rosrun: Couldn't find executable)", "chmod +x {f.whole}",
+         "{f.script}")),
+    # Underscores that the PDF shows as gaps and that Python reads all the same.
+    ("if __name__ == '__main__':", "",
+     Row(lambda t: t.facts and t.facts.odd_main, "{found[1]}",
+         "two underscores on either side of name and of main, and no blanks: the PDF shows gaps",
+         "{f.script}:{found[0]}")),
+    ("names of nodes and topics without a space", "",
+     Row(lambda t: t.gap, "the name {found[0].words[0]!r} has a space",
+         "the PDF shows _ as a gap: {found[1]!r}", "{f.script}:{found[0].line}")),
+)  # fmt: skip
+
+
+def check_file(session: Session, package: str, script: str) -> None:
+    """Check a program without running it. Raises Wrong."""
+    text = Text(session, package, script)
+    for expected, look, row in OF_A_TEXT:
+        wrong = find([row], text, expected)
+        if isinstance(wrong, Wrong):
+            wrong.look = look.format(whole=text.whole) or f"rosrun {package} {text.name}"
+            raise wrong
+
+
+def is_runnable(session: Session, package: str, path: Path) -> bool:
+    """Return whether rosrun takes a program: executable, or made so by catkin in devel."""
+    may_be_run = path.stat().st_mode & 0o100
+    script = str(path.relative_to(session.package(package).folder))
+    return bool(may_be_run) or session.recording(installed, package, script).installed
+
+
+def odd_node(session: Session, package: str, script: str) -> Note | None:
+    """Return a Note on the name of a node of which ROS warns, or None."""
+    facts = session.scripts(package).get(script)
+    if not facts or not facts.odd_node:
+        return None
+    line, name = facts.odd_node
+    seen = f"the node is called {name!r}, of which ROS warns: not a legal ROS base name"
+    right = re.sub(r"\W", "_", re.sub(r"\.py$", "", name))
+    return Note(seen, f"{script}:{line}", f"letters, digits and _ only: {right!r}")
+
+
+# ------------------------------------------------------------------------- why one has failed
+
+
+def cause_of(session: Session, package: str, name: str, trace: Traceback) -> tuple[str, str]:
+    """Return (the line to blame, what to do) for a Traceback of the program of that name."""
+    name = COPY.sub("", name)
+    script = next((each for each in session.scripts(package) if Path(each).name == name), "")
+    script = trace.where.rpartition(":")[0] or script
+    if not script:
+        return trace.where, explain(trace.error, trace.text)
+    facts = PythonFacts(session.text(package, script))
+    function = re.search(r"(\w+)\(\) (?:takes|missing)", trace.error)
+    line = int(trace.where.rpartition(":")[2] or 0)
+    if not line and function:  # called by rospy itself
+        line = facts.names.get(function[1], 0)
+    line, hint = traced(trace.error, line, facts)
+    hint = hint or explain(trace.error, trace.text, session.whole(COPY.sub("", script), package))
+    file, hides = hider(trace.error, script, session.scripts(package))
+    if hides:
+        return file or f"{script}:{line}", hides
+    if re.match("ImportError|ModuleNotFoundError", trace.error) and session.lacks_build:
+        fails = "catkin_make, which may have to make it, fails: run it, it says why"
+        hint = "; ".join(filter(None, (hint, fails)))
+    return f"{script}:{line}" if line else "", hint
+
+
+def crash(session: Session, package: str, program: Ran, expected: str, hint: str = "") -> Wrong:
+    """Return the Wrong for a program that ended or failed, with the cause that its output shows."""
+    trace = first_traceback(program.output, str(session.package(package).folder))
+    if trace and not (program.was_stopped and trace.error.startswith("KeyboardInterrupt")):
+        seen = trace.error + (f"   in: {trace.text}" if trace.text else "")
+        place, cause = cause_of(session, package, program.name, trace)
+        return Wrong(expected, seen, place, cause or hint, sure=True)
+    if program.code is not None and program.code < 0:
+        return Wrong(expected, f"the program was ended by signal {-program.code}", "", hint)
+    if program.spins:
+        seen = f"{program.name} works all the time and gets nowhere"
+        hint = "a loop without end? In the callback, and before rospy.init_node, there is none"
+        return Wrong(expected, seen, hint=hint, sure=True)
+    ended = "it runs" if program.code is None else f"it ended, exit code {program.code}"
+    said = last_lines(program.output)
+    said = f"; it printed: {said}" if said else ", and printed nothing"
+    return Wrong(expected, ended + said, hint=hint)
+
+
+def check_end(
+    session: Session, package: str, script: str, taken_s: float | None, output: str
+) -> Note | None:
+    """Return a Note on how a program ended after Ctrl-C, or None. taken_s: None if it was killed."""
+    name = Path(script).name
+    if taken_s is None:
+        facts = session.scripts(package)[script]
+        endless = facts.loops if "is_shutdown" not in facts.calls else []
+        where = f"{script}:{endless[0]}" if endless else script
+        hint = "rospy.spin(), or while not rospy.is_shutdown(): and no `except` that hides the end"
+        raise Wrong(f"{name} ends within 3 s of Ctrl-C", "it had to be killed", where, hint)
+    trace = first_traceback(output, str(session.package(package).folder))
+    if trace and "ROSInterrupt" in trace.error:
+        seen = f"{name} ends with a traceback, ROSInterruptException"
+        return Note(seen, trace.where, "except rospy.ROSInterruptException: pass")
+    if trace:
+        hint = "try: ... except rospy.ROSInterruptException: pass"
+        raise Wrong(f"{name} ends without a traceback", trace.error, trace.where, hint)
+    return None
+
+
+def misnamed_init(methods: list[str]) -> str:
+    """Return the method that was meant to be __init__, or an empty text."""
+    return next((each for each in methods if re.fullmatch(r"_*init_*", each)), "")
+
+
+def with_end(wrong: Wrong, facts: PythonFacts, script: str) -> Wrong:
+    """Return the Wrong for a program that ended, with what its text shows if its output does not."""
+    if not wrong.where:
+        asked = facts.first("Subscriber")
+        wrong.seen += f"; it subscribes to {', '.join(asked.words[:2])}" if asked else ""
+        wrong.where, hint = silent_end(facts, script)
+        wrong.hint = hint if ":" in wrong.where else wrong.hint or hint
+    return wrong
+
+
+def silent_end(facts: PythonFacts, script: str) -> tuple[str, str]:
+    """Return (where, hint) for a program that ends at once, as far as its text shows."""
+    if facts.keyboard:
+        return f"{script}:{facts.keyboard}", NO_KEYBOARD
+    for line, text in facts.bare_names:
+        if text.endswith(("spin", "listener")):
+            return f"{script}:{line}", f"{text} needs its (): {text}()"
+    for one in facts.classes:
+        odd = misnamed_init(one.methods) if "__init__" not in one.methods else ""
+        if one.is_node and odd:
+            hint = f"`def {odd}`: Python calls `__init__`, two underscores on either side"
+            return f"{script}:{one.line}", hint
+        if one.is_node and not one.instantiated:
+            hint = f"it is never made: {one.name}() under if __name__ == '__main__':"
+            return f"{script}:{one.line}", hint
+    if facts.sunken_main:
+        line, function = facts.sunken_main
+        hint = f"line {line} stands within {function}(): move it, and what is below it, to the left"
+        return f"{script}:{line}", f"{hint} margin"
+    if "spin" not in facts.calls:
+        return script, "rospy.spin() is missing: without it the program comes to its end"
+    if not facts.has_main:
+        return script, "listener() is never called: if __name__ == '__main__': listener()"
+    return script, "is listener() called, in the last line, and with ()?"

@@ -1,0 +1,56 @@
+"""Where recorders work: a workspace, and stages on which its programs run."""
+
+from __future__ import annotations
+
+import contextlib
+from functools import cached_property
+from typing import Iterator
+
+from tutorial_check.model import CannotCheck, Wrong, master_gone
+from tutorial_check.record.builder import Builder
+from tutorial_check.record.session import Memory, Recorded, Recorder, once
+from tutorial_check.record.stage import Stage
+
+
+class Ground(Builder):
+    """A workspace whose programs can be started."""
+
+    @cached_property
+    def _runs(self) -> Memory:
+        return {}
+
+    def recording(self, recorder: Recorder[Recorded], *arguments: object) -> Recorded:
+        """Let the recorder work, at the first call."""
+        key = recorder.__module__, recorder.__name__, *arguments
+        found: Recorded = once(self._runs, key, lambda: recorder(self, *arguments))
+        return found
+
+    def second_look(self, explained: bool) -> bool:
+        """Return whether to look again at what programs do; then forget what they did.
+
+        It is worth it if the machine was busy, or if no line explains it: nodes of a launch file meet
+        in any order; and a Ctrl-C that meets rospy in the middle of a publish of the main thread may
+        wait without end for a lock of that thread.
+        """
+        if explained and not self.runner.clock.strained():
+            return False
+        self._runs.clear()
+        return True
+
+    @contextlib.contextmanager
+    def stage(self, renamed: bool = True) -> Iterator[Stage]:
+        """Yield a Stage: a ROS master and a driver; all that was started on it ends with it.
+
+        renamed: whether topics have the names that the student's task gives them.
+        """
+        self.must_be_startable()
+        self.runner.clock.begin()
+        stage = Stage(self, renamed)
+        try:
+            yield stage
+        except (CannotCheck, Wrong, LookupError) as error:
+            if stage.master_lives:
+                raise
+            raise master_gone() from error
+        finally:
+            stage.end()

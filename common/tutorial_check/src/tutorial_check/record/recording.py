@@ -1,0 +1,54 @@
+"""What recorders write down, as JSON and back. Pure.
+
+A recording is a frozen dataclass. Its fields are texts, numbers, truth values, None, other such
+dataclasses, or tuples and maps of these, as their annotations say.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Any, Dict, List, Tuple, TypeVar, Union, cast, get_type_hints
+
+Recording = TypeVar("Recording")
+Heard = Tuple[float, str, Tuple[float, ...]]  # (when it came [s], from which node, its numbers)
+HeardText = Tuple[float, str, str]
+Topics = Dict[str, Tuple[str, ...]]  # {topic: nodes}
+
+
+def as_json(value: Any) -> Any:
+    """Return a recording, or a part of it, as what json.dumps takes."""
+    if dataclasses.is_dataclass(value):
+        names = (field.name for field in dataclasses.fields(value))
+        return {name: as_json(getattr(value, name)) for name in names}
+    if isinstance(value, dict):
+        return {str(key): as_json(each) for key, each in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [as_json(each) for each in value]
+    return value
+
+
+def from_json(kind: type[Recording], value: Any) -> Recording:
+    """Return the recording of a type that as_json() has made. Raises ValueError if it is none."""
+    try:
+        return _from_json(kind, value)
+    except (AttributeError, KeyError, TypeError) as error:
+        raise ValueError(f"no {getattr(kind, '__name__', kind)}: {error}") from None
+
+
+def _from_json(kind: Any, value: Any) -> Any:
+    origin: Any = getattr(kind, "__origin__", None)
+    inner: Any = getattr(kind, "__args__", ())
+    if dataclasses.is_dataclass(kind):
+        kinds, make = get_type_hints(kind), cast(Any, kind)
+        return make(**{name: _from_json(kinds[name], each) for name, each in value.items()})
+    if origin is Union:  # Optional
+        return None if value is None else _from_json(inner[0], value)
+    if origin in (tuple, Tuple):
+        if inner[-1] is Ellipsis:
+            return tuple(_from_json(inner[0], each) for each in value)
+        return tuple(_from_json(one, each) for one, each in zip(inner, value))
+    if origin in (dict, Dict):
+        return {key: _from_json(inner[1], each) for key, each in value.items()}
+    if origin in (list, List):
+        return [_from_json(inner[0], each) for each in value]
+    return float(value) if kind is float else value

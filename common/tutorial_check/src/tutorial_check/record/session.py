@@ -1,0 +1,152 @@
+"""All that the checks of one workspace share: what its files say, and the recordings."""
+
+from __future__ import annotations
+
+import re
+import shlex
+from dataclasses import replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Callable, Dict, Iterable, Iterator, Mapping, Tuple, TypeVar
+
+from tutorial_check.model import Wrong
+from tutorial_check.record.build import built
+from tutorial_check.source import student_files
+from tutorial_check.source.manifests import (
+    first_broken,
+    must_be_launchable,
+    unreadable,
+)
+from tutorial_check.source.python_facts import PythonFacts
+from tutorial_check.source.workspace import SOLUTIONS, Layout, Package, packages_below
+from tutorial_check.variants import Task
+
+# What of CMakeLists.txt makes a build necessary before anything can run.
+NEEDS_BUILD = re.compile(
+    r"^[ \t]*(catkin_python_setup|add_message_files|add_service_files|generate_messages"
+    r"|add_executable|catkin_install_python)\s*\(",
+    re.MULTILINE | re.IGNORECASE,
+)
+Recorded = TypeVar("Recorded")
+Recorder = Callable[..., Recorded]  # of a ground.Ground and arguments
+Memory = Dict[object, Tuple[Any, Any]]  # {key: (value, what was raised in place of one)}
+
+
+def once(memory: Memory, key: object, make: Callable[[], Any]) -> Any:
+    if key not in memory:
+        try:
+            memory[key] = make(), None
+        except Wrong as wrong:
+            memory[key] = None, wrong
+    value, error = memory[key]
+    if error:
+        raise error
+    return value
+
+
+class Session:
+    """One workspace: what its files say, and what its programs were recorded to do."""
+
+    def __init__(
+        self,
+        folder: str | Path,
+        layout: Layout,
+        exercises: Iterable[str],
+        *,
+        underlay: str,
+        underlay_environment: Mapping[str, str],
+        task: Any = None,
+    ) -> None:
+        """folder: its copy is in ws; underlay: its setup.bash; task: of this student, see variants.Task."""
+        self.task: Any = task or Task({})  # of the course
+        self.folder, self.layout = Path(folder), layout
+        self.source = self.folder / "ws" / "src"
+        self.exercises = frozenset(exercises)  # that are asked for
+        self.underlay, self.underlay_environment = underlay, underlay_environment
+        self._memory: Memory = {}
+
+    def memo(self, key: object, make: Callable[[], Any]) -> Any:
+        """Return make(), called once; what it raised is raised again. For facts, which do not change."""
+        return once(self._memory, key, make)
+
+    def recording(self, recorder: Recorder[Recorded], *arguments: object) -> Recorded:
+        """Return what a recorder writes down; recorded once, unless it is looked at again."""
+        raise NotImplementedError
+
+    # ---------------------------------------------------------------- the student's packages
+
+    def must_be_startable(self) -> None:
+        """Raise Wrong for a package.xml that keeps every node from starting."""
+        broken = self.memo("broken", lambda: first_broken(self.source, self.packages))
+        if broken:
+            raise unreadable(broken)
+
+    def must_be_launchable(self) -> None:
+        """Raise Wrong for a package.xml that keeps roslaunch from starting anything."""
+        self.must_be_startable()
+        must_be_launchable(self.packages)
+
+    @cached_property
+    def packages(self) -> list[Package]:
+        """In the order of their paths, by the names that the checks know."""
+        every = packages_below(self.source)
+        return [replace(each, name=self.task.known_as(each.name)) for each in every]
+
+    def package(self, name: str) -> Any:
+        return next((each for each in self.packages if each.name == name), None)
+
+    def scripts(self, name: str) -> dict[str, PythonFacts]:
+        """Return {path within the package: PythonFacts} of the Python programs of a package."""
+        found: dict[str, PythonFacts] = self.memo(
+            ("scripts", name), lambda: dict(self._scripts(self.package(name)))
+        )
+        return found
+
+    def _scripts(self, package: Package | None) -> Iterator[tuple[str, PythonFacts]]:
+        if package is None:
+            return
+        for path in sorted(package.folder.rglob("*")):
+            inside = path.relative_to(package.folder)
+            # What editors and file managers keep for themselves is hidden.
+            if not path.is_file() or any(part.startswith(".") for part in inside.parts):
+                continue
+            is_python = path.suffix == ".py"
+            if not path.suffix:
+                with path.open("rb") as file:
+                    is_python = file.read(2) == b"#!" and b"python" in file.readline()
+            if is_python and path.name not in ("setup.py", "__init__.py"):
+                yield str(inside), PythonFacts(self.read(path))
+
+    def read(self, path: Path) -> str:
+        """Return the text of a file of the student's, or of a program of theirs. Raises CannotCheck."""
+        return student_files.read(self.folder, path).decode(errors="replace")
+
+    def text(self, package: str, script: str) -> str:
+        """Return the text of a script, its line ends as they are."""
+        return self.read(self.package(package).folder / script)
+
+    def whole(self, path: str, package: str = "") -> str:
+        """Return a path of the workspace, or within a package, for a command of a shell in any folder.
+
+        It is that of the copy, in whose place examine puts the student's own, where it knows that.
+        """
+        own = self.package(package).folder if package else self.source.parent
+        return shlex.quote(str(own / path))
+
+    @property
+    def needed(self) -> list[Package]:
+        """The packages of the exercises, and those of the workspace that they depend on."""
+        found, names = [], set(SOLUTIONS)
+        for _ in self.packages:
+            found = [each for each in self.packages if each.name in names]
+            names |= {name for each in found for name in each.depends}
+        return found or self.packages
+
+    def needs_build(self) -> bool:
+        """Return whether something has to be made before a program can run."""
+        return any(NEEDS_BUILD.search(each.cmake or "") for each in self.packages)
+
+    @property
+    def lacks_build(self) -> bool:
+        """Whether the programs run without what catkin_make should have made for them."""
+        return self.needs_build() and self.recording(built).code != 0

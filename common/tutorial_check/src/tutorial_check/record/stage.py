@@ -1,0 +1,125 @@
+"""A ROS master, the checker's end of the topics, and what was started on it."""
+
+from __future__ import annotations
+
+import shutil
+import socket
+import uuid
+from pathlib import Path
+from typing import Any, Callable, Sequence
+
+from tutorial_check.isolation import helper_process
+from tutorial_check.isolation.program import Program
+from tutorial_check.model import CannotCheck, Wrong
+from tutorial_check.record.builder import Builder
+from tutorial_check.variants import UNASKED
+
+START_S = 8.0  # a node of the student's has this long to appear
+SETTLE_S = 0.5  # once connected, a thread of it has this long to attach its callback
+
+
+class Stage:
+    """A master, a driver, and the student's programs."""
+
+    def __init__(self, session: Builder, renamed: bool = True) -> None:
+        """Start a master and a driver. renamed: topics have the names of the student's task."""
+        # ROS, for all that are forked from here on. Not every check needs it, and it takes its time.
+        import rosmaster.master  # noqa: F401, PLC0415
+
+        from tutorial_check.record import driver  # noqa: PLC0415
+
+        self.session, self.runner, self.wait = session, session.runner, session.runner.wait
+        self._topics = dict(session.task.topics) if renamed else {}
+        asked = {own: topic for topic, own in self._topics.items()}
+        self._known_as = {**{topic: f"{UNASKED}{topic}" for topic in self._topics}, **asked}
+        with socket.socket() as probe:
+            probe.bind(("127.0.0.1", 0))
+            port = probe.getsockname()[1]
+        master = {"ROS_MASTER_URI": f"http://127.0.0.1:{port}"}
+        self.environment = {**session.environment, **master}
+        # Our own programs are found in the underlay alone, whatever of their name the student has. Their
+        # logs lie elsewhere: the student's may not write in folders of ours.
+        own = dict.fromkeys(("HOME", "ROS_HOME", "ROS_LOG_DIR"), str(session.folder / "ours"))
+        self._ours = {**session.underlay_environment, **master, **own}
+        self._helpers: list[helper_process.Helper] = []
+        self._master = self.help(lambda: helper_process.MasterProcess(port))
+        if not self._master.call("uri"):
+            raise CannotCheck("no ROS master can be started here")
+        self._driver = self.help(driver.Driver)
+        # As roscore does; else two roslaunch at once would each make up one, and one of them fail.
+        self.call("set_parameter", "/run_id", str(uuid.uuid4()))
+        # As common/node_kit/etc/ros/roscore.xml, which says why.
+        self.call("set_parameter", "/rosout_disable_topics_generation", False)
+
+    def start(self, package: str, script: str, *arguments: str) -> Program:
+        return self.launch([*self.session.command(package, script), *arguments])
+
+    def help(self, make: Callable[[], Any]) -> helper_process.Helper:
+        helper = helper_process.Helper(make, self._ours)
+        self.runner.trusted.add(helper.pid)
+        self._helpers.append(helper)
+        return helper
+
+    def echo(self, axis: int) -> tuple[helper_process.Helper, str]:
+        """Return a Helper with an Echo of an axis, and the topic on which it answers."""
+        from tutorial_check.record import driver  # noqa: PLC0415
+
+        joy = self._topics.get(driver.JOY, driver.JOY)
+        return self.help(lambda: driver.Echo(joy, axis)), driver.ECHO
+
+    def start_ours(self, package: str, program: str, *arguments: str) -> Program:
+        """Start a program of the suite's. Without rosrun, which searches it for half a second."""
+        path = Path(self.session.underlay).parent / "lib" / package / program
+        renamed = [f"{topic}:={own}" for topic, own in self._topics.items()]
+        return self.launch([str(path), *renamed, *arguments], trusted=True)
+
+    def launch(self, command: Sequence[str], trusted: bool = False) -> Program:
+        try:
+            return self.runner.start(command, self._ours if trusted else self.environment, trusted)
+        except OSError as error:
+            seen = f"{Path(command[0]).name}: {error.strerror}"
+            hint = "look at the first line of the file: #!/usr/bin/env python3"
+            raise Wrong("a program that can be started", seen, hint=hint) from None
+
+    def call(self, method: str, *arguments: Any) -> Any:
+        """Call a method of the driver. Stop waiting if the master has ended: rospy would retry without end."""
+        if arguments:
+            arguments = (self._topics.get(arguments[0], arguments[0]), *arguments[1:])
+        found = self._driver.call(method, *arguments, in_vain=lambda: not self.master_lives)
+        if method == "state":
+            return tuple(map(self._as_known, found))
+        return self._as_known(found) if method == "types" else found
+
+    def _as_known(self, topics: dict[str, Any]) -> dict[str, Any]:
+        """Return what is known of topics, by the names that the checks have for them."""
+        return {self._known_as.get(topic, topic): about for topic, about in topics.items()}
+
+    @property
+    def master_lives(self) -> bool:
+        """Whether no program has ended the master."""
+        return not self._master.ended
+
+    def wait_for_start(self, condition: Callable[[], Any], deadline_s: float = START_S) -> Any:
+        """Wait until programs are as far as the condition says, or do nothing more."""
+        return self.wait(condition, deadline_s, or_idle=True)
+
+    def meet(self, program: Program, *topics: str) -> bool:
+        """Return whether a program has connected to ours on these topics; wait for that, or its end.
+
+        rospy connects before it attaches the callback, and a publisher counts a subscriber from the
+        connection on: what is sent in between is lost, so wait until all threads of the program wait.
+        """
+
+        def has_met() -> bool:
+            ends = [(end, topic) for topic in topics for end in self.call("ends_of", topic)]
+            return all([self.call(end, topic) for end, topic in ends])
+
+        self.wait_for_start(lambda: program.ended or has_met())
+        self.wait(lambda: program.ended or program.rests(), SETTLE_S)
+        return not program.ended and has_met()
+
+    def end(self) -> None:
+        self.runner.clear()
+        for helper in reversed(self._helpers):
+            helper.end()
+        shutil.rmtree(self.session.folder / "home" / ".ros", ignore_errors=True)

@@ -1,0 +1,1 @@
+"""What students, professors and services read."""

@@ -1,0 +1,200 @@
+"""A class at a glance: the table of --all as a page and as CSV, and what lies below it (pure)."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from collections import Counter
+from dataclasses import dataclass, field, replace
+from html import escape
+from pathlib import Path
+from typing import Any, Iterable, Iterator, Mapping, Sequence
+from urllib.parse import quote
+
+from tutorial_check.launcher import Outcome
+from tutorial_check.model import NOTE, Result
+from tutorial_check.report.hints import cause_of
+from tutorial_check.report.text import lines_of
+
+# Where a spreadsheet may see the start of a cell, with any separator, followed by a formula.
+FORMULA = re.compile(r"(^|[;,|\t\r\n])(?=\s*[=+\-@])")
+LEGEND = {
+    "ok": "all checks of the exercise hold",
+    "C16": "the first check that is wrong, and what was seen; the pointer shows the rest",
+    "-": "not reached: what comes before it is wrong",
+    "not done": "there was nothing to check",
+    "?": "could not be checked, through no fault of the student's",
+    "...": "is being checked",
+}
+KINDS = {"ok": "ok", "-": "no", "?": "no", "not done": "no", "...": "no"}  # word: CSS class
+LONGEST = 70  # characters of a cause in a cell
+MOST_CAUSES = 10
+BAR = "\u2588"  # of one student
+WORDS = ("expected", "seen", "where", "hint")  # of a Result, in its order
+# No script, picture or other content can load, whatever a name or an output contains.
+POLICY = "default-src 'none'; style-src 'unsafe-inline'"
+STYLE = """
+body{font-family:sans-serif}td,th{padding:.2em .6em;border:1px solid #ccc;vertical-align:top}
+table{border-collapse:collapse}.ok{background:#cfc}.wrong{background:#fcc}.no{color:#777}
+small{display:block;max-width:16em;overflow-wrap:anywhere}
+@media print{body{font-size:9pt}tr{break-inside:avoid}a{color:#000;text-decoration:none}
+.wrong{font-weight:bold}}
+"""
+PAGE = """<!DOCTYPE html><html lang="en"><meta charset="utf-8"><title>Exercises</title>
+<meta http-equiv="Content-Security-Policy" content="{policy}">{refresh}
+<style>{style}</style><h1>Exercises</h1>{body}</html>
+"""
+
+
+@dataclass
+class Student:
+    """One workspace, or zip. before: what came of the last run, if there was one."""
+
+    name: str
+    path: Path
+    outcomes: list[Outcome] = field(default_factory=list)
+    trouble: str = ""  # why nothing could be checked
+    seconds: float = 0.0
+    before: list[Outcome] = field(default_factory=list)
+
+    def cell(self, exercise: str) -> tuple[str, str, str]:
+        """Return a word of LEGEND for an exercise, the cause in short, and the details."""
+        if not self.outcomes:
+            return ("?", "", self.trouble) if self.trouble else ("...", "", "")
+        outcome = next(each for each in self.outcomes if each.id == exercise)
+        if outcome.empty:
+            return "not done", "", "nothing to check"
+        if outcome.passed:
+            return "ok", "", ""
+        for wrong in outcome.wrong:
+            return wrong.id, _short(wrong.seen), "\n".join(lines_of(wrong))
+        return ("?", "", outcome.trouble) if outcome.trouble else ("-", "", "not reached")
+
+    @property
+    def done(self) -> str:
+        """How many exercises, as "5 of 9"."""
+        solved = sum(outcome.solved for outcome in self.outcomes)
+        return f"{solved} of {len(self.outcomes)}" if self.outcomes else ""
+
+    @property
+    def notes(self) -> int:
+        """How many checks hold with something worth knowing."""
+        results = [one for outcome in self.outcomes for one in outcome.results]
+        return sum(one.status == NOTE and not one.empty for one in results)
+
+    @property
+    def remark(self) -> str:
+        """Why there is no verdict, or how well its programs were isolated, if not by bubblewrap."""
+        return self.trouble or next((one.remark for one in self.outcomes), "")
+
+    @property
+    def wrong(self) -> list[Result]:
+        """The checks that are wrong, in their order."""
+        return [one for outcome in self.outcomes for one in outcome.wrong]
+
+
+def _short(text: str) -> str:
+    line = " ".join(text.split())
+    return line if len(line) <= LONGEST else f"{line[: LONGEST - 3]}..."
+
+
+def table_csv(students: Iterable[Student], exercises: Sequence[str]) -> str:
+    """Return one line a student, without what a spreadsheet would take for a formula."""
+    lines = io.StringIO()
+    table = csv.writer(lines)
+    table.writerow(["student", *exercises, "done", "notes", "seconds", "first cause", "remark"])
+    for student in students:
+        cells = [student.cell(exercise)[0] for exercise in exercises]
+        cause = student.wrong[0].seen if student.wrong else ""
+        texts = (student.name, cause, student.remark)
+        name, cause, remark = (FORMULA.sub(r"\1'", text) for text in texts)
+        about = (cells.count("ok"), student.notes, f"{student.seconds:.1f}", cause, remark)
+        table.writerow([name, *cells, *about])
+    return lines.getvalue()
+
+
+def table_html(
+    students: Sequence[Student], exercises: Sequence[str], titles: Mapping[str, str]
+) -> str:
+    """Return the page. While students are still being checked it loads itself anew."""
+    heads = ["student", *(f"{each}<small>{escape(titles[each])}</small>" for each in exercises)]
+    rows = [_row((*heads, "done", "notes", "took"), "th")]
+    for student in students:
+        link = quote(f"{student.name}.txt", errors="surrogateescape")  # a name may be no UTF-8
+        row = f'<tr><td><a href="./{link}">{escape(student.name)}</a></td>'
+        row += "".join(_cell(*student.cell(exercise)) for exercise in exercises)
+        about = (student.done, str(student.notes or ""), f"{student.seconds:.0f} s")
+        rows.append(row + "".join(f"<td>{word}</td>" for word in about) + "</tr>")
+    runs = any(student.cell(exercises[0])[0] == "..." for student in students)
+    refresh = '<meta http-equiv="refresh" content="5">' if runs else ""
+    body = f"<table>{''.join(rows)}</table>{''.join(_below(students))}"
+    return PAGE.format(policy=escape(POLICY), refresh=refresh, style=STYLE, body=body)
+
+
+def _cell(word: str, cause: str, details: str) -> str:
+    small = f"<small>{escape(cause)}</small>" if cause else ""
+    kind = KINDS.get(word, "wrong")
+    return f'<td class="{kind}" title="{escape(details)}">{escape(word)}{small}</td>'
+
+
+def _row(cells: Iterable[str], tag: str = "td") -> str:
+    return f"<tr>{''.join(f'<{tag}>{cell}</{tag}>' for cell in cells)}</tr>"
+
+
+def _below(students: Sequence[Student]) -> Iterator[str]:
+    """Yield what lies below the table: a heading and a table each, if there is something in it."""
+    failed = ((one, title, str(count), BAR * count) for one, title, count in failures(students))
+    yield _section("How many fail each check", (), failed)
+    frequent = (
+        (str(count), f"{one.id} {one.title}", *(getattr(one, word) for word in WORDS))
+        for count, one in causes(students)
+    )
+    yield _section("The most frequent causes", ("how many", "check", *WORDS), frequent)
+    changed = ((one.name, *map(", ".join, changes(one).values())) for one in students)
+    head = ("student", "now done", "no more done", "stuck at the same check")
+    yield _section("Since the last run", head, (row for row in changed if any(row[1:])))
+    remarks = ((one.name, one.remark) for one in students if one.remark)
+    yield _section("Remarks", ("student", "remark"), remarks)
+    yield _section("Legend", (), LEGEND.items())
+
+
+def _section(title: str, head: Sequence[str], rows: Iterable[Iterable[str]]) -> str:
+    lines = [_row(map(escape, row)) for row in rows]
+    top = _row(head, "th") if head else ""
+    return f"<h2>{title}</h2><table>{top}{''.join(lines)}</table>" if lines else ""
+
+
+def failures(students: Iterable[Student]) -> list[tuple[str, str, int]]:
+    """Return (check, its title, how many fail it), the most frequent first."""
+    wrong = Counter((one.id, one.title) for student in students for one in student.wrong)
+    return [(*about, count) for about, count in wrong.most_common()]
+
+
+def causes(students: Iterable[Student]) -> list[tuple[int, Result]]:
+    """Return (how many, an example without the student's name) of the most frequent causes."""
+    examples: dict[str, Result] = {}
+    counts: Counter[str] = Counter()
+    for student in students:
+        for one in student.wrong:
+            counts[cause_of(one)] += 1
+            name = re.compile(rf"\b{re.escape(student.name)}\b", re.IGNORECASE)
+            words: dict[str, Any] = {word: name.sub("NAME", getattr(one, word)) for word in WORDS}
+            examples.setdefault(cause_of(one), replace(one, **words))
+    return [(count, examples[cause]) for cause, count in counts.most_common(MOST_CAUSES)]
+
+
+def changes(student: Student) -> dict[str, list[str]]:
+    """Return what changed since the last run: exercises now done, no more done, stuck at a check."""
+    found: dict[str, list[str]] = {"now done": [], "no more done": [], "stuck": []}
+    earlier = {outcome.id: outcome for outcome in student.before}
+    for outcome in student.outcomes:
+        old = earlier.get(outcome.id)
+        if old is None:
+            continue
+        if outcome.passed != old.passed:
+            found["now done" if outcome.passed else "no more done"].append(outcome.id)
+        for first, was in zip(outcome.wrong[:1], old.wrong[:1]):
+            if first.id == was.id:
+                found["stuck"].append(f"{first.id} {first.title}")
+    return found

@@ -1,0 +1,161 @@
+"""The report as files for other programs. Pure but for the writing."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import re
+import xml.etree.ElementTree as ET
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, Callable, Mapping, Sequence
+
+from tutorial_check.launcher import Outcome
+from tutorial_check.model import NOTE, OK, UNREACHED, WRONG, CannotCheck
+from tutorial_check.report.text import heading, lines_of
+
+FIELDS = ("id", "status", "title", "expected", "seen", "where", "hint")
+# What Classroom 50 knows of a submission, in the environment of an autograder, by its name in the result.
+# Without these it refuses the result; the owner and the times it writes itself (run_entrypoint,
+# finalize_result and validate_result in runner.py of github.com/foundation50/classroom50).
+SUBMISSION = {
+    "classroom": "CLASSROOM",
+    "assignment": "ASSIGNMENT",
+    "submission": "SUBMISSION_TAG",
+    "commit": "COMMIT_URL",
+    "release": "RELEASE_URL",
+    "review": "REVIEW_URL",
+}
+
+
+def without_hints(outcomes: Sequence[Outcome]) -> list[Outcome]:
+    """Return the same outcomes without hints."""
+    return [
+        replace(one, results=[replace(each, hint="") for each in one.results]) for one in outcomes
+    ]
+
+
+def as_json(outcomes: Sequence[Outcome]) -> str:
+    """Return one object with all exercises and checks."""
+    exercises = [
+        {
+            "id": one.id,
+            "passed": one.solved,
+            "nothing_to_check": one.empty,
+            "trouble": one.trouble,
+            "remark": one.remark,
+            "checks": [{name: getattr(each, name) for name in FIELDS} for each in one.results],
+        }
+        for one in outcomes
+    ]
+    passed = sum(outcome.solved for outcome in outcomes)
+    return json.dumps({"exercises": exercises, "passed": passed, "total": len(outcomes)}, indent=1)
+
+
+def as_junit(outcomes: Sequence[Outcome]) -> str:
+    """Return JUnit's XML: an exercise is a suite, a check a case; one more, if there is no verdict."""
+    root = ET.Element("testsuites", name="tutorial check")
+    for outcome in outcomes:
+        statuses = [result.status for result in outcome.results]
+        counts = {
+            "tests": len(statuses) + bool(outcome.trouble),
+            "failures": statuses.count(WRONG),
+            "skipped": statuses.count(UNREACHED),
+            "errors": int(bool(outcome.trouble)),
+        }
+        about = {name: str(count) for name, count in counts.items()}
+        about.update(name=heading(outcome), time=f"{outcome.seconds:.2f}")
+        suite = ET.SubElement(root, "testsuite", about)
+        about = {"classname": f"exercise {outcome.id}"}
+        for result in outcome.results:
+            case = ET.SubElement(suite, "testcase", about, name=f"{result.id} {result.title}")
+            tag = {WRONG: "failure", UNREACHED: "skipped", NOTE: "system-out"}.get(result.status)
+            if tag:
+                message = {} if result.status == NOTE else {"message": _legal(result.seen)}
+                inner = ET.SubElement(case, tag, message)
+                if result.status != UNREACHED:
+                    inner.text = _legal("\n".join(line.strip() for line in lines_of(result)[1:]))
+        if outcome.trouble:
+            case = ET.SubElement(suite, "testcase", about, name="no verdict")
+            ET.SubElement(case, "error", message=_legal(outcome.trouble))
+    return ET.tostring(root, encoding="unicode", xml_declaration=True) + "\n"
+
+
+def _legal(text: str) -> str:
+    """Return a text without the characters that XML forbids; a program may print anything."""
+    return re.sub("[^\n\t\x20-\ufffd\U00010000-\U0010ffff]", "", text)
+
+
+def points_of(outcome: Outcome) -> float:
+    """Return the points of one check: those of the exercise, divided by its checks, or one."""
+    return outcome.points / len(outcome.results) if outcome.points else 1.0
+
+
+def as_gradescope(outcomes: Sequence[Outcome]) -> str:
+    """Return Gradescope's results.json: the points of a course, or one a check; above them, what has no verdict."""
+    tests = [
+        {
+            "name": f"{outcome.id} {result.id}: {result.title}",
+            "score": points_of(outcome) * (result.status in (OK, NOTE)),
+            "max_score": points_of(outcome),
+            "output": "\n".join(line.strip() for line in lines_of(result)),
+            "visibility": "visible",
+        }
+        for outcome in outcomes
+        for result in outcome.results
+    ]
+    seconds = round(sum(each.seconds for each in outcomes), 1)
+    why = "no verdict on exercise {0.id}, through no fault of yours: {0.trouble}"
+    remarks = [why.format(one) for one in outcomes if one.trouble]
+    output = {"output": "\n".join(remarks)} if remarks else {}
+    return json.dumps({"tests": tests, "execution_time": seconds, **output}, indent=1)
+
+
+def as_classroom(outcomes: Sequence[Outcome], environment: Mapping[str, str] = os.environ) -> str:
+    """Return Classroom 50's result: points of each exercise, or one; the environment names the submission."""
+    tests: list[dict[str, Any]] = [
+        {
+            "test-name": heading(one),
+            "passed": one.passed,
+            "score": (one.points or 1) * one.passed,
+            "max-score": one.points or 1,
+        }
+        for one in outcomes
+    ]
+    given = [(field, environment.get(name)) for field, name in SUBMISSION.items()]
+    about = {field: value for field, value in given if value}
+    if "commit" in about:
+        about.setdefault("review", about["commit"])
+    score = {name: sum(one[name] for one in tests) for name in ("score", "max-score")}
+    result = {"schema": "classroom50/result/v1", **about, **score, "tests": tests}
+    return json.dumps(result, indent=1)
+
+
+# {name of an option: (what it writes, the function that makes it)}
+FORMATS: dict[str, tuple[str, Callable[[Sequence[Outcome]], str]]] = {
+    "json": ("all results", as_json),
+    "junit": ("JUnit's XML", as_junit),
+    "gradescope": ("Gradescope's results.json", as_gradescope),
+    "classroom": ("Classroom 50's result", as_classroom),
+}
+
+
+def clear(path: str | Path) -> None:
+    """Remove a file of an earlier check. Raises CannotCheck if none can be written there.
+
+    Keep what is not a file, as a pipe, and what may be written but not removed.
+    """
+    if os.path.isfile(path) or os.path.isdir(path) or not os.path.exists(path):
+        write(path, "")
+        with contextlib.suppress(OSError):
+            os.unlink(os.path.realpath(path))
+
+
+def write(path: str | Path, text: str) -> None:
+    """Write a file; escape names in it that are not UTF-8. Raises CannotCheck."""
+    try:
+        with open(path, "w", encoding="utf-8", errors="backslashreplace", newline="") as file:
+            file.write(text)
+    except OSError as error:
+        raise CannotCheck(f"{path}: {error.strerror}") from None

@@ -1,0 +1,1 @@
+"""What a student's files say, read and never run."""

@@ -1,0 +1,229 @@
+"""What a Python file says of itself, read as Python reads it and never run. Pure."""
+
+from __future__ import annotations
+
+import ast
+import re
+import warnings
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Iterable, Iterator, Sequence, Tuple, Union
+
+from tutorial_check.source.class_facts import ClassFacts, class_facts
+from tutorial_check.source.python_text import is_broad, last_name, python_lines, text_of
+
+KEYBOARD = ("input", "raw_input", "tcgetattr", "setraw", "setcbreak", "initscr", "getch", "getchar")
+Place = Union[Tuple[int, str], Tuple[()]]  # (line, text), or empty: there is none
+
+
+@dataclass
+class Call:
+    """rospy.Publisher(...), rospy.Subscriber(...) and their like."""
+
+    line: int
+    words: list[str]  # the arguments as text, strings without quotes
+    names: dict[str, str]  # the same of keyword arguments
+
+
+class PythonFacts:
+    """What a file contains: nothing but an error where Python cannot read it."""
+
+    def __init__(self, text: str) -> None:
+        self.error, self.error_line, self.error_text = "", 0, ""
+        self._text = text
+        tree = ast.Module([], [])
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                compile(text, "program", "exec")  # refuses more: a late `global`, a lone `return`
+                tree = ast.parse(text)
+        except (SyntaxError, ValueError, RecursionError) as error:
+            self.error = getattr(error, "msg", None) or str(error)
+            self.error_line = getattr(error, "lineno", 0) or 0
+            lines = ["", *python_lines(text)]
+            if self.error_line < len(lines):
+                self.error_text = lines[self.error_line].strip(" \t")
+        self._top = tree.body
+        self._nodes = list(ast.walk(tree))
+        self._functions = self._of(ast.FunctionDef)
+        self.functions = {node.name: node.lineno for node in self._functions}
+        inner = [node for function in self._functions for node in ast.walk(function)]
+        self.inner_names = {name for _, name in _made(inner)}  # that functions make, or are given
+        self.has_main = any(map(_is_main, self._nodes))
+        self.loops = [node.lineno for node in self._of(ast.While)]
+        self.globals = [node.lineno for node in self._of(ast.Global)]
+        self.broad_excepts = list(filter(is_broad, self._of(ast.ExceptHandler)))
+        self.bare_names = [  # (line, text) of statements that do nothing, as rospy.spin without ()
+            (node.lineno, text_of(node.value))
+            for node in self._of(ast.Expr)
+            if isinstance(node.value, (ast.Attribute, ast.Name))
+        ]
+        self.imports = {
+            f"{node.module}.{alias.name}" if isinstance(node, ast.ImportFrom) else alias.name
+            for node in self._of(ast.Import, ast.ImportFrom)
+            for alias in node.names
+        }
+
+    def _of(self, *kinds: type[ast.AST]) -> list[Any]:
+        return [node for node in self._nodes if isinstance(node, kinds)]
+
+    @cached_property
+    def calls(self) -> dict[str, list[Call]]:
+        """{last part of the name: its calls, by line}."""
+        found: dict[str, list[Call]] = {}
+        for node in sorted(self._of(ast.Call), key=lambda call: call.lineno):
+            words = [text_of(word) for word in node.args]
+            names = {word.arg: text_of(word.value) for word in node.keywords if word.arg}
+            found.setdefault(last_name(node), []).append(Call(node.lineno, words, names))
+        return found
+
+    @cached_property
+    def classes(self) -> list[ClassFacts]:
+        return [class_facts(node, set(self.calls)) for node in self._of(ast.ClassDef)]
+
+    @property
+    def sunken_main(self) -> Place:
+        """(line, function) of an `if __name__ == '__main__':` that stands within a function."""
+        for function in self._functions:
+            for node in ast.walk(function):
+                if isinstance(node, ast.If) and _is_main(node):
+                    return node.lineno, function.name
+        return ()
+
+    @property
+    def odd_main(self) -> Place:
+        """(line, text) of `if __name__ == ' main ':` and its like."""
+        for node in self._top:
+            if not (isinstance(node, ast.If) and isinstance(node.test, ast.Compare)):
+                continue
+            left, right = text_of(node.test.left), text_of(node.test.comparators[0])
+            if left in self.names or left.strip("_") != "name" or right.strip(" _") != "main":
+                continue
+            if (left, right) != ("__name__", "__main__"):
+                return node.lineno, python_lines(self._text)[node.lineno - 1].strip()
+        return ()
+
+    @cached_property
+    def names(self) -> dict[str, int]:
+        """{name: first line} of variables, parameters, functions, classes and imports."""
+        found = list(_made(self._nodes))
+        found += [(node.lineno, node.name) for node in self._of(ast.FunctionDef, ast.ClassDef)]
+        for node in self._of(ast.Import, ast.ImportFrom):
+            found += [(node.lineno, each.asname or each.name) for each in node.names]
+        return {name: line for line, name in sorted(found, reverse=True)}
+
+    @property
+    def attributes(self) -> dict[str, tuple[int, str]]:
+        """{"msg.linear.x": (first line, what it is set to)}."""
+        pairs = [(target, node.value) for node in self._of(ast.Assign) for target in node.targets]
+        pairs = [both for both in pairs if isinstance(both[0], ast.Attribute)]
+        found = [(target.lineno, text_of(target), text_of(value)) for target, value in pairs]
+        return {name: (line, value) for line, name, value in sorted(found, reverse=True)}
+
+    @property
+    def loose(self) -> dict[int, str]:
+        """{line beside functions, which may have fallen out of one: the function above it}."""
+        found: dict[int, str] = {}
+        for block in self._of(ast.Module, ast.ClassDef):
+            above = ""
+            for node in block.body:
+                inner = [each.name for each in ast.walk(node) if isinstance(each, ast.FunctionDef)]
+                if inner:
+                    above = inner[-1]
+                elif above and not _is_main(node):
+                    lines = range(node.lineno, (node.end_lineno or node.lineno) + 1)
+                    found.update(dict.fromkeys(lines, above))
+        return found
+
+    @cached_property
+    def called_back(self) -> dict[str, list[int]]:
+        """{name: lines} of what callbacks call, and what these call."""
+        subscribers = self.calls.get("Subscriber", [])
+        given = (one.words[2:3] or [one.names.get("callback", "")] for one in subscribers)
+        return self._called_by(words[0] for words in given)
+
+    @property
+    def at_end(self) -> dict[str, list[int]]:
+        """{name: lines} of what a function given to on_shutdown calls."""
+        given = [one.words[:1] for one in self.calls.get("on_shutdown", [])]
+        return self._called_by(words[0] for words in given if words)
+
+    def _called_by(self, given: Iterable[str]) -> dict[str, list[int]]:
+        functions = {node.name: node for node in self._functions}
+        waiting = [name.rsplit(".", 1)[-1] for name in given]
+        lines: dict[str, set[int]] = {}
+        while waiting:
+            function = functions.pop(waiting.pop(), None)
+            for node in ast.walk(function) if function else ():
+                if isinstance(node, ast.Call):
+                    lines.setdefault(last_name(node), set()).add(node.lineno)
+                    waiting.append(last_name(node))
+        return {name: sorted(found) for name, found in lines.items()}
+
+    @property
+    def odd_node(self) -> Place:
+        """(line, name) of an init_node of whose name ROS warns, as of joy2twist.py."""
+        for node in self._of(ast.Call):
+            if last_name(node) == "init_node" and node.args:
+                name = getattr(node.args[0], "value", None)
+                # With a / it comes to no warning: rospy refuses it.
+                if isinstance(name, str) and not re.fullmatch(r"[A-Za-z]\w*|.*/.*|", name):
+                    return node.lineno, name
+        return ()
+
+    @property
+    def keyboard(self) -> int:
+        """The first line that reads the keyboard; 0 if none does."""
+        calls = (call.line for name in KEYBOARD for call in self.calls.get(name, []))
+        stdin = (node.lineno for node in self._of(ast.Attribute) if text_of(node) == "sys.stdin")
+        return min([*calls, *stdin], default=0)
+
+    def catcher(self, lines: Sequence[int]) -> ast.ExceptHandler | None:
+        """Return what catches an error. lines: of the calls to it, the innermost last."""
+        blocks = [block for block in self._of(ast.Try) if any(map(is_broad, block.handlers))]
+        for line in lines[::-1]:
+            around = [one for one in blocks if one.lineno <= line < one.handlers[0].lineno]
+            if around:
+                return max(around, key=lambda one: int(one.lineno)).handlers[-1]
+        return None
+
+    def first(self, name: str) -> Call | None:
+        return next(iter(self.calls.get(name, [])), None)
+
+    @property
+    def deaf(self) -> Call | None:
+        """The first Subscriber that is given no callback."""
+        calls = self.calls.get("Subscriber", [])
+        return next((c for c in calls if len(c.words) == 2 and "callback" not in c.names), None)
+
+    @property
+    def publishing_loops(self) -> list[int]:
+        """Lines that publish within a loop, and not in a callback."""
+        inside = self.called_back.get("publish", [])
+        outside = (call.line for call in self.calls.get("publish", []) if call.line not in inside)
+        return [line for line in outside if any(loop <= line for loop in self.loops)]
+
+    @property
+    def keeps_newest(self) -> bool:
+        """Whether a Publisher or Subscriber has a queue of one message."""
+        made = self.calls.get("Publisher", []) + self.calls.get("Subscriber", [])
+        return any(call.names.get("queue_size") == "1" for call in made)
+
+
+def _made(nodes: Iterable[ast.AST]) -> Iterator[tuple[int, str]]:
+    """Yield (line, name) of each variable and parameter."""
+    for node in nodes:
+        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            yield node.lineno, node.id
+        elif isinstance(node, ast.arg):
+            yield node.lineno, node.arg
+
+
+def shows(handler: ast.ExceptHandler) -> bool:
+    """Return whether it displays anything."""
+    calls = (node for node in ast.walk(handler) if isinstance(node, ast.Call))
+    return any(re.match("print|log|write|error|warn|exception", last_name(call)) for call in calls)
+
+
+def _is_main(node: ast.AST) -> bool:
+    return isinstance(node, ast.If) and "__name__" in ast.dump(node.test)

@@ -1,0 +1,111 @@
+"""The command line."""
+
+import sys
+
+import pytest
+
+from tutorial_check import command_line, one_workspace
+from tutorial_check.command_line import parse
+from tutorial_check.launcher import Outcome
+from tutorial_check.model import OK, UNREACHED, WRONG, Result
+from tutorial_check.report.formats import FORMATS
+
+UNDERLAY = ["--underlay", "setup.bash"]
+BEFORE = [*UNDERLAY, "--in", "ws"]
+WELL = Outcome("2", [Result("C1", OK, "one")], 1.0, True)
+BAD = Outcome("2", [Result("C1", WRONG, "no file", hint="mkdir src")], 1.0, True)
+NO_VERDICT = Outcome("5", [Result("C21", UNREACHED, "two")], 1.0, True, "C21: no space")
+
+
+@pytest.mark.parametrize(
+    ("words", "exercises"),
+    [
+        (["4"], ["4.2", "4.3", "4.4", "4.5"]),
+        (["6", "2"], ["2", "6.1", "6.2"]),
+        (["4.3", "4"], ["4.2", "4.3", "4.4", "4.5"]),
+        (["5.1", "3.2."], ["3", "5"]),
+    ],
+)
+def test_a_section_is_all_its_exercises(words, exercises):
+    assert parse([*BEFORE, *words]).exercises == exercises
+
+
+def test_in_a_shell_of_a_workspace_that_is_meant(monkeypatch):
+    monkeypatch.setenv("TUTORIAL_IN", "/mine")
+    assert parse(UNDERLAY).workspace == "/mine"
+    assert parse([*UNDERLAY, "--in", "/another"]).workspace == "/another"
+    options = parse([*UNDERLAY, "--all", "/class"])
+    assert (options.all, options.jobs) == ("/class", 2)
+
+
+@pytest.mark.parametrize(
+    ("words", "error"),
+    [
+        ([*UNDERLAY, "3"], "which workspace? For example: --in ~/ros/hydro/catkin_ws 3;"),
+        *(([*BEFORE, word], "no exercise") for word in ("8", "", ".", "4.9")),
+        *(([*UNDERLAY, f"--{name}", ""], "an empty word is no path") for name in ("in", "all")),
+        *(([*BEFORE, f"--{name}", ""], "an empty word") for name in ("out", "json", "underlay")),
+        ([*UNDERLAY, "--all", "class", "--json", "a"], "--json is for one workspace"),
+        ([*UNDERLAY, "--all", "class", "--watch"], "--watch is for one workspace"),
+        ([*BEFORE, "--watch", "--classroom", "a"], "leave --watch out"),
+        ([*BEFORE, "--out", "a"], "--out is for --all"),
+        ([*BEFORE, "--jobs", "2"], "--jobs is for --all"),
+    ],
+)
+def test_words_that_are_refused(words, error, capsys, monkeypatch):
+    monkeypatch.delenv("TUTORIAL_IN", raising=False)
+    with pytest.raises(SystemExit, match="2"):
+        parse(words)
+    assert error in capsys.readouterr().err
+
+
+@pytest.fixture
+def main(monkeypatch):
+    """main(examine, *words): the exit code."""
+
+    def called(examine, *words):
+        monkeypatch.setattr(one_workspace, "examine", examine)
+        monkeypatch.setattr(sys, "argv", ["check", *BEFORE, "2", "5", *map(str, words)])
+        with pytest.raises(SystemExit) as ended:
+            command_line.main()
+        return ended.value.code
+
+    return called
+
+
+@pytest.mark.parametrize(
+    ("outcomes", "code"), [([WELL], 0), ([BAD], 1), ([WELL, NO_VERDICT], 2), ([BAD, NO_VERDICT], 2)]
+)
+def test_the_exit_code_tells_right_wrong_and_no_verdict(main, outcomes, code, capsys):
+    assert main(lambda *_, **__: outcomes) == code
+    out, err = capsys.readouterr()
+    assert f"{sum(one.passed for one in outcomes)} of {len(outcomes)} exercises done" in out
+    assert ("check: 5: no verdict: C21: no space\n" in err) == (NO_VERDICT in outcomes)
+
+
+def test_without_a_verdict_classroom_50_gets_no_file(main, tmp_path, capsys):
+    words = ["--classroom", tmp_path / "classroom", "--json", tmp_path / "json", "--no-hints"]
+    assert main(lambda *_, **__: [BAD, NO_VERDICT], *words) == 2
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["json"]
+    assert f"check: {tmp_path}/classroom is not written" in capsys.readouterr().err
+    assert "mkdir src" not in (tmp_path / "json").read_text()
+
+
+@pytest.mark.parametrize("name", FORMATS)
+def test_a_bug_of_the_checker_is_no_fault_of_the_students(main, tmp_path, capsys, name):
+    (tmp_path / "file").write_text("last week's")
+    assert main(lambda *_, **__: [].pop(), f"--{name}", tmp_path / "file") == 2
+    error = capsys.readouterr().err
+    assert "check: IndexError: pop from empty list (test_command_line.py:" in error
+    assert "a fault of the check, not of your exercises" in error and "Traceback" not in error
+    assert not (tmp_path / "file").exists()  # last week's result is not this one's
+
+
+def test_a_file_that_cannot_be_written(main, tmp_path, capsys):
+    """The other files are written; a fault that is known before the work prevents the work."""
+    files = "--json", tmp_path / "json", "--junit", tmp_path / "junit"
+    assert main(lambda *_, **__: (tmp_path / "json").mkdir() or [WELL], *files) == 2
+    assert (tmp_path / "junit").exists()
+    assert main(lambda *_, **__: pytest.fail("begun"), *files) == 2
+    why = f"check: no verdict: {tmp_path / 'json'}: Is a directory"
+    assert capsys.readouterr().err.count(why) == 2

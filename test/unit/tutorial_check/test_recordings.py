@@ -1,0 +1,33 @@
+"""Recordings become JSON and come back equal."""
+
+import json
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tutorial_check.handout.s3.record import Talk
+from tutorial_check.handout.s4.record import Bag, Follow, Stick
+from tutorial_check.handout.s4_3.drive import Drive
+from tutorial_check.handout.s5.record import Run
+from tutorial_check.handout.s6_1.record import Remap
+from tutorial_check.handout.s6_2.record import Alone, Endings
+from tutorial_check.handout.s7 import record as s7
+from tutorial_check.record.recording import as_json, from_json
+
+KINDS = [Talk, Bag, Follow, Stick, Drive, Run, Remap, Alone, Endings, s7.Presses, s7.Drive]
+st.register_type_strategy(float, st.floats(allow_nan=False))
+
+
+@pytest.mark.parametrize("kind", KINDS, ids=lambda kind: f"{kind.__module__}.{kind.__name__}")
+@settings(max_examples=20, deadline=None)
+@given(data=st.data())
+def test_a_recording_comes_back_from_json(kind, data):
+    one = data.draw(st.from_type(kind))
+    assert from_json(kind, json.loads(json.dumps(as_json(one)))) == one
+
+
+@pytest.mark.parametrize("text", ["[]", "{}", '{"drives": true, "x": 1}', "null"])
+def test_another_text_is_no_recording(text):
+    with pytest.raises(ValueError, match="no Stick"):
+        from_json(Stick, json.loads(text))

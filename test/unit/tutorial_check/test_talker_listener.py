@@ -1,0 +1,64 @@
+"""What is said of talker and listener from recorded facts, where no program shows it reliably."""
+
+from dataclasses import replace
+
+import pytest
+
+from tutorial_check.handout.s3 import judge
+from tutorial_check.handout.s3.record import PACKAGE, STRINGS, Talk
+from tutorial_check.isolation.program import Ran
+from tutorial_check.model import Wrong
+
+LISTENER = """from std_msgs.msg import String
+def callback(data):
+    loginfo(data)
+rospy.Subscriber('chatter', String, callback)
+"""
+TALKER = "#!/usr/bin/env python3\nfrom std_msgs.msg import String\nrospy.init_node('talker')\n"
+TORRENT = {"heard": tuple((k / 1e4, "", "") for k in range(9))}
+ENDED = {"talker": Ran("x.py", "", 0, False, False), "talker_ended": True, "heard": ((0, "", ""),)}
+
+
+RIGHT = Talk(
+    Ran("x.py", "", None, False, False), Ran("x.py", "", None, False, False),
+    talker_ended=False, listener_ended=False, published={}, publishers={},
+    subscribers={"/chatter": ("/listener",)}, types={}, warnings=(), heard=(), master_alive=True,
+)  # fmt: skip
+
+
+@pytest.fixture
+def asked(make_session):
+    """asked(check, text, **recorded): what a check says of a program of that text, or raises."""
+    session = make_session(PACKAGE, "3")
+
+    def ask(check, text, **recorded):
+        for name in ("talker.py", "listener.py"):
+            (session.package(PACKAGE).folder / name).write_text(text)
+        session.recording = lambda recorder, *arguments: replace(RIGHT, **recorded)
+        return check(session)
+
+    return ask
+
+
+def printed(output):
+    return Ran("x.py", output, None, False, False)
+
+
+@pytest.mark.parametrize(("check", "text", "recorded", "seen"), [
+    (judge.talker, TALKER, {"master_alive": False}, "has ended it"),
+    (judge.talker, TALKER + "while True: pass", TORRENT, "thousands of messages"),
+    (judge.listener, LISTENER, {"listener": printed(STRINGS[0])}, "1 of 5 displayed"),
+    (judge.graph, "", {}, "no such way in the graph"),
+    # C9 and C10 look again, and talker and listener do not come as far as they did before.
+    (judge.anonymous, TALKER, {}, "not one message"),
+    (judge.ctrl_c, TALKER, ENDED, "it ended, exit code"),
+])  # fmt: skip
+def test_recorded_facts_have_a_diagnosis(asked, check, text, recorded, seen):
+    with pytest.raises(Wrong) as caught:
+        asked(check, text, **recorded)
+    assert seen in caught.value.seen
+
+
+def test_a_text_that_is_displayed_twice_is_right(asked):
+    output = "\n".join([*STRINGS, STRINGS[0]])
+    assert asked(judge.listener, LISTENER, listener=printed(output)) is None
