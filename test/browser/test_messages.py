@@ -1,5 +1,7 @@
 """What the tabs make of rare messages: the test is their server."""
 
+from tutorial_testing.waiting import wait_for
+
 # A tab of its own beside that of the page. hear() is a message of the server; `sent` is what the
 # tab asks for.
 TAB = """const [given, done] = arguments, sent = [], handlers = {};
@@ -104,3 +106,22 @@ def test_the_plot_forgets_samples_of_another_time(page):
       tab.show(true);
     });"""
     assert run(page, "plot_tab.js", script) == [2]
+
+
+PLOT = """const tab = new tabs.PlotTab(link, watch);
+hear("fields", {fields: ["a"]});
+document.querySelector("#plot-fields input").click();
+document.querySelector("[role=tab][aria-controls=plot]").click();
+tab.show(true);
+hear("plot", {samples: {a: [[0, 1], [1, 2], [2, 0]]}});
+setTimeout(() => done(true), 300);"""
+
+
+def test_plot_is_drawn_after_a_failed_import_of_the_library_of_charts(page):
+    page.driver.set_network_conditions(offline=True, latency=0, throughput=0)
+    page.tab("Plot")
+    run(page, "plot_tab.js", PLOT)
+    wait_for(page.errors, "failed import", 30)
+    page.driver.delete_network_conditions()
+    wait_for(lambda: page.all("#plot-chart canvas"), "chart", 60)
+    page.errors()  # attempts meanwhile may fail
