@@ -3,12 +3,9 @@
 from math import inf, nan
 
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from fake_turtlebot_sim.mux.arbitration import IDLE, TOGETHER_S, Arbiter, Publisher, Verdict
 from fake_turtlebot_sim.mux.parameters import Input
-from node_kit.arming import SETTLING_S
 
 INPUTS = (Input("navi", "navi", 1.0, 5), Input("safety", "safety", 0.2, 10),
           Input("teleop", "teleop", 1.0, 7))  # their order means nothing  # fmt: skip
@@ -26,12 +23,6 @@ STORIES = {
         (2.3, None, None, None, "navi"),
         (2.4, None, None, STOP, IDLE),
         (2.5, None, None, None, IDLE),
-    ],
-    "an input that fell silent while it was outranked is not fallen back to": [
-        (0.0, "navi", 0.1, THROUGH, "navi"),
-        (0.5, "teleop", 0.2, THROUGH, "teleop"),
-        (1.4, None, None, None, "teleop"),
-        (1.5, None, None, STOP, IDLE),
     ],
     "after the last fall-back the stop of the robot still comes": [
         (0.0, "safety", -0.1, THROUGH, "safety"),
@@ -58,21 +49,6 @@ def test_the_highest_input_that_is_not_silent_drives(story):
         else:
             assert arbiter.must_stop(now) is (outcome is STOP), now
         assert arbiter.active(now) == active, now
-
-
-@pytest.mark.parametrize("place", range(6))
-def test_each_of_the_six_numbers_must_be_finite(place):
-    velocity = [0.0] * 6
-    velocity[place] = -inf
-    assert Arbiter(INPUTS).command("navi", velocity, 0.0) is REJECTED
-
-
-def test_nobody_is_noticed_late():
-    arbiter = Arbiter(INPUTS)
-    assert arbiter.lull(0.0) == 0.2  # nobody speaks: but safety may begin now
-    arbiter.command("navi", (0.1,), 0.0)
-    assert arbiter.lull(0.5) == 0.2
-    assert arbiter.lull(0.875) == 0.125
 
 
 class Running:
@@ -176,38 +152,9 @@ def test_late_commands_move_nothing(sender, story):
         assert running.send(speed, now, sender) is verdict, now
 
 
-@given(
-    st.floats(0.51, 100.0),
-    st.lists(
-        st.tuples(st.floats(0.0, 0.9 * TOGETHER_S), st.sampled_from([0.0, 0.1, -0.1])),
-        min_size=1,
-        max_size=10,
-    ),
-)
-def test_not_one_command_of_a_late_burst_moves(silence_s, burst):
-    """Whatever is in the burst, as long as less than TOGETHER_S lies between two commands."""
-    running, now = Running(), silence_s
-    running.send(0.2, 0.0)
-    running.send(0.3, now)
-    for pause_s, speed in burst:
-        now += pause_s
-        running.send(speed, now)
-    running.until(silence_s + SETTLING_S)
-    assert not any(speed for speed, _ in running.through[1:])
-
-
 def test_what_one_sender_left_is_not_held_against_the_next():
     """Who ends a program in the middle of a motion and starts it anew drives at once."""
     running, anew = Running(), Publisher("/rostopic_2", is_remote=True)
     assert running.send(0.2, 0.0) is running.send(0.2, 5.0, anew) is THROUGH
     assert running.arbiter.command("teleop", (0.2,), 5.1, FAR) is WAITS
     assert running.arbiter.active(9.0) == IDLE  # what waits, or is late, keeps nobody active
-
-
-def test_what_waits_is_outranked_like_any_other():
-    arbiter = Arbiter(INPUTS)
-    for now in (0.0, 5.0):
-        arbiter.command("navi", (0.2,), now, FAR)
-    arbiter.command("teleop", (0.1,), 5.01)
-    assert list(arbiter.waited(5.01)) == list(arbiter.waited(5.02)) == []
-    assert arbiter.active(5.02) == "teleop"

@@ -20,11 +20,6 @@ POSE = st.tuples(st.floats(-1, 1), st.floats(-1, 1), st.floats(-3.14, 3.14))
 VELOCITY = st.tuples(st.floats(-1, 1), st.floats(-4, 4))
 
 
-def circle(v, w, t):
-    """The textbook's closed form from the origin, w != 0."""
-    return v / w * sin(w * t), v / w * (1 - cos(w * t)), w * t
-
-
 @pytest.mark.parametrize("exponent", range(-13, -2))
 @pytest.mark.parametrize("sign", [1, -1])
 def test_slow_turns_keep_their_digits(sign, exponent):
@@ -35,11 +30,6 @@ def test_slow_turns_keep_their_digits(sign, exponent):
     assert x == pytest.approx(v * dt * (1 - a * a / 6), rel=1e-12)
     assert y == pytest.approx(v * dt * (a / 2 - a**3 / 24), rel=1e-12)
     assert yaw == pytest.approx(a, rel=1e-12)
-
-
-@pytest.mark.parametrize("w", [0.0, -0.0, 5e-324])
-def test_no_turn_is_a_straight_line(w):
-    assert arc(ORIGIN, (0.7, w), 0.02) == (0.7 * 0.02, 0.0, 0.0)
 
 
 @given(pose=POSE, velocity=VELOCITY, dt=st.floats(0, 10), share=st.floats(0, 1))
@@ -103,15 +93,6 @@ KOBUKI = (0.7, pi)
 )
 def test_both_parts_are_scaled_alike(asked, given_):
     assert limit(asked, *KOBUKI) == pytest.approx(given_, rel=1e-15)
-
-
-@given(st.floats(-1e6, 1e6), st.floats(-1e6, 1e6))
-def test_the_curvature_is_kept(v, w):
-    limited_v, limited_w = limit((v, w), *KOBUKI)
-    assert abs(limited_v) <= min(abs(v), 0.7 * (1 + 1e-15))
-    assert abs(limited_w) <= min(abs(w), pi * (1 + 1e-15))
-    assert limited_v * v >= 0
-    assert limited_v * w == pytest.approx(limited_w * v, rel=1e-12, abs=1e-300)
 
 
 @pytest.mark.parametrize(
