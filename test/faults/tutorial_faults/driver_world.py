@@ -44,13 +44,13 @@ class Gamepad:
         A change is (kind, value); kind: BUTTON, AXIS, or 0 for the state at opening.
         """
         data, changes, signed, noisy = self.rest + data, [], False, False
-        for at in range(0, len(data) - len(data) % 8, 8):
-            time_ms, value, kind, _ = struct.unpack_from("=IhBB", data, at)
-            is_sign = bool(kind & INIT) and time_ms == SIGN_OF_LIFE_MS and not self.is_of_kernel
+        whole = len(data) // 8 * 8
+        for time_ms, value, flags, _ in struct.iter_unpack("=IhBB", data[:whole]):
+            is_sign = bool(flags & INIT) and time_ms == SIGN_OF_LIFE_MS and not self.is_of_kernel
             signed = signed or is_sign
-            is_state = bool(kind & INIT) and not (self.is_of_kernel and self.changed)
-            self.changed = self.changed or not kind & INIT
-            kind &= ~INIT
+            is_state = bool(flags & INIT) and not (self.is_of_kernel and self.changed)
+            self.changed = self.changed or not flags & INIT
+            kind = flags & ~INIT
             if is_sign and self.pressed is not None:
                 continue
             if kind == BUTTON:
@@ -59,7 +59,7 @@ class Gamepad:
                 changes.append((0 if is_state else kind, value))
             else:
                 noisy = True
-        self.rest = data[len(data) - len(data) % 8 :]
+        self.rest = data[whole:]
         return changes, signed, noisy
 
 

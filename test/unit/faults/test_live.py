@@ -2,9 +2,9 @@
 
 import pytest
 
-from tutorial_faults.live.judge import BEGINS, ENDS, HANDS, WHEELS, Event, Trial
+from tutorial_faults.live.judge import BEGINS, ENDS, HANDS, WHEELS, Event, Trial, velocity
 
-STAND, GO = (0.0,) * 6, (0.3, *(0.0,) * 5)
+STAND, GO, FAST = velocity(0.0, 0.0), velocity(0.3, 0.0), velocity(0.8, 0.0)
 HOLD, LET_GO = Event(0.1, HANDS, "drive"), Event(1.0, HANDS, "released")
 
 
@@ -31,7 +31,7 @@ def fault(name, begin=0.5, end=0.9):
         (fault("stop:mux", end=2.0) + wheels((1.2, GO), (3.0, STAND)), "d"),
         (fault("stop:mux") + wheels((0.7, GO), (1.0, STAND), (1.5, GO)), "b"),
         (fault("odd:joy") + wheels((0.7, GO), (1.0, STAND), (1.5, GO)), ""),
-        (wheels((1.0, (0.8, *STAND[1:]))), "c"),
+        (wheels((1.0, FAST)), "c"),
         (fault("stop:master") + wheels((2.0, GO)), ""),
         (fault("stop:master") + wheels((0.7, GO), (2.0, STAND)), "h"),
     ],

@@ -12,9 +12,8 @@ from hypothesis.stateful import RuleBasedStateMachine, initialize, rule
 from fake_turtlebot_sim.mux.arbitration import Publisher
 from fake_turtlebot_sim.mux.parameters import Input
 from gamepad.js_event import AXIS, BUTTON, FULL, INIT, SIGN_OF_LIFE_MS
-from tutorial_faults.arbiter_world import ZERO, ArbiterWorld
+from tutorial_faults.arbiter_world import ZERO, ArbiterWorld, Command
 from tutorial_faults.driver_world import LOST, OPEN, DriverWorld, event
-from tutorial_faults.invariants import Command
 from tutorial_faults.teleoperation_world import LEFT, Message, TeleoperationWorld
 from tutorial_faults.worlds import SUSPENDED, TICK
 
@@ -63,41 +62,43 @@ CHANGES = [
     {"stop_button": 2, "stop_reset_button": 3},
     {"max_linear_acceleration": 1.0, "max_angular_acceleration": 2.0},
 ]  # fmt: skip
+SCALES = ("scale_linear", "scale_angular", "scale_linear_turbo")
+LIMITS = [
+    f"max_{part}_{what}" for part in ("linear", "angular") for what in ("speed", "acceleration")
+]
 
 
-@st.composite
-def parameters(draw):
-    """Private parameters of joy2twist that fit together; with all of them a held stick drives."""
-    enable, turbo = draw(st.sampled_from([(-1, -1), (0, -1), (0, 1), (1, 0), (-1, 0)]))
-    given = {
-        "enable_button": enable,
-        "enable_turbo_button": turbo,
-        "require_enable_button": max(enable, turbo) >= 0 and draw(st.booleans()),
-        "arm_on_neutral": draw(st.booleans()),
-        "axis_curve": draw(st.sampled_from([1, 1, 2])),
-        "inverted_reverse": draw(st.booleans()),
-        "joy_timeout": draw(st.sampled_from([0, 0.02, 0.5, 3.0])),
-        "max_joy_age": draw(st.sampled_from([0, 0.3])),
-        "stop_messages": draw(st.integers(1, 7)),
-        "output_rate": draw(st.floats(1, 1000)),
-    }
-    if given["arm_on_neutral"]:
-        given["vigilance_timeout"] = draw(st.sampled_from([0, 1.0, 2.0]))
-    if draw(st.booleans()):
-        given.update(stop_button=2, stop_reset_button=3)
-    for name in ("scale_linear", "scale_angular", "scale_linear_turbo"):
-        given[name] = draw(st.floats(0.01, 100)) * draw(st.sampled_from([1, -1]))
-    for name in ("max_linear_speed", "max_angular_speed"):
-        given[name] = draw(st.just(0) | st.floats(0.01, 1000))
-    for name in ("max_linear_acceleration", "max_angular_acceleration"):
-        given[name] = draw(st.just(0) | st.floats(0.01, 1000))
+def fitting(buttons, needs_one, arms, stops, vigilance_s, others):
+    """Return private parameters of joy2twist that fit together."""
+    given = {**others, "enable_button": buttons[0], "enable_turbo_button": buttons[1]}
+    given.update(require_enable_button=needs_one and max(buttons) >= 0, arm_on_neutral=arms)
+    given.update({"vigilance_timeout": vigilance_s} if arms else {})
+    given.update({"stop_button": 2, "stop_reset_button": 3} if stops else {})
     return given
 
 
-base = st.builds(
-    lambda arming, change: {**BASE, **arming, **change},
-    st.sampled_from([{}, {"arm_on_neutral": True}]),
+others = st.fixed_dictionaries({
+    "axis_curve": st.sampled_from([1, 1, 2]),
+    "inverted_reverse": st.booleans(),
+    "joy_timeout": st.sampled_from([0, 0.02, 0.5, 3.0]),
+    "max_joy_age": st.sampled_from([0, 0.3]),
+    "stop_messages": st.integers(1, 7),
+    "output_rate": st.floats(1, 1000),
+    **dict.fromkeys(SCALES, st.floats(0.01, 100) | st.floats(-100, -0.01)),
+    **dict.fromkeys(LIMITS, st.just(0) | st.floats(0.01, 1000)),
+})  # fmt: skip
+parameters = st.builds(
+    lambda arms, change: {**BASE, "arm_on_neutral": arms, **change},
+    st.booleans(),
     st.sampled_from(CHANGES),
+) | st.builds(
+    fitting,
+    st.sampled_from([(-1, -1), (0, -1), (0, 1), (1, 0), (-1, 0)]),
+    st.booleans(),
+    st.booleans(),
+    st.booleans(),
+    st.sampled_from([0, 1.0, 2.0]),
+    others,
 )
 senders = st.sampled_from(["ada", "ada", "ada", "bob"])
 
@@ -105,7 +106,7 @@ senders = st.sampled_from(["ada", "ada", "ada", "bob"])
 class Teleoperation(Rules):
     """Any stick at any time, with any parameters."""
 
-    @initialize(given=base | parameters())
+    @initialize(given=parameters)
     def start(self, given):
         self.world = TeleoperationWorld(**given)
 
@@ -149,21 +150,23 @@ class Teleoperation(Rules):
         self.world.take(what)
 
 
-@st.composite
-def inputs(draw):
-    """One to four inputs of a multiplexer."""
-    priorities = draw(st.lists(st.integers(0, 99), min_size=1, max_size=4, unique=True))
-    timeouts = st.sampled_from([0.02, 0.5, 1.0]) | st.floats(0.02, 60)
-    return tuple(
-        Input(f"input {priority}", f"topic_{priority}", draw(timeouts), priority)
-        for priority in priorities
-    )
+timeouts = st.sampled_from([0.02, 0.5, 1.0]) | st.floats(0.02, 60)
+inputs = st.lists(
+    st.builds(
+        lambda timeout, priority: Input(f"in {priority}", f"topic_{priority}", timeout, priority),
+        timeouts,
+        st.integers(0, 99),
+    ),
+    min_size=1,
+    max_size=4,
+    unique_by=lambda one: one.priority,
+)
 
 
 class Mux(Rules):
     """Any command of any sender on any of several inputs."""
 
-    @initialize(given=inputs())
+    @initialize(given=inputs)
     def start(self, given):
         self.names = [one.name for one in given]
         self.world = ArbiterWorld(given)
@@ -183,7 +186,7 @@ class Mux(Rules):
         sender = Publisher(f"{who} on {name}", is_stick, is_remote=True)
         for again in range(times):
             self.world.take(pause if again else 0.0)
-            self.world.take(Command(0.0, name, velocity, sender))
+            self.world.take(Command(name, velocity, sender))
 
 
 class Driver(Rules):
