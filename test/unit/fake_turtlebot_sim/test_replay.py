@@ -83,26 +83,13 @@ def test_the_output_is_the_same_to_the_byte(commands, tmp_path):
 
 
 def test_after_the_last_command_the_timeout_stops_the_robot(tmp_path):
-    bag = write_bag(tmp_path / "once.bag", {"/cmd_vel": [(0, twist(0.7, 0.0))]})
+    joys = [(0, Joy(axes=[0.0] * 6, buttons=[0] * 12))]  # a velocity goes before them
+    once = {"/joy": joys, "/cmd_vel": [(0, twist(0.7, 0.0))]}
+    bag = write_bag(tmp_path / "once.bag", once)
     assert replay_command.main([str(bag), str(tmp_path / "out.bag")]) == 0
     end = read_bag(tmp_path / "out.bag")["/odom"][-1]
     assert end.pose.pose.position.x == pytest.approx(0.42, abs=1e-9)
     assert (end.twist.twist.linear.x, end.header.stamp) == (0.0, START + Duration(0, 6 * 10**8))
-
-
-def test_the_recorded_joystick_of_the_tutorial_comes_home(tmp_path, capsys):
-    target = tmp_path / "tour.bag"
-    assert replay_command.main([str(JOY_BAG), str(target)]) == 0
-    end = read_bag(target)["/odom"][-1].pose.pose.position
-    assert (end.x, end.y) == pytest.approx((0, 0), abs=1e-3)
-    assert "from /joy" in capsys.readouterr().out
-
-
-def test_a_velocity_goes_before_a_joystick_and_the_user_may_choose(tmp_path):
-    joy = Joy(axes=[0.0] * 6, buttons=[0] * 12)
-    bag = write_bag(tmp_path / "both.bag", {"/joy": [(0, joy)], "/cmd_vel": QUARTER})
-    assert replay_command.choose_topic(bag, None) == ("/cmd_vel", Twist)
-    assert replay_command.choose_topic(bag, "/joy") == ("/joy", Joy)
 
 
 @pytest.mark.parametrize(

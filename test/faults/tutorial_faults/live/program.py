@@ -17,6 +17,7 @@ from node_kit.arguments import Parser, above_zero
 from tutorial_faults.live.judge import VELOCITIES, Trial
 from tutorial_faults.live.table import FAULTS
 from tutorial_faults.live.world import World
+from tutorial_faults.worlds import moves
 from tutorial_testing.hands import DRIVE, RELEASED, STICK, TURBO, TURN
 from tutorial_testing.ports import free_port
 
@@ -84,16 +85,18 @@ def tried(world, plan):
 
 
 def show(options, plan, trial):
-    """Print a trial that violates an invariant: each change that was seen, how to repeat it."""
+    """Print a trial that violates an invariant: each start, stop and fault, how to repeat it."""
     print(f"VIOLATION, seed {plan.seed}: {' + '.join(name for *_, name in plan.hits)}")
     begin, last = trial.events[0].at_s, {}
     for letter, at_s, what in trial.violations:
         print(f"  ({letter}) {what}, at {at_s - begin:.3f} s")
     for at_s, what, value in trial.events:
-        shown = tuple(round(part, 1) for part in value) if what in VELOCITIES else value
-        if last.get(what) != shown:
-            print(f"  {at_s - begin:8.3f} s  {what} {shown}")
-        last[what] = shown
+        is_velocity = what in VELOCITIES
+        changed = moves(value) if is_velocity else value
+        if last.get(what) != changed:
+            shown = [round(part, 2) for part in value if part] if is_velocity else value
+            print(f"  {at_s - begin:8.3f} s  {what} {shown or 'rest'}")
+        last[what] = changed
     again = ["--seed", str(plan.seed), "--trials", "1"]
     again += ["--node", shlex.join(options.node)] if options.node else []
     again += ["--kinds", *options.kinds] if options.kinds else []
