@@ -55,29 +55,23 @@ BASE = {
     "output_rate": 4.0, "stop_messages": 2, "max_linear_speed": 0.75, "max_angular_speed": 1.0,
     "max_joy_age": 0.3,
 }  # fmt: skip
+STOPS = {"stop_button": 2, "stop_reset_button": 3}
 CHANGES = [
     {}, {"enable_button": -1, "enable_turbo_button": -1}, {"enable_turbo_button": -1},
     {"enable_button": -1, "enable_turbo_button": 0, "require_enable_button": True},
-    {"joy_timeout": 0}, {"vigilance_timeout": 1.0, "arm_on_neutral": True},
-    {"stop_button": 2, "stop_reset_button": 3},
+    {"joy_timeout": 0}, STOPS,
     {"max_linear_acceleration": 1.0, "max_angular_acceleration": 2.0},
 ]  # fmt: skip
-SCALES = ("scale_linear", "scale_angular", "scale_linear_turbo")
-LIMITS = [
-    f"max_{part}_{what}" for part in ("linear", "angular") for what in ("speed", "acceleration")
+ARMING = [{}, *({"arm_on_neutral": True, "vigilance_timeout": s} for s in (0, 0, 1.0, 2.0))]
+BUTTONS = [
+    {"enable_button": enable, "enable_turbo_button": turbo, "require_enable_button": is_needed}
+    for enable, turbo in ((-1, -1), (0, -1), (0, 1), (1, 0), (-1, 0))
+    for is_needed in (False, max(enable, turbo) >= 0)
 ]
-
-
-def fitting(buttons, needs_one, arms, stops, vigilance_s, others):
-    """Return private parameters of joy2twist that fit together."""
-    given = {**others, "enable_button": buttons[0], "enable_turbo_button": buttons[1]}
-    given.update(require_enable_button=needs_one and max(buttons) >= 0, arm_on_neutral=arms)
-    given.update({"vigilance_timeout": vigilance_s} if arms else {})
-    given.update({"stop_button": 2, "stop_reset_button": 3} if stops else {})
-    return given
-
-
-others = st.fixed_dictionaries({
+SCALES = ("scale_linear", "scale_angular", "scale_linear_turbo")
+SPEEDS = ("max_linear_speed", "max_angular_speed")
+ACCELERATIONS = ("max_linear_acceleration", "max_angular_acceleration")
+any_others = st.fixed_dictionaries({
     "axis_curve": st.sampled_from([1, 1, 2]),
     "inverted_reverse": st.booleans(),
     "joy_timeout": st.sampled_from([0, 0.02, 0.5, 3.0]),
@@ -85,20 +79,19 @@ others = st.fixed_dictionaries({
     "stop_messages": st.integers(1, 7),
     "output_rate": st.floats(1, 1000),
     **dict.fromkeys(SCALES, st.floats(0.01, 100) | st.floats(-100, -0.01)),
-    **dict.fromkeys(LIMITS, st.just(0) | st.floats(0.01, 1000)),
+    **dict.fromkeys(SPEEDS + ACCELERATIONS, st.just(0) | st.floats(0.01, 1000)),
 })  # fmt: skip
-parameters = st.builds(
-    lambda arms, change: {**BASE, "arm_on_neutral": arms, **change},
-    st.booleans(),
-    st.sampled_from(CHANGES),
-) | st.builds(
-    fitting,
-    st.sampled_from([(-1, -1), (0, -1), (0, 1), (1, 0), (-1, 0)]),
-    st.booleans(),
-    st.booleans(),
-    st.booleans(),
-    st.sampled_from([0, 1.0, 2.0]),
-    others,
+
+
+def joined(*drawn):
+    """Draw one dict of several: private parameters of joy2twist that fit together."""
+    return st.tuples(*drawn).map(lambda ones: {k: v for one in ones for k, v in one.items()})
+
+
+arming = st.sampled_from(ARMING)
+stops = st.sampled_from([{}, STOPS])
+parameters = joined(st.just(BASE), st.sampled_from(CHANGES), arming) | joined(
+    any_others, st.sampled_from(BUTTONS), stops, arming
 )
 senders = st.sampled_from(["ada", "ada", "ada", "bob"])
 
