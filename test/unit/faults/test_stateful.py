@@ -1,4 +1,4 @@
-"""The rules of joy2twist, mux and driver under any events at any time, judged by the invariants.
+"""The rules of joy2twist and mux under any events at any time, judged by the invariants.
 
 derandomize: the same examples in every run.
 """
@@ -11,9 +11,7 @@ from hypothesis.stateful import RuleBasedStateMachine, initialize, rule
 
 from fake_turtlebot_sim.mux.arbitration import Publisher
 from fake_turtlebot_sim.mux.parameters import Input
-from gamepad.js_event import AXIS, BUTTON, FULL, INIT, SIGN_OF_LIFE_MS
 from tutorial_faults.arbiter_world import ZERO, ArbiterWorld, Command
-from tutorial_faults.driver_world import LOST, OPEN, DriverWorld, event
 from tutorial_faults.teleoperation_world import LEFT, Message, TeleoperationWorld
 from tutorial_faults.worlds import SUSPENDED, TICK
 
@@ -182,35 +180,6 @@ class Mux(Rules):
             self.world.take(Command(name, velocity, sender))
 
 
-class Driver(Rules):
-    """Any events of any gamepad, cut anywhere."""
-
-    @initialize()
-    def start(self):
-        self.world = DriverWorld()
-
-    @rule(what=st.sampled_from([LOST, *OPEN]))
-    def cable(self, what):
-        self.world.take(what)
-
-    @rule(
-        kind=st.sampled_from([AXIS, BUTTON, 8]),
-        initial=st.sampled_from([0, 0, 0, INIT]),
-        values=st.sampled_from([(0,), (1,), (1, 0), (FULL,), (-FULL - 1,)])
-        | st.tuples(st.integers(-32768, 32767)),
-        axis=st.integers(0, 5),
-        is_sign=st.booleans(),
-        cut=st.integers(0, 8),
-    )
-    def read(self, kind, initial, values, axis, is_sign, cut):
-        number, time_ms = axis if kind == AXIS else 0, SIGN_OF_LIFE_MS if is_sign else 0
-        data = b"".join(event(kind | initial, value, number, time_ms) for value in values)
-        for piece in (data[:cut], data[cut:]):
-            if piece:
-                self.world.take(piece)
-
-
 TestTeleoperation = Teleoperation.TestCase
 TestMux = Mux.TestCase
-TestDriver = Driver.TestCase
-TestTeleoperation.settings = TestMux.settings = TestDriver.settings = SETTINGS
+TestTeleoperation.settings = TestMux.settings = SETTINGS
