@@ -44,3 +44,10 @@ def test_a_hundred_thousand_random_beams(view):
         seen = np.isfinite(found)
         worst = max(worst, np.abs(found[seen] - expected[seen]).max(initial=0.0))
     assert worst < EXACT
+
+
+def test_a_wall_in_line_with_a_beam_is_met_at_its_end_and_nothing_is_far():
+    found = Scanner(0.0, 0.1, 2).ranges(
+        (0, 0, 0), np.array([[5.0, 0.0, 2.0, 0.0]]), np.empty((0, 3))
+    )
+    assert list(found) == [2.0, math.inf]

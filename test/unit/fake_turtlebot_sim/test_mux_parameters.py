@@ -51,6 +51,7 @@ def test_our_own_file_is_the_table_of_the_readme():
     [
         ({}, ["~subscribers: missing", "input/teleop"]),
         ({"subscribers": TELEOP}, ["~subscribers: {'name': 'teleop'", "list of inputs"]),
+        ({"subscribers": ["teleop"]}, ["entry 1: 'teleop'", "must be as in"]),
         ({"subscriber": [TELEOP]}, ["~subscriber: [", "did you mean ~subscribers?"]),
         ({"subscribers": [TELEOP], "rate": 5}, ["~rate: 5", "allowed: publisher, subscribers"]),
         (with_teleop(name="navi"), ["name: 'navi'", "twice"]),

@@ -100,11 +100,13 @@ def test_after_the_last_command_the_timeout_stops_the_robot(tmp_path):
         ("two.bag out.bag", "(/a, /b); choose one with --topic"),
         ("cut.bag out.bag", "not a whole ROS 1 bag"),
         ("late.bag out.bag", "is silent for 1.0 h: damaged"),
+        ("commands.bag none/out.bag", "no such folder"),
         ("commands.bag precious.bag", "--force overwrites it"),
         ("commands.bag out.bag --world moon", "no world of this package"),
         ("commands.bag out.bag --config rat:1", "did you mean ~rate?"),
         ("commands.bag out.bag --config robots:3", "one robot"),
         ("commands.bag out.bag --config [", "not YAML"),
+        ("commands.bag out.bag --config 5", "name: value"),
     ],
 )
 def test_a_mistake_is_one_line_and_leaves_nothing_behind(
@@ -115,7 +117,7 @@ def test_a_mistake_is_one_line_and_leaves_nothing_behind(
     write_bag("late.bag", {"/cmd_vel": [*QUARTER, (3_600_000, twist(0, 0))]})
     Path("cut.bag").write_bytes(JOY_BAG.read_bytes()[:50_000])
     Path("precious.bag").write_text("precious")
-    for config in ("rat:1", "robots:3", "["):
+    for config in ("rat:1", "robots:3", "[", "5"):
         Path(config).write_text(config.replace(":", ": "))
     assert replay_command.main(words.split()) == 1
     out, err = capsys.readouterr()
