@@ -12,14 +12,12 @@ from drive import CLASS, RATE, REPOSITORY, REST_S, ZERO, moves, stands_after
 from geometry_msgs.msg import Twist
 from kobuki_msgs.msg import BumperEvent
 from nav_msgs.msg import Odometry
-from sensor_msgs.msg import Image, Joy
+from sensor_msgs.msg import Image
 from std_msgs.msg import String
 
 from node_kit.raw_messages import senders, subscribe
-from tutorial_testing.processes import descendants
 from tutorial_testing.waiting import wait_for
 
-RECORDING = REPOSITORY / "common/gamepad/bag/joy.bag"
 SOURCES = REPOSITORY / "common/ros2_bridge/src/ros2_bridge"
 PROGRAMS = CLASS.parent
 PEER, DRIVER, QUALITIES = map(Path(__file__).with_name, ("peer.py", "driver.py", "qualities.py"))
@@ -84,23 +82,6 @@ def test_every_joy_becomes_one_twist_equal_to_the_bit(bridge, start, start_ros2,
     count = int(RATE * SECONDS)
     assert carried(twists)[-count:] == stick.sent[-count:]
     wait_for_doctor(start, "bridge carries between ROS 1 and ROS 2")
-
-
-def test_the_recording_drives_the_robot(bridge, start, start_ros2, robot, ear, twists):
-    """A velocity that waits gives way to the next one, as the list says; most do not wait."""
-    joys = ear("/joy", Joy)
-    bridge()
-    start_ros2(CLASS)
-    play = start("rosbag", "play", "--loop", "--quiet", RECORDING)
-    wait_for(lambda: moves(robot), "a robot that drives")
-    begun = len(joys.heard)
-    wait_for(lambda: time.monotonic() - joys.heard[0][0] > SECONDS, "the recording", SECONDS + 10)
-    for pid in descendants(play.pid):
-        os.kill(pid, signal.SIGKILL)
-    assert stands_after(robot, time.monotonic()) < REST_S
-    in_order = iter([(joy.axes[1], joy.axes[0]) for _, _, joy in joys.heard])
-    assert all(twist in in_order for twist in carried(twists))
-    assert len(carried(twists)) > 0.5 * (len(joys.heard) - begun)
 
 
 @pytest.mark.parametrize("side", ["ROS 1", "ROS 2"])

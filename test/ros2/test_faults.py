@@ -5,14 +5,13 @@ rest in time when a part of the way is lost (d), nothing that waited anywhere mo
 and the robot is driven again once all is back (h).
 """
 
-import contextlib
-import os
 import random
 import signal
 import time
 
 from drive import CLASS, REST_S, Stick, moves
 
+from tutorial_testing.processes import signal_all
 from tutorial_testing.waiting import wait_for
 
 OLD_S = 0.5  # how old the list lets a Joy be, and a velocity
@@ -37,28 +36,15 @@ class Way:
 
     def send(self, part, number):
         pid = self.program.pid if part == PROGRAM else self.bridge.process(part)
-        with contextlib.suppress(ProcessLookupError):
-            if pid:
-                os.kill(pid, number)
+        signal_all([pid] if pid else [], number)
 
-    def hit(self, kind, part, draw):
+    def hit(self, kind, part, lasts_s):
         """Return whether a part was lost for long enough to be seen."""
         self.send(part, SIGNALS[kind])
-        if kind != "stop":
-            return True
-        lasts_s = draw.uniform(0.02, 2 * REST_S)
-        time.sleep(lasts_s)
-        self.send(part, signal.SIGCONT)
-        return lasts_s >= REST_S
-
-
-def turned(robot, since_s, until_s):
-    """Whether the wheels turned, in each odometry message between two times."""
-    return [
-        abs(message.twist.twist.linear.x) > 0.01
-        for when, _, message in list(robot.heard)
-        if since_s < when <= until_s
-    ]
+        if kind == "stop":
+            time.sleep(lasts_s)
+            self.send(part, signal.SIGCONT)
+        return kind != "stop" or lasts_s >= REST_S
 
 
 def trial(seed, way, robot):
@@ -73,16 +59,18 @@ def trial(seed, way, robot):
         for kind, part in faults:
             time.sleep(draw.uniform(0.0, 0.4))
             began_s = time.monotonic()
-            lost += [began_s] if way.hit(kind, part, draw) else []
+            if way.hit(kind, part, draw.uniform(0.02, 2 * REST_S)):
+                lost.append(began_s)
         time.sleep(draw.uniform(0.0, 2.0))
     finally:
         rests_s = stick.end() + REST_S + OLD_S
-        stick._publisher.unregister()
     # A second in which what waited somewhere would move it.
     wait_for(lambda: robot.heard[-1][0] > rests_s + 1.0, "odometry")
+    turned = [(when, abs(one.twist.twist.linear.x) > 0.01) for when, _, one in list(robot.heard)]
     for began_s in lost:
-        assert not all(turned(robot, began_s, began_s + REST_S)), f"{faults}: (d) it drove on"
-    late = turned(robot, rests_s, time.monotonic())
+        after = [moved for when, moved in turned if began_s < when <= began_s + REST_S]
+        assert not all(after), f"{faults}: (d) it drove on"
+    late = [moved for when, moved in turned if when > rests_s]
     assert late and not any(late), f"{faults}: (f) it moved after the release"
 
 

@@ -9,10 +9,10 @@ from pathlib import Path
 import rospkg
 from live import FAKE_TURTLEBOT, master, running
 
-from tutorial_faults.live.samples import sample
 from tutorial_testing import flood as flood_program
 from tutorial_testing.nodes import node_path
 from tutorial_testing.ports import free_port
+from tutorial_testing.processes import memory_kb
 from tutorial_testing.waiting import wait_for
 
 PROBE = str(Path(__file__).with_name("probe.py"))
@@ -62,16 +62,17 @@ def test_the_driver_goes_on_beside_thirty_viewers_that_flood(figure):
         stack.enter_context(master())
         start_robot(stack)
         server, port, (to_look, to_drive) = start_cockpit(stack)
-        memory_kb = lambda: sample(0.0, "server", server.pid).memory_kb  # noqa: E731
         alone_s, _ = drive(port, ALONE, to_drive)
-        before_kb = memory_kb()
+        before_kb = memory_kb(server.pid)
         command = [sys.executable, flood_program.__file__, port, to_look, str(FLOODERS)]
         flood = stack.enter_context(running([*command, str(FLOOD_S)], **READ))
         assert flood.stdout.readline() == "ready\n"
         flooded_s, driven = drive(port, FLOOD_S * INPUTS_PER_S, to_drive)
-        during_kb = memory_kb() - before_kb
+        during_kb = memory_kb(server.pid) - before_kb
         taken = json.loads(flood.stdout.readline())["sent"] / FLOOD_S
-        wait_for(lambda: memory_kb() - before_kb <= MOST_MORE_KB, "memory as before", START_S)
+        wait_for(
+            lambda: memory_kb(server.pid) - before_kb <= MOST_MORE_KB, "memory as before", START_S
+        )
     what = f"an input until /cmd_vel beside {FLOODERS} viewers that flood for {FLOOD_S} s"
     found = f"{milliseconds(flooded_s)} ({milliseconds(alone_s)} without them)"
     figure(f"{what}, 99 of 100", found, f"<= {milliseconds(MOST_FLOODED_S)}")

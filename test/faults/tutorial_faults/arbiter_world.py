@@ -1,19 +1,59 @@
 """The rules of the multiplexer (Arbiter, Sender), judged by (c) to (f), asked as the node asks."""
 
 import math
+from typing import Any, NamedTuple
 
 from fake_turtlebot_sim.mux.arbitration import Arbiter, Verdict
-from tutorial_faults.invariants import (
-    AT_ONCE_S,
-    Command,
-    HighestSpeaks,
-    NeverLate,
-    RestsFirst,
-    WithinLimits,
-)  # fmt: skip
-from tutorial_faults.worlds import TICK, World, moves
+from tutorial_faults.worlds import TICK, World, beyond, moves
 
 ZERO = (0.0,) * 6
+# A sender that is silent for longer while it drives may be cut off [s]. What the network then kept
+# arrives with less than this between two commands, and until this time after the first one [s].
+SILENCE_S, AT_ONCE_S, DELIVERED_S = 0.5, 0.02, 0.25
+
+
+class Command(NamedTuple):
+    """A velocity at an input of the multiplexer, of a sender that has no other input."""
+
+    input: str
+    velocity: tuple
+    sender: Any
+
+
+class Lateness:
+    """(f) Which commands of one sender are late after a silence in a motion.
+
+    Of those that come at once none moves; one that comes alone may be a slow sender's. A stick must
+    rest before it moves.
+    """
+
+    def __init__(self, is_stick):
+        self._is_stick = is_stick
+        self._moving = self._is_held = self._is_backlog = False
+        self.last_s = self._first_s = -math.inf  # the last command; the first after a silence
+        self._rests_since_s = math.inf  # the first zero after a motion
+
+    def take(self, velocity, now):
+        """Take a command; return whether it must not go through at once."""
+        since_s, self.last_s = now - self.last_s, now
+        was_moving, self._moving = self._moving, moves(velocity)
+        is_first = was_moving and since_s > SILENCE_S
+        if self._is_stick:
+            rested = now - self._rests_since_s >= SILENCE_S
+            self._is_held = (self._is_held or is_first) and not (self._moving and rested)
+            if self._moving:
+                self._rests_since_s = math.inf
+            elif was_moving:
+                self._rests_since_s = now
+        elif is_first:
+            self._first_s, self._is_backlog = now, False
+        elif since_s < AT_ONCE_S and now - self._first_s < DELIVERED_S:
+            self._is_backlog = True
+        return self._moving and (is_first or self.is_late(now))
+
+    def is_late(self, now):
+        """Return whether no motion of this sender may go through now."""
+        return self._is_held or (self._is_backlog and now - self._first_s < DELIVERED_S)
 
 
 class ArbiterWorld(World):
@@ -21,88 +61,79 @@ class ArbiterWorld(World):
 
     def __init__(self, inputs):
         """Take the parameters.Inputs."""
-        self._inputs = {one.name: one for one in inputs}
+        self._inputs = sorted(inputs, key=lambda one: one.priority, reverse=True)
+        self._spoke_s = {one.name: -math.inf for one in inputs}
         self._arbiter = Arbiter(inputs)
-        self._waiting = {}  # (input, sender) -> the velocity that waits
+        self._waiting = {}  # sender -> its Command that waits
+        self._lateness = {}  # sender -> Lateness
         self._sent = ZERO
-        self._late = {}  # (input, sender) -> RestsFirst or NeverLate
-        self._speaks = HighestSpeaks({one.name: (one.priority, one.timeout) for one in inputs})
-        self._limits = WithinLimits()
 
     def happen(self, event):
-        if event == TICK:
-            return self._tick()
-        return self._command(event._replace(at_s=self.now))
+        return self._tick() if event == TICK else self._command(event)
 
-    @property
     def _speaking(self):
-        """The inputs that speak, by the invariant's own record."""
-        return [
-            one
-            for one in self._inputs.values()
-            if self.now < self._speaks.spoke_s[one.name] + one.timeout
-        ]
+        """Return the inputs that speak, the highest first."""
+        spoke_s = self._spoke_s
+        return [one for one in self._inputs if self.now < spoke_s[one.name] + one.timeout]
+
+    def _is_highest(self, name):
+        return [name] == [one.name for one in self._speaking()[:1]]
 
     def _tick(self):
-        now = self.now
-        waiting = {
-            key: velocity
-            for key, velocity in self._waiting.items()
-            if now - self._late[key].last_s >= AT_ONCE_S
+        due = {
+            sender: command
+            for sender, command in self._waiting.items()
+            if self.now - self._lateness[sender].last_s >= AT_ONCE_S
         }
-        for name, sender in waiting:
-            self._speaks.spoke_s[name] = now
-            del self._waiting[name, sender]
-        names = {(velocity, sender): name for (name, sender), velocity in waiting.items()}
-        through = list(self._arbiter.waited(now))
+        for sender, command in due.items():
+            self._spoke_s[command.input] = self.now
+            del self._waiting[sender]
+        through = list(self._arbiter.waited(self.now))
         for velocity, sender in through:
-            name = names.get((velocity, sender))
-            if name:
-                yield from self._through(Command(now, name, velocity, sender))
+            if sender in due and due[sender].velocity == velocity:
+                yield from self._through(due[sender])
             else:
                 yield "f", f"{velocity} goes through, and did not wait"
-        if any(name == one.name for name, _ in waiting for one in self._highest()) and not through:
+        if not through and any(self._is_highest(one.input) for one in due.values()):
             yield "e", "the highest that speaks has waited, and does not go through"
-        if self._arbiter.must_stop(now):
+        if self._arbiter.must_stop(self.now):
             self._sent = ZERO
-        if moves(self._sent) and not self._speaking:
+        yield from self._must_look_in_time()
+
+    def _must_look_in_time(self):
+        ends_s = [self._spoke_s[one.name] + one.timeout - self.now for one in self._speaking()]
+        if moves(self._sent) and not ends_s:
             yield "d", "no stop, though all inputs are silent"
-        lull_s = self._arbiter.lull(now)
-        shortest_s = min(one.timeout for one in self._inputs.values())
-        spoke_s = self._speaks.spoke_s
-        ends_s = [spoke_s[one.name] + one.timeout - now for one in self._speaking]
+        lull_s = self._arbiter.lull(self.now)
+        shortest_s = min(one.timeout for one in self._inputs)
         if not 0 < lull_s <= shortest_s or (moves(self._sent) and lull_s > max(ends_s, default=0)):
             yield "d", f"asleep for {lull_s} s, and something is due sooner"
 
-    def _highest(self):
-        return sorted(self._speaking, key=lambda one: one.priority)[-1:]
-
     def _command(self, command):
-        name, velocity, now = command.input, command.velocity, self.now
-        verdict = self._arbiter.command(name, velocity, now, command.sender)
+        name, velocity, sender = command
+        verdict = self._arbiter.command(name, velocity, self.now, sender)
         if not all(map(math.isfinite, velocity)):
             if verdict is not Verdict.REJECTED:
                 yield "c", "a command that is not finite is not rejected"
             return
-        self._waiting.pop((name, command.sender), None)
+        self._waiting.pop(sender, None)
         if verdict is Verdict.WAITS:
-            self._waiting[name, command.sender] = velocity
-        new = RestsFirst() if command.sender.is_stick else NeverLate()
-        guard = self._late.setdefault((name, command.sender), new)
-        is_first = guard.take(velocity, now)
-        if moves(velocity) and (is_first or guard.late(now)):
+            self._waiting[sender] = command
+        lateness = self._lateness.setdefault(sender, Lateness(sender.is_stick))
+        if lateness.take(velocity, self.now):
             if verdict is Verdict.OBEYED:
-                yield "f", f"a late command of {command.sender} is obeyed"
+                yield "f", f"a late command of {sender} is obeyed"
             return
-        self._speaks.spoke_s[name] = now
+        self._spoke_s[name] = self.now
         if verdict is Verdict.OBEYED:
             yield from self._through(command)
-        elif self._highest()[0].name == name:
+        elif self._is_highest(name):
             yield "e", f"{name} is the highest that speaks, and not obeyed"
 
     def _through(self, command):
         self._sent = command.velocity
-        for violation in filter(None, (self._limits.take(command), self._speaks.take(command))):
-            yield violation.invariant, violation.what
-        if moves(command.velocity) and self._late[command.input, command.sender].late(self.now):
+        yield from beyond(command.velocity)
+        if not self._is_highest(command.input):
+            yield "e", f"{command.input} drives while a higher one speaks"
+        if moves(command.velocity) and self._lateness[command.sender].is_late(self.now):
             yield "f", f"a late command of {command.sender} is obeyed"

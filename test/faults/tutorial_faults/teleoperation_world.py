@@ -1,4 +1,7 @@
-"""Teleoperation (Mapping, Safety, arming), judged by (a), (b), (c) and (d)."""
+"""Teleoperation (Mapping, Safety, arming), judged by (a) to (f) and (h).
+
+What a message means is written from joy2twist's documentation.
+"""
 
 import copy
 import math
@@ -7,11 +10,11 @@ from typing import NamedTuple
 from joy_to_twist.parameters import load
 from joy_to_twist.teleoperation import Teleoperation
 from node_kit.arming import SETTLING_S, ZERO
-from tutorial_faults.invariants import HeldDeadMan, Joy, Loss, SeenReleased, Twist, WithinLimits
-from tutorial_faults.meaning import Meaning
-from tutorial_faults.worlds import SUSPENDED, TICK, World, moves
+from tutorial_faults.worlds import ROUNDING, SUSPENDED, TICK, World, beyond, moves
 
 LEFT = "left"  # an event: no node publishes joystick messages
+RELEASED = 0.1  # a stick within this part of its way is released
+LARGEST = 1e6  # a length of all axes beyond this is noise
 
 
 class Message(NamedTuple):
@@ -22,140 +25,193 @@ class Message(NamedTuple):
     buttons: tuple
     age_s: float = 0.0
 
+    @property
+    def wants(self):
+        """Whether the stick is moved."""
+        return moves(self.axes[:2])
+
+
+class Meaning:
+    """Whether a Message is good, holds the dead-man button, has all released, stops, resets."""
+
+    def __init__(self, p):
+        """p: joy2twist's Parameters."""
+        self._p = p
+        self._dead_men = [b for b in (p.enable_button, p.enable_turbo_button) if b >= 0]
+        self._last = max([*self._dead_men, p.stop_button, p.stop_reset_button])
+
+    def is_good(self, joy):
+        """Return whether it has all axes and buttons, usable numbers, and is not too old."""
+        return (
+            len(joy.axes) > 1
+            and len(joy.buttons) > self._last
+            and all(map(math.isfinite, joy.axes))
+            and math.hypot(*joy.axes) <= LARGEST
+            and joy.age_s <= (self._p.max_joy_age or math.inf)
+        )
+
+    def holds(self, joy):
+        """Return whether the robot may move by it."""
+        return self.is_good(joy) and (not self._p.require_enable_button or self._presses(joy))
+
+    def is_released(self, joy):
+        """Return whether it is good, with the sticks and any dead-man button released."""
+        sticks = self.is_good(joy) and all(abs(axis) <= RELEASED for axis in joy.axes[:2])
+        return sticks and not (self._p.require_enable_button and self._presses(joy))
+
+    def stops(self, joy):
+        """Return whether the stop button is pressed, in a good or a bad message."""
+        button = self._p.stop_button
+        return button >= 0 and any(joy.buttons[button : button + 1])
+
+    def resets(self, joy):
+        """Return whether it is good, with the reset button pressed and not the stop button."""
+        pressed = self.is_good(joy) and joy.buttons[self._p.stop_reset_button]
+        return bool(pressed) and not self.stops(joy)
+
+    def _presses(self, joy):
+        return any(joy.buttons[button] for button in self._dead_men)
+
 
 class TeleoperationWorld(World):
     """The real Teleoperation, and the invariants that it must keep."""
 
     def __init__(self, **given):
         """given: private parameters of joy2twist."""
-        p = self._parameters = load(given)
-        self._ramps = p.max_linear_acceleration > 0 or p.max_angular_acceleration > 0
+        p = self._p = load(given)
+        self._meaning = Meaning(p)
         self._woken = []  # of the transition that is made just now
         self._machine = Teleoperation(p, lambda line: None, lambda: self._woken.append(True))
         self._suspensions = 0
-        self._sent = ZERO
+        self._sent, self._has_moved = ZERO, False
         self._zeros = p.stop_messages  # sent since the last motion, as far as they count
-        self._has_moved = False
+        self._held_s = self._still_s = -math.inf  # before both the robot may move
+        self._heard_s = -math.inf  # the last good message
+        self._settled_s = -math.inf  # what arrives before was sent before a suspension
+        self._shown = self._sender = None  # of the newest good message
+        self._armed = False  # all was seen released since a start, silence or loss
         self._all_released = True  # by the last message, if no loss came after it
-        meaning = self._meaning = Meaning(
-            (0, 1), p.enable_button, p.enable_turbo_button, p.require_enable_button,
-            max_age_s=p.max_joy_age, stop=p.stop_button, reset=p.stop_reset_button,
-        )  # fmt: skip
-        self._held = HeldDeadMan(p.joy_timeout, meaning.holds, p.vigilance_timeout, meaning.is_good)
         self._latched = False  # the stop button was pressed, and not yet the reset button
         self._is_reset = True  # since then all was seen released after the reset button, too
-        self._armed = SeenReleased(p.joy_timeout, meaning.is_good, meaning.is_released)
-        self._limits = WithinLimits(p.max_linear_speed or math.inf, p.max_angular_speed or math.inf)
 
     def happen(self, event):
         self._woken.clear()
-        due, sent, was_late = self._machine.safety.due, self._sent, self._is_silent
-        if event == TICK:
-            self._all_released = self._all_released and not was_late
-            if moves(sent) and self.now >= self._held.still_s:
-                self._lose(Loss(self.now, "joystick that does not change"))
-            answer = self._machine.safety.tick(self.now)
-        elif event == LEFT:
-            self._lose(Loss(self.now, "joystick node"))
-            answer = self._machine.left(self.now)
-        elif event == SUSPENDED:
-            self._lose(Loss(self.now, "joy2twist", SETTLING_S))
-            self._suspensions += 1
-            answer = self._machine.suspended(self._suspensions, self.now)
-        else:
-            answer = self._hear(event)
+        due, before, was_late = self._machine.safety.due, self._sent, self._is_silent
+        answer = self._answer(event, was_late)
         if answer is not None:
-            yield from self._judge_velocity(answer, sent)
+            yield from self._judge_velocity(answer)
             self._sent = answer
-            self._zeros = (
-                0 if moves(answer) else min(self._zeros + 1, self._parameters.stop_messages)
-            )
+            self._zeros = 0 if moves(answer) else min(self._zeros + 1, self._p.stop_messages)
             self._has_moved = self._has_moved or moves(answer)
-        is_rearmed = self._arms and self._armed.armed  # by this message, as silence disarms
-        if was_late and not is_rearmed and moves(sent) and moves(answer or ZERO):
+        moves_on = moves(before) and moves(answer or ZERO)
+        if was_late and moves_on and not (self._p.arm_on_neutral and self._armed):
             yield "f", "no stop before a message that is late"
         yield from self._must_stand(event)
         yield from self._must_watch(event, due, answer)
         yield from self._must_go_on(event, answer, was_late)
 
+    def _answer(self, event, was_late):
+        """Let the event happen; return the velocity that is sent, if any."""
+        if event == TICK:
+            self._all_released = self._all_released and not was_late
+            if moves(self._sent) and self.now >= self._still_s:
+                self._lose()
+            return self._machine.safety.tick(self.now)
+        if event == LEFT:
+            self._lose()
+            return self._machine.left(self.now)
+        if event == SUSPENDED:
+            self._lose()
+            self._held_s, self._settled_s = min(self._held_s, self.now), self.now + SETTLING_S
+            self._suspensions += 1
+            return self._machine.suspended(self._suspensions, self.now)
+        self._hear(event)
+        age_ns = round(event.age_s * 1e9)
+        return self._machine.joy(event.axes, event.buttons, self.now, age_ns, event.sender)
+
     @property
     def _is_silent(self):
-        return self.now - self._armed.heard_s >= (self._parameters.joy_timeout or math.inf)
-
-    def _lose(self, loss):
-        self._held.take(loss)
-        self._armed.take(loss)
-        self._all_released = False
-
-    def _hear(self, message):
-        joy = Joy(self.now, *message)
-        if joy.at_s >= self._armed.settled_s:
-            self._all_released = self._meaning.is_released(joy)
-        self._held.take(joy)
-        self._armed.take(joy)
-        wants = self._meaning.holds(joy) and moves(joy.axes[:2])
-        if wants and joy.at_s >= max(self._held.still_s, self._armed.settled_s):
-            self._lose(Loss(self.now, "joystick that does not change"))
-        if self._meaning.stops(joy) or self._latched:
-            self._is_reset = False
-            self._latched = joy.at_s < self._armed.settled_s or not self._meaning.resets(joy)
-            self._lose(Loss(self.now, "stop button"))
-        elif self._all_released:
-            self._is_reset = True
-        return self._machine.joy(
-            joy.axes, joy.buttons, self.now, round(joy.age_s * 1e9), joy.sender
-        )
-
-    def _judge_velocity(self, velocity, before):
-        twist = Twist(self.now, velocity)
-        judges = (self._held, self._limits, *([self._armed] if self._arms else []))
-        for violation in filter(None, (judge.take(twist) for judge in judges)):
-            yield violation.invariant, violation.what
-        change = math.hypot(*(new - old for new, old in zip(velocity[:3], before[:3])))
-        most = (self._parameters.max_linear_acceleration or math.inf) / self._parameters.output_rate
-        if moves(velocity) and change > most * (1 + 1e-9):
-            yield "c", f"from {before[0]} to {velocity[0]} at once"
+        return self.now - self._heard_s >= (self._p.joy_timeout or math.inf)
 
     @property
-    def _arms(self):
-        return self._parameters.arm_on_neutral
+    def _until_s(self):
+        return min(self._held_s, self._still_s)
+
+    def _lose(self):
+        self._armed = self._all_released = False
+
+    def _hear(self, joy):
+        if self.now >= self._settled_s:
+            self._believe(joy)
+        if self._meaning.stops(joy) or self._latched:
+            self._is_reset = False
+            self._latched = self.now < self._settled_s or not self._meaning.resets(joy)
+            self._lose()
+        elif self._all_released:
+            self._is_reset = True
+
+    def _believe(self, joy):
+        self._all_released = self._meaning.is_released(joy)
+        holds, timeout_s = self._meaning.holds(joy), self._p.joy_timeout or math.inf
+        self._held_s = self.now + timeout_s if holds else min(self._held_s, self.now)
+        if self._meaning.is_good(joy):
+            shown, self._shown = self._shown, (joy.axes, joy.buttons)
+            if shown != self._shown:
+                self._still_s = self.now + (self._p.vigilance_timeout or math.inf)
+            self._armed = self._armed and joy.sender == self._sender and not self._is_silent
+            self._armed = self._armed or self._all_released
+            self._sender, self._heard_s = joy.sender, self.now
+        if holds and joy.wants and self.now >= self._still_s:
+            self._lose()
+
+    def _judge_velocity(self, velocity):
+        p = self._p
+        yield from beyond(velocity, p.max_linear_speed or math.inf, p.max_angular_speed or math.inf)
+        if not moves(velocity):
+            return
+        if self.now >= self._until_s:
+            yield "a", f"{velocity} without a dead-man button held"
+        if p.arm_on_neutral and not self._armed:
+            yield "b", f"{velocity} before all was seen released"
+        change = math.hypot(*(new - old for new, old in zip(velocity[:3], self._sent[:3])))
+        most = (p.max_linear_acceleration or math.inf) / p.output_rate
+        if change > most * (1 + ROUNDING):
+            yield "c", f"from {self._sent[0]} to {velocity[0]} at once"
 
     def _must_stand(self, event):
         """Yield what is wrong with the velocity that the robot keeps until the next one."""
-        if moves(self._sent):
-            if self.now >= self._held.until_s:
-                yield "d", "no stop, though no dead-man button is held"
-            if self._arms and not self._armed.armed:
-                yield "d", "no stop, though all must be seen released first"
-            if event in (LEFT, SUSPENDED):
-                yield "d", f"no stop, though: {event}"
-            if not self._is_reset:
-                yield "d", "no stop, though the stop button was pressed"
-            if self._machine.safety.due > self._held.until_s:
-                yield "d", "silence will be noticed too late"
-        if self._machine.safety.released and self._has_moved:
-            if self._arms and not self._all_released:
-                yield "b", "a robot that was lost is driven on, and nothing was released"
-            if not self._arms and moves(self._sent):
-                yield "b", "a robot that was lost is driven on without a stop"
+        arms, due = self._p.arm_on_neutral, self._machine.safety.due
+        is_due = isinstance(event, Message) and due <= self.now < self._held_s
+        for must_stand, why in (
+            (self.now >= self._until_s and not is_due, "no dead-man button is held"),
+            (arms and not self._armed, "all must be seen released first"),
+            (event in (LEFT, SUSPENDED), str(event)),
+            (not self._is_reset, "the stop button was pressed"),
+            (due > self._until_s, "silence will be noticed too late"),
+        ):
+            if must_stand and moves(self._sent):
+                yield "d", f"no stop: {why}"
+        stands = self._all_released if arms else not moves(self._sent)
+        if self._machine.safety.released and self._has_moved and not stands:
+            yield "b", "a robot that was lost is driven on"
 
     def _must_watch(self, event, due, answer):
         """Yield what is wrong with the time of the next call, and with repeated stops."""
-        if self._machine.safety.due < due and not self._woken:
+        safety, p = self._machine.safety, self._p
+        if safety.due < due and not self._woken:
             yield "d", "something is due sooner, and the node is not woken"
-        p = self._parameters
-        is_last = self._machine.safety.due > self.now + 1.0 / p.output_rate
+        is_last = safety.due > self.now + 1.0 / p.output_rate
         if self._latched and is_last:
             yield "e", "a robot that was stopped by its button is left to other inputs"
         if event == TICK and self._never_sleeps():
             yield "d", "the node is never let sleep"
-        is_over = self.now >= self._held.until_s and p.require_enable_button
+        is_over = self.now >= self._until_s and p.require_enable_button
         if answer is not None and is_over and self._zeros < p.stop_messages and is_last:
             yield "d", "a stop is not repeated"
 
     def _never_sleeps(self):
         machine = copy.deepcopy(self._machine)
-        for _ in range(self._parameters.stop_messages):
+        for _ in range(self._p.stop_messages):
             if machine.safety.due > self.now:
                 return False
             machine.safety.tick(self.now)
@@ -163,10 +219,11 @@ class TeleoperationWorld(World):
 
     def _must_go_on(self, event, answer, was_late):
         """Yield (h): a dead-man button that is held, in time and armed, drives."""
-        if not isinstance(event, Message) or self._ramps or self.now < self._armed.settled_s:
+        p = self._p
+        ramps = p.max_linear_acceleration > 0 or p.max_angular_acceleration > 0
+        if not isinstance(event, Message) or ramps or was_late or self.now < self._settled_s:
             return
-        may = self._meaning.holds(Joy(self.now, *event)) and (self._armed.armed or not self._arms)
-        may = may and self.now < self._held.still_s and self._is_reset
-        wants = moves(event.axes[:2])
-        if may and wants and not was_late and not moves(answer or ZERO):
+        may = self._meaning.holds(event) and (self._armed or not p.arm_on_neutral)
+        may = may and self.now < self._still_s and self._is_reset
+        if may and event.wants and not moves(answer or ZERO):
             yield "h", "the dead-man is held, and the robot is not driven"

@@ -1,16 +1,27 @@
-"""Real objects, the invariants that watch them, and a clock (pure)."""
+"""Real objects, what never happens to them (FAULTS.md), and a clock (pure).
 
-from __future__ import annotations
+What they are judged by is written from the documentation, and knows nothing of their code. A
+velocity is linear x, y, z [m/s] and angular x, y, z [rad/s], in the frame of the base.
+"""
 
 import math
-from typing import Any, Iterable
 
 TICK, SUSPENDED = "tick", "suspended"  # events; a TICK: the node looks at the clock
+ROUNDING = 1e-9  # of a float64, as part of a limit
 
 
-def moves(velocity: Iterable[float]) -> bool:
+def moves(velocity):
     """Return whether a velocity is other than zero; NaN is, too."""
     return any(part != 0 for part in velocity)
+
+
+def beyond(velocity, linear=math.inf, angular=math.inf):
+    """Yield (c) of a velocity that is not finite, or beyond the limits [m/s, rad/s] of vectors."""
+    if not all(map(math.isfinite, velocity)):
+        yield "c", f"{velocity} is not finite"
+    lengths = math.hypot(*velocity[:3]), math.hypot(*velocity[3:])
+    if any(one > most * (1 + ROUNDING) for one, most in zip(lengths, (linear, angular))):
+        yield "c", f"{velocity} is beyond the limits"
 
 
 class Moment(int):
@@ -18,13 +29,13 @@ class Moment(int):
 
     __slots__ = ()
 
-    def __add__(self, seconds: Any) -> Any:
+    def __add__(self, seconds):
         """Return the Moment so many seconds later, or infinity."""
         return seconds if math.isinf(seconds) else Moment(int(self) + round(seconds * 1e6))
 
     __radd__ = __add__
 
-    def __sub__(self, other: Any) -> Any:
+    def __sub__(self, other):
         """Return the seconds since another Moment, or the Moment so many seconds before."""
         if isinstance(other, Moment):
             return (int(self) - int(other)) / 1e6
@@ -36,7 +47,7 @@ class World:
 
     now = Moment(0)
 
-    def take(self, event: Any) -> None:
+    def take(self, event):
         """Let an event happen (a number: seconds pass).
 
         Raises AssertionError with the letter of an invariant that is violated, and how.
@@ -47,6 +58,6 @@ class World:
         for letter, what in self.happen(event):
             raise AssertionError(f"({letter}) {what}, at {self.now - Moment(0):.6f} s: {event}")
 
-    def happen(self, event: Any) -> Iterable[tuple[str, str]]:
+    def happen(self, event):
         """Let an event happen; yield the letter of each invariant that is violated, and how."""
         raise NotImplementedError

@@ -6,10 +6,9 @@ import json
 import socket
 import sys
 
-from tutorial_faults.live.samples import sample
 from tutorial_testing import flood
 from tutorial_testing.cockpit_rig import WithCockpit
-from tutorial_testing.processes import Program
+from tutorial_testing.processes import Program, memory_kb
 from tutorial_testing.rostests import run
 from tutorial_testing.socket_page import SocketPage
 from tutorial_testing.waiting import wait_for
@@ -27,8 +26,7 @@ class Flood(WithCockpit):
     options = ("--lan",)
 
     def memory_kb(self):
-        pids = self.rig.program.left_behind()
-        return max(sample(0.0, "cockpit", pid).memory_kb for pid in pids)
+        return max(map(memory_kb, self.rig.program.left_behind()))
 
     def connection(self, address="127.0.0.1"):
         made = socket.create_connection(("127.0.0.1", self.rig.port), 20, (address, 0))

@@ -1,7 +1,4 @@
-"""Files that somebody damaged, or made to do harm, and a child process that reads one.
-
-`TUTORIAL_HOSTILE=10 ./tutorial test unit FILE` tries ten times as many.
-"""
+"""A child process that reads a file that somebody damaged, or made to do harm."""
 
 import os
 import resource
@@ -10,21 +7,8 @@ import sys
 import tempfile
 import traceback
 
-from hypothesis import HealthCheck, settings
-from hypothesis import strategies as st
-
-SCALE = int(os.environ.get("TUTORIAL_HOSTILE", "1"))
 MOST_S, MOST_MB = 5.0, 200.0  # of processor time, and of memory with what Python and ROS need
 BARE_MB = 70.0  # what they need before a file is read
-
-
-def many(count):
-    """Return hypothesis' settings for so many examples, times TUTORIAL_HOSTILE."""
-    fixture = HealthCheck.function_scoped_fixture
-    return settings(
-        max_examples=count * SCALE, deadline=None, database=None,
-        suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large, fixture],
-    )  # fmt: skip
 
 
 def end_of(main):
@@ -61,17 +45,3 @@ def _be(main, said):
     finally:
         sys.stderr.flush()
         os._exit(code)
-
-
-@st.composite
-def damaged(draw, data):
-    """Draw bytes with some of them changed, cut out, put in, or the end cut off."""
-    for _ in range(draw(st.integers(1, 4))):
-        at = draw(st.integers(0, max(0, len(data) - 1)))
-        new = draw(st.binary(max_size=12) | st.sampled_from(EXTREMES))
-        lost = draw(st.sampled_from([0, len(new), len(new), len(new), 40, 4000]))
-        data = data[:at] + new + data[at + lost :]
-    return data[: draw(st.integers(0, len(data)))] if draw(st.integers(0, 4)) == 0 else data
-
-
-EXTREMES = [b"\0" * 4, b"\xff" * 4, b"\xff\xff\xff\x7f", b"\0\0\0\x80", b"\xff" * 8, b"\0" * 500]

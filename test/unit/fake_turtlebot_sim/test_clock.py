@@ -16,13 +16,6 @@ def test_time_before_the_first_clock_message_is_no_time():
     assert [clock.update(reading) for reading in (0, 1_600_000_000, 1_600_000_020)] == [0, 0, 20]
 
 
-@given(st.lists(st.integers(0, 10**19)))
-def test_motion_time_never_decreases(readings):
-    clock = MotionClock(0)
-    times = [clock.update(reading) for reading in readings]
-    assert times == sorted(times)
-
-
 def test_a_clock_set_back_not_as_far_as_the_start_does_so_too():
     lock = PhaseLock(20, 100)
     lock.complete(100)

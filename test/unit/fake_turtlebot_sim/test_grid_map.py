@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from fake_turtlebot_sim.simulator.grid_map import LARGEST_MAP, WorldError, read_map
+from fake_turtlebot_sim.simulator.grid_map import WorldError, read_map
 from fake_turtlebot_sim.simulator.parameters import parse_parameters
 from fake_turtlebot_sim.simulator.world_files import read_world
 from fake_turtlebot_sim.simulator.world_messages import world_map
@@ -94,9 +94,9 @@ def start_of(path, **given):
     return parse_parameters({"world": str(path), **given}).start_poses()[""]
 
 
-def building(size=60):
+def building():
     """Return shades of a sheet that is unknown, with a room of 20 x 20 cells and its wall."""
-    shades = np.full((size, size), 205, np.uint8)
+    shades = np.full((60, 60), 205, np.uint8)
     shades[20:42, 20:42], shades[21:41, 21:41] = 0, 254
     return shades[::-1]
 
@@ -122,25 +122,8 @@ def test_a_start_that_is_given_counts_also_at_zero(tmp_path):
     assert start_of(path, initial_x="") == (1.0, 0.9, 0.5)
     with pytest.raises(ValueError, match=r"\(0, 0\) would be inside of a wall"):
         start_of(write_map(tmp_path, building(), origin=[-1.02, -1.02, 0]), initial_x=0.0)
-
-
-def test_a_robot_has_no_place_in_the_middle_of_a_thick_wall(tmp_path):
-    path = write_map(tmp_path, np.zeros((80, 80), np.uint8), origin=[-2, -2, 0])
-    with pytest.raises(
-        ValueError, match="no free place where a robot has room; give another place"
-    ):
-        start_of(path)
-    with pytest.raises(ValueError, match="would be inside of a wall"):
-        start_of(path, initial_x=0.1)
-
-
-def test_a_sheet_of_the_largest_size_is_read_and_a_larger_one_is_not(tmp_path):
-    side = round(LARGEST_MAP**0.5)
-    world = read_world(write_map(tmp_path, building(side), origin=[-102.4, -102.4, 0]))
-    assert (world.grid.cells.shape, len(world.segments)) == ((side, side), 8)
-    assert world.start_pose == pytest.approx((-100.575, -100.575, 0.0))
-    with pytest.raises(WorldError, match="more than 16777216 cells"):
-        read_world(write_map(tmp_path, np.zeros((4096, 4097), np.uint8)))
+    with pytest.raises(ValueError, match="no free place where a robot has room; give another"):
+        start_of(write_map(tmp_path, np.zeros((80, 80), np.uint8), origin=[-2, -2, 0]))
 
 
 def test_without_pillow_a_line_names_its_package(tmp_path, monkeypatch):

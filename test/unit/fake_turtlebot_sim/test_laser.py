@@ -10,7 +10,6 @@ from fake_turtlebot_sim.simulator.laser import Scanner
 
 EXACT = 1e-9
 FAR = 100.0  # [m]
-NONE = np.empty((0, 3))
 
 
 def oracle(pose, angles, walls, discs):
@@ -48,7 +47,7 @@ def test_a_hundred_thousand_random_beams(view):
 
 
 def test_a_wall_in_line_with_a_beam_is_met_at_its_end_and_nothing_is_far():
-    scanner = Scanner(0.0, 0.1, 2)
-    found = scanner.ranges((0, 0, 0), np.array([[5.0, 0.0, 2.0, 0.0]]), NONE)
+    found = Scanner(0.0, 0.1, 2).ranges(
+        (0, 0, 0), np.array([[5.0, 0.0, 2.0, 0.0]]), np.empty((0, 3))
+    )
     assert list(found) == [2.0, math.inf]
-    assert list(scanner.ranges((0, 0, 0), np.empty((0, 4)), NONE)) == [math.inf] * 2

@@ -1,13 +1,11 @@
 """Systematic errors against UMBmark's closed form, noise against its own covariance."""
 
 from cmath import exp
-from math import atan2, hypot, pi, sqrt
-from random import Random
+from math import hypot, pi
 
 import numpy as np
 import pytest
 
-from fake_turtlebot_sim.simulator.odometry_errors import OdometryErrors
 from fake_turtlebot_sim.simulator.parameters import Parameters
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot
 
@@ -50,9 +48,7 @@ def true_end_of_square(way, ratio, track):
 
 
 @pytest.mark.parametrize("way", [1, -1], ids=["counter-clockwise", "clockwise"])
-@pytest.mark.parametrize(
-    ("ratio", "track"), [(1.0, 1.0), (1.01, 1.0), (0.98, 1.0), (1.0, 1.03), (1.005, 0.97)]
-)
+@pytest.mark.parametrize(("ratio", "track"), [(1.0, 1.0), (1.01, 1.0), (1.0, 1.03), (0.98, 0.97)])
 def test_umbmark(way, ratio, track):
     robot = SimulatedRobot(Parameters(wheel_radius_ratio=ratio, track_ratio=track))
     drive_square(robot, way)
@@ -63,31 +59,6 @@ def test_umbmark(way, ratio, track):
     assert exp(1j * truth.yaw) == pytest.approx(heading, abs=1e-9)
     if (ratio, track) != (1.0, 1.0):
         assert hypot(*truth[:2]) > 0.05
-
-
-def test_each_wheel_errs_by_the_root_of_its_own_way():
-    errors = OdometryErrors(0.2, wheel_noise=0.01, seed="a")
-    v, w = errors.measured((0.8, 2.0), 0.3)
-    drawn = Random("a")  # the wheels drive 0.6 and 1.0 m/s
-    left = 0.6 + drawn.gauss(0.0, 0.01 * sqrt(0.6 * 0.3)) / 0.3
-    right = 1.0 + drawn.gauss(0.0, 0.01 * sqrt(1.0 * 0.3)) / 0.3
-    assert (v, w) == pytest.approx(((left + right) / 2, (right - left) / 0.2), rel=1e-12)
-
-
-def test_the_covariance_of_one_step_on_an_arc_by_hand():
-    errors = OdometryErrors(0.16, wheel_noise=0.01)
-    # Its middle looks along (0.8, 0.6); the wheels drive 0.6 and 1.0 m/s for 0.25 s.
-    before, after = (1.0, 2.0, atan2(0.6, 0.8) - 0.3125), (1.3, 1.6, 0.0)
-    errors.grow(before, after, (0.8, 2.5), 0.25)
-    # A metre of a wheel is half a metre along, 6.25 rad, and half the step, 0.1 m, times those
-    # aside: for the left wheel (0.4, 0.3) - 0.625 (-0.6, 0.8), for the right wheel with a plus.
-    left, right = np.array([0.775, -0.2, -6.25]), np.array([0.025, 0.8, 6.25])
-    grown = 1e-4 * (0.15 * np.outer(left, left) + 0.25 * np.outer(right, right))
-    assert errors.covariance == pytest.approx(grown, rel=1e-12)
-    # Once more: what the yaw is off by turns the step of (0.3, -0.4) m about its beginning.
-    errors.grow(before, after, (0.8, 2.5), 0.25)
-    carried = np.array([[1, 0, 0.4], [0, 1, 0.3], [0, 0, 1]])
-    assert errors.covariance == pytest.approx(carried @ grown @ carried.T + grown, rel=1e-12)
 
 
 def noisy_drive(seed, rate_hz=10, noise=0.01):
@@ -118,12 +89,3 @@ def test_noise_does_not_touch_the_truth():
     assert robot.true_state() == exact.true_state()._replace(
         left_angle=robot.state().left_angle, right_angle=robot.state().right_angle
     )
-
-
-def test_at_rest_nothing_drifts():
-    robot, _ = noisy_drive(1)
-    robot.command((0.0, 0.0), 6 * SECOND)
-    state, covariance = robot.state(), robot.covariance()
-    robot.advance(3600 * SECOND)
-    assert robot.state()[:3] == state[:3]
-    assert (robot.covariance() == covariance).all()

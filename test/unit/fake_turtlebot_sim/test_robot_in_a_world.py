@@ -1,6 +1,6 @@
 """A robot in a world: sensors, edges, other robots, and where it is put."""
 
-from math import asin, cos, hypot, inf, isnan, pi, sin
+from math import asin, cos, hypot, inf, nan, pi, sin
 
 import numpy as np
 import pytest
@@ -42,24 +42,10 @@ def test_at_a_wall_the_wheels_stall_and_odometry_says_so():
     state = robot.state()
     assert (state.x, state.v, state.left_rate) == (pytest.approx(1 - R, abs=EXACT), 0.0, 0.0)
     assert robot.contact == pytest.approx(0.0, abs=EXACT)
+    assert robot.sensed().bumpers == (False, True, False)
     assert state.left_angle == pytest.approx((1 - R) / 0.035)  # of a wheel of 35 mm
     assert driven(robot, (-0.5, 0.0), 0.5, 4).state().x == pytest.approx(1 - R - 0.25, abs=EXACT)
-    assert robot.contact is None
-
-
-def test_with_a_turn_it_pushes_until_it_leads_along_the_wall():
-    robot = driven(SimulatedRobot(Parameters(world=WALL)), (0.5, 0.4), 8)
-    # On the spot from asin(0.6576) to pi / 2, then on a circle of 1.25 m away from the wall.
-    turned = pi / 2 / 0.4  # [s], as turning goes on in any case
-    x = 1 - R - 1.25 * (1 - cos(0.4 * (8 - turned)))
-    assert robot.state().x == pytest.approx(x, abs=EXACT)
-
-
-def test_a_ramp_ends_at_the_wall_too():
-    parameters = Parameters(world=WALL, max_linear_acceleration=0.5)
-    robot = driven(SimulatedRobot(parameters), (0.7, 0.0), 4)
-    assert robot.state().x == pytest.approx(1 - R, abs=EXACT)
-    assert robot.state().v == 0.0 and robot.contact is not None
+    assert robot.contact is None and not any(map(any, robot.sensed()))
 
 
 def test_a_robot_with_errors_touches_with_its_true_body():
@@ -83,18 +69,9 @@ def test_the_bumpers_have_the_sectors_of_the_kobuki(degrees, pressed):
     assert "".join(name for name, is_on in zip("LCR", felt) if is_on) == pressed
 
 
-def test_nothing_is_felt_without_a_push():
-    robot = SimulatedRobot(Parameters(world=World((SQUARE,))))
-    assert not any(map(any, robot.sensed()))
-    assert driven(robot, (0.5, 0.0), 4).sensed().bumpers == (False, True, False)
-    assert not any(driven(robot, (-0.1, 0.0), 0.1, 4).sensed().bumpers)
-
-
-@pytest.mark.parametrize(
-    ("velocity", "limits"), [((0.5, 0.0), {}), ((0.7, 0.0), {"max_linear_acceleration": 0.3})]
-)
-def test_both_wheels_drop_exactly_at_the_edge(velocity, limits):
-    robot = driven(SimulatedRobot(Parameters(world=EDGE, **limits)), velocity, 5)
+@pytest.mark.parametrize("limits", [{}, {"max_linear_acceleration": 0.3}])
+def test_both_wheels_drop_exactly_at_the_edge(limits):
+    robot = driven(SimulatedRobot(Parameters(world=EDGE, **limits)), (0.7, 0.0), 5)
     assert robot.sensed().wheels == (True, True)
     assert robot.true_pose[0] == pytest.approx(1.0, abs=EXACT)
     assert robot.state()[3:5] == (0.0, 0.0)  # it lies there
@@ -107,10 +84,8 @@ def test_on_an_arc_the_outer_wheel_drops_first():
     robot = driven(SimulatedRobot(Parameters(world=edge)), (0.25, 0.5), 4)
     assert robot.sensed().wheels == (False, True)
     assert robot.true_pose[2] == pytest.approx(asin(0.5 / 0.615), abs=EXACT)
-    driven(robot, (0.0, 0.0), 1, 4)
     robot.place((0.0, 0.0, 0.0))
     assert robot.sensed().wheels == (False, False)
-    assert driven(robot, (0.1, 0.0), 1, 5).state().x > 0.05
 
 
 def test_the_cliff_sensors_are_ahead_of_the_wheels():
@@ -174,27 +149,17 @@ def test_far_from_the_origin_contact_is_as_exact():
         assert robot.true_pose[0] == pytest.approx(9999 - R, abs=EXACT)
 
 
-def test_ranges_begin_at_the_camera_and_end_as_rep_117_has_it():
-    parameters = Parameters(world=World((SQUARE,)), scan_beams=3)
-    laser = Laser(parameters, parameters.world)
-    right, ahead, _left = laser.measure((0.0, 0.0, 0.0), NOBODY)
-    half = 29 * pi / 180
-    assert ahead == pytest.approx(2.087, abs=EXACT)
-    assert right == pytest.approx(2.087 / cos(half), abs=EXACT)
-    near = laser.measure((1.8, 0.0, 0.0), NOBODY)
-    assert near[1] == -inf  # 0.287 m
-    seen = laser.measure((-1.5, 0.0, 0.0), np.array([[0.5, 0.0125, 0.5, 0.0125, 0.2]]))
-    assert seen[1] == pytest.approx(2.087 - 0.2, abs=EXACT)
-    empty = Laser(Parameters(scan_beams=3), World())
-    assert empty.measure((0.0, 0.0, 0.0), NOBODY) == [inf, inf, inf]
-
-
-def test_ranges_that_are_not_measured_may_be_nan_as_of_a_depth_camera():
-    given = {"scan_no_return": "nan", "scan_beams": 3, "scan_range_max": 2.2}
-    laser = Laser(parse_parameters(given), World((SQUARE,)))
-    right, ahead, _left = laser.measure((0.0, 0.0, 0.0), NOBODY)
-    assert ahead == pytest.approx(2.087, abs=EXACT) and isnan(right)  # too far
-    assert all(map(isnan, laser.measure((1.8, 0.0, 0.0), NOBODY)))  # too near
+@pytest.mark.parametrize(("given", "near", "far"), [("inf", -inf, inf), ("nan", nan, nan)])
+def test_ranges_begin_at_the_camera_and_end_as_rep_117_or_a_depth_camera_has_it(given, near, far):
+    laser = Laser(parse_parameters({"scan_no_return": given, "scan_beams": 3}), World((SQUARE,)))
+    ahead, aside = 2.087, 2.087 / cos(29 * pi / 180)
+    assert laser.measure((0.0, 0.0, 0.0), NOBODY)[:2] == pytest.approx([aside, ahead], abs=EXACT)
+    ahead_of_a_wall = laser.measure((1.8, 0.0, 0.0), NOBODY)[1]  # 0.287 m
+    robot = np.array([[0.5, 0.0125, 0.5, 0.0125, 0.2]])
+    assert laser.measure((-1.5, 0.0, 0.0), robot)[1] == pytest.approx(ahead - 0.2, abs=EXACT)
+    empty = Laser(parse_parameters({"scan_no_return": given, "scan_beams": 1}), World())
+    nothing = empty.measure((0.0, 0.0, 0.0), NOBODY)
+    assert [ahead_of_a_wall, *nothing] == pytest.approx([near, far], nan_ok=True)
 
 
 def test_noise_is_drawn_from_the_seed_and_the_name():

@@ -52,28 +52,17 @@ class Drive:
         self.longest_push = max(self.longest_push, self.pushed)
 
 
-def random_sticks(seed, seconds):
-    """Yield one velocity a period, held for half a second to three."""
-    draw = random.Random(seed)
-    left = 0
-    for _ in range(round(seconds / PERIOD_S)):
-        if left <= 0:
-            left = draw.uniform(0.5, 3.0) / PERIOD_S
-            stick = draw.uniform(-0.3, 0.7), draw.uniform(-2.0, 2.0)
-        left -= 1
-        yield stick
-
-
 @pytest.mark.parametrize("seed", range(4))
 def test_random_sticks_never_push_into_a_wall_for_long(seed):
-    drive = Drive(ROOM)
-    way, last = 0.0, drive.robot.true_pose
-    for stick in random_sticks(seed, 150.0):
-        drive.step(stick)
-        x, y, _ = drive.robot.true_pose
-        nearest = min(gap(x, y, BASE_RADIUS_M, one) for one in ROOM.obstacles)
-        assert nearest > -EXACT
-        way, last = way + hypot(x - last[0], y - last[1]), (x, y)
+    drive, draw, way = Drive(ROOM), random.Random(seed), 0.0
+    while drive.cycle < 150.0 / PERIOD_S:
+        stick = draw.uniform(-0.3, 0.7), draw.uniform(-2.0, 2.0)
+        for _ in range(round(draw.uniform(0.5, 3.0) / PERIOD_S)):
+            last_x, last_y, _ = drive.robot.true_pose
+            drive.step(stick)
+            x, y, _ = drive.robot.true_pose
+            assert min(gap(x, y, BASE_RADIUS_M, one) for one in ROOM.obstacles) > -EXACT
+            way += hypot(x - last_x, y - last_y)
     assert drive.longest_push * PERIOD_S <= LONGEST_PUSH_S
     assert way > 10.0  # it is never caught
 

@@ -90,19 +90,6 @@ def test_a_speed_without_a_limit_is_still_one_that_can_be_computed():
     assert all(map(isfinite, robot.state()))
 
 
-@pytest.mark.parametrize("way", [1, -1], ids=["forward", "backward"])
-def test_the_wheels_follow_a_ramp_up_and_down(way):
-    robot = SimulatedRobot(RAMPING)
-    robot.command((way * 0.5, 0.0), 0)
-    # 0.125 m up in 0.5 s, 0.1 s at 0.5 m/s until the timeout, 0.125 m down.
-    for now_ns, metres in ((SECOND // 2, 0.125), (SECOND * 6 // 10, 0.175), (2 * SECOND, 0.3)):
-        robot.advance(now_ns)
-        state = robot.state()
-        assert state.x == pytest.approx(way * metres, abs=1e-12)
-        assert state.left_angle == pytest.approx(way * metres / 0.035, abs=1e-9)
-        assert state.right_angle == state.left_angle
-
-
 def test_a_rest_draws_no_error_and_changes_none_that_follow():
     noisy = Parameters(wheel_noise=0.01)
     at_once, rested = SimulatedRobot(noisy), SimulatedRobot(noisy)

@@ -3,118 +3,124 @@
 The nodes under test are not asked. Times [s] are of the system clock, as the stamps of /odom.
 """
 
-from __future__ import annotations
-
 import math
-from typing import Any, Iterator, NamedTuple, Sequence
+from typing import Any, NamedTuple
 
-from tutorial_faults.invariants import BASE_TIMEOUT_S, Twist, Violation, WithinLimits, moves
 from tutorial_faults.live.table import DRIVES_ON, FAULTS, MAY_STOP, RESTS
+from tutorial_faults.worlds import beyond, moves
 from tutorial_testing.hands import DRIVE, RELEASED, TURBO, TURN
+from tutorial_testing.rig import TIMEOUT_S
 
 HELD = (DRIVE, TURN, TURBO)  # shown with LB held
-LIMIT_S = BASE_TIMEOUT_S + 0.02  # from a loss to wheels at rest; /odom comes every 0.02 s
+LIMIT_S = TIMEOUT_S + 0.02  # from a loss to wheels at rest; /odom comes every 0.02 s
 SLACK_S = 0.05  # between the stamps of this process and those of the nodes
 # What the preset of the F710 allows with RB held, and the mux and the base with it.
 MAX_LINEAR, MAX_ANGULAR = 0.7, 2.0
 LATE_S = 0.15  # a gap in the odometry, or a fault that was not there at once
 
 # What an Event is about; of the last two the value is a velocity.
-HANDS, BEGINS, ENDS, LATE, SEEN = (
-    "hands show",
-    "begins:",
-    "ends:",
-    "this machine is late by",
-    "seen:",
-)
+HANDS, BEGINS, ENDS, LATE = "hands show", "begins:", "ends:", "late by [s]:"
+SEEN = "seen:"  # a Violation that wheels do not show
 VELOCITIES = COMMAND, WHEELS = "the base receives", "wheels turn at"
 
 
 class Event(NamedTuple):
-    """Something that was seen in a trial. SEEN: a Violation that wheels do not show."""
+    """Something that was seen in a trial."""
 
     at_s: float
     what: str
     value: Any
 
 
-def spans(changes: Sequence[tuple[float, bool]]) -> list[tuple[float, float]]:
-    """Return (begin, end) of each time in which something is so, from when it changes."""
-    found, begin = [], None
+def velocity(linear, angular):
+    """Return that of a robot that drives so fast [m/s], and turns so fast [rad/s]."""
+    return linear, 0.0, 0.0, 0.0, 0.0, angular
+
+
+class Violation(NamedTuple):
+    """An invariant, by its letter, does not hold."""
+
+    invariant: str
+    at_s: float
+    what: str
+
+
+def spans(changes):
+    """Return (begin, end) of each time in which something is so, from [(when, whether)]."""
+    found = []
     for at_s, is_so in changes:
-        if is_so and begin is None:
-            begin = at_s
-        elif not is_so and begin is not None:
-            found.append((begin, at_s))
-            begin = None
-    return found if begin is None else [*found, (begin, math.inf)]
+        if is_so and (not found or found[-1][1] < math.inf):
+            found.append((at_s, math.inf))
+        elif not is_so and found:
+            found[-1] = found[-1][0], min(at_s, found[-1][1])
+    return found
 
 
 class Trial:
     """The stream of Events of a trial."""
 
-    def __init__(self, stream: Sequence[Event]) -> None:
+    def __init__(self, stream):
         """stream: in any order."""
         self.events = sorted(stream, key=lambda event: event.at_s)
-        hands = self.of(HANDS)
-        self.free = spans([(at_s, shows not in HELD) for at_s, _, shows in hands])
-        self.released = spans([(at_s, shows == RELEASED) for at_s, _, shows in hands])
         ends = {event.value: event.at_s for event in self.of(ENDS)}
         self.hits = {
             FAULTS[name]: (at_s, ends.get(name, math.inf)) for at_s, _, name in self.of(BEGINS)
         }
+        hands = self.of(HANDS)
+        self._free = spans([(at_s, shows not in HELD) for at_s, _, shows in hands])
+        self._released = spans([(at_s, shows == RELEASED) for at_s, _, shows in hands])
         self.rest_s = 0.0  # the longest time from a loss or release to rest
         self.violations = self._judge()
 
     @property
-    def was_late(self) -> bool:
+    def was_late(self):
         """Whether what was seen may be the lateness of this machine."""
         stamps = [event.at_s for event in self.of(WHEELS)]
         gaps_s = [after - before for before, after in zip(stamps, stamps[1:])]
         is_base_hit = any(fault.part == "base" for fault in self.hits)
         return bool(self.of(LATE)) or (not is_base_hit and max(gaps_s, default=0.0) > LATE_S)
 
-    def of(self, *what: str) -> list[Event]:
+    def of(self, *what):
         """Return the Events about this."""
         return [event for event in self.events if event.what in what]
 
-    def _judge(self) -> list[Violation]:
+    def _judge(self):
         """Return the first Violation of each invariant."""
-        limits, must = WithinLimits(MAX_LINEAR, MAX_ANGULAR), {fault.must for fault in self.hits}
-        twists = [Twist(at_s, velocity) for at_s, _, velocity in self.of(*VELOCITIES)]
-        found = [event.value for event in self.of(SEEN)]
-        found += [*filter(None, map(limits.take, twists)), *self._rests()]
+        must, found = {fault.must for fault in self.hits}, [one.value for one in self.of(SEEN)]
+        for at_s, _, velocity in self.of(*VELOCITIES):
+            wrong = beyond(velocity, MAX_LINEAR, MAX_ANGULAR)
+            found += [Violation(letter, at_s, what) for letter, what in wrong]
+        found += self._rests()
         found += self._waits() if MAY_STOP not in must else []
         found += self._drives_on() if must == {DRIVES_ON} else []
-        found.sort(key=lambda violation: violation.at_s, reverse=True)
-        first = {violation.invariant: violation for violation in found}
-        return sorted(first.values(), key=lambda violation: violation.at_s)
+        first = {}
+        for violation in sorted(found, key=lambda one: one.at_s):
+            first.setdefault(violation.invariant, violation)
+        return [*first.values()]
 
-    def _rests(self) -> Iterator[Violation]:
+    def _rests(self):
         """Yield (a), (d): wheels that turn too long after LB was released or a part was lost."""
-        causes = [("a", "LB was released", *span) for span in self.free]
+        causes = [("a", "LB was released", *span) for span in self._free]
         for fault, span in self.hits.items():
-            if (
-                fault.must == RESTS and fault.part != "base"
-            ):  # a lost base does not report its wheels
+            if fault.must == RESTS and fault.part != "base":  # a lost base reports no wheels
                 causes.append(("d", f"the loss by {fault.name}", *span))
+        limit_s = LIMIT_S + sum(fault.late_s for fault in self.hits)
         for now in [wheels.at_s for wheels in self.of(WHEELS) if moves(wheels.value)]:
             for letter, why, begin, end in causes:
                 if begin < now <= end:
                     elapsed_s = now - self._last_blow(begin, now)
                     self.rest_s = max(self.rest_s, elapsed_s)
-                    if elapsed_s > LIMIT_S + sum(fault.late_s for fault in self.hits):
+                    if elapsed_s > limit_s:
                         yield Violation(letter, now, f"wheels turn {elapsed_s:.3f} s after {why}")
 
-    def _last_blow(self, began: float, now: float) -> float:
+    def _last_blow(self, last, now):
         """Return when the time to rest begins: a second fault before its end begins it again."""
-        last = began
         for begin in sorted(begin for begin, _ in self.hits.values()):
             if last < begin < min(now, last + LIMIT_S):
                 last = begin
         return last
 
-    def _waits(self) -> Iterator[Violation]:
+    def _waits(self):
         """Yield (b): wheels that stood turn without a release."""
         stood_s = None
         for now, _, velocity in self.of(WHEELS):
@@ -122,15 +128,15 @@ class Trial:
                 stood_s = now if stood_s is None else stood_s
             elif stood_s is not None:
                 since = stood_s - SLACK_S
-                if not any(begin <= now and end >= since for begin, end in self.released):
+                if not any(begin <= now and end >= since for begin, end in self._released):
                     yield Violation("b", now, f"moved again after {now - stood_s:.3f} s")
                 stood_s = None
 
-    def _drives_on(self) -> Iterator[Violation]:
+    def _drives_on(self):
         """Yield (h): a fault outside of the robot's own parts stops it."""
         first = min(begin for begin, _ in self.hits.values())
-        last = min((begin for begin, _ in self.free if begin > first), default=math.inf)
+        last = min((begin for begin, _ in self._free if begin > first), default=math.inf)
         for now, _, velocity in self.of(WHEELS):
-            is_free = any(begin <= now < end for begin, end in self.free)
+            is_free = any(begin <= now < end for begin, end in self._free)
             if first < now < last and not is_free and not moves(velocity):
                 yield Violation("h", now, "stopped by a fault elsewhere")

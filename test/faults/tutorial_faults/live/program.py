@@ -5,26 +5,60 @@ import itertools
 import logging
 import math
 import os
+import random
 import shlex
 import signal
 import sys
 import tempfile
 import time
+from typing import NamedTuple
 
 from node_kit.arguments import Parser, above_zero
 from tutorial_faults.live.judge import VELOCITIES, Trial
-from tutorial_faults.live.plan import draw
 from tutorial_faults.live.table import FAULTS
 from tutorial_faults.live.world import World
 from tutorial_faults.worlds import moves
+from tutorial_testing.hands import DRIVE, RELEASED, STICK, TURBO, TURN
 from tutorial_testing.ports import free_port
 
 # The handout's own class, as printed there, by the name under which --node knows it.
 HANDOUT, LITERAL = "handout", "test/exercises/literal/joy2twist/scripts/new_joy2twist.py"
 SHORTEST_S = 60.0  # without --for and --trials
+WATCHED_S = 1.8  # after all of a trial, as a node that is restarted needs a second
 ATTEMPTS = 4  # at a trial in which this machine was late
 CANNOT = 2  # exit code
-STEP = 0.15  # a change of a velocity worth a line
+
+
+class Plan(NamedTuple):
+    """A trial; times [s] count from when the robot, driven by the hands, has begun to move."""
+
+    seed: int
+    hands: list  # (time, what they show from then on)
+    hits: list  # (time, end, name of a Fault)
+    ends_s: float
+
+
+def draw(seed, names):
+    """Return the Plan of a seed, with faults of these names; the same for the same arguments.
+
+    Mostly the hands hold on; some let go, and some of these take hold again.
+    """
+    dice = random.Random(seed)
+    hands, hits, at_s = [(0.0, DRIVE)], [], dice.uniform(0.05, 0.3)
+    chosen = dice.choices(names, k=dice.choice((1, 2)))
+    if len({FAULTS[name].part for name in chosen}) < len(chosen):
+        chosen.pop()  # two faults of one part would disturb each other
+    for name in chosen:
+        hits.append((at_s, at_s + dice.uniform(*FAULTS[name].lasts_s), name))
+        at_s += dice.uniform(0.0, 0.6)
+    if dice.random() < 0.3:
+        hands.append((dice.uniform(0.1, 0.6), dice.choice((TURN, TURBO))))
+    if dice.random() < 0.4:
+        hands.append((dice.uniform(0.65, 1.6), dice.choice((RELEASED, STICK))))
+        if dice.random() < 0.4:
+            hands.append((hands[-1][0] + dice.uniform(0.3, 0.7), RELEASED))
+            hands.append((hands[-1][0] + dice.uniform(0.3, 0.7), DRIVE))
+    return Plan(seed, hands, hits, max(hands[-1][0], *(hit[1] for hit in hits)) + WATCHED_S)
 
 
 def parse(arguments):
@@ -50,31 +84,23 @@ def tried(world, plan):
     raise TimeoutError("this machine was too late")
 
 
-def timeline(events):
-    """Yield lines in the order of time: hands, faults, each change of a velocity."""
-    last = dict.fromkeys(VELOCITIES, (math.inf,))
-    for at_s, what, value in events:
-        words = value
-        if what in VELOCITIES:
-            changes = [abs(new - old) for new, old in zip(value, last[what])]
-            if max(changes) < STEP and moves(value) == moves(last[what]):
-                continue
-            last[what] = value
-            words = ", ".join(f"{part:.2f}" for part in value if part) or "rest"
-        yield f"  {at_s - events[0].at_s:8.3f} s  {what} {words}"
-
-
 def show(options, plan, trial):
-    """Print a trial that violates an invariant, and how to repeat it."""
-    hits = [f"{name} at {at_s:.2f} s for {end_s - at_s:.2f} s" for at_s, end_s, name in plan.hits]
-    print(f"VIOLATION, seed {plan.seed}: {' + '.join(hits)}")
+    """Print a trial that violates an invariant: each start, stop and fault, how to repeat it."""
+    print(f"VIOLATION, seed {plan.seed}: {' + '.join(name for *_, name in plan.hits)}")
+    begin, last = trial.events[0].at_s, {}
     for letter, at_s, what in trial.violations:
-        print(f"  ({letter}) {what}, at {at_s - trial.events[0].at_s:.3f} s")
+        print(f"  ({letter}) {what}, at {at_s - begin:.3f} s")
+    for at_s, what, value in trial.events:
+        is_velocity = what in VELOCITIES
+        changed = moves(value) if is_velocity else value
+        if last.get(what) != changed:
+            shown = [round(part, 2) for part in value if part] if is_velocity else value
+            print(f"  {at_s - begin:8.3f} s  {what} {shown or 'rest'}")
+        last[what] = changed
     again = ["--seed", str(plan.seed), "--trials", "1"]
     again += ["--node", shlex.join(options.node)] if options.node else []
     again += ["--kinds", *options.kinds] if options.kinds else []
-    again = f"  again: ./tutorial test faults {shlex.join(again)}"
-    print(*timeline(trial.events), again, sep="\n", flush=True)
+    print(f"  again: ./tutorial test faults {shlex.join(again)}", flush=True)
 
 
 def hunt(options):
@@ -83,8 +109,8 @@ def hunt(options):
     names = [name for name, fault in FAULTS.items() if {name, fault.family} & wanted]
     node = [LITERAL] if options.node == [HANDOUT] else options.node
     end_s = time.monotonic() + (math.inf if options.trials else options.seconds or SHORTEST_S)
-    world, stack = None, contextlib.ExitStack()
-    with stack:
+    world = None
+    with contextlib.ExitStack() as stack:
         for seed in itertools.islice(itertools.count(options.seed), options.trials or None):
             if time.monotonic() > end_s:
                 return

@@ -1,23 +1,20 @@
 """The live system: gamepad, driver, joy2twist, mux and simulator, started once and repaired."""
 
-import collections
 import contextlib
 import os
 import time
 
 import rospy
 from geometry_msgs.msg import Twist
-from nav_msgs.msg import Odometry
 
 from node_kit.careful_connections import sender_of
 from node_kit.questions import call
-from tutorial_faults.invariants import Violation
 from tutorial_faults.live import judge
 from tutorial_faults.live.table import FAULTS, TELEOP, VIGILANCE_S
 from tutorial_testing import rig
 from tutorial_testing.hands import DRIVE, RELEASED
 from tutorial_testing.nodes import init_node
-from tutorial_testing.processes import Program
+from tutorial_testing.processes import Program, signal_all
 from tutorial_testing.waiting import BUSY_S, wait_for
 
 ENDS_S = 1.5 + BUSY_S  # for a node to exit, when asked to
@@ -29,15 +26,14 @@ STARTS_S = 0.3  # a node that is restarted does nothing sooner: it loads rospy
 class World(rig.Rig):
     """All processes of the system and a viewer beside it. A context manager that ends them all.
 
-    stream: what was seen in a trial. This process is also the other programs that send nonsense.
+    This process is also the other programs that send nonsense.
     """
 
     def __init__(self, command):
         """command: in place of joy2twist, if any."""
         super().__init__(vigilance_timeout=VIGILANCE_S)
         self._command, self.is_deaf = command, False
-        self.odometry = collections.deque(maxlen=1)  # the stream has all of a trial
-        self.stream, self.seed = [], 0
+        self._stream, self._hits, self.seed = [], {}, 0
 
     def begin(self):
         uri = os.environ["ROS_MASTER_URI"]
@@ -50,26 +46,16 @@ class World(rig.Rig):
         super().begin()
         topics = ("/odom", "/joy", "/cmd_vel", f"/{TELEOP}")
         self.programs["viewer"] = Program("rostopic", "hz", *topics)
+        velocities = rospy.Subscriber("cmd_vel", Twist, self._hear, queue_size=1000)
+        self._stack.callback(velocities.unregister)
         wait_for(lambda: self.odometry, "odometry", DRIVES_S)
 
-    def listen(self):
-        super().listen()
-        stamp = lambda odometry: (odometry.header.stamp.to_sec(), odometry.twist.twist)  # noqa: E731
-        self._hear("odom", Odometry, judge.WHEELS, stamp)
-        self._hear("cmd_vel", Twist, judge.COMMAND, lambda twist: (time.time(), twist))
-
-    def _hear(self, topic, message_class, what, read):
-        def hear(message):
-            if sender_of(message) != rospy.get_name():
-                at_s, twist = read(message)
-                velocity = (twist.linear.x, twist.linear.y, 0.0, 0.0, 0.0, twist.angular.z)
-                self._see(what, velocity, at_s)
-
-        subscriber = rospy.Subscriber(topic, message_class, hear, queue_size=1000, tcp_nodelay=True)
-        self._stack.callback(subscriber.unregister)
+    def _hear(self, twist):
+        if sender_of(twist) != rospy.get_name():
+            self._see(judge.COMMAND, judge.velocity(twist.linear.x, twist.angular.z))
 
     def _see(self, what, value, at_s=None):
-        self.stream.append(judge.Event(at_s or time.time(), what, value))
+        self._stream.append(judge.Event(at_s or time.time(), what, value))
 
     def given(self, node):
         program, parameters, remaps = super().given(node)
@@ -79,9 +65,8 @@ class World(rig.Rig):
 
     def signal(self, part, number):
         """Send a signal to a process, as far as it lives."""
-        with contextlib.suppress(ProcessLookupError):
-            if not self.programs[part].ended:
-                os.kill(self.programs[part].pid, number)
+        if not self.programs[part].ended:
+            signal_all([self.programs[part].pid], number)
 
     def restart(self, node):
         """Wait until a node that was asked to exit does; report it if it does not; start it."""
@@ -90,13 +75,14 @@ class World(rig.Rig):
             program.wait(ENDS_S)
         if program.left_behind():
             what = f"{node} has not exited, or left a process behind, after {ENDS_S} s"
-            self._see(judge.SEEN, Violation("g", now, what))
+            self._see(judge.SEEN, judge.Violation("g", now, what))
         self.start(node)
 
     def hit(self, name):
         """Do what a fault of the table does."""
         now = time.time()
-        FAULTS[name].do(self)
+        self._hits[name] = FAULTS[name].do(self)
+        next(self._hits[name])
         self._see(judge.BEGINS, name, now)
         if time.time() - now > judge.LATE_S:
             self._see(judge.LATE, time.time() - now)
@@ -104,32 +90,34 @@ class World(rig.Rig):
     def heal(self, name):
         """Undo it."""
         now = time.time()
-        FAULTS[name].undo(self)
+        next(self._hits.pop(name), None)
         is_restart = FAULTS[name].family in ("kill", "end")
         self._see(judge.ENDS, name, time.time() + STARTS_S if is_restart else now)
 
     def hold(self):
-        """Hold LB and the stick after a release, in a new stream; return what the hands show."""
+        """Hold LB and the stick after a release, and begin to keep what is seen."""
         for node in self.nodes:
             if self.programs[node].ended:
                 self.start(node)
         self.hands.show(RELEASED)
         self.wait_for_rest(time.time())
         time.sleep(rig.REST_S)
-        self.stream, shown = [], self.hands.new_record()
+        self._stream = []
+        self.odometry.clear()
+        shown = self.hands.new_record()
         self.hands.show(DRIVE)
         return shown
 
     def act(self, plan):
-        """Drive, and do what a Plan says; return the stream."""
+        """Drive, and do what a Plan says; return the stream of judge.Events."""
         self.seed = plan.seed
         self.hands.be_radio(any(name == "silence:gamepad" for *_, name in plan.hits))
         try:
             shown = self.drive_by(self.hold, try_s=MOVES_S, deadline_s=DRIVES_S)
         except AssertionError as error:
-            self.is_deaf = True
-            self._see(judge.SEEN, Violation("h", time.time(), f"before the faults: {error}"))
-            return self.stream
+            self.is_deaf, now = True, time.time()
+            what = judge.Violation("h", now, f"before the faults: {error}")
+            return [judge.Event(now, judge.SEEN, what)]
         acts = [(at_s, self.hands.show, shows) for at_s, shows in plan.hands]
         acts += [(at_s, self.hit, name) for at_s, _, name in plan.hits]
         acts += [(end_s, self.heal, name) for _, end_s, name in plan.hits]
@@ -138,4 +126,8 @@ class World(rig.Rig):
         for at_s, do, what in sorted(acts, key=lambda act: act[0]):
             time.sleep(max(0.0, began_s + at_s - time.monotonic()))
             do(what)
-        return [*self.stream, *(judge.Event(at_s, judge.HANDS, shows) for at_s, shows in shown)]
+        stream = [judge.Event(at_s, judge.HANDS, shows) for at_s, shows in shown]
+        for moment in list(self.odometry):
+            velocity = judge.velocity(moment.v, moment.w)
+            stream.append(judge.Event(moment.stamp, judge.WHEELS, velocity))
+        return [*stream, *self._stream]
