@@ -44,25 +44,14 @@ STORIES = {
     "a bad message is answered by one zero": ({}, [
         (0.0, "forward", FORWARD), (0.02, "bad", ZERO, BAD_MESSAGE), (0.03, "bad", ZERO),
         (0.4, "forward", FORWARD)]),
-    "a bad message is no sign of life": ({}, [
-        (0.0, "forward", FORWARD), (0.4, "bad", ZERO), (0.5, "tick", None, SILENT)]),
     "a joystick node that left is silence": ({"joy_timeout": 0, "stop_messages": 1}, [
         (0.0, "leaves", None, WAITING), (1.0, "forward", FORWARD), (1.1, "leaves", ZERO, LEFT),
         (1.2, "leaves", None, LEFT)]),
-    "the next message drives again": ({}, [
-        (0.0, "forward", FORWARD), (0.5, "tick", ZERO, SILENT), (0.51, "forward", FORWARD),
-        (0.6, "tick", None)]),
     "a released dead-man stops, also in the first message": (DEAD_MAN, [
         (0.0, "release", ZERO, ARMED), (0.1, "forward", FORWARD, DRIVING), (0.12, "pushed", ZERO)]),
-    "driving again ends the zeros": (DEAD_MAN, [
-        (0.0, "forward", FORWARD), (0.02, "release", ZERO), (0.03, "forward", FORWARD),
-        (0.3, "tick", None)]),
     "nothing moves before dead-man and sticks were released": (ARMS, [
         (0.0, "forward", ZERO, NOT_ARMED), (0.2, "pushed", None, NOT_ARMED),
         (0.3, "release", None, ARMED), (0.4, "forward", FORWARD)]),
-    "without a dead-man the sticks are enough": ({"arm_on_neutral": True}, [
-        (0.0, "forward", ZERO), (0.1, "forward", ZERO), (0.2, "middle", ZERO),
-        (0.3, "forward", FORWARD)]),
     "a joystick node that leaves disarms": (ARMS, [
         (0.0, "release", ZERO), (0.1, "forward", FORWARD), (0.2, "leaves", ZERO),
         (0.3, "forward", None, NOT_ARMED), (0.4, "release", None), (0.5, "forward", FORWARD)]),
@@ -82,12 +71,8 @@ STORIES = {
         (100.0, "forward", ZERO)]),
     "without arming a stop comes before a late message": ({}, [
         (0.1, "forward", FORWARD), (100.1, "forward", ZERO), (100.12, "forward", FORWARD)]),
-    "a robot that stands needs no stop before a late message": ({}, [
-        (0.1, "middle", ZERO), (100.1, "forward", FORWARD)]),
     "a message just in time drives": (ARMS, [
         (0.0, "release", ZERO), (0.1, "forward", FORWARD), (0.599, "forward", FORWARD)]),
-    "without a timeout nothing is late": ({"joy_timeout": 0}, [
-        (0.0, "forward", FORWARD), (1000.0, "forward", FORWARD)]),
     "a bad message stops hard and ends the ramp": (LIMITS, [
         (0.0, "forward", (0.1, 0, 0, 0, 0, 0)), (0.05, "bad", ZERO), (0.1, "tick", None),
         (0.4, "tick", None)]),
@@ -95,7 +80,7 @@ STORIES = {
 
 
 @pytest.mark.parametrize("name", STORIES)
-def test_story(name):
+def test_what_is_sent_at_once_and_the_state(name):
     given, steps = STORIES[name]
     machine = safety(**given)
     assert machine.state == WAITING
@@ -125,14 +110,6 @@ def test_what_silence_sends(given, acts, sent):
     assert machine.due == inf
 
 
-def test_every_release_stops_anew():
-    machine = safety(**DEAD_MAN, stop_messages=2)
-    for start in (0.0, 1.0, 1.2):
-        assert machine.drive(FORWARD, False, start) == FORWARD
-        assert machine.drive(None, False, start + 0.01) == ZERO
-        assert over_time(machine, start + 0.01, start + 0.1) == [(round(start + 0.06, 6), ZERO)]
-
-
 def test_two_that_send_in_turn_are_named_now_and_then():
     warnings = []
     machine = Safety(load({**DEAD_MAN, "arm_on_neutral": True}), lambda: None, warnings.append)
@@ -140,12 +117,6 @@ def test_two_that_send_in_turn_are_named_now_and_then():
         machine.drive(None, True, i * 0.02, "ada" if i % 2 else "bob")
     assert len(warnings) == 1
     assert "Two joystick nodes" in warnings[0]
-
-
-def test_two_senders_that_look_alike_are_two():
-    machine = safety(**ARMS)
-    machine.drive(None, True, 0.0, ["joystick"])
-    assert machine.drive(FORWARD, False, 0.1, ["joystick"]) is None
 
 
 @pytest.mark.parametrize(
@@ -186,21 +157,10 @@ class TestAccelerationLimits:
             (0.6, 0.0), (0.65, 0.0), (0.7, 0.0), (0.75, 0.0),
         ]  # fmt: skip
 
-    @pytest.mark.parametrize(
-        ("given", "first", "second"),
-        [
-            ({"max_angular_acceleration": 2.0}, (0.5, 0.2), (0.5, 0.4)),
-            ({"max_angular_acceleration": 0.5}, (0.5, 0.05), (0.5, 0.1)),
-            ({**LIMITS, "max_angular_acceleration": 2.0}, (0.1, 0.2), (0.2, 0.4)),
-        ],
-    )
-    def test_each_part_has_a_limit_of_its_own(self, given, first, second):
-        machine = safety(**{**given, "output_rate": 10.0})
+    def test_each_part_has_a_limit_of_its_own(self):
+        machine = safety(**LIMITS, max_angular_acceleration=2.0)
         sent = [machine.drive((0.5, 0, 0, 0, 0, 1.0), False, 0.0), machine.tick(0.1)]
-        assert [(velocity[0], velocity[5]) for velocity in sent] == [
-            pytest.approx(first),
-            pytest.approx(second),
-        ]
+        assert sent == [(0.1, 0, 0, 0, 0, 0.2), (0.2, 0, 0, 0, 0, 0.4)]
 
     def test_dead_man_and_silence_stop_hard(self):
         machine = safety(**DEAD_MAN, **LIMITS, stop_messages=2)
@@ -210,14 +170,6 @@ class TestAccelerationLimits:
         machine = safety(**LIMITS, stop_messages=1)
         assert self.hold(machine, 0.5, 0.0, 0.05) == [(0.0, 0.1)]
         assert over_time(machine, 0.05, 2.0)[-2:] == [(0.4, FORWARD), (0.5, ZERO)]
-
-    def test_silence_while_passing_through_zero_stops_for_good(self):
-        machine = safety(**LIMITS, stop_messages=1)
-        machine.drive((0.1, 0, 0, 0, 0, 0), False, 0.0)
-        machine.drive(BACKWARD, False, 0.05)
-        assert over_time(machine, 0.05, 0.15) == [(0.1, ZERO)]
-        assert machine.lost("left", 0.15) == ZERO
-        assert over_time(machine, 0.15, 2.0) == []
 
 
 def test_wake_is_called_when_something_becomes_due_sooner():
