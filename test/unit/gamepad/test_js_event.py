@@ -13,10 +13,6 @@ def test_an_event_is_read_field_by_field():
     ]
 
 
-def test_the_time_of_a_sign_of_life_is_the_last_that_the_clock_can_show():
-    assert SIGN_OF_LIFE_MS == 0xFFFF_FFFF
-
-
 def test_by_default_a_late_state_at_opening_stays_one():
     """Only from a kernel device it means a change."""
     found = Decoder().feed(events((BUTTON, 0, 1)) + events((BUTTON | INIT, 0, 1)))

@@ -78,13 +78,6 @@ def test_the_dead_man_stays_held_while_a_later_key_repeats_and_all_are_released_
     assert keyboard.at(4.46 + REPEAT_HOLD_S + 0.001)[0] == Controls()
 
 
-def test_released_keys_are_up_whatever_was_held():
-    keyboard = Keyboard()
-    keyboard.press(" w", 1.0)
-    keyboard.release()
-    assert keyboard.at(1.1)[0] == Controls()
-
-
 def test_all_other_keys_do_nothing():
     mean_something = set("wasd tmuq0123456789\x03\x04")
     others = [chr(n) for n in range(0x250) if chr(n).lower() not in mean_something]

@@ -26,15 +26,6 @@ def test_the_first_state_waits_for_all_of_it():
     assert ours.tick(0.001) == [((0.0, 0.0), (0, 1))]
 
 
-def test_autorepeat_counts_from_the_last_message():
-    ours = driver(autorepeat_rate=20)
-    ours.read(events((BUTTON, 0, 1)), now=1.0)
-    assert ours.due == pytest.approx(1.05)
-    ours.read(events((BUTTON, 0, 0)), now=1.04)
-    assert ours.tick(1.0501) == []
-    assert ours.tick(1.0901) == [((), (0,))]
-
-
 @pytest.mark.parametrize(("rate", "due"), [(0.5, 3.0), (1, 2.0), (0, math.inf), (-1, math.inf)])
 def test_the_repetition_may_be_slow_or_off(rate, due):
     schedule = Schedule(0.001, rate)

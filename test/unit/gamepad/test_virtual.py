@@ -28,23 +28,11 @@ def test_axes_and_buttons_of_both_modes():
     assert mode_hint("045e:028e") is None
 
 
-def test_triggers_are_told_from_the_right_stick():
-    assert (F710_D.triggers, F710_X.triggers) == ((), (2, 5))
-    assert trigger_axes([0, 1, 3, 4, 2, 5]) == (4, 5)
-
-
 @pytest.mark.parametrize("pad", F710.values(), ids=F710)
 def test_the_ends_and_the_middle_of_every_axis(pad):
     for axis in pad.axes:
         ends = [axis.js_value(axis.raw(position)) for position in (1.0, 0.0, -1.0)]
         assert ends == [-32767, 0, 32767]
-
-
-def test_the_kernels_steps_between():
-    # By hand from joydev_correct(): 64 * ((1 << 29) // 127) >> 14
-    assert F710_D.axes[0].js_value(127 + 64) == 16513
-    assert F710_D.axes[0].js_value(127 - 64) == -16514
-    assert F710_X.axes[0].js_value(-16384) == -16384
 
 
 @pytest.mark.parametrize("pad", F710.values(), ids=F710)
