@@ -1,7 +1,6 @@
 """joy.bag is what the handout needs, and is exactly what its script writes."""
 
 import math
-import subprocess
 from pathlib import Path
 
 import pytest

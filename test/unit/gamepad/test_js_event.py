@@ -3,7 +3,7 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gamepad.js_event import SIGN_OF_LIFE_MS, Decoder, JsEvent, pack
+from gamepad.js_event import Decoder, JsEvent, pack
 from tutorial_testing.gamepad_events import BUTTON, INIT, events
 
 

@@ -33,10 +33,8 @@ def test_a_move_may_last_a_day_and_has_every_position():
     [
         (None, "it has no list of moves, such as "),
         ({}, "moves: missing; such as moves: [{for"),
-        ({"moves": 5}, "moves: 5: must be a list of moves"),
         ({"moves": []}, "moves: []: must be a list of moves"),
         ({"moves": [{"for": 1}], "speed": 2}, "speed: 2: no such parameter; allowed: mode, moves"),
-        ({"mode": "Z", "moves": [{"for": 1}]}, "mode: 'Z': must be D or X"),
         ({"mode": ["D"], "moves": [{"for": 1}]}, "mode: ['D']: must be D or X"),
         ({"moves": [7]}, "move 1: 7 is not a map"),
     ],
@@ -54,10 +52,9 @@ SECONDS, STICK, BUTTONS = "must be seconds", "must be two numbers from -1 to 1",
     ("wrong", "line"),
     [
         *[({"for": value}, f"for: {value!r}: {SECONDS}") for value in (
-            None, math.nan, 0, -1, 86400.5, "1", True)],
+            math.nan, 0, 86400.5, "1", True)],
         *[({part: value}, f"{part}: {value!r}: {STICK}") for value in (
-            1, [0], [0, 0, 0], [0, True], [0, -1.5], [1.5, 0], [math.nan, 0], ["x", 0])
-            for part in ("left_stick", "right_stick", "dpad")],
+            1, [0, 0, 0], [0, -1.5], [math.nan, 0], ["x", 0]) for part in ("left_stick", "dpad")],
         ({"triggers": [-0.5, 0]}, "triggers: [-0.5, 0]: must be two numbers from 0 to 1"),
         ({"held": "LB"}, f"held: 'LB': {BUTTONS}"),
         ({"held": [[]]}, f"held: [[]]: {BUTTONS}"),

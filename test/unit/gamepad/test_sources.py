@@ -55,13 +55,6 @@ def test_a_recording_keeps_its_times(times, changes):
     assert again.at(end)[0][0][1] == 0.0
 
 
-def test_an_axis_a_little_beyond_its_end_is_taken():
-    """The kernel's range is not quite even, so that some drivers go beyond 1."""
-    for end in (1.001, -1.001):
-        recorded = [(time, ((end,) * 6, (0,) * 12)) for time in (0.0, 1.0)]
-        assert recording_source(F710_D, recorded, loop=False).at(0.0)[0] == ((end,) * 6, (0,) * 12)
-
-
 def messages(*axes, buttons=12, times=(0.0,)):
     return [(time, (axes, (0,) * buttons)) for time in times]
 
@@ -71,12 +64,10 @@ def messages(*axes, buttons=12, times=(0.0,)):
     [
         (messages(*(0.0,) * 8, buttons=11),
          "a message has 8 axes and 11 buttons; this gamepad has 6 and 12"),
-        (messages(*(0.0,) * 6, buttons=13), "a message has 6 axes and 13 buttons"),
         (messages(*(math.nan,) * 6), "a message has axes beyond"),
         (messages(*(0.0,) * 5, 1.01), "a message has axes beyond"),
-        (messages(-1.01, *(0.0,) * 5), "a message has axes beyond"),
-        ([], "there are fewer than two messages"),
-        (messages(*(0.0,) * 6), "there are fewer than two messages"),
+        # The kernel's range is not quite even, so that some drivers go a little beyond 1.
+        (messages(-1.001, *(1.001,) * 5), "there are fewer than two messages"),
         (messages(*(0.0,) * 6, times=(1.0, 1.0)), "all messages have one time"),
     ],
 )  # fmt: skip

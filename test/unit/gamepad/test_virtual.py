@@ -7,7 +7,7 @@ import pytest
 
 from gamepad.driver.device import Finder
 from gamepad.driver.device_choice import DeviceError
-from gamepad.gamepads import F710, F710_D, F710_X, mode_hint, trigger_axes
+from gamepad.gamepads import F710, F710_D, F710_X, mode_hint
 from gamepad.js_event import SIGN_OF_LIFE_MS
 from gamepad.trembling import Trembling
 from gamepad.virtual.controls import Controls, positions
