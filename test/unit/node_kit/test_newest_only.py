@@ -30,15 +30,6 @@ def message(number):
     return number.to_bytes(4, "little") * (SIZE // 4)
 
 
-def fill(sender, near):
-    """Write until the kernel takes no more; how many messages that were."""
-    for number in range(1_000_000):
-        sender.write(message(number))
-        if not select.select([], [near], [], 0)[1]:
-            return number + 1
-    raise AssertionError("the connection never became full")
-
-
 def numbers_until(far, last):
     """Read whole messages up to the one with the number last; their numbers."""
     data, numbers = b"", []
@@ -54,28 +45,16 @@ def numbers_until(far, last):
 def test_a_side_that_does_not_read_gets_whole_messages_and_the_newest_one(connection):
     near, far = connection
     sender = NewestOnly(near, STOP, buffer_bytes=8192)
-    count = fill(sender, near)
-    for number in range(count, count + 10_000):  # none of these waits
+    for number in range(20_000):  # more than both sides' buffers hold; none of these waits
         sender.write(message(number))
-    last = count + 10_000 - 1
-    numbers = numbers_until(far, last)
+    numbers = numbers_until(far, 19_999)
     assert numbers == sorted(set(numbers))
-    # What lay between is not sent any more, but for what both sides' buffers held.
-    assert len(numbers) < count + 1000
+    assert len(numbers) < 10_000  # what lay between is not sent any more
     for number in range(100):  # from here on each arrives at once again
         sender.write(message(number))
         assert far.recv(SIZE, socket.MSG_WAITALL) == message(number)
-
-
-def test_a_side_that_has_gone_is_an_error_in_the_end(connection):
-    near, far = connection
-    sender = NewestOnly(near, STOP, buffer_bytes=8192)
-    fill(sender, near)
-    far.close()
-    with pytest.raises(OSError, match=r"."):
-        for number in range(1_000_000):
-            sender.write(message(number))
-            select.select([], [near], [], DEADLINE_S)
+    assert near.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY)
+    assert near.getsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF) == 2 * 8192  # doubled by Linux
 
 
 # (number of resends, number of the message or None for free(), numbers of what then arrives)
@@ -89,9 +68,6 @@ CUT = [
     (0, 7, []),  # whole again, and still driving
     (0, None, []),  # released
     (0, 8, [8]),
-    (2, 10, [0]),  # cut once more
-    (0, None, []),
-    (0, 11, [11]),
 ]
 HELD = [(0, 1, []), (0, 2, []), (0, None, []), (0, 3, [3]), (0, None, [])]
 
@@ -99,7 +75,7 @@ HELD = [(0, 1, []), (0, 2, []), (0, None, []), (0, 3, [3]), (0, None, [])]
 @pytest.mark.parametrize(
     ("steps", "stop", "held", "reports"),
     [
-        (CUT, STOP, False, [True, False, True, False]),
+        (CUT, STOP, False, [True, False]),
         (HELD, STOP, True, [False]),
         ([(100, 7, [7])], None, False, []),  # without a stop no connection counts as cut
     ],
@@ -140,7 +116,6 @@ class Answering:
     ("resends", "infos"),
     [
         (3, [[1, 4, 3, 0, 9, 9]]),
-        (1, [[1, 4, 1, 7]]),
         (2, [[12, 4, 2, 0], [8, 4, 2, 0]]),  # the last state; the other side closed its half
         (0, [[1, 0, 0, 0], [], [1], [1, 4], [1, 4, 9]]),  # short: the last byte may be anything
         (0, [[0, 4, 9, 0], [13, 4, 9, 0]]),  # there are no such states
@@ -150,15 +125,6 @@ class Answering:
 def test_an_answer_that_is_short_or_cannot_be_right_is_no_cut(resends, infos):
     for info in infos:
         assert newest_only.resends(Answering(bytes(info))) == resends, info
-
-
-def test_a_new_connection_is_whole_prompt_and_has_the_buffer_that_was_asked_for(connection):
-    near, far = connection
-    NewestOnly(near, buffer_bytes=8192).write(STOP)
-    assert far.recv(SIZE, socket.MSG_WAITALL) == STOP
-    assert newest_only.resends(near) == 0
-    assert near.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY)
-    assert near.getsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF) == 2 * 8192  # doubled by Linux
 
 
 FIRST, SECOND, THIRD, LAST = b"11111111", b"22222222", b"33333333", b"00000000"
@@ -199,7 +165,6 @@ def threads(monkeypatch):
         ([3], [FIRST, SECOND, THIRD], [], FIRST + THIRD, 1),  # of those that wait the newest
         ([], [FIRST], [SECOND], FIRST + SECOND, 0),  # what the kernel takes needs no thread
         ([FULL, 1, FULL, 1, 6], [FIRST], [SECOND], FIRST + SECOND, 1),  # never torn
-        ([FULL, FULL, 3], [FIRST, SECOND], [], SECOND, 1),  # nothing of the first was taken
         ([3, 5, 0], [FIRST], [SECOND], FIRST + SECOND, 2),  # behind again: a thread again
     ],
 )

