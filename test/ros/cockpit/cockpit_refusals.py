@@ -6,9 +6,6 @@ import http.client
 import json
 
 from tutorial_testing.cockpit_rig import WithCockpit
-from tutorial_testing.nodes import node_path
-from tutorial_testing.ports import free_port
-from tutorial_testing.processes import Program
 from tutorial_testing.rostests import run
 from tutorial_testing.socket_page import DRIVE, SocketPage
 
@@ -70,11 +67,6 @@ class Refused(WithCockpit):
         ):
             with SocketPage(port, token=token, **headers) as page:
                 self.assertEqual(page.refusal, 403, (token, headers))
-
-    def test_a_second_cockpit_does_not_end_the_first(self):
-        second = Program(node_path("cockpit", "cockpit.py"), "--port", str(free_port()))
-        self.check_mistake(second, "/cockpit runs already")
-        self.assertFalse(self.rig.program.ended)
 
     def test_a_viewer_may_not_drive(self):
         with SocketPage(self.rig.port, token=self.tokens[1]) as page:

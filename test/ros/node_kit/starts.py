@@ -2,7 +2,6 @@
 """A start never harms what runs: a table of what runs, what is started, and what is left."""
 
 import shlex
-import signal
 from xmlrpc.client import ServerProxy
 
 import rosgraph
@@ -10,7 +9,7 @@ import rospy
 from rospy import AnyMsg
 
 from tutorial_testing.nodes import node_path
-from tutorial_testing.processes import Program, suspend
+from tutorial_testing.processes import Program
 from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
@@ -28,10 +27,10 @@ def started_by(command):
 
 
 class Watch:
-    """The messages of a topic, by their senders; their numbers show whether one was lost."""
+    """The numbers of the messages of a topic, by sender, which show whether one was lost."""
 
     def __init__(self):
-        self.numbers = {}  # sender -> the numbers of its messages
+        self.numbers = {}
 
     def hear(self, message):
         sender = message._connection_header["callerid"]
@@ -39,13 +38,9 @@ class Watch:
         number = int.from_bytes(message._buff[:4], "little")
         self.numbers.setdefault(sender, []).append(number)
 
-    def of(self, sender):
-        """The numbers of one sender."""
-        return self.numbers.get(sender, [])
-
     def gaps(self, sender):
         """Pairs of numbers between which one of the sender's messages was lost."""
-        numbers = list(self.of(sender))
+        numbers = list(self.numbers[sender])
         if numbers[0] == numbers[-1]:  # diagnostics are not numbered
             return []
         follow = zip(numbers, numbers[1:])
@@ -53,8 +48,8 @@ class Watch:
 
     def grows(self, sender):
         """Wait until one more message comes."""
-        count = len(self.of(sender))
-        wait_for(lambda: len(self.of(sender)) > count, f"a message of {sender}")
+        count = len(self.numbers[sender])
+        wait_for(lambda: len(self.numbers[sender]) > count, f"a message of {sender}")
 
 
 class StartsTest(RosTest):
@@ -72,12 +67,6 @@ class StartsTest(RosTest):
         self.assertEqual(len(lines), 1, f"{command}: {said}")
         self.assertNotIn("Traceback (most", said)
 
-    def check_company(self, command, topic):
-        with started_by(command) as started:
-            self.watch(topic)
-            started.interrupt()
-            started.wait()
-
     def play(self, _, row):
         with Program(*shlex.split(row["run"])) as running:
             watches = [self.watch(topic) for topic in row["watch"]]
@@ -86,7 +75,10 @@ class StartsTest(RosTest):
                 self.check_refusal(command, words)
                 self.assertFalse(running.ended, command)
             for command, topic in row.get("both", []):
-                self.check_company(command, topic)
+                with started_by(command) as started:
+                    self.watch(topic)
+                    started.interrupt()
+                    started.wait()
                 self.assertFalse(running.ended, command)
             for watch, sender in zip(watches, senders):
                 watch.grows(sender)
@@ -101,42 +93,21 @@ class StartsTest(RosTest):
             self.watch("/robot_3/odom")
             self.assertFalse(rospy.has_param("/three/robots"))
 
-    def test_a_name_whose_node_was_killed_is_free_at_once(self):
-        with Program(*SIMULATOR, "__name:=killed") as node:
-            sender = self.watch("odom")
-            node.kill()
-            with Program(*SIMULATOR, "__name:=killed"):
-                sender.grows("/killed")
-
     def test_a_robot_is_replaced_by_one_with_take_over(self):
-        with Program(*SIMULATOR, "__name:=replaced") as old:
-            watch = self.watch("odom")
-            with Program(*SIMULATOR, "__name:=replaced", "_take_over:=true"):
-                self.assertEqual(old.wait(), 0)
-                watch.grows("/replaced")
+        old, watch = self.start(*SIMULATOR, "__name:=replaced"), self.watch("odom")
+        self.start(*SIMULATOR, "__name:=replaced", "_take_over:=true")
+        self.check_end(old)
+        watch.grows("/replaced")
 
     def test_a_robot_does_not_end_in_place_of_one_that_died_on_its_port(self):
-        with Program(*SIMULATOR, "__name:=alive") as node:
-            watch = self.watch("odom")
-            died = rosgraph.Master("/died")
-            uri = died.lookupNode("/alive")
-            for each in uri, "http://localhost:1":
-                died.registerPublisher("/of_the_dead", "std_msgs/String", each)
-            wait_for(lambda: "another node is /died now" in node.output, "its word")
-            # Another master, of which the one that died had the same name.
-            reason = "[/alive] Reason: new node registered with same name"
-            ServerProxy(uri).shutdown("/master", reason)
-            wait_for(lambda: "another node is /alive now" in node.output, "its word")
-            watch.grows("/alive")
-            self.assertFalse(node.ended)
-
-    def test_a_suspended_robot_keeps_its_name(self):
-        with Program(*SIMULATOR, "__name:=stopped") as node:
-            watch = self.watch("odom")
-            suspend(node.left_behind())
-            self.check_refusal(" ".join([*SIMULATOR, "__name:=stopped"]), "does not answer")
-            node.signal(signal.SIGCONT)
-            watch.grows("/stopped")
+        node, watch = self.start(*SIMULATOR, "__name:=alive"), self.watch("odom")
+        uri = rosgraph.Master("/test").lookupNode("/alive")
+        # Another master, of which the one that died had the same name.
+        reason = "[/alive] Reason: new node registered with same name"
+        ServerProxy(uri).shutdown("/master", reason)
+        wait_for(lambda: "another node is /alive now" in node.output, "its word")
+        watch.grows("/alive")
+        self.assertFalse(node.ended)
 
 
 if __name__ == "__main__":
