@@ -62,14 +62,21 @@ class ArgumentsTest(RosTest):
         launch.interrupt()
         launch.wait()
 
+    def read(self, option, *arguments):
+        """Return what roslaunch prints of launch_joy_node.launch without starting it."""
+        launch = self.start("roslaunch", option, "joy2twist", "launch_joy_node.launch", *arguments)
+        self.assertEqual(launch.wait(), 0, launch.output)
+        return launch.output
+
     def test_the_joystick_leaves_no_parameter_behind(self):
         """A joy_node started by hand after virtual:=true would wait for the FIFO."""
-        file = "launch_joy_node.launch"
-        dump = self.start("roslaunch", "--dump-params", "joy2twist", file, "virtual:=true")
-        self.assertEqual(dump.wait(), 0, dump.output)
-        given = yaml.safe_load(dump.output)
+        given = yaml.safe_load(self.read("--dump-params", "virtual:=true"))
         self.assertIn("/myjoystick2twist/enable_button", given)
         self.assertEqual([name for name in given if name.startswith("/joy_node/")], [])
+
+    def test_joy_pkg_is_the_package_whose_node_reads_the_device(self):
+        shown = self.read("--args=/joy_node", "joy_pkg:=joy", "joy_dev:=/tmp/a b")
+        self.assertIn("/joy/joy_node _dev:=/tmp/a b _autorepeat_rate:=20 ", shown)
 
 
 if __name__ == "__main__":
