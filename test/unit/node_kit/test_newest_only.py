@@ -2,7 +2,6 @@
 
 import select
 import socket
-from types import SimpleNamespace
 
 import pytest
 
@@ -127,85 +126,26 @@ def test_an_answer_that_is_short_or_cannot_be_right_is_no_cut(resends, infos):
         assert newest_only.resends(Answering(bytes(info))) == resends, info
 
 
-FIRST, SECOND, THIRD, LAST = b"11111111", b"22222222", b"33333333", b"00000000"
-FULL = BlockingIOError()
-
-
-class Near:
-    """A socket that takes what the test says: so many bytes, or an error; after that, all."""
-
-    def __init__(self, real, *answers):
-        self.fileno, self.setsockopt = real.fileno, real.setsockopt
-        self._answers, self.sent = list(answers), b""
-
-    def send(self, data, flags):
-        answer = self._answers.pop(0) if self._answers else len(data)
-        if isinstance(answer, Exception):
-            raise answer
-        self.sent += data[:answer]
-        return min(answer, len(data))
-
-
-@pytest.fixture
-def threads(monkeypatch):
-    """The threads that were started, as functions that the test runs."""
-    started = []
-
-    def thread(target, daemon):
-        assert daemon  # it keeps no program alive
-        return SimpleNamespace(start=lambda: started.append(target))
-
-    monkeypatch.setattr(newest_only.threading, "Thread", thread)
-    return started
-
-
-@pytest.mark.parametrize(
-    ("answers", "before", "after", "sent", "count"),
-    [
-        ([3], [FIRST, SECOND, THIRD], [], FIRST + THIRD, 1),  # of those that wait the newest
-        ([], [FIRST], [SECOND], FIRST + SECOND, 0),  # what the kernel takes needs no thread
-        ([FULL, 1, FULL, 1, 6], [FIRST], [SECOND], FIRST + SECOND, 1),  # never torn
-        ([3, 5, 0], [FIRST], [SECOND], FIRST + SECOND, 2),  # behind again: a thread again
-    ],
-)
-def test_a_thread_sends_what_the_kernel_does_not_take(
-    connection, threads, answers, before, after, sent, count
-):
-    near = Near(connection[0], *answers)
-    sender = NewestOnly(near)
-    for one in before:
-        sender.write(one)
-    done = len(threads)
-    assert done <= 1
-    for catch_up in threads:
-        catch_up()
-    for one in after:
-        sender.write(one)
-    for catch_up in threads[done:]:
-        catch_up()
-    assert (near.sent, len(threads)) == (sent, count)
-
-
-def test_a_connection_that_is_cut_while_it_is_behind_gets_the_stop_alone(
-    connection, threads, monkeypatch
-):
-    monkeypatch.setattr(newest_only, "resends", lambda _: 0)
-    near = Near(connection[0], 3)
-    sender = NewestOnly(near, LAST)
-    sender.write(FIRST)
-    sender.write(SECOND)
+def test_a_connection_that_is_cut_while_it_is_behind_gets_the_stop_last(connection, monkeypatch):
+    near, far = connection
+    sender = NewestOnly(near, STOP, buffer_bytes=8192)
+    for number in range(1, 20_000):
+        sender.write(message(number))
     monkeypatch.setattr(newest_only, "resends", lambda _: 2)
-    sender.write(THIRD)
-    sender.write(THIRD)
-    threads[0]()
-    assert near.sent == FIRST + LAST
+    for number in (20_000, 20_001):
+        sender.write(message(number))
+    assert 19_999 not in numbers_until(far, 0)
+    assert not select.select([far], [], [], 0)[0]
 
 
-def test_a_connection_that_is_closed_while_it_is_behind_ends_the_thread(connection, threads):
-    near = Near(connection[0], 3, OSError("closed"))
-    sender = NewestOnly(near)
-    sender.write(FIRST)
-    connection[0].close()
-    threads[0]()
-    with pytest.raises(OSError, match="closed"):
-        sender.write(SECOND)
+@pytest.mark.parametrize("end", [0, 1], ids=["near", "far"])
+def test_a_connection_that_was_closed_while_it_was_behind_is_an_error_in_the_end(connection, end):
+    near, _ = connection
+    sender = NewestOnly(near, STOP, buffer_bytes=8192)
+    for number in range(20_000):
+        sender.write(message(number))
+    connection[end].close()
+    with pytest.raises(OSError, match=r"."):
+        for number in range(1_000_000):
+            sender.write(message(number))
+            select.select([], [near], [], DEADLINE_S)
