@@ -17,7 +17,7 @@ class ClockTest(RosTest):
     def setUp(self):
         """Get the robot going at full speed."""
         self.robot = self.enter(CommandedRobot())
-        self.world = World([self.robot])
+        self.world = World([self.robot], 10 * TEN_SECONDS_NS)
         self.robot.cmd_vel.publish(twist(SPEED, 0.0))
         wait_for(lambda: self.world.step() or self.robot.now.v == SPEED, "moving robot")
         self.before = self.robot.now

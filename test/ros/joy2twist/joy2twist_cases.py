@@ -8,13 +8,9 @@ A case begins with `node: NAMESPACE` of the node (default: the root). A step is 
                         every_s: how often in time (0.02)
   sends: {linear.x: v}  the next velocity is this, all else 0; with times: and within_s: since the
                         end of the step before
-  reaches: {linear.x: v}  as many velocities as it takes until one is this; from each to the next
-                        linear.x changes by at most `step`, if that is given, and by less than all
-                        in one step
   silent_for_s: t       nothing is sent for so long
   rests: true           zeros are sent, until none has come for a while
   leave: true           the publisher of joy leaves; the next joy step brings another one
-  clock_s: t            publish the simulated time
   state: text           /diagnostics, which come once a second, report a state that begins so; with
                         `again: true` the last Joy is repeated meanwhile
 
@@ -23,21 +19,17 @@ After the last step nothing else may have been sent.
 
 import collections
 import time
-from math import inf
 
-import rosgraph
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Twist
-from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Joy
 
-from node_kit.questions import call
 from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
 COMPONENTS = [f"{kind}.{axis}" for kind in ("linear", "angular") for axis in "xyz"]
-STEPS = {"joy", "sends", "reaches", "silent_for_s", "rests", "leave", "clock_s", "state"}
+STEPS = {"joy", "sends", "silent_for_s", "rests", "leave", "state"}
 QUIET_S = 1.0  # longer than any repetition of zero and any watchdog in the cases
 
 
@@ -56,7 +48,6 @@ class Node:
             f"{namespace}/cmd_vel", Twist, self._on_twist, tcp_nodelay=True
         )
         self._joystick = self._last_joy = None
-        self._last_x = 0.0
         self._last_step = time.monotonic()
         # A connection is there when messages go all the way round.
         wait_for(lambda: self._joy([0.0] * 8, [0] * 12) or self._received, f"{namespace}/cmd_vel")
@@ -81,7 +72,7 @@ class Node:
         for step in steps:
             (kind,) = STEPS & set(step)
             getattr(self, f"_{kind}")(**step)
-            if kind not in ("sends", "reaches"):
+            if kind != "sends":
                 self._last_step = time.monotonic()
         if self._received:
             raise AssertionError(f"also sent: {list(self._received)}")
@@ -100,29 +91,12 @@ class Node:
 
     def _sends(self, sends, times=1, within_s=None):
         for _ in range(times):
-            arrival, velocity = self._next(sends)
+            wait_for(lambda: self._received, f"velocity {sends}")
+            arrival, velocity = self._received.popleft()
             if not same(velocity, sends):
                 raise AssertionError(f"sent {velocity} instead of {sends}")
         if within_s is not None and arrival > self._last_step + within_s:
             raise AssertionError(f"sent {arrival - self._last_step:.3f} s later")
-
-    def _reaches(self, reaches, step=inf):
-        speeds, velocity = [self._last_x], None
-        while velocity is None or not same(velocity, reaches):
-            _, velocity = self._next(reaches)
-            speeds.append(velocity["linear.x"])
-        changes = [abs(after - before) for before, after in zip(speeds, speeds[1:])]
-        if step < inf and (
-            max(changes) > step + 1e-6 or abs(speeds[-1] - speeds[0]) <= max(changes)
-        ):
-            raise AssertionError(f"linear.x went {speeds}")
-
-    def _next(self, expected):
-        """The next velocity that was sent, and when."""
-        wait_for(lambda: self._received, f"velocity {expected}")
-        arrival, velocity = self._received.popleft()
-        self._last_x = velocity["linear.x"]
-        return arrival, velocity
 
     def _silent_for_s(self, silent_for_s):
         end = time.monotonic() + silent_for_s
@@ -135,21 +109,6 @@ class Node:
         if self._joystick:
             self._joystick.unregister()
         self._joystick = None
-
-    def _clock_s(self, clock_s):
-        now, before = rospy.Time(clock_s), self._clock_bytes()
-        wait_for(
-            lambda: self.clock.publish(Clock(now)) or rospy.Time.now() == now, "simulated time"
-        )
-        # The node, too: a stamp of another time would be too old for it.
-        wait_for(lambda: self._clock_bytes() > before, "simulated time in the node")
-
-    def _clock_bytes(self):
-        """How much of /clock the node has received."""
-        uri = rosgraph.Master(rospy.get_name()).lookupNode(f"{self._namespace}/NewJoy2Twist")
-        _, (_, subscribed, _) = call(uri, "getBusStats")
-        connections = dict(subscribed).get("/clock", [])
-        return sum(received for _, received, *_ in connections)
 
     def _state(self, state, again=False):
         name = f"{self._namespace}/NewJoy2Twist: joystick".strip("/")
@@ -170,7 +129,6 @@ class CasesTest(RosTest):
     def setUpClass(cls):
         cls.nodes = {}  # by namespace
         Node.states = {}  # of every node, by its name in /diagnostics
-        Node.clock = rospy.Publisher("/clock", Clock, queue_size=10)
         keep = lambda array: Node.states.update((s.name, s.message) for s in array.status)  # noqa: E731
         rospy.Subscriber("/diagnostics", DiagnosticArray, keep)
 

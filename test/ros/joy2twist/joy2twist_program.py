@@ -61,6 +61,16 @@ class RunningTest(RosTest):
 
 
 class StartTest(RosTest):
+    def test_under_simulated_time_that_stands_still_silence_stops_the_robot(self):
+        rospy.set_param("/use_sim_time", True)
+        self.addCleanup(rospy.delete_param, "/use_sim_time")
+        velocities, joystick = self.record("cmd_vel", Twist), self.publisher("joy", Joy)
+        self.start(JOY2TWIST, "_joy_timeout:=0.5", "_max_joy_age:=0.5")
+        joy = Joy(axes=[0.0, 0.5])
+        wait_for(lambda: joystick.publish(joy) or velocities, "velocity")
+        wait_for(lambda: velocities[-1] == Twist(), "zero")
+        self.assertEqual(velocities[0].linear.x, 0.5)
+
     def test_a_mistake_and_a_missing_master_get_one_line(self):
         rospy.set_param("/wrong/joy_timeout", -1)
         for given, environment, words in (
