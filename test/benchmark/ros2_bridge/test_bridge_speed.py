@@ -1,6 +1,5 @@
 """How long a Joy takes through the bridge to ROS 2 and its Twist back, and how much is carried."""
 
-import os
 import statistics
 import threading
 import time
@@ -10,6 +9,7 @@ import pytest
 import rospy
 from drive import CLASS, own_master, single
 from geometry_msgs.msg import Twist
+from live import processor_time
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Joy
 
@@ -25,7 +25,6 @@ MANY = Path(__file__).with_name("many.py")
 COUNT, RATE = 1000, 50.0
 MOST_MS, MOST_LATE_MS = 3.0, 8.0  # median; of 99 in 100
 SECONDS, ODOMETRY_HZ = 20, 1000.0
-TICKS = os.sysconf("SC_CLK_TCK")
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -92,15 +91,6 @@ def test_a_joy_is_answered_through_the_bridge_in_milliseconds(bridge, figure):
     assert median < MOST_MS and late < MOST_LATE_MS
 
 
-def used_s(pids):
-    """Time of the processor that processes have used [s]."""
-    total = 0
-    for pid in pids:
-        fields = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
-        total += int(fields[11]) + int(fields[12])
-    return total / TICKS
-
-
 def test_a_thousand_odometry_messages_a_second_pass_both_ways(bridge, figure):
     count = int(SECONDS * ODOMETRY_HZ)
     came = []
@@ -114,15 +104,14 @@ def test_a_thousand_odometry_messages_a_second_pass_both_ways(bridge, figure):
     with Program(*ros2_python.command([str(MANY), str(count), str(ODOMETRY_HZ)])) as program:
         wait_for(lambda: "ready" in program.output, "ROS 2", 20)
         time.sleep(2.0)  # until the other side has found its publisher: no event says so
-        pids = descendants(bridge.pid)
-        begun, begin_s = used_s(pids), time.monotonic()
+        begun, begin_s = processor_time(bridge.pid), time.monotonic()
         thread = threading.Thread(target=publish, args=(publisher, count))
         thread.start()
         program.wait(SECONDS * 4 + 20)
         thread.join()
         wait_for(lambda: len(came) >= count, "all of ROS 2's", 20)
         said = program.output.splitlines()[-1]
-        share = (used_s(pids) - begun) / (time.monotonic() - begin_s)
+        share = (processor_time(bridge.pid) - begun) / (time.monotonic() - begin_s)
     figure("odometry of ROS 1 in ROS 2", said, f"{count}, in order")
     there = f"came {len(came)}, in order {came == sorted(came)}"
     figure("odometry of ROS 2 in ROS 1", there, f"{count}, in order")
