@@ -14,28 +14,23 @@ def nodes(name):
 
 
 class NamesTest(RosTest):
-    def check(self, name):
-        program = node_path("beginner_tutorials", f"{name}.py")
+    def test_of_two_talkers_with_one_name_the_older_ends_and_ctrl_c_ends_the_other(self):
+        program = node_path("beginner_tutorials", "talker.py")
         first = self.start(program, "--unique")
-        wait_for(lambda: nodes(name), f"first {name}")
+        wait_for(lambda: nodes("talker"), "first talker")
         second = self.start(program, "--unique")
         self.check_end(first)
         self.assertIn("new node registered with same name", first.output)
-        wait_for(lambda: nodes(name) == [f"/{name}"], f"second {name}")
+        wait_for(lambda: nodes("talker") == ["/talker"], "second talker")
         self.assertFalse(second.ended)
         self.end(second)
 
-        # rospy itself says what is missing, and Ctrl-C ends the waiting.
+    def test_without_a_master_rospy_says_what_is_missing_and_ctrl_c_ends_the_waiting(self):
         nobody = "http://localhost:9"  # the port named "discard": no master lives there
-        alone, line = self.start(program, ROS_MASTER_URI=nobody), f"with master node [{nobody}]"
-        wait_for(lambda: f"Unable to register {line}" in alone.output, line)
-        self.end(alone)
-
-    def test_talkers(self):
-        self.check("talker")
-
-    def test_listeners(self):
-        self.check("listener")
+        node = self.start(node_path("beginner_tutorials", "listener.py"), ROS_MASTER_URI=nobody)
+        line = f"Unable to register with master node [{nobody}]"
+        wait_for(lambda: line in node.output, line)
+        self.end(node)
 
 
 if __name__ == "__main__":

@@ -8,7 +8,6 @@ import rospy
 from geometry_msgs.msg import Twist
 from rosgraph_msgs.msg import Clock
 
-from fake_turtlebot_sim.simulator.differential_drive import drive
 from tutorial_testing.robot import Robot
 from tutorial_testing.waiting import wait_for
 
@@ -59,25 +58,15 @@ class World:
             self.set_clock(self.now_ns + PERIOD_NS)
 
     def command(self, robot, v, w, shown=None):
-        """Send a velocity and step until the odometry shows it; return the time it arrived [ns].
-
-        The command and the time reach the robot in either order, so it arrives as a step begins
-        or as it ends. In the latter case the robot goes on as before to the end of the step.
-        """
+        """Send a velocity and step until the odometry shows it."""
         robot.cmd_vel.publish(twist(v, w))
-        before = []
 
         def shows():
-            before.append(robot.now)
             self.step()
             error = [abs(a - b) for a, b in zip(robot.now.velocity, shown or (v, w))]
             return max(error) < 1e-9
 
         wait_for(shows, f"odometry with the velocity {shown or (v, w)}")
-        last = before[-1]
-        went_on = drive(last.pose, last.velocity, last.velocity, PERIOD_NS * 1e-9)
-        error = max(abs(a - b) for a, b in zip(robot.now.pose, went_on))
-        return self.now_ns if error < 1e-9 else self.now_ns - PERIOD_NS
 
 
 def twist(v, w):
