@@ -106,11 +106,6 @@ def test_a_function_key_does_nothing_whatever_letters_it_sends_and_wherever_it_i
         keyboard.press(f"{key[cut:]}a", 1.0)
         assert keyboard.at(1.0)[0] == Controls(left_stick=(1, 1)), cut
         assert not keyboard.quit
-
-
-@pytest.mark.parametrize("begun", ["\x1b", "\x1b["])
-def test_a_sequence_that_never_ends_holds_no_key_back(begun):
-    keyboard = Keyboard()
-    keyboard.press(begun, 1.0)
-    keyboard.press("\x03", 2.0)
-    assert keyboard.quit
+        keyboard.press(key[:1], 1.0)  # one that never ends holds no key back
+        keyboard.press("\x03", 2.0)
+        assert keyboard.quit
