@@ -129,14 +129,12 @@ class MinimalTest(RosTest):
             wait_for(publisher.get_num_connections, f"subscriber of {publisher.name}")
         wait_for(lambda: robot.odometry and core and imu, "first messages")
 
-        first, begin = core[-1], len(core)
+        first = core[-1]
 
         def way():
             return (core[-1].right_encoder - first.right_encoder) % 65536
 
         wait_for(lambda: navi.publish(TURN) or way() > 2000, "encoders that count")
-        seconds = (core[-1].header.stamp - first.header.stamp).to_sec()
-        self.assertAlmostEqual((len(core) - begin) / seconds, 50.0, delta=2.0)
         last = imu[-1]
         self.assertEqual((last.header.frame_id, last.angular_velocity.z), ("gyro_link", 0.5))
 
