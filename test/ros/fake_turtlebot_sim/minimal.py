@@ -1,13 +1,10 @@
 #!/usr/bin/python3
 """The whole of minimal.launch, seen from outside as a TurtleBot 2 is."""
 
-from math import nan
-
 import rosgraph
 import rospy
 from geometry_msgs.msg import Twist, Vector3
 from kobuki_msgs.msg import ButtonEvent, MotorPower, SensorState
-from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import Imu
 from std_msgs.msg import String
 
@@ -83,7 +80,7 @@ class MinimalTest(RosTest):
         self.assertNotIn("/cmd_vel", dict(master.getTopicTypes()))
 
     def test_the_safety_controller_outranks_teleop(self):
-        robot, log = self.enter(Robot()), self.record("/rosout", Log)
+        robot = self.enter(Robot())
         commands = self.record("mobile_base/commands/velocity", Twist)
         active = self.record("cmd_vel_mux/active", String)
         teleop, safety = (
@@ -110,12 +107,7 @@ class MinimalTest(RosTest):
             safety.publish(backwards)
 
         wait_for(lambda: both() or is_driven("safety_controller", -0.1), "safety_controller")
-        backwards.linear.x = nan  # neither obeyed nor a sign of life, and reported
-
-        def is_reported():
-            return any("safety_controller: a command is not a finite" in one.msg for one in log)
-
-        wait_for(lambda: both() or (is_driven("teleop", 0.3) and is_reported()), "teleop again")
+        wait_for(lambda: teleop.publish(forwards) or is_driven("teleop", 0.3), "teleop again")
         wait_for(lambda: is_driven("idle", 0.0), "robot that stands")
 
     def test_the_base_has_encoders_imu_motors_and_buttons_of_a_kobuki(self):
