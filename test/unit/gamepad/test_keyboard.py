@@ -39,24 +39,19 @@ def test_what_each_key_does_to_the_gamepad(keys, stick, held):
 
 
 @pytest.mark.parametrize(
-    ("keys", "controls"),
+    ("keys", "controls", "quits"),
     [
-        ("m", Controls(mode_led=True)),
-        ("U", Controls(plugged=False)),
-        ("mumu", Controls()),
+        ("m", Controls(mode_led=True), False),
+        ("U", Controls(plugged=False), False),
+        ("mumu", Controls(), False),
+        *[(key, Controls(), True) for key in ("q", "Q", "\x03", "\x04", "xyz\x1b[9~q")],
     ],
 )
-def test_mode_and_plug_are_switched(keys, controls):
+def test_mode_and_plug_are_switched_and_some_keys_quit(keys, controls, quits):
     keyboard = Keyboard()
     keyboard.press(keys, 0.0)
     assert keyboard.at(0.0) == (controls, math.inf)
-
-
-@pytest.mark.parametrize("key", ["q", "Q", "\x03", "\x04", "xyz\x1b[9~q"])
-def test_every_key_that_quits(key):
-    keyboard = Keyboard()
-    keyboard.press(key, 1.0)
-    assert keyboard.quit
+    assert keyboard.quit is quits
 
 
 def test_a_key_that_is_not_repeated_is_released_or_all_are_at_once():

@@ -17,12 +17,9 @@ REST, PRESSED = positions(F710_D, Controls()), positions(F710_D, Controls(held={
 def test_a_script_is_followed_in_time_and_begins_again_if_it_loops(loop):
     moves = [{"for": 1.0}, {"for": 2.0, "held": ["A"]}, {"for": 0.5, "plugged": False}]
     source = script_source(F710_D, load_script({"moves": moves}), loop=loop)
-    source.at(100.0)
-    for begin in (100.0, 103.5, 107.0, 275.0) if loop else (100.0,):
-        assert source.at(begin) == (REST, begin + 1.0)
-        assert source.at(begin + 0.75) == (REST, begin + 1.0)
-        assert source.at(begin + 1.0) == (PRESSED, begin + 3.0)
-        assert source.at(begin + 2.75) == (PRESSED, begin + 3.0)
+    for begin in (100.0, 103.5, 275.0) if loop else (100.0,):
+        assert source.at(begin) == source.at(begin + 0.75) == (REST, begin + 1.0)
+        assert source.at(begin + 1.0) == source.at(begin + 2.75) == (PRESSED, begin + 3.0)
         assert source.at(begin + 3.0) == (None, begin + 3.5)
     assert loop or source.at(103.5) is None
 
@@ -38,8 +35,6 @@ def recording(*times):
     ("times", "changes"),
     [
         ((1.0, 1.25), [(0.0, 0.0), (0.25, 0.25), (0.5, None)]),
-        ((5.0, 5.5, 6.5, 6.75),
-         [(0.0, 0.0), (0.5, 0.25), (1.5, 0.5), (1.75, 0.75), (1.75 * 4 / 3, None)]),
         ((1.0, 2.0, 1.5, 2.5), [(0.0, 0.0), (1.0, 0.5), (2.0, 0.75), (2.0 + 2.0 / 3, None)]),
     ],
 )  # fmt: skip

@@ -21,11 +21,10 @@ def teleoperation(**given):
 
 def test_a_bad_message_is_reported_once_in_five_seconds():
     machine, warnings = teleoperation()
-    for now, count in ((0.0, 1), (4.9, 1), (5.1, 2), (9.9, 2), (10.1, 3)):
+    for now, count in ((0.0, 1), (4.9, 1), (5.1, 2)):
         assert machine.joy((0.5, NAN), (), now) == (0,) * 6
         assert len(warnings) == count
-    assert "nan" in warnings[0]
-    assert "\n" not in warnings[0]
+    assert "nan" in warnings[0] and "\n" not in warnings[0]
 
 
 def test_driving_that_reaches_no_subscriber_is_reported_once_until_there_is_one():
