@@ -71,8 +71,8 @@ def delays():
         publisher.publish(Joy(axes=[0.0, axis], buttons=[0] * 12))
         time.sleep(1 / RATE)
     wait_for(lambda: axis in heard, "the last Twist", 10)
-    publisher.unregister()
-    subscriber.unregister()
+    for end in (publisher, subscriber):
+        end.unregister()
     return sorted(1000 * (heard[axis] - when) for axis, when in sent.items() if axis in heard)
 
 
@@ -95,9 +95,7 @@ def test_a_thousand_odometry_messages_a_second_pass_both_ways(bridge, figure):
     count = int(SECONDS * ODOMETRY_HZ)
     came = []
 
-    def hear(odom):
-        came.append(odom.pose.pose.position.x)
-
+    hear = lambda odom: came.append(odom.pose.pose.position.x)  # noqa: E731
     rospy.Subscriber("/odom_of_ros2", Odometry, hear, tcp_nodelay=True)
     publisher = rospy.Publisher("/odom", Odometry, queue_size=count, tcp_nodelay=True)
     wait_for(publisher.get_num_connections, "the bridge", 20)
