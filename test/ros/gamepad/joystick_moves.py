@@ -16,11 +16,6 @@ JOYSTICK = (node_path("gamepad", "virtual_joystick"),)
 
 
 class MovesTest(JoystickTest):
-    def write(self, text):
-        path = self.folder() / "moves.yaml"
-        path.write_text(text, encoding="utf-8")
-        return str(path)
-
     def test_the_recording_arrives_in_the_steps_of_the_gamepad(self):
         path = f"{rospkg.RosPack().get_path('gamepad')}/bag/joy.bag"
         axis = F710_D.axes[1]
@@ -34,15 +29,14 @@ class MovesTest(JoystickTest):
         self.assertTrue(any(joy.buttons[4] for joy in self.joys))
 
     def test_mistakes_get_one_line(self):
-        missing = str(self.folder() / "none")
-        for line, option, content in (
-            (f"_joystick: {missing}: cannot be read: No such file", "--bag", None),
-            ("moves.yaml: it has no list of moves", "--script", "7"),
-            ("is there and is no FIFO", "--stream", ""),
+        script = self.folder() / "moves.yaml"
+        script.write_text("7", encoding="utf-8")
+        for line, *given in (
+            ("_joystick: /no/joy.bag: cannot be read: No such file", "--bag", "/no/joy.bag"),
+            ("moves.yaml: it has no list of moves", "--script", str(script)),
+            ("is there and is no FIFO", "--stream", str(script)),
         ):
-            path = missing if content is None else self.write(content)
-            given = ("--stream", self.stream.path, option, path)
-            self.check_mistake(Program(*JOYSTICK, *given), line)
+            self.check_mistake(Program(*JOYSTICK, "--stream", self.stream.path, *given), line)
 
 
 if __name__ == "__main__":
