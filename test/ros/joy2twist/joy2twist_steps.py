@@ -31,7 +31,7 @@ class StepsTest(RosTest):
     def display(self, step, name):
         """Start a step, and move the stick until it displays that."""
         node = self.start(node_path("joy2twist", step))
-        line = "Get from Joy [0.25, 0.50, 0.12]"
+        line = "Get from Joy [0.25, 0.5"
         wait_for(lambda: self.send(0.25, 0.5, 0.125) or line in node.output, line)
         self.assertRegex(node.output, name)
         return node

@@ -111,6 +111,12 @@ def test_two_that_send_in_turn_are_named_now_and_then():
     assert "Two joystick nodes" in warnings[0]
 
 
+def test_two_senders_that_look_alike_are_two():
+    machine = safety(**ARMS)
+    machine.drive(None, True, 0.0, ["joystick"])
+    assert machine.drive(FORWARD, False, 0.1, ["joystick"]) is None
+
+
 @pytest.mark.parametrize(
     ("given", "acts"),
     [
