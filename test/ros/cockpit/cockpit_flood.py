@@ -79,14 +79,13 @@ class Flood(WithCockpit):
 
     def fill(self, stack, token):
         """As many viewers as there is room for, and one more; None if others are there, too."""
-        with contextlib.ExitStack() as attempt:
-            pages = []
-            while not pages or pages[-1].refusal is None:
-                pages.append(attempt.enter_context(SocketPage(self.rig.port, token=token)))
-            if len(pages) <= MOST_PAGES:
-                return None
-            stack.push(attempt.pop_all())
+        pages = []
+        while not pages or pages[-1].refusal is None:
+            pages.append(stack.enter_context(SocketPage(self.rig.port, token=token)))
+        if len(pages) > MOST_PAGES:
             return pages
+        stack.close()
+        return None
 
     def test_viewers_and_connections_make_room_for_a_driver_and_another_address(self):
         token = self.rig.token("look")
@@ -98,8 +97,7 @@ class Flood(WithCockpit):
             self.upgraded(ELSEWHERE)
             with self.rig.page() as page:
                 self.rig.drive(page)
-            gone = [page for page in pages if page.of("closed")]
-            self.assertEqual(len(gone), 2)
+            self.assertEqual(sum(bool(page.of("closed")) for page in pages), 2)
 
 
 if __name__ == "__main__":
