@@ -3,10 +3,9 @@
 
 from math import hypot
 
-from fake_turtlebot_stepping import CommandedRobot, World, twist
+from fake_turtlebot_stepping import SteppedRobot
 
 from tutorial_testing.rostests import RosTest, run
-from tutorial_testing.waiting import wait_for
 
 SPEED = 0.7  # [m/s]
 COAST = SPEED * 0.6  # [m] the farthest that a jump may carry the robot
@@ -16,10 +15,8 @@ TEN_SECONDS_NS = 10 * 10**9
 class ClockTest(RosTest):
     def setUp(self):
         """Get the robot going at full speed."""
-        self.robot = self.enter(CommandedRobot())
-        self.world = World([self.robot], 10 * TEN_SECONDS_NS)
-        self.robot.cmd_vel.publish(twist(SPEED, 0.0))
-        wait_for(lambda: self.world.step() or self.robot.now.v == SPEED, "moving robot")
+        self.robot = self.enter(SteppedRobot())
+        self.robot.command(SPEED, 0.0)
         self.before = self.robot.now
 
     def assert_travelled(self, before, least, most):
@@ -27,35 +24,20 @@ class ClockTest(RosTest):
         self.assertTrue(least - 1e-9 <= way <= most + 1e-9, way)
 
     def test_after_a_jump_forwards_it_coasts_for_the_timeout_at_most(self):
-        self.world.set_clock(self.world.now_ns + 4 * TEN_SECONDS_NS)
+        self.robot.set_clock(self.robot.now_ns + 4 * TEN_SECONDS_NS)
         self.assert_travelled(self.before, 0.0, COAST)
         self.assertFalse(self.robot.now.moves)
 
     def test_set_back_it_keeps_its_pose_and_its_command_keeps_its_age(self):
         for _ in range(3):
             at = self.robot.now
-            self.world.set_clock(self.world.now_ns - TEN_SECONDS_NS)  # answers with that very stamp
+            self.robot.set_clock(self.robot.now_ns - TEN_SECONDS_NS)  # answers with that very stamp
             self.assert_travelled(at, 0.0, 0.0)
-            self.world.step(0.1)  # each period is published again
+            self.robot.step(0.1)  # each period is published again
             self.assert_travelled(at, SPEED * 0.1, SPEED * 0.1)
-        self.world.step(1.0)
+        self.robot.step(1.0)
         self.assert_travelled(self.before, 0.0, COAST)
         self.assertFalse(self.robot.now.moves)
-
-    def test_zero_is_no_time_and_is_published_nowhere(self):
-        self.world.now_ns = 0
-        self.world.tell()
-        self.world.step(1.0)
-        self.assert_travelled(self.before, 0.0, COAST)
-        self.assertTrue(all(moment.stamp for moment in self.robot.odometry))
-
-    def test_a_pause_pauses_the_robot(self):
-        count = len(self.robot.odometry)
-        for _ in range(5):  # /clock goes on telling the same time
-            self.world.tell()
-        self.world.step()
-        self.assertEqual(len(self.robot.odometry), count + 1)
-        self.assert_travelled(self.before, SPEED * 0.02, SPEED * 0.02)
 
 
 if __name__ == "__main__":

@@ -4,7 +4,7 @@
 from math import cos, sin
 
 import rospy
-from fake_turtlebot_stepping import CommandedRobot, World
+from fake_turtlebot_stepping import SteppedRobot
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import JointState
@@ -26,7 +26,7 @@ def estimate(x, y, yaw, frame):
 class PlaceTest(RosTest):
     def reaches(self, pose):
         def is_there():
-            self.world.step()
+            self.robot.step()
             return max(abs(a - b) for a, b in zip(self.robot.now.pose, pose)) < 1e-9
 
         wait_for(is_there, f"robot at {pose}")
@@ -37,24 +37,23 @@ class PlaceTest(RosTest):
         return self.joints[-1].position
 
     def test_a_pose_estimate_and_two_resets_put_the_robot_elsewhere(self):
-        self.robot, log = self.enter(CommandedRobot()), self.record("/rosout", Log)
-        self.joints = self.record("joint_states", JointState)
+        log, self.joints = self.record("/rosout", Log), self.record("joint_states", JointState)
         initialpose = self.publisher("initialpose", PoseWithCovarianceStamped)
         reset_odometry = self.publisher("mobile_base/commands/reset_odometry", Empty)
         service = rospy.ServiceProxy("/fake_turtlebot/reset", EmptyService)
         service.wait_for_service(30)
-        self.world = World([self.robot])
+        self.robot = self.enter(SteppedRobot())
         for publisher in (initialpose, reset_odometry):
             wait_for(publisher.get_num_connections, f"subscriber of {publisher.name}")
         for reset in (reset_odometry.publish, service):
-            self.world.command(self.robot, 0.5, 0.5)
-            self.world.step(1.0)
+            self.robot.command(0.5, 0.5)
+            self.robot.step(1.0)
             before, wheels = self.robot.now.pose, self.wheels()
             self.assertNotIn(0.0, (*before, *wheels))
             del log[:]
             initialpose.publish(estimate(1.0, 1.0, 1.0, frame="map"))
             wait_for(lambda: any("'map'" in line.msg for line in log), "warning about the frame")
-            self.world.step(0.1)
+            self.robot.step(0.1)
             self.assertEqual(self.robot.now.pose, before)
             initialpose.publish(estimate(1.0, -2.0, 0.5, frame="odom"))
             self.reaches((1.0, -2.0, 0.5))

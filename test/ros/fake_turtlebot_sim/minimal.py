@@ -13,42 +13,33 @@ from tutorial_testing.robot import Robot
 from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
-# Topic below mobile_base/: the type in kobuki_msgs.
-SENT = {
+BASE, MUX = "/mobile_base", "/cmd_vel_mux"
+KOBUKI = {  # below /mobile_base: the type in kobuki_msgs
     "events/bumper": "BumperEvent", "events/button": "ButtonEvent", "events/cliff": "CliffEvent",
     "events/digital_input": "DigitalInputEvent", "events/power_system": "PowerSystemEvent",
     "events/robot_state": "RobotStateEvent", "events/wheel_drop": "WheelDropEvent",
     "sensors/core": "SensorState", "sensors/dock_ir": "DockInfraRed",
-    "version_info": "VersionInfo",
+    "version_info": "VersionInfo", "commands/controller_info": "ControllerInfo",
+    "commands/digital_output": "DigitalOutput", "commands/external_power": "ExternalPower",
+    "commands/led1": "Led", "commands/led2": "Led", "commands/motor_power": "MotorPower",
+    "commands/sound": "Sound",
 }  # fmt: skip
-HEARD = {
-    "controller_info": "ControllerInfo", "digital_output": "DigitalOutput", "led1": "Led",
-    "external_power": "ExternalPower", "led2": "Led", "motor_power": "MotorPower",
-    "sound": "Sound",
-}  # fmt: skip
-BASE, MUX = "/mobile_base", "/cmd_vel_mux"
 # Topic: (type, node that publishes it, node that subscribes to it).
 TOPICS = {
-    **{
-        f"{MUX}/input/{name}": ("geometry_msgs/Twist", None, MUX)
-        for name in ("safety_controller", "teleop", "switch", "navi")
-    },
     f"{MUX}/active": ("std_msgs/String", MUX, None),
     f"{BASE}/commands/velocity": ("geometry_msgs/Twist", MUX, BASE),
     f"{BASE}/commands/reset_odometry": ("std_msgs/Empty", None, BASE),
-    **{f"{BASE}/{topic}": (f"kobuki_msgs/{kind}", BASE, None) for topic, kind in SENT.items()},
-    **{
-        f"{BASE}/sensors/{name}": ("sensor_msgs/Imu", BASE, None)
-        for name in ("imu_data", "imu_data_raw")
-    },
-    **{
-        f"{BASE}/commands/{topic}": (f"kobuki_msgs/{kind}", None, BASE)
-        for topic, kind in HEARD.items()
-    },
+    f"{BASE}/sensors/imu_data": ("sensor_msgs/Imu", BASE, None),
+    f"{BASE}/sensors/imu_data_raw": ("sensor_msgs/Imu", BASE, None),
     "/odom": ("nav_msgs/Odometry", BASE, None),
     "/joint_states": ("sensor_msgs/JointState", BASE, None),
     "/tf": ("tf2_msgs/TFMessage", BASE, None),
 }
+for name in ("safety_controller", "teleop", "switch", "navi"):
+    TOPICS[f"{MUX}/input/{name}"] = ("geometry_msgs/Twist", None, MUX)
+for name, kind in KOBUKI.items():
+    ends = (None, BASE) if name.startswith("commands") else (BASE, None)
+    TOPICS[f"{BASE}/{name}"] = (f"kobuki_msgs/{kind}", *ends)
 
 TURN = Twist(Vector3(0.2, 0.0, 0.0), Vector3(0.0, 0.0, 0.5))
 

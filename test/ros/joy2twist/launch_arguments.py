@@ -40,17 +40,6 @@ class ArgumentsTest(RosTest):
             self.assertNotIn("process[", launch.output)
         self.assertEqual(known(), before)
 
-    def test_what_changes_nothing_is_reported_once_and_drives(self):
-        given = ("base:=create", "stacks:=hexagons", "wrold:=room")
-        launch = self.start("roslaunch", "turtlebot_bringup", "minimal.launch", *given)
-        wait_for(lambda: "/mobile_base" in known(), "robot")
-        said = [line for line in launch.output.splitlines() if line.startswith("roslaunch: ")]
-        ignored, unknown = said
-        self.assertIn("roslaunch: base:=create is ignored", ignored)
-        self.assertIn("did you mean world:=?", unknown)
-        launch.interrupt()
-        launch.wait()
-
     def test_a_recording_by_a_relative_path_without_parameters_of_an_earlier_launch(self):
         rospy.set_param("/myjoystick2twist/enable_button", 4)
         came = self.record("/joy", Joy)

@@ -1,7 +1,6 @@
 #!/usr/bin/python3
 """doctor.py as a user runs it: where all is well, and where one thing after the other is not."""
 
-import re
 import time
 
 import rospy
@@ -27,17 +26,14 @@ class FindingsTest(RosTest):
         self.assertLess(time.monotonic() - began_s, LONGEST_S + lost_s() - lost)
         *lines, summary = output.splitlines()
         self.assertRegex(summary, r"^doctor: \d+ ok, \d+ wrong, \d+ unknown$", output)
-        for line in lines:
-            self.assertRegex(line, r"^(ok|wrong|unknown) +(\w+) +\S.*$", output)
         return code, lines
 
     def wrong(self, *words, **environment):
         """Check that a line that is wrong has these words, for each; return all such lines."""
         code, lines = self.doctor(**environment)
-        self.assertEqual(code, 1)
         lines = [line for line in lines if line.startswith("wrong")]
-        for each in words:
-            self.assertTrue(any(re.search(each, line) for line in lines), lines)
+        missing = [each for each in words if not any(each in line for line in lines)]
+        self.assertEqual((code, missing), (1, []), lines)
         return lines
 
     def test_beside_a_drive_all_is_well_and_then_one_thing_after_the_other_is_not(self):
