@@ -52,18 +52,11 @@ def delays():
     """From each Joy to its Twist [ms], at an even rate; those that never came are missing."""
     publisher = rospy.Publisher("/joy", Joy, queue_size=10, tcp_nodelay=True)
     heard = {}
-
-    def hear(twist):
-        heard.setdefault(twist.linear.x, time.monotonic())
-
+    hear = lambda twist: heard.setdefault(twist.linear.x, time.monotonic())  # noqa: E731
     subscriber = rospy.Subscriber("/cmd_vel", Twist, hear, tcp_nodelay=True)
     wait_for(publisher.get_num_connections, "a subscriber of /joy", 20)
-
-    def is_answered():
-        publisher.publish(Joy(axes=[0.0, 2.0], buttons=[0] * 12))
-        return 2.0 in heard
-
-    wait_for(is_answered, "a first Twist", 20)
+    first = Joy(axes=[0.0, 2.0], buttons=[0] * 12)
+    wait_for(lambda: publisher.publish(first) or 2.0 in heard, "a first Twist", 20)
     sent = {}
     for number in range(COUNT):
         axis = single((number + 1) / COUNT)
@@ -71,8 +64,8 @@ def delays():
         publisher.publish(Joy(axes=[0.0, axis], buttons=[0] * 12))
         time.sleep(1 / RATE)
     wait_for(lambda: axis in heard, "the last Twist", 10)
-    for end in (publisher, subscriber):
-        end.unregister()
+    publisher.unregister()
+    subscriber.unregister()
     return sorted(1000 * (heard[axis] - when) for axis, when in sent.items() if axis in heard)
 
 
