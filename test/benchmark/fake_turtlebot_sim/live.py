@@ -2,13 +2,16 @@
 
 import json
 import os
-import socket
 import subprocess
 import sys
 import time
 from contextlib import contextmanager
 from pathlib import Path
-from xmlrpc.client import ServerProxy
+
+import rosgraph
+
+from tutorial_testing.ports import free_port
+from tutorial_testing.waiting import wait_for
 
 HERE = Path(__file__).parent
 BARE_NODE = [str(HERE / "bare_node.py")]
@@ -31,18 +34,10 @@ def running(command, **options):
 @contextmanager
 def master():
     """Run a master on a free port, and let the programs started here find it."""
-    with socket.socket() as probe:
-        probe.bind(("", 0))
-        port = probe.getsockname()[1]
-    uri = f"http://localhost:{port}"
-    os.environ["ROS_MASTER_URI"] = uri
-    with running(["rosmaster", "--core", "-p", str(port)], stdout=subprocess.DEVNULL):
-        for _ in range(200):
-            try:
-                ServerProxy(uri).getPid("/benchmark")
-                break
-            except OSError:
-                time.sleep(0.05)
+    port = str(free_port())
+    os.environ["ROS_MASTER_URI"] = uri = f"http://localhost:{port}"
+    with running(["rosmaster", "--core", "-p", port], stdout=subprocess.DEVNULL):
+        wait_for(rosgraph.Master("/benchmark", uri).is_online, "master")
         yield
 
 

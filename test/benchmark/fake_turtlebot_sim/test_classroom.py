@@ -48,20 +48,15 @@ def test_a_classroom(figure):
         assert observer.stdout.readline().strip() == "ready"
         too_late.cancel()
 
-        def used_s():
-            return processor_time(simulator.pid), sum(processor_time(s.pid) for s in students)
-
-        began_s, before = time.monotonic(), used_s()
+        began_s, programs = time.monotonic(), (simulator, *students)
+        before = [processor_time(one.pid) for one in programs]
         heard = json.loads(observer.stdout.readline())
         took_s = time.monotonic() - began_s
-        of_robots, of_students = ((b - a) / took_s for a, b in zip(before, used_s()))
+        used = [(processor_time(one.pid) - b) / took_s for one, b in zip(programs, before)]
     rate = sum(len(record["arrivals"]) for record in heard.values()) / SECONDS
     lost = sum(lost_periods(heard[topic]) for topic in topics_of(ROBOTS, "odom"))
-    figure(
-        f"classroom: {ROBOTS} robots, {len(DRIVEN)} of them driven",
-        f"{rate:,.0f} messages/s, {lost} periods lost",
-        "0",
-    )
-    each = of_students / len(DRIVEN)
-    figure("processor time: simulator; a student", f"{of_robots:.0%}; {each:.1%}", "")
+    what = f"classroom: {ROBOTS} robots, {len(DRIVEN)} of them driven"
+    figure(what, f"{rate:,.0f} messages/s, {lost} periods lost", "0")
+    each = sum(used[1:]) / len(DRIVEN)
+    figure("processor time: simulator; a student", f"{used[0]:.0%}; {each:.1%}", "")
     assert lost == 0

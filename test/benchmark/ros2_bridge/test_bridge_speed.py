@@ -1,6 +1,5 @@
 """How long a Joy takes through the bridge to ROS 2 and its Twist back, and how much is carried."""
 
-import os
 import statistics
 import threading
 import time
@@ -10,6 +9,7 @@ import pytest
 import rospy
 from drive import CLASS, own_master, single
 from geometry_msgs.msg import Twist
+from live import processor_time
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Joy
 
@@ -25,7 +25,6 @@ MANY = Path(__file__).with_name("many.py")
 COUNT, RATE = 1000, 50.0
 MOST_MS, MOST_LATE_MS = 3.0, 8.0  # median; of 99 in 100
 SECONDS, ODOMETRY_HZ = 20, 1000.0
-TICKS = os.sysconf("SC_CLK_TCK")
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -53,18 +52,11 @@ def delays():
     """From each Joy to its Twist [ms], at an even rate; those that never came are missing."""
     publisher = rospy.Publisher("/joy", Joy, queue_size=10, tcp_nodelay=True)
     heard = {}
-
-    def hear(twist):
-        heard.setdefault(twist.linear.x, time.monotonic())
-
+    hear = lambda twist: heard.setdefault(twist.linear.x, time.monotonic())  # noqa: E731
     subscriber = rospy.Subscriber("/cmd_vel", Twist, hear, tcp_nodelay=True)
     wait_for(publisher.get_num_connections, "a subscriber of /joy", 20)
-
-    def is_answered():
-        publisher.publish(Joy(axes=[0.0, 2.0], buttons=[0] * 12))
-        return 2.0 in heard
-
-    wait_for(is_answered, "a first Twist", 20)
+    first = Joy(axes=[0.0, 2.0], buttons=[0] * 12)
+    wait_for(lambda: publisher.publish(first) or 2.0 in heard, "a first Twist", 20)
     sent = {}
     for number in range(COUNT):
         axis = single((number + 1) / COUNT)
@@ -92,37 +84,25 @@ def test_a_joy_is_answered_through_the_bridge_in_milliseconds(bridge, figure):
     assert median < MOST_MS and late < MOST_LATE_MS
 
 
-def used_s(pids):
-    """Time of the processor that processes have used [s]."""
-    total = 0
-    for pid in pids:
-        fields = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
-        total += int(fields[11]) + int(fields[12])
-    return total / TICKS
-
-
 def test_a_thousand_odometry_messages_a_second_pass_both_ways(bridge, figure):
     count = int(SECONDS * ODOMETRY_HZ)
     came = []
 
-    def hear(odom):
-        came.append(odom.pose.pose.position.x)
-
+    hear = lambda odom: came.append(odom.pose.pose.position.x)  # noqa: E731
     rospy.Subscriber("/odom_of_ros2", Odometry, hear, tcp_nodelay=True)
     publisher = rospy.Publisher("/odom", Odometry, queue_size=count, tcp_nodelay=True)
     wait_for(publisher.get_num_connections, "the bridge", 20)
     with Program(*ros2_python.command([str(MANY), str(count), str(ODOMETRY_HZ)])) as program:
         wait_for(lambda: "ready" in program.output, "ROS 2", 20)
         time.sleep(2.0)  # until the other side has found its publisher: no event says so
-        pids = descendants(bridge.pid)
-        begun, begin_s = used_s(pids), time.monotonic()
+        begun, begin_s = processor_time(bridge.pid), time.monotonic()
         thread = threading.Thread(target=publish, args=(publisher, count))
         thread.start()
         program.wait(SECONDS * 4 + 20)
         thread.join()
         wait_for(lambda: len(came) >= count, "all of ROS 2's", 20)
         said = program.output.splitlines()[-1]
-        share = (used_s(pids) - begun) / (time.monotonic() - begin_s)
+        share = (processor_time(bridge.pid) - begun) / (time.monotonic() - begin_s)
     figure("odometry of ROS 1 in ROS 2", said, f"{count}, in order")
     there = f"came {len(came)}, in order {came == sorted(came)}"
     figure("odometry of ROS 2 in ROS 1", there, f"{count}, in order")

@@ -11,7 +11,6 @@ import rosnode
 from node_kit.questions import address
 from tutorial_testing.cockpit_rig import CockpitRig
 from tutorial_testing.nodes import node_path
-from tutorial_testing.ports import free_port
 from tutorial_testing.processes import Program
 from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
@@ -54,14 +53,6 @@ class BrowserJoystick(RosTest):
                 with cockpit(port, *options, "__name:=another") as second:
                     self.assertEqual(second.wait(), code)
                     self.assertRegex(second.output, f"^cockpit: {line}\n$")
-
-    def test_a_second_cockpit_that_ends_leaves_the_address_of_the_first(self):
-        port = free_port()
-        with cockpit(port, "__name:=second") as second:
-            wait_for(lambda: address(URI) == f"http://127.0.0.1:{port}/", "the second's address")
-            second.interrupt()
-            second.wait()
-        self.assertEqual(address(URI), self.rig.address)
 
     def test_rqt_graph_without_a_screen_leads_to_the_page(self):
         with Program(node_path("tutorial_tools", "rqt_graph"), DISPLAY="") as graph:

@@ -6,9 +6,6 @@ import http.client
 import json
 
 from tutorial_testing.cockpit_rig import WithCockpit
-from tutorial_testing.nodes import node_path
-from tutorial_testing.ports import free_port
-from tutorial_testing.processes import Program
 from tutorial_testing.rostests import run
 from tutorial_testing.socket_page import DRIVE, SocketPage
 
@@ -48,15 +45,10 @@ class Refused(WithCockpit):
 
     def test_foreign_hosts_and_origins_and_other_files_get_no_page(self):
         self.assertEqual(self.get("/")[0], 200)
-        evil = "evil.example"
-        for path, headers in (
-            ("/", {"Host": evil}),
-            ("/page/main.js", {"Host": f"{evil}:{self.rig.port}"}),
-            ("/", {"Origin": f"http://{evil}"}),
-        ):
-            status, words = self.get(path, **headers)
+        for headers in ({"Host": "evil.example"}, {"Origin": "http://evil.example"}):
+            status, words = self.get("/page/main.js", **headers)
             self.assertEqual((status, words.count("\n")), (403, 1), words)
-        for path in ("/page/../package.xml", "/page/%2e%2e/package.xml", "/lib/dygraph.js", "/x"):
+        for path in ("/page/../package.xml", "/page/%2e%2e/package.xml", "/x"):
             self.assertIn(self.get(path)[0], (403, 404), path)
 
     def test_sockets_without_a_token_or_of_another_page_are_refused(self):
@@ -65,16 +57,10 @@ class Refused(WithCockpit):
             (None, {}),
             ("wrong", {}),
             (driver, {"Origin": f"http://127.0.0.1:{port + 1}"}),
-            (driver, {"Origin": "null"}),
             (driver, {"Host": f"evil.example:{port}", "Origin": f"http://evil.example:{port}"}),
         ):
             with SocketPage(port, token=token, **headers) as page:
                 self.assertEqual(page.refusal, 403, (token, headers))
-
-    def test_a_second_cockpit_does_not_end_the_first(self):
-        second = Program(node_path("cockpit", "cockpit.py"), "--port", str(free_port()))
-        self.check_mistake(second, "/cockpit runs already")
-        self.assertFalse(self.rig.program.ended)
 
     def test_a_viewer_may_not_drive(self):
         with SocketPage(self.rig.port, token=self.tokens[1]) as page:

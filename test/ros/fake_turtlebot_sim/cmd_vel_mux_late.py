@@ -3,7 +3,7 @@
 
 import time
 
-from geometry_msgs.msg import Twist
+from geometry_msgs.msg import Twist, Vector3
 from rosgraph_msgs.msg import Log
 from std_msgs.msg import String
 
@@ -14,24 +14,18 @@ from tutorial_testing.waiting import wait_for
 
 TELEOP = "/cmd_vel_mux/input/teleop"
 OUTAGE_S = 1.0
-# More than is read at once.
-BACKLOG = ([0.3] * 500 + [0.0] * 500) * 3 + [0.3] * 500  # [m/s]
+BACKLOG = ([0.3] * 500 + [0.0] * 500) * 3 + [0.3] * 500  # [m/s], more than is read at once
 
 
 def twist(speed):
-    """A command with the forward speed [m/s]."""
-    command = Twist()
-    command.linear.x = speed
-    return command
+    return Twist(linear=Vector3(x=speed))
 
 
 class LateTest(RosTest):
     def test_late_commands_move_nothing(self):
         active, log = self.record("cmd_vel_mux/active", String), self.record("/rosout", Log)
-        commands = self.record("cmd_vel_mux/output", Twist)
-
-        def driven():
-            return [command.linear.x for command in commands]
+        driven = []  # [m/s]
+        self.hear("cmd_vel_mux/output", Twist, lambda command: driven.append(command.linear.x))
 
         def warnings():
             return [line.msg for line in log if "suspended" in line.msg]
@@ -40,7 +34,7 @@ class LateTest(RosTest):
         teleop = self.publisher(TELEOP, Twist, queue_size=len(BACKLOG))
         wait_for(teleop.get_num_connections, "subscriber of teleop")
         teleop.publish(twist(0.2))
-        wait_for(lambda: 0.2 in driven(), "a command that goes through")
+        wait_for(lambda: 0.2 in driven, "a command that goes through")
         with suspended([pid_of("/cmd_vel_mux")]):
             ends_s = time.monotonic() + OUTAGE_S
             for speed in BACKLOG:
@@ -51,9 +45,9 @@ class LateTest(RosTest):
             wait_for(lambda: time.monotonic() > ends_s, "end of the outage")
         wait_for(warnings, "warning that it was suspended")
 
-        wait_for(lambda: teleop.publish(twist(0.4)) or driven()[-1] == 0.4, "a command of now")
+        wait_for(lambda: teleop.publish(twist(0.4)) or driven[-1] == 0.4, "a command of now")
         # What was sent before it on the same connection was also received before it.
-        self.assertEqual(set(driven()), {0.2, 0.0, 0.4})
+        self.assertEqual(set(driven), {0.2, 0.0, 0.4})
         self.assertEqual(len(warnings()), 1, warnings())
 
 

@@ -3,7 +3,7 @@
 
 from math import cos, nan, pi, sin
 
-from fake_turtlebot_stepping import CommandedRobot, World
+from fake_turtlebot_stepping import SteppedRobot
 from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import JointState
@@ -22,15 +22,14 @@ def after(v, w, seconds):
 
 class DriveTest(RosTest):
     def test_a_command_is_limited_and_the_robot_stops_by_itself(self):
-        robot = self.enter(CommandedRobot())
         log, transforms = self.record("/rosout", Log), self.record("/tf", TFMessage)
         joints = self.record("joint_states", JointState)
         told, truths = (self.record(one, Odometry) for one in ("odom", "base_pose_ground_truth"))
-        world = World([robot])
-        world.command(robot, 1.4, 1.0, (0.7, 0.5))  # the radius stays
-        world.step(0.2)
-        world.command(robot, nan, 0.0, (0.7, 0.5))  # neither obeyed nor a sign of life
-        world.step(1.0)
+        robot = self.enter(SteppedRobot())
+        robot.command(1.4, 1.0, (0.7, 0.5))  # the radius stays
+        robot.step(0.2)
+        robot.command(nan, 0.0, (0.7, 0.5))  # neither obeyed nor a sign of life
+        robot.step(1.0)
         stamp = robot.now.stamp
 
         def newest(messages):

@@ -4,7 +4,7 @@
 from math import cos, sin
 
 import rospy
-from fake_turtlebot_stepping import CommandedRobot, World
+from fake_turtlebot_stepping import SteppedRobot
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from rosgraph_msgs.msg import Log
 from sensor_msgs.msg import JointState
@@ -15,7 +15,7 @@ from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
 
-def estimate(x, y, yaw, frame="odom"):
+def estimate(x, y, yaw, frame):
     message = PoseWithCovarianceStamped()
     message.header.frame_id = frame
     message.pose.pose.position.x, message.pose.pose.position.y = x, y
@@ -24,27 +24,9 @@ def estimate(x, y, yaw, frame="odom"):
 
 
 class PlaceTest(RosTest):
-    @classmethod
-    def setUpClass(cls):
-        cls.robot, cls.joints, cls.log = CommandedRobot().__enter__(), [], []
-        rospy.Subscriber("joint_states", JointState, cls.joints.append)
-        rospy.Subscriber("/rosout", Log, cls.log.append)
-        cls.initialpose = rospy.Publisher("initialpose", PoseWithCovarianceStamped, queue_size=1)
-        topic = "mobile_base/commands/reset_odometry"
-        cls.reset_odometry = rospy.Publisher(topic, Empty, queue_size=1)
-        cls.world = World([cls.robot])
-        for publisher in (cls.initialpose, cls.reset_odometry):
-            wait_for(publisher.get_num_connections, f"subscriber of {publisher.name}")
-
-    def setUp(self):
-        """Drive to some place other than the origin, and let the robot come to rest."""
-        self.world.command(self.robot, 0.5, 0.5)
-        self.world.step(1.0)
-        self.assertNotEqual(self.robot.now.pose, (0.0, 0.0, 0.0))
-
     def reaches(self, pose):
         def is_there():
-            self.world.step()
+            self.robot.step()
             return max(abs(a - b) for a, b in zip(self.robot.now.pose, pose)) < 1e-9
 
         wait_for(is_there, f"robot at {pose}")
@@ -54,24 +36,28 @@ class PlaceTest(RosTest):
         wait_for(lambda: self.joints[-1].header.stamp.to_sec() == stamp, "wheel joints")
         return self.joints[-1].position
 
-    def test_a_pose_estimate_moves_the_robot_and_leaves_the_wheels(self):
-        wheels = self.wheels()
-        self.initialpose.publish(estimate(1.0, -2.0, 0.5))
-        self.reaches((1.0, -2.0, 0.5))
-        self.assertEqual(self.wheels(), wheels)
-
-    def test_a_pose_estimate_in_another_frame_is_refused_with_a_reason(self):
-        before = self.robot.now.pose
-        self.initialpose.publish(estimate(1.0, 1.0, 1.0, frame="map"))
-        wait_for(lambda: any("'map'" in line.msg for line in self.log), "warning about the frame")
-        self.world.step(0.1)
-        self.assertEqual(self.robot.now.pose, before)
-
-    def test_the_topic_and_the_service_reset_zero_pose_and_wheels(self):
-        rospy.wait_for_service("/fake_turtlebot/reset", timeout=30)
+    def test_a_pose_estimate_and_two_resets_put_the_robot_elsewhere(self):
+        log, self.joints = self.record("/rosout", Log), self.record("joint_states", JointState)
+        initialpose = self.publisher("initialpose", PoseWithCovarianceStamped)
+        reset_odometry = self.publisher("mobile_base/commands/reset_odometry", Empty)
         service = rospy.ServiceProxy("/fake_turtlebot/reset", EmptyService)
-        for reset in (self.reset_odometry.publish, service):
-            self.setUp()
+        service.wait_for_service(30)
+        self.robot = self.enter(SteppedRobot())
+        for publisher in (initialpose, reset_odometry):
+            wait_for(publisher.get_num_connections, f"subscriber of {publisher.name}")
+        for reset in (reset_odometry.publish, service):
+            self.robot.command(0.5, 0.5)
+            self.robot.step(1.0)
+            before, wheels = self.robot.now.pose, self.wheels()
+            self.assertNotIn(0.0, (*before, *wheels))
+            del log[:]
+            initialpose.publish(estimate(1.0, 1.0, 1.0, frame="map"))
+            wait_for(lambda: any("'map'" in line.msg for line in log), "warning about the frame")
+            self.robot.step(0.1)
+            self.assertEqual(self.robot.now.pose, before)
+            initialpose.publish(estimate(1.0, -2.0, 0.5, frame="odom"))
+            self.reaches((1.0, -2.0, 0.5))
+            self.assertEqual(self.wheels(), wheels)
             reset()
             self.reaches((0.0, 0.0, 0.0))
             self.assertEqual(self.wheels(), (0.0, 0.0))

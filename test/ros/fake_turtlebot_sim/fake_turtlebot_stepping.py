@@ -1,86 +1,57 @@
-"""A simulated world whose time goes on step by step: the node under test answers every step.
+"""A simulated robot whose time goes on step by step: the node under test answers every step.
 
 The test is the source of /clock, so nothing here depends on how fast the machine is: a step is
 over when the odometry with its stamp has come.
 """
 
 import rospy
-from geometry_msgs.msg import Twist
+from geometry_msgs.msg import Twist, Vector3
 from rosgraph_msgs.msg import Clock
 
-from fake_turtlebot_sim.simulator.differential_drive import drive
 from tutorial_testing.robot import Robot
 from tutorial_testing.waiting import wait_for
 
 PERIOD_NS = 20_000_000
 
 
-class CommandedRobot(Robot):
-    """What one robot is told and what it answers."""
+class SteppedRobot(Robot):
+    """What the robot is told, velocities and the time, and what it answers."""
+
+    now_ns = 100 * 10**9
 
     def begin(self):
-        self.cmd_vel = rospy.Publisher(f"{self.namespace}cmd_vel", Twist, queue_size=10)
+        self.cmd_vel = rospy.Publisher("cmd_vel", Twist, queue_size=10)
         self._stack.callback(self.cmd_vel.unregister)
-        self.listen()
-
-
-class World:
-    """The clock, and the robots that live by it."""
-
-    def __init__(self, robots, start_ns=PERIOD_NS):
         self._clock = rospy.Publisher("/clock", Clock, queue_size=10)
-        self.robots = robots
-        self.now_ns = start_ns
-        wait_for(lambda: all(r.cmd_vel.get_num_connections() for r in robots), "subscriber")
-        wait_for(self._begin, "odometry after the first clock")
+        self.listen()
+        wait_for(self.cmd_vel.get_num_connections, "subscriber")
+        # Nobody tells when the robot hears /clock and is heard: time goes on until then.
+        wait_for(lambda: self.tell(self.now_ns + PERIOD_NS) or self.odometry, "first odometry")
         self.step()
 
-    def _begin(self):
-        # Nobody tells when the robots hear /clock and are heard: time goes on until they are.
-        self.now_ns += PERIOD_NS
-        self.tell()
-        return all(robot.odometry for robot in self.robots)
-
-    def tell(self):
+    def tell(self, now_ns):
         """Publish the time; nobody need answer."""
-        self._clock.publish(Clock(rospy.Time(0, self.now_ns)))
+        self.now_ns = now_ns
+        self._clock.publish(Clock(rospy.Time(0, now_ns)))
 
     def set_clock(self, now_ns):
-        """Set the clock, forwards or backwards, and wait until every robot has answered."""
-        self.now_ns = now_ns
-        self.tell()
+        """Set the clock, forwards or backwards, and wait until the robot has answered."""
+        self.tell(now_ns)
         stamp = rospy.Time(0, now_ns).to_sec()
-        all_answer = lambda: all(robot.now.stamp == stamp for robot in self.robots)  # noqa: E731
-        wait_for(all_answer, f"odometry with the stamp {stamp:.3f}")
+        wait_for(lambda: self.now.stamp == stamp, f"odometry with the stamp {stamp:.3f}")
 
     def step(self, seconds=0.02):
         """Let time go on in periods of 50 Hz."""
         for _ in range(round(seconds * 1e9 / PERIOD_NS)):
             self.set_clock(self.now_ns + PERIOD_NS)
 
-    def command(self, robot, v, w, shown=None):
-        """Send a velocity and step until the odometry shows it; return the time it arrived [ns].
-
-        The command and the time reach the robot in either order, so it arrives as a step begins
-        or as it ends. In the latter case the robot goes on as before to the end of the step.
-        """
-        robot.cmd_vel.publish(twist(v, w))
-        before = []
+    def command(self, v, w, shown=None):
+        """Send a velocity and step until the odometry shows it."""
+        self.cmd_vel.publish(Twist(Vector3(x=v), Vector3(z=w)))
 
         def shows():
-            before.append(robot.now)
             self.step()
-            error = [abs(a - b) for a, b in zip(robot.now.velocity, shown or (v, w))]
+            error = [abs(a - b) for a, b in zip(self.now.velocity, shown or (v, w))]
             return max(error) < 1e-9
 
         wait_for(shows, f"odometry with the velocity {shown or (v, w)}")
-        last = before[-1]
-        went_on = drive(last.pose, last.velocity, last.velocity, PERIOD_NS * 1e-9)
-        error = max(abs(a - b) for a, b in zip(robot.now.pose, went_on))
-        return self.now_ns if error < 1e-9 else self.now_ns - PERIOD_NS
-
-
-def twist(v, w):
-    message = Twist()
-    message.linear.x, message.angular.z = v, w
-    return message

@@ -21,18 +21,14 @@ LONGEST_END_S = 1.5 + BUSY_S
 
 
 class FaultsAtTheEnd(RosTest):
-    def check_end(self, rig, node, number, meanwhile):
-        """It exits in time, in a context, and the robot rests."""
-        pid = pid_of(node)
-        with meanwhile:
-            self.assertLess(rig.kill(node, number, pid), LONGEST_END_S, node)
-        wait_for(lambda: not rig.moves, f"robot at rest after the end of {node}")
-
     def check_each(self, rig, number, meanwhile):
-        """One after the other is driven and ended, in a context that meanwhile(node) returns."""
+        """Each exits in time, in a context that meanwhile(node) returns, and the robot rests."""
         for node in rig.nodes:
             rig.drive()
-            self.check_end(rig, node, number, meanwhile(node))
+            pid = pid_of(node)
+            with meanwhile(node):
+                self.assertLess(rig.kill(node, number, pid), LONGEST_END_S, node)
+            wait_for(lambda: not rig.moves, "robot at rest after an end")
             if node != BASE:
                 rig.start(node)
 

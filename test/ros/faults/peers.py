@@ -45,20 +45,16 @@ class FaultsOfThePeers(RosTest):
         node = self.start(JOY2TWIST)
         joystick, good = self.publisher("joy", RawJoy), serialised(HELD)
         wait_for(lambda: joystick.publish(RawJoy(good)) or self.velocities, "velocity")
-        for raw in (
-            b"",
-            good[:20],  # cut
-            good[:12] + struct.pack("<I", 10**6),  # a text that is not there
-            good[:16] + struct.pack("<I", 2**31),  # so many axes
-        ):
-            self.check_unreadable(node, lambda data: joystick.publish(RawJoy(data)), good, raw)
+        for raw in (good[:20], good[:16] + struct.pack("<I", 2**31)):  # cut; so many axes
+            said = node.output.count("cannot be read")
 
-    def check_unreadable(self, node, send, good, raw):
-        """A warning follows, and the next good message is obeyed."""
-        said = node.output.count("cannot be read")
-        wait_for(lambda: send(raw) or node.output.count("cannot be read") > said, f"warning: {raw}")
-        self.velocities.clear()
-        wait_for(lambda: send(good) or self.velocities, f"velocity after {raw}")
+            def is_reported(raw=raw, said=said):
+                joystick.publish(RawJoy(raw))
+                return node.output.count("cannot be read") > said
+
+            wait_for(is_reported, f"warning: {raw}")
+            self.velocities.clear()
+            wait_for(lambda: joystick.publish(RawJoy(good)) or self.velocities, "velocity again")
 
     def test_a_peer_that_says_nothing_holds_up_no_node(self):
         self.start(JOY2TWIST)

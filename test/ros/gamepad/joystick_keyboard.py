@@ -2,14 +2,11 @@
 """launch_joy_node.launch virtual:=true in a terminal: keys drive the simulated robot."""
 
 import os
-import re
-import time
 
 from tutorial_testing.keys import KeyboardRig
 from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
-HELD_S = 8.0  # well above the launch file's vigilance_timeout
 HINT = "  without LB: tap space, then this key at once"
 STATE = rf"^  left stick [+-]\d\.\d [+-]\d\.\d({HINT}|  LB|  RB|  MODE LED on|  unplugged)*$"
 
@@ -23,10 +20,10 @@ class KeyboardTest(RosTest):
         self.terminal.press(key)
         wait_for(lambda: self.terminal.ended, "end of the launch")
         history = self.terminal.history
-        self.assertNotIn("Traceback", history)
-        self.assertNotIn("process has died", history)
+        for word in ("Traceback", "died"):  # a normal end does not look like a crash
+            self.assertNotIn(word, history)
         for line in history.splitlines():
-            if re.search(r"left stick [+-]", line):
+            if "left stick +" in line:
                 self.assertRegex(line, STATE, "something is glued to the state")
         self.assertFalse(os.path.exists(self.rig.device), "the FIFO is left")
 
@@ -49,20 +46,6 @@ class KeyboardTest(RosTest):
         self.rig.wait_for_rest()
         wait_for(lambda: "unplugged" in terminal.screen, "word on the screen")
         self.end_with("q")
-        self.assertNotIn("died", self.terminal.history)  # a normal end does not look like a crash
-
-    def test_a_key_that_is_held_drives_for_as_long_as_it_is_held(self):
-        """A real gamepad that is as still as that is taken to be out of reach."""
-        self.rig.drive()
-        begin, end = len(self.rig.odometry), time.monotonic() + HELD_S
-
-        def held():
-            self.terminal.press("Space")
-            return time.monotonic() > end
-
-        self.terminal.hold("w", held, "end of the time")
-        self.assertGreater(min(moment.v for moment in self.rig.odometry[begin:]), 0.34)
-        self.assertNotIn("does not change", self.terminal.history)
 
     def test_ctrl_c_while_driving_ends_all_with_a_standing_robot(self):
         self.rig.drive()

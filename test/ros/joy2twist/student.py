@@ -28,18 +28,15 @@ class StudentTest(RosTest):
         for student in students:
             self.check_end(student, deadline_s=LONGEST_S)
             self.assertNotIn("died", student.output)  # a normal end does not look like a crash
-        ways = {name: way(robot.odometry) for name, robot in robots.items()}
+        ways = {}  # from where each began, as complex numbers [m]
+        for name, robot in robots.items():
+            places = [complex(moment.x, moment.y) for moment in robot.odometry]
+            ways[name] = [place - places[0] for place in places]
         self.assertEqual([name for name in STANDING if any(ways[name])], [])
         for name in DRIVEN:  # of the same recording
             self.assertGreater(max(map(abs, ways[name])), 0.5, name)
             self.assertFalse(robots[name].moves)
             self.assertLess(abs(ways[name][-1] - ways[DRIVEN[0]][-1]), TOLERANCE_M, name)
-
-
-def way(odometry):
-    """Return the places of a robot [m], as complex numbers, from where it began."""
-    places = [complex(moment.x, moment.y) for moment in odometry]
-    return [place - places[0] for place in places]
 
 
 def drivers():

@@ -1,26 +1,27 @@
 #!/usr/bin/python3
 """launch_joy_node_realTurtlebot.launch: what drives the TurtleBot, and which view opens."""
 
+import math
 import os
-from pathlib import Path
 
 import rosbag
 import rosgraph
 import rosnode
 import rospkg
 import rospy
+import yaml
 from geometry_msgs.msg import Twist
+from sensor_msgs.msg import Joy
 
-from node_kit.questions import holder
 from tutorial_testing.joystick_stream import AXIS, BUTTON, Stream
+from tutorial_testing.nodes import node_path
 from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
+FILE = "launch_joy_node_realTurtlebot.launch"
 TELEOP = "/cmd_vel_mux/input/teleop"
-BAG = Path(rospkg.RosPack().get_path("joy2twist"), "bag", "joy.bag")
 SPEED = 0.35  # [m/s] at full deflection, config/f710_d.yaml
-FULL = 32767
-FORWARD = (AXIS, 1, -FULL)  # Linux counts upwards as negative
+FORWARD = (AXIS, 1, -32767)  # Linux counts upwards as negative
 LB = 4
 PACKAGE = """
 <package>
@@ -28,54 +29,35 @@ PACKAGE = """
   <maintainer email="nobody@example.org">Nobody</maintainer><license>None</license>
 </package>
 """
-VIEW = '<launch><param name="/view_of_the_turtlebot" value="open"/></launch>'
 
 
 class WorkstationTest(RosTest):
-    def setUp(self):
-        self.speeds = []
-        self.hear(TELEOP, Twist, lambda twist: self.speeds.append(twist.linear.x))
-
-    def launch(self, *arguments, **environment):
-        file = ("joy2twist", "launch_joy_node_realTurtlebot.launch")
-        launch = self.start("roslaunch", *file, *arguments, **environment)
-        self.addCleanup(self.interrupt, launch)
-        return launch
-
-    def interrupt(self, launch):
-        if not launch.ended:
-            launch.interrupt()
-        launch.wait()  # its nodes are no longer registered
+    def launch(self, *arguments):
+        return self.start("roslaunch", "joy2twist", FILE, *arguments)
 
     def test_a_recording_drives_once_and_ends_the_launch(self):
-        short = str(self.folder() / "short.bag")
-        with rosbag.Bag(str(BAG)) as whole, rosbag.Bag(short, "w") as part:
-            messages = [(joy, stamp) for _, joy, stamp in whole.read_messages()][:200]
-            # At rest until all are connected: a later subscriber is held until the release.
-            rest, began = messages[0]
-            for k in range(200, 0, -1):
-                part.write("/joy", rest, began - rospy.Duration(k / 50))
-            for joy, stamp in messages:
-                part.write("/joy", joy, stamp)
-        asked = {SPEED * joy.axes[1] for joy, _ in messages if joy.buttons[LB]}
-        launch = self.launch(f"bag:={short}", "rviz:=false")
-        wait_for(lambda: len(self.speeds) > 10, "velocities")
+        speeds = self.record(TELEOP, Twist)
+        path = str(self.folder() / "short.bag")
+        with rosbag.Bag(path, "w") as bag:
+            for k in range(300):  # at rest until all are connected: who comes later is held
+                held = int(200 <= k < 280)
+                joy = Joy(axes=[0.0, held, 0.0, 0.0, 0.0, 0.0], buttons=[0] * 4 + [held] + [0] * 7)
+                bag.write("/joy", joy, rospy.Time(1 + k / 50))
+        launch = self.launch(f"bag:={path}", "rviz:=false")
+        wait_for(lambda: speeds and speeds[-1].linear.x, "velocities")
         self.assertIn("/myjoystick2twist", rosnode.get_node_names())
-        # A driver of a test before may still be registered, on a machine too busy for its goodbye.
-        self.assertIsNone(holder(rosgraph.get_master_uri(), "/joy_node"))
         publishers, _, _ = rosgraph.Master("/test").getSystemState()
         self.assertNotIn("/cmd_vel", dict(publishers))
-        self.assertEqual(launch.wait(), 0, launch.output)
-        self.assertEqual(self.speeds[-1], 0.0)
-        self.assertGreater(max(self.speeds), 0.1)
-        self.assertLessEqual(set(self.speeds), asked | {0.0})
+        self.check_end(launch)
+        self.assertEqual({twist.linear.x for twist in speeds}, {0.0, SPEED})
+        self.assertEqual(speeds[-1], Twist())
         self.assertIn("roslaunch: rosbag has finished, which ends this launch\n", launch.output)
-        for word in ("Traceback", "died"):  # a normal end does not look like a crash
-            self.assertNotIn(word, launch.output)
+        self.assertNotIn("died", launch.output)  # a normal end does not look like a crash
         self.assertIn("axis 1 -> linear.x", launch.output)
         self.assertNotIn("Get from Joy", launch.output)  # which would scroll that away
 
-    def test_a_gamepad_drives(self):
+    def test_a_gamepad_drives_while_lb_is_held(self):
+        speeds = self.record(TELEOP, Twist)
         gamepad = Stream()
         self.addCleanup(gamepad.remove)
         launch = self.launch(f"joy_dev:={gamepad.path}", "rviz:=false", "log_rate:=50")
@@ -84,38 +66,42 @@ class WorkstationTest(RosTest):
         gamepad.send((BUTTON, LB, 0))
         wait_for(lambda: "Get from Joy" in launch.output, "joystick at rest, seen by joy2twist")
         gamepad.send((BUTTON, LB, 1), FORWARD)
-        wait_for(lambda: self.speeds and self.speeds[-1] == SPEED, "velocity")
+        wait_for(lambda: speeds and speeds[-1].linear.x == SPEED, "velocity")
         gamepad.send((BUTTON, LB, 0))
-        wait_for(lambda: self.speeds[-1] == 0.0, "zero")
-        self.assertEqual(set(self.speeds), {0.0, SPEED})
+        wait_for(lambda: speeds[-1] == Twist(), "zero")
+        self.assertEqual({twist.linear.x for twist in speeds}, {0.0, SPEED})
+        launch.interrupt()
+        launch.wait()
 
-    def test_the_view_of_the_suite_opens_or_the_one_that_the_user_names(self):
-        folder = self.folder()
-        rviz, given = folder / "rviz", folder / "given"  # writes down its arguments
-        rviz.write_text(f'#!/bin/sh\necho "$@" > {given}.new; mv {given}.new {given}; sleep 600\n')
-        rviz.chmod(0o755)
-        for arguments, file in (
-            ([], f"{rospkg.RosPack().get_path('fake_turtlebot_sim')}/rviz/sim.rviz"),
-            (["rviz_config:=/my.rviz"], "/my.rviz"),
+    def test_whatever_the_preset_says_it_needs_a_dead_man_arms_and_has_the_limits_of_a_kobuki(self):
+        dump = self.start("roslaunch", "--dump-params", "joy2twist", FILE, "joy_config:=extreme_3d")
+        self.assertEqual(dump.wait(), 0, dump.output)
+        given = yaml.safe_load(dump.output)
+        prefix = "/myjoystick2twist/"
+        for name, value in {
+            "require_enable_button": True, "arm_on_neutral": True, "max_linear_speed": 0.7,
+            "max_angular_speed": math.pi, "joy_timeout": 0.5, "vigilance_timeout": 3.0,
+        }.items():  # fmt: skip
+            self.assertEqual(given[prefix + name], value, name)
+
+    def test_the_view_is_that_of_the_suite_of_a_turtlebot_if_installed_or_the_users(self):
+        packages, folder = rospkg.RosPack(), self.folder()
+        for program in ("rviz", "roslaunch"):  # in their place: it says what it was given
+            (folder / program).write_text('#!/bin/sh\necho "$0" "$@"\n')
+            (folder / program).chmod(0o755)
+        launchers = folder / "turtlebot_rviz_launchers"
+        launchers.mkdir()
+        (launchers / "package.xml").write_text(PACKAGE)
+        ours = os.environ["ROS_PACKAGE_PATH"]
+        real, suite = f"{folder}:{ours}", packages.get_path("fake_turtlebot_sim")
+        for config, path, command in (
+            ("auto", ours, f"rviz -d {suite}/rviz/sim.rviz"),
+            ("/my.rviz", real, "rviz -d /my.rviz"),
+            ("auto", real, f"roslaunch {launchers}/launch/view_robot.launch"),
         ):
-            path = f"{folder}:{os.environ['PATH']}"
-            launch = self.launch("rviz:=true", "cockpit:=false", *arguments, PATH=path)
-            wait_for(lambda: given.exists() or launch.ended, "view")  # noqa: B023
-            words = given.read_text().split()
-            self.assertEqual(words[:2], ["-d", file])
-            self.assertIn("__name:=my_rviz", words)
-            self.interrupt(launch)
-            given.unlink()
-
-    def test_the_view_of_the_turtlebot_opens_where_it_is_installed(self):
-        folder = self.folder()
-        package = folder / "turtlebot_rviz_launchers"
-        (package / "launch").mkdir(parents=True)
-        (package / "package.xml").write_text(PACKAGE)
-        (package / "launch" / "view_robot.launch").write_text(VIEW)
-        path = f"{folder}:{os.environ['ROS_PACKAGE_PATH']}"
-        self.launch("rviz:=true", ROS_PACKAGE_PATH=path)
-        wait_for(lambda: rospy.has_param("/view_of_the_turtlebot"), "view")
+            given = {"PATH": f"{folder}:{os.environ['PATH']}", "ROS_PACKAGE_PATH": path}
+            view = self.start(node_path("tutorial_tools", "view_robot"), config, **given)
+            self.assertEqual((view.wait(), view.output), (0, f"{folder}/{command}\n"))
 
 
 if __name__ == "__main__":

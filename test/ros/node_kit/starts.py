@@ -2,7 +2,6 @@
 """A start never harms what runs: a table of what runs, what is started, and what is left."""
 
 import shlex
-import signal
 from xmlrpc.client import ServerProxy
 
 import rosgraph
@@ -10,12 +9,10 @@ import rospy
 from rospy import AnyMsg
 
 from tutorial_testing.nodes import node_path
-from tutorial_testing.processes import Program, suspend
+from tutorial_testing.processes import Program
 from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
-# The number of joy.bag's last message, after which rosbag starts again.
-LAST_OF_BAG = 2759
 SIMULATOR = (node_path("fake_turtlebot_sim", "fake_turtlebot.py"),)
 
 
@@ -27,70 +24,34 @@ def started_by(command):
     return Program(*words)
 
 
-class Watch:
-    """The messages of a topic, by their senders; their numbers show whether one was lost."""
-
-    def __init__(self):
-        self.numbers = {}  # sender -> the numbers of its messages
-
-    def hear(self, message):
-        sender = message._connection_header["callerid"]
-        # All of them begin with a Header, and that with the number.
-        number = int.from_bytes(message._buff[:4], "little")
-        self.numbers.setdefault(sender, []).append(number)
-
-    def of(self, sender):
-        """The numbers of one sender."""
-        return self.numbers.get(sender, [])
-
-    def gaps(self, sender):
-        """Pairs of numbers between which one of the sender's messages was lost."""
-        numbers = list(self.of(sender))
-        if numbers[0] == numbers[-1]:  # diagnostics are not numbered
-            return []
-        follow = zip(numbers, numbers[1:])
-        return [(a, b) for a, b in follow if b != a + 1 and (a, b) != (LAST_OF_BAG, 0)]
-
-    def grows(self, sender):
-        """Wait until one more message comes."""
-        count = len(self.of(sender))
-        wait_for(lambda: len(self.of(sender)) > count, f"a message of {sender}")
-
-
 class StartsTest(RosTest):
     def watch(self, topic):
-        watch = Watch()
-        self.hear(topic, AnyMsg, watch.hear)
-        wait_for(lambda: watch.numbers, f"messages on {topic}")
-        return watch
+        """Return the messages of a topic, once there is one."""
+        messages = self.record(topic, AnyMsg)
+        wait_for(lambda: messages, f"messages on {topic}")
+        return messages
 
-    def check_refusal(self, command, words):
-        with started_by(command) as started:
-            code, said = started.wait(), started.output
-        self.assertEqual(code, 1, f"{command}: {said}")
-        lines = [line for line in said.splitlines() if words in line]
-        self.assertEqual(len(lines), 1, f"{command}: {said}")
-        self.assertNotIn("Traceback (most", said)
-
-    def check_company(self, command, topic):
-        with started_by(command) as started:
-            self.watch(topic)
-            started.interrupt()
-            started.wait()
+    def check_goes_on(self, messages):
+        count = len(messages)
+        wait_for(lambda: len(messages) > count, "one more message")
 
     def play(self, _, row):
         with Program(*shlex.split(row["run"])) as running:
             watches = [self.watch(topic) for topic in row["watch"]]
-            senders = [next(iter(watch.numbers)) for watch in watches]
             for command, words in row["refused"]:
-                self.check_refusal(command, words)
+                with started_by(command) as started:
+                    self.assertEqual(started.wait(), 1, f"{command}: {started.output}")
+                    self.assertEqual(started.output.count(words), 1, started.output)
+                    self.assertNotIn("Traceback (most", started.output)
                 self.assertFalse(running.ended, command)
             for command, topic in row.get("both", []):
-                self.check_company(command, topic)
+                with started_by(command) as started:
+                    self.watch(topic)
+                    started.interrupt()
+                    started.wait()
                 self.assertFalse(running.ended, command)
-            for watch, sender in zip(watches, senders):
-                watch.grows(sender)
-                self.assertEqual(watch.gaps(sender), [])
+            for messages in watches:
+                self.check_goes_on(messages)
             self.assertNotIn("new node registered", running.output)
             self.assertNotIn("process has died", running.output)
             running.interrupt()
@@ -101,42 +62,21 @@ class StartsTest(RosTest):
             self.watch("/robot_3/odom")
             self.assertFalse(rospy.has_param("/three/robots"))
 
-    def test_a_name_whose_node_was_killed_is_free_at_once(self):
-        with Program(*SIMULATOR, "__name:=killed") as node:
-            sender = self.watch("odom")
-            node.kill()
-            with Program(*SIMULATOR, "__name:=killed"):
-                sender.grows("/killed")
-
     def test_a_robot_is_replaced_by_one_with_take_over(self):
-        with Program(*SIMULATOR, "__name:=replaced") as old:
-            watch = self.watch("odom")
-            with Program(*SIMULATOR, "__name:=replaced", "_take_over:=true"):
-                self.assertEqual(old.wait(), 0)
-                watch.grows("/replaced")
+        old, odometry = self.start(*SIMULATOR, "__name:=replaced"), self.watch("odom")
+        self.start(*SIMULATOR, "__name:=replaced", "_take_over:=true")
+        self.check_end(old)
+        self.check_goes_on(odometry)
 
     def test_a_robot_does_not_end_in_place_of_one_that_died_on_its_port(self):
-        with Program(*SIMULATOR, "__name:=alive") as node:
-            watch = self.watch("odom")
-            died = rosgraph.Master("/died")
-            uri = died.lookupNode("/alive")
-            for each in uri, "http://localhost:1":
-                died.registerPublisher("/of_the_dead", "std_msgs/String", each)
-            wait_for(lambda: "another node is /died now" in node.output, "its word")
-            # Another master, of which the one that died had the same name.
-            reason = "[/alive] Reason: new node registered with same name"
-            ServerProxy(uri).shutdown("/master", reason)
-            wait_for(lambda: "another node is /alive now" in node.output, "its word")
-            watch.grows("/alive")
-            self.assertFalse(node.ended)
-
-    def test_a_suspended_robot_keeps_its_name(self):
-        with Program(*SIMULATOR, "__name:=stopped") as node:
-            watch = self.watch("odom")
-            suspend(node.left_behind())
-            self.check_refusal(" ".join([*SIMULATOR, "__name:=stopped"]), "does not answer")
-            node.signal(signal.SIGCONT)
-            watch.grows("/stopped")
+        node, odometry = self.start(*SIMULATOR, "__name:=alive"), self.watch("odom")
+        uri = rosgraph.Master("/test").lookupNode("/alive")
+        # Another master, of which the one that died had the same name.
+        reason = "[/alive] Reason: new node registered with same name"
+        ServerProxy(uri).shutdown("/master", reason)
+        wait_for(lambda: "another node is /alive now" in node.output, "its word")
+        self.check_goes_on(odometry)
+        self.assertFalse(node.ended)
 
 
 if __name__ == "__main__":

@@ -15,23 +15,20 @@ LINKS = {"odom": "base_footprint", "base_link": "wheel_left_link"}
 
 class TwoTurtlebotsTest(RosTest):
     def test_each_starts_at_its_place_and_is_driven_by_its_own_input(self):
-        robots = {name: self.enter(Robot(f"{name}/")) for name in ("tb1", "tb2")}
-        topic = "/{}/cmd_vel_mux/input/teleop"
-        teleops = {name: self.publisher(topic.format(name), Twist, queue_size=1) for name in robots}
-        wait_for(lambda: robots["tb2"].odometry, "odometry")
-        for value, given in zip(robots["tb2"].now.pose, (1.5, -0.5, 0.7)):
+        first, second = (self.enter(Robot(f"{name}/")) for name in ("tb1", "tb2"))
+        wait_for(lambda: first.odometry and second.odometry, "odometry")
+        for value, given in zip(second.now.pose, (1.5, -0.5, 0.7)):
             self.assertAlmostEqual(value, given)
-        for driven, standing in (("tb1", "tb2"), ("tb2", "tb1")):
-            self.check_drive(robots[driven], robots[standing], teleops[driven])
-
-    def check_drive(self, robot, other, teleop):
-        wait_for(lambda: robot.odometry, "odometry")
-        wait_for(teleop.get_num_connections, "mux")
-        other.wait_for_rest()
-        before = len(other.odometry)
-        wait_for(lambda: teleop.publish(FORWARDS) or robot.now.v == 0.3, "motion")
-        wait_for(lambda: len(other.odometry) > before, "odometry of the other one")
-        self.assertFalse(any(moment.moves for moment in other.odometry[before:]))
+        for name, robot, other in (("tb1", first, second), ("tb2", second, first)):
+            topic = f"/{name}/cmd_vel_mux/input/teleop"
+            teleop = self.publisher(topic, Twist, queue_size=1)
+            wait_for(teleop.get_num_connections, "mux")
+            other.wait_for_rest()
+            before = len(other.odometry)
+            drives = lambda r=robot, t=teleop: t.publish(FORWARDS) or r.now.v == 0.3  # noqa: E731
+            wait_for(drives, "motion")
+            wait_for(lambda n=before, o=other: len(o.odometry) > n, "odometry of the other one")
+            self.assertFalse(any(moment.moves for moment in other.odometry[before:]))
 
     def test_frames_have_the_prefix_of_their_group(self):
         transforms = self.record("/tf", TFMessage)

@@ -1,23 +1,17 @@
 #!/usr/bin/python3
 """doctor.py as a user runs it: where all is well, and where one thing after the other is not."""
 
-import re
-import socket
 import time
 
-import rosgraph
-import rosnode
 import rospy
 from geometry_msgs.msg import TransformStamped, Twist
-from sensor_msgs.msg import Joy
-from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
 from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.robot import Robot
 from tutorial_testing.rostests import RosTest, run
-from tutorial_testing.waiting import lost_s, wait_for
+from tutorial_testing.waiting import lost_s
 
 LONGEST_S = 15.0
 NOBODYS = "192.0.2.7"  # an address for documentation (RFC 5737)
@@ -32,17 +26,14 @@ class FindingsTest(RosTest):
         self.assertLess(time.monotonic() - began_s, LONGEST_S + lost_s() - lost)
         *lines, summary = output.splitlines()
         self.assertRegex(summary, r"^doctor: \d+ ok, \d+ wrong, \d+ unknown$", output)
-        for line in lines:
-            self.assertRegex(line, r"^(ok|wrong|unknown) +(\w+) +\S.*$", output)
         return code, lines
 
     def wrong(self, *words, **environment):
         """Check that a line that is wrong has these words, for each; return all such lines."""
         code, lines = self.doctor(**environment)
-        self.assertEqual(code, 1)
         lines = [line for line in lines if line.startswith("wrong")]
-        for each in words:
-            self.assertTrue(any(re.search(each, line) for line in lines), lines)
+        missing = [each for each in words if not any(each in line for line in lines)]
+        self.assertEqual((code, missing), (1, []), lines)
         return lines
 
     def test_beside_a_drive_all_is_well_and_then_one_thing_after_the_other_is_not(self):
@@ -70,40 +61,6 @@ class FindingsTest(RosTest):
             self.wrong("no /clock arrives")
             drive.interrupt()
             drive.wait()
-
-    def test_a_node_that_died_is_named(self):
-        with Program(node_path("beginner_tutorials", "talker.py"), "--unique") as talker:
-            wait_for(lambda: "hello" in talker.output, "talker")
-            talker.kill()
-            self.wrong("/talker at http://.* has died.*rosnode cleanup")
-        rosnode.cleanup_master_blacklist(rosgraph.Master("/test"), ["/talker"])
-        self.assertNotIn("/talker", rosnode.get_node_names())
-
-    def register(self, uri):
-        master = rosgraph.Master("/far")
-        master.registerPublisher("/far", "std_msgs/Empty", uri)
-        self.addCleanup(master.unregisterPublisher, "/far", uri)
-
-    def test_a_node_on_an_unknown_machine_and_one_that_hangs_are_named(self):
-        self.register("http://robot.invalid:1234/")
-        self.wrong('/far at http://robot.invalid:1234/: "robot.invalid" cannot be looked up here')
-        with socket.create_server(("localhost", 0)) as server:
-            self.register(f"http://localhost:{server.getsockname()[1]}/")
-            self.wrong("/far at .* does not answer")
-
-    def test_a_joystick_without_a_converter_and_a_mux_that_listens_to_another(self):
-        joystick = self.publisher("joy", Joy)
-        self.wrong("nothing turns /joy into velocities")
-        with Program("roslaunch", "joy2twist", "joy2twist_turtlebot.launch") as driver:
-            wait_for(joystick.get_num_connections, "joy2twist")
-            self.wrong("nobody listens to /cmd_vel_mux/input/teleop of /myjoystick2twist")
-            base = self.hear("cmd_vel_mux/input/teleop", Twist, lambda _: None)
-            self.publisher("cmd_vel_mux/active", String, latch=True).publish("Navigation")
-            wait_for(base.get_num_connections, "connection")
-            self.wrong('lets "Navigation" through, and not /cmd_vel_mux/input/teleop')
-            self.wrong("/myjoystick2twist says: waiting for the joystick")
-            driver.interrupt()
-            driver.wait()
 
 
 if __name__ == "__main__":

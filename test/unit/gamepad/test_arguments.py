@@ -10,6 +10,7 @@ from gamepad.dead_man import check_recording
 
 JOY_BAG = Path(__file__).parents[3] / "common" / "gamepad" / "bag" / "joy.bag"
 WHOLE = JOY_BAG.read_bytes()
+# As rosbag record leaves it when it is killed.
 UNINDEXED = re.sub(rb"(?s)index_pos=.{8}", b"index_pos=" + bytes(8), WHOLE, count=1)
 NO_BAG = "This does not appear to be a bag file"
 TRUE_OR_FALSE = "must be true or false"
@@ -64,36 +65,23 @@ def test_a_preset(tmp_path):
     assert refused("joy_config", str(tmp_path / "xbos.yaml")) == said
 
 
-@pytest.mark.parametrize(
-    "content",
-    [
-        *(WHOLE[:size] for size in (13, 30, 5000, 40_000)),
-        UNINDEXED,  # as rosbag record leaves it when killed
-    ],
-    ids=len,
-)
-def test_a_recording_that_is_cut_short(tmp_path, content):
+@pytest.mark.parametrize("content", [WHOLE[:40_000], UNINDEXED], ids=["cut", "killed"])
+def test_a_recording_that_is_cut_short_can_be_mended(tmp_path, content):
     bag = tmp_path / "joy.bag"
     bag.write_bytes(content)
-    said = refused("bag", str(bag))
-    assert said == f"cut short; mend it with: rosbag reindex {bag}" or len(content) < 40, said
+    assert refused("bag", str(bag)) == f"cut short; mend it with: rosbag reindex {bag}"
 
 
 def test_a_recording_that_is_damaged_is_one_line_of_the_guard(tmp_path):
-    bag = tmp_path / "joy.bag"
+    bag, preset = tmp_path / "joy.bag", JOY_BAG.parents[3] / "joy2twist" / "config" / "f710_d.yaml"
     bag.write_bytes(WHOLE[:20_000] + b"\xff" * 3000 + WHOLE[23_000:])
-    preset = JOY_BAG.parents[3] / "joy2twist" / "config" / "f710_d.yaml"
-    with pytest.raises(
-        ValueError, match=r"joy\.bag: cannot be read: Invalid data stream"
-    ) as caught:
+    with pytest.raises(ValueError, match=r"joy\.bag: cannot be read: Invalid data[^\n]*\Z"):
         check_recording(str(bag), str(preset))
-    assert "\n" not in str(caught.value)
 
 
 @pytest.mark.parametrize(
     ("name", "near"),
-    [("robot-7", "robot_7"), ("7", "robot_7"), ("/ada", "ada"), ("a/b", "a_b"),
-     ("J\u00fcrgen", "J_rgen")],
+    [("robot-7", "robot_7"), ("7", "robot_7"), ("/ada", "ada"), ("J\u00fcrgen", "J_rgen")],
 )  # fmt: skip
 def test_a_robot_with_a_name_that_ros_does_not_know(name, near):
     assert refused("name", name).endswith(f"digits and underscores; did you mean {near}?")

@@ -17,9 +17,7 @@ RIGHT = {"right_stick": (0.25, -0.75), "triggers": (0.25, 0.75)}
         (F710_D, PUSHED, (0.6, -0.25, 0, 0, 0, 1), []),
         (F710_D, {**PUSHED, "mode_led": True}, (0, 1, 0, 0, 1, 0), []),
         (F710_D, RIGHT, (0, 0, 0.25, -0.75, 0, 0), ["RT"]),
-        (F710_X, RIGHT, (0, 0, 0.5, 0.25, -0.75, -0.5, 0, 0), []),
         (F710_D, {"triggers": (1.0, 0.5), "held": {"LB"}}, (0, 0, 0, 0, 0, 0), ["LB", "LT"]),
-        (F710_D, {"triggers": (0.5, 0.51)}, (0, 0, 0, 0, 0, 0), ["RT"]),
         (F710_X, {"triggers": (1.0, 0.0), "held": {"A"}}, (0, 0, -1, 0, 0, 1, 0, 0), ["A"]),
     ],
 )
@@ -30,8 +28,7 @@ def test_axes_and_buttons(pad, moved, axes, held):
 
 
 @pytest.mark.parametrize(
-    ("pushed", "shown"),
-    [(-1.0, -1.0), (-0.51, -1.0), (-0.5, 0.0), (0.0, 0.0), (0.5, 0.0), (0.51, 1.0), (1.0, 1.0)],
+    ("pushed", "shown"), [(0.0, 0), (0.5, 0), (0.51, 1), (-0.5, 0), (-0.51, -1)]
 )
 def test_a_d_pad_knows_only_its_ends_and_the_middle(pushed, shown):
     for pad in F710.values():

@@ -12,18 +12,6 @@ def test_the_defaults_are_those_of_the_package_joy_but_for_autorepeat():
     assert (p.default_trig_val, p.sticky_buttons) == (False, False)
 
 
-@pytest.mark.parametrize(
-    ("name", "value", "line"),
-    [
-        ("dev", "js0", "~dev: 'js0': must be a whole path, such as /dev/input/js0"),
-        ("deadzone", 1638, "~deadzone: 1638: must be a number from 0 to 1"),
-        ("autorepeat_rate", -1, "~autorepeat_rate: -1: must be a number from 0 to 1000 Hz"),
-        ("coalesce_interval", 11, "~coalesce_interval: 11: must be a number from 0 to 10 s"),
-        ("default_trig_val", 1, "~default_trig_val: 1: must be true or false"),
-        ("deadzon", 0.1, "~deadzon: 0.1: no such parameter; did you mean ~deadzone?"),
-    ],
-)
-def test_a_mistake_is_named(name, value, line):
-    with pytest.raises(ValueError) as error:
-        load({name: value})
-    assert str(error.value).startswith(line)
+def test_a_device_is_a_whole_path():
+    with pytest.raises(ValueError, match="~dev: 'js0': must be a whole path, such as /dev/input"):
+        load({"dev": "js0"})

@@ -3,24 +3,13 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from gamepad.js_event import SIGN_OF_LIFE_MS, Decoder, JsEvent, pack
-from tutorial_testing.gamepad_events import BUTTON, INIT, events
+from gamepad.js_event import Decoder, JsEvent, pack
 
 
 def test_an_event_is_read_field_by_field():
     assert Decoder().feed(bytes.fromhex("78563412 0180 02 05")) == [
         JsEvent(time_ms=0x12345678, value=-32767, type=2, number=5)
     ]
-
-
-def test_the_time_of_a_sign_of_life_is_the_last_that_the_clock_can_show():
-    assert SIGN_OF_LIFE_MS == 0xFFFF_FFFF
-
-
-def test_by_default_a_late_state_at_opening_stays_one():
-    """Only from a kernel device it means a change."""
-    found = Decoder().feed(events((BUTTON, 0, 1)) + events((BUTTON | INIT, 0, 1)))
-    assert [event.type for event in found] == [BUTTON, BUTTON | INIT]
 
 
 @given(st.lists(st.binary(max_size=20)))

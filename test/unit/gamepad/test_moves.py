@@ -6,7 +6,6 @@ from pathlib import Path
 import pytest
 import yaml
 
-from gamepad.gamepads import F710
 from gamepad.virtual.controls import Controls
 from gamepad.virtual.moves import Script, load_script
 
@@ -14,18 +13,15 @@ SCRIPTS = Path(__file__).parents[3] / "common" / "gamepad" / "config" / "virtual
 
 
 def test_a_move_may_last_a_day_and_has_every_position():
-    move = {
-        "for": 86400, "left_stick": [-1, 1], "right_stick": [1, -1], "dpad": [-1, 1],
-        "triggers": [0, 1], "held": ["A"], "mode_led": True, "plugged": True,
+    given = {
+        "left_stick": (-1, 1), "right_stick": (1, -1), "dpad": (-1, 1), "triggers": (0, 1),
+        "held": ["A"], "mode_led": True, "plugged": True,
     }  # fmt: skip
-    controls = Controls(
-        (-1, 1), (1, -1), (-1, 1), (0, 1), frozenset(["A"]), mode_led=True, plugged=True
-    )
-    script = load_script({"mode": "X", "moves": [move]})
+    lists = {part: list(value) for part, value in given.items() if isinstance(value, tuple)}
+    script = load_script({"mode": "X", "moves": [{"for": 86400, **given, **lists}]})
+    controls = Controls(**{**given, "held": frozenset(["A"])})
     assert script == Script(((86400.0, controls),), "X")
     assert load_script({"moves": [{"for": 0.5}]}) == Script(((0.5, Controls()),), "D")
-    for mode, pad in F710.items():
-        load_script({"mode": mode, "moves": [{"for": 1, "held": list(pad.buttons)}]})
 
 
 @pytest.mark.parametrize(
@@ -33,10 +29,8 @@ def test_a_move_may_last_a_day_and_has_every_position():
     [
         (None, "it has no list of moves, such as "),
         ({}, "moves: missing; such as moves: [{for"),
-        ({"moves": 5}, "moves: 5: must be a list of moves"),
         ({"moves": []}, "moves: []: must be a list of moves"),
         ({"moves": [{"for": 1}], "speed": 2}, "speed: 2: no such parameter; allowed: mode, moves"),
-        ({"mode": "Z", "moves": [{"for": 1}]}, "mode: 'Z': must be D or X"),
         ({"mode": ["D"], "moves": [{"for": 1}]}, "mode: ['D']: must be D or X"),
         ({"moves": [7]}, "move 1: 7 is not a map"),
     ],
@@ -54,10 +48,9 @@ SECONDS, STICK, BUTTONS = "must be seconds", "must be two numbers from -1 to 1",
     ("wrong", "line"),
     [
         *[({"for": value}, f"for: {value!r}: {SECONDS}") for value in (
-            None, math.nan, 0, -1, 86400.5, "1", True)],
+            math.nan, 0, 86400.5, "1", True)],
         *[({part: value}, f"{part}: {value!r}: {STICK}") for value in (
-            1, [0], [0, 0, 0], [0, True], [0, -1.5], [1.5, 0], [math.nan, 0], ["x", 0])
-            for part in ("left_stick", "right_stick", "dpad")],
+            1, [0, 0, 0], [0, -1.5], [math.nan, 0], ["x", 0]) for part in ("left_stick", "dpad")],
         ({"triggers": [-0.5, 0]}, "triggers: [-0.5, 0]: must be two numbers from 0 to 1"),
         ({"held": "LB"}, f"held: 'LB': {BUTTONS}"),
         ({"held": [[]]}, f"held: [[]]: {BUTTONS}"),

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from gamepad.driver.schedule import Schedule
-from tutorial_testing.gamepad_events import AXIS, BUTTON, INIT, driver, events
+from tutorial_testing.gamepad_events import AXIS, BUTTON, driver, events
 
 
 def test_a_button_goes_out_at_once_and_takes_waiting_axes_along():
@@ -18,21 +18,6 @@ def test_a_button_goes_out_at_once_and_takes_waiting_axes_along():
         ((1.0,), (0,)),
     ]
     assert ours.due == float("inf")
-
-
-def test_the_first_state_waits_for_all_of_it():
-    ours = driver()
-    assert ours.read(events((BUTTON | INIT, 1, 1), (AXIS | INIT, 1, -9000)), now=0.0) == []
-    assert ours.tick(0.001) == [((0.0, 0.0), (0, 1))]
-
-
-def test_autorepeat_counts_from_the_last_message():
-    ours = driver(autorepeat_rate=20)
-    ours.read(events((BUTTON, 0, 1)), now=1.0)
-    assert ours.due == pytest.approx(1.05)
-    ours.read(events((BUTTON, 0, 0)), now=1.04)
-    assert ours.tick(1.0501) == []
-    assert ours.tick(1.0901) == [((), (0,))]
 
 
 @pytest.mark.parametrize(("rate", "due"), [(0.5, 3.0), (1, 2.0), (0, math.inf), (-1, math.inf)])

@@ -17,12 +17,9 @@ REST, PRESSED = positions(F710_D, Controls()), positions(F710_D, Controls(held={
 def test_a_script_is_followed_in_time_and_begins_again_if_it_loops(loop):
     moves = [{"for": 1.0}, {"for": 2.0, "held": ["A"]}, {"for": 0.5, "plugged": False}]
     source = script_source(F710_D, load_script({"moves": moves}), loop=loop)
-    source.at(100.0)
-    for begin in (100.0, 103.5, 107.0, 275.0) if loop else (100.0,):
-        assert source.at(begin) == (REST, begin + 1.0)
-        assert source.at(begin + 0.75) == (REST, begin + 1.0)
-        assert source.at(begin + 1.0) == (PRESSED, begin + 3.0)
-        assert source.at(begin + 2.75) == (PRESSED, begin + 3.0)
+    for begin in (100.0, 103.5, 275.0) if loop else (100.0,):
+        assert source.at(begin) == source.at(begin + 0.75) == (REST, begin + 1.0)
+        assert source.at(begin + 1.0) == source.at(begin + 2.75) == (PRESSED, begin + 3.0)
         assert source.at(begin + 3.0) == (None, begin + 3.5)
     assert loop or source.at(103.5) is None
 
@@ -38,8 +35,6 @@ def recording(*times):
     ("times", "changes"),
     [
         ((1.0, 1.25), [(0.0, 0.0), (0.25, 0.25), (0.5, None)]),
-        ((5.0, 5.5, 6.5, 6.75),
-         [(0.0, 0.0), (0.5, 0.25), (1.5, 0.5), (1.75, 0.75), (1.75 * 4 / 3, None)]),
         ((1.0, 2.0, 1.5, 2.5), [(0.0, 0.0), (1.0, 0.5), (2.0, 0.75), (2.0 + 2.0 / 3, None)]),
     ],
 )  # fmt: skip
@@ -55,13 +50,6 @@ def test_a_recording_keeps_its_times(times, changes):
     assert again.at(end)[0][0][1] == 0.0
 
 
-def test_an_axis_a_little_beyond_its_end_is_taken():
-    """The kernel's range is not quite even, so that some drivers go beyond 1."""
-    for end in (1.001, -1.001):
-        recorded = [(time, ((end,) * 6, (0,) * 12)) for time in (0.0, 1.0)]
-        assert recording_source(F710_D, recorded, loop=False).at(0.0)[0] == ((end,) * 6, (0,) * 12)
-
-
 def messages(*axes, buttons=12, times=(0.0,)):
     return [(time, (axes, (0,) * buttons)) for time in times]
 
@@ -71,12 +59,10 @@ def messages(*axes, buttons=12, times=(0.0,)):
     [
         (messages(*(0.0,) * 8, buttons=11),
          "a message has 8 axes and 11 buttons; this gamepad has 6 and 12"),
-        (messages(*(0.0,) * 6, buttons=13), "a message has 6 axes and 13 buttons"),
         (messages(*(math.nan,) * 6), "a message has axes beyond"),
         (messages(*(0.0,) * 5, 1.01), "a message has axes beyond"),
-        (messages(-1.01, *(0.0,) * 5), "a message has axes beyond"),
-        ([], "there are fewer than two messages"),
-        (messages(*(0.0,) * 6), "there are fewer than two messages"),
+        # The kernel's range is not quite even, so that some drivers go a little beyond 1.
+        (messages(-1.001, *(1.001,) * 5), "there are fewer than two messages"),
         (messages(*(0.0,) * 6, times=(1.0, 1.0)), "all messages have one time"),
     ],
 )  # fmt: skip

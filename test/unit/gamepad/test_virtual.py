@@ -7,7 +7,7 @@ import pytest
 
 from gamepad.driver.device import Finder
 from gamepad.driver.device_choice import DeviceError
-from gamepad.gamepads import F710, F710_D, F710_X, mode_hint, trigger_axes
+from gamepad.gamepads import F710, F710_D, F710_X, mode_hint
 from gamepad.js_event import SIGN_OF_LIFE_MS
 from gamepad.trembling import Trembling
 from gamepad.virtual.controls import Controls, positions
@@ -17,20 +17,16 @@ REST = positions(F710_D, Controls())
 PUSHED = positions(F710_D, Controls(left_stick=(0.0, 1.0), held=frozenset(["LB"])))
 
 
-def test_axes_and_buttons_of_both_modes():
-    assert (len(F710_D.axes), len(F710_D.buttons), F710_D.usb_id) == (6, 12, "046d:c219")
-    assert (len(F710_X.axes), len(F710_X.buttons), F710_X.usb_id) == (8, 11, "046d:c21f")
-    for pad in F710.values():
-        assert (pad.buttons.index("LB"), pad.buttons.index("RB")) == (4, 5)
-        assert len(pad.buttons) == len(pad.button_codes)
-    for usb_id, words in (("046d:c219", "D mode"), ("046d:c21f", "X mode")):
-        assert words in mode_hint(usb_id)
-    assert mode_hint("045e:028e") is None
-
-
-def test_triggers_are_told_from_the_right_stick():
-    assert (F710_D.triggers, F710_X.triggers) == ((), (2, 5))
-    assert trigger_axes([0, 1, 3, 4, 2, 5]) == (4, 5)
+@pytest.mark.parametrize(
+    ("pad", "axes", "buttons", "usb_id", "mode"),
+    [(F710_D, 6, 12, "046d:c219", "D mode"), (F710_X, 8, 11, "046d:c21f", "X mode")],
+    ids=F710,
+)
+def test_axes_and_buttons_of_both_modes(pad, axes, buttons, usb_id, mode):
+    assert (len(pad.axes), len(pad.buttons), pad.usb_id) == (axes, buttons, usb_id)
+    assert (pad.buttons.index("LB"), pad.buttons.index("RB")) == (4, 5)
+    assert len(pad.buttons) == len(pad.button_codes)
+    assert mode in mode_hint(usb_id) and mode_hint("045e:028e") is None
 
 
 @pytest.mark.parametrize("pad", F710.values(), ids=F710)
@@ -38,13 +34,6 @@ def test_the_ends_and_the_middle_of_every_axis(pad):
     for axis in pad.axes:
         ends = [axis.js_value(axis.raw(position)) for position in (1.0, 0.0, -1.0)]
         assert ends == [-32767, 0, 32767]
-
-
-def test_the_kernels_steps_between():
-    # By hand from joydev_correct(): 64 * ((1 << 29) // 127) >> 14
-    assert F710_D.axes[0].js_value(127 + 64) == 16513
-    assert F710_D.axes[0].js_value(127 - 64) == -16514
-    assert F710_X.axes[0].js_value(-16384) == -16384
 
 
 @pytest.mark.parametrize("pad", F710.values(), ids=F710)
@@ -64,9 +53,6 @@ def test_one_of_many_equal_messages_trembles_by_the_last_bit():
     assert struct.unpack("<3f", shown[7]) == pytest.approx(held, rel=2e-7)
     assert struct.unpack("<3f", shown[7])[2] == 0.0
     assert trembling.shown((0.5, 0.0, 0.0)) == (0.5, 0.0, 0.0)
-
-
-# ------------------------------------------------------------------------------------------- FIFO
 
 
 def events(device):

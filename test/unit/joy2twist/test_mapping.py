@@ -13,13 +13,6 @@ from node_kit.arming import ZERO
 AXES = (0.3, 0.4, 0.5, 0.6, 0.7, 0.8)
 PAD = {"enable_button": 0, "enable_turbo_button": 1}
 DIFFERENTIAL = {**PAD, "scale_linear": 1.0, "scale_linear_turbo": 2.0, "scale_angular": 3.0}
-HOLONOMIC = {
-    "axis_linear": {"x": 1, "y": 2},
-    "scale_linear": {"x": 1.0, "y": 4.0},
-    "axis_angular": 0,
-    "scale_angular": 3.0,
-    "enable_button": 0,
-}
 SIX_AXES = {
     "axis_linear": {"x": 1, "y": 2, "z": 3},
     "scale_linear": {"x": 1.0, "y": 4.0, "z": 2.0},
@@ -27,11 +20,9 @@ SIX_AXES = {
     "scale_angular": {"roll": 3.0, "pitch": 2.0, "yaw": 1.0},
     "enable_button": 0,
 }
-
-
 NOT_REQUIRED = {**DIFFERENTIAL, "require_enable_button": False}
 TURBO = {"enable_turbo_button": 0, "require_enable_button": True}
-TURBO_MAP = {**HOLONOMIC, "enable_turbo_button": 1, "scale_linear_turbo": {"x": 2.0, "y": 8.0}}
+TURBO_MAP = {**SIX_AXES, "enable_turbo_button": 1, "scale_linear_turbo": {"x": 2.0, "y": 8.0}}
 CAR = {"inverted_reverse": True}
 
 
@@ -40,29 +31,23 @@ CAR = {"inverted_reverse": True}
     [
         ("tutorial", {}, AXES[:2], (), (0.4, 0, 0, 0, 0, 0.3)),
         ("differential", DIFFERENTIAL, AXES, (1, 0), (0.4, 0, 0, 0, 0, 0.9)),
-        ("holonomic", HOLONOMIC, AXES, (1,), (0.4, 2.0, 0, 0, 0, 0.9)),
         ("six axes", SIX_AXES, AXES, (1,), (0.4, 2.0, 1.2, 2.1, 1.6, 0.3)),
         ("not enabled", DIFFERENTIAL, AXES, (0, 0), None),
-        ("only turbo", DIFFERENTIAL, AXES, (0, 1), (0.8, 0, 0, 0, 0, 0.9)),
         ("turbo over enable", DIFFERENTIAL, AXES, (1, 1), (0.8, 0, 0, 0, 0, 0.9)),
         ("angular turbo", {**DIFFERENTIAL, "scale_angular_turbo": 5.0}, AXES, (0, 1),
          (0.8, 0, 0, 0, 0, 1.5)),
-        ("turbo is 1 unless given", {**PAD, "scale_linear": 0.5}, AXES, (0, 1),
-         (0.4, 0, 0, 0, 0, 0.3)),
-        ("turbo from a map", TURBO_MAP, AXES, (0, 1), (0.8, 4.0, 0, 0, 0, 0.9)),
-        ("enable not required", NOT_REQUIRED, AXES, (0, 0), (0.4, 0, 0, 0, 0, 0.9)),
+        ("turbo from a map", TURBO_MAP, AXES, (0, 1), (0.8, 4.0, 1.2, 2.1, 1.6, 0.3)),
         ("enable not required, turbo", NOT_REQUIRED, AXES, (0, 1), (0.8, 0, 0, 0, 0, 0.9)),
         ("turbo is the only dead-man, and button 0", TURBO, AXES, (1, 0), (0.4, 0, 0, 0, 0, 0.3)),
         ("no other button drives then", TURBO, AXES, (0, 1), None),
         ("reverse", {}, (0.3, -0.4), (), (-0.4, 0, 0, 0, 0, 0.3)),
-        ("forward", CAR, (0.3, 0.4), (), (0.4, 0, 0, 0, 0, 0.3)),
         ("on the spot", CAR, (0.3, 0.0), (), (0, 0, 0, 0, 0, 0.3)),
         ("like a car", CAR, (0.3, -0.4), (), (-0.4, 0, 0, 0, 0, -0.3)),
         ("no linear axis", {"axis_linear": -1}, (0.5, 0.4), (), (0, 0, 0, 0, 0, 0.5)),
         ("no axis at all", {"axis_linear": -1, "axis_angular": -1}, (), (), ZERO),
     ],
 )  # fmt: skip
-def test_velocity(about, given, axes, buttons, expected):
+def test_axes_and_buttons_give_a_velocity_or_none(about, given, axes, buttons, expected):
     velocity = Mapping(load(given)).velocity(axes, buttons)
     assert velocity == (None if expected is None else pytest.approx(expected)), about
 
@@ -71,10 +56,8 @@ def test_velocity(about, given, axes, buttons, expected):
     ("given", "axes", "buttons", "words"),
     [
         ({}, (0.5,), (), "no axis 1 (-> linear.x): it has 1 axes"),
-        ({}, (), (), "no axis"),
         ({"axis_linear": 9}, AXES, (), "no axis 9 (-> linear.x): it has 6 axes"),
         (PAD, AXES, (1,), "no button 1 (~enable_turbo_button): it has 1 buttons"),
-        ({}, (0.0, float("nan")), (), "nan"),
         ({}, (0.0, 0.1, float("nan")), (), "nan"),
         ({}, (float("inf"), float("-inf")), (), "inf"),
         ({}, (0.0, 3e38), (), "3e+38"),
@@ -92,7 +75,6 @@ def test_a_bad_message_is_named(given, axes, buttons, words):
         ({}, (0.05, -0.1, 1.0, -1.0), (0,), True),  # triggers that rest at an end are not in use
         ({}, (0.0, 0.11, 0.0, 0.0), (0,), False),
         ({}, (-0.2, 0.0, 0.0, 0.0), (0,), False),
-        ({"enable_button": 0}, (0.0, 0.0), (0,), True),
         ({"enable_button": 0}, (0.0, 0.0), (1,), False),
     ],
 )
@@ -101,22 +83,18 @@ def test_a_rest_is_released_sticks_in_use_and_a_released_dead_man(given, axes, b
     assert mapping.rests(axes, mapping.velocity(axes, buttons)) is rests
 
 
-@pytest.mark.parametrize(
-    ("curve", "axis", "speed"),
-    [(1, 0.5, 0.5), (2, 0.5, 0.25), (2, -0.5, -0.25), (3, 0.5, 0.125), (3, 1.0, 1.0), (2, 0, 0)],
-)
-def test_a_curve_is_gentle_near_the_middle_and_keeps_the_ends(curve, axis, speed):
-    mapping = Mapping(load({"axis_curve": curve}))
-    assert mapping.velocity((-axis, axis), ()) == (speed, 0, 0, 0, 0, -speed)
+@given(st.floats(1, 4), st.floats(0, 1))
+def test_a_curve_is_gentle_near_the_middle_and_keeps_the_ends(curve, axis):
+    mapping, speed = Mapping(load({"axis_curve": curve})), pytest.approx(axis**curve)
+    for x, sign in ((axis, 1), (-axis, -1)):
+        velocity = mapping.velocity((-x, x), ())
+        assert (sign * velocity[0], -sign * velocity[5]) == (speed, speed)
 
 
 def test_the_stop_button_counts_in_a_message_that_is_cut_and_wins_over_reset():
     mapping = Mapping(load({"stop_button": 1, "stop_reset_button": 2}))
-    assert mapping.stops((0, 1))
-    assert not mapping.stops((0,))
-    assert not mapping.stops((0, 0, 1))
-    assert mapping.resets((0, 0, 1))
-    assert not mapping.resets((0, 1, 1))
+    assert [mapping.stops(held) for held in ((0, 1), (0,), (0, 0, 1))] == [True, False, False]
+    assert [mapping.resets(held) for held in ((0, 0, 1), (0, 1, 1))] == [True, False]
     assert not Mapping(load({})).stops((1, 1, 1))
 
 
@@ -124,13 +102,8 @@ def test_the_stop_button_counts_in_a_message_that_is_cut_and_wins_over_reset():
     ("given", "line"),
     [
         ({}, "axis 1 -> linear.x at 1 m/s; no dead-man button"),
-        ({"axis_linear": -1}, "axis 0 -> angular.z at 1 rad/s; no dead-man button"),
-        ({"enable_button": 0}, "axis 1 -> linear.x at 1 m/s; hold button 0"),
         ({"enable_button": 4, "enable_turbo_button": 5, "scale_linear": 0.7},
          "axis 1 -> linear.x at 0.7 m/s (turbo: 1 m/s); hold button 4, or 5 for turbo"),
-        ({**NOT_REQUIRED, "enable_button": 4},
-         "axis 1 -> linear.x at 1 m/s (turbo: 2 m/s); hold button 1 for turbo"),
-        (TURBO, "axis 1 -> linear.x at 1 m/s (turbo: 1 m/s); hold button 0 for turbo"),
         ({"axis_linear": -1, "axis_angular": -1},
          "no axis drives the robot: ~axis_linear and ~axis_angular are -1"),
         ({"axis_linear": -1, "axis_angular": -1, "stop_button": 1, "stop_reset_button": 2},

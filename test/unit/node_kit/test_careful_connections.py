@@ -2,6 +2,7 @@
 
 import io
 import threading
+from collections import Counter
 from types import SimpleNamespace
 
 import pytest
@@ -57,33 +58,25 @@ def test_a_message_that_does_not_end_is_reported(read):
 
 def test_one_thread_at_a_time_connects_to_a_publisher(monkeypatch):
     """Other threads may connect to other publishers and other topics meanwhile."""
-    now, most = {}, {}
-    others, counting = threading.Barrier(3), threading.Lock()
+    now, most, waited, others = Counter(), Counter(), [], threading.Barrier(3)
 
-    def connect(_self, topic, uri):
-        with counting:
-            now[topic, uri] = now.get((topic, uri), 0) + 1
-            most[topic, uri] = max(most.get((topic, uri), 0), now[topic, uri])
-        if first.acquire(blocking=False):  # the others get by
-            others.wait(30)
-        with counting:
-            now[topic, uri] -= 1
-        return topic, uri
+    def connect(_self, *way):
+        now[way] += 1
+        most[way] = max(most[way], now[way])
+        if way not in waited:
+            waited.append(way)
+            others.wait(30)  # the first one of each way, for those of the other ways
+        now[way] -= 1
 
-    first = threading.Semaphore(3)
     monkeypatch.setattr(careful_connections, "_connect", connect)
-    calls = [("/joy", "a")] * 20 + [("/joy", "b"), ("/odom", "a")]
-    answers = []
+    ways = [("/joy", "a")] * 20 + [("/joy", "b"), ("/odom", "a")]
     threads = [
-        threading.Thread(
-            target=lambda one=one: answers.append(careful_connections._connect_in_turn(None, *one))
-        )
-        for one in calls
+        threading.Thread(target=careful_connections._connect_in_turn, args=(None, *way))
+        for way in ways
     ]
     for thread in threads:
         thread.start()
     for thread in threads:
         thread.join()
-    assert sorted(answers) == sorted(calls)
-    assert set(most.values()) == {1}
+    assert most == dict.fromkeys(ways, 1)
     assert not careful_connections._turns  # no lock is kept

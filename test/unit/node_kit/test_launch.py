@@ -20,11 +20,9 @@ PYTHON = "/usr/bin/python3"
     [
         ([PYTHON, "/usr/bin/roslaunch", "joy2twist", "launch_bag.launch"], True),
         (["/usr/bin/roslaunch", "--wait", "a.launch"], True),
-        ([PYTHON, "/usr/bin/roslaunch", "--nodes", "joy2twist", "launch_bag.launch"], False),
         ([PYTHON, "/usr/bin/roslaunch", "--ros-args", "joy2twist", "launch_bag.launch"], False),
         ([PYTHON, "/usr/bin/roslaunch", "--dump-params", "a.launch"], False),
         ([PYTHON, "/usr/bin/rostest", "a.test"], False),  # a master of its own
-        ([PYTHON, "/usr/bin/roslaunch-check", "launch"], False),
         ([PYTHON, "-c", "pass", "roslaunch"], False),
         ([""], False),
     ],
@@ -71,24 +69,27 @@ def test_nodes_are_found_in_their_namespaces_and_arguments_that_no_file_has(tmp_
     assert read_launch(command) == (["/a/base", "/b/base"], [])  # roslaunch reports what is wrong
 
 
-def ends_launch(script):
-    """Start it with a node that is a script of the shell."""
-    return subprocess.Popen(
+RUNS_ON = "trap 'echo ended; exit 5' INT TERM; echo ready; while :; do read x; done"
+
+
+@pytest.mark.parametrize(
+    ("script", "number", "said", "code"),
+    [
+        ("echo ready; exit 3", 0, "", 3),
+        ("echo ready; kill -9 $$", 0, "", 137),
+        (RUNS_ON, signal.SIGINT, "ended\n", 5),
+        (RUNS_ON, signal.SIGTERM, "ended\n", 5),
+    ],
+)
+def test_ends_launch_passes_signals_on_and_exits_with_the_code_of_its_node(
+    script, number, said, code
+):
+    node = subprocess.Popen(
         [sys.executable, KIT / "scripts" / "ends_launch", "sh", "-c", script],
         env={"PYTHONPATH": str(KIT / "src"), "PATH": "/usr/bin:/bin"},
         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True,
     )  # fmt: skip
-
-
-@pytest.mark.parametrize(("script", "code"), [("true", 0), ("exit 3", 3), ("kill -9 $$", 137)])
-def test_ends_launch_returns_the_exit_code_of_the_node(script, code):
-    node = ends_launch(script)
-    assert (node.communicate(timeout=60)[0], node.returncode) == ("", code)
-
-
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_a_signal_reaches_the_node_and_ends_ends_launch(number):
-    node = ends_launch("trap 'echo ended; exit 5' INT TERM; echo ready; while :; do read x; done")
     assert node.stdout.readline() == "ready\n"
-    os.killpg(node.pid, number)  # as roslaunch does
-    assert (node.communicate(timeout=60)[0], node.returncode) == ("ended\n", 5)
+    if number:
+        os.killpg(node.pid, number)  # as roslaunch does
+    assert (node.communicate(timeout=60)[0], node.returncode) == (said, code)

@@ -55,17 +55,6 @@ def test_suspensions_are_counted_once(clock, steps):
         assert suspensions.number() == number
 
 
-def test_one_in_the_middle_of_a_look_is_noticed(clock, monkeypatch):
-    suspensions = Suspensions()
-    with monkeypatch.context() as patch:
-        notice = suspensions._notice
-        patch.setattr(
-            suspensions, "_notice", lambda now: (notice(now), clock.__setitem__(0, clock[0] + 3.0))
-        )
-        suspensions._look()
-    assert suspensions.number() == 1
-
-
 def test_the_thread_keeps_looking():
     before = signal.getsignal(signal.SIGCONT)
     suspensions = Suspensions()
