@@ -14,7 +14,6 @@ A case begins with `node: NAMESPACE` of the node (default: the root). A step is 
   silent_for_s: t       nothing is sent for so long
   rests: true           zeros are sent, until none has come for a while
   leave: true           the publisher of joy leaves; the next joy step brings another one
-  clock_s: t            publish the simulated time
   state: text           /diagnostics, which come once a second, report a state that begins so; with
                         `again: true` the last Joy is repeated meanwhile
 
@@ -25,19 +24,16 @@ import collections
 import time
 from math import inf
 
-import rosgraph
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import Twist
-from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Joy
 
-from node_kit.questions import call
 from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
 COMPONENTS = [f"{kind}.{axis}" for kind in ("linear", "angular") for axis in "xyz"]
-STEPS = {"joy", "sends", "reaches", "silent_for_s", "rests", "leave", "clock_s", "state"}
+STEPS = {"joy", "sends", "reaches", "silent_for_s", "rests", "leave", "state"}
 QUIET_S = 1.0  # longer than any repetition of zero and any watchdog in the cases
 
 
@@ -136,21 +132,6 @@ class Node:
             self._joystick.unregister()
         self._joystick = None
 
-    def _clock_s(self, clock_s):
-        now, before = rospy.Time(clock_s), self._clock_bytes()
-        wait_for(
-            lambda: self.clock.publish(Clock(now)) or rospy.Time.now() == now, "simulated time"
-        )
-        # The node, too: a stamp of another time would be too old for it.
-        wait_for(lambda: self._clock_bytes() > before, "simulated time in the node")
-
-    def _clock_bytes(self):
-        """How much of /clock the node has received."""
-        uri = rosgraph.Master(rospy.get_name()).lookupNode(f"{self._namespace}/NewJoy2Twist")
-        _, (_, subscribed, _) = call(uri, "getBusStats")
-        connections = dict(subscribed).get("/clock", [])
-        return sum(received for _, received, *_ in connections)
-
     def _state(self, state, again=False):
         name = f"{self._namespace}/NewJoy2Twist: joystick".strip("/")
 
@@ -170,7 +151,6 @@ class CasesTest(RosTest):
     def setUpClass(cls):
         cls.nodes = {}  # by namespace
         Node.states = {}  # of every node, by its name in /diagnostics
-        Node.clock = rospy.Publisher("/clock", Clock, queue_size=10)
         keep = lambda array: Node.states.update((s.name, s.message) for s in array.status)  # noqa: E731
         rospy.Subscriber("/diagnostics", DiagnosticArray, keep)
 
