@@ -23,7 +23,7 @@ class Drive:
     path: Tuple[Sample, ...]
 
 
-def drive(ground, script):
+def drive(ground, script) -> Drive:
     """Record a drive."""
     with ground.stage() as stage:
         robot = SimulatedRobot(stage)

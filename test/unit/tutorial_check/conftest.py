@@ -5,6 +5,7 @@ from types import SimpleNamespace
 import pytest
 
 from tutorial_check.handout.task import JoystickTask
+from tutorial_check.order import Order
 from tutorial_check.record.ground import Ground
 
 
@@ -28,3 +29,13 @@ def make_session(tmp_path):
         )
 
     return make
+
+
+@pytest.fixture
+def order(tmp_path):
+    """An Order of an empty workspace."""
+    return Order(
+        folder=str(tmp_path), root=str(tmp_path), source=str(tmp_path / "src"), is_workspace=True,
+        own=True, exercises=("2",), only_first=False, course="", variant={}, underlay="",
+        environment={}, kept=(), shown=(), number=1, apart=False,
+    )  # fmt: skip

@@ -1,26 +1,43 @@
-"""An examination that does not finish: what it found until then is reported."""
+"""A worker that does not go on: what the checks came to until then is reported."""
 
+import json
+from dataclasses import dataclass
 from types import SimpleNamespace
 
 import pytest
 
 from tutorial_check import launcher
 from tutorial_check.isolation import bubblewrap
-from tutorial_check.model import CannotCheck
+from tutorial_check.model import CannotCheck, Check
 
-RESULT = '{"exercise": "2", "result": {"id": "C1", "status": "ok", "title": "one"}}'
-DONE = '{"exercise": "2", "done": 1.0, "trouble": ""}'
-BEGUN = '{"exercise": "3", "result": {"id": "C5", "status": "wrong", "title": "two"}}'
+READY = json.dumps({"ready": True})
+SEEN = json.dumps({"recording": {"number": 1}, "strained": False, "hopeless": False})
+
+
+@dataclass(frozen=True)
+class Seen:
+    number: int
+
+
+def look(ground, what: str) -> Seen:
+    """Recorded by a script in place of the worker."""
+
+
+def looks(name):
+    return lambda session: f"{session.recording(look, name).number}"
 
 
 @pytest.fixture
 def examine(tmp_path, monkeypatch):
-    """examine(lines, ending, tell): with a script in place of the examination."""
+    """examine(answers, ending, tell): with a script in place of the worker."""
     (tmp_path / "setup.bash").touch()
+    checks = [Check(f"C{n}", n, "", n, function=looks(n)) for n in ("2", "3", "5")]
+    monkeypatch.setattr(launcher, "checks_of", lambda course: checks)
 
-    def examined(lines, ending="", tell=lambda outcome, result: None):
-        script = "\n".join(["cat >/dev/null", *(f"echo '{line}'" for line in lines), ending])
-        monkeypatch.setattr(bubblewrap, "command", lambda *_: ["sh", "-c", script])
+    def examined(answers, ending="", tell=lambda outcome, result: None):
+        # The order ends with the input; questions come from where answers go.
+        script = ["cat >/dev/null", *(f"echo '{line}'; read -r _ <&1" for line in answers), ending]
+        monkeypatch.setattr(bubblewrap, "command", lambda *_: ["sh", "-c", "\n".join(script)])
         return launcher.examine(tmp_path, tmp_path / "setup.bash", ["2", "3", "5"], tell)
 
     return examined
@@ -31,16 +48,10 @@ def found_in(outcomes):
     return {one.id: ([result.id for result in one.results], one.trouble) for one in outcomes}
 
 
-@pytest.mark.parametrize(
-    ("ending", "why"),
-    [
-        ("echo no room >&2", "the examination ended without a result: no room"),
-        ("""echo '{"cannot": "no room"}'""", "no room"),
-    ],
-)
-def test_what_was_found_before_it_ended(examine, ending, why):
-    outcomes = examine([RESULT, DONE, BEGUN], ending)
-    assert found_in(outcomes) == {"2": (["C1"], ""), "3": (["C5"], why), "5": ([], why)}
+def test_what_was_found_before_the_worker_ended(examine):
+    outcomes = examine([READY, SEEN], "echo no room >&2")
+    why = "the examination ended without a result: no room"
+    assert found_in(outcomes) == {"2": (["C2"], ""), "3": ([], why), "5": ([], why)}
     assert [one.passed for one in outcomes] == [True, False, False]
 
 
@@ -49,27 +60,25 @@ def test_what_was_found_before_the_time_was_over(examine, monkeypatch):
     monkeypatch.setattr(launcher, "time", clock)
 
     def let_it_be_over(outcome, _):
-        if outcome.id == "3":
-            clock.monotonic = lambda: launcher.LONGEST_S + 1
+        clock.monotonic = lambda: launcher.LONGEST_S + 1
 
-    outcomes = found_in(examine([RESULT, DONE, BEGUN], "exec sleep 3600", let_it_be_over))
-    assert outcomes["2"] == (["C1"], "")
-    assert outcomes["3"][0] == ["C5"] and "took longer than 900 s" in outcomes["3"][1]
-
-
-def test_an_examination_that_finds_nothing_has_no_verdict(examine):
-    with pytest.raises(CannotCheck, match="ended without a result"):
-        examine([])
+    outcomes = found_in(examine([READY, SEEN], "exec sleep 3600", let_it_be_over))
+    assert outcomes["2"] == (["C2"], "")
+    assert "took longer than 900 s" in outcomes["3"][1]
 
 
-def test_a_result_that_nobody_asked_for_or_that_comes_twice_is_none(examine):
-    stray = RESULT.replace('"2"', '"4.3"')
-    late = RESULT.replace("C1", "C2")
-    seen = []
-    outcomes = examine(
-        [stray, DONE.replace('"2"', '"4.3"'), RESULT, RESULT.replace("ok", "wrong"), DONE, late],
-        """echo '{"end": true}'""",
-        lambda outcome, result: seen.append((outcome.id, result.id, result.status)),
-    )
-    assert seen == [("2", "C1", "ok")]
-    assert found_in(outcomes)["2"] == (["C1"], "")
+@pytest.mark.parametrize(
+    ("answers", "why"),
+    [([], "ended without a result"), ([READY], "ended without a result"),
+     (['{"cannot": "no room"}'], "no room")],
+)  # fmt: skip
+def test_a_worker_that_records_nothing_gives_no_verdict(examine, answers, why):
+    with pytest.raises(CannotCheck, match=why):
+        examine(answers)
+
+
+def test_an_answer_that_is_no_recording_is_no_verdict(examine):
+    forged = SEEN.replace("number", "forged")
+    outcomes = examine([READY, forged, SEEN, SEEN])
+    assert outcomes[0].results[0].status == "unreached" and "no Seen" in outcomes[0].trouble
+    assert [one.passed for one in outcomes] == [False, True, True]

@@ -2,11 +2,14 @@
 
 import itertools
 import os
+from dataclasses import dataclass
 from types import SimpleNamespace
 
 import pytest
 
-from tutorial_check.model import CannotCheck
+from tutorial_check.case import Case
+from tutorial_check.model import CannotCheck, Wrong
+from tutorial_check.variants import Task
 
 
 def test_a_folder_in_which_nothing_can_be_started_is_named(make_session, monkeypatch):
@@ -17,21 +20,44 @@ def test_a_folder_in_which_nothing_can_be_started_is_named(make_session, monkeyp
         one.must_start_programs()
 
 
+@dataclass(frozen=True)
+class Seen:
+    number: int
+
+
+def look(ground) -> Seen:
+    """Recorded by the worker of the test below."""
+
+
 @pytest.mark.parametrize(
     ("strained", "explained", "is_worth_it"),
     [(False, True, False), (False, False, True), (True, True, True), (True, False, True)],
 )
-def test_a_second_look_at_what_was_busy_or_unexplained(
-    make_session, strained, explained, is_worth_it
-):
-    """It forgets what was seen, and nothing of what is."""
-    one, count = make_session("a", "2"), itertools.count()
+def test_a_second_look_at_what_was_busy_or_unexplained(order, strained, explained, is_worth_it):
+    """It forgets what was recorded, and nothing of what files say."""
+    count = itertools.count()
 
-    def look(ground):
-        return next(count)
+    def ask(question):
+        assert question == {"recorder": f"{__name__}:look", "arguments": []}
+        return {"recording": {"number": next(count)}, "strained": strained, "hopeless": False}
 
-    one.runner = SimpleNamespace(clock=SimpleNamespace(strained=lambda: strained))
-    assert [one.recording(look), one.memo("k", lambda: next(count))] == [0, 1]
+    one = Case(order, Task({}), ask)
+    assert [one.recording(look).number, one.memo("k", lambda: next(count))] == [0, 1]
     assert one.second_look(explained) == is_worth_it
-    again = [one.recording(look), one.memo("k", lambda: next(count))]
+    again = [one.recording(look).number, one.memo("k", lambda: next(count))]
     assert again == [2 if is_worth_it else 0, 1]
+
+
+@pytest.mark.parametrize(
+    ("answer", "error", "words"),
+    [
+        ({"cannot": "no room"}, CannotCheck, "no room"),
+        ({"wrong": {"expected": "a", "seen": "the master has gone"}}, Wrong, "the master has gone"),
+        ({"recording": {"forged": 1}}, ValueError, "no Seen"),
+    ],
+)
+def test_an_answer_that_is_no_recording(order, answer, error, words):
+    one = Case(order, Task({}), lambda _: {**answer, "strained": False, "hopeless": False})
+    with pytest.raises(error) as caught:
+        one.recording(look)
+    assert words in getattr(caught.value, "seen", str(caught.value))

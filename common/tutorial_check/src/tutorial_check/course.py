@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import importlib
 import sys
+import threading
 import traceback
 import types
 from dataclasses import dataclass, field, fields, replace
@@ -27,6 +28,9 @@ KINDS: dict[str, tuple[type, ...]] = {
 
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 _checks: list[Check] = []  # of all courses that were loaded
+_loaded: dict[object, list[Check]] = {}  # by folder, files and when these have changed
+_loading = threading.Lock()
+MOST_LOADED = 8
 
 
 @dataclass(frozen=True)
@@ -160,7 +164,21 @@ def _known(kind: type, given: Any, but: tuple[str, ...] = ()) -> dict[str, Any]:
 
 
 def checks_of(course: Course) -> list[Check]:
-    """Load the Python files of a course; return their checks, in its order. Raises CannotCheck."""
+    """Load the Python files of a course; return their checks, in its order. Raises CannotCheck.
+
+    Several threads may ask. Files that have not changed are loaded once.
+    """
+    files = sorted(course.folder.rglob("*.py"))
+    key = course.folder, tuple((path, path.stat().st_mtime_ns) for path in files)
+    with _loading:
+        if key not in _loaded:
+            if len(_loaded) > MOST_LOADED:
+                _loaded.clear()
+            _loaded[key] = _load(course)
+        return _loaded[key]
+
+
+def _load(course: Course) -> list[Check]:
     package = package_of(course)
     if course.folder != OURS:
         for name in [each for each in sys.modules if f"{each}.".startswith(f"{PACKAGE}.")]:

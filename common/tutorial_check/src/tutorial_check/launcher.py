@@ -1,4 +1,4 @@
-"""Starts examine isolated and reads what it finds. Knows no ROS."""
+"""Starts a worker isolated, and makes the checks from what it records."""
 
 from __future__ import annotations
 
@@ -20,13 +20,15 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Callable, Iterable, Mapping
 
-from tutorial_check.course import FILE, OURS, read_course
+from tutorial_check.case import Case
+from tutorial_check.course import FILE, OURS, Course, checks_of, read_course
 from tutorial_check.isolation import bubblewrap, privileges
 from tutorial_check.isolation.environment import environment_of
-from tutorial_check.model import WRONG, CannotCheck, Result, passed
+from tutorial_check.model import WRONG, CannotCheck, Result, Run, passed
 from tutorial_check.order import Order
 from tutorial_check.record.recording import as_json
 from tutorial_check.source import workspace as workspaces
+from tutorial_check.variants import task_of
 
 # All exercises take 90 s on two quiet processors. Ten times as long is enough: where programs have less
 # than a seventh of the time, there is no verdict anyway (cpu_clock.HOPELESS), and a student waits.
@@ -115,7 +117,7 @@ def examine(
             environment=_environment(underlay), kept=tuple(kept), shown=tuple(seen),
             number=next(NUMBERS), apart=bool(wrapper),
         )  # fmt: skip
-        outcomes = _examine(order, wrapper, report)
+        outcomes = _examine(order, wrapper, read_course(course), report)
         remark = "" if own else bubblewrap.instead()
         return [replace(one, place=layout.place, remark=remark) for one in outcomes]
     finally:
@@ -181,25 +183,29 @@ def _hand_in(workspace: str, folder: Path, own: bool) -> tuple[workspaces.Layout
     return layout, [each for each in shown if each.resolve() not in (home, *home.parents)]
 
 
-def _examine(order: Order, wrapper: list[str], report: Report) -> list[Outcome]:
-    if not wrapper:
-        privileges.keep_to_itself()  # and the end of the socket
-    environment = {**order.environment, **_given(("HOME", "LANG"))}
-    environment.update(PATH="/usr/bin:/bin:/usr/sbin:/sbin", PYTHONDONTWRITEBYTECODE="1")
-    # No pipe, which a path in /proc would open: a program could plant a link to that.
-    ours, theirs = socket.socketpair()
-    known = read_course(order.course).exercises
-    outcomes = {
-        name: Outcome(name, title=known[name].title, points=known[name].points)
-        for name in order.exercises
-    }
-    with tempfile.TemporaryFile("w+") as log, ours:
-        process = subprocess.Popen(
+class _Ended(BaseException):
+    """The worker answers no more; the text says why. No check may go on."""
+
+
+class Worker:
+    """The process that records in isolation."""
+
+    def __init__(self, order: Order, wrapper: list[str]) -> None:
+        if not wrapper:
+            privileges.keep_to_itself()  # and the end of the socket
+        environment = {**order.environment, **_given(("HOME", "LANG"))}
+        environment.update(PATH="/usr/bin:/bin:/usr/sbin:/sbin", PYTHONDONTWRITEBYTECODE="1")
+        self._order, self._is_apart, self._buffer = order, bool(wrapper), b""
+        self._end_s = time.monotonic() + LONGEST_S
+        self._log = tempfile.TemporaryFile("w+")  # noqa: SIM115  closed by __exit__
+        # No pipe, which a path in /proc would open: a program could plant a link to that.
+        self._line, theirs = socket.socketpair()
+        self._process = subprocess.Popen(
             # -s: without what pip put into the home folder, which may be shown nowhere
             [*wrapper, "/usr/bin/python3", "-s", "-m", "tutorial_check.worker"],
             stdin=subprocess.PIPE,
             stdout=theirs.fileno(),
-            stderr=log,
+            stderr=self._log,
             env=environment,
             start_new_session=True,
             pass_fds=bubblewrap.granted().descriptors if wrapper else (),
@@ -207,61 +213,96 @@ def _examine(order: Order, wrapper: list[str], report: Report) -> list[Outcome]:
             text=True,
         )
         theirs.close()
+
+    def __enter__(self) -> Worker:
+        assert self._process.stdin
+        with contextlib.suppress(BrokenPipeError):  # it has ended, as its answer will show
+            json.dump(as_json(self._order), self._process.stdin)
+            self._process.stdin.close()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._line.close()  # so that it ends
         try:
-            assert process.stdin
-            json.dump(as_json(order), process.stdin)
-            process.stdin.close()
-            ending = _listen(ours, outcomes, report)
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                self._process.wait(0 if self._is_apart else END_S)
         finally:
-            ours.close()  # so that it ends
-            try:
-                with contextlib.suppress(subprocess.TimeoutExpired):
-                    process.wait(0 if wrapper else END_S)
-            finally:
-                process.kill()  # with it all of its namespaces
-                process.wait()
-        log.seek(0)
-        logged = log.read()
-    if ending is None:
-        last = ["", *filter(str.strip, logged[-2000:].splitlines())][-1]
-        ending = f"the examination ended without a result: {last}"
-    found = list(outcomes.values())
-    if ending and (_no_more.is_set() or not any(outcome.results for outcome in found)):
+            self._process.kill()  # with it all of its namespaces
+            self._process.wait()
+            self._log.close()
+
+    def begin(self) -> None:
+        """Wait until it can record. Raises CannotCheck."""
+        answer = self._answer()
+        if "cannot" in answer:
+            raise CannotCheck(str(answer["cannot"]))
+
+    def ask(self, question: dict[str, Any]) -> dict[str, Any]:
+        """Return the answer to a question; see worker. Raises _Ended."""
+        try:
+            self._line.sendall(json.dumps(question).encode() + b"\n")
+        except OSError:
+            raise _Ended(self._last_words()) from None
+        return self._answer()
+
+    def _answer(self) -> dict[str, Any]:
+        while b"\n" not in self._buffer:
+            if _no_more.is_set():
+                raise _Ended("it was ended")
+            if time.monotonic() > self._end_s:
+                why = "the machine has too much else to do"
+                raise _Ended(f"the examination took longer than {LONGEST_S:.0f} s: {why}")
+            if select.select([self._line], [], [], 0.2)[0]:
+                data = self._line.recv(1 << 20)
+                if not data:
+                    raise _Ended(self._last_words())
+                self._buffer += data
+        line, _, self._buffer = self._buffer.partition(b"\n")
+        folder = self._order.folder
+        # Its programs run in ws, and the checks look at what was handed in.
+        text = line.decode(errors="replace")
+        text = text.replace(f"{folder}/ws/", f"{folder}/{Path(workspaces.COPY).parent}/")
+        found: dict[str, Any] = json.loads(text)
+        return found
+
+    def _last_words(self) -> str:
+        self._process.wait()
+        self._log.seek(0)
+        last = ["", *filter(str.strip, self._log.read()[-2000:].splitlines())][-1]
+        return f"the examination ended without a result: {last}"
+
+
+def _examine(order: Order, wrapper: list[str], course: Course, report: Report) -> list[Outcome]:
+    checks = checks_of(course)
+    known = course.exercises
+    outcomes = [
+        Outcome(name, title=known[name].title, points=known[name].points)
+        for name in order.exercises
+    ]
+    ending = ""
+    try:
+        with Worker(order, wrapper) as worker:
+            worker.begin()
+            case = Case(order, task_of(course)(order.variant), worker.ask)
+            run = Run(checks, case, case.second_look, case.too_busy)
+            for outcome in outcomes:
+                _make_checks(run, case, outcome, order.only_first, report)
+                if order.only_first and not passed(outcome.results):
+                    break
+    except _Ended as error:
+        ending = str(error)
+    if ending and (_no_more.is_set() or not any(outcome.results for outcome in outcomes)):
         raise CannotCheck(ending)
-    for outcome in found:
+    for outcome in outcomes:
         outcome.trouble = outcome.trouble if outcome.done else ending
-    return found
+    return outcomes
 
 
-def _listen(ours: socket.socket, outcomes: dict[str, Outcome], report: Report) -> str | None:
-    """Return why the examination cannot go on, empty at its end; None if it ends without a final message."""
-    end = time.monotonic() + LONGEST_S
-    buffer = ""
-    while time.monotonic() < end:
-        if _no_more.is_set():
-            return None
-        if not select.select([ours], [], [], 0.2)[0]:
-            continue
-        data = ours.recv(65536).decode(errors="replace")
-        if not data:
-            return None
-        *lines, buffer = (buffer + data).split("\n")
-        for word in map(json.loads, lines):
-            if "exercise" not in word:
-                return str(word.get("cannot", ""))
-            _note(word, outcomes, report)
-    why = "the machine has too much else to do"
-    return f"the examination took longer than {LONGEST_S:.0f} s: {why}"
-
-
-def _note(word: dict[str, Any], outcomes: dict[str, Outcome], report: Report) -> None:
-    outcome = outcomes.get(word["exercise"])
-    if outcome is None or outcome.done:
-        return  # it was not asked for, or has ended
-    if "result" not in word:
-        outcome.seconds, outcome.done, outcome.trouble = word["done"], True, word["trouble"]
-        return
-    result = Result(**word["result"])
-    if result.id not in [each.id for each in outcome.results]:
+def _make_checks(run: Run, case: Case, outcome: Outcome, only_first: bool, report: Report) -> None:
+    began_s = time.monotonic()
+    for found in run.exercise(outcome.id, only_first):
+        result = case.as_sent(found)
         outcome.results.append(result)
         report(outcome, result)
+    outcome.seconds = round(time.monotonic() - began_s, 2)
+    outcome.done, outcome.trouble = True, run.trouble(outcome.id)

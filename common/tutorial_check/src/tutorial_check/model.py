@@ -176,8 +176,6 @@ class Run:
             what = {name: getattr(wrong, name) for name in ("expected", "seen", "where", "hint")}
             return check.result(WRONG, **what, look=wrong.look or check.look)
         except Exception as error:  # also a bug of ours: the other checks are made all the same
-            if not isinstance(error, CannotCheck):
-                traceback.print_exc()
             why = self._troubles[check.id] = fault(error)
             result = check.result(UNREACHED, seen=f"could not be checked: {why}")
             self._blocked_by[check.id] = [result]

@@ -1,9 +1,9 @@
-"""The examination itself, isolated: python3 -m tutorial_check.worker.
+"""Records in isolation: python3 -m tutorial_check.worker.
 
-Its orders come as JSON on standard input. What it finds goes out as JSON lines through a socket, which
-unlike a pipe no path in /proc opens: {"exercise": id, "result": {...}}, {"exercise": id, "done":
-seconds, "trouble": why it could not be checked as a whole, or ""}, and at the end {"end": true} or
-{"cannot": "why"}.
+Its order comes as JSON on standard input. Then each line of a socket asks for a recording,
+{"recorder": "MODULE:NAME", "arguments": [...]}, and is answered by a line: {"recording": {...}},
+{"wrong": {...}} where nothing can be recorded, or {"cannot": "why"}; each also says whether the
+machine kept the programs waiting. A socket, unlike a pipe, no path in /proc opens.
 """
 
 from __future__ import annotations
@@ -12,27 +12,28 @@ import contextlib
 import importlib
 import json
 import os
-import shlex
 import shutil
 import signal
+import socket
 import sys
-import time
 import traceback
 from pathlib import Path
-from typing import Any, Callable
+from typing import TYPE_CHECKING, Any
 
 from tutorial_check.isolation import bubblewrap, environment, privileges
-from tutorial_check.model import CannotCheck, Result, Run, fault, passed
+from tutorial_check.model import CannotCheck, Wrong, fault
 from tutorial_check.order import Order
-from tutorial_check.record.recording import from_json
+from tutorial_check.record.recording import arguments_of, as_json, from_json
 from tutorial_check.source import workspace
 
-Send = Callable[..., None]
+if TYPE_CHECKING:
+    from tutorial_check.record.ground import Ground
+
 SHARED_PAGES = 1 << 16  # of System V shared memory: 256 MB
 
 
 def main() -> None:
-    """Read the orders, examine, send what is found."""
+    """Read the order, then record what is asked for until nobody asks any more."""
     os.umask(0o022)  # programs that run as another user read what we write
     privileges.keep_to_itself()
     order = from_json(Order, json.load(sys.stdin))
@@ -45,27 +46,56 @@ def main() -> None:
         privileges.prctl(
             privileges.PR_SET_CHILD_SUBREAPER, 1
         )  # in a container no other process may reap
-    line = os.fdopen(os.dup(1), "w", buffering=1)
-    os.set_inheritable(line.fileno(), False)
-    os.dup2(2, 1)  # nothing else gets into the results
-
-    def send(**what: Any) -> None:
-        line.write(json.dumps(what) + "\n")
-
+    line = socket.socket(fileno=os.dup(1))
+    line.set_inheritable(False)
+    os.dup2(2, 1)  # nothing else gets into the answers
     try:
-        examine(order, send, line.fileno())
-        send(end=True)
+        _serve(order, line)
     except Exception as error:  # not the student's fault, whatever it is
         if not isinstance(error, CannotCheck):
             traceback.print_exc()
-        send(cannot=fault(error))
+        _send(line, {"cannot": fault(error)})
     finally:  # the process that made the folder may have been killed
         privileges.restore_rights()
         shutil.rmtree(order.folder, ignore_errors=True)
 
 
-def examine(order: Order, send: Send, result: int) -> None:
-    """Make the checks of an order, and send their results. result: see Runner."""
+def _send(line: socket.socket, answer: dict[str, Any]) -> None:
+    with contextlib.suppress(OSError):  # nobody listens
+        line.sendall(json.dumps(answer).encode() + b"\n")
+
+
+def _serve(order: Order, line: socket.socket) -> None:
+    ground = _prepared(order, line.fileno())
+    try:
+        _send(line, {"ready": True})
+        for asked in line.makefile():
+            _send(line, {**_answer(ground, json.loads(asked)), **_machine(ground)})
+    finally:
+        ground.runner.clear()  # a build, too, is ended; where no namespace is, nothing else does that
+
+
+def _machine(ground: Ground) -> dict[str, bool]:
+    clock = ground.runner.clock
+    return {"strained": clock.strained(), "hopeless": clock.hopeless()}
+
+
+def _answer(ground: Ground, asked: dict[str, Any]) -> dict[str, Any]:
+    module, _, name = asked["recorder"].partition(":")
+    try:
+        recorder = getattr(importlib.import_module(module), name)
+        return {"recording": as_json(recorder(ground, *arguments_of(recorder, asked["arguments"])))}
+    except Wrong as wrong:
+        names = ("expected", "seen", "where", "hint", "sure", "look")
+        return {"wrong": {each: getattr(wrong, each) for each in names}}
+    except Exception as error:
+        if not isinstance(error, CannotCheck):
+            traceback.print_exc()
+        return {"cannot": fault(error)}
+
+
+def _prepared(order: Order, reader: int) -> Ground:
+    """Return the ground of an order. reader: see Runner."""
     scratch = Path(order.folder)
     layout = workspace.Layout(Path(order.root), Path(order.source), order.is_workspace)
     shutil.copytree(scratch / workspace.COPY, scratch / "ws" / "src", symlinks=True)
@@ -82,70 +112,30 @@ def examine(order: Order, send: Send, result: int) -> None:
     uid = privileges.unused_user(order.number) if os.geteuid() == 0 else None
     environment.prepare(scratch, uid)
     scratch.chmod(0o755)
-    apart = order.apart
     variables = environment.variables(scratch, order.environment)
     shown: list[str | Path] = [scratch, *order.shown, *bubblewrap.SYSTEM, "/proc"]
     own = [scratch / name for name in environment.OWN]
-    ruleset = landlock.ruleset(shown, own) if landlock.version() and not apart else None
+    ruleset = landlock.ruleset(shown, own) if landlock.version() and not order.apart else None
     course = read_course(order.course)
-    checks = checks_of(course)
-    one = Ground(
+    checks_of(course)  # its recorders
+    ground = Ground(
         scratch,
         layout,
         order.exercises,
-        runner.Runner(variables, uid, apart, result, ruleset),
+        runner.Runner(variables, uid, order.apart, reader, ruleset),
         underlay=order.underlay,
-        can_have_devices=apart,
+        can_have_devices=order.apart,
         needed=[*order.kept, Path(__file__)],
         task=variants.task_of(course)(order.variant),
     )
-    run = Run(checks, one, one.second_look, one.runner.clock.hopeless)
     if uid is not None:
-        if not apart:  # then the suite may lie where that user cannot read
+        if not order.apart:  # then the suite may lie where that user cannot read
             importlib.import_module("rosbag")
             importlib.import_module("tutorial_check.record.driver")
         os.setgroups([])
         privileges.touch_files_as(uid, uid)
-    one.must_start_programs()
-    as_sent = _paths_of_the_student(scratch, layout, order.own)
-    try:
-        _run_exercises(run, order, send, lambda found: as_sent(one.task.words(found)))
-    finally:
-        one.runner.clear()  # a build, too, is ended; where no namespace is, nothing else does that
-
-
-def _run_exercises(
-    run: Run, order: Order, send: Send, as_sent: Callable[[Result], dict[str, Any]]
-) -> None:
-    """Send the results of each exercise as they come, then how long it took."""
-    for exercise in order.exercises:
-        began_s, results = time.monotonic(), []
-        for found in run.exercise(exercise, order.only_first):
-            send(exercise=exercise, result=as_sent(found))
-            results.append(found)
-        seconds = round(time.monotonic() - began_s, 2)
-        send(exercise=exercise, done=seconds, trouble=run.trouble(exercise))
-        if order.only_first and not passed(results):
-            return
-
-
-def _paths_of_the_student(
-    scratch: Path, layout: workspace.Layout, own: bool
-) -> Callable[[Result], dict[str, Any]]:
-    """Return a function that gives a Result as a dict, in which paths of the copy are the student's."""
-    copied = f"{scratch}/ws/" if layout.is_workspace else f"{scratch}/ws/src/"
-    # Commands work in any folder, where the workspace is known.
-    is_known = own and scratch not in layout.root.parents
-    root = f"{shlex.quote(str(layout.root))}/" if is_known else ""
-
-    def as_sent(result: Result) -> dict[str, Any]:
-        found = dict(vars(result))
-        for name, words in found.items():
-            if isinstance(words, str):
-                found[name] = words.replace(copied, root if name in ("hint", "look") else "")
-        return found
-
-    return as_sent
+    ground.must_start_programs()
+    return ground
 
 
 if __name__ == "__main__":

@@ -199,7 +199,7 @@ def cause_of(session: Session, package: str, name: str, trace: Traceback) -> tup
     """Return (the line to blame, what to do) for a Traceback of the program of that name."""
     name = COPY.sub("", name)
     script = next((each for each in session.scripts(package) if Path(each).name == name), "")
-    script = trace.where.rpartition(":")[0] or script
+    script = COPY.sub("", trace.where.rpartition(":")[0] or script)  # with the same lines
     if not script:
         return trace.where, explain(trace.error, trace.text)
     facts = PythonFacts(session.text(package, script))
@@ -208,7 +208,7 @@ def cause_of(session: Session, package: str, name: str, trace: Traceback) -> tup
     if not line and function:  # called by rospy itself
         line = facts.names.get(function[1], 0)
     line, hint = traced(trace.error, line, facts)
-    hint = hint or explain(trace.error, trace.text, session.whole(COPY.sub("", script), package))
+    hint = hint or explain(trace.error, trace.text, session.whole(script, package))
     file, hides = hider(trace.error, script, session.scripts(package))
     if hides:
         return file or f"{script}:{line}", hides

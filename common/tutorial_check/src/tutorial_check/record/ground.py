@@ -25,18 +25,6 @@ class Ground(Builder):
         found: Recorded = once(self._runs, key, lambda: recorder(self, *arguments))
         return found
 
-    def second_look(self, explained: bool) -> bool:
-        """Return whether to look again at what programs do; then forget what they did.
-
-        It is worth it if the machine was busy, or if no line explains it: nodes of a launch file meet
-        in any order; and a Ctrl-C that meets rospy in the middle of a publish of the main thread may
-        wait without end for a lock of that thread.
-        """
-        if explained and not self.runner.clock.strained():
-            return False
-        self._runs.clear()
-        return True
-
     @contextlib.contextmanager
     def stage(self, renamed: bool = True) -> Iterator[Stage]:
         """Yield a Stage: a ROS master and a driver; all that was started on it ends with it.

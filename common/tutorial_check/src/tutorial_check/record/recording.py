@@ -7,6 +7,7 @@ dataclasses, or tuples and maps of these, as their annotations say.
 from __future__ import annotations
 
 import dataclasses
+import inspect
 from typing import Any, Dict, List, Tuple, TypeVar, Union, cast, get_type_hints
 
 Recording = TypeVar("Recording")
@@ -52,3 +53,21 @@ def _from_json(kind: Any, value: Any) -> Any:
     if origin in (list, List):
         return [_from_json(inner[0], each) for each in value]
     return float(value) if kind is float else value
+
+
+def recorded_by(recorder: Any) -> Any:
+    """Return the type of what a recorder returns. Raises TypeError if it does not name it."""
+    kind = get_type_hints(recorder).get("return")
+    if not dataclasses.is_dataclass(kind):
+        raise TypeError(f"{recorder.__name__}() has to name the dataclass that it returns: ->")
+    return kind
+
+
+def arguments_of(recorder: Any, values: List[Any]) -> List[Any]:
+    """Return the arguments of a recorder, after the ground, that as_json() has made."""
+    kinds, names = get_type_hints(recorder), list(inspect.signature(recorder).parameters.values())
+    found = []
+    for number, value in enumerate(values, 1):
+        one = names[min(number, len(names) - 1)]  # the last may be *arguments
+        found.append(_from_json(kinds.get(one.name, Any), value))
+    return found

@@ -21,7 +21,7 @@ from tutorial_check.model import CannotCheck
 MOST_BYTES = 300 << 20  # of a workspace's sources; bags included
 MOST_FILES = 20_000
 SOLUTIONS = {"beginner_tutorials", "joy2twist"}  # the packages of the exercises
-COPY = "handed_in"  # folder of the copy of what was handed in
+COPY = "handed_in/src"  # the copy of what was handed in, as in a workspace
 # The words of a launch file, and in one of them what a node of the exercises reads.
 BETWEEN_WORDS, WHOLE_PATH = re.compile(r"[\s\"'<>$]+"), re.compile(r"/.+\.(?:bag|rviz)\b")
 IGNORED = {"build", "devel", ".git", "__pycache__"}  # folders that no student writes
