@@ -27,7 +27,7 @@ CREATE = {name: f"catkin_create_pkg {name} {' '.join(words)}" for name, words in
 # What a message of CMake's most often means here: (pattern, what to do). The first that fits counts.
 CMAKE_HINTS = (
     (r"does not match current PROJECT_NAME", "write the name that package.xml has into project()"),
-    (r"include dir '(.+)' does not exist|directory not found: .*?/ws/src/(\S+)"
+    (r"include dir '(.+)' does not exist|directory not found: \S*?/src/(\S+)"
      r"|source \"(\w[^\"]*)\" which is not an existing",
      "git keeps no empty folders: put a file into {f}, as .gitkeep, or take it out of the line"),
     (r"non-existing file|Cannot find source file", "look at the spelling of the file's path"),

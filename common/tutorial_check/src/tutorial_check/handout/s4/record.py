@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Optional, Tuple
 
-from tutorial_check.handout.s4.gamepad import Pad
 from tutorial_check.handout.s4_3.record import CMD_VEL, JOY, NEUTRAL
 from tutorial_check.handout.s4_3.rules import ANGULAR, LINEAR
 from tutorial_check.handout.task import LB, PACKAGE
@@ -153,6 +152,8 @@ def _driven(
 
 def plug_in(ground: Ground, stage: Stage, device: str = "/dev/input/js0") -> tuple[Helper, Path]:
     """Make a virtual F710 behind a device, or a FIFO where that cannot be; (Pad, path)."""
+    from tutorial_check.record.gamepad import Pad  # noqa: PLC0415  judges need no gamepad
+
     path = Path(device) if ground.can_have_devices else ground.folder / "js0"
     pad = stage.help(lambda: Pad(str(path), ground.task.joy))
     pad.call("connected")
