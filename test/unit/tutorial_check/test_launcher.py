@@ -6,7 +6,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from tutorial_check import launcher
+from tutorial_check import launcher, worker_process
 from tutorial_check.isolation import bubblewrap
 from tutorial_check.model import CannotCheck, Check
 
@@ -57,10 +57,11 @@ def test_what_was_found_before_the_worker_ended(examine):
 
 def test_what_was_found_before_the_time_was_over(examine, monkeypatch):
     clock = SimpleNamespace(monotonic=lambda: 0.0)
+    monkeypatch.setattr(worker_process, "time", clock)
     monkeypatch.setattr(launcher, "time", clock)
 
     def let_it_be_over(outcome, _):
-        clock.monotonic = lambda: launcher.LONGEST_S + 1
+        clock.monotonic = lambda: worker_process.LONGEST_S + 1
 
     outcomes = found_in(examine([READY, SEEN], "exec sleep 3600", let_it_be_over))
     assert outcomes["2"] == (["C2"], "")

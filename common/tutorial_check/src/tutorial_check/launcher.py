@@ -3,17 +3,11 @@
 from __future__ import annotations
 
 import compileall
-import contextlib
 import functools
 import itertools
-import json
 import os
-import select
 import shutil
-import socket
 import subprocess
-import tempfile
-import threading
 import time
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -26,20 +20,15 @@ from tutorial_check.isolation import bubblewrap, privileges
 from tutorial_check.isolation.environment import environment_of
 from tutorial_check.model import WRONG, CannotCheck, Result, Run, passed
 from tutorial_check.order import Order
-from tutorial_check.record.recording import as_json
 from tutorial_check.source import workspace as workspaces
 from tutorial_check.variants import task_of
+from tutorial_check.worker_process import Ended, Worker, given, is_ended
 
-# All exercises take 90 s on two quiet processors. Ten times as long is enough: where programs have less
-# than a seventh of the time, there is no verdict anyway (cpu_clock.HOPELESS), and a student waits.
-LONGEST_S = 900.0
 # Of a shell of the suite: its roscore.xml, with which each roslaunch starts sooner, and what CMake 4
 # needs to read catkin's files.
 OF_SUITE = ("ROS_ETC_DIR", "CMAKE_POLICY_VERSION_MINIMUM")
-END_S = 10.0  # an examination whose result is not wanted has this long to end what it started
 SUITE = Path(__file__).resolve().parents[4]
 NUMBERS = itertools.count(os.getpid() * 100)
-_no_more = threading.Event()
 
 
 @dataclass
@@ -125,11 +114,6 @@ def examine(
         cleaner.communicate()
 
 
-def end_all() -> None:
-    """End the examinations of all threads, and those that have just begun; each raises CannotCheck."""
-    _no_more.set()
-
-
 @functools.lru_cache(maxsize=None)
 def _environment(underlay: str) -> dict[str, str]:
     """Return what a shell has that has sourced setup.bash, and nothing else. Raises CannotCheck."""
@@ -143,11 +127,7 @@ def _environment(underlay: str) -> dict[str, str]:
         raise CannotCheck(f"{underlay} cannot be sourced: {why}") from None
     # rospy loads numpy, which starts a thread for each processor; none is needed here.
     found = environment_of(done.stdout.split("\0"))
-    return {**found, **_given(OF_SUITE), "OPENBLAS_NUM_THREADS": "1"}
-
-
-def _given(names: Iterable[str]) -> dict[str, str]:
-    return {name: os.environ[name] for name in names if name in os.environ}
+    return {**found, **given(OF_SUITE), "OPENBLAS_NUM_THREADS": "1"}
 
 
 def _kept(underlay: str) -> list[str]:
@@ -183,95 +163,6 @@ def _hand_in(workspace: str, folder: Path, own: bool) -> tuple[workspaces.Layout
     return layout, [each for each in shown if each.resolve() not in (home, *home.parents)]
 
 
-class _Ended(BaseException):
-    """The worker answers no more; the text says why. No check may go on."""
-
-
-class Worker:
-    """The process that records in isolation."""
-
-    def __init__(self, order: Order, wrapper: list[str]) -> None:
-        if not wrapper:
-            privileges.keep_to_itself()  # and the end of the socket
-        environment = {**order.environment, **_given(("HOME", "LANG"))}
-        environment.update(PATH="/usr/bin:/bin:/usr/sbin:/sbin", PYTHONDONTWRITEBYTECODE="1")
-        self._order, self._is_apart, self._buffer = order, bool(wrapper), b""
-        self._end_s = time.monotonic() + LONGEST_S
-        self._log = tempfile.TemporaryFile("w+")  # noqa: SIM115  closed by __exit__
-        # No pipe, which a path in /proc would open: a program could plant a link to that.
-        self._line, theirs = socket.socketpair()
-        self._process = subprocess.Popen(
-            # -s: without what pip put into the home folder, which may be shown nowhere
-            [*wrapper, "/usr/bin/python3", "-s", "-m", "tutorial_check.worker"],
-            stdin=subprocess.PIPE,
-            stdout=theirs.fileno(),
-            stderr=self._log,
-            env=environment,
-            start_new_session=True,
-            pass_fds=bubblewrap.granted().descriptors if wrapper else (),
-            cwd="/",
-            text=True,
-        )
-        theirs.close()
-
-    def __enter__(self) -> Worker:
-        assert self._process.stdin
-        with contextlib.suppress(BrokenPipeError):  # it has ended, as its answer will show
-            json.dump(as_json(self._order), self._process.stdin)
-            self._process.stdin.close()
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self._line.close()  # so that it ends
-        try:
-            with contextlib.suppress(subprocess.TimeoutExpired):
-                self._process.wait(0 if self._is_apart else END_S)
-        finally:
-            self._process.kill()  # with it all of its namespaces
-            self._process.wait()
-            self._log.close()
-
-    def begin(self) -> None:
-        """Wait until it can record. Raises CannotCheck."""
-        answer = self._answer()
-        if "cannot" in answer:
-            raise CannotCheck(str(answer["cannot"]))
-
-    def ask(self, question: dict[str, Any]) -> dict[str, Any]:
-        """Return the answer to a question; see worker. Raises _Ended."""
-        try:
-            self._line.sendall(json.dumps(question).encode() + b"\n")
-        except OSError:
-            raise _Ended(self._last_words()) from None
-        return self._answer()
-
-    def _answer(self) -> dict[str, Any]:
-        while b"\n" not in self._buffer:
-            if _no_more.is_set():
-                raise _Ended("it was ended")
-            if time.monotonic() > self._end_s:
-                why = "the machine has too much else to do"
-                raise _Ended(f"the examination took longer than {LONGEST_S:.0f} s: {why}")
-            if select.select([self._line], [], [], 0.2)[0]:
-                data = self._line.recv(1 << 20)
-                if not data:
-                    raise _Ended(self._last_words())
-                self._buffer += data
-        line, _, self._buffer = self._buffer.partition(b"\n")
-        folder = self._order.folder
-        # Its programs run in ws, and the checks look at what was handed in.
-        text = line.decode(errors="replace")
-        text = text.replace(f"{folder}/ws/", f"{folder}/{Path(workspaces.COPY).parent}/")
-        found: dict[str, Any] = json.loads(text)
-        return found
-
-    def _last_words(self) -> str:
-        self._process.wait()
-        self._log.seek(0)
-        last = ["", *filter(str.strip, self._log.read()[-2000:].splitlines())][-1]
-        return f"the examination ended without a result: {last}"
-
-
 def _examine(order: Order, wrapper: list[str], course: Course, report: Report) -> list[Outcome]:
     checks = checks_of(course)
     known = course.exercises
@@ -289,9 +180,9 @@ def _examine(order: Order, wrapper: list[str], course: Course, report: Report) -
                 _make_checks(run, case, outcome, order.only_first, report)
                 if order.only_first and not passed(outcome.results):
                     break
-    except _Ended as error:
+    except Ended as error:
         ending = str(error)
-    if ending and (_no_more.is_set() or not any(outcome.results for outcome in outcomes)):
+    if ending and (is_ended() or not any(outcome.results for outcome in outcomes)):
         raise CannotCheck(ending)
     for outcome in outcomes:
         outcome.trouble = outcome.trouble if outcome.done else ending

@@ -11,13 +11,14 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 
 from tutorial_check.cluster import MOST_AT_ONCE, Cluster, Gone
-from tutorial_check.launcher import end_all, examine
+from tutorial_check.launcher import examine
 from tutorial_check.model import CannotCheck, fault
 from tutorial_check.report.class_page import Student, table_csv, table_html
 from tutorial_check.report.formats import as_json, clear, without_hints, write
 from tutorial_check.report.last_run import LastRun, digest_of, digest_of_checks
 from tutorial_check.report.text import summary, text_of
 from tutorial_check.variants import variant_of
+from tutorial_check.worker_process import end_all
 
 ARCHIVES = (".zip", ".tar", ".tgz", ".gz", ".bz2", ".xz", ".7z", ".rar")
 TABLES = ("table.csv", "table.html")

@@ -1,0 +1,130 @@
+"""The worker's process, which records in isolation: started, asked, ended."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import select
+import socket
+import subprocess
+import tempfile
+import threading
+import time
+from pathlib import Path
+from typing import Any, Iterable
+
+from tutorial_check.isolation import bubblewrap, privileges
+from tutorial_check.model import CannotCheck
+from tutorial_check.order import Order
+from tutorial_check.record.recording import as_json
+from tutorial_check.source.workspace import COPY
+
+# All exercises take 90 s on two quiet processors. Ten times as long is enough: where programs have less
+# than a seventh of the time, there is no verdict anyway (cpu_clock.HOPELESS), and a student waits.
+LONGEST_S = 900.0
+END_S = 10.0  # an examination whose result is not wanted has this long to end what it started
+_no_more = threading.Event()
+
+
+def end_all() -> None:
+    """End the examinations of all threads, and those that have just begun; each raises CannotCheck."""
+    _no_more.set()
+
+
+def is_ended() -> bool:
+    return _no_more.is_set()
+
+
+def given(names: Iterable[str]) -> dict[str, str]:
+    """Return the variables of these names that this process has."""
+    return {name: os.environ[name] for name in names if name in os.environ}
+
+
+class Ended(BaseException):
+    """The worker answers no more; the text says why. No check may go on."""
+
+
+class Worker:
+    """The process that records in isolation."""
+
+    def __init__(self, order: Order, wrapper: list[str]) -> None:
+        if not wrapper:
+            privileges.keep_to_itself()  # and the end of the socket
+        environment = {**order.environment, **given(("HOME", "LANG"))}
+        environment.update(PATH="/usr/bin:/bin:/usr/sbin:/sbin", PYTHONDONTWRITEBYTECODE="1")
+        self._order, self._is_apart, self._buffer = order, bool(wrapper), b""
+        self._end_s = time.monotonic() + LONGEST_S
+        self._log = tempfile.TemporaryFile("w+")  # noqa: SIM115  closed by __exit__
+        # No pipe, which a path in /proc would open: a program could plant a link to that.
+        self._line, theirs = socket.socketpair()
+        self._process = subprocess.Popen(
+            # -s: without what pip put into the home folder, which may be shown nowhere
+            [*wrapper, "/usr/bin/python3", "-s", "-m", "tutorial_check.worker"],
+            stdin=subprocess.PIPE,
+            stdout=theirs.fileno(),
+            stderr=self._log,
+            env=environment,
+            start_new_session=True,
+            pass_fds=bubblewrap.granted().descriptors if wrapper else (),
+            cwd="/",
+            text=True,
+        )
+        theirs.close()
+
+    def __enter__(self) -> Worker:
+        assert self._process.stdin
+        with contextlib.suppress(BrokenPipeError):  # it has ended, as its answer will show
+            json.dump(as_json(self._order), self._process.stdin)
+            self._process.stdin.close()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._line.close()  # so that it ends
+        try:
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                self._process.wait(0 if self._is_apart else END_S)
+        finally:
+            self._process.kill()  # with it all of its namespaces
+            self._process.wait()
+            self._log.close()
+
+    def begin(self) -> None:
+        """Wait until it can record. Raises CannotCheck."""
+        answer = self._answer()
+        if "cannot" in answer:
+            raise CannotCheck(str(answer["cannot"]))
+
+    def ask(self, question: dict[str, Any]) -> dict[str, Any]:
+        """Return the answer to a question; see worker. Raises Ended."""
+        try:
+            self._line.sendall(json.dumps(question).encode() + b"\n")
+        except OSError:
+            raise Ended(self._last_words()) from None
+        return self._answer()
+
+    def _answer(self) -> dict[str, Any]:
+        while b"\n" not in self._buffer:
+            if _no_more.is_set():
+                raise Ended("it was ended")
+            if time.monotonic() > self._end_s:
+                why = "the machine has too much else to do"
+                raise Ended(f"the examination took longer than {LONGEST_S:.0f} s: {why}")
+            if select.select([self._line], [], [], 0.2)[0]:
+                data = self._line.recv(1 << 20)
+                if not data:
+                    raise Ended(self._last_words())
+                self._buffer += data
+        line, _, self._buffer = self._buffer.partition(b"\n")
+        folder = self._order.folder
+        # Its programs run in ws, and the checks look at what was handed in.
+        text = line.decode(errors="replace")
+        text = text.replace(f"{folder}/ws/", f"{folder}/{Path(COPY).parent}/")
+        found: dict[str, Any] = json.loads(text)
+        return found
+
+    def _last_words(self) -> str:
+        self._process.wait()
+        self._log.seek(0)
+        last = ["", *filter(str.strip, self._log.read()[-2000:].splitlines())][-1]
+        return f"the examination ended without a result: {last}"
