@@ -17,6 +17,11 @@ except:
 """
 
 
+@pytest.mark.parametrize("text", ["lambda:" * 10**5 + "1", "1" + "**1" * 10**5, "a" + "()" * 10**5])
+def test_a_program_that_is_nested_too_deeply_is_one_that_cannot_be_read(text):
+    assert PythonFacts(text).error
+
+
 def test_a_warning_is_no_error_and_not_shown(recwarn):
     assert not PythonFacts("x = 1 is 1\ny = '\\d'\n").error
     assert not recwarn

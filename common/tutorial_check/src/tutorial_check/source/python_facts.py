@@ -37,8 +37,8 @@ class PythonFacts:
                 warnings.simplefilter("ignore")
                 compile(text, "program", "exec")  # refuses more: a late `global`, a lone `return`
                 tree = ast.parse(text)
-        except (SyntaxError, ValueError, RecursionError) as error:
-            self.error = getattr(error, "msg", None) or str(error)
+        except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
+            self.error = getattr(error, "msg", None) or str(error) or "nested too deeply"
             self.error_line = getattr(error, "lineno", 0) or 0
             lines = ["", *python_lines(text)]
             if self.error_line < len(lines):
