@@ -113,8 +113,10 @@ class Student:
         """Type the rows."""
         for name, lines, seen in rows:
             if name == "write":  # what the handout has them download or write
+                folder = self.workspace / "src" / lines
+                wait_for(folder.is_dir, f"folder {lines}")
                 for path in (LITERAL / lines).iterdir():
-                    shutil.copyfile(path, self.workspace / "src" / lines / path.name)
+                    shutil.copyfile(path, folder / path.name)
             else:
                 self.type(name, lines, seen)
 
