@@ -2,7 +2,8 @@
 
 import itertools
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -61,3 +62,34 @@ def test_an_answer_that_is_no_recording(order, answer, error, words):
     with pytest.raises(error) as caught:
         one.recording(look)
     assert words in getattr(caught.value, "seen", str(caught.value))
+
+
+@pytest.mark.parametrize(
+    ("path", "is_own", "may_see"),
+    [
+        ("{folder}/handed_in/src/a.launch", True, True),
+        ("{folder}/handed_in/src/../../../secret", False, False),
+        ("{folder}/handed_in/src/link", False, False),
+        ("{folder}/shown/a", False, True),
+        ("{folder}/other/a", False, False),
+        ("/usr/share/a", False, True),
+        ("/root/secret", False, False),
+    ],
+)
+def test_a_path_in_a_recording_is_looked_at_only_where_programs_may(order, path, is_own, may_see):
+    source = Path(order.folder) / "handed_in/src"
+    source.mkdir(parents=True)
+    (source / "link").symlink_to("/root/secret")
+    one = Case(replace(order, shown=(f"{order.folder}/shown",)), Task({}), None)
+    whole = path.format(folder=order.folder)
+    assert (one.is_own(whole), one.may_see(whole)) == (is_own, may_see)
+
+
+def test_a_traceback_that_names_a_file_elsewhere_opens_none(order):
+    source = Path(order.folder) / "handed_in/src/joy2twist"
+    source.mkdir(parents=True)
+    (source / "package.xml").write_text("<package><name>joy2twist</name></package>")
+    (Path(order.folder) / "secret.py").write_text("x = 1")
+    one = Case(order, Task({}), None)
+    with pytest.raises(CannotCheck, match="leads elsewhere"):
+        one.text("joy2twist", "../../../secret.py")

@@ -1,7 +1,9 @@
 """Checks that start no node: right files are not blamed, each mistake in them is found."""
 
+import json
 import os
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import edits
@@ -11,6 +13,7 @@ import mistakes_packages
 import pytest
 from test_mistakes import is_reported
 
+from tutorial_check.case import Case
 from tutorial_check.course import checks_of, read_course
 from tutorial_check.handout.task import JoystickTask
 from tutorial_check.isolation.environment import prepare, variables
@@ -18,11 +21,14 @@ from tutorial_check.isolation.runner import Runner
 from tutorial_check.model import NOTE, OK, WRONG, Run
 from tutorial_check.record.ground import Ground
 from tutorial_check.report.text import lines_of
-from tutorial_check.source.workspace import find_layout
+from tutorial_check.source.workspace import COPY, find_layout
+from tutorial_check.worker import answer
+from tutorial_check.worker_process import as_handed_in
 
 REPOSITORY = Path(__file__).resolve().parents[3]
 PACKAGES = f"{REPOSITORY}/common:{REPOSITORY}/fake_turtlebot_sim:/usr/share"
 LITERAL = Path(__file__).resolve().parents[2] / "exercises" / "literal"
+EXERCISES = ("2", "3", "4.3", "6.2")
 READ_ALONE = ("C1", "C2", "C3", "C5", "C12", "C13", "C29")
 CHECKS = checks_of(read_course())
 SLOW = ("C4", "C21", "C22", "C25")  # catkin_make builds, or roslaunch reads: a second or more
@@ -33,23 +39,32 @@ ROWS = [
 
 
 @pytest.fixture
-def judge(tmp_path):
+def judge(tmp_path, order):
     """judge(checks, edits): the results of these checks of the right solution, once changed."""
 
     runner = Runner(variables(tmp_path, {**os.environ, "ROS_PACKAGE_PATH": PACKAGES}))
 
     def judged(checks, changes=()):
-        source = shutil.copytree(LITERAL, tmp_path / "ws" / "src")
+        source = shutil.copytree(LITERAL, tmp_path / COPY)
         shutil.copytree(REPOSITORY / "joy2twist/bag", source / "joy2twist/bag")
         edits.apply(changes, source)
+        shutil.copytree(source, tmp_path / "ws/src", symlinks=True)
         prepare(tmp_path, None)
         (tmp_path / "lower" / "share" / "fake_turtlebot_sim").mkdir(parents=True)
-        session = Ground(
-            tmp_path, find_layout(tmp_path / "ws"), ["2", "3", "4.3", "6.2"], runner,
-            underlay=str(tmp_path / "lower" / "setup.bash"), can_have_devices=False,
-            task=JoystickTask({}),
+        underlay = str(tmp_path / "lower" / "setup.bash")
+        ground = Ground(
+            tmp_path, find_layout(source.parent), EXERCISES, runner,
+            underlay=underlay, can_have_devices=False, task=JoystickTask({}),
         )  # fmt: skip
-        run = Run(CHECKS, session, lambda _: False, lambda: False)
+
+        def ask(question):
+            return json.loads(as_handed_in(json.dumps(answer(ground, question)), str(tmp_path)))
+
+        asked = replace(
+            order, root=str(source.parent), source=str(source), underlay=underlay,
+            exercises=EXERCISES, environment=runner.environment, shown=(str(REPOSITORY),),
+        )  # fmt: skip
+        run = Run(CHECKS, Case(asked, JoystickTask({}), ask), lambda _: False, lambda: False)
         return [run.result(each) for each in checks]
 
     yield judged

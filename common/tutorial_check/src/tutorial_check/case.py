@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import os
 import shlex
 from pathlib import Path
 from typing import Any, Callable, Dict
 
+from tutorial_check.isolation.bubblewrap import SYSTEM
 from tutorial_check.model import CannotCheck, Result, Wrong
 from tutorial_check.order import Order
 from tutorial_check.record.recording import as_json, from_json, recorded_by
@@ -29,6 +31,8 @@ class Case(Session):
             task=task,
         )
         self.source = self.folder / COPY
+        visible = (str(self.source), *order.shown, *SYSTEM)
+        self._visible = [Path(os.path.realpath(each)) for each in visible]
         self._order, self._ask = order, ask
         self._runs: Memory = {}
         self._strained = self._hopeless = False

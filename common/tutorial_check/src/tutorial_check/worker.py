@@ -60,9 +60,9 @@ def main() -> None:
         shutil.rmtree(order.folder, ignore_errors=True)
 
 
-def _send(line: socket.socket, answer: dict[str, Any]) -> None:
+def _send(line: socket.socket, what: dict[str, Any]) -> None:
     with contextlib.suppress(OSError):  # nobody listens
-        line.sendall(json.dumps(answer).encode() + b"\n")
+        line.sendall(json.dumps(what).encode() + b"\n")
 
 
 def _serve(order: Order, line: socket.socket) -> None:
@@ -70,17 +70,18 @@ def _serve(order: Order, line: socket.socket) -> None:
     try:
         _send(line, {"ready": True})
         for asked in line.makefile():
-            _send(line, {**_answer(ground, json.loads(asked)), **_machine(ground)})
+            _send(line, answer(ground, json.loads(asked)))
     finally:
         ground.runner.clear()  # a build, too, is ended; where no namespace is, nothing else does that
 
 
-def _machine(ground: Ground) -> dict[str, bool]:
-    clock = ground.runner.clock
-    return {"strained": clock.strained(), "hopeless": clock.hopeless()}
+def answer(ground: Ground, asked: dict[str, Any]) -> dict[str, Any]:
+    """Return the answer to a question; both as above."""
+    clock, found = ground.runner.clock, _recorded(ground, asked)
+    return {**found, "strained": clock.strained(), "hopeless": clock.hopeless()}
 
 
-def _answer(ground: Ground, asked: dict[str, Any]) -> dict[str, Any]:
+def _recorded(ground: Ground, asked: dict[str, Any]) -> dict[str, Any]:
     module, _, name = asked["recorder"].partition(":")
     try:
         recorder = getattr(importlib.import_module(module), name)

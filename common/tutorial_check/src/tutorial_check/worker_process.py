@@ -41,6 +41,11 @@ def given(names: Iterable[str]) -> dict[str, str]:
     return {name: os.environ[name] for name in names if name in os.environ}
 
 
+def as_handed_in(text: str, folder: str) -> str:
+    """Return a text with the paths of what was handed in: programs run in ws, a copy of that."""
+    return text.replace(f"{folder}/ws/", f"{folder}/{Path(COPY).parent}/")
+
+
 class Ended(BaseException):
     """The worker answers no more; the text says why. No check may go on."""
 
@@ -58,6 +63,7 @@ class Worker:
         self._log = tempfile.TemporaryFile("w+")  # noqa: SIM115  closed by __exit__
         # No pipe, which a path in /proc would open: a program could plant a link to that.
         self._line, theirs = socket.socketpair()
+        self._line.settimeout(END_S)  # for a worker that reads no question
         self._process = subprocess.Popen(
             # -s: without what pip put into the home folder, which may be shown nowhere
             [*wrapper, "/usr/bin/python3", "-s", "-m", "tutorial_check.worker"],
@@ -116,15 +122,13 @@ class Worker:
                     raise Ended(self._last_words())
                 self._buffer += data
         line, _, self._buffer = self._buffer.partition(b"\n")
-        folder = self._order.folder
-        # Its programs run in ws, and the checks look at what was handed in.
-        text = line.decode(errors="replace")
-        text = text.replace(f"{folder}/ws/", f"{folder}/{Path(COPY).parent}/")
+        text = as_handed_in(line.decode(errors="replace"), self._order.folder)
         found: dict[str, Any] = json.loads(text)
         return found
 
     def _last_words(self) -> str:
-        self._process.wait()
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            self._process.wait(END_S)
         self._log.seek(0)
         last = ["", *filter(str.strip, self._log.read()[-2000:].splitlines())][-1]
         return f"the examination ended without a result: {last}"

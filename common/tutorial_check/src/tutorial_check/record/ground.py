@@ -3,27 +3,15 @@
 from __future__ import annotations
 
 import contextlib
-from functools import cached_property
 from typing import Iterator
 
 from tutorial_check.model import CannotCheck, Wrong, master_gone
 from tutorial_check.record.builder import Builder
-from tutorial_check.record.session import Memory, Recorded, Recorder, once
 from tutorial_check.record.stage import Stage
 
 
 class Ground(Builder):
     """A workspace whose programs can be started."""
-
-    @cached_property
-    def _runs(self) -> Memory:
-        return {}
-
-    def recording(self, recorder: Recorder[Recorded], *arguments: object) -> Recorded:
-        """Let the recorder work, at the first call."""
-        key = recorder.__module__, recorder.__name__, *arguments
-        found: Recorded = once(self._runs, key, lambda: recorder(self, *arguments))
-        return found
 
     @contextlib.contextmanager
     def stage(self, renamed: bool = True) -> Iterator[Stage]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import shlex
 from dataclasses import replace
@@ -64,6 +65,16 @@ class Session:
         self.exercises = frozenset(exercises)  # that are asked for
         self.underlay, self.underlay_environment = underlay, underlay_environment
         self._memory: Memory = {}
+        self._visible = [Path("/")]  # what the student's programs may see, with all below it
+
+    def is_own(self, path: str | Path) -> bool:
+        """Return whether a path is within src. One in a recording may be made up, with .. in it."""
+        return Path(os.path.realpath(self.source)) in Path(os.path.realpath(path)).parents
+
+    def may_see(self, path: str | Path) -> bool:
+        """Return whether the student's programs may see what is at a path, so that it may be looked at."""
+        real = Path(os.path.realpath(path))
+        return any(each == real or each in real.parents for each in self._visible)
 
     def memo(self, key: object, make: Callable[[], Any]) -> Any:
         """Return make(), called once; what it raised is raised again. For facts, which do not change."""

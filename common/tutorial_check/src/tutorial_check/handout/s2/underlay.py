@@ -36,6 +36,8 @@ def workspace(session: Session) -> Note | str | None:
     if not layout.is_workspace:
         return Note("handed in as packages, without their workspace: built afresh here")
     devel = layout.root / "devel"
+    if _leads_out(session, devel):
+        return Note("never built here (devel is a link that leads elsewhere)")
     made_for, below = underlays(devel)
     if made_for and os.path.realpath(made_for) != os.path.realpath(devel):
         return Note(f"its devel folder was made elsewhere ({made_for}); built afresh here")
@@ -51,6 +53,12 @@ def workspace(session: Session) -> Note | str | None:
     own = str(devel.resolve())
     _check_below(session, [each for each in below if os.path.realpath(each) != own])
     return "src and devel, on top of this suite"
+
+
+def _leads_out(session: Session, devel: Path) -> bool:
+    """Return whether a devel folder is a link out of the workspace that is not to be followed."""
+    real = Path(os.path.realpath(devel / "setup.sh"))
+    return session.layout.root.resolve() not in real.parents and not session.may_see(real)
 
 
 def _check_below(session: Session, below: Sequence[str]) -> None:

@@ -25,7 +25,7 @@ class Pair:
     first_ended: bool  # the second one has taken its name
     both: bool  # both publish
     second: Ran
-    taken_s: Tuple[Optional[float], ...]  # of the second talker and the listener; None: killed
+    taken_s: Tuple[Optional[float], ...]  # the second talker, the listener; None: it was killed
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class Talk:
     subscribers: Topics
     types: Dict[str, str]
     warnings: Tuple[str, ...]
-    heard: Tuple[HeardText, ...]  # of talkers of the student's
+    heard: Tuple[HeardText, ...]  # messages of the student's talkers
     master_alive: bool
     pair: Optional[Pair] = None  # where both programs go on
 

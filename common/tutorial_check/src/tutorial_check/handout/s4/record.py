@@ -24,7 +24,7 @@ SLOW_S = 4.0  # for a program that sleeps in its callback to answer what has gat
 REST_S = 0.5  # for a Twist at rest; not every program sends one
 FASTEST = {LINEAR: 0.7, ANGULAR: math.pi}  # [m/s, rad/s] that the robot can do
 LOOKS = 3  # at the robot's speed: a busy machine may stutter once
-SAMPLES, SAMPLES_S = 40, 4.0  # of odometry for one look, 50 a second; and how long they may take
+SAMPLES, SAMPLES_S = 40, 4.0  # one look takes so many messages of odometry, in at most so long
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class Bag:
 
     error: str = ""  # why it cannot be read
     topics: Tuple[str, ...] = ()
-    axes: Optional[int] = None  # of its first Joy; None: it has none
+    axes: Optional[int] = None  # the first Joy has so many; None: there is no Joy
 
 
 @dataclass(frozen=True)

@@ -27,7 +27,7 @@ class Drive:
     program: Ran = Ran("", "", None, False, False)  # noqa: RUF009  frozen
     # What the text and the task say.
     sleep_lines: Tuple[int, ...] = ()  # in a callback
-    enough: float = 0.95  # of the Joys of a stream answered
+    enough: float = 0.95  # so many of the Joys of a stream have to be answered
     factors: Dict[str, float] = field(
         default_factory=dict
     )  # those asked for, by the name of the field

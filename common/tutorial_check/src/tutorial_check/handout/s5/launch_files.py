@@ -53,7 +53,7 @@ class LaunchFile:
     def at_node(self, node: Node) -> str:
         """Return FILE:LINE of a node, which may be in an included file."""
         path = Path(node["filename"])
-        path = path if self.session.source in path.parents else self.path
+        path = path if self.session.is_own(path) else self.path
         words = (*launch_text.attribute("type", node["type"]), Path(node["type"]).name)
         return place_of(shown(self.session, path), read(path), *words)
 
@@ -164,11 +164,11 @@ def _check_text(file: LaunchFile) -> None:
 def _fault(file: LaunchFile, fault: launch_text.Fault) -> Wrong:
     """Return the Wrong for what roslaunch cannot read, in this file or in an included one."""
     session = file.session
-    path, line = launch_text.blamed(fault, session.source)
+    path, line = launch_text.blamed(fault, session.is_own)
     text = Path(path).read_text(errors="replace")
-    wrong = launch_text.parse_error(fault, shown(session, path), line, text)
+    wrong = launch_text.parse_error(fault, shown(session, path), line, text, session.may_see)
     inner, number = fault.places[-1]
-    if session.source not in Path(inner).parents and fault.kind != launch_text.UNSET:
+    if not session.is_own(inner) and fault.kind != launch_text.UNSET:
         wrong.seen += f" (in {inner}:{number})"
     hiding = (each for each in session.packages if each.folder in Path(path).parents)
     for name in (each.name for each in hiding if is_stand_in(each.name)):
@@ -189,7 +189,7 @@ def _check_words(file: LaunchFile, said: str) -> None:
         hint = f"lower case: <{tag.lower()}>"
     written = rf"<{tag}\b" if tag else rf"\s{name}\s*="
     for path in (file.path, *map(Path, file.facts["files"])):
-        found = file.session.source in path.parents and re.search(written, read(path))
+        found = file.session.is_own(path) and re.search(written, read(path))
         if found:  # else it is in a file of others
             where = f"{shown(file.session, path)}:{line_of(read(path), found.end())}"
             expected = "tags and attributes that roslaunch knows"

@@ -44,6 +44,11 @@ def is_joystick(node: Node) -> bool:
     return is_driver and node["package"] != "rosbag"
 
 
+def is_there(session: Session, path: str) -> bool:
+    """Return whether a file that a launch file names is there, for the student's programs, too."""
+    return session.may_see(path) and os.path.isfile(path)
+
+
 def check_viewer(file: LaunchFile) -> Note | None:
     """Return a Note about RViz, or None. Raises Wrong if its configuration does not exist."""
     node = file.demand("RViz", is_viewer, VIEWER_HINT)
@@ -52,7 +57,7 @@ def check_viewer(file: LaunchFile) -> Note | None:
     config = next((word for option, word in options if option in ("-d", "--display-config")), "")
     where = file.at(Path(config).name, *attribute("type", node["type"]))
     hint = "-d $(find rbx1_nav)/sim.rviz"
-    if config and config != "auto" and not os.path.isfile(config):
+    if config and config != "auto" and not is_there(file.session, config):
         seen = f"no file {config} on this machine"
         raise Wrong("-d FILE names a file that exists", seen, where, hint)
     if not config and node["type"] == "rviz":
@@ -130,7 +135,7 @@ def bag_of(session: Session) -> tuple[str, str]:
     if not os.path.isabs(bags[0]):
         hint = "roslaunch starts rosbag in a folder of its own: $(find joy2twist)/bag/"
         raise Wrong("a whole path to the recording", bags[0], where, hint + Path(bags[0]).name)
-    if not os.path.isfile(bags[0]) and str(session.layout.root) not in bags[0]:
+    if not is_there(session, bags[0]) and str(session.layout.root) not in bags[0]:
         seen = f"no file {bags[0]} on this machine"
         raise Wrong("a recording that exists", seen, where, copy_bag(session))
     if bags[0].startswith(f"{session.source}/"):
@@ -159,7 +164,7 @@ def bag_nodes(session: Session) -> Note | str | None:
         raise Wrong("a recording only", seen, f"launch/{BAG}", f"{hint} {STICK} has it")
     if bag.startswith(str(session.source)):
         return note
-    is_portable = os.path.isfile(bag) and "$(find" in file.text.split("play", 1)[-1]
+    is_portable = is_there(session, bag) and "$(find" in file.text.split("play", 1)[-1]
     hint = "$(find joy2twist)/bag/joy.bag goes wherever the package goes"
     return Note(f"the recording is not in your package: {bag}", where, "" if is_portable else hint)
 

@@ -7,7 +7,7 @@ import os
 import re
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Sequence
+from typing import Callable, Sequence
 
 from tutorial_check.model import Wrong
 from tutorial_check.source.debian_packages import advice, packages_of_ros
@@ -89,12 +89,12 @@ def package_hint(name: str) -> str:
     return advice(name, packages_of_ros(name)) or spelling
 
 
-def blamed(fault: Fault, source: Path) -> tuple[str, int]:
-    """Return (file, line) of the innermost tag below a folder, which is at fault.
+def blamed(fault: Fault, is_own: Callable[[str], bool]) -> tuple[str, int]:
+    """Return (file, line) of the innermost tag in a file of the student's, which is at fault.
 
     An arg without a value is the fault of the <include>, where the included file declares it.
     """
-    own = [place for place in fault.places if source in Path(place[0]).parents]
+    own = [place for place in fault.places if is_own(place[0])]
     if fault.kind == UNSET:
         file = own[-1][0]
         declared = rf"<arg\b[^<>]*\bname\s*=\s*[\"']{re.escape(fault.words)}[\"']"
@@ -103,8 +103,13 @@ def blamed(fault: Fault, source: Path) -> tuple[str, int]:
     return own[-1]
 
 
-def parse_error(fault: Fault, where: str, line: int, text: str) -> Wrong:
-    """Return the Wrong for a file that roslaunch cannot read. where, line: to blame; text: with its comments."""
+def parse_error(
+    fault: Fault, where: str, line: int, text: str, may_see: Callable[[Path], bool]
+) -> Wrong:
+    """Return the Wrong for a file that roslaunch cannot read.
+
+    where, line: to blame. text: with its comments. may_see(path): whether to look at what it names.
+    """
     expected, place = "a launch file that roslaunch can read", f"{where}:{line}"
     words = " ".join(fault.words.split())[:250]
     if fault.kind == "ExpatError":
@@ -120,10 +125,11 @@ def parse_error(fault: Fault, where: str, line: int, text: str) -> Wrong:
         return Wrong(expected, f"package not found: {words}", place, package_hint(words))
     file = re.search(NO_FILE, words)
     if file:
-        return _no_file(expected, file[1] or file[2], place)
+        return _no_file(expected, file[1] or file[2], place, may_see)
     unused = re.search(UNUSED, words)
     if unused:
-        seen, hint = _unused(unused[1], Path(unused[2]))
+        included = Path(unused[2])
+        seen, hint = _unused(unused[1], included, may_see(included))
         return Wrong(expected, seen, place, hint)
     said = f"{fault.kind} <{fault.tag}>: {words.partition(' xml is ')[0]}"
     for pattern, seen, hint in SAID:
@@ -134,19 +140,20 @@ def parse_error(fault: Fault, where: str, line: int, text: str) -> Wrong:
     raise AssertionError(words)
 
 
-def _unused(name: str, file: Path) -> tuple[str, str]:
+def _unused(name: str, file: Path, is_seen: bool) -> tuple[str, str]:
     """Return (what is seen, what to do) for an arg that an included file does not have."""
-    text = read(file) if file.is_file() else ""
+    text = read(file) if is_seen and file.is_file() else ""
     known = re.findall(r"<arg\b[^<>]*\bname\s*=\s*[\"']([^\"']+)[\"']", text)
     near = difflib.get_close_matches(name, known, 1, 0.6)
     hint = f"is {near[0]} meant?" if near else f"leave it out; it has {', '.join(known) or 'none'}"
     return f"{file.name} has no arg {name}", hint
 
 
-def _no_file(expected: str, name: str, place: str) -> Wrong:
+def _no_file(expected: str, name: str, place: str, may_see: Callable[[Path], bool]) -> Wrong:
     path, hint = Path(name), 'an include needs the whole path: file="$(find PACKAGE)/launch/FILE"'
     if path.is_absolute():
-        files = path.parent.glob("*") if os.path.isdir(path.parent) else ()
+        is_seen = may_see(path.parent) and os.path.isdir(path.parent)
+        files = path.parent.glob("*") if is_seen else ()
         near = difflib.get_close_matches(path.name, [each.name for each in files], 1, 0.7)
         hint = f"is {near[0]} meant?" if near else "look at the name of the file, and of its folder"
     return Wrong(expected, f"no such file: {path}", place, hint)
