@@ -4,6 +4,7 @@ from xml.parsers import expat
 
 import pytest
 
+from tutorial_check.handout.s5.launch_text import Fault, parse_error
 from tutorial_check.source.launch_xml import QUOTES, not_xml
 
 NODE = '  <node pkg="rosbag" type="play" name="x" args="--loop a.bag"/>\n'
@@ -33,3 +34,15 @@ def test_a_launch_file_that_is_no_xml_has_a_line_and_a_hint(text, line, words):
     found, hint = not_xml(str(raised.value), text)
     assert words in hint
     assert found == line
+
+
+@pytest.mark.parametrize("may_see", [True, False])
+@pytest.mark.parametrize("kind", ["no such file", "no such arg"])
+def test_a_name_is_suggested_only_from_what_programs_may_see(tmp_path, kind, may_see):
+    (tmp_path / "grades.launch").write_text('<launch><arg name="grades"/></launch>')
+    words = f"file does not exist [{tmp_path}/grade.launch]"
+    if kind == "no such arg":
+        words = f"unused args [grade] for include of [{tmp_path}/grades.launch]"
+    fault = Fault("RLException", words, "include", [("a.launch", 1)])
+    wrong = parse_error(fault, "a.launch", 1, "<launch/>", lambda _: may_see)
+    assert ("grades" in wrong.hint) == may_see
