@@ -7,7 +7,9 @@ import sys
 from pathlib import Path
 
 import pytest
-import variants
+import stored
+
+from tutorial_check.launcher import examine
 
 HERE = Path(__file__).resolve().parent
 REPOSITORY = HERE.parents[1]
@@ -17,8 +19,8 @@ OPTIONS = {
     "--first": (0, "the row with which --every begins"),
     "--students": (4, "how many in the test of --all"),
     "--submissions": (8, "how many on a cluster"),
-    "--repeat": (0, "only N checks of right solutions, in turn"),
     "--everything": (False, "all exercises, and not only those of the mistakes; an hour"),
+    "--store": (False, "store what the programs of the rows did, for the unit tests"),
     "--busy": (False, "beside an endless loop on each processor"),
 }
 
@@ -45,27 +47,12 @@ def pytest_unconfigure(config):
         process.wait()
 
 
-def pytest_generate_tests(metafunc):
-    """The rows of right solutions: each once, or as many in turn as are asked for."""
-    if "variant" in metafunc.fixturenames:
-        count = metafunc.config.getoption("--repeat") or len(variants.ROWS)
-        rows = [variants.ROWS[turn % len(variants.ROWS)] for turn in range(count)]
-        names = [f"{turn} {row[0]}" for turn, row in enumerate(rows)]
-        metafunc.parametrize("variant", rows, ids=names)
-
-
-def is_row(item):
-    return bool({"row", "variant"} & set(getattr(item, "fixturenames", ())))
-
-
 def pytest_collection_modifyitems(config, items):
     """Leave out what was not asked for."""
     option = config.getoption
-    if option("--repeat"):
-        items[:] = [item for item in items if "variant" in getattr(item, "fixturenames", ())]
     if not option("--everything"):
         items[:] = [item for item in items if "in_all_exercises" not in item.name]
-    rows = list(filter(is_row, items))
+    rows = [item for item in items if "row" in getattr(item, "fixturenames", ())]
     left_out = {item for at, item in enumerate(rows, -option("--first")) if at % option("--every")}
     items[:] = [item for item in items if item not in left_out]
 
@@ -74,6 +61,29 @@ def pytest_collection_modifyitems(config, items):
 def underlay():
     """setup.bash of the underlay."""
     return os.environ["TUTORIAL_UNDERLAY"]
+
+
+@pytest.fixture
+def examined(request, underlay, tmp_path):
+    """examined(workspace, exercises, ...): the Outcomes, recorded afresh; what is stored says the same."""
+
+    def afresh(workspace, exercises, **about):
+        outcomes = examine(workspace, underlay, exercises, **about)
+        name = request.node.name
+        if request.config.getoption("--store"):
+            stored.write(name, outcomes, workspace, underlay)
+        folder = tmp_path / "judged"
+        folder.mkdir()
+        again = stored.judged(name, workspace, underlay, exercises, folder, **about)
+        assert statuses(again) == statuses(outcomes), "stored recordings are judged otherwise"
+        return outcomes
+
+    return afresh
+
+
+def statuses(outcomes):
+    """{check: what it came to}."""
+    return {found.id: found.status for outcome in outcomes for found in outcome.results}
 
 
 @pytest.fixture

@@ -27,18 +27,17 @@ def named(rows):
     return [f"{row[0]} {row[1]}" for row in rows]
 
 
-def wrong_in(literal, underlay, edits, exercises):
-    """All results that are wrong, when these exercises are checked."""
-    apply(edits, literal)
-    outcomes = examine(literal.parent, underlay, exercises, only_first=len(exercises) == 1)
+def wrong_of(outcomes):
+    """All results that are wrong."""
     assert not [each.trouble for each in outcomes if each.trouble]
     return [one for each in outcomes for one in each.wrong]
 
 
 @pytest.mark.parametrize("row", ROWS, ids=named(ROWS))
-def test_a_mistake_is_found(row, literal, underlay):
+def test_a_mistake_is_found(row, literal, examined):
     exercise, _, edits, check, words = row
-    wrong = wrong_in(literal, underlay, edits, [exercise])
+    apply(edits, literal)
+    wrong = wrong_of(examined(literal.parent, [exercise], only_first=True))
     assert wrong, f"missed: should be {check}"
     report = "\n".join(lines_of(wrong[0]))
     assert wrong[0].id == check and is_reported(wrong[0], words), f"should be {row[3:]}:\n{report}"
@@ -47,5 +46,6 @@ def test_a_mistake_is_found(row, literal, underlay):
 @pytest.mark.parametrize("row", OF_HANDOUT, ids=named(OF_HANDOUT))
 def test_a_mistake_is_found_in_all_exercises(row, literal, underlay):
     """Its cause is reported, maybe by an earlier check, and it keeps no other one from a verdict."""
-    wrong = wrong_in(literal, underlay, row[2], read_course().by_default)
+    apply(row[2], literal)
+    wrong = wrong_of(examine(literal.parent, underlay, read_course().by_default))
     assert any(is_reported(one, row[4]) for one in wrong), [lines_of(one) for one in wrong]

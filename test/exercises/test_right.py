@@ -6,9 +6,9 @@ import subprocess
 from pathlib import Path
 
 import pytest
+import variants
 from edits import JOY2TWIST, LAUNCH_BAG, LISTENER, TALKER, B, apply, chmod, put, write
 from test_mistakes import is_reported
-from variants import REPORTS
 
 from tutorial_check.course import read_course
 from tutorial_check.launcher import examine
@@ -47,16 +47,16 @@ NOTES = [
     ("the real joy, whose header is not here", [*another("joy", FAILS), write("joy/x.cpp", "#include <nowhere.h>\n")], ["2", "5"], {"C4": ("another package fails:", "nowhere.h"), "C26": ()}),
     ("the real kobuki_msgs", [*another("kobuki_msgs", MAKES), write("kobuki_msgs/msg/Mine.msg", "uint8 x\n")], ["2"], {"C1": ("never built",), "C4": ()}),
     ("a package of CMake alone", another("plain", "", "<export><build_type>cmake</build_type></export>"), ["2"], {"C4": ("another package fails: CMake: This workspace contains non-catkin packages in it, and",)}),
-    (*REPORTS, {"C29": (), "C33": ()}),
+    (*variants.REPORTS, {"C29": (), "C33": ()}),
 ]  # fmt: skip
 
 
 @pytest.fixture
-def check(underlay):
+def check(examined):
     """check(workspace, exercises): {id: result}; fails with what is called wrong."""
 
     def judge(workspace, exercises):
-        outcomes = examine(workspace, underlay, exercises)
+        outcomes = examined(workspace, exercises)
         assert [outcome.id for outcome in outcomes] == exercises
         results = [result for outcome in outcomes for result in outcome.results]
         assert not [lines_of(one) for one in results if one.status in ("wrong", "unreached")]
@@ -102,7 +102,8 @@ def test_below_what_a_workspace_was_built(literal, underlay, below, status):
     assert next(one.status for one in outcome.results if one.id == "C1") == status
 
 
-def test_a_variant_is_right(variant, literal, check):
-    _, edits, exercises = variant
+@pytest.mark.parametrize("row", variants.ROWS, ids=lambda row: row[0])
+def test_a_variant_is_right(row, literal, check):
+    _, edits, exercises = row
     apply(edits, literal)
     check(literal.parent, exercises)

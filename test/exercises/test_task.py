@@ -6,7 +6,6 @@ import pytest
 from edits import TALKER, J, put
 
 from tutorial_check.course import read_course
-from tutorial_check.launcher import examine
 from tutorial_check.report.text import lines_of
 from tutorial_check.variants import drawn
 
@@ -50,11 +49,11 @@ def turn(src, values):
 
 
 @pytest.fixture
-def wrong_of(literal, underlay):
+def wrong_of(literal, examined):
     """wrong_of(exercises, values): the results of that task that are no success; none gives it away."""
 
     def check(exercises, values):
-        outcomes = examine(literal.parent, underlay, exercises, variant=values)
+        outcomes = examined(literal.parent, exercises, variant=values)
         assert not [one.trouble for one in outcomes if one.trouble]
         found = [one for each in outcomes for one in each.results]
         own = "\n".join((*texts(literal).values(), *map(str, literal.rglob("*"))))

@@ -1,8 +1,11 @@
 """What the tests of check share: a session of a package."""
 
+import os
+import shutil
 from types import SimpleNamespace
 
 import pytest
+import stored
 
 from tutorial_check.handout.task import JoystickTask
 from tutorial_check.order import Order
@@ -35,7 +38,28 @@ def make_session(tmp_path):
 def order(tmp_path):
     """An Order of an empty workspace."""
     return Order(
-        folder=str(tmp_path), root=str(tmp_path), source=str(tmp_path / "src"), is_workspace=True,
-        own=True, exercises=("2",), only_first=False, course="", variant={}, underlay="",
+        folder=str(tmp_path), root=str(tmp_path), source=str(tmp_path / "src"), place="",
+        is_workspace=True, own=True, exercises=("2",), only_first=False, course="", variant={}, underlay="",
         environment={}, kept=(), shown=(), number=1, apart=False,
     )  # fmt: skip
+
+
+@pytest.fixture
+def literal(tmp_path):
+    """A workspace with a literal solution of the handout; its src."""
+    src = shutil.copytree(stored.FOLDER.parent / "literal", tmp_path / "ws" / "src")
+    shutil.copytree(stored.REPOSITORY / "joy2twist" / "bag", src / "joy2twist" / "bag")
+    return src
+
+
+@pytest.fixture
+def examined(request, tmp_path):
+    """examined(workspace, exercises, ...): the Outcomes, judged from what is stored."""
+    folder = tmp_path / "judged"
+    folder.mkdir()
+    underlay = os.environ["TUTORIAL_UNDERLAY"]
+
+    def judged(workspace, exercises, **about):
+        return stored.judged(request.node.name, workspace, underlay, exercises, folder, **about)
+
+    return judged

@@ -35,7 +35,7 @@ class Group:
     def check_all(self, out=None, again=False, variant=None):
         """Return the exit code and the rows of the table."""
         about = {"jobs": 1, "hints": 2, "again": again, "underlay": "", "exercises": ["2"]}
-        about.update(variant=variant, variants=None, cluster=None)
+        about.update(variant=variant, variants=None, cluster=None, keep=self.folder.parent / "kept")
         options = SimpleNamespace(all=str(self.folder), out=out, course=read_course(), **about)
         code = submissions.check_all(options)
         with (self.check / "table.csv").open(newline="", encoding="utf-8") as table:
@@ -52,6 +52,17 @@ def group(tmp_path, monkeypatch):
     made = Group(tmp_path / "group")
     monkeypatch.setattr(submissions, "examine", made.examine)
     return made
+
+
+def test_what_was_recorded_is_kept_and_not_in_reports(group):
+    recorded = {"recorder": "m:drive", "arguments": [], "recording": {"speed": 0.5}}
+    group.come_to = lambda name: [replace(WELL, recordings=[recorded])]
+    group.add("ada")
+    group.check_all()
+    texts = [folder / "ada.json" for folder in (group.folder.parent / "kept", group.check)]
+    kept, report = (json.loads(path.read_text())["exercises"][0] for path in texts)
+    assert kept["recordings"] == [recorded]
+    assert "recordings" not in report
 
 
 def test_a_folder_and_a_zip_of_one_name_have_each_a_report(group):

@@ -35,6 +35,7 @@ class Case(Session):
         self._visible = [Path(os.path.realpath(each)) for each in visible]
         self._order, self._ask = order, ask
         self._runs: Memory = {}
+        self.asked: list[dict[str, Any]] = []  # each question with its answer
         self._strained = self._hopeless = False
 
     def recording(self, recorder: Recorder[Recorded], *arguments: object) -> Recorded:
@@ -45,8 +46,11 @@ class Case(Session):
 
     def _asked(self, recorder: Recorder[Recorded], arguments: tuple[object, ...]) -> Recorded:
         name = f"{recorder.__module__}:{recorder.__name__}"
-        answer = self._ask({"recorder": name, "arguments": as_json(arguments)})
-        self._strained, self._hopeless = answer["strained"], answer["hopeless"]
+        question = {"recorder": name, "arguments": as_json(arguments)}
+        answer = self._ask(question)
+        self.asked.append({**question, **answer})
+        self._strained = bool(answer.get("strained"))
+        self._hopeless = bool(answer.get("hopeless"))
         if "cannot" in answer:
             raise CannotCheck(str(answer["cannot"]))
         if "wrong" in answer:

@@ -69,6 +69,8 @@ def _parser() -> Parser:
     add("--watch", action="store_true", help="check again whenever a file is saved")
     for name, (what, _) in FORMATS.items():
         add(f"--{name}", type=path, metavar="FILE", help=f"write {what}")
+    what = "write what the programs did, by which it was judged, to FOLDER/NAME.json"
+    add("--keep", type=path, metavar="FOLDER", help=what)
     what = "with --all: where the table and the reports go (FOLDER/check)"
     add("--out", type=path, metavar="FOLDER", help=what)
     add("--again", action="store_true", help="with --all: also what is the same as last time")
@@ -120,6 +122,8 @@ def _refuse_idle(parser: argparse.ArgumentParser, given: argparse.Namespace) -> 
          "--solution of which exercise? For example: --solution 4.3"),
         (file and given.all, f"{file} is for one workspace; --all writes a .json of each student"),
         (file and given.watch, f"{file} is for one check; leave --watch out"),
+        (given.keep and (given.watch or given.solution or given.package or given.self_test),
+         "--keep is for workspaces that are checked once"),
         (given.again and not given.all, "--again is for --all"),
         (given.cluster and not given.all, "--cluster is for --all"),
         (given.out is not None and not (given.all or given.package), "--out is for --all"),

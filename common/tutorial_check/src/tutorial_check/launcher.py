@@ -5,6 +5,7 @@ from __future__ import annotations
 import compileall
 import functools
 import itertools
+import json
 import os
 import shutil
 import subprocess
@@ -14,7 +15,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Callable, Iterable, Mapping
 
-from tutorial_check.case import Case
+from tutorial_check.case import Ask, Case
 from tutorial_check.course import FILE, OURS, Course, checks_of, read_course
 from tutorial_check.isolation import bubblewrap, privileges
 from tutorial_check.isolation.environment import environment_of
@@ -44,6 +45,8 @@ class Outcome:
     points: float = 0.0  # for all of it; 0: one a check
     place: str = ""  # of the workspace in what was handed in, if that is another folder
     remark: str = ""  # how well a program of somebody else's was isolated, if not by bubblewrap
+    # What was asked for these results and not before, with the answers of the worker, which see.
+    recordings: list[dict[str, Any]] = field(default_factory=list)
 
     @property
     def passed(self) -> bool:
@@ -66,6 +69,7 @@ class Outcome:
 
 
 Report = Callable[[Outcome, Result], None]
+HANDED_IN = "{handed_in}"  # in recordings: the folder with the copy of the workspace
 
 
 def examine(
@@ -88,30 +92,49 @@ def examine(
     if not os.path.isfile(underlay):
         why = "no such file, or may not be read; ./tutorial setup builds it"
         raise CannotCheck(f"{underlay}: {why}")
-    # Isolated, an examination does not reach the folder itself.
+    # Isolated, a worker does not reach the folder itself.
     folder, cleaner = privileges.folder_until_end("tutorial_check_")
     try:
-        # An examination, which writes nothing, would compile our modules each time.
+        # A worker, which writes nothing, would compile our modules each time.
         compileall.compile_dir(str(Path(__file__).parent), quiet=2)
-        layout, shown = _hand_in(os.path.abspath(workspace), Path(folder), own)
-        checks = _course_within(Path(folder), course)
-        underlay = os.path.abspath(underlay)
-        kept = _kept(underlay)
-        seen = [*map(str, shown), str(checks), *kept]
-        wrapper = bubblewrap.command(folder, seen, SUITE)
-        order = Order(
-            folder=folder, root=str(layout.root), source=str(layout.source),
-            is_workspace=layout.is_workspace, own=own, exercises=tuple(exercises),
-            only_first=only_first, course=str(checks), variant=dict(variant), underlay=underlay,
-            environment=_environment(underlay), kept=tuple(kept), shown=tuple(seen),
-            number=next(NUMBERS), apart=bool(wrapper),
+        order = order_of(
+            workspace, underlay, exercises, Path(folder),
+            only_first=only_first, own=own, course=course, variant=variant,
         )  # fmt: skip
-        outcomes = _examine(order, wrapper, read_course(course), report)
+        wrapper = bubblewrap.command(folder, order.shown, SUITE)
+        outcomes = _examine(
+            replace(order, apart=bool(wrapper)), wrapper, read_course(course), report
+        )
         remark = "" if own else bubblewrap.instead()
-        return [replace(one, place=layout.place, remark=remark) for one in outcomes]
+        return [replace(one, place=order.place, remark=remark) for one in outcomes]
     finally:
         shutil.rmtree(folder, ignore_errors=True)
         cleaner.communicate()
+
+
+def order_of(
+    workspace: str | Path,
+    underlay: str | Path,
+    exercises: Iterable[str],
+    folder: Path,
+    *,
+    only_first: bool = False,
+    own: bool = True,
+    course: Path = OURS,
+    variant: Mapping[str, Any] = MappingProxyType({}),
+) -> Order:
+    """Copy a workspace into an empty folder; return the order to check it. Raises CannotCheck."""
+    layout, shown = _hand_in(os.path.abspath(workspace), folder, own)
+    checks = _course_within(folder, course)
+    underlay = os.path.abspath(underlay)
+    kept = _kept(underlay)
+    return Order(
+        folder=str(folder), root=str(layout.root), source=str(layout.source), place=layout.place,
+        is_workspace=layout.is_workspace, own=own, exercises=tuple(exercises),
+        only_first=only_first, course=str(checks), variant=dict(variant), underlay=underlay,
+        environment=_environment(underlay), kept=tuple(kept),
+        shown=(*map(str, shown), str(checks), *kept), number=next(NUMBERS),
+    )  # fmt: skip
 
 
 @functools.lru_cache(maxsize=None)
@@ -140,7 +163,7 @@ def _kept(underlay: str) -> list[str]:
 
 
 def _course_within(folder: Path, course: Path) -> Path:
-    """Copy what the examination needs of a course, and no solution, into its folder; ours is there."""
+    """Copy what a worker needs of a course, and no solution, into its folder; ours is there."""
     if course == OURS:
         return course
     copied = folder / "course"
@@ -164,22 +187,34 @@ def _hand_in(workspace: str, folder: Path, own: bool) -> tuple[workspaces.Layout
 
 
 def _examine(order: Order, wrapper: list[str], course: Course, report: Report) -> list[Outcome]:
-    checks = checks_of(course)
-    known = course.exercises
+    try:
+        with Worker(order, wrapper) as worker:
+            worker.begin()
+            return judge(order, course, worker.ask, report)
+    except Ended as error:  # before a first result
+        raise CannotCheck(str(error)) from None
+
+
+def judge(
+    order: Order,
+    course: Course,
+    ask: Ask,
+    report: Report = lambda outcome, result: None,
+) -> list[Outcome]:
+    """Make the checks of an order from what a worker answers. Raises CannotCheck."""
+    checks, known = checks_of(course), course.exercises  # the task's class is among the checks
+    case = Case(order, task_of(course)(order.variant), ask)
     outcomes = [
         Outcome(name, title=known[name].title, points=known[name].points)
         for name in order.exercises
     ]
+    run = Run(checks, case, case.second_look, case.too_busy)
     ending = ""
     try:
-        with Worker(order, wrapper) as worker:
-            worker.begin()
-            case = Case(order, task_of(course)(order.variant), worker.ask)
-            run = Run(checks, case, case.second_look, case.too_busy)
-            for outcome in outcomes:
-                _make_checks(run, case, outcome, order.only_first, report)
-                if order.only_first and not passed(outcome.results):
-                    break
+        for outcome in outcomes:
+            _make_checks(run, case, outcome, order.only_first, report)
+            if order.only_first and not passed(outcome.results):
+                break
     except Ended as error:
         ending = str(error)
     if ending and (is_ended() or not any(outcome.results for outcome in outcomes)):
@@ -190,10 +225,13 @@ def _examine(order: Order, wrapper: list[str], course: Course, report: Report) -
 
 
 def _make_checks(run: Run, case: Case, outcome: Outcome, only_first: bool, report: Report) -> None:
-    began_s = time.monotonic()
+    began_s, already = time.monotonic(), len(case.asked)
     for found in run.exercise(outcome.id, only_first):
         result = case.as_sent(found)
         outcome.results.append(result)
         report(outcome, result)
     outcome.seconds = round(time.monotonic() - began_s, 2)
+    outcome.recordings = json.loads(
+        json.dumps(case.asked[already:]).replace(f"{case.folder}/", f"{HANDED_IN}/")
+    )
     outcome.done, outcome.trouble = True, run.trouble(outcome.id)

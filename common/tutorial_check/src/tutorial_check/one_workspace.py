@@ -12,7 +12,7 @@ from typing import NoReturn
 
 from tutorial_check.launcher import Outcome, examine
 from tutorial_check.model import CannotCheck
-from tutorial_check.report.formats import FORMATS, clear, without_hints, write
+from tutorial_check.report.formats import FORMATS, clear, keep, without_hints, write
 from tutorial_check.report.hints import Memory, show_solution
 from tutorial_check.report.text import Terminal, summary
 from tutorial_check.source.workspace import all_below
@@ -33,6 +33,9 @@ def check_one(options: argparse.Namespace) -> int:
         return 0
     outcomes = _look(options)
     print(f"{summary(outcomes)} in {os.path.abspath(options.workspace)}")
+    if options.keep:
+        name = os.path.basename(os.path.abspath(options.workspace))
+        keep(options.keep, name, outcomes)
     _write_files(files, without_hints(outcomes) if options.hints == 0 else outcomes)
     if any(outcome.trouble for outcome in outcomes):
         return 2

@@ -13,6 +13,7 @@ class Order:
     folder: str  # for this order alone; the copy of the workspace is in it
     root: str  # of the workspace as it was handed in
     source: str  # its src
+    place: str  # of the root in what was handed in, if that is another folder
     is_workspace: bool  # not only packages
     own: bool  # the caller's own workspace
     exercises: Tuple[str, ...]
@@ -24,4 +25,4 @@ class Order:
     kept: Tuple[str, ...]  # what the student's programs need of the suite
     shown: Tuple[str, ...]  # what they may read
     number: int  # of this order, for a uid of its own
-    apart: bool  # in namespaces of its own, by bubblewrap
+    apart: bool = False  # in namespaces of its own, by bubblewrap

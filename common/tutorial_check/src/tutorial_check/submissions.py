@@ -14,7 +14,7 @@ from tutorial_check.cluster import MOST_AT_ONCE, Cluster, Gone
 from tutorial_check.launcher import examine
 from tutorial_check.model import CannotCheck, fault
 from tutorial_check.report.class_page import Student, table_csv, table_html
-from tutorial_check.report.formats import as_json, clear, without_hints, write
+from tutorial_check.report.formats import as_json, clear, keep, without_hints, write
 from tutorial_check.report.last_run import LastRun, digest_of, digest_of_checks
 from tutorial_check.report.text import summary, text_of
 from tutorial_check.variants import variant_of
@@ -160,7 +160,10 @@ class Check:
             text = f"{student.name}\n\n{report or text_of(student.outcomes)}"
             write(self._out / f"{student.name}.txt", text)
             if student.outcomes:
-                write(self._out / f"{student.name}.json", as_json(student.outcomes))
+                report = as_json(student.outcomes, with_recordings=False)
+                write(self._out / f"{student.name}.json", report)
+            if self._options.keep and any(one.recordings for one in student.outcomes):
+                keep(self._options.keep, student.name, student.outcomes)
         except Exception as error:
             student.trouble = student.trouble or fault(error)
         return student, remark or f"{student.seconds:.0f} s"

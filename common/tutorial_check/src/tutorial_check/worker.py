@@ -3,7 +3,7 @@
 Its order comes as JSON on standard input. Then each line of a socket asks for a recording,
 {"recorder": "MODULE:NAME", "arguments": [...]}, and is answered by a line: {"recording": {...}},
 {"wrong": {...}} where nothing can be recorded, or {"cannot": "why"}; each also says whether the
-machine kept the programs waiting. A socket, unlike a pipe, no path in /proc opens.
+machine kept the programs waiting, and has the version of recordings. A socket, unlike a pipe, no path in /proc opens.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Any
 from tutorial_check.isolation import bubblewrap, environment, privileges
 from tutorial_check.model import CannotCheck, Wrong, fault
 from tutorial_check.order import Order
-from tutorial_check.record.recording import arguments_of, as_json, from_json
+from tutorial_check.record.recording import VERSION, arguments_of, as_json, from_json
 from tutorial_check.source import workspace
 
 if TYPE_CHECKING:
@@ -78,7 +78,7 @@ def _serve(order: Order, line: socket.socket) -> None:
 def answer(ground: Ground, asked: dict[str, Any]) -> dict[str, Any]:
     """Return the answer to a question; both as above."""
     clock, found = ground.runner.clock, _recorded(ground, asked)
-    return {**found, "strained": clock.strained(), "hopeless": clock.hopeless()}
+    return {"version": VERSION, **found, "strained": clock.strained(), "hopeless": clock.hopeless()}
 
 
 def _recorded(ground: Ground, asked: dict[str, Any]) -> dict[str, Any]:

@@ -36,8 +36,8 @@ def without_hints(outcomes: Sequence[Outcome]) -> list[Outcome]:
     ]
 
 
-def as_json(outcomes: Sequence[Outcome]) -> str:
-    """Return one object with all exercises and checks."""
+def as_json(outcomes: Sequence[Outcome], with_recordings: bool = True) -> str:
+    """Return one object with all exercises and checks, and what they were judged by."""
     exercises = [
         {
             "id": one.id,
@@ -46,6 +46,7 @@ def as_json(outcomes: Sequence[Outcome]) -> str:
             "trouble": one.trouble,
             "remark": one.remark,
             "checks": [{name: getattr(each, name) for name in FIELDS} for each in one.results],
+            **({"recordings": one.recordings} if with_recordings else {}),
         }
         for one in outcomes
     ]
@@ -139,6 +140,13 @@ FORMATS: dict[str, tuple[str, Callable[[Sequence[Outcome]], str]]] = {
     "gradescope": ("Gradescope's results.json", as_gradescope),
     "classroom": ("Classroom 50's result", as_classroom),
 }
+
+
+def keep(folder: str | Path, name: str, outcomes: Sequence[Outcome]) -> None:
+    """Write what was recorded of a workspace to FOLDER/NAME.json. Raises CannotCheck."""
+    with contextlib.suppress(OSError):
+        os.makedirs(folder, exist_ok=True)
+    write(Path(folder, f"{name}.json"), as_json(outcomes))
 
 
 def clear(path: str | Path) -> None:

@@ -1,0 +1,85 @@
+"""Recordings of the rows, stored: what their programs did can be judged without running them again."""
+
+import ast
+import functools
+import hashlib
+import importlib
+import itertools
+import json
+import lzma
+import re
+from pathlib import Path
+
+from tutorial_check.course import read_course
+from tutorial_check.launcher import HANDED_IN, judge, order_of
+
+FOLDER = Path(__file__).resolve().parent / "recordings"
+REPOSITORY = FOLDER.parents[2]
+WITH_DOCSTRING = (ast.Module, ast.ClassDef, ast.FunctionDef)
+# What every recorder works with.
+SHARED = [f"tutorial_check.record.{name}" for name in ("stage", "driver", "builder")]
+
+
+def path_of(test):
+    """Return where the recordings of a test are, from its name with the row."""
+    name = re.sub(r"[^\w.-]+", "_", test)[:120]
+    return FOLDER / f"{name}.json.xz"
+
+
+def names(workspace, underlay):
+    """Return {what a recording names: what is stored in its place}."""
+    devel = Path(underlay).parent
+    return {str(workspace): "{workspace}", str(devel): "{devel}", str(REPOSITORY): "{suite}"}
+
+
+def write(test, outcomes, workspace, underlay):
+    """Store what was recorded for the outcomes of a test."""
+    recordings = [each for one in outcomes for each in one.recordings]
+    text = json.dumps({"code": code_of(recordings), "recordings": recordings})
+    for path, name in names(workspace, underlay).items():
+        text = text.replace(path, name)
+    FOLDER.mkdir(exist_ok=True)
+    path_of(test).write_bytes(lzma.compress(text.encode(), preset=9))
+
+
+def read(test, workspace, underlay, folder=HANDED_IN):
+    """Return the recordings of a test. folder: with the copy of the workspace."""
+    text = lzma.decompress(path_of(test).read_bytes()).decode()
+    for path, name in {**names(workspace, underlay), str(folder): HANDED_IN}.items():
+        text = text.replace(name, path)
+    return json.loads(text)["recordings"]
+
+
+def judged(test, workspace, underlay, exercises, folder, **about):
+    """Return the Outcomes of a workspace, judged from what is stored. folder: for its copy, empty."""
+    order = order_of(workspace, underlay, exercises, folder, **about)
+    answers = {}
+    for one in read(test, workspace, underlay, folder):
+        answers.setdefault(_question(one), []).append(one)
+
+    def ask(question):
+        turns = answers[_question(question)]
+        return turns.pop(0) if len(turns) > 1 else turns[0]
+
+    return judge(order, read_course(), ask)
+
+
+def _question(one):
+    return json.dumps([one["recorder"], one["arguments"]])
+
+
+def code_of(recordings):
+    """Return {module of recorders: hash of its code, and of what it works with}."""
+    modules = {one["recorder"].partition(":")[0] for one in recordings}
+    return {name: code_hash(name) for name in sorted(modules)}
+
+
+@functools.lru_cache(maxsize=None)
+def code_hash(module):
+    """Return a hash of the code of a module of recorders, which says nothing about its comments."""
+    files = (importlib.import_module(name).__file__ for name in (module, *SHARED))
+    trees = [ast.parse(Path(file).read_text()) for file in files]
+    for node in itertools.chain.from_iterable(map(ast.walk, trees)):
+        if isinstance(node, WITH_DOCSTRING) and ast.get_docstring(node):
+            node.body = node.body[1:]
+    return hashlib.sha256("".join(map(ast.dump, trees)).encode()).hexdigest()[:12]
