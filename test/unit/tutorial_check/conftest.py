@@ -39,8 +39,8 @@ def order(tmp_path):
     """An Order of an empty workspace."""
     return Order(
         folder=str(tmp_path), root=str(tmp_path), source=str(tmp_path / "src"), place="",
-        is_workspace=True, own=True, exercises=("2",), only_first=False, course="", variant={}, underlay="",
-        environment={}, kept=(), shown=(), number=1, apart=False,
+        is_workspace=True, own=True, exercises=("2",), only_first=False, course="", variant={},
+        underlay="", environment={}, kept=(), shown=(), number=1, apart=False,
     )  # fmt: skip
 
 
