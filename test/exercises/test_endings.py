@@ -3,14 +3,18 @@
 import os
 import signal
 import tempfile
+import time
 from pathlib import Path
 
 import pytest
 from edits import TALKER, B, write
+from stored import REPOSITORY
 from test_awkward import PYTHONPATH, command
 from test_hostile import processes_like
 
 from tutorial_check.isolation import bubblewrap
+from tutorial_check.launcher import order_of
+from tutorial_check.worker_process import Worker
 from tutorial_testing.processes import Program, command_line, descendants, lives
 from tutorial_testing.waiting import wait_for
 
@@ -80,3 +84,15 @@ def test_nothing_is_left(literal, underlay, environment, how, work):
         wait_for(lambda: not processes_like(f"{scratch}/"), "end of what that started", SOON_S)
         wait_for(lambda: not os.listdir(scratch), "end of its folder", SOON_S)
         assert "Traceback" not in checker.output
+
+
+@pytest.mark.skipif(not bubblewrap.granted().options, reason="no namespaces here")
+def test_a_worker_that_is_ended_while_it_starts_leaves_nothing(literal, underlay, tmp_path):
+    folder = tmp_path / "folder"
+    folder.mkdir()
+    order = order_of(literal.parent, underlay, ["2"], folder)
+    wrapper = bubblewrap.command(order.folder, order.shown, REPOSITORY)
+    for milliseconds in range(0, 20):
+        with Worker(order, wrapper):
+            time.sleep(milliseconds / 1000)  # it ends at each point of bubblewrap's start
+    wait_for(lambda: not processes_like(order.folder), "end of the workers", SOON_S)

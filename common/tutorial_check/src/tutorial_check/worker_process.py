@@ -6,6 +6,7 @@ import contextlib
 import json
 import os
 import select
+import signal
 import socket
 import subprocess
 import tempfile
@@ -91,7 +92,10 @@ class Worker:
             with contextlib.suppress(subprocess.TimeoutExpired):
                 self._process.wait(0 if self._is_apart else END_S)
         finally:
-            self._process.kill()  # with it all of its namespaces
+            if self._process.poll() is None:
+                # With it all of its namespaces. Its group: bubblewrap's child, until it may go on,
+                # would wait without end for a parent that is gone.
+                os.killpg(self._process.pid, signal.SIGKILL)
             self._process.wait()
             self._log.close()
 
