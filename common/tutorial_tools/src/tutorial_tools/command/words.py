@@ -69,7 +69,7 @@ EPILOG = """\
 are then not found at all. `shell` and `run` make and build it if it does not exist.
 Every command first sets up what it needs. The suite's own catkin workspaces are in
 $TUTORIAL_WORKSPACE or else below ~/.cache; remove them, and they are built again.
-README.md leads through the tutorial, section by section."""
+common/doc/TUTORIAL.md leads through it, section by section."""
 # For bash. The name is that of the command line: ./tutorial from a clone, tutorial in its shell.
 COMPLETION = """\
 _tutorial() {
