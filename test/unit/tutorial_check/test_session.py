@@ -53,7 +53,7 @@ def test_a_second_look_at_what_was_busy_or_unexplained(order, strained, explaine
     ("answer", "error", "words"),
     [
         ({"cannot": "no room"}, CannotCheck, "no room"),
-        ({"wrong": {"expected": "a", "seen": "the master has gone"}}, Wrong, "the master has gone"),
+        ({"cut_short": {"kind": "master gone", "seen": ""}}, Wrong, "it no longer answers"),
         ({"recording": {"forged": 1}}, ValueError, "no Seen"),
     ],
 )

@@ -8,10 +8,19 @@ from pathlib import Path
 from typing import Any, Callable, Dict
 
 from tutorial_check.isolation.bubblewrap import SYSTEM
-from tutorial_check.model import CannotCheck, Result, Wrong
+from tutorial_check.model import (
+    MASTER_GONE,
+    MULTIPLIES,
+    UNREADABLE,
+    CannotCheck,
+    Result,
+    Wrong,
+    master_gone,
+)
 from tutorial_check.order import Order
 from tutorial_check.record.recording import as_json, from_json, recorded_by
 from tutorial_check.record.session import Memory, Recorded, Recorder, Session, once
+from tutorial_check.source.manifests import unreadable
 from tutorial_check.source.workspace import COPY, Layout
 
 Ask = Callable[[Dict[str, Any]], Dict[str, Any]]  # the worker: question -> answer
@@ -53,9 +62,23 @@ class Case(Session):
         self._hopeless = bool(answer.get("hopeless"))
         if "cannot" in answer:
             raise CannotCheck(str(answer["cannot"]))
-        if "wrong" in answer:
-            raise Wrong(**answer["wrong"])
+        if "cut_short" in answer:
+            raise self._why_cut_short(**answer["cut_short"])
         return from_json(recorded_by(recorder), answer["recording"])
+
+    def _why_cut_short(self, kind: str, seen: str) -> Wrong:
+        if kind == UNREADABLE and self.broken:
+            return unreadable(self.broken)
+        if kind == MASTER_GONE:
+            return master_gone()
+        if kind == MULTIPLIES:
+            seen, hint = (
+                f"it starts itself again and again: {seen}",
+                "where does it call os.fork, or start programs?",
+            )
+            return Wrong("a program that is one process, or a few", seen, hint=hint, sure=True)
+        hint = "look at the first line of the file: #!/usr/bin/env python3"
+        return Wrong("a program that can be started", seen, hint=hint)
 
     def second_look(self, explained: bool) -> bool:
         """Return whether to look again at what programs do; then forget what they did.

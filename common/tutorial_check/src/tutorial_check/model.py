@@ -58,6 +58,18 @@ def master_gone(where: str = "") -> Wrong:
     return Wrong("the ROS master is left alone", seen, where, hint, sure=True)
 
 
+@dataclass
+class CutShort(Exception):
+    """Nothing more can be recorded. kind: one of those below. seen: more about it."""
+
+    kind: str
+    seen: str = ""
+
+
+MASTER_GONE, MULTIPLIES, CANNOT_START = "master gone", "multiplies", "cannot start"
+UNREADABLE = "unreadable package.xml"
+
+
 class CannotCheck(Exception):
     """The checker cannot work, through no fault of the student's; the text says why in one line."""
 

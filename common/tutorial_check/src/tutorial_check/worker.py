@@ -2,8 +2,9 @@
 
 Its order comes as JSON on standard input. Then each line of a socket asks for a recording,
 {"recorder": "MODULE:NAME", "arguments": [...]}, and is answered by a line: {"recording": {...}},
-{"wrong": {...}} where nothing can be recorded, or {"cannot": "why"}; each also says whether the
-machine kept the programs waiting, and has the version of recordings. A socket, unlike a pipe, no path in /proc opens.
+{"cut_short": {"kind", "seen"}} (see model.CutShort), or {"cannot": "why"}; each also says whether the
+machine kept the programs waiting, and has the version of recordings. A socket, unlike a pipe, is
+opened by no path in /proc.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from tutorial_check.isolation import bubblewrap, environment, privileges
-from tutorial_check.model import CannotCheck, Wrong, fault
+from tutorial_check.model import CannotCheck, CutShort, fault
 from tutorial_check.order import Order
 from tutorial_check.record.recording import VERSION, arguments_of, as_json, from_json
 from tutorial_check.source import workspace
@@ -86,9 +87,8 @@ def _recorded(ground: Ground, asked: dict[str, Any]) -> dict[str, Any]:
     try:
         recorder = getattr(importlib.import_module(module), name)
         return {"recording": as_json(recorder(ground, *arguments_of(recorder, asked["arguments"])))}
-    except Wrong as wrong:
-        names = ("expected", "seen", "where", "hint", "sure", "look")
-        return {"wrong": {each: getattr(wrong, each) for each in names}}
+    except CutShort as end:
+        return {"cut_short": {"kind": end.kind, "seen": end.seen}}
     except Exception as error:
         if not isinstance(error, CannotCheck):
             traceback.print_exc()

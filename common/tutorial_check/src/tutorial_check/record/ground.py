@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 from typing import Iterator
 
-from tutorial_check.model import CannotCheck, Wrong, master_gone
+from tutorial_check.model import MASTER_GONE, UNREADABLE, CannotCheck, CutShort
 from tutorial_check.record.builder import Builder
 from tutorial_check.record.stage import Stage
 
@@ -19,14 +19,15 @@ class Ground(Builder):
 
         renamed: whether topics have the names that the student's task gives them.
         """
-        self.must_be_startable()
+        if self.broken:
+            raise CutShort(UNREADABLE)
         self.runner.clock.begin()
         stage = Stage(self, renamed)
         try:
             yield stage
-        except (CannotCheck, Wrong, LookupError) as error:
+        except (CannotCheck, CutShort, LookupError) as error:
             if stage.master_lives:
                 raise
-            raise master_gone() from error
+            raise CutShort(MASTER_GONE) from error
         finally:
             stage.end()

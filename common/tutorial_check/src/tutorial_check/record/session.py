@@ -86,11 +86,15 @@ class Session:
 
     # ---------------------------------------------------------------- the student's packages
 
+    @cached_property
+    def broken(self) -> Package | None:
+        """A package whose package.xml keeps every node from starting."""
+        return first_broken(self.source, self.packages)
+
     def must_be_startable(self) -> None:
         """Raise Wrong for a package.xml that keeps every node from starting."""
-        broken = self.memo("broken", lambda: first_broken(self.source, self.packages))
-        if broken:
-            raise unreadable(broken)
+        if self.broken:
+            raise unreadable(self.broken)
 
     def must_be_launchable(self) -> None:
         """Raise Wrong for a package.xml that keeps roslaunch from starting anything."""

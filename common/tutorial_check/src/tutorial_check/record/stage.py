@@ -10,7 +10,7 @@ from typing import Any, Callable, Sequence
 
 from tutorial_check.isolation import helper_process
 from tutorial_check.isolation.program import Program
-from tutorial_check.model import CannotCheck, Wrong
+from tutorial_check.model import CANNOT_START, CannotCheck, CutShort
 from tutorial_check.record.builder import Builder
 from tutorial_check.variants import UNASKED
 
@@ -78,8 +78,7 @@ class Stage:
             return self.runner.start(command, self._ours if trusted else self.environment, trusted)
         except OSError as error:
             seen = f"{Path(command[0]).name}: {error.strerror}"
-            hint = "look at the first line of the file: #!/usr/bin/env python3"
-            raise Wrong("a program that can be started", seen, hint=hint) from None
+            raise CutShort(CANNOT_START, seen) from None
 
     def call(self, method: str, *arguments: Any) -> Any:
         """Call a method of the driver. Stop waiting if the master has ended: rospy would retry without end."""
