@@ -103,7 +103,7 @@ def test_a_class_has_a_table_and_reports(literal, underlay, tmp_path):
 
 
 def examines(program):
-    """Return whether an examination runs below a program."""
+    """Return whether a worker runs below a program."""
     lines = map(command_line, descendants(program.pid))
     return any("tutorial_check.worker" in line for line in lines)
 
@@ -113,12 +113,12 @@ def test_ctrl_c_ends_the_check_of_all(literal, underlay, tmp_path):
         shutil.copytree(literal.parent, tmp_path / "group" / str(number))
     words = command(underlay, "--all", tmp_path / "group")
     with Program(*words, PYTHONPATH=PYTHONPATH) as professor:
-        wait_for(lambda: examines(professor), "examination")
+        wait_for(lambda: examines(professor), "worker")
         begun = descendants(professor.pid)
         professor.interrupt()
         assert professor.wait() == 130
         assert "interrupted: no verdict" in professor.output
-        wait_for(lambda: not any(map(lives, begun)), "end of the examinations")
+        wait_for(lambda: not any(map(lives, begun)), "end of the workers")
         assert "Traceback" not in professor.output
         assert not (tmp_path / "group" / "check" / "table.csv").exists()
 

@@ -155,7 +155,7 @@ def test_a_submission_that_ends_workers_is_abandoned(scheduler, worker, client):
     call = client()
     for host in ("one", "two"):
         each = worker(host, "--jobs", 1)  # of several, a second one may get it before that ends
-        wait_for(lambda each=each: examines(each), "an examination", 120)
+        wait_for(lambda each=each: examines(each), "a worker", 120)
         kill(each)
     assert call.wait(120) == 2, call.output
     assert "abandoned: 2 workers have ended while they checked it" in call.output
@@ -251,7 +251,7 @@ def test_a_worker_that_is_ended_while_it_checks_leaves_no_folder(
     one = worker("one")
     monkeypatch.delenv("TMPDIR")
     client()
-    wait_for(lambda: examines(one), "an examination", 120)
+    wait_for(lambda: examines(one), "a worker", 120)
     assert list(temporary.glob("tutorial_worker_*/tutorial_check_*"))
     os.kill(one.pid, number)
     wait_for(lambda: not list(temporary.iterdir()), "an empty folder", 120)

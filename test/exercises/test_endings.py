@@ -39,7 +39,7 @@ WORKS = {
 
 @pytest.fixture
 def scratch():
-    """Where the examination has its copy. Open to the users of programs."""
+    """Where the checker has its copy. Open to the users of programs."""
     with tempfile.TemporaryDirectory() as folder:
         Path(folder).chmod(0o755)
         yield folder

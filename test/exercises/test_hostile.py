@@ -76,7 +76,7 @@ def processes_like(word):
 
 @pytest.fixture
 def scratch(monkeypatch):
-    """Where the examinations of a test have their copies, and no other's. Open to the users of programs."""
+    """Where the checks of a test have their copies, and no other's. Open to the users of programs."""
     with tempfile.TemporaryDirectory() as folder:
         Path(folder).chmod(0o755)
         monkeypatch.setattr(tempfile, "tempdir", folder)

@@ -50,7 +50,7 @@ def found_in(outcomes):
 
 def test_what_was_found_before_the_worker_ended(examine):
     outcomes = examine([READY, SEEN], "echo no room >&2")
-    why = "the examination ended without a result: no room"
+    why = "the worker exited without a result: no room"
     assert found_in(outcomes) == {"2": (["C2"], ""), "3": ([], why), "5": ([], why)}
     assert [one.passed for one in outcomes] == [True, False, False]
 
@@ -70,7 +70,7 @@ def test_what_was_found_before_the_time_was_over(examine, monkeypatch):
 
 @pytest.mark.parametrize(
     ("answers", "why"),
-    [([], "ended without a result"), ([READY], "ended without a result"),
+    [([], "exited without a result"), ([READY], "exited without a result"),
      (['{"cannot": "no room"}'], "no room")],
 )  # fmt: skip
 def test_a_worker_that_records_nothing_gives_no_verdict(examine, answers, why):

@@ -24,12 +24,12 @@ from tutorial_check.source.workspace import COPY
 # All exercises take 90 s on two quiet processors. Ten times as long is enough: where programs have less
 # than a seventh of the time, there is no verdict anyway (cpu_clock.HOPELESS), and a student waits.
 LONGEST_S = 900.0
-END_S = 10.0  # an examination whose result is not wanted has this long to end what it started
+END_S = 10.0  # a worker whose result is not wanted has this long to end what it started
 _no_more = threading.Event()
 
 
 def end_all() -> None:
-    """End the examinations of all threads, and those that have just begun; each raises CannotCheck."""
+    """End the workers of all threads, and those that have just begun; each raises CannotCheck."""
     _no_more.set()
 
 
@@ -119,7 +119,7 @@ class Worker:
                 raise Ended("it was ended")
             if time.monotonic() > self._end_s:
                 why = "the machine has too much else to do"
-                raise Ended(f"the examination took longer than {LONGEST_S:.0f} s: {why}")
+                raise Ended(f"the check took longer than {LONGEST_S:.0f} s: {why}")
             if select.select([self._line], [], [], 0.2)[0]:
                 data = self._line.recv(1 << 20)
                 if not data:
@@ -135,4 +135,4 @@ class Worker:
             self._process.wait(END_S)
         self._log.seek(0)
         last = ["", *filter(str.strip, self._log.read()[-2000:].splitlines())][-1]
-        return f"the examination ended without a result: {last}"
+        return f"the worker exited without a result: {last}"

@@ -143,7 +143,7 @@ class Session:
     def whole(self, path: str, package: str = "") -> str:
         """Return a path of the workspace, or within a package, for a command of a shell in any folder.
 
-        It is that of the copy, in whose place examine puts the student's own, where it knows that.
+        It is that of the copy, in whose place Case.as_sent puts the student's own, where it knows that.
         """
         own = self.package(package).folder if package else self.source.parent
         return shlex.quote(str(own / path))
