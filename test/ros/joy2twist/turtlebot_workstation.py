@@ -1,7 +1,6 @@
 #!/usr/bin/python3
 """launch_joy_node_realTurtlebot.launch: what drives the TurtleBot, and which view opens."""
 
-import math
 import os
 
 import rosbag
@@ -9,7 +8,6 @@ import rosgraph
 import rosnode
 import rospkg
 import rospy
-import yaml
 from geometry_msgs.msg import Twist
 from sensor_msgs.msg import Joy
 
@@ -72,17 +70,6 @@ class WorkstationTest(RosTest):
         self.assertEqual({twist.linear.x for twist in speeds}, {0.0, SPEED})
         launch.interrupt()
         launch.wait()
-
-    def test_whatever_the_preset_says_it_needs_a_dead_man_arms_and_has_the_limits_of_a_kobuki(self):
-        dump = self.start("roslaunch", "--dump-params", "joy2twist", FILE, "joy_config:=extreme_3d")
-        self.assertEqual(dump.wait(), 0, dump.output)
-        given = yaml.safe_load(dump.output)
-        prefix = "/myjoystick2twist/"
-        for name, value in {
-            "require_enable_button": True, "arm_on_neutral": True, "max_linear_speed": 0.7,
-            "max_angular_speed": math.pi, "joy_timeout": 0.5, "vigilance_timeout": 3.0,
-        }.items():  # fmt: skip
-            self.assertEqual(given[prefix + name], value, name)
 
     def test_the_view_is_that_of_the_suite_of_a_turtlebot_if_installed_or_the_users(self):
         packages, folder = rospkg.RosPack(), self.folder()

@@ -19,6 +19,7 @@ from tutorial_testing.hands import DRIVE, RELEASED, Hands
 from tutorial_testing.nodes import node_path, pid_of
 from tutorial_testing.processes import Program, suspend
 from tutorial_testing.robot import Robot
+from tutorial_testing.waiting import Stopwatch
 
 JOYSTICK, DRIVER, MUX, BASE = "/joy_node", "/NewJoy2Twist", "/cmd_vel_mux", "/fake_turtlebot"
 SAFETY = "/kobuki_safety_controller"
@@ -100,11 +101,10 @@ class Rig(Robot):
 
     def kill(self, node, number=signal.SIGKILL, pid=None):
         """Send a signal to a node; return how long it took to exit [s]. pid: if it is known."""
-        pid = pid or pid_of(node)
-        began = time.monotonic()
+        pid, watch = pid or pid_of(node), Stopwatch()
         os.kill(pid, number)
         self.programs[node].wait()
-        return time.monotonic() - began
+        return watch.took_s
 
     def hold(self):
         """Release all until the robot has rested, and hold LB and the stick."""
