@@ -99,15 +99,3 @@ def test_a_rest_draws_no_error_and_changes_none_that_follow():
         robot.command((0.5, 1.0), now_ns)
         robot.advance(now_ns + SECOND // 2)
     assert rested.state() == at_once.state()
-
-
-def test_placing_keeps_wheels_and_command_and_reset_zeroes_wheels_too():
-    robot = SimulatedRobot(KOBUKI)
-    robot.command((0.35, 0.0), 0)
-    robot.advance(SECOND // 2)
-    robot.place((1.0, 2.0, 5 * pi / 2))
-    assert robot.state()[:4] == (1.0, 2.0, wrap_angle(5 * pi / 2), 0.35)
-    assert robot.state().left_angle == pytest.approx(5)
-    robot.reset()
-    assert robot.state()[:4] == (0.0, 0.0, 0.0, 0.35)
-    assert robot.state().left_angle == robot.state().right_angle == 0.0
