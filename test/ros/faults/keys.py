@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""launch_joy_node.launch virtual:=true in a terminal: keys drive, and whatever happens it stands."""
+"""launch_joy_node.launch virtual:=true in a terminal: keys drive, and no fault moves the robot."""
 
 import os
 import subprocess

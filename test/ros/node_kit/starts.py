@@ -14,7 +14,8 @@ from tutorial_testing.waiting import wait_for
 
 SIMULATOR = (node_path("fake_turtlebot_sim", "fake_turtlebot.py"),)
 ROBOT = "rosrun fake_turtlebot_sim fake_turtlebot.py"
-TURTLEBOT, CLASS = "roslaunch fake_turtlebot_sim minimal.launch", "roslaunch cockpit classroom.launch"
+TURTLEBOT = "roslaunch fake_turtlebot_sim minimal.launch"
+CLASS = "roslaunch cockpit classroom.launch"
 RECORDING = "roslaunch joy2twist launch_bag.launch rviz:=false"
 # What runs, and topics whose messages must go on: what is started and refused, with a word of its
 # one line; then what may run beside it, with a topic that shows it.

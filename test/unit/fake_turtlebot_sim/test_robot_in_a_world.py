@@ -173,11 +173,6 @@ def test_noise_is_drawn_from_the_seed_and_the_name():
     assert np.std(np.subtract(scans[0], exact)) == pytest.approx(0.02, rel=0.15)
 
 
-def test_a_scan_of_a_whole_turn_has_no_beam_twice():
-    laser = Laser(Parameters(scan_angle=2 * pi, scan_beams=4), World((SQUARE,)))
-    assert laser.increment == pytest.approx(pi / 2)
-
-
 def test_a_map_has_its_walls_posts_and_edges():
     world = World((SQUARE,), ((0.0, 0.0, 0.3),), (((1.0, 1.0), (1.5, 1.0), (1.5, 1.5)),))
     grid = world_map(world, "map", None, 0.1)

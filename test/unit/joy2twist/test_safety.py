@@ -8,7 +8,7 @@ from math import inf
 import pytest
 
 from joy_to_twist.parameters import load
-from joy_to_twist.safety import ARMED, BAD_MESSAGE, DRIVING, NOT_ARMED, WAITING, Safety
+from joy_to_twist.safety import ARMED, BAD_MESSAGE, DRIVING, WAITING, Safety
 from node_kit.arming import ZERO
 from tutorial_testing.over_time import over_time
 
