@@ -115,6 +115,7 @@ def test_a_gamepad_arms_and_is_watched_and_leaves_no_parameter(monkeypatch, file
     for name, value in {**limits, **watched}.items():
         assert values[f"/myjoystick2twist/{name}"] == value, name
     assert [name for name in values if name.startswith("/joy_node/")] == []
+    assert {"joy_node", "myjoystick2twist"} <= {node.name for node in given.nodes}
 
 
 def test_joy_pkg_is_the_package_whose_node_reads_the_device(monkeypatch):
