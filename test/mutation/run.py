@@ -39,7 +39,8 @@ test-command = "{command}"
 name = "local"
 [cosmic-ray.filters.operators-filter]
 exclude-operators = [
-    ".*_(RShift|LShift|BitOr|BitAnd|BitXor|Pow)$", ".*_BitOr_.*", ".*(?<!_Is)_IsNot$", ".*(?<!_IsNot)_Is$",
+    ".*_(RShift|LShift|BitOr|BitAnd|BitXor|Pow)$", ".*_BitOr_.*",
+    ".*(?<!_Is)_IsNot$", ".*(?<!_IsNot)_Is$",
 ]
 """
 

@@ -80,6 +80,21 @@ def test_a_stick_held_for_eight_seconds_is_stopped_unless_it_trembles(step):
     assert ("has not changed for 3 s" in machine.summary(8.0)[1]) is (step == 0)
 
 
+def test_a_joystick_that_sends_changes_only_is_still_too():
+    machine, _ = teleoperation(arm_on_neutral=True, enable_button=0, vigilance_timeout=3.0)
+    machine.joy(*RELEASED, 0.0)
+    machine.joy(*HELD, 1.0)
+    assert over_time(machine.safety, 1.0, 10.0)[0] == (4.0, (0,) * 6)
+
+
+def test_a_robot_that_stands_may_do_so_without_end():
+    machine, warnings = teleoperation(arm_on_neutral=True, enable_button=0, vigilance_timeout=3.0)
+    machine.joy(*RELEASED, 0.0)
+    for i in range(160):
+        machine.joy((0.0, 0.0), HELD[1], 0.1 + i * 0.05)
+    assert (machine.safety.state, machine.safety.due > 9.0, warnings) == ("driving", True, [])
+
+
 def test_the_stop_button_is_named_until_it_is_reset_and_sends_zeros_meanwhile():
     machine, warnings = teleoperation(enable_button=0, stop_button=1, stop_reset_button=2)
     machine.joy(*HELD, 0.1)
