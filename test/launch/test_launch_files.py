@@ -1,10 +1,17 @@
-"""roslaunch can read every launch file, and finds each node and package that it names."""
+"""roslaunch can read every launch file, and finds what it names; a mistake starts nothing."""
 
+import math
 from pathlib import Path
 
 import pytest
+import rosbag
+import roslaunch
 import roslaunch.config
 import roslaunch.rlutil
+import rospy
+from sensor_msgs.msg import Joy
+
+from tutorial_tools.demo.program import NODES, RVIZ_NODE
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 FOLDERS = ("*", "common/*", "common/stand_ins/*")
@@ -54,3 +61,88 @@ def test_arguments_of_public_launch_files(file, tmp_path, monkeypatch):
     places = {key.split("/")[-1]: one.value for key, one in config.params.items()}
     if "x" in names:
         assert (places["initial_x"], places["initial_y"], places["initial_yaw"]) == (1.5, 1, 1)
+
+
+def loaded(monkeypatch, file, *arguments):
+    """Return what roslaunch makes of a launch file of joy2twist, or of PACKAGE/FILE."""
+    *package, name = file.split("/")
+    (path,) = (one for one in FILES if one.parts[-3::2] == (*(package or ["joy2twist"]), name))
+    monkeypatch.setattr("sys.argv", ["roslaunch", *arguments])
+    return roslaunch.config.load_config_default([str(path)], None, verbose=False)
+
+
+@pytest.mark.parametrize(
+    ("file", "arguments", "line"),
+    [
+        ("cockpit/classroom.launch", "lan:=yes", "must be true or false"),
+        ("launch_bag.launch", "rviz:=yes", "must be true or false"),
+        ("launch_joy_node.launch", "virtual:=yes", "must be true or false"),
+        ("launch_joy_node_realTurtlebot.launch", "virtual:=yes", "must be true or false"),
+        ("student.launch", "name:=", "is missing: which robot of the classroom"),
+        ("student.launch", "name:=ada bag:=/no/joy.bag", "cannot be read"),
+    ],
+)
+def test_a_mistake_in_an_argument_starts_nothing(monkeypatch, capfd, file, arguments, line):
+    """Which values are allowed is for a unit test."""
+    words = arguments.split()
+    with pytest.raises(roslaunch.RLException):
+        loaded(monkeypatch, file, *words)
+    assert f"roslaunch: {words[-1]}: {line}" in capfd.readouterr().err
+
+
+def test_a_recording_without_a_dead_man_starts_nothing_on_a_turtlebot(monkeypatch, capfd, tmp_path):
+    with rosbag.Bag(str(tmp_path / "sparse.bag"), "w") as bag:
+        bag.write("/joy", Joy(axes=[0.0, 1.0], buttons=[0] * 12), rospy.Time(1))
+    file = "launch_joy_node_realTurtlebot.launch"
+    with pytest.raises(roslaunch.RLException):
+        loaded(monkeypatch, file, f"bag:={tmp_path}/sparse.bag", "rviz:=false")
+    assert "LB (button 4) or RB (button 5), the dead-man button of" in capfd.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("file", "preset", "limits"),
+    [
+        ("launch_joy_node_realTurtlebot.launch", "extreme_3d",
+         {"require_enable_button": True, "max_linear_speed": 0.7, "max_angular_speed": math.pi}),
+        ("launch_joy_node.launch", "f710_d", {"enable_button": 4}),
+    ],
+)  # fmt: skip
+def test_a_gamepad_arms_and_is_watched_and_leaves_no_parameter(monkeypatch, file, preset, limits):
+    """A joy_node started by hand after virtual:=true would wait for the FIFO."""
+    given = loaded(monkeypatch, file, f"joy_config:={preset}", "virtual:=true", "rviz:=false")
+    values = {key: one.value for key, one in given.params.items()}
+    watched = {"arm_on_neutral": True, "joy_timeout": 0.5, "vigilance_timeout": 3.0}
+    for name, value in {**limits, **watched}.items():
+        assert values[f"/myjoystick2twist/{name}"] == value, name
+    assert [name for name in values if name.startswith("/joy_node/")] == []
+    assert {"joy_node", "myjoystick2twist"} <= {node.name for node in given.nodes}
+
+
+def test_joy_pkg_is_the_package_whose_node_reads_the_device(monkeypatch):
+    given = loaded(monkeypatch, "launch_joy_node.launch", "joy_pkg:=joy", "joy_dev:=/tmp/a b")
+    (node,) = (one for one in given.nodes if one.name == "joy_node")
+    assert node.package == "joy"
+    assert "_dev:='/tmp/a b'" in node.args or "_dev:=/tmp/a b" in node.args
+
+
+def test_a_recording_by_a_relative_path_is_found_and_parameters_of_before_are_not(monkeypatch):
+    folder = REPOSITORY / "joy2twist/bag"
+    monkeypatch.setenv("PWD", str(folder))
+    given = loaded(monkeypatch, "launch_bag.launch", "bag:=../bag/joy.bag", "rviz:=false")
+    (node,) = (one for one in given.nodes if one.name == "rosbag")
+    assert f"{folder}/../bag/joy.bag" in node.args
+    assert "/myjoystick2twist/" in given.clear_params
+
+
+@pytest.mark.parametrize(
+    ("display", "asked", "opens"),
+    [(":99", [], True), ("", [], False), ("", ["rviz:=true"], True)],
+)
+def test_rviz_opens_where_there_is_a_screen_or_where_it_is_asked_for(
+    monkeypatch, display, asked, opens
+):
+    monkeypatch.setenv("DISPLAY", display)
+    given = loaded(monkeypatch, "launch_bag.launch", "cockpit:=false", *asked)
+    # The demonstration knows them, too.
+    expected = [*NODES, *[RVIZ_NODE] * opens]
+    assert sorted(one.namespace + one.name for one in given.nodes) == sorted(expected)

@@ -28,7 +28,7 @@ IMPURE = re.compile(
 PYTEST = "-m pytest -x -q --hypothesis-seed=0" + "".join(
     f" -p no:{plugin}" for plugin in ("cacheprovider", "xdist", "rerunfailures", "benchmark")
 )
-# Bits of a float and the identity of numbers say nothing about the rules.
+# Bits of a float, the identity of numbers, and the | of a type say nothing about the rules.
 CONFIG = """
 [cosmic-ray]
 module-path = "{module}"
@@ -39,7 +39,8 @@ test-command = "{command}"
 name = "local"
 [cosmic-ray.filters.operators-filter]
 exclude-operators = [
-    ".*_(RShift|LShift|BitOr|BitAnd|BitXor|Pow)$", ".*(?<!_Is)_IsNot$", ".*(?<!_IsNot)_Is$",
+    ".*_(RShift|LShift|BitOr|BitAnd|BitXor|Pow)$", ".*_BitOr_.*",
+    ".*(?<!_Is)_IsNot$", ".*(?<!_IsNot)_Is$",
 ]
 """
 

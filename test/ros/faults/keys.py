@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""The virtual gamepad is abandoned or suspended, and the robot stands."""
+"""launch_joy_node.launch virtual:=true in a terminal: keys drive, and no fault moves the robot."""
 
+import os
 import subprocess
 
 from tutorial_testing.keys import KeyboardRig
@@ -8,36 +9,55 @@ from tutorial_testing.rig import suspended
 from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
+HINT = "  without LB: tap space, then this key at once"
+
 
 class FaultsOfTheKeys(RosTest):
     def setUp(self):
         self.rig = self.enter(KeyboardRig())
-        self.rig.drive()
+        self.terminal = self.rig.terminal
 
     def check_stays(self):
         """LB and W are pressed, and still nothing moves."""
         self.rig.wait_for_rest()
         for key in ("Space", *("w" * 20)):
-            self.rig.terminal.press(key)
+            self.terminal.press(key)
         self.assertTrue(self.rig.stays_at_rest())
 
+    def test_keys_move_the_robot_while_lb_is_held_and_ctrl_c_leaves_nothing(self):
+        self.assertIn("LB, the dead-man button: hold it", self.terminal.screen)
+        shown = f"left stick +0.0 +1.0{HINT}"
+        self.terminal.hold("w", lambda: shown in self.terminal.screen, "key on the screen")
+        wait_for(lambda: "left stick +0.0 +0.0" in self.terminal.screen, "released key")
+        self.assertEqual([one for one in self.rig.odometry if one.moves], [], "moved without LB")
+        self.rig.drive()
+        self.rig.wait_for_rest()  # after the keys were released
+        self.rig.drive()
+        self.terminal.press("C-c")
+        wait_for(lambda: self.terminal.ended, "end of the launch")
+        self.assertIn("done", self.terminal.screen)
+        for word in ("Traceback", "died"):  # a normal end does not look like a crash
+            self.assertNotIn(word, self.terminal.history)
+        self.assertFalse(os.path.exists(self.rig.device), "the FIFO is left")
+
     def test_a_screen_that_is_held_releases_all_keys(self):
-        terminal = self.rig.terminal
-        terminal.press("C-s")  # the terminal's flow control: nothing can be shown any more
+        self.rig.drive()
+        self.terminal.press("C-s")  # the terminal's flow control: nothing can be shown any more
         self.check_stays()
-        terminal.press("C-q")
+        self.terminal.press("C-q")
         self.rig.drive()
         # It went on with its work, and was not only missed by joy_node.
-        self.assertNotIn("no sign of life", terminal.history)
+        self.assertNotIn("no sign of life", self.terminal.history)
 
     def test_keys_that_were_typed_during_a_suspension_do_not_drive(self):
+        self.rig.drive()
         serves = f"virtual_joystick.*--stream.*{self.rig.device}"
         found = subprocess.run(["pgrep", "-f", serves], check=True, capture_output=True, text=True)
         with suspended([int(pid) for pid in found.stdout.split()]):
             self.check_stays()
         self.assertTrue(self.rig.stays_at_rest(), "what was typed meanwhile")
         self.rig.drive()
-        self.rig.terminal.close()
+        self.terminal.close()
         wait_for(lambda: not self.rig.moves, "standing robot without a terminal")
 
 

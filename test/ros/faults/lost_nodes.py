@@ -14,10 +14,8 @@ from tutorial_testing.nodes import pid_of
 from tutorial_testing.rig import BASE, DRIVER, MUX, TIMEOUT_S, Rig, go_on, stop
 from tutorial_testing.robot import PERIOD_S
 from tutorial_testing.rostests import RosTest, run
-from tutorial_testing.waiting import wait_for
+from tutorial_testing.waiting import HOP_S, Stopwatch, wait_for
 
-# What a busy machine may add between a node and the next one, and to the stamps of this process.
-BUSY_S = 0.3
 WATCHED_S = 1.2  # after a node is back
 
 
@@ -34,12 +32,14 @@ class LostNodes(RosTest):
         """The robot comes to rest in time, and stays."""
         pids = [pid_of(node)]
         rig.drive()
-        began_s = stop(pids)
+        watch, began_s = Stopwatch(), stop(pids)
         threading.Event().wait(duration_s)
         ended_s = go_on(pids)
-        rests_s = began_s + TIMEOUT_S + PERIOD_S + BUSY_S
+        wait_for(lambda: rig.since(ended_s + WATCHED_S), "odometry")
+        late_s = HOP_S + watch.lost_s
+        rests_s = began_s + TIMEOUT_S + PERIOD_S + late_s
         if node == BASE:
-            rests_s = max(rests_s, ended_s + BUSY_S)
+            rests_s = max(rests_s, ended_s + late_s)
         self.check_rest(rig, began_s, ended_s, f"{node} for {duration_s} s", rests_s)
 
     def check_restart(self, rig, node):

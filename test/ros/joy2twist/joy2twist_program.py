@@ -1,19 +1,20 @@
 #!/usr/bin/python3
-"""joy2twist as a program: how it starts, what it shows and how it ends."""
+"""joy2twist as a program: how it starts, what it shows, how it ends, and without its master."""
 
-import time
-
+import rosgraph
 import rospy
 from geometry_msgs.msg import Twist
 from sensor_msgs.msg import Joy
 
 from tutorial_testing.nodes import node_path
+from tutorial_testing.ports import free_port
 from tutorial_testing.processes import Program
 from tutorial_testing.rostests import RosTest, run
-from tutorial_testing.waiting import BUSY_S, wait_for
+from tutorial_testing.waiting import BUSY_S, Stopwatch, wait_for
 
 LONGEST_EXIT_S = 1.5 + BUSY_S
 NOWHERE = "http://localhost:9"  # the port named "discard": no master lives there
+FORWARD = "{axes: [0.0, 0.5]}"
 JOY2TWIST = node_path("joy2twist", "joy2twist.py")
 
 
@@ -32,9 +33,9 @@ class RunningTest(RosTest):
 
     def check_stop(self):
         """The stick stays forward, but the last velocity is zero, and the end comes in time."""
-        begin = time.monotonic()
+        watch = Stopwatch()
         wait_for(lambda: self.forward() or self.node.ended, "end")
-        self.assertLess(time.monotonic() - begin, LONGEST_EXIT_S)
+        self.assertLess(watch.took_s, LONGEST_EXIT_S)
         self.check_end(self.node)
         wait_for(lambda: self.robot.get_num_connections() == 0, "end of the connection")
         self.assertEqual(self.speeds[-1], 0.0)
@@ -80,6 +81,23 @@ class StartTest(RosTest):
             ([], {"ROS_MASTER_URI": "nonsense"}, ("'nonsense'", "http://localhost:11311")),
         ):
             self.check_mistake(Program(JOY2TWIST, *given, **environment), *words)
+
+    def test_without_its_master_it_drives_on_and_stops_at_the_end(self):
+        port = str(free_port())
+        own = {"ROS_MASTER_URI": f"http://localhost:{port}"}
+        # Not roscore, which has its master in a session of its own, out of reach.
+        master = self.start("rosmaster", "--core", "-p", port, **own)
+        wait_for(rosgraph.Master("/test", own["ROS_MASTER_URI"]).is_online, "master")
+        node = self.start(JOY2TWIST, **own)
+        self.start("rostopic", "pub", "-r", "50", "joy", "sensor_msgs/Joy", FORWARD, **own)
+        echo = self.start("rostopic", "echo", "-p", "cmd_vel/linear/x", **own)
+        wait_for(lambda: ",0.5" in echo.output, "velocity")
+        master.kill()
+        count = echo.output.count(",0.5")
+        wait_for(lambda: echo.output.count(",0.5") > count + 50, "more velocities")
+        self.assertNotIn(",0.0", echo.output)
+        self.end(node, deadline_s=LONGEST_EXIT_S)
+        wait_for(lambda: echo.output.endswith(",0.0\n"), "zero")
 
 
 if __name__ == "__main__":

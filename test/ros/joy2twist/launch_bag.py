@@ -13,7 +13,6 @@ from tutorial_testing.processes import Program
 from tutorial_testing.robot import Robot
 from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
-from tutorial_tools.demo.program import NODES, RVIZ_NODE
 
 RATE_HZ = 50  # of joy.bag and of the simulation
 # A recording without autorepeat and without any button: time [s] and axes of each message.
@@ -64,24 +63,6 @@ class LaunchBagTest(RosTest):
             robot.wait_for_rest()
             self.assertAlmostEqual(robot.now.x, SPARSE_M, delta=0.05 * SPARSE_M)
             self.end(launch)
-
-    def test_a_recording_without_a_dead_man_starts_nothing_on_a_turtlebot(self):
-        file, bag = "launch_joy_node_realTurtlebot.launch", self.recording()
-        launch = self.start("roslaunch", "joy2twist", file, f"bag:={bag}", "rviz:=false")
-        self.assertNotEqual(launch.wait(), 0)
-        self.assertIn("LB (button 4) or RB (button 5), the dead-man button of", launch.output)
-        self.assertNotIn("process[", launch.output)
-
-    def test_rviz_opens_where_there_is_a_screen_or_where_it_is_asked_for(self):
-        for display, asked, opens in (
-            (":99", (), True), ("", (), False), ("", ["rviz:=true"], True),
-        ):  # fmt: skip
-            command = ("joy2twist", "launch_bag.launch", "cockpit:=false", *asked)
-            listing = self.start("roslaunch", "--nodes", *command, DISPLAY=display)
-            self.assertEqual(listing.wait(), 0, listing.output)
-            # The demonstration knows them, too.
-            expected = [*NODES, *[RVIZ_NODE] * opens]
-            self.assertEqual(sorted(listing.output.split()), sorted(expected))
 
 
 if __name__ == "__main__":

@@ -1,7 +1,6 @@
 #!/usr/bin/python3
 """A start never harms what runs: a table of what runs, what is started, and what is left."""
 
-import shlex
 from xmlrpc.client import ServerProxy
 
 import rosgraph
@@ -14,11 +13,42 @@ from tutorial_testing.rostests import RosTest, run
 from tutorial_testing.waiting import wait_for
 
 SIMULATOR = (node_path("fake_turtlebot_sim", "fake_turtlebot.py"),)
+ROBOT = "rosrun fake_turtlebot_sim fake_turtlebot.py"
+TURTLEBOT = "roslaunch fake_turtlebot_sim minimal.launch"
+CLASS = "roslaunch cockpit classroom.launch"
+RECORDING = "roslaunch joy2twist launch_bag.launch rviz:=false"
+# What runs, and topics whose messages must go on: what is started and refused, with a word of its
+# one line; then what may run beside it, with a topic that shows it.
+TABLE = {
+    ("roslaunch fake_turtlebot_sim fake_turtlebot.launch", "/odom", "/joint_states"): (
+        [(ROBOT, "/fake_turtlebot runs already"),
+         (f"{ROBOT} _rate:=abc", "~rate: 'abc': must be a number"),
+         (f"{ROBOT} _rat:=5", "did you mean ~rate?"),
+         (TURTLEBOT, "/robot_state_publisher runs already"),
+         (RECORDING, "/fake_turtlebot runs already")],
+        [(f"{ROBOT} __name:=another odom:=odom2", "/odom2")]),
+    (TURTLEBOT, "/odom"): (
+        [("rosrun fake_turtlebot_sim cmd_vel_mux.py", "/cmd_vel_mux runs already"),
+         ("rosrun fake_turtlebot_sim cmd_vel_mux.py _subscribers:=[]", "~subscribers: []: must be"),
+         (TURTLEBOT, "/mobile_base runs already")], []),
+    (f"{CLASS} robots:=30 cockpit:=false", "/robot_1/odom", "/robot_30/odom"): (
+        [(f"{CLASS} robots:=3", "/classroom runs already")],
+        [("roslaunch fake_turtlebot_sim fake_turtlebot.launch", "/odom"), (RECORDING, "/joy")]),
+    (f"{RECORDING} cockpit:=false", "/odom", "/joy"): (
+        [(RECORDING, "runs already"),
+         ("roslaunch joy2twist launch_joy_node_realTurtlebot.launch rviz:=false",
+          "/myjoystick2twist runs already"),
+         ("rosrun joy2twist joy2twist.py __name:=myjoystick2twist _axis_linear:=foo",
+          "~axis_linear: 'foo'")], []),
+    ("roslaunch gamepad joystick.launch joy_dev:=/none", "/diagnostics"): (
+        [("roslaunch gamepad joystick.launch", "/joy_node runs already"),
+         ("rosrun gamepad joy_node _deadzone:=wide", "~deadzone: 'wide'")], []),
+}  # fmt: skip
 
 
 def started_by(command):
     """A Program, from a line of the table."""
-    words = shlex.split(command)
+    words = command.split()
     if words[0] == "rosrun":
         words[:3] = [node_path(*words[1:3])]
     return Program(*words)
@@ -35,27 +65,27 @@ class StartsTest(RosTest):
         count = len(messages)
         wait_for(lambda: len(messages) > count, "one more message")
 
-    def play(self, _, row):
-        with Program(*shlex.split(row["run"])) as running:
-            watches = [self.watch(topic) for topic in row["watch"]]
-            for command, words in row["refused"]:
-                with started_by(command) as started:
-                    self.assertEqual(started.wait(), 1, f"{command}: {started.output}")
-                    self.assertEqual(started.output.count(words), 1, started.output)
-                    self.assertNotIn("Traceback (most", started.output)
-                self.assertFalse(running.ended, command)
-            for command, topic in row.get("both", []):
-                with started_by(command) as started:
-                    self.watch(topic)
-                    started.interrupt()
-                    started.wait()
-                self.assertFalse(running.ended, command)
-            for messages in watches:
-                self.check_goes_on(messages)
-            self.assertNotIn("new node registered", running.output)
-            self.assertNotIn("process has died", running.output)
-            running.interrupt()
-            running.wait()
+    def test_a_start_is_refused_or_runs_beside_what_runs(self):
+        for (runs, *topics), (refused, both) in TABLE.items():
+            with Program(*runs.split()) as running:
+                watches = [self.watch(topic) for topic in topics]
+                for command, words in refused:
+                    with started_by(command) as started:
+                        self.assertEqual(started.wait(), 1, f"{command}: {started.output}")
+                        self.assertEqual(started.output.count(words), 1, started.output)
+                        self.assertNotIn("Traceback (most", started.output)
+                for command, topic in both:
+                    with started_by(command) as started:
+                        self.watch(topic)
+                        started.interrupt()
+                        started.wait()
+                for messages in watches:
+                    self.check_goes_on(messages)
+                self.assertFalse(running.ended, runs)
+                self.assertNotIn("new node registered", running.output)
+                self.assertNotIn("process has died", running.output)
+                running.interrupt()
+                running.wait()
 
     def test_the_master_keeps_no_parameters_of_a_command_line(self):
         with Program(*SIMULATOR, "_robots:=3", "__name:=three"):
@@ -80,4 +110,4 @@ class StartsTest(RosTest):
 
 
 if __name__ == "__main__":
-    run(StartsTest)
+    run()

@@ -30,8 +30,8 @@ class TwoTurtlebotsTest(RosTest):
             wait_for(lambda n=before, o=other: len(o.odometry) > n, "odometry of the other one")
             self.assertFalse(any(moment.moves for moment in other.odometry[before:]))
 
-    def test_frames_have_the_prefix_of_their_group(self):
-        transforms = self.record("/tf", TFMessage)
+    def test_frames_and_the_scan_of_3dsensor_have_the_prefix_of_their_group(self):
+        transforms, scans = self.record("/tf", TFMessage), self.record("/tb2/laser", LaserScan)
 
         def links():
             found = [one for message in list(transforms) for one in message.transforms]
@@ -40,13 +40,9 @@ class TwoTurtlebotsTest(RosTest):
         wanted = {
             (f"{p}{parent}", p + child) for p in ("", "tb2/") for parent, child in LINKS.items()
         }
-        wait_for(lambda: links() >= wanted, "transforms of both")
-        self.assertEqual({"tb2/odom"}, {child for parent, child in links() if parent == "map"})
-
-    def test_3dsensor_publishes_the_scan_on_its_topic(self):
-        scans = self.record("/tb2/laser", LaserScan)
-        wait_for(lambda: scans, "scan")
+        wait_for(lambda: links() >= wanted and scans, "transforms of both, and scans")
         self.assertEqual(scans[0].header.frame_id, "tb2/camera_depth_frame")
+        self.assertEqual({"tb2/odom"}, {child for parent, child in links() if parent == "map"})
 
 
 if __name__ == "__main__":

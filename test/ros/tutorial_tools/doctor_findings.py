@@ -1,8 +1,6 @@
 #!/usr/bin/python3
 """doctor.py as a user runs it: where all is well, and where one thing after the other is not."""
 
-import time
-
 import rospy
 from geometry_msgs.msg import TransformStamped, Twist
 from tf2_msgs.msg import TFMessage
@@ -11,7 +9,7 @@ from tutorial_testing.nodes import node_path
 from tutorial_testing.processes import Program
 from tutorial_testing.robot import Robot
 from tutorial_testing.rostests import RosTest, run
-from tutorial_testing.waiting import lost_s
+from tutorial_testing.waiting import Stopwatch
 
 LONGEST_S = 15.0
 NOBODYS = "192.0.2.7"  # an address for documentation (RFC 5737)
@@ -20,10 +18,10 @@ NOBODYS = "192.0.2.7"  # an address for documentation (RFC 5737)
 class FindingsTest(RosTest):
     def doctor(self, **environment):
         """Return (exit code, the lines but the last) of a run that exits in time."""
-        began_s, lost = time.monotonic(), lost_s()
+        watch = Stopwatch()
         with Program(node_path("tutorial_tools", "doctor.py"), **environment) as program:
             code, output = program.wait(), program.output
-        self.assertLess(time.monotonic() - began_s, LONGEST_S + lost_s() - lost)
+        self.assertLess(watch.took_s, LONGEST_S)
         *lines, summary = output.splitlines()
         self.assertRegex(summary, r"^doctor: \d+ ok, \d+ wrong, \d+ unknown$", output)
         return code, lines

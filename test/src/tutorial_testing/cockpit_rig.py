@@ -22,7 +22,6 @@ class CockpitRig(Robot):
         self._options = options
         self.robot = robot
         self.joys = []  # each message
-        self.program = None
 
     def begin(self):
         self.listen()
@@ -37,8 +36,6 @@ class CockpitRig(Robot):
         self.program.__exit__()
 
     def start(self):
-        if self.program:
-            self.program.__exit__()
         options = ("--port", str(self.port), *self._options)
         self.program = Program(node_path("cockpit", "cockpit.py"), *options)
         wait_for(self.listens, "page of the cockpit")
@@ -60,8 +57,8 @@ class CockpitRig(Robot):
                 return line.split("token=")[1].strip()
         return None
 
-    def page(self, **more):
-        return SocketPage(self.port, token=self.token("drive"), **more)
+    def page(self):
+        return SocketPage(self.port, token=self.token("drive"))
 
     def drive(self, page):
         """Sit down, release, hold LB and the stick until the robot moves."""

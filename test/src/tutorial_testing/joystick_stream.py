@@ -11,7 +11,6 @@ from sensor_msgs.msg import Joy
 
 from gamepad.js_event import AXIS, BUTTON, INIT, JsEvent, pack
 from tutorial_testing.nodes import node_path
-from tutorial_testing.processes import Program
 from tutorial_testing.rostests import RosTest
 from tutorial_testing.waiting import wait_for
 
@@ -57,14 +56,6 @@ class Stream:
         shutil.rmtree(self._folder)
 
 
-def driver(path, *parameters):
-    """Start joy_node, reading a path; parameters as ~name:=value without the ~."""
-    if rospy.has_param("/joy_node"):
-        rospy.delete_param("/joy_node")  # of the test before: the master keeps them
-    given = [f"_{parameter}" for parameter in (f"dev:={path}", *parameters)]
-    return Program(node_path("gamepad", "joy_node"), *given)
-
-
 class JoystickTest(RosTest):
     """A test case with a FIFO in place of a joystick, and every message of /joy."""
 
@@ -75,8 +66,11 @@ class JoystickTest(RosTest):
         self._subscriber = self.hear("joy", Joy, self.joys.append)
 
     def start_driver(self, *parameters):
-        """Start joy_node, which reads the FIFO."""
-        return self.enter(driver(self.stream.path, *parameters))
+        """Start joy_node, which reads the FIFO; parameters as ~name:=value without the ~."""
+        if rospy.has_param("/joy_node"):
+            rospy.delete_param("/joy_node")  # of the test before: the master keeps them
+        given = [f"_{parameter}" for parameter in (f"dev:={self.stream.path}", *parameters)]
+        return self.start(node_path("gamepad", "joy_node"), *given)
 
     def plug_in(self, **axes):
         """Plug the gamepad in once the driver is connected; wait for its first message."""

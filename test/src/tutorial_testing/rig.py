@@ -19,10 +19,9 @@ from tutorial_testing.hands import DRIVE, RELEASED, Hands
 from tutorial_testing.nodes import node_path, pid_of
 from tutorial_testing.processes import Program, suspend
 from tutorial_testing.robot import Robot
+from tutorial_testing.waiting import Stopwatch
 
 JOYSTICK, DRIVER, MUX, BASE = "/joy_node", "/NewJoy2Twist", "/cmd_vel_mux", "/fake_turtlebot"
-SAFETY = "/kobuki_safety_controller"
-EVENTS = ("bumper", "cliff", "wheel_drop")  # of the Kobuki
 TIMEOUT_S = 0.6  # of the base
 # As the launch files have it.
 LAUNCHED = {"arm_on_neutral": True, "joy_timeout": 0.5, "log_rate": 0}
@@ -44,14 +43,11 @@ def arguments(parameters, remaps):
 class Rig(Robot):
     """The nodes, each a program of its own; a context manager that ends them all."""
 
-    def __init__(self, with_mux=True, screen=None, world="", **joy2twist):
-        """screen: path of what the nodes write their lines to; None: they are kept.
-
-        world: of the base. joy2twist: more parameters of joy2twist.
-        """
+    def __init__(self, with_mux=True, screen=None, **joy2twist):
+        """screen: path of what the nodes write to, or None. joy2twist: more of its parameters."""
         super().__init__()
         self.nodes = [JOYSTICK, DRIVER, *([MUX] if with_mux else []), BASE]  # from hand to wheel
-        self._screen, self._world, self._joy2twist = screen, world, joy2twist
+        self._screen, self._joy2twist = screen, joy2twist
         self._velocities = "cmd_vel_mux/input/teleop" if with_mux else "cmd_vel"
         folder = self._stack.enter_context(tempfile.TemporaryDirectory())
         self._device = os.path.join(folder, "js0")
@@ -81,30 +77,25 @@ class Rig(Robot):
         if node == MUX:
             given = config("fake_turtlebot_sim", "cmd_vel_mux.yaml")
             return [simulator("cmd_vel_mux.py")], given, {"cmd_vel_mux/output": "cmd_vel"}
-        if node == SAFETY:
-            remaps = {f"{SAFETY}/events/{kind}": f"mobile_base/events/{kind}" for kind in EVENTS}
-            remaps[f"{SAFETY}/cmd_vel"] = "cmd_vel_mux/input/safety_controller"
-            return [simulator("safety_controller.py")], {}, remaps
-        return [simulator("fake_turtlebot.py")], {"world": self._world}, {}
+        return [simulator("fake_turtlebot.py")], {}, {}
 
-    def start(self, node, *prefix, **environment):
+    def start(self, node):
         """Start a node, or restart it."""
         program, *given = self.given(node)
-        command = [*prefix, *program, *arguments(*given)]
+        command = [*program, *arguments(*given)]
         if self._screen:
             command = ["bash", "-c", 'exec "$@" >"$0" 2>&1', self._screen, *command]
         old = self.programs.get(node)
-        self.programs[node] = Program(*command, **environment)
+        self.programs[node] = Program(*command)
         if old:
             old.__exit__()
 
     def kill(self, node, number=signal.SIGKILL, pid=None):
         """Send a signal to a node; return how long it took to exit [s]. pid: if it is known."""
-        pid = pid or pid_of(node)
-        began = time.monotonic()
+        pid, watch = pid or pid_of(node), Stopwatch()
         os.kill(pid, number)
         self.programs[node].wait()
-        return time.monotonic() - began
+        return watch.took_s
 
     def hold(self):
         """Release all until the robot has rested, and hold LB and the stick."""

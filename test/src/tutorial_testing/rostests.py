@@ -3,7 +3,6 @@
 import sys
 import tempfile
 import unittest
-from functools import partialmethod
 from pathlib import Path
 
 import rospy
@@ -67,13 +66,8 @@ class RosTest(unittest.TestCase):
         self.check_end(program, **deadline)
 
 
-def run(player=None):
-    """Run the tests of the program that calls this, as a node of its name.
-
-    player: a RosTest whose play(name, case) becomes a test of each of ~cases in the .test file.
-    """
+def run():
+    """Run the tests of the program that calls this, as a node of its name."""
     program = Path(sys.argv[0]).stem
     init_node(program)
-    for name, case in rospy.get_param("~cases").items() if player else ():
-        setattr(player, f"test_{name}", partialmethod(player.play, name, case))
     rostest.rosrun("ros1_tutorial_test", program, "__main__", sys.argv)

@@ -34,7 +34,6 @@ class SocketPage(Started):
         self.messages = []  # all that came but beats
         self.refusal = None  # HTTP status, where the WebSocket was refused
         self.hand = None
-        self.pad = None  # called for the timestamp of a gamepad
         self.sees_beats = True
         self.delay_s = 0.0  # by which what is said is older
         self._beat, self._n = 0, 0
@@ -96,7 +95,7 @@ class SocketPage(Started):
         return {
             "kind": "input", "n": self._n, "t": 1000 * (time.monotonic() - self.delay_s),
             "beat": self._beat, "axes": axes, "buttons": buttons,
-            "pad": self.pad() if self.pad else None, "source": "pad" if self.pad else "keys",
+            "pad": None, "source": "keys",
         }  # fmt: skip
 
     def say(self, kind, **fields):

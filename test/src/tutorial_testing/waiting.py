@@ -12,8 +12,9 @@ from tutorial_check.isolation.cpu_clock import CpuClock, times_of
 
 DEADLINE_S = 150.0  # generous: ten times what a build takes, or the start of a dozen nodes
 LONGEST_S = 4 * DEADLINE_S  # for what cannot know what it lost, such as subprocess.run()
-# What a busy machine may add to a time that is demanded of a program, beside lost_s().
-BUSY_S = 2.0
+# What a busy machine may add to a time that is demanded, beside lost_s(): of a program that starts
+# or exits, and of a message from one node to the next.
+BUSY_S, HOP_S = 2.0, 0.3
 
 
 def descendants(pid):
@@ -34,15 +35,26 @@ _clock = CpuClock(set(), read=_times)
 
 
 def lost_s():
-    """Return the time [s] so far that waits for a processor have cost.
-
-    A bound of what was measured grows by what was lost meanwhile:
-        lost = lost_s()
-        ...
-        assert took_s < LIMIT_S + lost_s() - lost
-    """
+    """Return the time [s] so far that waits for a processor have cost."""
     now = _clock.now()
     return time.monotonic() - now
+
+
+class Stopwatch:
+    """Measures how long something takes, without the waits for a processor meanwhile."""
+
+    def __init__(self):
+        self._began_s, self._lost_s = time.monotonic(), lost_s()
+
+    @property
+    def lost_s(self):
+        """The time [s] that was lost since it began: by so much a bound of the test grows."""
+        return lost_s() - self._lost_s
+
+    @property
+    def took_s(self):
+        """The time [s] since it began, but for what was lost."""
+        return time.monotonic() - self._began_s - self.lost_s
 
 
 def wait_for(condition, what, deadline_s=DEADLINE_S):

@@ -80,12 +80,3 @@ def test_the_covariance_is_that_of_the_errors_whatever_the_rate(rate_hz):
     scale = np.sqrt(np.outer(np.diag(told), np.diag(told)))
     assert np.abs(sampled - told).max() < 0.25 * scale.max()
     assert np.abs((sampled - told) / scale).max() < 0.25
-
-
-def test_noise_does_not_touch_the_truth():
-    robot, error = noisy_drive(1)
-    exact, _ = noisy_drive(1, noise=1e-12)
-    assert np.abs(error).max() > 1e-3
-    assert robot.true_state() == exact.true_state()._replace(
-        left_angle=robot.state().left_angle, right_angle=robot.state().right_angle
-    )

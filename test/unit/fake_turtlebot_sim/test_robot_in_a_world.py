@@ -141,14 +141,6 @@ def test_it_is_not_put_into_a_wall_or_over_an_edge():
     assert robot.true_pose == (0.0, 0.0, 0.0)
 
 
-def test_far_from_the_origin_contact_is_as_exact():
-    wall = World((((9999.0, 9000.0), (9999.0, 9999.0)),))
-    start = (9998.0, 9900.0, 0.0)
-    for limits in ({}, {"max_linear_acceleration": 0.5}):
-        robot = driven(SimulatedRobot(Parameters(world=wall, **limits), start), (0.5, 0.1), 5)
-        assert robot.true_pose[0] == pytest.approx(9999 - R, abs=EXACT)
-
-
 @pytest.mark.parametrize(("given", "near", "far"), [("inf", -inf, inf), ("nan", nan, nan)])
 def test_ranges_begin_at_the_camera_and_end_as_rep_117_or_a_depth_camera_has_it(given, near, far):
     laser = Laser(parse_parameters({"scan_no_return": given, "scan_beams": 3}), World((SQUARE,)))
@@ -171,11 +163,6 @@ def test_noise_is_drawn_from_the_seed_and_the_name():
     exact = Laser(Parameters(scan_beams=1000), parameters.world).measure((0.0, 0.0, 0.0), NOBODY)
     assert scans[0] == scans[1] != scans[2]
     assert np.std(np.subtract(scans[0], exact)) == pytest.approx(0.02, rel=0.15)
-
-
-def test_a_scan_of_a_whole_turn_has_no_beam_twice():
-    laser = Laser(Parameters(scan_angle=2 * pi, scan_beams=4), World((SQUARE,)))
-    assert laser.increment == pytest.approx(pi / 2)
 
 
 def test_a_map_has_its_walls_posts_and_edges():

@@ -1,11 +1,10 @@
 """A robot under commands: rates, timeout, limits, reset."""
 
 import random
-from math import hypot, inf, isfinite, nan, pi
+from math import hypot, inf, isfinite, nan
 
 import pytest
 
-from fake_turtlebot_sim.simulator.differential_drive import wrap_angle
 from fake_turtlebot_sim.simulator.parameters import Parameters
 from fake_turtlebot_sim.simulator.simulated_robot import SimulatedRobot, Verdict
 
@@ -88,26 +87,3 @@ def test_a_speed_without_a_limit_is_still_one_that_can_be_computed():
     assert robot.command((1e308, 1e308), 0) is Verdict.LIMITED
     robot.advance(SECOND // 10)
     assert all(map(isfinite, robot.state()))
-
-
-def test_a_rest_draws_no_error_and_changes_none_that_follow():
-    noisy = Parameters(wheel_noise=0.01)
-    at_once, rested = SimulatedRobot(noisy), SimulatedRobot(noisy)
-    for _ in range(3):
-        rested.advance(SECOND)
-    for robot, now_ns in ((at_once, 0), (rested, SECOND)):
-        robot.command((0.5, 1.0), now_ns)
-        robot.advance(now_ns + SECOND // 2)
-    assert rested.state() == at_once.state()
-
-
-def test_placing_keeps_wheels_and_command_and_reset_zeroes_wheels_too():
-    robot = SimulatedRobot(KOBUKI)
-    robot.command((0.35, 0.0), 0)
-    robot.advance(SECOND // 2)
-    robot.place((1.0, 2.0, 5 * pi / 2))
-    assert robot.state()[:4] == (1.0, 2.0, wrap_angle(5 * pi / 2), 0.35)
-    assert robot.state().left_angle == pytest.approx(5)
-    robot.reset()
-    assert robot.state()[:4] == (0.0, 0.0, 0.0, 0.35)
-    assert robot.state().left_angle == robot.state().right_angle == 0.0

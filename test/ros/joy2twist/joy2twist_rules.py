@@ -1,0 +1,144 @@
+#!/usr/bin/python3
+"""What the node joy2twist sends for what it hears: bare, and set up for a real robot.
+
+Which rules there are is for unit tests: here each parameter, topic and clock reaches them.
+"""
+
+import json
+import time
+from math import inf, nan
+
+import rospy
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import Twist
+from sensor_msgs.msg import Joy
+
+from tutorial_testing.nodes import node_path
+from tutorial_testing.rostests import RosTest, run
+from tutorial_testing.waiting import wait_for
+
+LB, STOP, RESET = 4, 1, 2
+QUIET_S = 1.0  # longer than any repetition of zero, and any watchdog here
+ROBOTS = {"enable_button": LB, "joy_timeout": 0.5, "stop_messages": 3}
+ARMS = {**ROBOTS, "arm_on_neutral": True}
+
+
+def joy(forward, *held, age_s=0.0):
+    """A message of a stick, and of the buttons that are held."""
+    message = Joy(axes=[0.0, forward], buttons=[int(n in held) for n in range(5)])
+    message.header.stamp = rospy.Time.now() - rospy.Duration(age_s)
+    return message
+
+
+class RulesTest(RosTest):
+    def begin(self, **given):
+        """Start a node with these parameters, and plug a joystick in, which is released."""
+        self.sent, self.states = [], []  # linear.x [m/s]
+        self.hear("cmd_vel", Twist, lambda twist: self.sent.append(twist.linear.x))
+        hear = lambda array: self.states.extend(status.message for status in array.status)  # noqa: E731
+        self.hear("/diagnostics", DiagnosticArray, hear)
+        parameters = [f"_{name}:={json.dumps(value)}" for name, value in given.items()]
+        self.start(node_path("joy2twist", "joy2twist.py"), *parameters)
+        self.plug_in()
+        wait_for(self.goes_round, "velocity")
+        self.joystick.publish(joy(0.0))
+        self.wait_for_quiet()
+
+    def goes_round(self):
+        """Release, and drive: what is sent once may be sent before all are connected."""
+        for message in (joy(0.0), joy(0.1, LB)):
+            self.joystick.publish(message)
+        return self.sent
+
+    def plug_in(self):
+        self.joystick = self.publisher("joy", Joy)
+        wait_for(self.joystick.get_num_connections, "subscriber of joy")
+
+    def wait_for_quiet(self):
+        count, since_s = -1, 0.0
+
+        def is_quiet():
+            nonlocal count, since_s
+            if len(self.sent) != count:
+                count, since_s = len(self.sent), time.monotonic()
+            return time.monotonic() - since_s > QUIET_S
+
+        wait_for(is_quiet, "silence")
+
+    def check(self, joys, speeds):
+        """Publish these at once; these speeds are sent, and then nothing."""
+        self.sent.clear()
+        for message in joys:
+            self.joystick.publish(message)
+        self.wait_for_quiet()
+        self.assertEqual(self.sent, speeds)
+
+    def wait_for_state(self, state):
+        wait_for(lambda: self.states and self.states[-1].startswith(state), state)
+
+    def test_bare_it_answers_each_message_by_one_velocity_and_what_is_unusable_by_zero(self):
+        self.begin()
+        bad = [Joy(axes=axes) for axes in ([nan, 0.5], [0.0, inf], [0.5], [])]
+        self.check([*bad, joy(0.5), *[joy(0.25)] * 60], [0.0] * 4 + [0.5] + [0.25] * 60)
+        self.sent.clear()
+        self.joystick.unregister()
+        self.wait_for_quiet()
+        self.assertEqual(self.sent, [0.0] * 5)
+        self.wait_for_state("stopped: the joystick node has left")
+        self.plug_in()
+        self.check([joy(0.25), joy(0.0)], [0.25, 0.0])
+
+    def test_release_silence_and_age_give_zero_three_times(self):
+        self.begin(**ROBOTS, max_joy_age=1.0)
+        stop = [0.0] * 3
+        self.check([joy(0.25, LB), *[joy(0.25)] * 20], [0.25, *stop])
+        self.wait_for_state("stopped: no message for 0.5 s")
+        self.check([joy(0.25, LB)] * 10, [0.25] * 10 + stop)
+        self.check([joy(0.25, LB), *[joy(0.25, LB, age_s=2.0)] * 5], [0.25, *stop])
+
+    def test_a_new_joystick_moves_nothing_until_it_was_seen_released(self):
+        self.begin(**ARMS)
+        self.joystick.unregister()
+        self.wait_for_quiet()
+        self.plug_in()
+        self.check([joy(0.0, LB), joy(0.5, LB), joy(0.5), joy(0.5, LB)], [])
+        self.check([joy(0.0), joy(0.5, LB)], [0.5, 0.0, 0.0, 0.0])
+
+    def test_a_joystick_that_does_not_change_stops(self):
+        self.begin(**ARMS, vigilance_timeout=1.0)
+        self.joystick.publish(joy(0.0))
+
+        def is_noticed():
+            self.joystick.publish(joy(0.5, LB))
+            return "stopped: the joystick has not changed for 1 s" in "".join(self.states)
+
+        wait_for(is_noticed, "state of a joystick that does not change")
+        self.wait_for_quiet()
+        self.check([joy(0.25, LB)] * 5, [])
+        self.check([joy(0.0), joy(0.5, LB), joy(0.0)], [0.5, 0.0, 0.0, 0.0])
+
+    def test_the_stop_button_sends_zeros_until_it_is_reset_and_all_is_released(self):
+        self.begin(**ARMS, stop_button=STOP, stop_reset_button=RESET)
+        self.sent.clear()
+        for message in (joy(0.0), joy(0.5, LB), joy(0.5, LB, STOP)):
+            self.joystick.publish(message)
+        wait_for(lambda: len(self.sent) > 30, "zeros")
+        self.assertEqual((self.sent[0], {*self.sent[1:]}), (0.5, {0.0}))
+        self.wait_for_state("stopped: the stop button was pressed")
+        self.joystick.publish(joy(0.0, RESET))
+        self.wait_for_quiet()
+        self.check([joy(0.5, LB)] * 3, [])
+        self.check([joy(0.0), joy(0.25, LB)], [0.25, 0.0, 0.0, 0.0])
+
+    def test_a_limit_of_acceleration_makes_a_ramp_and_a_release_stops_at_once(self):
+        limits = {"max_linear_acceleration": 1.0, "output_rate": 10.0}
+        self.begin(enable_button=LB, stop_messages=1, joy_timeout=5.0, **limits)
+        self.sent.clear()
+        self.joystick.publish(joy(0.25, LB))
+        wait_for(lambda: self.sent[-1:] == [0.25], "speed")
+        self.assertEqual([round(speed, 6) for speed in self.sent], [0.1, 0.2, 0.25])
+        self.check([joy(0.25)], [0.0])
+
+
+if __name__ == "__main__":
+    run()
