@@ -1,14 +1,12 @@
 """The bridge with the tutorial's class in ROS 2, on the simulated robot of ROS 1."""
 
 import os
-import signal
-import time
 from pathlib import Path
 
 import pytest
 import rosnode
 import rospy
-from drive import CLASS, RATE, REPOSITORY, REST_S, ZERO, moves, stands_after
+from drive import BRIDGE, CLASS, RATE, REPOSITORY, carried, moves, wait_for_doctor
 from geometry_msgs.msg import Twist
 from kobuki_msgs.msg import BumperEvent
 from nav_msgs.msg import Odometry
@@ -21,34 +19,16 @@ from tutorial_testing.waiting import wait_for
 SOURCES = REPOSITORY / "common/ros2_bridge/src/ros2_bridge"
 PROGRAMS = CLASS.parent
 PEER, DRIVER, QUALITIES = map(Path(__file__).with_name, ("peer.py", "driver.py", "qualities.py"))
-BRIDGE = "/ros2_bridge"
 SECONDS = float(os.environ.get("TUTORIAL_ROS2_SECONDS", "8"))  # the bare machines have 60
 WITHOUT_SCREEN = ("rviz:=false", "cockpit:=false", "model:=false")
 HOSTILE = "\u00e4 { } %s \\ \n <script>"  # without \0, which ends a text of ROS 2
 VELOCITY = {"/cmd_vel": "to_ros1"}
 
 
-def carried(twists):
-    """The velocities that came over the bridge."""
-    return [(one.linear.x, one.angular.z) for _, sender, one in twists.heard if sender == BRIDGE]
-
-
 def latching(twists):
     """[(velocity, "1" if its connection latches)]"""
     heard = [message for _, _, message in twists.heard]
     return [(each.linear.x, each._connection_header["latching"]) for each in heard]
-
-
-def wait_for_doctor(start, line):
-    """Wait until the doctor says it: what it knows of the bridge comes each half second."""
-
-    def says():
-        doctor = start("rosrun", "tutorial_tools", "doctor.py")
-        doctor.wait()
-        assert "Traceback" not in doctor.output
-        return line in " ".join(doctor.output.split())
-
-    wait_for(says, f"doctor's {line}")
 
 
 def latched(topic, message):
@@ -60,15 +40,6 @@ def latched(topic, message):
 @pytest.fixture
 def twists(ear):
     return ear("/cmd_vel", Twist)
-
-
-@pytest.fixture
-def class_drives(bridge, start_ros2, robot, twists, stick):
-    """(the bridge, the program of ROS 2), and the robot drives."""
-    made, program = bridge(), start_ros2(CLASS)
-    stick.wait_for_listener().begin()
-    wait_for(lambda: moves(robot), "a robot that drives")
-    return made, program
 
 
 def test_every_joy_becomes_one_twist_equal_to_the_bit(bridge, start, start_ros2, twists, stick):
@@ -84,18 +55,6 @@ def test_every_joy_becomes_one_twist_equal_to_the_bit(bridge, start, start_ros2,
     wait_for_doctor(start, "bridge carries between ROS 1 and ROS 2")
 
 
-@pytest.mark.parametrize("side", ["ROS 1", "ROS 2"])
-def test_a_side_that_is_killed_stops_the_robot_and_comes_back(class_drives, robot, side):
-    bridge, _ = class_drives
-    pid = bridge.send(side, signal.SIGKILL)
-    assert stands_after(robot, time.monotonic()) < REST_S
-    line = f"bridge: the side of {side} has ended (signal 9): it is started anew"
-    wait_for(lambda: line in bridge.output, "the line about it")
-    assert bridge.process(side) != pid
-    wait_for(lambda: moves(robot), "a robot that drives again")
-    assert "Traceback" not in bridge.output
-
-
 def test_the_launch_file_has_the_bridge_in_place_of_joy2twist(start, ear):
     """The two commands of the page on ROS 2."""
     odometry = ear("/odom", Odometry)
@@ -104,37 +63,6 @@ def test_the_launch_file_has_the_bridge_in_place_of_joy2twist(start, ear):
     wait_for(lambda: odometry.heard and moves(odometry), "a robot that drives")
     assert "/myjoystick2twist" not in rosnode.get_node_names()
     rospy.delete_param("/fake_turtlebot")  # as it is in this file, it never stops by itself
-
-
-def test_ctrl_c_of_the_class_ends_with_zeros(class_drives, twists):
-    _, program = class_drives
-    program.interrupt()
-    assert program.wait() == 0, program.output
-    wait_for(lambda: carried(twists)[-1] == ZERO, "a zero")
-    assert "Traceback" not in program.output
-
-
-@pytest.mark.parametrize("side", ["ROS 1", "ROS 2"])
-def test_what_waited_for_a_suspended_side_does_not_move_the_robot(
-    class_drives, robot, twists, stick, side, start
-):
-    bridge, _ = class_drives
-    bridge.send(side, signal.SIGSTOP)
-    time.sleep(1.5)  # longer than a velocity or a Joy may be old; the robot stands by then
-    stick.end()
-    if side == "ROS 2":
-        wait_for_doctor(start, "bridge the side of ROS 2 is missing: its terminal")
-    before = len(carried(twists))
-    bridge.send(side, signal.SIGCONT)
-
-    def has_passed():
-        stick.push(*ZERO)
-        return ZERO in carried(twists)[before:]
-
-    wait_for(has_passed, "a zero, which comes after all that waited")
-    late = [pair for pair in carried(twists)[before:] if any(pair)]
-    assert len(late) <= RATE * 0.5  # those of the last half second, which the Joys may be old
-    wait_for(lambda: not moves(robot), "a robot that stands")
 
 
 @pytest.mark.parametrize("topics", [None, VELOCITY], ids=["with our age limit", "without a limit"])

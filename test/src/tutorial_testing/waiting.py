@@ -14,6 +14,7 @@ DEADLINE_S = 150.0  # generous: ten times what a build takes, or the start of a 
 LONGEST_S = 4 * DEADLINE_S  # for what cannot know what it lost, such as subprocess.run()
 # What a busy machine may add to a time that is demanded of a program, beside lost_s().
 BUSY_S = 2.0
+LATENESS_S = 0.3  # the same, where lost_s() is counted: in tolerance()
 
 
 def descendants(pid):
@@ -34,15 +35,21 @@ _clock = CpuClock(set(), read=_times)
 
 
 def lost_s():
-    """Return the time [s] so far that waits for a processor have cost.
-
-    A bound of what was measured grows by what was lost meanwhile:
-        lost = lost_s()
-        ...
-        assert took_s < LIMIT_S + lost_s() - lost
-    """
+    """Return the time [s] so far that waits for a processor have cost."""
     now = _clock.now()
     return time.monotonic() - now
+
+
+def tolerance():
+    """Return a function: by how much [s] what is measured from now on may exceed its bound.
+
+    Every bound of what a system or browser test measures is written so:
+        late_s = tolerance()
+        ...
+        assert took_s < LIMIT_S + late_s()
+    """
+    lost = lost_s()
+    return lambda: LATENESS_S + lost_s() - lost
 
 
 def wait_for(condition, what, deadline_s=DEADLINE_S):
