@@ -97,7 +97,7 @@ KINDS = {
     "again": again,
     "kernel": lambda given: tests("kernel", given),
     "ros2": lambda given: tests("ros2", given),
-    "browser": lambda given: tests("browser", given),
+    "browser": lambda given: tests("browser", given, "-n", JOBS, "--dist", "loadfile"),
     "containers": lambda given: run(REPOSITORY / "test/check_containers", *given),
     "faults": faults,
     "mutation": lambda given: run("nice", "-n", "19", MUTATE, "test/mutation/run.py", *given),

@@ -18,11 +18,10 @@ from tutorial_testing.waiting import wait_for
 REPOSITORY = Path(__file__).resolve().parents[2]
 CLASS = REPOSITORY / "common/ros2_tutorials/ros2_tutorials/new_joy2twist.py"
 RATE = 50.0  # [Hz]
-TIMEOUT_S, PERIOD_S = 0.6, 0.02  # of the simulated base
 BRIDGE = "/ros2_bridge"
 SIDES = {"ROS 1": "ros2_bridge.ros1_node", "ROS 2": "ros2_side.py"}
 ZERO = (0.0, 0.0)  # velocity [m/s, rad/s]
-REST_S = TIMEOUT_S + PERIOD_S  # by then a robot without a driver stands, but for a tolerance()
+REST_S = 0.62  # by then a robot without a driver stands, but for a tolerance()
 
 
 @contextmanager
@@ -109,11 +108,11 @@ class Stick:
         return self.sent[-1]
 
     def end(self):
-        """Stop publishing; return when."""
+        """Stop publishing; return when: a time [s] as stamps are."""
         self._ends.set()
         if self._thread.is_alive():
             self._thread.join()
-        return time.monotonic()
+        return time.time()
 
 
 def carried(twists):
@@ -131,12 +130,3 @@ def wait_for_doctor(start, line):
         return line in " ".join(doctor.output.split())
 
     wait_for(says, f"doctor's {line}")
-
-
-def turned(odometry):
-    """[(when, whether the wheels turned)]"""
-    return [(when, abs(one.twist.twist.linear.x) > 0.01) for when, _, one in list(odometry.heard)]
-
-
-def moves(odometry):
-    return abs(odometry.last.twist.twist.linear.x) > 0.01

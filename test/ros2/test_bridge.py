@@ -6,14 +6,14 @@ from pathlib import Path
 import pytest
 import rosnode
 import rospy
-from drive import BRIDGE, CLASS, RATE, REPOSITORY, carried, moves, wait_for_doctor
+from drive import BRIDGE, CLASS, RATE, REPOSITORY, carried, wait_for_doctor
 from geometry_msgs.msg import Twist
 from kobuki_msgs.msg import BumperEvent
-from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Image
 from std_msgs.msg import String
 
 from node_kit.raw_messages import senders, subscribe
+from tutorial_testing.robot import Robot
 from tutorial_testing.waiting import wait_for
 
 SOURCES = REPOSITORY / "common/ros2_bridge/src/ros2_bridge"
@@ -55,12 +55,12 @@ def test_every_joy_becomes_one_twist_equal_to_the_bit(bridge, start, start_ros2,
     wait_for_doctor(start, "bridge carries between ROS 1 and ROS 2")
 
 
-def test_the_launch_file_has_the_bridge_in_place_of_joy2twist(start, ear):
+def test_the_launch_file_has_the_bridge_in_place_of_joy2twist(start):
     """The two commands of the page on ROS 2."""
-    odometry = ear("/odom", Odometry)
     start("roslaunch", "joy2twist", "launch_bag.launch", "ros2:=true", *WITHOUT_SCREEN)
     start(REPOSITORY / "tutorial", "ros2", "new_joy2twist")
-    wait_for(lambda: odometry.heard and moves(odometry), "a robot that drives")
+    with Robot() as robot:
+        wait_for(lambda: robot.moves, "a robot that drives")
     assert "/myjoystick2twist" not in rosnode.get_node_names()
     rospy.delete_param("/fake_turtlebot")  # as it is in this file, it never stops by itself
 

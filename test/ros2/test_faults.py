@@ -10,23 +10,12 @@ import signal
 import time
 
 import pytest
-from drive import (
-    CLASS,
-    RATE,
-    REST_S,
-    ZERO,
-    Bridge,
-    Stick,
-    carried,
-    moves,
-    turned,
-    wait_for_doctor,
-)
+from drive import CLASS, RATE, REST_S, ZERO, Bridge, Stick, carried, wait_for_doctor
 from geometry_msgs.msg import Twist
-from nav_msgs.msg import Odometry
 
 from node_kit import ros2_python
 from tutorial_testing.processes import signal_all
+from tutorial_testing.robot import Robot
 from tutorial_testing.waiting import LATENESS_S, tolerance, wait_for
 
 OLD_S = 0.5  # how old the list lets a Joy be, and a velocity
@@ -40,23 +29,23 @@ SEEN_S, LONGEST_S = REST_S + LATENESS_S, 5.0  # a loss of so long is seen; the l
 class Way:
     """The robot, the bridge, the program in ROS 2, and what can be done to each."""
 
-    def __init__(self, start, ear):
-        self.odometry, self.twists = ear("/odom", Odometry), ear("/cmd_vel", Twist)
+    def __init__(self, start, ear, robot):
+        self.twists, self.robot = ear("/cmd_vel", Twist), robot
         start("rosrun", "fake_turtlebot_sim", "fake_turtlebot.py")
         self.bridge = Bridge(start("rosrun", "ros2_bridge", "bridge"))
         self._start = lambda: start(*ros2_python.command([str(CLASS)]))
         self.program = self._start()
-        wait_for(lambda: self.odometry.heard, "odometry")
 
     def drives(self):
         """Whether the robot does; the program is started again if it has ended."""
         if self.program.ended:
             self.program = self._start()
-        return self.bridge.is_up() and moves(self.odometry)
+        return self.bridge.is_up() and self.robot.moves
 
     def send(self, part, number):
+        """Send a signal to a part; return the time [s] just before."""
         pid = self.program.pid if part == PROGRAM else self.bridge.process(part)
-        signal_all([pid] if pid else [], number)
+        return signal_all([pid] if pid else [], number)
 
     def hit(self, kind, part, lasts_s):
         """Return whether a part was lost for long enough to be seen."""
@@ -69,7 +58,8 @@ class Way:
 
 @pytest.fixture(scope="module")
 def whole_way(start_for_all, ear):
-    return Way(start_for_all, ear)
+    with Robot() as robot:
+        yield Way(start_for_all, ear, robot)
 
 
 @pytest.fixture
@@ -82,22 +72,20 @@ def way(whole_way, stick):
 
 @pytest.mark.parametrize("side", ["ROS 1", "ROS 2"])
 def test_a_side_that_is_killed_stops_the_robot_and_comes_back(way, side):
-    pid, began_s, late_s = way.bridge.process(side), time.monotonic(), tolerance()
-    way.send(side, signal.SIGKILL)
-    wait_for(lambda: not moves(way.odometry), "a robot that stands")
-    last_s = max(when for when, moved in turned(way.odometry) if moved)
-    assert last_s - began_s < REST_S + late_s()
+    pid, late_s = way.bridge.process(side), tolerance()
+    began_s = way.send(side, signal.SIGKILL)
+    assert way.robot.wait_for_rest(began_s) - began_s < REST_S + late_s()
     line = f"bridge: the side of {side} has ended (signal 9): it is started anew"
     wait_for(lambda: line in way.bridge.output, "the line about it")
     assert way.bridge.process(side) != pid
-    wait_for(lambda: moves(way.odometry), "a robot that drives again")
+    wait_for(lambda: way.robot.moves, "a robot that drives again")
     assert "Traceback" not in way.bridge.output
 
 
 @pytest.mark.parametrize("side", ["ROS 1", "ROS 2"])
 def test_what_waited_for_a_suspended_side_does_not_move_the_robot(way, stick, side, start):
     way.send(side, signal.SIGSTOP)
-    wait_for(lambda: not moves(way.odometry), "a robot that stands, as nothing new comes")
+    way.robot.wait_for_rest()  # as nothing new comes
     stick.end()
     if side == "ROS 2":
         wait_for_doctor(start, "bridge the side of ROS 2 is missing: its terminal")
@@ -111,7 +99,7 @@ def test_what_waited_for_a_suspended_side_does_not_move_the_robot(way, stick, si
     wait_for(has_passed, "a zero, which comes after all that waited")
     late = [pair for pair in carried(way.twists)[before:] if any(pair)]
     assert len(late) <= RATE * OLD_S  # those of the last half second, which the Joys may be old
-    wait_for(lambda: not moves(way.odometry), "a robot that stands")
+    way.robot.wait_for_rest()
 
 
 def test_ctrl_c_of_the_class_ends_with_zeros(way):
@@ -126,24 +114,24 @@ def trial(seed, way):
     draw = random.Random(seed)
     parts = draw.sample(sorted(FAULTS), k=draw.choice((1, 2)))
     faults = [(draw.choice(FAULTS[part]), part) for part in parts]
-    del way.odometry.heard[:-1]
+    del way.robot.odometry[:-1]
     lost, late_s = [], tolerance()
     with Stick().begin() as stick:
         wait_for(way.drives, "a robot that drives")
         for kind, part in faults:
             time.sleep(draw.uniform(0.0, 0.4))
-            began_s = time.monotonic()
+            began_s = time.time()
             if way.hit(kind, part, draw.uniform(0.02, LONGEST_S)):
                 lost.append(began_s)
         time.sleep(draw.uniform(0.0, 2.0))
         ended_s = stick.end() + REST_S + OLD_S
     # A second in which what waited somewhere would move it.
-    wait_for(lambda: way.odometry.heard[-1][0] > ended_s + late_s() + 1.0, "odometry")
+    wait_for(lambda: way.robot.now.stamp > ended_s + late_s() + 1.0, "odometry")
     for began_s in lost:
         until_s = began_s + REST_S + late_s()
-        after = [moved for when, moved in turned(way.odometry) if began_s < when <= until_s]
+        after = [one.moves for one in way.robot.since(began_s) if one.stamp <= until_s]
         assert not all(after), f"{faults}: (d) it drove on"
-    late = [moved for when, moved in turned(way.odometry) if when > ended_s + late_s()]
+    late = [one.moves for one in way.robot.since(ended_s + late_s())]
     assert late and not any(late), f"{faults}: (f) it moved after the release"
 
 
