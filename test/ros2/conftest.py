@@ -1,12 +1,10 @@
 """A master, the bridge, and programs with ROS 2; this process is a node of ROS 1."""
 
 import json
-import time
 from contextlib import ExitStack
 
 import pytest
-import rospy
-from drive import Bridge, Stick, own_master
+from drive import Bridge, Ear, Stick, own_master
 
 from node_kit import ros2_python
 from tutorial_testing.processes import Program
@@ -67,29 +65,14 @@ def bridge(start, tmp_path):
     return begin
 
 
-class Ear:
-    """What comes on a topic of ROS 1: (when, node, message)."""
-
-    def __init__(self):
-        self.heard = []
-
-    def keep(self, message):
-        sender = message._connection_header["callerid"]
-        self.heard.append((time.monotonic(), sender, message))
-
-    @property
-    def last(self):
-        return self.heard[-1][2] if self.heard else None
-
-
-@pytest.fixture(scope="module")
+@pytest.fixture
 def ear():
     """ear(topic, kind): an Ear."""
     with ExitStack() as stack:
 
         def listen(topic, kind):
-            made = Ear()
-            stack.callback(rospy.Subscriber(topic, kind, made.keep, tcp_nodelay=True).unregister)
+            made = Ear(topic, kind)
+            stack.callback(made.subscriber.unregister)
             return made
 
         yield listen

@@ -115,9 +115,24 @@ class Stick:
         return time.time()
 
 
+class Ear:
+    """What comes on a topic of ROS 1: (node, message)."""
+
+    def __init__(self, topic, kind):
+        self.heard = []
+        self.subscriber = rospy.Subscriber(topic, kind, self._keep, tcp_nodelay=True)
+
+    def _keep(self, message):
+        self.heard.append((message._connection_header["callerid"], message))
+
+    @property
+    def last(self):
+        return self.heard[-1][1] if self.heard else None
+
+
 def carried(twists):
     """The velocities that came over the bridge."""
-    return [(one.linear.x, one.angular.z) for _, sender, one in twists.heard if sender == BRIDGE]
+    return [(one.linear.x, one.angular.z) for sender, one in twists.heard if sender == BRIDGE]
 
 
 def wait_for_doctor(start, line):

@@ -10,7 +10,7 @@ import signal
 import time
 
 import pytest
-from drive import CLASS, RATE, REST_S, ZERO, Bridge, Stick, carried, wait_for_doctor
+from drive import CLASS, RATE, REST_S, ZERO, Bridge, Ear, Stick, carried, wait_for_doctor
 from geometry_msgs.msg import Twist
 
 from node_kit import ros2_python
@@ -29,8 +29,8 @@ SEEN_S, LONGEST_S = REST_S + LATENESS_S, 5.0  # a loss of so long is seen; the l
 class Way:
     """The robot, the bridge, the program in ROS 2, and what can be done to each."""
 
-    def __init__(self, start, ear, robot):
-        self.twists, self.robot = ear("/cmd_vel", Twist), robot
+    def __init__(self, start, robot):
+        self.twists, self.robot = Ear("/cmd_vel", Twist), robot
         start("rosrun", "fake_turtlebot_sim", "fake_turtlebot.py")
         self.bridge = Bridge(start("rosrun", "ros2_bridge", "bridge"))
         self._start = lambda: start(*ros2_python.command([str(CLASS)]))
@@ -57,9 +57,9 @@ class Way:
 
 
 @pytest.fixture(scope="module")
-def whole_way(start_for_all, ear):
+def whole_way(start_for_all):
     with Robot() as robot:
-        yield Way(start_for_all, ear, robot)
+        yield Way(start_for_all, robot)
 
 
 @pytest.fixture
